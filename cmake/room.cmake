@@ -1,0 +1,22 @@
+# Flags of every target of ours. Results must be the same bits everywhere: no contraction, no fast-math.
+add_library(ream_flags INTERFACE)
+target_compile_options(ream_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror -ffp-contract=off)
+if(REAM_SANITIZER)
+  target_compile_options(ream_flags INTERFACE -fsanitize=${REAM_SANITIZER} -fno-omit-frame-pointer)
+  target_link_options(ream_flags INTERFACE -fsanitize=${REAM_SANITIZER})
+endif()
+
+# ream_room(<folder> SOURCES <files...> [ROOMS <folders...>] [LIBRARIES <public...>] [PRIVATE_LIBRARIES <...>])
+# One static library per folder of server/, named ream_<folder>, include root server/.
+function(ream_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;ROOMS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+  add_library(ream_${name} STATIC ${ROOM_SOURCES})
+  target_include_directories(ream_${name} PUBLIC ${CMAKE_SOURCE_DIR}/server)
+  target_link_libraries(ream_${name} PRIVATE ream_flags)
+  target_link_libraries(ream_${name} PUBLIC ${ROOM_LIBRARIES})
+  target_link_libraries(ream_${name} PRIVATE ${ROOM_PRIVATE_LIBRARIES})
+  foreach(room ${ROOM_ROOMS})
+    target_link_libraries(ream_${name} PUBLIC ream_${room})
+  endforeach()
+endfunction()

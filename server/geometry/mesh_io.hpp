@@ -1,0 +1,16 @@
+#pragma once
+#include <filesystem>
+
+#include "geometry/triangle_mesh.hpp"
+
+namespace ream {
+
+/// Any triangle file that assimp reads (STL, OBJ, PLY, OFF, GLB), all parts merged, vertices joined, in the
+/// file's own coordinates (taken as mm). Throws Error: not_found; invalid_input for unreadable files, no
+/// triangles, NaN or infinite vertices, indices out of range. Degenerate triangles are dropped.
+TriangleMesh load_mesh(const std::filesystem::path& path);
+
+/// Binary little-endian PLY with float positions and, where present, normals; written atomically.
+void write_ply(const std::filesystem::path& path, const TriangleMesh& mesh);
+
+}  // namespace ream

@@ -1,0 +1,50 @@
+#include "voxel/bone_model.hpp"
+
+#include <cmath>
+
+#include "core/hash.hpp"
+
+namespace ream::voxel {
+
+uint8_t density_code(double density) {
+  const double code = std::floor(density / density_step_g_cc + 0.5);
+  return static_cast<uint8_t>(code < 0.0 ? 0.0 : code > max_density_code ? max_density_code : code);
+}
+
+double density_g_cc(uint8_t code) {
+  return code == cartilage_code ? cartilage_density_g_cc : code * density_step_g_cc;
+}
+
+std::array<BoneClass, 256> class_table(double cortical_threshold_g_cc) {
+  std::array<BoneClass, 256> table{};
+  for (int code = 0; code < 256; ++code)
+    table[static_cast<size_t>(code)] = code == cartilage_code ? BoneClass::cartilage
+                                       : code * density_step_g_cc >= cortical_threshold_g_cc
+                                           ? BoneClass::cortical
+                                           : BoneClass::cancellous;
+  return table;
+}
+
+size_t BoneModel::filled_voxels() const {
+  size_t filled = 0;
+  for (const uint8_t c : coverage) filled += c >= 128;
+  return filled;
+}
+
+uint64_t BoneModel::coverage_hash() const {
+  uint64_t sum = 0;
+  for (size_t i = 0; i < coverage.size(); ++i)
+    if (coverage[i] != 0) sum += mix64(i * 256 + coverage[i]);
+  return sum;
+}
+
+BoneModel make_bone(const VoxelGrid& grid) {
+  validate(grid);
+  BoneModel bone;
+  bone.grid = grid;
+  bone.density.resize(grid.voxel_count());
+  bone.coverage.resize(grid.voxel_count());
+  return bone;
+}
+
+}  // namespace ream::voxel

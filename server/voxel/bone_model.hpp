@@ -1,0 +1,48 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "voxel/voxel_grid.hpp"
+
+namespace ream::voxel {
+
+enum class BoneClass : uint8_t { cancellous = 0, cortical = 1, cartilage = 2 };
+inline constexpr int bone_class_count = 3;
+
+/// Density byte of a voxel. Codes 0..250 are apparent density in steps of 0.01 g/cc (range 0 to 2.50 g/cc);
+/// code 255 marks cartilage, which density cannot tell from bone; 251..254 are unused.
+inline constexpr double density_step_g_cc = 0.01;
+inline constexpr int max_density_code = 250;
+inline constexpr uint8_t cartilage_code = 255;
+/// Density given to cartilage where a number is needed (wet hyaline cartilage, about 1.1 g/cc).
+inline constexpr double cartilage_density_g_cc = 1.1;
+/// Where the thesis' two feed laws cross (science: eqs 5.1 and 5.2 give the same feed there).
+inline constexpr double default_cortical_threshold_g_cc = 1.069;
+
+uint8_t density_code(double density_g_cc);
+double density_g_cc(uint8_t code);
+
+/// Class of every density code for a cortical/cancellous threshold.
+std::array<BoneClass, 256> class_table(double cortical_threshold_g_cc = default_cortical_threshold_g_cc);
+
+/// Bone of one case: per voxel an unchanging density and what remains of the voxel. Coverage 255 is whole, 0 is
+/// gone or never was bone; the surface is where coverage crosses 127.5. Density is meaningful where the coverage was
+/// ever above 0. Both arrays have grid.voxel_count() bytes in the order of VoxelGrid::index.
+/// After a session has started only its haptic thread writes coverage; everybody else follows changed bricks.
+struct BoneModel {
+  VoxelGrid grid;
+  std::vector<uint8_t> density;
+  std::vector<uint8_t> coverage;
+  double cortical_threshold_g_cc = default_cortical_threshold_g_cc;
+
+  /// Voxels with coverage of at least 128.
+  size_t filled_voxels() const;
+  /// Order-free hash of all coverage (sum over voxels); equal bones have equal hashes on every machine.
+  uint64_t coverage_hash() const;
+};
+
+/// An empty bone of that grid. Throws as validate().
+BoneModel make_bone(const VoxelGrid& grid);
+
+}  // namespace ream::voxel
