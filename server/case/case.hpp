@@ -1,0 +1,82 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "voxel/bone_model.hpp"
+
+namespace ream::case_ {
+
+enum class Side { left, right };
+
+/// A hole that exists before tick 0, along the plan's axis; outside all metrics.
+struct PilotHole {
+  double diameter_mm = 6.2;  ///< a little over the thesis reamer's 6 mm nipple
+  double depth_mm = 12.0;    ///< below the entry point
+};
+
+/// Where and how to ream. World frame (LPS mm).
+struct Plan {
+  Vec3 entry_mm = Vec3::Zero();            ///< point of the axis on the native glenoid surface
+  Vec3 axis_direction = Vec3::UnitX();     ///< unit, into the bone (medial)
+  double depth_mm = 2.0;                   ///< planned reaming depth past first contact of the cutting surface
+  std::string reamer = "ellipse 18.25,9";  ///< profile text or path of a mesh, see shell/tool.hpp
+  std::optional<PilotHole> pilot_hole = PilotHole{};
+};
+
+/// Glenoid coordinate system, world frame, each a unit vector; side-aware (see DESIGN 3 and science 2.1).
+struct GlenoidFrame {
+  Vec3 centre_mm = Vec3::Zero();
+  Vec3 lateral = Vec3::UnitX(), superior = Vec3::UnitZ(), anterior = -Vec3::UnitY();
+};
+
+/// How HU became density; each number is kept with the case.
+struct Calibration {
+  double intercept_mg_cc = 1.3152, slope_mg_cc_per_hu = 0.6944;  ///< HU -> rho_QCT (science 2.5, example phantom)
+  double threshold_hu = 200.0;                                   ///< segmentation threshold that was used
+};
+
+struct Case {
+  std::string id;    ///< folder name; [a-z0-9-]+
+  std::string name;  ///< for people
+  std::string source;  ///< where the volume came from, without patient names
+  Side side = Side::right;
+  voxel::BoneModel bone;
+  Calibration calibration;
+  std::optional<GlenoidFrame> glenoid;
+  std::optional<Plan> plan;
+  std::vector<std::string> warnings;
+};
+
+/// What a list of cases shows, read without the volume.
+struct CaseSummary {
+  std::string id, name;
+  Side side = Side::right;
+  Vec3i dims = Vec3i::Zero();
+  Vec3 spacing_mm = Vec3::Ones();
+  bool planned = false;
+};
+
+/// A case is a folder: case.json (proto/case.schema.json), plan.json where planned, density.zst and coverage.zst
+/// (raw bytes in grid order, zstd). Saving is atomic: the folder appears whole or not at all.
+/// Errors: not_found, invalid_input (names file and key), io.
+Case load_case(const std::filesystem::path& folder);
+CaseSummary load_case_summary(const std::filesystem::path& folder);
+void save_case(const Case& c, const std::filesystem::path& folder, bool replace = false);
+
+/// Replaces only the plan of an existing case.
+void save_plan(const Plan& plan, const std::filesystem::path& case_folder);
+
+/// Takes the plan's pilot hole out of the coverage (a cylinder from `clearance` before the entry to its depth,
+/// sub-voxel at its border). Idempotent. Does nothing without a plan or hole.
+void cut_pilot_hole(voxel::BoneModel& bone, const Plan& plan);
+
+/// First bone surface met when moving along the plan's direction through `point` (coverage crosses 127.5);
+/// empty when the ray misses the bone.
+std::optional<Vec3> surface_along(const voxel::BoneModel& bone, const Vec3& point_mm, const Vec3& direction);
+
+std::string to_text(Side side);
+Side side_from_text(const std::string& text);
+
+}  // namespace ream::case_

@@ -1,0 +1,35 @@
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "geometry/triangle_mesh.hpp"
+
+namespace ream::render {
+
+/// One mesh of a picture, world frame, lit from the camera; vertex normals are used where present.
+struct Layer {
+  const TriangleMesh* mesh = nullptr;
+  Pose world_from_mesh;
+  Vec3f colour{0.91f, 0.86f, 0.76f};  ///< linear RGB, 0 to 1
+  float opacity = 1.0f;               ///< below 1: drawn after the opaque layers
+};
+
+/// Perspective camera.
+struct Camera {
+  Vec3 eye_mm = Vec3::Zero(), target_mm = Vec3::UnitX(), up = Vec3::UnitZ();
+  double vertical_field_of_view_rad = 0.6;
+};
+
+/// RGBA, top row first.
+struct Image {
+  int width = 0, height = 0;
+  std::vector<uint8_t> rgba;
+};
+
+/// Draws with OSMesa (no display needed). Throws Error unavailable when no context can be made.
+Image draw(const std::vector<Layer>& layers, const Camera& camera, int width, int height);
+
+/// Atomic PNG; Error io names the path.
+void write_png(const std::filesystem::path& path, const Image& image);
+
+}  // namespace ream::render
