@@ -1,0 +1,51 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "geometry/pose.hpp"
+
+namespace ream::device {
+
+/// What a device can render, hand side, and who it is.
+struct DeviceTraits {
+  std::string name;
+  double force_max_n = 0.0;      ///< continuous
+  double torque_max_n_mm = 0.0;  ///< 0: no torque
+  double stiffness_max_n_mm = 0.0;
+  int degrees_of_freedom = 6;  ///< sensed
+};
+
+struct DeviceInput {
+  Pose world_from_handle;
+  bool spindle_on = false;
+  bool paused = false;
+};
+
+struct DeviceOutput {
+  Vec3 force_n = Vec3::Zero();        ///< on the hand, world frame
+  Vec3 torque_n_mm = Vec3::Zero();    ///< on the hand about the handle's origin, world frame
+};
+
+enum class DeviceStatus {
+  ok,
+  finished,  ///< a script or replay has come to its end
+  stale,     ///< nothing new from the hardware for too long
+  fault,     ///< the device cannot be used any more
+};
+
+/// A thing held in the hand: gives a pose, takes a force, once a millisecond. read and write are called from the
+/// haptic thread: they never block, throw or allocate. The owner opens it before the first tick and closes it after the
+/// last; close() leaves the device without force.
+class HapticDevice {
+ public:
+  virtual ~HapticDevice() = default;
+  virtual const DeviceTraits& traits() const noexcept = 0;
+  /// Throws Error unavailable when the hardware cannot be used.
+  virtual void open() = 0;
+  virtual void close() noexcept = 0;
+  /// Newest input; `input` keeps its last value when the status is not ok.
+  virtual DeviceStatus read(DeviceInput& input) noexcept = 0;
+  virtual DeviceStatus write(const DeviceOutput& output) noexcept = 0;
+};
+
+}  // namespace ream::device

@@ -1,0 +1,53 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "case/case.hpp"
+#include "collide/contact_shell.hpp"
+#include "collide/narrow_phase.hpp"
+#include "collide/removal_schedule.hpp"
+#include "force/coupling.hpp"
+#include "force/feed_model.hpp"
+#include "force/limits.hpp"
+#include "shell/point_shell.hpp"
+#include "shell/swept_profile.hpp"
+#include "shell/tool.hpp"
+
+namespace ream::sim {
+
+/// How a session is to be simulated; everything that the same input needs to give the same bits.
+struct Settings {
+  std::string backend = "cpu";  ///< auto, cpu, opencl or opencl:N
+  double tool_spacing_mm = 0.2;
+  double force_scale = 1.0;      ///< simulated N per hand N
+  double stiffness_n_mm = 2.0;   ///< coupling, hand side
+  double angular_stiffness_n_mm_rad = 2000.0;
+  force::DeviceLimits limits;
+  uint64_t random_seed = 1;
+};
+
+/// Everything that does not change while reaming. Built before the first tick; const from then on.
+struct Model {
+  Settings settings;
+  case_::Plan plan;
+  Pose world_from_plan;  ///< plan frame: origin at the entry, z along the axis into the bone
+  shell::Tool tool;
+  shell::PointShell shell;
+  shell::SweptProfile profile;
+  collide::ContactShell contact_shell;
+  voxel::BrickDistance distance;
+  Aabb bone_box_grid;      ///< around all bone at the start; removal only shrinks it
+  Aabb tool_box_tool;      ///< around probes and swept body
+  std::unique_ptr<force::FeedModel> feed;
+  force::CouplingParameters coupling;
+  double thin_step_mm = 0.1;  ///< no point of the tool moves farther between two looks for contact (one voxel)
+};
+
+/// Prepares a planned case for a tool: cuts the pilot hole into `bone` and builds the rest. Errors: conflict when the case
+/// has no plan, those of make_point_shell and swept_profile.
+Model make_model(const case_::Plan& plan, voxel::BoneModel& bone, shell::Tool tool, const Settings& settings);
+
+/// Plan frame of a plan, chosen the same way every time.
+Pose world_from_plan(const case_::Plan& plan);
+
+}  // namespace ream::sim

@@ -1,0 +1,138 @@
+#include "sim/step.hpp"
+
+#include <cmath>
+
+#include "core/clock.hpp"
+#include "core/hash.hpp"
+#include "force/coefficients.hpp"
+#include "sim/approach.hpp"
+#include "sim/contact_resistance.hpp"
+
+namespace ream::sim {
+namespace {
+
+/// Handle minus tool in the tool frame: mm, then rotation vector in rad.
+force::Vec6 handle_minus_tool(const Pose& world_from_tool, const Pose& world_from_handle) {
+  const Mat3 tool_from_world = world_from_tool.rotation.transpose();
+  const Vec3 d = tool_from_world * (world_from_handle.translation_mm - world_from_tool.translation_mm);
+  const Vec3 r = small_vector_from_rotation(tool_from_world * world_from_handle.rotation);
+  return {d.x(), d.y(), d.z(), r.x(), r.y(), r.z()};
+}
+
+Pose moved(const Pose& world_from_tool, const force::Vec6& motion, double fraction) {
+  const Vec3 shift(motion[0], motion[1], motion[2]), turn(motion[3], motion[4], motion[5]);
+  return {orthonormalized(world_from_tool.rotation * rotation_from_small_vector(fraction * turn)),
+          world_from_tool.translation_mm + world_from_tool.rotation * (fraction * shift)};
+}
+
+/// Advance against contact: at most one voxel a tick for any point, so that nothing is jumped.
+Pose moved_within_a_voxel(const Model& model, const Pose& world_from_tool, const force::Vec6& motion) {
+  const Pose whole = moved(world_from_tool, motion, 1.0);
+  const double distance_mm = largest_motion_mm(model, world_from_tool, whole);
+  return distance_mm <= model.thin_step_mm ? whole : moved(world_from_tool, motion, model.thin_step_mm / distance_mm);
+}
+
+/// Spring, feed law and motion of the tool that touches bone; fills the force part of the report.
+void press(const Model& model, State& state, const collide::ContactSums& sums, const device::DeviceInput& input,
+           TickReport& report) {
+  const force::EngagedBone bone = engaged_bone(sums);
+  const double resistance_n_s_mm = bone.any() ? model.feed->resistance_n_s_mm(bone) : 0.0;
+  const force::Vec6 delta = handle_minus_tool(state.world_from_tool, input.world_from_handle);
+  const auto couple_when = [&](bool cuts) {
+    return force::couple(model.coupling, contact_resistance(model, sums, resistance_n_s_mm, cuts), delta, tick_s);
+  };
+  force::CouplingStep coupled = couple_when(input.spindle_on);
+  const double thrust_n = coupled.wrench_on_tool[2];
+  if (input.spindle_on && std::abs(thrust_n) < force::start_threshold_n) coupled = couple_when(false);
+
+  const Vec3 before = state.world_from_tool.translation_mm;
+  const Vec3 axis = state.world_from_tool.rotation.col(2);
+  const Mat3 world_from_tool_axes = state.world_from_tool.rotation;
+  state.world_from_tool = moved_within_a_voxel(model, state.world_from_tool, coupled.tool_motion);
+
+  const auto& w = coupled.wrench_on_tool;
+  const Vec3 force_on_tool(w[0], w[1], w[2]), torque_on_tool(w[3], w[4], w[5]);
+  const double per_hand = 1.0 / model.coupling.force_scale;
+  report.engaged = true;
+  report.thrust_n = w[2];
+  report.torque_n_mm = torque_on_tool.norm();
+  report.feed_rate_mm_s = axis.dot(state.world_from_tool.translation_mm - before) / tick_s;
+  report.density_g_cc = bone.mean_density_g_cc();
+  for (size_t k = 0; k < 3; ++k) report.share[k] = bone.share[k];
+  report.engaged_points = sums.engaged();
+  report.hand_force_n = force::limited(world_from_tool_axes * (-per_hand * force_on_tool), model.settings.limits.force_max_n);
+  report.hand_torque_n_mm =
+      force::limited(world_from_tool_axes * (-per_hand * torque_on_tool), model.settings.limits.torque_max_n_mm);
+}
+
+/// Cuts what is due and tells the followers; folds the changes into the report.
+bool remove(State& state, const QuantisedPose& pose, TickReport& report) {
+  const auto due = state.schedule.due(pose);
+  collide::RemovalSums sums;
+  if (!state.removal->cut(pose, due, {state.changed.data(), due.size()}, {state.empty.data(), due.size()}, sums))
+    return false;
+  for (size_t i = 0; i < due.size(); ++i) {
+    if (state.empty[i]) state.schedule.retire(due[i]);
+    if (state.changed[i] && state.brick_sender != nullptr) state.brick_sender->mark(due[i]);
+  }
+  for (size_t k = 0; k < 3; ++k) report.coverage_removed[k] = sums.coverage_removed[k];
+  report.changed_bricks = sums.changed_bricks;
+  if (sums.changed_bricks != 0) state.session_hash = hash_combine(state.session_hash, sums.change_hash);
+  return true;
+}
+
+/// The cause of the tick as it is recorded, folded into the rolling hash.
+uint64_t hash_of_cause(const TickReport& report) {
+  uint64_t h = hash_combine(report.tick, static_cast<uint64_t>(report.spindle_on) | static_cast<uint64_t>(report.paused) << 1);
+  for (const int32_t q : report.grid_from_tool.rotation_q30) h = hash_combine(h, static_cast<uint32_t>(q));
+  for (const int32_t q : report.grid_from_tool.translation_nm) h = hash_combine(h, static_cast<uint32_t>(q));
+  return h;
+}
+
+bool is_finite(const TickReport& r) {
+  return r.hand_force_n.allFinite() && r.hand_torque_n_mm.allFinite() && r.world_from_tool.translation_mm.allFinite() &&
+         r.world_from_tool.rotation.allFinite() && std::isfinite(r.thrust_n);
+}
+
+bool is_finite(const device::DeviceInput& input) {
+  return input.world_from_handle.translation_mm.allFinite() && input.world_from_handle.rotation.allFinite();
+}
+
+}  // namespace
+
+StepStatus step(const Model& model, State& state, const device::DeviceInput& input, TickReport& report) noexcept {
+  report = {};
+  if (!is_finite(input)) return StepStatus::not_finite;
+  report.tick = state.tick++;
+  report.spindle_on = input.spindle_on;
+  report.paused = input.paused;
+  report.world_from_handle = input.world_from_handle;
+  if (!state.started) state.world_from_tool = input.world_from_handle;
+  state.started = true;
+
+  const auto start = SteadyClock::now();
+  bool near_bone = false;
+  if (!input.paused) {
+    const Approach found = approach(model, state, input.world_from_handle);
+    state.times.contact_us = elapsed_us(start);
+    if (!found.ok) return StepStatus::collision_failed;
+    near_bone = found.voi.touching;
+    if (found.sums.engaged() > 0) press(model, state, found.sums, input, report);
+    state.times.force_us = elapsed_us(start) - state.times.contact_us;
+  }
+  report.world_from_tool = state.world_from_tool;
+  report.grid_from_tool = quantised(state.bone.grid.world_from_grid.inverse() * state.world_from_tool);
+
+  const auto before_removal = SteadyClock::now();
+  if (near_bone && input.spindle_on && !remove(state, report.grid_from_tool, report)) return StepStatus::collision_failed;
+  state.times.removal_us = elapsed_us(before_removal);
+
+  state.session_hash = hash_combine(state.session_hash, hash_of_cause(report));
+  report.session_hash = state.session_hash;
+  const auto before_bricks = SteadyClock::now();
+  if (state.brick_sender != nullptr) state.brick_sender->send(state.bone.coverage.data(), report.tick, state.brick_budget);
+  state.times.bricks_us = elapsed_us(before_bricks);
+  return is_finite(report) ? StepStatus::ok : StepStatus::not_finite;
+}
+
+}  // namespace ream::sim

@@ -1,0 +1,18 @@
+#pragma once
+#include "device/haptic_device.hpp"
+#include "sim/state.hpp"
+
+namespace ream::sim {
+
+enum class StepStatus {
+  ok,
+  collision_failed,  ///< the narrow phase's or removal's device failed
+  not_finite,        ///< a pose or force is not a number
+};
+
+/// One millisecond: contact, force, motion, removal, hash; in that order, readable top to bottom. The report says
+/// what happened; on any status but ok it must not be used and the device must be given zero force. No lock,
+/// allocation, log, file, socket or exception.
+StepStatus step(const Model& model, State& state, const device::DeviceInput& input, TickReport& report) noexcept;
+
+}  // namespace ream::sim
