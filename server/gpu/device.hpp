@@ -1,0 +1,35 @@
+#pragma once
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gpu/handle.hpp"
+
+namespace ream::gpu {
+
+/// What a device is wanted for. PoCL offers the same processor twice: `basic` runs kernels on the calling
+/// thread and starts one in under a microsecond (the tick), `pthread` uses every core (bulk work).
+enum class Use { tick, bulk };
+
+/// One OpenCL device of any installed driver (ICD).
+struct Device {
+  _cl_device_id* id = nullptr;  ///< owned by the OpenCL runtime, valid until the process ends
+  int index = 0;                ///< the N of "opencl:N"
+  std::string name, platform, driver;
+  bool is_cpu = false;
+  bool is_pocl = false;
+  size_t max_buffer_bytes = 0;
+  size_t max_local_size = 0;
+};
+
+/// Every device, in the order of the installed drivers; empty when there is none. Unless POCL_DEVICES is set, PoCL is
+/// asked for both "basic" and "pthread". The first call touches the environment: make it before threads start.
+std::vector<Device> list_devices();
+
+/// The device that `wish` names: "auto" or "opencl" (PoCL's device that fits `use`, else the first of the list),
+/// "opencl:N" (the N-th of list_devices), or part of a device's or platform's name, in any case.
+/// Errors: usage for an N or a name that is not there (lists what is), unavailable when there is no device at all.
+Device choose_device(std::string_view wish, Use use);
+
+}  // namespace ream::gpu
