@@ -100,12 +100,15 @@ bool is_finite(const device::DeviceInput& input) {
 
 }  // namespace
 
-StepStatus step(const Model& model, State& state, const device::DeviceInput& input, TickReport& report) noexcept {
+StepStatus step(const Model& model, State& state, const device::DeviceInput& raw_input, TickReport& report) noexcept {
   report = {};
-  if (!is_finite(input)) return StepStatus::not_finite;
+  if (!is_finite(raw_input)) return StepStatus::not_finite;
   report.tick = state.tick++;
-  report.spindle_on = input.spindle_on;
-  report.paused = input.paused;
+  report.spindle_on = raw_input.spindle_on;
+  report.paused = raw_input.paused;
+  report.world_from_handle_q = quantised(raw_input.world_from_handle);
+  device::DeviceInput input = raw_input;
+  input.world_from_handle = dequantised(report.world_from_handle_q);
   report.world_from_handle = input.world_from_handle;
   if (!state.started) state.world_from_tool = input.world_from_handle;
   state.started = true;

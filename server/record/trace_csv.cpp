@@ -1,0 +1,93 @@
+#include "record/trace_csv.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+
+#include "core/clock.hpp"
+#include "core/error.hpp"
+
+namespace ream::record {
+namespace {
+
+/// A CSV row under construction: numbers in their shortest exact form.
+class Row {
+ public:
+  Row& add(double value) {
+    separate();
+    end_ = std::to_chars(end_, buffer_ + sizeof buffer_, value).ptr;
+    return *this;
+  }
+  Row& add(int64_t value) {
+    separate();
+    end_ = std::to_chars(end_, buffer_ + sizeof buffer_, value).ptr;
+    return *this;
+  }
+  Row& add(const Vec3& v) { return add(v.x()).add(v.y()).add(v.z()); }
+  Row& add(const Pose& pose) {
+    add(pose.translation_mm);
+    for (const double q : quaternion_from_rotation(pose.rotation)) add(q);
+    return *this;
+  }
+  void write(std::FILE* file) {
+    *end_++ = '\n';
+    std::fwrite(buffer_, 1, static_cast<size_t>(end_ - buffer_), file);
+  }
+
+ private:
+  void separate() {
+    if (end_ != buffer_) *end_++ = ',';
+  }
+  char buffer_[2048];
+  char* end_ = buffer_;
+};
+
+[[noreturn]] void fail(const std::filesystem::path& path) {
+  throw Error(ErrorKind::io, "cannot write " + path.string() + ": " + std::strerror(errno));
+}
+
+}  // namespace
+
+const std::string& TraceCsv::header_line() {
+  static const std::string line =
+      "t_s,handle_x_mm,handle_y_mm,handle_z_mm,handle_qw,handle_qx,handle_qy,handle_qz,"
+      "tool_x_mm,tool_y_mm,tool_z_mm,tool_qw,tool_qx,tool_qy,tool_qz,spindle_on,paused,"
+      "thrust_n,hand_force_x_n,hand_force_y_n,hand_force_z_n,torque_n_mm,feed_rate_mm_s,density_g_cc,"
+      "share_cancellous,share_cortical,share_cartilage,engaged_points,removed_volume_mm3";
+  return line;
+}
+
+TraceCsv::TraceCsv(const std::filesystem::path& path, double voxel_volume_mm3)
+    : path_(path), temporary_(path.string() + ".tmp"), voxel_volume_mm3_(voxel_volume_mm3) {
+  file_ = std::fopen(temporary_.c_str(), "wb");
+  if (file_ == nullptr) fail(path_);
+  std::fprintf(file_, "%s\n", header_line().c_str());
+}
+
+TraceCsv::~TraceCsv() {
+  if (file_ == nullptr) return;
+  std::fclose(file_);
+  ::unlink(temporary_.c_str());
+}
+
+void TraceCsv::add(const TickReport& r) {
+  for (const int64_t removed : r.coverage_removed) coverage_removed_ += removed;
+  Row row;
+  row.add(static_cast<double>(r.tick) * tick_s).add(r.world_from_handle).add(r.world_from_tool);
+  row.add(static_cast<int64_t>(r.spindle_on)).add(static_cast<int64_t>(r.paused));
+  row.add(r.thrust_n).add(r.hand_force_n).add(r.torque_n_mm).add(r.feed_rate_mm_s).add(r.density_g_cc);
+  row.add(r.share[0]).add(r.share[1]).add(r.share[2]).add(r.engaged_points);
+  row.add(static_cast<double>(coverage_removed_) / 255.0 * voxel_volume_mm3_);
+  row.write(file_);
+}
+
+void TraceCsv::finish() {
+  if (std::ferror(file_) || std::fflush(file_) != 0 || ::fsync(fileno(file_)) != 0) fail(path_);
+  std::fclose(file_);
+  file_ = nullptr;
+  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_);
+}
+
+}  // namespace ream::record

@@ -1,0 +1,33 @@
+#pragma once
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+#include "record/tick_report.hpp"
+
+namespace ream::record {
+
+/// trace.csv, one row a tick; column names carry their units. Written to a temporary name and renamed by finish(), so
+/// an interrupted run leaves no half trace.
+class TraceCsv {
+ public:
+  /// Throws Error io when the file cannot be created.
+  TraceCsv(const std::filesystem::path& path, double voxel_volume_mm3);
+  ~TraceCsv();
+  TraceCsv(const TraceCsv&) = delete;
+  TraceCsv& operator=(const TraceCsv&) = delete;
+
+  void add(const TickReport& report);
+  /// Throws Error io when anything could not be written.
+  void finish();
+
+  static const std::string& header_line();
+
+ private:
+  std::filesystem::path path_, temporary_;
+  std::FILE* file_ = nullptr;
+  double voxel_volume_mm3_;
+  int64_t coverage_removed_ = 0;
+};
+
+}  // namespace ream::record

@@ -1,0 +1,47 @@
+#pragma once
+#include <nlohmann/json_fwd.hpp>
+
+#include "record/tick_report.hpp"
+#include "voxel/bone_model.hpp"
+
+namespace ream::score {
+
+/// What is known of a run so far; the first metrics of metrics.json. Volumes leave the pilot hole out (it is gone
+/// before the first tick), forces are simulated newtons.
+struct Metrics {
+  double removed_volume_mm3 = 0.0;
+  double removed_volume_cortical_mm3 = 0.0;
+  double removed_volume_cancellous_mm3 = 0.0;
+  double removed_volume_cartilage_mm3 = 0.0;
+  /// How far the tool's apex went along the planned axis from first contact while removing, mm.
+  double reaming_depth_mm = 0.0;
+  double axial_thrust_mean_n = 0.0;  ///< over the ticks in contact with the spindle on
+  double axial_thrust_peak_n = 0.0;
+  double duration_s = 0.0;
+  double contact_time_s = 0.0;
+  uint64_t session_hash = 0;
+};
+
+/// Accumulates metrics from tick reports, in order. Sums in a fixed order, so equal runs give equal bytes.
+class MetricsAccumulator {
+ public:
+  /// `plan_from_world`: inverse of the plan frame (z along the axis into the bone).
+  MetricsAccumulator(double voxel_volume_mm3, const Pose& plan_from_world);
+  void add(const record::TickReport& report);
+  Metrics metrics() const;
+
+ private:
+  double voxel_volume_mm3_;
+  Pose plan_from_world_;
+  int64_t ticks_ = 0, contact_ticks_ = 0, cutting_ticks_ = 0;
+  int64_t coverage_removed_[voxel::bone_class_count] = {};
+  double thrust_sum_n_ = 0.0, thrust_peak_n_ = 0.0;
+  bool touched_ = false;
+  double first_contact_mm_ = 0.0, deepest_mm_ = 0.0;
+  uint64_t session_hash_ = 0;
+};
+
+/// The keys of metrics.json (DESIGN 4). `grid_hash` is null when not given (a run still going on).
+nlohmann::json metrics_json(const Metrics& metrics, double force_scale, const uint64_t* grid_hash);
+
+}  // namespace ream::score

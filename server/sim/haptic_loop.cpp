@@ -1,0 +1,144 @@
+#include "sim/haptic_loop.hpp"
+
+#include "core/clock.hpp"
+#include "core/error.hpp"
+#include "sim/tick_clock.hpp"
+
+namespace ream::sim {
+namespace {
+
+constexpr uint32_t publish_every_ticks = 100;
+
+/// Leaves the device without force and closed, whatever happens in between.
+class DeviceGuard {
+ public:
+  explicit DeviceGuard(device::HapticDevice& device) : device_(device) {}
+  ~DeviceGuard() {
+    device_.write({});
+    device_.close();
+  }
+  DeviceGuard(const DeviceGuard&) = delete;
+  DeviceGuard& operator=(const DeviceGuard&) = delete;
+
+ private:
+  device::HapticDevice& device_;
+};
+
+LoopEnd end_of(StepStatus status) {
+  switch (status) {
+    case StepStatus::ok: return LoopEnd::running;
+    case StepStatus::collision_failed: return LoopEnd::collision_failed;
+    case StepStatus::not_finite: return LoopEnd::not_finite;
+  }
+  return LoopEnd::not_finite;
+}
+
+}  // namespace
+
+std::string to_words(LoopEnd end) {
+  switch (end) {
+    case LoopEnd::device_fault: return "The haptic device stopped answering; check its cable and power, then start a new session.";
+    case LoopEnd::collision_failed: return "The OpenCL device failed; start again with --backend cpu.";
+    case LoopEnd::not_finite: return "A pose or force was not a number; the force was set to zero and the session ended.";
+    case LoopEnd::followers_late: return "The recording could not keep up with the loop; check the disk, then start a new session.";
+    case LoopEnd::running:
+    case LoopEnd::finished:
+    case LoopEnd::stopped: return "";
+  }
+  return "";
+}
+
+HapticLoop::HapticLoop(const Model& model, State& state, device::HapticDevice& device, SpscRing<TickReport>& reports,
+                       LoopOptions options)
+    : model_(model), state_(state), device_(device), reports_(reports), options_(options) {}
+
+HapticLoop::~HapticLoop() { stop(); }
+
+void HapticLoop::start() {
+  device_.open();
+  std::atomic<int> granted{-1};
+  thread_ = std::thread([this, &granted] {
+    const bool usable = !options_.wall_clock || make_realtime(options_.realtime);
+    granted.store(usable, std::memory_order_release);
+    granted.notify_one();
+    if (usable) loop();
+  });
+  granted.wait(-1, std::memory_order_acquire);
+  if (granted.load(std::memory_order_acquire) == 1) return;
+  thread_.join();
+  device_.close();
+  throw Error(ErrorKind::unavailable,
+              "real-time scheduling was refused; give the program CAP_SYS_NICE and unlimited locked memory, or use "
+              "--realtime try");
+}
+
+LoopEnd HapticLoop::run() {
+  device_.open();
+  loop();
+  return health().end;
+}
+
+void HapticLoop::stop() noexcept {
+  stop_.store(true, std::memory_order_relaxed);
+  if (thread_.joinable()) thread_.join();
+}
+
+LoopHealth HapticLoop::health() noexcept {
+  published_.take(last_seen_);
+  return last_seen_;
+}
+
+void HapticLoop::loop() noexcept {
+  LoopEnd end = LoopEnd::running;
+  {
+    const DeviceGuard guard(device_);
+    TickClock clock;
+    device::DeviceInput input;
+    while (end == LoopEnd::running) {
+      const double lateness_us = options_.wall_clock ? clock.wait() : 0.0;
+      if (stop_.load(std::memory_order_relaxed)) {
+        end = LoopEnd::stopped;
+        break;
+      }
+      end = one_tick(input, lateness_us);
+      if (state_.tick % publish_every_ticks == 0) publish(end);
+    }
+  }
+  publish(end);
+  ended_.store(true, std::memory_order_release);
+}
+
+LoopEnd HapticLoop::one_tick(device::DeviceInput& input, double lateness_us) noexcept {
+  const auto start = SteadyClock::now();
+  const device::DeviceStatus read = device_.read(input);
+  if (read == device::DeviceStatus::finished) return LoopEnd::finished;
+  if (read != device::DeviceStatus::ok) return LoopEnd::device_fault;
+
+  TickReport report;
+  const StepStatus status = step(model_, state_, input, report);
+  const double step_us = elapsed_us(start);
+  black_box_.remember(report, step_us, lateness_us);
+  if (status != StepStatus::ok) return end_of(status);
+  if (device_.write({report.hand_force_n, report.hand_torque_n_mm}) != device::DeviceStatus::ok) return LoopEnd::device_fault;
+
+  tick_us_.add(step_us);
+  lateness_us_.add(lateness_us);
+  if (lateness_us >= 1000.0) ++missed_;
+  return push(report) ? LoopEnd::running : LoopEnd::followers_late;
+}
+
+bool HapticLoop::push(const TickReport& report) noexcept {
+  if (options_.wall_clock) return reports_.try_push(report);
+  // Virtual time may wait for its followers.
+  while (!reports_.try_push(report)) {
+    if (stop_.load(std::memory_order_relaxed)) return true;
+    std::this_thread::yield();
+  }
+  return true;
+}
+
+void HapticLoop::publish(LoopEnd end) noexcept {
+  published_.store({end, state_.tick, missed_, tick_us_.summary(), lateness_us_.summary()});
+}
+
+}  // namespace ream::sim

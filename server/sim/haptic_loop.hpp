@@ -1,0 +1,89 @@
+#pragma once
+#include <atomic>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "core/latest_slot.hpp"
+#include "core/spsc_ring.hpp"
+#include "core/timing_histogram.hpp"
+#include "device/haptic_device.hpp"
+#include "sim/black_box.hpp"
+#include "sim/step.hpp"
+
+namespace ream::sim {
+
+/// How the loop gets its scheduling: real-time priority and locked memory demanded, tried, or left alone.
+enum class Realtime { require, attempt, off };
+
+enum class LoopEnd : uint8_t {
+  running,
+  finished,          ///< the device's script came to its end
+  stopped,           ///< stop() was called
+  device_fault,      ///< the device could not be read or written, or gave nothing new for too long
+  collision_failed,  ///< the OpenCL device failed
+  not_finite,        ///< a pose or force was not a number
+  followers_late,    ///< the recording could not keep up; nothing may be lost, so the session ends
+};
+
+/// One sentence for people; empty while running, finished or stopped.
+std::string to_words(LoopEnd end);
+
+/// Health of the loop as others may read it at any time.
+struct LoopHealth {
+  LoopEnd end = LoopEnd::running;
+  uint32_t tick = 0;
+  uint64_t missed = 0;  ///< ticks that began more than a millisecond late
+  TimingSummary tick_us, lateness_us;
+};
+
+struct LoopOptions {
+  bool wall_clock = true;  ///< false: virtual time, each tick as soon as the last is done
+  Realtime realtime = Realtime::attempt;
+};
+
+/// The 1 kHz loop: read, compute, check, limit, write. In virtual time it runs the same ticks without waiting. Every way
+/// out of it writes zero force and closes the device. One loop per State; the reports ring has one consumer.
+class HapticLoop {
+ public:
+  HapticLoop(const Model& model, State& state, device::HapticDevice& device, SpscRing<TickReport>& reports, LoopOptions options);
+  ~HapticLoop();
+  HapticLoop(const HapticLoop&) = delete;
+  HapticLoop& operator=(const HapticLoop&) = delete;
+
+  /// Opens the device and starts the thread. Errors: those of open(); unavailable when real time is required and refused.
+  void start();
+  /// Asks the loop to end and waits for it. Safe to call twice.
+  void stop() noexcept;
+  /// Runs the whole loop on the calling thread instead of start().
+  LoopEnd run();
+
+  /// True once the loop has ended (all reports are in the ring then).
+  bool ended() const noexcept { return ended_.load(std::memory_order_acquire); }
+  /// Newest health; one reader thread.
+  LoopHealth health() noexcept;
+  /// Whole histograms and black box; only after ended().
+  const TimingHistogram& tick_times() const { return tick_us_; }
+  const BlackBox& black_box() const { return black_box_; }
+
+ private:
+  void loop() noexcept;
+  LoopEnd one_tick(device::DeviceInput& input, double lateness_us) noexcept;
+  bool push(const TickReport& report) noexcept;
+  void publish(LoopEnd end) noexcept;
+
+  const Model& model_;
+  State& state_;
+  device::HapticDevice& device_;
+  SpscRing<TickReport>& reports_;
+  LoopOptions options_;
+  std::thread thread_;
+  std::atomic<bool> stop_{false}, ended_{false};
+  LatestSlot<LoopHealth> published_;
+  LoopHealth last_seen_;
+  TimingHistogram tick_us_, lateness_us_;
+  BlackBox black_box_;
+  uint64_t missed_ = 0;
+};
+
+}  // namespace ream::sim
