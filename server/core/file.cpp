@@ -39,6 +39,12 @@ fs::path temporary_beside(const fs::path& path) {
   return name;
 }
 
+/// The same folder as a name that a sibling can be put beside ("a/b/" -> "/here/a/b", "." -> "/here").
+fs::path without_trailing_slash(const fs::path& path) {
+  const fs::path normal = fs::absolute(path).lexically_normal();
+  return normal.has_filename() ? normal : normal.parent_path();
+}
+
 }  // namespace
 
 std::string read_text_file(const fs::path& path) {
@@ -109,7 +115,7 @@ void make_writable_folder(const fs::path& path) {
 }
 
 FolderInProgress::FolderInProgress(fs::path final_path, bool replace)
-    : final_(std::move(final_path)), temporary_(temporary_beside(final_)) {
+    : final_(without_trailing_slash(final_path)), temporary_(temporary_beside(final_)) {
   std::error_code failed;
   if (fs::exists(final_, failed)) {
     if (!fs::is_directory(final_, failed))
@@ -127,15 +133,23 @@ FolderInProgress::~FolderInProgress() {
 }
 
 void FolderInProgress::commit() {
-  std::error_code failed;
+  const auto check = [&](const std::error_code& failed) {
+    if (failed) throw Error(ErrorKind::io, "cannot write folder " + final_.string() + ": " + failed.message());
+  };
+  std::error_code failed, ignored;
   fs::path old = final_;
   old += "." + std::to_string(::getpid()) + ".old.tmp";
-  const bool had_old = fs::exists(final_, failed);
-  if (had_old) fs::rename(final_, old, failed);
-  if (!failed) fs::rename(temporary_, final_, failed);
-  if (failed) throw Error(ErrorKind::io, "cannot write folder " + final_.string() + ": " + failed.message());
+  const bool had_old = fs::exists(final_, ignored);
+  if (had_old) {
+    fs::remove_all(old, ignored);
+    fs::rename(final_, old, failed);
+    check(failed);
+  }
+  fs::rename(temporary_, final_, failed);
+  if (failed && had_old) fs::rename(old, final_, ignored);
+  check(failed);
   committed_ = true;
-  if (had_old) fs::remove_all(old, failed);
+  if (had_old) fs::remove_all(old, ignored);
   sync_folder(final_.parent_path());
 }
 
