@@ -1,0 +1,107 @@
+#include <algorithm>
+#include <cmath>
+
+#include "case/case.hpp"
+#include "core/error.hpp"
+
+namespace ream::case_ {
+namespace {
+
+/// The hole starts this far before the entry, so that no lip of bone is left over it on a concave face.
+constexpr double clearance_mm = 3.0;
+
+/// What a voxel keeps at this signed distance (mm, negative inside the hole): 0 deep inside, 255 well outside,
+/// 127.5 on the border, linear over one voxel.
+uint8_t kept_coverage(double distance_mm, double voxel_mm) {
+  const double c = std::floor(255.0 * (0.5 + distance_mm / voxel_mm) + 0.5);
+  return static_cast<uint8_t>(std::clamp(c, 0.0, 255.0));
+}
+
+/// Coverage at a point of the grid frame, trilinear between voxel centres; 0 outside the grid.
+double coverage_at(const voxel::BoneModel& bone, const Vec3& point_mm) {
+  const Vec3 position = (point_mm.array() / bone.grid.spacing_mm.array() - 0.5).matrix();
+  const Vec3 low = position.array().floor().matrix();
+  const Vec3i base = low.cast<int>();
+  const Vec3 t = position - low;
+  double sum = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3i o(base.x() + (corner & 1), base.y() + ((corner >> 1) & 1), base.z() + (corner >> 2));
+    if (!bone.grid.contains(o)) continue;
+    const double weight = ((corner & 1) ? t.x() : 1.0 - t.x()) * ((corner & 2) ? t.y() : 1.0 - t.y()) *
+                          ((corner & 4) ? t.z() : 1.0 - t.z());
+    sum += weight * bone.coverage[bone.grid.index(o)];
+  }
+  return sum;
+}
+
+/// Where the line enters and leaves the box, as parameters along `direction`; false when it misses.
+bool clip_line(const Aabb& box, const Vec3& point, const Vec3& direction, double& enter, double& leave) {
+  enter = -1e300, leave = 1e300;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(direction[axis]) < 1e-12) {
+      if (point[axis] < box.min[axis] || point[axis] > box.max[axis]) return false;
+      continue;
+    }
+    const double a = (box.min[axis] - point[axis]) / direction[axis];
+    const double b = (box.max[axis] - point[axis]) / direction[axis];
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  return enter < leave;
+}
+
+}  // namespace
+
+void cut_pilot_hole(voxel::BoneModel& bone, const Plan& plan) {
+  if (!plan.pilot_hole) return;
+  const Pose grid_from_world = bone.grid.world_from_grid.inverse();
+  const Vec3 entry = grid_from_world.point(plan.entry_mm);
+  const Vec3 axis = grid_from_world.direction(plan.axis_direction);
+  const double radius = 0.5 * plan.pilot_hole->diameter_mm, depth = plan.pilot_hole->depth_mm;
+  const double voxel_mm = bone.grid.min_spacing_mm();
+
+  Aabb box;
+  box.include(entry - clearance_mm * axis);
+  box.include(entry + depth * axis);
+  box = box.grown(radius + voxel_mm).intersection(bone.grid.bounds_mm());
+  if (box.empty()) return;
+  const Vec3i low = bone.grid.voxel_at(box.min).cwiseMax(0);
+  const Vec3i high = bone.grid.voxel_at(box.max).cwiseMin((bone.grid.dims.array() - 1).matrix());
+  for (int w = low.z(); w <= high.z(); ++w)
+    for (int v = low.y(); v <= high.y(); ++v)
+      for (int u = low.x(); u <= high.x(); ++u) {
+        const Vec3 from_entry = bone.grid.centre_mm({u, v, w}) - entry;
+        const double along = from_entry.dot(axis);
+        const double across = std::sqrt(std::max(0.0, from_entry.squaredNorm() - along * along));
+        const double distance = std::max({across - radius, along - depth, -clearance_mm - along});
+        uint8_t& coverage = bone.coverage[bone.grid.index(u, v, w)];
+        coverage = std::min(coverage, kept_coverage(distance, voxel_mm));
+      }
+}
+
+std::optional<Vec3> surface_along(const voxel::BoneModel& bone, const Vec3& point_mm, const Vec3& direction) {
+  if (!(direction.norm() > 1e-12)) throw Error(ErrorKind::invalid_input, "the axis direction must not be zero");
+  const Pose grid_from_world = bone.grid.world_from_grid.inverse();
+  const Vec3 point = grid_from_world.point(point_mm);
+  const Vec3 along = grid_from_world.direction(direction).normalized();
+  double enter = 0.0, leave = 0.0;
+  const double step = 0.25 * bone.grid.min_spacing_mm();
+  if (!clip_line(bone.grid.bounds_mm().grown(step), point, along, enter, leave)) return std::nullopt;
+  const auto inside = [&](double s) { return coverage_at(bone, point + s * along) >= 127.5; };
+  double outside = enter;
+  for (double s = enter; s <= leave; s += step) {
+    if (!inside(s)) {
+      outside = s;
+      continue;
+    }
+    double within = s;
+    for (int halving = 0; halving < 30; ++halving) {
+      const double middle = 0.5 * (outside + within);
+      (inside(middle) ? within : outside) = middle;
+    }
+    return bone.grid.world_from_grid.point(point + within * along);
+  }
+  return std::nullopt;
+}
+
+}  // namespace ream::case_

@@ -1,0 +1,78 @@
+#include "case/plan.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/json_reader.hpp"
+
+namespace ream::case_ {
+namespace {
+
+constexpr double max_length_mm = 100.0;  // no glenoid is reamed or drilled deeper than this
+constexpr double max_coordinate_mm = 1e5;
+
+Vec3 vec3(const std::vector<double>& n) { return {n[0], n[1], n[2]}; }
+
+void check_length(const std::string& place, const char* key, double value, bool may_be_zero) {
+  if (value > 0.0 && value <= max_length_mm) return;
+  if (may_be_zero && value == 0.0) return;
+  throw Error(ErrorKind::invalid_input, place + ": " + key + " is " + std::to_string(value) + ", must be " +
+                                            (may_be_zero ? "from 0 to " : "above 0 and at most ") +
+                                            std::to_string(static_cast<int>(max_length_mm)) + " mm");
+}
+
+}  // namespace
+
+void validate(const Plan& plan, const std::string& place) {
+  if (!(plan.entry_mm.cwiseAbs().maxCoeff() <= max_coordinate_mm))
+    throw Error(ErrorKind::invalid_input, place + ": entry_mm must be three finite coordinates in mm");
+  if (!(std::abs(plan.axis_direction.norm() - 1.0) < 1e-6))
+    throw Error(ErrorKind::invalid_input, place + ": axis_direction must not be zero");
+  check_length(place, "depth_mm", plan.depth_mm, true);
+  if (plan.reamer.empty()) throw Error(ErrorKind::invalid_input, place + ": reamer must name a tool");
+  if (!plan.pilot_hole) return;
+  check_length(place, "pilot_diameter_mm", plan.pilot_hole->diameter_mm, false);
+  check_length(place, "pilot_depth_mm", plan.pilot_hole->depth_mm, false);
+}
+
+Plan plan_from_json(const nlohmann::json& value, const std::string& place) {
+  JsonReader reader(value, place);
+  Plan plan;
+  plan.entry_mm = vec3(reader.numbers("entry_mm", 3));
+  plan.axis_direction = vec3(reader.numbers("axis_direction", 3));
+  const double length = plan.axis_direction.norm();
+  if (!(length > 1e-9)) reader.refuse("axis_direction", "must not be zero");
+  // An already unit direction keeps its bits, so that reading and writing a plan changes nothing.
+  if (std::abs(length - 1.0) > 1e-12) plan.axis_direction /= length;
+  plan.depth_mm = reader.number("depth_mm");
+  plan.reamer = reader.text("reamer");
+  plan.pilot_hole.reset();
+  if (reader.has("pilot_diameter_mm") || reader.has("pilot_depth_mm"))
+    plan.pilot_hole = PilotHole{reader.number("pilot_diameter_mm"), reader.number("pilot_depth_mm")};
+  reader.finish();
+  validate(plan, place);
+  return plan;
+}
+
+nlohmann::json to_json(const Plan& plan) {
+  const auto list = [](const Vec3& v) { return nlohmann::json{v.x(), v.y(), v.z()}; };
+  nlohmann::json value = {{"entry_mm", list(plan.entry_mm)},
+                          {"axis_direction", list(plan.axis_direction)},
+                          {"depth_mm", plan.depth_mm},
+                          {"reamer", plan.reamer}};
+  if (plan.pilot_hole) {
+    value["pilot_diameter_mm"] = plan.pilot_hole->diameter_mm;
+    value["pilot_depth_mm"] = plan.pilot_hole->depth_mm;
+  }
+  return value;
+}
+
+void save_plan(const Plan& plan, const std::filesystem::path& case_folder) {
+  validate(plan, "plan of " + case_folder.string());
+  if (!std::filesystem::is_regular_file(case_folder / "case.json"))
+    throw Error(ErrorKind::not_found, case_folder.string() + " is not a case: it has no case.json");
+  write_file_atomically(case_folder / "plan.json", to_json(plan).dump(2) + "\n");
+}
+
+}  // namespace ream::case_
