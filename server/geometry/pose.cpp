@@ -1,5 +1,6 @@
 #include "geometry/pose.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace ream {

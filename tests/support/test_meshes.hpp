@@ -28,12 +28,20 @@ inline TriangleMesh random_triangles(std::mt19937& random, int count, float edge
       mesh.vertices_mm.push_back(centre + reach * (other - centre));
     }
     const auto first = static_cast<uint32_t>(mesh.vertices_mm.size() - 3);
-    if (i % 8 == 0)
+    if (i % 8 == 7)
       mesh.vertices_mm[first + 2] =
           mesh.vertices_mm[first] + scale(random) * (mesh.vertices_mm[first + 1] - mesh.vertices_mm[first]);
     mesh.triangles.push_back({first, first + 1, first + 2});
   }
   return mesh;
+}
+
+/// One triangle of a mesh as a mesh of its own.
+inline TriangleMesh only_triangle(const TriangleMesh& mesh, size_t triangle) {
+  TriangleMesh one;
+  for (const uint32_t vertex : mesh.triangles[triangle]) one.vertices_mm.push_back(mesh.vertices_mm[vertex]);
+  one.triangles = {{0, 1, 2}};
+  return one;
 }
 
 }  // namespace ream::test
