@@ -10,10 +10,10 @@ namespace ream::shell {
 
 /// One point of the shell that feels bone, tool frame.
 struct ShellPoint {
-  uint32_t morton = 0;            ///< cell of the shell's grid
+  uint32_t morton = 0;             ///< cell of the shell's grid
   std::array<int8_t, 3> normal{};  ///< outward unit normal in 1/127
-  uint8_t area_weight = 16;       ///< area in 1/16 of a cell face: 16 / max|n_i| for the thin voxelization
-  float surface_offset_mm = 0;    ///< signed step along the normal from the cell centre to the true surface
+  uint8_t area_weight = 16;        ///< area in 1/16 of a cell face: 16 / max|n_i| for the thin voxelization
+  float surface_offset_mm = 0;     ///< signed step along the normal from the cell centre to the true surface
   SurfaceRole role = SurfaceRole::cutting;
 };
 
@@ -24,9 +24,9 @@ struct ShellBlock {
   float radius_mm = 0;
 };
 
-/// The tool's envelope (revolved profile) as points: centroids of its 6-separable voxelization (thesis 4.3), sorted
-/// by Morton code, so that blocks of 8^3 cells are runs. At most 1024 cells a side. Smooth segments (the back) give no
-/// points when `with_smooth` is false.
+/// The tool's envelope (revolved profile) as points: centroids of its 6-separable voxelization (thesis 4.3),
+/// sorted by Morton code, so that blocks of 8^3 cells are runs. At most 1024 cells a side. Smooth segments
+/// (the back) give no points when `with_smooth` is false.
 struct PointShell {
   double spacing_mm = 0;
   Vec3 origin_mm = Vec3::Zero();  ///< minimum corner of cell (0,0,0), tool frame

@@ -9,9 +9,10 @@ namespace ream::shell {
 /// cutting body at its rim still clears whole voxels (engineering choice).
 inline constexpr double rim_backing_mm = 0.5;
 
-/// Signed distance (mm, negative inside) to the body that the cutting surface sweeps by spinning: the solid of
-/// revolution between the cutting meridian (continued flat to the axis where a nipple stands) and a plane
-/// rim_backing_mm behind its lowest cutting point. Tabulated over z and r^2 so that the deciding path needs only
+/// Signed distance (mm, negative inside) to the body that the cutting surface sweeps by spinning: the solid
+/// of revolution between the cutting meridian (continued flat to the axis where a nipple stands) and a plane
+/// rim_backing_mm behind its lowest cutting point. Tabulated over z and r^2 so that the deciding path needs
+/// only
 /// + - x and comparisons; outside the table the distance is larger than `margin_mm`.
 struct SweptProfile {
   float z_min_mm = 0, z_step_mm = 0, inverse_z_step = 0;
@@ -27,7 +28,8 @@ struct SweptProfile {
   /// inverse_z_step, truncated, then the mix along r2 first. `far` outside the table.
   float at(float r2_mm2, float z_mm) const noexcept {
     const float fr = r2_mm2 * inverse_r2_step, fz = (z_mm - z_min_mm) * inverse_z_step;
-    if (!(fz >= 0.0f) || !(fz < static_cast<float>(z_count - 1)) || !(fr < static_cast<float>(r2_count - 1))) return far;
+    if (!(fz >= 0.0f) || !(fz < static_cast<float>(z_count - 1)) || !(fr < static_cast<float>(r2_count - 1)))
+      return far;
     const int ir = static_cast<int>(fr), iz = static_cast<int>(fz);
     const float tr = fr - static_cast<float>(ir), tz = fz - static_cast<float>(iz);
     const float* low = distance_mm.data() + iz * r2_count + ir;
@@ -39,8 +41,8 @@ struct SweptProfile {
   static constexpr float far = 1.0e6f;
 };
 
-/// Table with at least `margin_mm` of room around the swept body; error at most 5 um where the meridian is smooth.
-/// Throws Error invalid_input when the profile has no cutting segment.
+/// Table with at least `margin_mm` of room around the swept body; error at most 5 um where the meridian is
+/// smooth. Throws Error invalid_input when the profile has no cutting segment.
 SweptProfile swept_profile(const ToolProfile& profile, double margin_mm);
 
 /// The exact distance the table samples (double, libm); also the reference in tests.

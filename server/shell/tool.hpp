@@ -17,10 +17,10 @@ struct ProfilePoint {
   double radius_mm = 0.0, z_mm = 0.0;
 };
 
-/// The envelope swept by the spindle as a surface of revolution about z. The meridian runs from the tip on the
-/// axis (radius 0, largest z) outwards and back to the axis behind the tool; segment i joins points i and i+1 and
-/// has roles[i]. The tool frame's origin is the apex of the cutting surface continued to the axis, so a nipple reaches to
-/// positive z. Bodies are closed: the last point is on the axis again.
+/// The envelope swept by the spindle as a surface of revolution about z. The meridian runs from the tip on
+/// the axis (radius 0, largest z) outwards and back to the axis behind the tool; segment i joins points i and
+/// i+1 and has roles[i]. The tool frame's origin is the apex of the cutting surface continued to the axis, so
+/// a nipple reaches to positive z. Bodies are closed: the last point is on the axis again.
 struct ToolProfile {
   std::vector<ProfilePoint> points;
   std::vector<SurfaceRole> roles;
@@ -30,8 +30,8 @@ struct ToolProfile {
   double max_z_mm() const;
 };
 
-/// A reamer in its own frame. For meshes, `mesh` is the file's surface in the tool frame and the profile is measured
-/// from it; for parametric tools `mesh` is the profile revolved.
+/// A reamer in its own frame. For meshes, `mesh` is the file's surface in the tool frame and the profile is
+/// measured from it; for parametric tools `mesh` is the profile revolved.
 struct Tool {
   std::string name;  ///< as it was asked for
   TriangleMesh mesh;
@@ -45,13 +45,23 @@ struct ToolAxis {
   Vec3 direction = Vec3::UnitX();
 };
 
-/// "sphere R", "ellipse a,b" (semi-axes across and along the axis, mm), each optionally followed by
-/// " nipple r,h", or the path of a mesh (needs an axis, or one is estimated from the mesh's revolution symmetry).
-/// Errors: usage for unknown words or impossible numbers; those of load_mesh.
+/// The reamer of the bench case: as a point shell of 0.1 mm it has the 213 thousand points of the thesis
+/// (section 5.4.2). Asked for by the word "thesis" or by this text.
+inline constexpr const char* thesis_tool = "ellipse 18.25,9 nipple 3,8 back 4";
+
+/// A tool by words or from a mesh file. Words, lengths in mm:
+///   sphere R[,outer]   cutting cap of radius R out to the radius `outer` (default the smaller of R
+///   and 18.25) ellipse a,b        cutting cap with the semi-axes a across and b along the axis (thesis,
+///   appendix A) thesis             the tool of the bench case
+/// each of the first two optionally followed by " nipple r,h" (radius; height above the apex) and " back H"
+/// (height of the cylinder behind the cap, default 4). Anything else is the path of a mesh, which needs an
+/// axis, or one is estimated from the mesh's symmetry of revolution. Errors: usage for unknown words or
+/// impossible numbers; invalid_input for a mesh whose axis cannot be found or that does not reach it; those
+/// of load_mesh.
 Tool make_tool(const std::string& description, const std::optional<ToolAxis>& axis = std::nullopt);
 
-/// The profile revolved into `segments` sides, closed, counter-clockwise from outside. For pictures and voxelization
-/// of parametric tools.
+/// The profile revolved into `segments` sides, closed, counter-clockwise from outside. For pictures and
+/// voxelization of parametric tools.
 TriangleMesh revolve(const ToolProfile& profile, int segments);
 
 }  // namespace ream::shell

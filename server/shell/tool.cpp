@@ -1,0 +1,74 @@
+#include "shell/tool.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include "core/error.hpp"
+#include "geometry/mesh_io.hpp"
+#include "shell/meridian.hpp"
+#include "shell/parametric_profile.hpp"
+#include "shell/revolution_axis.hpp"
+#include "shell/tool_profile_from_mesh.hpp"
+
+namespace ream::shell {
+namespace {
+
+constexpr double picture_tolerance_mm = 0.01;
+constexpr int picture_segments = 96;
+
+bool names_a_mesh(const std::string& description) {
+  const std::filesystem::path path(description);
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const char* known : {".stl", ".obj", ".ply", ".off", ".glb", ".gltf"})
+    if (extension == known) return true;
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored);
+}
+
+ToolAxis checked(const ToolAxis& axis) {
+  if (!axis.point_mm.allFinite() || !axis.direction.allFinite() || !(axis.direction.norm() > 0.0))
+    throw Error(ErrorKind::usage, "tool axis: the point must be finite and the direction other than zero");
+  return {axis.point_mm, axis.direction.normalized()};
+}
+
+Tool mesh_tool(const std::string& path, const std::optional<ToolAxis>& given_axis) {
+  const TriangleMesh mesh = load_mesh(path);
+  const ToolAxis axis = given_axis ? checked(*given_axis) : estimate_axis(mesh, path);
+  Pose mesh_from_tool{rotation_with_z_along(axis.direction), axis.point_mm};
+  const MeasuredProfile measured = tool_profile_from_mesh(mesh.transformed(mesh_from_tool.inverse()), path);
+  mesh_from_tool.translation_mm += measured.apex_z_mm * axis.direction;
+  const Pose tool_from_mesh = mesh_from_tool.inverse();
+  return {path, mesh.transformed(tool_from_mesh), measured.profile, tool_from_mesh};
+}
+
+}  // namespace
+
+double ToolProfile::max_radius_mm() const {
+  double radius = 0.0;
+  for (const ProfilePoint& p : points) radius = std::max(radius, p.radius_mm);
+  return radius;
+}
+
+double ToolProfile::min_z_mm() const {
+  return std::min_element(points.begin(), points.end(), [](auto& a, auto& b) { return a.z_mm < b.z_mm; })
+      ->z_mm;
+}
+
+double ToolProfile::max_z_mm() const {
+  return std::max_element(points.begin(), points.end(), [](auto& a, auto& b) { return a.z_mm < b.z_mm; })
+      ->z_mm;
+}
+
+Tool make_tool(const std::string& description, const std::optional<ToolAxis>& axis) {
+  if (is_parametric(description)) {
+    const ToolProfile profile = parametric_profile(description);
+    return {description, revolve(simplified(profile, picture_tolerance_mm), picture_segments), profile,
+            Pose{}};
+  }
+  if (!names_a_mesh(description))
+    throw Error(ErrorKind::usage, "tool \"" + description + "\" is not known; " + tool_forms);
+  return mesh_tool(description, axis);
+}
+
+}  // namespace ream::shell
