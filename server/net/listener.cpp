@@ -1,0 +1,137 @@
+#include "net/listener.hpp"
+
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/strand.hpp>
+#include <thread>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/log.hpp"
+#include "net/connections.hpp"
+#include "net/engine.hpp"
+#include "net/guard.hpp"
+
+namespace ream::net {
+namespace asio = boost::asio;
+using asio::ip::tcp;
+namespace {
+
+tcp::endpoint endpoint_of(const ListenOptions& options) {
+  if (!is_loopback_host(options.host))
+    throw Error(ErrorKind::usage, "--host " + options.host +
+                                      ": without users the server binds to this machine only; use 127.0.0.1, ::1 or "
+                                      "localhost");
+  const std::string address = options.host == "localhost" ? "127.0.0.1" : options.host;
+  boost::system::error_code failed;
+  const auto parsed = asio::ip::make_address(address, failed);
+  return {failed ? asio::ip::make_address("127.0.0.1") : parsed, options.port};
+}
+
+[[noreturn]] void explain(const boost::system::error_code& failed, const ListenOptions& options) {
+  const std::string place = "port " + std::to_string(options.port) + " on " + options.host;
+  if (failed == asio::error::address_in_use)
+    throw Error(ErrorKind::unavailable, place + " is in use; choose another with --port");
+  throw Error(ErrorKind::unavailable, place + " cannot be used: " + failed.message() + "; choose another with --port");
+}
+
+void open(tcp::acceptor& acceptor, const ListenOptions& options) {
+  const tcp::endpoint endpoint = endpoint_of(options);
+  boost::system::error_code failed;
+  acceptor.open(endpoint.protocol(), failed);
+  if (!failed) acceptor.set_option(asio::socket_base::reuse_address(true), failed);
+  if (!failed) acceptor.bind(endpoint, failed);
+  if (!failed) acceptor.listen(asio::socket_base::max_listen_connections, failed);
+  if (failed) explain(failed, options);
+}
+
+}  // namespace
+
+struct Listener::Parts {
+  Parts(const Router& router, const ListenOptions& options)
+      : engine(router, options.limits, options.io_threads, options.worker_threads),
+        until_stopped(engine.io.get_executor()),
+        acceptor(asio::make_strand(engine.io)),
+        pause(acceptor.get_executor()),
+        io_threads(options.io_threads) {
+    open(acceptor, options);
+    bound_port = acceptor.local_endpoint().port();
+  }
+
+  void accept() {
+    acceptor.async_accept(asio::make_strand(engine.io), [this](boost::system::error_code failed, tcp::socket socket) {
+      if (!acceptor.is_open()) return;
+      if (failed) {
+        accept_later(failed);
+        return;
+      }
+      accept();
+      start_http(engine, std::move(socket), engine.connections.size() >= engine.limits.connections);
+    });
+  }
+
+  /// Out of file descriptors, say: trying again at once would only spin.
+  void accept_later(const boost::system::error_code& failed) {
+    log::warn("a connection could not be taken: " + failed.message());
+    pause.expires_after(std::chrono::milliseconds(100));
+    pause.async_wait([this](boost::system::error_code cancelled) {
+      if (!cancelled && acceptor.is_open()) accept();
+    });
+  }
+
+  void run_io() {
+    for (;;) {
+      try {
+        engine.io.run();
+        return;
+      } catch (const std::exception& failure) {
+        log::error(std::string("a connection failed: ") + failure.what());
+      }
+    }
+  }
+
+  Engine engine;
+  /// While a handler runs, its connection has nothing pending: the I/O threads must not take that for the end.
+  asio::executor_work_guard<asio::io_context::executor_type> until_stopped;
+  tcp::acceptor acceptor;
+  asio::steady_timer pause;
+  size_t io_threads;
+  uint16_t bound_port = 0;
+  std::vector<std::thread> threads;
+  bool stopped = false;
+};
+
+Listener::Listener(const Router& router, const ListenOptions& options)
+    : parts_(std::make_unique<Parts>(router, options)) {}
+
+Listener::~Listener() { stop(); }
+
+uint16_t Listener::port() const { return parts_->bound_port; }
+
+void Listener::start() {
+  asio::post(parts_->acceptor.get_executor(), [parts = parts_.get()] { parts->accept(); });
+  for (size_t i = 0; i < parts_->io_threads; ++i)
+    parts_->threads.emplace_back([parts = parts_.get()] { parts->run_io(); });
+}
+
+void Listener::stop() {
+  if (parts_->stopped) return;
+  parts_->stopped = true;
+  Engine& engine = parts_->engine;
+  asio::post(parts_->acceptor.get_executor(), [parts = parts_.get()] {
+    boost::system::error_code ignored;
+    parts->acceptor.close(ignored);
+    parts->pause.cancel();
+  });
+  engine.connections.close();
+  for (const auto& connection : engine.connections.all()) connection->shut_down();
+  if (!parts_->threads.empty() && !engine.connections.wait_until_empty(engine.limits.stop))
+    log::warn("connections were cut that did not end in time");
+  engine.workers.stop();
+  engine.io.stop();
+  for (std::thread& thread : parts_->threads) thread.join();
+  for (const auto& connection : engine.connections.all()) connection->abandon();
+}
+
+}  // namespace ream::net

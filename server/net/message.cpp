@@ -1,0 +1,99 @@
+#include "net/message.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "net/problem.hpp"
+
+namespace ream::net {
+namespace {
+
+int hex_value(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+std::string percent_decode(std::string_view text, bool plus_is_space) {
+  std::string out;
+  out.reserve(text.size());
+  for (size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '+' && plus_is_space) {
+      out += ' ';
+    } else if (text[i] != '%') {
+      out += text[i];
+    } else {
+      const int high = i + 2 < text.size() ? hex_value(text[i + 1]) : -1;
+      const int low = high < 0 ? -1 : hex_value(text[i + 2]);
+      if (low < 0) throw RequestError(400, "the address has a '%' that is not followed by two hex digits");
+      out += static_cast<char>(high * 16 + low);
+      i += 2;
+    }
+  }
+  return out;
+}
+
+/// An encoded slash would make the decoded path ambiguous; the others only serve to fool file systems.
+bool has_unwanted_character(std::string_view raw_path) {
+  std::string lower(raw_path);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return lower.find("%2f") != std::string::npos || lower.find("%5c") != std::string::npos ||
+         lower.find("%00") != std::string::npos || lower.find('\\') != std::string::npos;
+}
+
+}  // namespace
+
+SharedBytes share(std::string_view text) {
+  const auto* data = reinterpret_cast<const std::byte*>(text.data());
+  return std::make_shared<const Bytes>(data, data + text.size());
+}
+
+std::string_view Request::header(const std::string& name) const {
+  const auto found = headers.find(name);
+  return found == headers.end() ? std::string_view{} : std::string_view(found->second);
+}
+
+std::string_view Response::header(std::string_view name) const {
+  for (const auto& [key, value] : headers)
+    if (key == name) return value;
+  return {};
+}
+
+Response bytes_response(int status, std::string content_type, SharedBytes body) {
+  Response response;
+  response.status = status;
+  response.content_type = std::move(content_type);
+  response.body = std::move(body);
+  return response;
+}
+
+Response json_response(int status, const nlohmann::json& body) {
+  // A name read from a file may hold broken UTF-8; a reply must not fail for that.
+  const std::string text = body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  Response response = bytes_response(status, "application/json", share(text));
+  response.headers.emplace_back("Cache-Control", "no-store");
+  return response;
+}
+
+void set_target(Request& request, std::string_view target) {
+  if (target.empty() || target.front() != '/') throw RequestError(400, "the address must begin with '/'");
+  const size_t mark = target.find('?');
+  const std::string_view raw_path = target.substr(0, mark);
+  if (has_unwanted_character(raw_path))
+    throw RequestError(400, "the address holds an encoded '/', a '\\' or a NUL");
+  request.path = percent_decode(raw_path, false);
+  if (mark == std::string_view::npos) return;
+  std::string_view rest = target.substr(mark + 1);
+  while (!rest.empty()) {
+    const size_t end = rest.find('&');
+    const std::string_view pair = rest.substr(0, end);
+    const size_t equals = pair.find('=');
+    const std::string_view value = equals == std::string_view::npos ? std::string_view{} : pair.substr(equals + 1);
+    if (!pair.empty())
+      request.query[percent_decode(pair.substr(0, equals), true)] = percent_decode(value, true);
+    rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 1);
+  }
+}
+
+}  // namespace ream::net

@@ -1,0 +1,50 @@
+#pragma once
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace ream::net {
+
+using Bytes = std::vector<std::byte>;
+/// Made once, sent to any number of connections, never changed after.
+using SharedBytes = std::shared_ptr<const Bytes>;
+
+SharedBytes share(std::string_view text);
+
+/// One HTTP request as a handler sees it.
+struct Request {
+  std::string method;                             ///< as sent, "GET"
+  std::string path;                               ///< percent-decoded, begins with '/', without the query
+  std::map<std::string, std::string> query;       ///< decoded; the last of equal names wins
+  std::map<std::string, std::string> headers;     ///< names in lower case; repeated ones joined by ", "
+  std::map<std::string, std::string> parameters;  ///< what the {names} of the route's pattern matched
+  std::string body;
+
+  /// Value of a header, empty when absent. `name` in lower case.
+  std::string_view header(const std::string& name) const;
+};
+
+struct Response {
+  int status = 200;
+  std::string content_type;
+  SharedBytes body;  ///< null: no body
+  std::vector<std::pair<std::string, std::string>> headers;
+
+  /// First value of a header set by a handler, empty when absent; exact spelling.
+  std::string_view header(std::string_view name) const;
+};
+
+/// application/json that no cache keeps.
+Response json_response(int status, const nlohmann::json& body);
+Response bytes_response(int status, std::string content_type, SharedBytes body);
+
+/// Splits and decodes the target of a request line ("/a/b?c=d") into path and query.
+/// Throws RequestError 400 on broken percent-encoding, encoded '/', '\' or NUL, or a target that is not a path.
+void set_target(Request& request, std::string_view target);
+
+}  // namespace ream::net

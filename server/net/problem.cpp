@@ -1,0 +1,66 @@
+#include "net/problem.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "core/log.hpp"
+
+namespace ream::net {
+
+int http_status(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::usage: return 400;
+    case ErrorKind::invalid_input: return 422;
+    case ErrorKind::not_found: return 404;
+    case ErrorKind::conflict: return 409;
+    case ErrorKind::unavailable: return 503;
+    case ErrorKind::io: return 500;
+  }
+  return 500;
+}
+
+std::string status_title(int status) {
+  switch (status) {
+    case 200: return "OK";
+    case 201: return "Created";
+    case 204: return "No Content";
+    case 304: return "Not Modified";
+    case 400: return "Bad Request";
+    case 403: return "Forbidden";
+    case 404: return "Not Found";
+    case 405: return "Method Not Allowed";
+    case 408: return "Request Timeout";
+    case 409: return "Conflict";
+    case 413: return "Content Too Large";
+    case 415: return "Unsupported Media Type";
+    case 421: return "Misdirected Request";
+    case 422: return "Unprocessable Content";
+    case 426: return "Upgrade Required";
+    case 431: return "Request Header Fields Too Large";
+    case 500: return "Internal Server Error";
+    case 503: return "Service Unavailable";
+    default: return "Error";
+  }
+}
+
+Response problem(int status, const std::string& detail, const std::vector<FieldError>& errors) {
+  nlohmann::json body = {
+      {"type", "about:blank"}, {"title", status_title(status)}, {"status", status}, {"detail", detail}};
+  for (const FieldError& error : errors)
+    body["errors"].push_back({{"pointer", error.pointer}, {"detail", error.detail}});
+  Response response = json_response(status, body);
+  response.content_type = "application/problem+json";
+  return response;
+}
+
+Response problem_of(const std::exception& failure) {
+  if (const auto* request_error = dynamic_cast<const RequestError*>(&failure))
+    return problem(request_error->status(), request_error->what(), request_error->errors());
+  if (const auto* error = dynamic_cast<const Error*>(&failure)) {
+    if (error->kind() == ErrorKind::io) log::error(error->what());
+    return problem(http_status(error->kind()), error->what());
+  }
+  log::error(std::string("a request handler failed: ") + failure.what());
+  return problem(500, "the server failed on this request; its log says why");
+}
+
+}  // namespace ream::net

@@ -1,0 +1,43 @@
+#pragma once
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "net/message.hpp"
+
+namespace ream::net {
+
+/// One thing wrong with a request body: where (a JSON pointer, "#/force_scale") and what.
+struct FieldError {
+  std::string pointer, detail;
+};
+
+/// An Error whose HTTP status is more precise than its kind, with the places in the request at fault.
+class RequestError : public Error {
+ public:
+  RequestError(int status, const std::string& detail, std::vector<FieldError> errors = {})
+      : Error(ErrorKind::invalid_input, detail), status_(status), errors_(std::move(errors)) {}
+  int status() const { return status_; }
+  const std::vector<FieldError>& errors() const { return errors_; }
+
+ private:
+  int status_;
+  std::vector<FieldError> errors_;
+};
+
+/// The one mapping of ErrorKind to an HTTP status: usage 400, invalid_input 422, not_found 404, conflict 409,
+/// unavailable 503, io 500.
+int http_status(ErrorKind kind);
+
+/// Reason phrase: "Not Found" for 404; "Error" for a status this server never sends.
+std::string status_title(int status);
+
+/// application/problem+json (RFC 9457) with type, title, status, detail and, when given, errors[{pointer, detail}].
+Response problem(int status, const std::string& detail, const std::vector<FieldError>& errors = {});
+
+/// Problem of an exception that left a handler. What is not an Error becomes a plain 500; its words go to the
+/// log only.
+Response problem_of(const std::exception& failure);
+
+}  // namespace ream::net

@@ -1,0 +1,57 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "net/message.hpp"
+#include "net/websocket.hpp"
+
+namespace ream::net {
+
+/// May block: runs on the worker threads, several at once. Errors are thrown (see problem.hpp).
+using Handler = std::function<Response(const Request&)>;
+/// Opens the session of a WebSocket; throws when there is nothing to open.
+using WebSocketHandler = std::function<std::unique_ptr<WebSocketSession>(const Request&)>;
+
+/// Which handler answers which method and path. Filled once, then only read (from any thread).
+/// A pattern is a path whose {name} segments match any one non-empty segment.
+class Router {
+ public:
+  struct Route {
+    std::string method, pattern;
+  };
+  /// What became of a request to open a WebSocket: a session, or the reply that refuses it.
+  struct Opened {
+    std::unique_ptr<WebSocketSession> session;
+    Response refusal;
+  };
+
+  /// GET handlers answer HEAD too (the connection drops the body).
+  void on(const std::string& method, const std::string& pattern, Handler handler);
+  /// A plain GET there is answered 426.
+  void on_websocket(const std::string& pattern, WebSocketHandler handler);
+  /// Answers GET and HEAD of paths that match no pattern (static files).
+  void otherwise(Handler handler);
+
+  /// Never throws: failures become problem+json; 404 for an unknown path, 405 with Allow for a wrong method.
+  Response respond(Request request) const;
+  Opened open(Request request) const;
+
+  /// Every route in order of adding; WebSockets as GET.
+  std::vector<Route> routes() const;
+
+ private:
+  struct Entry {
+    std::string method, pattern;
+    std::vector<std::string> segments;
+    Handler handler;
+    WebSocketHandler websocket_handler;
+  };
+  Response dispatch(Request& request) const;
+
+  std::vector<Entry> entries_;
+  Handler otherwise_;
+};
+
+}  // namespace ream::net

@@ -1,0 +1,195 @@
+#include <atomic>
+#include <boost/asio/post.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/websocket.hpp>
+#include <mutex>
+
+#include "core/log.hpp"
+#include "net/connections.hpp"
+#include "net/guard.hpp"
+#include "net/watchdog.hpp"
+
+namespace ream::net {
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = boost::beast::http;
+namespace websocket = boost::beast::websocket;
+using asio::ip::tcp;
+using boost::system::error_code;
+namespace {
+
+/// The handshake must be read before this connection exists, so it is rebuilt from what the router saw.
+http::request<http::empty_body> handshake_of(const Request& request) {
+  http::request<http::empty_body> handshake{http::verb::get, request.path, 11};
+  for (const auto& [name, value] : request.headers) handshake.set(name, value);
+  return handshake;
+}
+
+class WebSocketConnection final : public Connection, public std::enable_shared_from_this<WebSocketConnection> {
+ public:
+  WebSocketConnection(Engine& engine, tcp::socket socket, std::unique_ptr<WebSocketSession> session)
+      : engine_(engine),
+        session_(std::move(session)),
+        stream_(std::move(socket)),
+        watchdog_(stream_.next_layer()),
+        line_(std::make_shared<WakeLine>()) {}
+
+  ~WebSocketConnection() override {
+    let_go();
+    engine_.connections.remove(this);
+  }
+
+  void start(const Request& request) {
+    if (!engine_.connections.add(shared_from_this())) return;
+    // The stream's own timeouts find peers that vanished (unanswered pings); the watchdog finds those that stay
+    // but do not read.
+    auto timeouts = websocket::stream_base::timeout::suggested(beast::role_type::server);
+    timeouts.idle_timeout = engine_.limits.idle;
+    timeouts.keep_alive_pings = true;
+    stream_.set_option(timeouts);
+    stream_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
+      for (const auto& [name, value] : security_headers()) response.set(name, value);
+    }));
+    stream_.read_message_max(engine_.limits.websocket_message_bytes);
+    stream_.auto_fragment(false);
+    stream_.binary(true);
+    stream_.async_accept(handshake_of(request), [self = shared_from_this()](error_code failed) {
+      if (!failed) self->on_accepted();
+    });
+  }
+
+  void shut_down() override {
+    asio::post(stream_.get_executor(),
+               [self = shared_from_this()] { self->close(websocket::close_code::going_away); });
+  }
+
+  void abandon() noexcept override { finish(); }
+
+ private:
+  /// How other threads reach this connection, and how they stop reaching it.
+  struct WakeLine {
+    std::mutex mutex;
+    WebSocketConnection* connection = nullptr;
+    std::atomic<bool> rung{false};
+  };
+
+  void on_accepted() {
+    line_->connection = this;
+    guarded([this] {
+      session_->on_open([line = line_] {
+        if (line->rung.exchange(true)) return;
+        const std::lock_guard lock(line->mutex);
+        if (line->connection) line->connection->post_pump();
+      });
+    });
+    read();
+    pump();
+  }
+
+  /// With the wake line held. The last owner may be on its way out: then there is nobody to wake.
+  void post_pump() {
+    if (auto self = weak_from_this().lock())
+      asio::post(stream_.get_executor(), [self = std::move(self)] {
+        self->line_->rung = false;
+        self->pump();
+      });
+  }
+
+  void pump() {
+    if (writing_ || closing_ || finished_) return;
+    std::optional<SharedBytes> message;
+    guarded([&] { message = session_->next(); });
+    if (!message || !*message || closing_) return;
+    outgoing_ = std::move(*message);
+    writing_ = true;
+    watchdog_.arm(engine_.limits.write, shared_from_this());
+    stream_.async_write(asio::buffer(outgoing_->data(), outgoing_->size()),
+                        [self = shared_from_this()](error_code failed, size_t) { self->on_written(failed); });
+  }
+
+  void on_written(error_code failed) {
+    writing_ = false;
+    outgoing_.reset();
+    if (failed) {
+      finish();
+      return;
+    }
+    if (closing_) return;
+    watchdog_.disarm();
+    pump();
+  }
+
+  void read() {
+    stream_.async_read(incoming_, [self = shared_from_this()](error_code failed, size_t) {
+      if (failed) {
+        self->finish();
+        return;
+      }
+      const auto data = self->incoming_.data();
+      self->guarded([&] {
+        if (!self->finished_ && !self->closing_)
+          self->session_->on_message({static_cast<const std::byte*>(data.data()), data.size()});
+      });
+      self->incoming_.consume(self->incoming_.size());
+      self->read();
+    });
+  }
+
+  template <typename Call>
+  void guarded(Call&& call) {
+    try {
+      call();
+    } catch (const std::exception& failure) {
+      log::error(std::string("a stream failed: ") + failure.what());
+      close(websocket::close_code::internal_error);
+    }
+  }
+
+  void close(websocket::close_code code) {
+    if (closing_ || finished_) return;
+    closing_ = true;
+    let_go();
+    watchdog_.arm(engine_.limits.linger, shared_from_this());
+    stream_.async_close(code, [self = shared_from_this()](error_code) { self->finish(); });
+  }
+
+  void finish() noexcept {
+    if (finished_) return;
+    finished_ = true;
+    let_go();
+    watchdog_.disarm();
+    watchdog_.close();
+  }
+
+  /// The session hears of the end, once, and is not called again.
+  void let_go() noexcept {
+    if (session_closed_) return;
+    session_closed_ = true;
+    {
+      const std::lock_guard lock(line_->mutex);
+      line_->connection = nullptr;
+    }
+    session_->on_close();
+  }
+
+  Engine& engine_;
+  std::unique_ptr<WebSocketSession> session_;
+  websocket::stream<tcp::socket> stream_;
+  Watchdog watchdog_;
+  beast::flat_buffer incoming_;
+  SharedBytes outgoing_;
+  std::shared_ptr<WakeLine> line_;
+  bool writing_ = false;
+  bool closing_ = false;
+  bool finished_ = false;
+  bool session_closed_ = false;
+};
+
+}  // namespace
+
+void start_websocket(Engine& engine, tcp::socket socket, Request request, std::unique_ptr<WebSocketSession> session) {
+  std::make_shared<WebSocketConnection>(engine, std::move(socket), std::move(session))->start(request);
+}
+
+}  // namespace ream::net

@@ -1,0 +1,82 @@
+#include "net/router.hpp"
+
+#include <gtest/gtest.h>
+
+#include "net/problem.hpp"
+
+namespace ream::net {
+namespace {
+
+Request request_for(const std::string& method, const std::string& path) {
+  Request request;
+  request.method = method;
+  request.path = path;
+  return request;
+}
+
+Response named(int status) {
+  Response response;
+  response.status = status;
+  return response;
+}
+
+class RouterTest : public testing::Test {
+ protected:
+  RouterTest() {
+    router.on("GET", "/things", [](const Request&) { return named(200); });
+    router.on("POST", "/things", [](const Request&) { return named(201); });
+    router.on("GET", "/things/{id}/part/{part}", [this](const Request& request) {
+      seen = request.parameters;
+      return named(200);
+    });
+    router.on("POST", "/broken", [](const Request&) -> Response { throw Error(ErrorKind::conflict, "not now"); });
+    router.on_websocket("/things/{id}/stream", [](const Request& request) -> std::unique_ptr<WebSocketSession> {
+      throw Error(ErrorKind::not_found, "no thing " + request.parameters.at("id"));
+    });
+  }
+  Router router;
+  std::map<std::string, std::string> seen;
+};
+
+TEST_F(RouterTest, FindsByMethodAndPath) {
+  EXPECT_EQ(router.respond(request_for("GET", "/things")).status, 200);
+  EXPECT_EQ(router.respond(request_for("POST", "/things")).status, 201);
+  EXPECT_EQ(router.respond(request_for("HEAD", "/things")).status, 200);
+}
+
+TEST_F(RouterTest, HandsOverParameters) {
+  EXPECT_EQ(router.respond(request_for("GET", "/things/a b/part/7")).status, 200);
+  EXPECT_EQ(seen, (std::map<std::string, std::string>{{"id", "a b"}, {"part", "7"}}));
+}
+
+TEST_F(RouterTest, UnknownPathIs404AndEmptySegmentMatchesNoParameter) {
+  for (const char* path : {"/", "/thing", "/things/", "/things/1", "/things//part/7", "/things/1/part/7/8"})
+    EXPECT_EQ(router.respond(request_for("GET", path)).status, 404) << path;
+}
+
+TEST_F(RouterTest, WrongMethodIs405WithAllow) {
+  const Response response = router.respond(request_for("DELETE", "/things"));
+  EXPECT_EQ(response.status, 405);
+  EXPECT_EQ(response.header("Allow"), "GET, HEAD, POST");
+}
+
+TEST_F(RouterTest, ErrorsBecomeProblems) {
+  const Response response = router.respond(request_for("POST", "/broken"));
+  EXPECT_EQ(response.status, 409);
+  EXPECT_EQ(response.content_type, "application/problem+json");
+}
+
+TEST_F(RouterTest, WebSocketPathAskedPlainlyWantsUpgrade) {
+  EXPECT_EQ(router.respond(request_for("GET", "/things/1/stream")).status, 426);
+  EXPECT_EQ(router.open(request_for("GET", "/things/1/stream")).refusal.status, 404);
+  EXPECT_EQ(router.open(request_for("GET", "/things")).refusal.status, 404);
+}
+
+TEST_F(RouterTest, OtherwiseAnswersReadsOnly) {
+  router.otherwise([](const Request&) { return named(304); });
+  EXPECT_EQ(router.respond(request_for("GET", "/nowhere")).status, 304);
+  EXPECT_EQ(router.respond(request_for("POST", "/nowhere")).status, 405);
+}
+
+}  // namespace
+}  // namespace ream::net

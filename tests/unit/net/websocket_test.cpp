@@ -1,0 +1,216 @@
+#include "net/websocket.hpp"
+
+#include <gtest/gtest.h>
+
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+
+#include "net/listener.hpp"
+#include "net/problem.hpp"
+#include "support/raw_http.hpp"
+
+namespace ream::net {
+namespace {
+
+using test::RawWebSocket;
+using namespace std::chrono_literals;
+
+/// What a session and its test share.
+struct Desk {
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::deque<SharedBytes> outgoing;
+  std::function<void()> wake;
+  int opened = 0, closed = 0, asked = 0;
+
+  void put(SharedBytes message) {
+    std::function<void()> ring;
+    {
+      const std::lock_guard lock(mutex);
+      outgoing.push_back(std::move(message));
+      ring = wake;
+    }
+    if (ring) ring();
+  }
+  bool wait_closed() {
+    std::unique_lock lock(mutex);
+    return changed.wait_for(lock, 15s, [this] { return closed > 0; });
+  }
+};
+
+/// Sends what lies on the desk and echoes what comes in; "fail" makes it throw.
+class DeskSession final : public WebSocketSession {
+ public:
+  explicit DeskSession(std::shared_ptr<Desk> desk) : desk_(std::move(desk)) {}
+
+  void on_open(std::function<void()> wake) override {
+    const std::lock_guard lock(desk_->mutex);
+    desk_->wake = std::move(wake);
+    ++desk_->opened;
+    desk_->changed.notify_all();
+  }
+  std::optional<SharedBytes> next() override {
+    const std::lock_guard lock(desk_->mutex);
+    ++desk_->asked;
+    if (desk_->outgoing.empty()) return std::nullopt;
+    SharedBytes message = desk_->outgoing.front();
+    desk_->outgoing.pop_front();
+    return message;
+  }
+  void on_message(std::span<const std::byte> message) override {
+    const std::string text(reinterpret_cast<const char*>(message.data()), message.size());
+    if (text == "fail") throw std::runtime_error("told to fail");
+    desk_->put(share("echo " + text));
+  }
+  void on_close() noexcept override {
+    const std::lock_guard lock(desk_->mutex);
+    ++desk_->closed;
+    desk_->changed.notify_all();
+  }
+
+ private:
+  std::shared_ptr<Desk> desk_;
+};
+
+class WebSocketTest : public testing::Test {
+ protected:
+  WebSocketTest() {
+    router.on_websocket("/stream/{id}", [this](const Request& request) -> std::unique_ptr<WebSocketSession> {
+      if (request.parameters.at("id") != "1") throw Error(ErrorKind::not_found, "no such stream");
+      return std::make_unique<DeskSession>(desk);
+    });
+    router.on("GET", "/hello", [](const Request&) { return bytes_response(200, "text/plain", share("hello")); });
+    options.port = 0;
+  }
+  uint16_t start() {
+    listener = std::make_unique<Listener>(router, options);
+    listener->start();
+    return listener->port();
+  }
+  std::shared_ptr<Desk> desk = std::make_shared<Desk>();
+  Router router;
+  ListenOptions options;
+  std::unique_ptr<Listener> listener;
+};
+
+TEST_F(WebSocketTest, HandshakeFollowsTheStandardsExample) {
+  const RawWebSocket client(start(), "/stream/1");
+  EXPECT_EQ(client.handshake().status, 101);
+  EXPECT_EQ(client.handshake().headers.at("sec-websocket-accept"), "s3pPLMBiTxaQ9kYGzzhZRbK+xOo=");
+  EXPECT_EQ(client.handshake().headers.count("sec-websocket-extensions"), 0u);
+}
+
+TEST_F(WebSocketTest, MessagesGoBothWaysWholeAndInOrder) {
+  desk->put(share("first"));
+  RawWebSocket client(start(), "/stream/1");
+  EXPECT_EQ(client.receive().payload, "first");
+  const std::string big(3u << 20, 'b');
+  desk->put(share(big));
+  desk->put(share("after"));
+  client.send_binary("hi");
+  const auto message = client.receive();
+  EXPECT_EQ(message.opcode, 2);
+  EXPECT_EQ(message.payload, big);
+  EXPECT_EQ(client.receive().payload, "after");
+  EXPECT_EQ(client.receive().payload, "echo hi");
+}
+
+TEST_F(WebSocketTest, RefusalsAreProblemsBeforeTheUpgrade) {
+  const uint16_t port = start();
+  EXPECT_EQ(RawWebSocket(port, "/stream/2").handshake().status, 404);
+  EXPECT_EQ(RawWebSocket(port, "/elsewhere").handshake().status, 404);
+  EXPECT_EQ(RawWebSocket(port, "/stream/1", {{"Origin", "http://evil.example"}}).handshake().status, 403);
+  EXPECT_EQ(RawWebSocket(port, "/stream/1", {{"Host", "evil.example"}}).handshake().status, 421);
+  EXPECT_EQ(test::http_request(port, "GET", "/stream/1").status, 426);
+  EXPECT_EQ(desk->opened, 0);
+}
+
+TEST_F(WebSocketTest, ClosingByThePeerReachesTheSessionOnce) {
+  {
+    RawWebSocket client(start(), "/stream/1");
+    client.send_close(1000);
+    EXPECT_EQ(client.receive().close_code(), 1000);
+  }
+  EXPECT_TRUE(desk->wait_closed());
+  desk->put(share("nobody listens"));
+  EXPECT_EQ(desk->closed, 1);
+}
+
+TEST_F(WebSocketTest, VanishedPeerReachesTheSession) {
+  { RawWebSocket client(start(), "/stream/1"); }
+  EXPECT_TRUE(desk->wait_closed());
+}
+
+TEST_F(WebSocketTest, FailingSessionIsClosedWith1011) {
+  RawWebSocket client(start(), "/stream/1");
+  client.send_binary("fail");
+  EXPECT_EQ(client.receive().close_code(), 1011);
+  client.send_close(1011);
+  EXPECT_TRUE(desk->wait_closed());
+}
+
+TEST_F(WebSocketTest, OversizedMessageEndsTheConnection) {
+  options.limits.websocket_message_bytes = 1000;
+  RawWebSocket client(start(), "/stream/1");
+  client.send_binary(std::string(2000, 'x'));
+  EXPECT_EQ(client.receive().close_code(), 1009);
+  EXPECT_TRUE(desk->wait_closed());
+}
+
+TEST_F(WebSocketTest, SlowViewerIsCutAndOthersAreServedMeanwhile) {
+  options.limits.write = 300ms;
+  const uint16_t port = start();
+  RawWebSocket slow(port, "/stream/1", {}, 4096);
+  const auto big = std::make_shared<const Bytes>(64u << 20);
+  desk->put(big);
+  desk->put(big);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(test::http_request(port, "GET", "/hello").status, 200);
+  EXPECT_TRUE(desk->wait_closed());
+  EXPECT_LT(slow.socket().receive_all().size(), big->size());
+}
+
+TEST_F(WebSocketTest, SilentPeerThatAnswersNoPingIsDropped) {
+  options.limits.idle = 400ms;
+  RawWebSocket client(start(), "/stream/1");
+  EXPECT_TRUE(desk->wait_closed());
+}
+
+TEST_F(WebSocketTest, StopSaysGoingAway) {
+  RawWebSocket client(start(), "/stream/1");
+  client.send_binary("are you there");
+  EXPECT_EQ(client.receive().payload, "echo are you there");
+  std::thread stopping([this] { listener->stop(); });
+  EXPECT_EQ(client.receive().close_code(), 1001);
+  client.send_close(1001);
+  stopping.join();
+  EXPECT_EQ(desk->closed, 1);
+}
+
+TEST_F(WebSocketTest, StopDoesNotWaitForAPeerThatNeverAnswers) {
+  options.limits.linger = 200ms;
+  options.limits.stop = 500ms;
+  RawWebSocket client(start(), "/stream/1");
+  client.send_binary("x");
+  client.receive();
+  listener->stop();
+  EXPECT_EQ(desk->closed, 1);
+  listener.reset();
+  desk->put(share("wake after the end"));
+}
+
+TEST_F(WebSocketTest, WakesFromManyThreadsLoseNothing) {
+  RawWebSocket client(start(), "/stream/1");
+  constexpr int threads = 4, each = 500;
+  std::vector<std::thread> writers;
+  for (int t = 0; t < threads; ++t)
+    writers.emplace_back([this] {
+      for (int i = 0; i < each; ++i) desk->put(share("m"));
+    });
+  for (int i = 0; i < threads * each; ++i) EXPECT_EQ(client.receive().payload, "m");
+  for (std::thread& writer : writers) writer.join();
+}
+
+}  // namespace
+}  // namespace ream::net
