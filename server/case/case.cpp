@@ -2,6 +2,7 @@
 
 #include <zstd.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
