@@ -75,6 +75,8 @@ class WebSocketConnection final : public Connection, public std::enable_shared_f
   };
 
   void on_accepted() {
+    if (finished_) return;
+    accepted_ = true;
     line_->connection = this;
     guarded([this] {
       session_->on_open([line = line_] {
@@ -148,6 +150,10 @@ class WebSocketConnection final : public Connection, public std::enable_shared_f
 
   void close(websocket::close_code code) {
     if (closing_ || finished_) return;
+    if (!accepted_) {  // no closing handshake before the opening one is over
+      finish();
+      return;
+    }
     closing_ = true;
     let_go();
     watchdog_.arm(engine_.limits.linger, shared_from_this());
@@ -180,6 +186,7 @@ class WebSocketConnection final : public Connection, public std::enable_shared_f
   beast::flat_buffer incoming_;
   SharedBytes outgoing_;
   std::shared_ptr<WakeLine> line_;
+  bool accepted_ = false;
   bool writing_ = false;
   bool closing_ = false;
   bool finished_ = false;

@@ -184,6 +184,7 @@ TEST_F(WebSocketTest, StopSaysGoingAway) {
   std::thread stopping([this] { listener->stop(); });
   EXPECT_EQ(client.receive().close_code(), 1001);
   client.send_close(1001);
+  client.socket().end_sending();
   stopping.join();
   EXPECT_EQ(desk->closed, 1);
 }
