@@ -1,0 +1,152 @@
+#include "ct/phantom.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "core/units.hpp"
+#include "ct/calibration.hpp"
+#include "ct/phantom_shape.hpp"
+
+namespace ream::ct {
+namespace {
+
+constexpr double soft_tissue_hu = 50.0;
+constexpr double cortical_g_cc = 1.5;
+constexpr double max_field_voxels = 6.0e8;
+
+void check(const PhantomParams& p) {
+  const auto within = [](const char* what, double value, double low, double high) {
+    if (value >= low && value <= high) return;
+    const auto text = [](double v) { return nlohmann::json(v).dump(); };
+    throw Error(ErrorKind::invalid_input, std::string("phantom: ") + what + " is " + text(value) + ", must be between " +
+                                              text(low) + " and " + text(high));
+  };
+  within("version in degrees", degrees_from_radians(p.version_rad), -40.0, 40.0);
+  within("inclination in degrees", degrees_from_radians(p.inclination_rad), -40.0, 40.0);
+  within("glenoid radius in mm", p.glenoid_radius_mm, 25.0, 60.0);
+  within("glenoid height in mm", p.glenoid_height_mm, 20.0, 48.0);
+  within("glenoid width in mm", p.glenoid_width_mm, 12.0, 40.0);
+  within("subchondral plate in mm", p.plate_mm, 0.0, 5.0);
+  within("cortical shell in mm", p.shell_mm, 0.0, 5.0);
+  within("joint space in mm", p.joint_space_mm, 1.0, 12.0);
+  within("noise in HU", p.noise_hu, 0.0, 500.0);
+  for (int axis = 0; axis < 3; ++axis) within("voxel size in mm", p.spacing_mm[axis], 0.05, 10.0);
+}
+
+/// Sum of four 16-bit uniforms of one hash, centred and scaled to standard deviation 1: near Gaussian, and the
+/// same on every machine.
+double noise(uint64_t seed, uint64_t index) {
+  const uint64_t h = mix64(hash_combine(seed, index));
+  const int64_t sum = static_cast<int64_t>((h & 0xffff) + ((h >> 16) & 0xffff) + ((h >> 32) & 0xffff) + (h >> 48));
+  constexpr double four_uniforms_sd = 65536.0 * 0.57735026918962573;  // sqrt(4/12)
+  return static_cast<double>(sum - 2 * 65535) / four_uniforms_sd;
+}
+
+/// Share of a voxel on the inner side of a border at signed distance `d` (negative inside).
+double inside_share(double d, double voxel_mm) { return std::clamp(0.5 - d / voxel_mm, 0.0, 1.0); }
+
+/// Apparent density of the trabecular bone: densest posterior and near the face (science 2.4).
+double cancellous_g_cc(double posterior_mm, double depth_mm) {
+  return std::clamp(0.56 + 0.010 * posterior_mm - 0.004 * std::max(0.0, depth_mm), 0.40, 0.70);
+}
+
+/// HU without noise at a point of a right shoulder.
+double tissue_hu(const PhantomShape& shape, const PhantomParams& p, const Vec3& world, double voxel_mm) {
+  const double head = shape.humerus_mm(world), scapula = shape.scapula_mm(world);
+  const double bone = std::min(head, scapula);
+  const double filled = inside_share(bone, voxel_mm);
+  if (filled == 0.0) return soft_tissue_hu;
+  const double shell = inside_share(-(bone + p.shell_mm), voxel_mm);
+  const double depth = shape.depth_under_face_mm(world);
+  const double plate = scapula < head && depth < p.plate_mm + voxel_mm ? inside_share(depth - p.plate_mm, voxel_mm) : 0.0;
+  const double compact = std::max(shell, plate);
+  const double spongy = cancellous_g_cc(shape.posterior_mm(world), depth);
+  const double density = compact * cortical_g_cc + (1.0 - compact) * spongy;
+  return filled * hu_of_apparent_density(density, p.calibration) + (1.0 - filled) * soft_tissue_hu;
+}
+
+Vec3 mirrored(const Vec3& v) { return {-v.x(), v.y(), v.z()}; }
+
+void mirror(GroundTruth& truth) {
+  for (Vec3* v : {&truth.glenoid.centre_mm, &truth.glenoid.lateral, &truth.glenoid.superior, &truth.glenoid.anterior,
+                  &truth.articular_sphere_centre_mm, &truth.spine_root_mm, &truth.inferior_angle_mm,
+                  &truth.humeral_head_centre_mm})
+    *v = mirrored(*v);
+}
+
+}  // namespace
+
+Phantom make_phantom(const PhantomParams& params) {
+  check(params);
+  const PhantomShape shape(params);
+  Phantom phantom{{}, shape.truth()};
+  const bool left = params.side == case_::Side::left;
+  HuVolume& volume = phantom.volume;
+  const Vec3 voxels = ((params.field_mm.max - params.field_mm.min).array() / params.spacing_mm.array()).round().matrix();
+  if (!(voxels.minCoeff() >= 1.0)) throw Error(ErrorKind::invalid_input, "phantom: the field holds no voxels");
+  if (voxels.prod() > max_field_voxels)
+    throw Error(ErrorKind::invalid_input, "phantom: more than 6e8 voxels; choose a larger voxel size");
+  volume.dims = voxels.cast<int>();
+  volume.spacing_mm = params.spacing_mm;
+  const Vec3 origin = phantom.truth.glenoid.centre_mm + params.field_mm.min;
+  volume.world_from_volume.translation_mm = origin;
+  volume.source = "phantom, random seed " + std::to_string(params.random_seed);
+  volume.hu.resize(volume.voxel_count());
+  const double voxel_mm = params.spacing_mm.minCoeff();
+  for (int w = 0; w < volume.dims.z(); ++w)
+    for (int v = 0; v < volume.dims.y(); ++v)
+      for (int u = 0; u < volume.dims.x(); ++u) {
+        const double exact = tissue_hu(shape, params, volume.world_of_centre({u, v, w}), voxel_mm) +
+                             params.noise_hu * noise(params.random_seed, volume.index(u, v, w));
+        const int column = left ? volume.dims.x() - 1 - u : u;
+        volume.hu[volume.index(column, v, w)] =
+            static_cast<int16_t>(std::clamp(std::floor(exact + 0.5), double{min_hu}, 3071.0));
+      }
+  phantom.truth.side = params.side;
+  if (left) {
+    mirror(phantom.truth);
+    volume.world_from_volume.translation_mm.x() = -(origin.x() + volume.dims.x() * volume.spacing_mm.x());
+  }
+  return phantom;
+}
+
+nlohmann::json to_json(const GroundTruth& t) {
+  const auto list = [](const Vec3& v) { return nlohmann::json{v.x(), v.y(), v.z()}; };
+  return {{"side", case_::to_text(t.side)},
+          {"version_deg", degrees_from_radians(t.version_rad)},
+          {"inclination_deg", degrees_from_radians(t.inclination_rad)},
+          {"glenoid",
+           {{"centre_mm", list(t.glenoid.centre_mm)},
+            {"lateral", list(t.glenoid.lateral)},
+            {"superior", list(t.glenoid.superior)},
+            {"anterior", list(t.glenoid.anterior)}}},
+          {"articular_sphere_centre_mm", list(t.articular_sphere_centre_mm)},
+          {"articular_radius_mm", t.articular_radius_mm},
+          {"glenoid_height_mm", t.glenoid_height_mm},
+          {"glenoid_width_mm", t.glenoid_width_mm},
+          {"plate_mm", t.plate_mm},
+          {"spine_root_mm", list(t.spine_root_mm)},
+          {"inferior_angle_mm", list(t.inferior_angle_mm)},
+          {"humeral_head_centre_mm", list(t.humeral_head_centre_mm)},
+          {"humeral_head_radius_mm", t.humeral_head_radius_mm}};
+}
+
+FaceAngles face_angles(const Vec3& face_normal, const Vec3& glenoid_centre_mm, const Vec3& spine_root_mm,
+                       const Vec3& inferior_angle_mm) {
+  const Vec3 x = (glenoid_centre_mm - spine_root_mm).normalized();
+  Vec3 posterior = (spine_root_mm - glenoid_centre_mm).cross(inferior_angle_mm - glenoid_centre_mm);
+  if (!(posterior.norm() > 1e-9))
+    throw Error(ErrorKind::invalid_input, "spine root, inferior angle and glenoid centre lie on one line");
+  posterior.normalize();
+  if (posterior.y() < 0.0) posterior = -posterior;
+  const Vec3 superior_either = posterior.cross(x);
+  const Vec3 superior = superior_either.dot(glenoid_centre_mm - inferior_angle_mm) < 0.0 ? Vec3(-superior_either) : superior_either;
+  const double lateral_part = face_normal.dot(x);
+  return {-std::atan2(face_normal.dot(posterior), lateral_part), std::atan2(face_normal.dot(superior), lateral_part)};
+}
+
+}  // namespace ream::ct

@@ -1,0 +1,69 @@
+#include "ct/phantom_case.hpp"
+
+#include "core/error.hpp"
+#include "ct/build_case.hpp"
+
+namespace ream::ct {
+namespace {
+
+constexpr double seed_depth_mm = 5.0;  // in the vault, under the plate
+
+}  // namespace
+
+PhantomPreset phantom_preset(const std::string& name) {
+  PhantomPreset preset;
+  PhantomParams& p = preset.params;
+  if (name == "demo") {
+    p.spacing_mm = Vec3::Constant(0.4);
+    p.field_mm = {{-8.0, -16.0, -23.2}, {33.6, 22.4, 23.2}};
+    preset.upsample = 2;
+    return preset;
+  }
+  if (name == "thesis-5-4-2") {
+    const Vec3 size(75 * 0.668, 48 * 0.668, 58 * 0.625);
+    // A small shoulder, placed so that as many voxels are filled as the thesis had.
+    p.glenoid_height_mm = 32.0;
+    p.glenoid_width_mm = 20.0;
+    const Vec3 low(-37.05, -14.0, -20.0);
+    p.field_mm = {low, low + size};
+    preset.upsample = 8;
+    return preset;
+  }
+  throw Error(ErrorKind::not_found, "no phantom preset '" + name + "'; there are demo and thesis-5-4-2");
+}
+
+case_::Case make_phantom_case(const std::string& id, const PhantomParams& params, int upsample) {
+  Phantom phantom = make_phantom(params);
+  const case_::GlenoidFrame& glenoid = phantom.truth.glenoid;
+  SegmentationOptions options;
+  options.upsample = upsample;
+  options.calibration = params.calibration;
+  options.threshold_hu = params.calibration.threshold_hu;
+  options.grow_from_mm = glenoid.centre_mm - seed_depth_mm * glenoid.lateral;
+  Mask mask = segment(phantom.volume, options);
+
+  case_::Case result;
+  result.id = id;
+  result.name = "Phantom shoulder, " + case_::to_text(params.side);
+  result.source = phantom.volume.source;
+  result.side = params.side;
+  result.bone = bone_from_mask(phantom.volume, std::move(mask), options);
+  result.calibration = options.calibration;
+  result.glenoid = glenoid;
+  case_::Plan plan;
+  plan.entry_mm = glenoid.centre_mm;
+  plan.axis_direction = -glenoid.lateral;
+  result.plan = plan;
+  return result;
+}
+
+case_::Case load_or_make_demo_case(const std::filesystem::path& data_folder) {
+  const auto folder = data_folder / "cases" / "demo";
+  if (std::filesystem::exists(folder / "case.json")) return case_::load_case(folder);
+  const PhantomPreset preset = phantom_preset("demo");
+  const case_::Case demo = make_phantom_case("demo", preset.params, preset.upsample);
+  case_::save_case(demo, folder, true);
+  return demo;
+}
+
+}  // namespace ream::ct

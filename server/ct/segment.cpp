@@ -1,0 +1,112 @@
+#include "ct/segment.hpp"
+
+#include <algorithm>
+
+namespace ream::ct {
+namespace {
+
+struct Steps {
+  size_t nx, ny, nz;
+  explicit Steps(const Vec3i& dims)
+      : nx(static_cast<size_t>(dims.x())), ny(static_cast<size_t>(dims.y())), nz(static_cast<size_t>(dims.z())) {}
+};
+
+/// Visits the up to six face neighbours of voxel `i`.
+template <typename Visit>
+void each_face_neighbour(const Steps& s, size_t i, Visit&& visit) {
+  const size_t u = i % s.nx, v = (i / s.nx) % s.ny, w = i / (s.nx * s.ny);
+  if (u > 0) visit(i - 1);
+  if (u + 1 < s.nx) visit(i + 1);
+  if (v > 0) visit(i - s.nx);
+  if (v + 1 < s.ny) visit(i + s.nx);
+  if (w > 0) visit(i - s.nx * s.ny);
+  if (w + 1 < s.nz) visit(i + s.nx * s.ny);
+}
+
+/// Turns every voxel of value `from` that is face-connected to the pending ones into `to`; returns how many.
+size_t flood(Mask& mask, const Steps& steps, std::vector<size_t> pending, uint8_t from, uint8_t to) {
+  size_t count = pending.size();
+  for (const size_t i : pending) mask[i] = to;
+  while (!pending.empty()) {
+    const size_t i = pending.back();
+    pending.pop_back();
+    each_face_neighbour(steps, i, [&](size_t n) {
+      if (mask[n] != from) return;
+      mask[n] = to;
+      ++count;
+      pending.push_back(n);
+    });
+  }
+  return count;
+}
+
+void keep_only(Mask& mask, uint8_t value) {
+  for (uint8_t& m : mask) m = m == value;
+}
+
+}  // namespace
+
+Mask above_threshold(const HuVolume& volume, double threshold_hu) {
+  Mask mask(volume.hu.size());
+  for (size_t i = 0; i < mask.size(); ++i) mask[i] = volume.hu[i] >= threshold_hu;
+  return mask;
+}
+
+Mask grown_from(const Mask& mask, const Vec3i& dims, const Vec3i& seed) {
+  const Steps steps(dims);
+  const size_t start = static_cast<size_t>(seed.x()) +
+                       steps.nx * (static_cast<size_t>(seed.y()) + steps.ny * static_cast<size_t>(seed.z()));
+  Mask result = mask;
+  if (result[start] == 1) flood(result, steps, {start}, 1, 2);
+  keep_only(result, 2);
+  return result;
+}
+
+Mask largest_part(const Mask& mask, const Vec3i& dims) {
+  const Steps steps(dims);
+  Mask visited = mask;
+  size_t best_start = 0, best_count = 0;
+  for (size_t i = 0; i < visited.size(); ++i) {
+    if (visited[i] != 1) continue;
+    const size_t count = flood(visited, steps, {i}, 1, 2);
+    if (count > best_count) best_count = count, best_start = i;
+  }
+  Mask result = mask;
+  if (best_count > 0) flood(result, steps, {best_start}, 1, 2);
+  keep_only(result, 2);
+  return result;
+}
+
+void fill_voids(Mask& mask, const Vec3i& dims) {
+  const Steps steps(dims);
+  std::vector<size_t> border;
+  for (size_t i = 0; i < mask.size(); ++i) {
+    const size_t u = i % steps.nx, v = (i / steps.nx) % steps.ny, w = i / (steps.nx * steps.ny);
+    const bool edge = u == 0 || v == 0 || w == 0 || u + 1 == steps.nx || v + 1 == steps.ny || w + 1 == steps.nz;
+    if (edge && mask[i] == 0) border.push_back(i);
+  }
+  flood(mask, steps, std::move(border), 0, 2);
+  for (uint8_t& m : mask) m = m != 2;
+}
+
+std::optional<Vec3i> nearest_set(const Mask& mask, const HuVolume& volume, const Vec3& world_mm, double reach_mm) {
+  const Vec3i centre = volume.voxel_at_world(world_mm);
+  const Vec3i reach = (reach_mm / volume.spacing_mm.array()).ceil().cast<int>().matrix();
+  const Vec3i low = (centre - reach).cwiseMax(0), high = (centre + reach).cwiseMin((volume.dims.array() - 1).matrix());
+  std::optional<Vec3i> best;
+  double best_distance = reach_mm;
+  for (int w = low.z(); w <= high.z(); ++w)
+    for (int v = low.y(); v <= high.y(); ++v)
+      for (int u = low.x(); u <= high.x(); ++u) {
+        if (mask[volume.index(u, v, w)] == 0) continue;
+        const Vec3i o(u, v, w);
+        const double distance = o == centre ? 0.0 : (volume.world_of_centre(o) - world_mm).norm();
+        if (distance > best_distance || (best && distance == best_distance)) continue;
+        best = o, best_distance = distance;
+      }
+  return best;
+}
+
+size_t count_set(const Mask& mask) { return static_cast<size_t>(std::count(mask.begin(), mask.end(), uint8_t{1})); }
+
+}  // namespace ream::ct

@@ -1,0 +1,29 @@
+#pragma once
+#include <optional>
+
+#include "ct/hu_volume.hpp"
+
+namespace ream::ct {
+
+/// One byte per voxel of a volume: 1 bone, 0 not.
+using Mask = std::vector<uint8_t>;
+
+/// Voxels of at least `threshold_hu`.
+Mask above_threshold(const HuVolume& volume, double threshold_hu);
+
+/// What is reached from `seed` through set voxels over common faces (6-connected): two parts that meet only along
+/// an edge or at a corner stay apart. Needs a seed inside the dims; empty mask when the seed is not set.
+Mask grown_from(const Mask& mask, const Vec3i& dims, const Vec3i& seed);
+
+/// The 6-connected part with the most voxels; on a tie the one with the lowest index.
+Mask largest_part(const Mask& mask, const Vec3i& dims);
+
+/// Sets the voids that no face-connected path of unset voxels joins to the border of the volume.
+void fill_voids(Mask& mask, const Vec3i& dims);
+
+/// The set voxel nearest to `world_mm`, within `reach_mm`; empty when there is none.
+std::optional<Vec3i> nearest_set(const Mask& mask, const HuVolume& volume, const Vec3& world_mm, double reach_mm);
+
+size_t count_set(const Mask& mask);
+
+}  // namespace ream::ct
