@@ -25,6 +25,56 @@ struct SurfaceVoxelizerArguments {
   ream_int32 thin;  // 1: 6-separating (eqs 3.6-3.8), 0: 26-separating (eqs 3.1-3.5)
 };
 
+// Affine map, row by row: out_i = m[3i] x + m[3i+1] y + m[3i+2] z + t[i] (collide/grid_affine.hpp).
+struct AffineArguments {
+  float m[9];
+  float t[3];
+};
+
+// Narrow phase: one work-group's sums, 64-bit. For the cutting points, then for the others: seven rows of eight products
+// w g_i g_j (g of collide/contact_shell.hpp, row 6 holds the first moments), then the counts.
+#define REAM_CONTACT_PART_SUMS 56
+#define REAM_CONTACT_CUTTING 0
+#define REAM_CONTACT_GUIDING 56
+#define REAM_CONTACT_CUTTING_POINTS 112
+#define REAM_CONTACT_GUIDING_POINTS 113
+#define REAM_CONTACT_CLASS_POINTS 114
+#define REAM_CONTACT_CLASS_DENSITY 117
+#define REAM_CONTACT_SUMS 120
+// Points that one work-item decodes at once; the probe arrays are padded by as many.
+#define REAM_CONTACT_CHUNK 16
+// Longest run of points between two additions to the 64-bit sums; 512 points of weight 28 and components 127 stay below 2^31.
+#define REAM_CONTACT_RUN 512
+#define REAM_ENGAGING_COVERAGE 128
+
+struct ContactArguments {
+  struct AffineArguments voxel_from_tool;
+  ream_int32 dims_x, dims_y, dims_z;
+  ream_uint32 survivors;
+};
+
+struct ContactBlock {
+  ream_uint32 first, count;
+};
+
+// Removal: what became of one listed brick; starts the brick's slot in the kernel's answer.
+struct RemovalRecord {
+  ream_uint32 hash_low, hash_high;  // sum of the changes' hashes, modulo 2^64
+  ream_int32 removed[3];            // coverage levels by bone class
+  ream_uint32 changed, left;        // left: 0 when the brick is empty now
+  ream_uint32 unused;
+};
+
+struct RemovalArguments {
+  struct AffineArguments tool_from_voxel;
+  ream_int32 dims_x, dims_y;
+  ream_int32 brick_dims_x, brick_dims_y;
+  ream_uint32 bricks;
+  ream_uint32 slot_bytes;  // a RemovalRecord each, or a record and the brick's 512 coverages for the host
+  ream_int32 r2_count;
+  float z_min_mm, inverse_z_step, inverse_r2_step, r2_limit, z_limit, levels_per_mm;
+};
+
 #ifndef __OPENCL_VERSION__
 }  // namespace ream::layout
 #endif

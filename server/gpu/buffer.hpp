@@ -22,7 +22,7 @@ class Buffer {
   }
   /// A device copy of the host's array.
   template <class T>
-  static Buffer copy_of(const Queue& queue, std::span<const T> host) {
+  static Buffer copy_of(const Queue& queue, std::span<T> host) {
     Buffer buffer(queue, host.size_bytes());
     buffer.write(queue, host.data(), host.size_bytes());
     return buffer;

@@ -13,7 +13,7 @@ Queue::Queue(const Device& device) : device_(device) {
   check(status, "clCreateContext", device.name);
   queue_.reset(clCreateCommandQueue(context_.get(), device.id, 0, &status));
   check(status, "clCreateCommandQueue", device.name);
-  shares_host_memory_ = device.is_cpu && try_sharing();
+  shares_host_memory_ = device.may_share_host_memory && try_sharing();
 }
 
 void Queue::finish() const { check(clFinish(queue_.get()), "clFinish"); }

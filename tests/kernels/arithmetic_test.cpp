@@ -51,7 +51,8 @@ TEST(Arithmetic, MultiplyThenAddRoundsTwiceLikeCpp) {
     fused.push_back(std::fma(n.a[i], n.b[i], n.c[i]));
   }
   EXPECT_GT(different_bits(expected, fused), n.a.size() / 20) << "the numbers cannot tell fused from not";
-  test::on_every_device([&](const gpu::Queue& queue) {
+  test::on_every_device([&](const gpu::Device& device) {
+    const gpu::Queue queue(device);
     EXPECT_EQ(different_bits(on_device(queue, "multiply_then_add", n), expected), 0u);
   });
 }
@@ -61,7 +62,8 @@ TEST(Arithmetic, SumsKeepTheirOrder) {
   std::vector<float> expected;
   for (size_t i = 0; i < n.a.size(); ++i)
     expected.push_back(n.a[i] * n.b[i] - (n.a[i] - n.c[i]) * (n.b[i] + n.c[i]) + n.c[i] * 0.1f);
-  test::on_every_device([&](const gpu::Queue& queue) {
+  test::on_every_device([&](const gpu::Device& device) {
+    const gpu::Queue queue(device);
     EXPECT_EQ(different_bits(on_device(queue, "sum_in_order", n), expected), 0u);
   });
 }

@@ -11,7 +11,8 @@ void expect_equal_bits(const TriangleMesh& mesh, double size_mm) {
     SurfaceVoxels blank = expected;
     voxelize_surface_cpu(mesh, separability, expected);
     ASSERT_GT(expected.filled_cells(), 0u);
-    test::on_every_device([&](const gpu::Queue& queue) {
+    test::on_every_device([&](const gpu::Device& device) {
+    const gpu::Queue queue(device);
       SurfaceVoxels grid = blank;
       voxelize_surface_cl(queue, mesh, separability, grid);
       EXPECT_EQ(grid.words, expected.words);
@@ -41,7 +42,8 @@ TEST(SurfaceVoxelizerCl, LargeAndDegenerateTrianglesGiveTheSameBits) {
 
 TEST(SurfaceVoxelizerCl, AddsToCellsThatAreMarkedAlready) {
   const TriangleMesh box = test::box_mesh({2.0f, 2.0f, 2.0f});
-  test::on_every_device([&](const gpu::Queue& queue) {
+  test::on_every_device([&](const gpu::Device& device) {
+    const gpu::Queue queue(device);
     SurfaceVoxels grid = surface_grid(box, 0.5);
     grid.words.assign(grid.words.size(), 0x01010101u);
     SurfaceVoxels expected = grid;
