@@ -28,7 +28,8 @@ struct TimedButtons {
   bool pause = false;
 };
 
-/// Simulated hand: a mass on a damped arm that pushes along its axis with a force profile.
+/// Simulated hand: a mass on a damped arm that pushes along its axis with a force profile. All of it in simulated newtons,
+/// so that one script behaves alike at any force scale.
 struct HandParameters {
   Vec3 start_mm = Vec3(0.0, 0.0, -10.0);  ///< plan frame
   Vec3 tilt_rad = Vec3::Zero();           ///< rotation vector of the axis it holds, plan frame

@@ -81,8 +81,9 @@ class HandDevice final : public ScriptedDevice {
     const Vec3 axis = rotation_.col(2);
     const Vec3 off_line = position_mm_ - hand.start_mm;
     const Vec3 sideways = off_line - axis * axis.dot(off_line);
-    const double push_n = force_at(hand.force_profile, t_s) / script_.force_scale;
-    const Vec3 force_n = axis * push_n - hand.guide_stiffness_n_mm * sideways + felt_n_;
+    // The profile speaks in simulated newtons, and so do mass and springs: one script feels alike at any force scale.
+    const double push_n = force_at(hand.force_profile, t_s);
+    const Vec3 force_n = axis * push_n - hand.guide_stiffness_n_mm * sideways + script_.force_scale * felt_n_;
     // 1 N on 1 kg is 1000 mm/s^2; damping is taken implicitly so that a light hand stays stable.
     constexpr double mm_s2_per_n_kg = 1000.0;
     const double gain = tick_s * mm_s2_per_n_kg / hand.mass_kg;

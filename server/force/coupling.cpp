@@ -6,7 +6,7 @@ namespace ream::force {
 namespace {
 
 /// How much harder than the spring over one tick a blocked direction is.
-constexpr double blocked_to_spring = 1.0e4;
+constexpr double blocked_to_spring = 1.0e7;
 
 double at(const Mat6& m, size_t i, size_t j) { return m[6 * i + j]; }
 

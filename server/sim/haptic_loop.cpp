@@ -7,7 +7,7 @@
 namespace ream::sim {
 namespace {
 
-constexpr uint32_t publish_every_ticks = 100;
+constexpr uint32_t publish_every_ticks = 500;
 
 /// Leaves the device without force and closed, whatever happens in between.
 class DeviceGuard {

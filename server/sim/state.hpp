@@ -3,11 +3,9 @@
 #include <memory>
 #include <vector>
 
-#include "collide/narrow_phase.hpp"
-#include "collide/removal.hpp"
 #include "collide/removal_schedule.hpp"
 #include "record/tick_report.hpp"
-#include "sim/model.hpp"
+#include "sim/backend.hpp"
 #include "voxel/bricks.hpp"
 
 namespace ream::sim {
@@ -22,8 +20,7 @@ struct State {
   State(const Model& model, voxel::BoneModel& bone);
 
   voxel::BoneModel& bone;
-  std::unique_ptr<collide::NarrowPhase> narrow_phase;
-  std::unique_ptr<collide::Removal> removal;
+  Backend backend;
   collide::RemovalSchedule schedule;
   std::vector<uint8_t> changed, empty;      ///< per entry of the schedule's list
   voxel::BrickSender* brick_sender = nullptr;  ///< followers, where there are any; not owned

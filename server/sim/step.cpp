@@ -69,7 +69,7 @@ void press(const Model& model, State& state, const collide::ContactSums& sums, c
 bool remove(State& state, const QuantisedPose& pose, TickReport& report) {
   const auto due = state.schedule.due(pose);
   collide::RemovalSums sums;
-  if (!state.removal->cut(pose, due, {state.changed.data(), due.size()}, {state.empty.data(), due.size()}, sums))
+  if (!state.backend.removal->cut(pose, due, {state.changed.data(), due.size()}, {state.empty.data(), due.size()}, sums))
     return false;
   for (size_t i = 0; i < due.size(); ++i) {
     if (state.empty[i]) state.schedule.retire(due[i]);

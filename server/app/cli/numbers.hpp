@@ -1,0 +1,10 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace ream::app {
+
+/// `count` finite numbers separated by commas. Error usage naming `option` otherwise.
+std::vector<double> parse_numbers(const std::string& text, size_t count, const std::string& option);
+
+}  // namespace ream::app

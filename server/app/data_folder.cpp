@@ -1,0 +1,20 @@
+#include "app/data_folder.hpp"
+
+#include <cstdlib>
+
+#include "core/error.hpp"
+
+namespace ream::app {
+
+std::filesystem::path data_folder(const std::filesystem::path& chosen) {
+  if (!chosen.empty()) return chosen;
+  if (const char* data = std::getenv("REAM_DATA"); data != nullptr && *data != '\0') return data;
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
+    return std::filesystem::path(home) / ".local/share/ream";
+  throw Error(ErrorKind::usage, "no data folder: give --data DIR, or set REAM_DATA or HOME");
+}
+
+std::filesystem::path cases_folder(const std::filesystem::path& data) { return data / "cases"; }
+std::filesystem::path sessions_folder(const std::filesystem::path& data) { return data / "sessions"; }
+
+}  // namespace ream::app

@@ -1,0 +1,13 @@
+#pragma once
+
+namespace ream::app {
+
+/// From now on SIGINT and SIGTERM only set a flag, so that long work can stop without leaving half-written files and a
+/// device is left without force.
+void catch_interrupts();
+bool interrupted() noexcept;
+
+/// Throws Error io "interrupted; nothing was written" once a signal has come.
+void throw_if_interrupted();
+
+}  // namespace ream::app

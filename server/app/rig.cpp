@@ -1,0 +1,82 @@
+#include "app/rig.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "app/data_folder.hpp"
+#include "app/version.hpp"
+#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "ct/phantom_case.hpp"
+
+namespace ream::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+const case_::Plan& plan_of(const case_::Case& c) {
+  if (!c.plan)
+    throw Error(ErrorKind::conflict, "case '" + c.id + "' has no plan; make one with `ream plan " + c.id + " --axis X,Y,Z,DX,DY,DZ`");
+  return *c.plan;
+}
+
+device::Script find_script(const RunRequest& request) {
+  device::Script script = request.script_name == "demo" ? device::demo_script() : device::load_script(request.script_name);
+  if (request.force_scale) script.force_scale = *request.force_scale;
+  return script;
+}
+
+sim::Settings settings_for(const RunRequest& request, const device::Script& script, const device::DeviceTraits& traits) {
+  sim::Settings settings;
+  settings.backend = request.backend;
+  settings.tool_spacing_mm = request.tool_spacing_mm;
+  settings.force_scale = script.force_scale;
+  settings.stiffness_n_mm = script.stiffness_n_mm > 0.0 ? script.stiffness_n_mm : traits.stiffness_max_n_mm;
+  settings.angular_stiffness_n_mm_rad = settings.stiffness_n_mm * 1000.0;
+  settings.limits = {traits.force_max_n, traits.torque_max_n_mm};
+  settings.random_seed = request.random_seed;
+  return settings;
+}
+
+shell::Tool tool_for(const RunRequest& request, const case_::Plan& plan) {
+  return shell::make_tool(request.tool.empty() ? plan.reamer : request.tool, request.tool_axis);
+}
+
+}  // namespace
+
+case_::Case find_case(const std::string& name, const fs::path& data) {
+  if (name == "demo") return ct::load_or_make_demo_case(data);
+  std::error_code failed;
+  const fs::path in_library = cases_folder(data) / name;
+  if (name.find('/') == std::string::npos && fs::is_directory(in_library, failed)) return case_::load_case(in_library);
+  if (fs::exists(name, failed)) return case_::load_case(name);
+  throw Error(ErrorKind::not_found, "no case '" + name + "': neither a folder nor a case in " + cases_folder(data).string());
+}
+
+Rig::Rig(const RunRequest& request_in, const fs::path& data)
+    : request(request_in),
+      script(find_script(request)),
+      bone_case(find_case(request.case_name, data)),
+      model(sim::make_model(plan_of(bone_case), bone_case.bone, tool_for(request, plan_of(bone_case)),
+                            settings_for(request, script,
+                                         device::make_scripted_device(script, Pose{})->traits()))),
+      state(model, bone_case.bone),
+      device(device::make_scripted_device(script, model.world_from_plan)) {}
+
+nlohmann::json Rig::description() const {
+  return {{"build", version_text()},
+          {"case", bone_case.id},
+          {"case_name", bone_case.name},
+          {"side", case_::to_text(bone_case.side)},
+          {"script", request.script_name},
+          {"tool", model.tool.name},
+          {"tool_spacing_mm", model.settings.tool_spacing_mm},
+          {"shell_points", model.contact_shell.size()},
+          {"backend", state.backend.name},
+          {"force_scale", model.settings.force_scale},
+          {"stiffness_n_mm", model.settings.stiffness_n_mm},
+          {"random_seed", model.settings.random_seed},
+          {"grid_dims", {bone_case.bone.grid.dims.x(), bone_case.bone.grid.dims.y(), bone_case.bone.grid.dims.z()}},
+          {"start_grid_hash", to_hex(bone_case.bone.coverage_hash())}};
+}
+
+}  // namespace ream::app

@@ -1,0 +1,23 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "collide/narrow_phase.hpp"
+#include "collide/removal.hpp"
+#include "sim/model.hpp"
+
+namespace ream::sim {
+
+/// The two parts of the tick that exist in C++ and in OpenCL, with the same bits.
+struct Backend {
+  std::string name;  ///< for people: "cpu", or "opencl: <device>"
+  std::unique_ptr<collide::NarrowPhase> narrow_phase;
+  std::unique_ptr<collide::Removal> removal;
+};
+
+/// `model.settings.backend`: "cpu" is the C++ form, "opencl" or "opencl:N" an OpenCL device, "auto" the C++ form (the
+/// quicker one on every processor measured so far). Everything is allocated, built and warmed here. Errors: usage for
+/// other words, unavailable when the device cannot be had.
+Backend make_backend(const Model& model, voxel::BoneModel& bone);
+
+}  // namespace ream::sim

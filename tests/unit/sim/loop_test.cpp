@@ -1,0 +1,112 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "sim/haptic_loop.hpp"
+#include "support/small_run.hpp"
+
+namespace ream::test {
+namespace {
+
+/// Wraps a device: remembers what was written last and can be made to misbehave at a tick.
+class WatchedDevice final : public device::HapticDevice {
+ public:
+  explicit WatchedDevice(std::unique_ptr<device::HapticDevice> inner) : inner_(std::move(inner)) {}
+  const device::DeviceTraits& traits() const noexcept override { return inner_->traits(); }
+  void open() override {
+    inner_->open();
+    is_open = true;
+  }
+  void close() noexcept override {
+    inner_->close();
+    is_open = false;
+  }
+  device::DeviceStatus read(device::DeviceInput& input) noexcept override {
+    if (reads++ == fault_at) return device::DeviceStatus::fault;
+    const auto status = inner_->read(input);
+    if (reads == nan_at) input.world_from_handle.translation_mm.x() = std::numeric_limits<double>::quiet_NaN();
+    return status;
+  }
+  device::DeviceStatus write(const device::DeviceOutput& output) noexcept override {
+    last = output;
+    largest_force_n = std::max(largest_force_n, output.force_n.norm());
+    return inner_->write(output);
+  }
+
+  int fault_at = -1, nan_at = -1, reads = 0;
+  bool is_open = false;
+  device::DeviceOutput last;
+  double largest_force_n = 0.0;
+
+ private:
+  std::unique_ptr<device::HapticDevice> inner_;
+};
+
+struct LoopRun {
+  LoopRun() : run(make()), device(device::make_scripted_device(script(), run.model.world_from_plan)), reports(4096) {}
+
+  static device::Script script() { return steady_push(52.0, 1.0); }
+  static SmallRun make() {
+    voxel::BoneModel bone = slab({64, 64, 64}, 0.2, 9.0, 0.5);
+    const case_::Plan plan = slab_plan(bone, 9.0);
+    return SmallRun(std::move(bone), plan, "sphere 8,4", script());
+  }
+  sim::LoopEnd go(bool wall_clock = false) {
+    sim::HapticLoop loop(run.model, run.state, device, reports, {wall_clock, sim::Realtime::off});
+    return loop.run();
+  }
+
+  SmallRun run;
+  WatchedDevice device;
+  SpscRing<record::TickReport> reports;
+};
+
+TEST(HapticLoop, RunsAScriptToItsEndAndLeavesNoForce) {
+  LoopRun r;
+  EXPECT_EQ(r.go(), sim::LoopEnd::finished);
+  EXPECT_EQ(r.reports.size(), 1000u);
+  EXPECT_GT(r.device.largest_force_n, 20.0);
+  EXPECT_EQ(r.device.last.force_n.norm(), 0.0);
+  EXPECT_FALSE(r.device.is_open);
+}
+
+TEST(HapticLoop, AFaultyDeviceGetsZeroForceAndTheBlackBoxKnowsThePast) {
+  LoopRun r;
+  r.device.fault_at = 500;
+  sim::HapticLoop loop(r.run.model, r.run.state, r.device, r.reports, {false, sim::Realtime::off});
+  EXPECT_EQ(loop.run(), sim::LoopEnd::device_fault);
+  EXPECT_GT(r.device.largest_force_n, 20.0);
+  EXPECT_EQ(r.device.last.force_n.norm(), 0.0);
+  EXPECT_EQ(loop.black_box().size(), 500u);
+  EXPECT_FALSE(to_words(sim::LoopEnd::device_fault).empty());
+}
+
+TEST(HapticLoop, APoseThatIsNotANumberEndsTheSessionWithoutForce) {
+  LoopRun r;
+  r.device.nan_at = 400;
+  EXPECT_EQ(r.go(), sim::LoopEnd::not_finite);
+  EXPECT_EQ(r.device.last.force_n.norm(), 0.0);
+}
+
+TEST(HapticLoop, StopEndsAWallClockLoopWithoutForce) {
+  LoopRun r;
+  sim::HapticLoop loop(r.run.model, r.run.state, r.device, r.reports, {true, sim::Realtime::off});
+  loop.start();
+  while (r.reports.size() < 200) std::this_thread::yield();
+  loop.stop();
+  EXPECT_TRUE(loop.ended());
+  EXPECT_EQ(loop.health().end, sim::LoopEnd::stopped);
+  EXPECT_EQ(r.device.last.force_n.norm(), 0.0);
+}
+
+TEST(HapticLoop, AFullRecordingRingIsAFaultNotALoss) {
+  LoopRun r;
+  SpscRing<record::TickReport> tiny(64);
+  sim::HapticLoop loop(r.run.model, r.run.state, r.device, tiny, {true, sim::Realtime::off});
+  EXPECT_EQ(loop.run(), sim::LoopEnd::followers_late);
+  EXPECT_EQ(tiny.size(), 64u);
+  EXPECT_EQ(r.device.last.force_n.norm(), 0.0);
+}
+
+}  // namespace
+}  // namespace ream::test
