@@ -7,7 +7,8 @@ namespace ream {
 
 /// Any triangle file that assimp reads (STL, OBJ, PLY, OFF, GLB), all parts merged, vertices joined, in the
 /// file's own coordinates (taken as mm). Throws Error: not_found; invalid_input for unreadable files, no
-/// triangles, NaN or infinite vertices, indices out of range. Degenerate triangles are dropped.
+/// triangles, NaN or infinite vertices, indices out of range, cut-off files. Triangles with two equal corners
+/// are dropped. PLY is read by geometry/ply, not by assimp.
 TriangleMesh load_mesh(const std::filesystem::path& path);
 
 /// Binary little-endian PLY with float positions and, where present, normals; written atomically.
