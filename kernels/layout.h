@@ -75,6 +75,19 @@ struct RemovalArguments {
   float z_min_mm, inverse_z_step, inverse_r2_step, r2_limit, z_limit, levels_per_mm;
 };
 
+// Upsampling: where an output sample lies between two input samples (voxel/upsample.hpp).
+struct UpsampleTapLayout {
+  ream_int32 low, high;
+  ream_uint32 low_weight, high_weight;
+};
+
+struct UpsampleArguments {
+  ream_uint32 input_x, input_y;    // samples a row, rows a slice
+  ream_uint32 output_x, output_y;  // the same of the output
+  ream_uint32 first_slice;         // of the output slab being made
+  ream_uint32 rounding, divisor;   // 4 N^3 and 8 N^3
+};
+
 #ifndef __OPENCL_VERSION__
 }  // namespace ream::layout
 #endif

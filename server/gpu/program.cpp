@@ -96,11 +96,12 @@ void Kernel::set_bytes(unsigned index, const void* value, size_t bytes) {
   if (status != CL_SUCCESS) check(status, "clSetKernelArg", name_ + ", argument " + std::to_string(index));
 }
 
-void Kernel::enqueue(const Queue& queue, size_t global, size_t local) const {
-  if (global == 0) return;
-  const size_t whole = (global + local - 1) / local * local;
-  const cl_int status =
-      clEnqueueNDRangeKernel(queue.handle(), kernel_.get(), 1, nullptr, &whole, &local, 0, nullptr, nullptr);
+void Kernel::enqueue(const Queue& queue, size_t global, size_t local, size_t rows) const {
+  if (global == 0 || rows == 0) return;
+  const size_t whole[2] = {(global + local - 1) / local * local, rows}, groups_of[2] = {local, 1};
+  const cl_uint dimensions = rows == 1 ? 1 : 2;
+  const cl_int status = clEnqueueNDRangeKernel(queue.handle(), kernel_.get(), dimensions, nullptr, whole, groups_of, 0,
+                                               nullptr, nullptr);
   if (status != CL_SUCCESS) check(status, "clEnqueueNDRangeKernel", name_);
 }
 

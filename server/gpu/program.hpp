@@ -50,8 +50,9 @@ class Kernel {
     set_bytes(index, &value, sizeof value);
   }
 
-  /// Enqueues ceil(global / local) work-groups; the kernel itself ignores items beyond its count.
-  void enqueue(const Queue& queue, size_t global, size_t local) const;
+  /// Enqueues ceil(global / local) work-groups, `rows` times along the second dimension; the kernel itself ignores
+  /// items beyond its count.
+  void enqueue(const Queue& queue, size_t global, size_t local, size_t rows = 1) const;
 
   const std::string& name() const { return name_; }
 

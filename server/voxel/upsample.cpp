@@ -18,20 +18,10 @@ std::vector<UpsampleTap> taps(int input_count, int factor) {
   return result;
 }
 
-void check(size_t size, const Vec3i& dims, int factor) {
-  if (factor < 1 || factor > max_upsample_factor)
-    throw Error(ErrorKind::invalid_input, "upsampling factor " + std::to_string(factor) + " must be from 1 to " +
-                                              std::to_string(max_upsample_factor));
-  if ((dims.array() <= 0).any()) throw Error(ErrorKind::invalid_input, "a volume without voxels cannot be upsampled");
-  const auto d = dims.cast<int64_t>().eval();
-  if (static_cast<int64_t>(size) != d.x() * d.y() * d.z())
-    throw Error(ErrorKind::invalid_input, "the volume to upsample does not have the size its dimensions say");
-}
-
 /// One output row is the x-interpolation of the four input rows around it, summed with their weights first.
 template <typename T>
 std::vector<T> upsample(std::span<const T> input, const Vec3i& dims, int factor) {
-  check(input.size(), dims, factor);
+  check_upsample(input.size(), dims, factor);
   const auto nx = static_cast<size_t>(dims.x()), ny = static_cast<size_t>(dims.y());
   const auto tx = taps(dims.x(), factor), ty = taps(dims.y(), factor), tz = taps(dims.z(), factor);
   const auto n = static_cast<uint32_t>(factor);
@@ -60,6 +50,16 @@ std::vector<T> upsample(std::span<const T> input, const Vec3i& dims, int factor)
 }
 
 }  // namespace
+
+void check_upsample(size_t size, const Vec3i& dims, int factor) {
+  if (factor < 1 || factor > max_upsample_factor)
+    throw Error(ErrorKind::invalid_input, "upsampling factor " + std::to_string(factor) + " must be from 1 to " +
+                                              std::to_string(max_upsample_factor));
+  if ((dims.array() <= 0).any()) throw Error(ErrorKind::invalid_input, "a volume without voxels cannot be upsampled");
+  const auto d = dims.cast<int64_t>().eval();
+  if (static_cast<int64_t>(size) != d.x() * d.y() * d.z())
+    throw Error(ErrorKind::invalid_input, "the volume to upsample does not have the size its dimensions say");
+}
 
 std::vector<uint8_t> upsample_trilinear(std::span<const uint8_t> input, const Vec3i& dims, int factor) {
   return upsample(input, dims, factor);
