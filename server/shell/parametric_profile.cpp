@@ -14,7 +14,7 @@ namespace {
 
 constexpr double default_outer_radius_mm = 18.25;  // thesis, appendix A
 constexpr double default_back_mm = 4.0;
-constexpr double shaft_radius_mm = 5.0, shaft_length_mm = 10.0;
+constexpr double shaft_radius_mm = 4.0, shaft_length_mm = 5.0;
 constexpr double chord_error_mm = 1e-4;
 constexpr double largest_length_mm = 1000.0;
 

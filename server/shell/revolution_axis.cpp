@@ -1,8 +1,10 @@
 #include "shell/revolution_axis.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -12,12 +14,9 @@
 namespace ream::shell {
 namespace {
 
-using Vec6 = Eigen::Matrix<double, 6, 1>;
-using Mat6 = Eigen::Matrix<double, 6, 6>;
-
 constexpr int reweightings = 40;
 constexpr double fitting_slope = 0.05;  ///< a triangle fits when its normal leaves the axial plane by less
-constexpr double least_fitting_share = 0.5;  ///< of the area
+constexpr double least_fitting_share = 0.3;  ///< of the area
 constexpr double least_gap = 1e-3;           ///< next axis' error over the size of the mesh squared
 constexpr double least_dome = 0.02;          ///< of the largest radius
 
@@ -26,8 +25,11 @@ constexpr double least_dome = 0.02;          ///< of the largest radius
               "mesh " + name + ": " + why + "; give the axis with --tool-axis X,Y,Z,DX,DY,DZ");
 }
 
+/// Middles of the edges stand for the triangle: sums of squares over them are exact integrals over its area.
+/// Its centre alone would not do, as it lies off the middle of the strip that approximates a cylinder.
 struct Facet {
-  Vec3 centre_mm, normal;
+  std::array<Vec3, 3> middles_mm;
+  Vec3 normal;
   double area_mm2;
 };
 
@@ -38,50 +40,60 @@ std::vector<Facet> facets_about(const TriangleMesh& mesh, const Vec3& origin_mm)
                c = mesh.vertices_mm[t[2]].cast<double>();
     const Vec3 twice_area = (b - a).cross(c - a);
     const double length = twice_area.norm();
-    if (length > 0.0) facets.push_back({(a + b + c) / 3.0 - origin_mm, twice_area / length, 0.5 * length});
+    if (length > 0.0)
+      facets.push_back({{0.5 * (a + b) - origin_mm, 0.5 * (b + c) - origin_mm, 0.5 * (c + a) - origin_mm},
+                        twice_area / length,
+                        0.5 * length});
   }
   return facets;
 }
 
-/// The rotation with the velocity field w x p + shift that moves the weighted facets least along their
-/// normals.
 struct Rotation {
-  Vec3 axis = Vec3::UnitZ(), shift = Vec3::Zero();
-  double gap_mm2 = 0;  ///< mean squared normal speed of the second best rotation, above the best
-
-  Vec3 point() const { return axis.cross(shift); }
+  Vec3 axis = Vec3::UnitZ(), point_mm = Vec3::Zero();
+  double gap_mm2 = 0;  ///< mean squared normal speed of the next best axis, above the best
 };
 
-Rotation best_rotation(const std::vector<Facet>& facets, const std::vector<double>& weights) {
-  Mat6 sums = Mat6::Zero();
+/// The axis through `point_mm` whose rotation moves the weighted facets least along their normals.
+Rotation best_axis(const std::vector<Facet>& facets, const std::vector<double>& weights,
+                   const Vec3& point_mm) {
+  Mat3 sums = Mat3::Zero();
   double total = 0.0;
   for (size_t i = 0; i < facets.size(); ++i) {
-    Vec6 row;
-    row << facets[i].centre_mm.cross(facets[i].normal), facets[i].normal;
-    sums += weights[i] * row * row.transpose();
-    total += weights[i];
+    for (const Vec3& p : facets[i].middles_mm) {
+      const Vec3 moment = (p - point_mm).cross(facets[i].normal);
+      sums += weights[i] * moment * moment.transpose();
+    }
+    total += 3.0 * weights[i];
   }
-  sums /= total;
-  const Mat3 turning = sums.topLeftCorner<3, 3>(), mixed = sums.topRightCorner<3, 3>();
-  const Eigen::SelfAdjointEigenSolver<Mat3> shifting(sums.bottomRightCorner<3, 3>());
-  Mat3 inverse = Mat3::Zero();  // directions along which the surface may slide leave the point open
-  for (int k = 0; k < 3; ++k) {
-    const Vec3 v = shifting.eigenvectors().col(k);
-    if (shifting.eigenvalues()[k] > 1e-9) inverse += v * v.transpose() / shifting.eigenvalues()[k];
-  }
-  const Eigen::SelfAdjointEigenSolver<Mat3> left(turning - mixed * inverse * mixed.transpose());
-  Rotation best;
-  best.axis = left.eigenvectors().col(0);
-  best.shift = -(inverse * mixed.transpose() * best.axis);
-  best.gap_mm2 = left.eigenvalues()[1] - left.eigenvalues()[0];
-  return best;
+  const Eigen::SelfAdjointEigenSolver<Mat3> best(sums / total);
+  return {best.eigenvectors().col(0), point_mm, best.eigenvalues()[1] - best.eigenvalues()[0]};
 }
 
-/// How far a facet's normal leaves the plane through the axis: 0 on a surface of revolution, at most 1.
+/// The point near the middle through which an axis of that direction does the same.
+Vec3 best_point(const std::vector<Facet>& facets, const std::vector<double>& weights, const Vec3& axis) {
+  const Mat3 across = rotation_with_z_along(axis);
+  Eigen::Matrix2d sums =
+      Eigen::Matrix2d::Identity() * 1e-9;  // keeps the point where the surface leaves it open
+  Eigen::Vector2d right = Eigen::Vector2d::Zero();
+  for (size_t i = 0; i < facets.size(); ++i) {
+    const Vec3 lever = facets[i].normal.cross(axis);
+    const Eigen::Vector2d row(lever.dot(across.col(0)), lever.dot(across.col(1)));
+    sums += 3.0 * weights[i] * row * row.transpose();
+    for (const Vec3& p : facets[i].middles_mm) right += weights[i] * row * lever.dot(p);
+  }
+  const Eigen::Vector2d at = sums.ldlt().solve(right);
+  return across.col(0) * at.x() + across.col(1) * at.y();
+}
+
+/// How far a facet's normal leaves the planes through the axis: 0 on a surface of revolution, at most 1.
 double misfit(const Facet& facet, const Rotation& rotation) {
-  const Vec3 velocity = rotation.axis.cross(facet.centre_mm - rotation.point());
-  const double speed = velocity.norm();
-  return speed > 0.0 ? std::abs(facet.normal.dot(velocity)) / speed : 0.0;
+  double squares = 0.0;
+  for (const Vec3& p : facet.middles_mm) {
+    const Vec3 velocity = rotation.axis.cross(p - rotation.point_mm);
+    const double along_normal = facet.normal.dot(velocity), speed2 = velocity.squaredNorm();
+    if (speed2 > 0.0) squares += along_normal * along_normal / speed2;
+  }
+  return std::sqrt(squares / 3.0);
 }
 
 /// How far the envelope falls from the middle radii to the rim, seen against `direction`.
@@ -103,14 +115,14 @@ ToolAxis estimate_axis(const TriangleMesh& mesh, const std::string& name) {
   if (facets.empty()) refuse(name, "it has no area");
   std::vector<double> weights(facets.size());
   for (size_t i = 0; i < facets.size(); ++i) weights[i] = facets[i].area_mm2;
-  Rotation rotation = best_rotation(facets, weights);
+  Rotation rotation = best_axis(facets, weights, Vec3::Zero());
   for (int round = 0; round < reweightings; ++round) {
-    const double scale = std::max(0.01, 0.3 * std::pow(0.85, round));
+    rotation = best_axis(facets, weights, best_point(facets, weights, rotation.axis));
+    const double scale = std::max(fitting_slope, 0.5 * std::pow(0.85, round));
     for (size_t i = 0; i < facets.size(); ++i) {
       const double ratio = misfit(facets[i], rotation) / scale;
       weights[i] = facets[i].area_mm2 / ((1.0 + ratio * ratio) * (1.0 + ratio * ratio));
     }
-    rotation = best_rotation(facets, weights);
   }
   double fitting = 0.0, total = 0.0;
   for (const Facet& facet : facets) {
@@ -120,7 +132,7 @@ ToolAxis estimate_axis(const TriangleMesh& mesh, const std::string& name) {
   if (fitting < least_fitting_share * total) refuse(name, "it is no surface of revolution");
   if (rotation.gap_mm2 < least_gap * size * size) refuse(name, "several axes of revolution are possible");
 
-  const Vec3 point = middle + rotation.point();
+  const Vec3 point = middle + rotation.point_mm;
   const double ahead = dome_mm(mesh, point, rotation.axis), behind = dome_mm(mesh, point, -rotation.axis);
   if (std::abs(ahead - behind) < least_dome * size) refuse(name, "its cutting side is not clear");
   return {point, ahead > behind ? rotation.axis : Vec3(-rotation.axis)};

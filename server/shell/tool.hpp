@@ -47,17 +47,18 @@ struct ToolAxis {
 
 /// The reamer of the bench case: as a point shell of 0.1 mm it has the 213 thousand points of the thesis
 /// (section 5.4.2). Asked for by the word "thesis" or by this text.
-inline constexpr const char* thesis_tool = "ellipse 18.25,9 nipple 3,8 back 4";
+inline constexpr const char* thesis_tool = "ellipse 16,8 nipple 3,8 back 1.25";
 
 /// A tool by words or from a mesh file. Words, lengths in mm:
-///   sphere R[,outer]   cutting cap of radius R out to the radius `outer` (default the smaller of R
-///   and 18.25) ellipse a,b        cutting cap with the semi-axes a across and b along the axis (thesis,
-///   appendix A) thesis             the tool of the bench case
-/// each of the first two optionally followed by " nipple r,h" (radius; height above the apex) and " back H"
-/// (height of the cylinder behind the cap, default 4). Anything else is the path of a mesh, which needs an
-/// axis, or one is estimated from the mesh's symmetry of revolution. Errors: usage for unknown words or
-/// impossible numbers; invalid_input for a mesh whose axis cannot be found or that does not reach it; those
-/// of load_mesh.
+/// - "sphere R[,outer]": cutting cap of radius R, by default out to the smaller of R and 18.25;
+/// - "ellipse a,b": cutting cap with semi-axes a across and b along the axis (thesis, appendix A);
+/// - each optionally followed by " nipple r,h" (radius, height above the apex) and " back H" (height of the
+///   cylinder behind the cap, by default 4);
+/// - "thesis".
+///
+/// Anything else is the path of a mesh, which needs an axis, or one is estimated from its symmetry of
+/// revolution. Errors: usage for unknown words or impossible numbers; invalid_input for a mesh whose axis
+/// cannot be found or that does not reach it; those of load_mesh.
 Tool make_tool(const std::string& description, const std::optional<ToolAxis>& axis = std::nullopt);
 
 /// The profile revolved into `segments` sides, closed, counter-clockwise from outside. For pictures and
