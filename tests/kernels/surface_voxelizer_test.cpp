@@ -14,7 +14,7 @@ void expect_equal_bits(const TriangleMesh& mesh, double size_mm) {
     test::on_every_device([&](const gpu::Device& device) {
     const gpu::Queue queue(device);
       SurfaceVoxels grid = blank;
-      voxelize_surface_cl(queue, mesh, separability, grid);
+      SurfaceVoxelizerCl(queue).voxelize(mesh, separability, grid);
       EXPECT_EQ(grid.words, expected.words);
     });
   }
@@ -48,7 +48,7 @@ TEST(SurfaceVoxelizerCl, AddsToCellsThatAreMarkedAlready) {
     grid.words.assign(grid.words.size(), 0x01010101u);
     SurfaceVoxels expected = grid;
     voxelize_surface_cpu(box, Separability::six, expected);
-    voxelize_surface_cl(queue, box, Separability::six, grid);
+    SurfaceVoxelizerCl(queue).voxelize(box, Separability::six, grid);
     EXPECT_EQ(grid.words, expected.words);
   });
 }
