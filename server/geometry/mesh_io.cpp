@@ -3,6 +3,7 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <assimp/Importer.hpp>
 #include <bit>
 #include <cctype>
@@ -18,7 +19,8 @@
 namespace ream {
 namespace {
 
-[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& why) {
+[[noreturn]] void refuse(const std::filesystem::path& path, std::string why) {
+  std::replace(why.begin(), why.end(), '\n', ' ');
   throw Error(ErrorKind::invalid_input, "mesh " + path.string() + " cannot be used: " + why);
 }
 
@@ -88,10 +90,10 @@ TriangleMesh joined(const TriangleMesh& mesh) {
   return out;
 }
 
-bool has_extension(const std::filesystem::path& path, std::string_view extension) {
+std::string lower_case_extension(const std::filesystem::path& path) {
   std::string found = path.extension().string();
   for (char& c : found) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return found == extension;
+  return found;
 }
 
 /// assimp takes a text STL that stops in the middle as whole.
@@ -115,9 +117,13 @@ TriangleMesh load_mesh(const std::filesystem::path& path) {
   std::error_code failed;
   if (!std::filesystem::exists(path, failed))
     throw Error(ErrorKind::not_found, "no such mesh: " + path.string());
-  if (has_extension(path, ".stl")) check_text_stl_is_whole(path);
+  const std::string extension = lower_case_extension(path);
+  // Other readers of assimp were seen to abort the program on damaged files.
+  if (extension != ".stl" && extension != ".obj" && extension != ".glb" && extension != ".ply")
+    refuse(path, "its name must end in .stl, .obj, .ply or .glb");
+  if (extension == ".stl") check_text_stl_is_whole(path);
   const TriangleMesh read =
-      has_extension(path, ".ply") ? parse_ply(read_text_file(path), path) : load_with_assimp(path);
+      extension == ".ply" ? parse_ply(read_text_file(path), path) : load_with_assimp(path);
   check_finite(path, read);
   TriangleMesh mesh = joined(read);
   if (mesh.triangles.empty()) refuse(path, "it holds no triangles");

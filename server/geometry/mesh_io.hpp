@@ -5,7 +5,7 @@
 
 namespace ream {
 
-/// Any triangle file that assimp reads (STL, OBJ, PLY, OFF, GLB), all parts merged, vertices joined, in the
+/// An STL, OBJ, PLY or GLB file, all parts merged, vertices joined, in the
 /// file's own coordinates (taken as mm). Throws Error: not_found; invalid_input for unreadable files, no
 /// triangles, NaN or infinite vertices, indices out of range, cut-off files. Triangles with two equal corners
 /// are dropped. PLY is read by geometry/ply, not by assimp.

@@ -167,6 +167,61 @@ TEST(MeshIo, RefusesTruncatedBinaryFiles) {
   }
 }
 
+TEST(MeshIo, RefusesATruncatedTextStl) {
+  const test::TemporaryFolder folder;
+  const std::string bytes = text_stl(box_mesh(3, 4, 5));
+  for (size_t length = 0; length < bytes.size() - 12; length += 37)
+    expect_error(ErrorKind::invalid_input, "cut.stl",
+                 [&] { load_mesh(folder.write("cut.stl", std::string_view(bytes).substr(0, length))); });
+}
+
+TEST(MeshIo, ReadsTextAndBigEndianPlyWithPolygonsAndOtherProperties) {
+  const test::TemporaryFolder folder;
+  const std::string elements =
+      "comment made by hand\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
+      "property uchar red\nelement other 1\nproperty list uchar short numbers\nelement face 1\n"
+      "property list uchar uint vertex_index\nend_header\n";
+  const std::string text = "ply\r\nformat ascii 1.0\r\n" + elements +
+                           "0 0 0 255\n2 0 0 0\n2 3 0 9\n0 3 1e-1 1\n3 7 -8 9\n4 0 1 2 3\n";
+  std::string big = "ply\nformat binary_big_endian 1.0\n" + elements;
+  const auto put_big = [&](auto value) {
+    std::string bytes;
+    put(bytes, value);
+    big.append(bytes.rbegin(), bytes.rend());
+  };
+  const double positions[4][3] = {{0, 0, 0}, {2, 0, 0}, {2, 3, 0}, {0, 3, 0.1}};
+  for (const auto& p : positions) {
+    for (const double c : p) put_big(c);
+    put_big(uint8_t{255});
+  }
+  put_big(uint8_t{1});
+  put_big(int16_t{-8});
+  put_big(uint8_t{4});
+  for (uint32_t i = 0; i < 4; ++i) put_big(i);
+  for (const std::string& bytes : {text, big}) {
+    const TriangleMesh mesh = load_mesh(folder.write("polygon.PLY", bytes));
+    ASSERT_EQ(mesh.triangles.size(), 2u);
+    EXPECT_EQ(mesh.bounds().max, Vec3(2, 3, 0.1f));
+    EXPECT_EQ(mesh.vertices_mm[mesh.triangles[1][2]], Vec3f(0, 3, 0.1f));
+  }
+}
+
+TEST(MeshIo, RefusesPlyHeadersThatMakeNoSense) {
+  const test::TemporaryFolder folder;
+  const std::string begin = "ply\nformat ascii 1.0\n";
+  for (const std::string& bytes :
+       {std::string("ply\nformat ascii 1.0\nelement vertex 1"), std::string("ply\nend_header\n"),
+        std::string("plx\nformat ascii 1.0\nend_header\n"),
+        std::string("ply\nformat morse 1.0\nend_header\n"), begin + "property float x\nend_header\n",
+        begin + "element vertex\nend_header\n", begin + "element vertex 1\nproperty half x\nend_header\n1\n",
+        begin + "element vertex 99999999999999\nproperty float x\nend_header\n1 2 3\n",
+        begin + "element vertex 99999999999999\nend_header\n",
+        begin + "element face 1\nproperty list uint int vertex_indices\nend_header\n4000000000 1 2 3\n",
+        begin + "element face 1\nproperty list int int vertex_indices\nend_header\n-1\n",
+        begin + "element vertex 1\nproperty float x\nend_header\none\n"})
+    expect_error(ErrorKind::invalid_input, "odd.ply", [&] { load_mesh(folder.write("odd.ply", bytes)); });
+}
+
 TEST(MeshIo, RefusesIndicesWithoutVertex) {
   const test::TemporaryFolder folder;
   TriangleMesh mesh = box_mesh(3, 4, 5);
