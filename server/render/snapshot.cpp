@@ -1,0 +1,179 @@
+#define GL_GLEXT_PROTOTYPES
+#include "render/snapshot.hpp"
+
+#include <GL/gl.h>
+#include <GL/glext.h>
+#include <GL/osmesa.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "core/error.hpp"
+#include "render/camera.hpp"
+#include "render/shader.hpp"
+
+namespace ream::render {
+namespace {
+
+constexpr int oversampling = 2;
+constexpr int max_edge_pixels = 8192;  // 16384 in OSMesa before downsampling
+constexpr std::array<float, 3> background = {0.949f, 0.945f, 0.937f};
+constexpr GLuint position_attribute = 0, normal_attribute = 1;
+
+/// An OSMesa context that is current on this thread as long as it lives.
+class Context {
+ public:
+  Context(int width, int height, std::vector<uint8_t>& pixels)
+      : context_(OSMesaCreateContextExt(OSMESA_RGBA, 24, 0, 0, nullptr), OSMesaDestroyContext) {
+    if (!context_ || OSMesaMakeCurrent(context_.get(), pixels.data(), GL_UNSIGNED_BYTE, width, height) == GL_FALSE)
+      throw Error(ErrorKind::unavailable, "picture: OSMesa gives no context of " + std::to_string(width) + " x " +
+                                              std::to_string(height) + " pixels; check the package libosmesa6");
+    OSMesaPixelStore(OSMESA_Y_UP, 0);
+  }
+
+ private:
+  std::unique_ptr<osmesa_context, void (*)(OSMesaContext)> context_;
+};
+
+GLuint compiled(GLenum kind, const char* source) {
+  const GLuint shader = glCreateShader(kind);
+  glShaderSource(shader, 1, &source, nullptr);
+  glCompileShader(shader);
+  return shader;
+}
+
+GLuint linked_program() {
+  const GLuint program = glCreateProgram();
+  glAttachShader(program, compiled(GL_VERTEX_SHADER, vertex_shader));
+  glAttachShader(program, compiled(GL_FRAGMENT_SHADER, fragment_shader));
+  glBindAttribLocation(program, position_attribute, "position");
+  glBindAttribLocation(program, normal_attribute, "normal");
+  glLinkProgram(program);
+  GLint good = GL_FALSE;
+  glGetProgramiv(program, GL_LINK_STATUS, &good);
+  if (good == GL_FALSE) {
+    std::array<char, 512> words{};
+    glGetProgramInfoLog(program, static_cast<GLsizei>(words.size()), nullptr, words.data());
+    throw Error(ErrorKind::unavailable, std::string("picture: OSMesa rejects the shader: ") + words.data());
+  }
+  return program;
+}
+
+Mat4f matrix(const Pose& pose) {
+  Mat4f result = Mat4f::Identity();
+  result.topLeftCorner<3, 3>() = pose.rotation.cast<float>();
+  result.topRightCorner<3, 1>() = pose.translation_mm.cast<float>();
+  return result;
+}
+
+/// Depths of everything drawn, along the camera's view, with a little air.
+std::array<double, 2> depth_range_mm(const std::vector<Layer>& layers, const Mat4f& camera_from_world) {
+  double nearest = 1e300, farthest = 0.0;
+  for (const Layer& layer : layers) {
+    const Mat4f camera_from_mesh = camera_from_world * matrix(layer.world_from_mesh);
+    for (const Vec3f& p : layer.mesh->vertices_mm) {
+      const double depth = -(camera_from_mesh.row(2).head<3>().dot(p) + camera_from_mesh(2, 3));
+      nearest = std::min(nearest, depth);
+      farthest = std::max(farthest, depth);
+    }
+  }
+  farthest = std::max(farthest * 1.01, 1.0);
+  return {std::clamp(nearest * 0.99, farthest * 1e-3, farthest * 0.9), farthest};
+}
+
+void draw_mesh(const Layer& layer, const Mat4f& camera_from_world, GLuint program) {
+  const TriangleMesh& mesh = *layer.mesh;
+  if (mesh.triangles.empty()) return;
+  const Mat4f camera_from_mesh = camera_from_world * matrix(layer.world_from_mesh);
+  const bool has_normals = mesh.normals.size() == mesh.vertices_mm.size();
+  glUniformMatrix4fv(glGetUniformLocation(program, "camera_from_mesh"), 1, GL_FALSE, camera_from_mesh.data());
+  glUniform3fv(glGetUniformLocation(program, "colour"), 1, layer.colour.data());
+  glUniform1f(glGetUniformLocation(program, "opacity"), layer.opacity);
+  glUniform1i(glGetUniformLocation(program, "has_normals"), has_normals ? 1 : 0);
+  glEnableVertexAttribArray(position_attribute);
+  glVertexAttribPointer(position_attribute, 3, GL_FLOAT, GL_FALSE, sizeof(Vec3f), mesh.vertices_mm.data());
+  if (has_normals) {
+    glEnableVertexAttribArray(normal_attribute);
+    glVertexAttribPointer(normal_attribute, 3, GL_FLOAT, GL_FALSE, sizeof(Vec3f), mesh.normals.data());
+  }
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * mesh.triangles.size()), GL_UNSIGNED_INT, mesh.triangles.data());
+  glDisableVertexAttribArray(position_attribute);
+  glDisableVertexAttribArray(normal_attribute);
+}
+
+/// Depth first, then colour only where the layer is nearest to the eye: its far side does not shine through.
+void draw_translucent(const Layer& layer, const Mat4f& camera_from_world, GLuint program) {
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  draw_mesh(layer, camera_from_world, program);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  draw_mesh(layer, camera_from_world, program);
+  glDisable(GL_BLEND);
+}
+
+/// Translucent layers, the one that is farthest from the eye first.
+std::vector<const Layer*> translucent_far_first(const std::vector<Layer>& layers, const Camera& camera) {
+  std::vector<const Layer*> result;
+  for (const Layer& layer : layers)
+    if (layer.opacity < 1.0f) result.push_back(&layer);
+  const auto distance_mm = [&](const Layer* layer) {
+    return (layer->world_from_mesh.point(layer->mesh->bounds().centre()) - camera.eye_mm).norm();
+  };
+  std::stable_sort(result.begin(), result.end(),
+                   [&](const Layer* a, const Layer* b) { return distance_mm(a) > distance_mm(b); });
+  return result;
+}
+
+Image downsampled(const std::vector<uint8_t>& pixels, int width, int height) {
+  Image image{width, height, std::vector<uint8_t>(4 * static_cast<size_t>(width) * static_cast<size_t>(height))};
+  const size_t row = 4 * static_cast<size_t>(width) * oversampling;
+  for (size_t y = 0; y < static_cast<size_t>(height); ++y)
+    for (size_t x = 0; x < static_cast<size_t>(width); ++x)
+      for (size_t channel = 0; channel < 4; ++channel) {
+        const uint8_t* p = pixels.data() + oversampling * y * row + 4 * oversampling * x + channel;
+        const int sum = p[0] + p[4] + p[row] + p[row + 4];
+        image.rgba[4 * (y * static_cast<size_t>(width) + x) + channel] = static_cast<uint8_t>((sum + 2) / 4);
+      }
+  return image;
+}
+
+void draw_layers(const std::vector<Layer>& layers, const Camera& camera, double aspect) {
+  const Mat4f view = camera_from_world(camera);
+  const auto [near_mm, far_mm] = depth_range_mm(layers, view);
+  const Mat4f projection = clip_from_camera(camera.vertical_field_of_view_rad, aspect, near_mm, far_mm);
+  const GLuint program = linked_program();
+  glUseProgram(program);
+  glUniformMatrix4fv(glGetUniformLocation(program, "clip_from_camera"), 1, GL_FALSE, projection.data());
+  glClearColor(background[0], background[1], background[2], 1.0f);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+  for (const Layer& layer : layers)
+    if (layer.opacity >= 1.0f) draw_mesh(layer, view, program);
+  for (const Layer* layer : translucent_far_first(layers, camera)) draw_translucent(*layer, view, program);
+  glFinish();
+}
+
+}  // namespace
+
+Image draw(const std::vector<Layer>& layers, const Camera& camera, int width, int height) {
+  if (width < 1 || height < 1 || width > max_edge_pixels || height > max_edge_pixels)
+    throw Error(ErrorKind::invalid_input, "picture: " + std::to_string(width) + " x " + std::to_string(height) +
+                                              " pixels cannot be drawn; each edge must be 1 to " +
+                                              std::to_string(max_edge_pixels));
+  static std::mutex one_at_a_time;  // llvmpipe already uses every core
+  const std::lock_guard lock(one_at_a_time);
+  std::vector<uint8_t> pixels(4 * static_cast<size_t>(oversampling * width) * static_cast<size_t>(oversampling * height));
+  {
+    const Context context(oversampling * width, oversampling * height, pixels);
+    glViewport(0, 0, oversampling * width, oversampling * height);
+    draw_layers(layers, camera, static_cast<double>(width) / height);
+  }
+  return downsampled(pixels, width, height);
+}
+
+}  // namespace ream::render
