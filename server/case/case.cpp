@@ -111,8 +111,32 @@ GlenoidFrame read_glenoid(JsonReader reader) {
   return frame;
 }
 
-/// Everything but the voxels; bone arrays stay empty.
-Case read_description(const fs::path& folder) {
+std::vector<uint8_t> read_compressed(const fs::path& file, size_t expected_size) {
+  const auto bytes = read_binary_file(file);
+  const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
+  if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN)
+    throw Error(ErrorKind::invalid_input, file.string() + " is not zstd data; import the case again");
+  if (size != expected_size)
+    throw Error(ErrorKind::invalid_input, file.string() + " holds " + std::to_string(size) + " voxels, case.json says " +
+                                              std::to_string(expected_size) + "; import the case again");
+  std::vector<uint8_t> result(expected_size);
+  const size_t read = ZSTD_decompress(result.data(), result.size(), bytes.data(), bytes.size());
+  if (ZSTD_isError(read) || read != expected_size)
+    throw Error(ErrorKind::invalid_input, file.string() + " is damaged or cut short; import the case again");
+  return result;
+}
+
+void write_compressed(const fs::path& file, const std::vector<uint8_t>& data) {
+  std::vector<std::byte> packed(ZSTD_compressBound(data.size()));
+  const size_t size = ZSTD_compress(packed.data(), packed.size(), data.data(), data.size(), compression_level);
+  if (ZSTD_isError(size))
+    throw Error(ErrorKind::io, "cannot compress " + file.string() + ": " + ZSTD_getErrorName(size));
+  write_file_atomically(file, std::span<const std::byte>(packed.data(), size));
+}
+
+}  // namespace
+
+Case load_case_description(const fs::path& folder) {
   const fs::path file = folder / "case.json";
   if (!fs::is_regular_file(file))
     throw Error(ErrorKind::not_found, folder.string() + " is not a case: it has no case.json");
@@ -141,33 +165,8 @@ Case read_description(const fs::path& folder) {
   return c;
 }
 
-std::vector<uint8_t> read_compressed(const fs::path& file, size_t expected_size) {
-  const auto bytes = read_binary_file(file);
-  const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
-  if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN)
-    throw Error(ErrorKind::invalid_input, file.string() + " is not zstd data; import the case again");
-  if (size != expected_size)
-    throw Error(ErrorKind::invalid_input, file.string() + " holds " + std::to_string(size) + " voxels, case.json says " +
-                                              std::to_string(expected_size) + "; import the case again");
-  std::vector<uint8_t> result(expected_size);
-  const size_t read = ZSTD_decompress(result.data(), result.size(), bytes.data(), bytes.size());
-  if (ZSTD_isError(read) || read != expected_size)
-    throw Error(ErrorKind::invalid_input, file.string() + " is damaged or cut short; import the case again");
-  return result;
-}
-
-void write_compressed(const fs::path& file, const std::vector<uint8_t>& data) {
-  std::vector<std::byte> packed(ZSTD_compressBound(data.size()));
-  const size_t size = ZSTD_compress(packed.data(), packed.size(), data.data(), data.size(), compression_level);
-  if (ZSTD_isError(size))
-    throw Error(ErrorKind::io, "cannot compress " + file.string() + ": " + ZSTD_getErrorName(size));
-  write_file_atomically(file, std::span<const std::byte>(packed.data(), size));
-}
-
-}  // namespace
-
 Case load_case(const fs::path& folder) {
-  Case c = read_description(folder);
+  Case c = load_case_description(folder);
   const size_t voxels = c.bone.grid.voxel_count();
   c.bone.density = read_compressed(folder / "density.zst", voxels);
   c.bone.coverage = read_compressed(folder / "coverage.zst", voxels);
@@ -175,7 +174,7 @@ Case load_case(const fs::path& folder) {
 }
 
 CaseSummary load_case_summary(const fs::path& folder) {
-  const Case c = read_description(folder);
+  const Case c = load_case_description(folder);
   return {c.id, c.name, c.side, c.bone.grid.dims, c.bone.grid.spacing_mm, c.plan.has_value()};
 }
 

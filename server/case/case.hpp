@@ -62,6 +62,8 @@ struct CaseSummary {
 /// (raw bytes in grid order, zstd). Saving is atomic: the folder appears whole or not at all.
 /// Errors: not_found, invalid_input (names file and key), io.
 Case load_case(const std::filesystem::path& folder);
+/// Everything but the voxels: bone has its grid, density and coverage stay empty.
+Case load_case_description(const std::filesystem::path& folder);
 CaseSummary load_case_summary(const std::filesystem::path& folder);
 void save_case(const Case& c, const std::filesystem::path& folder, bool replace = false);
 

@@ -1,0 +1,45 @@
+#include "api/readiness.hpp"
+
+#include "core/error.hpp"
+#include "core/log.hpp"
+
+namespace ream::api {
+
+Readiness::Readiness(std::function<void()> prepare) {
+  if (!prepare) {
+    stage_ = Stage::ready;
+    return;
+  }
+  thread_ = std::thread([this, prepare = std::move(prepare)] {
+    Stage stage = Stage::ready;
+    std::string reason;
+    try {
+      prepare();
+    } catch (const std::exception& failure) {
+      stage = Stage::failed;
+      reason = failure.what();
+      log::error("the server could not be made ready: " + reason);
+    }
+    const std::lock_guard lock(mutex_);
+    stage_ = stage;
+    reason_ = std::move(reason);
+  });
+}
+
+Readiness::~Readiness() {
+  if (thread_.joinable()) thread_.join();
+}
+
+void Readiness::require_ready() const {
+  require_prepared();
+  const std::lock_guard lock(mutex_);
+  if (stage_ == Stage::failed) throw Error(ErrorKind::unavailable, "the server could not be made ready: " + reason_);
+}
+
+void Readiness::require_prepared() const {
+  const std::lock_guard lock(mutex_);
+  if (stage_ == Stage::preparing)
+    throw Error(ErrorKind::unavailable, "the server is still preparing its demo case; try again in a few seconds");
+}
+
+}  // namespace ream::api

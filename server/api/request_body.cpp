@@ -1,0 +1,91 @@
+#include "api/request_body.hpp"
+
+#include <cmath>
+
+namespace ream::api {
+namespace {
+
+constexpr size_t longest_name = 64;
+
+/// A JSON pointer as a URI fragment (RFC 6901): '~' and '/' of a key are escaped.
+std::string pointer_to(const std::string& key) {
+  std::string pointer = "#/";
+  for (const char c : key) pointer += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+  return pointer;
+}
+
+std::string plain_number(double value) {
+  const std::string text = nlohmann::json(value).dump();
+  return text.size() > 2 && text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
+}
+
+}  // namespace
+
+bool is_name(const std::string& text) {
+  return !text.empty() && text.size() <= longest_name &&
+         text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos;
+}
+
+RequestBody::RequestBody(const net::Request& request) {
+  const std::string_view type = request.header("content-type");
+  if (type.substr(0, type.find(';')) != "application/json")
+    throw net::RequestError(415, "the request body must be sent as application/json");
+  try {
+    value_ = nlohmann::json::parse(request.body);
+  } catch (const nlohmann::json::parse_error& error) {
+    throw net::RequestError(400, "the request body is not JSON: it fails at byte " + std::to_string(error.byte));
+  } catch (const nlohmann::json::out_of_range&) {
+    throw net::RequestError(400, "the request body holds a number too large for any use");
+  }
+  if (!value_.is_object()) throw net::RequestError(422, "the request body must be a JSON object", {{"#", "must be an object"}});
+}
+
+const nlohmann::json* RequestBody::find(const std::string& key) {
+  asked_.insert(key);
+  const auto found = value_.find(key);
+  return found == value_.end() ? nullptr : &*found;
+}
+
+void RequestBody::complain(const std::string& key, const std::string& what) {
+  errors_.push_back({pointer_to(key), "'" + key + "' " + what});
+}
+
+std::string RequestBody::name(const std::string& key) {
+  const nlohmann::json* value = find(key);
+  if (!value) {
+    complain(key, "is missing");
+  } else if (!value->is_string()) {
+    complain(key, std::string("must be a text, not ") + value->type_name());
+  } else if (const auto text = value->get<std::string>(); !is_name(text)) {
+    complain(key, "may hold only a-z, 0-9 and -, and at most " + std::to_string(longest_name) + " of them");
+  } else {
+    return text;
+  }
+  return {};
+}
+
+std::optional<double> RequestBody::number_or_none(const std::string& key, double above, double most) {
+  const nlohmann::json* value = find(key);
+  if (!value) return std::nullopt;
+  if (!value->is_number()) {
+    complain(key, std::string("must be a number, not ") + value->type_name());
+    return std::nullopt;
+  }
+  const double number = value->get<double>();
+  if (!std::isfinite(number) || number <= above || number > most) {
+    complain(key, "must be above " + plain_number(above) + " and at most " + plain_number(most));
+    return std::nullopt;
+  }
+  return number;
+}
+
+void RequestBody::finish() {
+  for (const auto& [key, value] : value_.items())
+    if (!asked_.contains(key)) complain(key, "is not a known key");
+  if (errors_.empty()) return;
+  std::string detail = "the request body cannot be used: ";
+  for (size_t i = 0; i < errors_.size(); ++i) detail += (i > 0 ? "; " : "") + errors_[i].detail;
+  throw net::RequestError(422, detail, errors_);
+}
+
+}  // namespace ream::api

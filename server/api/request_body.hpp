@@ -1,0 +1,39 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "net/problem.hpp"
+
+namespace ream::api {
+
+/// Strict reading of a JSON request body: every key is asked for by name and type; finish() reports all that was wrong
+/// at once, unknown keys included.
+class RequestBody {
+ public:
+  /// Throws RequestError: 415 when it is not sent as JSON, 400 when it is not JSON, 422 when it is not an object.
+  explicit RequestBody(const net::Request& request);
+
+  /// A name of [a-z0-9-], at most 64 long. Empty when there is something wrong with it.
+  std::string name(const std::string& key);
+  /// A finite number above `above` and at most `most`; none when absent.
+  std::optional<double> number_or_none(const std::string& key, double above, double most);
+
+  /// Throws RequestError 422 with one entry per fault.
+  void finish();
+
+ private:
+  const nlohmann::json* find(const std::string& key);
+  void complain(const std::string& key, const std::string& what);
+
+  nlohmann::json value_;
+  std::set<std::string> asked_;
+  std::vector<net::FieldError> errors_;
+};
+
+/// Whether `text` is an id as cases and scripts have: [a-z0-9-], 1 to 64 long.
+bool is_name(const std::string& text);
+
+}  // namespace ream::api

@@ -1,0 +1,62 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "core/timing_histogram.hpp"
+#include "net/websocket.hpp"
+
+namespace ream::api {
+
+enum class SessionState { created, running, paused, finished, stopped, fault };
+
+/// The word of REST and recordings: "created", "running", ...
+std::string to_text(SessionState state);
+
+/// Whether it still runs or can: created, running or paused.
+bool is_live(SessionState state);
+
+/// What somebody asked for. Names are plain ids ([a-z0-9-]), never paths.
+struct SessionRequest {
+  std::string id;  ///< given by the server
+  std::string case_id, script;
+  std::optional<double> force_scale;  ///< simulated N per hand N; none: the script's
+};
+
+struct SessionStatus {
+  SessionState state = SessionState::created;
+  uint32_t tick = 0;
+  double duration_s = 0.0;
+  double force_scale = 1.0;
+  std::string fault;  ///< words for people, empty unless state is fault
+  TimingSummary tick_us;
+  uint64_t missed = 0;  ///< ticks that began too late
+};
+
+/// One training session, ready for its first tick: what the server asks of it. Called from several worker
+/// threads at once, so every function is safe against the others; none may wait for a viewer. Destroying it stops it.
+class RunningSession {
+ public:
+  virtual ~RunningSession() = default;
+
+  /// Only in state created; the service has checked. Throws Error when it cannot start.
+  virtual void start() = 0;
+  /// Ends it and waits for the loop (zero force on the way out). Harmless when it has ended already.
+  virtual void stop() = 0;
+
+  virtual SessionStatus status() const = 0;
+  /// The keys of metrics.json; grid_hash is null until the end.
+  virtual nlohmann::json metrics() const = 0;
+
+  /// A viewer joins: Hello first, then the whole surface, then what changes. It may outlive stop(), not the session.
+  virtual std::unique_ptr<net::WebSocketSession> subscribe() = 0;
+};
+
+/// Makes a session ready to start, which may take seconds. Called on worker threads, several at once.
+/// Errors: not_found (case, script), conflict (case without a plan), invalid_input, unavailable.
+using SessionFactory = std::function<std::unique_ptr<RunningSession>(const SessionRequest&)>;
+
+}  // namespace ream::api

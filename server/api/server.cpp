@@ -1,0 +1,73 @@
+#include "api/server.hpp"
+
+#include <contract.hpp>
+#include <nlohmann/json.hpp>
+
+#include "api/case_resource.hpp"
+#include "api/session_resource.hpp"
+#include "net/static_files.hpp"
+
+namespace ream::api {
+namespace {
+
+void add_health_routes(net::Router& router, const Readiness& readiness) {
+  router.on("GET", "/healthz", [](const net::Request&) { return net::json_response(200, {{"status", "ok"}}); });
+  router.on("GET", "/readyz", [&readiness](const net::Request&) {
+    readiness.require_ready();
+    return net::json_response(200, {{"status", "ready"}});
+  });
+}
+
+void add_contract_route(net::Router& router) {
+  router.on("GET", "/api/v1/openapi.yaml", [](const net::Request&) {
+    return net::bytes_response(200, "application/yaml", net::share(embedded::contract::find("openapi.yaml")));
+  });
+}
+
+net::Router router_of(const ServerOptions& options, SessionService& sessions, const Readiness& readiness) {
+  net::Router router;
+  add_health_routes(router, readiness);
+  add_contract_route(router);
+  add_case_routes(router, options.cases_folder);
+  add_session_routes(router, sessions, readiness);
+  router.otherwise([files = net::StaticFiles(options.web_folder)](const net::Request& request) {
+    return files.respond(request);
+  });
+  return router;
+}
+
+}  // namespace
+
+Server::Server(ServerOptions options)
+    : sessions_(std::move(options.make_session), options.sessions),
+      readiness_(std::move(options.prepare)),
+      router_(router_of(options, sessions_, readiness_)),
+      listener_(router_, options.listen) {}
+
+Server::~Server() { stop(); }
+
+void Server::start() { listener_.start(); }
+
+void Server::run() {
+  start();
+  {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return stop_wanted_; });
+  }
+  stop();
+}
+
+void Server::request_stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_wanted_ = true;
+  }
+  changed_.notify_all();
+}
+
+void Server::stop() {
+  listener_.stop();
+  sessions_.shut_down();
+}
+
+}  // namespace ream::api

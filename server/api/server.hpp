@@ -1,0 +1,58 @@
+#pragma once
+#include <condition_variable>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+
+#include "api/readiness.hpp"
+#include "api/session_service.hpp"
+#include "net/listener.hpp"
+
+namespace ream::api {
+
+struct ServerOptions {
+  net::ListenOptions listen;
+  std::filesystem::path cases_folder;
+  std::filesystem::path web_folder;  ///< the built page; served under "/"
+  SessionFactory make_session;
+  SessionLimits sessions;
+  std::function<void()> prepare;  ///< run once in the background; /readyz is 503 until it is done
+};
+
+/// The whole server: REST resources, streams and page over one listener.
+class Server {
+ public:
+  /// Binds the port (Error usage or unavailable, see net::Listener) and begins to prepare.
+  explicit Server(ServerOptions options);
+  /// Stops.
+  ~Server();
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  uint16_t port() const { return listener_.port(); }
+
+  /// Begins to answer and returns.
+  void start();
+  /// start(), then waits until request_stop() was called from another thread, then stop().
+  void run();
+  /// Ends run(); from any thread but not from a signal handler.
+  void request_stop();
+  /// Ends connections, then sessions. May be called twice.
+  void stop();
+
+  /// Method and pattern of everything served, the page left out.
+  std::vector<net::Router::Route> routes() const { return router_.routes(); }
+
+ private:
+  // Order matters: the listener goes first, so that nothing is asked of what is already gone.
+  SessionService sessions_;
+  Readiness readiness_;
+  net::Router router_;
+  net::Listener listener_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool stop_wanted_ = false;
+};
+
+}  // namespace ream::api

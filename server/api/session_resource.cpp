@@ -1,0 +1,78 @@
+#include "api/session_resource.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "api/request_body.hpp"
+
+namespace ream::api {
+using nlohmann::json;
+namespace {
+
+constexpr double largest_force_scale = 1000.0;
+const std::string base = "/api/v1/sessions";
+
+json to_json(const SessionRecord& record) {
+  const SessionStatus& status = record.status;
+  const TimingSummary& tick = status.tick_us;
+  return {{"id", record.request.id},
+          {"case", record.request.case_id},
+          {"script", record.request.script},
+          {"state", to_text(status.state)},
+          {"created_utc", record.created_utc},
+          {"tick", status.tick},
+          {"duration_s", status.duration_s},
+          {"force_scale", status.force_scale},
+          {"fault", status.fault.empty() ? json(nullptr) : json(status.fault)},
+          {"loop",
+           {{"mean_us", tick.mean_us},
+            {"p50_us", tick.p50_us},
+            {"p99_us", tick.p99_us},
+            {"p999_us", tick.p999_us},
+            {"max_us", tick.max_us},
+            {"missed", status.missed}}}};
+}
+
+net::Response create(SessionService& service, const Readiness& readiness, const net::Request& request) {
+  RequestBody body(request);
+  SessionRequest wanted;
+  wanted.case_id = body.name("case");
+  wanted.script = body.name("script");
+  wanted.force_scale = body.number_or_none("force_scale", 0.0, largest_force_scale);
+  body.finish();
+  readiness.require_prepared();
+  const SessionRecord record = service.create(std::move(wanted));
+  net::Response response = net::json_response(201, to_json(record));
+  response.headers.emplace_back("Location", base + "/" + record.request.id);
+  return response;
+}
+
+net::Response list(const SessionService& service) {
+  json sessions = json::array();
+  for (const SessionRecord& record : service.list()) sessions.push_back(to_json(record));
+  return net::json_response(200, {{"sessions", std::move(sessions)}});
+}
+
+const std::string& id_of(const net::Request& request) { return request.parameters.at("id"); }
+
+}  // namespace
+
+void add_session_routes(net::Router& router, SessionService& service, const Readiness& readiness) {
+  router.on("GET", base, [&service](const net::Request&) { return list(service); });
+  router.on("POST", base, [&](const net::Request& request) { return create(service, readiness, request); });
+  router.on("GET", base + "/{id}", [&service](const net::Request& request) {
+    return net::json_response(200, to_json(service.get(id_of(request))));
+  });
+  router.on("POST", base + "/{id}/start", [&service](const net::Request& request) {
+    return net::json_response(200, to_json(service.start(id_of(request))));
+  });
+  router.on("POST", base + "/{id}/stop", [&service](const net::Request& request) {
+    return net::json_response(200, to_json(service.stop(id_of(request))));
+  });
+  router.on("GET", base + "/{id}/metrics", [&service](const net::Request& request) {
+    return net::json_response(200, service.metrics(id_of(request)));
+  });
+  router.on_websocket(base + "/{id}/stream",
+                      [&service](const net::Request& request) { return service.subscribe(id_of(request)); });
+}
+
+}  // namespace ream::api
