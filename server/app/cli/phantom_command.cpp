@@ -1,0 +1,81 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/commands.hpp"
+#include "core/file.hpp"
+#include "core/units.hpp"
+#include "ct/phantom_case.hpp"
+#include "ct/volume_io.hpp"
+
+namespace ream::app {
+namespace {
+
+struct Options {
+  std::filesystem::path out;
+  ct::PhantomParams params;
+  double version_deg = -2.0, inclination_deg = 4.2, spacing_mm = 0.0;
+  std::string side = "right", format = "dicom", preset;
+};
+
+void write_volume(const ct::HuVolume& volume, const Options& options, const std::filesystem::path& folder) {
+  if (options.format == "dicom") ct::write_dicom_folder(volume, folder, options.params.random_seed);
+  else ct::write_volume_file(volume, folder / (options.format == "nrrd" ? "ct.nrrd" : "ct.nii.gz"));
+}
+
+void phantom(const Options& options, const GlobalOptions& global) {
+  FolderInProgress folder(options.out);
+  ct::PhantomParams params = options.params;
+  if (!options.preset.empty()) {
+    const ct::PhantomParams preset = ct::phantom_preset(options.preset).params;
+    params.field_mm = preset.field_mm;
+    params.spacing_mm = preset.spacing_mm;
+    params.glenoid_height_mm = preset.glenoid_height_mm;
+    params.glenoid_width_mm = preset.glenoid_width_mm;
+  }
+  params.side = case_::side_from_text(options.side);
+  params.version_rad = radians_from_degrees(options.version_deg);
+  params.inclination_rad = radians_from_degrees(options.inclination_deg);
+  if (options.spacing_mm > 0.0) params.spacing_mm = Vec3::Constant(options.spacing_mm);
+  const ct::Phantom made = ct::make_phantom(params);
+  write_volume(made.volume, options, folder.path());
+  const nlohmann::json truth = ct::to_json(made.truth);
+  write_file_atomically(folder.path() / "ground_truth.json", truth.dump(2) + "\n");
+  folder.commit();
+  const Vec3i& d = made.volume.dims;
+  if (global.json) {
+    const Vec3& s = made.volume.spacing_mm;
+    std::cout << nlohmann::json{{"out", options.out.string()},
+                                {"dims", {d.x(), d.y(), d.z()}},
+                                {"spacing_mm", {s.x(), s.y(), s.z()}},
+                                {"ground_truth", truth}}
+                     .dump()
+              << '\n';
+    return;
+  }
+  std::cout << options.side << " shoulder, " << d.x() << " x " << d.y() << " x " << d.z() << " voxels, and its ground truth in "
+            << options.out.string() << '\n';
+}
+
+}  // namespace
+
+void add_phantom_command(CLI::App& app, GlobalOptions& global) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("phantom", "Make a shoulder CT whose truth is known exactly");
+  command->add_option("--out", options->out, "Folder for the CT and ground_truth.json; must be new or empty")->required();
+  command->add_option("--version-deg", options->version_deg, "Glenoid version, retroversion negative")->capture_default_str();
+  command->add_option("--inclination-deg", options->inclination_deg, "Glenoid inclination, superior positive")->capture_default_str();
+  command->add_option("--radius-mm", options->params.glenoid_radius_mm, "Radius of the bony articular surface")->capture_default_str();
+  command->add_option("--spacing-mm", options->spacing_mm, "Voxel size. Default: 0.668 x 0.668 x 0.625")->check(CLI::Range(0.05, 10.0));
+  command->add_option("--side", options->side, "left or right")->check(CLI::IsMember({"left", "right"}))->capture_default_str();
+  command->add_option("--format", options->format, "dicom, nrrd or nifti")
+      ->check(CLI::IsMember({"dicom", "nrrd", "nifti"}))->capture_default_str();
+  command->add_option("--preset", options->preset, "Field and voxel size of a known case instead of the whole shoulder")
+      ->check(CLI::IsMember({"demo", "thesis-5-4-2"}));
+  command->add_option("--noise-hu", options->params.noise_hu, "Standard deviation of the noise")->capture_default_str();
+  command->add_option("--random-seed", options->params.random_seed, "Seed of the noise")->capture_default_str();
+  command->callback([options, &global] { phantom(*options, global); });
+}
+
+}  // namespace ream::app
