@@ -31,6 +31,7 @@ struct ReamingScene {
     contact = collide::make_contact_shell(shell::make_point_shell(tool, 0.25), grid.spacing_mm.maxCoeff());
     profile = shell::swept_profile(tool.profile, collide::RemovalSchedule::needed_margin_mm(grid));
     distance = voxel::brick_distance(bone);
+    bone_box_mm = collide::bone_bounds_mm(bone);
   }
 
   collide::NarrowPhaseInput contact_input() const { return {contact, bone, distance}; }
@@ -48,7 +49,7 @@ struct ReamingScene {
     return pose(3.0 + 5.0 * unit(random), tilt, Vec3(9.0 * unit(random), 8.0 * unit(random), 0.0));
   }
   collide::Voi voi(const QuantisedPose& grid_from_tool) const {
-    return collide::broad_phase(collide::bone_bounds_mm(bone), contact.bounds_mm, dequantised(grid_from_tool), 1.0);
+    return collide::broad_phase(bone_box_mm, contact.bounds_mm, dequantised(grid_from_tool), 1.0);
   }
 
   voxel::BoneModel bone;
@@ -56,6 +57,7 @@ struct ReamingScene {
   collide::ContactShell contact;
   shell::SweptProfile profile;
   voxel::BrickDistance distance;
+  Aabb bone_box_mm;
 };
 
 }  // namespace ream::test

@@ -22,7 +22,7 @@ void expect_equal_bits() {
   test::on_every_device([](const gpu::Device& device) {
     const gpu::Queue queue(device);
     std::mt19937 random(51);
-    for (const Vec3i& dims : {Vec3i(1, 1, 1), Vec3i(7, 5, 3), Vec3i(33, 9, 17)})
+    for (const Vec3i& dims : {Vec3i(1, 1, 1), Vec3i(7, 5, 3), Vec3i(21, 6, 9)})
       for (const int factor : {1, 2, 3, 8, 16}) {
         const std::vector<T> input = random_volume<T>(dims, random);
         EXPECT_EQ(upsample_trilinear_cl(queue, std::span<const T>(input), dims, factor),
