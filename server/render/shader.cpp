@@ -31,9 +31,8 @@ vec3 srgb(vec3 linear) {
 
 void main() {
   vec3 to_eye = normalize(-camera_position);
-  vec3 n = has_normals ? camera_normal : cross(dFdx(camera_position), dFdy(camera_position));
-  n = normalize(n);
-  if (dot(n, to_eye) < 0.0) n = -n;
+  vec3 n = has_normals ? normalize(camera_normal) : normalize(cross(dFdx(camera_position), dFdy(camera_position)));
+  if (has_normals ? !gl_FrontFacing : dot(n, to_eye) < 0.0) n = -n;
 
   vec3 key = normalize(vec3(-0.45, 0.65, 0.75));
   vec3 fill = normalize(vec3(0.8, -0.1, 0.5));

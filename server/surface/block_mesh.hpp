@@ -32,8 +32,8 @@ Vec3f position_mm(const BlockVertex& vertex, const Vec3i& block, const Vec3& spa
 
 /// Extracts the surface at coverage 127.5, which lies between voxel centres; outside the grid coverage is 0, so the surface
 /// is closed at the grid's borders. A block owns the cells whose minimum corner voxel lies in it, and the blocks at the
-/// grid's minimum sides also the cells between the virtual voxel -1 and voxel 0. Normals are central differences of
-/// coverage, pointing out of the bone. Holds working memory only: one per thread.
+/// grid's minimum sides also the cells between the virtual voxel -1 and voxel 0. Normals are smoothed central
+/// differences of coverage, pointing out of the bone. Holds working memory only: one per thread.
 class BlockExtractor {
  public:
   explicit BlockExtractor(const voxel::VoxelGrid& grid);
