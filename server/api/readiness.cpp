@@ -33,13 +33,15 @@ Readiness::~Readiness() {
 void Readiness::require_ready() const {
   require_prepared();
   const std::lock_guard lock(mutex_);
-  if (stage_ == Stage::failed) throw Error(ErrorKind::unavailable, "the server could not be made ready: " + reason_);
+  if (stage_ == Stage::failed)
+    throw Error(ErrorKind::unavailable, "the server could not be made ready: " + reason_);
 }
 
 void Readiness::require_prepared() const {
   const std::lock_guard lock(mutex_);
   if (stage_ == Stage::preparing)
-    throw Error(ErrorKind::unavailable, "the server is still preparing its demo case; try again in a few seconds");
+    throw Error(ErrorKind::unavailable,
+                "the server is still preparing its demo case; try again in a few seconds");
 }
 
 }  // namespace ream::api

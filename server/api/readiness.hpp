@@ -6,8 +6,8 @@
 
 namespace ream::api {
 
-/// What must be made before the first session (the demo case, say), done once in the background while the server
-/// answers already. Thread-safe.
+/// What must be made before the first session (the demo case, say), done once in the background while the
+/// server answers already. Thread-safe.
 class Readiness {
  public:
   /// Begins at once; an empty function is ready at once.

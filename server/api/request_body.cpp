@@ -33,11 +33,13 @@ RequestBody::RequestBody(const net::Request& request) {
   try {
     value_ = nlohmann::json::parse(request.body);
   } catch (const nlohmann::json::parse_error& error) {
-    throw net::RequestError(400, "the request body is not JSON: it fails at byte " + std::to_string(error.byte));
+    throw net::RequestError(400,
+                            "the request body is not JSON: it fails at byte " + std::to_string(error.byte));
   } catch (const nlohmann::json::out_of_range&) {
     throw net::RequestError(400, "the request body holds a number too large for any use");
   }
-  if (!value_.is_object()) throw net::RequestError(422, "the request body must be a JSON object", {{"#", "must be an object"}});
+  if (!value_.is_object())
+    throw net::RequestError(422, "the request body must be a JSON object", {{"#", "must be an object"}});
 }
 
 const nlohmann::json* RequestBody::find(const std::string& key) {

@@ -9,11 +9,12 @@
 
 namespace ream::api {
 
-/// Strict reading of a JSON request body: every key is asked for by name and type; finish() reports all that was wrong
-/// at once, unknown keys included.
+/// Strict reading of a JSON request body: every key is asked for by name and type; finish() reports all that
+/// was wrong at once, unknown keys included.
 class RequestBody {
  public:
-  /// Throws RequestError: 415 when it is not sent as JSON, 400 when it is not JSON, 422 when it is not an object.
+  /// Throws RequestError: 415 when it is not sent as JSON, 400 when it is not JSON, 422 when it is not an
+  /// object.
   explicit RequestBody(const net::Request& request);
 
   /// A name of [a-z0-9-], at most 64 long. Empty when there is something wrong with it.

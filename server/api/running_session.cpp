@@ -4,12 +4,18 @@ namespace ream::api {
 
 std::string to_text(SessionState state) {
   switch (state) {
-    case SessionState::created: return "created";
-    case SessionState::running: return "running";
-    case SessionState::paused: return "paused";
-    case SessionState::finished: return "finished";
-    case SessionState::stopped: return "stopped";
-    case SessionState::fault: return "fault";
+    case SessionState::created:
+      return "created";
+    case SessionState::running:
+      return "running";
+    case SessionState::paused:
+      return "paused";
+    case SessionState::finished:
+      return "finished";
+    case SessionState::stopped:
+      return "stopped";
+    case SessionState::fault:
+      return "fault";
   }
   return "fault";
 }

@@ -37,7 +37,8 @@ struct SessionStatus {
 };
 
 /// One training session, ready for its first tick: what the server asks of it. Called from several worker
-/// threads at once, so every function is safe against the others; none may wait for a viewer. Destroying it stops it.
+/// threads at once, so every function is safe against the others; none may wait for a viewer. Destroying it
+/// stops it.
 class RunningSession {
  public:
   virtual ~RunningSession() = default;
@@ -51,7 +52,8 @@ class RunningSession {
   /// The keys of metrics.json; grid_hash is null until the end.
   virtual nlohmann::json metrics() const = 0;
 
-  /// A viewer joins: Hello first, then the whole surface, then what changes. It may outlive stop(), not the session.
+  /// A viewer joins: Hello first, then the whole surface, then what changes. It may outlive stop(), not the
+  /// session.
   virtual std::unique_ptr<net::WebSocketSession> subscribe() = 0;
 };
 

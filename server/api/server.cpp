@@ -11,7 +11,9 @@ namespace ream::api {
 namespace {
 
 void add_health_routes(net::Router& router, const Readiness& readiness) {
-  router.on("GET", "/healthz", [](const net::Request&) { return net::json_response(200, {{"status", "ok"}}); });
+  router.on("GET", "/healthz", [](const net::Request&) {
+    return net::json_response(200, {{"status", "ok"}});
+  });
   router.on("GET", "/readyz", [&readiness](const net::Request&) {
     readiness.require_ready();
     return net::json_response(200, {{"status", "ready"}});
@@ -44,9 +46,13 @@ Server::Server(ServerOptions options)
       router_(router_of(options, sessions_, readiness_)),
       listener_(router_, options.listen) {}
 
-Server::~Server() { stop(); }
+Server::~Server() {
+  stop();
+}
 
-void Server::start() { listener_.start(); }
+void Server::start() {
+  listener_.start();
+}
 
 void Server::run() {
   start();

@@ -62,7 +62,9 @@ struct SessionService::Entry {
 SessionService::SessionService(SessionFactory factory, SessionLimits limits)
     : factory_(std::move(factory)), limits_(limits) {}
 
-SessionService::~SessionService() { shut_down(); }
+SessionService::~SessionService() {
+  shut_down();
+}
 
 void SessionService::reserve_place() {
   const std::lock_guard lock(mutex_);
@@ -70,16 +72,17 @@ void SessionService::reserve_place() {
   const auto live = static_cast<size_t>(
       std::count_if(entries_.begin(), entries_.end(), [](const auto& entry) { return entry->live(); }));
   if (live + being_made_ >= limits_.live)
-    throw Error(ErrorKind::unavailable, std::to_string(limits_.live) +
-                                            " sessions are live, as many as this server runs at once; stop one first");
+    throw Error(ErrorKind::unavailable,
+                std::to_string(limits_.live) +
+                    " sessions are live, as many as this server runs at once; stop one first");
   ++being_made_;
 }
 
 std::string SessionService::unused_id() const {
   for (;;) {
     const std::string id = random_id();
-    const bool taken =
-        std::any_of(entries_.begin(), entries_.end(), [&](const auto& entry) { return entry->request.id == id; });
+    const bool taken = std::any_of(entries_.begin(), entries_.end(),
+                                   [&](const auto& entry) { return entry->request.id == id; });
     if (!taken) return id;
   }
 }
@@ -143,7 +146,9 @@ std::vector<SessionRecord> SessionService::list() const {
   return records;
 }
 
-SessionRecord SessionService::get(const std::string& id) const { return find(id)->record(); }
+SessionRecord SessionService::get(const std::string& id) const {
+  return find(id)->record();
+}
 
 SessionRecord SessionService::start(const std::string& id) {
   const auto entry = find(id);
@@ -170,7 +175,9 @@ SessionRecord SessionService::stop(const std::string& id) {
   return entry->record();
 }
 
-nlohmann::json SessionService::metrics(const std::string& id) const { return find(id)->running->metrics(); }
+nlohmann::json SessionService::metrics(const std::string& id) const {
+  return find(id)->running->metrics();
+}
 
 std::unique_ptr<net::WebSocketSession> SessionService::subscribe(const std::string& id) const {
   auto entry = find(id);

@@ -46,7 +46,10 @@ class ConnectionRegistry {
 /// Destroyed bottom up: the io_context first, and with it the connections that wait on it.
 struct Engine {
   Engine(const Router& routes, const Limits& most, size_t io_threads, size_t worker_threads)
-      : router(routes), limits(most), workers(worker_threads, most.waiting_requests), io(static_cast<int>(io_threads)) {}
+      : router(routes),
+        limits(most),
+        workers(worker_threads, most.waiting_requests),
+        io(static_cast<int>(io_threads)) {}
 
   const Router& router;
   const Limits limits;

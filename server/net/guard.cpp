@@ -54,7 +54,9 @@ bool is_loopback_host(std::string_view host) {
 std::optional<Response> refuse_foreign(const Request& request, bool is_websocket) {
   const std::string_view host = request.header("host");
   if (!is_loopback_host(name_of_authority(host)))
-    return problem(421, "the Host header must be localhost, 127.0.0.1 or [::1]: this server answers its own machine only");
+    return problem(
+        421,
+        "the Host header must be localhost, 127.0.0.1 or [::1]: this server answers its own machine only");
   const bool reads_only = request.method == "GET" || request.method == "HEAD";
   const std::string_view origin = request.header("origin");
   if ((is_websocket || !reads_only) && !origin.empty() && !same_origin(origin, host))

@@ -22,7 +22,9 @@ namespace {
 using Parser = http::request_parser<http::string_body>;
 using Outgoing = http::response<http::span_body<const char>>;
 
-std::string text(beast::string_view view) { return {view.data(), view.size()}; }
+std::string text(beast::string_view view) {
+  return {view.data(), view.size()};
+}
 
 std::string lower(std::string name) {
   std::transform(name.begin(), name.end(), name.begin(),
@@ -47,12 +49,15 @@ bool wants_websocket(const Request& request) {
   return request.method == "GET" && lower(std::string(request.header("upgrade"))) == "websocket";
 }
 
-/// One HTTP/1.1 connection: read a request, have a worker answer it, write, again. Everything but the handler runs on
-/// the socket's strand.
+/// One HTTP/1.1 connection: read a request, have a worker answer it, write, again. Everything but the handler
+/// runs on the socket's strand.
 class HttpConnection final : public Connection, public std::enable_shared_from_this<HttpConnection> {
  public:
   HttpConnection(Engine& engine, tcp::socket socket)
-      : engine_(engine), socket_(std::move(socket)), watchdog_(socket_), buffer_(engine.limits.header_bytes + 65536) {}
+      : engine_(engine),
+        socket_(std::move(socket)),
+        watchdog_(socket_),
+        buffer_(engine.limits.header_bytes + 65536) {}
   ~HttpConnection() override { engine_.connections.remove(this); }
 
   void start(bool refuse) {
@@ -84,12 +89,13 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
     parser_->body_limit(engine_.limits.body_bytes);
     reading_ = true;
     watchdog_.arm(engine_.limits.idle, shared_from_this());
-    http::async_read_header(socket_, buffer_, *parser_, [self = shared_from_this()](error_code failed, size_t) {
-      if (failed)
-        self->explain_bad_request(failed);
-      else
-        self->on_head();
-    });
+    http::async_read_header(socket_, buffer_, *parser_,
+                            [self = shared_from_this()](error_code failed, size_t) {
+                              if (failed)
+                                self->explain_bad_request(failed);
+                              else
+                                self->on_head();
+                            });
   }
 
   void on_head() {
@@ -135,12 +141,13 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
   }
 
   void answer() {
-    const bool taken = engine_.workers.submit([self = shared_from_this(), request = std::move(request_)]() mutable {
-      self->head_only_ = request.method == "HEAD";
-      Response response = self->engine_.router.respond(std::move(request));
-      asio::post(self->socket_.get_executor(),
-                 [self, response = std::move(response)]() mutable { self->write(std::move(response)); });
-    });
+    const bool taken =
+        engine_.workers.submit([self = shared_from_this(), request = std::move(request_)]() mutable {
+          self->head_only_ = request.method == "HEAD";
+          Response response = self->engine_.router.respond(std::move(request));
+          asio::post(self->socket_.get_executor(),
+                     [self, response = std::move(response)]() mutable { self->write(std::move(response)); });
+        });
     if (!taken) fail(503, "the server is busy; try again");
   }
 
@@ -229,8 +236,8 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
     drain();
   }
 
-  /// Closing a socket with unread input resets it and can destroy our last words on their way: read on until the peer
-  /// closes or the linger time is over.
+  /// Closing a socket with unread input resets it and can destroy our last words on their way: read on until
+  /// the peer closes or the linger time is over.
   void drain() {
     buffer_.clear();
     socket_.async_read_some(buffer_.prepare(65536), [self = shared_from_this()](error_code failed, size_t) {

@@ -20,9 +20,10 @@ namespace {
 
 tcp::endpoint endpoint_of(const ListenOptions& options) {
   if (!is_loopback_host(options.host))
-    throw Error(ErrorKind::usage, "--host " + options.host +
-                                      ": without users the server binds to this machine only; use 127.0.0.1, ::1 or "
-                                      "localhost");
+    throw Error(ErrorKind::usage,
+                "--host " + options.host +
+                    ": without users the server binds to this machine only; use 127.0.0.1, ::1 or "
+                    "localhost");
   const std::string address = options.host == "localhost" ? "127.0.0.1" : options.host;
   boost::system::error_code failed;
   const auto parsed = asio::ip::make_address(address, failed);
@@ -33,7 +34,8 @@ tcp::endpoint endpoint_of(const ListenOptions& options) {
   const std::string place = "port " + std::to_string(options.port) + " on " + options.host;
   if (failed == asio::error::address_in_use)
     throw Error(ErrorKind::unavailable, place + " is in use; choose another with --port");
-  throw Error(ErrorKind::unavailable, place + " cannot be used: " + failed.message() + "; choose another with --port");
+  throw Error(ErrorKind::unavailable,
+              place + " cannot be used: " + failed.message() + "; choose another with --port");
 }
 
 void open(tcp::acceptor& acceptor, const ListenOptions& options) {
@@ -60,15 +62,16 @@ struct Listener::Parts {
   }
 
   void accept() {
-    acceptor.async_accept(asio::make_strand(engine.io), [this](boost::system::error_code failed, tcp::socket socket) {
-      if (!acceptor.is_open()) return;
-      if (failed) {
-        accept_later(failed);
-        return;
-      }
-      accept();
-      start_http(engine, std::move(socket), engine.connections.size() >= engine.limits.connections);
-    });
+    acceptor.async_accept(
+        asio::make_strand(engine.io), [this](boost::system::error_code failed, tcp::socket socket) {
+          if (!acceptor.is_open()) return;
+          if (failed) {
+            accept_later(failed);
+            return;
+          }
+          accept();
+          start_http(engine, std::move(socket), engine.connections.size() >= engine.limits.connections);
+        });
   }
 
   /// Out of file descriptors, say: trying again at once would only spin.
@@ -92,7 +95,8 @@ struct Listener::Parts {
   }
 
   Engine engine;
-  /// While a handler runs, its connection has nothing pending: the I/O threads must not take that for the end.
+  /// While a handler runs, its connection has nothing pending: the I/O threads must not take that for the
+  /// end.
   asio::executor_work_guard<asio::io_context::executor_type> until_stopped;
   tcp::acceptor acceptor;
   asio::steady_timer pause;
@@ -105,9 +109,13 @@ struct Listener::Parts {
 Listener::Listener(const Router& router, const ListenOptions& options)
     : parts_(std::make_unique<Parts>(router, options)) {}
 
-Listener::~Listener() { stop(); }
+Listener::~Listener() {
+  stop();
+}
 
-uint16_t Listener::port() const { return parts_->bound_port; }
+uint16_t Listener::port() const {
+  return parts_->bound_port;
+}
 
 void Listener::start() {
   asio::post(parts_->acceptor.get_executor(), [parts = parts_.get()] { parts->accept(); });

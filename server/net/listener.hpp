@@ -33,8 +33,8 @@ class Listener {
 
   void start();
 
-  /// Takes no new connections, lets requests under way finish (Limits::stop), says "going away" to WebSockets and
-  /// returns when no handler and no session is called any more. Not from a handler. May be called twice.
+  /// Takes no new connections, lets requests under way finish (Limits::stop), says "going away" to WebSockets
+  /// and returns when no handler and no session is called any more. Not from a handler. May be called twice.
   void stop();
 
  private:

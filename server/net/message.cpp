@@ -89,7 +89,8 @@ void set_target(Request& request, std::string_view target) {
     const size_t end = rest.find('&');
     const std::string_view pair = rest.substr(0, end);
     const size_t equals = pair.find('=');
-    const std::string_view value = equals == std::string_view::npos ? std::string_view{} : pair.substr(equals + 1);
+    const std::string_view value =
+        equals == std::string_view::npos ? std::string_view{} : pair.substr(equals + 1);
     if (!pair.empty())
       request.query[percent_decode(pair.substr(0, equals), true)] = percent_decode(value, true);
     rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 1);

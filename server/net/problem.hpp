@@ -33,7 +33,8 @@ int http_status(ErrorKind kind);
 /// Reason phrase: "Not Found" for 404; "Error" for a status this server never sends.
 std::string status_title(int status);
 
-/// application/problem+json (RFC 9457) with type, title, status, detail and, when given, errors[{pointer, detail}].
+/// application/problem+json (RFC 9457) with type, title, status, detail and, when given, errors[{pointer,
+/// detail}].
 Response problem(int status, const std::string& detail, const std::vector<FieldError>& errors = {});
 
 /// Problem of an exception that left a handler. What is not an Error becomes a plain 500; its words go to the

@@ -12,7 +12,9 @@ namespace ream::net {
 namespace fs = std::filesystem;
 namespace {
 
-[[noreturn]] void refuse(const std::string& path) { throw Error(ErrorKind::not_found, "no such page: " + path); }
+[[noreturn]] void refuse(const std::string& path) {
+  throw Error(ErrorKind::not_found, "no such page: " + path);
+}
 
 /// Relative path without any segment that could lead out of the folder or to a hidden file.
 fs::path safe_relative(const std::string& path) {

@@ -7,8 +7,8 @@
 
 namespace ream::net {
 
-/// Closes a socket when its time is up. Belongs to one connection and runs on its strand, so a close never races
-/// with another use of the socket; everything pending on it then ends with operation_aborted.
+/// Closes a socket when its time is up. Belongs to one connection and runs on its strand, so a close never
+/// races with another use of the socket; everything pending on it then ends with operation_aborted.
 class Watchdog {
  public:
   explicit Watchdog(boost::asio::ip::tcp::socket& socket) : socket_(socket), timer_(socket.get_executor()) {}

@@ -8,18 +8,18 @@
 
 namespace ream::net {
 
-/// The server's side of one WebSocket connection. All calls come one after another (never two at once) from the
-/// I/O threads, so none may block. An exception that leaves a call closes the connection (code 1011).
+/// The server's side of one WebSocket connection. All calls come one after another (never two at once) from
+/// the I/O threads, so none may block. An exception that leaves a call closes the connection (code 1011).
 class WebSocketSession {
  public:
   virtual ~WebSocketSession() = default;
 
-  /// First call, once the connection stands. `wake` asks the server to call next() again; it may be called from any
-  /// thread, any number of times, also after the connection is gone.
+  /// First call, once the connection stands. `wake` asks the server to call next() again; it may be called
+  /// from any thread, any number of times, also after the connection is gone.
   virtual void on_open(std::function<void()> wake) = 0;
 
-  /// The next binary message, or nothing for now. Asked for when the previous one has left and after each wake, so
-  /// a slow viewer pulls less often and the session decides what it may skip.
+  /// The next binary message, or nothing for now. Asked for when the previous one has left and after each
+  /// wake, so a slow viewer pulls less often and the session decides what it may skip.
   virtual std::optional<SharedBytes> next() = 0;
 
   /// One whole message of the peer.

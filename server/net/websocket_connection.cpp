@@ -26,7 +26,8 @@ http::request<http::empty_body> handshake_of(const Request& request) {
   return handshake;
 }
 
-class WebSocketConnection final : public Connection, public std::enable_shared_from_this<WebSocketConnection> {
+class WebSocketConnection final : public Connection,
+                                  public std::enable_shared_from_this<WebSocketConnection> {
  public:
   WebSocketConnection(Engine& engine, tcp::socket socket, std::unique_ptr<WebSocketSession> session)
       : engine_(engine),
@@ -42,8 +43,8 @@ class WebSocketConnection final : public Connection, public std::enable_shared_f
 
   void start(const Request& request) {
     if (!engine_.connections.add(shared_from_this())) return;
-    // The stream's own timeouts find peers that vanished (unanswered pings); the watchdog finds those that stay
-    // but do not read.
+    // The stream's own timeouts find peers that vanished (unanswered pings); the watchdog finds those that
+    // stay but do not read.
     auto timeouts = websocket::stream_base::timeout::suggested(beast::role_type::server);
     timeouts.idle_timeout = engine_.limits.idle;
     timeouts.keep_alive_pings = true;
@@ -195,7 +196,8 @@ class WebSocketConnection final : public Connection, public std::enable_shared_f
 
 }  // namespace
 
-void start_websocket(Engine& engine, tcp::socket socket, Request request, std::unique_ptr<WebSocketSession> session) {
+void start_websocket(Engine& engine, tcp::socket socket, Request request,
+                     std::unique_ptr<WebSocketSession> session) {
   std::make_shared<WebSocketConnection>(engine, std::move(socket), std::move(session))->start(request);
 }
 

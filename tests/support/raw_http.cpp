@@ -16,10 +16,13 @@ namespace {
 
 constexpr int timeout_s = 20;
 
-[[noreturn]] void fail(const std::string& what) { throw std::runtime_error(what + ": " + std::strerror(errno)); }
+[[noreturn]] void fail(const std::string& what) {
+  throw std::runtime_error(what + ": " + std::strerror(errno));
+}
 
 std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
   return text;
 }
 
@@ -48,7 +51,9 @@ RawSocket::RawSocket(uint16_t port, int receive_buffer_bytes) : socket_(::socket
   }
 }
 
-RawSocket::~RawSocket() { ::close(socket_); }
+RawSocket::~RawSocket() {
+  ::close(socket_);
+}
 
 bool RawSocket::try_send(const std::string& bytes) {
   for (size_t sent = 0; sent < bytes.size();) {
@@ -63,7 +68,9 @@ void RawSocket::send(const std::string& bytes) {
   if (!try_send(bytes)) fail("send");
 }
 
-void RawSocket::end_sending() { ::shutdown(socket_, SHUT_WR); }
+void RawSocket::end_sending() {
+  ::shutdown(socket_, SHUT_WR);
+}
 
 bool RawSocket::fill() {
   char chunk[65536];
@@ -91,7 +98,8 @@ std::string RawSocket::receive_all() {
 std::string RawSocket::receive_until(const std::string& mark) {
   size_t at = 0;
   while ((at = buffer_.find(mark)) == std::string::npos)
-    if (!fill()) throw std::runtime_error("the peer closed before the end of its header; got '" + buffer_ + "'");
+    if (!fill())
+      throw std::runtime_error("the peer closed before the end of its header; got '" + buffer_ + "'");
   return receive(at + mark.size());
 }
 
@@ -109,10 +117,11 @@ HttpReply receive_reply(RawSocket& socket, bool has_body) {
   return reply;
 }
 
-HttpReply http_request(uint16_t port, const std::string& method, const std::string& target, const std::string& body,
-                       const std::map<std::string, std::string>& headers) {
+HttpReply http_request(uint16_t port, const std::string& method, const std::string& target,
+                       const std::string& body, const std::map<std::string, std::string>& headers) {
   RawSocket socket(port);
-  std::map<std::string, std::string> all = {{"Host", "127.0.0.1:" + std::to_string(port)}, {"Connection", "close"}};
+  std::map<std::string, std::string> all = {{"Host", "127.0.0.1:" + std::to_string(port)},
+                                            {"Connection", "close"}};
   if (!body.empty() || method == "POST") all["Content-Length"] = std::to_string(body.size());
   if (!body.empty()) all["Content-Type"] = "application/json";
   for (const auto& [name, value] : headers) all[name] = value;
@@ -120,8 +129,8 @@ HttpReply http_request(uint16_t port, const std::string& method, const std::stri
   return receive_reply(socket, method != "HEAD");
 }
 
-RawWebSocket::RawWebSocket(uint16_t port, const std::string& target, const std::map<std::string, std::string>& headers,
-                           int receive_buffer_bytes)
+RawWebSocket::RawWebSocket(uint16_t port, const std::string& target,
+                           const std::map<std::string, std::string>& headers, int receive_buffer_bytes)
     : socket_(port, receive_buffer_bytes) {
   std::map<std::string, std::string> all = {{"Host", "127.0.0.1:" + std::to_string(port)},
                                             {"Upgrade", "websocket"},
@@ -149,7 +158,9 @@ void RawWebSocket::send_frame(int opcode, const std::string& payload) {
   socket_.send(frame);
 }
 
-void RawWebSocket::send_binary(const std::string& payload) { send_frame(2, payload); }
+void RawWebSocket::send_binary(const std::string& payload) {
+  send_frame(2, payload);
+}
 
 void RawWebSocket::send_close(uint16_t code) {
   send_frame(8, {static_cast<char>(code >> 8), static_cast<char>(code & 0xff)});
@@ -164,7 +175,8 @@ RawWebSocket::Message RawWebSocket::receive() {
     const int more = size == 126 ? 2 : size == 127 ? 8 : 0;
     if (more > 0) {
       size = 0;
-      for (const char byte : socket_.receive(static_cast<size_t>(more))) size = size << 8 | static_cast<unsigned char>(byte);
+      for (const char byte : socket_.receive(static_cast<size_t>(more)))
+        size = size << 8 | static_cast<unsigned char>(byte);
     }
     message.payload = socket_.receive(size);
     if (message.opcode == 9)
@@ -176,7 +188,8 @@ RawWebSocket::Message RawWebSocket::receive() {
 
 std::optional<uint16_t> RawWebSocket::Message::close_code() const {
   if (opcode != 8 || payload.size() < 2) return std::nullopt;
-  return static_cast<uint16_t>(static_cast<unsigned char>(payload[0]) << 8 | static_cast<unsigned char>(payload[1]));
+  return static_cast<uint16_t>(static_cast<unsigned char>(payload[0]) << 8 |
+                               static_cast<unsigned char>(payload[1]));
 }
 
 }  // namespace ream::test

@@ -8,8 +8,8 @@
 
 namespace ream::test {
 
-/// A blocking TCP connection to 127.0.0.1 with a timeout on every call, written on plain sockets so that it shares no code
-/// with the server. Failures throw std::runtime_error.
+/// A blocking TCP connection to 127.0.0.1 with a timeout on every call, written on plain sockets so that it
+/// shares no code with the server. Failures throw std::runtime_error.
 class RawSocket {
  public:
   explicit RawSocket(uint16_t port, int receive_buffer_bytes = 0);
@@ -52,8 +52,8 @@ HttpReply http_request(uint16_t port, const std::string& method, const std::stri
 /// The client's side of a WebSocket (RFC 6455), unfragmented messages only.
 class RawWebSocket {
  public:
-  RawWebSocket(uint16_t port, const std::string& target, const std::map<std::string, std::string>& headers = {},
-               int receive_buffer_bytes = 0);
+  RawWebSocket(uint16_t port, const std::string& target,
+               const std::map<std::string, std::string>& headers = {}, int receive_buffer_bytes = 0);
 
   /// 101 when open.
   const HttpReply& handshake() const { return handshake_; }

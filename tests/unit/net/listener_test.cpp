@@ -21,9 +21,12 @@ using namespace std::chrono_literals;
 class ListenerTest : public testing::Test {
  protected:
   ListenerTest() {
-    router.on("GET", "/hello", [](const Request&) { return bytes_response(200, "text/plain", share("hello")); });
-    router.on("POST", "/echo", [](const Request& request) { return bytes_response(200, "text/plain", share(request.body)); });
-    router.on("GET", "/large", [this](const Request&) { return bytes_response(200, "application/octet-stream", large); });
+    router.on("GET", "/hello",
+              [](const Request&) { return bytes_response(200, "text/plain", share("hello")); });
+    router.on("POST", "/echo",
+              [](const Request& request) { return bytes_response(200, "text/plain", share(request.body)); });
+    router.on("GET", "/large",
+              [this](const Request&) { return bytes_response(200, "application/octet-stream", large); });
     router.on("GET", "/wait", [this](const Request&) {
       waiting.set_value();
       release.get_future().wait();
@@ -48,7 +51,9 @@ class ListenerTest : public testing::Test {
   std::unique_ptr<Listener> listener;
 };
 
-std::string get_line(const std::string& path) { return "GET " + path + " HTTP/1.1\r\nHost: localhost\r\n\r\n"; }
+std::string get_line(const std::string& path) {
+  return "GET " + path + " HTTP/1.1\r\nHost: localhost\r\n\r\n";
+}
 
 TEST_F(ListenerTest, AnswersWithSecurityHeaders) {
   const HttpReply reply = http_request(start(), "GET", "/hello");
@@ -118,8 +123,9 @@ TEST_F(ListenerTest, TruncatedRequestIsExplainedAndEnds) {
 
 TEST_F(ListenerTest, WhatIsNotHttpIs400AndTheServerLivesOn) {
   const uint16_t port = start();
-  for (const std::string& line : {std::string("\x16\x03\x01\x02"), std::string("GET\r\n\r\n"), std::string("GET /hello HTTP/9\r\n\r\n"),
-                                 std::string("GET /%zz HTTP/1.1\r\nHost: localhost\r\n\r\n")}) {
+  for (const std::string& line :
+       {std::string("\x16\x03\x01\x02"), std::string("GET\r\n\r\n"), std::string("GET /hello HTTP/9\r\n\r\n"),
+        std::string("GET /%zz HTTP/1.1\r\nHost: localhost\r\n\r\n")}) {
     RawSocket socket(port);
     socket.send(line);
     socket.end_sending();
@@ -163,7 +169,9 @@ TEST_F(ListenerTest, SlowReaderIsCutAndDoesNotHoldOthersUp) {
   EXPECT_LT(slow.receive_all().size(), large->size());
 }
 
-TEST_F(ListenerTest, LargeReplyArrivesWhole) { EXPECT_EQ(http_request(start(), "GET", "/large").body.size(), large->size()); }
+TEST_F(ListenerTest, LargeReplyArrivesWhole) {
+  EXPECT_EQ(http_request(start(), "GET", "/large").body.size(), large->size());
+}
 
 TEST_F(ListenerTest, IdleConnectionIsClosed) {
   options.limits.idle = 200ms;

@@ -24,8 +24,8 @@ TEST(Target, SplitsPathAndQueryAndDecodesBoth) {
 }
 
 TEST(Target, RefusesWhatWouldBeAmbiguous) {
-  for (const char* text : {"", "cases", "http://localhost/x", "*", "/a%2fb", "/a%2Fb", "/a%5Cb", "/a\\b", "/a%00b", "/%", "/%4",
-                           "/%zz", "/a?x=%q1"})
+  for (const char* text : {"", "cases", "http://localhost/x", "*", "/a%2fb", "/a%2Fb", "/a%5Cb", "/a\\b",
+                           "/a%00b", "/%", "/%4", "/%zz", "/a?x=%q1"})
     EXPECT_THROW(target(text), RequestError) << text;
 }
 
@@ -38,8 +38,9 @@ TEST(Problem, CarriesKindAsStatusAndPlaces) {
   EXPECT_EQ(problem_of(Error(ErrorKind::io, "x")).status, 500);
   const Response response = problem_of(RequestError(400, "bad", {{"#/a", "must be a number"}}));
   EXPECT_EQ(response.content_type, "application/problem+json");
-  const auto body = nlohmann::json::parse(reinterpret_cast<const char*>(response.body->data()),
-                                          reinterpret_cast<const char*>(response.body->data()) + response.body->size());
+  const auto body =
+      nlohmann::json::parse(reinterpret_cast<const char*>(response.body->data()),
+                            reinterpret_cast<const char*>(response.body->data()) + response.body->size());
   EXPECT_EQ(body, (nlohmann::json{{"type", "about:blank"},
                                   {"title", "Bad Request"},
                                   {"status", 400},

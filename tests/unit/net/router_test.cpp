@@ -29,10 +29,12 @@ class RouterTest : public testing::Test {
       seen = request.parameters;
       return named(200);
     });
-    router.on("POST", "/broken", [](const Request&) -> Response { throw Error(ErrorKind::conflict, "not now"); });
-    router.on_websocket("/things/{id}/stream", [](const Request& request) -> std::unique_ptr<WebSocketSession> {
-      throw Error(ErrorKind::not_found, "no thing " + request.parameters.at("id"));
-    });
+    router.on("POST", "/broken",
+              [](const Request&) -> Response { throw Error(ErrorKind::conflict, "not now"); });
+    router.on_websocket("/things/{id}/stream",
+                        [](const Request& request) -> std::unique_ptr<WebSocketSession> {
+                          throw Error(ErrorKind::not_found, "no thing " + request.parameters.at("id"));
+                        });
   }
   Router router;
   std::map<std::string, std::string> seen;

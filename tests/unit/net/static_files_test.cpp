@@ -57,8 +57,9 @@ TEST_F(StaticFilesTest, KnownTagIs304UntilTheFileChanges) {
 }
 
 TEST_F(StaticFilesTest, NothingOutsideTheFolderIsServed) {
-  for (const char* path : {"/../secret.txt", "/assets/../../secret.txt", "/..", "/.", "/./index.html", "/.hidden", "//etc/passwd",
-                           "/assets//app-1234.js", "/link.txt", "/assets", "/assets/", "/missing.js", "/index.html/"}) {
+  for (const char* path : {"/../secret.txt", "/assets/../../secret.txt", "/..", "/.", "/./index.html",
+                           "/.hidden", "//etc/passwd", "/assets//app-1234.js", "/link.txt", "/assets",
+                           "/assets/", "/missing.js", "/index.html/"}) {
     try {
       get(path);
       ADD_FAILURE() << path << " was served";

@@ -81,7 +81,8 @@ class WebSocketTest : public testing::Test {
       if (request.parameters.at("id") != "1") throw Error(ErrorKind::not_found, "no such stream");
       return std::make_unique<DeskSession>(desk);
     });
-    router.on("GET", "/hello", [](const Request&) { return bytes_response(200, "text/plain", share("hello")); });
+    router.on("GET", "/hello",
+              [](const Request&) { return bytes_response(200, "text/plain", share("hello")); });
     options.port = 0;
   }
   uint16_t start() {

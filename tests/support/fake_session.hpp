@@ -1,0 +1,126 @@
+#pragma once
+#include <atomic>
+#include <chrono>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "api/running_session.hpp"
+#include "core/error.hpp"
+
+namespace ream::test {
+
+/// A session without a simulation: its states are set by hand, its stream says what it is told to.
+class FakeSession final : public api::RunningSession {
+ public:
+  /// The script's name decides what goes wrong: "no-start" refuses to start.
+  explicit FakeSession(api::SessionRequest request) : request_(std::move(request)) {
+    status_.force_scale = request_.force_scale.value_or(26.0);
+    ++alive();
+  }
+  ~FakeSession() override { --alive(); }
+
+  void start() override {
+    if (request_.script == "no-start") throw Error(ErrorKind::unavailable, "no haptic device is connected");
+    set(api::SessionState::running);
+  }
+  void stop() override {
+    set(api::SessionState::stopped);
+    ++stops();
+  }
+
+  api::SessionStatus status() const override {
+    const std::lock_guard lock(mutex_);
+    return status_;
+  }
+  nlohmann::json metrics() const override {
+    const bool ended = !api::is_live(status().state);
+    return {{"removed_volume_mm3", 12.5},
+            {"removed_volume_cortical_mm3", 10.0},
+            {"removed_volume_cancellous_mm3", 2.5},
+            {"reaming_depth_mm", 0.75},
+            {"axial_thrust_mean_n", 40.0},
+            {"axial_thrust_peak_n", 61.0},
+            {"duration_s", 1.5},
+            {"force_scale", status().force_scale},
+            {"grid_hash", ended ? nlohmann::json("00112233445566ff") : nlohmann::json(nullptr)},
+            {"session_hash", "0123456789abcdef"}};
+  }
+  std::unique_ptr<net::WebSocketSession> subscribe() override;
+
+  void set(api::SessionState state, const std::string& fault = {}) {
+    const std::lock_guard lock(mutex_);
+    status_.state = state;
+    status_.fault = fault;
+  }
+  const api::SessionRequest& request() const { return request_; }
+
+  static std::atomic<int>& alive() {
+    static std::atomic<int> count{0};
+    return count;
+  }
+  static std::atomic<int>& stops() {
+    static std::atomic<int> count{0};
+    return count;
+  }
+
+ private:
+  api::SessionRequest request_;
+  mutable std::mutex mutex_;
+  api::SessionStatus status_;
+};
+
+/// Sends "hello <session>" and then whatever the viewer sends, back.
+class FakeViewer final : public net::WebSocketSession {
+ public:
+  explicit FakeViewer(const std::string& session) { waiting_.push_back(net::share("hello " + session)); }
+  void on_open(std::function<void()> wake) override { wake_ = std::move(wake); }
+  std::optional<net::SharedBytes> next() override {
+    if (waiting_.empty()) return std::nullopt;
+    net::SharedBytes message = waiting_.front();
+    waiting_.pop_front();
+    return message;
+  }
+  void on_message(std::span<const std::byte> message) override {
+    waiting_.push_back(std::make_shared<const net::Bytes>(message.begin(), message.end()));
+    wake_();
+  }
+  void on_close() noexcept override {}
+
+ private:
+  std::deque<net::SharedBytes> waiting_;
+  std::function<void()> wake_;
+};
+
+inline std::unique_ptr<net::WebSocketSession> FakeSession::subscribe() {
+  return std::make_unique<FakeViewer>(request_.id);
+}
+
+/// Makes fake sessions and remembers them; the case's name decides what goes wrong.
+class FakeFactory {
+ public:
+  api::SessionFactory function() {
+    return [this](const api::SessionRequest& request) -> std::unique_ptr<api::RunningSession> {
+      if (request.case_id == "missing") throw Error(ErrorKind::not_found, "no case 'missing'");
+      if (request.case_id == "unplanned") throw Error(ErrorKind::conflict, "case 'unplanned' has no plan");
+      auto session = std::make_unique<FakeSession>(request);
+      const std::lock_guard lock(mutex_);
+      made_.push_back(session.get());
+      return session;
+    };
+  }
+  /// In order of making; the caller knows which still live.
+  FakeSession& made(size_t index) {
+    const std::lock_guard lock(mutex_);
+    return *made_.at(index);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<FakeSession*> made_;
+};
+
+}  // namespace ream::test

@@ -1,0 +1,133 @@
+#include "api/session_service.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <thread>
+
+#include "support/expect_error.hpp"
+#include "support/fake_session.hpp"
+
+namespace ream::api {
+namespace {
+
+using test::expect_error;
+using test::FakeSession;
+
+SessionRequest demo() {
+  return {{}, "demo", "demo", {}};
+}
+
+class SessionServiceTest : public testing::Test {
+ protected:
+  SessionServiceTest() : service(factory.function(), {3, 2}) {}
+  std::string create() { return service.create(demo()).request.id; }
+
+  const int alive_before = FakeSession::alive();
+  test::FakeFactory factory;
+  SessionService service;
+};
+
+TEST_F(SessionServiceTest, GoesThroughItsStates) {
+  const SessionRecord made = service.create({{}, "demo", "demo", 13.0});
+  EXPECT_EQ(made.status.state, SessionState::created);
+  EXPECT_EQ(made.status.force_scale, 13.0);
+  EXPECT_EQ(factory.made(0).request().id, made.request.id);
+  EXPECT_EQ(service.start(made.request.id).status.state, SessionState::running);
+  expect_error(ErrorKind::conflict, "is running", [&] { service.start(made.request.id); });
+  EXPECT_EQ(service.stop(made.request.id).status.state, SessionState::stopped);
+  expect_error(ErrorKind::conflict, "is stopped", [&] { service.stop(made.request.id); });
+  expect_error(ErrorKind::conflict, "is stopped", [&] { service.start(made.request.id); });
+}
+
+TEST_F(SessionServiceTest, UnknownIdIsNotFound) {
+  expect_error(ErrorKind::not_found, "no session 'nobody'", [&] { service.get("nobody"); });
+  expect_error(ErrorKind::not_found, "nobody", [&] { service.start("nobody"); });
+  expect_error(ErrorKind::not_found, "nobody", [&] { service.metrics("nobody"); });
+  expect_error(ErrorKind::not_found, "nobody", [&] { service.subscribe("nobody"); });
+}
+
+TEST_F(SessionServiceTest, ListsNewestFirstUnderDifferentIds) {
+  std::vector<std::string> ids{create(), create(), create()};
+  std::vector<std::string> listed;
+  for (const SessionRecord& record : service.list()) listed.insert(listed.begin(), record.request.id);
+  EXPECT_EQ(listed, ids);
+  EXPECT_EQ(std::set<std::string>(ids.begin(), ids.end()).size(), 3u);
+  for (const std::string& id : ids)
+    EXPECT_EQ(id.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789"), std::string::npos) << id;
+}
+
+TEST_F(SessionServiceTest, NoMoreLiveSessionsThanStated) {
+  const std::string first = create();
+  create();
+  create();
+  expect_error(ErrorKind::unavailable, "3 sessions are live", [&] { create(); });
+  service.stop(first);
+  EXPECT_NO_THROW(create());
+}
+
+TEST_F(SessionServiceTest, AFailedFactoryTakesNoPlace) {
+  for (int i = 0; i < 5; ++i)
+    expect_error(ErrorKind::not_found, "missing", [&] { service.create({{}, "missing", "demo", {}}); });
+  create();
+  create();
+  EXPECT_NO_THROW(create());
+}
+
+TEST_F(SessionServiceTest, ForgetsTheOldestEndedOnesOnly) {
+  const std::string living = create();
+  std::vector<std::string> ended;
+  for (int i = 0; i < 4; ++i) {
+    ended.push_back(create());
+    service.stop(ended.back());
+  }
+  create();
+  EXPECT_NO_THROW(service.get(living));
+  expect_error(ErrorKind::not_found, ended[0], [&] { service.get(ended[0]); });
+  expect_error(ErrorKind::not_found, ended[1], [&] { service.get(ended[1]); });
+  EXPECT_NO_THROW(service.get(ended[2]));
+  EXPECT_NO_THROW(service.get(ended[3]));
+}
+
+TEST_F(SessionServiceTest, AViewerKeepsAForgottenSession) {
+  const std::string watched = create();
+  service.stop(watched);
+  auto viewer = service.subscribe(watched);
+  for (int i = 0; i < 3; ++i) service.stop(create());
+  create();
+  expect_error(ErrorKind::not_found, watched, [&] { service.get(watched); });
+  const int alive = FakeSession::alive();
+  viewer.reset();
+  EXPECT_EQ(FakeSession::alive(), alive - 1);
+}
+
+TEST_F(SessionServiceTest, ShutDownStopsWhatRunsAndTakesNothingNew) {
+  const std::string running = create(), over = create();
+  service.start(running);
+  service.stop(over);
+  const int stops = FakeSession::stops();
+  service.shut_down();
+  EXPECT_EQ(FakeSession::stops(), stops + 1);
+  EXPECT_EQ(service.get(running).status.state, SessionState::stopped);
+  expect_error(ErrorKind::unavailable, "stopping", [&] { create(); });
+}
+
+TEST_F(SessionServiceTest, ManyThreadsNeverExceedTheLimit) {
+  std::atomic<int> made{0}, refused{0};
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 8; ++t)
+    threads.emplace_back([&] {
+      try {
+        create();
+        ++made;
+      } catch (const Error&) {
+        ++refused;
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(made, 3);
+  EXPECT_EQ(refused, 5);
+}
+
+}  // namespace
+}  // namespace ream::api

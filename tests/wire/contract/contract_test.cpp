@@ -1,0 +1,186 @@
+#include <algorithm>
+#include <future>
+#include <set>
+
+#include "server_fixture.hpp"
+#include "support/json_schema.hpp"
+
+namespace ream::test {
+namespace {
+
+using nlohmann::json;
+
+/// "GET /api/v1/cases" and a status.
+using Described = std::set<std::pair<std::string, int>>;
+
+std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'a' && c <= 'z' ? char(c - 32) : c; });
+  return text;
+}
+
+class ContractTest : public ServerTest {
+ protected:
+  /// The reply must have a status, content type and body that the description of `pattern` states.
+  void expect_as_described(const std::string& method, const std::string& pattern, int status,
+                           const HttpReply& reply) {
+    const std::string operation = method + " " + pattern;
+    ASSERT_EQ(reply.status, status) << operation << ": " << reply.body;
+    std::string verb = method;
+    std::transform(verb.begin(), verb.end(), verb.begin(), [](char c) { return static_cast<char>(c | 32); });
+    const json& responses = contract.at("paths").at(pattern).at(verb).at("responses");
+    ASSERT_TRUE(responses.contains(std::to_string(status))) << operation << " answers " << status;
+    const json& response = checker.resolve(responses.at(std::to_string(status)));
+    if (response.contains("headers")) {
+      EXPECT_EQ(response["headers"].size(), 1u);
+      EXPECT_EQ(reply.headers.count("location"), response["headers"].count("Location")) << operation;
+    }
+    seen.insert({operation, status});
+    if (!response.contains("content")) return;
+    const json& content = response["content"];
+    ASSERT_TRUE(content.contains(reply.headers.at("content-type")))
+        << operation << " sends " << reply.headers.at("content-type");
+    const auto type = reply.headers.at("content-type");
+    const json body = type.find("json") == std::string::npos ? json(reply.body) : json::parse(reply.body);
+    for (const std::string& fault : checker.faults(content.at(type).at("schema"), body))
+      ADD_FAILURE() << operation << " " << status << ": " << fault << " in " << reply.body;
+  }
+
+  void expect_get(const std::string& pattern, const std::string& path, int status) {
+    expect_as_described("GET", pattern, status, get(path));
+  }
+  void expect_post(const std::string& pattern, const std::string& path, int status,
+                   const std::string& body = {}, const std::map<std::string, std::string>& headers = {}) {
+    expect_as_described("POST", pattern, status, http_request(server->port(), "POST", path, body, headers));
+  }
+  void expect_stream(const std::string& path, int status,
+                     const std::map<std::string, std::string>& headers = {}) {
+    const RawWebSocket viewer(server->port(), path, headers);
+    expect_as_described("GET", one + "/stream", status, viewer.handshake());
+  }
+
+  void cases() {
+    expect_get("/api/v1/cases", "/api/v1/cases", 200);
+    expect_get("/api/v1/cases/{id}", "/api/v1/cases/planned", 200);
+    expect_get("/api/v1/cases/{id}", "/api/v1/cases/unplanned", 200);
+    expect_get("/api/v1/cases/{id}", "/api/v1/cases/nowhere", 404);
+    expect_get("/api/v1/cases/{id}", "/api/v1/cases/broken", 422);
+  }
+
+  void creation() {
+    const std::string good = R"({"case": "planned", "script": "demo"})";
+    expect_post(all, all, 201, good);
+    expect_post(all, all, 400, "{");
+    expect_post(all, all, 403, good, foreign);
+    expect_post(all, all, 404, R"({"case": "missing", "script": "demo"})");
+    expect_post(all, all, 409, R"({"case": "unplanned", "script": "demo"})");
+    expect_post(all, all, 413, std::string(options.listen.limits.body_bytes + 1, ' '));
+    expect_post(all, all, 415, good, {{"Content-Type", "text/plain"}});
+    expect_post(all, all, 422, R"({"case": "planned", "scrpt": "demo"})");
+    expect_get(all, all, 200);
+  }
+
+  void life_of_a_session() {
+    const std::string id = create(), path = all + "/" + id;
+    expect_get(one, path, 200);
+    expect_get(one, all + "/nobody", 404);
+    expect_get(one + "/metrics", path + "/metrics", 200);
+    expect_get(one + "/metrics", all + "/nobody/metrics", 404);
+    expect_post(one + "/start", path + "/start", 403, "", foreign);
+    expect_post(one + "/start", path + "/start", 200);
+    expect_post(one + "/start", path + "/start", 409);
+    expect_post(one + "/start", all + "/nobody/start", 404);
+    expect_post(one + "/stop", path + "/stop", 403, "", foreign);
+    expect_post(one + "/stop", path + "/stop", 200);
+    expect_post(one + "/stop", path + "/stop", 409);
+    expect_post(one + "/stop", all + "/nobody/stop", 404);
+    expect_get(one + "/metrics", path + "/metrics", 200);
+    const std::string stuck = create("no-start");
+    expect_post(one + "/start", all + "/" + stuck + "/start", 503);
+    factory.made(2).set(api::SessionState::fault, "the device fell silent");
+    expect_get(one, all + "/" + stuck, 200);
+    expect_stream(path + "/stream", 101);
+    expect_stream(path + "/stream", 403, foreign);
+    expect_stream(all + "/nobody/stream", 404);
+    expect_get(one + "/stream", path + "/stream", 426);
+  }
+
+  void too_many() {
+    while (post(all, R"({"case": "planned", "script": "demo"})").status == 201) {
+    }
+    expect_post(all, all, 503, R"({"case": "planned", "script": "demo"})");
+  }
+
+  const json contract = read_yaml(std::string(REAM_SOURCE_DIR) + "/proto/openapi.yaml");
+  const SchemaChecker checker{contract};
+  const std::string all = "/api/v1/sessions", one = "/api/v1/sessions/{id}";
+  const std::map<std::string, std::string> foreign = {{"Origin", "http://elsewhere.example"}};
+  Described seen;
+};
+
+TEST_F(ContractTest, ServesWhatIsDescribedAndNothingElse) {
+  start();
+  std::set<std::string> described, served;
+  for (const auto& [path, item] : contract.at("paths").items())
+    for (const auto& [verb, operation] : item.items())
+      if (verb != "parameters") described.insert(upper(verb) + " " + path);
+  for (const auto& route : server->routes()) served.insert(route.method + " " + route.pattern);
+  EXPECT_EQ(served, described);
+}
+
+TEST_F(ContractTest, EveryDescribedReplyIsGivenAsDescribed) {
+  std::promise<void> release;
+  options.prepare = [&] { release.get_future().wait(); };
+  start();
+  expect_get("/readyz", "/readyz", 503);
+  expect_get("/healthz", "/healthz", 200);
+  expect_post(all, all, 503, R"({"case": "planned", "script": "demo"})");
+  release.set_value();
+  while (get("/readyz").status != 200) {
+  }
+  expect_get("/readyz", "/readyz", 200);
+  expect_get("/api/v1/openapi.yaml", "/api/v1/openapi.yaml", 200);
+  cases();
+  creation();
+  life_of_a_session();
+  too_many();
+
+  Described described;
+  for (const auto& [path, item] : contract.at("paths").items())
+    for (const auto& [verb, operation] : item.items())
+      if (verb != "parameters")
+        for (const auto& [status, response] : operation.at("responses").items())
+          described.insert({upper(verb) + " " + path, std::stoi(status)});
+  for (const auto& [operation, status] : described)
+    EXPECT_TRUE(seen.contains({operation, status})) << operation << " " << status << " was never given";
+}
+
+TEST_F(ContractTest, TakesExactlyTheBodiesThatTheSchemaTakes) {
+  options.sessions.live = 100;
+  start();
+  const json& schema = contract.at("components").at("schemas").at("NewSession");
+  for (const char* body :
+       {R"({"case": "planned", "script": "demo"})",
+        R"({"case": "planned", "script": "demo", "force_scale": 1000})",
+        R"({"case": "planned", "script": "demo", "force_scale": 0.001})",
+        R"({"case": "planned", "script": "demo", "force_scale": 0})",
+        R"({"case": "planned", "script": "demo", "force_scale": 1000.1})",
+        R"({"case": "planned", "script": "demo", "force_scale": "1"})",
+        R"({"case": "planned", "script": "demo", "force_scale": null})", R"({"case": "planned"})",
+        R"({"script": "demo"})", "{}", "[]", "null", R"({"case": "../planned", "script": "demo"})",
+        R"({"case": "planned", "script": "/etc/passwd"})", R"({"case": "", "script": "demo"})",
+        R"({"case": 1, "script": true})", R"({"case": "planned", "script": "demo", "Case": "x"})"}) {
+    const bool fits = checker.faults(schema, json::parse(body)).empty();
+    EXPECT_EQ(post(all, body).status, fits ? 201 : 422) << body;
+  }
+}
+
+TEST_F(ContractTest, TheDescriptionServedIsTheFile) {
+  start();
+  std::ifstream file(std::string(REAM_SOURCE_DIR) + "/proto/openapi.yaml");
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  EXPECT_EQ(get("/api/v1/openapi.yaml").body, text);
+}
+
+}  // namespace
+}  // namespace ream::test

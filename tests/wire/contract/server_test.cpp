@@ -1,0 +1,148 @@
+#include <future>
+#include <thread>
+
+#include "server_fixture.hpp"
+#include "support/expect_error.hpp"
+
+namespace ream::test {
+namespace {
+
+using nlohmann::json;
+using namespace std::chrono_literals;
+const std::string sessions = "/api/v1/sessions";
+
+TEST_F(ServerTest, ListsReadableCasesAndTellsOneWhole) {
+  start();
+  const json list = json::parse(get("/api/v1/cases").body).at("cases");
+  ASSERT_EQ(list.size(), 2u);
+  EXPECT_EQ(list[0], (json{{"id", "planned"},
+                           {"name", "A slab"},
+                           {"side", "right"},
+                           {"dims", {8, 8, 8}},
+                           {"spacing_mm", {0.5, 0.5, 0.5}},
+                           {"planned", true}}));
+  EXPECT_EQ(list[1].at("side"), "left");
+  const json whole = json::parse(get("/api/v1/cases/planned").body);
+  EXPECT_EQ(whole.at("plan").at("depth_mm"), 2.0);
+  EXPECT_EQ(whole.at("plan").at("pilot_diameter_mm"), 6.2);
+  EXPECT_EQ(whole.at("warnings"), json{"one slice is missing"});
+  EXPECT_EQ(json::parse(get("/api/v1/cases/unplanned").body).at("plan"), nullptr);
+}
+
+TEST_F(ServerTest, CaseIdsAreNoPaths) {
+  start();
+  for (const char* id : {"..", "%2e%2e", "..%2f..", "planned%00", "Planned", "planned/", "."})
+    EXPECT_GE(get(std::string("/api/v1/cases/") + id).status, 400) << id;
+}
+
+TEST_F(ServerTest, NoFolderOfCasesIsAnEmptyList) {
+  options.cases_folder = folder.path() / "nowhere";
+  start();
+  EXPECT_EQ(json::parse(get("/api/v1/cases").body).at("cases"), json::array());
+}
+
+TEST_F(ServerTest, CreatesStartsAndStops) {
+  start();
+  const HttpReply reply = post(sessions, R"({"case": "planned", "script": "demo", "force_scale": 13})");
+  ASSERT_EQ(reply.status, 201);
+  const json session = json::parse(reply.body);
+  EXPECT_EQ(reply.headers.at("location"), sessions + "/" + session.at("id").get<std::string>());
+  EXPECT_EQ(session.at("state"), "created");
+  EXPECT_EQ(session.at("force_scale"), 13.0);
+  EXPECT_EQ(session.at("fault"), nullptr);
+  const std::string path = reply.headers.at("location");
+  EXPECT_EQ(json::parse(post(path + "/start").body).at("state"), "running");
+  EXPECT_EQ(json::parse(get(path + "/metrics").body).at("grid_hash"), nullptr);
+  EXPECT_EQ(json::parse(post(path + "/stop").body).at("state"), "stopped");
+  EXPECT_EQ(json::parse(get(path + "/metrics").body).at("grid_hash"), "00112233445566ff");
+}
+
+TEST_F(ServerTest, ListsSessionsNewestFirst) {
+  start();
+  const std::string first = create(), second = create();
+  const json list = json::parse(get(sessions).body).at("sessions");
+  ASSERT_EQ(list.size(), 2u);
+  EXPECT_EQ(list[0].at("id"), second);
+  EXPECT_EQ(list[1].at("id"), first);
+}
+
+TEST_F(ServerTest, BadBodiesAreExplainedAndMakeNothing) {
+  start();
+  const json problem = json::parse(post(sessions, R"({"case": 1, "scrpt": "demo"})").body);
+  EXPECT_EQ(problem.at("status"), 422);
+  EXPECT_EQ(problem.at("errors").size(), 3u) << problem;
+  EXPECT_NE(problem.at("detail").get<std::string>().find("'scrpt' is not a known key"), std::string::npos);
+  EXPECT_EQ(post(sessions, R"({"case": "demo")").status, 400);
+  EXPECT_EQ(json::parse(get(sessions).body).at("sessions"), json::array());
+}
+
+TEST_F(ServerTest, FullServerSaysSoAndWhatToDo) {
+  options.sessions.live = 1;
+  start();
+  const std::string id = create();
+  const HttpReply refused = post(sessions, R"({"case": "planned", "script": "demo"})");
+  EXPECT_EQ(refused.status, 503);
+  EXPECT_NE(refused.body.find("stop one first"), std::string::npos);
+  EXPECT_EQ(post(sessions + "/" + id + "/stop").status, 200);
+  create();
+}
+
+TEST_F(ServerTest, StreamsToSeveralViewers) {
+  start();
+  const std::string id = create();
+  RawWebSocket one(server->port(), sessions + "/" + id + "/stream");
+  RawWebSocket two(server->port(), sessions + "/" + id + "/stream");
+  EXPECT_EQ(one.receive().payload, "hello " + id);
+  EXPECT_EQ(two.receive().payload, "hello " + id);
+  one.send_binary("ping");
+  EXPECT_EQ(one.receive().payload, "ping");
+}
+
+TEST_F(ServerTest, PageIsServedAndUnknownApiPathsAreProblems) {
+  start();
+  EXPECT_EQ(get("/").body, "<html>page</html>");
+  EXPECT_EQ(get("/../cases/planned/case.json").status, 404);
+  const HttpReply unknown = get("/api/v1/unknown");
+  EXPECT_EQ(unknown.status, 404);
+  EXPECT_EQ(unknown.headers.at("content-type"), "application/problem+json");
+  EXPECT_EQ(http_request(server->port(), "DELETE", sessions).status, 405);
+}
+
+TEST_F(ServerTest, StopsWhileViewersWatchAndSessionsRun) {
+  start();
+  const std::string id = create();
+  post(sessions + "/" + id + "/start");
+  RawWebSocket viewer(server->port(), sessions + "/" + id + "/stream");
+  viewer.receive();
+  RawSocket idle(server->port());
+  const int stops = FakeSession::stops();
+  std::thread stopping([this] { server->stop(); });
+  EXPECT_EQ(viewer.receive().close_code(), 1001);
+  viewer.send_close(1001);
+  viewer.socket().end_sending();
+  stopping.join();
+  EXPECT_EQ(FakeSession::stops(), stops + 1);
+  EXPECT_EQ(idle.receive_all(), "");
+}
+
+TEST_F(ServerTest, RunEndsWhenAsked) {
+  server = std::make_unique<api::Server>(options);
+  auto running = std::async(std::launch::async, [this] { server->run(); });
+  while (get("/healthz").status != 200) {
+  }
+  server->request_stop();
+  running.get();
+  EXPECT_THROW(RawSocket{server->port()}, std::runtime_error);
+}
+
+TEST_F(ServerTest, PortInUseLeavesNothingBehind) {
+  start();
+  api::ServerOptions second = options;
+  second.listen.port = server->port();
+  expect_error(ErrorKind::unavailable, "is in use; choose another with --port",
+               [&] { api::Server refused(second); });
+  EXPECT_EQ(get("/healthz").status, 200);
+}
+
+}  // namespace
+}  // namespace ream::test
