@@ -1,3 +1,4 @@
+#include <gdcmTrace.h>
 #include <itkGDCMImageIO.h>
 #include <itkMetaDataObject.h>
 
@@ -167,6 +168,8 @@ void load_stack(HuVolume& volume, const std::vector<Slice>& slices, const fs::pa
 HuVolume read_dicom_folder(const fs::path& folder) {
   if (!fs::is_directory(folder)) throw Error(ErrorKind::not_found, "no such folder: " + folder.string());
   itk::Object::GlobalWarningDisplayOff();
+  gdcm::Trace::WarningOff();
+  gdcm::Trace::ErrorOff();
   const SeriesMap all = scan(folder);
   const auto largest = std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
     return a.second.size() < b.second.size();

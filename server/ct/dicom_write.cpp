@@ -1,3 +1,4 @@
+#include <gdcmTrace.h>
 #include <itkGDCMImageIO.h>
 #include <itkMetaDataObject.h>
 
@@ -63,6 +64,7 @@ std::vector<std::pair<const char*, std::string>> tags(const HuVolume& volume, in
 }  // namespace
 
 void write_dicom_folder(const HuVolume& volume, const std::filesystem::path& folder, uint64_t seed) {
+  gdcm::Trace::WarningOff();
   const size_t slice_size = static_cast<size_t>(volume.dims.x()) * static_cast<size_t>(volume.dims.y());
   for (int w = 0; w < volume.dims.z(); ++w) {
     char name[32];
