@@ -1,0 +1,60 @@
+#include "stream/codec.hpp"
+
+#include <meshoptimizer.h>
+
+#include <stdexcept>
+
+namespace ream::stream {
+namespace {
+
+using surface::BlockVertex;
+
+/// The library keeps the formats to write in globals; browsers of every age read these.
+void choose_formats_once() {
+  static const bool chosen = [] {
+    meshopt_encodeVertexVersion(0);
+    meshopt_encodeIndexVersion(1);
+    return true;
+  }();
+  static_cast<void>(chosen);
+}
+
+template <typename Encode>
+std::vector<std::byte> encoded(size_t bound, Encode encode) {
+  std::vector<std::byte> bytes(bound);
+  const size_t size = encode(reinterpret_cast<unsigned char*>(bytes.data()), bytes.size());
+  if (size == 0) throw std::logic_error("mesh codec: the bound of the encoded size is too small");
+  bytes.resize(size);
+  return bytes;
+}
+
+}  // namespace
+
+EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t tick) {
+  EncodedBlock result;
+  result.block = mesh.block;
+  result.revision = revision;
+  result.tick = tick;
+  if (mesh.indices.empty()) return result;
+  choose_formats_once();
+
+  std::vector<uint32_t> indices(mesh.indices.size());
+  meshopt_optimizeVertexCacheStrip(indices.data(), mesh.indices.data(), indices.size(), mesh.vertices.size());
+  std::vector<BlockVertex> vertices(mesh.vertices.size());
+  vertices.resize(meshopt_optimizeVertexFetch(vertices.data(), indices.data(), indices.size(), mesh.vertices.data(),
+                                              mesh.vertices.size(), sizeof(BlockVertex)));
+  result.vertex_count = static_cast<uint32_t>(vertices.size());
+  result.index_count = static_cast<uint32_t>(indices.size());
+  result.vertices = encoded(meshopt_encodeVertexBufferBound(vertices.size(), sizeof(BlockVertex)),
+                            [&](unsigned char* to, size_t size) {
+                              return meshopt_encodeVertexBuffer(to, size, vertices.data(), vertices.size(),
+                                                                sizeof(BlockVertex));
+                            });
+  result.indices = encoded(meshopt_encodeIndexBufferBound(indices.size(), vertices.size()),
+                           [&](unsigned char* to, size_t size) {
+                             return meshopt_encodeIndexBuffer(to, size, indices.data(), indices.size());
+                           });
+  return result;
+}
+
+}  // namespace ream::stream

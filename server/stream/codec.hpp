@@ -1,0 +1,30 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "surface/block_mesh.hpp"
+
+namespace ream::stream {
+
+/// A block's surface as it travels: meshopt vertex stream (codec v0) of BlockVertex and meshopt index stream (codec v1)
+/// of triangles. Both are empty, and both counts 0, where the block holds no surface.
+struct EncodedBlock {
+  uint32_t block = 0;
+  uint32_t revision = 0;  ///< grows per block
+  uint32_t tick = 0;      ///< the newest brick in it
+  uint32_t vertex_count = 0, index_count = 0;
+  std::vector<std::byte> vertices, indices;
+
+  bool empty() const { return index_count == 0; }
+  size_t bytes() const { return vertices.size() + indices.size(); }
+};
+
+using SharedBlock = std::shared_ptr<const EncodedBlock>;
+
+/// Reorders vertices and triangles so that they pack well; the surface itself is unchanged. A mesh without triangles
+/// gives an empty block.
+EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t tick);
+
+}  // namespace ream::stream

@@ -1,0 +1,28 @@
+#pragma once
+#include <functional>
+#include <memory>
+
+#include "stream/mailbox.hpp"
+
+namespace ream::stream {
+
+/// From one session to all its viewers. Thread-safe; publishing never waits for a viewer.
+class Fanout {
+ public:
+  virtual ~Fanout() = default;
+
+  /// The first message of every viewer; viewers that came before it get it now, again when it changes.
+  virtual void publish_hello(Message hello) = 0;
+  /// Newest surface of its block; kept for late joiners unless it is empty.
+  virtual void publish_block(SharedBlock block) = 0;
+  /// All blocks of the first whole picture have been published.
+  virtual void publish_picture_complete() = 0;
+  virtual void publish_telemetry(SharedTelemetry batch) = 0;
+
+  /// A new viewer: its mailbox begins with the hello and the whole picture. `notify` is called from publishing threads,
+  /// possibly after the mailbox was let go of, so it must be quick, must not call back into the fanout and must own (or
+  /// weakly hold) what it touches. Letting go of the mailbox ends the subscription.
+  virtual std::shared_ptr<Mailbox> subscribe(std::function<void()> notify) = 0;
+};
+
+}  // namespace ream::stream

@@ -1,0 +1,71 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/spsc_ring.hpp"
+#include "geometry/pose.hpp"
+
+namespace ream::stream {
+
+class Fanout;
+
+/// As SessionState of proto/stream.fbs.
+enum class SessionState : uint8_t { created = 0, running = 1, paused = 2, finished = 3, stopped = 4, fault = 5 };
+
+/// One tick as viewers see it. World frame, mm; forces N, torque N mm. No heap inside, so it may pass through rings.
+struct TelemetrySample {
+  uint32_t tick = 0;
+  float thrust_n = 0;      ///< simulated, along the tool's axis
+  float hand_force_n = 0;  ///< magnitude sent to the hand
+  float torque_n_mm = 0;
+  float feed_rate_mm_s = 0;
+  float density_g_cc = 0;  ///< mean of what is engaged, 0 without contact
+  Pose world_from_tool, world_from_handle;
+  bool spindle_on = false;
+  SessionState state = SessionState::created;
+  float depth_mm = 0, removed_volume_mm3 = 0;
+  float cortical_share = 0;
+  float tick_mean_us = 0, tick_p99_us = 0;  ///< health of the loop
+  uint32_t ticks_missed = 0;
+  std::array<char, 160> fault{};  ///< words, zero-terminated, when state is fault
+};
+
+/// From the loop (or whoever follows it) to the batcher; a full ring loses samples, which viewers are told.
+using TelemetryRing = SpscRing<TelemetrySample>;
+
+/// Samples that follow each other: tick of entry i is front().tick + i * tick_stride.
+struct TelemetryBatch {
+  uint32_t tick_stride = 1;
+  uint32_t lost_before = 0;  ///< entries lost on the way here since the previous batch
+  std::vector<TelemetrySample> samples;  ///< at least one
+};
+
+using SharedTelemetry = std::shared_ptr<const TelemetryBatch>;
+
+/// Collects samples and publishes them about 30 times a second. Used by one thread.
+class TelemetryBatcher {
+ public:
+  /// Samples are expected every `tick_stride` ticks; a larger step ends the batch and counts as lost entries.
+  explicit TelemetryBatcher(Fanout& fanout, uint32_t tick_stride = 1, int64_t interval_ns = 33'000'000);
+
+  /// Takes in a sample; publishes nothing but batches that this sample ends.
+  void add(const TelemetrySample& sample);
+  /// Publishes what was collected if the interval has passed since the last time; `now_ns` as steady_ns().
+  void publish_if_due(int64_t now_ns);
+  /// Publishes what was collected, now: the last samples of a session are not kept back.
+  void flush();
+  /// Drains the ring, then publish_if_due.
+  void poll(TelemetryRing& ring, int64_t now_ns);
+
+ private:
+  Fanout& fanout_;
+  uint32_t tick_stride_;
+  int64_t interval_ns_, next_publish_ns_ = 0;
+  bool any_ = false;
+  uint32_t last_tick_ = 0;
+  TelemetryBatch batch_;
+};
+
+}  // namespace ream::stream

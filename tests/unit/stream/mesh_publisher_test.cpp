@@ -1,0 +1,163 @@
+#include "stream/mesh_publisher.hpp"
+
+#include <iostream>
+
+#include "stream/fanout_local.hpp"
+#include "unit/stream/viewer.hpp"
+
+namespace ream::stream {
+namespace {
+
+constexpr int64_t ms = 1'000'000;
+
+/// A ball of bone over several blocks, and the haptic thread's side of the ring.
+struct Session {
+  voxel::BoneModel bone;
+  voxel::BrickRing ring{256};
+  voxel::BrickSender sender;
+  LocalFanout fanout;
+  uint32_t tick = 0;
+
+  Session() : bone(ball()), sender(bone.grid, ring) {}
+
+  static voxel::BoneModel ball() {
+    voxel::VoxelGrid grid;
+    grid.dims = {96, 64, 64};
+    voxel::BoneModel bone = voxel::make_bone(grid);
+    for (size_t i = 0; i < bone.coverage.size(); ++i) {
+      const double c = 127.5 + 255 * (27.0 - (grid.centre_mm(grid.coordinates(i)) - Vec3(40, 32, 32)).norm());
+      bone.coverage[i] = static_cast<uint8_t>(std::clamp(c, 0.0, 255.0));
+    }
+    return bone;
+  }
+
+  void set(const Vec3i& voxel, uint8_t coverage) {
+    bone.coverage[bone.grid.index(voxel)] = coverage;
+    sender.mark(bone.grid.brick_index(voxel / voxel::brick_edge));
+  }
+  void end_tick(int budget = 100) { sender.send(bone.coverage.data(), ++tick, budget); }
+};
+
+/// What a viewer should hold, extracted from scratch.
+std::map<uint32_t, Surface> expected(const voxel::BoneModel& bone) {
+  surface::BlockExtractor extractor(bone.grid);
+  std::map<uint32_t, Surface> result;
+  for (uint32_t block = 0; block < extractor.block_count(); ++block) {
+    const surface::BlockMesh mesh = extractor.extract(bone.coverage.data(), block);
+    if (!mesh.indices.empty()) result[block] = surface_of(mesh.vertices, mesh.indices);
+  }
+  return result;
+}
+
+std::map<uint32_t, Surface> held(const Viewer& viewer) {
+  std::map<uint32_t, Surface> result;
+  for (const auto& [block, h] : viewer.blocks) result[block] = h.surface;
+  return result;
+}
+
+TEST(MeshPublisher, FirstPictureIsTheWholeSurface) {
+  Session s;
+  MeshPublisher publisher(s.bone, s.ring, s.fanout);
+  publisher.publish_all();
+  const auto mailbox = s.fanout.subscribe({});
+  Viewer viewer;
+  viewer.pull(*mailbox);
+  EXPECT_EQ(viewer.key_completes, 1);
+  EXPECT_TRUE(held(viewer) == expected(s.bone));
+}
+
+TEST(MeshPublisher, RandomRemovalEndsWithTheSurfaceOfTheBone) {
+  const unsigned seed = std::random_device{}();
+  std::cout << "seed " << seed << "\n";
+  std::mt19937 random(seed);
+  Session s;
+  MeshPublisher publisher(s.bone, s.ring, s.fanout);
+  publisher.publish_all();
+  const auto mailbox = s.fanout.subscribe({});
+  Viewer viewer;
+  int64_t now = 0;
+  for (int step = 0; step < 400; ++step, now += ms) {
+    for (int i = 0; i < 20; ++i) {
+      const Vec3i voxel(static_cast<int>(random() % 96), static_cast<int>(random() % 64), static_cast<int>(random() % 64));
+      const uint8_t left = s.bone.coverage[s.bone.grid.index(voxel)];
+      if (left > 0) s.set(voxel, static_cast<uint8_t>(random() % left));
+    }
+    s.end_tick(15);
+    if (random() % 10 == 0) publisher.poll(now);
+    if (random() % 50 == 0) viewer.pull(*mailbox, 1);
+  }
+  while (s.sender.pending() > 0) {
+    s.end_tick();
+    publisher.poll(now);
+  }
+  publisher.flush(now);
+  viewer.pull(*mailbox);
+  EXPECT_TRUE(held(viewer) == expected(s.bone)) << "seed " << seed;
+  EXPECT_TRUE(publisher.replica().coverage() == s.bone.coverage);
+}
+
+TEST(MeshPublisher, LargeChangesShowAtOnceSmallOnesLater) {
+  Session s;
+  MeshPublisher publisher(s.bone, s.ring, s.fanout);
+  publisher.publish_all();
+  int64_t now = 1000 * ms;
+  s.set({40, 32, 32}, 250);
+  s.end_tick();
+  EXPECT_EQ(publisher.poll(now), 0u);
+  EXPECT_EQ(publisher.poll(now + 249 * ms), 0u);
+  now += 250 * ms;
+  EXPECT_GT(publisher.poll(now), 0u);
+  s.set({40, 32, 32}, 0);
+  s.end_tick();
+  EXPECT_EQ(publisher.poll(now + 39 * ms), 0u) << "min_interval_ns";
+  EXPECT_GT(publisher.poll(now + 40 * ms), 0u);
+}
+
+TEST(MeshPublisher, CreepAddsUpAndUnchangedBricksAreNotSent) {
+  Session s;
+  MeshPublisher publisher(s.bone, s.ring, s.fanout);
+  publisher.publish_all();
+  const auto mailbox = s.fanout.subscribe({});
+  Viewer viewer;
+  viewer.pull(*mailbox);
+  const Vec3i at_surface(66, 32, 32);
+  int64_t now = 1000 * ms;
+  uint8_t left = s.bone.coverage[s.bone.grid.index(at_surface)];
+  size_t published = 0;
+  int polls = 0;
+  for (; published == 0 && polls < 100; ++polls, now += ms) {
+    s.set(at_surface, --left);
+    s.end_tick();
+    published = publisher.poll(now);
+  }
+  EXPECT_EQ(polls, MeshPublisherOptions{}.noticeable_coverage);
+  s.sender.mark(0);
+  s.end_tick();
+  EXPECT_EQ(publisher.flush(now), 0u);
+  viewer.pull(*mailbox);
+  EXPECT_TRUE(held(viewer) == expected(s.bone));
+}
+
+TEST(MeshPublisher, ABlockThatLosesItsLastSurfaceIsToldEmptyOnce) {
+  Session s;
+  std::fill(s.bone.coverage.begin(), s.bone.coverage.end(), uint8_t{0});
+  const Vec3i lonely(80, 48, 48);
+  s.bone.coverage[s.bone.grid.index(lonely)] = 255;
+  MeshPublisher publisher(s.bone, s.ring, s.fanout);
+  publisher.publish_all();
+  const auto mailbox = s.fanout.subscribe({});
+  Viewer viewer;
+  viewer.pull(*mailbox);
+  EXPECT_EQ(viewer.blocks.size(), 1u);
+  s.set(lonely, 0);
+  s.end_tick();
+  EXPECT_EQ(publisher.flush(0), 1u);
+  viewer.pull(*mailbox);
+  EXPECT_TRUE(viewer.blocks.empty());
+  s.sender.mark(0);
+  s.end_tick();
+  EXPECT_EQ(publisher.flush(1), 0u);
+}
+
+}  // namespace
+}  // namespace ream::stream

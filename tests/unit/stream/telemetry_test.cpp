@@ -1,0 +1,81 @@
+#include "stream/telemetry.hpp"
+
+#include "stream/fanout_local.hpp"
+#include "unit/stream/viewer.hpp"
+
+namespace ream::stream {
+namespace {
+
+constexpr int64_t ms = 1'000'000;
+
+TelemetrySample at_tick(uint32_t tick) {
+  TelemetrySample sample;
+  sample.tick = tick;
+  return sample;
+}
+
+TEST(Telemetry, AboutThirtyMessagesASecondAndNoSampleLost) {
+  LocalFanout fanout;
+  const auto mailbox = fanout.subscribe({});
+  TelemetryRing ring(64);
+  TelemetryBatcher batcher(fanout);
+  Viewer viewer;
+  for (uint32_t tick = 0; tick < 1000; ++tick) {
+    ASSERT_TRUE(ring.try_push(at_tick(tick)));
+    batcher.poll(ring, tick * ms);
+    viewer.pull(*mailbox);
+  }
+  batcher.flush();
+  viewer.pull(*mailbox);
+  EXPECT_NEAR(viewer.telemetry_messages, 31, 1);
+  EXPECT_EQ(viewer.samples, 1000u);
+  EXPECT_EQ(viewer.dropped, 0u);
+}
+
+TEST(Telemetry, AGapEndsTheBatchAndIsCounted) {
+  LocalFanout fanout;
+  const auto mailbox = fanout.subscribe({});
+  TelemetryBatcher batcher(fanout);
+  for (const uint32_t tick : {10u, 11u, 12u, 20u, 21u}) batcher.add(at_tick(tick));
+  batcher.flush();
+  const Message first = mailbox->next(), second = mailbox->next();
+  const auto body = [](const Message& m) { return wire::GetServerMessage(m->data())->body_as_Telemetry(); };
+  EXPECT_EQ(body(first)->first_tick(), 10u);
+  EXPECT_EQ(body(first)->thrust_n()->size(), 3u);
+  EXPECT_EQ(body(second)->first_tick(), 20u);
+  EXPECT_EQ(body(second)->thrust_n()->size(), 2u);
+  EXPECT_EQ(body(second)->dropped(), 7u);
+}
+
+TEST(Telemetry, AFullRingIsSeenAsLoss) {
+  LocalFanout fanout;
+  const auto mailbox = fanout.subscribe({});
+  TelemetryRing ring(16);
+  TelemetryBatcher batcher(fanout);
+  Viewer viewer;
+  uint32_t pushed = 0;
+  for (uint32_t tick = 0; tick < 100; ++tick) {
+    pushed += ring.try_push(at_tick(tick));
+    if (tick % 40 == 39) batcher.poll(ring, tick * ms);
+  }
+  batcher.poll(ring, 200 * ms);
+  viewer.pull(*mailbox);
+  EXPECT_EQ(pushed, 48u);
+  EXPECT_EQ(viewer.samples, 48u);
+  EXPECT_EQ(viewer.dropped, 48u);  // ticks 16..39 and 56..79; what follows the last sample is not known yet
+}
+
+TEST(Telemetry, StrideIsKept) {
+  LocalFanout fanout;
+  const auto mailbox = fanout.subscribe({});
+  TelemetryBatcher batcher(fanout, 5);
+  for (const uint32_t tick : {5u, 10u, 15u, 30u}) batcher.add(at_tick(tick));
+  batcher.flush();
+  Viewer viewer;
+  viewer.pull(*mailbox);
+  EXPECT_EQ(viewer.telemetry_messages, 2);
+  EXPECT_EQ(viewer.dropped, 2u);
+}
+
+}  // namespace
+}  // namespace ream::stream
