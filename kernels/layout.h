@@ -46,6 +46,7 @@ struct AffineArguments {
 // Longest run of points between two additions to the 64-bit sums; 512 points of weight 28 and components 127 stay below 2^31.
 #define REAM_CONTACT_RUN 512
 #define REAM_ENGAGING_COVERAGE 128
+#define REAM_OCCUPANCY_EDGE 4
 
 struct ContactArguments {
   struct AffineArguments voxel_from_tool;

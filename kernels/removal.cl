@@ -54,12 +54,52 @@ static uchar8 kept_in_row(global const float* table, const struct RemovalArgumen
   return convert_uchar8(convert_int8(level));
 }
 
+// What one work-item did to its rows of a brick.
+typedef struct {
+  ulong hash;
+  int removed[3];
+  uint changed, left;
+} LaneSums;
+
+// Lowers the row of eight voxels that starts at `at` to what it may keep.
+static void cut_row(global uchar* coverage, global const uchar* density, global const uchar* classes, size_t at,
+                    uchar8 before, uchar8 kept, LaneSums* sums) {
+  if (any(kept < before)) {
+    uchar old_levels[8], new_levels[8];
+    vstore8(before, 0, old_levels);
+    vstore8(kept, 0, new_levels);
+    for (int u = 0; u < 8; ++u) {
+      if (new_levels[u] >= old_levels[u]) continue;
+      sums->removed[classes[density[at + u]]] += old_levels[u] - new_levels[u];
+      sums->hash += mix64((ulong)(at + u) * 256 + new_levels[u]);
+    }
+    before = min(before, kept);
+    vstore8(before, 0, coverage + at);
+    sums->changed = 1;
+  }
+  sums->left |= as_ulong(before) != 0;
+}
+
+static void write_record(local const LaneSums* lanes, global struct RemovalRecord* record) {
+  LaneSums all = lanes[0];
+  for (int lane = 1; lane < LANES; ++lane) {
+    all.hash += lanes[lane].hash;
+    for (int k = 0; k < 3; ++k) all.removed[k] += lanes[lane].removed[k];
+    all.changed |= lanes[lane].changed;
+    all.left |= lanes[lane].left;
+  }
+  record->hash_low = (uint)all.hash;
+  record->hash_high = (uint)(all.hash >> 32);
+  for (int k = 0; k < 3; ++k) record->removed[k] = all.removed[k];
+  record->changed = all.changed;
+  record->left = all.left;
+  record->unused = 0;
+}
+
 kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void cut_bricks(
     global uchar* coverage, global const uchar* density, global const uchar* classes, global const float* table,
     global const uint* bricks, struct RemovalArguments arguments, global uchar* slots) {
-  local ulong hashes[LANES];
-  local int removed[LANES][3];
-  local uint changed[LANES], left[LANES];
+  local LaneSums lanes[LANES];
   const int lane = get_local_id(0);
   const float8 steps = (float8)(0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f);
 
@@ -67,60 +107,22 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void cut_bricks(
     const int brick = (int)bricks[i];
     const int first_u = brick % arguments.brick_dims_x * BRICK_EDGE;
     const int first_v = brick / arguments.brick_dims_x % arguments.brick_dims_y * BRICK_EDGE;
-    global uchar* slot = slots + (size_t)i * arguments.slot_bytes;
     const int first_w = brick / (arguments.brick_dims_x * arguments.brick_dims_y) * BRICK_EDGE;
-    ulong lane_hash = 0, lane_left = 0;
-    int lane_removed[3] = {0, 0, 0};
-    uint lane_changed = 0;
+    global uchar* slot = slots + (size_t)i * arguments.slot_bytes;
+    LaneSums sums = {0, {0, 0, 0}, 0, 0};
     for (int row = lane; row < BRICK_ROWS; row += LANES) {
       const int v = first_v + row % BRICK_EDGE, w = first_w + row / BRICK_EDGE;
       const size_t at = (size_t)first_u + (size_t)arguments.dims_x * ((size_t)v + (size_t)arguments.dims_y * (size_t)w);
-      uchar8 before = vload8(0, coverage + at);
-      if (as_ulong(before) == 0) continue;
-      const uchar8 kept = kept_in_row(table, &arguments, (float)first_u + steps, (float)v, (float)w);
-      if (any(kept < before)) {
-        uchar old_levels[8], new_levels[8];
-        vstore8(before, 0, old_levels);
-        vstore8(kept, 0, new_levels);
-        for (int u = 0; u < 8; ++u) {
-          if (new_levels[u] >= old_levels[u]) continue;
-          lane_removed[classes[density[at + u]]] += old_levels[u] - new_levels[u];
-          lane_hash += mix64((ulong)(at + u) * 256 + new_levels[u]);
-        }
-        before = min(before, kept);
-        vstore8(before, 0, coverage + at);
-        lane_changed = 1;
-      }
-      lane_left |= as_ulong(before);
-    }
-    hashes[lane] = lane_hash;
-    for (int k = 0; k < 3; ++k) removed[lane][k] = lane_removed[k];
-    changed[lane] = lane_changed;
-    left[lane] = lane_left != 0;
-    GROUP_BARRIER;
-    if (lane == 0) {
-      for (int other = 1; other < LANES; ++other) {
-        hashes[0] += hashes[other];
-        for (int k = 0; k < 3; ++k) removed[0][k] += removed[other][k];
-        changed[0] |= changed[other];
-        left[0] |= left[other];
-      }
-      struct RemovalRecord record;
-      record.hash_low = (uint)hashes[0];
-      record.hash_high = (uint)(hashes[0] >> 32);
-      for (int k = 0; k < 3; ++k) record.removed[k] = removed[0][k];
-      record.changed = changed[0];
-      record.left = left[0];
-      record.unused = 0;
-      *(global struct RemovalRecord*)slot = record;
-    }
-    if (arguments.slot_bytes > sizeof(struct RemovalRecord)) {
-      for (int row = lane; row < BRICK_ROWS; row += LANES) {
-        const size_t v = first_v + row % BRICK_EDGE, w = first_w + row / BRICK_EDGE;
-        const size_t at = (size_t)first_u + (size_t)arguments.dims_x * (v + (size_t)arguments.dims_y * w);
+      const uchar8 before = vload8(0, coverage + at);
+      if (as_ulong(before) != 0)
+        cut_row(coverage, density, classes, at, before,
+                kept_in_row(table, &arguments, (float)first_u + steps, (float)v, (float)w), &sums);
+      if (arguments.slot_bytes > sizeof(struct RemovalRecord))
         vstore8(vload8(0, coverage + at), row, slot + sizeof(struct RemovalRecord));
-      }
     }
+    lanes[lane] = sums;
+    GROUP_BARRIER;
+    if (lane == 0) write_record(lanes, (global struct RemovalRecord*)slot);
     GROUP_BARRIER;
   }
 }

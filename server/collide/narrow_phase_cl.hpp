@@ -6,10 +6,10 @@
 
 namespace ream::collide {
 
-/// The narrow phase on an OpenCL device: the same sums as make_narrow_phase_cpu. Blocks are culled on the host, the
-/// survivors' points are probed and summed on the device. Built, allocated and warmed here.
-/// Throws Error unavailable.
-std::unique_ptr<NarrowPhase> make_narrow_phase_cl(const NarrowPhaseInput& input, std::shared_ptr<BoneBuffers> bone,
-                                                  LaunchShape shape);
+/// The narrow phase on an OpenCL device: the same sums as make_narrow_phase_cpu. Blocks are culled on the
+/// host, the survivors' points are probed and summed on the device. Built, allocated and warmed here. Throws
+/// Error unavailable.
+std::unique_ptr<NarrowPhase> make_narrow_phase_cl(const NarrowPhaseInput& input,
+                                                  std::shared_ptr<BoneBuffers> bone, LaunchShape shape);
 
 }  // namespace ream::collide

@@ -62,7 +62,8 @@ class RemovalCl final : public Removal {
       for (size_t done = 0; done < bricks.size(); done += capacity_) {
         const size_t count = std::min(capacity_, bricks.size() - done);
         launch(bricks.subspan(done, count));
-        for (size_t i = 0; i < count; ++i) take_slot(bricks[done + i], i, changed[done + i], empty[done + i], sums);
+        for (size_t i = 0; i < count; ++i)
+          take_slot(bricks[done + i], i, changed[done + i], empty[done + i], sums);
       }
       return true;
     } catch (const Error&) {
@@ -77,7 +78,8 @@ class RemovalCl final : public Removal {
     arguments_.bricks = static_cast<uint32_t>(bricks.size());
     kernel_.set(arguments_index, arguments_);
     if (!list_buffer_.shared()) list_buffer_.write(queue, list_.data(), bricks.size_bytes());
-    kernel_.enqueue(queue, static_cast<size_t>(shape_.groups * shape_.lanes), static_cast<size_t>(shape_.lanes));
+    kernel_.enqueue(queue, static_cast<size_t>(shape_.groups * shape_.lanes),
+                    static_cast<size_t>(shape_.lanes));
     if (slots_buffer_.shared())
       queue.finish();
     else

@@ -21,14 +21,18 @@ std::filesystem::path file_of(const std::string& key) {
 }
 
 /// Independent of the one in the file's name, so that a collision of names is seen.
-uint64_t second_hash(const std::string& key) { return hash_text(key, 0x6b65726e656c73ull); }
+uint64_t second_hash(const std::string& key) {
+  return hash_text(key, 0x6b65726e656c73ull);
+}
 
 }  // namespace
 
 std::filesystem::path cache_folder() {
   if (const char* own = std::getenv("REAM_CACHE"); own && *own) return own;
-  if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && *xdg) return std::filesystem::path(xdg) / "ream";
-  if (const char* home = std::getenv("HOME"); home && *home) return std::filesystem::path(home) / ".cache" / "ream";
+  if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && *xdg)
+    return std::filesystem::path(xdg) / "ream";
+  if (const char* home = std::getenv("HOME"); home && *home)
+    return std::filesystem::path(home) / ".cache" / "ream";
   return {};
 }
 

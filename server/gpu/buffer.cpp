@@ -11,8 +11,9 @@ namespace {
 void check_size(const Queue& queue, size_t bytes) {
   const Device& device = queue.device();
   if (bytes > device.max_buffer_bytes)
-    throw Error(ErrorKind::unavailable, "OpenCL: a buffer of " + std::to_string(bytes) + " bytes is more than " +
-                                            device.name + " allows (" + std::to_string(device.max_buffer_bytes) +
+    throw Error(ErrorKind::unavailable, "OpenCL: a buffer of " + std::to_string(bytes) +
+                                            " bytes is more than " + device.name + " allows (" +
+                                            std::to_string(device.max_buffer_bytes) +
                                             "); use a coarser grid or --backend cpu");
 }
 
@@ -21,7 +22,8 @@ void check_size(const Queue& queue, size_t bytes) {
 Buffer::Buffer(const Queue& queue, size_t bytes) : bytes_(bytes) {
   check_size(queue, bytes);
   cl_int status = CL_SUCCESS;
-  memory_.reset(clCreateBuffer(queue.context(), CL_MEM_READ_WRITE, std::max<size_t>(bytes, 1), nullptr, &status));
+  memory_.reset(
+      clCreateBuffer(queue.context(), CL_MEM_READ_WRITE, std::max<size_t>(bytes, 1), nullptr, &status));
   check(status, "clCreateBuffer", std::to_string(bytes) + " bytes");
 }
 
@@ -44,8 +46,9 @@ Buffer Buffer::over_bytes(const Queue& queue, const void* host, size_t bytes) {
 
 void Buffer::write(const Queue& queue, const void* from, size_t bytes, size_t offset) {
   if (bytes == 0) return;
-  check(clEnqueueWriteBuffer(queue.handle(), memory_.get(), CL_TRUE, offset, bytes, from, 0, nullptr, nullptr),
-        "clEnqueueWriteBuffer");
+  check(
+      clEnqueueWriteBuffer(queue.handle(), memory_.get(), CL_TRUE, offset, bytes, from, 0, nullptr, nullptr),
+      "clEnqueueWriteBuffer");
 }
 
 void Buffer::read(const Queue& queue, void* to, size_t bytes, size_t offset) const {

@@ -6,8 +6,8 @@
 
 namespace ream::gpu {
 
-/// Device memory. All copies are blocking and throw Error unavailable naming the failing call; only creating a buffer
-/// allocates.
+/// Device memory. All copies are blocking and throw Error unavailable naming the failing call; only creating
+/// a buffer allocates.
 class Buffer {
  public:
   Buffer() = default;

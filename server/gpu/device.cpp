@@ -49,7 +49,8 @@ void append_devices(cl_platform_id platform, std::vector<Device>& devices) {
   check(clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, count, ids.data(), nullptr), "clGetDeviceIDs");
   const std::string platform_name = text_of(platform, CL_PLATFORM_NAME);
   for (const cl_device_id id : ids) {
-    if (!value_of<cl_bool>(id, CL_DEVICE_AVAILABLE) || !value_of<cl_bool>(id, CL_DEVICE_COMPILER_AVAILABLE)) continue;
+    if (!value_of<cl_bool>(id, CL_DEVICE_AVAILABLE) || !value_of<cl_bool>(id, CL_DEVICE_COMPILER_AVAILABLE))
+      continue;
     Device device;
     device.id = id;
     device.index = static_cast<int>(devices.size());
@@ -112,7 +113,8 @@ Device choose_device(std::string_view wish, Use use) {
     const std::string_view number = wish.substr(7);
     size_t index = 0;
     const auto [end, failed] = std::from_chars(number.data(), number.data() + number.size(), index);
-    if (failed == std::errc{} && end == number.data() + number.size() && index < devices.size()) return devices[index];
+    if (failed == std::errc{} && end == number.data() + number.size() && index < devices.size())
+      return devices[index];
   } else if (!wish.empty()) {
     for (const Device& d : devices)
       if (lower(d.name + " " + d.platform).find(lower(wish)) != std::string::npos) return d;

@@ -25,13 +25,15 @@ struct Device {
   size_t max_local_size = 0;
 };
 
-/// Every device, in the order of the installed drivers; empty when there is none. Unless POCL_DEVICES is set, PoCL is
-/// asked for both "basic" and "pthread". The first call touches the environment: make it before threads start.
+/// Every device, in the order of the installed drivers; empty when there is none. Unless POCL_DEVICES is set,
+/// PoCL is asked for both "basic" and "pthread". The first call touches the environment: make it before
+/// threads start.
 std::vector<Device> list_devices();
 
-/// The device that `wish` names: "auto" or "opencl" (PoCL's device that fits `use`, else the first of the list),
-/// "opencl:N" (the N-th of list_devices), or part of a device's or platform's name, in any case.
-/// Errors: usage for an N or a name that is not there (lists what is), unavailable when there is no device at all.
+/// The device that `wish` names: "auto" or "opencl" (PoCL's device that fits `use`, else the first of the
+/// list), "opencl:N" (the N-th of list_devices), or part of a device's or platform's name, in any case.
+/// Errors: usage for an N or a name that is not there (lists what is), unavailable when there is no device at
+/// all.
 Device choose_device(std::string_view wish, Use use);
 
 }  // namespace ream::gpu

@@ -24,15 +24,18 @@ std::string first_complaint(cl_program program, cl_device_id device) {
 
 std::vector<std::byte> binary_of(cl_program program) {
   size_t size = 0;
-  if (clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof size, &size, nullptr) != CL_SUCCESS) return {};
+  if (clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof size, &size, nullptr) != CL_SUCCESS)
+    return {};
   std::vector<std::byte> binary(size);
   unsigned char* pointer = reinterpret_cast<unsigned char*>(binary.data());
-  if (clGetProgramInfo(program, CL_PROGRAM_BINARIES, sizeof pointer, &pointer, nullptr) != CL_SUCCESS) return {};
+  if (clGetProgramInfo(program, CL_PROGRAM_BINARIES, sizeof pointer, &pointer, nullptr) != CL_SUCCESS)
+    return {};
   return binary;
 }
 
 /// A program from a cached binary, or null when the driver does not take it any more.
-Handle<_cl_program> from_binary(const Queue& queue, const std::vector<std::byte>& binary, const std::string& options) {
+Handle<_cl_program> from_binary(const Queue& queue, const std::vector<std::byte>& binary,
+                                const std::string& options) {
   const cl_device_id device = queue.device().id;
   const size_t size = binary.size();
   const unsigned char* pointer = reinterpret_cast<const unsigned char*>(binary.data());
@@ -40,7 +43,8 @@ Handle<_cl_program> from_binary(const Queue& queue, const std::vector<std::byte>
   Handle<_cl_program> program(
       clCreateProgramWithBinary(queue.context(), 1, &device, &size, &pointer, &binary_status, &status));
   if (status != CL_SUCCESS || binary_status != CL_SUCCESS) return nullptr;
-  if (clBuildProgram(program.get(), 1, &device, options.c_str(), nullptr, nullptr) != CL_SUCCESS) return nullptr;
+  if (clBuildProgram(program.get(), 1, &device, options.c_str(), nullptr, nullptr) != CL_SUCCESS)
+    return nullptr;
   return program;
 }
 
@@ -75,9 +79,11 @@ void Program::build(const Queue& queue, const std::string& name, const std::stri
   check(status, "clCreateProgramWithSource", name);
   status = clBuildProgram(program_.get(), 1, &device.id, options.c_str(), nullptr, nullptr);
   if (status == CL_BUILD_PROGRAM_FAILURE)
-    check(status, "clBuildProgram", name + " on " + device.name + ": " + first_complaint(program_.get(), device.id));
+    check(status, "clBuildProgram",
+          name + " on " + device.name + ": " + first_complaint(program_.get(), device.id));
   check(status, "clBuildProgram", name + " on " + device.name);
-  if (const std::vector<std::byte> binary = binary_of(program_.get()); !binary.empty()) store_binary(key, binary);
+  if (const std::vector<std::byte> binary = binary_of(program_.get()); !binary.empty())
+    store_binary(key, binary);
 }
 
 Kernel::Kernel(const Program& program, const std::string& name) : name_(name) {
@@ -100,8 +106,8 @@ void Kernel::enqueue(const Queue& queue, size_t global, size_t local, size_t row
   if (global == 0 || rows == 0) return;
   const size_t whole[2] = {(global + local - 1) / local * local, rows}, groups_of[2] = {local, 1};
   const cl_uint dimensions = rows == 1 ? 1 : 2;
-  const cl_int status = clEnqueueNDRangeKernel(queue.handle(), kernel_.get(), dimensions, nullptr, whole, groups_of, 0,
-                                               nullptr, nullptr);
+  const cl_int status = clEnqueueNDRangeKernel(queue.handle(), kernel_.get(), dimensions, nullptr, whole,
+                                               groups_of, 0, nullptr, nullptr);
   if (status != CL_SUCCESS) check(status, "clEnqueueNDRangeKernel", name_);
 }
 

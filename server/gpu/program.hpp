@@ -8,8 +8,8 @@
 
 namespace ream::gpu {
 
-/// A kernel file of kernels/ built for a queue's device, taken from the binary cache when it was built before. Built
-/// without any unsafe arithmetic option, so that results are the same bits on every device.
+/// A kernel file of kernels/ built for a queue's device, taken from the binary cache when it was built
+/// before. Built without any unsafe arithmetic option, so that results are the same bits on every device.
 class Program {
  public:
   /// `file_name` as in kernels/, `options` e.g. "-D RADIUS=3". Throws Error not_found for an unknown file and
@@ -24,14 +24,15 @@ class Program {
 
  private:
   Program() = default;
-  void build(const Queue& queue, const std::string& name, const std::string& source, const std::string& options);
+  void build(const Queue& queue, const std::string& name, const std::string& source,
+             const std::string& options);
 
   Handle<_cl_program> program_;
   bool came_from_cache_ = false;
 };
 
-/// One kernel with its arguments. PoCL compiles a kernel once more at the first enqueue of every local size (tens
-/// of ms): enqueue each shape once, with arguments that do nothing, before the loop starts.
+/// One kernel with its arguments. PoCL compiles a kernel once more at the first enqueue of every local size
+/// (tens of ms): enqueue each shape once, with arguments that do nothing, before the loop starts.
 class Kernel {
  public:
   /// Throws Error unavailable when the program has no such kernel.
@@ -50,8 +51,8 @@ class Kernel {
     set_bytes(index, &value, sizeof value);
   }
 
-  /// Enqueues ceil(global / local) work-groups, `rows` times along the second dimension; the kernel itself ignores
-  /// items beyond its count.
+  /// Enqueues ceil(global / local) work-groups, `rows` times along the second dimension; the kernel itself
+  /// ignores items beyond its count.
   void enqueue(const Queue& queue, size_t global, size_t local, size_t rows = 1) const;
 
   const std::string& name() const { return name_; }

@@ -3,16 +3,16 @@
 
 namespace ream::gpu {
 
-/// A context on one device and one in-order command queue in it. Buffers, programs and kernels made with a queue
-/// belong to it and must not outlive it. Used by one thread at a time.
+/// A context on one device and one in-order command queue in it. Buffers, programs and kernels made with a
+/// queue belong to it and must not outlive it. Used by one thread at a time.
 class Queue {
  public:
   /// Throws Error unavailable.
   explicit Queue(const Device& device);
 
   const Device& device() const { return device_; }
-  /// True when kernels work on the host's own arrays without copies; tried out once with the device, not taken
-  /// from its description.
+  /// True when kernels work on the host's own arrays without copies; tried out once with the device, not
+  /// taken from its description.
   bool shares_host_memory() const { return shares_host_memory_; }
 
   /// Waits until everything enqueued is done. Throws Error unavailable when any of it failed.

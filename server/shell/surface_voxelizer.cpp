@@ -10,7 +10,8 @@
 namespace ream::shell {
 namespace {
 
-/// Cells along one side, and bytes of bits altogether, beyond which a request is a mistake rather than a wish.
+/// Cells along one side, and bytes of bits altogether, beyond which a request is a mistake rather than a
+/// wish.
 constexpr double most_cells_a_side = 1 << 20;
 constexpr double most_bytes = 16.0 * 1024 * 1024 * 1024;
 
@@ -33,7 +34,8 @@ SurfaceVoxels surface_grid(const TriangleMesh& mesh, double size_mm) {
   if (box.empty() || !box.min.allFinite() || !box.max.allFinite())
     throw Error(ErrorKind::invalid_input, "the mesh has vertices that are not finite");
 
-  // Half a cell before, half a cell and rounding behind: the box's far side lies in the middle of the last cell or before.
+  // Half a cell before, half a cell and rounding behind: the box's far side lies in the middle of the last
+  // cell or before.
   constexpr double rounding_cells = 1e-6;
   const Vec3 cells = ((box.max - box.min) / size_mm).array() + (1.0 - rounding_cells);
   const double bytes = cells.x() / 8.0 * cells.y() * cells.z();

@@ -33,7 +33,8 @@ void SurfaceVoxelizerCl::voxelize(const TriangleMesh& mesh, Separability separab
   kernel_.set_all(corner_buffer, arguments, word_buffer);
   kernel_.enqueue(queue_, mesh.triangles.size(), local_size);
   queue_.finish();
-  if (!word_buffer.shared()) word_buffer.read(queue_, grid.words.data(), grid.words.size() * sizeof(uint32_t));
+  if (!word_buffer.shared())
+    word_buffer.read(queue_, grid.words.data(), grid.words.size() * sizeof(uint32_t));
 }
 
 }  // namespace ream::shell

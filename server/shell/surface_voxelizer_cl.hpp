@@ -4,8 +4,8 @@
 
 namespace ream::shell {
 
-/// voxelize_surface_cpu on an OpenCL device, one work-item a triangle (thesis algorithm 3.1): the same bits. The queue must
-/// outlive it.
+/// voxelize_surface_cpu on an OpenCL device, one work-item a triangle (thesis algorithm 3.1): the same bits.
+/// The queue must outlive it.
 class SurfaceVoxelizerCl {
  public:
   /// Builds and warms the kernel. Throws Error unavailable.

@@ -2,16 +2,21 @@
 #include "shell/surface_corners.hpp"
 #include "shell/surface_voxelizer.hpp"
 
-// Twin of kernels/surface_voxelizer.cl: the same float operations in the same order, so the same bits. All tests are
-// written around cell centres, which turns eqs 3.2, 3.4 and 3.6-3.8 into |d| <= reach and d >= -reach.
+// Twin of kernels/surface_voxelizer.cl: the same float operations in the same order, so the same bits. All
+// tests are written around cell centres, which turns eqs 3.2, 3.4 and 3.6-3.8 into |d| <= reach and d >=
+// -reach.
 namespace ream::shell {
 namespace {
 
 constexpr float edge_margin = REAM_VOXELIZER_EDGE_MARGIN;
 constexpr float plane_margin = REAM_VOXELIZER_PLANE_MARGIN;
 
-float larger(float a, float b) { return a > b ? a : b; }
-float magnitude(float a) { return a < 0.0f ? -a : a; }
+float larger(float a, float b) {
+  return a > b ? a : b;
+}
+float magnitude(float a) {
+  return a < 0.0f ? -a : a;
+}
 
 /// floor(x), held within [low, high] so that the conversion is always defined.
 int floor_to_int(float x, float low, float high) {
@@ -26,8 +31,8 @@ float largest_reach(float a, float b, float c, bool thin) {
   return thin ? 0.5f * larger(larger(a, b), c) : 0.5f * ((a + b) + c);
 }
 
-/// One edge projected on a principal plane (eq. 3.3): normal (na, nb), a point on it, and how far a cell centre
-/// may lie behind it.
+/// One edge projected on a principal plane (eq. 3.3): normal (na, nb), a point on it, and how far a cell
+/// centre may lie behind it.
 struct Edge {
   float na = 0, nb = 0, va = 0, vb = 0, reach = 0;
 };

@@ -31,8 +31,13 @@ std::vector<T> upsample(const gpu::Queue& queue, std::span<const T> input, const
                     tz = taps(queue, dims.z(), factor);
   const auto size = (dims * factor).cast<uint32_t>().eval();
   const auto n = static_cast<uint32_t>(factor);
-  layout::UpsampleArguments arguments{static_cast<uint32_t>(dims.x()), static_cast<uint32_t>(dims.y()), size.x(),
-                                      size.y(), 0, 4 * n * n * n, 8 * n * n * n};
+  layout::UpsampleArguments arguments{static_cast<uint32_t>(dims.x()),
+                                      static_cast<uint32_t>(dims.y()),
+                                      size.x(),
+                                      size.y(),
+                                      0,
+                                      4 * n * n * n,
+                                      8 * n * n * n};
   const size_t slice = static_cast<size_t>(size.x()) * size.y();
   const size_t slices_a_slab = std::max<size_t>(1, slab_bytes / (slice * sizeof(T)));
   std::vector<T> output(slice * size.z());
@@ -51,13 +56,13 @@ std::vector<T> upsample(const gpu::Queue& queue, std::span<const T> input, const
 
 }  // namespace
 
-std::vector<uint8_t> upsample_trilinear_cl(const gpu::Queue& queue, std::span<const uint8_t> input, const Vec3i& dims,
-                                           int factor) {
+std::vector<uint8_t> upsample_trilinear_cl(const gpu::Queue& queue, std::span<const uint8_t> input,
+                                           const Vec3i& dims, int factor) {
   return upsample(queue, input, dims, factor, "-D SAMPLE=uchar -D BIAS=0");
 }
 
-std::vector<int16_t> upsample_trilinear_cl(const gpu::Queue& queue, std::span<const int16_t> input, const Vec3i& dims,
-                                           int factor) {
+std::vector<int16_t> upsample_trilinear_cl(const gpu::Queue& queue, std::span<const int16_t> input,
+                                           const Vec3i& dims, int factor) {
   return upsample(queue, input, dims, factor, "-D SAMPLE=short -D BIAS=32768");
 }
 

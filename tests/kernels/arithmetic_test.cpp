@@ -28,7 +28,8 @@ std::vector<float> on_device(const gpu::Queue& queue, const char* kernel_name, N
   const gpu::Program program(queue, "arithmetic_check.cl");
   gpu::Kernel kernel(program, kernel_name);
   std::vector<float> sums(n.a.size());
-  const gpu::Buffer a = gpu::Buffer::over(queue, std::span(n.a)), b = gpu::Buffer::over(queue, std::span(n.b)),
+  const gpu::Buffer a = gpu::Buffer::over(queue, std::span(n.a)),
+                    b = gpu::Buffer::over(queue, std::span(n.b)),
                     c = gpu::Buffer::over(queue, std::span(n.c)), out(queue, sums.size() * sizeof(float));
   kernel.set_all(a, b, c, out, static_cast<uint32_t>(sums.size()));
   kernel.enqueue(queue, sums.size(), 64);

@@ -7,8 +7,8 @@
 
 namespace ream::test {
 
-/// Runs `check` with every OpenCL device of the machine, and with those that share the host's memory once more as if
-/// they did not. PoCL is a requirement of the project, so no device at all is a failure.
+/// Runs `check` with every OpenCL device of the machine, and with those that share the host's memory once
+/// more as if they did not. PoCL is a requirement of the project, so no device at all is a failure.
 template <class Check>
 void on_every_device(Check check) {
   const std::vector<gpu::Device> devices = gpu::list_devices();

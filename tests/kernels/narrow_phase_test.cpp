@@ -10,7 +10,8 @@ constexpr LaunchShape shapes[] = {{16, 1}, {1, 1}, {7, 32}};
 
 TEST(NarrowPhaseCl, SumsEqualTheCppTwinAtRandomPoses) {
   test::ReamingScene scene(31);
-  std::cout << "seed 31, " << scene.contact.size() << " points in " << scene.contact.blocks.size() << " blocks\n";
+  std::cout << "seed 31, " << scene.contact.size() << " points in " << scene.contact.blocks.size()
+            << " blocks\n";
   const auto cpu = make_narrow_phase_cpu(scene.contact_input());
   test::on_every_device([&](const gpu::Device& device) {
     const auto buffers = std::make_shared<BoneBuffers>(device, scene.bone);

@@ -12,7 +12,7 @@ void expect_equal_bits(const TriangleMesh& mesh, double size_mm) {
     voxelize_surface_cpu(mesh, separability, expected);
     ASSERT_GT(expected.filled_cells(), 0u);
     test::on_every_device([&](const gpu::Device& device) {
-    const gpu::Queue queue(device);
+      const gpu::Queue queue(device);
       SurfaceVoxels grid = blank;
       SurfaceVoxelizerCl(queue).voxelize(mesh, separability, grid);
       EXPECT_EQ(grid.words, expected.words);
@@ -30,7 +30,8 @@ TEST(SurfaceVoxelizerCl, RandomTrianglesGiveTheSameBits) {
 
 TEST(SurfaceVoxelizerCl, AwkwardTriangleCountsGiveTheSameBits) {
   std::mt19937 random(4);
-  for (const int count : {1, 15, 16, 17, 31}) expect_equal_bits(test::random_triangles(random, count, 5.0f), 0.5);
+  for (const int count : {1, 15, 16, 17, 31})
+    expect_equal_bits(test::random_triangles(random, count, 5.0f), 0.5);
 }
 
 TEST(SurfaceVoxelizerCl, LargeAndDegenerateTrianglesGiveTheSameBits) {

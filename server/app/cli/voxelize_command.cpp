@@ -30,12 +30,14 @@ struct Result {
 Result voxelize(const Options& options) {
   if (!(options.size_mm > 0.0)) throw Error(ErrorKind::usage, "--size must be a positive voxel edge in mm");
   const TriangleMesh mesh = load_mesh(options.mesh);
-  const auto separability = options.separability == 6 ? shell::Separability::six : shell::Separability::twenty_six;
+  const auto separability =
+      options.separability == 6 ? shell::Separability::six : shell::Separability::twenty_six;
   Result result{shell::surface_grid(mesh, options.size_mm), 0.0, "cpu"};
   const auto timed = [&](const auto& work) {
     const auto start = std::chrono::steady_clock::now();
     work();
-    result.time_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    result.time_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   };
   if (options.backend == "auto" || options.backend == "cpu") {
     timed([&] { shell::voxelize_surface_cpu(mesh, separability, result.grid); });
@@ -58,7 +60,8 @@ TriangleMesh centres(const shell::SurfaceVoxels& grid) {
     for (int v = 0; v < grid.dims.y(); ++v)
       for (int u = 0; u < grid.dims.x(); ++u)
         if (grid.filled(u, v, w))
-          cloud.vertices_mm.push_back((grid.origin_mm + grid.size_mm * Vec3(u + 0.5, v + 0.5, w + 0.5)).cast<float>());
+          cloud.vertices_mm.push_back(
+              (grid.origin_mm + grid.size_mm * Vec3(u + 0.5, v + 0.5, w + 0.5)).cast<float>());
   return cloud;
 }
 
@@ -85,10 +88,13 @@ void run(const Options& options, const GlobalOptions& global) {
 
 void add_voxelize_command(CLI::App& app, GlobalOptions& global) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("voxelize", "Mark the voxels that the surface of a triangle mesh passes");
+  CLI::App* command =
+      app.add_subcommand("voxelize", "Mark the voxels that the surface of a triangle mesh passes");
   command->add_option("MESH", options->mesh, "STL, OBJ, PLY, OFF or GLB file, in mm")->required();
   command->add_option("--size", options->size_mm, "Voxel edge, mm")->required();
-  command->add_option("--separability", options->separability, "26: every voxel the surface touches; 6: the thin form")
+  command
+      ->add_option("--separability", options->separability,
+                   "26: every voxel the surface touches; 6: the thin form")
       ->check(CLI::IsMember({6, 26}))
       ->capture_default_str();
   command->add_option("--points", options->points, "Write the centres of the marked voxels to this PLY file");

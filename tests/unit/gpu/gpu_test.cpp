@@ -15,7 +15,8 @@ namespace {
 
 // OpenCL (PoCL) is a requirement of the project: without a device these tests fail, they do not skip.
 
-constexpr const char* doubling = "kernel void twice(global int* x, int n) { int i = get_global_id(0); if (i < n) x[i] *= 2; }";
+constexpr const char* doubling =
+    "kernel void twice(global int* x, int n) { int i = get_global_id(0); if (i < n) x[i] *= 2; }";
 
 std::string message_of(const std::function<void()>& action) {
   try {
@@ -81,13 +82,16 @@ TEST(Buffer, ReadsWhatWasWrittenAndFilled) {
   EXPECT_EQ(all[10], 1);
   EXPECT_EQ(all[12], 3);
   EXPECT_EQ(all[63], 7);
-  EXPECT_NE(message_of([&] { buffer.write(queue, some, 3, 62); }).find("clEnqueueWriteBuffer"), std::string::npos);
-  EXPECT_NE(message_of([&] { Buffer(queue, size_t{1} << 60); }).find("bytes is more than"), std::string::npos);
+  EXPECT_NE(message_of([&] { buffer.write(queue, some, 3, 62); }).find("clEnqueueWriteBuffer"),
+            std::string::npos);
+  EXPECT_NE(message_of([&] { Buffer(queue, size_t{1} << 60); }).find("bytes is more than"),
+            std::string::npos);
 }
 
 TEST(Program, ErrorsNameTheCallAndThePlace) {
   const Queue queue(choose_device("auto", Use::tick));
-  const std::string bad = message_of([&] { Program::from_source(queue, "bad.cl", "kernel void f() { wrong; }"); });
+  const std::string bad =
+      message_of([&] { Program::from_source(queue, "bad.cl", "kernel void f() { wrong; }"); });
   EXPECT_NE(bad.find("clBuildProgram"), std::string::npos) << bad;
   EXPECT_NE(bad.find("bad.cl"), std::string::npos) << bad;
   EXPECT_EQ(bad.find('\n'), std::string::npos) << bad;

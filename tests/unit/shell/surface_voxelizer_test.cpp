@@ -23,10 +23,12 @@ SurfaceVoxels voxelized(const TriangleMesh& mesh, double size_mm, Separability s
   return grid;
 }
 
-Mat3 some_rotation(double a) { return rotation_from_small_vector(Vec3(0.3 * a, -0.5 * a, 0.2 * a)); }
+Mat3 some_rotation(double a) {
+  return rotation_from_small_vector(Vec3(0.3 * a, -0.5 * a, 0.2 * a));
+}
 
-/// Independent reference: the 13-axis separating-axis test of a triangle and a unit cell, in doubles. `slack` widens
-/// (positive) or shrinks (negative) the cell, in cells.
+/// Independent reference: the 13-axis separating-axis test of a triangle and a unit cell, in doubles. `slack`
+/// widens (positive) or shrinks (negative) the cell, in cells.
 bool triangle_meets_cell(const std::array<Vec3, 3>& triangle, const Vec3& centre, double slack) {
   const std::array<Vec3, 3> v = {triangle[0] - centre, triangle[1] - centre, triangle[2] - centre};
   const Vec3 half = Vec3::Constant(0.5 + slack);
@@ -45,7 +47,8 @@ bool triangle_meets_cell(const std::array<Vec3, 3>& triangle, const Vec3& centre
 std::array<Vec3, 3> in_cells(const TriangleMesh& mesh, size_t triangle, const SurfaceVoxels& grid) {
   std::array<Vec3, 3> corners;
   for (size_t i = 0; i < 3; ++i)
-    corners[i] = (mesh.vertices_mm[mesh.triangles[triangle][i]].cast<double>() - grid.origin_mm) / grid.size_mm;
+    corners[i] =
+        (mesh.vertices_mm[mesh.triangles[triangle][i]].cast<double>() - grid.origin_mm) / grid.size_mm;
   return corners;
 }
 
