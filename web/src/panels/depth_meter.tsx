@@ -1,0 +1,47 @@
+import type { Store } from '../state/store';
+import { words } from '../words';
+import { fixed } from './format';
+
+/** Within this of the plan the depth counts as reached, mm. */
+const reachedWithinMm = 0.05;
+
+/** Reaming depth against the plan. */
+export function DepthMeter({ store }: { store: Store }) {
+  const plannedMm = store.hello.value?.plannedDepthMm ?? 0;
+  const depthMm = store.telemetry.value?.depthMm ?? null;
+  const share = plannedMm > 0 && depthMm !== null ? Math.min(Math.max(depthMm / plannedMm, 0), 1) : 0;
+  const pastMm = depthMm === null ? 0 : depthMm - plannedMm;
+  const past = plannedMm > 0 && pastMm > reachedWithinMm;
+  return (
+    <section class="depth" aria-labelledby="depth-title">
+      <div class="depth-head">
+        <h2 id="depth-title">{words.depth}</h2>
+        <p>
+          <span class="big" data-testid="depth">
+            {fixed(depthMm, 2)}
+          </span>{' '}
+          mm <span class="soft">{plannedMm > 0 && words.depthOf(fixed(plannedMm, 2))}</span>
+        </p>
+      </div>
+      <div
+        class={past ? 'meter past' : 'meter'}
+        role="meter"
+        aria-labelledby="depth-title"
+        aria-valuemin={0}
+        aria-valuemax={plannedMm}
+        aria-valuenow={depthMm ?? 0}
+        aria-valuetext={depthWords(depthMm, plannedMm)}
+      >
+        <div style={{ width: `${(share * 100).toFixed(1)}%` }} />
+      </div>
+      <p class="soft depth-words">{depthWords(depthMm, plannedMm)}</p>
+    </section>
+  );
+}
+
+function depthWords(depthMm: number | null, plannedMm: number): string {
+  if (depthMm === null || plannedMm <= 0) return words.none;
+  const leftMm = plannedMm - depthMm;
+  if (leftMm > reachedWithinMm) return words.depthLeft(fixed(leftMm, 2));
+  return leftMm < -reachedWithinMm ? words.depthPast(fixed(-leftMm, 2)) : words.depthReached;
+}

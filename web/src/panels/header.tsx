@@ -1,0 +1,34 @@
+import type { Store } from '../state/store';
+import type { LinkState } from '../wire/link';
+import { words } from '../words';
+
+const linkWords: Record<LinkState['kind'], string> = {
+  connecting: words.linkConnecting,
+  live: words.linkLive,
+  silent: words.linkSilent,
+  lost: words.linkLost,
+  refused: words.linkRefused,
+};
+
+/** What is watched, and whether it is live. */
+export function Header({ store }: { store: Store }) {
+  const hello = store.hello.value;
+  const link = store.link.value.kind;
+  return (
+    <header class="header">
+      <h1 class="product">
+        {words.product} <span class="tagline">{words.tagline}</span>
+      </h1>
+      {hello !== null && (
+        <p class="case" data-testid="case">
+          <strong>{words.side(hello.side)}</strong>
+          <span>{hello.caseName || hello.caseId}</span>
+        </p>
+      )}
+      <p class={`link link-${link}`} role="status" data-testid="link-state" data-link={link}>
+        <span class="link-dot" aria-hidden="true" />
+        {linkWords[link]}
+      </p>
+    </header>
+  );
+}

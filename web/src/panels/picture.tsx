@@ -1,0 +1,51 @@
+import { useEffect, useRef } from 'preact/hooks';
+
+import type { BoneScene } from '../scene/scene';
+import type { ViewName } from '../scene/camera_rig';
+import type { Store } from '../state/store';
+import { words } from '../words';
+import { LinkNotice } from './link_notice';
+
+const views: readonly (readonly [ViewName, string])[] = [
+  ['plan', words.viewPlan],
+  ['axis', words.viewAxis],
+  ['side', words.viewSide],
+];
+
+/** The bone and the reamer, with the view's buttons; dimmed whenever it is not live. */
+export function Picture({ store, scene }: { store: Store; scene: BoneScene }) {
+  const place = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    const canvas = scene.canvas;
+    canvas.tabIndex = 0;
+    canvas.setAttribute('role', 'img');
+    canvas.setAttribute('aria-label', words.sceneLabel);
+    canvas.dataset.testid = 'bone-canvas';
+    place.current?.prepend(canvas);
+    return () => canvas.remove();
+  }, [scene]);
+
+  const stale = store.hasPicture.value && !store.live.value;
+  return (
+    <main class={stale ? 'picture stale' : 'picture'} data-testid="picture" data-stale={stale}>
+      <div class="canvas-place" ref={place} />
+      <LinkNotice store={store} />
+      <div class="views" role="group" aria-label={words.view}>
+        {views.map(([view, label]) => (
+          <button type="button" key={view} data-testid={`view-${view}`} onClick={() => scene.look(view)}>
+            {label}
+          </button>
+        ))}
+        <label>
+          <input
+            type="checkbox"
+            data-testid="show-reamer"
+            checked={store.reamerShown.value}
+            onChange={(event) => (store.reamerShown.value = event.currentTarget.checked)}
+          />
+          {words.showReamer}
+        </label>
+      </div>
+    </main>
+  );
+}

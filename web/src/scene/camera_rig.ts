@@ -1,0 +1,90 @@
+import { PerspectiveCamera, Spherical, Vector3 } from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+
+import type { Hello } from '../wire/messages';
+
+export type ViewName = 'plan' | 'axis' | 'side';
+
+/** Half the field seen around the glenoid, mm. */
+const fieldRadiusMm = 36;
+const keyTurnRad = 0.09;
+const keyZoom = 1.1;
+
+/** LPS: z is superior, y posterior. */
+const superior = new Vector3(0, 0, 1);
+
+/** The camera, held on the glenoid: set views along the plan's axis, turned by hand or keys. */
+export class CameraRig {
+  readonly camera = new PerspectiveCamera(32, 1, 1, 2000);
+  private readonly controls: OrbitControls;
+  private readonly entry = new Vector3();
+  private readonly intoBone = new Vector3(-1, 0, 0);
+
+  constructor(surface: HTMLElement, onMove: () => void) {
+    this.camera.up.copy(superior);
+    this.controls = new OrbitControls(this.camera, surface);
+    this.controls.minDistance = 20;
+    this.controls.maxDistance = 800;
+    this.controls.addEventListener('change', onMove);
+    surface.addEventListener('keydown', (event) => this.onKey(event));
+  }
+
+  setPlan(hello: Hello): void {
+    this.entry.set(...hello.axisEntryMm);
+    this.intoBone.set(...hello.axisDirection).normalize();
+  }
+
+  look(view: ViewName): void {
+    const towardsViewer = this.intoBone.clone().negate();
+    const anterior = new Vector3(0, -1, 0);
+    const across = anterior.clone().addScaledVector(towardsViewer, -anterior.dot(towardsViewer)).normalize();
+    const from = {
+      axis: towardsViewer,
+      plan: towardsViewer.clone().multiplyScalar(0.8).addScaledVector(across, 0.62).addScaledVector(superior, 0.34),
+      side: across.clone().addScaledVector(superior, 0.08),
+    }[view];
+    this.controls.target.copy(this.entry);
+    this.camera.position.copy(this.entry).addScaledVector(from.normalize(), this.fittingDistance());
+    this.controls.update();
+  }
+
+  resize(aspect: number): void {
+    this.camera.aspect = aspect;
+    this.camera.updateProjectionMatrix();
+  }
+
+  /** From here the field fits the narrower side of the picture. */
+  private fittingDistance(): number {
+    const halfVertical = (this.camera.fov * Math.PI) / 360;
+    const halfHorizontal = Math.atan(Math.tan(halfVertical) * this.camera.aspect);
+    return fieldRadiusMm / Math.sin(Math.min(halfVertical, halfHorizontal));
+  }
+
+  private onKey(event: KeyboardEvent): void {
+    const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
+    if (step !== undefined) this.turn((step[0] ?? 0) * keyTurnRad, (step[1] ?? 0) * keyTurnRad);
+    else if (event.key === '+' || event.key === '=') this.zoom(1 / keyZoom);
+    else if (event.key === '-') this.zoom(keyZoom);
+    else if (event.key === 'Home') this.look('plan');
+    else return;
+    event.preventDefault();
+  }
+
+  /** Turns around the vertical and towards the pole, radians. */
+  private turn(around: number, polar: number): void {
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    // Spherical's pole is y; the world's is z.
+    const spherical = new Spherical().setFromCartesianCoords(offset.x, offset.z, -offset.y);
+    spherical.theta += around;
+    spherical.phi += polar;
+    spherical.makeSafe();
+    const turned = new Vector3().setFromSpherical(spherical);
+    this.camera.position.copy(this.controls.target).add(new Vector3(turned.x, -turned.z, turned.y));
+    this.controls.update();
+  }
+
+  private zoom(factor: number): void {
+    this.camera.position.sub(this.controls.target).multiplyScalar(factor).add(this.controls.target);
+    this.controls.update();
+  }
+}

@@ -1,0 +1,65 @@
+import { BufferAttribute, BufferGeometry, CylinderGeometry, Group, Mesh, MeshStandardMaterial, Vector3 } from 'three';
+import { toCreasedNormals } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
+
+import type { Pose, ToolMesh } from '../wire/messages';
+
+const creaseRad = 0.6;
+const shaftRadiusMm = 4;
+const shaftLengthMm = 55;
+
+/**
+ * The reamer where the server says it is: the cutting envelope, see-through so that the bone under it can be judged,
+ * and a shaft, which is not part of the model and only shows the axis.
+ */
+export class ToolView {
+  readonly group = new Group();
+  private readonly envelopeMaterial = new MeshStandardMaterial({
+    color: 0x8fb3c4,
+    roughness: 0.28,
+    metalness: 0.35,
+    transparent: true,
+    opacity: 0.5,
+  });
+  private readonly shaftMaterial = new MeshStandardMaterial({ color: 0xb9c4cb, roughness: 0.35, metalness: 0.45 });
+  private posed = false;
+  private wanted = true;
+
+  setMesh(tool: ToolMesh): void {
+    for (const part of [...this.group.children]) {
+      this.group.remove(part);
+      (part as Mesh).geometry.dispose();
+    }
+    this.posed = false;
+    this.refresh();
+    if (tool.indices.length === 0) return;
+    const indexed = new BufferGeometry();
+    indexed.setAttribute('position', new BufferAttribute(tool.positionsMm, 3));
+    indexed.setIndex(new BufferAttribute(tool.indices, 1));
+    const envelope = toCreasedNormals(indexed, creaseRad);
+    envelope.computeBoundingBox();
+    this.group.add(new Mesh(envelope, this.envelopeMaterial));
+    const top = envelope.boundingBox?.min.z ?? 0;
+    const shaft = new CylinderGeometry(shaftRadiusMm, shaftRadiusMm, shaftLengthMm, 40);
+    shaft.rotateX(Math.PI / 2).translate(0, 0, top - shaftLengthMm / 2);
+    this.group.add(new Mesh(shaft, this.shaftMaterial));
+  }
+
+  /** Not drawn until its first pose is known. */
+  setPose(pose: Pose | null): void {
+    this.posed = pose !== null;
+    if (pose !== null) {
+      this.group.position.copy(new Vector3(...pose.translationMm));
+      this.group.quaternion.set(...pose.rotationXyzw);
+    }
+    this.refresh();
+  }
+
+  setShown(shown: boolean): void {
+    this.wanted = shown;
+    this.refresh();
+  }
+
+  private refresh(): void {
+    this.group.visible = this.posed && this.wanted;
+  }
+}

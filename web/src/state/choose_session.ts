@@ -1,0 +1,23 @@
+import type { Session } from '../wire/api';
+
+/** Whether a session is under way. */
+export function isActive(session: Pick<Session, 'state'>): boolean {
+  return session.state === 'running' || session.state === 'paused';
+}
+
+/**
+ * The session to watch, or undefined when one should be created: the watched one while it is under way, else the newest
+ * under way, else the watched one, else the newest of all. `unstreamable` holds ids that gave no stream.
+ */
+export function chooseSession(
+  sessions: readonly Session[],
+  watchedId: string | null,
+  unstreamable: ReadonlySet<string>,
+): Session | undefined {
+  const newestFirst = sessions
+    .filter((s) => !unstreamable.has(s.id))
+    .sort((a, b) => (a.created_utc < b.created_utc ? 1 : a.created_utc > b.created_utc ? -1 : 0));
+  const watched = newestFirst.find((s) => s.id === watchedId);
+  if (watched !== undefined && isActive(watched)) return watched;
+  return newestFirst.find(isActive) ?? watched ?? newestFirst[0];
+}

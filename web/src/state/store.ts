@@ -1,0 +1,43 @@
+import { computed, signal } from '@preact/signals';
+
+import type { Metrics } from '../wire/api';
+import type { LinkState } from '../wire/link';
+import type { Hello, SessionState, Telemetry } from '../wire/messages';
+import { ForceTrace } from './force_trace';
+
+/** Length of the force plot, seconds of session time. */
+export const plotSeconds = 20;
+
+/** What the page knows. Written by the watcher, read by panels and scene. */
+export class Store {
+  readonly link = signal<LinkState>({ kind: 'connecting' });
+  readonly hello = signal<Hello | null>(null);
+  readonly telemetry = signal<Telemetry | null>(null);
+  /** State of the watched session, from whichever spoke last, telemetry or REST. */
+  readonly sessionState = signal<SessionState | null>(null);
+  readonly sessionId = signal<string | null>(null);
+  /** False from the loss of a stream until the next one has sent the whole picture. */
+  readonly pictureComplete = signal(false);
+  /** Whether a stream was lost since the page was opened. */
+  readonly metWithLoss = signal(false);
+  /** Whether any bone was ever drawn. */
+  readonly hasPicture = signal(false);
+  /** Wall-clock time of the last message, ms. */
+  readonly lastMessageMs = signal<number | null>(null);
+  /** Final figures of a session that has ended. */
+  readonly metrics = signal<Metrics | null>(null);
+  /** Words of the last thing that went wrong at the user's hand. */
+  readonly problem = signal<string | null>(null);
+  /** A request of the user's is under way. */
+  readonly busy = signal(false);
+
+  readonly reamerShown = signal(true);
+
+  readonly trace = new ForceTrace(plotSeconds * 1000 + 1000);
+  /** Grows when the trace changes. */
+  readonly traceRevision = signal(0);
+
+  /** Whether what is shown is the present state of the simulator. */
+  readonly live = computed(() => this.link.value.kind === 'live' && this.pictureComplete.value);
+  readonly active = computed(() => this.sessionState.value === 'running' || this.sessionState.value === 'paused');
+}

@@ -1,0 +1,192 @@
+import { batch } from '@preact/signals';
+
+import { ApiError, type Api } from '../wire/api';
+import { Link, type LinkState } from '../wire/link';
+import type { Hello, MeshDelta, StreamMessage, Telemetry } from '../wire/messages';
+import type { StreamSocket } from '../wire/stream_socket';
+import { chooseSession, isActive } from './choose_session';
+import type { Store } from './store';
+
+/** Where pictures go. */
+export interface Picture {
+  begin(hello: Hello): void;
+  apply(mesh: MeshDelta): void;
+}
+
+const idlePollMs = 2500;
+
+/**
+ * Watches one session at a time: finds it, follows its stream into the store and the picture, and finds another when
+ * it is gone or a newer one runs. Carries out what the user asks for.
+ */
+export class Watcher {
+  private readonly link: Link;
+  private readonly unstreamable = new Set<string>();
+  /** A stream was asked for and has not said hello. */
+  private awaitingHello = false;
+  private endedWithoutHello = 0;
+
+  constructor(
+    private readonly store: Store,
+    private readonly api: Api,
+    socket: StreamSocket,
+    private readonly picture: Picture,
+  ) {
+    this.link = new Link({
+      socket,
+      findStream: () => this.findStream(),
+      onState: (state) => this.onLink(state),
+      onMessage: (message) => this.onMessage(message),
+    });
+  }
+
+  start(): void {
+    this.link.connect();
+    setInterval(() => void this.lookForNewer(), idlePollMs);
+  }
+
+  /** Starts the watched session if it waits to be started, else a new one; problems are told in the store. */
+  async runDemo(): Promise<void> {
+    await this.carryOut(async () => {
+      const waiting = this.store.sessionState.value === 'created' ? this.store.sessionId.value : null;
+      const session = (waiting === null ? null : await this.startWaiting(waiting)) ?? (await this.startNew());
+      this.store.sessionState.value = session.state;
+      if (session.id !== this.store.hello.value?.sessionId || this.store.link.value.kind !== 'live') {
+        this.store.sessionId.value = session.id;
+        this.link.connect();
+      }
+    });
+  }
+
+  /** Ends the watched session. */
+  async stop(): Promise<void> {
+    await this.carryOut(async () => {
+      const id = this.store.sessionId.value;
+      if (id !== null) this.store.sessionState.value = (await this.api.stop(id)).state;
+    });
+  }
+
+  private async startNew() {
+    return this.api.start((await this.api.createDemo()).id);
+  }
+
+  /** Null when the session is gone or was started by somebody else. */
+  private async startWaiting(id: string) {
+    try {
+      return await this.api.start(id);
+    } catch (error) {
+      if (error instanceof ApiError && (error.status === 404 || error.status === 409)) return null;
+      throw error;
+    }
+  }
+
+  private async carryOut(action: () => Promise<void>): Promise<void> {
+    this.store.busy.value = true;
+    this.store.problem.value = null;
+    try {
+      await action();
+    } catch (error) {
+      this.store.problem.value = error instanceof Error ? error.message : String(error);
+    } finally {
+      this.store.busy.value = false;
+    }
+  }
+
+  private async findStream(): Promise<string> {
+    this.awaitingHello = false;
+    const sessions = await this.api.sessions();
+    const session =
+      chooseSession(sessions, this.store.sessionId.value, this.unstreamable) ?? (await this.api.createDemo());
+    batch(() => {
+      if (session.id !== this.store.sessionId.value) this.endedWithoutHello = 0;
+      this.store.sessionId.value = session.id;
+      this.store.sessionState.value = session.state;
+    });
+    this.awaitingHello = true;
+    return this.api.streamUrl(session.id);
+  }
+
+  private onLink(state: LinkState): void {
+    batch(() => {
+      if (state.kind === 'lost') {
+        this.store.pictureComplete.value = false;
+        this.store.metWithLoss.value = true;
+      }
+      this.store.link.value = state;
+    });
+    if (state.kind === 'lost' && state.retryAtMs !== null) this.countSilentEnd();
+  }
+
+  /** A session that is listed but twice gave no stream is left aside. */
+  private countSilentEnd(): void {
+    const id = this.store.sessionId.value;
+    if (!this.awaitingHello || id === null) return;
+    if (++this.endedWithoutHello >= 2 && !this.store.active.value) this.unstreamable.add(id);
+  }
+
+  private onMessage(message: StreamMessage): void {
+    batch(() => {
+      this.store.lastMessageMs.value = Date.now();
+      switch (message.kind) {
+        case 'hello':
+          return this.onHello(message.hello);
+        case 'mesh':
+          this.picture.apply(message.mesh);
+          if (message.mesh.blocks.length > 0) this.store.hasPicture.value = true;
+          if (message.mesh.keyComplete) this.store.pictureComplete.value = true;
+          return;
+        case 'telemetry':
+          return this.onTelemetry(message.telemetry);
+      }
+    });
+    this.link.expectTraffic(this.store.telemetry.value !== null && this.store.sessionState.value === 'running');
+  }
+
+  private onHello(hello: Hello): void {
+    this.awaitingHello = false;
+    this.endedWithoutHello = 0;
+    const before = this.store.hello.value;
+    const sameSession = before?.sessionId === hello.sessionId && before.serverEpoch === hello.serverEpoch;
+    if (!sameSession) {
+      this.store.trace.clear();
+      ++this.store.traceRevision.value;
+      this.store.telemetry.value = null;
+      this.store.metrics.value = null;
+    }
+    this.store.hello.value = hello;
+    this.store.pictureComplete.value = false;
+    this.picture.begin(hello);
+    void this.readMetrics();
+  }
+
+  private onTelemetry(telemetry: Telemetry): void {
+    if (telemetry.thrustN.length > 0) {
+      this.store.trace.append(telemetry.firstTick, telemetry.tickStride, telemetry.thrustN);
+      ++this.store.traceRevision.value;
+    }
+    const ended = this.store.sessionState.value !== telemetry.state;
+    this.store.telemetry.value = telemetry;
+    this.store.sessionState.value = telemetry.state;
+    if (ended) void this.readMetrics();
+  }
+
+  /** Final figures, once a session has ended. They are a supplement: without them the page shows the rest. */
+  private async readMetrics(): Promise<void> {
+    const id = this.store.sessionId.value;
+    const state = this.store.sessionState.value;
+    if (id === null || !(state === 'finished' || state === 'stopped')) {
+      this.store.metrics.value = null;
+      return;
+    }
+    const metrics = await this.api.metrics(id).catch(() => null);
+    if (id === this.store.sessionId.value) this.store.metrics.value = metrics;
+  }
+
+  /** While the watched session rests, another may have been started elsewhere, or this one. */
+  private async lookForNewer(): Promise<void> {
+    if (this.store.link.value.kind !== 'live' || this.store.active.value || this.store.busy.value) return;
+    const sessions = await this.api.sessions().catch(() => []);
+    const chosen = chooseSession(sessions, this.store.sessionId.value, this.unstreamable);
+    if (chosen !== undefined && isActive(chosen) && chosen.id !== this.store.sessionId.value) this.link.connect();
+  }
+}

@@ -1,0 +1,97 @@
+import { words } from '../words';
+import type { SessionState } from './messages';
+
+/** A session as REST describes it. */
+export interface Session {
+  id: string;
+  case: string;
+  script: string;
+  state: SessionState;
+  created_utc: string;
+  tick: number;
+  duration_s: number;
+  force_scale: number;
+  fault: string | null;
+}
+
+/** The figures of a session that the page shows; more are sent. */
+export interface Metrics {
+  removed_volume_mm3: number;
+  removed_volume_cortical_mm3: number;
+  removed_volume_cancellous_mm3: number;
+  reaming_depth_mm: number;
+  axial_thrust_mean_n: number;
+  axial_thrust_peak_n: number;
+  duration_s: number;
+}
+
+/** What the server, or the way to it, answered instead of what was asked for; the message is for people. */
+export class ApiError extends Error {
+  constructor(
+    message: string,
+    /** HTTP status, 0 when there was no answer. */
+    readonly status: number,
+  ) {
+    super(message);
+  }
+}
+
+// The first session of a fresh server waits until the demo case is made.
+const timeoutMs = { GET: 10000, POST: 60000 };
+
+/** Calls of the REST interface under `base` (the page's own server by default). */
+export class Api {
+  constructor(private readonly base: string) {}
+
+  async sessions(): Promise<Session[]> {
+    return (await this.call<{ sessions: Session[] }>('GET', 'sessions')).sessions;
+  }
+  createDemo(): Promise<Session> {
+    return this.call('POST', 'sessions', { case: 'demo', script: 'demo' });
+  }
+  start(id: string): Promise<Session> {
+    return this.call('POST', `sessions/${encodeURIComponent(id)}/start`);
+  }
+  stop(id: string): Promise<Session> {
+    return this.call('POST', `sessions/${encodeURIComponent(id)}/stop`);
+  }
+  metrics(id: string): Promise<Metrics> {
+    return this.call('GET', `sessions/${encodeURIComponent(id)}/metrics`);
+  }
+  streamUrl(id: string): string {
+    return `${this.base.replace(/^http/, 'ws')}/api/v1/sessions/${encodeURIComponent(id)}/stream`;
+  }
+
+  private async call<T>(method: "GET" | "POST", path: string, body?: object): Promise<T> {
+    let response: Response;
+    try {
+      response = await fetch(`${this.base}/api/v1/${path}`, {
+        method,
+        cache: 'no-store',
+        headers: body === undefined ? {} : { 'content-type': 'application/json' },
+        body: body === undefined ? undefined : JSON.stringify(body),
+        signal: AbortSignal.timeout(timeoutMs[method]),
+      });
+    } catch {
+      throw new ApiError(words.noAnswer, 0);
+    }
+    if (!response.ok) throw await problem(response);
+    try {
+      return (await response.json()) as T;
+    } catch {
+      throw new ApiError(words.unreadableAnswer, response.status);
+    }
+  }
+}
+
+/** Words of an RFC 9457 problem, or of the bare status where the body is none. */
+async function problem(response: Response): Promise<ApiError> {
+  let said = '';
+  try {
+    const body = (await response.json()) as { title?: unknown; detail?: unknown };
+    said = [body.detail, body.title].find((text) => typeof text === 'string' && text !== '') as string;
+  } catch {
+    said = '';
+  }
+  return new ApiError(said || words.answeredWith(response.status), response.status);
+}

@@ -1,0 +1,146 @@
+import { ByteBuffer } from 'flatbuffers';
+
+import { decodeBlock } from './decode_block';
+import { Body } from './generated/ream/wire/body';
+import { Hello as WireHello } from './generated/ream/wire/hello';
+import { MeshDelta as WireMeshDelta } from './generated/ream/wire/mesh-delta';
+import type { Pose as WirePose } from './generated/ream/wire/pose';
+import { ServerMessage } from './generated/ream/wire/server-message';
+import { SessionState as WireState } from './generated/ream/wire/session-state';
+import { Telemetry as WireTelemetry } from './generated/ream/wire/telemetry';
+import type { Vec3 } from './generated/ream/wire/vec3';
+import type { Hello, MeshDelta, Pose, SessionState, StreamMessage, Telemetry, Triple } from './messages';
+
+/** Decodes one connection's messages in order; the first must be the hello. Throws on anything else. */
+export class StreamDecoder {
+  private voxelSpacingMm: Triple | null = null;
+
+  decode(bytes: Uint8Array): StreamMessage {
+    const message = ServerMessage.getRootAsServerMessage(new ByteBuffer(bytes));
+    const type = message.bodyType();
+    if (type === Body.Hello) {
+      const hello = decodeHello(requireTable(message.body(new WireHello()) as WireHello | null));
+      this.voxelSpacingMm = hello.voxelSpacingMm;
+      return { kind: 'hello', hello };
+    }
+    if (this.voxelSpacingMm === null) throw new Error('the stream did not begin with a hello');
+    if (type === Body.MeshDelta) {
+      const delta = requireTable(message.body(new WireMeshDelta()) as WireMeshDelta | null);
+      return { kind: 'mesh', mesh: decodeMesh(delta, this.voxelSpacingMm) };
+    }
+    if (type === Body.Telemetry) {
+      const telemetry = requireTable(message.body(new WireTelemetry()) as WireTelemetry | null);
+      return { kind: 'telemetry', telemetry: decodeTelemetry(telemetry) };
+    }
+    throw new Error(`message of unknown type ${String(type)}`);
+  }
+}
+
+/** The buffers of a message that can change threads without being copied. */
+export function transferables(message: StreamMessage): ArrayBuffer[] {
+  switch (message.kind) {
+    case 'hello':
+      return [message.hello.tool.positionsMm.buffer, message.hello.tool.indices.buffer];
+    case 'mesh':
+      return message.mesh.blocks.flatMap((b) => [b.positions.buffer, b.normals.buffer, b.indices.buffer]);
+    case 'telemetry':
+      return [message.telemetry.thrustN.buffer];
+  }
+}
+
+function decodeHello(hello: WireHello): Hello {
+  return {
+    protocolRevision: hello.protocolRevision(),
+    sessionId: hello.sessionId() ?? '',
+    serverEpoch: hello.serverEpoch().toString(),
+    caseId: hello.caseId() ?? '',
+    caseName: hello.caseName() ?? '',
+    side: hello.side() ?? '',
+    gridDims: [hello.gridDims(0) ?? 0, hello.gridDims(1) ?? 0, hello.gridDims(2) ?? 0],
+    voxelSpacingMm: triple(hello.voxelSpacingMm(), [1, 1, 1]),
+    worldFromGrid: pose(hello.worldFromGrid()) ?? { rotationXyzw: [0, 0, 0, 1], translationMm: [0, 0, 0] },
+    blockEdgeVoxels: hello.blockEdgeVoxels(),
+    tool: {
+      name: hello.toolName() ?? '',
+      positionsMm: Float32Array.from(hello.toolPositionsMmArray() ?? []),
+      indices: Uint32Array.from(hello.toolIndicesArray() ?? []),
+    },
+    axisEntryMm: triple(hello.axisEntryMm(), [0, 0, 0]),
+    axisDirection: triple(hello.axisDirection(), [1, 0, 0]),
+    plannedDepthMm: hello.plannedDepthMm(),
+    forceScale: hello.forceScale(),
+    handForceMaxN: hello.forceMaxN(),
+  };
+}
+
+function decodeMesh(delta: WireMeshDelta, voxelSpacingMm: Triple): MeshDelta {
+  const blocks = [];
+  for (let i = 0; i < delta.blocksLength(); ++i) {
+    blocks.push(decodeBlock(requireTable(delta.blocks(i)), voxelSpacingMm));
+  }
+  return { blocks, keyComplete: delta.keyComplete() };
+}
+
+function decodeTelemetry(t: WireTelemetry): Telemetry {
+  return {
+    firstTick: t.firstTick(),
+    tickStride: Math.max(t.tickStride(), 1),
+    thrustN: Float32Array.from(t.thrustNArray() ?? []),
+    tick: t.tick(),
+    handForceN: last(t.handForceNArray()),
+    torqueNMm: last(t.torqueNMmArray()),
+    feedRateMmS: last(t.feedRateMmSArray()),
+    densityGCc: last(t.densityGCcArray()),
+    worldFromTool: pose(t.worldFromTool()),
+    worldFromHandle: pose(t.worldFromHandle()),
+    spindleOn: t.spindleOn(),
+    state: sessionState(t.state()),
+    depthMm: t.depthMm(),
+    removedVolumeMm3: t.removedVolumeMm3(),
+    corticalShare: t.corticalShare(),
+    dropped: t.dropped(),
+    tickMeanUs: t.tickMeanUs(),
+    tickP99Us: t.tickP99Us(),
+    ticksMissed: t.ticksMissed(),
+    fault: t.fault() ?? '',
+  };
+}
+
+function sessionState(state: WireState): SessionState {
+  switch (state) {
+    case WireState.created:
+      return 'created';
+    case WireState.running:
+      return 'running';
+    case WireState.paused:
+      return 'paused';
+    case WireState.finished:
+      return 'finished';
+    case WireState.stopped:
+      return 'stopped';
+    case WireState.fault:
+      return 'fault';
+    default:
+      throw new Error(`unknown session state ${String(state)}`);
+  }
+}
+
+function last(values: Float32Array | null): number {
+  return values?.at(-1) ?? 0;
+}
+
+function triple(v: Vec3 | null, absent: Triple): Triple {
+  return v === null ? absent : [v.x(), v.y(), v.z()];
+}
+
+function pose(p: WirePose | null): Pose | null {
+  const q = p?.rotation() ?? null;
+  const t = p?.translationMm() ?? null;
+  if (q === null || t === null) return null;
+  return { rotationXyzw: [q.x(), q.y(), q.z(), q.w()], translationMm: [t.x(), t.y(), t.z()] };
+}
+
+function requireTable<T>(table: T | null): T {
+  if (table === null) throw new Error('a message lacks its body');
+  return table;
+}

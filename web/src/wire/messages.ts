@@ -1,0 +1,103 @@
+/**
+ * What the stream worker hands to the page, decoded. Lengths mm, forces N, times in ticks of 1 ms; the world frame is
+ * the CT's LPS (x to the patient's left, y posterior, z superior).
+ */
+
+/** The stream this page understands; see Hello.protocol_revision in proto/stream.fbs. */
+export const protocolRevision = 1;
+
+export type Triple = readonly [number, number, number];
+
+/** Rigid pose: rotate by the unit quaternion (x, y, z, w), then translate. */
+export interface Pose {
+  rotationXyzw: readonly [number, number, number, number];
+  translationMm: Triple;
+}
+
+export type SessionState = 'created' | 'running' | 'paused' | 'finished' | 'stopped' | 'fault';
+
+export interface ToolMesh {
+  name: string;
+  /** Three per vertex, tool frame: z into the bone, origin at the apex. */
+  positionsMm: Float32Array<ArrayBuffer>;
+  indices: Uint32Array<ArrayBuffer>;
+}
+
+export interface Hello {
+  protocolRevision: number;
+  sessionId: string;
+  /** Changes when the server restarts. */
+  serverEpoch: string;
+  caseId: string;
+  caseName: string;
+  side: string;
+  gridDims: Triple;
+  voxelSpacingMm: Triple;
+  worldFromGrid: Pose;
+  blockEdgeVoxels: number;
+  tool: ToolMesh;
+  axisEntryMm: Triple;
+  /** Unit, into the bone. */
+  axisDirection: Triple;
+  plannedDepthMm: number;
+  /** Simulated newtons per newton at the hand. */
+  forceScale: number;
+  handForceMaxN: number;
+}
+
+/** The surface of one block; no vertices means that the block is empty now. */
+export interface BlockSurface {
+  /** x + blocksX * (y + blocksY * z). */
+  block: number;
+  revision: number;
+  tick: number;
+  /** Four per vertex: x, y, z in 1/1024 voxel from the block's origin minus one voxel, then padding. */
+  positions: Uint16Array<ArrayBuffer>;
+  /** Four per vertex: a direction in signed 1/32767, voxel frame, see stretchedNormals; then padding. */
+  normals: Int16Array<ArrayBuffer>;
+  /** Triangles, counter-clockwise from outside. */
+  indices: Uint16Array<ArrayBuffer> | Uint32Array<ArrayBuffer>;
+}
+
+export interface MeshDelta {
+  blocks: BlockSurface[];
+  keyComplete: boolean;
+}
+
+/** A batch of the force trace (entry i is of tick firstTick + i * tickStride) and the newest state. */
+export interface Telemetry {
+  firstTick: number;
+  tickStride: number;
+  thrustN: Float32Array<ArrayBuffer>;
+  /** The newest tick of all, and what held then. */
+  tick: number;
+  handForceN: number;
+  torqueNMm: number;
+  feedRateMmS: number;
+  densityGCc: number;
+  worldFromTool: Pose | null;
+  worldFromHandle: Pose | null;
+  spindleOn: boolean;
+  state: SessionState;
+  depthMm: number;
+  removedVolumeMm3: number;
+  corticalShare: number;
+  dropped: number;
+  tickMeanUs: number;
+  tickP99Us: number;
+  ticksMissed: number;
+  fault: string;
+}
+
+export type StreamMessage =
+  | { kind: 'hello'; hello: Hello }
+  | { kind: 'mesh'; mesh: MeshDelta }
+  | { kind: 'telemetry'; telemetry: Telemetry };
+
+/** Page to worker. Each `open` closes what was open before; `connection` numbers the answers. */
+export type WorkerRequest = { kind: 'open'; connection: number; url: string } | { kind: 'close' };
+
+/** Worker to page. `closed` comes once per opened connection that was not closed by request. */
+export type WorkerReport =
+  | { kind: 'message'; connection: number; message: StreamMessage }
+  | { kind: 'closed'; connection: number; reason: string };

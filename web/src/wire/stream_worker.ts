@@ -1,0 +1,45 @@
+/** Worker: owns the WebSocket, decodes its messages off the page's thread and passes them on. */
+import { StreamDecoder, transferables } from './decode';
+import { meshDecoderReady } from './decode_block';
+import type { WorkerReport, WorkerRequest } from './messages';
+
+// The DOM's typing of `self` is a window's; a worker's postMessage takes the transfer list in second place.
+const page = self as unknown as { postMessage(report: WorkerReport, transfer: ArrayBuffer[]): void };
+
+let socket: WebSocket | null = null;
+
+function drop(): void {
+  if (socket === null) return;
+  socket.onmessage = null;
+  socket.onclose = null;
+  socket.close();
+  socket = null;
+}
+
+function open(connection: number, url: string): void {
+  drop();
+  const decoder = new StreamDecoder();
+  const opened = new WebSocket(url);
+  socket = opened;
+  opened.binaryType = 'arraybuffer';
+  opened.onmessage = (event: MessageEvent<ArrayBuffer>) => {
+    try {
+      const message = decoder.decode(new Uint8Array(event.data));
+      page.postMessage({ kind: 'message', connection, message }, transferables(message));
+    } catch (error) {
+      drop();
+      const reason = `unreadable message: ${error instanceof Error ? error.message : String(error)}`;
+      page.postMessage({ kind: 'closed', connection, reason }, []);
+    }
+  };
+  opened.onclose = (event) => {
+    if (socket === opened) socket = null;
+    page.postMessage({ kind: 'closed', connection, reason: event.reason }, []);
+  };
+}
+
+self.onmessage = (event: MessageEvent<WorkerRequest>) => {
+  const request = event.data;
+  if (request.kind === 'close') drop();
+  else void meshDecoderReady.then(() => open(request.connection, request.url));
+};

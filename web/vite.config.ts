@@ -1,0 +1,12 @@
+import { defineConfig } from 'vite';
+
+// `npm run dev` shows the page with live reload against a server already running on port 8080.
+export default defineConfig({
+  base: './',
+  build: { target: 'es2022', outDir: 'dist', emptyOutDir: true, chunkSizeWarningLimit: 800 },
+  worker: { format: 'es' },
+  server: {
+    host: '127.0.0.1',
+    proxy: { '/api': { target: 'http://127.0.0.1:8080', ws: true } },
+  },
+});
