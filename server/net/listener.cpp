@@ -139,6 +139,8 @@ void Listener::stop() {
   engine.workers.stop();
   engine.io.stop();
   for (std::thread& thread : parts_->threads) thread.join();
+  boost::system::error_code ignored;
+  parts_->acceptor.close(ignored);  // the threads may have ended before they came to it
   for (const auto& connection : engine.connections.all()) connection->abandon();
 }
 

@@ -1,0 +1,33 @@
+#include "api/viewer_stream.hpp"
+
+namespace ream::api {
+namespace {
+
+class ViewerStream final : public net::WebSocketSession {
+ public:
+  explicit ViewerStream(std::shared_ptr<stream::Fanout> fanout) : fanout_(std::move(fanout)) {}
+
+  void on_open(std::function<void()> wake) override { mailbox_ = fanout_->subscribe(std::move(wake)); }
+
+  std::optional<net::SharedBytes> next() override {
+    net::SharedBytes message = mailbox_->next();
+    if (!message) return std::nullopt;
+    return message;
+  }
+
+  void on_message(std::span<const std::byte>) override {}
+
+  void on_close() noexcept override { mailbox_.reset(); }
+
+ private:
+  std::shared_ptr<stream::Fanout> fanout_;
+  std::shared_ptr<stream::Mailbox> mailbox_;
+};
+
+}  // namespace
+
+std::unique_ptr<net::WebSocketSession> viewer_stream(std::shared_ptr<stream::Fanout> fanout) {
+  return std::make_unique<ViewerStream>(std::move(fanout));
+}
+
+}  // namespace ream::api
