@@ -8,6 +8,7 @@
 #include <map>
 
 #include "core/error.hpp"
+#include "ct/dicom_completeness.hpp"
 #include "ct/itk_volume.hpp"
 #include "ct/volume_io.hpp"
 
@@ -45,16 +46,27 @@ Error unreadable(const fs::path& file, const itk::ExceptionObject& e) {
   return {ErrorKind::invalid_input, file.string() + " cannot be read, it may be cut short: " + short_reason(e)};
 }
 
+/// False for what is to be passed over, counted in `imageless` where it is DICOM; throws for a file cut short.
+bool holds_an_image(const fs::path& file, int& imageless) {
+  const DicomState state = dicom_state(file);
+  const bool named_dicom = file.extension() == ".dcm" || file.extension() == ".DCM";
+  if (state == DicomState::cut_short || (state == DicomState::not_dicom && named_dicom))
+    throw Error(ErrorKind::invalid_input, file.string() + " is cut short or not DICOM; copy it again from its source or take it away");
+  if (state == DicomState::no_pixels) ++imageless;
+  return state == DicomState::whole;
+}
+
 /// CT slices by series; other modalities and files that are not DICOM are passed over.
-SeriesMap scan(const fs::path& folder) {
+SeriesMap scan(const fs::path& folder, std::vector<std::string>& warnings) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied))
     if (entry.is_regular_file()) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   SeriesMap series;
+  int imageless = 0;
   for (const fs::path& file : files) {
+    if (!holds_an_image(file, imageless)) continue;
     const auto io = itk::GDCMImageIO::New();
-    if (!io->CanReadFile(file.c_str())) continue;
     try {
       io->SetFileName(file.string());
       io->ReadImageInformation();
@@ -67,6 +79,7 @@ SeriesMap scan(const fs::path& folder) {
       throw Error(ErrorKind::invalid_input, file.string() + " holds many slices in one file; convert it to NRRD first");
     series[tag(*io, "0020|000e")].push_back(std::move(slice));
   }
+  if (imageless > 0) warnings.push_back(std::to_string(imageless) + " DICOM files without an image were passed over");
   return series;
 }
 
@@ -170,13 +183,13 @@ HuVolume read_dicom_folder(const fs::path& folder) {
   itk::Object::GlobalWarningDisplayOff();
   gdcm::Trace::WarningOff();
   gdcm::Trace::ErrorOff();
-  const SeriesMap all = scan(folder);
+  HuVolume volume;
+  const SeriesMap all = scan(folder, volume.warnings);
   const auto largest = std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
     return a.second.size() < b.second.size();
   });
   if (largest == all.end())
     throw Error(ErrorKind::invalid_input, folder.string() + " holds no CT slices (DICOM, modality CT); give the folder of a CT series");
-  HuVolume volume;
   const auto slices = consistent(largest->second, volume.warnings);
   if (slices.size() < 2)
     throw Error(ErrorKind::invalid_input, folder.string() + " holds a single CT slice; a volume needs at least two");

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "ct/file_completeness.hpp"
 #include "ct/itk_volume.hpp"
 
 namespace ream::ct {
@@ -51,6 +52,7 @@ HuVolume read_volume_file(const fs::path& path) {
     io->SetFileName(place);
     io->ReadImageInformation();
     check_dimensions(*io, place);
+    check_complete(path, static_cast<uint64_t>(io->GetImageSizeInBytes()));
     volume.hu = read_values(*io, place);
     set_geometry(volume, geometry_of(*io), place);
   } catch (const itk::ExceptionObject& e) {

@@ -1,0 +1,187 @@
+#include "ct/import.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "ct/phantom_case.hpp"
+#include "ct/volume_io.hpp"
+#include "support/expect_error.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace ream::ct {
+namespace {
+
+namespace fs = std::filesystem;
+
+PhantomPreset small_preset() {
+  PhantomPreset preset = phantom_preset("demo");
+  preset.params.spacing_mm = Vec3(0.8, 0.75, 1.0);
+  return preset;
+}
+
+const Phantom& phantom() {
+  static const Phantom made = make_phantom(small_preset().params);
+  return made;
+}
+
+ImportOptions options_in_the_vault() {
+  ImportOptions options;
+  options.side = case_::Side::right;
+  options.segmentation.upsample = 2;
+  options.segmentation.grow_from_mm = phantom().truth.glenoid.centre_mm - 5.0 * phantom().truth.glenoid.lateral;
+  return options;
+}
+
+void expect_same_place(const HuVolume& a, const HuVolume& b, double tolerance_mm) {
+  ASSERT_EQ(a.dims, b.dims);
+  EXPECT_LT((a.spacing_mm - b.spacing_mm).norm(), tolerance_mm);
+  EXPECT_LT((a.world_of_centre(Vec3i::Zero()) - b.world_of_centre(Vec3i::Zero())).norm(), tolerance_mm);
+  EXPECT_LT((a.world_of_centre(a.dims) - b.world_of_centre(b.dims)).norm(), tolerance_mm);
+}
+
+TEST(VolumeFiles, EveryFormatGivesBackTheVolume) {
+  const test::TemporaryFolder folder;
+  for (const double turn : {0.0, 0.4}) {
+    HuVolume volume = phantom().volume;
+    volume.world_from_volume.rotation = rotation_from_small_vector({turn, -0.5 * turn, 0.3 * turn});
+    for (const char* name : {"ct.nrrd", "ct.nii.gz", "ct.mha", "ct.nii"}) {
+      write_volume_file(volume, folder.path() / name);
+      const HuVolume back = read_ct(folder.path() / name);
+      EXPECT_EQ(back.hu, volume.hu) << name;
+      expect_same_place(back, volume, 1e-3);
+    }
+    const fs::path series = folder.path() / ("dicom" + std::to_string(turn > 0));
+    fs::create_directories(series);
+    write_dicom_folder(volume, series, 1);
+    const HuVolume back = read_ct(series);
+    EXPECT_EQ(back.hu, volume.hu);
+    expect_same_place(back, volume, 1e-4);
+    EXPECT_TRUE(back.warnings.empty());
+  }
+}
+
+TEST(VolumeFiles, LeftHandedAxesAreTurnedNotMirrored) {
+  const test::TemporaryFolder folder;
+  // A 2 x 1 x 3 volume whose third axis points down: a left-handed file.
+  const fs::path file = folder.write("ct.nrrd",
+                                     "NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 2 1 3\n"
+                                     "space directions: (1,0,0) (0,1,0) (0,0,-2)\nkinds: domain domain domain\n"
+                                     "endian: little\nencoding: ascii\nspace origin: (10,20,30)\n\n1 2 3 4 5 6\n");
+  const HuVolume volume = read_ct(file);
+  EXPECT_EQ(volume.hu, (std::vector<int16_t>{5, 6, 3, 4, 1, 2}));
+  EXPECT_LT((volume.world_of_centre({0, 0, 2}) - Vec3(10, 20, 30)).norm(), 1e-9);
+  EXPECT_LT((volume.world_of_centre({0, 0, 0}) - Vec3(10, 20, 26)).norm(), 1e-9);
+  EXPECT_TRUE(volume.world_from_volume.rotation.isApprox(Mat3::Identity()));
+}
+
+TEST(Import, OfThePhantomEqualsTheCaseMadeInMemory) {
+  const test::TemporaryFolder folder;
+  const case_::Case direct = make_phantom_case("direct", small_preset().params, 2);
+  write_dicom_folder(phantom().volume, folder.path(), 1);
+  const case_::Case imported = import_ct(folder.path(), "imported", options_in_the_vault());
+  EXPECT_EQ(imported.bone.coverage, direct.bone.coverage);
+  EXPECT_EQ(imported.bone.density, direct.bone.density);
+  EXPECT_EQ(imported.bone.grid.dims, direct.bone.grid.dims);
+  EXPECT_LT((imported.bone.grid.world_from_grid.translation_mm - direct.bone.grid.world_from_grid.translation_mm).norm(), 1e-6);
+  EXPECT_TRUE(imported.warnings.empty());
+}
+
+TEST(Import, ALabelMapOfACropTellsTheBone) {
+  const test::TemporaryFolder folder;
+  HuVolume volume = phantom().volume;
+  const Mask mask = segment(volume, options_in_the_vault().segmentation);
+  HuVolume label = volume;
+  for (size_t i = 0; i < mask.size(); ++i) label.hu[i] = mask[i] ? 7 : 3;
+  const Vec3 centre = phantom().truth.glenoid.centre_mm;
+  label = cropped(label, {centre.array() - 14.0, centre.array() + 14.0});
+  write_volume_file(phantom().volume, folder.path() / "ct.nrrd");
+  write_volume_file(label, folder.path() / "label.nii.gz");
+  ImportOptions options = options_in_the_vault();
+  options.label = folder.path() / "label.nii.gz";
+  options.label_value = 7;
+  options.segmentation.upsample = 1;
+  const Mask from_label = mask_from_label(phantom().volume, label, 7);
+  size_t set = 0;
+  for (const int16_t v : label.hu) set += v == 7;
+  EXPECT_EQ(count_set(from_label), set);
+  EXPECT_GT(import_ct(folder.path() / "ct.nrrd", "c", options).bone.filled_voxels(), set / 2);
+  options.label_value = 9;
+  test::expect_error(ErrorKind::invalid_input, "value 9", [&] { import_ct(folder.path() / "ct.nrrd", "c", options); });
+}
+
+TEST(Import, GridIsWholeBricksAndKeepsTheWorld) {
+  const test::TemporaryFolder folder;
+  write_volume_file(phantom().volume, folder.path() / "ct.nrrd");
+  ImportOptions options = options_in_the_vault();
+  const Vec3 centre = phantom().truth.glenoid.centre_mm;
+  options.roi_mm = Aabb{centre.array() - 9.1, centre.array() + 10.3};
+  options.segmentation.upsample = 3;
+  const case_::Case c = import_ct(folder.path() / "ct.nrrd", "c", options);
+  voxel::validate(c.bone.grid);
+  const auto hit = case_::surface_along(c.bone, centre, -phantom().truth.glenoid.lateral);
+  ASSERT_TRUE(hit);
+  EXPECT_LT((*hit - centre).norm(), 0.15);
+}
+
+TEST(Import, SaysThatTheSideWasNotGiven) {
+  const test::TemporaryFolder folder;
+  write_volume_file(phantom().volume, folder.path() / "ct.nrrd");
+  ImportOptions options = options_in_the_vault();
+  options.side.reset();
+  const case_::Case c = import_ct(folder.path() / "ct.nrrd", "c", options);
+  ASSERT_EQ(c.warnings.size(), 1u);
+  EXPECT_NE(c.warnings[0].find("--side"), std::string::npos);
+}
+
+TEST(Import, BadInputGetsOneClearLine) {
+  const test::TemporaryFolder folder;
+  const fs::path good = folder.path() / "ct.nrrd";
+  write_volume_file(phantom().volume, good);
+  const auto refuses = [&](ErrorKind kind, const std::string& words, const fs::path& path, const ImportOptions& options) {
+    test::expect_error(kind, words, [&] { import_ct(path, "c", options); });
+  };
+  const ImportOptions plain = options_in_the_vault();
+  refuses(ErrorKind::not_found, "nowhere", folder.path() / "nowhere", plain);
+  fs::create_directories(folder.path() / "empty");
+  refuses(ErrorKind::invalid_input, "no CT slices", folder.path() / "empty", plain);
+  refuses(ErrorKind::invalid_input, "not a volume that can be read", folder.write("notes.txt", "hello"), plain);
+  for (const char* name : {"ct.nrrd", "ct.nii.gz", "ct.nii", "ct.mha"}) {
+    const fs::path file = folder.path() / "short" / name;
+    fs::create_directories(file.parent_path());
+    write_volume_file(phantom().volume, file);
+    fs::resize_file(file, fs::file_size(file) * 2 / 3);
+    refuses(ErrorKind::invalid_input, name, file, plain);
+    fs::resize_file(file, 10);
+    refuses(ErrorKind::invalid_input, name, file, plain);
+  }
+  ImportOptions options = plain;
+  options.roi_mm = Aabb{Vec3(1000, 0, 0), Vec3(1010, 10, 10)};
+  refuses(ErrorKind::invalid_input, "outside the CT", good, options);
+  options = plain;
+  options.segmentation.grow_from_mm = phantom().truth.glenoid.centre_mm + Vec3(10, -12, -20);
+  refuses(ErrorKind::invalid_input, "seed", good, options);
+  options = plain;
+  options.segmentation.threshold_hu = 3500;
+  refuses(ErrorKind::invalid_input, "3500 HU", good, options);
+  options = plain;
+  options.label = folder.path() / "no-label.nrrd";
+  refuses(ErrorKind::not_found, "no-label.nrrd", good, options);
+}
+
+TEST(Import, AHeaderOfZeroVoxelsIsRefused) {
+  const test::TemporaryFolder folder;
+  const fs::path file = folder.write("zero.nrrd",
+                                     "NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 0 1 3\n"
+                                     "space directions: (1,0,0) (0,1,0) (0,0,1)\nencoding: ascii\nspace origin: (0,0,0)\n\n");
+  test::expect_error(ErrorKind::invalid_input, "zero.nrrd", [&] { read_ct(file); });
+}
+
+TEST(Import, IdsComeFromFolderNames) {
+  EXPECT_EQ(case_id_from("/a/My Shoulder_2/"), "my-shoulder-2");
+  EXPECT_EQ(case_id_from("x"), "x");
+  EXPECT_EQ(case_id_from("/a/---"), "case");
+}
+
+}  // namespace
+}  // namespace ream::ct
