@@ -9,6 +9,7 @@
 #include "collide/contact_shell.hpp"
 #include "collide/grid_affine.hpp"
 #include "voxel/brick_distance.hpp"
+#include "voxel/occupancy.hpp"
 
 namespace ream::collide {
 
@@ -39,6 +40,7 @@ struct NarrowPhaseInput {
   const ContactShell& shell;
   const voxel::BoneModel& bone;  ///< read live: removal between two calls is seen
   const voxel::BrickDistance& distance;
+  const voxel::Occupancy& occupancy;
 };
 
 /// Finds the engaged points of the shell. All memory is allocated at construction; contact() is called from the tick.

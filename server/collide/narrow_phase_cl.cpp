@@ -11,6 +11,8 @@ namespace {
 
 static_assert(sizeof(ContactVector) == 16);
 static_assert(sizeof(layout::AffineArguments) == sizeof(GridAffine));
+static_assert(REAM_ENGAGING_COVERAGE == engaging_coverage);
+static_assert(REAM_OCCUPANCY_EDGE == voxel::occupancy_edge);
 
 /// A copy with room for one chunk behind, so that the last chunk may be loaded whole.
 gpu::Buffer padded_copy(const gpu::Queue& queue, std::vector<float> values) {
@@ -49,10 +51,12 @@ class NarrowPhaseCl final : public NarrowPhase {
         weights_(gpu::Buffer::copy_of(bone_->queue, std::span(input.shell.weights))),
         guiding_(gpu::Buffer::copy_of(bone_->queue, std::span(input.shell.guiding))),
         blocks_(block_table(bone_->queue, input.shell)),
+        occupancy_(gpu::Buffer::copy_of(bone_->queue, std::span(input.occupancy.words))),
         survivor_buffer_(gpu::Buffer::over(bone_->queue, std::span(survivors_))),
         partial_buffer_(gpu::Buffer::over(bone_->queue, std::span(partial_))) {
     kernel_.set_all(probe_x_, probe_y_, probe_z_, vectors_, weights_, guiding_, blocks_, survivor_buffer_,
-                    bone_->coverage, bone_->density, bone_->classes, layout::ContactArguments{}, partial_buffer_);
+                    occupancy_, bone_->coverage, bone_->density, bone_->classes, layout::ContactArguments{},
+                    partial_buffer_);
     ContactSums warm;
     run(GridAffine{}, 0, warm);
     bone_->queue.finish();
@@ -77,17 +81,19 @@ class NarrowPhaseCl final : public NarrowPhase {
   void run(const GridAffine& affine, size_t survivors, ContactSums& sums) {
     const gpu::Queue& queue = bone_->queue;
     const Vec3i& dims = in_.bone.grid.dims;
-    layout::ContactArguments arguments{
-        {}, dims.x(), dims.y(), dims.z(), static_cast<uint32_t>(survivors)};
+    layout::ContactArguments arguments{{}, dims.x(), dims.y(), dims.z(), static_cast<uint32_t>(survivors)};
     std::memcpy(&arguments.voxel_from_tool, &affine, sizeof affine);
     kernel_.set(arguments_index, arguments);
-    if (!survivor_buffer_.shared()) survivor_buffer_.write(queue, survivors_.data(), survivors * sizeof(uint32_t));
-    kernel_.enqueue(queue, static_cast<size_t>(shape_.groups * shape_.lanes), static_cast<size_t>(shape_.lanes));
+    if (!survivor_buffer_.shared())
+      survivor_buffer_.write(queue, survivors_.data(), survivors * sizeof(uint32_t));
+    kernel_.enqueue(queue, static_cast<size_t>(shape_.groups * shape_.lanes),
+                    static_cast<size_t>(shape_.lanes));
     if (partial_buffer_.shared())
       queue.finish();
     else
       partial_buffer_.read(queue, partial_.data(), partial_buffer_.bytes());
-    for (size_t g = 0; g < static_cast<size_t>(shape_.groups); ++g) add_group(&partial_[g * REAM_CONTACT_SUMS], sums);
+    for (size_t g = 0; g < static_cast<size_t>(shape_.groups); ++g)
+      add_group(&partial_[g * REAM_CONTACT_SUMS], sums);
   }
 
   static void add_group(const int64_t* group, ContactSums& sums) {
@@ -99,7 +105,7 @@ class NarrowPhaseCl final : public NarrowPhase {
     }
   }
 
-  static constexpr unsigned arguments_index = 11;
+  static constexpr unsigned arguments_index = 12;
 
   NarrowPhaseInput in_;
   std::shared_ptr<BoneBuffers> bone_;
@@ -108,13 +114,14 @@ class NarrowPhaseCl final : public NarrowPhase {
   gpu::Kernel kernel_;
   std::vector<uint32_t> survivors_;
   std::vector<int64_t> partial_;
-  gpu::Buffer probe_x_, probe_y_, probe_z_, vectors_, weights_, guiding_, blocks_, survivor_buffer_, partial_buffer_;
+  gpu::Buffer probe_x_, probe_y_, probe_z_, vectors_, weights_, guiding_, blocks_, occupancy_,
+      survivor_buffer_, partial_buffer_;
 };
 
 }  // namespace
 
-std::unique_ptr<NarrowPhase> make_narrow_phase_cl(const NarrowPhaseInput& input, std::shared_ptr<BoneBuffers> bone,
-                                                  LaunchShape shape) {
+std::unique_ptr<NarrowPhase> make_narrow_phase_cl(const NarrowPhaseInput& input,
+                                                  std::shared_ptr<BoneBuffers> bone, LaunchShape shape) {
   return std::make_unique<NarrowPhaseCl>(input, std::move(bone), shape);
 }
 

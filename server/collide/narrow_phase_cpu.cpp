@@ -7,47 +7,75 @@ namespace ream::collide {
 namespace {
 
 constexpr size_t max_block_points = 512;
+constexpr int occupancy_shift = 2;
+static_assert(1 << occupancy_shift == voxel::occupancy_edge);
 
-/// Voxel index of each probe, or -1 outside the grid. Kept apart from the look-ups so that it vectorizes; the
-/// order of operations is that of kernels/narrow_phase.cl.
-__attribute__((target_clones("avx512f", "avx2", "default"))) void probe_voxels(
-    const float* x, const float* y, const float* z, size_t n, const GridAffine& a, const Vec3i& dims, int64_t* index) {
+/// Probes of a run that lie in occupied cells: their voxel index and number within the run. Straight-line arithmetic, so
+/// that it vectorizes; the order of operations is that of kernels/narrow_phase.cl.
+struct Candidates {
+  int32_t voxel[max_block_points];
+  int32_t number[max_block_points];
+  size_t count = 0;
+};
+
+__attribute__((target_clones("avx512f", "avx2", "default"))) void find_candidates(
+    const float* __restrict x, const float* __restrict y, const float* __restrict z, int n, const GridAffine& a,
+    const Vec3i& dims, const voxel::Occupancy& occupancy, Candidates& found) {
   const float dx = static_cast<float>(dims.x()), dy = static_cast<float>(dims.y()), dz = static_cast<float>(dims.z());
-  const int64_t row = dims.x(), slice = row * dims.y();
-  for (size_t i = 0; i < n; ++i) {
+  const int row = dims.x(), slice = row * dims.y();
+  const int cell_row = occupancy.dims.x(), cell_slice = cell_row * occupancy.dims.y();
+  // Signed on purpose: only signed 32-bit indices become gathers.
+  const int32_t* __restrict words = reinterpret_cast<const int32_t*>(occupancy.words.data());
+  int32_t voxel_index[max_block_points], occupied[max_block_points];
+  for (int i = 0; i < n; ++i) {
     const float u = a.m[0] * x[i] + a.m[1] * y[i] + a.m[2] * z[i] + a.t[0];
     const float v = a.m[3] * x[i] + a.m[4] * y[i] + a.m[5] * z[i] + a.t[1];
     const float w = a.m[6] * x[i] + a.m[7] * y[i] + a.m[8] * z[i] + a.t[2];
-    const bool inside = (u >= 0.0f) & (v >= 0.0f) & (w >= 0.0f) & (u < dx) & (v < dy) & (w < dz);
-    const int64_t at = static_cast<int64_t>(static_cast<int>(inside ? u : 0.0f)) +
-                       static_cast<int64_t>(static_cast<int>(inside ? v : 0.0f)) * row +
-                       static_cast<int64_t>(static_cast<int>(inside ? w : 0.0f)) * slice;
-    index[i] = inside ? at : -1;
+    // Outside points look at voxel 0 and are dropped by the flag.
+    const int in_u = u >= 0.0f ? (u < dx ? -1 : 0) : 0;
+    const int in_v = v >= 0.0f ? (v < dy ? -1 : 0) : 0;
+    const int in_w = w >= 0.0f ? (w < dz ? -1 : 0) : 0;
+    const int inside = in_u & in_v & in_w;
+    const int iu = static_cast<int>(inside ? u : 0.0f);
+    const int iv = static_cast<int>(inside ? v : 0.0f);
+    const int iw = static_cast<int>(inside ? w : 0.0f);
+    const int cell = (iu >> occupancy_shift) + (iv >> occupancy_shift) * cell_row + (iw >> occupancy_shift) * cell_slice;
+    voxel_index[i] = iu + iv * row + iw * slice;
+    occupied[i] = (words[cell >> 5] >> (cell & 31)) & inside & 1;
   }
+  size_t count = 0;
+  for (int i = 0; i < n; ++i) {
+    found.voxel[count] = voxel_index[i];
+    found.number[count] = i;
+    count += static_cast<size_t>(occupied[i]);
+  }
+  found.count = count;
 }
 
-/// Outer-product sums of one block; 512 points of weight 28 and components 127 stay below 2^31.
-struct BlockSums {
+/// Outer-product sums of one run; 512 points of weight 28 and components 127 stay below 2^31.
+struct RunSums {
   int32_t products[7][8] = {};
-  int32_t points = 0;
 
-  void add(const ContactVector& g, int32_t weight) {
-    for (size_t i = 0; i < 7; ++i) {
-      const int32_t wg = weight * g[i];
-      for (size_t j = 0; j < 8; ++j) products[i][j] += wg * g[j];
-    }
-    ++points;
-  }
-
-  void add_to(ContactSums::Part& part) const {
-    if (points == 0) return;
-    part.points += points;
+  void add_to(ContactSums::Part& part, size_t points) const {
+    part.points += static_cast<int64_t>(points);
     for (size_t i = 0; i < 7; ++i) part.first[i] += products[6][i];
     size_t k = 0;
     for (size_t i = 0; i < 6; ++i)
       for (size_t j = i; j < 6; ++j) part.second[k++] += products[i][j];
   }
 };
+
+__attribute__((target_clones("avx512f", "avx2", "default"))) void add_products(
+    const ContactVector* vectors, const uint8_t* weights, const int32_t* numbers, size_t n, RunSums& sums) {
+  for (size_t p = 0; p < n; ++p) {
+    const int16_t* g = vectors[numbers[p]].data();
+    const int32_t weight = weights[numbers[p]];
+    for (size_t i = 0; i < 7; ++i) {
+      const int32_t wg = weight * g[i];
+      for (size_t j = 0; j < 8; ++j) sums.products[i][j] += wg * g[j];
+    }
+  }
+}
 
 class NarrowPhaseCpu final : public NarrowPhase {
  public:
@@ -70,28 +98,37 @@ class NarrowPhaseCpu final : public NarrowPhase {
 
  private:
   void add_run(size_t first, size_t count, const GridAffine& affine, ContactSums& sums) noexcept {
-    int64_t index[max_block_points];
     const ContactShell& s = in_.shell;
-    probe_voxels(s.probe_x_mm.data() + first, s.probe_y_mm.data() + first, s.probe_z_mm.data() + first, count, affine,
-                 in_.bone.grid.dims, index);
+    Candidates found;
+    find_candidates(s.probe_x_mm.data() + first, s.probe_y_mm.data() + first, s.probe_z_mm.data() + first,
+                    static_cast<int>(count), affine,
+                    in_.bone.grid.dims, in_.occupancy, found);
     const uint8_t* coverage = in_.bone.coverage.data();
     const uint8_t* density = in_.bone.density.data();
-    BlockSums cutting, guiding;
-    for (size_t i = 0; i < count; ++i) {
-      if (index[i] < 0 || coverage[index[i]] < engaging_coverage) continue;
-      const size_t point = first + i;
-      if (s.guiding[point]) {
-        guiding.add(s.vectors[point], s.weights[point]);
+    int32_t cutting[max_block_points], guiding[max_block_points];
+    size_t cutting_count = 0, guiding_count = 0;
+    for (size_t i = 0; i < found.count; ++i) {
+      if (coverage[found.voxel[i]] < engaging_coverage) continue;
+      const int32_t number = found.number[i];
+      if (s.guiding[first + static_cast<size_t>(number)]) {
+        guiding[guiding_count++] = number;
         continue;
       }
-      cutting.add(s.vectors[point], s.weights[point]);
-      const uint8_t code = density[index[i]];
+      cutting[cutting_count++] = number;
+      const uint8_t code = density[found.voxel[i]];
       const auto bone_class = static_cast<size_t>(classes_[code]);
       ++sums.class_points[bone_class];
       sums.class_density[bone_class] += code;
     }
-    cutting.add_to(sums.cutting);
-    guiding.add_to(sums.guiding);
+    add_part(first, cutting, cutting_count, sums.cutting);
+    add_part(first, guiding, guiding_count, sums.guiding);
+  }
+
+  void add_part(size_t first, const int32_t* numbers, size_t count, ContactSums::Part& part) noexcept {
+    if (count == 0) return;
+    RunSums run;
+    add_products(in_.shell.vectors.data() + first, in_.shell.weights.data() + first, numbers, count, run);
+    run.add_to(part, count);
   }
 
   NarrowPhaseInput in_;

@@ -28,9 +28,12 @@ Vec3 corner(const Aabb& box, int i) {
 
 RemovalSchedule::RemovalSchedule(const shell::SweptProfile& profile, const voxel::BoneModel& bone)
     : profile_(profile),
+      table_(profile),
+      bone_(bone),
       grid_(bone.grid),
       brick_reach_mm_(0.5 * voxel::brick_edge * bone.grid.spacing_mm.norm() + 0.5 * bone.grid.spacing_mm.maxCoeff()),
       empty_(bone.grid.brick_count()),
+      hot_(bone.grid.brick_count()),
       due_at_(bone.grid.brick_count()),
       active_(bone.grid.brick_count()),
       due_(bone.grid.brick_count()) {
@@ -91,21 +94,66 @@ void RemovalSchedule::rebuild_active(const Pose& grid_from_tool) noexcept {
       }
 }
 
-std::span<const uint32_t> RemovalSchedule::due(const QuantisedPose& quantised_pose) noexcept {
-  const Pose pose = dequantised(quantised_pose);
-  const double now = advance_odometer(pose);
-  if (now >= rebuild_at_) rebuild_active(pose);
-  const GridAffine affine = tool_from_voxel(quantised_pose, grid_);
+void RemovalSchedule::follow(const QuantisedPose& grid_from_tool) noexcept {
+  const Pose pose = dequantised(grid_from_tool);
+  if (advance_odometer(pose) >= rebuild_at_) rebuild_active(pose);
+}
+
+double RemovalSchedule::gap_voxels(uint32_t brick, const GridAffine& affine) const noexcept {
+  return (static_cast<double>(brick_distance_mm(brick, affine)) - brick_reach_mm_) / grid_.spacing_mm.maxCoeff();
+}
+
+double RemovalSchedule::measured_gap_voxels(uint32_t brick, const GridAffine& affine) const noexcept {
+  alignas(64) float distances_mm[voxel::brick_voxels];
+  alignas(64) uint8_t coverage[voxel::brick_voxels];
+  brick_distances_mm(table_, affine, grid_.brick_coordinates(brick) * voxel::brick_edge, distances_mm);
+  voxel::read_brick(grid_, bone_.coverage.data(), brick, coverage);
+  float nearest_mm = shell::SweptProfile::far;
+  for (int i = 0; i < voxel::brick_voxels; ++i) {
+    const float d = coverage[i] != 0 ? distances_mm[i] : shell::SweptProfile::far;
+    nearest_mm = d < nearest_mm ? d : nearest_mm;
+  }
+  // The table is clamped at its margin, so a distance is never taken for more than that.
+  const double largest_mm = grid_.spacing_mm.maxCoeff();
+  return (std::min<double>(nearest_mm, profile_.margin_mm) - 0.5 * largest_mm) / largest_mm;
+}
+
+std::span<const uint32_t> RemovalSchedule::due(const QuantisedPose& grid_from_tool) noexcept {
+  follow(grid_from_tool);
+  const GridAffine affine = tool_from_voxel(grid_from_tool, grid_);
   size_t n = 0;
   for (size_t i = 0; i < active_count_; ++i) {
     const uint32_t brick = active_[i];
-    if (empty_[brick] || now < due_at_[brick]) continue;
-    const double gap_voxels =
-        (static_cast<double>(brick_distance_mm(brick, affine)) - brick_reach_mm_) / grid_.spacing_mm.maxCoeff();
-    due_at_[brick] = now + std::max(revisit_voxels, gap_voxels);
-    if (gap_voxels <= 0.0) due_[n++] = brick;
+    if (empty_[brick] || odometer_voxels_ < due_at_[brick]) continue;
+    double gap = gap_voxels(brick, affine);
+    if (gap <= 0.0 && !hot_[brick]) gap = measured_gap_voxels(brick, affine);
+    due_at_[brick] = odometer_voxels_ + std::max(revisit_voxels, gap);
+    if (gap <= 0.0) due_[n++] = brick;
   }
   return {due_.data(), n};
+}
+
+void RemovalSchedule::pass(const QuantisedPose& grid_from_tool) noexcept {
+  follow(grid_from_tool);
+  const GridAffine affine = tool_from_voxel(grid_from_tool, grid_);
+  size_t measured = 0;
+  for (size_t i = 0; i < active_count_ && measured < idle_budget; ++i) {
+    next_to_measure_ = next_to_measure_ + 1 < active_count_ ? next_to_measure_ + 1 : 0;
+    const uint32_t brick = active_[next_to_measure_];
+    if (empty_[brick] || odometer_voxels_ < due_at_[brick]) continue;
+    double gap = gap_voxels(brick, affine);
+    if (gap <= 0.0) {
+      gap = measured_gap_voxels(brick, affine);
+      ++measured;
+    }
+    // A brick that would be cut stays due: it is only measured here.
+    if (gap > 0.0) due_at_[brick] = odometer_voxels_ + gap;
+  }
+}
+
+void RemovalSchedule::cut_done(uint32_t brick, bool changed, bool empty) noexcept {
+  hot_[brick] = changed;
+  if (empty) empty_[brick] = 1;
 }
 
 }  // namespace ream::collide

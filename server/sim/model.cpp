@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/huge_pages.hpp"
 
 namespace ream::sim {
 
@@ -13,6 +14,8 @@ Pose world_from_plan(const case_::Plan& plan) {
 
 Model make_model(const case_::Plan& plan, voxel::BoneModel& bone, shell::Tool tool, const Settings& settings) {
   case_::cut_pilot_hole(bone, plan);
+  prefer_huge_pages(bone.coverage.data(), bone.coverage.size());
+  prefer_huge_pages(bone.density.data(), bone.density.size());
   Model model;
   model.settings = settings;
   model.plan = plan;
@@ -22,6 +25,7 @@ Model make_model(const case_::Plan& plan, voxel::BoneModel& bone, shell::Tool to
   model.profile = shell::swept_profile(model.tool.profile, collide::RemovalSchedule::needed_margin_mm(bone.grid));
   model.contact_shell = collide::make_contact_shell(model.shell, bone.grid.spacing_mm.maxCoeff());
   model.distance = voxel::brick_distance(bone);
+  model.occupancy = voxel::occupancy(bone);
   model.bone_box_grid = collide::bone_bounds_mm(bone);
   if (model.bone_box_grid.empty()) throw Error(ErrorKind::invalid_input, "the case holds no bone; import it again with a lower threshold");
   model.tool_box_tool = model.contact_shell.bounds_mm;

@@ -36,6 +36,7 @@ struct Model {
   shell::SweptProfile profile;
   collide::ContactShell contact_shell;
   voxel::BrickDistance distance;
+  voxel::Occupancy occupancy;
   Aabb bone_box_grid;      ///< around all bone at the start; removal only shrinks it
   Aabb tool_box_tool;      ///< around probes and swept body
   std::unique_ptr<force::FeedModel> feed;

@@ -72,7 +72,7 @@ bool remove(State& state, const QuantisedPose& pose, TickReport& report) {
   if (!state.backend.removal->cut(pose, due, {state.changed.data(), due.size()}, {state.empty.data(), due.size()}, sums))
     return false;
   for (size_t i = 0; i < due.size(); ++i) {
-    if (state.empty[i]) state.schedule.retire(due[i]);
+    state.schedule.cut_done(due[i], state.changed[i], state.empty[i]);
     if (state.changed[i] && state.brick_sender != nullptr) state.brick_sender->mark(due[i]);
   }
   for (size_t k = 0; k < 3; ++k) report.coverage_removed[k] = sums.coverage_removed[k];
@@ -114,12 +114,10 @@ StepStatus step(const Model& model, State& state, const device::DeviceInput& raw
   state.started = true;
 
   const auto start = SteadyClock::now();
-  bool near_bone = false;
   if (!input.paused) {
     const Approach found = approach(model, state, input.world_from_handle);
     state.times.contact_us = elapsed_us(start);
     if (!found.ok) return StepStatus::collision_failed;
-    near_bone = found.voi.touching;
     if (found.sums.engaged() > 0) press(model, state, found.sums, input, report);
     state.times.force_us = elapsed_us(start) - state.times.contact_us;
   }
@@ -127,7 +125,9 @@ StepStatus step(const Model& model, State& state, const device::DeviceInput& raw
   report.grid_from_tool = quantised(state.bone.grid.world_from_grid.inverse() * state.world_from_tool);
 
   const auto before_removal = SteadyClock::now();
-  if (near_bone && input.spindle_on && !remove(state, report.grid_from_tool, report)) return StepStatus::collision_failed;
+  const bool cuts = report.engaged && input.spindle_on;
+  if (!cuts) state.schedule.pass(report.grid_from_tool);
+  if (cuts && !remove(state, report.grid_from_tool, report)) return StepStatus::collision_failed;
   state.times.removal_us = elapsed_us(before_removal);
 
   state.session_hash = hash_combine(state.session_hash, hash_of_cause(report));

@@ -36,6 +36,8 @@ void validate(const VoxelGrid& grid) {
     throw Error(ErrorKind::invalid_input, "the grid is " + text(grid.dims) + " voxels; every side must be positive");
   if (grid.dims != whole_bricks(grid.dims))
     throw Error(ErrorKind::invalid_input, "the grid is " + text(grid.dims) + " voxels; sides must be multiples of 8");
+  if (grid.dims.cast<double>().prod() > 2147483647.0)
+    throw Error(ErrorKind::invalid_input, "the grid is " + text(grid.dims) + " voxels, more than 2^31; take a smaller region");
   if (!grid.spacing_mm.allFinite() || (grid.spacing_mm.array() <= 0.0).any())
     throw Error(ErrorKind::invalid_input,
                 "the voxel size is " + text(grid.spacing_mm) + " mm; it must be positive and finite");

@@ -10,8 +10,8 @@
 
 namespace ream::test {
 
-/// A small block of bone with a curved top, mixed densities and a rough surface of half-covered voxels, and a reamer with a
-/// nipple: everything that narrow phase and removal look at. The same for the same seed.
+/// A small block of bone with a curved top, mixed densities and a rough surface of half-covered voxels, and a
+/// reamer with a nipple: everything that narrow phase and removal look at. The same for the same seed.
 struct ReamingScene {
   explicit ReamingScene(unsigned seed) {
     std::mt19937 random(seed);
@@ -31,17 +31,18 @@ struct ReamingScene {
     contact = collide::make_contact_shell(shell::make_point_shell(tool, 0.25), grid.spacing_mm.maxCoeff());
     profile = shell::swept_profile(tool.profile, collide::RemovalSchedule::needed_margin_mm(grid));
     distance = voxel::brick_distance(bone);
+    occupancy = voxel::occupancy(bone);
     bone_box_mm = collide::bone_bounds_mm(bone);
   }
 
-  collide::NarrowPhaseInput contact_input() const { return {contact, bone, distance}; }
+  collide::NarrowPhaseInput contact_input() const { return {contact, bone, distance, occupancy}; }
 
   /// The tool's apex `depth_mm` below the top of the bone, pointing down, tilted by a small rotation vector.
   QuantisedPose pose(double depth_mm, const Vec3& tilt, const Vec3& shift_mm) const {
     const Vec3 middle = bone.grid.bounds_mm().centre();
     const Mat3 down = Eigen::DiagonalMatrix<double, 3>(1.0, -1.0, -1.0);
-    return quantised({rotation_from_small_vector(tilt) * down,
-                      Vec3(middle.x(), middle.y(), 11.0 - depth_mm) + shift_mm});
+    return quantised(
+        {rotation_from_small_vector(tilt) * down, Vec3(middle.x(), middle.y(), 11.0 - depth_mm) + shift_mm});
   }
   QuantisedPose random_pose(std::mt19937& random) const {
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -57,6 +58,7 @@ struct ReamingScene {
   collide::ContactShell contact;
   shell::SweptProfile profile;
   voxel::BrickDistance distance;
+  voxel::Occupancy occupancy;
   Aabb bone_box_mm;
 };
 

@@ -54,7 +54,10 @@ TEST(RemovalCl, CutsWhatTheCppTwinCutsAtRandomPoses) {
 /// One tick as the step does it: contact, due bricks, cut, retire.
 struct Reaming {
   Reaming(test::ReamingScene& scene_, std::unique_ptr<NarrowPhase> narrow, std::unique_ptr<Removal> cutter)
-      : scene(scene_), narrow_phase(std::move(narrow)), removal(std::move(cutter)), schedule(scene.profile, scene.bone) {}
+      : scene(scene_),
+        narrow_phase(std::move(narrow)),
+        removal(std::move(cutter)),
+        schedule(scene.profile, scene.bone) {}
 
   void tick(const QuantisedPose& pose, const Voi& voi) {
     ASSERT_TRUE(narrow_phase->contact(pose, voi, contact));
@@ -62,7 +65,7 @@ struct Reaming {
     Answer answer(due.size());
     ASSERT_TRUE(removal->cut(pose, due, answer.changed, answer.empty, answer.sums));
     for (size_t i = 0; i < due.size(); ++i)
-      if (answer.empty[i]) schedule.retire(due[i]);
+      schedule.cut_done(due[i], answer.changed[i] != 0, answer.empty[i] != 0);
     sums = answer.sums;
   }
 

@@ -18,6 +18,7 @@ struct Scene {
         tool(shell::make_tool(tool_text)),
         shell(collide::make_contact_shell(shell::make_point_shell(tool, 0.3), 0.25)),
         distance(voxel::brick_distance(bone)),
+        occupancy(voxel::occupancy(bone)),
         bounds(collide::bone_bounds_mm(bone)) {}
 
   collide::ContactSums contact(collide::NarrowPhase& phase, const QuantisedPose& pose) {
@@ -31,6 +32,7 @@ struct Scene {
   shell::Tool tool;
   collide::ContactShell shell;
   voxel::BrickDistance distance;
+  voxel::Occupancy occupancy;
   Aabb bounds;
 };
 
@@ -63,7 +65,7 @@ TEST(NarrowPhase, CulledFloatSumsMatchAFullDoubleSearch) {
   constexpr unsigned seed = 42;
   std::mt19937 random(seed);
   Scene s("ellipse 6,3 nipple 1,2");
-  const auto phase = collide::make_narrow_phase_cpu({s.shell, s.bone, s.distance});
+  const auto phase = collide::make_narrow_phase_cpu({s.shell, s.bone, s.distance, s.occupancy});
   int64_t engaged = 0;
   for (int i = 0; i < 200; ++i) {
     Pose pose = random_pose(random, 0.0);
@@ -83,7 +85,7 @@ TEST(NarrowPhase, CulledFloatSumsMatchAFullDoubleSearch) {
 
 TEST(NarrowPhase, SumsOfAFlatContactAreThoseOfTheGeometry) {
   Scene s("sphere 6,4");
-  const auto phase = collide::make_narrow_phase_cpu({s.shell, s.bone, s.distance});
+  const auto phase = collide::make_narrow_phase_cpu({s.shell, s.bone, s.distance, s.occupancy});
   Pose grid_from_tool{rotation_with_z_along(-Vec3::UnitZ()), Vec3(8.0, 8.0, 7.0)};
   const collide::ContactSums sums = s.contact(*phase, quantised(grid_from_tool));
   // The apex is 1 mm below the surface: the engaged cap of the probes has area 2 pi R h.
@@ -103,7 +105,7 @@ TEST(NarrowPhase, SumsOfAFlatContactAreThoseOfTheGeometry) {
 
 TEST(NarrowPhase, FarAwayNothingTouches) {
   Scene s("sphere 6,4");
-  const auto phase = collide::make_narrow_phase_cpu({s.shell, s.bone, s.distance});
+  const auto phase = collide::make_narrow_phase_cpu({s.shell, s.bone, s.distance, s.occupancy});
   EXPECT_EQ(s.contact(*phase, quantised({Mat3::Identity(), Vec3(8, 8, 500)})).engaged(), 0);
 }
 

@@ -103,7 +103,7 @@ TEST(RemovalSchedule, AScheduledPlungeEndsWithinAThirtySecondVoxelOfCuttingEvery
     collide::RemovalSums sums;
     ASSERT_TRUE(scheduled.removal->cut(pose, due, {changed.data(), due.size()}, {empty.data(), due.size()}, sums));
     for (size_t i = 0; i < due.size(); ++i)
-      if (empty[i]) schedule.retire(due[i]);
+      schedule.cut_done(due[i], changed[i], empty[i]);
     visited += due.size();
     full.cut(pose, full.all_bricks());
   }

@@ -1,0 +1,44 @@
+#pragma once
+#include "collide/grid_affine.hpp"
+#include "shell/swept_profile.hpp"
+
+namespace ream::collide {
+
+/// The swept profile's table as plain values for inner loops. Table coordinates are clamped: the table's margin is wider
+/// than half a voxel, so its border keeps everything. The order of operations is that of kernels/removal.cl.
+struct ProfileTable {
+  const float* distance_mm;
+  int r2_count;
+  float z_min_mm, inverse_z_step, inverse_r2_step;
+  float r2_limit, z_limit;  ///< last usable table coordinates
+
+  explicit ProfileTable(const shell::SweptProfile& profile)
+      : distance_mm(profile.distance_mm.data()),
+        r2_count(profile.r2_count),
+        z_min_mm(profile.z_min_mm),
+        inverse_z_step(profile.inverse_z_step),
+        inverse_r2_step(profile.inverse_r2_step),
+        r2_limit(static_cast<float>(profile.r2_count) - 1.5f),
+        z_limit(static_cast<float>(profile.z_count) - 1.5f) {}
+
+  /// Signed distance at a point of the tool frame, mm.
+  float at(float x, float y, float z) const noexcept {
+    float r = (x * x + y * y) * inverse_r2_step;
+    r = r < r2_limit ? r : r2_limit;
+    float h = (z - z_min_mm) * inverse_z_step;
+    h = h > 0.0f ? h : 0.0f;
+    h = h < z_limit ? h : z_limit;
+    const int ir = static_cast<int>(r), ih = static_cast<int>(h);
+    const float tr = r - static_cast<float>(ir), th = h - static_cast<float>(ih);
+    const int low = ih * r2_count + ir, high = low + r2_count;
+    const float near_z = distance_mm[low] + tr * (distance_mm[low + 1] - distance_mm[low]);
+    const float far_z = distance_mm[high] + tr * (distance_mm[high + 1] - distance_mm[high]);
+    return near_z + th * (far_z - near_z);
+  }
+};
+
+/// Signed distances (mm) of the 512 voxel centres of the brick whose minimum voxel is `first`, x fastest.
+void brick_distances_mm(const ProfileTable& table, const GridAffine& tool_from_voxel, const Vec3i& first,
+                        float* distances_mm) noexcept;
+
+}  // namespace ream::collide

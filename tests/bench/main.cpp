@@ -1,0 +1,71 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "bench/bench.hpp"
+#include "core/error.hpp"
+
+namespace {
+
+using namespace ream::bench;
+
+const std::map<std::string, std::function<std::vector<Row>(const Options&)>> suites{{"collide", collide_suite}};
+
+bool missed(const Row& row) { return row.goal > 0.0 && row.ours > row.goal; }
+
+double ratio(const Row& row) { return row.baseline > 0.0 ? row.baseline / row.ours : row.goal > 0.0 ? row.goal / row.ours : 0.0; }
+
+void print(const std::vector<Row>& rows, bool json) {
+  if (json) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const Row& r : rows)
+      list.push_back({{"suite", r.suite}, {"case", r.name}, {"ours", r.ours}, {"unit", r.unit}, {"ratio", ratio(r)},
+                      {"baseline", r.baseline > 0.0 ? nlohmann::json(r.baseline) : nlohmann::json()},
+                      {"goal", r.goal > 0.0 ? nlohmann::json(r.goal) : nlohmann::json()}});
+    std::cout << list.dump() << '\n';
+    return;
+  }
+  for (const Row& r : rows) {
+    std::printf("%-8s %-44s %12.4g %-7s", r.suite.c_str(), r.name.c_str(), r.ours, r.unit.c_str());
+    if (r.baseline > 0.0) std::printf(" baseline %.4g", r.baseline);
+    if (r.goal > 0.0) std::printf(" goal %.4g%s", r.goal, missed(r) ? " MISSED" : "");
+    std::printf("\n");
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("ream-bench: measures this build");
+  std::string suite;
+  Options options;
+  bool check = false, json = false;
+  app.add_option("suite", suite);
+  app.add_flag("--baselines", options.baselines);
+  app.add_flag("--check", check);
+  app.add_flag("--json", json);
+  CLI11_PARSE(app, argc, argv);
+  if (!suite.empty() && !suites.contains(suite)) {
+    std::cerr << "ream-bench: no suite '" << suite << "'\n";
+    return 2;
+  }
+  try {
+    std::vector<Row> rows;
+    for (const auto& [name, run] : suites)
+      if (suite.empty() || suite == name)
+        for (Row& row : run(options)) rows.push_back(std::move(row));
+    print(rows, json);
+    bool all_met = true;
+    for (const Row& row : rows)
+      if (check && missed(row)) {
+        std::cerr << "missed: " << row.suite << ' ' << row.name << '\n';
+        all_met = false;
+      }
+    return all_met ? 0 : 1;
+  } catch (const ream::Error& e) {
+    std::cerr << "ream-bench: " << e.what() << '\n';
+    return ream::exit_code(e.kind());
+  }
+}
