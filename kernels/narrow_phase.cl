@@ -15,8 +15,9 @@
 
 #define NO_VOXEL 0xffffffffu
 
-// Voxel index of sixteen probes, NO_VOXEL outside the grid and beyond `remaining`.
-static uint16 probe_voxels(float16 x, float16 y, float16 z, int remaining, const struct ContactArguments* a) {
+// Voxel index of sixteen probes, NO_VOXEL outside the grid and beyond `remaining`, and the occupancy cells they lie in.
+static void find_voxels(float16 x, float16 y, float16 z, int remaining, const struct ContactArguments* a, uint* voxels,
+                        uint* cells) {
   const float* m = a->voxel_from_tool.m;
   const float* t = a->voxel_from_tool.t;
   const float16 u = m[0] * x + m[1] * y + m[2] * z + t[0];
@@ -25,11 +26,14 @@ static uint16 probe_voxels(float16 x, float16 y, float16 z, int remaining, const
   const int16 lane = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   const int16 inside = (u >= 0.0f) & (v >= 0.0f) & (w >= 0.0f) & (u < (float)a->dims_x) & (v < (float)a->dims_y) &
                        (w < (float)a->dims_z) & (lane < remaining);
+  const uint16 iu = convert_uint16(convert_int16(select((float16)(0.0f), u, inside)));
+  const uint16 iv = convert_uint16(convert_int16(select((float16)(0.0f), v, inside)));
+  const uint16 iw = convert_uint16(convert_int16(select((float16)(0.0f), w, inside)));
   const uint row = (uint)a->dims_x, slice = row * (uint)a->dims_y;
-  const uint16 at = convert_uint16(convert_int16(select((float16)(0.0f), u, inside))) +
-                    convert_uint16(convert_int16(select((float16)(0.0f), v, inside))) * row +
-                    convert_uint16(convert_int16(select((float16)(0.0f), w, inside))) * slice;
-  return select((uint16)(NO_VOXEL), at, inside);
+  const uint cell_row = row / REAM_OCCUPANCY_EDGE, cell_slice = cell_row * ((uint)a->dims_y / REAM_OCCUPANCY_EDGE);
+  vstore16(select((uint16)(NO_VOXEL), iu + iv * row + iw * slice, inside), 0, voxels);
+  vstore16(iu / REAM_OCCUPANCY_EDGE + iv / REAM_OCCUPANCY_EDGE * cell_row + iw / REAM_OCCUPANCY_EDGE * cell_slice, 0,
+           cells);
 }
 
 // The 7 x 8 products of one side, kept in registers.
@@ -47,8 +51,8 @@ static uint16 probe_voxels(float16 x, float16 y, float16 z, int remaining, const
 kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void contact_sums(
     global const float* probe_x, global const float* probe_y, global const float* probe_z, global const short* vectors,
     global const uchar* weights, global const uchar* guiding, global const struct ContactBlock* blocks,
-    global const uint* survivors, global const uchar* coverage, global const uchar* density, global const uchar* classes,
-    struct ContactArguments arguments, global long* partial) {
+    global const uint* survivors, global const uint* occupancy, global const uchar* coverage,
+    global const uchar* density, global const uchar* classes, struct ContactArguments arguments, global long* partial) {
   local int run_sums[REAM_CONTACT_SUMS];
   const int lane = get_local_id(0);
   global long* sums = partial + (size_t)get_group_id(0) * REAM_CONTACT_SUMS;
@@ -67,12 +71,12 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void contact_sums(
       int points = 0, guided = 0;
       for (uint chunk = run + lane * REAM_CONTACT_CHUNK; chunk < run_end; chunk += LANES * REAM_CONTACT_CHUNK) {
         const uint first = block.first + chunk;
-        uint at[REAM_CONTACT_CHUNK];
-        vstore16(probe_voxels(vload16(0, probe_x + first), vload16(0, probe_y + first), vload16(0, probe_z + first),
-                              (int)(run_end - chunk), &arguments),
-                 0, at);
+        uint at[REAM_CONTACT_CHUNK], cell[REAM_CONTACT_CHUNK];
+        find_voxels(vload16(0, probe_x + first), vload16(0, probe_y + first), vload16(0, probe_z + first),
+                    (int)(run_end - chunk), &arguments, at, cell);
         for (int k = 0; k < REAM_CONTACT_CHUNK; ++k) {
-          if (at[k] == NO_VOXEL || coverage[at[k]] < REAM_ENGAGING_COVERAGE) continue;
+          if (at[k] == NO_VOXEL || !(occupancy[cell[k] / 32] >> cell[k] % 32 & 1)) continue;
+          if (coverage[at[k]] < REAM_ENGAGING_COVERAGE) continue;
           const int8 g = convert_int8(vload8(first + k, vectors));
           const int8 wg = (int)weights[first + k] * g;
           if (guiding[first + k]) {
