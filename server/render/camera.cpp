@@ -10,7 +10,8 @@ namespace ream::render {
 Mat4f camera_from_world(const Camera& camera) {
   const Vec3 to_target = camera.target_mm - camera.eye_mm;
   if (!(to_target.norm() > 0.0) || !to_target.allFinite())
-    throw Error(ErrorKind::invalid_input, "picture: the camera's eye and target are the same point; move one of them");
+    throw Error(ErrorKind::invalid_input,
+                "picture: the camera's eye and target are the same point; move one of them");
   const Vec3 back = -to_target.normalized();
   Vec3 right = camera.up.cross(back);
   if (right.norm() < 1e-9) right = back.unitOrthogonal();

@@ -7,8 +7,8 @@ namespace ream::render {
 
 using Mat4f = Eigen::Matrix4f;
 
-/// OpenGL camera coordinates (x right, y up, looking along -z, mm) from world. Throws Error invalid_input when eye and
-/// target coincide.
+/// OpenGL camera coordinates (x right, y up, looking along -z, mm) from world. Throws Error invalid_input
+/// when eye and target coincide.
 Mat4f camera_from_world(const Camera& camera);
 
 /// Perspective projection that holds depths near_mm..far_mm.

@@ -33,7 +33,8 @@ std::vector<std::byte> encoded_png(const Image& image, const std::filesystem::pa
 void write_png(const std::filesystem::path& path, const Image& image) {
   const auto pixels = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
   if (image.width <= 0 || image.height <= 0 || image.rgba.size() != 4 * pixels)
-    throw Error(ErrorKind::invalid_input, path.string() + ": the picture has no pixels, or not as many as its size says");
+    throw Error(ErrorKind::invalid_input,
+                path.string() + ": the picture has no pixels, or not as many as its size says");
   write_file_atomically(path, encoded_png(image, path));
 }
 

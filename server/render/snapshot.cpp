@@ -28,9 +28,11 @@ class Context {
  public:
   Context(int width, int height, std::vector<uint8_t>& pixels)
       : context_(OSMesaCreateContextExt(OSMESA_RGBA, 24, 0, 0, nullptr), OSMesaDestroyContext) {
-    if (!context_ || OSMesaMakeCurrent(context_.get(), pixels.data(), GL_UNSIGNED_BYTE, width, height) == GL_FALSE)
-      throw Error(ErrorKind::unavailable, "picture: OSMesa gives no context of " + std::to_string(width) + " x " +
-                                              std::to_string(height) + " pixels; check the package libosmesa6");
+    if (!context_ ||
+        OSMesaMakeCurrent(context_.get(), pixels.data(), GL_UNSIGNED_BYTE, width, height) == GL_FALSE)
+      throw Error(ErrorKind::unavailable, "picture: OSMesa gives no context of " + std::to_string(width) +
+                                              " x " + std::to_string(height) +
+                                              " pixels; check the package libosmesa6");
     OSMesaPixelStore(OSMESA_Y_UP, 0);
   }
 
@@ -99,7 +101,8 @@ void draw_mesh(const Layer& layer, const Mat4f& camera_from_world, GLuint progra
     glEnableVertexAttribArray(normal_attribute);
     glVertexAttribPointer(normal_attribute, 3, GL_FLOAT, GL_FALSE, sizeof(Vec3f), mesh.normals.data());
   }
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * mesh.triangles.size()), GL_UNSIGNED_INT, mesh.triangles.data());
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * mesh.triangles.size()), GL_UNSIGNED_INT,
+                 mesh.triangles.data());
   glDisableVertexAttribArray(position_attribute);
   glDisableVertexAttribArray(normal_attribute);
 }
@@ -129,7 +132,8 @@ std::vector<const Layer*> translucent_far_first(const std::vector<Layer>& layers
 }
 
 Image downsampled(const std::vector<uint8_t>& pixels, int width, int height) {
-  Image image{width, height, std::vector<uint8_t>(4 * static_cast<size_t>(width) * static_cast<size_t>(height))};
+  Image image{width, height,
+              std::vector<uint8_t>(4 * static_cast<size_t>(width) * static_cast<size_t>(height))};
   const size_t row = 4 * static_cast<size_t>(width) * oversampling;
   for (size_t y = 0; y < static_cast<size_t>(height); ++y)
     for (size_t x = 0; x < static_cast<size_t>(width); ++x)
@@ -162,12 +166,13 @@ void draw_layers(const std::vector<Layer>& layers, const Camera& camera, double 
 
 Image draw(const std::vector<Layer>& layers, const Camera& camera, int width, int height) {
   if (width < 1 || height < 1 || width > max_edge_pixels || height > max_edge_pixels)
-    throw Error(ErrorKind::invalid_input, "picture: " + std::to_string(width) + " x " + std::to_string(height) +
-                                              " pixels cannot be drawn; each edge must be 1 to " +
-                                              std::to_string(max_edge_pixels));
+    throw Error(ErrorKind::invalid_input,
+                "picture: " + std::to_string(width) + " x " + std::to_string(height) +
+                    " pixels cannot be drawn; each edge must be 1 to " + std::to_string(max_edge_pixels));
   static std::mutex one_at_a_time;  // llvmpipe already uses every core
   const std::lock_guard lock(one_at_a_time);
-  std::vector<uint8_t> pixels(4 * static_cast<size_t>(oversampling * width) * static_cast<size_t>(oversampling * height));
+  std::vector<uint8_t> pixels(4 * static_cast<size_t>(oversampling * width) *
+                              static_cast<size_t>(oversampling * height));
   {
     const Context context(oversampling * width, oversampling * height, pixels);
     glViewport(0, 0, oversampling * width, oversampling * height);

@@ -41,8 +41,9 @@ EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t 
   std::vector<uint32_t> indices(mesh.indices.size());
   meshopt_optimizeVertexCacheStrip(indices.data(), mesh.indices.data(), indices.size(), mesh.vertices.size());
   std::vector<BlockVertex> vertices(mesh.vertices.size());
-  vertices.resize(meshopt_optimizeVertexFetch(vertices.data(), indices.data(), indices.size(), mesh.vertices.data(),
-                                              mesh.vertices.size(), sizeof(BlockVertex)));
+  vertices.resize(meshopt_optimizeVertexFetch(vertices.data(), indices.data(), indices.size(),
+                                              mesh.vertices.data(), mesh.vertices.size(),
+                                              sizeof(BlockVertex)));
   result.vertex_count = static_cast<uint32_t>(vertices.size());
   result.index_count = static_cast<uint32_t>(indices.size());
   result.vertices = encoded(meshopt_encodeVertexBufferBound(vertices.size(), sizeof(BlockVertex)),

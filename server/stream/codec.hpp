@@ -8,8 +8,8 @@
 
 namespace ream::stream {
 
-/// A block's surface as it travels: meshopt vertex stream (codec v0) of BlockVertex and meshopt index stream (codec v1)
-/// of triangles. Both are empty, and both counts 0, where the block holds no surface.
+/// A block's surface as it travels: meshopt vertex stream (codec v0) of BlockVertex and meshopt index stream
+/// (codec v1) of triangles. Both are empty, and both counts 0, where the block holds no surface.
 struct EncodedBlock {
   uint32_t block = 0;
   uint32_t revision = 0;  ///< grows per block
@@ -23,8 +23,8 @@ struct EncodedBlock {
 
 using SharedBlock = std::shared_ptr<const EncodedBlock>;
 
-/// Reorders vertices and triangles so that they pack well; the surface itself is unchanged. A mesh without triangles
-/// gives an empty block.
+/// Reorders vertices and triangles so that they pack well; the surface itself is unchanged. A mesh without
+/// triangles gives an empty block.
 EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t tick);
 
 }  // namespace ream::stream

@@ -19,9 +19,10 @@ class Fanout {
   virtual void publish_picture_complete() = 0;
   virtual void publish_telemetry(SharedTelemetry batch) = 0;
 
-  /// A new viewer: its mailbox begins with the hello and the whole picture. `notify` is called from publishing threads,
-  /// possibly after the mailbox was let go of, so it must be quick, must not call back into the fanout and must own (or
-  /// weakly hold) what it touches. Letting go of the mailbox ends the subscription.
+  /// A new viewer: its mailbox begins with the hello and the whole picture. `notify` is called from
+  /// publishing threads, possibly after the mailbox was let go of, so it must be quick, must not call back
+  /// into the fanout and must own (or weakly hold) what it touches. Letting go of the mailbox ends the
+  /// subscription.
   virtual std::shared_ptr<Mailbox> subscribe(std::function<void()> notify) = 0;
 };
 

@@ -4,7 +4,8 @@
 
 namespace ream::stream {
 
-// The lock is held while putting: a viewer that joins meanwhile gets each block exactly from the picture or as news.
+// The lock is held while putting: a viewer that joins meanwhile gets each block exactly from the picture or
+// as news.
 template <typename Put>
 void LocalFanout::put_to_all(Put put) {
   std::erase_if(viewers_, [&](const std::weak_ptr<Mailbox>& viewer) {
@@ -52,7 +53,8 @@ std::shared_ptr<Mailbox> LocalFanout::subscribe(std::function<void()> notify) {
 
 size_t LocalFanout::viewers() const {
   const std::lock_guard lock(mutex_);
-  return static_cast<size_t>(std::count_if(viewers_.begin(), viewers_.end(), [](const auto& v) { return !v.expired(); }));
+  return static_cast<size_t>(
+      std::count_if(viewers_.begin(), viewers_.end(), [](const auto& v) { return !v.expired(); }));
 }
 
 }  // namespace ream::stream

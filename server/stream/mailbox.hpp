@@ -10,8 +10,8 @@
 
 namespace ream::stream {
 
-/// What waits for one viewer, bounded however slow it is: at most one surface per block, always the newest, and the
-/// latest telemetry; what telemetry was dropped is counted and told. Thread-safe.
+/// What waits for one viewer, bounded however slow it is: at most one surface per block, always the newest,
+/// and the latest telemetry; what telemetry was dropped is counted and told. Thread-safe.
 class Mailbox {
  public:
   static constexpr size_t max_telemetry_batches = 60;  ///< about two seconds
@@ -19,8 +19,9 @@ class Mailbox {
 
   explicit Mailbox(std::function<void()> notify) : notify_(std::move(notify)) {}
 
-  /// The viewer's side. The next message to send, null for nothing now: then `notify` is called once as soon as there is
-  /// something again. Blocks are gathered to messages of about mesh_message_bytes; telemetry and surface take turns.
+  /// The viewer's side. The next message to send, null for nothing now: then `notify` is called once as soon
+  /// as there is something again. Blocks are gathered to messages of about mesh_message_bytes; telemetry and
+  /// surface take turns.
   Message next();
 
   /// The fanout's side.

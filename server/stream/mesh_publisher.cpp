@@ -24,7 +24,8 @@ void MeshPublisher::publish_all() {
 size_t MeshPublisher::poll(int64_t now_ns) {
   drain(now_ns);
   if (moved_list_.empty() || now_ns - last_publish_ns_ < options_.min_interval_ns) return 0;
-  const bool due = most_moved_ >= options_.noticeable_coverage || now_ns - moved_since_ns_ >= options_.max_delay_ns;
+  const bool due =
+      most_moved_ >= options_.noticeable_coverage || now_ns - moved_since_ns_ >= options_.max_delay_ns;
   return due ? publish_changed(now_ns) : 0;
 }
 
@@ -52,7 +53,8 @@ int MeshPublisher::largest_change(const voxel::BrickImage& image) {
   uint8_t before[voxel::brick_voxels];
   voxel::read_brick(replica_.grid(), replica_.coverage().data(), image.brick, before);
   int largest = 0;
-  for (int i = 0; i < voxel::brick_voxels; ++i) largest = std::max(largest, std::abs(before[i] - image.coverage[i]));
+  for (int i = 0; i < voxel::brick_voxels; ++i)
+    largest = std::max(largest, std::abs(before[i] - image.coverage[i]));
   return largest;
 }
 

@@ -9,24 +9,27 @@
 namespace ream::stream {
 
 struct MeshPublisherOptions {
-  int noticeable_coverage = 32;              ///< levels that a voxel must change to show at once: 1/8 voxel of surface
-  int64_t max_delay_ns = 250'000'000;        ///< smaller changes show after this
-  int64_t min_interval_ns = 40'000'000;      ///< between two updates, so that extraction leaves time to others
+  int noticeable_coverage = 32;  ///< levels that a voxel must change to show at once: 1/8 voxel of surface
+  int64_t max_delay_ns = 250'000'000;    ///< smaller changes show after this
+  int64_t min_interval_ns = 40'000'000;  ///< between two updates, so that extraction leaves time to others
 };
 
-/// Follows the bone through the brick ring and publishes the surface of what changed. All changed blocks are published
-/// together, so what viewers hold is always a closed surface of one state of the replica. Used by one thread.
+/// Follows the bone through the brick ring and publishes the surface of what changed. All changed blocks are
+/// published together, so what viewers hold is always a closed surface of one state of the replica. Used by
+/// one thread.
 class MeshPublisher {
  public:
   /// `bone` as it is before the first tick; its coverage is copied here.
-  MeshPublisher(const voxel::BoneModel& bone, voxel::BrickRing& ring, Fanout& fanout, MeshPublisherOptions options = {});
+  MeshPublisher(const voxel::BoneModel& bone, voxel::BrickRing& ring, Fanout& fanout,
+                MeshPublisherOptions options = {});
 
   /// Publishes the first whole picture. Call once, before poll().
   void publish_all();
-  /// Takes in all bricks that wait and publishes the changed blocks when they are due. `now_ns` as steady_ns(); call every
-  /// 10 ms or so. Returns the number of blocks published.
+  /// Takes in all bricks that wait and publishes the changed blocks when they are due. `now_ns` as
+  /// steady_ns(); call every 10 ms or so. Returns the number of blocks published.
   size_t poll(int64_t now_ns);
-  /// Takes in all bricks that wait and publishes at once: at the end of a session, when the haptic thread rests.
+  /// Takes in all bricks that wait and publishes at once: at the end of a session, when the haptic thread
+  /// rests.
   size_t flush(int64_t now_ns);
 
   const voxel::Replica& replica() const { return replica_; }

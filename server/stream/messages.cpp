@@ -15,7 +15,8 @@ wire::Vec3 to_wire(const Vec3& v) {
 
 wire::Pose to_wire(const Pose& pose) {
   const std::array<double, 4> q = quaternion_from_rotation(pose.rotation);
-  return {wire::Quat(static_cast<float>(q[0]), static_cast<float>(q[1]), static_cast<float>(q[2]), static_cast<float>(q[3])),
+  return {wire::Quat(static_cast<float>(q[0]), static_cast<float>(q[1]), static_cast<float>(q[2]),
+                     static_cast<float>(q[3])),
           to_wire(pose.translation_mm)};
 }
 
@@ -26,13 +27,15 @@ Message finished(FlatBufferBuilder& builder, wire::Body kind, flatbuffers::Offse
   return std::make_shared<const std::vector<std::byte>>(begin, begin + builder.GetSize());
 }
 
-flatbuffers::Offset<flatbuffers::Vector<uint8_t>> aligned_bytes(FlatBufferBuilder& builder, const std::vector<std::byte>& bytes) {
+flatbuffers::Offset<flatbuffers::Vector<uint8_t>> aligned_bytes(FlatBufferBuilder& builder,
+                                                                const std::vector<std::byte>& bytes) {
   builder.ForceVectorAlignment(bytes.size(), 1, 8);
   return builder.CreateVector(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size());
 }
 
 template <typename Field>
-flatbuffers::Offset<flatbuffers::Vector<float>> column(FlatBufferBuilder& builder, const TelemetryBatch& batch, Field field) {
+flatbuffers::Offset<flatbuffers::Vector<float>> column(FlatBufferBuilder& builder,
+                                                       const TelemetryBatch& batch, Field field) {
   return builder.CreateVector<float>(batch.samples.size(), [&](size_t i) { return batch.samples[i].*field; });
 }
 
@@ -51,7 +54,8 @@ Message hello_message(const HelloInfo& info) {
   const wire::Pose world_from_grid = to_wire(info.grid.world_from_grid);
   const auto hello = wire::CreateHello(
       builder, protocol_revision, builder.CreateString(info.session_id), info.server_epoch,
-      builder.CreateString(info.case_id), builder.CreateString(info.case_name), builder.CreateString(info.side),
+      builder.CreateString(info.case_id), builder.CreateString(info.case_name),
+      builder.CreateString(info.side),
       builder.CreateVector(std::vector<int32_t>{dims.x(), dims.y(), dims.z()}), &spacing, &world_from_grid,
       voxel::block_edge, builder.CreateVector(positions), builder.CreateVector(indices),
       builder.CreateString(info.tool_name), &entry, &direction, static_cast<float>(info.planned_depth_mm),
@@ -67,8 +71,8 @@ Message mesh_message(std::span<const SharedBlock> blocks, bool key_complete) {
   for (const SharedBlock& block : blocks) {
     const auto vertices = aligned_bytes(builder, block->vertices);
     const auto indices = aligned_bytes(builder, block->indices);
-    tables.push_back(wire::CreateMeshBlock(builder, block->block, block->revision, block->tick, block->vertex_count,
-                                           block->index_count, vertices, indices));
+    tables.push_back(wire::CreateMeshBlock(builder, block->block, block->revision, block->tick,
+                                           block->vertex_count, block->index_count, vertices, indices));
   }
   const auto list = builder.CreateVector(tables);
   return finished(builder, wire::Body::MeshDelta, wire::CreateMeshDelta(builder, list, key_complete));
@@ -80,12 +84,15 @@ Message telemetry_message(const TelemetryBatch& batch, uint32_t dropped) {
   const wire::Pose tool = to_wire(newest.world_from_tool), handle = to_wire(newest.world_from_handle);
   const size_t fault_length = strnlen(newest.fault.data(), newest.fault.size());
   const auto telemetry = wire::CreateTelemetry(
-      builder, batch.samples.front().tick, batch.tick_stride, column(builder, batch, &TelemetrySample::thrust_n),
-      column(builder, batch, &TelemetrySample::hand_force_n), column(builder, batch, &TelemetrySample::torque_n_mm),
-      column(builder, batch, &TelemetrySample::feed_rate_mm_s), column(builder, batch, &TelemetrySample::density_g_cc),
-      newest.tick, &tool, &handle, newest.spindle_on, static_cast<wire::SessionState>(newest.state), newest.depth_mm,
-      newest.removed_volume_mm3, newest.cortical_share, dropped, newest.tick_mean_us, newest.tick_p99_us,
-      newest.ticks_missed, builder.CreateString(newest.fault.data(), fault_length));
+      builder, batch.samples.front().tick, batch.tick_stride,
+      column(builder, batch, &TelemetrySample::thrust_n),
+      column(builder, batch, &TelemetrySample::hand_force_n),
+      column(builder, batch, &TelemetrySample::torque_n_mm),
+      column(builder, batch, &TelemetrySample::feed_rate_mm_s),
+      column(builder, batch, &TelemetrySample::density_g_cc), newest.tick, &tool, &handle, newest.spindle_on,
+      static_cast<wire::SessionState>(newest.state), newest.depth_mm, newest.removed_volume_mm3,
+      newest.cortical_share, dropped, newest.tick_mean_us, newest.tick_p99_us, newest.ticks_missed,
+      builder.CreateString(newest.fault.data(), fault_length));
   return finished(builder, wire::Body::Telemetry, telemetry);
 }
 

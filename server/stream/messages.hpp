@@ -24,14 +24,14 @@ struct HelloInfo {
   std::string session_id;
   uint64_t server_epoch = 0;  ///< differs after each start of the server
   std::string case_id, case_name;
-  std::string side;           ///< "left" or "right"
+  std::string side;  ///< "left" or "right"
   voxel::VoxelGrid grid;
-  TriangleMesh tool;          ///< cutting envelope, tool frame
+  TriangleMesh tool;  ///< cutting envelope, tool frame
   std::string tool_name;
   Vec3 axis_entry_mm = Vec3::Zero(), axis_direction = Vec3::UnitX();  ///< world frame
   double planned_depth_mm = 0;
-  double force_scale = 1;     ///< simulated N per hand N
-  double force_max_n = 0;     ///< hand N that the device may render
+  double force_scale = 1;  ///< simulated N per hand N
+  double force_max_n = 0;  ///< hand N that the device may render
 };
 
 Message hello_message(const HelloInfo& info);

@@ -12,9 +12,17 @@ namespace ream::stream {
 class Fanout;
 
 /// As SessionState of proto/stream.fbs.
-enum class SessionState : uint8_t { created = 0, running = 1, paused = 2, finished = 3, stopped = 4, fault = 5 };
+enum class SessionState : uint8_t {
+  created = 0,
+  running = 1,
+  paused = 2,
+  finished = 3,
+  stopped = 4,
+  fault = 5
+};
 
-/// One tick as viewers see it. World frame, mm; forces N, torque N mm. No heap inside, so it may pass through rings.
+/// One tick as viewers see it. World frame, mm; forces N, torque N mm. No heap inside, so it may pass through
+/// rings.
 struct TelemetrySample {
   uint32_t tick = 0;
   float thrust_n = 0;      ///< simulated, along the tool's axis
@@ -38,7 +46,7 @@ using TelemetryRing = SpscRing<TelemetrySample>;
 /// Samples that follow each other: tick of entry i is front().tick + i * tick_stride.
 struct TelemetryBatch {
   uint32_t tick_stride = 1;
-  uint32_t lost_before = 0;  ///< entries lost on the way here since the previous batch
+  uint32_t lost_before = 0;              ///< entries lost on the way here since the previous batch
   std::vector<TelemetrySample> samples;  ///< at least one
 };
 

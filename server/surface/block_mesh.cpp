@@ -22,7 +22,9 @@ constexpr int last_corner = margin + block_edge;
 constexpr int half = units_per_voxel / 2;
 
 /// Bits first..last.
-constexpr uint64_t bits(int first, int last) { return (~uint64_t{0} << first) & (~uint64_t{0} >> (63 - last)); }
+constexpr uint64_t bits(int first, int last) {
+  return (~uint64_t{0} << first) & (~uint64_t{0} >> (63 - last));
+}
 
 /// Bit i is the top bit of byte i: set where coverage is 128 or more.
 uint64_t filled_bits(const uint8_t* row) {
@@ -46,8 +48,9 @@ int crossing(int first, int second) {
   return (2 * numerator + denominator) / (2 * denominator);
 }
 
-/// Minus the gradient of coverage at a voxel of the copy, times 32: central differences, averaged across with weights 1 2 1
-/// because a coverage that falls within one voxel is too steep for bare ones (they show rings on round surfaces).
+/// Minus the gradient of coverage at a voxel of the copy, times 32: central differences, averaged across with
+/// weights 1 2 1 because a coverage that falls within one voxel is too steep for bare ones (they show rings
+/// on round surfaces).
 Vec3i fall_at(const uint8_t* voxel) {
   Vec3i fall = Vec3i::Zero();
   for (int z = -1; z <= 1; ++z)
@@ -59,7 +62,9 @@ Vec3i fall_at(const uint8_t* voxel) {
   return fall;
 }
 
-int slot(int axis, int x, int y, int z) { return (((z & 1) * edge + y) * row_bytes + x) * 3 + axis; }
+int slot(int axis, int x, int y, int z) {
+  return (((z & 1) * edge + y) * row_bytes + x) * 3 + axis;
+}
 
 /// Slot of each cell edge relative to the cell's, for even and odd z.
 std::array<std::array<int, 12>, 2> edge_slots() {
@@ -91,7 +96,8 @@ BlockExtractor::BlockExtractor(const voxel::VoxelGrid& grid)
 
 Vec3i BlockExtractor::block_coordinates(uint32_t block) const {
   const int i = static_cast<int>(block);
-  return {i % block_dims_.x(), (i / block_dims_.x()) % block_dims_.y(), i / (block_dims_.x() * block_dims_.y())};
+  return {i % block_dims_.x(), (i / block_dims_.x()) % block_dims_.y(),
+          i / (block_dims_.x() * block_dims_.y())};
 }
 
 BlockMesh BlockExtractor::extract(const uint8_t* coverage, uint32_t block) {
@@ -119,7 +125,8 @@ bool BlockExtractor::load(const uint8_t* coverage, const Vec3i& block) {
         std::memset(row, 0, row_bytes);
       } else {
         if (first > 0 || last < edge) std::memset(row, 0, row_bytes);
-        std::memcpy(row + first, coverage + grid_.index(origin.x() + first, v, w), static_cast<size_t>(last - first));
+        std::memcpy(row + first, coverage + grid_.index(origin.x() + first, v, w),
+                    static_cast<size_t>(last - first));
       }
       const uint64_t filled = filled_bits(row);
       filled_[static_cast<size_t>(z * edge + y)] = filled;
@@ -158,8 +165,8 @@ void BlockExtractor::add_vertex(int axis, int x, int y, int z, BlockMesh& mesh) 
   std::array<int, 3> p = {units_per_voxel * x - half, units_per_voxel * y - half, units_per_voxel * z - half};
   p[static_cast<size_t>(axis)] += offset;
   vertex_of_edge_[static_cast<size_t>(slot(axis, x, y, z))] = static_cast<uint32_t>(mesh.vertices.size());
-  mesh.vertices.push_back({static_cast<uint16_t>(p[0]), static_cast<uint16_t>(p[1]), static_cast<uint16_t>(p[2]),
-                           normal[0], normal[1]});
+  mesh.vertices.push_back({static_cast<uint16_t>(p[0]), static_cast<uint16_t>(p[1]),
+                           static_cast<uint16_t>(p[2]), normal[0], normal[1]});
 }
 
 void BlockExtractor::add_triangles(int z, BlockMesh& mesh) const {

@@ -10,8 +10,9 @@ namespace ream::surface {
 /// Vertices are whole numbers of 1/1024 voxel, so blocks that share a vertex agree on it to the bit.
 inline constexpr int units_per_voxel = 1024;
 
-/// As it goes over the wire: position in 1/1024 voxel from the block's minimum corner minus one voxel (voxel centres are
-/// at n + 0.5 voxels), then the outward normal, octahedral. The normal is of the grid frame in mm, not in voxels.
+/// As it goes over the wire: position in 1/1024 voxel from the block's minimum corner minus one voxel (voxel
+/// centres are at n + 0.5 voxels), then the outward normal, octahedral. The normal is of the grid frame in
+/// mm, not in voxels.
 struct BlockVertex {
   uint16_t x, y, z;
   int8_t ox, oy;
@@ -19,8 +20,8 @@ struct BlockVertex {
 };
 static_assert(sizeof(BlockVertex) == 8);
 
-/// Surface of one 32^3 block: triangles counter-clockwise from outside, three indices each; both empty where the block
-/// holds no surface. Every vertex is used, and its position is unique within the block.
+/// Surface of one 32^3 block: triangles counter-clockwise from outside, three indices each; both empty where
+/// the block holds no surface. Every vertex is used, and its position is unique within the block.
 struct BlockMesh {
   uint32_t block = 0;  ///< x + bx * (y + by * z)
   std::vector<BlockVertex> vertices;
@@ -30,10 +31,11 @@ struct BlockMesh {
 /// Position of a vertex in the grid frame. `block` as Replica::block_coordinates.
 Vec3f position_mm(const BlockVertex& vertex, const Vec3i& block, const Vec3& spacing_mm);
 
-/// Extracts the surface at coverage 127.5, which lies between voxel centres; outside the grid coverage is 0, so the surface
-/// is closed at the grid's borders. A block owns the cells whose minimum corner voxel lies in it, and the blocks at the
-/// grid's minimum sides also the cells between the virtual voxel -1 and voxel 0. Normals are smoothed central
-/// differences of coverage, pointing out of the bone. Holds working memory only: one per thread.
+/// Extracts the surface at coverage 127.5, which lies between voxel centres; outside the grid coverage is 0,
+/// so the surface is closed at the grid's borders. A block owns the cells whose minimum corner voxel lies in
+/// it, and the blocks at the grid's minimum sides also the cells between the virtual voxel -1 and voxel 0.
+/// Normals are smoothed central differences of coverage, pointing out of the bone. Holds working memory only:
+/// one per thread.
 class BlockExtractor {
  public:
   explicit BlockExtractor(const voxel::VoxelGrid& grid);
@@ -55,9 +57,9 @@ class BlockExtractor {
   voxel::VoxelGrid grid_;
   Vec3i block_dims_;
   Vec3f voxels_per_mm_;
-  Vec3i low_ = Vec3i::Zero();             ///< first corner of owned cells, in the copy
-  std::vector<uint8_t> copy_;             ///< coverage, rows padded to row_bytes
-  std::vector<uint64_t> filled_;          ///< one word per row of the copy: bit x is set where coverage > 127.5
+  Vec3i low_ = Vec3i::Zero();     ///< first corner of owned cells, in the copy
+  std::vector<uint8_t> copy_;     ///< coverage, rows padded to row_bytes
+  std::vector<uint64_t> filled_;  ///< one word per row of the copy: bit x is set where coverage > 127.5
   std::vector<uint32_t> vertex_of_edge_;  ///< of two slices in turn
 };
 

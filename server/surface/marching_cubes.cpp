@@ -70,7 +70,8 @@ struct Triangulation {
   std::vector<std::array<int, 3>> triangles;
 };
 
-/// Cheapest triangulation of the part of the loop from `first` to `last`, whose closing side is already paid for.
+/// Cheapest triangulation of the part of the loop from `first` to `last`, whose closing side is already paid
+/// for.
 Triangulation triangulate(const Loop& loop, size_t first, size_t last) {
   if (last - first < 2) return {0.0, {}};
   const auto side = [&](size_t i, size_t j) { return j - i < 2 ? 0.0 : diagonal_cost(loop[i], loop[j]); };
@@ -100,7 +101,8 @@ CellCase derive(int filled) {
     }
     if (loop.empty()) continue;
     const Triangulation best = triangulate(loop, 0, loop.size() - 1);
-    if (best.cost == impossible) throw std::logic_error("marching cubes: a loop needs a diagonal inside a face");
+    if (best.cost == impossible)
+      throw std::logic_error("marching cubes: a loop needs a diagonal inside a face");
     for (const auto& t : best.triangles)
       result.triangles.at(result.triangle_count++) = {static_cast<uint8_t>(t[0]), static_cast<uint8_t>(t[1]),
                                                       static_cast<uint8_t>(t[2])};

@@ -16,7 +16,8 @@ using GridPosition = std::array<int32_t, 3>;  ///< 1/1024 voxel
 
 struct GridPositionHash {
   size_t operator()(const GridPosition& p) const {
-    const uint64_t xy = static_cast<uint64_t>(static_cast<uint32_t>(p[0])) << 32 | static_cast<uint32_t>(p[1]);
+    const uint64_t xy =
+        static_cast<uint64_t>(static_cast<uint32_t>(p[0])) << 32 | static_cast<uint32_t>(p[1]);
     return mix64(xy ^ mix64(static_cast<uint32_t>(p[2])));
   }
 };
@@ -27,7 +28,8 @@ std::vector<BlockMesh> extract_all(const voxel::VoxelGrid& grid, const uint8_t* 
   std::atomic<uint32_t> next{0};
   const auto work = [&] {
     BlockExtractor extractor(grid);
-    for (uint32_t block = next++; block < count; block = next++) meshes[block] = extractor.extract(coverage, block);
+    for (uint32_t block = next++; block < count; block = next++)
+      meshes[block] = extractor.extract(coverage, block);
   };
   std::vector<std::jthread> helpers;
   for (int i = 1; i < threads; ++i) helpers.emplace_back(work);
@@ -36,7 +38,8 @@ std::vector<BlockMesh> extract_all(const voxel::VoxelGrid& grid, const uint8_t* 
   return meshes;
 }
 
-/// Joins blocks in their order. Only vertices on planes through voxel centres where two blocks meet can be shared.
+/// Joins blocks in their order. Only vertices on planes through voxel centres where two blocks meet can be
+/// shared.
 class Welder {
  public:
   explicit Welder(const voxel::VoxelGrid& grid) : spacing_mm_(grid.spacing_mm) {}
@@ -48,7 +51,8 @@ class Welder {
       const auto fresh = static_cast<uint32_t>(mesh.vertices_mm.size());
       uint32_t index = fresh;
       if (at_border(v.x) || at_border(v.y) || at_border(v.z))
-        index = shared_.try_emplace({origin.x() + v.x, origin.y() + v.y, origin.z() + v.z}, fresh).first->second;
+        index =
+            shared_.try_emplace({origin.x() + v.x, origin.y() + v.y, origin.z() + v.z}, fresh).first->second;
       index_.push_back(index);
       if (index != fresh) continue;
       mesh.vertices_mm.push_back(position_mm(v, coordinates, spacing_mm_));

@@ -9,6 +9,9 @@
 #include "core/file.hpp"
 #include "core/units.hpp"
 
+/// OSMesa keeps about 160 bytes of each context it has destroyed.
+extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa"; }
+
 namespace ream::render {
 namespace {
 
@@ -43,7 +46,8 @@ Camera camera_at(double distance_mm) {
 }
 
 std::array<int, 3> pixel(const Image& image, int x, int y) {
-  const uint8_t* p = image.rgba.data() + 4 * (static_cast<size_t>(y) * static_cast<size_t>(image.width) + static_cast<size_t>(x));
+  const uint8_t* p = image.rgba.data() +
+                     4 * (static_cast<size_t>(y) * static_cast<size_t>(image.width) + static_cast<size_t>(x));
   return {p[0], p[1], p[2]};
 }
 
@@ -61,8 +65,12 @@ Pose at(const Vec3& position_mm) {
   return pose;
 }
 
-bool reddish(const std::array<int, 3>& p) { return p[0] > p[2] + 60; }
-bool bluish(const std::array<int, 3>& p) { return p[2] > p[0] + 60; }
+bool reddish(const std::array<int, 3>& p) {
+  return p[0] > p[2] + 60;
+}
+bool bluish(const std::array<int, 3>& p) {
+  return p[2] > p[0] + 60;
+}
 
 const Vec3f red(0.8f, 0.1f, 0.1f), blue(0.1f, 0.1f, 0.8f);
 
@@ -71,7 +79,8 @@ TEST(Snapshot, SphereCoversItsSilhouette) {
   const TriangleMesh mesh = sphere(radius_mm);
   const Image image = draw({{&mesh, {}, red, 1.0f}}, camera_at(distance_mm), size, size);
   ASSERT_EQ(image.rgba.size(), 4u * size * size);
-  // The silhouette is the cone that touches the sphere; counted with its antialiased rim, hence half a rim more.
+  // The silhouette is the cone that touches the sphere; counted with its antialiased rim, hence half a rim
+  // more.
   const double radius_px = std::tan(std::asin(radius_mm / distance_mm)) / std::tan(0.3) * size / 2;
   EXPECT_NEAR(covered(image), pi * radius_px * radius_px, 2 * pi * radius_px);
   EXPECT_TRUE(reddish(pixel(image, size / 2, size / 2)));
@@ -79,7 +88,8 @@ TEST(Snapshot, SphereCoversItsSilhouette) {
 
 TEST(Snapshot, WorldUpIsUpAndRightIsRight) {
   const TriangleMesh mesh = sphere(3);
-  const Image image = draw({{&mesh, at({8, 0, 0}), red, 1.0f}, {&mesh, at({0, 0, 8}), blue, 1.0f}}, camera_at(50), size, size);
+  const Image image = draw({{&mesh, at({8, 0, 0}), red, 1.0f}, {&mesh, at({0, 0, 8}), blue, 1.0f}},
+                           camera_at(50), size, size);
   const int shift = static_cast<int>(8 / (50 * std::tan(0.3)) * size / 2);
   EXPECT_TRUE(reddish(pixel(image, size / 2 + shift, size / 2)));
   EXPECT_TRUE(bluish(pixel(image, size / 2, size / 2 - shift)));
@@ -109,8 +119,7 @@ TEST(Snapshot, WithoutNormalsTheTrianglesThemselvesAreLit) {
   const Image a = draw({{&smooth, {}, red, 1.0f}}, camera_at(50), size, size);
   const Image b = draw({{&flat, {}, red, 1.0f}}, camera_at(50), size, size);
   for (const int x : {80, 100, 120})
-    for (const int y : {80, 100, 120})
-      EXPECT_NEAR(pixel(a, x, y)[0], pixel(b, x, y)[0], 12) << x << " " << y;
+    for (const int y : {80, 100, 120}) EXPECT_NEAR(pixel(a, x, y)[0], pixel(b, x, y)[0], 12) << x << " " << y;
 }
 
 TEST(Snapshot, NothingToDrawIsPlainBackground) {

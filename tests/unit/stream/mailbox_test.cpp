@@ -10,7 +10,9 @@
 namespace ream::stream {
 namespace {
 
-Message any_hello() { return hello_message({}); }
+Message any_hello() {
+  return hello_message({});
+}
 
 SharedTelemetry telemetry(uint32_t tick, size_t samples) {
   TelemetryBatch batch;
@@ -41,7 +43,8 @@ TEST(Mailbox, SlowFastAndLateViewersEndWithTheSamePicture) {
     std::shared_ptr<Mailbox> late_box;
     Viewer fast, slow, late;
     std::map<uint32_t, uint32_t> revisions;
-    const uint32_t steps = 50 + static_cast<uint32_t>(random() % 300), joins = static_cast<uint32_t>(random() % steps);
+    const uint32_t steps = 50 + static_cast<uint32_t>(random() % 300),
+                   joins = static_cast<uint32_t>(random() % steps);
     const uint32_t complete = static_cast<uint32_t>(random() % steps);
     for (uint32_t step = 0; step < steps; ++step) {
       const auto block = static_cast<uint32_t>(random() % 12);
@@ -170,7 +173,8 @@ TEST(Mailbox, ViewersInOtherThreadsEndWithTheSamePicture) {
       viewer.pull(*mailbox);
     });
   std::map<uint32_t, uint32_t> revisions;
-  for (uint32_t i = 0; i < 3000; ++i) fanout.publish_block(small_block(i % 17, ++revisions[i % 17], i % 13 == 0));
+  for (uint32_t i = 0; i < 3000; ++i)
+    fanout.publish_block(small_block(i % 17, ++revisions[i % 17], i % 13 == 0));
   fanout.publish_picture_complete();
   done = true;
   threads.clear();

@@ -78,7 +78,8 @@ TEST(MeshPublisher, RandomRemovalEndsWithTheSurfaceOfTheBone) {
   int64_t now = 0;
   for (int step = 0; step < 400; ++step, now += ms) {
     for (int i = 0; i < 20; ++i) {
-      const Vec3i voxel(static_cast<int>(random() % 96), static_cast<int>(random() % 64), static_cast<int>(random() % 64));
+      const Vec3i voxel(static_cast<int>(random() % 96), static_cast<int>(random() % 64),
+                        static_cast<int>(random() % 64));
       const uint8_t left = s.bone.coverage[s.bone.grid.index(voxel)];
       if (left > 0) s.set(voxel, static_cast<uint8_t>(random() % left));
     }

@@ -89,10 +89,12 @@ TEST(Messages, TelemetryIsParallelArraysAndTheNewestValues) {
 
 TEST(Messages, TruncationsAreRefused) {
   const std::vector<SharedBlock> blocks = {small_block(1, 1), small_block(2, 5), small_block(3, 1, true)};
-  for (const Message& message : {hello_message(example_hello()), mesh_message(blocks, true), telemetry_message(example_telemetry(), 0)})
+  for (const Message& message : {hello_message(example_hello()), mesh_message(blocks, true),
+                                 telemetry_message(example_telemetry(), 0)})
     // Longer ones lack at most the padding of the last field.
     for (size_t size = 0; size + 8 < message->size(); ++size) {
-      const std::vector<std::byte> shorter(message->begin(), message->begin() + static_cast<std::ptrdiff_t>(size));
+      const std::vector<std::byte> shorter(message->begin(),
+                                           message->begin() + static_cast<std::ptrdiff_t>(size));
       EXPECT_FALSE(verified(shorter.data(), shorter.size())) << size;
     }
 }

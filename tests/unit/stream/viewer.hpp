@@ -17,7 +17,8 @@ namespace ream::stream {
 using Corner = std::array<int, 5>;
 using Surface = std::vector<std::array<Corner, 3>>;
 
-inline Surface surface_of(const std::vector<surface::BlockVertex>& vertices, const std::vector<uint32_t>& indices) {
+inline Surface surface_of(const std::vector<surface::BlockVertex>& vertices,
+                          const std::vector<uint32_t>& indices) {
   Surface result;
   for (size_t i = 0; i + 2 < indices.size(); i += 3) {
     std::array<Corner, 3> t;
@@ -37,8 +38,10 @@ inline Surface decoded(const void* vertices, size_t vertex_bytes, size_t vertex_
   std::vector<surface::BlockVertex> v(vertex_count);
   std::vector<uint32_t> i(index_count);
   if (vertex_count == 0 && index_count == 0) return {};
-  if (meshopt_decodeVertexBuffer(v.data(), v.size(), 8, static_cast<const unsigned char*>(vertices), vertex_bytes) != 0 ||
-      meshopt_decodeIndexBuffer(i.data(), i.size(), 4, static_cast<const unsigned char*>(indices), index_bytes) != 0)
+  if (meshopt_decodeVertexBuffer(v.data(), v.size(), 8, static_cast<const unsigned char*>(vertices),
+                                 vertex_bytes) != 0 ||
+      meshopt_decodeIndexBuffer(i.data(), i.size(), 4, static_cast<const unsigned char*>(indices),
+                                index_bytes) != 0)
     throw std::runtime_error("meshopt refuses the block");
   return surface_of(v, i);
 }
@@ -90,8 +93,9 @@ struct Viewer {
       if (b->index_count() == 0)
         blocks.erase(b->block());
       else
-        blocks[b->block()] = {b->revision(), decoded(b->vertices()->data(), b->vertices()->size(), b->vertex_count(),
-                                                     b->indices()->data(), b->indices()->size(), b->index_count())};
+        blocks[b->block()] = {b->revision(),
+                              decoded(b->vertices()->data(), b->vertices()->size(), b->vertex_count(),
+                                      b->indices()->data(), b->indices()->size(), b->index_count())};
     }
     key_completes += delta->key_complete();
   }
@@ -106,9 +110,11 @@ struct Viewer {
   }
 
   bool same_picture(const Viewer& other) const {
-    return std::equal(blocks.begin(), blocks.end(), other.blocks.begin(), other.blocks.end(), [](const auto& a, const auto& b) {
-      return a.first == b.first && a.second.revision == b.second.revision && a.second.surface == b.second.surface;
-    });
+    return std::equal(blocks.begin(), blocks.end(), other.blocks.begin(), other.blocks.end(),
+                      [](const auto& a, const auto& b) {
+                        return a.first == b.first && a.second.revision == b.second.revision &&
+                               a.second.surface == b.second.surface;
+                      });
   }
 };
 

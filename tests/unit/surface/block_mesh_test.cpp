@@ -21,8 +21,10 @@ Triangle rotated_to_smallest_first(Triangle t) {
   return t;
 }
 
-/// The plainest form of the same surface: cell by cell over the whole grid, without blocks, bits or shared vertices.
-std::vector<Triangle> reference_triangles(const voxel::VoxelGrid& grid, const std::vector<uint8_t>& coverage) {
+/// The plainest form of the same surface: cell by cell over the whole grid, without blocks, bits or shared
+/// vertices.
+std::vector<Triangle> reference_triangles(const voxel::VoxelGrid& grid,
+                                          const std::vector<uint8_t>& coverage) {
   const auto at = [&](const Vec3i& o) { return grid.contains(o) ? int{coverage[grid.index(o)]} : 0; };
   std::vector<Triangle> result;
   for (int z = -1; z < grid.dims.z(); ++z)
@@ -39,7 +41,8 @@ std::vector<Triangle> reference_triangles(const voxel::VoxelGrid& grid, const st
             const Vec3i lower(x + e.lower_corner[0], y + e.lower_corner[1], z + e.lower_corner[2]);
             const int a = at(lower), b = at(lower + Vec3i::Unit(e.axis));
             for (int k = 0; k < 3; ++k) triangle[i][static_cast<size_t>(k)] = 1024 * lower[k] + 512;
-            triangle[i][static_cast<size_t>(e.axis)] += static_cast<int>(std::lround(1024 * (127.5 - a) / (b - a)));
+            triangle[i][static_cast<size_t>(e.axis)] +=
+                static_cast<int>(std::lround(1024 * (127.5 - a) / (b - a)));
           }
           result.push_back(rotated_to_smallest_first(triangle));
         }
@@ -53,7 +56,8 @@ std::vector<Triangle> block_triangles(const voxel::VoxelGrid& grid, const std::v
   std::vector<Triangle> result;
   for (uint32_t block = 0; block < extractor.block_count(); ++block) {
     const BlockMesh mesh = extractor.extract(coverage.data(), block);
-    const Vec3i origin = ((extractor.block_coordinates(block) * voxel::block_edge).array() - 1) * units_per_voxel;
+    const Vec3i origin =
+        ((extractor.block_coordinates(block) * voxel::block_edge).array() - 1) * units_per_voxel;
     for (size_t i = 0; i < mesh.indices.size(); i += 3) {
       Triangle t;
       for (size_t k = 0; k < 3; ++k) {
@@ -73,7 +77,8 @@ TEST(BlockMesh, UnionOfBlocksIsTheSurfaceOfTheWholeGrid) {
   for (unsigned i = 0; i < 6; ++i) {
     const voxel::VoxelGrid grid = grid_of(i % 2 == 0 ? Vec3i(40, 64, 72) : Vec3i(96, 32, 8));
     const std::vector<uint8_t> coverage = noise(grid, seed + i);
-    EXPECT_TRUE(block_triangles(grid, coverage) == reference_triangles(grid, coverage)) << "seed " << seed + i;
+    EXPECT_TRUE(block_triangles(grid, coverage) == reference_triangles(grid, coverage))
+        << "seed " << seed + i;
   }
 }
 
@@ -99,7 +104,8 @@ TEST(BlockMesh, NeighboursAgreeOnSharedVerticesAndNormals) {
   std::map<Position, std::pair<int8_t, int8_t>> normals;
   size_t shared = 0;
   for (uint32_t block = 0; block < extractor.block_count(); ++block) {
-    const Vec3i origin = ((extractor.block_coordinates(block) * voxel::block_edge).array() - 1) * units_per_voxel;
+    const Vec3i origin =
+        ((extractor.block_coordinates(block) * voxel::block_edge).array() - 1) * units_per_voxel;
     for (const BlockVertex& v : extractor.extract(coverage.data(), block).vertices) {
       const auto [place, fresh] =
           normals.try_emplace({origin.x() + v.x, origin.y() + v.y, origin.z() + v.z}, v.ox, v.oy);
@@ -137,15 +143,17 @@ TEST(BlockMesh, EmptyAndFullBlocksHoldNothing) {
   BlockExtractor extractor(grid);
   const uint32_t middle = 1 + 3 * (1 + 3 * 1);
   EXPECT_TRUE(extractor.extract(std::vector<uint8_t>(grid.voxel_count(), 0).data(), middle).vertices.empty());
-  EXPECT_TRUE(extractor.extract(std::vector<uint8_t>(grid.voxel_count(), 255).data(), middle).indices.empty());
+  EXPECT_TRUE(
+      extractor.extract(std::vector<uint8_t>(grid.voxel_count(), 255).data(), middle).indices.empty());
 }
 
 TEST(BlockMesh, NormalsOfASphereArePointingOutwardsWithinTwoDegrees) {
-  // Unequal spacing: the normal must be that of millimetres. 2 degrees hold the 8-bit octahedral map (below 1) and
-  // the central differences of a coverage that is one voxel steep.
+  // Unequal spacing: the normal must be that of millimetres. 2 degrees hold the 8-bit octahedral map (below
+  // 1) and the central differences of a coverage that is one voxel steep.
   const Vec3 spacing_mm(0.5, 0.6, 0.7), centre_mm(15.1, 16.2, 16.9);
   const voxel::VoxelGrid grid = grid_of({64, 64, 64}, spacing_mm);
-  const auto coverage = coverage_of(grid, [&](const Vec3& p) { return 0.25 * (12.0 - (p - centre_mm).norm()); });
+  const auto coverage =
+      coverage_of(grid, [&](const Vec3& p) { return 0.25 * (12.0 - (p - centre_mm).norm()); });
   BlockExtractor extractor(grid);
   double worst_rad = 0;
   size_t count = 0;

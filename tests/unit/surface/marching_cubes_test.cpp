@@ -24,7 +24,8 @@ TEST(MarchingCubes, UsesExactlyTheEdgesThatTheSurfaceCrosses) {
   for (int filled = 0; filled < 256; ++filled) {
     std::set<int> used, crossed;
     const CellCase& cell = cell_cases()[static_cast<size_t>(filled)];
-    for (size_t t = 0; t < cell.triangle_count; ++t) used.insert(cell.triangles[t].begin(), cell.triangles[t].end());
+    for (size_t t = 0; t < cell.triangle_count; ++t)
+      used.insert(cell.triangles[t].begin(), cell.triangles[t].end());
     for (int edge = 0; edge < 12; ++edge) {
       const CellEdge e = cell_edge(edge);
       std::array<int, 3> upper = e.lower_corner;
@@ -39,7 +40,8 @@ TEST(MarchingCubes, OneFilledCornerIsCutOffFacingAway) {
   for (int corner = 0; corner < 8; ++corner) {
     const CellCase& cell = cell_cases()[static_cast<size_t>(1 << corner)];
     ASSERT_EQ(cell.triangle_count, 1);
-    const Vec3 a = middle(cell.triangles[0][0]), b = middle(cell.triangles[0][1]), c = middle(cell.triangles[0][2]);
+    const Vec3 a = middle(cell.triangles[0][0]), b = middle(cell.triangles[0][1]),
+               c = middle(cell.triangles[0][2]);
     const Vec3 position(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
     EXPECT_GT((b - a).cross(c - a).dot(a - position), 0.0);
   }

@@ -19,10 +19,12 @@ inline voxel::VoxelGrid grid_of(const Vec3i& dims, const Vec3& spacing_mm = Vec3
 }
 
 /// Coverage that falls from 255 to 0 over one voxel around the zero level of `inside_mm` (positive inside).
-inline std::vector<uint8_t> coverage_of(const voxel::VoxelGrid& grid, const std::function<double(const Vec3&)>& inside_mm) {
+inline std::vector<uint8_t> coverage_of(const voxel::VoxelGrid& grid,
+                                        const std::function<double(const Vec3&)>& inside_mm) {
   std::vector<uint8_t> coverage(grid.voxel_count());
   for (size_t i = 0; i < coverage.size(); ++i) {
-    const double c = 127.5 + 255.0 * inside_mm(grid.centre_mm(grid.coordinates(i))) / grid.spacing_mm.maxCoeff();
+    const double c =
+        127.5 + 255.0 * inside_mm(grid.centre_mm(grid.coordinates(i))) / grid.spacing_mm.maxCoeff();
     coverage[i] = static_cast<uint8_t>(std::floor(std::min(255.0, std::max(0.0, c)) + 0.5));
   }
   return coverage;
@@ -45,9 +47,9 @@ inline std::vector<uint8_t> noise(const voxel::VoxelGrid& grid, unsigned seed) {
 }
 
 struct Topology {
-  bool closed = true;             ///< each directed edge once, and its opposite once
-  bool one_fan_per_vertex = true; ///< triangles around each vertex form one ring
-  int64_t euler = 0;              ///< V - E + F
+  bool closed = true;              ///< each directed edge once, and its opposite once
+  bool one_fan_per_vertex = true;  ///< triangles around each vertex form one ring
+  int64_t euler = 0;               ///< V - E + F
 };
 
 inline Topology topology(size_t vertex_count, const std::vector<std::array<uint32_t, 3>>& triangles) {

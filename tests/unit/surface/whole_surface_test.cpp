@@ -36,9 +36,8 @@ TEST(WholeSurface, TouchingBlobsAreOneBodyAndApartTwo) {
   const voxel::VoxelGrid grid = grid_of({96, 48, 48});
   const auto blobs = [&](double distance) {
     const Vec3 a(24, 24, 24), b(24 + distance, 24, 24);
-    const auto coverage = coverage_of(grid, [&](const Vec3& p) {
-      return std::max(15.0 - (p - a).norm(), 15.0 - (p - b).norm());
-    });
+    const auto coverage = coverage_of(
+        grid, [&](const Vec3& p) { return std::max(15.0 - (p - a).norm(), 15.0 - (p - b).norm()); });
     const TriangleMesh mesh = whole_surface(grid, coverage.data());
     const Topology t = topology(mesh.vertices_mm.size(), mesh.triangles);
     EXPECT_TRUE(t.closed && t.one_fan_per_vertex) << distance;
@@ -76,7 +75,8 @@ TEST(WholeSurface, AnyNoiseGivesAClosedManifold) {
 TEST(WholeSurface, SameForAnyNumberOfThreads) {
   const voxel::VoxelGrid grid = grid_of({96, 72, 64});
   const std::vector<uint8_t> coverage = noise(grid, 3);
-  const TriangleMesh one = whole_surface(grid, coverage.data(), 1), four = whole_surface(grid, coverage.data(), 4);
+  const TriangleMesh one = whole_surface(grid, coverage.data(), 1),
+                     four = whole_surface(grid, coverage.data(), 4);
   EXPECT_TRUE(one.vertices_mm == four.vertices_mm);
   EXPECT_TRUE(one.triangles == four.triangles);
   EXPECT_TRUE(one.normals == four.normals);
