@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/data_folder.hpp"
+#include "app/cli/case_path.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
@@ -45,11 +45,7 @@ shell::Tool tool_for(const RunRequest& request, const case_::Plan& plan) {
 
 case_::Case find_case(const std::string& name, const fs::path& data) {
   if (name == "demo") return ct::load_or_make_demo_case(data);
-  std::error_code failed;
-  const fs::path in_library = cases_folder(data) / name;
-  if (name.find('/') == std::string::npos && fs::is_directory(in_library, failed)) return case_::load_case(in_library);
-  if (fs::exists(name, failed)) return case_::load_case(name);
-  throw Error(ErrorKind::not_found, "no case '" + name + "': neither a folder nor a case in " + cases_folder(data).string());
+  return case_::load_case(case_path(name, data));
 }
 
 Rig::Rig(const RunRequest& request_in, const fs::path& data)

@@ -79,7 +79,7 @@ LoopEnd HapticLoop::run() {
 }
 
 void HapticLoop::stop() noexcept {
-  stop_.store(true, std::memory_order_relaxed);
+  request_stop();
   if (thread_.joinable()) thread_.join();
 }
 

@@ -53,6 +53,8 @@ class HapticLoop {
 
   /// Opens the device and starts the thread. Errors: those of open(); unavailable when real time is required and refused.
   void start();
+  /// Asks the loop to end; from any thread.
+  void request_stop() noexcept { stop_.store(true, std::memory_order_relaxed); }
   /// Asks the loop to end and waits for it. Safe to call twice.
   void stop() noexcept;
   /// Runs the whole loop on the calling thread instead of start().

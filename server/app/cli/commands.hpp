@@ -1,0 +1,27 @@
+#pragma once
+#include <filesystem>
+
+namespace CLI {
+class App;
+}
+
+namespace ream::app {
+
+/// Options of every command.
+struct GlobalOptions {
+  bool json = false;           ///< machine-readable output on stdout
+  std::filesystem::path data;  ///< --data; empty: see data_folder()
+};
+
+/// Each adds its sub-command; `options` must outlive `app`. The work is done in the command's callback and throws
+/// ream::Error.
+void add_phantom_command(CLI::App& app, GlobalOptions& options);
+void add_import_command(CLI::App& app, GlobalOptions& options);
+void add_plan_command(CLI::App& app, GlobalOptions& options);
+void add_voxelize_command(CLI::App& app, GlobalOptions& options);
+void add_simulate_command(CLI::App& app, GlobalOptions& options);
+void add_serve_command(CLI::App& app, GlobalOptions& options);
+void add_list_command(CLI::App& app, GlobalOptions& options);
+void add_bench_command(CLI::App& app, GlobalOptions& options);
+
+}  // namespace ream::app

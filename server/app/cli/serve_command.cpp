@@ -1,0 +1,97 @@
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "api/server.hpp"
+#include "app/cli/commands.hpp"
+#include "app/data_folder.hpp"
+#include "app/interrupt.hpp"
+#include "app/reaming_session.hpp"
+#include "core/clock.hpp"
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/log.hpp"
+#include "ct/phantom_case.hpp"
+
+namespace ream::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string host = "127.0.0.1";
+  uint16_t port = 8080;
+  fs::path web;
+  std::string backend = "auto", realtime = "try";
+};
+
+/// The built page: --web, else web/ beside the program's folder, else web/dist of the source tree it was built in.
+fs::path web_folder(const fs::path& chosen) {
+  std::error_code failed;
+  if (!chosen.empty()) {
+    if (!fs::is_regular_file(chosen / "index.html", failed))
+      throw Error(ErrorKind::not_found, "no index.html in " + chosen.string() + "; build the page or correct --web");
+    return chosen;
+  }
+  const fs::path beside = fs::read_symlink("/proc/self/exe", failed).parent_path().parent_path();
+  for (const fs::path& folder : {beside / "share/ream/web", beside / "web/dist"})
+    if (fs::is_regular_file(folder / "index.html", failed)) return folder;
+  log::warn("the page is not built; only the API is served (scripts/build makes the page)");
+  return {};
+}
+
+sim::Realtime realtime_from_text(const std::string& text) {
+  return text == "require" ? sim::Realtime::require : text == "off" ? sim::Realtime::off : sim::Realtime::attempt;
+}
+
+void serve(const Options& options, const GlobalOptions& global) {
+  SessionHouse house;
+  house.data = data_folder(global.data);
+  house.server_epoch = static_cast<uint64_t>(
+      std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch()).count());
+  house.backend = options.backend;
+  house.realtime = realtime_from_text(options.realtime);
+  make_writable_folder(sessions_folder(house.data));
+  catch_interrupts();
+
+  api::ServerOptions server_options;
+  server_options.listen.host = options.host;
+  server_options.listen.port = options.port;
+  server_options.cases_folder = cases_folder(house.data);
+  server_options.web_folder = web_folder(options.web);
+  server_options.make_session = [house](const api::SessionRequest& request) {
+    return std::make_unique<ReamingSession>(house, request);
+  };
+  server_options.prepare = [house] { ct::load_or_make_demo_case(house.data); };
+  api::Server server(std::move(server_options));
+  server.start();
+
+  const std::string url = "http://" + (options.host.find(':') == std::string::npos ? options.host : "[" + options.host + "]") +
+                          ":" + std::to_string(server.port());
+  if (global.json)
+    std::cout << nlohmann::json{{"url", url}}.dump() << std::endl;
+  else
+    std::cout << "ream is at " << url << "  (Ctrl-C ends it)" << std::endl;
+  while (!interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  log::info("stopping: sessions end without force, recordings are closed");
+  server.stop();
+}
+
+}  // namespace
+
+void add_serve_command(CLI::App& app, GlobalOptions& global) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("serve", "Serve the page, the API and live sessions (loopback only until there are users)");
+  command->add_option("--host", options->host, "Loopback address to listen on")->capture_default_str();
+  command->add_option("--port", options->port, "Port; 0 takes any free one")->capture_default_str();
+  command->add_option("--web", options->web, "Folder of the built page");
+  command->add_option("--backend", options->backend, "auto, cpu, opencl or opencl:N")->capture_default_str();
+  command->add_option("--realtime", options->realtime, "Real-time priority of the haptic loop")
+      ->check(CLI::IsMember({"require", "try", "off"}))->capture_default_str();
+  command->callback([options, &global] { serve(*options, global); });
+}
+
+}  // namespace ream::app

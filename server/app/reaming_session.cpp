@@ -1,0 +1,249 @@
+#include "app/reaming_session.hpp"
+
+#include <chrono>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "api/viewer_stream.hpp"
+#include "app/data_folder.hpp"
+#include "core/clock.hpp"
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/log.hpp"
+
+namespace ream::app {
+namespace {
+
+constexpr size_t brick_ring_size = 8192;
+constexpr size_t report_ring_ticks = 16384;
+constexpr auto follower_period = std::chrono::milliseconds(10);
+/// A session that rests tells its viewers so this often, so that a silent link is a broken one.
+constexpr int64_t heartbeat_ns = 500'000'000;
+
+RunRequest run_request(const SessionHouse& house, const api::SessionRequest& request) {
+  RunRequest run;
+  run.case_name = request.case_id;
+  run.script_name = request.script == "demo" ? request.script : (house.data / "scripts" / (request.script + ".json")).string();
+  run.backend = house.backend;
+  run.force_scale = request.force_scale;
+  return run;
+}
+
+stream::SessionState wire_state(api::SessionState state) {
+  switch (state) {
+    case api::SessionState::created: return stream::SessionState::created;
+    case api::SessionState::running: return stream::SessionState::running;
+    case api::SessionState::paused: return stream::SessionState::paused;
+    case api::SessionState::finished: return stream::SessionState::finished;
+    case api::SessionState::stopped: return stream::SessionState::stopped;
+    case api::SessionState::fault: return stream::SessionState::fault;
+  }
+  return stream::SessionState::fault;
+}
+
+api::SessionState end_state(sim::LoopEnd end) {
+  if (end == sim::LoopEnd::finished) return api::SessionState::finished;
+  return end == sim::LoopEnd::stopped ? api::SessionState::stopped : api::SessionState::fault;
+}
+
+}  // namespace
+
+ReamingSession::ReamingSession(const SessionHouse& house, const api::SessionRequest& request)
+    : house_(house),
+      id_(request.id),
+      rig_(run_request(house, request), house.data),
+      bricks_(brick_ring_size),
+      sender_(rig_.bone_case.bone.grid, bricks_),
+      reports_(report_ring_ticks),
+      loop_(rig_.model, rig_.state, *rig_.device, reports_, {true, house.realtime}),
+      fanout_(std::make_shared<stream::LocalFanout>()),
+      publisher_(rig_.bone_case.bone, bricks_, *fanout_),
+      batcher_(*fanout_) {
+  rig_.state.brick_sender = &sender_;
+  status_.force_scale = rig_.model.settings.force_scale;
+  metrics_ = score::metrics_json({}, status_.force_scale, nullptr);
+  sample_.world_from_tool = sample_.world_from_handle = rig_.model.world_from_plan * Pose{Mat3::Identity(), rig_.script.hand.start_mm};
+  fanout_->publish_hello(stream::hello_message(hello()));
+  publisher_.publish_all();
+  follower_ = std::thread([this] { follow(); });
+}
+
+ReamingSession::~ReamingSession() {
+  stop();
+  {
+    const std::lock_guard lock(mutex_);
+    leaving_ = true;
+  }
+  follower_.join();
+}
+
+stream::HelloInfo ReamingSession::hello() const {
+  stream::HelloInfo info;
+  info.session_id = id_;
+  info.server_epoch = house_.server_epoch;
+  info.case_id = rig_.bone_case.id;
+  info.case_name = rig_.bone_case.name;
+  info.side = case_::to_text(rig_.bone_case.side);
+  info.grid = rig_.bone_case.bone.grid;
+  info.tool = rig_.model.tool.mesh;
+  info.tool_name = rig_.model.tool.name;
+  info.axis_entry_mm = rig_.model.plan.entry_mm;
+  info.axis_direction = rig_.model.plan.axis_direction;
+  info.planned_depth_mm = rig_.model.plan.depth_mm;
+  info.force_scale = rig_.model.settings.force_scale;
+  info.force_max_n = rig_.model.settings.limits.force_max_n;
+  return info;
+}
+
+void ReamingSession::start() {
+  const std::filesystem::path folder = sessions_folder(house_.data) / id_;
+  make_writable_folder(folder);
+  auto files = std::make_unique<SessionFiles>(rig_, folder);
+  {
+    const std::lock_guard lock(mutex_);
+    if (status_.state != api::SessionState::created) throw Error(ErrorKind::conflict, "session " + id_ + " has been started already");
+    files_ = std::move(files);
+    status_.state = api::SessionState::running;
+  }
+  try {
+    loop_.start();
+  } catch (const Error& e) {
+    fail(e.what());
+    throw;
+  }
+}
+
+void ReamingSession::stop() {
+  const std::lock_guard one_at_a_time(stopping_);
+  loop_.stop();
+  std::unique_lock lock(mutex_);
+  if (!files_) {
+    if (status_.state == api::SessionState::created) status_.state = api::SessionState::stopped;
+    return;
+  }
+  changed_.wait(lock, [this] { return finished_; });
+}
+
+api::SessionStatus ReamingSession::status() const {
+  const std::lock_guard lock(mutex_);
+  return status_;
+}
+
+nlohmann::json ReamingSession::metrics() const {
+  const std::lock_guard lock(mutex_);
+  return metrics_;
+}
+
+std::unique_ptr<net::WebSocketSession> ReamingSession::subscribe() { return api::viewer_stream(fanout_); }
+
+void ReamingSession::follow() {
+  int64_t last_told_ns = 0;
+  for (;;) {
+    bool running = false, leaving = false, finished = false;
+    {
+      const std::lock_guard lock(mutex_);
+      running = files_ != nullptr;
+      leaving = leaving_;
+      finished = finished_;
+    }
+    if (leaving) return;
+    const bool ended = loop_.ended();  // read before draining: then nothing can be missed
+    if (running && !finished) try {
+        take_reports();
+        if (ended) finish();
+      } catch (const Error& e) {
+        fail(e.what());
+      }
+    publisher_.poll(steady_ns());
+    const int64_t now_ns = steady_ns();
+    const api::SessionState state = status().state;
+    if (state != api::SessionState::running && now_ns - last_told_ns > heartbeat_ns) {
+      publish_state(state);
+      last_told_ns = now_ns;
+    }
+    batcher_.publish_if_due(now_ns);
+    std::this_thread::sleep_for(follower_period);
+  }
+}
+
+void ReamingSession::take_reports() {
+  record::TickReport r;
+  bool any = false;
+  while (reports_.try_pop(r)) {
+    any = true;
+    files_->add(r);
+    sample_.tick = r.tick;
+    sample_.thrust_n = static_cast<float>(r.thrust_n);
+    sample_.hand_force_n = static_cast<float>(r.hand_force_n.norm());
+    sample_.torque_n_mm = static_cast<float>(r.torque_n_mm);
+    sample_.feed_rate_mm_s = static_cast<float>(r.feed_rate_mm_s);
+    sample_.density_g_cc = static_cast<float>(r.density_g_cc);
+    sample_.world_from_tool = r.world_from_tool;
+    sample_.world_from_handle = r.world_from_handle;
+    sample_.spindle_on = r.spindle_on;
+    sample_.cortical_share = static_cast<float>(r.share[static_cast<size_t>(voxel::BoneClass::cortical)]);
+    sample_.state = r.paused ? stream::SessionState::paused : stream::SessionState::running;
+    batcher_.add(sample_);
+  }
+  if (any) note_health();
+}
+
+void ReamingSession::note_health() {
+  const score::Metrics metrics = files_->metrics();
+  const sim::LoopHealth health = loop_.health();
+  sample_.depth_mm = static_cast<float>(metrics.reaming_depth_mm);
+  sample_.removed_volume_mm3 = static_cast<float>(metrics.removed_volume_mm3);
+  sample_.tick_mean_us = static_cast<float>(health.tick_us.mean_us);
+  sample_.tick_p99_us = static_cast<float>(health.tick_us.p99_us);
+  sample_.ticks_missed = static_cast<uint32_t>(health.missed);
+  const std::lock_guard lock(mutex_);
+  metrics_ = score::metrics_json(metrics, status_.force_scale, nullptr);
+  status_.tick = sample_.tick + 1;
+  status_.duration_s = metrics.duration_s;
+  status_.tick_us = health.tick_us;
+  status_.missed = health.missed;
+  if (status_.state == api::SessionState::running || status_.state == api::SessionState::paused)
+    status_.state = sample_.state == stream::SessionState::paused ? api::SessionState::paused : api::SessionState::running;
+}
+
+void ReamingSession::publish_state(api::SessionState state) {
+  sample_.state = wire_state(state);
+  const std::string words = status().fault;
+  sample_.fault.fill('\0');
+  std::memcpy(sample_.fault.data(), words.data(), std::min(words.size(), sample_.fault.size() - 1));
+  batcher_.add(sample_);
+  batcher_.flush();
+}
+
+void ReamingSession::finish() {
+  const sim::LoopHealth health = loop_.health();
+  const std::filesystem::path folder = sessions_folder(house_.data) / id_;
+  const std::string fault = to_words(health.end);
+  if (!fault.empty()) loop_.black_box().write(folder / "black-box.csv");
+  publisher_.flush(steady_ns());
+  const auto results = files_->finish(health, {{"id", id_}, {"state", api::to_text(end_state(health.end))}});
+  note_health();
+  {
+    const std::lock_guard lock(mutex_);
+    status_.state = end_state(health.end);
+    status_.fault = fault;
+    metrics_ = results.metrics;
+    finished_ = true;
+  }
+  changed_.notify_all();
+  publish_state(end_state(health.end));
+}
+
+void ReamingSession::fail(const std::string& words) {
+  log::error("session " + id_ + ": " + words);
+  loop_.request_stop();
+  {
+    const std::lock_guard lock(mutex_);
+    status_.state = api::SessionState::fault;
+    status_.fault = words;
+    finished_ = true;
+  }
+  changed_.notify_all();
+}
+
+}  // namespace ream::app

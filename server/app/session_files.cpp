@@ -1,0 +1,49 @@
+#include "app/session_files.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "core/file.hpp"
+
+namespace ream::app {
+namespace {
+
+nlohmann::json timing_json(const sim::LoopHealth& health) {
+  const TimingSummary& t = health.tick_us;
+  return {{"tick_us", {{"mean", t.mean_us}, {"p50", t.p50_us}, {"p99", t.p99_us}, {"p999", t.p999_us}, {"max", t.max_us}}},
+          {"missed", health.missed},
+          {"ticks", t.count}};
+}
+
+void write_json(const std::filesystem::path& path, const nlohmann::json& json) {
+  write_file_atomically(path, json.dump(2) + "\n");
+}
+
+}  // namespace
+
+SessionFiles::SessionFiles(const Rig& rig, const std::filesystem::path& folder)
+    : rig_(rig),
+      folder_(folder),
+      trace_(folder / "trace.csv", rig.bone_case.bone.grid.voxel_volume_mm3()),
+      recorder_(folder / "recording.ream", rig.description()),
+      metrics_(rig.bone_case.bone.grid.voxel_volume_mm3(), rig.model.world_from_plan.inverse()) {}
+
+void SessionFiles::add(const record::TickReport& report) {
+  trace_.add(report);
+  recorder_.add(report);
+  metrics_.add(report);
+}
+
+SessionFiles::Results SessionFiles::finish(const sim::LoopHealth& health, const nlohmann::json& extra) {
+  trace_.finish();
+  recorder_.finish();
+  const uint64_t grid_hash = rig_.bone_case.bone.coverage_hash();
+  Results results{score::metrics_json(metrics_.metrics(), rig_.model.settings.force_scale, &grid_hash), timing_json(health)};
+  write_json(folder_ / "metrics.json", results.metrics);
+  write_json(folder_ / "timing.json", results.timing);
+  nlohmann::json session = rig_.description();
+  session.update(extra);
+  write_json(folder_ / "session.json", session);
+  return results;
+}
+
+}  // namespace ream::app
