@@ -38,8 +38,11 @@ EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t 
   if (mesh.indices.empty()) return result;
   choose_formats_once();
 
+  // The cheapest order: the best one for strips packs 9 % better and takes four times as long.
+  constexpr unsigned cache_vertices = 16;
   std::vector<uint32_t> indices(mesh.indices.size());
-  meshopt_optimizeVertexCacheStrip(indices.data(), mesh.indices.data(), indices.size(), mesh.vertices.size());
+  meshopt_optimizeVertexCacheFifo(indices.data(), mesh.indices.data(), indices.size(), mesh.vertices.size(),
+                                  cache_vertices);
   std::vector<BlockVertex> vertices(mesh.vertices.size());
   vertices.resize(meshopt_optimizeVertexFetch(vertices.data(), indices.data(), indices.size(),
                                               mesh.vertices.data(), mesh.vertices.size(),
