@@ -19,7 +19,7 @@ export const words = {
     fault: 'Fault',
   } satisfies Record<SessionState, string>,
   stateHint: {
-    created: 'The bone is as it was imaged. Nothing has been removed.',
+    created: 'The bone before reaming.',
     running: 'The scripted hand is reaming.',
     paused: 'The session is paused.',
     finished: 'The demo has ended. This is the bone as it was left.',
@@ -38,7 +38,7 @@ export const words = {
   lostTitle: 'The link to the simulator is lost',
   silentTitle: 'The simulator has gone quiet',
   lastPicture: (clock: string) => `This is the last picture, from ${clock}. It is not live.`,
-  noPicture: 'There is no picture yet.',
+  neverTitle: 'The simulator is not ready yet',
   retryIn: (seconds: number) => `Trying again in ${seconds.toFixed(seconds < 1 ? 1 : 0)} s.`,
   retryNow: 'Trying again…',
   waiting: 'Waiting for it to answer.',

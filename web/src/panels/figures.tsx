@@ -4,7 +4,17 @@ import type { Store } from '../state/store';
 import { words } from '../words';
 import { fixed } from './format';
 
-function Figure({ name, unit, id, children }: { name: string; unit?: string; id?: string; children: ComponentChildren }) {
+function Figure({
+  name,
+  unit,
+  id,
+  children,
+}: {
+  name: string;
+  unit?: string;
+  id?: string;
+  children: ComponentChildren;
+}) {
   return (
     <div class="figure">
       <dt>{name}</dt>

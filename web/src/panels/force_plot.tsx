@@ -60,9 +60,7 @@ function keepPlotted(element: HTMLElement, store: Store): () => void {
     plot = createPlot(element);
     redraw();
   };
-  const observer = new ResizeObserver(() =>
-    plot.setSize({ width: element.clientWidth, height: element.clientHeight }),
-  );
+  const observer = new ResizeObserver(() => plot.setSize({ width: element.clientWidth, height: element.clientHeight }));
   observer.observe(element);
   scheme.addEventListener('change', recreate);
   const stopFollowing = effect(() => {
@@ -91,7 +89,7 @@ function createPlot(element: HTMLElement): UPlot {
     {
       width: element.clientWidth,
       height: element.clientHeight,
-      padding: [8, 6, 0, 0],
+      padding: [8, 16, 0, 0],
       legend: { show: false },
       cursor: { show: false },
       scales: {

@@ -30,6 +30,7 @@ function notice(store: Store, link: LinkState, nowMs: number): [title: string, t
     case 'silent':
       return [words.silentTitle, `${picture(store)} ${words.waiting}`];
     case 'lost':
+      if (!store.hasPicture.value) return [words.neverTitle, `${link.reason} ${retry(link.retryAtMs, nowMs)}`];
       return [words.lostTitle, `${picture(store)} ${retry(link.retryAtMs, nowMs)}`];
     case 'refused':
       return [words.refusedTitle, words.refusedText(protocolRevision, link.serverRevision)];
@@ -38,7 +39,7 @@ function notice(store: Store, link: LinkState, nowMs: number): [title: string, t
 
 function picture(store: Store): string {
   const lastMs = store.lastMessageMs.value;
-  return store.hasPicture.value && lastMs !== null ? words.lastPicture(clock(lastMs)) : words.noPicture;
+  return lastMs === null ? '' : words.lastPicture(clock(lastMs));
 }
 
 function retry(retryAtMs: number | null, nowMs: number): string {

@@ -101,7 +101,7 @@ class BonePicture {
  */
 export class BoneView {
   readonly group = new Group();
-  private readonly material = new MeshStandardMaterial({ color: 0xe9dcc2, roughness: 0.72, metalness: 0 });
+  private readonly material = new MeshStandardMaterial({ color: 0xf2e8d5, roughness: 0.72, metalness: 0 });
   private shown: BonePicture | null = null;
   private incoming: BonePicture | null = null;
 

@@ -6,7 +6,7 @@ import type { Hello } from '../wire/messages';
 export type ViewName = 'plan' | 'axis' | 'side';
 
 /** Half the field seen around the glenoid, mm. */
-const fieldRadiusMm = 36;
+const fieldRadiusMm = 34;
 const keyTurnRad = 0.09;
 const keyZoom = 1.1;
 
@@ -40,7 +40,7 @@ export class CameraRig {
     const across = anterior.clone().addScaledVector(towardsViewer, -anterior.dot(towardsViewer)).normalize();
     const from = {
       axis: towardsViewer,
-      plan: towardsViewer.clone().multiplyScalar(0.8).addScaledVector(across, 0.62).addScaledVector(superior, 0.34),
+      plan: towardsViewer.clone().multiplyScalar(0.86).addScaledVector(across, 0.5).addScaledVector(superior, 0.3),
       side: across.clone().addScaledVector(superior, 0.08),
     }[view];
     this.controls.target.copy(this.entry);

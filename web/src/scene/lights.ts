@@ -6,17 +6,17 @@ import { DirectionalLight, HemisphereLight, Vector3, type PerspectiveCamera, typ
  */
 export class OperatingLights {
   private readonly lamp = new DirectionalLight(0xfff6e8, 2.5);
-  private readonly fill = new DirectionalLight(0xdbe8f5, 0.55);
+  private readonly fill = new DirectionalLight(0xe4edf6, 0.9);
 
   constructor(scene: Scene) {
-    scene.add(new HemisphereLight(0xffffff, 0x8a7f74, 0.75), this.lamp, this.lamp.target, this.fill, this.fill.target);
+    scene.add(new HemisphereLight(0xffffff, 0xa39a90, 0.9), this.lamp, this.lamp.target, this.fill, this.fill.target);
   }
 
   follow(camera: PerspectiveCamera): void {
     const right = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0);
     const up = new Vector3().setFromMatrixColumn(camera.matrixWorld, 1);
     const back = new Vector3().setFromMatrixColumn(camera.matrixWorld, 2);
-    this.lamp.position.copy(right).multiplyScalar(-0.9).addScaledVector(up, 0.95).addScaledVector(back, 0.85);
-    this.fill.position.copy(right).addScaledVector(up, -0.25).addScaledVector(back, 0.8);
+    this.lamp.position.copy(right).multiplyScalar(-0.55).addScaledVector(up, 0.9).addScaledVector(back, 1);
+    this.fill.position.copy(right).addScaledVector(up, -0.1).addScaledVector(back, 0.8);
   }
 }

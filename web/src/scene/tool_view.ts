@@ -5,7 +5,7 @@ import type { Pose, ToolMesh } from '../wire/messages';
 
 const creaseRad = 0.6;
 const shaftRadiusMm = 4;
-const shaftLengthMm = 55;
+const shaftLengthMm = 45;
 
 /**
  * The reamer where the server says it is: the cutting envelope, see-through so that the bone under it can be judged,

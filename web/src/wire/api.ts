@@ -62,7 +62,7 @@ export class Api {
     return `${this.base.replace(/^http/, 'ws')}/api/v1/sessions/${encodeURIComponent(id)}/stream`;
   }
 
-  private async call<T>(method: "GET" | "POST", path: string, body?: object): Promise<T> {
+  private async call<T>(method: 'GET' | 'POST', path: string, body?: object): Promise<T> {
     let response: Response;
     try {
       response = await fetch(`${this.base}/api/v1/${path}`, {

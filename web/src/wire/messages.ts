@@ -90,9 +90,7 @@ export interface Telemetry {
 }
 
 export type StreamMessage =
-  | { kind: 'hello'; hello: Hello }
-  | { kind: 'mesh'; mesh: MeshDelta }
-  | { kind: 'telemetry'; telemetry: Telemetry };
+  { kind: 'hello'; hello: Hello } | { kind: 'mesh'; mesh: MeshDelta } | { kind: 'telemetry'; telemetry: Telemetry };
 
 /** Page to worker. Each `open` closes what was open before; `connection` numbers the answers. */
 export type WorkerRequest = { kind: 'open'; connection: number; url: string } | { kind: 'close' };

@@ -1,0 +1,122 @@
+// The page against a running server, through Chromium: bone before anything runs, the demo, and a server that dies and
+// comes back.
+import { expect, type Page, test } from '@playwright/test';
+
+import type { DebugReadout } from '../../web/src/debug_readout';
+import { compare, picture } from './pixels';
+import { ServerProcess } from './server_process';
+
+let server: ServerProcess;
+let problems: string[];
+
+test.beforeEach(async ({ page }) => {
+  problems = [];
+  page.on('pageerror', (error) => problems.push(error.message));
+  server = new ServerProcess();
+  await server.start();
+});
+test.afterEach(async () => {
+  await server.dispose();
+  expect(problems).toEqual([]);
+});
+
+const readout = (page: Page): Promise<DebugReadout> => page.evaluate(() => window.__ream);
+const untilLive = (page: Page) => page.waitForFunction(() => window.__ream.live, null, { timeout: 60_000 });
+/** Waits until what was last changed has been drawn. */
+const drawn = (page: Page) =>
+  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+
+async function openReady(page: Page): Promise<void> {
+  await page.goto(server.url);
+  await untilLive(page);
+  await expect(page.getByTestId('link-state')).toHaveText('Live');
+  await expect(page.getByTestId('session-state')).toHaveAttribute('data-state', 'created');
+}
+
+test('shows the bone, runs the demo, and the bone, the force and the numbers change', async ({ page }) => {
+  await openReady(page);
+  const canvas = page.getByTestId('bone-canvas');
+  const plot = page.getByTestId('force-plot');
+
+  // Without the reamer in the picture only the bone can change it.
+  await page.getByTestId('show-reamer').uncheck();
+  await page.getByTestId('view-axis').click();
+  await drawn(page);
+  const boneBefore = await picture(canvas);
+  const plotBefore = await picture(plot);
+  const before = await compare(page, boneBefore);
+  expect((await readout(page)).blocks).toBeGreaterThan(0);
+  expect(before.bone).toBeGreaterThan(before.pixels * 0.05);
+
+  await page.getByTestId('run-demo').click();
+  await expect(page.getByTestId('session-state')).toHaveAttribute('data-state', 'running');
+  await expect
+    .poll(async () => Number(await page.getByTestId('removed-volume').textContent()), { timeout: 90_000 })
+    .toBeGreaterThan(5);
+  await expect.poll(async () => Number(await page.getByTestId('thrust').textContent())).toBeGreaterThan(0);
+  const plotDuring = await picture(plot);
+  expect((await compare(page, plotDuring, plotBefore)).changed).toBeGreaterThan(100);
+
+  await expect(page.getByTestId('session-state')).toHaveAttribute('data-state', 'finished', { timeout: 150_000 });
+  await expect(page.getByTestId('results')).toBeVisible();
+  await drawn(page);
+  const boneAfter = await compare(page, await picture(canvas), boneBefore);
+  expect(boneAfter.changed).toBeGreaterThan(before.pixels * 0.002);
+  expect(Number(await page.getByTestId('depth').textContent())).toBeGreaterThan(0.1);
+  await expect(page.getByTestId('run-demo')).toBeEnabled();
+});
+
+test('draws the reamer where it is, and can be stopped', async ({ page }) => {
+  await openReady(page);
+  const canvas = page.getByTestId('bone-canvas');
+  await page.getByTestId('view-side').click();
+  await page.getByTestId('run-demo').click();
+  await page.waitForFunction(() => (window.__ream.lastTick ?? 0) > 100);
+  const first = await picture(canvas);
+  const tick = (await readout(page)).lastTick ?? 0;
+  await page.waitForFunction((from) => (window.__ream.lastTick ?? 0) > from + 700, tick);
+  await expect.poll(async () => (await compare(page, await picture(canvas), first)).changed).toBeGreaterThan(200);
+  await page.getByTestId('stop').click();
+  await expect(page.getByTestId('session-state')).toHaveAttribute('data-state', 'stopped');
+});
+
+test('says that the link is lost, and recovers by itself when the server is back', async ({ page }) => {
+  await openReady(page);
+  await page.getByTestId('run-demo').click();
+  await page.waitForFunction(() => (window.__ream.lastTick ?? 0) > 1000);
+  const before = await readout(page);
+
+  await server.kill();
+  const notice = page.getByTestId('link-notice');
+  await expect(notice).toContainText('The link to the simulator is lost', { timeout: 3000 });
+  await expect(notice).toContainText('It is not live');
+  await expect(page.getByTestId('link-state')).toHaveText('Link lost');
+  await expect(page.getByTestId('picture')).toHaveAttribute('data-stale', 'true');
+  await expect(page.getByTestId('run-demo')).toBeDisabled();
+  expect((await readout(page)).blocks).toBe(before.blocks);
+  await page.waitForTimeout(2000);
+  await expect(notice).toContainText('Trying again');
+
+  await server.start();
+  await untilLive(page);
+  await expect(notice).toBeHidden();
+  await expect(page.getByTestId('picture')).toHaveAttribute('data-stale', 'false');
+  const after = await readout(page);
+  expect(after.serverEpoch).not.toBe(before.serverEpoch);
+  expect(after.blocks).toBeGreaterThan(0);
+  await expect(page.getByTestId('run-demo')).toBeEnabled();
+  await page.getByTestId('run-demo').click();
+  await expect(page.getByTestId('session-state')).toHaveAttribute('data-state', 'running');
+});
+
+test('a second viewer joins a running session and sees the same', async ({ page, context }) => {
+  await openReady(page);
+  await page.getByTestId('run-demo').click();
+  await page.waitForFunction(() => (window.__ream.lastTick ?? 0) > 500);
+  const second = await context.newPage();
+  await second.goto(server.url);
+  await untilLive(second);
+  const [a, b] = [await readout(page), await readout(second)];
+  expect(b.sessionId).toBe(a.sessionId);
+  expect(b.blocks).toBe(a.blocks);
+});

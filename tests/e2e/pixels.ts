@@ -1,0 +1,43 @@
+import type { Locator, Page } from '@playwright/test';
+
+/** A picture of an element as the browser shows it. */
+export async function picture(element: Locator): Promise<string> {
+  return (await element.screenshot({ animations: 'disabled' })).toString('base64');
+}
+
+export interface PictureFacts {
+  /** Pixels in all. */
+  pixels: number;
+  /** Pixels of bone: warm, red over blue, which the bluish stage and the reamer are not. */
+  bone: number;
+  /** Pixels that differ from the other picture by more than a little noise. */
+  changed: number;
+}
+
+/** Looks at a picture and how it differs from another of the same size. */
+export function compare(page: Page, now: string, before = now): Promise<PictureFacts> {
+  return page.evaluate(
+    async ([first, second]) => {
+      const read = async (base64: string) => {
+        const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+        const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
+        const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
+        if (context === null) throw new Error('no 2d canvas');
+        context.drawImage(bitmap, 0, 0);
+        return context.getImageData(0, 0, bitmap.width, bitmap.height).data;
+      };
+      const [a, b] = [await read(first), await read(second)];
+      let bone = 0;
+      let changed = 0;
+      for (let i = 0; i < a.length; i += 4) {
+        const [red = 0, green = 0, blue = 0] = a.subarray(i, i + 3);
+        if (red > blue + 15) ++bone;
+        const difference =
+          Math.abs(red - (b[i] ?? 0)) + Math.abs(green - (b[i + 1] ?? 0)) + Math.abs(blue - (b[i + 2] ?? 0));
+        if (difference > 24) ++changed;
+      }
+      return { pixels: a.length / 4, bone, changed };
+    },
+    [now, before] as const,
+  );
+}

@@ -1,0 +1,44 @@
+import { type ChildProcess, spawn } from 'node:child_process';
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join, resolve } from 'node:path';
+import { createInterface } from 'node:readline';
+
+/** The program under test: REAM_BIN, else build/ream; tests/support/fake_stream_server.mjs speaks the same. */
+const program = resolve(process.env.REAM_BIN ?? join(process.cwd(), '../build/ream'));
+
+/** A `ream serve` of its own, with a data folder of its own. */
+export class ServerProcess {
+  private child: ChildProcess | null = null;
+  private readonly dataFolder = mkdtempSync(join(tmpdir(), 'ream-e2e-'));
+  url = '';
+
+  /** Starts it, on the port it had before where there was one, and waits until it names its URL. */
+  async start(): Promise<void> {
+    const port = this.url === '' ? '0' : new URL(this.url).port;
+    const child = spawn(program, ['serve', '--port', port, '--data', this.dataFolder, '--json'], {
+      stdio: ['ignore', 'pipe', 'inherit'],
+    });
+    this.child = child;
+    this.url = await new Promise<string>((found, failed) => {
+      child.once('error', failed);
+      child.once('exit', (status) => failed(new Error(`${program} ended with ${String(status)} before it served`)));
+      createInterface({ input: child.stdout }).once('line', (line) => found((JSON.parse(line) as { url: string }).url));
+    });
+  }
+
+  /** Kills it without a chance to say goodbye. */
+  async kill(): Promise<void> {
+    const child = this.child;
+    this.child = null;
+    if (child === null || child.exitCode !== null) return;
+    const gone = new Promise((resolve) => child.once('exit', resolve));
+    child.kill('SIGKILL');
+    await gone;
+  }
+
+  async dispose(): Promise<void> {
+    await this.kill();
+    rmSync(this.dataFolder, { recursive: true, force: true });
+  }
+}

@@ -1,0 +1,42 @@
+import { describe, expect, it } from 'vitest';
+
+import { chooseSession } from '../../src/state/choose_session';
+import type { Session } from '../../src/wire/api';
+
+const session = (id: string, state: Session['state'], second: number): Session => ({
+  id,
+  state,
+  created_utc: `2026-01-01T00:00:0${second}Z`,
+  case: 'demo',
+  script: 'demo',
+  tick: 0,
+  duration_s: 0,
+  force_scale: 26,
+  fault: null,
+});
+const none = new Set<string>();
+
+describe('chooseSession', () => {
+  it('asks for a new one when there is none', () => {
+    expect(chooseSession([], 'gone', none)).toBeUndefined();
+  });
+  it('takes the newest that runs, not the newest of all', () => {
+    const all = [session('a', 'running', 1), session('b', 'running', 2), session('c', 'created', 3)];
+    expect(chooseSession(all, null, none)?.id).toBe('b');
+    expect(chooseSession(all, 'c', none)?.id).toBe('b');
+  });
+  it('stays with a watched session that runs', () => {
+    expect(chooseSession([session('a', 'paused', 1), session('b', 'running', 2)], 'a', none)?.id).toBe('a');
+  });
+  it('stays with what is watched when nothing runs', () => {
+    expect(chooseSession([session('a', 'finished', 1), session('b', 'created', 2)], 'a', none)?.id).toBe('a');
+  });
+  it('shows the newest when nothing runs, first in the list among equals', () => {
+    expect(chooseSession([session('b', 'finished', 2), session('a', 'created', 2)], null, none)?.id).toBe('b');
+  });
+  it('leaves aside what gave no stream', () => {
+    expect(chooseSession([session('a', 'finished', 1), session('b', 'finished', 2)], 'b', new Set(['b']))?.id).toBe(
+      'a',
+    );
+  });
+});

@@ -1,0 +1,169 @@
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+
+import { Store } from '../../src/state/store';
+import { Watcher } from '../../src/state/watcher';
+import { ApiError, type Api, type Metrics, type Session } from '../../src/wire/api';
+import { hello, telemetry, wholePicture } from '../wire/fake_messages';
+import { FakeSocket } from '../wire/fake_socket';
+
+/** The REST side of a server that the test can restart. */
+class FakeApi {
+  list: Session[] = [];
+  down = false;
+  private made = 0;
+
+  private answer<T>(value: T): Promise<T> {
+    return this.down ? Promise.reject(new ApiError('no answer', 0)) : Promise.resolve(value);
+  }
+  private change(id: string, state: Session['state']): Promise<Session> {
+    const session = this.list.find((s) => s.id === id);
+    if (session === undefined) return Promise.reject(new ApiError(`no session '${id}'`, 404));
+    session.state = state;
+    return this.answer({ ...session });
+  }
+  sessions = () => this.answer(this.list.map((s) => ({ ...s })));
+  createDemo = () => {
+    const session: Session = {
+      id: `s${++this.made}`,
+      case: 'demo',
+      script: 'demo',
+      state: 'created',
+      created_utc: `2026-01-01T00:00:0${this.made}Z`,
+      tick: 0,
+      duration_s: 0,
+      force_scale: 26,
+      fault: null,
+    };
+    this.list.unshift(session);
+    return this.answer({ ...session });
+  };
+  start = (id: string) => this.change(id, 'running');
+  stop = (id: string) => this.change(id, 'stopped');
+  metrics = () => this.answer({ axial_thrust_mean_n: 12 } as Metrics);
+  streamUrl = (id: string) => `ws://${id}`;
+}
+
+const settle = () => vi.advanceTimersByTimeAsync(0);
+
+describe('Watcher', () => {
+  let api: FakeApi;
+  let socket: FakeSocket;
+  let store: Store;
+  let watcher: Watcher;
+  const begun: string[] = [];
+
+  beforeEach(() => {
+    vi.useFakeTimers();
+    api = new FakeApi();
+    socket = new FakeSocket();
+    store = new Store();
+    begun.length = 0;
+    const picture = { begin: (h: { sessionId: string }) => begun.push(h.sessionId), apply: () => undefined };
+    watcher = new Watcher(store, api as unknown as Api, socket, picture);
+  });
+  afterEach(() => vi.useRealTimers());
+
+  const serve = (sessionId: string, serverEpoch: string) => {
+    socket.handlers?.onMessage(hello({ sessionId, serverEpoch }));
+    socket.handlers?.onMessage(wholePicture);
+  };
+
+  it('creates a session so that there is bone to see, and starts that very one', async () => {
+    watcher.start();
+    await settle();
+    expect(socket.opened).toEqual(['ws://s1']);
+    expect(api.list.map((s) => s.state)).toEqual(['created']);
+    serve('s1', '1');
+    expect(store.live.value).toBe(true);
+    await watcher.runDemo();
+    expect(api.list.map((s) => [s.id, s.state])).toEqual([['s1', 'running']]);
+    expect(socket.opened).toHaveLength(1);
+    expect(store.active.value).toBe(true);
+  });
+
+  it('makes a new session for another demo after one has finished', async () => {
+    watcher.start();
+    await settle();
+    serve('s1', '1');
+    socket.handlers?.onMessage(telemetry({ state: 'finished', thrustN: new Float32Array([1]) }));
+    api.list[0]!.state = 'finished';
+    await settle();
+    expect(store.metrics.value?.axial_thrust_mean_n).toBe(12);
+    await watcher.runDemo();
+    await settle();
+    expect(socket.opened.at(-1)).toBe('ws://s2');
+    expect(api.list[0]?.state).toBe('running');
+    serve('s2', '1');
+    expect(store.telemetry.value).toBeNull();
+    expect(store.trace.newest()).toBeNull();
+    expect(store.metrics.value).toBeNull();
+  });
+
+  it('comes back by itself to a ready state after the server was restarted', async () => {
+    watcher.start();
+    await settle();
+    serve('s1', '1');
+    await watcher.runDemo();
+    socket.handlers?.onMessage(telemetry({ state: 'running' }));
+    api.down = true;
+    api.list = [];
+    socket.end();
+    expect(store.live.value).toBe(false);
+    expect(store.link.value.kind).toBe('lost');
+    await vi.advanceTimersByTimeAsync(4000);
+    expect(store.live.value).toBe(false);
+    api.down = false;
+    await vi.advanceTimersByTimeAsync(3000);
+    expect(socket.opened.at(-1)).toBe('ws://s2');
+    serve('s2', '2');
+    expect(store.live.value).toBe(true);
+    expect(store.sessionState.value).toBe('created');
+    expect(store.telemetry.value).toBeNull();
+    expect(begun).toEqual(['s1', 's2']);
+  });
+
+  it('is not live again before the whole picture has come', async () => {
+    watcher.start();
+    await settle();
+    serve('s1', '1');
+    socket.end();
+    await vi.advanceTimersByTimeAsync(300);
+    socket.handlers?.onMessage(hello({ sessionId: 's1' }));
+    expect(store.link.value.kind).toBe('live');
+    expect(store.live.value).toBe(false);
+    socket.handlers?.onMessage(wholePicture);
+    expect(store.live.value).toBe(true);
+  });
+
+  it('follows a session that somebody else started', async () => {
+    watcher.start();
+    await settle();
+    serve('s1', '1');
+    const other = await api.createDemo();
+    await api.start(other.id);
+    await vi.advanceTimersByTimeAsync(3000);
+    expect(socket.opened.at(-1)).toBe(`ws://${other.id}`);
+  });
+
+  it('leaves a listed session aside that gives no stream', async () => {
+    api.list = [{ ...(await api.createDemo()), state: 'finished' }];
+    watcher.start();
+    await settle();
+    expect(socket.opened).toEqual(['ws://s1']);
+    socket.end();
+    await vi.advanceTimersByTimeAsync(250);
+    socket.end();
+    await vi.advanceTimersByTimeAsync(500);
+    expect(socket.opened.at(-1)).toBe('ws://s2');
+  });
+
+  it('tells in words what did not work', async () => {
+    watcher.start();
+    await settle();
+    serve('s1', '1');
+    api.start = () => Promise.reject(new ApiError('4 sessions are live; stop one first', 503));
+    await watcher.runDemo();
+    expect(store.problem.value).toBe('4 sessions are live; stop one first');
+    expect(store.busy.value).toBe(false);
+  });
+});

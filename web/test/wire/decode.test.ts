@@ -1,0 +1,119 @@
+// The golden messages were made from proto/golden/*.json by `flatc -b`; the block inside was encoded by libmeshoptimizer
+// 0.18, so nothing here was written by the code that reads it.
+import { readFileSync } from 'node:fs';
+import { beforeAll, describe, expect, it } from 'vitest';
+
+import { StreamDecoder, transferables } from '../../src/wire/decode';
+import { meshDecoderReady } from '../../src/wire/decode_block';
+import type { StreamMessage } from '../../src/wire/messages';
+
+const golden = (name: string) =>
+  new Uint8Array(readFileSync(new URL(`../../../proto/golden/${name}.bin`, import.meta.url)));
+
+function decoded<K extends StreamMessage['kind']>(name: string, kind: K): Extract<StreamMessage, { kind: K }> {
+  const decoder = new StreamDecoder();
+  const hello = decoder.decode(golden('hello'));
+  const message = name === 'hello' ? hello : decoder.decode(golden(name));
+  if (message.kind !== kind) throw new Error(`expected ${kind}, got ${message.kind}`);
+  return message as Extract<StreamMessage, { kind: K }>;
+}
+
+beforeAll(() => meshDecoderReady);
+
+describe('StreamDecoder', () => {
+  it('reads the hello', () => {
+    const { hello } = decoded('hello', 'hello');
+    expect(hello.serverEpoch).toBe('18446744073709551615');
+    expect(hello).toMatchObject({ sessionId: 'k7m2', caseName: 'Phantom scapula', side: 'left', forceScale: 26 });
+    expect(hello.gridDims).toEqual([64, 40, 96]);
+    expect(hello.voxelSpacingMm).toEqual([0.5, 0.25, 1]);
+    expect(hello.blockEdgeVoxels).toBe(32);
+    expect(hello.worldFromGrid).toEqual({ rotationXyzw: [0.5, 0.5, 0.5, 0.5], translationMm: [-100.5, 20.25, 300] });
+    expect([...hello.tool.positionsMm]).toEqual([0, 0, 0, 1.5, 0, -1, 0, 1.5, -1]);
+    expect([...hello.tool.indices]).toEqual([0, 1, 2]);
+    expect(hello.axisDirection[1]).toBeCloseTo(0.6, 6);
+    expect(hello.plannedDepthMm).toBe(2.5);
+  });
+
+  it('reads and unpacks mesh blocks', () => {
+    const { mesh } = decoded('mesh_delta', 'mesh');
+    expect(mesh.keyComplete).toBe(true);
+    const [full, empty] = mesh.blocks;
+    expect(full).toMatchObject({ block: 5, revision: 3, tick: 1234 });
+    const positions = [0, 1, 2, 3, 4].map((v) => [...(full?.positions ?? []).slice(4 * v, 4 * v + 3)]);
+    expect(positions).toEqual([
+      [1024, 1024, 2048],
+      [2048, 1024, 2048],
+      [2048, 2048, 2048],
+      [1024, 2048, 34816],
+      [1536, 1536, 512],
+    ]);
+    expect(full?.indices).toBeInstanceOf(Uint16Array);
+    expect(cyclicTriangles(full?.indices ?? [])).toEqual([
+      [0, 1, 2],
+      [0, 2, 3],
+      [0, 4, 1],
+    ]);
+    expect(empty).toMatchObject({ block: 6, revision: 9 });
+    expect(empty?.indices.length).toBe(0);
+  });
+
+  it('reads telemetry, with the newest of each series', () => {
+    const { telemetry } = decoded('telemetry', 'telemetry');
+    expect(telemetry).toMatchObject({
+      firstTick: 1000,
+      tickStride: 2,
+      tick: 1004,
+      handForceN: 1,
+      torqueNMm: 3,
+      feedRateMmS: 0.375,
+      densityGCc: 0.75,
+      spindleOn: true,
+      state: 'fault',
+      fault: 'device lost',
+      depthMm: 1.5,
+      dropped: 7,
+      ticksMissed: 2,
+      worldFromHandle: null,
+    });
+    expect([...telemetry.thrustN]).toEqual([10.5, 11.25, 12]);
+    expect(telemetry.worldFromTool?.translationMm).toEqual([4, 5, 6]);
+  });
+
+  it('hands over buffers of its own, never the message', () => {
+    for (const [name, kind] of [
+      ['hello', 'hello'],
+      ['mesh_delta', 'mesh'],
+      ['telemetry', 'telemetry'],
+    ] as const) {
+      const message = decoded(name, kind);
+      const buffers = transferables(message);
+      expect(buffers.length).toBeGreaterThan(0);
+      expect(new Set(buffers).size).toBe(buffers.length);
+    }
+  });
+
+  it('wants a hello first', () => {
+    expect(() => new StreamDecoder().decode(golden('telemetry'))).toThrow('hello');
+  });
+
+  it('refuses a block whose mesh streams were damaged', () => {
+    const bytes = golden('mesh_delta');
+    const vertexHeader = bytes.findIndex((byte, i) => byte === 160 && bytes[i + 1] === 0 && bytes[i + 2] === 1);
+    bytes[vertexHeader] = 0;
+    const decoder = new StreamDecoder();
+    decoder.decode(golden('hello'));
+    expect(() => decoder.decode(bytes)).toThrow();
+  });
+});
+
+/** Triangles with their smallest index first, sorted; winding is kept. */
+function cyclicTriangles(indices: ArrayLike<number>): number[][] {
+  const triangles: number[][] = [];
+  for (let i = 0; i < indices.length; i += 3) {
+    const t = [indices[i] ?? -1, indices[i + 1] ?? -1, indices[i + 2] ?? -1];
+    const turn = t.indexOf(Math.min(...t));
+    triangles.push([...t.slice(turn), ...t.slice(0, turn)]);
+  }
+  return triangles.sort((a, b) => a.join().localeCompare(b.join()));
+}
