@@ -86,12 +86,7 @@ export class Api {
 
 /** Words of an RFC 9457 problem, or of the bare status where the body is none. */
 async function problem(response: Response): Promise<ApiError> {
-  let said = '';
-  try {
-    const body = (await response.json()) as { title?: unknown; detail?: unknown };
-    said = [body.detail, body.title].find((text) => typeof text === 'string' && text !== '') as string;
-  } catch {
-    said = '';
-  }
-  return new ApiError(said || words.answeredWith(response.status), response.status);
+  const body = (await response.json().catch(() => null)) as { title?: unknown; detail?: unknown } | null;
+  const said = [body?.detail, body?.title].find((text): text is string => typeof text === 'string' && text !== '');
+  return new ApiError(said ?? words.answeredWith(response.status), response.status);
 }
