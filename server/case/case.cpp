@@ -21,8 +21,12 @@ constexpr int64_t max_dim = 65528;
 constexpr double max_voxels = 4.0e9;
 constexpr double rotation_tolerance = 1e-6;
 
-json list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-Vec3 vec3(const std::vector<double>& n) { return {n[0], n[1], n[2]}; }
+json list(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+Vec3 vec3(const std::vector<double>& n) {
+  return {n[0], n[1], n[2]};
+}
 
 json rotation_rows(const Mat3& r) {
   return {list(r.row(0).transpose()), list(r.row(1).transpose()), list(r.row(2).transpose())};
@@ -58,7 +62,9 @@ json to_json(const Case& c) {
 }
 
 Mat3 read_rotation(JsonReader& reader, const json& value) {
-  const auto complain = [&] { reader.refuse("rotation", "must be three rows of an orthonormal, right-handed matrix"); };
+  const auto complain = [&] {
+    reader.refuse("rotation", "must be three rows of an orthonormal, right-handed matrix");
+  };
   if (!reader.has("rotation")) reader.refuse("rotation", "is missing");
   const json& rows = value.at("rotation");
   if (!rows.is_array() || rows.size() != 3) complain();
@@ -102,8 +108,9 @@ voxel::VoxelGrid read_grid(JsonReader& reader, const json& value) {
 GlenoidFrame read_glenoid(JsonReader reader) {
   GlenoidFrame frame;
   frame.centre_mm = vec3(reader.numbers("centre_mm", 3));
-  for (const auto& [key, axis] : {std::pair{"lateral", &frame.lateral}, std::pair{"superior", &frame.superior},
-                                  std::pair{"anterior", &frame.anterior}}) {
+  for (const auto& [key, axis] :
+       {std::pair{"lateral", &frame.lateral}, std::pair{"superior", &frame.superior},
+        std::pair{"anterior", &frame.anterior}}) {
     *axis = vec3(reader.numbers(key, 3));
     if (!(std::abs(axis->norm() - 1.0) < rotation_tolerance)) reader.refuse(key, "must be a unit vector");
   }
@@ -117,8 +124,9 @@ std::vector<uint8_t> read_compressed(const fs::path& file, size_t expected_size)
   if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN)
     throw Error(ErrorKind::invalid_input, file.string() + " is not zstd data; import the case again");
   if (size != expected_size)
-    throw Error(ErrorKind::invalid_input, file.string() + " holds " + std::to_string(size) + " voxels, case.json says " +
-                                              std::to_string(expected_size) + "; import the case again");
+    throw Error(ErrorKind::invalid_input, file.string() + " holds " + std::to_string(size) +
+                                              " voxels, case.json says " + std::to_string(expected_size) +
+                                              "; import the case again");
   std::vector<uint8_t> result(expected_size);
   const size_t read = ZSTD_decompress(result.data(), result.size(), bytes.data(), bytes.size());
   if (ZSTD_isError(read) || read != expected_size)
@@ -128,7 +136,8 @@ std::vector<uint8_t> read_compressed(const fs::path& file, size_t expected_size)
 
 void write_compressed(const fs::path& file, const std::vector<uint8_t>& data) {
   std::vector<std::byte> packed(ZSTD_compressBound(data.size()));
-  const size_t size = ZSTD_compress(packed.data(), packed.size(), data.data(), data.size(), compression_level);
+  const size_t size =
+      ZSTD_compress(packed.data(), packed.size(), data.data(), data.size(), compression_level);
   if (ZSTD_isError(size))
     throw Error(ErrorKind::io, "cannot compress " + file.string() + ": " + ZSTD_getErrorName(size));
   write_file_atomically(file, std::span<const std::byte>(packed.data(), size));
@@ -184,7 +193,8 @@ void save_case(const Case& c, const fs::path& folder, bool replace) {
   voxel::validate(c.bone.grid);
   const size_t voxels = c.bone.grid.voxel_count();
   if (c.bone.density.size() != voxels || c.bone.coverage.size() != voxels)
-    throw Error(ErrorKind::invalid_input, "case '" + c.id + "' does not have one density and coverage per voxel");
+    throw Error(ErrorKind::invalid_input,
+                "case '" + c.id + "' does not have one density and coverage per voxel");
   if (c.plan) validate(*c.plan, "plan of case '" + c.id + "'");
   FolderInProgress target(folder, replace);
   write_compressed(target.path() / "density.zst", c.bone.density);
@@ -194,7 +204,9 @@ void save_case(const Case& c, const fs::path& folder, bool replace) {
   target.commit();
 }
 
-std::string to_text(Side side) { return side == Side::left ? "left" : "right"; }
+std::string to_text(Side side) {
+  return side == Side::left ? "left" : "right";
+}
 
 Side side_from_text(const std::string& text) {
   if (text == "left") return Side::left;

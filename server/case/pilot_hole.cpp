@@ -10,8 +10,8 @@ namespace {
 /// The hole starts this far before the entry, so that no lip of bone is left over it on a concave face.
 constexpr double clearance_mm = 3.0;
 
-/// What a voxel keeps at this signed distance (mm, negative inside the hole): 0 deep inside, 255 well outside,
-/// 127.5 on the border, linear over one voxel.
+/// What a voxel keeps at this signed distance (mm, negative inside the hole): 0 deep inside, 255 well
+/// outside, 127.5 on the border, linear over one voxel.
 uint8_t kept_coverage(double distance_mm, double voxel_mm) {
   const double c = std::floor(255.0 * (0.5 + distance_mm / voxel_mm) + 0.5);
   return static_cast<uint8_t>(std::clamp(c, 0.0, 255.0));
@@ -80,7 +80,8 @@ void cut_pilot_hole(voxel::BoneModel& bone, const Plan& plan) {
 }
 
 std::optional<Vec3> surface_along(const voxel::BoneModel& bone, const Vec3& point_mm, const Vec3& direction) {
-  if (!(direction.norm() > 1e-12)) throw Error(ErrorKind::invalid_input, "the axis direction must not be zero");
+  if (!(direction.norm() > 1e-12))
+    throw Error(ErrorKind::invalid_input, "the axis direction must not be zero");
   const Pose grid_from_world = bone.grid.world_from_grid.inverse();
   const Vec3 point = grid_from_world.point(point_mm);
   const Vec3 along = grid_from_world.direction(direction).normalized();

@@ -15,7 +15,8 @@ std::string short_number(double value) {
 
 }  // namespace
 
-JsonReader::JsonReader(const nlohmann::json& value, std::string place) : value_(&value), place_(std::move(place)) {
+JsonReader::JsonReader(const nlohmann::json& value, std::string place)
+    : value_(&value), place_(std::move(place)) {
   if (!value.is_object()) throw Error(ErrorKind::invalid_input, place_ + " must be a JSON object");
 }
 
@@ -33,18 +34,22 @@ const nlohmann::json& JsonReader::at(const std::string& key) {
   return (*value_)[key];
 }
 
-double JsonReader::checked(const std::string& key, const nlohmann::json& value, double min, double max) const {
+double JsonReader::checked(const std::string& key, const nlohmann::json& value, double min,
+                           double max) const {
   if (!value.is_number()) refuse(key, "must be a number");
   const double number = value.get<double>();
   if (!std::isfinite(number)) refuse(key, "must be a finite number");
   if (number < min || number > max) {
     if (max >= 1e300) refuse(key, "is " + short_number(number) + ", must be at least " + short_number(min));
-    refuse(key, "is " + short_number(number) + ", must be between " + short_number(min) + " and " + short_number(max));
+    refuse(key, "is " + short_number(number) + ", must be between " + short_number(min) + " and " +
+                    short_number(max));
   }
   return number;
 }
 
-double JsonReader::number(const std::string& key, double min, double max) { return checked(key, at(key), min, max); }
+double JsonReader::number(const std::string& key, double min, double max) {
+  return checked(key, at(key), min, max);
+}
 
 double JsonReader::number_or(const std::string& key, double fallback, double min, double max) {
   return has(key) ? number(key, min, max) : fallback;
@@ -53,9 +58,11 @@ double JsonReader::number_or(const std::string& key, double fallback, double min
 int64_t JsonReader::integer(const std::string& key, int64_t min, int64_t max) {
   const auto& value = at(key);
   if (!value.is_number_integer()) refuse(key, "must be a whole number");
-  const bool too_large = value.is_number_unsigned() && value.get<uint64_t>() > static_cast<uint64_t>(INT64_MAX);
+  const bool too_large =
+      value.is_number_unsigned() && value.get<uint64_t>() > static_cast<uint64_t>(INT64_MAX);
   if (too_large || value.get<int64_t>() < min || value.get<int64_t>() > max)
-    refuse(key, "is " + value.dump() + ", must be between " + std::to_string(min) + " and " + std::to_string(max));
+    refuse(key,
+           "is " + value.dump() + ", must be between " + std::to_string(min) + " and " + std::to_string(max));
   return value.get<int64_t>();
 }
 
@@ -81,7 +88,8 @@ std::string JsonReader::text_or(const std::string& key, const std::string& fallb
 
 std::vector<double> JsonReader::numbers(const std::string& key, size_t count) {
   const auto& value = at(key);
-  if (!value.is_array() || value.size() != count) refuse(key, "must be a list of " + std::to_string(count) + " numbers");
+  if (!value.is_array() || value.size() != count)
+    refuse(key, "must be a list of " + std::to_string(count) + " numbers");
   std::vector<double> result;
   for (const auto& entry : value) result.push_back(checked(key, entry, -1e300, 1e300));
   return result;
@@ -98,7 +106,9 @@ std::vector<std::string> JsonReader::texts_or_none(const std::string& key) {
   return result;
 }
 
-JsonReader JsonReader::object(const std::string& key) { return {at(key), place_ + "." + key}; }
+JsonReader JsonReader::object(const std::string& key) {
+  return {at(key), place_ + "." + key};
+}
 
 std::vector<JsonReader> JsonReader::objects(const std::string& key) {
   const auto& value = at(key);

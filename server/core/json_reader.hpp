@@ -7,9 +7,9 @@
 
 namespace ream {
 
-/// Strict reading of one JSON object: every key is asked for by name and type, and finish() refuses any key that
-/// nobody asked for. All errors are Error invalid_input of the form "<place>: key 'depth_mm' must be ...".
-/// The JSON value must outlive the reader.
+/// Strict reading of one JSON object: every key is asked for by name and type, and finish() refuses any key
+/// that nobody asked for. All errors are Error invalid_input of the form "<place>: key 'depth_mm' must be
+/// ...". The JSON value must outlive the reader.
 class JsonReader {
  public:
   /// `place` names the file (and the path inside it) for people. Throws when `value` is not an object.
@@ -22,7 +22,8 @@ class JsonReader {
   double number(const std::string& key, double min = -1e300, double max = 1e300);
   double number_or(const std::string& key, double fallback, double min = -1e300, double max = 1e300);
   int64_t integer(const std::string& key, int64_t min = INT64_MIN, int64_t max = INT64_MAX);
-  int64_t integer_or(const std::string& key, int64_t fallback, int64_t min = INT64_MIN, int64_t max = INT64_MAX);
+  int64_t integer_or(const std::string& key, int64_t fallback, int64_t min = INT64_MIN,
+                     int64_t max = INT64_MAX);
   bool boolean_or(const std::string& key, bool fallback);
   std::string text(const std::string& key);
   std::string text_or(const std::string& key, const std::string& fallback);

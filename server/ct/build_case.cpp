@@ -69,12 +69,15 @@ SurfaceVoxels resolve_surface(const HuVolume& volume, const Mask& mask) {
 template <typename T>
 std::vector<T> padded(const std::vector<T>& data, const Vec3i& dims, const Vec3i& to) {
   if (dims == to) return data;
-  std::vector<T> result(static_cast<size_t>(to.x()) * static_cast<size_t>(to.y()) * static_cast<size_t>(to.z()));
+  std::vector<T> result(static_cast<size_t>(to.x()) * static_cast<size_t>(to.y()) *
+                        static_cast<size_t>(to.z()));
   size_t source = 0;
   for (int w = 0; w < dims.z(); ++w)
     for (int v = 0; v < dims.y(); ++v) {
-      const size_t row = static_cast<size_t>(to.x()) * (static_cast<size_t>(v) + static_cast<size_t>(to.y()) * static_cast<size_t>(w));
-      std::copy_n(data.begin() + static_cast<std::ptrdiff_t>(source), dims.x(), result.begin() + static_cast<std::ptrdiff_t>(row));
+      const size_t row = static_cast<size_t>(to.x()) *
+                         (static_cast<size_t>(v) + static_cast<size_t>(to.y()) * static_cast<size_t>(w));
+      std::copy_n(data.begin() + static_cast<std::ptrdiff_t>(source), dims.x(),
+                  result.begin() + static_cast<std::ptrdiff_t>(row));
       source += static_cast<size_t>(dims.x());
     }
   return result;
@@ -95,15 +98,17 @@ Mask segment(HuVolume& volume, const SegmentationOptions& options) {
   smooth(volume, options.sigma_mm);
   Mask mask = above_threshold(volume, options.threshold_hu);
   if (count_set(mask) == 0)
-    throw Error(ErrorKind::invalid_input, "no voxel reaches the threshold of " + std::to_string(std::lround(options.threshold_hu)) +
-                                              " HU (the highest is " +
-                                              std::to_string(*std::max_element(volume.hu.begin(), volume.hu.end())) +
-                                              "); lower --threshold-hu or choose another region");
+    throw Error(ErrorKind::invalid_input,
+                "no voxel reaches the threshold of " + std::to_string(std::lround(options.threshold_hu)) +
+                    " HU (the highest is " +
+                    std::to_string(*std::max_element(volume.hu.begin(), volume.hu.end())) +
+                    "); lower --threshold-hu or choose another region");
   if (!options.grow_from_mm) return largest_part(mask, volume.dims);
   const auto seed = nearest_set(mask, volume, *options.grow_from_mm, seed_reach_mm);
   if (!seed)
-    throw Error(ErrorKind::invalid_input, "no bone within 2 mm of the seed " + text(*options.grow_from_mm) +
-                                              " mm; give --grow-from a point in the bone (LPS) or lower --threshold-hu");
+    throw Error(ErrorKind::invalid_input,
+                "no bone within 2 mm of the seed " + text(*options.grow_from_mm) +
+                    " mm; give --grow-from a point in the bone (LPS) or lower --threshold-hu");
   return grown_from(mask, volume.dims, *seed);
 }
 
@@ -126,8 +131,8 @@ voxel::BoneModel bone_from_mask(const HuVolume& volume, Mask mask, const Segment
   bone.grid.world_from_grid = volume.world_from_volume;
   voxel::validate(bone.grid);
   bone.coverage = voxel::upsample_trilinear(std::span<const uint8_t>(surface.coverage), to, n);
-  bone.density =
-      density_codes(voxel::upsample_trilinear(std::span<const int16_t>(surface.bone_hu), to, n), options.calibration);
+  bone.density = density_codes(voxel::upsample_trilinear(std::span<const int16_t>(surface.bone_hu), to, n),
+                               options.calibration);
   return bone;
 }
 

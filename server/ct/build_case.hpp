@@ -22,9 +22,10 @@ inline constexpr double soft_tissue_hu = 40.0;
 /// nothing reaches the threshold or no bone lies within 2 mm of the seed.
 Mask segment(HuVolume& volume, const SegmentationOptions& options);
 
-/// Bone of a mask over a CT: voids filled; at the surface, how full a voxel is follows from its HU between soft
-/// tissue and the densest bone beside it (so the surface is sub-voxel and thin sheets survive), and density is
-/// that of the bone within, not of the mix; both upsampled (voxel/upsample.hpp) and padded to whole bricks.
+/// Bone of a mask over a CT: voids filled; at the surface, how full a voxel is follows from its HU between
+/// soft tissue and the densest bone beside it (so the surface is sub-voxel and thin sheets survive), and
+/// density is that of the bone within, not of the mix; both upsampled (voxel/upsample.hpp) and padded to
+/// whole bricks.
 voxel::BoneModel bone_from_mask(const HuVolume& volume, Mask mask, const SegmentationOptions& options);
 
 }  // namespace ream::ct

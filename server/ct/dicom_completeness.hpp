@@ -10,9 +10,9 @@ enum class DicomState {
   cut_short,  ///< an element goes on behind the end of the file
 };
 
-/// Walks the file's data elements (DICOM PS3.5) without looking into them. Needed because the reading library takes
-/// missing pixels for zeros and ends the program on some cut-off headers. Deflated and big-endian files, both
-/// retired for CT, pass as whole.
+/// Walks the file's data elements (DICOM PS3.5) without looking into them. Needed because the reading library
+/// takes missing pixels for zeros and ends the program on some cut-off headers. Deflated and big-endian
+/// files, both retired for CT, pass as whole.
 DicomState dicom_state(const std::filesystem::path& file);
 
 }  // namespace ream::ct

@@ -14,7 +14,8 @@ namespace {
 
 /// A UID of the free 2.25 root (a whole number of up to 39 digits).
 std::string uid(uint64_t seed, uint64_t what) {
-  return "2.25." + std::to_string(1 + hash_combine(seed, what) / 2) + std::to_string(1000 + mix64(seed ^ what) % 9000);
+  return "2.25." + std::to_string(1 + hash_combine(seed, what) / 2) +
+         std::to_string(1000 + mix64(seed ^ what) % 9000);
 }
 
 /// A decimal string has at most 16 characters.
@@ -75,7 +76,8 @@ void write_dicom_folder(const HuVolume& volume, const std::filesystem::path& fol
     slice.dims = {volume.dims.x(), volume.dims.y(), 1};
     slice.spacing_mm = volume.spacing_mm;
     slice.world_from_volume = volume.world_from_volume;
-    slice.world_from_volume.translation_mm = volume.world_from_volume.point({0, 0, w * volume.spacing_mm.z()});
+    slice.world_from_volume.translation_mm =
+        volume.world_from_volume.point({0, 0, w * volume.spacing_mm.z()});
     try {
       describe(*io, slice);
       io->KeepOriginalUIDOn();

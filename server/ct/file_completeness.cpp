@@ -15,7 +15,8 @@ namespace {
 constexpr uint64_t nifti_header_bytes = 348;
 
 [[noreturn]] void cut_short(const fs::path& path) {
-  throw Error(ErrorKind::invalid_input, path.string() + " is cut short or damaged; copy it again from its source");
+  throw Error(ErrorKind::invalid_input,
+              path.string() + " is cut short or damaged; copy it again from its source");
 }
 
 /// Size after unpacking (plain files count as they are); throws when the stream is damaged or has no end.
@@ -25,7 +26,8 @@ uint64_t unpacked_bytes(const fs::path& path) {
   std::vector<char> piece(1 << 18);
   uint64_t total = 0;
   int got = 0;
-  while ((got = gzread(file, piece.data(), static_cast<unsigned>(piece.size()))) > 0) total += static_cast<uint64_t>(got);
+  while ((got = gzread(file, piece.data(), static_cast<unsigned>(piece.size()))) > 0)
+    total += static_cast<uint64_t>(got);
   // A stream that ends too early is told only on closing.
   const int closed = gzclose(file);
   if (got < 0 || closed != Z_OK) cut_short(path);
@@ -48,7 +50,8 @@ void check_meta_image(const fs::path& path, uint64_t image_bytes) {
     if (data.starts_with("LIST") || data.find('%') != std::string::npos) return;
     const bool inside = data == "LOCAL" || data == "Local" || data == "local";
     const fs::path holder = inside ? path : path.parent_path() / data;
-    if (!fs::is_regular_file(holder)) throw Error(ErrorKind::not_found, "no such file: " + holder.string() + ", named by " + path.string());
+    if (!fs::is_regular_file(holder))
+      throw Error(ErrorKind::not_found, "no such file: " + holder.string() + ", named by " + path.string());
     const uint64_t before = inside ? static_cast<uint64_t>(in.tellg()) : 0;
     if (fs::file_size(holder) < before + needed) cut_short(holder);
     return;

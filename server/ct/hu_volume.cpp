@@ -33,8 +33,10 @@ std::vector<int64_t> gaussian_weights(double sigma_voxels) {
 void smooth_axis(HuVolume& volume, int axis, double sigma_voxels) {
   const auto weights = gaussian_weights(sigma_voxels);
   const int radius = static_cast<int>(weights.size()) - 1, n = volume.dims[axis];
-  const size_t stride = axis == 0 ? 1 : axis == 1 ? static_cast<size_t>(volume.dims.x())
-                                                  : static_cast<size_t>(volume.dims.x()) * static_cast<size_t>(volume.dims.y());
+  const size_t stride = axis == 0 ? 1
+                        : axis == 1
+                            ? static_cast<size_t>(volume.dims.x())
+                            : static_cast<size_t>(volume.dims.x()) * static_cast<size_t>(volume.dims.y());
   std::vector<int64_t> line(static_cast<size_t>(n + 2 * radius));
   Vec3i end = volume.dims;
   end[axis] = 1;
@@ -43,7 +45,8 @@ void smooth_axis(HuVolume& volume, int axis, double sigma_voxels) {
       for (int u = 0; u < end.x(); ++u) {
         int16_t* first = volume.hu.data() + volume.index(u, v, w);
         for (int i = -radius; i < n + radius; ++i)
-          line[static_cast<size_t>(i + radius)] = first[static_cast<size_t>(std::clamp(i, 0, n - 1)) * stride];
+          line[static_cast<size_t>(i + radius)] =
+              first[static_cast<size_t>(std::clamp(i, 0, n - 1)) * stride];
         for (int i = 0; i < n; ++i) {
           const int64_t* centre = line.data() + i + radius;
           int64_t sum = weights[0] * centre[0];
@@ -58,20 +61,32 @@ void smooth_axis(HuVolume& volume, int axis, double sigma_voxels) {
 
 HuVolume cropped(const HuVolume& volume, const Aabb& roi_mm) {
   if (!((roi_mm.max - roi_mm.min).minCoeff() > 0.0))
-    throw Error(ErrorKind::invalid_input, "the region of interest has no volume; give X0,Y0,Z0,X1,Y1,Z1 with both corners different");
+    throw Error(ErrorKind::invalid_input,
+                "the region of interest has no volume; give X0,Y0,Z0,X1,Y1,Z1 with both corners different");
   const Aabb box = roi_mm.transformed(volume.world_from_volume.inverse());
   constexpr double slack = 1e-6;  // a border that lies on a voxel border takes no further voxel
-  const Vec3i low = (box.min.array() / volume.spacing_mm.array() + slack).floor().max(-1e6).cast<int>().matrix().cwiseMax(0);
-  const Vec3i high =
-      (box.max.array() / volume.spacing_mm.array() - slack).ceil().min(1e6).cast<int>().matrix().cwiseMin(volume.dims);
+  const Vec3i low = (box.min.array() / volume.spacing_mm.array() + slack)
+                        .floor()
+                        .max(-1e6)
+                        .cast<int>()
+                        .matrix()
+                        .cwiseMax(0);
+  const Vec3i high = (box.max.array() / volume.spacing_mm.array() - slack)
+                         .ceil()
+                         .min(1e6)
+                         .cast<int>()
+                         .matrix()
+                         .cwiseMin(volume.dims);
   if ((high.array() <= low.array()).any()) {
-    const Aabb world = Aabb{Vec3::Zero(), (volume.dims.cast<double>().array() * volume.spacing_mm.array()).matrix()}
-                           .transformed(volume.world_from_volume);
+    const Aabb world =
+        Aabb{Vec3::Zero(), (volume.dims.cast<double>().array() * volume.spacing_mm.array()).matrix()}
+            .transformed(volume.world_from_volume);
     const auto text = [](const Vec3& p) {
-      return std::to_string(std::lround(p.x())) + "," + std::to_string(std::lround(p.y())) + "," + std::to_string(std::lround(p.z()));
+      return std::to_string(std::lround(p.x())) + "," + std::to_string(std::lround(p.y())) + "," +
+             std::to_string(std::lround(p.z()));
     };
-    throw Error(ErrorKind::invalid_input, "the region of interest lies outside the CT, which spans " + text(world.min) +
-                                              " to " + text(world.max) + " mm (LPS)");
+    throw Error(ErrorKind::invalid_input, "the region of interest lies outside the CT, which spans " +
+                                              text(world.min) + " to " + text(world.max) + " mm (LPS)");
   }
   HuVolume result;
   result.dims = high - low;

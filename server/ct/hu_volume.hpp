@@ -11,8 +11,8 @@ namespace ream::ct {
 /// Lowest HU kept: what scanners write outside their field of view (-2000, -3024) is air to us.
 inline constexpr int16_t min_hu = -1024;
 
-/// A CT in memory, HU, x fastest. Voxel (u,v,w) fills [(u,v,w), (u,v,w)+1] * spacing of the volume frame, whose
-/// origin is the minimum corner (half a voxel before the first voxel's centre). World is LPS mm.
+/// A CT in memory, HU, x fastest. Voxel (u,v,w) fills [(u,v,w), (u,v,w)+1] * spacing of the volume frame,
+/// whose origin is the minimum corner (half a voxel before the first voxel's centre). World is LPS mm.
 struct HuVolume {
   Vec3i dims = Vec3i::Zero();
   Vec3 spacing_mm = Vec3::Ones();
@@ -25,8 +25,9 @@ struct HuVolume {
     return static_cast<size_t>(dims.x()) * static_cast<size_t>(dims.y()) * static_cast<size_t>(dims.z());
   }
   size_t index(int u, int v, int w) const {
-    return static_cast<size_t>(u) + static_cast<size_t>(dims.x()) *
-                                        (static_cast<size_t>(v) + static_cast<size_t>(dims.y()) * static_cast<size_t>(w));
+    return static_cast<size_t>(u) +
+           static_cast<size_t>(dims.x()) *
+               (static_cast<size_t>(v) + static_cast<size_t>(dims.y()) * static_cast<size_t>(w));
   }
   Vec3 world_of_centre(const Vec3i& o) const {
     return world_from_volume.point(((o.cast<double>().array() + 0.5) * spacing_mm.array()).matrix());
@@ -39,12 +40,13 @@ struct HuVolume {
   bool contains(const Vec3i& o) const { return (o.array() >= 0).all() && (o.array() < dims.array()).all(); }
 };
 
-/// The voxels that touch the world box `roi_mm` (its bounding box in the volume's axes when those are oblique).
-/// Throws Error invalid_input when the box has no volume or does not meet the CT.
+/// The voxels that touch the world box `roi_mm` (its bounding box in the volume's axes when those are
+/// oblique). Throws Error invalid_input when the box has no volume or does not meet the CT.
 HuVolume cropped(const HuVolume& volume, const Aabb& roi_mm);
 
 /// Gaussian of standard deviation `sigma_mm`, separable, edges repeated, rounded to whole HU after each axis.
-/// Sigma 0 returns the volume unchanged. Throws Error invalid_input for a negative sigma or one above 20 voxels.
+/// Sigma 0 returns the volume unchanged. Throws Error invalid_input for a negative sigma or one above 20
+/// voxels.
 void smooth(HuVolume& volume, double sigma_mm);
 
 }  // namespace ream::ct

@@ -13,8 +13,9 @@ constexpr double max_grid_voxels = 1.5e9;  // more than 3 GB of density and cove
 void check_grid_size(const HuVolume& volume, int upsample) {
   const double n = upsample;
   if (static_cast<double>(volume.voxel_count()) * n * n * n > max_grid_voxels)
-    throw Error(ErrorKind::invalid_input, "upsampling by " + std::to_string(upsample) +
-                                              " makes more than 1.5e9 voxels; choose a smaller --roi or --upsample");
+    throw Error(ErrorKind::invalid_input,
+                "upsampling by " + std::to_string(upsample) +
+                    " makes more than 1.5e9 voxels; choose a smaller --roi or --upsample");
 }
 
 }  // namespace
@@ -34,12 +35,14 @@ Mask mask_from_label(const HuVolume& volume, const HuVolume& label, int value) {
         any = true;
       }
   if (!any)
-    throw Error(ErrorKind::invalid_input, "the label map " + label.source + " holds no voxel of value " + std::to_string(value) +
-                                              " within the CT's region; check --label, --label-value and --roi");
+    throw Error(ErrorKind::invalid_input,
+                "the label map " + label.source + " holds no voxel of value " + std::to_string(value) +
+                    " within the CT's region; check --label, --label-value and --roi");
   return mask;
 }
 
-case_::Case import_ct(const std::filesystem::path& path, const std::string& id, const ImportOptions& options) {
+case_::Case import_ct(const std::filesystem::path& path, const std::string& id,
+                      const ImportOptions& options) {
   HuVolume volume = read_ct(path);
   if (options.roi_mm) volume = cropped(volume, *options.roi_mm);
   check_grid_size(volume, options.segmentation.upsample);
@@ -62,7 +65,9 @@ case_::Case import_ct(const std::filesystem::path& path, const std::string& id, 
   result.calibration.threshold_hu = options.segmentation.threshold_hu;
   result.bone = bone_from_mask(volume, std::move(mask), options.segmentation);
   if (result.bone.filled_voxels() == 0)
-    throw Error(ErrorKind::invalid_input, "the segmentation holds no bone that fills half a voxel; choose another --threshold-hu or --upsample");
+    throw Error(ErrorKind::invalid_input,
+                "the segmentation holds no bone that fills half a voxel; choose another --threshold-hu or "
+                "--upsample");
   return result;
 }
 
@@ -72,9 +77,12 @@ std::string case_id_from(const std::filesystem::path& folder) {
   std::string id;
   for (const char c : named.filename().string()) {
     const bool upper = c >= 'A' && c <= 'Z', kept = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
-    if (upper) id += static_cast<char>(c - 'A' + 'a');
-    else if (kept) id += c;
-    else if (!id.empty() && id.back() != '-') id += '-';
+    if (upper)
+      id += static_cast<char>(c - 'A' + 'a');
+    else if (kept)
+      id += c;
+    else if (!id.empty() && id.back() != '-')
+      id += '-';
   }
   while (!id.empty() && id.back() == '-') id.pop_back();
   return id.empty() ? "case" : id;

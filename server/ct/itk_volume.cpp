@@ -25,19 +25,32 @@ std::vector<int16_t> clamped(const std::vector<char>& bytes, size_t count) {
 
 std::vector<int16_t> converted(itk::IOComponentEnum type, const std::vector<char>& bytes, size_t count) {
   switch (type) {
-    case itk::IOComponentEnum::UCHAR: return clamped<unsigned char>(bytes, count);
-    case itk::IOComponentEnum::CHAR: return clamped<signed char>(bytes, count);
-    case itk::IOComponentEnum::USHORT: return clamped<unsigned short>(bytes, count);
-    case itk::IOComponentEnum::SHORT: return clamped<short>(bytes, count);
-    case itk::IOComponentEnum::UINT: return clamped<unsigned int>(bytes, count);
-    case itk::IOComponentEnum::INT: return clamped<int>(bytes, count);
-    case itk::IOComponentEnum::ULONG: return clamped<unsigned long>(bytes, count);
-    case itk::IOComponentEnum::LONG: return clamped<long>(bytes, count);
-    case itk::IOComponentEnum::ULONGLONG: return clamped<unsigned long long>(bytes, count);
-    case itk::IOComponentEnum::LONGLONG: return clamped<long long>(bytes, count);
-    case itk::IOComponentEnum::FLOAT: return clamped<float>(bytes, count);
-    case itk::IOComponentEnum::DOUBLE: return clamped<double>(bytes, count);
-    default: return {};
+    case itk::IOComponentEnum::UCHAR:
+      return clamped<unsigned char>(bytes, count);
+    case itk::IOComponentEnum::CHAR:
+      return clamped<signed char>(bytes, count);
+    case itk::IOComponentEnum::USHORT:
+      return clamped<unsigned short>(bytes, count);
+    case itk::IOComponentEnum::SHORT:
+      return clamped<short>(bytes, count);
+    case itk::IOComponentEnum::UINT:
+      return clamped<unsigned int>(bytes, count);
+    case itk::IOComponentEnum::INT:
+      return clamped<int>(bytes, count);
+    case itk::IOComponentEnum::ULONG:
+      return clamped<unsigned long>(bytes, count);
+    case itk::IOComponentEnum::LONG:
+      return clamped<long>(bytes, count);
+    case itk::IOComponentEnum::ULONGLONG:
+      return clamped<unsigned long long>(bytes, count);
+    case itk::IOComponentEnum::LONGLONG:
+      return clamped<long long>(bytes, count);
+    case itk::IOComponentEnum::FLOAT:
+      return clamped<float>(bytes, count);
+    case itk::IOComponentEnum::DOUBLE:
+      return clamped<double>(bytes, count);
+    default:
+      return {};
   }
 }
 
@@ -78,16 +91,20 @@ std::vector<int16_t> read_values(itk::ImageIOBase& io, const std::string& place)
   std::vector<char> bytes(static_cast<size_t>(io.GetImageSizeInBytes()));
   io.Read(bytes.data());
   auto values = converted(io.GetComponentType(), bytes, count);
-  if (values.size() != count) throw Error(ErrorKind::invalid_input, place + " holds voxels of an unknown type");
+  if (values.size() != count)
+    throw Error(ErrorKind::invalid_input, place + " holds voxels of an unknown type");
   return values;
 }
 
 void set_geometry(HuVolume& volume, const ItkGeometry& geometry, const std::string& place) {
   const Mat3& d = geometry.direction;
   if (!d.allFinite() || !((d.transpose() * d - Mat3::Identity()).cwiseAbs().maxCoeff() < axis_tolerance))
-    throw Error(ErrorKind::invalid_input, place + ": the voxel axes are not perpendicular; resample the volume first");
-  if (!geometry.spacing_mm.allFinite() || !(geometry.spacing_mm.minCoeff() > 0.0) || !geometry.origin_mm.allFinite())
-    throw Error(ErrorKind::invalid_input, place + ": voxel size and position must be finite, the size positive");
+    throw Error(ErrorKind::invalid_input,
+                place + ": the voxel axes are not perpendicular; resample the volume first");
+  if (!geometry.spacing_mm.allFinite() || !(geometry.spacing_mm.minCoeff() > 0.0) ||
+      !geometry.origin_mm.allFinite())
+    throw Error(ErrorKind::invalid_input,
+                place + ": voxel size and position must be finite, the size positive");
   volume.dims = geometry.dims;
   volume.spacing_mm = geometry.spacing_mm;
   Mat3 rotation = d;
@@ -99,7 +116,8 @@ void set_geometry(HuVolume& volume, const ItkGeometry& geometry, const std::stri
   }
   const bool exact = (rotation.transpose() * rotation - Mat3::Identity()).cwiseAbs().maxCoeff() < 1e-12;
   volume.world_from_volume.rotation = exact ? rotation : orthonormalized(rotation);
-  volume.world_from_volume.translation_mm = origin - volume.world_from_volume.direction(0.5 * volume.spacing_mm);
+  volume.world_from_volume.translation_mm =
+      origin - volume.world_from_volume.direction(0.5 * volume.spacing_mm);
 }
 
 void describe(itk::ImageIOBase& io, const HuVolume& volume) {

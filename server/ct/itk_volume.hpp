@@ -16,7 +16,8 @@ struct ItkGeometry {
 
 ItkGeometry geometry_of(const itk::ImageIOBase& io);
 
-/// All values of the opened image, clamped to 16 bits. `place` names the file in errors; a short file throws Error.
+/// All values of the opened image, clamped to 16 bits. `place` names the file in errors; a short file throws
+/// Error.
 std::vector<int16_t> read_values(itk::ImageIOBase& io, const std::string& place);
 
 /// Puts dims, spacing and pose into `volume`, reversing the last axis of a left-handed image. Throws Error

@@ -22,8 +22,8 @@ void check(const PhantomParams& p) {
   const auto within = [](const char* what, double value, double low, double high) {
     if (value >= low && value <= high) return;
     const auto text = [](double v) { return nlohmann::json(v).dump(); };
-    throw Error(ErrorKind::invalid_input, std::string("phantom: ") + what + " is " + text(value) + ", must be between " +
-                                              text(low) + " and " + text(high));
+    throw Error(ErrorKind::invalid_input, std::string("phantom: ") + what + " is " + text(value) +
+                                              ", must be between " + text(low) + " and " + text(high));
   };
   within("version in degrees", degrees_from_radians(p.version_rad), -40.0, 40.0);
   within("inclination in degrees", degrees_from_radians(p.inclination_rad), -40.0, 40.0);
@@ -37,17 +37,20 @@ void check(const PhantomParams& p) {
   for (int axis = 0; axis < 3; ++axis) within("voxel size in mm", p.spacing_mm[axis], 0.05, 10.0);
 }
 
-/// Sum of four 16-bit uniforms of one hash, centred and scaled to standard deviation 1: near Gaussian, and the
-/// same on every machine.
+/// Sum of four 16-bit uniforms of one hash, centred and scaled to standard deviation 1: near Gaussian, and
+/// the same on every machine.
 double noise(uint64_t seed, uint64_t index) {
   const uint64_t h = mix64(hash_combine(seed, index));
-  const int64_t sum = static_cast<int64_t>((h & 0xffff) + ((h >> 16) & 0xffff) + ((h >> 32) & 0xffff) + (h >> 48));
+  const int64_t sum =
+      static_cast<int64_t>((h & 0xffff) + ((h >> 16) & 0xffff) + ((h >> 32) & 0xffff) + (h >> 48));
   constexpr double four_uniforms_sd = 65536.0 * 0.57735026918962573;  // sqrt(4/12)
   return static_cast<double>(sum - 2 * 65535) / four_uniforms_sd;
 }
 
 /// Share of a voxel on the inner side of a border at signed distance `d` (negative inside).
-double inside_share(double d, double voxel_mm) { return std::clamp(0.5 - d / voxel_mm, 0.0, 1.0); }
+double inside_share(double d, double voxel_mm) {
+  return std::clamp(0.5 - d / voxel_mm, 0.0, 1.0);
+}
 
 /// Apparent density of the trabecular bone: densest posterior and near the face (science 2.4).
 double cancellous_g_cc(double posterior_mm, double depth_mm) {
@@ -62,19 +65,22 @@ double tissue_hu(const PhantomShape& shape, const PhantomParams& p, const Vec3& 
   if (filled == 0.0) return soft_tissue_hu;
   const double shell = inside_share(-(bone + p.shell_mm), voxel_mm);
   const double depth = shape.depth_under_face_mm(world);
-  const double plate = scapula < head && depth < p.plate_mm + voxel_mm ? inside_share(depth - p.plate_mm, voxel_mm) : 0.0;
+  const double plate =
+      scapula < head && depth < p.plate_mm + voxel_mm ? inside_share(depth - p.plate_mm, voxel_mm) : 0.0;
   const double compact = std::max(shell, plate);
   const double spongy = cancellous_g_cc(shape.posterior_mm(world), depth);
   const double density = compact * cortical_g_cc + (1.0 - compact) * spongy;
   return filled * hu_of_apparent_density(density, p.calibration) + (1.0 - filled) * soft_tissue_hu;
 }
 
-Vec3 mirrored(const Vec3& v) { return {-v.x(), v.y(), v.z()}; }
+Vec3 mirrored(const Vec3& v) {
+  return {-v.x(), v.y(), v.z()};
+}
 
 void mirror(GroundTruth& truth) {
-  for (Vec3* v : {&truth.glenoid.centre_mm, &truth.glenoid.lateral, &truth.glenoid.superior, &truth.glenoid.anterior,
-                  &truth.articular_sphere_centre_mm, &truth.spine_root_mm, &truth.inferior_angle_mm,
-                  &truth.humeral_head_centre_mm})
+  for (Vec3* v : {&truth.glenoid.centre_mm, &truth.glenoid.lateral, &truth.glenoid.superior,
+                  &truth.glenoid.anterior, &truth.articular_sphere_centre_mm, &truth.spine_root_mm,
+                  &truth.inferior_angle_mm, &truth.humeral_head_centre_mm})
     *v = mirrored(*v);
 }
 
@@ -86,8 +92,10 @@ Phantom make_phantom(const PhantomParams& params) {
   Phantom phantom{{}, shape.truth()};
   const bool left = params.side == case_::Side::left;
   HuVolume& volume = phantom.volume;
-  const Vec3 voxels = ((params.field_mm.max - params.field_mm.min).array() / params.spacing_mm.array()).round().matrix();
-  if (!(voxels.minCoeff() >= 1.0)) throw Error(ErrorKind::invalid_input, "phantom: the field holds no voxels");
+  const Vec3 voxels =
+      ((params.field_mm.max - params.field_mm.min).array() / params.spacing_mm.array()).round().matrix();
+  if (!(voxels.minCoeff() >= 1.0))
+    throw Error(ErrorKind::invalid_input, "phantom: the field holds no voxels");
   if (voxels.prod() > max_field_voxels)
     throw Error(ErrorKind::invalid_input, "phantom: more than 6e8 voxels; choose a larger voxel size");
   volume.dims = voxels.cast<int>();
@@ -144,9 +152,12 @@ FaceAngles face_angles(const Vec3& face_normal, const Vec3& glenoid_centre_mm, c
   posterior.normalize();
   if (posterior.y() < 0.0) posterior = -posterior;
   const Vec3 superior_either = posterior.cross(x);
-  const Vec3 superior = superior_either.dot(glenoid_centre_mm - inferior_angle_mm) < 0.0 ? Vec3(-superior_either) : superior_either;
+  const Vec3 superior = superior_either.dot(glenoid_centre_mm - inferior_angle_mm) < 0.0
+                            ? Vec3(-superior_either)
+                            : superior_either;
   const double lateral_part = face_normal.dot(x);
-  return {-std::atan2(face_normal.dot(posterior), lateral_part), std::atan2(face_normal.dot(superior), lateral_part)};
+  return {-std::atan2(face_normal.dot(posterior), lateral_part),
+          std::atan2(face_normal.dot(superior), lateral_part)};
 }
 
 }  // namespace ream::ct

@@ -22,17 +22,27 @@ constexpr double rim_rounding_mm = 0.8, joint_rounding_mm = 3.0;
 constexpr double head_radius_mm = 24.0, shaft_radius_mm = 12.0;
 
 /// sin and cos of the platform's library can differ in the last bit; rounded far below any voxel they do not.
-double settled(double v) { return std::floor(v * 1099511627776.0 + 0.5) / 1099511627776.0; }
-double sine(double a) { return settled(std::sin(a)); }
-double cosine(double a) { return settled(std::cos(a)); }
-double tangent(double a) { return settled(std::tan(a)); }
+double settled(double v) {
+  return std::floor(v * 1099511627776.0 + 0.5) / 1099511627776.0;
+}
+double sine(double a) {
+  return settled(std::sin(a));
+}
+double cosine(double a) {
+  return settled(std::cos(a));
+}
+double tangent(double a) {
+  return settled(std::tan(a));
+}
 
 /// Polynomial maximum and minimum that round the edge between two surfaces over `width`.
 double rounded_max(double a, double b, double width) {
   const double h = std::max(width - std::abs(a - b), 0.0) / width;
   return std::max(a, b) + 0.25 * h * h * width;
 }
-double rounded_min(double a, double b, double width) { return -rounded_max(-a, -b, width); }
+double rounded_min(double a, double b, double width) {
+  return -rounded_max(-a, -b, width);
+}
 
 /// Distance to the segment a-b with a radius that goes linearly from ra to rb.
 double capsule(const Vec3& p, const Vec3& a, const Vec3& b, double ra, double rb) {
@@ -70,11 +80,13 @@ PhantomShape::PhantomShape(const PhantomParams& params) : params_(params), centr
   posterior_ = Vec3(-s, c, 0.0);
   // Science 2.1: version = -atan2(n.z, n.x), inclination = atan2(n.y, n.x).
   face_normal_ =
-      (lateral_ + tangent(params.inclination_rad) * superior_ - tangent(params.version_rad) * posterior_).normalized();
+      (lateral_ + tangent(params.inclination_rad) * superior_ - tangent(params.version_rad) * posterior_)
+          .normalized();
   face_superior_ = (superior_ - superior_.dot(face_normal_) * face_normal_).normalized();
   const Vec3 across = face_superior_.cross(face_normal_);
   face_anterior_ = across.dot(posterior_) < 0.0 ? across : Vec3(-across);
-  medial_in_face_ = -Vec3(lateral_.dot(face_superior_), lateral_.dot(face_anterior_), lateral_.dot(face_normal_));
+  medial_in_face_ =
+      -Vec3(lateral_.dot(face_superior_), lateral_.dot(face_anterior_), lateral_.dot(face_normal_));
   sphere_centre_ = centre_ + params.glenoid_radius_mm * face_normal_;
   head_centre_ = centre_ + (params.joint_space_mm + head_radius_mm) * face_normal_;
 }
@@ -83,9 +95,12 @@ double PhantomShape::depth_under_face_mm(const Vec3& world_mm) const {
   return (world_mm - sphere_centre_).norm() - params_.glenoid_radius_mm;
 }
 
-double PhantomShape::posterior_mm(const Vec3& world_mm) const { return -(world_mm - centre_).dot(face_anterior_); }
+double PhantomShape::posterior_mm(const Vec3& world_mm) const {
+  return -(world_mm - centre_).dot(face_anterior_);
+}
 
-/// Vault, neck and body: egg-shaped sections whose half axes change with the depth along -x. Scaled to about mm.
+/// Vault, neck and body: egg-shaped sections whose half axes change with the depth along -x. Scaled to about
+/// mm.
 double PhantomShape::body_value(const Vec3& offset) const {
   double s = offset.dot(face_superior_), t = offset.dot(face_anterior_), depth = 0.0;
   const double height_above = offset.dot(face_normal_);
@@ -94,7 +109,8 @@ double PhantomShape::body_value(const Vec3& offset) const {
     s -= depth * medial_in_face_.x();
     t -= depth * medial_in_face_.y();
   }
-  // Share of the face's half width left at a depth, then half thickness of the body; and growth of the heights.
+  // Share of the face's half width left at a depth, then half thickness of the body; and growth of the
+  // heights.
   static constexpr double depth_at[] = {0.0, 24.0, 45.0, 60.0};
   static constexpr double thickness_share[] = {1.0, 0.50, 0.22, 0.20};
   static constexpr double lower_at[] = {0.0, 14.0, 40.0, 80.0};
@@ -118,7 +134,8 @@ double PhantomShape::processes_value(const Vec3& p) const {
   d = rounded_min(d, capsule(p, spine_start, notch, 2.5, 4.5), joint_rounding_mm);
   d = rounded_min(d, capsule(p, notch, corner, 4.5, 5.5), joint_rounding_mm);
   d = rounded_min(d, capsule(p, corner, tip, 5.5, 5.0), joint_rounding_mm);
-  const Vec3 coracoid_base(-16.0, 15.0, -2.0), coracoid_bend(-10.0, 32.0, -14.0), coracoid_tip(10.0, 27.0, -34.0);
+  const Vec3 coracoid_base(-16.0, 15.0, -2.0), coracoid_bend(-10.0, 32.0, -14.0),
+      coracoid_tip(10.0, 27.0, -34.0);
   d = std::min(d, rounded_min(capsule(p, coracoid_base, coracoid_bend, 6.0, 6.0),
                               capsule(p, coracoid_bend, coracoid_tip, 6.0, 4.5), joint_rounding_mm));
   return d;

@@ -8,7 +8,9 @@ namespace {
 struct Steps {
   size_t nx, ny, nz;
   explicit Steps(const Vec3i& dims)
-      : nx(static_cast<size_t>(dims.x())), ny(static_cast<size_t>(dims.y())), nz(static_cast<size_t>(dims.z())) {}
+      : nx(static_cast<size_t>(dims.x())),
+        ny(static_cast<size_t>(dims.y())),
+        nz(static_cast<size_t>(dims.z())) {}
 };
 
 /// Visits the up to six face neighbours of voxel `i`.
@@ -82,17 +84,20 @@ void fill_voids(Mask& mask, const Vec3i& dims) {
   std::vector<size_t> border;
   for (size_t i = 0; i < mask.size(); ++i) {
     const size_t u = i % steps.nx, v = (i / steps.nx) % steps.ny, w = i / (steps.nx * steps.ny);
-    const bool edge = u == 0 || v == 0 || w == 0 || u + 1 == steps.nx || v + 1 == steps.ny || w + 1 == steps.nz;
+    const bool edge =
+        u == 0 || v == 0 || w == 0 || u + 1 == steps.nx || v + 1 == steps.ny || w + 1 == steps.nz;
     if (edge && mask[i] == 0) border.push_back(i);
   }
   flood(mask, steps, std::move(border), 0, 2);
   for (uint8_t& m : mask) m = m != 2;
 }
 
-std::optional<Vec3i> nearest_set(const Mask& mask, const HuVolume& volume, const Vec3& world_mm, double reach_mm) {
+std::optional<Vec3i> nearest_set(const Mask& mask, const HuVolume& volume, const Vec3& world_mm,
+                                 double reach_mm) {
   const Vec3i centre = volume.voxel_at_world(world_mm);
   const Vec3i reach = (reach_mm / volume.spacing_mm.array()).ceil().cast<int>().matrix();
-  const Vec3i low = (centre - reach).cwiseMax(0), high = (centre + reach).cwiseMin((volume.dims.array() - 1).matrix());
+  const Vec3i low = (centre - reach).cwiseMax(0),
+              high = (centre + reach).cwiseMin((volume.dims.array() - 1).matrix());
   std::optional<Vec3i> best;
   double best_distance = reach_mm;
   for (int w = low.z(); w <= high.z(); ++w)
@@ -107,6 +112,8 @@ std::optional<Vec3i> nearest_set(const Mask& mask, const HuVolume& volume, const
   return best;
 }
 
-size_t count_set(const Mask& mask) { return static_cast<size_t>(std::count(mask.begin(), mask.end(), uint8_t{1})); }
+size_t count_set(const Mask& mask) {
+  return static_cast<size_t>(std::count(mask.begin(), mask.end(), uint8_t{1}));
+}
 
 }  // namespace ream::ct

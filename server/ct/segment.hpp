@@ -11,8 +11,9 @@ using Mask = std::vector<uint8_t>;
 /// Voxels of at least `threshold_hu`.
 Mask above_threshold(const HuVolume& volume, double threshold_hu);
 
-/// What is reached from `seed` through set voxels over common faces (6-connected): two parts that meet only along
-/// an edge or at a corner stay apart. Needs a seed inside the dims; empty mask when the seed is not set.
+/// What is reached from `seed` through set voxels over common faces (6-connected): two parts that meet only
+/// along an edge or at a corner stay apart. Needs a seed inside the dims; empty mask when the seed is not
+/// set.
 Mask grown_from(const Mask& mask, const Vec3i& dims, const Vec3i& seed);
 
 /// The 6-connected part with the most voxels; on a tie the one with the lowest index.
@@ -22,7 +23,8 @@ Mask largest_part(const Mask& mask, const Vec3i& dims);
 void fill_voids(Mask& mask, const Vec3i& dims);
 
 /// The set voxel nearest to `world_mm`, within `reach_mm`; empty when there is none.
-std::optional<Vec3i> nearest_set(const Mask& mask, const HuVolume& volume, const Vec3& world_mm, double reach_mm);
+std::optional<Vec3i> nearest_set(const Mask& mask, const HuVolume& volume, const Vec3& world_mm,
+                                 double reach_mm);
 
 size_t count_set(const Mask& mask);
 

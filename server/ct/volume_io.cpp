@@ -22,9 +22,10 @@ itk::ImageIOBase::Pointer io_for(const fs::path& path) {
   if (ends(".nrrd") || ends(".nhdr")) return itk::NrrdImageIO::New().GetPointer();
   if (ends(".nii") || ends(".nii.gz")) return itk::NiftiImageIO::New().GetPointer();
   if (ends(".mha") || ends(".mhd")) return itk::MetaImageIO::New().GetPointer();
-  throw Error(ErrorKind::invalid_input, path.string() +
-                                            " is not a volume that can be read; give a folder of DICOM slices or a .nrrd, "
-                                            ".nii, .nii.gz, .mha or .mhd file");
+  throw Error(ErrorKind::invalid_input,
+              path.string() +
+                  " is not a volume that can be read; give a folder of DICOM slices or a .nrrd, "
+                  ".nii, .nii.gz, .mha or .mhd file");
 }
 
 void check_dimensions(const itk::ImageIOBase& io, const std::string& place) {
@@ -71,7 +72,9 @@ HuVolume read_ct(const fs::path& path) {
   for (int16_t& hu : volume.hu)
     if (hu < min_hu) hu = min_hu, ++padding;
   if (padding > 0)
-    volume.warnings.push_back(std::to_string(padding) + " voxels below -1024 HU (outside the scanner's field of view) were taken as air");
+    volume.warnings.push_back(
+        std::to_string(padding) +
+        " voxels below -1024 HU (outside the scanner's field of view) were taken as air");
   return volume;
 }
 

@@ -7,14 +7,23 @@
 namespace ream::voxel {
 namespace {
 
-uint32_t biased(uint8_t value) { return value; }
-uint32_t biased(int16_t value) { return static_cast<uint32_t>(value + 32768); }
-void unbias(uint32_t value, uint8_t& result) { result = static_cast<uint8_t>(value); }
-void unbias(uint32_t value, int16_t& result) { result = static_cast<int16_t>(static_cast<int32_t>(value) - 32768); }
+uint32_t biased(uint8_t value) {
+  return value;
+}
+uint32_t biased(int16_t value) {
+  return static_cast<uint32_t>(value + 32768);
+}
+void unbias(uint32_t value, uint8_t& result) {
+  result = static_cast<uint8_t>(value);
+}
+void unbias(uint32_t value, int16_t& result) {
+  result = static_cast<int16_t>(static_cast<int32_t>(value) - 32768);
+}
 
 std::vector<UpsampleTap> taps(int input_count, int factor) {
   std::vector<UpsampleTap> result(static_cast<size_t>(input_count) * static_cast<size_t>(factor));
-  for (size_t i = 0; i < result.size(); ++i) result[i] = upsample_tap(static_cast<int>(i), factor, input_count);
+  for (size_t i = 0; i < result.size(); ++i)
+    result[i] = upsample_tap(static_cast<int>(i), factor, input_count);
   return result;
 }
 
@@ -53,9 +62,10 @@ std::vector<T> upsample(std::span<const T> input, const Vec3i& dims, int factor)
 
 void check_upsample(size_t size, const Vec3i& dims, int factor) {
   if (factor < 1 || factor > max_upsample_factor)
-    throw Error(ErrorKind::invalid_input, "upsampling factor " + std::to_string(factor) + " must be from 1 to " +
-                                              std::to_string(max_upsample_factor));
-  if ((dims.array() <= 0).any()) throw Error(ErrorKind::invalid_input, "a volume without voxels cannot be upsampled");
+    throw Error(ErrorKind::invalid_input, "upsampling factor " + std::to_string(factor) +
+                                              " must be from 1 to " + std::to_string(max_upsample_factor));
+  if ((dims.array() <= 0).any())
+    throw Error(ErrorKind::invalid_input, "a volume without voxels cannot be upsampled");
   const auto d = dims.cast<int64_t>().eval();
   if (static_cast<int64_t>(size) != d.x() * d.y() * d.z())
     throw Error(ErrorKind::invalid_input, "the volume to upsample does not have the size its dimensions say");

@@ -19,8 +19,8 @@ struct UpsampleTap {
   uint32_t low_weight = 0, high_weight = 0;
 };
 
-/// Needs 0 <= i < input_count * factor. Worked example, N = 4, i = 0..4: numerators 2 i + 1 - N = -3, -1, 1, 3, 5;
-/// floors by 8: -1, -1, 0, 0, 0; high weights 5, 7, 1, 3, 5.
+/// Needs 0 <= i < input_count * factor. Worked example, N = 4, i = 0..4: numerators 2 i + 1 - N = -3, -1, 1,
+/// 3, 5; floors by 8: -1, -1, 0, 0, 0; high weights 5, 7, 1, 3, 5.
 constexpr UpsampleTap upsample_tap(int i, int factor, int input_count) {
   const int numerator = 2 * i + 1 - factor, unit = 2 * factor;
   const int base = (numerator + unit) / unit - 1;  // floor: numerator >= 1 - factor > -unit
@@ -29,9 +29,9 @@ constexpr UpsampleTap upsample_tap(int i, int factor, int input_count) {
           static_cast<uint32_t>(unit) - high_weight, high_weight};
 }
 
-/// Trilinear upsampling by `factor` (1 to max_upsample_factor) per axis of a volume of `dims` samples, x fastest;
-/// the result has dims * factor samples. Arithmetic is unsigned 32-bit integers and exact until the last step, so
-/// that any order of summation gives the same bits:
+/// Trilinear upsampling by `factor` (1 to max_upsample_factor) per axis of a volume of `dims` samples, x
+/// fastest; the result has dims * factor samples. Arithmetic is unsigned 32-bit integers and exact until the
+/// last step, so that any order of summation gives the same bits:
 ///   sum = sum over the 8 corners of weight_x * weight_y * weight_z * value     (weights of upsample_tap)
 ///   result = (sum + 4 N^3) / (8 N^3), rounded down, i.e. to nearest, halves up.
 /// 16-bit samples take part as value + 32768 (0 to 65535) and the 32768 is taken off the result.

@@ -20,20 +20,24 @@ struct Options {
   bool replace = false;
 };
 
-Vec3 point(const std::vector<double>& n, size_t first = 0) { return {n[first], n[first + 1], n[first + 2]}; }
+Vec3 point(const std::vector<double>& n, size_t first = 0) {
+  return {n[first], n[first + 1], n[first + 2]};
+}
 
 ct::ImportOptions parsed(const Options& options) {
   ct::ImportOptions import = options.import;
   if (!options.label.empty()) import.label = options.label;
   if (!options.side.empty()) import.side = case_::side_from_text(options.side);
-  if (!options.grow_from.empty()) import.segmentation.grow_from_mm = point(parse_numbers(options.grow_from, 3, "--grow-from"));
+  if (!options.grow_from.empty())
+    import.segmentation.grow_from_mm = point(parse_numbers(options.grow_from, 3, "--grow-from"));
   if (!options.roi.empty()) {
     const auto n = parse_numbers(options.roi, 6, "--roi");
     import.roi_mm = Aabb{point(n).cwiseMin(point(n, 3)), point(n).cwiseMax(point(n, 3))};
   }
   if (!options.calibration.empty()) {
     const auto n = parse_numbers(options.calibration, 2, "--calibration");
-    if (!(n[1] > 0.0)) throw Error(ErrorKind::usage, "--calibration A,B: the slope B must be positive (mg/cc per HU)");
+    if (!(n[1] > 0.0))
+      throw Error(ErrorKind::usage, "--calibration A,B: the slope B must be positive (mg/cc per HU)");
     import.segmentation.calibration.intercept_mg_cc = n[0];
     import.segmentation.calibration.slope_mg_cc_per_hu = n[1];
   }
@@ -56,8 +60,9 @@ void report(const case_::Case& c, const std::filesystem::path& out, bool json) {
               << '\n';
     return;
   }
-  std::cout << c.bone.filled_voxels() << " bone voxels of " << s.x() << " x " << s.y() << " x " << s.z() << " mm in a grid of " << d.x()
-            << " x " << d.y() << " x " << d.z() << ", " << case_::to_text(c.side) << " side\n"
+  std::cout << c.bone.filled_voxels() << " bone voxels of " << s.x() << " x " << s.y() << " x " << s.z()
+            << " mm in a grid of " << d.x() << " x " << d.y() << " x " << d.z() << ", "
+            << case_::to_text(c.side) << " side\n"
             << out.string() << '\n';
 }
 
@@ -65,7 +70,8 @@ void import_case(const Options& options, const GlobalOptions& global) {
   const ct::ImportOptions import = parsed(options);
   const auto out = case_path(options.out, global.data);
   if (!options.replace && std::filesystem::exists(out / "case.json"))
-    throw Error(ErrorKind::conflict, out.string() + " is a case already; choose another name or give --replace");
+    throw Error(ErrorKind::conflict,
+                out.string() + " is a case already; choose another name or give --replace");
   case_::Case made = ct::import_ct(options.path, ct::case_id_from(out), import);
   if (!options.name.empty()) made.name = options.name;
   case_::save_case(made, out, options.replace);
@@ -78,17 +84,27 @@ void add_import_command(CLI::App& app, GlobalOptions& global) {
   auto options = std::make_shared<Options>();
   auto& segmentation = options->import.segmentation;
   CLI::App* command = app.add_subcommand("import", "Make a case out of a CT");
-  command->add_option("PATH", options->path, "Folder of DICOM slices, or a NRRD, NIfTI or MetaImage file")->required();
+  command->add_option("PATH", options->path, "Folder of DICOM slices, or a NRRD, NIfTI or MetaImage file")
+      ->required();
   command->add_option("--out", options->out, "Name of the new case, or a folder")->required();
   command->add_option("--name", options->name, "Name for people");
-  command->add_option("--label", options->label, "Label map that tells bone, instead of threshold and growing");
-  command->add_option("--label-value", options->import.label_value, "Value of the bone in the label map")->capture_default_str();
-  command->add_option("--threshold-hu", segmentation.threshold_hu, "Bone is at least this")->check(CLI::Range(-1000.0, 4000.0))->capture_default_str();
-  command->add_option("--grow-from", options->grow_from, "X,Y,Z of a point in the bone to keep, LPS mm. Default: the largest part");
-  command->add_option("--sigma-mm", segmentation.sigma_mm, "Gaussian smoothing before everything")->capture_default_str();
+  command->add_option("--label", options->label,
+                      "Label map that tells bone, instead of threshold and growing");
+  command->add_option("--label-value", options->import.label_value, "Value of the bone in the label map")
+      ->capture_default_str();
+  command->add_option("--threshold-hu", segmentation.threshold_hu, "Bone is at least this")
+      ->check(CLI::Range(-1000.0, 4000.0))
+      ->capture_default_str();
+  command->add_option("--grow-from", options->grow_from,
+                      "X,Y,Z of a point in the bone to keep, LPS mm. Default: the largest part");
+  command->add_option("--sigma-mm", segmentation.sigma_mm, "Gaussian smoothing before everything")
+      ->capture_default_str();
   command->add_option("--roi", options->roi, "X0,Y0,Z0,X1,Y1,Z1: box to keep, LPS mm");
-  command->add_option("--upsample", segmentation.upsample, "Parts of a CT voxel per axis")->check(CLI::Range(1, 16))->capture_default_str();
-  command->add_option("--calibration", options->calibration, "A,B: rho_QCT = A + B HU, mg/cc. Default: 1.3152,0.6944");
+  command->add_option("--upsample", segmentation.upsample, "Parts of a CT voxel per axis")
+      ->check(CLI::Range(1, 16))
+      ->capture_default_str();
+  command->add_option("--calibration", options->calibration,
+                      "A,B: rho_QCT = A + B HU, mg/cc. Default: 1.3152,0.6944");
   command->add_option("--side", options->side, "left or right")->check(CLI::IsMember({"left", "right"}));
   command->add_flag("--replace", options->replace, "Replace an existing case of that name");
   command->callback([options, &global] { import_case(*options, global); });

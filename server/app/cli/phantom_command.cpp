@@ -20,8 +20,10 @@ struct Options {
 };
 
 void write_volume(const ct::HuVolume& volume, const Options& options, const std::filesystem::path& folder) {
-  if (options.format == "dicom") ct::write_dicom_folder(volume, folder, options.params.random_seed);
-  else ct::write_volume_file(volume, folder / (options.format == "nrrd" ? "ct.nrrd" : "ct.nii.gz"));
+  if (options.format == "dicom")
+    ct::write_dicom_folder(volume, folder, options.params.random_seed);
+  else
+    ct::write_volume_file(volume, folder / (options.format == "nrrd" ? "ct.nrrd" : "ct.nii.gz"));
 }
 
 void phantom(const Options& options, const GlobalOptions& global) {
@@ -54,8 +56,8 @@ void phantom(const Options& options, const GlobalOptions& global) {
               << '\n';
     return;
   }
-  std::cout << options.side << " shoulder, " << d.x() << " x " << d.y() << " x " << d.z() << " voxels, and its ground truth in "
-            << options.out.string() << '\n';
+  std::cout << options.side << " shoulder, " << d.x() << " x " << d.y() << " x " << d.z()
+            << " voxels, and its ground truth in " << options.out.string() << '\n';
 }
 
 }  // namespace
@@ -63,18 +65,31 @@ void phantom(const Options& options, const GlobalOptions& global) {
 void add_phantom_command(CLI::App& app, GlobalOptions& global) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("phantom", "Make a shoulder CT whose truth is known exactly");
-  command->add_option("--out", options->out, "Folder for the CT and ground_truth.json; must be new or empty")->required();
-  command->add_option("--version-deg", options->version_deg, "Glenoid version, retroversion negative")->capture_default_str();
-  command->add_option("--inclination-deg", options->inclination_deg, "Glenoid inclination, superior positive")->capture_default_str();
-  command->add_option("--radius-mm", options->params.glenoid_radius_mm, "Radius of the bony articular surface")->capture_default_str();
-  command->add_option("--spacing-mm", options->spacing_mm, "Voxel size. Default: 0.668 x 0.668 x 0.625")->check(CLI::Range(0.05, 10.0));
-  command->add_option("--side", options->side, "left or right")->check(CLI::IsMember({"left", "right"}))->capture_default_str();
+  command->add_option("--out", options->out, "Folder for the CT and ground_truth.json; must be new or empty")
+      ->required();
+  command->add_option("--version-deg", options->version_deg, "Glenoid version, retroversion negative")
+      ->capture_default_str();
+  command->add_option("--inclination-deg", options->inclination_deg, "Glenoid inclination, superior positive")
+      ->capture_default_str();
+  command
+      ->add_option("--radius-mm", options->params.glenoid_radius_mm, "Radius of the bony articular surface")
+      ->capture_default_str();
+  command->add_option("--spacing-mm", options->spacing_mm, "Voxel size. Default: 0.668 x 0.668 x 0.625")
+      ->check(CLI::Range(0.05, 10.0));
+  command->add_option("--side", options->side, "left or right")
+      ->check(CLI::IsMember({"left", "right"}))
+      ->capture_default_str();
   command->add_option("--format", options->format, "dicom, nrrd or nifti")
-      ->check(CLI::IsMember({"dicom", "nrrd", "nifti"}))->capture_default_str();
-  command->add_option("--preset", options->preset, "Field and voxel size of a known case instead of the whole shoulder")
+      ->check(CLI::IsMember({"dicom", "nrrd", "nifti"}))
+      ->capture_default_str();
+  command
+      ->add_option("--preset", options->preset,
+                   "Field and voxel size of a known case instead of the whole shoulder")
       ->check(CLI::IsMember({"demo", "thesis-5-4-2"}));
-  command->add_option("--noise-hu", options->params.noise_hu, "Standard deviation of the noise")->capture_default_str();
-  command->add_option("--random-seed", options->params.random_seed, "Seed of the noise")->capture_default_str();
+  command->add_option("--noise-hu", options->params.noise_hu, "Standard deviation of the noise")
+      ->capture_default_str();
+  command->add_option("--random-seed", options->params.random_seed, "Seed of the noise")
+      ->capture_default_str();
   command->callback([options, &global] { phantom(*options, global); });
 }
 

@@ -20,12 +20,14 @@ struct Options {
   bool no_pilot = false;
 };
 
-/// What the plan is before this command's options: the case's own, else straight through the face of its glenoid.
+/// What the plan is before this command's options: the case's own, else straight through the face of its
+/// glenoid.
 case_::Plan starting_plan(const case_::Case& c, bool axis_given) {
   case_::Plan plan = c.plan.value_or(case_::Plan{});
   if (c.plan || axis_given) return plan;
   if (!c.glenoid)
-    throw Error(ErrorKind::usage, "case '" + c.id + "' has no plan and no glenoid frame yet; give --axis X,Y,Z,DX,DY,DZ");
+    throw Error(ErrorKind::usage,
+                "case '" + c.id + "' has no plan and no glenoid frame yet; give --axis X,Y,Z,DX,DY,DZ");
   plan.entry_mm = c.glenoid->centre_mm;
   plan.axis_direction = -c.glenoid->lateral;
   return plan;
@@ -34,10 +36,12 @@ case_::Plan starting_plan(const case_::Case& c, bool axis_given) {
 void set_axis(case_::Plan& plan, const case_::Case& c, const std::string& axis) {
   const auto n = parse_numbers(axis, 6, "--axis");
   const Vec3 through(n[0], n[1], n[2]), direction(n[3], n[4], n[5]);
-  if (!(direction.norm() > 1e-9)) throw Error(ErrorKind::usage, "--axis: the direction DX,DY,DZ must not be zero");
+  if (!(direction.norm() > 1e-9))
+    throw Error(ErrorKind::usage, "--axis: the direction DX,DY,DZ must not be zero");
   const auto entry = case_::surface_along(c.bone, through, direction);
   if (!entry)
-    throw Error(ErrorKind::invalid_input, "the axis " + axis + " misses the bone of case '" + c.id + "'; points are LPS mm");
+    throw Error(ErrorKind::invalid_input,
+                "the axis " + axis + " misses the bone of case '" + c.id + "'; points are LPS mm");
   plan.entry_mm = *entry;
   plan.axis_direction = direction.normalized();
 }
@@ -53,8 +57,8 @@ void set_pilot(case_::Plan& plan, const Options& options) {
 
 void plan_case(const Options& options, const GlobalOptions& global) {
   const auto folder = case_path(options.case_name, global.data);
-  const case_::Case c =
-      options.case_name == "demo" ? ct::load_or_make_demo_case(data_folder(global.data)) : case_::load_case(folder);
+  const case_::Case c = options.case_name == "demo" ? ct::load_or_make_demo_case(data_folder(global.data))
+                                                    : case_::load_case(folder);
   case_::Plan plan = starting_plan(c, !options.axis.empty());
   if (!options.axis.empty()) set_axis(plan, c, options.axis);
   if (options.depth_mm) plan.depth_mm = *options.depth_mm;
@@ -65,9 +69,11 @@ void plan_case(const Options& options, const GlobalOptions& global) {
     std::cout << case_::to_json(plan).dump() << '\n';
     return;
   }
-  std::cout << "entry " << plan.entry_mm.transpose() << " mm, direction " << plan.axis_direction.transpose() << ", depth "
-            << plan.depth_mm << " mm, reamer " << plan.reamer;
-  if (plan.pilot_hole) std::cout << ", pilot hole " << plan.pilot_hole->diameter_mm << " x " << plan.pilot_hole->depth_mm << " mm";
+  std::cout << "entry " << plan.entry_mm.transpose() << " mm, direction " << plan.axis_direction.transpose()
+            << ", depth " << plan.depth_mm << " mm, reamer " << plan.reamer;
+  if (plan.pilot_hole)
+    std::cout << ", pilot hole " << plan.pilot_hole->diameter_mm << " x " << plan.pilot_hole->depth_mm
+              << " mm";
   std::cout << '\n' << (folder / "plan.json").string() << '\n';
 }
 
@@ -77,12 +83,15 @@ void add_plan_command(CLI::App& app, GlobalOptions& global) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("plan", "Say where and how deep a case is to be reamed");
   command->add_option("CASE", options->case_name, "Name of a case, or its folder")->required();
-  command->add_option("--axis", options->axis, "X,Y,Z,DX,DY,DZ: a point of the axis and its direction into the bone, LPS mm");
+  command->add_option("--axis", options->axis,
+                      "X,Y,Z,DX,DY,DZ: a point of the axis and its direction into the bone, LPS mm");
   command->add_option("--depth-mm", options->depth_mm, "Depth past first contact of the cutting surface");
   command->add_option("--reamer", options->reamer, "'sphere R', 'ellipse A,B' or a mesh file");
   auto* no_pilot = command->add_flag("--no-pilot", options->no_pilot, "No pilot hole");
-  command->add_option("--pilot-diameter-mm", options->pilot_diameter_mm, "Diameter of the pilot hole")->excludes(no_pilot);
-  command->add_option("--pilot-depth-mm", options->pilot_depth_mm, "Depth of the pilot hole below the entry")->excludes(no_pilot);
+  command->add_option("--pilot-diameter-mm", options->pilot_diameter_mm, "Diameter of the pilot hole")
+      ->excludes(no_pilot);
+  command->add_option("--pilot-depth-mm", options->pilot_depth_mm, "Depth of the pilot hole below the entry")
+      ->excludes(no_pilot);
   command->callback([options, &global] { plan_case(*options, global); });
 }
 

@@ -151,7 +151,8 @@ TEST_F(CaseFolder, PlanIsReplacedAlone) {
 }
 
 TEST(Plan, ReadsStrictly) {
-  const nlohmann::json good = {{"entry_mm", {1, 2, 3}}, {"axis_direction", {0, 0, 2}}, {"depth_mm", 2}, {"reamer", "sphere 20"}};
+  const nlohmann::json good = {
+      {"entry_mm", {1, 2, 3}}, {"axis_direction", {0, 0, 2}}, {"depth_mm", 2}, {"reamer", "sphere 20"}};
   const Plan plan = plan_from_json(good, "p");
   EXPECT_EQ(plan.axis_direction, Vec3::UnitZ());
   EXPECT_FALSE(plan.pilot_hole);

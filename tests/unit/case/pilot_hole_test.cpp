@@ -16,7 +16,8 @@ voxel::BoneModel half_block() {
   grid.world_from_grid.rotation = rotation_from_small_vector({0.2, 0.4, -0.3});
   grid.world_from_grid.translation_mm = {100, -50, 30};
   voxel::BoneModel bone = voxel::make_bone(grid);
-  for (size_t i = 0; i < bone.coverage.size(); ++i) bone.coverage[i] = grid.coordinates(i).x() >= 16 ? 255 : 0;
+  for (size_t i = 0; i < bone.coverage.size(); ++i)
+    bone.coverage[i] = grid.coordinates(i).x() >= 16 ? 255 : 0;
   return bone;
 }
 
@@ -52,7 +53,8 @@ TEST(PilotHole, TouchesNothingElse) {
   const Plan plan = oblique_plan(bone);
   cut_pilot_hole(bone, plan);
   for (size_t i = 0; i < bone.coverage.size(); ++i) {
-    const Vec3 p = bone.grid.world_from_grid.point(bone.grid.centre_mm(bone.grid.coordinates(i))) - plan.entry_mm;
+    const Vec3 p =
+        bone.grid.world_from_grid.point(bone.grid.centre_mm(bone.grid.coordinates(i))) - plan.entry_mm;
     const double along = p.dot(plan.axis_direction), across = (p - along * plan.axis_direction).norm();
     if (across > 3.1 + 0.126 || along > 10.0 + 0.126) {
       ASSERT_EQ(bone.coverage[i], before.coverage[i]);

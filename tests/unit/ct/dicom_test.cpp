@@ -58,12 +58,14 @@ TEST(Dicom, AWideGapIsRefused) {
   const test::TemporaryFolder folder;
   write_dicom_folder(stack(20), folder.path(), 1);
   for (int i = 6; i <= 12; ++i) fs::remove(slice(folder.path(), i));
-  test::expect_error(ErrorKind::invalid_input, "slices are missing", [&] { read_dicom_folder(folder.path()); });
+  test::expect_error(ErrorKind::invalid_input, "slices are missing",
+                     [&] { read_dicom_folder(folder.path()); });
 }
 
 TEST(Dicom, TheLargestSeriesIsTakenAndSaid) {
   const test::TemporaryFolder folder;
-  for (const auto& [name, slices, seed] : {std::tuple{"a", 4, 1}, std::tuple{"b", 7, 2}, std::tuple{"c", 5, 3}}) {
+  for (const auto& [name, slices, seed] :
+       {std::tuple{"a", 4, 1}, std::tuple{"b", 7, 2}, std::tuple{"c", 5, 3}}) {
     fs::create_directories(folder.path() / name);
     write_dicom_folder(stack(slices), folder.path() / name, static_cast<uint64_t>(seed));
   }

@@ -40,14 +40,17 @@ TEST(Cropped, ABoxOnVoxelBordersTakesExactlyThose) {
 
 TEST(Cropped, RefusesEmptyAndOutside) {
   test::expect_error(ErrorKind::invalid_input, "no volume", [] { cropped(ramp(), {{0, 0, 0}, {0, 1, 1}}); });
-  test::expect_error(ErrorKind::invalid_input, "outside the CT", [] { cropped(ramp(), {{0, 0, 0}, {1, 1, 1}}); });
+  test::expect_error(ErrorKind::invalid_input, "outside the CT", [] {
+    cropped(ramp(), {{0, 0, 0}, {1, 1, 1}});
+  });
 }
 
 TEST(Smooth, KeepsConstantsAndTheSum) {
   HuVolume volume = ramp();
   std::fill(volume.hu.begin(), volume.hu.end(), int16_t{-873});
   smooth(volume, 1.3);
-  EXPECT_EQ(std::count(volume.hu.begin(), volume.hu.end(), int16_t{-873}), static_cast<std::ptrdiff_t>(volume.hu.size()));
+  EXPECT_EQ(std::count(volume.hu.begin(), volume.hu.end(), int16_t{-873}),
+            static_cast<std::ptrdiff_t>(volume.hu.size()));
   std::fill(volume.hu.begin(), volume.hu.end(), int16_t{0});
   volume.hu[volume.index(5, 6, 7)] = 30000;
   smooth(volume, 0.6);

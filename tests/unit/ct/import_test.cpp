@@ -29,7 +29,8 @@ ImportOptions options_in_the_vault() {
   ImportOptions options;
   options.side = case_::Side::right;
   options.segmentation.upsample = 2;
-  options.segmentation.grow_from_mm = phantom().truth.glenoid.centre_mm - 5.0 * phantom().truth.glenoid.lateral;
+  options.segmentation.grow_from_mm =
+      phantom().truth.glenoid.centre_mm - 5.0 * phantom().truth.glenoid.lateral;
   return options;
 }
 
@@ -64,10 +65,11 @@ TEST(VolumeFiles, EveryFormatGivesBackTheVolume) {
 TEST(VolumeFiles, LeftHandedAxesAreTurnedNotMirrored) {
   const test::TemporaryFolder folder;
   // A 2 x 1 x 3 volume whose third axis points down: a left-handed file.
-  const fs::path file = folder.write("ct.nrrd",
-                                     "NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 2 1 3\n"
-                                     "space directions: (1,0,0) (0,1,0) (0,0,-2)\nkinds: domain domain domain\n"
-                                     "endian: little\nencoding: ascii\nspace origin: (10,20,30)\n\n1 2 3 4 5 6\n");
+  const fs::path file =
+      folder.write("ct.nrrd",
+                   "NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 2 1 3\n"
+                   "space directions: (1,0,0) (0,1,0) (0,0,-2)\nkinds: domain domain domain\n"
+                   "endian: little\nencoding: ascii\nspace origin: (10,20,30)\n\n1 2 3 4 5 6\n");
   const HuVolume volume = read_ct(file);
   EXPECT_EQ(volume.hu, (std::vector<int16_t>{5, 6, 3, 4, 1, 2}));
   EXPECT_LT((volume.world_of_centre({0, 0, 2}) - Vec3(10, 20, 30)).norm(), 1e-9);
@@ -83,7 +85,10 @@ TEST(Import, OfThePhantomEqualsTheCaseMadeInMemory) {
   EXPECT_EQ(imported.bone.coverage, direct.bone.coverage);
   EXPECT_EQ(imported.bone.density, direct.bone.density);
   EXPECT_EQ(imported.bone.grid.dims, direct.bone.grid.dims);
-  EXPECT_LT((imported.bone.grid.world_from_grid.translation_mm - direct.bone.grid.world_from_grid.translation_mm).norm(), 1e-6);
+  EXPECT_LT(
+      (imported.bone.grid.world_from_grid.translation_mm - direct.bone.grid.world_from_grid.translation_mm)
+          .norm(),
+      1e-6);
   EXPECT_TRUE(imported.warnings.empty());
 }
 
@@ -107,7 +112,8 @@ TEST(Import, ALabelMapOfACropTellsTheBone) {
   EXPECT_EQ(count_set(from_label), set);
   EXPECT_GT(import_ct(folder.path() / "ct.nrrd", "c", options).bone.filled_voxels(), set / 2);
   options.label_value = 9;
-  test::expect_error(ErrorKind::invalid_input, "value 9", [&] { import_ct(folder.path() / "ct.nrrd", "c", options); });
+  test::expect_error(ErrorKind::invalid_input, "value 9",
+                     [&] { import_ct(folder.path() / "ct.nrrd", "c", options); });
 }
 
 TEST(Import, GridIsWholeBricksAndKeepsTheWorld) {
@@ -138,14 +144,16 @@ TEST(Import, BadInputGetsOneClearLine) {
   const test::TemporaryFolder folder;
   const fs::path good = folder.path() / "ct.nrrd";
   write_volume_file(phantom().volume, good);
-  const auto refuses = [&](ErrorKind kind, const std::string& words, const fs::path& path, const ImportOptions& options) {
+  const auto refuses = [&](ErrorKind kind, const std::string& words, const fs::path& path,
+                           const ImportOptions& options) {
     test::expect_error(kind, words, [&] { import_ct(path, "c", options); });
   };
   const ImportOptions plain = options_in_the_vault();
   refuses(ErrorKind::not_found, "nowhere", folder.path() / "nowhere", plain);
   fs::create_directories(folder.path() / "empty");
   refuses(ErrorKind::invalid_input, "no CT slices", folder.path() / "empty", plain);
-  refuses(ErrorKind::invalid_input, "not a volume that can be read", folder.write("notes.txt", "hello"), plain);
+  refuses(ErrorKind::invalid_input, "not a volume that can be read", folder.write("notes.txt", "hello"),
+          plain);
   for (const char* name : {"ct.nrrd", "ct.nii.gz", "ct.nii", "ct.mha"}) {
     const fs::path file = folder.path() / "short" / name;
     fs::create_directories(file.parent_path());
@@ -171,9 +179,10 @@ TEST(Import, BadInputGetsOneClearLine) {
 
 TEST(Import, AHeaderOfZeroVoxelsIsRefused) {
   const test::TemporaryFolder folder;
-  const fs::path file = folder.write("zero.nrrd",
-                                     "NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 0 1 3\n"
-                                     "space directions: (1,0,0) (0,1,0) (0,0,1)\nencoding: ascii\nspace origin: (0,0,0)\n\n");
+  const fs::path file =
+      folder.write("zero.nrrd",
+                   "NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 0 1 3\n"
+                   "space directions: (1,0,0) (0,1,0) (0,0,1)\nencoding: ascii\nspace origin: (0,0,0)\n\n");
   test::expect_error(ErrorKind::invalid_input, "zero.nrrd", [&] { read_ct(file); });
 }
 

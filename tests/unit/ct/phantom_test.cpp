@@ -46,7 +46,8 @@ std::vector<Vec3> surface_points(const case_::Case& c, const GroundTruth& truth)
 /// Mean of the hundredth of the points that lie furthest along `direction`.
 Vec3 extreme(std::vector<Vec3> points, const Vec3& direction) {
   const size_t count = std::max<size_t>(1, points.size() / 100);
-  std::sort(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) { return a.dot(direction) > b.dot(direction); });
+  std::sort(points.begin(), points.end(),
+            [&](const Vec3& a, const Vec3& b) { return a.dot(direction) > b.dot(direction); });
   Vec3 sum = Vec3::Zero();
   for (size_t i = 0; i < count; ++i) sum += points[i];
   return sum / static_cast<double>(count);
@@ -79,7 +80,8 @@ TEST_P(MeasuredBack, RadiusCentreVersionAndInclination) {
   EXPECT_LT((sphere.centre - truth.articular_sphere_centre_mm).norm(), 0.5);
   double worst = 0;
   for (const Vec3& p : face)
-    worst = std::max(worst, std::abs((p - truth.articular_sphere_centre_mm).norm() - truth.articular_radius_mm));
+    worst =
+        std::max(worst, std::abs((p - truth.articular_sphere_centre_mm).norm() - truth.articular_radius_mm));
   EXPECT_LT(worst, 0.1);
 
   std::vector<Vec3> articular;
@@ -93,7 +95,8 @@ TEST_P(MeasuredBack, RadiusCentreVersionAndInclination) {
   EXPECT_NEAR(sides.norm(), truth.glenoid_width_mm, 2.0);
   Vec3 normal = poles.cross(sides).normalized();
   if (normal.dot(truth.glenoid.lateral) < 0) normal = -normal;
-  const FaceAngles angles = face_angles(normal, truth.glenoid.centre_mm, truth.spine_root_mm, truth.inferior_angle_mm);
+  const FaceAngles angles =
+      face_angles(normal, truth.glenoid.centre_mm, truth.spine_root_mm, truth.inferior_angle_mm);
   EXPECT_NEAR(degrees_from_radians(angles.version_rad), GetParam().version_deg, 1.5);
   EXPECT_NEAR(degrees_from_radians(angles.inclination_rad), GetParam().inclination_deg, 1.5);
 }
@@ -112,7 +115,8 @@ TEST(Phantom, TruthAgreesWithTheDefinitionOfItsAngles) {
     params.version_rad = radians_from_degrees(-12.0);
     params.inclination_rad = radians_from_degrees(5.0);
     const GroundTruth t = make_phantom(params).truth;
-    const FaceAngles angles = face_angles(t.glenoid.lateral, t.glenoid.centre_mm, t.spine_root_mm, t.inferior_angle_mm);
+    const FaceAngles angles =
+        face_angles(t.glenoid.lateral, t.glenoid.centre_mm, t.spine_root_mm, t.inferior_angle_mm);
     EXPECT_NEAR(angles.version_rad, params.version_rad, 1e-9);
     EXPECT_NEAR(angles.inclination_rad, params.inclination_rad, 1e-9);
     // Retroverted: the face looks more posterior (LPS +y) than the scapular axis does.
@@ -168,7 +172,8 @@ TEST(Phantom, DensitiesAreThoseOfBone) {
   const PhantomPreset preset = phantom_preset("demo");
   const case_::Case c = make_phantom_case("demo", preset.params, preset.upsample);
   const auto density_at = [&](double depth_mm) {
-    const Vec3 p = c.bone.grid.world_from_grid.inverse().point(c.plan->entry_mm + depth_mm * c.plan->axis_direction);
+    const Vec3 p =
+        c.bone.grid.world_from_grid.inverse().point(c.plan->entry_mm + depth_mm * c.plan->axis_direction);
     return voxel::density_g_cc(c.bone.density[c.bone.grid.index(c.bone.grid.voxel_at(p))]);
   };
   for (const double depth : {0.2, 0.8, 1.4}) EXPECT_NEAR(density_at(depth), 1.5, 0.1) << depth;
@@ -207,7 +212,8 @@ TEST(Calibration, ChainAndItsInverse) {
   // Worked example of the reference: 1739 HU is 1.90 g/cc.
   EXPECT_NEAR(apparent_density_g_cc(1739, calibration), 1.90, 0.01);
   for (const double density : {0.3, 0.7, 1.5, 2.0})
-    EXPECT_NEAR(apparent_density_g_cc(hu_of_apparent_density(density, calibration), calibration), density, 1e-12);
+    EXPECT_NEAR(apparent_density_g_cc(hu_of_apparent_density(density, calibration), calibration), density,
+                1e-12);
   EXPECT_EQ(apparent_density_g_cc(-1000, calibration), 0.0);
 }
 

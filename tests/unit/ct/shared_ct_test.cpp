@@ -10,7 +10,8 @@ namespace {
 const Aabb right_glenoid{{-152, -26, 202}, {-106, 20, 251}};
 
 TEST(SharedCt, DicomFolderAndItsNiftiCropAgree) {
-  const auto dicom = test::shared_data("ct/shoulder_dicom"), nifti = test::shared_data("ct/shoulder_right_ct.nii.gz");
+  const auto dicom = test::shared_data("ct/shoulder_dicom"),
+             nifti = test::shared_data("ct/shoulder_right_ct.nii.gz");
   REAM_SKIP_WITHOUT(dicom);
   REAM_SKIP_WITHOUT(nifti);
   const HuVolume a = cropped(read_ct(dicom), right_glenoid), b = cropped(read_ct(nifti), right_glenoid);
@@ -20,7 +21,8 @@ TEST(SharedCt, DicomFolderAndItsNiftiCropAgree) {
 }
 
 TEST(SharedCt, RightGlenoidImportsAtFullResolution) {
-  const auto dicom = test::shared_data("ct/shoulder_dicom"), label = test::shared_data("ct/shoulder_right_label.nii.gz");
+  const auto dicom = test::shared_data("ct/shoulder_dicom"),
+             label = test::shared_data("ct/shoulder_right_label.nii.gz");
   REAM_SKIP_WITHOUT(dicom);
   REAM_SKIP_WITHOUT(label);
   ImportOptions options;

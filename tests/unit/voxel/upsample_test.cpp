@@ -11,7 +11,9 @@ namespace ream::voxel {
 namespace {
 
 size_t at(const Vec3i& dims, int u, int v, int w) {
-  return static_cast<size_t>(u) + static_cast<size_t>(dims.x()) * (static_cast<size_t>(v) + static_cast<size_t>(dims.y()) * static_cast<size_t>(w));
+  return static_cast<size_t>(u) +
+         static_cast<size_t>(dims.x()) *
+             (static_cast<size_t>(v) + static_cast<size_t>(dims.y()) * static_cast<size_t>(w));
 }
 
 /// Trilinear by its definition in doubles, for any sample position.
@@ -42,11 +44,13 @@ TEST(Upsample, ConstantStaysConstant) {
   for (int n = 1; n <= max_upsample_factor; ++n) {
     for (const int value : {0, 1, 127, 255}) {
       const std::vector<uint8_t> in(24, static_cast<uint8_t>(value));
-      EXPECT_EQ(upsample_trilinear(std::span<const uint8_t>(in), dims, n), std::vector<uint8_t>(24u * static_cast<size_t>(n * n * n), static_cast<uint8_t>(value)));
+      EXPECT_EQ(upsample_trilinear(std::span<const uint8_t>(in), dims, n),
+                std::vector<uint8_t>(24u * static_cast<size_t>(n * n * n), static_cast<uint8_t>(value)));
     }
     for (const int value : {-32768, -1024, -1, 0, 32767}) {
       const std::vector<int16_t> in(24, static_cast<int16_t>(value));
-      EXPECT_EQ(upsample_trilinear(std::span<const int16_t>(in), dims, n), std::vector<int16_t>(24u * static_cast<size_t>(n * n * n), static_cast<int16_t>(value)));
+      EXPECT_EQ(upsample_trilinear(std::span<const int16_t>(in), dims, n),
+                std::vector<int16_t>(24u * static_cast<size_t>(n * n * n), static_cast<int16_t>(value)));
     }
   }
 }
@@ -57,7 +61,8 @@ TEST(Upsample, LinearStaysLinearInside) {
   std::vector<int16_t> in(5 * 4 * 6);
   for (int w = 0; w < 6; ++w)
     for (int v = 0; v < 4; ++v)
-      for (int u = 0; u < 5; ++u) in[at(dims, u, v, w)] = static_cast<int16_t>(64 * u - 128 * v + 256 * w - 300);
+      for (int u = 0; u < 5; ++u)
+        in[at(dims, u, v, w)] = static_cast<int16_t>(64 * u - 128 * v + 256 * w - 300);
   const auto out = upsample_trilinear(std::span<const int16_t>(in), dims, n);
   for (int w = n; w < 5 * n; ++w)
     for (int v = n; v < 3 * n; ++v)
@@ -79,7 +84,8 @@ TEST(Upsample, RoundsTheExactValueToNearest) {
     for (int w = 0; w < dims.z() * n; ++w)
       for (int v = 0; v < dims.y() * n; ++v)
         for (int u = 0; u < dims.x() * n; ++u)
-          ASSERT_LE(std::abs(out[at(dims * n, u, v, w)] - reference(in, dims, n, {u, v, w})), 0.5 + 1e-6) << n;
+          ASSERT_LE(std::abs(out[at(dims * n, u, v, w)] - reference(in, dims, n, {u, v, w})), 0.5 + 1e-6)
+              << n;
   }
 }
 
@@ -95,7 +101,9 @@ TEST(Upsample, RefusesWhatItCannotDo) {
   test::expect_error(ErrorKind::invalid_input, "factor 0", [&] { upsample_trilinear(view, {2, 2, 2}, 0); });
   test::expect_error(ErrorKind::invalid_input, "factor 17", [&] { upsample_trilinear(view, {2, 2, 2}, 17); });
   test::expect_error(ErrorKind::invalid_input, "size", [&] { upsample_trilinear(view, {2, 2, 3}, 2); });
-  test::expect_error(ErrorKind::invalid_input, "without voxels", [&] { upsample_trilinear(view, {2, 0, 3}, 2); });
+  test::expect_error(ErrorKind::invalid_input, "without voxels", [&] {
+    upsample_trilinear(view, {2, 0, 3}, 2);
+  });
 }
 
 }  // namespace
