@@ -27,6 +27,8 @@ export const words = {
     fault: 'The session ended with a fault; the hand was sent no force.',
   } satisfies Record<SessionState, string>,
 
+  stateUnknown: (state: string) => `What the session is doing is not known; when last heard of it was ${state}.`,
+
   linkConnecting: 'Connecting',
   linkLive: 'Live',
   linkSilent: 'No news',

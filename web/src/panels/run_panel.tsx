@@ -6,7 +6,7 @@ import { words } from '../words';
 export function RunPanel({ store, watcher }: { store: Store; watcher: Watcher }) {
   const state = store.sessionState.value;
   const reachable = store.link.value.kind === 'live';
-  const active = store.active.value;
+  const active = reachable && store.active.value;
   const fault = state === 'fault' ? store.telemetry.value?.fault : '';
   const label = store.busy.value ? words.starting : active ? words.running : words.runDemo;
   return (
@@ -26,7 +26,7 @@ export function RunPanel({ store, watcher }: { store: Store; watcher: Watcher })
             type="button"
             class="stop-button"
             data-testid="stop"
-            disabled={!reachable || store.busy.value}
+            disabled={store.busy.value}
             onClick={() => void watcher.stop()}
           >
             {words.stop}
@@ -35,8 +35,14 @@ export function RunPanel({ store, watcher }: { store: Store; watcher: Watcher })
       </div>
       {state !== null && (
         <p class="session-state" data-testid="session-state" data-state={state} aria-live="polite">
-          <strong>{words.state[state]}.</strong> {words.stateHint[state]}
-          {fault && ` ${words.fault}: ${fault}`}
+          {reachable ? (
+            <>
+              <strong>{words.state[state]}.</strong> {words.stateHint[state]}
+              {fault && ` ${words.fault}: ${fault}`}
+            </>
+          ) : (
+            words.stateUnknown(words.state[state].toLowerCase())
+          )}
         </p>
       )}
     </section>

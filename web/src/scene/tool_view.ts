@@ -4,7 +4,7 @@ import { toCreasedNormals } from 'three/examples/jsm/utils/BufferGeometryUtils.j
 import type { Pose, ToolMesh } from '../wire/messages';
 
 const creaseRad = 0.6;
-const shaftRadiusMm = 4;
+const shaftRadiusMm = 3;
 const shaftLengthMm = 45;
 
 /**
@@ -16,11 +16,11 @@ export class ToolView {
   private readonly envelopeMaterial = new MeshStandardMaterial({
     color: 0x8fb3c4,
     roughness: 0.28,
-    metalness: 0.35,
+    metalness: 0.1,
     transparent: true,
     opacity: 0.5,
   });
-  private readonly shaftMaterial = new MeshStandardMaterial({ color: 0xb9c4cb, roughness: 0.35, metalness: 0.45 });
+  private readonly shaftMaterial = new MeshStandardMaterial({ color: 0xd3dade, roughness: 0.45, metalness: 0.1 });
   private posed = false;
   private wanted = true;
 
