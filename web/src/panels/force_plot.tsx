@@ -93,7 +93,7 @@ function createPlot(element: HTMLElement): UPlot {
       legend: { show: false },
       cursor: { show: false },
       scales: {
-        x: { time: false, range: (_plot, _least, most) => rollingRange(most) },
+        x: { time: false, range: (plot) => rollingRange(plot.data[0].at(-1)) },
         y: { range: (_plot, _least, most) => [0, Math.max(axisAtLeastN, Math.ceil((most * 1.1) / 20) * 20)] },
       },
       axes: [
@@ -107,7 +107,7 @@ function createPlot(element: HTMLElement): UPlot {
   );
 }
 
-function rollingRange(newestSeconds: number | null): [number, number] {
+function rollingRange(newestSeconds: number | undefined): [number, number] {
   const end = Math.max(newestSeconds ?? 0, plotSeconds);
   return [end - plotSeconds, end];
 }
