@@ -74,7 +74,7 @@ export const words = {
   off: 'off',
   time: 'Session time',
   forceScale: 'Force scale',
-  loop: 'Tick mean / p99',
+  loop: 'Tick / p99',
   missed: 'Ticks missed',
   lostSamples: 'Samples lost',
   reamer: 'Reamer',
