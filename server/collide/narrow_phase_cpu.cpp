@@ -19,26 +19,30 @@ struct Candidates {
 };
 
 __attribute__((target_clones("avx512f", "avx2", "default"))) void find_candidates(
-    const float* __restrict x, const float* __restrict y, const float* __restrict z, int n, const GridAffine& a,
-    const Vec3i& dims, const voxel::Occupancy& occupancy, Candidates& found) {
+    const float* __restrict x, const float* __restrict y, const float* __restrict z, int n,
+    const GridAffine& shared_affine, const Vec3i& dims, const voxel::Occupancy& occupancy, Candidates& found) {
   const float dx = static_cast<float>(dims.x()), dy = static_cast<float>(dims.y()), dz = static_cast<float>(dims.z());
   const int row = dims.x(), slice = row * dims.y();
   const int cell_row = occupancy.dims.x(), cell_slice = cell_row * occupancy.dims.y();
+  const GridAffine a = shared_affine;  // a copy, so that the compiler knows that stores do not change it
   // Signed on purpose: only signed 32-bit indices become gathers.
   const int32_t* __restrict words = reinterpret_cast<const int32_t*>(occupancy.words.data());
-  int32_t voxel_index[max_block_points], occupied[max_block_points];
+  int32_t occupied_memory[max_block_points], voxel_memory[max_block_points];
+  int32_t* __restrict voxel_index = voxel_memory;
+  int32_t* __restrict occupied = occupied_memory;
   for (int i = 0; i < n; ++i) {
     const float u = a.m[0] * x[i] + a.m[1] * y[i] + a.m[2] * z[i] + a.t[0];
     const float v = a.m[3] * x[i] + a.m[4] * y[i] + a.m[5] * z[i] + a.t[1];
     const float w = a.m[6] * x[i] + a.m[7] * y[i] + a.m[8] * z[i] + a.t[2];
-    // Outside points look at voxel 0 and are dropped by the flag.
+    // Outside points look at voxel 0 of their axis and are dropped by the flag. Written so that it vectorizes.
     const int in_u = u >= 0.0f ? (u < dx ? -1 : 0) : 0;
     const int in_v = v >= 0.0f ? (v < dy ? -1 : 0) : 0;
     const int in_w = w >= 0.0f ? (w < dz ? -1 : 0) : 0;
     const int inside = in_u & in_v & in_w;
-    const int iu = static_cast<int>(inside ? u : 0.0f);
-    const int iv = static_cast<int>(inside ? v : 0.0f);
-    const int iw = static_cast<int>(inside ? w : 0.0f);
+    const float low_u = u >= 0.0f ? u : 0.0f, low_v = v >= 0.0f ? v : 0.0f, low_w = w >= 0.0f ? w : 0.0f;
+    const int iu = static_cast<int>(low_u < dx ? low_u : 0.0f);
+    const int iv = static_cast<int>(low_v < dy ? low_v : 0.0f);
+    const int iw = static_cast<int>(low_w < dz ? low_w : 0.0f);
     const int cell = (iu >> occupancy_shift) + (iv >> occupancy_shift) * cell_row + (iw >> occupancy_shift) * cell_slice;
     voxel_index[i] = iu + iv * row + iw * slice;
     occupied[i] = (words[cell >> 5] >> (cell & 31)) & inside & 1;

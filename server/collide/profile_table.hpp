@@ -20,21 +20,6 @@ struct ProfileTable {
         inverse_r2_step(profile.inverse_r2_step),
         r2_limit(static_cast<float>(profile.r2_count) - 1.5f),
         z_limit(static_cast<float>(profile.z_count) - 1.5f) {}
-
-  /// Signed distance at a point of the tool frame, mm.
-  float at(float x, float y, float z) const noexcept {
-    float r = (x * x + y * y) * inverse_r2_step;
-    r = r < r2_limit ? r : r2_limit;
-    float h = (z - z_min_mm) * inverse_z_step;
-    h = h > 0.0f ? h : 0.0f;
-    h = h < z_limit ? h : z_limit;
-    const int ir = static_cast<int>(r), ih = static_cast<int>(h);
-    const float tr = r - static_cast<float>(ir), th = h - static_cast<float>(ih);
-    const int low = ih * r2_count + ir, high = low + r2_count;
-    const float near_z = distance_mm[low] + tr * (distance_mm[low + 1] - distance_mm[low]);
-    const float far_z = distance_mm[high] + tr * (distance_mm[high + 1] - distance_mm[high]);
-    return near_z + th * (far_z - near_z);
-  }
 };
 
 /// Signed distances (mm) of the 512 voxel centres of the brick whose minimum voxel is `first`, x fastest.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/hash.hpp"
 #include "voxel/bricks.hpp"
 
 namespace ream::collide {
@@ -19,6 +20,9 @@ double length_bound(const Vec3& v) {
   if (a < b) std::swap(a, b);
   return a + 0.4142135624 * b + 0.3178372452 * c;
 }
+
+/// A fraction in (0, 1] that differs from brick to brick.
+double phase(uint32_t brick) { return static_cast<double>(mix64(brick) % 64 + 1) / 64.0; }
 
 Vec3 corner(const Aabb& box, int i) {
   return {i & 1 ? box.max.x() : box.min.x(), i & 2 ? box.max.y() : box.min.y(), i & 4 ? box.max.z() : box.min.z()};
@@ -127,7 +131,14 @@ std::span<const uint32_t> RemovalSchedule::due(const QuantisedPose& grid_from_to
     if (empty_[brick] || odometer_voxels_ < due_at_[brick]) continue;
     double gap = gap_voxels(brick, affine);
     if (gap <= 0.0 && !hot_[brick]) gap = measured_gap_voxels(brick, affine);
-    due_at_[brick] = odometer_voxels_ + std::max(revisit_voxels, gap);
+    if (gap > revisit_voxels) {
+      due_at_[brick] = odometer_voxels_ + gap;
+      continue;
+    }
+    // Bricks that became due together (at a first contact, say) get phases of their own, so that later ticks share
+    // the work evenly.
+    const double regular = due_at_[brick] + revisit_voxels;
+    due_at_[brick] = regular > odometer_voxels_ ? regular : odometer_voxels_ + revisit_voxels * phase(brick);
     if (gap <= 0.0) due_[n++] = brick;
   }
   return {due_.data(), n};
