@@ -46,13 +46,9 @@ Server::Server(ServerOptions options)
       router_(router_of(options, sessions_, readiness_)),
       listener_(router_, options.listen) {}
 
-Server::~Server() {
-  stop();
-}
+Server::~Server() { stop(); }
 
-void Server::start() {
-  listener_.start();
-}
+void Server::start() { listener_.start(); }
 
 void Server::run() {
   start();

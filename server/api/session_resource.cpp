@@ -52,9 +52,7 @@ net::Response list(const SessionService& service) {
   return net::json_response(200, {{"sessions", std::move(sessions)}});
 }
 
-const std::string& id_of(const net::Request& request) {
-  return request.parameters.at("id");
-}
+const std::string& id_of(const net::Request& request) { return request.parameters.at("id"); }
 
 }  // namespace
 

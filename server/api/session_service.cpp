@@ -62,9 +62,7 @@ struct SessionService::Entry {
 SessionService::SessionService(SessionFactory factory, SessionLimits limits)
     : factory_(std::move(factory)), limits_(limits) {}
 
-SessionService::~SessionService() {
-  shut_down();
-}
+SessionService::~SessionService() { shut_down(); }
 
 void SessionService::reserve_place() {
   const std::lock_guard lock(mutex_);
@@ -146,9 +144,7 @@ std::vector<SessionRecord> SessionService::list() const {
   return records;
 }
 
-SessionRecord SessionService::get(const std::string& id) const {
-  return find(id)->record();
-}
+SessionRecord SessionService::get(const std::string& id) const { return find(id)->record(); }
 
 SessionRecord SessionService::start(const std::string& id) {
   const auto entry = find(id);
@@ -175,9 +171,7 @@ SessionRecord SessionService::stop(const std::string& id) {
   return entry->record();
 }
 
-nlohmann::json SessionService::metrics(const std::string& id) const {
-  return find(id)->running->metrics();
-}
+nlohmann::json SessionService::metrics(const std::string& id) const { return find(id)->running->metrics(); }
 
 std::unique_ptr<net::WebSocketSession> SessionService::subscribe(const std::string& id) const {
   auto entry = find(id);

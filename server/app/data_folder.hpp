@@ -3,7 +3,8 @@
 
 namespace ream::app {
 
-/// Where cases and sessions live: `chosen` (--data) if not empty, else REAM_DATA, else ~/.local/share/ream. Not created.
+/// Where cases and sessions live: `chosen` (--data) if not empty, else REAM_DATA, else ~/.local/share/ream.
+/// Not created.
 std::filesystem::path data_folder(const std::filesystem::path& chosen);
 
 std::filesystem::path cases_folder(const std::filesystem::path& data);

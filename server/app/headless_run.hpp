@@ -12,9 +12,9 @@ struct HeadlessResult {
   nlohmann::json timing;   ///< as in timing.json
 };
 
-/// Runs the rig to the end of its script in virtual time (or at 1 kHz when `wall_clock`) and writes metrics.json,
-/// timing.json, session.json, trace.csv and recording.ream into `folder`. Errors: io; unavailable for a fault of the
-/// loop (a black box is left in the working folder); interrupted.
+/// Runs the rig to the end of its script in virtual time (or at 1 kHz when `wall_clock`) and writes
+/// metrics.json, timing.json, session.json, trace.csv and recording.ream into `folder`. Errors: io;
+/// unavailable for a fault of the loop (a black box is left in the working folder); interrupted.
 HeadlessResult run_headless(Rig& rig, const std::filesystem::path& folder, bool wall_clock);
 
 }  // namespace ream::app

@@ -2,8 +2,8 @@
 
 namespace ream::app {
 
-/// From now on SIGINT and SIGTERM only set a flag, so that long work can stop without leaving half-written files and a
-/// device is left without force.
+/// From now on SIGINT and SIGTERM only set a flag, so that long work can stop without leaving half-written
+/// files and a device is left without force.
 void catch_interrupts();
 bool interrupted() noexcept;
 

@@ -30,7 +30,8 @@ bool is_fresh(const voxel::BoneModel& bone, const std::vector<uint8_t>& before, 
 
 Parts split(const TriangleMesh& surface, const voxel::BoneModel& bone, const std::vector<uint8_t>& before) {
   std::vector<uint8_t> fresh(surface.vertices_mm.size());
-  for (size_t i = 0; i < fresh.size(); ++i) fresh[i] = is_fresh(bone, before, surface.vertices_mm[i].cast<double>());
+  for (size_t i = 0; i < fresh.size(); ++i)
+    fresh[i] = is_fresh(bone, before, surface.vertices_mm[i].cast<double>());
   Parts parts;
   parts.fresh.vertices_mm = parts.native.vertices_mm = surface.vertices_mm;
   parts.fresh.normals = parts.native.normals = surface.normals;
@@ -53,7 +54,8 @@ render::Camera glenoid_camera(const case_::Plan& plan, const Vec3& superior, dou
   return camera;
 }
 
-void write_reamed_pictures(const Rig& rig, const std::vector<uint8_t>& before, const std::filesystem::path& folder) {
+void write_reamed_pictures(const Rig& rig, const std::vector<uint8_t>& before,
+                           const std::filesystem::path& folder) {
   const voxel::BoneModel& bone = rig.bone_case.bone;
   const TriangleMesh surface = surface::whole_surface(bone.grid, bone.coverage.data());
   write_ply(folder / "reamed.ply", surface.transformed(bone.grid.world_from_grid));

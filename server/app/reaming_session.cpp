@@ -23,7 +23,8 @@ constexpr int64_t heartbeat_ns = 500'000'000;
 RunRequest run_request(const SessionHouse& house, const api::SessionRequest& request) {
   RunRequest run;
   run.case_name = request.case_id;
-  run.script_name = request.script == "demo" ? request.script : (house.data / "scripts" / (request.script + ".json")).string();
+  run.script_name = request.script == "demo" ? request.script
+                                             : (house.data / "scripts" / (request.script + ".json")).string();
   run.backend = house.backend;
   run.force_scale = request.force_scale;
   return run;
@@ -31,12 +32,18 @@ RunRequest run_request(const SessionHouse& house, const api::SessionRequest& req
 
 stream::SessionState wire_state(api::SessionState state) {
   switch (state) {
-    case api::SessionState::created: return stream::SessionState::created;
-    case api::SessionState::running: return stream::SessionState::running;
-    case api::SessionState::paused: return stream::SessionState::paused;
-    case api::SessionState::finished: return stream::SessionState::finished;
-    case api::SessionState::stopped: return stream::SessionState::stopped;
-    case api::SessionState::fault: return stream::SessionState::fault;
+    case api::SessionState::created:
+      return stream::SessionState::created;
+    case api::SessionState::running:
+      return stream::SessionState::running;
+    case api::SessionState::paused:
+      return stream::SessionState::paused;
+    case api::SessionState::finished:
+      return stream::SessionState::finished;
+    case api::SessionState::stopped:
+      return stream::SessionState::stopped;
+    case api::SessionState::fault:
+      return stream::SessionState::fault;
   }
   return stream::SessionState::fault;
 }
@@ -62,7 +69,8 @@ ReamingSession::ReamingSession(const SessionHouse& house, const api::SessionRequ
   rig_.state.brick_sender = &sender_;
   status_.force_scale = rig_.model.settings.force_scale;
   metrics_ = score::metrics_json({}, status_.force_scale, nullptr);
-  sample_.world_from_tool = sample_.world_from_handle = rig_.model.world_from_plan * Pose{Mat3::Identity(), rig_.script.hand.start_mm};
+  sample_.world_from_tool = sample_.world_from_handle =
+      rig_.model.world_from_plan * Pose{Mat3::Identity(), rig_.script.hand.start_mm};
   fanout_->publish_hello(stream::hello_message(hello()));
   publisher_.publish_all();
   follower_ = std::thread([this] { follow(); });
@@ -101,7 +109,8 @@ void ReamingSession::start() {
   auto files = std::make_unique<SessionFiles>(rig_, folder);
   {
     const std::lock_guard lock(mutex_);
-    if (status_.state != api::SessionState::created) throw Error(ErrorKind::conflict, "session " + id_ + " has been started already");
+    if (status_.state != api::SessionState::created)
+      throw Error(ErrorKind::conflict, "session " + id_ + " has been started already");
     files_ = std::move(files);
     status_.state = api::SessionState::running;
   }
@@ -203,11 +212,13 @@ void ReamingSession::note_health() {
   status_.tick_us = health.tick_us;
   status_.missed = health.missed;
   if (status_.state == api::SessionState::running || status_.state == api::SessionState::paused)
-    status_.state = sample_.state == stream::SessionState::paused ? api::SessionState::paused : api::SessionState::running;
+    status_.state = sample_.state == stream::SessionState::paused ? api::SessionState::paused
+                                                                  : api::SessionState::running;
 }
 
 void ReamingSession::publish_state(api::SessionState state) {
   sample_.state = wire_state(state);
+  if (!api::is_live(state)) sample_.spindle_on = false;
   const std::string words = status().fault;
   sample_.fault.fill('\0');
   std::memcpy(sample_.fault.data(), words.data(), std::min(words.size(), sample_.fault.size() - 1));

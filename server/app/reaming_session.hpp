@@ -22,8 +22,8 @@ struct SessionHouse {
   sim::Realtime realtime = sim::Realtime::attempt;
 };
 
-/// A live session: the haptic loop on its own thread, and one follower thread that keeps files, metrics, telemetry and
-/// the streamed surface up to date. The bone is on its viewers' screens before it starts.
+/// A live session: the haptic loop on its own thread, and one follower thread that keeps files, metrics,
+/// telemetry and the streamed surface up to date. The bone is on its viewers' screens before it starts.
 class ReamingSession final : public api::RunningSession {
  public:
   /// Errors: those of Rig.
@@ -57,13 +57,13 @@ class ReamingSession final : public api::RunningSession {
   stream::TelemetryBatcher batcher_;
   stream::TelemetrySample sample_;  ///< the newest, follower only
 
-  mutable std::mutex mutex_;        ///< guards what follows
+  mutable std::mutex mutex_;  ///< guards what follows
   std::condition_variable changed_;
   api::SessionStatus status_;
   nlohmann::json metrics_;
   std::unique_ptr<SessionFiles> files_;  ///< set by start(), used by the follower
   bool leaving_ = false, finished_ = false;
-  std::mutex stopping_;             ///< one stop() at a time
+  std::mutex stopping_;  ///< one stop() at a time
   std::thread follower_;
 };
 

@@ -15,17 +15,20 @@ namespace fs = std::filesystem;
 
 const case_::Plan& plan_of(const case_::Case& c) {
   if (!c.plan)
-    throw Error(ErrorKind::conflict, "case '" + c.id + "' has no plan; make one with `ream plan " + c.id + " --axis X,Y,Z,DX,DY,DZ`");
+    throw Error(ErrorKind::conflict, "case '" + c.id + "' has no plan; make one with `ream plan " + c.id +
+                                         " --axis X,Y,Z,DX,DY,DZ`");
   return *c.plan;
 }
 
 device::Script find_script(const RunRequest& request) {
-  device::Script script = request.script_name == "demo" ? device::demo_script() : device::load_script(request.script_name);
+  device::Script script =
+      request.script_name == "demo" ? device::demo_script() : device::load_script(request.script_name);
   if (request.force_scale) script.force_scale = *request.force_scale;
   return script;
 }
 
-sim::Settings settings_for(const RunRequest& request, const device::Script& script, const device::DeviceTraits& traits) {
+sim::Settings settings_for(const RunRequest& request, const device::Script& script,
+                           const device::DeviceTraits& traits) {
   sim::Settings settings;
   settings.backend = request.backend;
   settings.tool_spacing_mm = request.tool_spacing_mm;
@@ -52,9 +55,9 @@ Rig::Rig(const RunRequest& request_in, const fs::path& data)
     : request(request_in),
       script(find_script(request)),
       bone_case(find_case(request.case_name, data)),
-      model(sim::make_model(plan_of(bone_case), bone_case.bone, tool_for(request, plan_of(bone_case)),
-                            settings_for(request, script,
-                                         device::make_scripted_device(script, Pose{})->traits()))),
+      model(sim::make_model(
+          plan_of(bone_case), bone_case.bone, tool_for(request, plan_of(bone_case)),
+          settings_for(request, script, device::make_scripted_device(script, Pose{})->traits()))),
       state(model, bone_case.bone),
       device(device::make_scripted_device(script, model.world_from_plan)) {}
 
@@ -71,7 +74,8 @@ nlohmann::json Rig::description() const {
           {"force_scale", model.settings.force_scale},
           {"stiffness_n_mm", model.settings.stiffness_n_mm},
           {"random_seed", model.settings.random_seed},
-          {"grid_dims", {bone_case.bone.grid.dims.x(), bone_case.bone.grid.dims.y(), bone_case.bone.grid.dims.z()}},
+          {"grid_dims",
+           {bone_case.bone.grid.dims.x(), bone_case.bone.grid.dims.y(), bone_case.bone.grid.dims.z()}},
           {"start_grid_hash", to_hex(bone_case.bone.coverage_hash())}};
 }
 

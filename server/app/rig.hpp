@@ -13,22 +13,23 @@ namespace ream::app {
 
 /// What somebody asked to be simulated.
 struct RunRequest {
-  std::string case_name = "demo";   ///< `demo`, an id in the data folder, or the path of a case folder
+  std::string case_name = "demo";    ///< `demo`, an id in the data folder, or the path of a case folder
   std::string script_name = "demo";  ///< `demo` or the path of a script
   std::string backend = "auto";
-  std::string tool;                  ///< empty: the plan's reamer
+  std::string tool;  ///< empty: the plan's reamer
   std::optional<shell::ToolAxis> tool_axis;
   double tool_spacing_mm = 0.2;
   std::optional<double> force_scale;  ///< overrides the script's
   uint64_t random_seed = 1;
 };
 
-/// One case, one tool, one script, ready for the first tick. Everything in it stays where it is (the model refers to
-/// the bone), so it is made once and neither copied nor moved.
+/// One case, one tool, one script, ready for the first tick. Everything in it stays where it is (the model
+/// refers to the bone), so it is made once and neither copied nor moved.
 class Rig {
  public:
-  /// Errors: not_found and invalid_input of case, script and tool; conflict when the case has no plan; unavailable for
-  /// the backend. `data` is where cases are looked up; the demo case is made there on first use.
+  /// Errors: not_found and invalid_input of case, script and tool; conflict when the case has no plan;
+  /// unavailable for the backend. `data` is where cases are looked up; the demo case is made there on first
+  /// use.
   Rig(const RunRequest& request, const std::filesystem::path& data);
   Rig(const Rig&) = delete;
   Rig& operator=(const Rig&) = delete;

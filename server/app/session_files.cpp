@@ -9,9 +9,11 @@ namespace {
 
 nlohmann::json timing_json(const sim::LoopHealth& health) {
   const TimingSummary& t = health.tick_us;
-  return {{"tick_us", {{"mean", t.mean_us}, {"p50", t.p50_us}, {"p99", t.p99_us}, {"p999", t.p999_us}, {"max", t.max_us}}},
-          {"missed", health.missed},
-          {"ticks", t.count}};
+  return {
+      {"tick_us",
+       {{"mean", t.mean_us}, {"p50", t.p50_us}, {"p99", t.p99_us}, {"p999", t.p999_us}, {"max", t.max_us}}},
+      {"missed", health.missed},
+      {"ticks", t.count}};
 }
 
 void write_json(const std::filesystem::path& path, const nlohmann::json& json) {
@@ -37,7 +39,8 @@ SessionFiles::Results SessionFiles::finish(const sim::LoopHealth& health, const 
   trace_.finish();
   recorder_.finish();
   const uint64_t grid_hash = rig_.bone_case.bone.coverage_hash();
-  Results results{score::metrics_json(metrics_.metrics(), rig_.model.settings.force_scale, &grid_hash), timing_json(health)};
+  Results results{score::metrics_json(metrics_.metrics(), rig_.model.settings.force_scale, &grid_hash),
+                  timing_json(health)};
   write_json(folder_ / "metrics.json", results.metrics);
   write_json(folder_ / "timing.json", results.timing);
   nlohmann::json session = rig_.description();

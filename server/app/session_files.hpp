@@ -10,8 +10,8 @@
 
 namespace ream::app {
 
-/// What a run leaves behind: follows the loop's reports into trace.csv and recording.ream and writes metrics.json,
-/// timing.json and session.json at the end. Used by one follower thread.
+/// What a run leaves behind: follows the loop's reports into trace.csv and recording.ream and writes
+/// metrics.json, timing.json and session.json at the end. Used by one follower thread.
 class SessionFiles {
  public:
   /// Opens trace and recording in `folder`, which must exist. Error io.

@@ -21,12 +21,8 @@ constexpr int64_t max_dim = 65528;
 constexpr double max_voxels = 4.0e9;
 constexpr double rotation_tolerance = 1e-6;
 
-json list(const Vec3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-Vec3 vec3(const std::vector<double>& n) {
-  return {n[0], n[1], n[2]};
-}
+json list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+Vec3 vec3(const std::vector<double>& n) { return {n[0], n[1], n[2]}; }
 
 json rotation_rows(const Mat3& r) {
   return {list(r.row(0).transpose()), list(r.row(1).transpose()), list(r.row(2).transpose())};
@@ -204,9 +200,7 @@ void save_case(const Case& c, const fs::path& folder, bool replace) {
   target.commit();
 }
 
-std::string to_text(Side side) {
-  return side == Side::left ? "left" : "right";
-}
+std::string to_text(Side side) { return side == Side::left ? "left" : "right"; }
 
 Side side_from_text(const std::string& text) {
   if (text == "left") return Side::left;

@@ -18,9 +18,9 @@ struct PilotHole {
 
 /// Where and how to ream. World frame (LPS mm).
 struct Plan {
-  Vec3 entry_mm = Vec3::Zero();            ///< point of the axis on the native glenoid surface
-  Vec3 axis_direction = Vec3::UnitX();     ///< unit, into the bone (medial)
-  double depth_mm = 2.0;                   ///< planned reaming depth past first contact of the cutting surface
+  Vec3 entry_mm = Vec3::Zero();         ///< point of the axis on the native glenoid surface
+  Vec3 axis_direction = Vec3::UnitX();  ///< unit, into the bone (medial)
+  double depth_mm = 2.0;                ///< planned reaming depth past first contact of the cutting surface
   std::string reamer = "ellipse 18.25,9";  ///< profile text or path of a mesh, see shell/tool.hpp
   std::optional<PilotHole> pilot_hole = PilotHole{};
 };
@@ -33,13 +33,14 @@ struct GlenoidFrame {
 
 /// How HU became density; each number is kept with the case.
 struct Calibration {
-  double intercept_mg_cc = 1.3152, slope_mg_cc_per_hu = 0.6944;  ///< HU -> rho_QCT (science 2.5, example phantom)
-  double threshold_hu = 200.0;                                   ///< segmentation threshold that was used
+  double intercept_mg_cc = 1.3152,
+         slope_mg_cc_per_hu = 0.6944;  ///< HU -> rho_QCT (science 2.5, example phantom)
+  double threshold_hu = 200.0;         ///< segmentation threshold that was used
 };
 
 struct Case {
-  std::string id;    ///< folder name; [a-z0-9-]+
-  std::string name;  ///< for people
+  std::string id;      ///< folder name; [a-z0-9-]+
+  std::string name;    ///< for people
   std::string source;  ///< where the volume came from, without patient names
   Side side = Side::right;
   voxel::BoneModel bone;
@@ -58,8 +59,8 @@ struct CaseSummary {
   bool planned = false;
 };
 
-/// A case is a folder: case.json (proto/case.schema.json), plan.json where planned, density.zst and coverage.zst
-/// (raw bytes in grid order, zstd). Saving is atomic: the folder appears whole or not at all.
+/// A case is a folder: case.json (proto/case.schema.json), plan.json where planned, density.zst and
+/// coverage.zst (raw bytes in grid order, zstd). Saving is atomic: the folder appears whole or not at all.
 /// Errors: not_found, invalid_input (names file and key), io.
 Case load_case(const std::filesystem::path& folder);
 /// Everything but the voxels: bone has its grid, density and coverage stay empty.
@@ -70,8 +71,8 @@ void save_case(const Case& c, const std::filesystem::path& folder, bool replace 
 /// Replaces only the plan of an existing case.
 void save_plan(const Plan& plan, const std::filesystem::path& case_folder);
 
-/// Takes the plan's pilot hole out of the coverage (a cylinder from `clearance` before the entry to its depth,
-/// sub-voxel at its border). Idempotent. Does nothing without a plan or hole.
+/// Takes the plan's pilot hole out of the coverage (a cylinder from `clearance` before the entry to its
+/// depth, sub-voxel at its border). Idempotent. Does nothing without a plan or hole.
 void cut_pilot_hole(voxel::BoneModel& bone, const Plan& plan);
 
 /// First bone surface met when moving along the plan's direction through `point` (coverage crosses 127.5);

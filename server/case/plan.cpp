@@ -12,9 +12,7 @@ namespace {
 constexpr double max_length_mm = 100.0;  // no glenoid is reamed or drilled deeper than this
 constexpr double max_coordinate_mm = 1e5;
 
-Vec3 vec3(const std::vector<double>& n) {
-  return {n[0], n[1], n[2]};
-}
+Vec3 vec3(const std::vector<double>& n) { return {n[0], n[1], n[2]}; }
 
 void check_length(const std::string& place, const char* key, double value, bool may_be_zero) {
   if (value > 0.0 && value <= max_length_mm) return;

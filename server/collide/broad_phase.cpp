@@ -6,7 +6,8 @@
 
 namespace ream::collide {
 
-Voi broad_phase(const Aabb& bone_box_grid, const Aabb& tool_box_tool, const Pose& grid_from_tool, double reach_mm) noexcept {
+Voi broad_phase(const Aabb& bone_box_grid, const Aabb& tool_box_tool, const Pose& grid_from_tool,
+                double reach_mm) noexcept {
   Voi voi;
   if (bone_box_grid.empty() || tool_box_tool.empty()) return voi;
   const Aabb tool_box = tool_box_tool.grown(reach_mm);

@@ -32,8 +32,8 @@ ContactShell make_contact_shell(const shell::PointShell& shell, double probe_len
     out.probe_x_mm.push_back(static_cast<float>(probe.x()));
     out.probe_y_mm.push_back(static_cast<float>(probe.y()));
     out.probe_z_mm.push_back(static_cast<float>(probe.z()));
-    out.vectors.push_back({coded(normal.x()), coded(normal.y()), coded(normal.z()), coded(arm.x()), coded(arm.y()),
-                           coded(arm.z()), 1, 0});
+    out.vectors.push_back({coded(normal.x()), coded(normal.y()), coded(normal.z()), coded(arm.x()),
+                           coded(arm.y()), coded(arm.z()), 1, 0});
     out.weights.push_back(p.area_weight);
     out.guiding.push_back(p.role == shell::SurfaceRole::cutting ? 0 : 1);
     out.bounds_mm.include(probe);

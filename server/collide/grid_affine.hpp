@@ -4,8 +4,9 @@
 
 namespace ream::collide {
 
-/// Affine map in floats, row by row: out_i = m[3i] x + m[3i+1] y + m[3i+2] z + t[i]. Derived from the quantised pose
-/// on the host once a tick, in doubles rounded to float, so that every device sees the same twelve numbers.
+/// Affine map in floats, row by row: out_i = m[3i] x + m[3i+1] y + m[3i+2] z + t[i]. Derived from the
+/// quantised pose on the host once a tick, in doubles rounded to float, so that every device sees the same
+/// twelve numbers.
 struct GridAffine {
   float m[9];
   float t[3];

@@ -28,7 +28,8 @@ struct ContactSums {
     bool operator==(const Part&) const = default;
   };
   Part cutting, guiding;
-  /// Engaged cutting points and the sum of their density codes, by voxel::BoneClass. Cartilage counts its code.
+  /// Engaged cutting points and the sum of their density codes, by voxel::BoneClass. Cartilage counts its
+  /// code.
   std::array<int64_t, voxel::bone_class_count> class_points{}, class_density{};
 
   int64_t engaged() const { return cutting.points + guiding.points; }
@@ -43,20 +44,23 @@ struct NarrowPhaseInput {
   const voxel::Occupancy& occupancy;
 };
 
-/// Finds the engaged points of the shell. All memory is allocated at construction; contact() is called from the tick.
+/// Finds the engaged points of the shell. All memory is allocated at construction; contact() is called from
+/// the tick.
 class NarrowPhase {
  public:
   virtual ~NarrowPhase() = default;
-  /// Sums at one pose. `voi` comes from the broad phase at the same pose. False when the device failed; `sums` is
-  /// then not to be used.
+  /// Sums at one pose. `voi` comes from the broad phase at the same pose. False when the device failed;
+  /// `sums` is then not to be used.
   virtual bool contact(const QuantisedPose& grid_from_tool, const Voi& voi, ContactSums& sums) noexcept = 0;
 };
 
 std::unique_ptr<NarrowPhase> make_narrow_phase_cpu(const NarrowPhaseInput& input);
 
-/// Blocks that may hold engaged points: inside the VOI and near enough to bone by the conservative distance. Writes
-/// block numbers to `survivors` (room for all blocks) and returns how many. Shared by all narrow phases.
+/// Blocks that may hold engaged points: inside the VOI and near enough to bone by the conservative distance.
+/// Writes block numbers to `survivors` (room for all blocks) and returns how many. Shared by all narrow
+/// phases.
 size_t cull_blocks(const ContactShell& shell, const voxel::BrickDistance& distance, const Voi& voi,
-                   const GridAffine& voxel_from_tool, float min_spacing_mm, std::span<uint32_t> survivors) noexcept;
+                   const GridAffine& voxel_from_tool, float min_spacing_mm,
+                   std::span<uint32_t> survivors) noexcept;
 
 }  // namespace ream::collide

@@ -10,8 +10,8 @@ constexpr size_t max_block_points = 512;
 constexpr int occupancy_shift = 2;
 static_assert(1 << occupancy_shift == voxel::occupancy_edge);
 
-/// Probes of a run that lie in occupied cells: their voxel index and number within the run. Straight-line arithmetic, so
-/// that it vectorizes; the order of operations is that of kernels/narrow_phase.cl.
+/// Probes of a run that lie in occupied cells: their voxel index and number within the run. Straight-line
+/// arithmetic, so that it vectorizes; the order of operations is that of kernels/narrow_phase.cl.
 struct Candidates {
   int32_t voxel[max_block_points];
   int32_t number[max_block_points];
@@ -20,8 +20,10 @@ struct Candidates {
 
 __attribute__((target_clones("avx512f", "avx2", "default"))) void find_candidates(
     const float* __restrict x, const float* __restrict y, const float* __restrict z, int n,
-    const GridAffine& shared_affine, const Vec3i& dims, const voxel::Occupancy& occupancy, Candidates& found) {
-  const float dx = static_cast<float>(dims.x()), dy = static_cast<float>(dims.y()), dz = static_cast<float>(dims.z());
+    const GridAffine& shared_affine, const Vec3i& dims, const voxel::Occupancy& occupancy,
+    Candidates& found) {
+  const float dx = static_cast<float>(dims.x()), dy = static_cast<float>(dims.y()),
+              dz = static_cast<float>(dims.z());
   const int row = dims.x(), slice = row * dims.y();
   const int cell_row = occupancy.dims.x(), cell_slice = cell_row * occupancy.dims.y();
   const GridAffine a = shared_affine;  // a copy, so that the compiler knows that stores do not change it
@@ -34,7 +36,8 @@ __attribute__((target_clones("avx512f", "avx2", "default"))) void find_candidate
     const float u = a.m[0] * x[i] + a.m[1] * y[i] + a.m[2] * z[i] + a.t[0];
     const float v = a.m[3] * x[i] + a.m[4] * y[i] + a.m[5] * z[i] + a.t[1];
     const float w = a.m[6] * x[i] + a.m[7] * y[i] + a.m[8] * z[i] + a.t[2];
-    // Outside points look at voxel 0 of their axis and are dropped by the flag. Written so that it vectorizes.
+    // Outside points look at voxel 0 of their axis and are dropped by the flag. Written so that it
+    // vectorizes.
     const int in_u = u >= 0.0f ? (u < dx ? -1 : 0) : 0;
     const int in_v = v >= 0.0f ? (v < dy ? -1 : 0) : 0;
     const int in_w = w >= 0.0f ? (w < dz ? -1 : 0) : 0;
@@ -43,7 +46,8 @@ __attribute__((target_clones("avx512f", "avx2", "default"))) void find_candidate
     const int iu = static_cast<int>(low_u < dx ? low_u : 0.0f);
     const int iv = static_cast<int>(low_v < dy ? low_v : 0.0f);
     const int iw = static_cast<int>(low_w < dz ? low_w : 0.0f);
-    const int cell = (iu >> occupancy_shift) + (iv >> occupancy_shift) * cell_row + (iw >> occupancy_shift) * cell_slice;
+    const int cell =
+        (iu >> occupancy_shift) + (iv >> occupancy_shift) * cell_row + (iw >> occupancy_shift) * cell_slice;
     voxel_index[i] = iu + iv * row + iw * slice;
     occupied[i] = (words[cell >> 5] >> (cell & 31)) & inside & 1;
   }
@@ -69,8 +73,10 @@ struct RunSums {
   }
 };
 
-__attribute__((target_clones("avx512f", "avx2", "default"))) void add_products(
-    const ContactVector* vectors, const uint8_t* weights, const int32_t* numbers, size_t n, RunSums& sums) {
+__attribute__((target_clones("avx512f", "avx2", "default"))) void add_products(const ContactVector* vectors,
+                                                                               const uint8_t* weights,
+                                                                               const int32_t* numbers,
+                                                                               size_t n, RunSums& sums) {
   for (size_t p = 0; p < n; ++p) {
     const int16_t* g = vectors[numbers[p]].data();
     const int32_t weight = weights[numbers[p]];
@@ -84,7 +90,9 @@ __attribute__((target_clones("avx512f", "avx2", "default"))) void add_products(
 class NarrowPhaseCpu final : public NarrowPhase {
  public:
   explicit NarrowPhaseCpu(const NarrowPhaseInput& input)
-      : in_(input), classes_(voxel::class_table(input.bone.cortical_threshold_g_cc)), survivors_(input.shell.blocks.size()) {}
+      : in_(input),
+        classes_(voxel::class_table(input.bone.cortical_threshold_g_cc)),
+        survivors_(input.shell.blocks.size()) {}
 
   bool contact(const QuantisedPose& grid_from_tool, const Voi& voi, ContactSums& sums) noexcept override {
     sums = {};
@@ -105,8 +113,7 @@ class NarrowPhaseCpu final : public NarrowPhase {
     const ContactShell& s = in_.shell;
     Candidates found;
     find_candidates(s.probe_x_mm.data() + first, s.probe_y_mm.data() + first, s.probe_z_mm.data() + first,
-                    static_cast<int>(count), affine,
-                    in_.bone.grid.dims, in_.occupancy, found);
+                    static_cast<int>(count), affine, in_.bone.grid.dims, in_.occupancy, found);
     const uint8_t* coverage = in_.bone.coverage.data();
     const uint8_t* density = in_.bone.density.data();
     int32_t cutting[max_block_points], guiding[max_block_points];

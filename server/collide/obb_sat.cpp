@@ -21,7 +21,8 @@ bool overlap(const Obb& a, const Obb& b) noexcept {
     for (int j = 0; j < 3; ++j) {
       const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
       const double distance = std::abs(t[i2] * r(i1, j) - t[i1] * r(i2, j));
-      const double reach = ha[i1] * abs_r(i2, j) + ha[i2] * abs_r(i1, j) + hb[j1] * abs_r(i, j2) + hb[j2] * abs_r(i, j1);
+      const double reach =
+          ha[i1] * abs_r(i2, j) + ha[i2] * abs_r(i1, j) + hb[j1] * abs_r(i, j2) + hb[j2] * abs_r(i, j1);
       if (distance > reach) return false;
     }
   return true;

@@ -4,8 +4,9 @@
 
 namespace ream::collide {
 
-/// The swept profile's table as plain values for inner loops. Table coordinates are clamped: the table's margin is wider
-/// than half a voxel, so its border keeps everything. The order of operations is that of kernels/removal.cl.
+/// The swept profile's table as plain values for inner loops. Table coordinates are clamped: the table's
+/// margin is wider than half a voxel, so its border keeps everything. The order of operations is that of
+/// kernels/removal.cl.
 struct ProfileTable {
   const float* distance_mm;
   int r2_count;

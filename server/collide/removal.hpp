@@ -11,8 +11,9 @@
 
 namespace ream::collide {
 
-/// Coverage a voxel keeps at a signed distance (mm, outside positive) of its centre to the swept cutting body: 255 from
-/// half a voxel outside, 0 from half a voxel inside, linear between (DESIGN 3). `levels_per_mm` is 255 / voxel edge.
+/// Coverage a voxel keeps at a signed distance (mm, outside positive) of its centre to the swept cutting
+/// body: 255 from half a voxel outside, 0 from half a voxel inside, linear between (DESIGN 3).
+/// `levels_per_mm` is 255 / voxel edge.
 inline uint8_t kept_coverage(float distance_mm, float levels_per_mm) noexcept {
   const float level = distance_mm * levels_per_mm + 128.0f;
   const float low = level < 0.0f ? 0.0f : level;
@@ -29,16 +30,17 @@ struct RemovalSums {
   uint32_t changed_bricks = 0;
 };
 
-/// Cuts bone by the swept profile: coverage = min(coverage, kept_coverage(distance)): absolute, idempotent, order-free.
-/// All memory is allocated at construction; cut() is called from the tick, by the one writer of the grid.
+/// Cuts bone by the swept profile: coverage = min(coverage, kept_coverage(distance)): absolute, idempotent,
+/// order-free. All memory is allocated at construction; cut() is called from the tick, by the one writer of
+/// the grid.
 class Removal {
  public:
   virtual ~Removal() = default;
-  /// Applies the body at `grid_from_tool` to the listed bricks (each at most once). `changed[i]` becomes 1 when brick
-  /// i of the list changed, and `empty[i]` 1 when nothing of it is left. bone.coverage on the host is up to date when
-  /// it returns. False when the device failed.
-  virtual bool cut(const QuantisedPose& grid_from_tool, std::span<const uint32_t> bricks, std::span<uint8_t> changed,
-                   std::span<uint8_t> empty, RemovalSums& sums) noexcept = 0;
+  /// Applies the body at `grid_from_tool` to the listed bricks (each at most once). `changed[i]` becomes 1
+  /// when brick i of the list changed, and `empty[i]` 1 when nothing of it is left. bone.coverage on the host
+  /// is up to date when it returns. False when the device failed.
+  virtual bool cut(const QuantisedPose& grid_from_tool, std::span<const uint32_t> bricks,
+                   std::span<uint8_t> changed, std::span<uint8_t> empty, RemovalSums& sums) noexcept = 0;
 };
 
 struct RemovalInput {

@@ -38,7 +38,8 @@ class RemovalCpu final : public Removal {
  private:
   bool apply(uint32_t brick, const uint8_t* kept, uint8_t& empty, RemovalSums& sums) noexcept {
     const size_t base = bone_.grid.brick_base(brick);
-    const size_t row = static_cast<size_t>(bone_.grid.dims.x()), slice = row * static_cast<size_t>(bone_.grid.dims.y());
+    const size_t row = static_cast<size_t>(bone_.grid.dims.x()),
+                 slice = row * static_cast<size_t>(bone_.grid.dims.y());
     uint64_t left = 0;
     bool any = false;
     for (size_t w = 0; w < brick_edge; ++w)
@@ -76,8 +77,12 @@ class RemovalCpu final : public Removal {
 
 }  // namespace
 
-std::unique_ptr<Removal> make_removal_cpu(const RemovalInput& input) { return std::make_unique<RemovalCpu>(input); }
+std::unique_ptr<Removal> make_removal_cpu(const RemovalInput& input) {
+  return std::make_unique<RemovalCpu>(input);
+}
 
-float coverage_levels_per_mm(const voxel::VoxelGrid& grid) { return static_cast<float>(255.0 / grid.min_spacing_mm()); }
+float coverage_levels_per_mm(const voxel::VoxelGrid& grid) {
+  return static_cast<float>(255.0 / grid.min_spacing_mm());
+}
 
 }  // namespace ream::collide

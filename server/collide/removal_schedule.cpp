@@ -25,7 +25,8 @@ double length_bound(const Vec3& v) {
 double phase(uint32_t brick) { return static_cast<double>(mix64(brick) % 64 + 1) / 64.0; }
 
 Vec3 corner(const Aabb& box, int i) {
-  return {i & 1 ? box.max.x() : box.min.x(), i & 2 ? box.max.y() : box.min.y(), i & 4 ? box.max.z() : box.min.z()};
+  return {i & 1 ? box.max.x() : box.min.x(), i & 2 ? box.max.y() : box.min.y(),
+          i & 4 ? box.max.z() : box.min.z()};
 }
 
 }  // namespace
@@ -35,7 +36,8 @@ RemovalSchedule::RemovalSchedule(const shell::SweptProfile& profile, const voxel
       table_(profile),
       bone_(bone),
       grid_(bone.grid),
-      brick_reach_mm_(0.5 * voxel::brick_edge * bone.grid.spacing_mm.norm() + 0.5 * bone.grid.spacing_mm.maxCoeff()),
+      brick_reach_mm_(0.5 * voxel::brick_edge * bone.grid.spacing_mm.norm() +
+                      0.5 * bone.grid.spacing_mm.maxCoeff()),
       empty_(bone.grid.brick_count()),
       hot_(bone.grid.brick_count()),
       due_at_(bone.grid.brick_count()),
@@ -104,7 +106,8 @@ void RemovalSchedule::follow(const QuantisedPose& grid_from_tool) noexcept {
 }
 
 double RemovalSchedule::gap_voxels(uint32_t brick, const GridAffine& affine) const noexcept {
-  return (static_cast<double>(brick_distance_mm(brick, affine)) - brick_reach_mm_) / grid_.spacing_mm.maxCoeff();
+  return (static_cast<double>(brick_distance_mm(brick, affine)) - brick_reach_mm_) /
+         grid_.spacing_mm.maxCoeff();
 }
 
 double RemovalSchedule::measured_gap_voxels(uint32_t brick, const GridAffine& affine) const noexcept {
@@ -135,8 +138,8 @@ std::span<const uint32_t> RemovalSchedule::due(const QuantisedPose& grid_from_to
       due_at_[brick] = odometer_voxels_ + gap;
       continue;
     }
-    // Bricks that became due together (at a first contact, say) get phases of their own, so that later ticks share
-    // the work evenly.
+    // Bricks that became due together (at a first contact, say) get phases of their own, so that later ticks
+    // share the work evenly.
     const double regular = due_at_[brick] + revisit_voxels;
     due_at_[brick] = regular > odometer_voxels_ ? regular : odometer_voxels_ + revisit_voxels * phase(brick);
     if (gap <= 0.0) due_[n++] = brick;

@@ -134,7 +134,8 @@ FolderInProgress::~FolderInProgress() {
 
 void FolderInProgress::commit() {
   const auto check = [&](const std::error_code& failed) {
-    if (failed) throw Error(ErrorKind::io, "cannot write folder " + final_.string() + ": " + failed.message());
+    if (failed)
+      throw Error(ErrorKind::io, "cannot write folder " + final_.string() + ": " + failed.message());
   };
   std::error_code failed, ignored;
   fs::path old = final_;

@@ -9,7 +9,8 @@
 
 namespace ream {
 
-/// Whole file as text or bytes. Throws Error: not_found when there is no such file, io when it cannot be read.
+/// Whole file as text or bytes. Throws Error: not_found when there is no such file, io when it cannot be
+/// read.
 std::string read_text_file(const std::filesystem::path& path);
 std::vector<std::byte> read_binary_file(const std::filesystem::path& path);
 

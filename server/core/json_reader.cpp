@@ -106,9 +106,7 @@ std::vector<std::string> JsonReader::texts_or_none(const std::string& key) {
   return result;
 }
 
-JsonReader JsonReader::object(const std::string& key) {
-  return {at(key), place_ + "." + key};
-}
+JsonReader JsonReader::object(const std::string& key) { return {at(key), place_ + "." + key}; }
 
 std::vector<JsonReader> JsonReader::objects(const std::string& key) {
   const auto& value = at(key);

@@ -2,7 +2,8 @@
 
 namespace ream {
 
-/// Inside the program angles are radians and spindle speed rad/s; degrees and rpm exist only at CLI, API and UI.
+/// Inside the program angles are radians and spindle speed rad/s; degrees and rpm exist only at CLI, API and
+/// UI.
 inline constexpr double pi = 3.14159265358979323846;
 constexpr double radians_from_degrees(double degrees) { return degrees * (pi / 180.0); }
 constexpr double degrees_from_radians(double radians) { return radians * (180.0 / pi); }

@@ -127,8 +127,6 @@ DicomState Walker::walk() {
 
 }  // namespace
 
-DicomState dicom_state(const std::filesystem::path& file) {
-  return Walker(file).walk();
-}
+DicomState dicom_state(const std::filesystem::path& file) { return Walker(file).walk(); }
 
 }  // namespace ream::ct

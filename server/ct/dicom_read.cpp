@@ -164,9 +164,7 @@ void append(HuVolume& volume, const std::vector<int16_t>& slice, int missing) {
   volume.hu.insert(volume.hu.end(), slice.begin(), slice.end());
 }
 
-std::string rounded_mm(double v) {
-  return std::to_string(std::lround(v));
-}
+std::string rounded_mm(double v) { return std::to_string(std::lround(v)); }
 
 void load_stack(HuVolume& volume, const std::vector<Slice>& slices, const fs::path& folder) {
   const double distance = usual_distance_mm(slices);

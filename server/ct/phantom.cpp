@@ -48,9 +48,7 @@ double noise(uint64_t seed, uint64_t index) {
 }
 
 /// Share of a voxel on the inner side of a border at signed distance `d` (negative inside).
-double inside_share(double d, double voxel_mm) {
-  return std::clamp(0.5 - d / voxel_mm, 0.0, 1.0);
-}
+double inside_share(double d, double voxel_mm) { return std::clamp(0.5 - d / voxel_mm, 0.0, 1.0); }
 
 /// Apparent density of the trabecular bone: densest posterior and near the face (science 2.4).
 double cancellous_g_cc(double posterior_mm, double depth_mm) {
@@ -73,9 +71,7 @@ double tissue_hu(const PhantomShape& shape, const PhantomParams& p, const Vec3& 
   return filled * hu_of_apparent_density(density, p.calibration) + (1.0 - filled) * soft_tissue_hu;
 }
 
-Vec3 mirrored(const Vec3& v) {
-  return {-v.x(), v.y(), v.z()};
-}
+Vec3 mirrored(const Vec3& v) { return {-v.x(), v.y(), v.z()}; }
 
 void mirror(GroundTruth& truth) {
   for (Vec3* v : {&truth.glenoid.centre_mm, &truth.glenoid.lateral, &truth.glenoid.superior,

@@ -7,6 +7,7 @@ namespace ream::ct {
 namespace {
 
 constexpr double seed_depth_mm = 5.0;  // in the vault, under the plate
+constexpr double demo_depth_mm = 1.0;  // within the subchondral plate, and what the demo script reaches
 
 }  // namespace
 
@@ -61,7 +62,8 @@ case_::Case load_or_make_demo_case(const std::filesystem::path& data_folder) {
   const auto folder = data_folder / "cases" / "demo";
   if (std::filesystem::exists(folder / "case.json")) return case_::load_case(folder);
   const PhantomPreset preset = phantom_preset("demo");
-  const case_::Case demo = make_phantom_case("demo", preset.params, preset.upsample);
+  case_::Case demo = make_phantom_case("demo", preset.params, preset.upsample);
+  demo.plan->depth_mm = demo_depth_mm;
   case_::save_case(demo, folder, true);
   return demo;
 }

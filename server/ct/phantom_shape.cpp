@@ -22,27 +22,17 @@ constexpr double rim_rounding_mm = 0.8, joint_rounding_mm = 3.0;
 constexpr double head_radius_mm = 24.0, shaft_radius_mm = 12.0;
 
 /// sin and cos of the platform's library can differ in the last bit; rounded far below any voxel they do not.
-double settled(double v) {
-  return std::floor(v * 1099511627776.0 + 0.5) / 1099511627776.0;
-}
-double sine(double a) {
-  return settled(std::sin(a));
-}
-double cosine(double a) {
-  return settled(std::cos(a));
-}
-double tangent(double a) {
-  return settled(std::tan(a));
-}
+double settled(double v) { return std::floor(v * 1099511627776.0 + 0.5) / 1099511627776.0; }
+double sine(double a) { return settled(std::sin(a)); }
+double cosine(double a) { return settled(std::cos(a)); }
+double tangent(double a) { return settled(std::tan(a)); }
 
 /// Polynomial maximum and minimum that round the edge between two surfaces over `width`.
 double rounded_max(double a, double b, double width) {
   const double h = std::max(width - std::abs(a - b), 0.0) / width;
   return std::max(a, b) + 0.25 * h * h * width;
 }
-double rounded_min(double a, double b, double width) {
-  return -rounded_max(-a, -b, width);
-}
+double rounded_min(double a, double b, double width) { return -rounded_max(-a, -b, width); }
 
 /// Distance to the segment a-b with a radius that goes linearly from ra to rb.
 double capsule(const Vec3& p, const Vec3& a, const Vec3& b, double ra, double rb) {

@@ -22,8 +22,8 @@ struct DeviceInput {
 };
 
 struct DeviceOutput {
-  Vec3 force_n = Vec3::Zero();        ///< on the hand, world frame
-  Vec3 torque_n_mm = Vec3::Zero();    ///< on the hand about the handle's origin, world frame
+  Vec3 force_n = Vec3::Zero();      ///< on the hand, world frame
+  Vec3 torque_n_mm = Vec3::Zero();  ///< on the hand about the handle's origin, world frame
 };
 
 enum class DeviceStatus {
@@ -33,9 +33,9 @@ enum class DeviceStatus {
   fault,     ///< the device cannot be used any more
 };
 
-/// A thing held in the hand: gives a pose, takes a force, once a millisecond. read and write are called from the
-/// haptic thread: they never block, throw or allocate. The owner opens it before the first tick and closes it after the
-/// last; close() leaves the device without force.
+/// A thing held in the hand: gives a pose, takes a force, once a millisecond. read and write are called from
+/// the haptic thread: they never block, throw or allocate. The owner opens it before the first tick and
+/// closes it after the last; close() leaves the device without force.
 class HapticDevice {
  public:
   virtual ~HapticDevice() = default;

@@ -49,7 +49,8 @@ std::vector<TimedPose> parse_poses(JsonReader& reader) {
     TimedPose pose;
     pose.t_s = previous_s = next_time(entry, previous_s);
     pose.position_mm = vector_or(entry, "position_mm", pose.position_mm);
-    pose.rotation_vector_rad = vector_or(entry, "rotation_deg", pose.rotation_vector_rad, radians_from_degrees(1.0));
+    pose.rotation_vector_rad =
+        vector_or(entry, "rotation_deg", pose.rotation_vector_rad, radians_from_degrees(1.0));
     entry.finish();
     poses.push_back(pose);
   }
@@ -90,6 +91,8 @@ Script parse_script(const nlohmann::json& json, const std::string& where) {
   return script;
 }
 
-Script load_script(const std::filesystem::path& path) { return parse_script(read_json_file(path), path.string()); }
+Script load_script(const std::filesystem::path& path) {
+  return parse_script(read_json_file(path), path.string());
+}
 
 }  // namespace ream::device

@@ -9,8 +9,8 @@
 
 namespace ream::device {
 
-/// Plan frame: origin at the planned entry point, z along the planned axis into the bone. Scripts speak in it so that
-/// one script serves every case, left and right.
+/// Plan frame: origin at the planned entry point, z along the planned axis into the bone. Scripts speak in it
+/// so that one script serves every case, left and right.
 struct TimedPose {
   double t_s = 0.0;
   Vec3 position_mm = Vec3::Zero();
@@ -28,8 +28,8 @@ struct TimedButtons {
   bool pause = false;
 };
 
-/// Simulated hand: a mass on a damped arm that pushes along its axis with a force profile. All of it in simulated newtons,
-/// so that one script behaves alike at any force scale.
+/// Simulated hand: a mass on a damped arm that pushes along its axis with a force profile. All of it in
+/// simulated newtons, so that one script behaves alike at any force scale.
 struct HandParameters {
   Vec3 start_mm = Vec3(0.0, 0.0, -10.0);  ///< plan frame
   Vec3 tilt_rad = Vec3::Zero();           ///< rotation vector of the axis it holds, plan frame
@@ -45,11 +45,11 @@ enum class ScriptKind { hand, poses };
 struct Script {
   ScriptKind kind = ScriptKind::hand;
   double duration_s = 0.0;
-  double force_scale = 1.0;  ///< simulated N per hand N
+  double force_scale = 1.0;     ///< simulated N per hand N
   double stiffness_n_mm = 0.0;  ///< of the coupling, hand side; 0: the device's own
   double spindle_rpm = 156.0;
   HandParameters hand;
-  std::vector<TimedPose> poses;      ///< at least one for ScriptKind::poses, times ascending
+  std::vector<TimedPose> poses;       ///< at least one for ScriptKind::poses, times ascending
   std::vector<TimedButtons> buttons;  ///< times ascending; before the first: spindle on, no pause
 };
 

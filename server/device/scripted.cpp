@@ -44,7 +44,8 @@ class ScriptedDevice : public HapticDevice {
 /// Follows timed poses whatever it feels.
 class PoseDevice final : public ScriptedDevice {
  public:
-  PoseDevice(const Script& script, const Pose& world_from_plan) : ScriptedDevice(script, world_from_plan, "poses") {}
+  PoseDevice(const Script& script, const Pose& world_from_plan)
+      : ScriptedDevice(script, world_from_plan, "poses") {}
   DeviceStatus write(const DeviceOutput&) noexcept override { return DeviceStatus::ok; }
 
  private:
@@ -54,7 +55,8 @@ class PoseDevice final : public ScriptedDevice {
   }
 };
 
-/// A mass held by a damped arm, pushed along the line it holds and kept on it by a spring; semi-implicit Euler.
+/// A mass held by a damped arm, pushed along the line it holds and kept on it by a spring; semi-implicit
+/// Euler.
 class HandDevice final : public ScriptedDevice {
  public:
   HandDevice(const Script& script, const Pose& world_from_plan)
@@ -81,7 +83,8 @@ class HandDevice final : public ScriptedDevice {
     const Vec3 axis = rotation_.col(2);
     const Vec3 off_line = position_mm_ - hand.start_mm;
     const Vec3 sideways = off_line - axis * axis.dot(off_line);
-    // The profile speaks in simulated newtons, and so do mass and springs: one script feels alike at any force scale.
+    // The profile speaks in simulated newtons, and so do mass and springs: one script feels alike at any
+    // force scale.
     const double push_n = force_at(hand.force_profile, t_s);
     const Vec3 force_n = axis * push_n - hand.guide_stiffness_n_mm * sideways + script_.force_scale * felt_n_;
     // 1 N on 1 kg is 1000 mm/s^2; damping is taken implicitly so that a light hand stays stable.

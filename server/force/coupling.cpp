@@ -28,12 +28,15 @@ Vec6 solve(Mat6 m, Vec6 x) {
 
 }  // namespace
 
-CouplingStep couple(const CouplingParameters& p, const Resistance& resistance, const Vec6& delta, double tick_s) noexcept {
-  const double k_linear = p.stiffness_n_mm * p.force_scale, k_angular = p.angular_stiffness_n_mm_rad * p.force_scale;
+CouplingStep couple(const CouplingParameters& p, const Resistance& resistance, const Vec6& delta,
+                    double tick_s) noexcept {
+  const double k_linear = p.stiffness_n_mm * p.force_scale,
+               k_angular = p.angular_stiffness_n_mm_rad * p.force_scale;
   const Vec6 stiffness{k_linear, k_linear, k_linear, k_angular, k_angular, k_angular};
 
   // What leaves the bone goes without resistance; the rest meets it.
-  const double along = delta[0] * resistance.outward[0] + delta[1] * resistance.outward[1] + delta[2] * resistance.outward[2];
+  const double along =
+      delta[0] * resistance.outward[0] + delta[1] * resistance.outward[1] + delta[2] * resistance.outward[2];
   Vec6 leaving{}, meeting = delta;
   if (along > 0.0)
     for (size_t i = 0; i < 3; ++i) {
@@ -43,7 +46,8 @@ CouplingStep couple(const CouplingParameters& p, const Resistance& resistance, c
 
   double guiding_trace = 0.0;
   for (size_t i = 0; i < 3; ++i) guiding_trace += at(resistance.guiding, i, i);
-  const double guiding_scale = guiding_trace > 0.0 ? blocked_to_spring * k_linear * tick_s / guiding_trace : 0.0;
+  const double guiding_scale =
+      guiding_trace > 0.0 ? blocked_to_spring * k_linear * tick_s / guiding_trace : 0.0;
 
   Mat6 system{};
   Vec6 right{};

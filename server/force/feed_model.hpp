@@ -6,7 +6,7 @@ namespace ream::force {
 
 /// Bone under the cutting surface in one tick, by class in the order cancellous, cortical, cartilage.
 struct EngagedBone {
-  std::array<double, 3> share{};         ///< of the engaged cutting points; sums to 1, or all 0 without contact
+  std::array<double, 3> share{};  ///< of the engaged cutting points; sums to 1, or all 0 without contact
   std::array<double, 3> density_g_cc{};  ///< mean of the class
 
   bool any() const { return share[0] + share[1] + share[2] > 0.0; }
@@ -23,8 +23,8 @@ class FeedModel {
   virtual double resistance_n_s_mm(const EngagedBone& bone) const noexcept = 0;
 };
 
-/// The thesis' statistical model (eqs 5.1, 5.2): f(D, F) = (F / 52 N)(m D + b) per class. The classes under the
-/// reamer act side by side, so their resistances add by share.
+/// The thesis' statistical model (eqs 5.1, 5.2): f(D, F) = (F / 52 N)(m D + b) per class. The classes under
+/// the reamer act side by side, so their resistances add by share.
 std::unique_ptr<FeedModel> make_empirical_feed_model();
 
 /// Feed rate of one class (0 cancellous, 1 cortical, 2 cartilage) at the reference thrust, mm/s; never below

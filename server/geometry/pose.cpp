@@ -80,7 +80,8 @@ QuantisedPose quantised(const Pose& pose) {
       q.rotation_q30[static_cast<size_t>(3 * row + col)] =
           static_cast<int32_t>(std::llround(pose.rotation(row, col) * 1073741824.0));
   for (int i = 0; i < 3; ++i)
-    q.translation_nm[static_cast<size_t>(i)] = static_cast<int32_t>(std::llround(pose.translation_mm[i] * 1e6));
+    q.translation_nm[static_cast<size_t>(i)] =
+        static_cast<int32_t>(std::llround(pose.translation_mm[i] * 1e6));
   return q;
 }
 

@@ -6,10 +6,10 @@
 
 namespace ream {
 
-/// Rigid transform. A pose named a_from_b takes coordinates in frame b to coordinates in frame a. Frames: world
-/// (LPS of the CT), handle (device stylus), tool (virtual reamer, origin at the apex of its cutting surface,
-/// z along the feed axis, into the bone), grid (mm, origin at the minimum corner of voxel (0,0,0), axes along
-/// the voxel axes), mesh (a tool file's own coordinates), device (the haptic device's base).
+/// Rigid transform. A pose named a_from_b takes coordinates in frame b to coordinates in frame a. Frames:
+/// world (LPS of the CT), handle (device stylus), tool (virtual reamer, origin at the apex of its cutting
+/// surface, z along the feed axis, into the bone), grid (mm, origin at the minimum corner of voxel (0,0,0),
+/// axes along the voxel axes), mesh (a tool file's own coordinates), device (the haptic device's base).
 struct Pose {
   Mat3 rotation = Mat3::Identity();  ///< orthonormal, right-handed
   Vec3 translation_mm = Vec3::Zero();
@@ -22,11 +22,12 @@ struct Pose {
 /// a_from_c = a_from_b * b_from_c.
 Pose operator*(const Pose& a_from_b, const Pose& b_from_c);
 
-/// Rotation by the rotation vector `v` (axis times angle, rad) by the Cayley map: exact to third order, always
-/// orthonormal, and only + - x / so that it is the same on every machine. |v| should stay below 1 rad.
+/// Rotation by the rotation vector `v` (axis times angle, rad) by the Cayley map: exact to third order,
+/// always orthonormal, and only + - x / so that it is the same on every machine. |v| should stay below 1 rad.
 Mat3 rotation_from_small_vector(const Vec3& v);
 
-/// The rotation vector (rad) whose Cayley rotation is `r`; inverse of rotation_from_small_vector for angles < pi.
+/// The rotation vector (rad) whose Cayley rotation is `r`; inverse of rotation_from_small_vector for angles <
+/// pi.
 Vec3 small_vector_from_rotation(const Mat3& r);
 
 /// Gram-Schmidt clean-up of a rotation that has drifted by rounding.

@@ -21,9 +21,7 @@ std::filesystem::path file_of(const std::string& key) {
 }
 
 /// Independent of the one in the file's name, so that a collision of names is seen.
-uint64_t second_hash(const std::string& key) {
-  return hash_text(key, 0x6b65726e656c73ull);
-}
+uint64_t second_hash(const std::string& key) { return hash_text(key, 0x6b65726e656c73ull); }
 
 }  // namespace
 

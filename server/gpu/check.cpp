@@ -53,20 +53,10 @@ void check(cl_int status, const char* call, const std::string& what) {
                                           "; --backend cpu works without OpenCL");
 }
 
-void Release::operator()(_cl_context* object) const noexcept {
-  clReleaseContext(object);
-}
-void Release::operator()(_cl_command_queue* object) const noexcept {
-  clReleaseCommandQueue(object);
-}
-void Release::operator()(_cl_mem* object) const noexcept {
-  clReleaseMemObject(object);
-}
-void Release::operator()(_cl_program* object) const noexcept {
-  clReleaseProgram(object);
-}
-void Release::operator()(_cl_kernel* object) const noexcept {
-  clReleaseKernel(object);
-}
+void Release::operator()(_cl_context* object) const noexcept { clReleaseContext(object); }
+void Release::operator()(_cl_command_queue* object) const noexcept { clReleaseCommandQueue(object); }
+void Release::operator()(_cl_mem* object) const noexcept { clReleaseMemObject(object); }
+void Release::operator()(_cl_program* object) const noexcept { clReleaseProgram(object); }
+void Release::operator()(_cl_kernel* object) const noexcept { clReleaseKernel(object); }
 
 }  // namespace ream::gpu

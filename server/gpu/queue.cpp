@@ -16,9 +16,7 @@ Queue::Queue(const Device& device) : device_(device) {
   shares_host_memory_ = device.may_share_host_memory && try_sharing();
 }
 
-void Queue::finish() const {
-  check(clFinish(queue_.get()), "clFinish");
-}
+void Queue::finish() const { check(clFinish(queue_.get()), "clFinish"); }
 
 bool Queue::try_sharing() const {
   // Arrays of std::vector are aligned to 16 bytes only, so the trial is too.

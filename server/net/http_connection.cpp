@@ -22,9 +22,7 @@ namespace {
 using Parser = http::request_parser<http::string_body>;
 using Outgoing = http::response<http::span_body<const char>>;
 
-std::string text(beast::string_view view) {
-  return {view.data(), view.size()};
-}
+std::string text(beast::string_view view) { return {view.data(), view.size()}; }
 
 std::string lower(std::string name) {
   std::transform(name.begin(), name.end(), name.begin(),

@@ -109,13 +109,9 @@ struct Listener::Parts {
 Listener::Listener(const Router& router, const ListenOptions& options)
     : parts_(std::make_unique<Parts>(router, options)) {}
 
-Listener::~Listener() {
-  stop();
-}
+Listener::~Listener() { stop(); }
 
-uint16_t Listener::port() const {
-  return parts_->bound_port;
-}
+uint16_t Listener::port() const { return parts_->bound_port; }
 
 void Listener::start() {
   asio::post(parts_->acceptor.get_executor(), [parts = parts_.get()] { parts->accept(); });

@@ -19,9 +19,7 @@ std::vector<std::string> segments_of(std::string_view path) {
   return segments;
 }
 
-bool is_parameter(const std::string& segment) {
-  return segment.size() > 2 && segment.front() == '{';
-}
+bool is_parameter(const std::string& segment) { return segment.size() > 2 && segment.front() == '{'; }
 
 bool matches(const std::vector<std::string>& pattern, const std::vector<std::string>& path) {
   if (pattern.size() != path.size()) return false;
@@ -60,9 +58,7 @@ void Router::on_websocket(const std::string& pattern, WebSocketHandler handler) 
   entries_.push_back({"GET", pattern, segments_of(pattern), upgrade_required, std::move(handler)});
 }
 
-void Router::otherwise(Handler handler) {
-  otherwise_ = std::move(handler);
-}
+void Router::otherwise(Handler handler) { otherwise_ = std::move(handler); }
 
 Response Router::dispatch(Request& request) const {
   const std::vector<std::string> path = segments_of(request.path);

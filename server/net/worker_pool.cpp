@@ -6,9 +6,7 @@ WorkerPool::WorkerPool(size_t threads, size_t most_waiting) : most_waiting_(most
   for (size_t i = 0; i < threads; ++i) threads_.emplace_back([this] { work(); });
 }
 
-WorkerPool::~WorkerPool() {
-  stop();
-}
+WorkerPool::~WorkerPool() { stop(); }
 
 bool WorkerPool::submit(std::function<void()> job) {
   {

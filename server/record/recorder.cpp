@@ -73,7 +73,8 @@ void append_ticks(const std::vector<std::byte>& raw, std::vector<RecordedTick>& 
 
 Recorder::Recorder(const std::filesystem::path& path, const nlohmann::json& header) : path_(path) {
   file_ = std::fopen(path.c_str(), "wb");
-  if (file_ == nullptr) throw Error(ErrorKind::io, "cannot write " + path.string() + ": " + std::strerror(errno));
+  if (file_ == nullptr)
+    throw Error(ErrorKind::io, "cannot write " + path.string() + ": " + std::strerror(errno));
   const std::string text = header.dump();
   const auto size = static_cast<uint32_t>(text.size());
   write_all(magic, sizeof magic);
@@ -103,10 +104,12 @@ void Recorder::finish() {
 
 void Recorder::write_chunk() {
   const std::vector<std::byte> stored = compressed(pending_);
-  const ChunkHeader header{static_cast<uint32_t>(stored.size()), static_cast<uint32_t>(pending_.size()), hash_bytes(stored)};
+  const ChunkHeader header{static_cast<uint32_t>(stored.size()), static_cast<uint32_t>(pending_.size()),
+                           hash_bytes(stored)};
   write_all(&header, sizeof header);
   write_all(stored.data(), stored.size());
-  if (std::fflush(file_) != 0) throw Error(ErrorKind::io, "cannot write " + path_.string() + ": " + std::strerror(errno));
+  if (std::fflush(file_) != 0)
+    throw Error(ErrorKind::io, "cannot write " + path_.string() + ": " + std::strerror(errno));
   pending_.clear();
   pending_ticks_ = 0;
 }
@@ -132,9 +135,11 @@ Recording read_recording(const std::filesystem::path& path) {
   ChunkHeader header;
   while (bytes.size() - at >= sizeof header) {
     std::memcpy(&header, bytes.data() + at, sizeof header);
-    const std::span<const std::byte> stored(bytes.data() + at + sizeof header,
-                                            std::min<size_t>(header.stored_bytes, bytes.size() - at - sizeof header));
-    if (stored.size() != header.stored_bytes || header.raw_bytes > largest_chunk || hash_bytes(stored) != header.checksum)
+    const std::span<const std::byte> stored(
+        bytes.data() + at + sizeof header,
+        std::min<size_t>(header.stored_bytes, bytes.size() - at - sizeof header));
+    if (stored.size() != header.stored_bytes || header.raw_bytes > largest_chunk ||
+        hash_bytes(stored) != header.checksum)
       break;
     std::vector<std::byte> raw(header.raw_bytes);
     if (ZSTD_decompress(raw.data(), raw.size(), stored.data(), stored.size()) != raw.size()) break;

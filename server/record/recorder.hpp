@@ -8,10 +8,11 @@
 
 namespace ream::record {
 
-/// Writes recording.ream: a JSON header (what was simulated, by which build) and, in chunks of one second, the cause of
-/// every tick (handle pose and buttons as they were used, the decided tool pose) with the rolling hash. Each chunk is
-/// zstd with length and checksum and is flushed whole, so that a killed process loses at most the last second.
-/// The file format is not yet promised. Used by one follower thread, never by the tick.
+/// Writes recording.ream: a JSON header (what was simulated, by which build) and, in chunks of one second,
+/// the cause of every tick (handle pose and buttons as they were used, the decided tool pose) with the
+/// rolling hash. Each chunk is zstd with length and checksum and is flushed whole, so that a killed process
+/// loses at most the last second. The file format is not yet promised. Used by one follower thread, never by
+/// the tick.
 class Recorder {
  public:
   /// Throws Error io when the file cannot be created.
@@ -43,7 +44,8 @@ struct RecordedTick {
   uint64_t session_hash = 0;
 };
 
-/// A recording read back; stops at the last whole chunk and says in `complete` whether that was the end of the file.
+/// A recording read back; stops at the last whole chunk and says in `complete` whether that was the end of
+/// the file.
 struct Recording {
   std::string header_json;
   std::vector<RecordedTick> ticks;

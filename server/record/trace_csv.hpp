@@ -7,8 +7,8 @@
 
 namespace ream::record {
 
-/// trace.csv, one row a tick; column names carry their units. Written to a temporary name and renamed by finish(), so
-/// an interrupted run leaves no half trace.
+/// trace.csv, one row a tick; column names carry their units. Written to a temporary name and renamed by
+/// finish(), so an interrupted run leaves no half trace.
 class TraceCsv {
  public:
   /// Throws Error io when the file cannot be created.

@@ -31,7 +31,8 @@ void MetricsAccumulator::add(const record::TickReport& r) {
 
 Metrics MetricsAccumulator::metrics() const {
   const auto volume = [&](voxel::BoneClass bone_class) {
-    return static_cast<double>(coverage_removed_[static_cast<size_t>(bone_class)]) / 255.0 * voxel_volume_mm3_;
+    return static_cast<double>(coverage_removed_[static_cast<size_t>(bone_class)]) / 255.0 *
+           voxel_volume_mm3_;
   };
   Metrics m;
   m.removed_volume_cancellous_mm3 = volume(voxel::BoneClass::cancellous);

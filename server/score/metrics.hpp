@@ -6,8 +6,8 @@
 
 namespace ream::score {
 
-/// What is known of a run so far; the first metrics of metrics.json. Volumes leave the pilot hole out (it is gone
-/// before the first tick), forces are simulated newtons.
+/// What is known of a run so far; the first metrics of metrics.json. Volumes leave the pilot hole out (it is
+/// gone before the first tick), forces are simulated newtons.
 struct Metrics {
   double removed_volume_mm3 = 0.0;
   double removed_volume_cortical_mm3 = 0.0;

@@ -36,9 +36,7 @@ void check_size(const ToolProfile& profile, double spacing_mm) {
                                               std::to_string(longest_mm / (most_cells_a_side - 2)) + " mm");
 }
 
-int8_t in_127ths(double component) {
-  return static_cast<int8_t>(std::lround(127.0 * component));
-}
+int8_t in_127ths(double component) { return static_cast<int8_t>(std::lround(127.0 * component)); }
 
 ShellPoint point_of(const MeridianHit& hit, const Vec3& normal, SurfaceRole role, uint32_t morton) {
   ShellPoint p;

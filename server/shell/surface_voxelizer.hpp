@@ -10,8 +10,8 @@ namespace ream::shell {
 /// (eqs 3.6-3.8).
 enum class Separability { six = 6, twenty_six = 26 };
 
-/// One bit a cell, cubic cells, x fastest; 32 cells a word, each row of x starts at a new word so that rows can be
-/// written apart.
+/// One bit a cell, cubic cells, x fastest; 32 cells a word, each row of x starts at a new word so that rows
+/// can be written apart.
 struct SurfaceVoxels {
   Vec3i dims = Vec3i::Zero();
   Vec3 origin_mm = Vec3::Zero();  ///< minimum corner of cell (0,0,0), frame of the mesh
@@ -28,12 +28,14 @@ struct SurfaceVoxels {
   size_t filled_cells() const;
 };
 
-/// Empty cells around the mesh's box, grown by half a cell on each side so that no surface lies on the border.
-/// Throws Error invalid_input for a size that is not positive, or a grid that would not fit in memory.
+/// Empty cells around the mesh's box, grown by half a cell on each side so that no surface lies on the
+/// border. Throws Error invalid_input for a size that is not positive, or a grid that would not fit in
+/// memory.
 SurfaceVoxels surface_grid(const TriangleMesh& mesh, double size_mm);
 
-/// Marks the cells of `grid` that the mesh's surface passes. The C++ form; the OpenCL form gives the same bits.
-/// Float arithmetic of + - x and comparisons only, in the order written in kernels/surface_voxelizer.cl.
+/// Marks the cells of `grid` that the mesh's surface passes. The C++ form; the OpenCL form gives the same
+/// bits. Float arithmetic of + - x and comparisons only, in the order written in
+/// kernels/surface_voxelizer.cl.
 void voxelize_surface_cpu(const TriangleMesh& mesh, Separability separability, SurfaceVoxels& grid);
 
 }  // namespace ream::shell

@@ -11,12 +11,8 @@ namespace {
 constexpr float edge_margin = REAM_VOXELIZER_EDGE_MARGIN;
 constexpr float plane_margin = REAM_VOXELIZER_PLANE_MARGIN;
 
-float larger(float a, float b) {
-  return a > b ? a : b;
-}
-float magnitude(float a) {
-  return a < 0.0f ? -a : a;
-}
+float larger(float a, float b) { return a > b ? a : b; }
+float magnitude(float a) { return a < 0.0f ? -a : a; }
 
 /// floor(x), held within [low, high] so that the conversion is always defined.
 int floor_to_int(float x, float low, float high) {

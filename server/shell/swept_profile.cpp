@@ -42,9 +42,7 @@ ToolProfile swept_body(const ToolProfile& profile) {
 }
 
 /// Largest power of two that is at most `limit`: its inverse is then exact.
-double power_of_two_below(double limit) {
-  return std::exp2(std::floor(std::log2(limit)));
-}
+double power_of_two_below(double limit) { return std::exp2(std::floor(std::log2(limit))); }
 
 }  // namespace
 

@@ -5,13 +5,13 @@ namespace ream::sim {
 
 /// Where the tool stands and what it touches there.
 struct Approach {
-  bool ok = true;       ///< false: the narrow phase's device failed
+  bool ok = true;  ///< false: the narrow phase's device failed
   collide::Voi voi;
   collide::ContactSums sums;
 };
 
-/// Moves the free tool towards the handle, at most one voxel between two looks for contact, until it touches or
-/// arrives. What has been left behind beyond `max_substeps` voxels is made up in later ticks.
+/// Moves the free tool towards the handle, at most one voxel between two looks for contact, until it touches
+/// or arrives. What has been left behind beyond `max_substeps` voxels is made up in later ticks.
 Approach approach(const Model& model, State& state, const Pose& world_from_handle) noexcept;
 
 /// Contact of the tool as it stands.

@@ -15,9 +15,9 @@ struct Backend {
   std::unique_ptr<collide::Removal> removal;
 };
 
-/// `model.settings.backend`: "cpu" is the C++ form, "opencl" or "opencl:N" an OpenCL device, "auto" the C++ form (the
-/// quicker one on every processor measured so far). Everything is allocated, built and warmed here. Errors: usage for
-/// other words, unavailable when the device cannot be had.
+/// `model.settings.backend`: "cpu" is the C++ form, "opencl" or "opencl:N" an OpenCL device, "auto" the C++
+/// form (the quicker one on every processor measured so far). Everything is allocated, built and warmed here.
+/// Errors: usage for other words, unavailable when the device cannot be had.
 Backend make_backend(const Model& model, voxel::BoneModel& bone);
 
 }  // namespace ream::sim

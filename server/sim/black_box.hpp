@@ -6,8 +6,8 @@
 
 namespace ream::sim {
 
-/// The last seconds of the loop, kept in a fixed ring for the case of a fault. remember() is called from the tick;
-/// write() after the loop has ended.
+/// The last seconds of the loop, kept in a fixed ring for the case of a fault. remember() is called from the
+/// tick; write() after the loop has ended.
 class BlackBox {
  public:
   explicit BlackBox(size_t ticks = 2000);

@@ -34,15 +34,16 @@ force::EngagedBone engaged_bone(const collide::ContactSums& sums) noexcept {
     if (sums.class_points[k] == 0) continue;
     const auto points = static_cast<double>(sums.class_points[k]);
     bone.share[k] = points / static_cast<double>(total);
-    bone.density_g_cc[k] = k == static_cast<size_t>(voxel::BoneClass::cartilage)
-                               ? voxel::cartilage_density_g_cc
-                               : static_cast<double>(sums.class_density[k]) * voxel::density_step_g_cc / points;
+    bone.density_g_cc[k] =
+        k == static_cast<size_t>(voxel::BoneClass::cartilage)
+            ? voxel::cartilage_density_g_cc
+            : static_cast<double>(sums.class_density[k]) * voxel::density_step_g_cc / points;
   }
   return bone;
 }
 
-force::Resistance contact_resistance(const Model& model, const collide::ContactSums& sums, double resistance_n_s_mm,
-                                     bool cuts) noexcept {
+force::Resistance contact_resistance(const Model& model, const collide::ContactSums& sums,
+                                     double resistance_n_s_mm, bool cuts) noexcept {
   force::Resistance resistance;
   const double length = model.contact_shell.moment_length_mm;
   const double axial = largest_translational(sums.cutting);

@@ -26,9 +26,12 @@ class DeviceGuard {
 
 LoopEnd end_of(StepStatus status) {
   switch (status) {
-    case StepStatus::ok: return LoopEnd::running;
-    case StepStatus::collision_failed: return LoopEnd::collision_failed;
-    case StepStatus::not_finite: return LoopEnd::not_finite;
+    case StepStatus::ok:
+      return LoopEnd::running;
+    case StepStatus::collision_failed:
+      return LoopEnd::collision_failed;
+    case StepStatus::not_finite:
+      return LoopEnd::not_finite;
   }
   return LoopEnd::not_finite;
 }
@@ -37,19 +40,24 @@ LoopEnd end_of(StepStatus status) {
 
 std::string to_words(LoopEnd end) {
   switch (end) {
-    case LoopEnd::device_fault: return "The haptic device stopped answering; check its cable and power, then start a new session.";
-    case LoopEnd::collision_failed: return "The OpenCL device failed; start again with --backend cpu.";
-    case LoopEnd::not_finite: return "A pose or force was not a number; the force was set to zero and the session ended.";
-    case LoopEnd::followers_late: return "The recording could not keep up with the loop; check the disk, then start a new session.";
+    case LoopEnd::device_fault:
+      return "The haptic device stopped answering; check its cable and power, then start a new session.";
+    case LoopEnd::collision_failed:
+      return "The OpenCL device failed; start again with --backend cpu.";
+    case LoopEnd::not_finite:
+      return "A pose or force was not a number; the force was set to zero and the session ended.";
+    case LoopEnd::followers_late:
+      return "The recording could not keep up with the loop; check the disk, then start a new session.";
     case LoopEnd::running:
     case LoopEnd::finished:
-    case LoopEnd::stopped: return "";
+    case LoopEnd::stopped:
+      return "";
   }
   return "";
 }
 
-HapticLoop::HapticLoop(const Model& model, State& state, device::HapticDevice& device, SpscRing<TickReport>& reports,
-                       LoopOptions options)
+HapticLoop::HapticLoop(const Model& model, State& state, device::HapticDevice& device,
+                       SpscRing<TickReport>& reports, LoopOptions options)
     : model_(model), state_(state), device_(device), reports_(reports), options_(options) {}
 
 HapticLoop::~HapticLoop() { stop(); }
@@ -67,9 +75,10 @@ void HapticLoop::start() {
   if (granted.load(std::memory_order_acquire) == 1) return;
   thread_.join();
   device_.close();
-  throw Error(ErrorKind::unavailable,
-              "real-time scheduling was refused; give the program CAP_SYS_NICE and unlimited locked memory, or use "
-              "--realtime try");
+  throw Error(
+      ErrorKind::unavailable,
+      "real-time scheduling was refused; give the program CAP_SYS_NICE and unlimited locked memory, or use "
+      "--realtime try");
 }
 
 LoopEnd HapticLoop::run() {
@@ -119,7 +128,8 @@ LoopEnd HapticLoop::one_tick(device::DeviceInput& input, double lateness_us) noe
   const double step_us = elapsed_us(start);
   black_box_.remember(report, step_us, lateness_us);
   if (status != StepStatus::ok) return end_of(status);
-  if (device_.write({report.hand_force_n, report.hand_torque_n_mm}) != device::DeviceStatus::ok) return LoopEnd::device_fault;
+  if (device_.write({report.hand_force_n, report.hand_torque_n_mm}) != device::DeviceStatus::ok)
+    return LoopEnd::device_fault;
 
   tick_us_.add(step_us);
   lateness_us_.add(lateness_us);

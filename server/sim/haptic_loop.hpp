@@ -42,16 +42,19 @@ struct LoopOptions {
   Realtime realtime = Realtime::attempt;
 };
 
-/// The 1 kHz loop: read, compute, check, limit, write. In virtual time it runs the same ticks without waiting. Every way
-/// out of it writes zero force and closes the device. One loop per State; the reports ring has one consumer.
+/// The 1 kHz loop: read, compute, check, limit, write. In virtual time it runs the same ticks without
+/// waiting. Every way out of it writes zero force and closes the device. One loop per State; the reports ring
+/// has one consumer.
 class HapticLoop {
  public:
-  HapticLoop(const Model& model, State& state, device::HapticDevice& device, SpscRing<TickReport>& reports, LoopOptions options);
+  HapticLoop(const Model& model, State& state, device::HapticDevice& device, SpscRing<TickReport>& reports,
+             LoopOptions options);
   ~HapticLoop();
   HapticLoop(const HapticLoop&) = delete;
   HapticLoop& operator=(const HapticLoop&) = delete;
 
-  /// Opens the device and starts the thread. Errors: those of open(); unavailable when real time is required and refused.
+  /// Opens the device and starts the thread. Errors: those of open(); unavailable when real time is required
+  /// and refused.
   void start();
   /// Asks the loop to end; from any thread.
   void request_stop() noexcept { stop_.store(true, std::memory_order_relaxed); }

@@ -19,8 +19,8 @@ namespace ream::sim {
 struct Settings {
   std::string backend = "cpu";  ///< auto, cpu, opencl or opencl:N
   double tool_spacing_mm = 0.2;
-  double force_scale = 1.0;      ///< simulated N per hand N
-  double stiffness_n_mm = 2.0;   ///< coupling, hand side
+  double force_scale = 1.0;     ///< simulated N per hand N
+  double stiffness_n_mm = 2.0;  ///< coupling, hand side
   double angular_stiffness_n_mm_rad = 2000.0;
   force::DeviceLimits limits;
   uint64_t random_seed = 1;
@@ -37,15 +37,16 @@ struct Model {
   collide::ContactShell contact_shell;
   voxel::BrickDistance distance;
   voxel::Occupancy occupancy;
-  Aabb bone_box_grid;      ///< around all bone at the start; removal only shrinks it
-  Aabb tool_box_tool;      ///< around probes and swept body
+  Aabb bone_box_grid;  ///< around all bone at the start; removal only shrinks it
+  Aabb tool_box_tool;  ///< around probes and swept body
   std::unique_ptr<force::FeedModel> feed;
   force::CouplingParameters coupling;
-  double thin_step_mm = 0.1;  ///< no point of the tool moves farther between two looks for contact (one voxel)
+  double thin_step_mm =
+      0.1;  ///< no point of the tool moves farther between two looks for contact (one voxel)
 };
 
-/// Prepares a planned case for a tool: cuts the pilot hole into `bone` and builds the rest. Errors: conflict when the case
-/// has no plan, those of make_point_shell and swept_profile.
+/// Prepares a planned case for a tool: cuts the pilot hole into `bone` and builds the rest. Errors: conflict
+/// when the case has no plan, those of make_point_shell and swept_profile.
 Model make_model(const case_::Plan& plan, voxel::BoneModel& bone, shell::Tool tool, const Settings& settings);
 
 /// Plan frame of a plan, chosen the same way every time.

@@ -22,11 +22,11 @@ struct State {
   voxel::BoneModel& bone;
   Backend backend;
   collide::RemovalSchedule schedule;
-  std::vector<uint8_t> changed, empty;      ///< per entry of the schedule's list
+  std::vector<uint8_t> changed, empty;         ///< per entry of the schedule's list
   voxel::BrickSender* brick_sender = nullptr;  ///< followers, where there are any; not owned
-  int brick_budget = 256;                   ///< images sent a tick
+  int brick_budget = 256;                      ///< images sent a tick
 
-  bool started = false;                     ///< the tool has been put at the handle
+  bool started = false;  ///< the tool has been put at the handle
   uint32_t tick = 0;
   Pose world_from_tool;
   uint64_t session_hash = 0;

@@ -29,17 +29,19 @@ Pose moved(const Pose& world_from_tool, const force::Vec6& motion, double fracti
 Pose moved_within_a_voxel(const Model& model, const Pose& world_from_tool, const force::Vec6& motion) {
   const Pose whole = moved(world_from_tool, motion, 1.0);
   const double distance_mm = largest_motion_mm(model, world_from_tool, whole);
-  return distance_mm <= model.thin_step_mm ? whole : moved(world_from_tool, motion, model.thin_step_mm / distance_mm);
+  return distance_mm <= model.thin_step_mm ? whole
+                                           : moved(world_from_tool, motion, model.thin_step_mm / distance_mm);
 }
 
 /// Spring, feed law and motion of the tool that touches bone; fills the force part of the report.
-void press(const Model& model, State& state, const collide::ContactSums& sums, const device::DeviceInput& input,
-           TickReport& report) {
+void press(const Model& model, State& state, const collide::ContactSums& sums,
+           const device::DeviceInput& input, TickReport& report) {
   const force::EngagedBone bone = engaged_bone(sums);
   const double resistance_n_s_mm = bone.any() ? model.feed->resistance_n_s_mm(bone) : 0.0;
   const force::Vec6 delta = handle_minus_tool(state.world_from_tool, input.world_from_handle);
   const auto couple_when = [&](bool cuts) {
-    return force::couple(model.coupling, contact_resistance(model, sums, resistance_n_s_mm, cuts), delta, tick_s);
+    return force::couple(model.coupling, contact_resistance(model, sums, resistance_n_s_mm, cuts), delta,
+                         tick_s);
   };
   force::CouplingStep coupled = couple_when(input.spindle_on);
   const double thrust_n = coupled.wrench_on_tool[2];
@@ -60,16 +62,18 @@ void press(const Model& model, State& state, const collide::ContactSums& sums, c
   report.density_g_cc = bone.mean_density_g_cc();
   for (size_t k = 0; k < 3; ++k) report.share[k] = bone.share[k];
   report.engaged_points = sums.engaged();
-  report.hand_force_n = force::limited(world_from_tool_axes * (-per_hand * force_on_tool), model.settings.limits.force_max_n);
-  report.hand_torque_n_mm =
-      force::limited(world_from_tool_axes * (-per_hand * torque_on_tool), model.settings.limits.torque_max_n_mm);
+  report.hand_force_n =
+      force::limited(world_from_tool_axes * (-per_hand * force_on_tool), model.settings.limits.force_max_n);
+  report.hand_torque_n_mm = force::limited(world_from_tool_axes * (-per_hand * torque_on_tool),
+                                           model.settings.limits.torque_max_n_mm);
 }
 
 /// Cuts what is due and tells the followers; folds the changes into the report.
 bool remove(State& state, const QuantisedPose& pose, TickReport& report) {
   const auto due = state.schedule.due(pose);
   collide::RemovalSums sums;
-  if (!state.backend.removal->cut(pose, due, {state.changed.data(), due.size()}, {state.empty.data(), due.size()}, sums))
+  if (!state.backend.removal->cut(pose, due, {state.changed.data(), due.size()},
+                                  {state.empty.data(), due.size()}, sums))
     return false;
   for (size_t i = 0; i < due.size(); ++i) {
     state.schedule.cut_done(due[i], state.changed[i], state.empty[i]);
@@ -83,15 +87,17 @@ bool remove(State& state, const QuantisedPose& pose, TickReport& report) {
 
 /// The cause of the tick as it is recorded, folded into the rolling hash.
 uint64_t hash_of_cause(const TickReport& report) {
-  uint64_t h = hash_combine(report.tick, static_cast<uint64_t>(report.spindle_on) | static_cast<uint64_t>(report.paused) << 1);
+  uint64_t h = hash_combine(
+      report.tick, static_cast<uint64_t>(report.spindle_on) | static_cast<uint64_t>(report.paused) << 1);
   for (const int32_t q : report.grid_from_tool.rotation_q30) h = hash_combine(h, static_cast<uint32_t>(q));
   for (const int32_t q : report.grid_from_tool.translation_nm) h = hash_combine(h, static_cast<uint32_t>(q));
   return h;
 }
 
 bool is_finite(const TickReport& r) {
-  return r.hand_force_n.allFinite() && r.hand_torque_n_mm.allFinite() && r.world_from_tool.translation_mm.allFinite() &&
-         r.world_from_tool.rotation.allFinite() && std::isfinite(r.thrust_n);
+  return r.hand_force_n.allFinite() && r.hand_torque_n_mm.allFinite() &&
+         r.world_from_tool.translation_mm.allFinite() && r.world_from_tool.rotation.allFinite() &&
+         std::isfinite(r.thrust_n);
 }
 
 bool is_finite(const device::DeviceInput& input) {
@@ -100,7 +106,8 @@ bool is_finite(const device::DeviceInput& input) {
 
 }  // namespace
 
-StepStatus step(const Model& model, State& state, const device::DeviceInput& raw_input, TickReport& report) noexcept {
+StepStatus step(const Model& model, State& state, const device::DeviceInput& raw_input,
+                TickReport& report) noexcept {
   report = {};
   if (!is_finite(raw_input)) return StepStatus::not_finite;
   report.tick = state.tick++;
@@ -133,7 +140,8 @@ StepStatus step(const Model& model, State& state, const device::DeviceInput& raw
   state.session_hash = hash_combine(state.session_hash, hash_of_cause(report));
   report.session_hash = state.session_hash;
   const auto before_bricks = SteadyClock::now();
-  if (state.brick_sender != nullptr) state.brick_sender->send(state.bone.coverage.data(), report.tick, state.brick_budget);
+  if (state.brick_sender != nullptr)
+    state.brick_sender->send(state.bone.coverage.data(), report.tick, state.brick_budget);
   state.times.bricks_us = elapsed_us(before_bricks);
   return is_finite(report) ? StepStatus::ok : StepStatus::not_finite;
 }

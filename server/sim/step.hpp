@@ -10,9 +10,10 @@ enum class StepStatus {
   not_finite,        ///< a pose or force is not a number
 };
 
-/// One millisecond: contact, force, motion, removal, hash; in that order, readable top to bottom. The report says
-/// what happened; on any status but ok it must not be used and the device must be given zero force. No lock,
-/// allocation, log, file, socket or exception.
-StepStatus step(const Model& model, State& state, const device::DeviceInput& input, TickReport& report) noexcept;
+/// One millisecond: contact, force, motion, removal, hash; in that order, readable top to bottom. The report
+/// says what happened; on any status but ok it must not be used and the device must be given zero force. No
+/// lock, allocation, log, file, socket or exception.
+StepStatus step(const Model& model, State& state, const device::DeviceInput& input,
+                TickReport& report) noexcept;
 
 }  // namespace ream::sim

@@ -62,9 +62,7 @@ Vec3i fall_at(const uint8_t* voxel) {
   return fall;
 }
 
-int slot(int axis, int x, int y, int z) {
-  return (((z & 1) * edge + y) * row_bytes + x) * 3 + axis;
-}
+int slot(int axis, int x, int y, int z) { return (((z & 1) * edge + y) * row_bytes + x) * 3 + axis; }
 
 /// Slot of each cell edge relative to the cell's, for even and odd z.
 std::array<std::array<int, 12>, 2> edge_slots() {

@@ -12,9 +12,7 @@ void fold(float& x, float& y) {
   y = std::copysign(1.0f - std::fabs(unfolded_x), y);
 }
 
-int8_t signed_byte(float v) {
-  return static_cast<int8_t>(std::floor(v * 127.0f + 0.5f));
-}
+int8_t signed_byte(float v) { return static_cast<int8_t>(std::floor(v * 127.0f + 0.5f)); }
 
 }  // namespace
 

@@ -13,7 +13,8 @@ bool brick_has_bone(const BoneModel& bone, uint32_t brick) {
   return std::any_of(image, image + brick_voxels, [](uint8_t c) { return c != 0; });
 }
 
-/// One separable pass of the Chebyshev distance transform along one axis: d[k] = min over j of max(d[j], |k - j|).
+/// One separable pass of the Chebyshev distance transform along one axis: d[k] = min over j of max(d[j], |k -
+/// j|).
 void sweep_axis(std::vector<uint8_t>& field, const Vec3i& dims, int axis) {
   const size_t stride[3] = {1, static_cast<size_t>(dims.x()),
                             static_cast<size_t>(dims.x()) * static_cast<size_t>(dims.y())};
@@ -26,12 +27,15 @@ void sweep_axis(std::vector<uint8_t>& field, const Vec3i& dims, int axis) {
       for (int k = 0; k < n; ++k) {
         int best = line[static_cast<size_t>(k)];
         for (int offset = 1; offset < best; ++offset) {
-          if (k - offset >= 0) best = std::min(best, std::max<int>(offset, line[static_cast<size_t>(k - offset)]));
-          if (k + offset < n) best = std::min(best, std::max<int>(offset, line[static_cast<size_t>(k + offset)]));
+          if (k - offset >= 0)
+            best = std::min(best, std::max<int>(offset, line[static_cast<size_t>(k - offset)]));
+          if (k + offset < n)
+            best = std::min(best, std::max<int>(offset, line[static_cast<size_t>(k + offset)]));
         }
         result[static_cast<size_t>(k)] = static_cast<uint8_t>(best);
       }
-      for (int k = 0; k < n; ++k) start[static_cast<size_t>(k) * stride[axis]] = result[static_cast<size_t>(k)];
+      for (int k = 0; k < n; ++k)
+        start[static_cast<size_t>(k) * stride[axis]] = result[static_cast<size_t>(k)];
     }
 }
 
@@ -55,7 +59,8 @@ float BrickDistance::lower_bound_voxels(float x, float y, float z) const noexcep
     }
     brick[i] = std::min(static_cast<int>(c * (1.0f / edge)), brick_dims[i] - 1);
   }
-  const uint8_t distance = bricks[static_cast<size_t>(brick[0] + brick_dims.x() * (brick[1] + brick_dims.y() * brick[2]))];
+  const uint8_t distance =
+      bricks[static_cast<size_t>(brick[0] + brick_dims.x() * (brick[1] + brick_dims.y() * brick[2]))];
   const float inside = distance > 0 ? static_cast<float>(distance - 1) * edge : 0.0f;
   return std::max(outside, inside);
 }

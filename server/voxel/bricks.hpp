@@ -23,8 +23,8 @@ void write_brick(const VoxelGrid& grid, uint8_t* coverage, uint32_t brick, const
 using BrickRing = SpscRing<BrickImage>;
 
 /// The haptic thread's side of the brick ring: remembers which bricks changed and sends a bounded number of
-/// images a tick. A brick whose image does not fit stays marked and goes later, so nothing is lost and the loop
-/// never waits. Nothing is allocated after construction.
+/// images a tick. A brick whose image does not fit stays marked and goes later, so nothing is lost and the
+/// loop never waits. Nothing is allocated after construction.
 class BrickSender {
  public:
   BrickSender(const VoxelGrid& grid, BrickRing& ring);

@@ -7,7 +7,8 @@ namespace ream::voxel {
 Occupancy occupancy(const BoneModel& bone) {
   Occupancy out;
   out.dims = bone.grid.dims / occupancy_edge;
-  const auto cells = static_cast<size_t>(out.dims.x()) * static_cast<size_t>(out.dims.y()) * static_cast<size_t>(out.dims.z());
+  const auto cells = static_cast<size_t>(out.dims.x()) * static_cast<size_t>(out.dims.y()) *
+                     static_cast<size_t>(out.dims.z());
   out.words.assign((cells + 31) / 32, 0);
   for (int w = 0; w < bone.grid.dims.z(); ++w)
     for (int v = 0; v < bone.grid.dims.y(); ++v) {

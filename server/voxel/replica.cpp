@@ -18,7 +18,8 @@ void Replica::apply(const BrickImage& image) {
 
 Vec3i Replica::block_coordinates(uint32_t block) const {
   const int i = static_cast<int>(block);
-  return {i % block_dims_.x(), (i / block_dims_.x()) % block_dims_.y(), i / (block_dims_.x() * block_dims_.y())};
+  return {i % block_dims_.x(), (i / block_dims_.x()) % block_dims_.y(),
+          i / (block_dims_.x() * block_dims_.y())};
 }
 
 std::vector<uint32_t> Replica::take_dirty_blocks() {

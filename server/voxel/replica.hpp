@@ -8,9 +8,9 @@ namespace ream::voxel {
 /// Edge of a surface block in voxels (4 bricks).
 inline constexpr int block_edge = 32;
 
-/// A follower's own copy of the coverage, kept up to date from brick images. Owned by one thread. Remembers which
-/// 32^3 surface blocks must be extracted again: a voxel at a block's border also touches its neighbours'
-/// surface (cells and gradients reach two voxels out).
+/// A follower's own copy of the coverage, kept up to date from brick images. Owned by one thread. Remembers
+/// which 32^3 surface blocks must be extracted again: a voxel at a block's border also touches its
+/// neighbours' surface (cells and gradients reach two voxels out).
 class Replica {
  public:
   /// Copies the coverage as it is before the first tick.

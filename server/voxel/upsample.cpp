@@ -7,15 +7,9 @@
 namespace ream::voxel {
 namespace {
 
-uint32_t biased(uint8_t value) {
-  return value;
-}
-uint32_t biased(int16_t value) {
-  return static_cast<uint32_t>(value + 32768);
-}
-void unbias(uint32_t value, uint8_t& result) {
-  result = static_cast<uint8_t>(value);
-}
+uint32_t biased(uint8_t value) { return value; }
+uint32_t biased(int16_t value) { return static_cast<uint32_t>(value + 32768); }
+void unbias(uint32_t value, uint8_t& result) { result = static_cast<uint8_t>(value); }
 void unbias(uint32_t value, int16_t& result) {
   result = static_cast<int16_t>(static_cast<int32_t>(value) - 32768);
 }

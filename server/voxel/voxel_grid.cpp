@@ -9,7 +9,8 @@ namespace ream::voxel {
 
 Vec3i VoxelGrid::coordinates(size_t index) const {
   const auto dx = static_cast<size_t>(dims.x()), dy = static_cast<size_t>(dims.y());
-  return {static_cast<int>(index % dx), static_cast<int>((index / dx) % dy), static_cast<int>(index / (dx * dy))};
+  return {static_cast<int>(index % dx), static_cast<int>((index / dx) % dy),
+          static_cast<int>(index / (dx * dy))};
 }
 
 Vec3i VoxelGrid::voxel_at(const Vec3& point_mm) const {
@@ -33,11 +34,14 @@ void validate(const VoxelGrid& grid) {
     return std::to_string(v.x()) + " x " + std::to_string(v.y()) + " x " + std::to_string(v.z());
   };
   if ((grid.dims.array() <= 0).any())
-    throw Error(ErrorKind::invalid_input, "the grid is " + text(grid.dims) + " voxels; every side must be positive");
+    throw Error(ErrorKind::invalid_input,
+                "the grid is " + text(grid.dims) + " voxels; every side must be positive");
   if (grid.dims != whole_bricks(grid.dims))
-    throw Error(ErrorKind::invalid_input, "the grid is " + text(grid.dims) + " voxels; sides must be multiples of 8");
+    throw Error(ErrorKind::invalid_input,
+                "the grid is " + text(grid.dims) + " voxels; sides must be multiples of 8");
   if (grid.dims.cast<double>().prod() > 2147483647.0)
-    throw Error(ErrorKind::invalid_input, "the grid is " + text(grid.dims) + " voxels, more than 2^31; take a smaller region");
+    throw Error(ErrorKind::invalid_input,
+                "the grid is " + text(grid.dims) + " voxels, more than 2^31; take a smaller region");
   if (!grid.spacing_mm.allFinite() || (grid.spacing_mm.array() <= 0.0).any())
     throw Error(ErrorKind::invalid_input,
                 "the voxel size is " + text(grid.spacing_mm) + " mm; it must be positive and finite");

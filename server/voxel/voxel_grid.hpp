@@ -10,8 +10,8 @@ namespace ream::voxel {
 inline constexpr int brick_edge = 8;
 inline constexpr int brick_voxels = brick_edge * brick_edge * brick_edge;
 
-/// Uniform grid of thesis section 2.2: voxel (u,v,w) fills the box from p = (u,v,w)*spacing to p + spacing in the
-/// grid frame, whose origin is the minimum corner. `dims` are multiples of brick_edge.
+/// Uniform grid of thesis section 2.2: voxel (u,v,w) fills the box from p = (u,v,w)*spacing to p + spacing in
+/// the grid frame, whose origin is the minimum corner. `dims` are multiples of brick_edge.
 struct VoxelGrid {
   Vec3i dims = Vec3i::Zero();
   Vec3 spacing_mm = Vec3::Ones();
@@ -23,15 +23,14 @@ struct VoxelGrid {
   }
   /// Eq. 2.1 (and 4.1): x runs fastest. Needs 0 <= (u,v,w) < dims.
   size_t index(int u, int v, int w) const {
-    return static_cast<size_t>(u) + static_cast<size_t>(dims.x()) *
-                                        (static_cast<size_t>(v) + static_cast<size_t>(dims.y()) * static_cast<size_t>(w));
+    return static_cast<size_t>(u) +
+           static_cast<size_t>(dims.x()) *
+               (static_cast<size_t>(v) + static_cast<size_t>(dims.y()) * static_cast<size_t>(w));
   }
   size_t index(const Vec3i& o) const { return index(o.x(), o.y(), o.z()); }
   /// Eq. 2.2 (and 4.2): inverse of index.
   Vec3i coordinates(size_t index) const;
-  bool contains(const Vec3i& o) const {
-    return (o.array() >= 0).all() && (o.array() < dims.array()).all();
-  }
+  bool contains(const Vec3i& o) const { return (o.array() >= 0).all() && (o.array() < dims.array()).all(); }
   /// Eq. 2.3: voxel centre, mm, grid frame.
   Vec3 centre_mm(const Vec3i& o) const {
     return ((o.cast<double>().array() + 0.5) * spacing_mm.array()).matrix();
@@ -39,7 +38,9 @@ struct VoxelGrid {
   /// The voxel that holds a point of the grid frame; may lie outside the grid.
   Vec3i voxel_at(const Vec3& point_mm) const;
 
-  Aabb bounds_mm() const { return {Vec3::Zero(), (dims.cast<double>().array() * spacing_mm.array()).matrix()}; }
+  Aabb bounds_mm() const {
+    return {Vec3::Zero(), (dims.cast<double>().array() * spacing_mm.array()).matrix()};
+  }
   double voxel_volume_mm3() const { return spacing_mm.x() * spacing_mm.y() * spacing_mm.z(); }
   double min_spacing_mm() const { return spacing_mm.minCoeff(); }
 
@@ -61,7 +62,8 @@ struct VoxelGrid {
 /// dims rounded up to whole bricks.
 Vec3i whole_bricks(const Vec3i& dims);
 
-/// Throws Error invalid_input unless dims are positive multiples of brick_edge and spacing is positive and finite.
+/// Throws Error invalid_input unless dims are positive multiples of brick_edge and spacing is positive and
+/// finite.
 void validate(const VoxelGrid& grid);
 
 }  // namespace ream::voxel

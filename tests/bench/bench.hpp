@@ -11,7 +11,7 @@ struct Row {
   double ours = 0.0;
   double baseline = 0.0;  ///< 0: none
   std::string unit;
-  double goal = 0.0;      ///< 0: none; a row is met when ours <= goal
+  double goal = 0.0;  ///< 0: none; a row is met when ours <= goal
 };
 
 struct Options {

@@ -37,7 +37,8 @@ Measured measure(const case_::Case& bone_case, const std::string& backend) {
   settings.tool_spacing_mm = 0.1;
   settings.stiffness_n_mm = script.stiffness_n_mm;
   settings.angular_stiffness_n_mm_rad = 1000.0 * script.stiffness_n_mm;
-  const sim::Model model = sim::make_model(*copy.plan, copy.bone, shell::make_tool(shell::thesis_tool), settings);
+  const sim::Model model =
+      sim::make_model(*copy.plan, copy.bone, shell::make_tool(shell::thesis_tool), settings);
   sim::State state(model, copy.bone);
   const auto device = device::make_scripted_device(script, model.world_from_plan);
   SpscRing<record::TickReport> reports(1u << 13);
@@ -72,9 +73,10 @@ std::vector<Row> collide_suite(const Options&) {
   const ct::PhantomPreset preset = ct::phantom_preset("thesis-5-4-2");
   const case_::Case bone_case = ct::make_phantom_case("thesis-5-4-2", preset.params, preset.upsample);
   const auto shell = shell::make_point_shell(shell::make_tool(shell::thesis_tool), 0.1);
-  std::vector<Row> rows{
-      {"collide", "thesis-5-4-2 filled voxels", static_cast<double>(bone_case.bone.filled_voxels()), 12.7e6, "voxels", 0.0},
-      {"collide", "thesis-5-4-2 shell points", static_cast<double>(shell.points.size()), 213e3, "points", 0.0}};
+  std::vector<Row> rows{{"collide", "thesis-5-4-2 filled voxels",
+                         static_cast<double>(bone_case.bone.filled_voxels()), 12.7e6, "voxels", 0.0},
+                        {"collide", "thesis-5-4-2 shell points", static_cast<double>(shell.points.size()),
+                         213e3, "points", 0.0}};
   for (const std::string backend : {"cpu", "opencl"}) {
     const Measured m = measure(bone_case, backend);
     const TimingSummary& t = m.health.tick_us;

@@ -11,17 +11,24 @@ namespace {
 
 using namespace ream::bench;
 
-const std::map<std::string, std::function<std::vector<Row>(const Options&)>> suites{{"collide", collide_suite}};
+const std::map<std::string, std::function<std::vector<Row>(const Options&)>> suites{
+    {"collide", collide_suite}};
 
 bool missed(const Row& row) { return row.goal > 0.0 && row.ours > row.goal; }
 
-double ratio(const Row& row) { return row.baseline > 0.0 ? row.baseline / row.ours : row.goal > 0.0 ? row.goal / row.ours : 0.0; }
+double ratio(const Row& row) {
+  return row.baseline > 0.0 ? row.baseline / row.ours : row.goal > 0.0 ? row.goal / row.ours : 0.0;
+}
 
 void print(const std::vector<Row>& rows, bool json) {
   if (json) {
     nlohmann::json list = nlohmann::json::array();
     for (const Row& r : rows)
-      list.push_back({{"suite", r.suite}, {"case", r.name}, {"ours", r.ours}, {"unit", r.unit}, {"ratio", ratio(r)},
+      list.push_back({{"suite", r.suite},
+                      {"case", r.name},
+                      {"ours", r.ours},
+                      {"unit", r.unit},
+                      {"ratio", ratio(r)},
                       {"baseline", r.baseline > 0.0 ? nlohmann::json(r.baseline) : nlohmann::json()},
                       {"goal", r.goal > 0.0 ? nlohmann::json(r.goal) : nlohmann::json()}});
     std::cout << list.dump() << '\n';

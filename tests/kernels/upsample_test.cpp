@@ -32,12 +32,8 @@ void expect_equal_bits() {
   });
 }
 
-TEST(UpsampleCl, BytesEqualTheCppTwin) {
-  expect_equal_bits<uint8_t>();
-}
-TEST(UpsampleCl, ShortsEqualTheCppTwin) {
-  expect_equal_bits<int16_t>();
-}
+TEST(UpsampleCl, BytesEqualTheCppTwin) { expect_equal_bits<uint8_t>(); }
+TEST(UpsampleCl, ShortsEqualTheCppTwin) { expect_equal_bits<int16_t>(); }
 
 TEST(UpsampleCl, RefusesWhatTheCppTwinRefuses) {
   const gpu::Queue queue(gpu::choose_device("auto", gpu::Use::bulk));

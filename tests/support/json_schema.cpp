@@ -70,9 +70,7 @@ void require_known_keywords(const json& schema) {
 
 }  // namespace
 
-json read_yaml(const std::filesystem::path& file) {
-  return convert(YAML::LoadFile(file.string()));
-}
+json read_yaml(const std::filesystem::path& file) { return convert(YAML::LoadFile(file.string())); }
 
 const json& SchemaChecker::resolve(const json& schema) const {
   if (!schema.is_object() || !schema.contains("$ref")) return schema;

@@ -51,9 +51,7 @@ RawSocket::RawSocket(uint16_t port, int receive_buffer_bytes) : socket_(::socket
   }
 }
 
-RawSocket::~RawSocket() {
-  ::close(socket_);
-}
+RawSocket::~RawSocket() { ::close(socket_); }
 
 bool RawSocket::try_send(const std::string& bytes) {
   for (size_t sent = 0; sent < bytes.size();) {
@@ -68,9 +66,7 @@ void RawSocket::send(const std::string& bytes) {
   if (!try_send(bytes)) fail("send");
 }
 
-void RawSocket::end_sending() {
-  ::shutdown(socket_, SHUT_WR);
-}
+void RawSocket::end_sending() { ::shutdown(socket_, SHUT_WR); }
 
 bool RawSocket::fill() {
   char chunk[65536];
@@ -158,9 +154,7 @@ void RawWebSocket::send_frame(int opcode, const std::string& payload) {
   socket_.send(frame);
 }
 
-void RawWebSocket::send_binary(const std::string& payload) {
-  send_frame(2, payload);
-}
+void RawWebSocket::send_binary(const std::string& payload) { send_frame(2, payload); }
 
 void RawWebSocket::send_close(uint16_t code) {
   send_frame(8, {static_cast<char>(code >> 8), static_cast<char>(code & 0xff)});

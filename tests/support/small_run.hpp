@@ -9,8 +9,8 @@ namespace ream::test {
 
 /// Everything a short run needs, kept together because the model refers to the bone.
 struct SmallRun {
-  SmallRun(voxel::BoneModel bone_in, const case_::Plan& plan, const std::string& tool, const device::Script& script,
-           const std::string& backend = "cpu")
+  SmallRun(voxel::BoneModel bone_in, const case_::Plan& plan, const std::string& tool,
+           const device::Script& script, const std::string& backend = "cpu")
       : bone(std::move(bone_in)),
         model(sim::make_model(plan, bone, shell::make_tool(tool), settings(script, backend))),
         state(model, bone),

@@ -7,8 +7,8 @@
 
 namespace ream::test {
 
-/// A block of bone that fills the grid below the plane z = surface_mm (grid frame), of one density, with sub-voxel
-/// coverage at the plane.
+/// A block of bone that fills the grid below the plane z = surface_mm (grid frame), of one density, with
+/// sub-voxel coverage at the plane.
 inline voxel::BoneModel slab(const Vec3i& dims, double spacing_mm, double surface_mm, double density_g_cc) {
   voxel::VoxelGrid grid;
   grid.dims = dims;

@@ -22,7 +22,8 @@ std::filesystem::path bench_program() {
   const auto self = std::filesystem::read_symlink("/proc/self/exe", failed);
   const auto program = self.parent_path() / "ream-bench";
   if (failed || !std::filesystem::exists(program))
-    throw Error(ErrorKind::not_found, "no ream-bench beside ream; build the project with REAM_TESTS=ON to measure it");
+    throw Error(ErrorKind::not_found,
+                "no ream-bench beside ream; build the project with REAM_TESTS=ON to measure it");
   return program;
 }
 

@@ -13,8 +13,8 @@ struct GlobalOptions {
   std::filesystem::path data;  ///< --data; empty: see data_folder()
 };
 
-/// Each adds its sub-command; `options` must outlive `app`. The work is done in the command's callback and throws
-/// ream::Error.
+/// Each adds its sub-command; `options` must outlive `app`. The work is done in the command's callback and
+/// throws ream::Error.
 void add_phantom_command(CLI::App& app, GlobalOptions& options);
 void add_import_command(CLI::App& app, GlobalOptions& options);
 void add_plan_command(CLI::App& app, GlobalOptions& options);

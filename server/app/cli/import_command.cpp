@@ -20,9 +20,7 @@ struct Options {
   bool replace = false;
 };
 
-Vec3 point(const std::vector<double>& n, size_t first = 0) {
-  return {n[first], n[first + 1], n[first + 2]};
-}
+Vec3 point(const std::vector<double>& n, size_t first = 0) { return {n[first], n[first + 1], n[first + 2]}; }
 
 ct::ImportOptions parsed(const Options& options) {
   ct::ImportOptions import = options.import;

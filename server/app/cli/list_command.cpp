@@ -28,7 +28,10 @@ std::vector<fs::path> folders_in(const fs::path& folder) {
 
 nlohmann::json listed_case(const fs::path& folder) {
   const case_::CaseSummary c = case_::load_case_summary(folder);
-  return {{"id", c.id}, {"name", c.name}, {"side", case_::to_text(c.side)}, {"planned", c.planned},
+  return {{"id", c.id},
+          {"name", c.name},
+          {"side", case_::to_text(c.side)},
+          {"planned", c.planned},
           {"dims", {c.dims.x(), c.dims.y(), c.dims.z()}}};
 }
 
@@ -52,8 +55,8 @@ void list(const std::string& what, const GlobalOptions& global) {
     return;
   }
   for (const auto& row : rows) {
-    std::cout << row.at("id").get<std::string>() << '\t'
-              << row.value(cases ? "name" : "case_name", "") << '\t' << row.value("side", "");
+    std::cout << row.at("id").get<std::string>() << '\t' << row.value(cases ? "name" : "case_name", "")
+              << '\t' << row.value("side", "");
     if (cases) std::cout << '\t' << (row.at("planned").get<bool>() ? "planned" : "no plan");
     std::cout << '\n';
   }
@@ -64,7 +67,9 @@ void list(const std::string& what, const GlobalOptions& global) {
 void add_list_command(CLI::App& app, GlobalOptions& global) {
   auto what = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("list", "List what is in the data folder");
-  command->add_option("what", *what, "cases or sessions")->required()->check(CLI::IsMember({"cases", "sessions"}));
+  command->add_option("what", *what, "cases or sessions")
+      ->required()
+      ->check(CLI::IsMember({"cases", "sessions"}));
   command->callback([what, &global] { list(*what, global); });
 }
 

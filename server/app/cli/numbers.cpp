@@ -20,7 +20,8 @@ std::vector<double> parse_numbers(const std::string& text, size_t count, const s
     if (at != end && ++at == end) break;
   }
   if (at != end || numbers.size() != count || text.back() == ',')
-    throw Error(ErrorKind::usage, option + " '" + text + "' must be " + std::to_string(count) + " numbers separated by commas");
+    throw Error(ErrorKind::usage,
+                option + " '" + text + "' must be " + std::to_string(count) + " numbers separated by commas");
   return numbers;
 }
 

@@ -28,12 +28,14 @@ struct Options {
   std::string backend = "auto", realtime = "try";
 };
 
-/// The built page: --web, else web/ beside the program's folder, else web/dist of the source tree it was built in.
+/// The built page: --web, else web/ beside the program's folder, else web/dist of the source tree it was
+/// built in.
 fs::path web_folder(const fs::path& chosen) {
   std::error_code failed;
   if (!chosen.empty()) {
     if (!fs::is_regular_file(chosen / "index.html", failed))
-      throw Error(ErrorKind::not_found, "no index.html in " + chosen.string() + "; build the page or correct --web");
+      throw Error(ErrorKind::not_found,
+                  "no index.html in " + chosen.string() + "; build the page or correct --web");
     return chosen;
   }
   const fs::path beside = fs::read_symlink("/proc/self/exe", failed).parent_path().parent_path();
@@ -44,14 +46,17 @@ fs::path web_folder(const fs::path& chosen) {
 }
 
 sim::Realtime realtime_from_text(const std::string& text) {
-  return text == "require" ? sim::Realtime::require : text == "off" ? sim::Realtime::off : sim::Realtime::attempt;
+  return text == "require" ? sim::Realtime::require
+         : text == "off"   ? sim::Realtime::off
+                           : sim::Realtime::attempt;
 }
 
 void serve(const Options& options, const GlobalOptions& global) {
   SessionHouse house;
   house.data = data_folder(global.data);
-  house.server_epoch = static_cast<uint64_t>(
-      std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch()).count());
+  house.server_epoch = static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::microseconds>(
+                                                 std::chrono::system_clock::now().time_since_epoch())
+                                                 .count());
   house.backend = options.backend;
   house.realtime = realtime_from_text(options.realtime);
   make_writable_folder(sessions_folder(house.data));
@@ -69,8 +74,9 @@ void serve(const Options& options, const GlobalOptions& global) {
   api::Server server(std::move(server_options));
   server.start();
 
-  const std::string url = "http://" + (options.host.find(':') == std::string::npos ? options.host : "[" + options.host + "]") +
-                          ":" + std::to_string(server.port());
+  const std::string url =
+      "http://" + (options.host.find(':') == std::string::npos ? options.host : "[" + options.host + "]") +
+      ":" + std::to_string(server.port());
   if (global.json)
     std::cout << nlohmann::json{{"url", url}}.dump() << std::endl;
   else
@@ -84,13 +90,15 @@ void serve(const Options& options, const GlobalOptions& global) {
 
 void add_serve_command(CLI::App& app, GlobalOptions& global) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("serve", "Serve the page, the API and live sessions (loopback only until there are users)");
+  CLI::App* command = app.add_subcommand(
+      "serve", "Serve the page, the API and live sessions (loopback only until there are users)");
   command->add_option("--host", options->host, "Loopback address to listen on")->capture_default_str();
   command->add_option("--port", options->port, "Port; 0 takes any free one")->capture_default_str();
   command->add_option("--web", options->web, "Folder of the built page");
   command->add_option("--backend", options->backend, "auto, cpu, opencl or opencl:N")->capture_default_str();
   command->add_option("--realtime", options->realtime, "Real-time priority of the haptic loop")
-      ->check(CLI::IsMember({"require", "try", "off"}))->capture_default_str();
+      ->check(CLI::IsMember({"require", "try", "off"}))
+      ->capture_default_str();
   command->callback([options, &global] { serve(*options, global); });
 }
 

@@ -60,9 +60,11 @@ void simulate(const Options& options, const GlobalOptions& global) {
     return;
   }
   const auto number = [&](const char* key) { return result.metrics.at(key).get<double>(); };
-  std::cout << "removed " << number("removed_volume_mm3") << " mm3, " << number("reaming_depth_mm") << " mm deep, thrust "
-            << number("axial_thrust_mean_n") << " N mean and " << number("axial_thrust_peak_n") << " N peak\n"
-            << "tick mean " << result.timing.at("tick_us").at("mean").get<double>() << " us on " << rig.state.backend.name << '\n'
+  std::cout << "removed " << number("removed_volume_mm3") << " mm3, " << number("reaming_depth_mm")
+            << " mm deep, thrust " << number("axial_thrust_mean_n") << " N mean and "
+            << number("axial_thrust_peak_n") << " N peak\n"
+            << "tick mean " << result.timing.at("tick_us").at("mean").get<double>() << " us on "
+            << rig.state.backend.name << '\n'
             << out.string() << '\n';
 }
 
@@ -70,21 +72,44 @@ void simulate(const Options& options, const GlobalOptions& global) {
 
 void add_simulate_command(CLI::App& app, GlobalOptions& global) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("simulate", "Run a scripted reaming without a screen and write what happened");
-  command->add_option("--case", options->request.case_name, "Case: demo, an id of the data folder, or a case folder")->required();
-  command->add_option("--script", options->request.script_name, "Script: demo or a JSON file (proto/script.schema.json)")->required();
-  command->add_option("--out", options->out, "Folder for the results; must be new or empty. Default: ./ream-out/<n>");
-  command->add_flag("--realtime", options->wall_clock, "One tick a millisecond instead of as fast as it goes");
-  command->add_option("--backend", options->request.backend, "auto, cpu, opencl or opencl:N")->capture_default_str();
-  command->add_option("--model", options->model, "Feed model")->check(CLI::IsMember({"empirical"}))->capture_default_str();
-  command->add_option("--removal", options->removal, "Removal law")->check(CLI::IsMember({"profile"}))->capture_default_str();
-  command->add_option("--tool", options->request.tool, "Reamer: 'sphere R', 'ellipse A,B' or a mesh file. Default: the plan's");
-  command->add_option("--tool-axis", options->tool_axis, "X,Y,Z,DX,DY,DZ: a point of a mesh tool's axis and its feed direction, in the file's mm");
-  command->add_option("--tool-spacing-mm", options->request.tool_spacing_mm, "Distance of the points that feel bone")
-      ->check(CLI::Range(0.02, 5.0))->capture_default_str();
-  command->add_option("--force-scale", options->force_scale, "Simulated newtons per hand newton, instead of the script's")
+  CLI::App* command =
+      app.add_subcommand("simulate", "Run a scripted reaming without a screen and write what happened");
+  command
+      ->add_option("--case", options->request.case_name,
+                   "Case: demo, an id of the data folder, or a case folder")
+      ->required();
+  command
+      ->add_option("--script", options->request.script_name,
+                   "Script: demo or a JSON file (proto/script.schema.json)")
+      ->required();
+  command->add_option("--out", options->out,
+                      "Folder for the results; must be new or empty. Default: ./ream-out/<n>");
+  command->add_flag("--realtime", options->wall_clock,
+                    "One tick a millisecond instead of as fast as it goes");
+  command->add_option("--backend", options->request.backend, "auto, cpu, opencl or opencl:N")
+      ->capture_default_str();
+  command->add_option("--model", options->model, "Feed model")
+      ->check(CLI::IsMember({"empirical"}))
+      ->capture_default_str();
+  command->add_option("--removal", options->removal, "Removal law")
+      ->check(CLI::IsMember({"profile"}))
+      ->capture_default_str();
+  command->add_option("--tool", options->request.tool,
+                      "Reamer: 'sphere R', 'ellipse A,B' or a mesh file. Default: the plan's");
+  command->add_option(
+      "--tool-axis", options->tool_axis,
+      "X,Y,Z,DX,DY,DZ: a point of a mesh tool's axis and its feed direction, in the file's mm");
+  command
+      ->add_option("--tool-spacing-mm", options->request.tool_spacing_mm,
+                   "Distance of the points that feel bone")
+      ->check(CLI::Range(0.02, 5.0))
+      ->capture_default_str();
+  command
+      ->add_option("--force-scale", options->force_scale,
+                   "Simulated newtons per hand newton, instead of the script's")
       ->check(CLI::Range(0.01, 1000.0));
-  command->add_option("--random-seed", options->request.random_seed, "Seed of everything random")->capture_default_str();
+  command->add_option("--random-seed", options->request.random_seed, "Seed of everything random")
+      ->capture_default_str();
   command->callback([options, &global] { simulate(*options, global); });
 }
 

@@ -14,9 +14,7 @@ namespace {
 using test::expect_error;
 using test::FakeSession;
 
-SessionRequest demo() {
-  return {{}, "demo", "demo", {}};
-}
+SessionRequest demo() { return {{}, "demo", "demo", {}}; }
 
 class SessionServiceTest : public testing::Test {
  protected:

@@ -44,7 +44,8 @@ collide::ContactSums reference(const Scene& s, const QuantisedPose& pose) {
   for (size_t i = 0; i < s.shell.size(); ++i) {
     const Vec3 probe(s.shell.probe_x_mm[i], s.shell.probe_y_mm[i], s.shell.probe_z_mm[i]);
     const Vec3i at = s.bone.grid.voxel_at(grid_from_tool.point(probe));
-    if (!s.bone.grid.contains(at) || s.bone.coverage[s.bone.grid.index(at)] < collide::engaging_coverage) continue;
+    if (!s.bone.grid.contains(at) || s.bone.coverage[s.bone.grid.index(at)] < collide::engaging_coverage)
+      continue;
     collide::ContactSums::Part& part = s.shell.guiding[i] ? sums.guiding : sums.cutting;
     const auto& g = s.shell.vectors[i];
     const int64_t w = s.shell.weights[i];

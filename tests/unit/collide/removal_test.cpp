@@ -101,9 +101,9 @@ TEST(RemovalSchedule, AScheduledPlungeEndsWithinAThirtySecondVoxelOfCuttingEvery
     const QuantisedPose pose = quantised(at(8.0 + 0.1 * std::sin(40 * z), 8.0, z));
     const auto due = schedule.due(pose);
     collide::RemovalSums sums;
-    ASSERT_TRUE(scheduled.removal->cut(pose, due, {changed.data(), due.size()}, {empty.data(), due.size()}, sums));
-    for (size_t i = 0; i < due.size(); ++i)
-      schedule.cut_done(due[i], changed[i], empty[i]);
+    ASSERT_TRUE(
+        scheduled.removal->cut(pose, due, {changed.data(), due.size()}, {empty.data(), due.size()}, sums));
+    for (size_t i = 0; i < due.size(); ++i) schedule.cut_done(due[i], changed[i], empty[i]);
     visited += due.size();
     full.cut(pose, full.all_bricks());
   }

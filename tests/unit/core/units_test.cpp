@@ -9,9 +9,7 @@
 namespace ream {
 namespace {
 
-TEST(Units, PiIsTheNearestDouble) {
-  EXPECT_EQ(pi, std::acos(-1.0));
-}
+TEST(Units, PiIsTheNearestDouble) { EXPECT_EQ(pi, std::acos(-1.0)); }
 
 TEST(Units, ConvertBothWays) {
   EXPECT_DOUBLE_EQ(radians_from_degrees(180.0), pi);

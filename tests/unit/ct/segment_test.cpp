@@ -8,9 +8,7 @@ namespace {
 constexpr int edge = 8;
 const Vec3i dims = Vec3i::Constant(edge);
 
-size_t at(int u, int v, int w) {
-  return static_cast<size_t>(u + edge * (v + edge * w));
-}
+size_t at(int u, int v, int w) { return static_cast<size_t>(u + edge * (v + edge * w)); }
 
 Mask box(const Vec3i& low, const Vec3i& high) {
   Mask mask(edge * edge * edge);

@@ -22,7 +22,8 @@ Resistance axial(double resistance_n_s_mm) {
 }
 
 TEST(Coupling, AxialCreepIsTheMaxwellElement) {
-  // Backward Euler of spring and damper in series: F = K d / (1 + K T / b), motion T F / b (science.md, finding 1).
+  // Backward Euler of spring and damper in series: F = K d / (1 + K T / b), motion T F / b (science.md,
+  // finding 1).
   const CouplingParameters p{2.0, 2000.0, 26.0};
   const double b = 2000.0, k = 52.0, d = 1.0;
   const CouplingStep step = couple(p, axial(b), {0, 0, d, 0, 0, 0}, tick_s);
@@ -80,10 +81,12 @@ TEST(Coupling, SolvesTheSixBySixSystem) {
     Eigen::Matrix<double, 6, 1> k;
     k << 10, 10, 10, 900, 900, 900;
     const Eigen::Matrix<double, 6, 6> system = b + Eigen::Matrix<double, 6, 6>((k * tick_s).asDiagonal());
-    const Eigen::Matrix<double, 6, 1> twist = system.ldlt().solve(Eigen::Matrix<double, 6, 1>(k.cwiseProduct(delta)));
+    const Eigen::Matrix<double, 6, 1> twist =
+        system.ldlt().solve(Eigen::Matrix<double, 6, 1>(k.cwiseProduct(delta)));
     const CouplingStep step = couple({10.0, 900.0, 1.0}, r, d, tick_s);
     for (size_t i = 0; i < 6; ++i)
-      EXPECT_NEAR(step.tool_motion[i], twist[static_cast<int>(i)] * tick_s, 1e-9) << "seed " << seed << " trial " << trial;
+      EXPECT_NEAR(step.tool_motion[i], twist[static_cast<int>(i)] * tick_s, 1e-9)
+          << "seed " << seed << " trial " << trial;
   }
 }
 

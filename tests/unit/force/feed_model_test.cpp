@@ -16,7 +16,8 @@ TEST(EmpiricalFeed, ReproducesTheThesisEquations) {
 
 TEST(EmpiricalFeed, StaysWithinTheScatterOfTheSpecimens) {
   // Table 5.1: density, feed; the largest deviation of a specimen from the law is 29 %.
-  const double cortical[][2] = {{1.52, .037}, {1.54, .035}, {1.61, .021}, {1.40, .038}, {1.58, .026}, {1.30, .039}};
+  const double cortical[][2] = {{1.52, .037}, {1.54, .035}, {1.61, .021},
+                                {1.40, .038}, {1.58, .026}, {1.30, .039}};
   const double cancellous[][2] = {{.55, .25}, {.41, .28}, {.72, .16}, {.45, .26}, {.62, .23}, {.48, .25}};
   for (const auto& s : cortical) EXPECT_NEAR(s[1] / empirical_feed_mm_s(1, s[0]), 1.0, 0.30);
   for (const auto& s : cancellous) EXPECT_NEAR(s[1] / empirical_feed_mm_s(0, s[0]), 1.0, 0.11);

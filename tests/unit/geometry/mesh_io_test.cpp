@@ -98,9 +98,7 @@ struct Format {
   std::string (*write)(const TriangleMesh&);
 };
 
-std::ostream& operator<<(std::ostream& out, const Format& format) {
-  return out << format.name;
-}
+std::ostream& operator<<(std::ostream& out, const Format& format) { return out << format.name; }
 
 class MeshFormat : public testing::TestWithParam<Format> {
  protected:
@@ -144,9 +142,7 @@ TEST_P(MeshFormat, DropsDegenerateTriangles) {
   expect_refused(GetParam().write(mesh));
 }
 
-TEST_P(MeshFormat, RefusesWhatIsNoMesh) {
-  expect_refused("this is not a mesh\n\x01\x02\x03");
-}
+TEST_P(MeshFormat, RefusesWhatIsNoMesh) { expect_refused("this is not a mesh\n\x01\x02\x03"); }
 
 INSTANTIATE_TEST_SUITE_P(MeshIo, MeshFormat,
                          testing::Values(Format{"binary_stl", "mesh.stl", binary_stl},

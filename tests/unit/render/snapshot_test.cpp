@@ -65,12 +65,8 @@ Pose at(const Vec3& position_mm) {
   return pose;
 }
 
-bool reddish(const std::array<int, 3>& p) {
-  return p[0] > p[2] + 60;
-}
-bool bluish(const std::array<int, 3>& p) {
-  return p[2] > p[0] + 60;
-}
+bool reddish(const std::array<int, 3>& p) { return p[0] > p[2] + 60; }
+bool bluish(const std::array<int, 3>& p) { return p[2] > p[0] + 60; }
 
 const Vec3f red(0.8f, 0.1f, 0.1f), blue(0.1f, 0.1f, 0.8f);
 

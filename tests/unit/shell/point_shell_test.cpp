@@ -15,13 +15,9 @@
 namespace ream::shell {
 namespace {
 
-Vec3 normal_of(const ShellPoint& p) {
-  return Vec3(p.normal[0], p.normal[1], p.normal[2]) / 127.0;
-}
+Vec3 normal_of(const ShellPoint& p) { return Vec3(p.normal[0], p.normal[1], p.normal[2]) / 127.0; }
 
-double radius_of(const Vec3& p) {
-  return std::hypot(p.x(), p.y());
-}
+double radius_of(const Vec3& p) { return std::hypot(p.x(), p.y()); }
 
 double area_mm2(const PointShell& shell, SurfaceRole role) {
   double area = 0.0;

@@ -23,9 +23,7 @@ SurfaceVoxels voxelized(const TriangleMesh& mesh, double size_mm, Separability s
   return grid;
 }
 
-Mat3 some_rotation(double a) {
-  return rotation_from_small_vector(Vec3(0.3 * a, -0.5 * a, 0.2 * a));
-}
+Mat3 some_rotation(double a) { return rotation_from_small_vector(Vec3(0.3 * a, -0.5 * a, 0.2 * a)); }
 
 /// Independent reference: the 13-axis separating-axis test of a triangle and a unit cell, in doubles. `slack`
 /// widens (positive) or shrinks (negative) the cell, in cells.

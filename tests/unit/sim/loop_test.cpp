@@ -24,7 +24,8 @@ class WatchedDevice final : public device::HapticDevice {
   device::DeviceStatus read(device::DeviceInput& input) noexcept override {
     if (reads++ == fault_at) return device::DeviceStatus::fault;
     const auto status = inner_->read(input);
-    if (reads == nan_at) input.world_from_handle.translation_mm.x() = std::numeric_limits<double>::quiet_NaN();
+    if (reads == nan_at)
+      input.world_from_handle.translation_mm.x() = std::numeric_limits<double>::quiet_NaN();
     return status;
   }
   device::DeviceStatus write(const device::DeviceOutput& output) noexcept override {
@@ -43,7 +44,10 @@ class WatchedDevice final : public device::HapticDevice {
 };
 
 struct LoopRun {
-  LoopRun() : run(make()), device(device::make_scripted_device(script(), run.model.world_from_plan)), reports(4096) {}
+  LoopRun()
+      : run(make()),
+        device(device::make_scripted_device(script(), run.model.world_from_plan)),
+        reports(4096) {}
 
   static device::Script script() { return steady_push(52.0, 1.0); }
   static SmallRun make() {

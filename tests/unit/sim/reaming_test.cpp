@@ -24,7 +24,8 @@ SmallRun press_on_slab(double force_n, double density, double duration_s, double
 double settled_feed(const std::vector<record::TickReport>& reports, size_t ticks) {
   const auto& a = reports[reports.size() - ticks];
   const auto& b = reports.back();
-  return (b.world_from_tool.translation_mm - a.world_from_tool.translation_mm).norm() / (static_cast<double>(ticks - 1) * 1e-3);
+  return (b.world_from_tool.translation_mm - a.world_from_tool.translation_mm).norm() /
+         (static_cast<double>(ticks - 1) * 1e-3);
 }
 
 TEST(Reaming, FeedsAtTheEmpiricalRateInCorticalBone) {
@@ -50,7 +51,8 @@ TEST(Reaming, RemovedVolumeIsTheSweptCap) {
   const auto reports = run.run();
   score::MetricsAccumulator metrics(run.bone.grid.voxel_volume_mm3(), run.model.world_from_plan.inverse());
   for (const auto& r : reports) metrics.add(r);
-  const double apex_mm = (run.model.world_from_plan.inverse().point(reports.back().world_from_tool.translation_mm)).z();
+  const double apex_mm =
+      (run.model.world_from_plan.inverse().point(reports.back().world_from_tool.translation_mm)).z();
   ASSERT_GT(apex_mm, 0.5);
   const double cap_mm3 = pi * apex_mm * apex_mm * (8.0 - apex_mm / 3.0);
   EXPECT_NEAR(metrics.metrics().removed_volume_mm3, cap_mm3, 0.02 * cap_mm3);
@@ -94,7 +96,9 @@ TEST(Reaming, WithdrawingNeverPulls) {
   const Vec3 axis = run.model.world_from_plan.rotation.col(2);
   for (const auto& r : reports) EXPECT_LE(r.hand_force_n.dot(axis), 1e-6) << "tick " << r.tick;
   EXPECT_FALSE(reports.back().engaged);
-  EXPECT_LT((reports.back().world_from_tool.translation_mm - reports.back().world_from_handle.translation_mm).norm(), 1e-5);
+  EXPECT_LT((reports.back().world_from_tool.translation_mm - reports.back().world_from_handle.translation_mm)
+                .norm(),
+            1e-5);
 }
 
 TEST(Reaming, SameInputsGiveTheSameBits) {

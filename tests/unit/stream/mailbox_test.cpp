@@ -10,9 +10,7 @@
 namespace ream::stream {
 namespace {
 
-Message any_hello() {
-  return hello_message({});
-}
+Message any_hello() { return hello_message({}); }
 
 SharedTelemetry telemetry(uint32_t tick, size_t samples) {
   TelemetryBatch batch;
