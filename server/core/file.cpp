@@ -95,7 +95,7 @@ nlohmann::json read_json_file(const fs::path& path) {
   const std::string text = read_text_file(path);
   try {
     return nlohmann::json::parse(text);
-  } catch (const nlohmann::json::parse_error& e) {
+  } catch (const nlohmann::json::exception& e) {
     std::string what = e.what();
     const auto bracket = what.find("] ");
     if (bracket != std::string::npos) what = what.substr(bracket + 2);
@@ -124,12 +124,17 @@ FolderInProgress::FolderInProgress(fs::path final_path, bool replace)
       throw Error(ErrorKind::conflict, final_.string() + " exists and is not empty; choose another place");
   }
   fs::remove_all(temporary_, failed);
+  for (fs::path p = final_.parent_path(); !fs::exists(p, failed) && p.has_relative_path();
+       p = p.parent_path())
+    made_parents_.push_back(p);
   make_writable_folder(temporary_);
 }
 
 FolderInProgress::~FolderInProgress() {
   std::error_code ignored;
-  if (!committed_) fs::remove_all(temporary_, ignored);
+  if (committed_) return;
+  fs::remove_all(temporary_, ignored);
+  for (const fs::path& parent : made_parents_) fs::remove(parent, ignored);  // unless others use it by now
 }
 
 void FolderInProgress::commit() {

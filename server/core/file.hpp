@@ -40,6 +40,7 @@ class FolderInProgress {
 
  private:
   std::filesystem::path final_, temporary_;
+  std::vector<std::filesystem::path> made_parents_;  ///< innermost first
   bool committed_ = false;
 };
 

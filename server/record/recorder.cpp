@@ -15,6 +15,11 @@ namespace ream::record {
 namespace {
 
 constexpr char magic[8] = {'r', 'e', 'a', 'm', 'r', 'e', 'c', '1'};
+/// After the magic number: how long the header's JSON is, and its checksum.
+struct FileHeader {
+  uint64_t text_bytes = 0, checksum = 0;
+};
+
 constexpr uint32_t ticks_per_chunk = 1000;
 constexpr size_t words_per_tick = 2 + 12 + 12 + 2;  ///< tick, flags, two poses, hash in two halves
 constexpr uint32_t largest_chunk = 64u << 20;
@@ -69,6 +74,22 @@ void append_ticks(const std::vector<std::byte>& raw, std::vector<RecordedTick>& 
   }
 }
 
+/// Takes the header's JSON and returns where the chunks begin.
+size_t read_header(const std::vector<std::byte>& bytes, const std::filesystem::path& path,
+                   std::string& json) {
+  FileHeader header;
+  const size_t fixed = sizeof magic + sizeof header;
+  if (bytes.size() < sizeof magic || std::memcmp(bytes.data(), magic, sizeof magic) != 0)
+    throw Error(ErrorKind::invalid_input, path.string() + " is not a recording of this program");
+  if (bytes.size() >= fixed) std::memcpy(&header, bytes.data() + sizeof magic, sizeof header);
+  if (bytes.size() < fixed || header.text_bytes > bytes.size() - fixed)
+    throw Error(ErrorKind::invalid_input, path.string() + " ends inside its header; the recording is lost");
+  json.assign(reinterpret_cast<const char*>(bytes.data()) + fixed, header.text_bytes);
+  if (hash_text(json) != header.checksum)
+    throw Error(ErrorKind::invalid_input, path.string() + " is damaged in its header; the recording is lost");
+  return fixed + json.size();
+}
+
 }  // namespace
 
 Recorder::Recorder(const std::filesystem::path& path, const nlohmann::json& header) : path_(path) {
@@ -76,9 +97,9 @@ Recorder::Recorder(const std::filesystem::path& path, const nlohmann::json& head
   if (file_ == nullptr)
     throw Error(ErrorKind::io, "cannot write " + path.string() + ": " + std::strerror(errno));
   const std::string text = header.dump();
-  const auto size = static_cast<uint32_t>(text.size());
+  const FileHeader fixed{text.size(), hash_text(text)};
   write_all(magic, sizeof magic);
-  write_all(&size, sizeof size);
+  write_all(&fixed, sizeof fixed);
   write_all(text.data(), text.size());
 }
 
@@ -121,17 +142,8 @@ void Recorder::write_all(const void* data, size_t size) {
 
 Recording read_recording(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_binary_file(path);
-  uint32_t header_size = 0;
-  const size_t fixed = sizeof magic + sizeof header_size;
-  if (bytes.size() < fixed || std::memcmp(bytes.data(), magic, sizeof magic) != 0)
-    throw Error(ErrorKind::invalid_input, path.string() + " is not a recording of this program");
-  std::memcpy(&header_size, bytes.data() + sizeof magic, sizeof header_size);
-  if (header_size > bytes.size() - fixed)
-    throw Error(ErrorKind::invalid_input, path.string() + " ends inside its header; the recording is lost");
   Recording recording;
-  recording.header_json.assign(reinterpret_cast<const char*>(bytes.data()) + fixed, header_size);
-
-  size_t at = fixed + header_size;
+  size_t at = read_header(bytes, path, recording.header_json);
   ChunkHeader header;
   while (bytes.size() - at >= sizeof header) {
     std::memcpy(&header, bytes.data() + at, sizeof header);

@@ -52,7 +52,8 @@ struct Recording {
   bool complete = false;
 };
 
-/// Error invalid_input when the file is no recording; a damaged tail only clears `complete`.
+/// Error invalid_input when the file is no recording or its header is damaged; a damaged tail only clears
+/// `complete`.
 Recording read_recording(const std::filesystem::path& path);
 
 }  // namespace ream::record

@@ -87,7 +87,11 @@ void TraceCsv::finish() {
   if (std::ferror(file_) || std::fflush(file_) != 0 || ::fsync(fileno(file_)) != 0) fail(path_);
   std::fclose(file_);
   file_ = nullptr;
-  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_);
+  if (std::rename(temporary_.c_str(), path_.c_str()) == 0) return;
+  const int why = errno;
+  ::unlink(temporary_.c_str());
+  errno = why;
+  fail(path_);
 }
 
 }  // namespace ream::record

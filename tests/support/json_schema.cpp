@@ -60,9 +60,10 @@ bool has_any_type(const json& value, const json& types) {
 
 void require_known_keywords(const json& schema) {
   static const std::set<std::string> known = {
-      "$ref",  "type",       "const",    "enum",    "required", "properties",       "additionalProperties",
-      "items", "minItems",   "maxItems", "minimum", "maximum",  "exclusiveMinimum", "pattern",
-      "oneOf", "description"};
+      "$ref",  "type",     "const",    "enum",    "required", "properties",       "additionalProperties",
+      "items", "minItems", "maxItems", "minimum", "maximum",  "exclusiveMinimum", "pattern",
+      "oneOf", "allOf",    "if",       "then",    "not",      "description",      "title",
+      "$defs", "$schema",  "$id",      "default"};
   for (const auto& [key, value] : schema.items())
     if (!known.contains(key))
       throw std::logic_error("the checker does not know the schema keyword '" + key + "'");
@@ -100,6 +101,8 @@ void SchemaChecker::check(const json& unresolved, const json& value, const std::
       std::find(schema["enum"].begin(), schema["enum"].end(), value) == schema["enum"].end())
     complain(value.dump() + " is none of " + schema["enum"].dump());
   if (schema.contains("oneOf")) check_one_of(schema, value, at, faults);
+  for (const json& part : schema.value("allOf", json::array())) check(part, value, at, faults);
+  check_condition(schema, value, at, faults);
   if (value.is_number()) {
     const double number = value.get<double>();
     if (schema.contains("minimum") && number < schema["minimum"].get<double>()) complain("is too small");
@@ -112,6 +115,18 @@ void SchemaChecker::check(const json& unresolved, const json& value, const std::
     complain(value.dump() + " does not match " + schema["pattern"].dump());
   if (value.is_object()) check_object(schema, value, at, faults);
   if (value.is_array()) check_array(schema, value, at, faults);
+}
+
+void SchemaChecker::check_condition(const json& schema, const json& value, const std::string& at,
+                                    std::vector<std::string>& faults) const {
+  const auto fits = [&](const json& part) {
+    std::vector<std::string> of_part;
+    check(part, value, at, of_part);
+    return of_part.empty();
+  };
+  if (schema.contains("not") && fits(schema["not"])) faults.push_back(at + ": fits what it must not fit");
+  if (schema.contains("if") && schema.contains("then") && fits(schema["if"]))
+    check(schema["then"], value, at, faults);
 }
 
 void SchemaChecker::check_object(const json& schema, const json& value, const std::string& at,

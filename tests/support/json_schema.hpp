@@ -9,7 +9,7 @@ namespace ream::test {
 /// A YAML file as JSON (YAML 1.2 core types; quoted scalars are text).
 nlohmann::json read_yaml(const std::filesystem::path& file);
 
-/// Checks values against JSON schemas inside one document. Knows the keywords that proto/openapi.yaml uses
+/// Checks values against JSON schemas inside one document. Knows the keywords that the files in proto/ use
 /// and throws std::logic_error on any other, so that nothing is passed over unseen.
 class SchemaChecker {
  public:
@@ -30,6 +30,8 @@ class SchemaChecker {
                    std::vector<std::string>& faults) const;
   void check_one_of(const nlohmann::json& schema, const nlohmann::json& value, const std::string& at,
                     std::vector<std::string>& faults) const;
+  void check_condition(const nlohmann::json& schema, const nlohmann::json& value, const std::string& at,
+                       std::vector<std::string>& faults) const;
 
   const nlohmann::json& document_;
 };

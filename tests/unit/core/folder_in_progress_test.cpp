@@ -52,6 +52,14 @@ TEST(FolderInProgress, FillsAnEmptyFolder) {
   EXPECT_EQ(parent.entries(), Names{"out"});
 }
 
+TEST(FolderInProgress, TakesTheParentsItMadeAwayWhenGivenUp) {
+  const test::TemporaryFolder parent;
+  fs::create_directory(parent.path() / "kept");
+  { put(FolderInProgress(parent.path() / "deep" / "er" / "out"), "half"); }
+  { put(FolderInProgress(parent.path() / "kept" / "out"), "half"); }
+  EXPECT_EQ(parent.entries(), Names{"kept"});
+}
+
 TEST(FolderInProgress, MakesMissingParents) {
   const test::TemporaryFolder parent;
   FolderInProgress folder(parent.path() / "deep" / "er" / "out");

@@ -1,0 +1,74 @@
+#include "core/timing_histogram.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <random>
+#include <vector>
+
+namespace ream {
+namespace {
+
+/// The smallest of the sorted values that at least that share of them do not exceed.
+double percentile(const std::vector<double>& sorted, double fraction) {
+  const auto rank = static_cast<size_t>(std::ceil(fraction * static_cast<double>(sorted.size())));
+  return sorted[std::max<size_t>(rank, 1) - 1];
+}
+
+TEST(TimingHistogram, AgreesWithSortedTimes) {
+  std::mt19937 random(51);
+  std::lognormal_distribution<double> time_us(5.0, 1.0);
+  for (const size_t count : {1u, 2u, 10u, 999u, 50000u}) {
+    auto histogram = std::make_unique<TimingHistogram>();
+    std::vector<double> times;
+    double sum_us = 0.0;
+    for (size_t i = 0; i < count; ++i) {
+      times.push_back(std::min(time_us(random), 19000.0));
+      histogram->add(times.back());
+      sum_us += times.back();
+    }
+    std::sort(times.begin(), times.end());
+    const TimingSummary summary = histogram->summary();
+    SCOPED_TRACE("seed 51, " + std::to_string(count) + " times");
+    EXPECT_EQ(summary.count, count);
+    EXPECT_NEAR(summary.mean_us, sum_us / static_cast<double>(count), 1e-9 * sum_us);
+    EXPECT_EQ(summary.max_us, times.back());
+    for (const auto& [found, fraction] : {std::pair{summary.p50_us, 0.5}, std::pair{summary.p99_us, 0.99},
+                                          std::pair{summary.p999_us, 0.999}}) {
+      // An upper edge of a bin of one microsecond.
+      EXPECT_GE(found, percentile(times, fraction)) << fraction;
+      EXPECT_LE(found, percentile(times, fraction) + 1.0) << fraction;
+    }
+  }
+}
+
+TEST(TimingHistogram, NothingTimedIsZero) {
+  const auto histogram = std::make_unique<TimingHistogram>();
+  const TimingSummary summary = histogram->summary();
+  EXPECT_EQ(summary.count, 0u);
+  for (const double value :
+       {summary.mean_us, summary.p50_us, summary.p99_us, summary.p999_us, summary.max_us})
+    EXPECT_EQ(value, 0.0);
+}
+
+TEST(TimingHistogram, TimesBeyondItsRangeKeepTheMaximumExact) {
+  const auto histogram = std::make_unique<TimingHistogram>();
+  for (int i = 0; i < 90; ++i) histogram->add(3.5);
+  for (int i = 0; i < 10; ++i) histogram->add(123456.75);
+  const TimingSummary summary = histogram->summary();
+  EXPECT_EQ(summary.p50_us, 4.0);
+  EXPECT_EQ(summary.p99_us, 123456.75);
+  EXPECT_EQ(summary.max_us, 123456.75);
+}
+
+TEST(TimingHistogram, PercentilesNeverExceedTheMaximum) {
+  const auto histogram = std::make_unique<TimingHistogram>();
+  histogram->add(7.25);
+  EXPECT_EQ(histogram->summary().p50_us, 7.25);
+  EXPECT_EQ(histogram->summary().p999_us, 7.25);
+}
+
+}  // namespace
+}  // namespace ream

@@ -1,0 +1,90 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "device/script.hpp"
+#include "support/json_schema.hpp"
+
+namespace ream::device {
+namespace {
+
+using nlohmann::json;
+
+std::string parser_complaint(const json& script) {
+  try {
+    parse_script(script, "script");
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+/// proto/script.schema.json and the parser say the same of each: what one takes the other takes.
+class ScriptSchema : public testing::TestWithParam<const char*> {
+ protected:
+  static std::vector<std::string> faults(const json& script) {
+    const json schema = read_json_file(std::string(REAM_SOURCE_DIR) + "/proto/script.schema.json");
+    return test::SchemaChecker(schema).faults(schema, script);
+  }
+};
+
+class GoodScript : public ScriptSchema {};
+
+TEST_P(GoodScript, IsTakenByBoth) {
+  const json script = json::parse(GetParam());
+  EXPECT_EQ(faults(script), std::vector<std::string>{});
+  EXPECT_EQ(parser_complaint(script), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scripts, GoodScript,
+    testing::Values(
+        R"({"device": "hand", "duration_s": 1, "hand": {"force_profile": [{"t_s": 0, "force_n": 50}]}})",
+        R"({"device": "hand", "duration_s": 14400, "force_scale": 0.01, "stiffness_n_mm": 0, "spindle_rpm": 1,
+            "hand": {"start_mm": [0, 0, -5], "tilt_deg": [1, 2, 3], "mass_kg": 0.05, "arm_damping_n_s_mm": 100,
+                     "guide_stiffness_n_mm": 0, "force_profile": [{"t_s": 14400, "force_n": -500}]}})",
+        R"({"device": "poses", "duration_s": 0.001, "poses": [{"t_s": 0}]})",
+        R"({"device": "poses", "duration_s": 2,
+            "poses": [{"t_s": 0, "position_mm": [0, 0, -1]}, {"t_s": 1, "rotation_deg": [0, 5, 0]}],
+            "buttons": []})",
+        R"({"device": "poses", "duration_s": 2, "poses": [{"t_s": 0}],
+            "buttons": [{"t_s": 0.5, "spindle": false}, {"t_s": 1, "pause": true}]})"));
+
+class BadScript : public ScriptSchema {};
+
+TEST_P(BadScript, IsRefusedByBoth) {
+  const json script = json::parse(GetParam());
+  EXPECT_NE(faults(script), std::vector<std::string>{});
+  EXPECT_NE(parser_complaint(script), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scripts, BadScript,
+    testing::Values(
+        "[]", "{}", R"({"device": "hand", "duration_s": 1})", R"({"device": "poses", "duration_s": 1})",
+        R"({"device": "foot", "duration_s": 1, "poses": [{"t_s": 0}]})",
+        R"({"device": "poses", "duration_s": 0, "poses": [{"t_s": 0}]})",
+        R"({"device": "poses", "duration_s": "1", "poses": [{"t_s": 0}]})",
+        R"({"device": "poses", "duration_s": 14401, "poses": [{"t_s": 0}]})",
+        R"({"device": "poses", "duration_s": 1, "poses": []})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": -1}]})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 14401}]})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"position_mm": [0, 0, 0]}]})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0, "position_mm": [0, 0]}]})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0, "pose": 1}]})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "force_scale": 1001})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "durtion_s": 1})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "buttons": [{"spindle": true}]})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "buttons": [{"t_s": 0, "pause": 1}]})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}],
+            "hand": {"force_profile": [{"t_s": 0, "force_n": 1}]}})",
+        R"({"device": "hand", "duration_s": 1, "hand": {"force_profile": []}})",
+        R"({"device": "hand", "duration_s": 1, "hand": {"force_profile": [{"t_s": 0, "force_n": 501}]}})",
+        R"({"device": "hand", "duration_s": 1, "hand": {"force_profile": [{"t_s": 0, "force_n": 1}], "mass_kg": 0}})",
+        R"({"device": "hand", "duration_s": 1, "hand": {"force_profile": [{"t_s": 0, "force_n": 1}]},
+            "poses": [{"t_s": 0}]})"));
+
+}  // namespace
+}  // namespace ream::device

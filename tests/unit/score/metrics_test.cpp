@@ -1,0 +1,126 @@
+#include "score/metrics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support/tick_reports.hpp"
+
+namespace ream::score {
+namespace {
+
+using record::TickReport;
+
+/// In contact with the tool's apex so deep along the plan's axis, removing unless told otherwise.
+TickReport contact(const Pose& world_from_plan, double axial_mm, double thrust_n, bool removing = true) {
+  TickReport r;
+  r.engaged = r.spindle_on = true;
+  r.world_from_tool = world_from_plan * Pose{Mat3::Identity(), Vec3(0.3, -0.2, axial_mm)};
+  r.thrust_n = thrust_n;
+  r.changed_bricks = removing ? 1 : 0;
+  return r;
+}
+
+TickReport in_the_air(const Pose& world_from_plan, double axial_mm) {
+  TickReport r = contact(world_from_plan, axial_mm, 0.0, false);
+  r.engaged = false;
+  return r;
+}
+
+TEST(Metrics, NothingHappenedIsAllZero) {
+  MetricsAccumulator accumulator(0.008, Pose{});
+  const Metrics m = accumulator.metrics();
+  for (const double value : {m.removed_volume_mm3, m.reaming_depth_mm, m.axial_thrust_mean_n,
+                             m.axial_thrust_peak_n, m.duration_s, m.contact_time_s})
+    EXPECT_EQ(value, 0.0);
+}
+
+TEST(Metrics, VolumesAddUpByClass) {
+  MetricsAccumulator accumulator(0.5, Pose{});
+  TickReport r;
+  r.coverage_removed[static_cast<size_t>(voxel::BoneClass::cancellous)] = 255;
+  r.coverage_removed[static_cast<size_t>(voxel::BoneClass::cortical)] = 510;
+  r.coverage_removed[static_cast<size_t>(voxel::BoneClass::cartilage)] = 51;
+  for (int i = 0; i < 3; ++i) accumulator.add(r);
+  const Metrics m = accumulator.metrics();
+  EXPECT_DOUBLE_EQ(m.removed_volume_cancellous_mm3, 1.5);
+  EXPECT_DOUBLE_EQ(m.removed_volume_cortical_mm3, 3.0);
+  EXPECT_DOUBLE_EQ(m.removed_volume_cartilage_mm3, 0.3);
+  EXPECT_DOUBLE_EQ(m.removed_volume_mm3, 4.8);
+}
+
+TEST(Metrics, DepthCountsFromFirstContactAlongThePlansAxis) {
+  std::mt19937 random(41);
+  const Pose world_from_plan = test::random_pose(random);
+  MetricsAccumulator accumulator(0.008, world_from_plan.inverse());
+  accumulator.add(in_the_air(world_from_plan, 9.0));
+  EXPECT_EQ(accumulator.metrics().reaming_depth_mm, 0.0);
+  accumulator.add(contact(world_from_plan, -0.4, 10.0));
+  EXPECT_NEAR(accumulator.metrics().reaming_depth_mm, 0.0, 1e-9);
+  accumulator.add(contact(world_from_plan, 1.1, 10.0));
+  accumulator.add(contact(world_from_plan, 0.7, 10.0));
+  // Deeper without removing (a tool pressed into bone it does not cut) does not count.
+  accumulator.add(contact(world_from_plan, 2.0, 10.0, false));
+  accumulator.add(in_the_air(world_from_plan, -9.0));
+  EXPECT_NEAR(accumulator.metrics().reaming_depth_mm, 1.5, 1e-9);
+}
+
+TEST(Metrics, ThrustIsOfTicksInContactWithTheSpindleOn) {
+  MetricsAccumulator accumulator(0.008, Pose{});
+  accumulator.add(in_the_air(Pose{}, -1.0));
+  for (const double thrust_n : {10.0, 40.0, 25.0}) accumulator.add(contact(Pose{}, 0.0, thrust_n));
+  TickReport resting = contact(Pose{}, 0.0, 90.0, false);
+  resting.spindle_on = false;
+  accumulator.add(resting);
+  const Metrics m = accumulator.metrics();
+  EXPECT_DOUBLE_EQ(m.axial_thrust_mean_n, 25.0);
+  EXPECT_DOUBLE_EQ(m.axial_thrust_peak_n, 40.0);
+  EXPECT_DOUBLE_EQ(m.duration_s, 5e-3);
+  EXPECT_DOUBLE_EQ(m.contact_time_s, 4e-3);
+}
+
+TEST(Metrics, HashIsTheLastTicks) {
+  std::mt19937 random(42);
+  MetricsAccumulator accumulator(0.008, Pose{});
+  TickReport last;
+  for (uint32_t tick = 0; tick < 5; ++tick) accumulator.add(last = test::random_report(random, tick));
+  EXPECT_EQ(accumulator.metrics().session_hash, last.session_hash);
+}
+
+TEST(Metrics, EqualRunsGiveEqualBytes) {
+  const auto text = [] {
+    std::mt19937 random(43);
+    MetricsAccumulator accumulator(0.008, Pose{});
+    for (uint32_t tick = 0; tick < 500; ++tick) accumulator.add(test::random_report(random, tick));
+    return metrics_json(accumulator.metrics(), 26.0, nullptr).dump();
+  };
+  EXPECT_EQ(text(), text());
+}
+
+TEST(MetricsJson, HasTheKeysThatScriptsRelyOn) {
+  Metrics m;
+  m.removed_volume_mm3 = 12.5;
+  m.session_hash = 0x1234;
+  const uint64_t grid_hash = 0xabcdef;
+  const nlohmann::json json = metrics_json(m, 26.0, &grid_hash);
+  for (const char* key :
+       {"removed_volume_mm3", "removed_volume_cortical_mm3", "removed_volume_cancellous_mm3",
+        "reaming_depth_mm", "axial_thrust_mean_n", "axial_thrust_peak_n", "duration_s", "force_scale"}) {
+    ASSERT_TRUE(json.contains(key)) << key;
+    EXPECT_TRUE(json[key].is_number()) << key;
+  }
+  EXPECT_EQ(json["removed_volume_mm3"], 12.5);
+  EXPECT_EQ(json["force_scale"], 26.0);
+  EXPECT_EQ(json["session_hash"], "0000000000001234");
+  EXPECT_EQ(json["grid_hash"], "0000000000abcdef");
+  EXPECT_FALSE(json.contains("tick_us")) << "wall times differ between equal runs";
+}
+
+TEST(MetricsJson, GridHashIsNullWhileTheRunGoesOn) {
+  const nlohmann::json json = metrics_json({}, 1.0, nullptr);
+  ASSERT_TRUE(json.contains("grid_hash"));
+  EXPECT_TRUE(json["grid_hash"].is_null());
+}
+
+}  // namespace
+}  // namespace ream::score
