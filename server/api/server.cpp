@@ -42,9 +42,9 @@ net::Router router_of(const ServerOptions& options, SessionService& sessions, co
 
 Server::Server(ServerOptions options)
     : sessions_(std::move(options.make_session), options.sessions),
-      readiness_(std::move(options.prepare)),
       router_(router_of(options, sessions_, readiness_)),
-      listener_(router_, options.listen) {}
+      listener_(router_, options.listen),
+      readiness_(std::move(options.prepare)) {}
 
 Server::~Server() { stop(); }
 

@@ -45,11 +45,12 @@ class Server {
   std::vector<net::Router::Route> routes() const { return router_.routes(); }
 
  private:
-  // Order matters: the listener goes first, so that nothing is asked of what is already gone.
+  // Order matters: nothing is prepared before the port is ours. stop() has ended the listener before any of
+  // these goes.
   SessionService sessions_;
-  Readiness readiness_;
   net::Router router_;
   net::Listener listener_;
+  Readiness readiness_;
   std::mutex mutex_;
   std::condition_variable changed_;
   bool stop_wanted_ = false;

@@ -10,6 +10,7 @@
 #include "case/plan.hpp"
 #include "core/error.hpp"
 #include "ct/phantom_case.hpp"
+#include "shell/tool.hpp"
 
 namespace ream::app {
 namespace {
@@ -55,6 +56,14 @@ void set_pilot(case_::Plan& plan, const Options& options) {
   plan.pilot_hole = hole;
 }
 
+/// Error usage or not_found for what is neither a form of tool nor a file; a mesh may still need an axis,
+/// which `simulate` takes.
+std::string checked_reamer(const std::string& reamer) {
+  std::error_code failed;
+  if (!std::filesystem::is_regular_file(reamer, failed)) shell::make_tool(reamer);
+  return reamer;
+}
+
 void plan_case(const Options& options, const GlobalOptions& global) {
   const auto folder = case_path(options.case_name, global.data);
   const case_::Case c = options.case_name == "demo" ? ct::load_or_make_demo_case(data_folder(global.data))
@@ -62,7 +71,7 @@ void plan_case(const Options& options, const GlobalOptions& global) {
   case_::Plan plan = starting_plan(c, !options.axis.empty());
   if (!options.axis.empty()) set_axis(plan, c, options.axis);
   if (options.depth_mm) plan.depth_mm = *options.depth_mm;
-  if (!options.reamer.empty()) plan.reamer = options.reamer;
+  if (!options.reamer.empty()) plan.reamer = checked_reamer(options.reamer);
   set_pilot(plan, options);
   case_::save_plan(plan, folder);
   if (global.json) {
