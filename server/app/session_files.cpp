@@ -25,8 +25,9 @@ void write_json(const std::filesystem::path& path, const nlohmann::json& json) {
 SessionFiles::SessionFiles(const Rig& rig, const std::filesystem::path& folder)
     : rig_(rig),
       folder_(folder),
+      description_(rig.description()),
       trace_(folder / "trace.csv", rig.bone_case.bone.grid.voxel_volume_mm3()),
-      recorder_(folder / "recording.ream", rig.description()),
+      recorder_(folder / "recording.ream", description_),
       metrics_(rig.bone_case.bone.grid.voxel_volume_mm3(), rig.model.world_from_plan.inverse()) {}
 
 void SessionFiles::add(const record::TickReport& report) {
@@ -43,7 +44,7 @@ SessionFiles::Results SessionFiles::finish(const sim::LoopHealth& health, const 
                   timing_json(health)};
   write_json(folder_ / "metrics.json", results.metrics);
   write_json(folder_ / "timing.json", results.timing);
-  nlohmann::json session = rig_.description();
+  nlohmann::json session = description_;
   session.update(extra);
   write_json(folder_ / "session.json", session);
   return results;

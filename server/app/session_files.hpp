@@ -29,6 +29,7 @@ class SessionFiles {
  private:
   const Rig& rig_;
   const std::filesystem::path folder_;
+  const nlohmann::json description_;  ///< of the rig before the first tick
   record::TraceCsv trace_;
   record::Recorder recorder_;
   score::MetricsAccumulator metrics_;

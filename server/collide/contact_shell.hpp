@@ -14,8 +14,11 @@ using ContactVector = std::array<int16_t, 8>;
 /// A PointShell made ready for one grid: where each point probes for bone and what it adds when it meets
 /// some. Struct of arrays in shell order, shared by all narrow phases.
 struct ContactShell {
-  /// Probes, tool frame, mm: one voxel out from the true surface along the normal (DESIGN 3: a point is
-  /// engaged when bone lies within one voxel, for removal must not clear its own contact).
+  /// Probes, tool frame, mm. Cutting points probe one voxel out from the true surface along the normal
+  /// (DESIGN 3: engaged when bone lies within one voxel, for removal must not clear its own contact). Guiding
+  /// points have no such need and probe one voxel below the surface, end faces also two nearer to the axis:
+  /// corners of voxels, which stand out by up to 0.87 edges, shall not stop a nipple at the mouth of a hole
+  /// that is barely wider, and its side meets the wall of the hole before its end does.
   std::vector<float> probe_x_mm, probe_y_mm, probe_z_mm;
   std::vector<ContactVector> vectors;
   std::vector<uint8_t> weights;           ///< area in 1/16 cell face
