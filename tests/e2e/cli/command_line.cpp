@@ -1,0 +1,99 @@
+#include "e2e/cli/command_line.hpp"
+
+#include <algorithm>
+
+#include "core/file.hpp"
+
+namespace ream::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr auto longest_run = std::chrono::seconds(240);
+
+}  // namespace
+
+std::unique_ptr<ChildProcess> CommandLine::start(const Words& arguments, const std::string& name) {
+  ChildProcess::Setting setting;
+  setting.command = {std::string(REAM_BINARY_DIR) + "/ream"};
+  setting.command.insert(setting.command.end(), arguments.begin(), arguments.end());
+  const fs::path home = printed_.path() / "home";
+  fs::create_directories(home);
+  setting.environment = {{"HOME", home.string()},
+                         {"REAM_DATA", (folder() / "data").string()},
+                         {"PATH", "/usr/bin:/bin"},
+                         // Graphics and OpenCL libraries keep memory of their own until the end.
+                         {"ASAN_OPTIONS", "detect_leaks=0"}};
+  setting.folder = folder();
+  setting.out = printed_.path() / (name + ".out");
+  setting.error = printed_.path() / (name + ".err");
+  for (const fs::path& file : {setting.out, setting.error}) write_file_atomically(file, std::string_view());
+  return std::make_unique<ChildProcess>(setting);
+}
+
+std::string CommandLine::printed(const std::string& file) const {
+  return read_text_file(printed_.path() / file);
+}
+
+Outcome CommandLine::run(const Words& arguments) {
+  Outcome outcome;
+  outcome.exit_code = start(arguments, "run")->wait(longest_run);
+  outcome.out = printed("run.out");
+  outcome.error = printed("run.err");
+  return outcome;
+}
+
+Outcome CommandLine::succeed(const Words& arguments) {
+  Outcome outcome = run(arguments);
+  EXPECT_EQ(outcome.exit_code, 0) << testing::PrintToString(arguments) << '\n' << outcome.error;
+  return outcome;
+}
+
+nlohmann::json CommandLine::answer(Words arguments) {
+  arguments.push_back("--json");
+  const Outcome outcome = succeed(arguments);
+  nlohmann::json json = nlohmann::json::parse(outcome.out, nullptr, false);
+  EXPECT_FALSE(json.is_discarded()) << outcome.out;
+  return json;
+}
+
+void CommandLine::refuse(int exit_code, const std::string& mentioned, const Words& arguments) {
+  SCOPED_TRACE("ream " + testing::PrintToString(arguments));
+  const auto before = tree();
+  const Outcome outcome = run(arguments);
+  EXPECT_EQ(outcome.exit_code, exit_code) << outcome.error;
+  EXPECT_EQ(outcome.error.rfind("ream: ", 0), 0u) << outcome.error;
+  EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+  EXPECT_TRUE(outcome.error.ends_with('\n'));
+  EXPECT_NE(outcome.error.find(mentioned), std::string::npos)
+      << outcome.error << "does not name " << mentioned;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(tree(), before);
+}
+
+nlohmann::json CommandLine::json_of(const fs::path& relative) const {
+  return read_json_file(folder() / relative);
+}
+
+std::string CommandLine::text_of(const fs::path& relative) const {
+  return read_text_file(folder() / relative);
+}
+
+std::string CommandLine::short_script() {
+  return write("short.json",
+               R"({"device": "hand", "duration_s": 3, "stiffness_n_mm": 100,
+                   "hand": {"start_mm": [0, 0, -1],
+                            "force_profile": [{"t_s": 0, "force_n": 30}, {"t_s": 0.3, "force_n": 60}]}})")
+      .filename();
+}
+
+std::vector<std::string> CommandLine::tree() const {
+  std::vector<std::string> entries;
+  for (const auto& entry : fs::recursive_directory_iterator(folder()))
+    entries.push_back(entry.path().lexically_relative(folder()).string() +
+                      (entry.is_regular_file() ? " " + std::to_string(entry.file_size()) : "/"));
+  std::sort(entries.begin(), entries.end());
+  return entries;
+}
+
+}  // namespace ream::test

@@ -1,0 +1,49 @@
+#pragma once
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "support/child_process.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace ream::test {
+
+struct Outcome {
+  int exit_code = -1;
+  std::string out, error;
+};
+
+/// Runs `ream` in a fresh folder that is also its home and holds its data folder `data`.
+class CommandLine : public testing::Test {
+ protected:
+  using Words = std::vector<std::string>;
+
+  Outcome run(const Words& arguments);
+  /// run() that must succeed.
+  Outcome succeed(const Words& arguments);
+  /// run() of a --json command that must succeed: what it printed.
+  nlohmann::json answer(Words arguments);
+  /// Expects that exit code, exactly one line on stderr that names `mentioned`, nothing on stdout, and no
+  /// file or folder made or changed.
+  void refuse(int exit_code, const std::string& mentioned, const Words& arguments);
+
+  /// Starts a command and lets it run; what it prints goes to <name>.out and <name>.err in printed().
+  std::unique_ptr<ChildProcess> start(const Words& arguments, const std::string& name);
+  std::string printed(const std::string& file) const;
+
+  const std::filesystem::path& folder() const { return folder_.path(); }
+  std::filesystem::path write(const std::string& name, const std::string& text) {
+    return folder_.write(name, text);
+  }
+  nlohmann::json json_of(const std::filesystem::path& relative) const;
+  std::string text_of(const std::filesystem::path& relative) const;
+  /// Writes short.json: three seconds in which the tool touches bone and removes some.
+  std::string short_script();
+  /// Relative paths of all files and folders with the files' sizes, leaving out caches below home.
+  std::vector<std::string> tree() const;
+
+  TemporaryFolder folder_, printed_;
+};
+
+}  // namespace ream::test

@@ -1,0 +1,106 @@
+#include <signal.h>
+
+#include <functional>
+#include <thread>
+
+#include "core/hash.hpp"
+#include "e2e/cli/command_line.hpp"
+#include "record/recorder.hpp"
+#include "support/raw_http.hpp"
+
+namespace ream::test {
+namespace {
+
+using nlohmann::json;
+
+class Serve : public CommandLine {
+ protected:
+  void SetUp() override { write("web/index.html", "<!doctype html><title>page</title>"); }
+
+  /// Starts a server on any free port; returns when it says where it is.
+  void serve() {
+    server_ = start({"serve", "--port", "0", "--web", "web", "--json"}, "server");
+    until("the server says where it is", [&] { return printed("server.out").ends_with('\n'); });
+    const std::string url = json::parse(printed("server.out")).at("url");
+    port_ = static_cast<uint16_t>(std::stoi(url.substr(url.rfind(':') + 1)));
+  }
+
+  void until(const std::string& what, const std::function<bool()>& reached) {
+    for (int i = 0; i < 6000 && !server_->ended(); ++i) {
+      if (reached()) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    throw std::runtime_error("waited in vain until " + what + "\n" + printed("server.err"));
+  }
+
+  json request(int status, const std::string& method, const std::string& target,
+               const std::string& body = {}) {
+    const HttpReply reply = http_request(port_, method, target, body);
+    EXPECT_EQ(reply.status, status) << method << ' ' << target << '\n' << reply.body;
+    return json::parse(reply.body);
+  }
+
+  std::unique_ptr<ChildProcess> server_;
+  uint16_t port_ = 0;
+};
+
+TEST_F(Serve, ToldToEndItEndsTheSessionWholeAndQuickly) {
+  serve();
+  until("it is ready", [&] { return http_request(port_, "GET", "/readyz").status == 200; });
+  const std::string id =
+      request(201, "POST", "/api/v1/sessions", R"({"case": "demo", "script": "demo"})").at("id");
+  const std::string session = "/api/v1/sessions/" + id;
+  request(200, "POST", session + "/start");
+  until("two seconds are simulated",
+        [&] { return request(200, "GET", session + "/metrics").at("duration_s").get<double>() > 2.0; });
+
+  server_->send_signal(SIGTERM);
+  EXPECT_EQ(server_->wait(std::chrono::seconds(20)), 0) << printed("server.err");
+  const std::string folder = "data/sessions/" + id;
+  const json metrics = json_of(folder + "/metrics.json");
+  EXPECT_GT(metrics.at("duration_s").get<double>(), 2.0);
+  EXPECT_LT(metrics.at("duration_s").get<double>(), 30.0);
+  EXPECT_EQ(json_of(folder + "/session.json").at("state"), "stopped");
+  const record::Recording recording = record::read_recording(this->folder() / folder / "recording.ream");
+  EXPECT_TRUE(recording.complete);
+  ASSERT_FALSE(recording.ticks.empty());
+  EXPECT_DOUBLE_EQ(static_cast<double>(recording.ticks.size()) * 1e-3,
+                   metrics.at("duration_s").get<double>());
+  EXPECT_EQ(to_hex(recording.ticks.back().session_hash), metrics.at("session_hash"));
+  for (const std::string& entry : tree()) EXPECT_EQ(entry.find(".tmp"), std::string::npos) << entry;
+  EXPECT_EQ(answer({"list", "sessions"}).at(0).at("id"), id);
+}
+
+TEST_F(Serve, APortInUseAndAddressesForOthersAreRefused) {
+  serve();
+  until("it is ready", [&] { return http_request(port_, "GET", "/readyz").status == 200; });
+  const std::string port = std::to_string(port_);
+  refuse(1, "port " + port, {"serve", "--port", port, "--web", "web", "--json"});
+  refuse(2, "--host 0.0.0.0", {"serve", "--port", "0", "--host", "0.0.0.0", "--web", "web"});
+  refuse(2, "--port", {"serve", "--port", "99999", "--web", "web"});
+  refuse(1, "nowhere", {"serve", "--port", "0", "--web", "nowhere"});
+  refuse(1, "web/index.html/data", {"serve", "--port", "0", "--web", "web", "--data", "web/index.html/data"});
+  EXPECT_EQ(http_request(port_, "GET", "/healthz").status, 200) << "the first server goes on";
+  server_->send_signal(SIGINT);
+  EXPECT_EQ(server_->wait(std::chrono::seconds(20)), 0);
+}
+
+TEST_F(Serve, BadRequestsAreProblems) {
+  serve();
+  until("it is ready", [&] { return http_request(port_, "GET", "/readyz").status == 200; });
+  for (const auto& [status, body] : std::vector<std::pair<int, std::string>>{
+           {400, "{"},
+           {422, R"({"case": "demo"})"},
+           {422, R"({"case": "demo", "script": "demo", "colour": "red"})"},
+           {404, R"({"case": "nobody", "script": "demo"})"},
+           {404, R"({"case": "demo", "script": "nothing"})"}}) {
+    const HttpReply reply = http_request(port_, "POST", "/api/v1/sessions", body);
+    EXPECT_EQ(reply.status, status) << body << '\n' << reply.body;
+    EXPECT_EQ(reply.headers.at("content-type"), "application/problem+json") << body;
+    EXPECT_EQ(json::parse(reply.body).at("status"), status) << body;
+  }
+  EXPECT_EQ(request(200, "GET", "/api/v1/sessions").dump().find("created"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ream::test

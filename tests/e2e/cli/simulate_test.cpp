@@ -1,0 +1,88 @@
+#include <signal.h>
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "core/hash.hpp"
+#include "e2e/cli/command_line.hpp"
+#include "record/recorder.hpp"
+
+namespace ream::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Simulate : public CommandLine {
+ protected:
+  /// What every finished run leaves in its folder.
+  void expect_results(const std::string& out) {
+    SCOPED_TRACE(out);
+    const auto metrics = json_of(out + "/metrics.json");
+    const auto ticks = static_cast<size_t>(std::lround(metrics.at("duration_s").get<double>() * 1000.0));
+    EXPECT_GT(metrics.at("removed_volume_mm3").get<double>(), 0.0);
+    EXPECT_GT(metrics.at("axial_thrust_peak_n").get<double>(), 0.0);
+    EXPECT_EQ(metrics.at("grid_hash").get<std::string>().size(), 16u);
+    EXPECT_TRUE(json_of(out + "/timing.json").at("tick_us").at("p999").is_number());
+
+    EXPECT_EQ(text_of(out + "/snapshot.png").substr(1, 3), "PNG");
+    EXPECT_EQ(text_of(out + "/reamed.ply").substr(0, 4), "ply\n");
+    const std::string trace = text_of(out + "/trace.csv");
+    EXPECT_EQ(static_cast<size_t>(std::count(trace.begin(), trace.end(), '\n')), ticks + 1);
+
+    const record::Recording recording = record::read_recording(folder() / out / "recording.ream");
+    EXPECT_TRUE(recording.complete);
+    ASSERT_EQ(recording.ticks.size(), ticks);
+    EXPECT_EQ(to_hex(recording.ticks.back().session_hash), metrics.at("session_hash"));
+    EXPECT_EQ(recording.ticks.back().tick, ticks - 1);
+  }
+};
+
+TEST_F(Simulate, TheDemoRemovesBone) {
+  const auto said = answer({"simulate", "--case", "demo", "--script", "demo", "--out", "out"});
+  EXPECT_GT(said.at("removed_volume_mm3").get<double>(), 10.0);
+  EXPECT_EQ(fs::weakly_canonical(folder() / said.at("out").get<std::string>()),
+            fs::canonical(folder() / "out"));
+  EXPECT_GE(said.at("duration_s").get<double>(), 20.0);
+  expect_results("out");
+}
+
+TEST_F(Simulate, EqualRunsAndEveryBackendGiveTheSameBytes) {
+  const std::string script = short_script();
+  for (const char* backend : {"cpu", "opencl"})
+    for (const char* turn : {"-1", "-2"})
+      succeed({"simulate", "--case", "demo", "--script", script, "--backend", backend, "--out",
+               std::string(backend) + turn});
+  EXPECT_EQ(json_of("cpu-1/metrics.json").at("duration_s"), 3.0);
+  expect_results("cpu-1");
+  for (const char* out : {"cpu-2", "opencl-1", "opencl-2"})
+    for (const char* file : {"/metrics.json", "/trace.csv", "/reamed.ply"})
+      EXPECT_EQ(text_of(std::string(out) + file), text_of(std::string("cpu-1") + file)) << out << file;
+}
+
+TEST_F(Simulate, WithoutAnOutputFolderItTakesTheNextFreeNumber) {
+  const std::string script = short_script();
+  for (const char* out : {"ream-out/1", "ream-out/2"}) {
+    const Outcome outcome = succeed({"simulate", "--case", "demo", "--script", script});
+    EXPECT_NE(outcome.out.find(out), std::string::npos) << outcome.out;
+    EXPECT_TRUE(fs::exists(folder() / out / "metrics.json"));
+  }
+}
+
+TEST_F(Simulate, InterruptedItLeavesNothing) {
+  const std::string script = short_script();
+  succeed({"simulate", "--case", "demo", "--script", script, "--out", "warm"});  // makes the demo case
+  const auto before = tree();
+  for (const int number : {SIGINT, SIGTERM}) {
+    const auto child = start({"simulate", "--case", "demo", "--script", "demo", "--realtime"}, "interrupted");
+    while (tree() == before && !child->ended()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    child->send_signal(number);
+    EXPECT_EQ(child->wait(std::chrono::seconds(20)), 1);
+    EXPECT_EQ(printed("interrupted.err"), "ream: interrupted; nothing was written\n");
+    EXPECT_EQ(tree(), before);
+  }
+}
+
+}  // namespace
+}  // namespace ream::test
