@@ -1,5 +1,7 @@
 #include "ct/file_completeness.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <fstream>
@@ -19,10 +21,17 @@ constexpr uint64_t nifti_header_bytes = 348;
               path.string() + " is cut short or damaged; copy it again from its source");
 }
 
-/// Size after unpacking (plain files count as they are); throws when the stream is damaged or has no end.
-uint64_t unpacked_bytes(const fs::path& path) {
-  const gzFile file = gzopen(path.c_str(), "rb");
-  if (file == nullptr) throw Error(ErrorKind::io, "cannot read " + path.string());
+/// Size after unpacking what follows byte `start` (what is not packed counts as it is); throws when the
+/// stream is damaged or has no end.
+uint64_t unpacked_bytes(const fs::path& path, off_t start = 0) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) throw Error(ErrorKind::io, "cannot read " + path.string());
+  ::lseek(descriptor, start, SEEK_SET);
+  const gzFile file = gzdopen(descriptor, "rb");
+  if (file == nullptr) {
+    ::close(descriptor);
+    throw Error(ErrorKind::io, "cannot read " + path.string());
+  }
   std::vector<char> piece(1 << 18);
   uint64_t total = 0;
   int got = 0;
@@ -58,6 +67,20 @@ void check_meta_image(const fs::path& path, uint64_t image_bytes) {
   }
 }
 
+/// The reading library does not look at the checksum behind a packed stream. What lies in another file or
+/// after skipped bytes is left to it.
+void check_nrrd(const fs::path& path, uint64_t image_bytes) {
+  std::ifstream in(path, std::ios::binary);
+  bool packed = false;
+  for (std::string line; std::getline(in, line) && !line.empty() && line != "\r";) {
+    if (line.starts_with("encoding:")) packed = line.find("gz") != std::string::npos;
+    for (const char* elsewhere :
+         {"data file:", "datafile:", "line skip:", "lineskip:", "byte skip:", "byteskip:"})
+      if (line.starts_with(elsewhere)) return;
+  }
+  if (packed && in && unpacked_bytes(path, in.tellg()) < image_bytes) cut_short(path);
+}
+
 }  // namespace
 
 void check_complete(const fs::path& path, uint64_t image_bytes) {
@@ -66,6 +89,8 @@ void check_complete(const fs::path& path, uint64_t image_bytes) {
     if (unpacked_bytes(path) < nifti_header_bytes + image_bytes) cut_short(path);
   } else if (name.ends_with(".mha") || name.ends_with(".mhd")) {
     check_meta_image(path, image_bytes);
+  } else if (name.ends_with(".nrrd")) {
+    check_nrrd(path, image_bytes);
   }
 }
 

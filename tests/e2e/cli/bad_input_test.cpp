@@ -47,6 +47,10 @@ TEST_F(BadInput, CutOffVolumesAndRegionsOfNoSizeAreNotImported) {
     write("cut.nrrd", whole.substr(0, bytes));
     refuse(1, "cut.nrrd", {"import", "cut.nrrd", "--out", "a"});
   }
+  std::string damaged = whole;
+  damaged[whole.size() / 2] = static_cast<char>(damaged[whole.size() / 2] ^ 0x40);
+  write("damaged.nrrd", damaged);
+  refuse(1, "damaged.nrrd", {"import", "damaged.nrrd", "--out", "a"});
 }
 
 TEST_F(BadInput, UnusableScriptsCasesAndPlacesAreNamed) {
