@@ -38,13 +38,17 @@ class Simulate : public CommandLine {
   }
 };
 
-TEST_F(Simulate, TheDemoRemovesBone) {
-  const auto said = answer({"simulate", "--case", "demo", "--script", "demo", "--out", "out"});
-  EXPECT_GT(said.at("removed_volume_mm3").get<double>(), 10.0);
-  EXPECT_EQ(fs::weakly_canonical(folder() / said.at("out").get<std::string>()),
-            fs::canonical(folder() / "out"));
-  EXPECT_GE(said.at("duration_s").get<double>(), 20.0);
-  expect_results("out");
+TEST_F(Simulate, TheDemoRemovesBoneAlikeOnEveryBackend) {
+  for (const char* backend : {"cpu", "opencl"}) {
+    const auto said =
+        answer({"simulate", "--case", "demo", "--script", "demo", "--backend", backend, "--out", backend});
+    EXPECT_EQ(fs::weakly_canonical(folder() / said.at("out").get<std::string>()),
+              fs::canonical(folder() / backend));
+    EXPECT_GT(said.at("removed_volume_mm3").get<double>(), 10.0);
+    EXPECT_GE(said.at("duration_s").get<double>(), 20.0);
+  }
+  expect_results("cpu");
+  EXPECT_EQ(text_of("opencl/metrics.json"), text_of("cpu/metrics.json"));
 }
 
 TEST_F(Simulate, EqualRunsAndEveryBackendGiveTheSameBytes) {
