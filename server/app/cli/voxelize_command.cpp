@@ -90,7 +90,7 @@ void add_voxelize_command(CLI::App& app, GlobalOptions& global) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
       app.add_subcommand("voxelize", "Mark the voxels that the surface of a triangle mesh passes");
-  command->add_option("MESH", options->mesh, "STL, OBJ, PLY, OFF or GLB file, in mm")->required();
+  command->add_option("MESH", options->mesh, "STL, OBJ, PLY or GLB file, in mm")->required();
   command->add_option("--size", options->size_mm, "Voxel edge, mm")->required();
   command
       ->add_option("--separability", options->separability,
