@@ -60,31 +60,40 @@ __attribute__((target_clones("avx512f", "avx2", "default"))) void find_candidate
   found.count = count;
 }
 
-/// Outer-product sums of one run; 512 points of weight 28 and components 127 stay below 2^31.
+/// Upper triangle of the outer-product sums of one run; 512 points of weight 28 and components 127 stay below
+/// 2^31.
 struct RunSums {
-  int32_t products[7][8] = {};
+  int32_t products[7][7];
 
   void add_to(ContactSums::Part& part, size_t points) const {
     part.points += static_cast<int64_t>(points);
-    for (size_t i = 0; i < 7; ++i) part.first[i] += products[6][i];
+    for (size_t i = 0; i < 7; ++i) part.first[i] += products[i][6];
     size_t k = 0;
     for (size_t i = 0; i < 6; ++i)
       for (size_t j = i; j < 6; ++j) part.second[k++] += products[i][j];
   }
 };
 
-__attribute__((target_clones("avx512f", "avx2", "default"))) void add_products(const ContactVector* vectors,
+/// Component by component, so that each sum is one long vectorized dot product.
+__attribute__((target_clones("avx512f", "avx2", "default"))) void sum_products(const ContactVector* vectors,
                                                                                const uint8_t* weights,
-                                                                               const int32_t* numbers,
-                                                                               size_t n, RunSums& sums) {
-  for (size_t p = 0; p < n; ++p) {
-    const int16_t* g = vectors[numbers[p]].data();
+                                                                               const int32_t* numbers, int n,
+                                                                               RunSums& sums) {
+  alignas(64) int32_t g[7][max_block_points], weighted[7][max_block_points];
+  for (int p = 0; p < n; ++p) {
+    const int16_t* vector = vectors[numbers[p]].data();
     const int32_t weight = weights[numbers[p]];
-    for (size_t i = 0; i < 7; ++i) {
-      const int32_t wg = weight * g[i];
-      for (size_t j = 0; j < 8; ++j) sums.products[i][j] += wg * g[j];
+    for (int i = 0; i < 7; ++i) {
+      g[i][p] = vector[i];
+      weighted[i][p] = weight * vector[i];
     }
   }
+  for (int i = 0; i < 7; ++i)
+    for (int j = i; j < 7; ++j) {
+      int32_t sum = 0;
+      for (int p = 0; p < n; ++p) sum += weighted[i][p] * g[j][p];
+      sums.products[i][j] = sum;
+    }
 }
 
 class NarrowPhaseCpu final : public NarrowPhase {
@@ -138,7 +147,8 @@ class NarrowPhaseCpu final : public NarrowPhase {
   void add_part(size_t first, const int32_t* numbers, size_t count, ContactSums::Part& part) noexcept {
     if (count == 0) return;
     RunSums run;
-    add_products(in_.shell.vectors.data() + first, in_.shell.weights.data() + first, numbers, count, run);
+    sum_products(in_.shell.vectors.data() + first, in_.shell.weights.data() + first, numbers,
+                 static_cast<int>(count), run);
     run.add_to(part, count);
   }
 
