@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "collide/narrow_phase.hpp"
+#include "core/vector_clones.hpp"
 
 namespace ream::collide {
 namespace {
@@ -18,10 +19,10 @@ struct Candidates {
   size_t count = 0;
 };
 
-__attribute__((target_clones("avx512f", "avx2", "default"))) void find_candidates(
-    const float* __restrict x, const float* __restrict y, const float* __restrict z, int n,
-    const GridAffine& shared_affine, const Vec3i& dims, const voxel::Occupancy& occupancy,
-    Candidates& found) {
+REAM_VECTOR_CLONES void find_candidates(const float* __restrict x, const float* __restrict y,
+                                        const float* __restrict z, int n, const GridAffine& shared_affine,
+                                        const Vec3i& dims, const voxel::Occupancy& occupancy,
+                                        Candidates& found) {
   const float dx = static_cast<float>(dims.x()), dy = static_cast<float>(dims.y()),
               dz = static_cast<float>(dims.z());
   const int row = dims.x(), slice = row * dims.y();
@@ -75,10 +76,8 @@ struct RunSums {
 };
 
 /// Component by component, so that each sum is one long vectorized dot product.
-__attribute__((target_clones("avx512f", "avx2", "default"))) void sum_products(const ContactVector* vectors,
-                                                                               const uint8_t* weights,
-                                                                               const int32_t* numbers, int n,
-                                                                               RunSums& sums) {
+REAM_VECTOR_CLONES void sum_products(const ContactVector* vectors, const uint8_t* weights,
+                                     const int32_t* numbers, int n, RunSums& sums) {
   alignas(64) int32_t g[7][max_block_points], weighted[7][max_block_points];
   for (int p = 0; p < n; ++p) {
     const int16_t* vector = vectors[numbers[p]].data();

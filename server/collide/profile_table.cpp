@@ -1,10 +1,11 @@
 #include "collide/profile_table.hpp"
 
+#include "core/vector_clones.hpp"
+
 namespace ream::collide {
 
-__attribute__((target_clones("avx512f", "avx2", "default"))) void brick_distances_mm(
-    const ProfileTable& shared_table, const GridAffine& shared_affine, const Vec3i& first,
-    float* __restrict distances_mm) noexcept {
+REAM_VECTOR_CLONES void brick_distances_mm(const ProfileTable& shared_table, const GridAffine& shared_affine,
+                                           const Vec3i& first, float* __restrict distances_mm) noexcept {
   constexpr int edge = voxel::brick_edge;
   // Copies, so that the compiler knows that stores do not change them.
   const ProfileTable table = shared_table;
