@@ -55,11 +55,10 @@ Rig::Rig(const RunRequest& request_in, const fs::path& data)
     : request(request_in),
       script(find_script(request)),
       bone_case(find_case(request.case_name, data)),
-      model(sim::make_model(
-          plan_of(bone_case), bone_case.bone, tool_for(request, plan_of(bone_case)),
-          settings_for(request, script, device::make_scripted_device(script, Pose{})->traits()))),
-      state(model, bone_case.bone),
-      device(device::make_scripted_device(script, model.world_from_plan)) {}
+      device(device::make_scripted_device(script, sim::world_from_plan(plan_of(bone_case)))),
+      model(sim::make_model(plan_of(bone_case), bone_case.bone, tool_for(request, plan_of(bone_case)),
+                            settings_for(request, script, device->traits()))),
+      state(model, bone_case.bone) {}
 
 nlohmann::json Rig::description() const {
   return {{"build", version_text()},

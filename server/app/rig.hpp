@@ -37,9 +37,9 @@ class Rig {
   const RunRequest request;
   device::Script script;
   case_::Case bone_case;
+  std::unique_ptr<device::HapticDevice> device;  ///< before the model, which needs its limits
   sim::Model model;
   sim::State state;
-  std::unique_ptr<device::HapticDevice> device;
 
   /// What was simulated, by which build; the header of recordings and session.json.
   nlohmann::json description() const;

@@ -10,11 +10,6 @@
 
 namespace ream::sim {
 
-/// Microseconds of wall time per stage of one tick; measured, never decided upon.
-struct StageTimes {
-  double contact_us = 0, force_us = 0, removal_us = 0, bricks_us = 0;
-};
-
 /// Everything that a tick changes. Owned by the haptic thread once the session runs.
 struct State {
   State(const Model& model, voxel::BoneModel& bone);
@@ -30,7 +25,6 @@ struct State {
   uint32_t tick = 0;
   Pose world_from_tool;
   uint64_t session_hash = 0;
-  StageTimes times;
 };
 
 using record::TickReport;

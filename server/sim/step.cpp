@@ -120,29 +120,22 @@ StepStatus step(const Model& model, State& state, const device::DeviceInput& raw
   if (!state.started) state.world_from_tool = input.world_from_handle;
   state.started = true;
 
-  const auto start = SteadyClock::now();
   if (!input.paused) {
     const Approach found = approach(model, state, input.world_from_handle);
-    state.times.contact_us = elapsed_us(start);
     if (!found.ok) return StepStatus::collision_failed;
     if (found.sums.engaged() > 0) press(model, state, found.sums, input, report);
-    state.times.force_us = elapsed_us(start) - state.times.contact_us;
   }
   report.world_from_tool = state.world_from_tool;
   report.grid_from_tool = quantised(state.bone.grid.world_from_grid.inverse() * state.world_from_tool);
 
-  const auto before_removal = SteadyClock::now();
   const bool cuts = report.engaged && input.spindle_on;
   if (!cuts) state.schedule.pass(report.grid_from_tool);
   if (cuts && !remove(state, report.grid_from_tool, report)) return StepStatus::collision_failed;
-  state.times.removal_us = elapsed_us(before_removal);
 
   state.session_hash = hash_combine(state.session_hash, hash_of_cause(report));
   report.session_hash = state.session_hash;
-  const auto before_bricks = SteadyClock::now();
   if (state.brick_sender != nullptr)
     state.brick_sender->send(state.bone.coverage.data(), report.tick, state.brick_budget);
-  state.times.bricks_us = elapsed_us(before_bricks);
   return is_finite(report) ? StepStatus::ok : StepStatus::not_finite;
 }
 
