@@ -39,7 +39,7 @@ void print(const std::vector<Row>& rows, bool json) {
     return;
   }
   for (const Row& r : rows) {
-    std::printf("%-8s %-74s %12.4g %-7s", r.suite.c_str(), r.name.c_str(), r.ours, r.unit.c_str());
+    std::printf("%-8s %-84s %12.4g %-7s", r.suite.c_str(), r.name.c_str(), r.ours, r.unit.c_str());
     if (r.baseline > 0.0) std::printf(" baseline %.4g", r.baseline);
     if (r.goal > 0.0)
       std::printf(" goal%s %.4g%s", r.goal_is == Goal::at_least ? " at least" : "", r.goal,

@@ -15,12 +15,7 @@ size_t bytes(const std::vector<T>& values) {
 size_t memory_of(const OurBone& b) {
   const size_t replica = b.bone.grid.voxel_count();
   return bytes(b.bone.density) + bytes(b.bone.coverage) + replica + bytes(b.distance.bricks) +
-         bytes(b.occupancy.words);
-}
-
-size_t memory_of(const collide::ContactShell& s) {
-  return bytes(s.probe_x_mm) + bytes(s.probe_y_mm) + bytes(s.probe_z_mm) + bytes(s.vectors) +
-         bytes(s.weights) + bytes(s.guiding) + bytes(s.blocks);
+         bytes(b.cells.words());
 }
 
 size_t coverage_in_uniform_bricks(const voxel::BoneModel& bone) {

@@ -7,9 +7,6 @@ namespace ream::bench {
 /// culls contact. Density can be shared by sessions on one case; it is counted whole.
 size_t memory_of(const OurBone& bone);
 
-/// Bytes that the product keeps for a shell's points and blocks.
-size_t memory_of(const collide::ContactShell& shell);
-
 /// Bytes of coverage that lie in bricks that are wholly bone or wholly empty, where one bit would do until
 /// removal touches them.
 size_t coverage_in_uniform_bricks(const voxel::BoneModel& bone);

@@ -12,7 +12,7 @@ std::vector<Row> memory_rows(const case_::Case& bone_case, const shell::PointShe
   return {{"collide", "thesis-5-4-2 memory a voxel, replica included",
            static_cast<double>(memory_of(bone)) / voxels, 0.0, "bytes", goal_bytes_a_voxel},
           {"collide", "thesis-5-4-2 memory a shell point",
-           static_cast<double>(memory_of(contact.shell())) / points, 0.0, "bytes", goal_bytes_a_point},
+           static_cast<double>(contact.shell().bytes()) / points, 0.0, "bytes", goal_bytes_a_point},
           {"collide", "thesis-5-4-2 coverage of uniform bricks, not worth keeping (baseline: all)",
            static_cast<double>(coverage_in_uniform_bricks(bone.bone)) / mb, voxels / mb, "MB", 0.0}};
 }

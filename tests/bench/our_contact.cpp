@@ -6,26 +6,24 @@
 
 namespace ream::bench {
 
-OurBone::OurBone(voxel::BoneModel model) : bone(std::move(model)) {
+OurBone::OurBone(voxel::BoneModel model)
+    : bone(std::move(model)), distance(voxel::brick_distance(bone)), cells(bone) {
   prefer_huge_pages(bone.coverage.data(), bone.coverage.size());
   prefer_huge_pages(bone.density.data(), bone.density.size());
-  distance = voxel::brick_distance(bone);
-  occupancy = voxel::occupancy(bone);
-  bone_box_mm = collide::bone_bounds_mm(bone);
 }
 
 OurContact::OurContact(OurBone& bone, const shell::PointShell& shell)
     : bone_(bone), shell_(collide::make_contact_shell(shell, bone.bone.grid.spacing_mm.maxCoeff())) {}
 
 collide::NarrowPhaseInput OurContact::input() const {
-  return {shell_, bone_.bone, bone_.distance, bone_.occupancy};
+  return {shell_, bone_.bone, bone_.distance, bone_.cells};
 }
 
 Contender OurContact::contender(const std::string& name, std::shared_ptr<collide::NarrowPhase> phase,
                                 bool use_voi) const {
   const double reach_mm = bone_.bone.grid.min_spacing_mm();
   const auto contact = [this, name, phase, use_voi, reach_mm](const QuantisedPose& grid_from_tool) {
-    const collide::Voi voi = use_voi ? collide::broad_phase(bone_.bone_box_mm, shell_.bounds_mm,
+    const collide::Voi voi = use_voi ? collide::broad_phase(bone_.cells.bounds_mm(), shell_.bounds_mm,
                                                             dequantised(grid_from_tool), reach_mm)
                                      : collide::Voi{true, shell_.bounds_mm.grown(reach_mm)};
     collide::ContactSums sums;

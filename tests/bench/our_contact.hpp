@@ -15,8 +15,7 @@ struct OurBone {
 
   voxel::BoneModel bone;
   voxel::BrickDistance distance;
-  voxel::Occupancy occupancy;
-  Aabb bone_box_mm;
+  voxel::SolidCells cells;
 };
 
 /// The product's broad and narrow phase for one bone and one shell, put together as sim does it.

@@ -93,7 +93,7 @@ void Study::measure_voxmap(size_t v) {
     double* us = result.us[v][s];
     std::fill_n(us, method_count, -1.0);
     auto ours = std::make_unique<OurContact>(*bone, shells[s].points);
-    result.shell_bytes[s] = static_cast<double>(memory_of(ours->shell()));
+    result.shell_bytes[s] = static_cast<double>(ours->shell().bytes());
     measure_flat(voxmap, shells[s], us);
     if (resolution <= Zheng::largest_resolution) measure_zheng(voxmap, shells[s], us);
     measure_ours(*ours, us);

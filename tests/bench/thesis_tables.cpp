@@ -96,7 +96,6 @@ void table_4_1(const ResolutionStudy& study, std::ostream* out, std::vector<Row>
     add_rows(study, "table 4.1", "flat kernel", v, thesis_table_4_1[v], Method::flat_one_thread,
              Method::flat_all_cores, rows);
   }
-  table.lines.push_back(line("points, this bench", [&](size_t s) { return study.points[s]; }));
   table.print(out, 3);
 }
 
@@ -120,6 +119,7 @@ void table_4_3(const ResolutionStudy& study, std::ostream* out, std::vector<Row>
 void table_4_4(const ResolutionStudy& study, std::ostream* out, std::vector<Row>& rows) {
   constexpr double mb = 1e6;
   TextTable table{"Table 4.4: memory (MB)", "", shell_columns(), {}};
+  table.lines.push_back(line("points here, thousands", [&](size_t s) { return study.points[s] / 1e3; }));
   const auto cells = [](size_t s) { return std::pow(shell_resolutions[s], 3.0); };
   table.lines.push_back(line("PointShell, thesis", [&](size_t s) { return thesis_shell_mb[s]; }));
   table.lines.push_back(line("PointShell, Zheng in the thesis", [&](size_t s) { return zheng_shell_mb[s]; }));

@@ -6,7 +6,7 @@
 #include "bench/baselines/kernel_source.hpp"
 #include "collide/grid_affine.hpp"
 #include "collide/obb_sat.hpp"
-#include "shell/morton.hpp"
+#include "core/error.hpp"
 
 namespace ream::bench {
 namespace {
@@ -15,6 +15,17 @@ constexpr size_t local_items = 64;
 /// Sums of 2 M points of at most this force each stay below 2^31.
 constexpr float largest_force = 1000.0f;
 constexpr double voi_slack_mm = 1e-3;  // covers rounding to float
+
+constexpr uint64_t thesis_code_limit = uint64_t{1} << 30;
+
+/// Every third bit of a 30-bit Morton code, as the kernel gathers them.
+uint32_t gather_bits_10(uint32_t x) {
+  x &= 0x09249249;
+  x = (x | (x >> 2)) & 0x030c30c3;
+  x = (x | (x >> 4)) & 0x0300f00f;
+  x = (x | (x >> 8)) & 0x030000ff;
+  return (x | (x >> 16)) & 0x3ff;
+}
 
 static_assert(sizeof(layout::BaselineAffine) == sizeof(collide::GridAffine));
 
@@ -51,9 +62,9 @@ FlatSums sums_of(const layout::FlatExchange& e) { return {{e.force[0], e.force[1
 }  // namespace
 
 Vec3f MortonShell::point_mm(uint32_t code) const {
-  return {origin_mm.x() + (static_cast<float>(shell::gather_bits_10(code)) + 0.5f) * spacing_mm,
-          origin_mm.y() + (static_cast<float>(shell::gather_bits_10(code >> 1)) + 0.5f) * spacing_mm,
-          origin_mm.z() + (static_cast<float>(shell::gather_bits_10(code >> 2)) + 0.5f) * spacing_mm};
+  return {origin_mm.x() + (static_cast<float>(gather_bits_10(code)) + 0.5f) * spacing_mm,
+          origin_mm.y() + (static_cast<float>(gather_bits_10(code >> 1)) + 0.5f) * spacing_mm,
+          origin_mm.z() + (static_cast<float>(gather_bits_10(code >> 2)) + 0.5f) * spacing_mm};
 }
 
 MortonShell morton_shell(const shell::PointShell& shell) {
@@ -63,7 +74,10 @@ MortonShell morton_shell(const shell::PointShell& shell) {
   result.codes.reserve(shell.points.size());
   const double half = 0.5 * shell.spacing_mm;
   for (const shell::ShellPoint& p : shell.points) {
-    result.codes.push_back(p.morton);
+    if (p.morton >= thesis_code_limit)
+      throw Error(ErrorKind::invalid_input,
+                  "bench: the thesis' 32-bit codes end at 1024 cells a side; use a coarser shell");
+    result.codes.push_back(static_cast<uint32_t>(p.morton));
     const Vec3 centre = shell.cell_centre_mm(p.morton);
     result.box_mm.include((centre.array() - half).matrix());
     result.box_mm.include((centre.array() + half).matrix());

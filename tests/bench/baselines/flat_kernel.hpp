@@ -21,6 +21,7 @@ struct MortonShell {
   Vec3f point_mm(uint32_t code) const;
 };
 
+/// Throws Error invalid_input for a shell of more than 1024 cells a side, where the thesis' codes end.
 MortonShell morton_shell(const shell::PointShell& shell);
 
 struct FlatOptions {
