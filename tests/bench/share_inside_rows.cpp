@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <random>
 
@@ -21,15 +22,26 @@ struct Goals {
   double best_us = 0.0, opencl_us = 0.0, best_times = 0.0, opencl_times = 0.0;
 };
 
-/// The plan's axis with the tool's apex at a depth below the entry, tilted by a small rotation vector.
-QuantisedPose planned_pose(const case_::Case& c, double depth_mm, const Vec3& tilt_rad) {
-  const Pose plan_from_tool{rotation_from_small_vector(tilt_rad), Vec3(0.0, 0.0, depth_mm)};
+/// How the tool meets the face. On the plan's axis it lies close to the whole face before much of it is
+/// inside, so that many points are near the surface; off the axis its edge digs in.
+struct Approach {
+  const char* name;
+  Vec3 shift_mm, tilt_rad;  ///< plan frame
+};
+const std::array approaches{Approach{"on the axis", Vec3::Zero(), Vec3::Zero()},
+                            Approach{"at the edge", Vec3(8.0, 0.0, 0.0), Vec3(0.2, 0.0, 0.0)}};
+
+/// The tool's apex at a depth below the entry, along the plan's axis.
+QuantisedPose planned_pose(const case_::Case& c, const Approach& approach, double depth_mm,
+                           const Vec3& tilt_rad) {
+  const Pose plan_from_tool{rotation_from_small_vector(approach.tilt_rad + tilt_rad),
+                            approach.shift_mm + Vec3(0.0, 0.0, depth_mm)};
   return quantised(c.bone.grid.world_from_grid.inverse() * sim::world_from_plan(*c.plan) * plan_from_tool);
 }
 
 /// A hand at work around one depth: 1 um a tick down for 25 ticks and up again, and a tilt that wanders by
 /// 0.05 mrad a tick (0.8 um at the rim).
-std::vector<QuantisedPose> creeping_poses(const case_::Case& c, double depth_mm) {
+std::vector<QuantisedPose> creeping_poses(const case_::Case& c, const Approach& approach, double depth_mm) {
   constexpr double creep_mm = 1e-3, tilt_step_rad = 5e-5, tilt_limit_rad = 1e-3;
   constexpr int stroke = 25;
   std::mt19937 random(seed);
@@ -41,7 +53,7 @@ std::vector<QuantisedPose> creeping_poses(const case_::Case& c, double depth_mm)
       tilt[axis] = std::clamp(tilt[axis] + one(random), -tilt_limit_rad, tilt_limit_rad);
     const int phase = i % (2 * stroke);
     const int ticks_down = phase < stroke ? phase : 2 * stroke - phase;
-    poses.push_back(planned_pose(c, depth_mm + creep_mm * (ticks_down - stroke / 2), tilt));
+    poses.push_back(planned_pose(c, approach, depth_mm + creep_mm * (ticks_down - stroke / 2), tilt));
   }
   return poses;
 }
@@ -77,25 +89,23 @@ struct Contenders {
   }
 };
 
-std::vector<Row> rows_of(const std::vector<Samples>& s, double share, double all_points, const Goals& goals) {
-  char text[64];
-  std::snprintf(text, sizeof text, "thesis-5-4-2 contact, %.0f %% inside, creep 1 um/tick: ", 100.0 * share);
-  const std::string name = text;
+std::vector<Row> rows_of(const std::vector<Samples>& s, const std::string& name, double all_points,
+                         const Goals& goals) {
   const double cpu = s[0].percentile(0.5), opencl = s[1].percentile(0.5), flat = s[2].percentile(0.5);
   const double best = std::min(cpu, opencl);
   std::vector<Row> rows{
       {"collide", name + "points inside", 100.0 * s[2].mean_found() / all_points, 0.0, "%", 0.0},
       {"collide", name + "points engaged, ours", 100.0 * s[0].mean_found() / all_points, 0.0, "%", 0.0}};
-  for (const Samples& contender : s) {
-    rows.push_back({"collide", name + contender.name + ", p50", contender.percentile(0.5), 0.0, "us", 0.0});
-    rows.push_back({"collide", name + contender.name + ", p99", contender.percentile(0.99), 0.0, "us", 0.0});
+  for (size_t i = 0; i < s.size(); ++i) {
+    const double goal_us = i == 1 ? goals.opencl_us : 0.0;
+    rows.push_back({"collide", name + s[i].name + ", p50", s[i].percentile(0.5), 0.0, "us", goal_us});
+    rows.push_back({"collide", name + s[i].name + ", p99", s[i].percentile(0.99), 0.0, "us", 0.0});
   }
-  rows.push_back({"collide", name + "best backend, p50", best, flat, "us", goals.best_us});
-  rows.push_back({"collide", name + "best backend / flat kernel", flat / best, 0.0, "times", goals.best_times,
+  rows.push_back({"collide", name + "best backend, p50", best, 0.0, "us", goals.best_us});
+  rows.push_back({"collide", name + "flat kernel / best backend", flat / best, 0.0, "times", goals.best_times,
                   Goal::at_least});
-  rows.push_back({"collide", name + "OpenCL, p50", opencl, flat, "us", goals.opencl_us});
-  rows.push_back({"collide", name + "OpenCL / flat kernel", flat / opencl, 0.0, "times", goals.opencl_times,
-                  Goal::at_least});
+  rows.push_back({"collide", name + "flat kernel / ours, OpenCL", flat / opencl, 0.0, "times",
+                  goals.opencl_times, Goal::at_least});
   return rows;
 }
 
@@ -107,17 +117,20 @@ std::vector<Row> share_inside_rows(const case_::Case& planned_case) {
   Contenders scene(std::move(copy));
   prefer_huge_pages(scene.voxmap.gray.data(), scene.voxmap.gray.size());
   const std::vector<Contender> contenders = scene.all();
+  const auto points = static_cast<double>(scene.codes.codes.size());
   std::vector<Row> rows;
   for (const auto& [share, goals] :
-       {std::pair{0.05, Goals{20.0, 70.0, 60.0, 25.0}}, std::pair{0.20, Goals{200.0, 0.0, 10.0, 0.0}}}) {
-    const double depth_mm = depth_of_share(scene.voxmap, scene.codes, share, -5.0, 25.0, [&](double depth) {
-      return planned_pose(scene.bone_case, depth, Vec3::Zero());
-    });
-    const std::vector<QuantisedPose> poses = creeping_poses(scene.bone_case, depth_mm);
-    const std::vector<Samples> samples = measure_in_turns(contenders, poses, rounds);
-    for (Row& row : rows_of(samples, share, static_cast<double>(scene.codes.codes.size()), goals))
-      rows.push_back(std::move(row));
-  }
+       {std::pair{0.05, Goals{20.0, 70.0, 60.0, 25.0}}, std::pair{0.20, Goals{200.0, 0.0, 10.0, 0.0}}})
+    for (const Approach& approach : approaches) {
+      const auto at = [&](double mm) { return planned_pose(scene.bone_case, approach, mm, Vec3::Zero()); };
+      const double depth_mm = depth_of_share(scene.voxmap, scene.codes, share, -5.0, 25.0, at);
+      const std::vector<QuantisedPose> poses = creeping_poses(scene.bone_case, approach, depth_mm);
+      const std::vector<Samples> samples = measure_in_turns(contenders, poses, rounds);
+      char name[96];
+      std::snprintf(name, sizeof name, "thesis-5-4-2 contact, %.0f %% inside %s, 1 um/tick: ", 100.0 * share,
+                    approach.name);
+      for (Row& row : rows_of(samples, name, points, goals)) rows.push_back(std::move(row));
+    }
   return rows;
 }
 
