@@ -21,7 +21,8 @@ bool missed(const Row& row) {
 /// How many times better than the baseline, or else than the goal; 0 without either.
 double ratio(const Row& row) {
   const double other = row.baseline > 0.0 ? row.baseline : row.goal;
-  return row.goal_is == Goal::at_most ? other / row.ours : other > 0.0 ? row.ours / other : 0.0;
+  if (!(other > 0.0 && row.ours > 0.0)) return 0.0;
+  return row.goal_is == Goal::at_most ? other / row.ours : row.ours / other;
 }
 
 void print(const std::vector<Row>& rows, bool json) {

@@ -1,6 +1,7 @@
 #include "bench/text_table.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <ostream>
 
@@ -23,7 +24,7 @@ void TextTable::print(std::ostream* out, int decimals) const {
     *out << std::left << std::setw(static_cast<int>(label_width)) << line.label << std::right;
     for (size_t i = 0; i < line.values.size(); ++i) {
       *out << std::setw(width_of(columns[i]));
-      if (line.values[i] < 0.0)
+      if (std::isnan(line.values[i]))
         *out << "-";
       else
         *out << line.values[i];

@@ -11,7 +11,7 @@ struct TextTable {
   std::vector<std::string> columns;
   struct Line {
     std::string label;
-    std::vector<double> values;  ///< below zero: no value, printed as a dash
+    std::vector<double> values;  ///< not a number: no value, printed as a dash
   };
   std::vector<Line> lines;
 

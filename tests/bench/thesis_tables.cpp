@@ -43,7 +43,7 @@ TextTable::Line line(const std::string& label, Value value) {
   return result;
 }
 
-double milliseconds(double us) { return us < 0.0 ? us : us / 1000.0; }
+double milliseconds(double us) { return us / 1000.0; }
 
 /// The lines of one Voxmap in table 4.1 or 4.3: the thesis, its method here, this program, and what the last
 /// is faster.
@@ -132,7 +132,8 @@ void table_4_4(const ResolutionStudy& study, std::ostream* out, std::vector<Row>
   table.lines.push_back(line("Voxmap, Zheng in the thesis", [&](size_t s) { return zheng_voxmap_mb[s]; }));
   table.lines.push_back(line("Voxmap, flat kernel here", [&](size_t s) { return cells(s) / mb; }));
   table.lines.push_back(line("Voxmap, Zheng here", [&](size_t s) {
-    return shell_resolutions[s] > Zheng::largest_resolution ? -1.0 : cells(s) * Zheng::voxel_bytes / mb;
+    return shell_resolutions[s] > Zheng::largest_resolution ? not_measured
+                                                            : cells(s) * Zheng::voxel_bytes / mb;
   }));
   table.lines.push_back(
       line("Voxmap, ours with replica", [&](size_t s) { return study.voxmap_bytes[s] / mb; }));
