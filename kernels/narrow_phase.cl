@@ -79,7 +79,7 @@ static int16 bytes_at(global const uchar* bytes, const int* voxels, int16 wanted
 }
 
 kernel __attribute__((reqd_work_group_size(1, 1, 1))) void contact_sums(BONE, struct ContactArguments arguments,
-                                                                        global long* partial) {
+                                                                        global long* partial, global uchar* touched) {
   global long* sums = partial + (size_t)get_group_id(0) * REAM_CONTACT_SUMS;
   for (int k = 0; k < REAM_CONTACT_DEEPEST; ++k) sums[k] = 0;
   long deepest = NO_POINT;
@@ -112,6 +112,7 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void contact_sums(BONE, st
       height = max(height, select((int16)(-1), convert_int16(place >> (2 * REAM_PLACE_BITS) & PLACE_MASK), engaged));
     }
     const int total = sum16(points);
+    touched[s] = total != 0;
     if (total == 0) continue;
     global long* part = sums + guiding * REAM_CONTACT_PART_SUMS;
     part[REAM_CONTACT_PRODUCTS] += total;
@@ -182,7 +183,8 @@ static void flush(int* values, int count, local int* scratch, global long* sums)
 }
 
 kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void contact_sums(BONE, struct ContactArguments arguments,
-                                                                            global long* partial) {
+                                                                            global long* partial,
+                                                                            global uchar* touched) {
   local int scratch[REAM_CONTACT_PART_SUMS * LANES];
   local long deepest_of[LANES];
   const int lane = get_local_id(0);
@@ -205,10 +207,13 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void contact_sums(BONE
       guiding = block->guiding;
       blocks_since_flush = 0;
     }
+    if (lane == 0) touched[s] = 0;
+    barrier(CLK_GLOBAL_MEM_FENCE);
     for (uint i = lane; i < block->count; i += LANES) {
       const uint point = block->first + i, place = places[point];
       int voxel;
       if (!is_engaged(place, survivors + s, &arguments, cells, coverage, &voxel)) continue;
+      touched[s] = 1;
       add_products(place, directions[point], meridian, azimuth, products);
       ++products[REAM_CONTACT_PRODUCTS];
       if (guiding) continue;

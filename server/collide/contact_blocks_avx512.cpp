@@ -81,48 +81,84 @@ REAM_AVX512 inline void add_cutting(const ContactView& view, __mmask16 engaged, 
   cutting.height = _mm512_mask_max_epi32(cutting.height, engaged, cutting.height, height);
 }
 
+/// Voxels of sixteen probes, their cells' words, and where the cells' bits lie in them.
+struct Probed {
+  __m512i u, v, w, z, brick, words, cell;
+
+  REAM_AVX512 __m512i voxel() const {
+    return _mm512_or_si512(
+        _mm512_or_si512(_mm512_slli_epi32(brick, 9), low_bits(u, 7)),
+        _mm512_or_si512(_mm512_slli_epi32(low_bits(v, 7), 3), _mm512_slli_epi32(low_bits(w, 7), 6)));
+  }
+};
+
+REAM_AVX512 inline Probed probe(const ContactView& view, const Axes& axes, const uint32_t* places, int left) {
+  const __m128i bits = _mm_cvtsi32_si128(view.bits);
+  const auto present = static_cast<__mmask16>(left >= lanes ? 0xffff : (1 << left) - 1);
+  const __m512i place = _mm512_maskz_loadu_epi32(present, places);
+  const __m512i x = low_bits(place, place_mask),
+                y = low_bits(_mm512_slli_epi32(place, 16 - place_bits), static_cast<int>(place_mask << 16)),
+                z = low_bits(_mm512_srli_epi32(place, 2 * place_bits), place_mask);
+  const __m512i xy = _mm512_or_si512(x, y);
+  Probed p;
+  p.z = z;
+  p.u = coordinate(axes, 0, xy, z, bits);
+  p.v = coordinate(axes, 1, xy, z, bits);
+  p.w = coordinate(axes, 2, xy, z, bits);
+  __mmask16 inside = _mm512_mask_cmplt_epu32_mask(present, p.u, _mm512_set1_epi32(view.dims[0]));
+  inside = _mm512_mask_cmplt_epu32_mask(inside, p.v, _mm512_set1_epi32(view.dims[1]));
+  inside = _mm512_mask_cmplt_epu32_mask(inside, p.w, _mm512_set1_epi32(view.dims[2]));
+  p.brick = _mm512_add_epi32(
+      _mm512_srli_epi32(p.u, 3),
+      _mm512_add_epi32(_mm512_mullo_epi32(_mm512_srli_epi32(p.v, 3), _mm512_set1_epi32(view.brick_row)),
+                       _mm512_mullo_epi32(_mm512_srli_epi32(p.w, 3), _mm512_set1_epi32(view.brick_slice))));
+  p.cell = _mm512_or_si512(
+      _mm512_or_si512(low_bits(_mm512_srli_epi32(p.u, 2), 1), low_bits(_mm512_srli_epi32(p.v, 1), 2)),
+      low_bits(p.w, 4));
+  p.words = _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), inside, p.brick, view.cells, 2);
+  return p;
+}
+
+/// Points whose voxel is solid.
+REAM_AVX512 inline __mmask16 solid_points(const ContactView& view, const Probed& p) {
+  const __m512i state = _mm512_srlv_epi32(p.words, p.cell);
+  const __mmask16 some = _mm512_test_epi32_mask(state, _mm512_set1_epi32(1));
+  const __mmask16 all = _mm512_test_epi32_mask(state, _mm512_set1_epi32(0x100));
+  const auto unsure = static_cast<__mmask16>(some & ~all);
+  if (unsure == 0) return all;
+  return all | _mm512_mask_test_epi32_mask(unsure, gather_bytes(unsure, p.voxel(), view.coverage),
+                                           _mm512_set1_epi32(voxel::solid_coverage));
+}
+
+/// Points that meet something of the size that the clearance is about.
+REAM_AVX512 inline __mmask16 meeting_points(const ContactView& view, const Probed& p, Clearance clearance) {
+  if (clearance == Clearance::voxel) return solid_points(view, p);
+  if (clearance == Clearance::cell)
+    return _mm512_test_epi32_mask(_mm512_srlv_epi32(p.words, p.cell), _mm512_set1_epi32(1));
+  return _mm512_test_epi32_mask(p.words, _mm512_set1_epi32(0xff));
+}
+
+REAM_AVX512 bool is_clear(const ContactView& view, const SurvivingBlock& at, Clearance clearance) noexcept {
+  const ContactBlock& block = view.blocks[at.block];
+  for (int corner = 0; corner < 8; ++corner) {
+    const Axes axes = axes_of(view, shifted(view, at, clearance, corner));
+    for (int i = 0; i < block.count; i += lanes)
+      if (meeting_points(view, probe(view, axes, view.places + block.first + i, block.count - i), clearance))
+        return false;
+  }
+  return true;
+}
+
 REAM_AVX512 void look(const ContactView& view, const SurvivingBlock& at, const ContactBlock& block,
                       Engaged& engaged, CuttingLanes& cutting) {
   const Axes axes = axes_of(view, at);
-  const __m128i bits = _mm_cvtsi32_si128(view.bits);
-  const __m512i dx = _mm512_set1_epi32(view.dims[0]), dy = _mm512_set1_epi32(view.dims[1]),
-                dz = _mm512_set1_epi32(view.dims[2]);
-  const __m512i brick_row = _mm512_set1_epi32(view.brick_row),
-                brick_slice = _mm512_set1_epi32(view.brick_slice);
   for (int i = 0; i < block.count; i += lanes) {
-    const int left = block.count - i;
-    const auto present = static_cast<__mmask16>(left >= lanes ? 0xffff : (1 << left) - 1);
-    const __m512i place = _mm512_maskz_loadu_epi32(present, view.places + block.first + i);
-    const __m512i x = low_bits(place, place_mask),
-                  y = low_bits(_mm512_slli_epi32(place, 16 - place_bits), static_cast<int>(place_mask << 16)),
-                  z = low_bits(_mm512_srli_epi32(place, 2 * place_bits), place_mask);
-    const __m512i xy = _mm512_or_si512(x, y);
-    const __m512i u = coordinate(axes, 0, xy, z, bits), v = coordinate(axes, 1, xy, z, bits),
-                  w = coordinate(axes, 2, xy, z, bits);
-    __mmask16 inside = _mm512_mask_cmplt_epu32_mask(present, u, dx);
-    inside = _mm512_mask_cmplt_epu32_mask(inside, v, dy);
-    inside = _mm512_mask_cmplt_epu32_mask(inside, w, dz);
-    const __m512i brick = _mm512_add_epi32(
-        _mm512_srli_epi32(u, 3), _mm512_add_epi32(_mm512_mullo_epi32(_mm512_srli_epi32(v, 3), brick_row),
-                                                  _mm512_mullo_epi32(_mm512_srli_epi32(w, 3), brick_slice)));
-    const __m512i cell = _mm512_or_si512(
-        _mm512_or_si512(low_bits(_mm512_srli_epi32(u, 2), 1), low_bits(_mm512_srli_epi32(v, 1), 2)),
-        low_bits(w, 4));
-    const __m512i words = _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), inside, brick, view.cells, 2);
-    const __m512i state = _mm512_srlv_epi32(words, cell);
-    const __mmask16 some = _mm512_test_epi32_mask(state, _mm512_set1_epi32(1));
-    __mmask16 solid = _mm512_test_epi32_mask(state, _mm512_set1_epi32(0x100));
-    const auto unsure = static_cast<__mmask16>(some & ~solid);
-    const __m512i voxel = _mm512_or_si512(
-        _mm512_or_si512(_mm512_slli_epi32(brick, 9), low_bits(u, 7)),
-        _mm512_or_si512(_mm512_slli_epi32(low_bits(v, 7), 3), _mm512_slli_epi32(low_bits(w, 7), 6)));
-    if (unsure != 0)
-      solid |= _mm512_mask_test_epi32_mask(unsure, gather_bytes(unsure, voxel, view.coverage),
-                                           _mm512_set1_epi32(voxel::solid_coverage));
+    const Probed p = probe(view, axes, view.places + block.first + i, block.count - i);
+    const __mmask16 solid = solid_points(view, p);
     engaged.masks[i / lanes] = solid;
     if (solid == 0) continue;
     engaged.count += static_cast<size_t>(std::popcount(static_cast<unsigned>(solid)));
-    if (!block.guiding) add_cutting(view, solid, voxel, z, cutting);
+    if (!block.guiding) add_cutting(view, solid, p.voxel(), p.z, cutting);
   }
 }
 
@@ -195,13 +231,14 @@ REAM_AVX512 void take_deepest(const ContactView& view, const ContactBlock& block
   }
 }
 
-REAM_AVX512 void add_block(const ContactView& view, const SurvivingBlock& at, ContactSums& sums) noexcept {
+REAM_AVX512 uint32_t add_block(const ContactView& view, const SurvivingBlock& at,
+                               ContactSums& sums) noexcept {
   const ContactBlock& block = view.blocks[at.block];
   Engaged engaged;
   const __m512i zero = _mm512_setzero_si512();
   CuttingLanes cutting{zero, zero, _mm512_set1_epi32(-1), 0, 0};
   look(view, at, block, engaged, cutting);
-  if (engaged.count == 0) return;
+  if (engaged.count == 0) return 0;
 
   const auto points = static_cast<int64_t>(engaged.count);
   ContactSums::Part& part = block.guiding ? sums.guiding : sums.cutting;
@@ -212,7 +249,7 @@ REAM_AVX512 void add_block(const ContactView& view, const SurvivingBlock& at, Co
     add_mixed(view, block, engaged, products);
     add_products_to(part, products, points);
   }
-  if (block.guiding) return;
+  if (block.guiding) return static_cast<uint32_t>(points);
   const auto cortical = static_cast<size_t>(voxel::BoneClass::cortical),
              cancellous = static_cast<size_t>(voxel::BoneClass::cancellous),
              cartilage = static_cast<size_t>(voxel::BoneClass::cartilage);
@@ -226,15 +263,16 @@ REAM_AVX512 void add_block(const ContactView& view, const SurvivingBlock& at, Co
   sums.class_density[cancellous] +=
       _mm512_reduce_add_epi32(cutting.all) - cortical_density - cartilage_density;
   take_deepest(view, block, engaged, _mm512_reduce_max_epi32(cutting.height), sums);
+  return static_cast<uint32_t>(points);
 }
 
 }  // namespace
 
-AddBlock add_block_avx512() noexcept {
+BlockFunctions avx512_block_functions() noexcept {
   __builtin_cpu_init();
   const bool usable = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
                       __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
-  return usable ? add_block : nullptr;
+  return usable ? BlockFunctions{add_block, is_clear} : BlockFunctions{};
 }
 
 }  // namespace ream::collide
@@ -242,7 +280,7 @@ AddBlock add_block_avx512() noexcept {
 #else
 
 namespace ream::collide {
-AddBlock add_block_avx512() noexcept { return nullptr; }
+BlockFunctions avx512_block_functions() noexcept { return {}; }
 }  // namespace ream::collide
 
 #endif

@@ -4,13 +4,14 @@
 namespace ream::collide {
 namespace {
 
-constexpr uint32_t some_bit = 0x1, all_bit = 0x100;
+constexpr uint32_t some_bit = 0x1, all_bit = 0x100, any_cell = 0xff;
 
 /// Per point of a block: the voxel its probe lies in, and what its cell says: all_bit and some_bit in solid
 /// bone, some_bit where the voxel decides, 0 in the air and outside the grid.
 struct Probed {
   int32_t voxel[most_block_points];
   int32_t state[most_block_points];
+  int32_t in_brick[most_block_points];  ///< not 0: the brick has solid cells
 };
 
 /// Straight-line arithmetic, so that it vectorizes.
@@ -24,6 +25,7 @@ REAM_VECTOR_CLONES void probe(const ContactView& view, const uint32_t* __restric
   const uint16_t* __restrict cells = view.cells;
   int32_t* __restrict voxel = shared_probed.voxel;
   int32_t* __restrict state = shared_probed.state;
+  int32_t* __restrict in_brick = shared_probed.in_brick;
   for (int i = 0; i < n; ++i) {
     const auto x = static_cast<int32_t>(places[i] & place_mask),
                y = static_cast<int32_t>(places[i] >> place_bits & place_mask),
@@ -39,6 +41,7 @@ REAM_VECTOR_CLONES void probe(const ContactView& view, const uint32_t* __restric
     const int32_t cell = ((u >> 2) & 1) | ((v >> 1) & 2) | (w & 4);
     voxel[i] = (brick << 9) | (u & 7) | (v & 7) << 3 | (w & 7) << 6;
     state[i] = (cells[brick] >> cell) & inside & static_cast<int32_t>(some_bit | all_bit);
+    in_brick[i] = cells[brick] & inside & static_cast<int32_t>(any_cell);
   }
 }
 
@@ -79,16 +82,32 @@ void find_deepest(const ContactView& view, const ContactBlock& block, const uint
   }
 }
 
-}  // namespace
+bool meets(const ContactView& view, const Probed& probed, size_t n, Clearance clearance) {
+  uint16_t engaged[most_block_points];
+  if (clearance == Clearance::voxel) return find_engaged(view, probed, n, engaged) != 0;
+  int32_t any = 0;
+  for (size_t i = 0; i < n; ++i) any |= clearance == Clearance::brick ? probed.in_brick[i] : probed.state[i];
+  return any != 0;
+}
 
-void add_block_portable(const ContactView& view, const SurvivingBlock& at, ContactSums& sums) noexcept {
+bool is_clear(const ContactView& view, const SurvivingBlock& at, Clearance clearance) noexcept {
+  const ContactBlock& block = view.blocks[at.block];
+  for (int corner = 0; corner < 8; ++corner) {
+    Probed probed;
+    probe(view, view.places + block.first, block.count, shifted(view, at, clearance, corner).base, probed);
+    if (meets(view, probed, block.count, clearance)) return false;
+  }
+  return true;
+}
+
+uint32_t add_block(const ContactView& view, const SurvivingBlock& at, ContactSums& sums) noexcept {
   const ContactBlock& block = view.blocks[at.block];
   const size_t n = block.count;
   Probed probed;
   probe(view, view.places + block.first, static_cast<int>(n), at.base, probed);
   uint16_t engaged[most_block_points];
   const size_t count = find_engaged(view, probed, n, engaged);
-  if (count == 0) return;
+  if (count == 0) return 0;
 
   ContactSums::Part& part = block.guiding ? sums.guiding : sums.cutting;
   if (count == n) {
@@ -101,9 +120,39 @@ void add_block_portable(const ContactView& view, const SurvivingBlock& at, Conta
     }
     add_products_to(part, products, static_cast<int64_t>(count));
   }
-  if (block.guiding) return;
+  if (block.guiding) return static_cast<uint32_t>(count);
   add_densities(view, probed, engaged, count, sums);
   find_deepest(view, block, engaged, count, sums);
+  return static_cast<uint32_t>(count);
+}
+
+}  // namespace
+
+BlockFunctions portable_block_functions() noexcept { return {add_block, is_clear}; }
+
+ContactView contact_view(const NarrowPhaseInput& input) noexcept {
+  const Vec3i dims = input.bone.grid.dims, bricks = input.bone.grid.brick_dims();
+  return {input.shell.places.data(),
+          input.shell.directions.data(),
+          input.shell.blocks.data(),
+          &input.shell.table,
+          input.cells.words().data(),
+          input.bone.coverage.data(),
+          input.bone.density.data(),
+          {dims.x(), dims.y(), dims.z()},
+          bricks.x(),
+          bricks.x() * bricks.y(),
+          voxel::first_cortical_code(input.bone.cortical_threshold_g_cc),
+          {},
+          0};
+}
+
+SurvivingBlock shifted(const ContactView& view, const SurvivingBlock& at, Clearance clearance,
+                       int corner) noexcept {
+  const auto reach = static_cast<int32_t>(clearance_voxels(clearance) * static_cast<float>(1 << view.bits));
+  SurvivingBlock moved = at;
+  for (size_t i = 0; i < 3; ++i) moved.base[i] += corner >> i & 1 ? reach : -reach;
+  return moved;
 }
 
 }  // namespace ream::collide

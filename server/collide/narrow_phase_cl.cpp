@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "collide/contact_schedule.hpp"
 #include "core/error.hpp"
 #include "gpu/program.hpp"
 #include "kernels/layout.h"
@@ -53,6 +54,10 @@ class NarrowPhaseCl final : public NarrowPhase {
         kernel_(program_, "contact_sums"),
         patch_kernel_(program_, "patch_cells"),
         survivors_(std::max<size_t>(input.shell.blocks.size(), 1)),
+        touched_(survivors_.size()),
+        view_(contact_view(input)),
+        clear_(best_block_functions().clear),
+        schedule_(input),
         partial_(static_cast<size_t>(shape.groups) * REAM_CONTACT_SUMS),
         patches_(most_patches),
         arguments_(constant_arguments(input.bone)),
@@ -64,9 +69,10 @@ class NarrowPhaseCl final : public NarrowPhase {
         cells_(gpu::Buffer::over(bone_->queue, std::span(input.cells.words()))),
         survivor_buffer_(gpu::Buffer::over(bone_->queue, std::span(survivors_))),
         partial_buffer_(gpu::Buffer::over(bone_->queue, std::span(partial_))),
+        touched_buffer_(gpu::Buffer::over(bone_->queue, std::span(touched_))),
         patch_buffer_(gpu::Buffer::over(bone_->queue, std::span(patches_))) {
     kernel_.set_all(places_, directions_, blocks_, survivor_buffer_, meridian_, azimuth_, cells_,
-                    bone_->coverage, bone_->density, arguments_, partial_buffer_);
+                    bone_->coverage, bone_->density, arguments_, partial_buffer_, touched_buffer_);
     patch_kernel_.set_all(patch_buffer_, uint32_t{0}, cells_);
     ContactSums warm;
     patch_kernel_.enqueue(bone_->queue, most_patches, patch_lanes);
@@ -78,10 +84,14 @@ class NarrowPhaseCl final : public NarrowPhase {
     sums = {};
     if (!voi.touching) return true;
     const VoxelTransform transform = voxel_transform(grid_from_tool, in_.bone.grid, in_.shell.place_unit_mm);
-    const size_t count = cull_blocks(in_, voi, grid_from_tool, transform, survivors_);
-    if (count == 0) return true;
+    view_.per_unit = transform.per_unit;
+    view_.bits = transform.bits;
+    const auto due = schedule_.due(grid_from_tool, voi, transform);
+    if (due.empty()) return true;
+    std::copy(due.begin(), due.end(), survivors_.begin());
     try {
-      run(transform, count, sums);
+      run(transform, due.size(), sums);
+      schedule_.visited(view_, clear_, [this](size_t i) { return touched_[i] != 0; });
       return true;
     } catch (const Error&) {
       return false;
@@ -110,10 +120,12 @@ class NarrowPhaseCl final : public NarrowPhase {
       survivor_buffer_.write(queue, survivors_.data(), survivors * sizeof(SurvivingBlock));
     kernel_.enqueue(queue, static_cast<size_t>(shape_.groups * shape_.lanes),
                     static_cast<size_t>(shape_.lanes));
-    if (partial_buffer_.shared())
+    if (partial_buffer_.shared()) {
       queue.finish();
-    else
+    } else {
       partial_buffer_.read(queue, partial_.data(), partial_buffer_.bytes());
+      touched_buffer_.read(queue, touched_.data(), survivors);
+    }
     for (size_t g = 0; g < static_cast<size_t>(shape_.groups); ++g)
       add_group(&partial_[g * REAM_CONTACT_SUMS], sums);
   }
@@ -146,11 +158,15 @@ class NarrowPhaseCl final : public NarrowPhase {
   gpu::Program program_;
   gpu::Kernel kernel_, patch_kernel_;
   std::vector<SurvivingBlock> survivors_;
+  std::vector<uint8_t> touched_;  ///< per survivor: has engaged points
+  ContactView view_;              ///< the host's, for measuring what is free
+  IsClear clear_;
+  ContactSchedule schedule_;
   std::vector<int64_t> partial_;
   std::vector<layout::CellPatch> patches_;
   layout::ContactArguments arguments_;
   gpu::Buffer places_, directions_, blocks_, meridian_, azimuth_, cells_, survivor_buffer_, partial_buffer_,
-      patch_buffer_;
+      touched_buffer_, patch_buffer_;
 };
 
 }  // namespace
