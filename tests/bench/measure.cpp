@@ -11,11 +11,11 @@ namespace {
 
 constexpr size_t warm_up_poses = 2;
 
-/// Nearest rank; reorders `values`.
+/// The rank nearest below; reorders `values`.
 double percentile_of(std::vector<double>& values, double fraction) {
   if (values.empty()) return 0.0;
   const auto last = static_cast<double>(values.size() - 1);
-  const auto rank = static_cast<std::ptrdiff_t>(std::ceil(fraction * last));
+  const auto rank = static_cast<std::ptrdiff_t>(std::floor(fraction * last));
   std::nth_element(values.begin(), values.begin() + rank, values.end());
   return values[static_cast<size_t>(rank)];
 }

@@ -14,7 +14,7 @@ namespace ream::bench {
 namespace {
 
 constexpr unsigned seed = 41;
-constexpr int pose_count = 64, our_rounds = 3, finest_rounds = 10;
+constexpr int pose_count = 64, baseline_rounds = 2, our_rounds = 3, finest_rounds = 10;
 constexpr int pose_search_shell = 128;
 constexpr int coarsest_compared_voxmap = 256;
 constexpr ImplicitCap thesis_cap{16.0, 8.0, 8.0};  // shell::thesis_tool without nipple and back
@@ -43,7 +43,7 @@ struct Study {
 
   double mean_us(const std::function<int64_t(const QuantisedPose&)>& contact) const {
     const Contender contender{"", contact};
-    return measure_in_turns({&contender, 1}, poses, 1).front().mean_us();
+    return measure_in_turns({&contender, 1}, poses, baseline_rounds).front().mean_us();
   }
 
   void measure_flat(Voxmap& voxmap, const StudiedShell& s, double* us) {
@@ -91,7 +91,7 @@ void Study::measure_voxmap(size_t v) {
   result.yau_all_cores_us[v] = mean_us([&](const QuantisedPose& p) { return yau_all.contact(p).collided; });
   for (size_t s = 0; s < shells.size(); ++s) {
     double* us = result.us[v][s];
-    std::fill_n(us, method_count, -1.0);
+    std::fill_n(us, method_count, not_measured);
     auto ours = std::make_unique<OurContact>(*bone, shells[s].points);
     result.shell_bytes[s] = static_cast<double>(ours->shell().bytes());
     measure_flat(voxmap, shells[s], us);

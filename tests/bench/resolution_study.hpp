@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "bench/bench.hpp"
@@ -22,13 +23,15 @@ enum class Method {
 };
 inline constexpr size_t method_count = 7;
 
+inline constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
+
 /// Spacing, mm, of a shell "of N^3". The thesis' shells have 1.19 M points at 1024^3 and 213 k at 0.1 mm
 /// (table 4.4, section 5.4.2), so its tool is 43.4 mm long; the bench's tool gets the same spacing and so the
 /// same numbers of points.
 double shell_spacing_mm(int resolution);
 
-/// Mean times over 64 seeded poses of severe collision (glenoid_block.hpp), us; below zero where not
-/// measured.
+/// Mean times over 64 seeded poses of severe collision (glenoid_block.hpp), us; `not_measured`
+/// where a method does not go.
 struct ResolutionStudy {
   double us[voxmap_resolutions.size()][shell_resolutions.size()][method_count];
   double yau_one_thread_us[voxmap_resolutions.size()], yau_all_cores_us[voxmap_resolutions.size()];
