@@ -7,10 +7,10 @@ class NarrowPhaseCpu final : public NarrowPhase {
  public:
   NarrowPhaseCpu(const NarrowPhaseInput& input, Instructions instructions)
       : in_(input),
-        functions_(instructions == Instructions::best ? best_block_functions() : portable_block_functions()),
+        functions_(instructions == Instructions::best ? best_look() : portable_look()),
         view_(contact_view(input)),
         schedule_(input),
-        engaged_(input.shell.blocks.size()) {}
+        touched_(input.shell.chunk_count()) {}
 
   bool contact(const QuantisedPose& grid_from_tool, const Voi& voi, ContactSums& sums) noexcept override {
     sums = {};
@@ -19,17 +19,17 @@ class NarrowPhaseCpu final : public NarrowPhase {
     view_.per_unit = transform.per_unit;
     view_.bits = transform.bits;
     const auto due = schedule_.due(grid_from_tool, voi, transform);
-    for (size_t i = 0; i < due.size(); ++i) engaged_[i] = functions_.add(view_, due[i], sums) != 0;
-    schedule_.visited(view_, functions_.clear, [this](size_t i) { return engaged_[i] != 0; });
+    functions_.look(view_, due, touched_.data(), sums);
+    schedule_.visited(view_, functions_.is_clear, touched_);
     return true;
   }
 
  private:
   NarrowPhaseInput in_;
-  BlockFunctions functions_;
+  LookFunctions functions_;
   ContactView view_;
   ContactSchedule schedule_;
-  std::vector<uint8_t> engaged_;  ///< per entry of the schedule's list
+  std::vector<uint8_t> touched_;  ///< per entry of the schedule's list
 };
 
 }  // namespace
