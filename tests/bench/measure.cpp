@@ -33,7 +33,7 @@ double Samples::mean_us() const {
   for (size_t pose = 0; pose < found.size(); ++pose) {
     std::vector<double> of_pose;
     for (const auto& round : us) of_pose.push_back(round[pose]);
-    sum += percentile_of(of_pose, 0.5);
+    sum += percentile_of(of_pose, 0.25);
   }
   return found.empty() ? 0.0 : sum / static_cast<double>(found.size());
 }

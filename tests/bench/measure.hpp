@@ -22,8 +22,8 @@ struct Samples {
   std::vector<int64_t> found;  ///< of each pose
 
   double percentile(double fraction) const;
-  /// Mean over the poses of each pose's lower median over the rounds, so that a machine that is busy for a
-  /// moment does not count.
+  /// Mean over the poses of each pose's lower quartile over the rounds: what else the machine does only adds
+  /// time.
   double mean_us() const;
   double mean_found() const;
 };

@@ -89,23 +89,30 @@ struct Contenders {
   }
 };
 
+/// A tenth of the times is at most this. For ratios: on a machine with other work a long kernel is
+/// interrupted more often than not and a short one rarely, which would flatter the short one; undisturbed,
+/// the poses are all alike.
+double undisturbed_us(const Samples& s) { return s.percentile(0.1); }
+
 std::vector<Row> rows_of(const std::vector<Samples>& s, const std::string& name, double all_points,
                          const Goals& goals) {
-  const double cpu = s[0].percentile(0.5), opencl = s[1].percentile(0.5), flat = s[2].percentile(0.5);
-  const double best = std::min(cpu, opencl);
+  const Samples &cpu = s[0], &opencl = s[1], &flat = s[2];
+  const double best_times = undisturbed_us(flat) / std::min(undisturbed_us(cpu), undisturbed_us(opencl));
   std::vector<Row> rows{
-      {"collide", name + "points inside", 100.0 * s[2].mean_found() / all_points, 0.0, "%", 0.0},
-      {"collide", name + "points engaged, ours", 100.0 * s[0].mean_found() / all_points, 0.0, "%", 0.0}};
-  for (size_t i = 0; i < s.size(); ++i) {
-    const double goal_us = i == 1 ? goals.opencl_us : 0.0;
-    rows.push_back({"collide", name + s[i].name + ", p50", s[i].percentile(0.5), 0.0, "us", goal_us});
-    rows.push_back({"collide", name + s[i].name + ", p99", s[i].percentile(0.99), 0.0, "us", 0.0});
+      {"collide", name + "points inside", 100.0 * flat.mean_found() / all_points, 0.0, "%", 0.0},
+      {"collide", name + "points engaged, ours", 100.0 * cpu.mean_found() / all_points, 0.0, "%", 0.0}};
+  for (const Samples& who : s) {
+    const double goal_us = &who == &opencl ? goals.opencl_us : 0.0;
+    rows.push_back({"collide", name + who.name + ", p50", who.percentile(0.5), 0.0, "us", goal_us});
+    rows.push_back({"collide", name + who.name + ", p99", who.percentile(0.99), 0.0, "us", 0.0});
   }
-  rows.push_back({"collide", name + "best backend, p50", best, 0.0, "us", goals.best_us});
-  rows.push_back({"collide", name + "flat kernel / best backend", flat / best, 0.0, "times", goals.best_times,
+  rows.push_back({"collide", name + "best backend, p50",
+                  std::min(cpu.percentile(0.5), opencl.percentile(0.5)), 0.0, "us", goals.best_us});
+  rows.push_back({"collide", name + "flat kernel / best backend, p10", best_times, 0.0, "times",
+                  goals.best_times, Goal::at_least});
+  rows.push_back({"collide", name + "flat kernel / ours, OpenCL, p10",
+                  undisturbed_us(flat) / undisturbed_us(opencl), 0.0, "times", goals.opencl_times,
                   Goal::at_least});
-  rows.push_back({"collide", name + "flat kernel / ours, OpenCL", flat / opencl, 0.0, "times",
-                  goals.opencl_times, Goal::at_least});
   return rows;
 }
 

@@ -12,7 +12,7 @@
 namespace ream::bench {
 namespace {
 
-constexpr int resolution = 512, poses_a_depth = 8, rounds = 3;
+constexpr int resolution = 512, poses_a_depth = 8, rounds = 6;
 constexpr double shares_inside[] = {0.0025, 0.005, 0.01, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4};
 /// So that contact starts at the edge of the face and grows from nothing.
 const Vec3 tilt_rad(0.15, 0.1, 0.0);
