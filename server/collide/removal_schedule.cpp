@@ -12,15 +12,6 @@ namespace {
 /// Motion between two builds of the active list, voxels.
 constexpr double rebuild_voxels = 1.0;
 
-/// Upper bound of the length of v without a square root: exact along axes and diagonals, at most 8 % over.
-double length_bound(const Vec3& v) {
-  double a = std::abs(v.x()), b = std::abs(v.y()), c = std::abs(v.z());
-  if (a < b) std::swap(a, b);
-  if (b < c) std::swap(b, c);
-  if (a < b) std::swap(a, b);
-  return a + 0.4142135624 * b + 0.3178372452 * c;
-}
-
 /// A fraction in (0, 1] that differs from brick to brick.
 double phase(uint32_t brick) { return static_cast<double>(mix64(brick) % 64 + 1) / 64.0; }
 

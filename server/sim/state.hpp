@@ -24,6 +24,10 @@ struct State {
   bool started = false;  ///< the tool has been put at the handle
   uint32_t tick = 0;
   Pose world_from_tool;
+  /// Whatever way the tool moves, as far as this no point of it meets bone (mm). 0: it touches nothing where
+  /// it stands; negative: nobody has looked there yet.
+  double free_path_mm = -1.0;
+  size_t nearest_block = 0;  ///< of the shell to bone, when that was last looked for
   uint64_t session_hash = 0;
 };
 

@@ -25,12 +25,13 @@ Pose moved(const Pose& world_from_tool, const force::Vec6& motion, double fracti
           world_from_tool.translation_mm + world_from_tool.rotation * (fraction * shift)};
 }
 
-/// Advance against contact: at most one voxel a tick for any point, so that nothing is jumped.
+/// Advance against contact: no point goes farther than one look for contact allows, so that nothing is
+/// jumped.
 Pose moved_within_a_voxel(const Model& model, const Pose& world_from_tool, const force::Vec6& motion) {
   const Pose whole = moved(world_from_tool, motion, 1.0);
-  const double distance_mm = largest_motion_mm(model, world_from_tool, whole);
-  return distance_mm <= model.thin_step_mm ? whole
-                                           : moved(world_from_tool, motion, model.thin_step_mm / distance_mm);
+  const double limit_mm = look_every_voxels * model.thin_step_mm;
+  const double path_mm = path_bound_mm(model, world_from_tool, whole);
+  return path_mm <= limit_mm ? whole : moved(world_from_tool, motion, limit_mm / path_mm);
 }
 
 /// Spring, feed law and motion of the tool that touches bone; fills the force part of the report.
@@ -51,6 +52,7 @@ void press(const Model& model, State& state, const collide::ContactSums& sums,
   const Vec3 axis = state.world_from_tool.rotation.col(2);
   const Mat3 world_from_tool_axes = state.world_from_tool.rotation;
   state.world_from_tool = moved_within_a_voxel(model, state.world_from_tool, coupled.tool_motion);
+  state.free_path_mm = -1.0;
 
   const auto& w = coupled.wrench_on_tool;
   const Vec3 force_on_tool(w[0], w[1], w[2]), torque_on_tool(w[3], w[4], w[5]);
