@@ -58,11 +58,13 @@ struct ContactBlock {
   ream_uint32 first, count;
 };
 
+#define REAM_UNTOUCHED_LEVELS 1.0e9f
 // Removal: what became of one listed brick; starts the brick's slot in the kernel's answer.
 struct RemovalRecord {
   ream_uint32 hash_low, hash_high;  // sum of the changes' hashes, modulo 2^64
   ream_int32 removed[3];            // coverage levels by bone class
-  ream_uint32 changed, left;        // left: 0 when the brick is empty now
+  ream_uint32 changed;
+  float slack_levels;  // least level above its coverage of any voxel left; REAM_UNTOUCHED_LEVELS when none is
   ream_uint32 unused;
 };
 

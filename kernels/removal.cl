@@ -21,8 +21,8 @@ static ulong mix64(ulong x) {
   return x ^ (x >> 31);
 }
 
-// Coverage that the eight voxels of a row may keep; (fu, fv, fw) are their voxel indices.
-static uchar8 kept_in_row(global const float* table, const struct RemovalArguments* p, float8 fu, float fv, float fw) {
+// Levels of the eight voxels of a row (kept_level() of removal.hpp); (fu, fv, fw) are their voxel indices.
+static float8 row_levels(global const float* table, const struct RemovalArguments* p, float8 fu, float fv, float fw) {
   const float* m = p->tool_from_voxel.m;
   const float* t = p->tool_from_voxel.t;
   const float row_x = m[2] * fw + m[1] * fv + t[0];
@@ -48,7 +48,10 @@ static uchar8 kept_in_row(global const float* table, const struct RemovalArgumen
   const float8 a0 = vload8(0, low0), b0 = vload8(0, high0);
   const float8 near_z = a0 + tr * (vload8(0, low1) - a0);
   const float8 far_z = b0 + tr * (vload8(0, high1) - b0);
-  float8 level = (near_z + th * (far_z - near_z)) * p->levels_per_mm + 128.0f;
+  return (near_z + th * (far_z - near_z)) * p->levels_per_mm + 128.0f;
+}
+
+static uchar8 kept_coverage(float8 level) {
   level = select(level, (float8)(0.0f), level < 0.0f);
   level = select(level, (float8)(255.0f), level > 255.0f);
   return convert_uchar8(convert_int8(level));
@@ -58,12 +61,16 @@ static uchar8 kept_in_row(global const float* table, const struct RemovalArgumen
 typedef struct {
   ulong hash;
   int removed[3];
-  uint changed, left;
+  uint changed;
+  float slack;
 } LaneSums;
+
+static float smaller(float a, float b) { return a < b ? a : b; }
 
 // Lowers the row of eight voxels that starts at `at` to what it may keep.
 static void cut_row(global uchar* coverage, global const uchar* density, global const uchar* classes, size_t at,
-                    uchar8 before, uchar8 kept, LaneSums* sums) {
+                    uchar8 before, float8 levels, LaneSums* sums) {
+  const uchar8 kept = kept_coverage(levels);
   if (any(kept < before)) {
     uchar old_levels[8], new_levels[8];
     vstore8(before, 0, old_levels);
@@ -77,7 +84,11 @@ static void cut_row(global uchar* coverage, global const uchar* density, global 
     vstore8(before, 0, coverage + at);
     sums->changed = 1;
   }
-  sums->left |= as_ulong(before) != 0;
+  float8 above = levels - convert_float8(before);
+  above = select(above, (float8)(REAM_UNTOUCHED_LEVELS), convert_int8(before) == 0);
+  float slack[8];
+  vstore8(above, 0, slack);
+  for (int u = 0; u < 8; ++u) sums->slack = smaller(slack[u], sums->slack);
 }
 
 static void write_record(local const LaneSums* lanes, global struct RemovalRecord* record) {
@@ -86,13 +97,13 @@ static void write_record(local const LaneSums* lanes, global struct RemovalRecor
     all.hash += lanes[lane].hash;
     for (int k = 0; k < 3; ++k) all.removed[k] += lanes[lane].removed[k];
     all.changed |= lanes[lane].changed;
-    all.left |= lanes[lane].left;
+    all.slack = smaller(lanes[lane].slack, all.slack);
   }
   record->hash_low = (uint)all.hash;
   record->hash_high = (uint)(all.hash >> 32);
   for (int k = 0; k < 3; ++k) record->removed[k] = all.removed[k];
   record->changed = all.changed;
-  record->left = all.left;
+  record->slack_levels = all.slack;
   record->unused = 0;
 }
 
@@ -109,14 +120,14 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void cut_bricks(
     const int first_v = brick / arguments.brick_dims_x % arguments.brick_dims_y * BRICK_EDGE;
     const int first_w = brick / (arguments.brick_dims_x * arguments.brick_dims_y) * BRICK_EDGE;
     global uchar* slot = slots + (size_t)i * arguments.slot_bytes;
-    LaneSums sums = {0, {0, 0, 0}, 0, 0};
+    LaneSums sums = {0, {0, 0, 0}, 0, REAM_UNTOUCHED_LEVELS};
     for (int row = lane; row < BRICK_ROWS; row += LANES) {
       const int v = first_v + row % BRICK_EDGE, w = first_w + row / BRICK_EDGE;
       const size_t at = ((size_t)brick * BRICK_ROWS + row) * BRICK_EDGE;
       const uchar8 before = vload8(0, coverage + at);
       if (as_ulong(before) != 0)
         cut_row(coverage, density, classes, at, before,
-                kept_in_row(table, &arguments, (float)first_u + steps, (float)v, (float)w), &sums);
+                row_levels(table, &arguments, (float)first_u + steps, (float)v, (float)w), &sums);
       if (arguments.slot_bytes > sizeof(struct RemovalRecord))
         vstore8(vload8(0, coverage + at), row, slot + sizeof(struct RemovalRecord));
     }

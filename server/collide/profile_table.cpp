@@ -1,11 +1,13 @@
 #include "collide/profile_table.hpp"
 
+#include "collide/removal.hpp"
 #include "core/vector_clones.hpp"
 
 namespace ream::collide {
 
-REAM_VECTOR_CLONES void brick_distances_mm(const ProfileTable& shared_table, const GridAffine& shared_affine,
-                                           const Vec3i& first, float* __restrict distances_mm) noexcept {
+REAM_VECTOR_CLONES void brick_levels(const ProfileTable& shared_table, const GridAffine& shared_affine,
+                                     float levels_per_mm, const Vec3i& first,
+                                     float* __restrict levels) noexcept {
   constexpr int edge = voxel::brick_edge;
   // Copies, so that the compiler knows that stores do not change them.
   const ProfileTable table = shared_table;
@@ -13,7 +15,7 @@ REAM_VECTOR_CLONES void brick_distances_mm(const ProfileTable& shared_table, con
   const float* __restrict entries = table.distance_mm;
   const int first_u = first.x();
   for (int w = 0; w < edge; ++w)
-    for (int v = 0; v < edge; ++v, distances_mm += edge) {
+    for (int v = 0; v < edge; ++v, levels += edge) {
       const float fv = static_cast<float>(first.y() + v), fw = static_cast<float>(first.z() + w);
       const float row_x = a.m[2] * fw + a.m[1] * fv + a.t[0];
       const float row_y = a.m[5] * fw + a.m[4] * fv + a.t[1];
@@ -31,7 +33,7 @@ REAM_VECTOR_CLONES void brick_distances_mm(const ProfileTable& shared_table, con
         const int low = ih * table.r2_count + ir, high = low + table.r2_count;
         const float near_z = entries[low] + tr * (entries[low + 1] - entries[low]);
         const float far_z = entries[high] + tr * (entries[high + 1] - entries[high]);
-        distances_mm[u] = near_z + th * (far_z - near_z);
+        levels[u] = kept_level(near_z + th * (far_z - near_z), levels_per_mm);
       }
     }
 }

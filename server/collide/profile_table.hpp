@@ -23,8 +23,8 @@ struct ProfileTable {
         z_limit(static_cast<float>(profile.z_count) - 1.5f) {}
 };
 
-/// Signed distances (mm) of the 512 voxel centres of the brick whose minimum voxel is `first`, x fastest.
-void brick_distances_mm(const ProfileTable& table, const GridAffine& tool_from_voxel, const Vec3i& first,
-                        float* distances_mm) noexcept;
+/// kept_level() of the 512 voxels of the brick whose minimum voxel is `first`, x fastest.
+void brick_levels(const ProfileTable& table, const GridAffine& tool_from_voxel, float levels_per_mm,
+                  const Vec3i& first, float* levels) noexcept;
 
 }  // namespace ream::collide

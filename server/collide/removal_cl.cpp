@@ -11,8 +11,7 @@
 namespace ream::collide {
 namespace {
 
-/// Bricks of one launch; a tick rarely has more due, and then launches again.
-constexpr size_t most_bricks_a_launch = 4096;
+static_assert(sizeof(layout::RemovalRecord) == 32);
 
 layout::RemovalArguments constant_arguments(const shell::SweptProfile& profile, const voxel::VoxelGrid& grid,
                                             uint32_t slot_bytes) {
@@ -38,11 +37,11 @@ class RemovalCl final : public Removal {
       : bone_(std::move(bone)),
         shape_(shape),
         slot_bytes_(sizeof(layout::RemovalRecord) + (bone_->coverage.shared() ? 0 : voxel::brick_voxels)),
-        capacity_(std::min(most_bricks_a_launch, input.bone.grid.brick_count())),
         program_(bone_->queue, "removal.cl", "-D LANES=" + std::to_string(shape.lanes)),
         kernel_(program_, "cut_bricks"),
-        list_(capacity_),
-        slots_(capacity_ * slot_bytes_),
+        list_(most_bricks_a_cut),
+        slots_(most_bricks_a_cut * slot_bytes_),
+        before_(bone_->coverage.shared() ? most_bricks_a_cut * voxel::brick_voxels : 0),
         table_buffer_(gpu::Buffer::copy_of(bone_->queue, std::span(input.profile.distance_mm))),
         list_buffer_(gpu::Buffer::over(bone_->queue, std::span(list_))),
         slots_buffer_(gpu::Buffer::over(bone_->queue, std::span(slots_))),
@@ -53,22 +52,20 @@ class RemovalCl final : public Removal {
     bone_->queue.finish();
   }
 
-  bool cut(const QuantisedPose& grid_from_tool, std::span<const uint32_t> bricks, std::span<uint8_t> changed,
-           std::span<uint8_t> empty, RemovalSums& sums) noexcept override {
+  bool cut(const QuantisedPose& grid_from_tool, std::span<const uint32_t> bricks,
+           std::span<BrickOutcome> outcomes, RemovalSums& sums) noexcept override {
     sums = {};
     const GridAffine affine = tool_from_voxel(grid_from_tool, bone_->bone.grid);
     std::memcpy(&arguments_.tool_from_voxel, &affine, sizeof affine);
+    keep_before(bricks);
     try {
-      for (size_t done = 0; done < bricks.size(); done += capacity_) {
-        const size_t count = std::min(capacity_, bricks.size() - done);
-        launch(bricks.subspan(done, count));
-        for (size_t i = 0; i < count; ++i)
-          take_slot(bricks[done + i], i, changed[done + i], empty[done + i], sums);
-      }
-      return true;
+      launch(bricks);
     } catch (const Error&) {
+      restore_before(bricks);
       return false;
     }
+    for (size_t i = 0; i < bricks.size(); ++i) outcomes[i] = take_slot(bricks[i], i, sums);
+    return true;
   }
 
  private:
@@ -86,29 +83,43 @@ class RemovalCl final : public Removal {
       slots_buffer_.read(queue, slots_.data(), bricks.size() * slot_bytes_);
   }
 
-  void take_slot(uint32_t brick, size_t slot, uint8_t& changed, uint8_t& empty, RemovalSums& sums) noexcept {
+  BrickOutcome take_slot(uint32_t brick, size_t slot, RemovalSums& sums) noexcept {
     const uint8_t* bytes = slots_.data() + slot * slot_bytes_;
     layout::RemovalRecord record;
     std::memcpy(&record, bytes, sizeof record);
-    changed = record.changed != 0;
-    empty = record.left == 0;
+    const bool changed = record.changed != 0;
     sums.changed_bricks += changed;
     sums.change_hash += record.hash_low | static_cast<uint64_t>(record.hash_high) << 32;
     for (size_t c = 0; c < voxel::bone_class_count; ++c) sums.coverage_removed[c] += record.removed[c];
     voxel::BoneModel& bone = bone_->bone;
     if (changed && !bone_->coverage.shared())
       voxel::write_brick(bone.grid, bone.coverage.data(), brick, bytes + sizeof record);
+    return {changed, record.slack_levels == untouched_levels, record.slack_levels};
+  }
+
+  /// A device that shares the host's memory may fail with bricks half cut; then they get back what they had.
+  void keep_before(std::span<const uint32_t> bricks) noexcept {
+    if (before_.empty()) return;
+    for (size_t i = 0; i < bricks.size(); ++i)
+      voxel::read_brick(bone_->bone.grid, bone_->bone.coverage.data(), bricks[i],
+                        before_.data() + i * voxel::brick_voxels);
+  }
+  void restore_before(std::span<const uint32_t> bricks) noexcept {
+    if (before_.empty()) return;
+    for (size_t i = 0; i < bricks.size(); ++i)
+      voxel::write_brick(bone_->bone.grid, bone_->bone.coverage.data(), bricks[i],
+                         before_.data() + i * voxel::brick_voxels);
   }
 
   static constexpr unsigned arguments_index = 5;
 
   std::shared_ptr<BoneBuffers> bone_;
   LaunchShape shape_;
-  size_t slot_bytes_, capacity_;
+  size_t slot_bytes_;
   gpu::Program program_;
   gpu::Kernel kernel_;
   std::vector<uint32_t> list_;
-  std::vector<uint8_t> slots_;
+  std::vector<uint8_t> slots_, before_;
   gpu::Buffer table_buffer_, list_buffer_, slots_buffer_;
   layout::RemovalArguments arguments_;
 };

@@ -5,8 +5,6 @@ namespace ream::sim {
 State::State(const Model& model, voxel::BoneModel& bone_in)
     : bone(bone_in),
       backend(make_backend(model, bone_in)),
-      schedule(model.profile, bone_in),
-      changed(bone_in.grid.brick_count()),
-      empty(bone_in.grid.brick_count()) {}
+      schedule(model.profile, bone_in) {}
 
 }  // namespace ream::sim

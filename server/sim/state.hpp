@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -17,7 +18,7 @@ struct State {
   voxel::BoneModel& bone;
   Backend backend;
   collide::RemovalSchedule schedule;
-  std::vector<uint8_t> changed, empty;         ///< per entry of the schedule's list
+  std::array<collide::BrickOutcome, collide::RemovalSchedule::most_bricks_a_tick> outcomes;
   voxel::BrickSender* brick_sender = nullptr;  ///< followers, where there are any; not owned
   int brick_budget = 256;                      ///< images sent a tick
 

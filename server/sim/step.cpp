@@ -74,12 +74,10 @@ void press(const Model& model, State& state, const collide::ContactSums& sums,
 bool remove(State& state, const QuantisedPose& pose, TickReport& report) {
   const auto due = state.schedule.due(pose);
   collide::RemovalSums sums;
-  if (!state.backend.removal->cut(pose, due, {state.changed.data(), due.size()},
-                                  {state.empty.data(), due.size()}, sums))
-    return false;
+  if (!state.backend.removal->cut(pose, due, state.outcomes, sums)) return false;
   for (size_t i = 0; i < due.size(); ++i) {
-    state.schedule.cut_done(due[i], state.changed[i], state.empty[i]);
-    if (state.changed[i] && state.brick_sender != nullptr) state.brick_sender->mark(due[i]);
+    state.schedule.cut_done(i, state.outcomes[i]);
+    if (state.outcomes[i].changed && state.brick_sender != nullptr) state.brick_sender->mark(due[i]);
   }
   for (size_t k = 0; k < 3; ++k) report.coverage_removed[k] = sums.coverage_removed[k];
   report.changed_bricks = sums.changed_bricks;

@@ -5,22 +5,12 @@
 #include "collide/narrow_phase_cl.hpp"
 #include "every_device.hpp"
 #include "reaming_scene.hpp"
+#include "support/cut_bricks.hpp"
 
 namespace ream::collide {
 namespace {
 
 constexpr LaunchShape shapes[] = {{16, 1}, {5, 32}};
-
-bool equal(const RemovalSums& a, const RemovalSums& b) {
-  return a.change_hash == b.change_hash && a.coverage_removed == b.coverage_removed &&
-         a.changed_bricks == b.changed_bricks;
-}
-
-struct Answer {
-  explicit Answer(size_t bricks) : changed(bricks, 9), empty(bricks, 9) {}
-  std::vector<uint8_t> changed, empty;
-  RemovalSums sums;
-};
 
 TEST(RemovalCl, CutsWhatTheCppTwinCutsAtRandomPoses) {
   std::cout << "seed 41\n";
@@ -37,12 +27,10 @@ TEST(RemovalCl, CutsWhatTheCppTwinCutsAtRandomPoses) {
       for (int i = 0; i < 8; ++i) {
         const QuantisedPose pose = cpu_scene.random_pose(random);
         std::shuffle(bricks.begin(), bricks.end(), random);
-        Answer expected(bricks.size()), answer(bricks.size());
-        ASSERT_TRUE(cpu->cut(pose, bricks, expected.changed, expected.empty, expected.sums));
-        ASSERT_TRUE(cl->cut(pose, bricks, answer.changed, answer.empty, answer.sums));
-        ASSERT_TRUE(equal(answer.sums, expected.sums)) << "pose " << i;
-        ASSERT_EQ(answer.changed, expected.changed);
-        ASSERT_EQ(answer.empty, expected.empty);
+        const test::CutAnswer expected = test::cut_bricks(*cpu, pose, bricks);
+        const test::CutAnswer answer = test::cut_bricks(*cl, pose, bricks);
+        ASSERT_EQ(answer.sums, expected.sums) << "pose " << i;
+        ASSERT_EQ(answer.outcomes, expected.outcomes);
         ASSERT_EQ(cl_scene.bone.coverage, cpu_scene.bone.coverage);
         changed += expected.sums.changed_bricks;
       }
@@ -62,10 +50,8 @@ struct Reaming {
   void tick(const QuantisedPose& pose, const Voi& voi) {
     ASSERT_TRUE(narrow_phase->contact(pose, voi, contact));
     const std::span<const uint32_t> due = schedule.due(pose);
-    Answer answer(due.size());
-    ASSERT_TRUE(removal->cut(pose, due, answer.changed, answer.empty, answer.sums));
-    for (size_t i = 0; i < due.size(); ++i)
-      schedule.cut_done(due[i], answer.changed[i] != 0, answer.empty[i] != 0);
+    const test::CutAnswer answer = test::cut_bricks(*removal, pose, due);
+    for (size_t i = 0; i < due.size(); ++i) schedule.cut_done(i, answer.outcomes[i]);
     sums = answer.sums;
   }
 
@@ -95,7 +81,7 @@ TEST(RemovalCl, AWholeShortReamingIsTheSameTickByTick) {
       cpu.tick(pose, voi);
       cl.tick(pose, voi);
       ASSERT_EQ(cl.contact, cpu.contact) << "tick " << i;
-      ASSERT_TRUE(equal(cl.sums, cpu.sums)) << "tick " << i;
+      ASSERT_EQ(cl.sums, cpu.sums) << "tick " << i;
     }
     EXPECT_EQ(cl_scene.bone.coverage, cpu_scene.bone.coverage);
     EXPECT_NE(cpu_scene.bone.coverage_hash(), untouched);
