@@ -70,12 +70,11 @@ struct RemovalRecord {
 
 struct RemovalArguments {
   struct AffineArguments tool_from_voxel;
-  ream_int32 dims_x, dims_y;
   ream_int32 brick_dims_x, brick_dims_y;
   ream_uint32 bricks;
   ream_uint32 slot_bytes;  // a RemovalRecord each, or a record and the brick's 512 coverages for the host
   ream_int32 r2_count;
-  float z_min_mm, inverse_z_step, inverse_r2_step, r2_limit, z_limit, levels_per_mm;
+  float z_min_mm, inverse_z_step, inverse_r2_step, r2_limit, z_limit, levels_per_step;
 };
 
 // Upsampling: where an output sample lies between two input samples (voxel/upsample.hpp).

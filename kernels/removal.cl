@@ -21,8 +21,8 @@ static ulong mix64(ulong x) {
   return x ^ (x >> 31);
 }
 
-// Levels of the eight voxels of a row (kept_level() of removal.hpp); (fu, fv, fw) are their voxel indices.
-static float8 row_levels(global const float* table, const struct RemovalArguments* p, float8 fu, float fv, float fw) {
+// Levels of the eight voxels of a row (brick_levels() of profile_table.cpp); (fu, fv, fw) are their voxel indices.
+static float8 row_levels(global const int* pairs, const struct RemovalArguments* p, float8 fu, float fv, float fw) {
   const float* m = p->tool_from_voxel.m;
   const float* t = p->tool_from_voxel.t;
   const float row_x = m[2] * fw + m[1] * fv + t[0];
@@ -38,17 +38,17 @@ static float8 row_levels(global const float* table, const struct RemovalArgument
   const float8 tr = r - convert_float8(ir), th = h - convert_float8(ih);
   int at[8];
   vstore8(ih * p->r2_count + ir, 0, at);
-  float low0[8], low1[8], high0[8], high1[8];
+  int near_pairs[8], far_pairs[8];
   for (int u = 0; u < 8; ++u) {
-    low0[u] = table[at[u]];
-    low1[u] = table[at[u] + 1];
-    high0[u] = table[at[u] + p->r2_count];
-    high1[u] = table[at[u] + p->r2_count + 1];
+    near_pairs[u] = pairs[at[u]];
+    far_pairs[u] = pairs[at[u] + p->r2_count];
   }
-  const float8 a0 = vload8(0, low0), b0 = vload8(0, high0);
-  const float8 near_z = a0 + tr * (vload8(0, low1) - a0);
-  const float8 far_z = b0 + tr * (vload8(0, high1) - b0);
-  return (near_z + th * (far_z - near_z)) * p->levels_per_mm + 128.0f;
+  const int8 near_pair = vload8(0, near_pairs), far_pair = vload8(0, far_pairs);
+  const float8 near_0 = convert_float8(near_pair << 16 >> 16), near_1 = convert_float8(near_pair >> 16);
+  const float8 far_0 = convert_float8(far_pair << 16 >> 16), far_1 = convert_float8(far_pair >> 16);
+  const float8 near_z = near_0 + tr * (near_1 - near_0);
+  const float8 far_z = far_0 + tr * (far_1 - far_0);
+  return (near_z + th * (far_z - near_z)) * p->levels_per_step + 128.0f;
 }
 
 static uchar8 kept_coverage(float8 level) {
@@ -108,7 +108,7 @@ static void write_record(local const LaneSums* lanes, global struct RemovalRecor
 }
 
 kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void cut_bricks(
-    global uchar* coverage, global const uchar* density, global const uchar* classes, global const float* table,
+    global uchar* coverage, global const uchar* density, global const uchar* classes, global const int* pairs,
     global const uint* bricks, struct RemovalArguments arguments, global uchar* slots) {
   local LaneSums lanes[LANES];
   const int lane = get_local_id(0);
@@ -127,7 +127,7 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void cut_bricks(
       const uchar8 before = vload8(0, coverage + at);
       if (as_ulong(before) != 0)
         cut_row(coverage, density, classes, at, before,
-                row_levels(table, &arguments, (float)first_u + steps, (float)v, (float)w), &sums);
+                row_levels(pairs, &arguments, (float)first_u + steps, (float)v, (float)w), &sums);
       if (arguments.slot_bytes > sizeof(struct RemovalRecord))
         vstore8(vload8(0, coverage + at), row, slot + sizeof(struct RemovalRecord));
     }

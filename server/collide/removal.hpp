@@ -11,13 +11,8 @@
 
 namespace ream::collide {
 
-/// Level of a voxel at a signed distance (mm, outside positive) of its centre to the swept cutting body: 255
-/// half a voxel outside, 0 half a voxel inside, linear (DESIGN 3). `levels_per_mm` is 255 / voxel edge.
-inline float kept_level(float distance_mm, float levels_per_mm) noexcept {
-  return distance_mm * levels_per_mm + 128.0f;
-}
-
-/// Coverage that a voxel keeps at most: its level, clamped and truncated.
+/// Coverage that a voxel keeps at most, from its level: 255 where the voxel's centre is half a voxel outside
+/// the swept cutting body, 0 half a voxel inside, linear between (DESIGN 3). The level goes on beyond both.
 inline uint8_t kept_coverage(float level) noexcept {
   const float low = level < 0.0f ? 0.0f : level;
   return static_cast<uint8_t>(static_cast<int>(low > 255.0f ? 255.0f : low));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "collide/profile_table.hpp"
 #include "core/error.hpp"
 #include "gpu/program.hpp"
 #include "kernels/layout.h"
@@ -13,21 +14,19 @@ namespace {
 
 static_assert(sizeof(layout::RemovalRecord) == 32);
 
-layout::RemovalArguments constant_arguments(const shell::SweptProfile& profile, const voxel::VoxelGrid& grid,
+layout::RemovalArguments constant_arguments(const ProfileTable& table, const voxel::VoxelGrid& grid,
                                             uint32_t slot_bytes) {
   layout::RemovalArguments a{};
-  a.dims_x = grid.dims.x();
-  a.dims_y = grid.dims.y();
   a.brick_dims_x = grid.brick_dims().x();
   a.brick_dims_y = grid.brick_dims().y();
   a.slot_bytes = slot_bytes;
-  a.r2_count = profile.r2_count;
-  a.z_min_mm = profile.z_min_mm;
-  a.inverse_z_step = profile.inverse_z_step;
-  a.inverse_r2_step = profile.inverse_r2_step;
-  a.r2_limit = static_cast<float>(profile.r2_count) - 1.5f;
-  a.z_limit = static_cast<float>(profile.z_count) - 1.5f;
-  a.levels_per_mm = coverage_levels_per_mm(grid);
+  a.r2_count = table.r2_count;
+  a.z_min_mm = table.z_min_mm;
+  a.inverse_z_step = table.inverse_z_step;
+  a.inverse_r2_step = table.inverse_r2_step;
+  a.r2_limit = table.r2_limit;
+  a.z_limit = table.z_limit;
+  a.levels_per_step = table.levels_per_step;
   return a;
 }
 
@@ -39,13 +38,14 @@ class RemovalCl final : public Removal {
         slot_bytes_(sizeof(layout::RemovalRecord) + (bone_->coverage.shared() ? 0 : voxel::brick_voxels)),
         program_(bone_->queue, "removal.cl", "-D LANES=" + std::to_string(shape.lanes)),
         kernel_(program_, "cut_bricks"),
+        table_(profile_table(input.profile, coverage_levels_per_mm(input.bone.grid))),
         list_(most_bricks_a_cut),
         slots_(most_bricks_a_cut * slot_bytes_),
         before_(bone_->coverage.shared() ? most_bricks_a_cut * voxel::brick_voxels : 0),
-        table_buffer_(gpu::Buffer::copy_of(bone_->queue, std::span(input.profile.distance_mm))),
+        table_buffer_(gpu::Buffer::copy_of(bone_->queue, std::span(table_.pairs))),
         list_buffer_(gpu::Buffer::over(bone_->queue, std::span(list_))),
         slots_buffer_(gpu::Buffer::over(bone_->queue, std::span(slots_))),
-        arguments_(constant_arguments(input.profile, input.bone.grid, static_cast<uint32_t>(slot_bytes_))) {
+        arguments_(constant_arguments(table_, input.bone.grid, static_cast<uint32_t>(slot_bytes_))) {
     kernel_.set_all(bone_->coverage, bone_->density, bone_->classes, table_buffer_, list_buffer_, arguments_,
                     slots_buffer_);
     launch({});
@@ -118,6 +118,7 @@ class RemovalCl final : public Removal {
   size_t slot_bytes_;
   gpu::Program program_;
   gpu::Kernel kernel_;
+  ProfileTable table_;
   std::vector<uint32_t> list_;
   std::vector<uint8_t> slots_, before_;
   gpu::Buffer table_buffer_, list_buffer_, slots_buffer_;

@@ -33,8 +33,7 @@ class RemovalCpu final : public Removal {
   explicit RemovalCpu(const RemovalInput& input)
       : bone_(input.bone),
         classes_(voxel::class_table(input.bone.cortical_threshold_g_cc)),
-        table_(input.profile),
-        levels_per_mm_(coverage_levels_per_mm(bone_.grid)) {}
+        table_(profile_table(input.profile, coverage_levels_per_mm(bone_.grid))) {}
 
   bool cut(const QuantisedPose& grid_from_tool, std::span<const uint32_t> bricks,
            std::span<BrickOutcome> outcomes, RemovalSums& sums) noexcept override {
@@ -45,8 +44,7 @@ class RemovalCpu final : public Removal {
       alignas(64) uint8_t left[brick_voxels];
       const size_t base = bone_.grid.brick_base(bricks[i]);
       uint8_t* coverage = bone_.coverage.data() + base;
-      brick_levels(table_, affine, levels_per_mm_, bone_.grid.brick_coordinates(bricks[i]) * brick_edge,
-                   levels);
+      brick_levels(table_, affine, bone_.grid.brick_coordinates(bricks[i]) * brick_edge, levels);
       const float slack_levels = compare_brick(levels, coverage, left);
       const bool changed = apply(base, coverage, left, sums);
       outcomes[i] = {changed, slack_levels == untouched_levels, slack_levels};
@@ -75,7 +73,6 @@ class RemovalCpu final : public Removal {
   voxel::BoneModel& bone_;
   std::array<voxel::BoneClass, 256> classes_;
   ProfileTable table_;
-  float levels_per_mm_;
 };
 
 }  // namespace
