@@ -21,8 +21,8 @@ bool same(const Pose& a, const Pose& b) {
 Approach look(const Model& model, State& state) noexcept {
   Approach found;
   const QuantisedPose pose = quantised(state.bone.grid.world_from_grid.inverse() * state.world_from_tool);
-  const collide::Voi voi =
-      collide::broad_phase(model.bone_box_grid, model.tool_box_tool, dequantised(pose), model.thin_step_mm);
+  const collide::Voi voi = collide::broad_phase(state.cells.bounds_mm(), model.tool_box_tool,
+                                                dequantised(pose), model.thin_step_mm);
   found.ok = state.backend.narrow_phase->contact(pose, voi, found.sums);
   state.free_path_mm = found.ok && found.sums.engaged() == 0 ? 0.0 : -1.0;
   return found;

@@ -2,17 +2,19 @@
 
 #include <algorithm>
 
+#include "collide/grid_affine.hpp"
+
 namespace ream::sim {
 namespace {
 
-/// Probes reach beyond the spheres of their blocks by at most this much; some of it is for rounding.
-constexpr float slack_voxels = 2.5f;
+/// Covers the rounding of the spheres' places.
+constexpr float slack_voxels = 1.5f;
 
 }  // namespace
 
 double clearance_mm(const Model& model, State& state) noexcept {
-  const auto& blocks = model.contact_shell.blocks;
-  if (blocks.empty()) return 0.0;
+  const collide::ContactShell& shell = model.contact_shell;
+  const size_t blocks = shell.blocks.size();
   const voxel::VoxelGrid& grid = state.bone.grid;
   const QuantisedPose pose = quantised(grid.world_from_grid.inverse() * state.world_from_tool);
   const collide::GridAffine a = collide::voxel_from_tool(pose, grid);
@@ -20,13 +22,13 @@ double clearance_mm(const Model& model, State& state) noexcept {
   float nearest = 1.0e6f;
   // The block that was nearest last time comes first: beside bone it alone answers.
   const size_t first = state.nearest_block;
-  for (size_t i = 0; i < blocks.size() && nearest > 1.0f; ++i) {
-    const size_t b = first + i < blocks.size() ? first + i : first + i - blocks.size();
-    const Vec3f& c = blocks[b].centre_mm;
-    const float u = a.m[0] * c.x() + a.m[1] * c.y() + a.m[2] * c.z() + a.t[0];
-    const float v = a.m[3] * c.x() + a.m[4] * c.y() + a.m[5] * c.z() + a.t[1];
-    const float w = a.m[6] * c.x() + a.m[7] * c.y() + a.m[8] * c.z() + a.t[2];
-    const float gap = model.distance.lower_bound_voxels(u, v, w) - blocks[b].radius_mm * voxels_per_mm;
+  for (size_t i = 0; i < blocks && nearest > slack_voxels; ++i) {
+    const size_t b = first + i < blocks ? first + i : first + i - blocks;
+    const float x = shell.centre_x_mm[b], y = shell.centre_y_mm[b], z = shell.centre_z_mm[b];
+    const float u = a.m[0] * x + a.m[1] * y + a.m[2] * z + a.t[0];
+    const float v = a.m[3] * x + a.m[4] * y + a.m[5] * z + a.t[1];
+    const float w = a.m[6] * x + a.m[7] * y + a.m[8] * z + a.t[2];
+    const float gap = model.distance.lower_bound_voxels(u, v, w) - shell.radius_mm[b] * voxels_per_mm;
     if (gap >= nearest) continue;
     nearest = gap;
     state.nearest_block = b;

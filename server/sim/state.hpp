@@ -16,6 +16,7 @@ struct State {
   State(const Model& model, voxel::BoneModel& bone);
 
   voxel::BoneModel& bone;
+  voxel::SolidCells cells;  ///< what of the bone is left; follows every cut
   Backend backend;
   collide::RemovalSchedule schedule;
   std::array<collide::BrickOutcome, collide::RemovalSchedule::most_bricks_a_tick> outcomes;
