@@ -88,6 +88,13 @@ float RemovalSchedule::brick_distance_mm(const Vec3i& brick, const GridAffine& a
   return profile_.at(x * x + y * y, z);
 }
 
+/// Motion before a brick at that distance can be touched, voxels; 0 when it may be touched already.
+float RemovalSchedule::wait_voxels(float brick_distance_mm) const noexcept {
+  const double gap_mm = static_cast<double>(brick_distance_mm) - brick_reach_mm_;
+  if (gap_mm <= 0.0) return 0.0f;
+  return static_cast<float>(std::max(gap_mm / grid_.spacing_mm.maxCoeff(), revisit_voxels));
+}
+
 void RemovalSchedule::find_near_bricks(const Pose& grid_from_tool) noexcept {
   const Aabb box = body_tool_mm_.transformed(grid_from_tool).grown(near_mm_).intersection(grid_.bounds_mm());
   next_count_ = 0;
@@ -127,26 +134,25 @@ void RemovalSchedule::scan_row(int y, int z, int first_x, int last_x, const Grid
       const uint32_t brick = grid_.brick_index({x, y, z});
       while (old < near_count_ && near_[old].brick < brick) ++old;
       const bool known = old < near_count_ && near_[old].brick == brick;
-      next_[next_count_++] = {brick, known ? std::max(0.0f, near_[old].due_voxels - gone()) : 0.0f};
+      next_[next_count_++] = {brick, known ? near_[old].due_voxels - gone() : wait_voxels(distance_mm)};
     }
 }
 
 std::span<const uint32_t> RemovalSchedule::due(const QuantisedPose& grid_from_tool) noexcept {
   const Pose pose = dequantised(grid_from_tool);
   advance_odometer(pose);
-  if (!listed_ || odometer_voxels_ >= base_voxels_ + relist_voxels) find_near_bricks(pose);
+  const bool stale = !listed_ || odometer_voxels_ >= base_voxels_ + relist_voxels;
+  if (stale) find_near_bricks(pose);
+  const size_t most = stale ? most_bricks_a_tick / 4 : most_bricks_a_tick;
   const GridAffine affine = tool_from_voxel(grid_from_tool, grid_);
   const float now = gone();
   size_t n = 0, at = turn_;
-  for (size_t asked = 0; asked < near_count_ && n < due_.size(); ++asked) {
+  for (size_t asked = 0; asked < near_count_ && n < most; ++asked) {
     Near& near = near_[at];
     if (near.due_voxels <= now) {
-      const double gap_mm =
-          static_cast<double>(brick_distance_mm(grid_.brick_coordinates(near.brick), affine)) -
-          brick_reach_mm_;
-      if (gap_mm > 0.0) {
-        near.due_voxels =
-            now + static_cast<float>(std::max(gap_mm / grid_.spacing_mm.maxCoeff(), revisit_voxels));
+      const float wait = wait_voxels(brick_distance_mm(grid_.brick_coordinates(near.brick), affine));
+      if (wait > 0.0f) {
+        near.due_voxels = now + wait;
       } else {
         entry_[n] = static_cast<uint32_t>(at);
         due_[n++] = near.brick;

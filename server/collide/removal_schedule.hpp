@@ -19,8 +19,9 @@ class RemovalSchedule {
   /// below).
   static constexpr double revisit_voxels = 1.0 / 32.0;
 
-  /// Bricks cut in one tick at most. Where more are due (when the tool comes to bone that it has not been
-  /// near, a few thousand) they are taken in turn: of n due bricks each is cut within n / 128 ticks.
+  /// Bricks cut in one tick at most; a quarter in ticks that first list the bricks near the tool, once in a
+  /// voxel of motion. Where more are due (when the tool comes to bone that it has not been near, a few
+  /// thousand) they are taken in turn: of n due bricks each is cut within n / 128 ticks or so.
   static constexpr size_t most_bricks_a_tick = 128;
 
   RemovalSchedule(const shell::SweptProfile& profile, const voxel::BoneModel& bone);
@@ -48,6 +49,7 @@ class RemovalSchedule {
   void scan_row(int y, int z, int first_x, int last_x, const GridAffine& tool_from_voxel,
                 size_t& old) noexcept;
   float brick_distance_mm(const Vec3i& brick, const GridAffine& tool_from_voxel) const noexcept;
+  float wait_voxels(float brick_distance_mm) const noexcept;
   float gone() const noexcept { return static_cast<float>(odometer_voxels_ - base_voxels_); }
 
   const shell::SweptProfile& profile_;
