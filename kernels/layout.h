@@ -92,6 +92,21 @@ struct RemovalArguments {
   float z_min_mm, inverse_z_step, inverse_r2_step, r2_limit, z_limit, levels_per_step;
 };
 
+// Removal by decay: points of a run, what stands for a point outside bone, and bricks put on the device at once.
+#define REAM_DECAY_RUN_POINTS 256
+#define REAM_NO_VOXEL 0xffffffffu
+#define REAM_DECAY_PUT_BRICKS 512
+
+struct DecayRunLayout {
+  ream_uint32 first, count;
+};
+
+struct DecayArguments {
+  struct AffineArguments voxel_from_tool;
+  ream_int32 dims_x, dims_y, dims_z;
+  ream_uint32 listed;  // runs
+};
+
 // Upsampling: where an output sample lies between two input samples (voxel/upsample.hpp).
 struct UpsampleTapLayout {
   ream_int32 low, high;

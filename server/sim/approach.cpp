@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sim/clearance.hpp"
+#include "sim/failover.hpp"
 
 namespace ream::sim {
 namespace {
@@ -23,7 +24,8 @@ Approach look(const Model& model, State& state) noexcept {
   const QuantisedPose pose = quantised(state.bone.grid.world_from_grid.inverse() * state.world_from_tool);
   const collide::Voi voi = collide::broad_phase(state.cells.bounds_mm(), model.tool_box_tool,
                                                 dequantised(pose), model.thin_step_mm);
-  found.ok = state.backend.narrow_phase->contact(pose, voi, found.sums);
+  found.ok = work_or_fail_over(
+      state, [&](const Backend& backend) { return backend.narrow_phase->contact(pose, voi, found.sums); });
   state.free_path_mm = found.ok && found.sums.engaged() == 0 ? 0.0 : -1.0;
   return found;
 }

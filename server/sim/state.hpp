@@ -18,8 +18,13 @@ struct State {
   voxel::BoneModel& bone;
   voxel::SolidCells cells;  ///< what of the bone is left; follows every cut
   Backend backend;
+  /// The C++ form, ready in case the device of `backend` fails; empty parts when `backend` is it already.
+  Backend reserve;
+  int64_t failed_over_tick = -1;  ///< the tick in which the reserve took over
   collide::RemovalSchedule schedule;
   std::array<collide::BrickOutcome, collide::RemovalSchedule::most_bricks_a_tick> outcomes;
+  std::array<uint32_t, collide::RemovalSchedule::most_bricks_a_tick> changed;  ///< bricks of the last cut
+  size_t changed_count = 0;
   voxel::BrickSender* brick_sender = nullptr;  ///< followers, where there are any; not owned
   int brick_budget = 256;                      ///< images sent a tick
 

@@ -7,6 +7,7 @@
 #include "force/coefficients.hpp"
 #include "sim/approach.hpp"
 #include "sim/contact_resistance.hpp"
+#include "sim/remove_bone.hpp"
 
 namespace ream::sim {
 namespace {
@@ -70,24 +71,6 @@ void press(const Model& model, State& state, const collide::ContactSums& sums,
                                            model.settings.limits.torque_max_n_mm);
 }
 
-/// Cuts what is due and tells the followers; folds the changes into the report.
-bool remove(State& state, const QuantisedPose& pose, TickReport& report) {
-  const auto due = state.schedule.due(pose);
-  collide::RemovalSums sums;
-  if (!state.backend.removal->cut(pose, due, state.outcomes, sums)) return false;
-  for (size_t i = 0; i < due.size(); ++i) {
-    state.schedule.cut_done(i, state.outcomes[i]);
-    if (!state.outcomes[i].changed) continue;
-    state.cells.set(
-        due[i], voxel::SolidCells::word_of(state.bone.coverage.data() + state.bone.grid.brick_base(due[i])));
-    if (state.brick_sender != nullptr) state.brick_sender->mark(due[i]);
-  }
-  for (size_t k = 0; k < 3; ++k) report.coverage_removed[k] = sums.coverage_removed[k];
-  report.changed_bricks = sums.changed_bricks;
-  if (sums.changed_bricks != 0) state.session_hash = hash_combine(state.session_hash, sums.change_hash);
-  return true;
-}
-
 /// The cause of the tick as it is recorded, folded into the rolling hash.
 uint64_t hash_of_cause(const TickReport& report) {
   uint64_t h = hash_combine(
@@ -133,8 +116,13 @@ StepStatus step(const Model& model, State& state, const device::DeviceInput& raw
 
   const bool cuts = report.engaged && input.spindle_on;
   if (!cuts) state.schedule.pass(report.grid_from_tool);
-  if (cuts && !remove(state, report.grid_from_tool, report)) return StepStatus::collision_failed;
+  if (cuts && !remove_bone(state, report.grid_from_tool, report)) return StepStatus::collision_failed;
 
+  if (state.failed_over_tick == report.tick) {
+    report.failed_over = true;
+    report.hand_force_n.setZero();
+    report.hand_torque_n_mm.setZero();
+  }
   state.session_hash = hash_combine(state.session_hash, hash_of_cause(report));
   report.session_hash = state.session_hash;
   if (state.brick_sender != nullptr)
