@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "collide/guarded_removal.hpp"
 #include "collide/profile_table.hpp"
 #include "core/error.hpp"
 #include "gpu/program.hpp"
@@ -30,6 +31,7 @@ layout::RemovalArguments constant_arguments(const ProfileTable& table, const vox
   return a;
 }
 
+/// A device that shares the host's memory may leave bricks half cut when it fails; guarded() is for that.
 class RemovalCl final : public Removal {
  public:
   RemovalCl(const RemovalInput& input, std::shared_ptr<BoneBuffers> bone, LaunchShape shape)
@@ -41,7 +43,6 @@ class RemovalCl final : public Removal {
         table_(profile_table(input.profile, coverage_levels_per_mm(input.bone.grid))),
         list_(most_bricks_a_cut),
         slots_(most_bricks_a_cut * slot_bytes_),
-        before_(bone_->coverage.shared() ? most_bricks_a_cut * voxel::brick_voxels : 0),
         table_buffer_(gpu::Buffer::copy_of(bone_->queue, std::span(table_.pairs))),
         list_buffer_(gpu::Buffer::over(bone_->queue, std::span(list_))),
         slots_buffer_(gpu::Buffer::over(bone_->queue, std::span(slots_))),
@@ -57,11 +58,9 @@ class RemovalCl final : public Removal {
     sums = {};
     const GridAffine affine = tool_from_voxel(grid_from_tool, bone_->bone.grid);
     std::memcpy(&arguments_.tool_from_voxel, &affine, sizeof affine);
-    keep_before(bricks);
     try {
       launch(bricks);
     } catch (const Error&) {
-      restore_before(bricks);
       return false;
     }
     for (size_t i = 0; i < bricks.size(); ++i) outcomes[i] = take_slot(bricks[i], i, sums);
@@ -97,20 +96,6 @@ class RemovalCl final : public Removal {
     return {changed, record.slack_levels == untouched_levels, record.slack_levels};
   }
 
-  /// A device that shares the host's memory may fail with bricks half cut; then they get back what they had.
-  void keep_before(std::span<const uint32_t> bricks) noexcept {
-    if (before_.empty()) return;
-    for (size_t i = 0; i < bricks.size(); ++i)
-      voxel::read_brick(bone_->bone.grid, bone_->bone.coverage.data(), bricks[i],
-                        before_.data() + i * voxel::brick_voxels);
-  }
-  void restore_before(std::span<const uint32_t> bricks) noexcept {
-    if (before_.empty()) return;
-    for (size_t i = 0; i < bricks.size(); ++i)
-      voxel::write_brick(bone_->bone.grid, bone_->bone.coverage.data(), bricks[i],
-                         before_.data() + i * voxel::brick_voxels);
-  }
-
   static constexpr unsigned arguments_index = 5;
 
   std::shared_ptr<BoneBuffers> bone_;
@@ -120,7 +105,7 @@ class RemovalCl final : public Removal {
   gpu::Kernel kernel_;
   ProfileTable table_;
   std::vector<uint32_t> list_;
-  std::vector<uint8_t> slots_, before_;
+  std::vector<uint8_t> slots_;
   gpu::Buffer table_buffer_, list_buffer_, slots_buffer_;
   layout::RemovalArguments arguments_;
 };
@@ -129,7 +114,7 @@ class RemovalCl final : public Removal {
 
 std::unique_ptr<Removal> make_removal_cl(const RemovalInput& input, std::shared_ptr<BoneBuffers> bone,
                                          LaunchShape shape) {
-  return std::make_unique<RemovalCl>(input, std::move(bone), shape);
+  return guarded(std::make_unique<RemovalCl>(input, std::move(bone), shape), input.bone);
 }
 
 }  // namespace ream::collide
