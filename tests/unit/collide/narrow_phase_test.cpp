@@ -88,8 +88,8 @@ TEST(NarrowPhase, CulledWholeNumberSumsMatchAFullSearchInDoubles) {
     EXPECT_NEAR(static_cast<double>(got.engaged()), static_cast<double>(expected.engaged()),
                 3.0 + 0.002 * static_cast<double>(expected.engaged()))
         << "seed " << seed << " case " << i;
-    const bool same_points = got.cutting.points == expected.cutting.points &&
-                             got.guiding.points == expected.guiding.points;
+    const bool same_points =
+        got.cutting.points == expected.cutting.points && got.guiding.points == expected.guiding.points;
     if (same_points && got.cutting.first[6] == expected.cutting.first[6] && got.deepest == expected.deepest) {
       EXPECT_EQ(got, expected) << "seed " << seed << " case " << i;
       ++equal;
