@@ -39,9 +39,8 @@ struct AffineArguments {
 #define REAM_CONTACT_CLASS_DENSITY 47
 #define REAM_CONTACT_DEEPEST 50
 #define REAM_CONTACT_SUMS 51
-// Points that one work-item of a processor decodes at once; the places are padded by as many.
+// Points of a chunk; a work-item of a processor takes them at once. Places and directions are padded by as many.
 #define REAM_CONTACT_CHUNK 16
-#define REAM_CONTACT_BLOCK_POINTS 512
 #define REAM_PLACE_BITS 9
 #define REAM_AZIMUTH_BITS 10
 #define REAM_AZIMUTH_SHIFT 14
@@ -54,17 +53,16 @@ struct ContactArguments {
   ream_int32 dims[3];
   ream_int32 brick_row, brick_slice;
   ream_int32 first_cortical_code;
-  ream_uint32 survivors;
+  ream_uint32 chunks;
 };
 
 struct ContactBlockLayout {
-  ream_uint32 first, count, guiding;
+  ream_uint32 guiding;
   ream_int32 origin_z_units;
-  ream_int32 whole[REAM_CONTACT_PRODUCTS];
 };
 
-struct SurvivingBlockLayout {
-  ream_uint32 block;
+struct DueChunkLayout {
+  ream_uint32 block, first, count;
   ream_int32 base[3];
 };
 

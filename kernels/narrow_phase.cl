@@ -1,18 +1,20 @@
 #include "common.h"
 #include "layout.h"
 
-// Contact sums of the shell's surviving blocks: whole numbers only. Twin of server/collide/contact_blocks_portable.cpp.
-// A group takes every G-th block. LANES work-items a group: 1 where work-items are loops (CPU) and one takes sixteen points
-// at a time as vectors, a multiple of the warp elsewhere and each takes one point at a time.
+// Contact sums of the shell's due chunks: whole numbers only. Twin of server/collide/contact_look_portable.cpp.
+// A group takes every G-th chunk. LANES work-items a group: 1 where work-items are loops (CPU) and one takes a chunk at a
+// time as vectors; elsewhere a multiple of the warp, and each takes one point at a time.
 
 #define NO_POINT LONG_MIN
 #define PLACE_MASK ((1 << REAM_PLACE_BITS) - 1)
 
 // What all points share, by address space: constant inputs and the bone.
-#define BONE                                                                                                        \
-  global const uint *places, global const ushort *directions, global const struct ContactBlockLayout *blocks,       \
-      global const struct SurvivingBlockLayout *survivors, global const uint *meridian, global const uint *azimuth, \
+#define BONE                                                                                                    \
+  global const uint *places, global const ushort *directions, global const struct ContactBlockLayout *blocks,   \
+      global const struct DueChunkLayout *due, global const uint *meridian, global const uint *azimuth,         \
       global const ushort *cells, global const uchar *coverage, global const uchar *density
+
+#if LANES > 1
 
 static int turned(int product) {
   return (product + (1 << (REAM_AZIMUTH_SHIFT - 1))) >> REAM_AZIMUTH_SHIFT;
@@ -43,6 +45,11 @@ static int class_of(int code, int first_cortical_code) {
   return code == REAM_CARTILAGE_CODE ? 2 : code >= first_cortical_code ? 1 : 0;
 }
 
+#endif
+
+// Points between two additions to the 64-bit sums; 451,612 a point stay below 2^31.
+#define POINTS_A_FLUSH 4096
+
 #if LANES == 1
 
 static int sum16(int16 v) {
@@ -53,104 +60,151 @@ static int sum16(int16 v) {
 }
 
 // Voxels of sixteen probes and their cells' state: 0x101 in solid bone, 1 where the voxel decides, 0 elsewhere.
-static int16 probe(uint16 place, int16 present, global const struct SurvivingBlockLayout* at,
-                   const struct ContactArguments* a, global const ushort* cells, int* voxels) {
+static int16 probe(uint16 place, int16 present, global const struct DueChunkLayout* at,
+                   const struct ContactArguments* a, global const ushort* cells, int16* voxel) {
   const int* m = a->per_unit;
   const int16 x = convert_int16(place & PLACE_MASK), y = convert_int16(place >> REAM_PLACE_BITS & PLACE_MASK),
               z = convert_int16(place >> (2 * REAM_PLACE_BITS) & PLACE_MASK);
   const int16 u = (m[0] * x + m[1] * y + m[2] * z + at->base[0]) >> a->bits;
   const int16 v = (m[3] * x + m[4] * y + m[5] * z + at->base[1]) >> a->bits;
   const int16 w = (m[6] * x + m[7] * y + m[8] * z + at->base[2]) >> a->bits;
-  const int16 inside = present & (u >= 0) & (v >= 0) & (w >= 0) & (u < a->dims[0]) & (v < a->dims[1]) & (w < a->dims[2]);
+  const int16 inside = present & (as_uint16(u) < (uint)a->dims[0]) & (as_uint16(v) < (uint)a->dims[1]) &
+                       (as_uint16(w) < (uint)a->dims[2]);
   const int16 brick = ((u >> 3) + (v >> 3) * a->brick_row + (w >> 3) * a->brick_slice) & inside;
   int bricks[16], words[16];
   vstore16(brick, 0, bricks);
   for (int k = 0; k < 16; ++k) words[k] = cells[bricks[k]];
   const int16 cell = ((u >> 2) & 1) | ((v >> 1) & 2) | (w & 4);
-  vstore16((brick << 9) | (u & 7) | (v & 7) << 3 | (w & 7) << 6, 0, voxels);
+  *voxel = (brick << 9) | (u & 7) | (v & 7) << 3 | (w & 7) << 6;
   return (vload16(0, words) >> cell) & inside & 0x101;
 }
 
-static int16 bytes_at(global const uchar* bytes, const int* voxels, int16 wanted) {
+// Bytes of the wanted lanes; the others read the first.
+static int16 bytes_at(global const uchar* bytes, int16 at, int16 wanted) {
   int index[16], found[16];
-  vstore16(vload16(0, voxels) & wanted, 0, index);
+  vstore16(at & wanted, 0, index);
   for (int k = 0; k < 16; ++k) found[k] = bytes[index[k]];
   return vload16(0, found);
 }
 
+static int16 words_at(global const uint* words, int16 at) {
+  int index[16], found[16];
+  vstore16(at, 0, index);
+  for (int k = 0; k < 16; ++k) found[k] = (int)words[index[k]];
+  return vload16(0, found);
+}
+
+static int16 turned16(int16 product) {
+  return (product + (1 << (REAM_AZIMUTH_SHIFT - 1))) >> REAM_AZIMUTH_SHIFT;
+}
+
+// The sums of one side, lane by lane.
+typedef struct {
+  int16 products[REAM_CONTACT_PRODUCTS], points;
+  int chunks;
+} SideSums;
+
+static void clear(SideSums* side) {
+  for (int k = 0; k < REAM_CONTACT_PRODUCTS; ++k) side->products[k] = 0;
+  side->points = 0;
+  side->chunks = 0;
+}
+
+static void flush(SideSums* side, global long* sums) {
+  for (int k = 0; k < REAM_CONTACT_PRODUCTS; ++k) {
+    int lanes[16];
+    vstore16(side->products[k], 0, lanes);
+    long sum = 0;
+    for (int i = 0; i < 16; ++i) sum += lanes[i];
+    sums[k] += sum;
+  }
+  sums[REAM_CONTACT_PRODUCTS] += sum16(side->points);
+  clear(side);
+}
+
+static void add_chunk(uint16 place, uint16 low_direction, int16 engaged, global const uint* meridian,
+                      global const uint* azimuth, SideSums* side) {
+  const int16 direction = convert_int16(low_direction | (place >> 27) << 16) & engaged;
+  const int16 m = words_at(meridian, direction >> REAM_AZIMUTH_BITS);
+  const int16 a = words_at(azimuth, direction & ((1 << REAM_AZIMUTH_BITS) - 1));
+  const int16 radial = (m << 24) >> 24, arm = (m << 8) >> 24, weight = convert_int16(as_uint16(m) >> 24) & engaged;
+  const int16 cosine = (a << 16) >> 16, sine = a >> 16;
+  const int16 g[5] = {turned16(radial * cosine), turned16(radial * sine), (m << 16) >> 24, turned16(arm * sine),
+                      turned16(-arm * cosine)};
+  int k = 0;
+  for (int i = 0; i < 5; ++i) {
+    const int16 weighted = weight * g[i];
+    for (int j = i; j < 5; ++j) side->products[k++] += weighted * g[j];
+  }
+  for (int i = 0; i < 5; ++i) side->products[k++] += weight * g[i];
+  side->products[k] += weight;
+  side->points -= engaged;
+  ++side->chunks;
+}
+
 kernel __attribute__((reqd_work_group_size(1, 1, 1))) void contact_sums(BONE, struct ContactArguments arguments,
-                                                                        global long* partial) {
+                                                                        global long* partial, global uchar* touched) {
   global long* sums = partial + (size_t)get_group_id(0) * REAM_CONTACT_SUMS;
   for (int k = 0; k < REAM_CONTACT_DEEPEST; ++k) sums[k] = 0;
   long deepest = NO_POINT;
   const int16 lane = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  SideSums side;
+  clear(&side);
+  uint guiding = 0;
+  int16 cortical_points = 0, cartilage_points = 0, all_points = 0, all_density = 0, cortical_density = 0;
 
-  for (uint s = get_group_id(0); s < arguments.survivors; s += get_num_groups(0)) {
-    global const struct ContactBlockLayout* block = blocks + survivors[s].block;
-    const int guiding = block->guiding, count = block->count;
-    int engaged_in_chunk[REAM_CONTACT_BLOCK_POINTS];
-    int16 points = 0, cortical_points = 0, cartilage_points = 0, all_density = 0, cortical_density = 0;
-    int16 height = -1;
-    for (int i = 0; i < count; i += REAM_CONTACT_CHUNK) {
-      const uint16 place = vload16(0, places + block->first + i);
-      int voxels[16];
-      const int16 state = probe(place, lane < count - i, survivors + s, &arguments, cells, voxels);
-      int16 engaged = state == 0x101;
-      const int16 unsure = state == 1;
-      if (any(unsure)) engaged |= unsure & (bytes_at(coverage, voxels, unsure) >= REAM_SOLID_COVERAGE);
-      vstore16(engaged, 0, engaged_in_chunk + i);
-      if (!any(engaged)) continue;
-      points -= engaged;
-      if (guiding) continue;
-      const int16 code = bytes_at(density, voxels, engaged);
-      const int16 cartilage = engaged & (code == REAM_CARTILAGE_CODE);
-      const int16 cortical = engaged & ~cartilage & (code >= arguments.first_cortical_code);
-      all_density += code & engaged;
-      cortical_density += code & cortical;
-      cortical_points -= cortical;
-      cartilage_points -= cartilage;
-      height = max(height, select((int16)(-1), convert_int16(place >> (2 * REAM_PLACE_BITS) & PLACE_MASK), engaged));
+  for (uint s = get_group_id(0); s < arguments.chunks; s += get_num_groups(0)) {
+    global const struct DueChunkLayout* chunk = due + s;
+    const uint16 place = vload16(0, places + chunk->first);
+    int16 voxel;
+    const int16 state = probe(place, lane < (int)chunk->count, chunk, &arguments, cells, &voxel);
+    int16 engaged = state == 0x101;
+    const int16 unsure = state == 1;
+    if (any(unsure)) engaged |= unsure & (bytes_at(coverage, voxel, unsure) >= REAM_SOLID_COVERAGE);
+    touched[s] = any(engaged) != 0;
+    if (!any(engaged)) continue;
+    const struct ContactBlockLayout block = blocks[chunk->block];
+    if (block.guiding != guiding || side.chunks == POINTS_A_FLUSH) {
+      flush(&side, sums + guiding * REAM_CONTACT_PART_SUMS);
+      guiding = block.guiding;
     }
-    const int total = sum16(points);
-    if (total == 0) continue;
-    global long* part = sums + guiding * REAM_CONTACT_PART_SUMS;
-    part[REAM_CONTACT_PRODUCTS] += total;
-    if (total == count) {
-      for (int k = 0; k < REAM_CONTACT_PRODUCTS; ++k) part[k] += block->whole[k];
-    } else {
-      int products[REAM_CONTACT_PRODUCTS];
-      for (int k = 0; k < REAM_CONTACT_PRODUCTS; ++k) products[k] = 0;
-      for (int i = 0; i < count; ++i)
-        if (engaged_in_chunk[i])
-          add_products(places[block->first + i], directions[block->first + i], meridian, azimuth, products);
-      for (int k = 0; k < REAM_CONTACT_PRODUCTS; ++k) part[k] += products[k];
-    }
+    add_chunk(place, convert_uint16(vload16(0, directions + chunk->first)), engaged, meridian, azimuth, &side);
     if (guiding) continue;
-    const int cortical = sum16(cortical_points), cartilage = sum16(cartilage_points);
-    const int cortical_codes = sum16(cortical_density), cartilage_codes = cartilage * REAM_CARTILAGE_CODE;
-    sums[REAM_CONTACT_CLASS_POINTS] += total - cortical - cartilage;
-    sums[REAM_CONTACT_CLASS_POINTS + 1] += cortical;
-    sums[REAM_CONTACT_CLASS_POINTS + 2] += cartilage;
-    sums[REAM_CONTACT_CLASS_DENSITY] += sum16(all_density) - cortical_codes - cartilage_codes;
-    sums[REAM_CONTACT_CLASS_DENSITY + 1] += cortical_codes;
-    sums[REAM_CONTACT_CLASS_DENSITY + 2] += cartilage_codes;
-    int heights[16], highest = -1;
+    const int16 code = bytes_at(density, voxel, engaged) & engaged;
+    const int16 cartilage = engaged & (code == REAM_CARTILAGE_CODE);
+    const int16 cortical = engaged & ~cartilage & (code >= arguments.first_cortical_code);
+    all_points -= engaged;
+    all_density += code;
+    cortical_density += code & cortical;
+    cortical_points -= cortical;
+    cartilage_points -= cartilage;
+    const int16 height = select((int16)(-1), convert_int16(place >> (2 * REAM_PLACE_BITS) & PLACE_MASK), engaged);
+    const int8 high8 = max(height.lo, height.hi);
+    const int4 high4 = max(high8.lo, high8.hi);
+    const int2 high2 = max(high4.lo, high4.hi);
+    const int highest = max(high2.x, high2.y);
+    if (deepest != NO_POINT && block.origin_z_units + highest < (int)(deepest >> 32)) continue;
+    int heights[16];
     vstore16(height, 0, heights);
-    for (int k = 0; k < 16; ++k) highest = max(highest, heights[k]);
-    if (deepest != NO_POINT && block->origin_z_units + highest < (int)(deepest >> 32)) continue;
-    for (int i = 0; i < count; ++i)
-      if (engaged_in_chunk[i])
-        deepest = max(deepest, depth_key(block->origin_z_units, places[block->first + i], block->first + i));
+    for (uint k = 0; k < 16; ++k)
+      if (heights[k] == highest)
+        deepest = max(deepest, ((long)(block.origin_z_units + highest) << 32) | (long)(0xffffffffu - (chunk->first + k)));
   }
+  flush(&side, sums + guiding * REAM_CONTACT_PART_SUMS);
+  const int cortical = sum16(cortical_points), cartilage = sum16(cartilage_points);
+  const int cortical_codes = sum16(cortical_density), cartilage_codes = cartilage * REAM_CARTILAGE_CODE;
+  sums[REAM_CONTACT_CLASS_POINTS] = sum16(all_points) - cortical - cartilage;
+  sums[REAM_CONTACT_CLASS_POINTS + 1] = cortical;
+  sums[REAM_CONTACT_CLASS_POINTS + 2] = cartilage;
+  sums[REAM_CONTACT_CLASS_DENSITY] = sum16(all_density) - cortical_codes - cartilage_codes;
+  sums[REAM_CONTACT_CLASS_DENSITY + 1] = cortical_codes;
+  sums[REAM_CONTACT_CLASS_DENSITY + 2] = cartilage_codes;
   sums[REAM_CONTACT_DEEPEST] = deepest;
 }
 
 #else
 
-// Blocks between two additions to the 64-bit sums: 512 / LANES points a block and lane, 451,612 a point, stay below 2^31.
-#define BLOCKS_A_FLUSH (8 * LANES)
-
-static bool is_engaged(uint place, global const struct SurvivingBlockLayout* at, const struct ContactArguments* a,
+static bool is_engaged(uint place, global const struct DueChunkLayout* at, const struct ContactArguments* a,
                        global const ushort* cells, global const uchar* coverage, int* voxel) {
   const int* m = a->per_unit;
   const int x = place & PLACE_MASK, y = place >> REAM_PLACE_BITS & PLACE_MASK,
@@ -165,7 +219,7 @@ static bool is_engaged(uint place, global const struct SurvivingBlockLayout* at,
   return state == 0x101 || (state == 1 && coverage[*voxel] >= REAM_SOLID_COVERAGE);
 }
 
-// Adds every lane's value k of `scratch` to sums[k], and clears the lane's own values.
+// Adds every lane's value k to sums[k], and clears the lane's own values.
 static void flush(int* values, int count, local int* scratch, global long* sums) {
   const int lane = get_local_id(0);
   for (int k = 0; k < count; ++k) {
@@ -182,45 +236,55 @@ static void flush(int* values, int count, local int* scratch, global long* sums)
 }
 
 kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void contact_sums(BONE, struct ContactArguments arguments,
-                                                                            global long* partial) {
+                                                                            global long* partial,
+                                                                            global uchar* touched) {
   local int scratch[REAM_CONTACT_PART_SUMS * LANES];
   local long deepest_of[LANES];
-  const int lane = get_local_id(0);
-  global long* sums = partial + (size_t)get_group_id(0) * REAM_CONTACT_SUMS;
-  for (int k = lane; k < REAM_CONTACT_DEEPEST; k += LANES) sums[k] = 0;
+  const uint lane = get_local_id(0), group = get_group_id(0), groups = get_num_groups(0);
+  global long* sums = partial + (size_t)group * REAM_CONTACT_SUMS;
+  for (uint k = lane; k < REAM_CONTACT_DEEPEST; k += LANES) sums[k] = 0;
+  for (uint s = group + lane * groups; s < arguments.chunks; s += LANES * groups) touched[s] = 0;
   barrier(CLK_GLOBAL_MEM_FENCE);
-  int products[REAM_CONTACT_PART_SUMS], classes[6];
-  for (int k = 0; k < REAM_CONTACT_PART_SUMS; ++k) products[k] = 0;
+  int cut[REAM_CONTACT_PART_SUMS], guided[REAM_CONTACT_PART_SUMS], classes[6];
+  for (int k = 0; k < REAM_CONTACT_PART_SUMS; ++k) cut[k] = guided[k] = 0;
   for (int k = 0; k < 6; ++k) classes[k] = 0;
   long deepest = NO_POINT;
-  uint guiding = 0;
-  int blocks_since_flush = 0;
 
-  for (uint s = get_group_id(0); s < arguments.survivors; s += get_num_groups(0)) {
-    global const struct ContactBlockLayout* block = blocks + survivors[s].block;
-    // The same for all lanes, so all of them flush together.
-    if (block->guiding != guiding || ++blocks_since_flush == BLOCKS_A_FLUSH) {
-      flush(products, REAM_CONTACT_PART_SUMS, scratch, sums + guiding * REAM_CONTACT_PART_SUMS);
+  // The group's points in a row, LANES at a time; every lane takes as many turns, so that all flush together.
+  const uint own_chunks = arguments.chunks > group ? (arguments.chunks - group + groups - 1) / groups : 0;
+  const uint turns = (own_chunks * REAM_CONTACT_CHUNK + LANES - 1) / LANES;
+  for (uint turn = 0; turn < turns; ++turn) {
+    if (turn % POINTS_A_FLUSH == POINTS_A_FLUSH - 1) {
+      flush(cut, REAM_CONTACT_PART_SUMS, scratch, sums);
+      flush(guided, REAM_CONTACT_PART_SUMS, scratch, sums + REAM_CONTACT_PART_SUMS);
       flush(classes, 6, scratch, sums + REAM_CONTACT_CLASS_POINTS);
-      guiding = block->guiding;
-      blocks_since_flush = 0;
     }
-    for (uint i = lane; i < block->count; i += LANES) {
-      const uint point = block->first + i, place = places[point];
-      int voxel;
-      if (!is_engaged(place, survivors + s, &arguments, cells, coverage, &voxel)) continue;
-      add_products(place, directions[point], meridian, azimuth, products);
-      ++products[REAM_CONTACT_PRODUCTS];
-      if (guiding) continue;
-      const int code = density[voxel], bone_class = class_of(code, arguments.first_cortical_code);
-      for (int k = 0; k < 3; ++k) {
-        classes[k] += k == bone_class;
-        classes[3 + k] += k == bone_class ? code : 0;
-      }
-      deepest = max(deepest, depth_key(block->origin_z_units, place, point));
+    const uint item = turn * LANES + lane, own = item / REAM_CONTACT_CHUNK, i = item % REAM_CONTACT_CHUNK;
+    if (own >= own_chunks) continue;
+    const uint s = group + own * groups;
+    global const struct DueChunkLayout* chunk = due + s;
+    if (i >= chunk->count) continue;
+    const uint point = chunk->first + i, place = places[point];
+    int voxel;
+    if (!is_engaged(place, chunk, &arguments, cells, coverage, &voxel)) continue;
+    touched[s] = 1;
+    const struct ContactBlockLayout block = blocks[chunk->block];
+    if (block.guiding) {
+      add_products(place, directions[point], meridian, azimuth, guided);
+      ++guided[REAM_CONTACT_PRODUCTS];
+      continue;
     }
+    add_products(place, directions[point], meridian, azimuth, cut);
+    ++cut[REAM_CONTACT_PRODUCTS];
+    const int code = density[voxel], bone_class = class_of(code, arguments.first_cortical_code);
+    for (int k = 0; k < 3; ++k) {
+      classes[k] += k == bone_class;
+      classes[3 + k] += k == bone_class ? code : 0;
+    }
+    deepest = max(deepest, depth_key(block.origin_z_units, place, point));
   }
-  flush(products, REAM_CONTACT_PART_SUMS, scratch, sums + guiding * REAM_CONTACT_PART_SUMS);
+  flush(cut, REAM_CONTACT_PART_SUMS, scratch, sums);
+  flush(guided, REAM_CONTACT_PART_SUMS, scratch, sums + REAM_CONTACT_PART_SUMS);
   flush(classes, 6, scratch, sums + REAM_CONTACT_CLASS_POINTS);
   deepest_of[lane] = deepest;
   barrier(CLK_LOCAL_MEM_FENCE);

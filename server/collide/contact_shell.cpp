@@ -89,14 +89,30 @@ struct Run {
   size_t first, count;
 };
 
+/// Small blocks side by side (of the same 16^3 cells) go together until they have so many points.
+constexpr size_t enough_points = 64;
+constexpr int parent_bits = 12;
+
+bool go_together(const shell::PointShell& shell, const shell::ShellBlock& a, const shell::ShellBlock& b) {
+  return shell.points[a.first].morton >> parent_bits == shell.points[b.first].morton >> parent_bits;
+}
+
 std::vector<Run> sorted_into_runs(const shell::PointShell& shell, std::vector<Probe>& probes) {
   std::vector<Run> runs;
-  for (const shell::ShellBlock& block : shell.blocks) {
-    const auto begin = probes.begin() + block.first, end = begin + block.count;
-    const auto middle = std::stable_partition(begin, end, [](const Probe& p) { return !p.guiding; });
+  for (size_t b = 0, end = 0; b < shell.blocks.size(); b = end) {
+    const size_t first = shell.blocks[b].first;
+    size_t count = 0;
+    for (end = b; end < shell.blocks.size() && go_together(shell, shell.blocks[b], shell.blocks[end]);
+         ++end) {
+      if (count > 0 && (count >= enough_points || count + shell.blocks[end].count > most_block_points)) break;
+      count += shell.blocks[end].count;
+    }
+    const auto begin = probes.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto middle = std::stable_partition(begin, begin + static_cast<std::ptrdiff_t>(count),
+                                              [](const Probe& p) { return !p.guiding; });
     const auto cutting = static_cast<size_t>(middle - begin);
-    if (cutting > 0) runs.push_back({block.first, cutting});
-    if (cutting < block.count) runs.push_back({block.first + cutting, block.count - cutting});
+    if (cutting > 0) runs.push_back({first, cutting});
+    if (cutting < count) runs.push_back({first + cutting, count - cutting});
   }
   return runs;
 }
@@ -112,6 +128,7 @@ void add_block(const std::vector<Probe>& probes, const Run& run, const MeridianE
   const Aabb box = box_of(probes, run);
   ContactBlock block;
   block.first = static_cast<uint32_t>(run.first);
+  block.first_chunk = static_cast<uint32_t>(out.chunk_count());
   block.count = static_cast<uint16_t>(run.count);
   block.guiding = probes[run.first].guiding;
   block.origin_units = (box.min / out.place_unit_mm).array().floor().cast<int>();
@@ -126,6 +143,7 @@ void add_block(const std::vector<Probe>& probes, const Run& run, const MeridianE
                     static_cast<uint32_t>(place.z()) << (2 * place_bits) | (direction >> 16) << 27;
     out.directions[i] = static_cast<uint16_t>(direction);
     add_products(out.table.vector(direction), block.whole);
+    block.height_units = std::max(block.height_units, place.z());
     radius_mm = std::max(radius_mm, (out.probe_mm(block, i) - centre).norm());
   }
   out.blocks.push_back(block);
@@ -173,8 +191,8 @@ ContactShell make_contact_shell(const shell::PointShell& shell, double probe_len
     extent_mm = std::max(extent_mm, 2.0 * box_of(probes, run).half_size().maxCoeff());
   // Rounding the origin down and a place to nearest takes up to two units more.
   out.place_unit_mm = std::max(extent_mm, shell.spacing_mm) / (place_mask - 2);
-  out.places.resize(probes.size());
-  out.directions.resize(probes.size());
+  out.places.resize(probes.size() + chunk_points);
+  out.directions.resize(probes.size() + chunk_points);
   for (const Run& run : runs) add_block(probes, run, entries, out);
   return out;
 }

@@ -8,17 +8,25 @@
 
 namespace ream::collide {
 
-/// Probes of one 8^3-cell block of the PointShell that are all cutting or all guiding.
+/// Points looked at together, as one vector: consecutive ones of a block, whose last chunk may have fewer.
+inline constexpr int chunk_points = 16;
+inline constexpr int most_block_points = 512;
+inline constexpr int most_block_chunks = most_block_points / chunk_points;
+
+/// Probes of one 8^3-cell block of the PointShell, or of a few small ones side by side, that are all cutting
+/// or all guiding.
 struct ContactBlock {
   uint32_t first = 0;  ///< of its points
+  uint32_t first_chunk = 0;
   uint16_t count = 0;
   uint16_t guiding = 0;             ///< 1: guiding or smooth surface, which never cuts
   Vec3i origin_units{0, 0, 0};      ///< of its points' places, tool frame, in place_unit_mm
+  int32_t height_units = 0;         ///< greatest place along z
   std::array<int32_t, 21> whole{};  ///< ContactProducts of all its points
 };
 
 /// A PointShell made ready for one grid: where each point probes for bone and what it adds when it meets
-/// some. Six bytes a point and about two for its block. Read-only, shared by all narrow phases.
+/// some. Six bytes a point and less than two for its block. Read-only, shared by all narrow phases.
 ///
 /// Cutting points probe one voxel out from the true surface along the normal (DESIGN 3: engaged when bone
 /// lies within one voxel, for removal must not clear its own contact). Guiding points have no such need and
@@ -27,7 +35,7 @@ struct ContactBlock {
 /// meets the wall of the hole before its end does.
 struct ContactShell {
   /// Places in a block, nine bits each for x, y, z (x lowest) in place_unit_mm from the block's origin, then
-  /// the five high bits of the direction code.
+  /// the five high bits of the direction code. Padded by a chunk, as the directions, to be read in chunks.
   std::vector<uint32_t> places;
   std::vector<uint16_t> directions;  ///< low sixteen bits of the direction code
   std::vector<ContactBlock> blocks;
@@ -40,12 +48,18 @@ struct ContactShell {
   double probe_length_mm = 0.0;
   Aabb bounds_mm;
 
-  size_t size() const { return places.size(); }
+  size_t size() const { return places.size() - chunk_points; }
+  size_t chunk_count() const {
+    return blocks.empty() ? 0 : blocks.back().first_chunk + chunks_of(blocks.back());
+  }
+  static size_t chunks_of(const ContactBlock& block) {
+    return (static_cast<size_t>(block.count) + chunk_points - 1) / chunk_points;
+  }
   /// Direction code of a point.
   uint32_t direction(size_t point) const { return directions[point] | (places[point] >> 27) << 16; }
   /// Where a point of a block probes, tool frame.
   Vec3 probe_mm(const ContactBlock& block, size_t point) const;
-  /// Bytes held, and how many of them grow with the points.
+  /// Bytes held.
   size_t bytes() const;
 };
 

@@ -42,15 +42,4 @@ enum class Instructions { best, portable };
 std::unique_ptr<NarrowPhase> make_narrow_phase_cpu(const NarrowPhaseInput& input,
                                                    Instructions instructions = Instructions::best);
 
-/// A block that may hold engaged points, and where its origin lies (VoxelTransform::base).
-struct SurvivingBlock {
-  uint32_t block;
-  std::array<int32_t, 3> base;
-};
-
-/// Blocks inside the VOI and near enough to bone by the conservative distance, in rising order. Writes to
-/// `survivors` (room for all blocks) and returns how many. Shared by all narrow phases.
-size_t cull_blocks(const NarrowPhaseInput& input, const Voi& voi, const QuantisedPose& grid_from_tool,
-                   const VoxelTransform& transform, std::span<SurvivingBlock> survivors) noexcept;
-
 }  // namespace ream::collide

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "collide/contact_schedule.hpp"
 #include "core/error.hpp"
 #include "gpu/program.hpp"
 #include "kernels/layout.h"
@@ -14,21 +15,14 @@ static_assert(REAM_CONTACT_PRODUCTS == std::tuple_size_v<ContactProducts>);
 static_assert(REAM_PLACE_BITS == place_bits && REAM_AZIMUTH_BITS == azimuth_bits);
 static_assert(REAM_AZIMUTH_SHIFT == azimuth_shift);
 static_assert(REAM_SOLID_COVERAGE == voxel::solid_coverage && REAM_CARTILAGE_CODE == voxel::cartilage_code);
-static_assert(sizeof(SurvivingBlock) == sizeof(layout::SurvivingBlockLayout));
-
-/// A copy with room for one chunk behind, so that the last chunk may be loaded whole.
-gpu::Buffer padded_copy(const gpu::Queue& queue, std::vector<uint32_t> values) {
-  values.resize(values.size() + REAM_CONTACT_CHUNK, 0);
-  return gpu::Buffer::copy_of(queue, std::span<const uint32_t>(values));
-}
+static_assert(sizeof(DueChunk) == sizeof(layout::DueChunkLayout));
+static_assert(REAM_CONTACT_CHUNK == chunk_points);
 
 gpu::Buffer block_table(const gpu::Queue& queue, const ContactShell& shell) {
   std::vector<layout::ContactBlockLayout> table;
   table.reserve(shell.blocks.size());
   for (const ContactBlock& block : shell.blocks) {
-    layout::ContactBlockLayout entry{block.first, block.count, block.guiding, block.origin_units.z(), {}};
-    std::copy(block.whole.begin(), block.whole.end(), entry.whole);
-    table.push_back(entry);
+    table.push_back({block.guiding, block.origin_units.z()});
   }
   return gpu::Buffer::copy_of(queue, std::span<const layout::ContactBlockLayout>(table));
 }
@@ -52,21 +46,26 @@ class NarrowPhaseCl final : public NarrowPhase {
         program_(bone_->queue, "narrow_phase.cl", "-D LANES=" + std::to_string(shape.lanes)),
         kernel_(program_, "contact_sums"),
         patch_kernel_(program_, "patch_cells"),
-        survivors_(std::max<size_t>(input.shell.blocks.size(), 1)),
+        due_(std::max<size_t>(input.shell.chunk_count(), 1)),
+        touched_(due_.size()),
+        view_(contact_view(input)),
+        is_clear_(best_look().is_clear),
+        schedule_(input),
         partial_(static_cast<size_t>(shape.groups) * REAM_CONTACT_SUMS),
         patches_(most_patches),
         arguments_(constant_arguments(input.bone)),
-        places_(padded_copy(bone_->queue, input.shell.places)),
+        places_(gpu::Buffer::copy_of(bone_->queue, std::span(input.shell.places))),
         directions_(gpu::Buffer::copy_of(bone_->queue, std::span(input.shell.directions))),
         blocks_(block_table(bone_->queue, input.shell)),
         meridian_(gpu::Buffer::copy_of(bone_->queue, std::span(input.shell.table.meridian))),
         azimuth_(gpu::Buffer::copy_of(bone_->queue, std::span(input.shell.table.azimuth))),
         cells_(gpu::Buffer::over(bone_->queue, std::span(input.cells.words()))),
-        survivor_buffer_(gpu::Buffer::over(bone_->queue, std::span(survivors_))),
+        due_buffer_(gpu::Buffer::over(bone_->queue, std::span(due_))),
         partial_buffer_(gpu::Buffer::over(bone_->queue, std::span(partial_))),
+        touched_buffer_(gpu::Buffer::over(bone_->queue, std::span(touched_))),
         patch_buffer_(gpu::Buffer::over(bone_->queue, std::span(patches_))) {
-    kernel_.set_all(places_, directions_, blocks_, survivor_buffer_, meridian_, azimuth_, cells_,
-                    bone_->coverage, bone_->density, arguments_, partial_buffer_);
+    kernel_.set_all(places_, directions_, blocks_, due_buffer_, meridian_, azimuth_, cells_, bone_->coverage,
+                    bone_->density, arguments_, partial_buffer_, touched_buffer_);
     patch_kernel_.set_all(patch_buffer_, uint32_t{0}, cells_);
     ContactSums warm;
     patch_kernel_.enqueue(bone_->queue, most_patches, patch_lanes);
@@ -78,10 +77,14 @@ class NarrowPhaseCl final : public NarrowPhase {
     sums = {};
     if (!voi.touching) return true;
     const VoxelTransform transform = voxel_transform(grid_from_tool, in_.bone.grid, in_.shell.place_unit_mm);
-    const size_t count = cull_blocks(in_, voi, grid_from_tool, transform, survivors_);
-    if (count == 0) return true;
+    view_.per_unit = transform.per_unit;
+    view_.bits = transform.bits;
+    const auto due = schedule_.due(grid_from_tool, voi, transform);
+    if (due.empty()) return true;
+    std::copy(due.begin(), due.end(), due_.begin());
     try {
-      run(transform, count, sums);
+      run(transform, due.size(), sums);
+      schedule_.visited(view_, is_clear_, touched_);
       return true;
     } catch (const Error&) {
       return false;
@@ -100,20 +103,21 @@ class NarrowPhaseCl final : public NarrowPhase {
   }
 
  private:
-  void run(const VoxelTransform& transform, size_t survivors, ContactSums& sums) {
+  void run(const VoxelTransform& transform, size_t chunks, ContactSums& sums) {
     const gpu::Queue& queue = bone_->queue;
     std::copy(transform.per_unit.begin(), transform.per_unit.end(), arguments_.per_unit);
     arguments_.bits = transform.bits;
-    arguments_.survivors = static_cast<uint32_t>(survivors);
+    arguments_.chunks = static_cast<uint32_t>(chunks);
     kernel_.set(arguments_index, arguments_);
-    if (!survivor_buffer_.shared())
-      survivor_buffer_.write(queue, survivors_.data(), survivors * sizeof(SurvivingBlock));
+    if (!due_buffer_.shared()) due_buffer_.write(queue, due_.data(), chunks * sizeof(DueChunk));
     kernel_.enqueue(queue, static_cast<size_t>(shape_.groups * shape_.lanes),
                     static_cast<size_t>(shape_.lanes));
-    if (partial_buffer_.shared())
+    if (partial_buffer_.shared()) {
       queue.finish();
-    else
+    } else {
       partial_buffer_.read(queue, partial_.data(), partial_buffer_.bytes());
+      touched_buffer_.read(queue, touched_.data(), chunks);
+    }
     for (size_t g = 0; g < static_cast<size_t>(shape_.groups); ++g)
       add_group(&partial_[g * REAM_CONTACT_SUMS], sums);
   }
@@ -145,12 +149,16 @@ class NarrowPhaseCl final : public NarrowPhase {
   LaunchShape shape_;
   gpu::Program program_;
   gpu::Kernel kernel_, patch_kernel_;
-  std::vector<SurvivingBlock> survivors_;
+  std::vector<DueChunk> due_;
+  std::vector<uint8_t> touched_;  ///< per due chunk: has engaged points
+  ContactView view_;              ///< the host's, for measuring what is free
+  IsClear is_clear_;
+  ContactSchedule schedule_;
   std::vector<int64_t> partial_;
   std::vector<layout::CellPatch> patches_;
   layout::ContactArguments arguments_;
-  gpu::Buffer places_, directions_, blocks_, meridian_, azimuth_, cells_, survivor_buffer_, partial_buffer_,
-      patch_buffer_;
+  gpu::Buffer places_, directions_, blocks_, meridian_, azimuth_, cells_, due_buffer_, partial_buffer_,
+      touched_buffer_, patch_buffer_;
 };
 
 }  // namespace

@@ -20,22 +20,18 @@ constexpr int word_bits = 32;
 /// A fraction in (0, 1] that differs from brick to brick.
 float phase(uint32_t brick) { return static_cast<float>(mix64(brick) % 64 + 1) / 64.0f; }
 
-Vec3 corner(const Aabb& box, int i) {
-  return {i & 1 ? box.max.x() : box.min.x(), i & 2 ? box.max.y() : box.min.y(),
-          i & 4 ? box.max.z() : box.min.z()};
-}
-
 }  // namespace
 
 RemovalSchedule::RemovalSchedule(const shell::SweptProfile& profile, const voxel::BoneModel& bone)
     : profile_(profile),
       grid_(bone.grid),
+      body_tool_mm_{Vec3(-profile.max_radius_mm, -profile.max_radius_mm, profile.body_min_z_mm),
+                    Vec3(profile.max_radius_mm, profile.max_radius_mm, profile.body_max_z_mm)},
+      odometer_(body_tool_mm_, bone.grid.min_spacing_mm()),
       brick_reach_mm_(0.5 * voxel::brick_edge * bone.grid.spacing_mm.norm() +
                       0.5 * bone.grid.spacing_mm.maxCoeff()),
       near_mm_(brick_reach_mm_ + 2.0 * relist_voxels * bone.grid.spacing_mm.maxCoeff()),
       words_a_row_((bone.grid.brick_dims().x() + word_bits - 1) / word_bits) {
-  const double r = profile.max_radius_mm;
-  body_tool_mm_ = {Vec3(-r, -r, profile.body_min_z_mm), Vec3(r, r, profile.body_max_z_mm)};
   const Vec3i bricks = grid_.brick_dims();
   occupied_.resize(static_cast<size_t>(words_a_row_) * static_cast<size_t>(bricks.y() * bricks.z()));
   for (uint32_t b = 0; b < grid_.brick_count(); ++b) {
@@ -63,18 +59,6 @@ size_t RemovalSchedule::most_near_bricks() const {
   const double bricks =
       pi * radius_mm * radius_mm * height_mm / (grid_.voxel_volume_mm3() * voxel::brick_voxels);
   return std::min(grid_.brick_count(), static_cast<size_t>(std::ceil(bricks)));
-}
-
-void RemovalSchedule::advance_odometer(const Pose& grid_from_tool) noexcept {
-  double moved_mm = 0.0;
-  if (started_)
-    for (int i = 0; i < 8; ++i) {
-      const Vec3 p = corner(body_tool_mm_, i);
-      moved_mm = std::max(moved_mm, length_bound(grid_from_tool.point(p) - previous_.point(p)));
-    }
-  started_ = true;
-  previous_ = grid_from_tool;
-  odometer_voxels_ = odometer_voxels_ + moved_mm / grid_.min_spacing_mm();
 }
 
 float RemovalSchedule::brick_distance_mm(const Vec3i& brick, const GridAffine& a) const noexcept {
@@ -110,7 +94,7 @@ void RemovalSchedule::find_near_bricks(const Pose& grid_from_tool) noexcept {
   const uint32_t asked_first = turn_ < near_count_ ? near_[turn_].brick : 0;
   std::swap(near_, next_);
   near_count_ = next_count_;
-  base_voxels_ = odometer_voxels_;
+  base_voxels_ = odometer_.voxels();
   turn_ = static_cast<size_t>(
       std::partition_point(near_.begin(), near_.begin() + static_cast<std::ptrdiff_t>(near_count_),
                            [&](const Near& near) { return near.brick < asked_first; }) -
@@ -140,8 +124,8 @@ void RemovalSchedule::scan_row(int y, int z, int first_x, int last_x, const Grid
 
 std::span<const uint32_t> RemovalSchedule::due(const QuantisedPose& grid_from_tool) noexcept {
   const Pose pose = dequantised(grid_from_tool);
-  advance_odometer(pose);
-  const bool stale = !listed_ || odometer_voxels_ >= base_voxels_ + relist_voxels;
+  odometer_.advance(pose);
+  const bool stale = !listed_ || odometer_.voxels() >= base_voxels_ + relist_voxels;
   if (stale) find_near_bricks(pose);
   const size_t most = stale ? most_bricks_a_tick / 4 : most_bricks_a_tick;
   const GridAffine affine = tool_from_voxel(grid_from_tool, grid_);
@@ -186,7 +170,7 @@ void RemovalSchedule::cut_done(size_t i, const BrickOutcome& outcome) noexcept {
 }
 
 void RemovalSchedule::pass(const QuantisedPose& grid_from_tool) noexcept {
-  advance_odometer(dequantised(grid_from_tool));
+  odometer_.advance(dequantised(grid_from_tool));
 }
 
 }  // namespace ream::collide

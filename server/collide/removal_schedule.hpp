@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "collide/odometer.hpp"
 #include "collide/removal.hpp"
 
 namespace ream::collide {
@@ -44,17 +45,17 @@ class RemovalSchedule {
   };
 
   size_t most_near_bricks() const;
-  void advance_odometer(const Pose& grid_from_tool) noexcept;
   void find_near_bricks(const Pose& grid_from_tool) noexcept;
   void scan_row(int y, int z, int first_x, int last_x, const GridAffine& tool_from_voxel,
                 size_t& old) noexcept;
   float brick_distance_mm(const Vec3i& brick, const GridAffine& tool_from_voxel) const noexcept;
   float wait_voxels(float brick_distance_mm) const noexcept;
-  float gone() const noexcept { return static_cast<float>(odometer_voxels_ - base_voxels_); }
+  float gone() const noexcept { return static_cast<float>(odometer_.voxels() - base_voxels_); }
 
   const shell::SweptProfile& profile_;
   const voxel::VoxelGrid grid_;
   Aabb body_tool_mm_;
+  Odometer odometer_;
   double brick_reach_mm_;  ///< half diagonal of a brick and half a voxel
   double near_mm_;         ///< bricks up to this distance are listed
   int words_a_row_;
@@ -64,10 +65,7 @@ class RemovalSchedule {
   size_t turn_ = 0;                                 ///< entry of near_ that is asked first
   std::array<uint32_t, most_bricks_a_tick> due_;    ///< brick
   std::array<uint32_t, most_bricks_a_tick> entry_;  ///< its place in near_
-  Pose previous_;
-  bool started_ = false;
-  double odometer_voxels_ = 0.0;  ///< upper bound of the path of any point of the body
-  double base_voxels_ = 0.0;      ///< odometer reading when near_ was made
+  double base_voxels_ = 0.0;                        ///< odometer reading when near_ was made
   bool listed_ = false;
 };
 

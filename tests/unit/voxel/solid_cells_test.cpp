@@ -23,7 +23,8 @@ uint16_t expected_word(const BoneModel& bone, uint32_t brick) {
   int solid[8] = {};
   for (int i = 0; i < brick_voxels; ++i) {
     const Vec3i in(i % 8, i / 8 % 8, i / 64);
-    solid[in.x() / 4 + 2 * (in.y() / 4) + 4 * (in.z() / 4)] += bone.coverage[bone.grid.index(first + in)] >= 128;
+    solid[in.x() / 4 + 2 * (in.y() / 4) + 4 * (in.z() / 4)] +=
+        bone.coverage[bone.grid.index(first + in)] >= 128;
   }
   uint32_t word = 0;
   for (uint32_t k = 0; k < 8; ++k) word |= (solid[k] > 0 ? 1u << k : 0u) | (solid[k] == 64 ? 256u << k : 0u);
