@@ -47,6 +47,9 @@ struct AffineArguments {
 #define REAM_SOLID_COVERAGE 128
 #define REAM_CARTILAGE_CODE 255
 
+// Chunks of the largest block.
+#define REAM_CONTACT_BLOCK_CHUNKS 32
+
 struct ContactArguments {
   ream_int32 per_unit[9];  // VoxelTransform
   ream_int32 bits;
@@ -57,8 +60,9 @@ struct ContactArguments {
 };
 
 struct ContactBlockLayout {
-  ream_uint32 guiding;
-  ream_int32 origin_z_units;
+  ream_uint32 guiding, count;
+  ream_int32 origin_z_units, height_units;
+  ream_int32 whole[REAM_CONTACT_PRODUCTS];
 };
 
 struct DueChunkLayout {
