@@ -29,9 +29,10 @@ static void find_voxels(float16 x, float16 y, float16 z, int remaining, const st
   const uint16 iu = convert_uint16(convert_int16(select((float16)(0.0f), u, inside)));
   const uint16 iv = convert_uint16(convert_int16(select((float16)(0.0f), v, inside)));
   const uint16 iw = convert_uint16(convert_int16(select((float16)(0.0f), w, inside)));
-  const uint row = (uint)a->dims_x, slice = row * (uint)a->dims_y;
+  const uint row = (uint)a->dims_x;
+  const uint16 brick = iu / 8 + iv / 8 * (row / 8) + iw / 8 * (row / 8 * ((uint)a->dims_y / 8));
   const uint cell_row = row / REAM_OCCUPANCY_EDGE, cell_slice = cell_row * ((uint)a->dims_y / REAM_OCCUPANCY_EDGE);
-  vstore16(select((uint16)(NO_VOXEL), iu + iv * row + iw * slice, inside), 0, voxels);
+  vstore16(select((uint16)(NO_VOXEL), brick * 512 + iu % 8 + iv % 8 * 8 + iw % 8 * 64, inside), 0, voxels);
   vstore16(iu / REAM_OCCUPANCY_EDGE + iv / REAM_OCCUPANCY_EDGE * cell_row + iw / REAM_OCCUPANCY_EDGE * cell_slice, 0,
            cells);
 }

@@ -112,7 +112,7 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void cut_bricks(
     LaneSums sums = {0, {0, 0, 0}, 0, 0};
     for (int row = lane; row < BRICK_ROWS; row += LANES) {
       const int v = first_v + row % BRICK_EDGE, w = first_w + row / BRICK_EDGE;
-      const size_t at = (size_t)first_u + (size_t)arguments.dims_x * ((size_t)v + (size_t)arguments.dims_y * (size_t)w);
+      const size_t at = ((size_t)brick * BRICK_ROWS + row) * BRICK_EDGE;
       const uchar8 before = vload8(0, coverage + at);
       if (as_ulong(before) != 0)
         cut_row(coverage, density, classes, at, before,

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/json_reader.hpp"
+#include "voxel/brick_order.hpp"
 
 namespace ream::case_ {
 namespace fs = std::filesystem;
@@ -173,8 +174,8 @@ Case load_case_description(const fs::path& folder) {
 Case load_case(const fs::path& folder) {
   Case c = load_case_description(folder);
   const size_t voxels = c.bone.grid.voxel_count();
-  c.bone.density = read_compressed(folder / "density.zst", voxels);
-  c.bone.coverage = read_compressed(folder / "coverage.zst", voxels);
+  c.bone.density = voxel::bricks_from_rows(c.bone.grid, read_compressed(folder / "density.zst", voxels));
+  c.bone.coverage = voxel::bricks_from_rows(c.bone.grid, read_compressed(folder / "coverage.zst", voxels));
   return c;
 }
 
@@ -193,8 +194,8 @@ void save_case(const Case& c, const fs::path& folder, bool replace) {
                 "case '" + c.id + "' does not have one density and coverage per voxel");
   if (c.plan) validate(*c.plan, "plan of case '" + c.id + "'");
   FolderInProgress target(folder, replace);
-  write_compressed(target.path() / "density.zst", c.bone.density);
-  write_compressed(target.path() / "coverage.zst", c.bone.coverage);
+  write_compressed(target.path() / "density.zst", voxel::rows_from_bricks(c.bone.grid, c.bone.density));
+  write_compressed(target.path() / "coverage.zst", voxel::rows_from_bricks(c.bone.grid, c.bone.coverage));
   if (c.plan) write_file_atomically(target.path() / "plan.json", to_json(*c.plan).dump(2) + "\n");
   write_file_atomically(target.path() / "case.json", to_json(c).dump(2) + "\n");
   target.commit();

@@ -21,18 +21,12 @@ Voi broad_phase(const Aabb& bone_box_grid, const Aabb& tool_box_tool, const Pose
 Aabb bone_bounds_mm(const voxel::BoneModel& bone) {
   const auto& grid = bone.grid;
   Vec3i low = grid.dims, high = Vec3i::Constant(-1);
-  for (int w = 0; w < grid.dims.z(); ++w)
-    for (int v = 0; v < grid.dims.y(); ++v) {
-      const uint8_t* row = bone.coverage.data() + grid.index(0, v, w);
-      const uint8_t* end = row + grid.dims.x();
-      const auto set = [](uint8_t c) { return c != 0; };
-      const uint8_t* first = std::find_if(row, end, set);
-      if (first == end) continue;
-      const uint8_t* last = end - 1;
-      while (!set(*last)) --last;
-      low = low.cwiseMin(Vec3i(static_cast<int>(first - row), v, w));
-      high = high.cwiseMax(Vec3i(static_cast<int>(last - row), v, w));
-    }
+  for (size_t i = 0; i < bone.coverage.size(); ++i) {
+    if (bone.coverage[i] == 0) continue;
+    const Vec3i at = grid.coordinates(i);
+    low = low.cwiseMin(at);
+    high = high.cwiseMax(at);
+  }
   Aabb box;
   if ((high.array() < 0).any()) return box;
   box.include((low.cast<double>().array() * grid.spacing_mm.array()).matrix());

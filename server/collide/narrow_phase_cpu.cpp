@@ -25,7 +25,7 @@ REAM_VECTOR_CLONES void find_candidates(const float* __restrict x, const float* 
                                         Candidates& found) {
   const float dx = static_cast<float>(dims.x()), dy = static_cast<float>(dims.y()),
               dz = static_cast<float>(dims.z());
-  const int row = dims.x(), slice = row * dims.y();
+  const int brick_row = dims.x() / 8, brick_slice = brick_row * (dims.y() / 8);
   const int cell_row = occupancy.dims.x(), cell_slice = cell_row * occupancy.dims.y();
   const GridAffine a = shared_affine;  // a copy, so that the compiler knows that stores do not change it
   // Signed on purpose: only signed 32-bit indices become gathers.
@@ -49,7 +49,8 @@ REAM_VECTOR_CLONES void find_candidates(const float* __restrict x, const float* 
     const int iw = static_cast<int>(low_w < dz ? low_w : 0.0f);
     const int cell =
         (iu >> occupancy_shift) + (iv >> occupancy_shift) * cell_row + (iw >> occupancy_shift) * cell_slice;
-    voxel_index[i] = iu + iv * row + iw * slice;
+    const int brick = (iu >> 3) + (iv >> 3) * brick_row + (iw >> 3) * brick_slice;
+    voxel_index[i] = brick * 512 + (iu & 7) + (iv & 7) * 8 + (iw & 7) * 64;
     occupied[i] = (words[cell >> 5] >> (cell & 31)) & inside & 1;
   }
   size_t count = 0;

@@ -37,20 +37,16 @@ class RemovalCpu final : public Removal {
 
  private:
   bool apply(uint32_t brick, const uint8_t* kept, uint8_t& empty, RemovalSums& sums) noexcept {
-    const size_t base = bone_.grid.brick_base(brick);
-    const size_t row = static_cast<size_t>(bone_.grid.dims.x()),
-                 slice = row * static_cast<size_t>(bone_.grid.dims.y());
     uint64_t left = 0;
     bool any = false;
-    for (size_t w = 0; w < brick_edge; ++w)
-      for (size_t v = 0; v < brick_edge; ++v, kept += brick_edge) {
-        const size_t at = base + w * slice + v * row;
-        uint64_t eight = 0;
-        std::memcpy(&eight, bone_.coverage.data() + at, sizeof eight);
-        if (eight != 0) any |= apply_row(at, kept, sums);
-        std::memcpy(&eight, bone_.coverage.data() + at, sizeof eight);
-        left |= eight;
-      }
+    size_t at = bone_.grid.brick_base(brick);
+    for (const size_t end = at + brick_voxels; at < end; at += brick_edge, kept += brick_edge) {
+      uint64_t eight = 0;
+      std::memcpy(&eight, bone_.coverage.data() + at, sizeof eight);
+      if (eight != 0) any |= apply_row(at, kept, sums);
+      std::memcpy(&eight, bone_.coverage.data() + at, sizeof eight);
+      left |= eight;
+    }
     empty = left == 0;
     return any;
   }

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "ct/calibration.hpp"
+#include "voxel/brick_order.hpp"
 #include "voxel/upsample.hpp"
 
 namespace ream::ct {
@@ -130,9 +131,11 @@ voxel::BoneModel bone_from_mask(const HuVolume& volume, Mask mask, const Segment
   bone.grid.spacing_mm = volume.spacing_mm / n;
   bone.grid.world_from_grid = volume.world_from_volume;
   voxel::validate(bone.grid);
-  bone.coverage = voxel::upsample_trilinear(std::span<const uint8_t>(surface.coverage), to, n);
-  bone.density = density_codes(voxel::upsample_trilinear(std::span<const int16_t>(surface.bone_hu), to, n),
-                               options.calibration);
+  bone.coverage = voxel::bricks_from_rows(
+      bone.grid, voxel::upsample_trilinear(std::span<const uint8_t>(surface.coverage), to, n));
+  bone.density = voxel::bricks_from_rows(
+      bone.grid, density_codes(voxel::upsample_trilinear(std::span<const int16_t>(surface.bone_hu), to, n),
+                               options.calibration));
   return bone;
 }
 

@@ -123,8 +123,7 @@ bool BlockExtractor::load(const uint8_t* coverage, const Vec3i& block) {
         std::memset(row, 0, row_bytes);
       } else {
         if (first > 0 || last < edge) std::memset(row, 0, row_bytes);
-        std::memcpy(row + first, coverage + grid_.index(origin.x() + first, v, w),
-                    static_cast<size_t>(last - first));
+        copy_row(coverage, {origin.x() + first, v, w}, last - first, row + first);
       }
       const uint64_t filled = filled_bits(row);
       filled_[static_cast<size_t>(z * edge + y)] = filled;
@@ -134,6 +133,15 @@ bool BlockExtractor::load(const uint8_t* coverage, const Vec3i& block) {
       }
     }
   return any != 0 && all != corners;
+}
+
+void BlockExtractor::copy_row(const uint8_t* coverage, const Vec3i& from, int count, uint8_t* to) const {
+  for (int u = from.x(), end = from.x() + count; u < end;) {
+    const int run = std::min(voxel::brick_edge - u % voxel::brick_edge, end - u);
+    std::memcpy(to, coverage + grid_.index(u, from.y(), from.z()), static_cast<size_t>(run));
+    to += run;
+    u += run;
+  }
 }
 
 void BlockExtractor::add_vertices(int z, BlockMesh& mesh) {

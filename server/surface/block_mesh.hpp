@@ -50,6 +50,8 @@ class BlockExtractor {
  private:
   /// Copies the block with two voxels around it; false when it holds no surface.
   bool load(const uint8_t* coverage, const Vec3i& block);
+  /// `count` voxels along x from `from`, gathered from the bricks they lie in.
+  void copy_row(const uint8_t* coverage, const Vec3i& from, int count, uint8_t* to) const;
   void add_vertices(int z, BlockMesh& mesh);
   void add_triangles(int z, BlockMesh& mesh) const;
   void add_vertex(int axis, int x, int y, int z, BlockMesh& mesh);

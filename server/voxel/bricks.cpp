@@ -3,19 +3,11 @@
 namespace ream::voxel {
 
 void read_brick(const VoxelGrid& grid, const uint8_t* coverage, uint32_t brick, uint8_t* image) noexcept {
-  const uint8_t* base = coverage + grid.brick_base(brick);
-  const size_t row = static_cast<size_t>(grid.dims.x()), slice = row * static_cast<size_t>(grid.dims.y());
-  for (size_t w = 0; w < brick_edge; ++w)
-    for (size_t v = 0; v < brick_edge; ++v, image += brick_edge)
-      std::memcpy(image, base + w * slice + v * row, brick_edge);
+  std::memcpy(image, coverage + grid.brick_base(brick), brick_voxels);
 }
 
 void write_brick(const VoxelGrid& grid, uint8_t* coverage, uint32_t brick, const uint8_t* image) noexcept {
-  uint8_t* base = coverage + grid.brick_base(brick);
-  const size_t row = static_cast<size_t>(grid.dims.x()), slice = row * static_cast<size_t>(grid.dims.y());
-  for (size_t w = 0; w < brick_edge; ++w)
-    for (size_t v = 0; v < brick_edge; ++v, image += brick_edge)
-      std::memcpy(base + w * slice + v * row, image, brick_edge);
+  std::memcpy(coverage + grid.brick_base(brick), image, brick_voxels);
 }
 
 BrickSender::BrickSender(const VoxelGrid& grid, BrickRing& ring)

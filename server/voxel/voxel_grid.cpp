@@ -8,9 +8,10 @@
 namespace ream::voxel {
 
 Vec3i VoxelGrid::coordinates(size_t index) const {
-  const auto dx = static_cast<size_t>(dims.x()), dy = static_cast<size_t>(dims.y());
-  return {static_cast<int>(index % dx), static_cast<int>((index / dx) % dy),
-          static_cast<int>(index / (dx * dy))};
+  const auto inside = static_cast<int>(index % brick_voxels);
+  const Vec3i first = brick_coordinates(static_cast<uint32_t>(index / brick_voxels)) * brick_edge;
+  return first +
+         Vec3i(inside % brick_edge, inside / brick_edge % brick_edge, inside / (brick_edge * brick_edge));
 }
 
 Vec3i VoxelGrid::voxel_at(const Vec3& point_mm) const {

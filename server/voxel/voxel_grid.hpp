@@ -6,7 +6,7 @@
 
 namespace ream::voxel {
 
-/// Edge of a brick, the unit of change, in voxels; grid dimensions are whole bricks.
+/// Edge of a brick, the unit of change and of storage, in voxels; grid dimensions are whole bricks.
 inline constexpr int brick_edge = 8;
 inline constexpr int brick_voxels = brick_edge * brick_edge * brick_edge;
 
@@ -21,15 +21,23 @@ struct VoxelGrid {
   size_t voxel_count() const {
     return static_cast<size_t>(dims.x()) * static_cast<size_t>(dims.y()) * static_cast<size_t>(dims.z());
   }
-  /// Eq. 2.1 (and 4.1): x runs fastest. Needs 0 <= (u,v,w) < dims.
+  /// Place of a voxel in memory: brick after brick, x fastest among bricks and inside each. What the tool
+  /// touches then lies in few cache lines whatever way it faces. Needs 0 <= (u,v,w) < dims.
   size_t index(int u, int v, int w) const {
+    const size_t brick = brick_index({u / brick_edge, v / brick_edge, w / brick_edge});
+    return brick * brick_voxels +
+           static_cast<size_t>(u % brick_edge +
+                               brick_edge * (v % brick_edge + brick_edge * (w % brick_edge)));
+  }
+  size_t index(const Vec3i& o) const { return index(o.x(), o.y(), o.z()); }
+  /// Inverse of index.
+  Vec3i coordinates(size_t index) const;
+  /// Place of a voxel in files, eq. 2.1 (and 4.1): row after row, x fastest. Needs 0 <= (u,v,w) < dims.
+  size_t row_index(int u, int v, int w) const {
     return static_cast<size_t>(u) +
            static_cast<size_t>(dims.x()) *
                (static_cast<size_t>(v) + static_cast<size_t>(dims.y()) * static_cast<size_t>(w));
   }
-  size_t index(const Vec3i& o) const { return index(o.x(), o.y(), o.z()); }
-  /// Eq. 2.2 (and 4.2): inverse of index.
-  Vec3i coordinates(size_t index) const;
   bool contains(const Vec3i& o) const { return (o.array() >= 0).all() && (o.array() < dims.array()).all(); }
   /// Eq. 2.3: voxel centre, mm, grid frame.
   Vec3 centre_mm(const Vec3i& o) const {
@@ -55,8 +63,8 @@ struct VoxelGrid {
     return static_cast<uint32_t>(brick.x() + b.x() * (brick.y() + b.y() * brick.z()));
   }
   Vec3i brick_coordinates(uint32_t brick) const;
-  /// Index of the brick's minimum voxel.
-  size_t brick_base(uint32_t brick) const { return index(brick_coordinates(brick) * brick_edge); }
+  /// Index of the brick's minimum voxel; its other voxels follow.
+  size_t brick_base(uint32_t brick) const { return static_cast<size_t>(brick) * brick_voxels; }
 };
 
 /// dims rounded up to whole bricks.

@@ -83,8 +83,7 @@ class Comparison {
   }
 
   void compare_voxel(int u, int v, int w, bool far) {
-    const Vec3i& dims = bone_.grid.dims;
-    const size_t i = size_t(u) + size_t(dims.x()) * (size_t(v) + size_t(dims.y()) * size_t(w));
+    const size_t i = bone_.grid.index(u, v, w);
     const uint8_t was = before_[i], is = bone_.coverage[i];
     tally_.grown += is > was;
     if (was == 0) return;

@@ -18,9 +18,8 @@ inline voxel::BoneModel slab(const Vec3i& dims, double spacing_mm, double surfac
   for (int w = 0; w < dims.z(); ++w) {
     const double inside = (surface_mm - (w + 0.5) * spacing_mm) / spacing_mm;
     const double level = std::clamp(128.0 + 255.0 * inside, 0.0, 255.0);
-    const size_t slice = static_cast<size_t>(dims.x()) * static_cast<size_t>(dims.y());
-    std::fill_n(bone.coverage.begin() + static_cast<std::ptrdiff_t>(slice * static_cast<size_t>(w)), slice,
-                static_cast<uint8_t>(level));
+    for (int v = 0; v < dims.y(); ++v)
+      for (int u = 0; u < dims.x(); ++u) bone.coverage[grid.index(u, v, w)] = static_cast<uint8_t>(level);
   }
   return bone;
 }

@@ -16,20 +16,34 @@ using test::grid_of;
 
 TEST(VoxelGrid, IndexAndCoordinatesAreInverse) {
   const VoxelGrid grid = grid_of({16, 8, 24});
-  size_t expected = 0;
+  size_t row = 0;
+  std::vector<int> met(grid.voxel_count());
   for (int w = 0; w < 24; ++w)
     for (int v = 0; v < 8; ++v)
-      for (int u = 0; u < 16; ++u, ++expected) {
-        ASSERT_EQ(grid.index(u, v, w), expected) << "x runs fastest";
-        ASSERT_EQ(grid.coordinates(expected), Vec3i(u, v, w));
+      for (int u = 0; u < 16; ++u, ++row) {
+        ASSERT_EQ(grid.row_index(u, v, w), row) << "x runs fastest";
+        const size_t index = grid.index(u, v, w);
+        ASSERT_LT(index, met.size());
+        ++met[index];
+        ASSERT_EQ(grid.coordinates(index), Vec3i(u, v, w));
       }
-  EXPECT_EQ(grid.voxel_count(), expected);
+  EXPECT_EQ(std::count(met.begin(), met.end(), 1), static_cast<long>(row));
+}
+
+TEST(VoxelGrid, KeepsBricksTogetherWithXFastest) {
+  const VoxelGrid grid = grid_of({16, 8, 24});
+  EXPECT_EQ(grid.index(1, 0, 0), 1u);
+  EXPECT_EQ(grid.index(0, 1, 0), 8u);
+  EXPECT_EQ(grid.index(0, 0, 1), 64u);
+  EXPECT_EQ(grid.index(8, 0, 0), 512u) << "the next brick along x";
+  EXPECT_EQ(grid.index(0, 0, 8), 2u * 512u) << "the next layer of bricks";
 }
 
 TEST(VoxelGrid, IndexesMoreThanFourThousandMillionVoxels) {
   const VoxelGrid grid = grid_of({2048, 2048, 2048});
   const Vec3i last(2047, 2046, 2045);
-  EXPECT_EQ(grid.index(last), 2047u + 2048u * (2046u + 2048ull * 2045u));
+  EXPECT_EQ(grid.row_index(2047, 2046, 2045), 2047u + 2048u * (2046u + 2048ull * 2045u));
+  EXPECT_EQ(grid.index(last), 512ull * (255 + 256 * (255 + 256 * 255)) + 7 + 8 * (6 + 8 * 5));
   EXPECT_EQ(grid.coordinates(grid.index(last)), last);
 }
 
