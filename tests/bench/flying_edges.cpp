@@ -9,22 +9,22 @@
 #include <vtkSMPTools.h>
 #include <vtkUnsignedCharArray.h>
 
-#include "core/clock.hpp"
+#include <chrono>
+
 #endif
 
 namespace ream::bench {
 
 #ifdef REAM_BENCH_VTK
 
-std::optional<FlyingEdgesRun> run_flying_edges(const voxel::VoxelGrid& grid,
+std::optional<FlyingEdgesRun> run_flying_edges(const std::array<int, 3>& dims,
                                                std::vector<uint8_t>& coverage_rows, bool normals,
                                                int threads) {
   vtkSMPTools::Initialize(threads);
   vtkNew<vtkUnsignedCharArray> values;
   values->SetArray(coverage_rows.data(), static_cast<vtkIdType>(coverage_rows.size()), 1);
   vtkNew<vtkImageData> image;
-  image->SetDimensions(grid.dims.x(), grid.dims.y(), grid.dims.z());
-  image->SetSpacing(grid.spacing_mm.x(), grid.spacing_mm.y(), grid.spacing_mm.z());
+  image->SetDimensions(dims[0], dims[1], dims[2]);
   image->GetPointData()->SetScalars(values);
   vtkNew<vtkFlyingEdges3D> filter;
   filter->SetInputData(image);
@@ -32,15 +32,16 @@ std::optional<FlyingEdgesRun> run_flying_edges(const voxel::VoxelGrid& grid,
   filter->SetComputeNormals(normals);
   filter->ComputeGradientsOff();
   filter->ComputeScalarsOff();
-  const auto start = SteadyClock::now();
+  const auto start = std::chrono::steady_clock::now();
   filter->Update();
-  return FlyingEdgesRun{elapsed_us(start) / 1000.0,
+  const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
+  return FlyingEdgesRun{taken.count(),
                         static_cast<size_t>(filter->GetOutput()->GetNumberOfPolys())};
 }
 
 #else
 
-std::optional<FlyingEdgesRun> run_flying_edges(const voxel::VoxelGrid&, std::vector<uint8_t>&, bool, int) {
+std::optional<FlyingEdgesRun> run_flying_edges(const std::array<int, 3>&, std::vector<uint8_t>&, bool, int) {
   return std::nullopt;
 }
 

@@ -12,6 +12,7 @@
 #include "stream/mesh_publisher.hpp"
 #include "stream/messages.hpp"
 #include "surface/whole_surface.hpp"
+#include "voxel/brick_order.hpp"
 
 namespace ream::bench {
 namespace {
@@ -122,19 +123,10 @@ void add_seated(const std::string& name, const Seated& seated, double bytes_goal
   rows.push_back({"surface", name + " feed", seated.feed_mm_s, 0.0, "mm/s", 0.0});
 }
 
-std::vector<uint8_t> row_order(const voxel::BoneModel& bone) {
-  std::vector<uint8_t> rows;
-  rows.reserve(bone.coverage.size());
-  const Vec3i& dims = bone.grid.dims;
-  for (int w = 0; w < dims.z(); ++w)
-    for (int v = 0; v < dims.y(); ++v)
-      for (int u = 0; u < dims.x(); ++u) rows.push_back(bone.coverage[bone.grid.index(u, v, w)]);
-  return rows;
-}
-
 /// The whole grid, ours and VTK's in turn so that both meet the same disturbances; medians.
 void add_whole(const voxel::BoneModel& bone, std::vector<Row>& rows) {
-  std::vector<uint8_t> coverage_rows = row_order(bone);
+  std::vector<uint8_t> coverage_rows = voxel::rows_from_bricks(bone.grid, bone.coverage);
+  const Vec3i& dims = bone.grid.dims;
   std::vector<double> ours, bare, with_normals;
   size_t our_triangles = 0, vtk_triangles = 0;
   for (int run = 0; run < whole_runs; ++run) {
@@ -142,7 +134,7 @@ void add_whole(const voxel::BoneModel& bone, std::vector<Row>& rows) {
     our_triangles = surface::whole_surface(bone.grid, bone.coverage.data(), threads).triangles.size();
     ours.push_back(elapsed_us(start) / 1000.0);
     for (const bool normals : {false, true})
-      if (const auto vtk = run_flying_edges(bone.grid, coverage_rows, normals, threads)) {
+      if (const auto vtk = run_flying_edges({dims.x(), dims.y(), dims.z()}, coverage_rows, normals, threads)) {
         (normals ? with_normals : bare).push_back(vtk->ms);
         vtk_triangles = vtk->triangles;
       }
