@@ -1,9 +1,27 @@
 #include "stream/mesh_publisher.hpp"
 
 #include <algorithm>
-#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+#include "core/hash.hpp"
 
 namespace ream::stream {
+namespace {
+
+/// Not 0 unless the mesh is empty.
+uint64_t surface_hash(const surface::BlockMesh& mesh) {
+  uint64_t hash = mesh.indices.size();
+  for (const surface::BlockVertex& v : mesh.vertices) {
+    uint64_t word;
+    std::memcpy(&word, &v, sizeof word);
+    hash = mix64(hash ^ word);
+  }
+  for (const uint32_t index : mesh.indices) hash = hash * 0x9e3779b97f4a7c15ull + index;
+  return mesh.indices.empty() ? 0 : std::max<uint64_t>(hash, 1);
+}
+
+}  // namespace
 
 MeshPublisher::MeshPublisher(const voxel::BoneModel& bone, voxel::BrickRing& ring, Fanout& fanout,
                              MeshPublisherOptions options)
@@ -11,70 +29,87 @@ MeshPublisher::MeshPublisher(const voxel::BoneModel& bone, voxel::BrickRing& rin
       ring_(ring),
       fanout_(fanout),
       options_(options),
+      layout_(bone.grid),
       extractor_(bone.grid),
-      revision_(replica_.block_count()),
-      shown_(replica_.block_count()),
-      moved_(bone.grid.brick_count()) {}
+      revision_(layout_.count()),
+      shown_(layout_.count()),
+      is_touched_(layout_.count()) {}
 
 void MeshPublisher::publish_all() {
-  for (uint32_t block = 0; block < replica_.block_count(); ++block) publish(block);
+  for (uint32_t block = 0; block < layout_.count(); ++block) to_extract_.push_back(block);
+  extract(to_extract_.size());
+  publish_ready();
   fanout_.publish_picture_complete();
 }
 
 size_t MeshPublisher::poll(int64_t now_ns) {
   drain(now_ns);
-  if (moved_list_.empty() || now_ns - last_publish_ns_ < options_.min_interval_ns) return 0;
-  const bool due =
-      most_moved_ >= options_.noticeable_coverage || now_ns - moved_since_ns_ >= options_.max_delay_ns;
-  return due ? publish_changed(now_ns) : 0;
+  if (now_ns - last_work_ns_ < options_.min_interval_ns) return 0;
+  if (to_extract_.empty()) {
+    if (!due(now_ns)) return 0;
+    begin_update();
+  }
+  last_work_ns_ = now_ns;
+  extract(options_.max_blocks);
+  return next_ == to_extract_.size() ? publish_ready() : 0;
 }
 
 size_t MeshPublisher::flush(int64_t now_ns) {
   drain(now_ns);
-  return publish_changed(now_ns);
+  extract(to_extract_.size());
+  size_t published = publish_ready();
+  begin_update();
+  extract(to_extract_.size());
+  published += publish_ready();
+  last_work_ns_ = now_ns;
+  return published;
 }
 
 void MeshPublisher::drain(int64_t now_ns) {
   voxel::BrickImage image;
+  uint8_t shown[voxel::brick_voxels];
   while (ring_.try_pop(image)) {
-    tick_ = std::max(tick_, image.tick);
-    const int change = largest_change(image);
-    if (change == 0) continue;
-    replica_.apply(image);
-    if (moved_list_.empty()) moved_since_ns_ = now_ns;
-    uint16_t& moved = moved_[image.brick];
-    if (moved == 0) moved_list_.push_back(image.brick);
-    moved = static_cast<uint16_t>(std::min(moved + change, int{UINT16_MAX}));
-    most_moved_ = std::max(most_moved_, int{moved});
+    voxel::read_brick(replica_.grid(), replica_.coverage().data(), image.brick, shown);
+    waiting_.put(image, shown, now_ns);
   }
 }
 
-int MeshPublisher::largest_change(const voxel::BrickImage& image) {
-  uint8_t before[voxel::brick_voxels];
-  voxel::read_brick(replica_.grid(), replica_.coverage().data(), image.brick, before);
-  int largest = 0;
-  for (int i = 0; i < voxel::brick_voxels; ++i)
-    largest = std::max(largest, std::abs(before[i] - image.coverage[i]));
-  return largest;
+bool MeshPublisher::due(int64_t now_ns) const {
+  return !waiting_.empty() && (waiting_.most_moved() >= options_.noticeable_coverage ||
+                               now_ns - waiting_.since_ns() >= options_.max_delay_ns);
 }
 
-size_t MeshPublisher::publish_changed(int64_t now_ns) {
-  size_t published = 0;
-  for (const uint32_t block : replica_.take_dirty_blocks()) published += publish(block);
-  for (const uint32_t brick : moved_list_) moved_[brick] = 0;
-  moved_list_.clear();
-  most_moved_ = 0;
-  last_publish_ns_ = now_ns;
+void MeshPublisher::begin_update() {
+  for (const voxel::BrickImage& image : waiting_.images()) {
+    tick_ = std::max(tick_, image.tick);
+    replica_.apply(image.brick, image.coverage);
+    const Vec3i brick = replica_.grid().brick_coordinates(image.brick);
+    surface::for_each_block(layout_, surface::blocks_touched(layout_, brick, 1), [this](uint32_t block) {
+      if (std::exchange(is_touched_[block], uint8_t{1}) == 0) to_extract_.push_back(block);
+    });
+  }
+  waiting_.clear();
+}
+
+void MeshPublisher::extract(size_t most_blocks) {
+  const size_t end = std::min(next_ + most_blocks, to_extract_.size());
+  for (; next_ < end; ++next_) {
+    const uint32_t block = to_extract_[next_];
+    is_touched_[block] = 0;
+    const surface::BlockMesh mesh = extractor_.extract(replica_.coverage().data(), block);
+    const uint64_t hash = surface_hash(mesh);
+    if (hash == std::exchange(shown_[block], hash)) continue;
+    ready_.push_back(std::make_shared<const EncodedBlock>(encode(mesh, ++revision_[block], tick_)));
+  }
+}
+
+size_t MeshPublisher::publish_ready() {
+  for (SharedBlock& block : ready_) fanout_.publish_block(std::move(block));
+  const size_t published = ready_.size();
+  ready_.clear();
+  to_extract_.clear();
+  next_ = 0;
   return published;
-}
-
-bool MeshPublisher::publish(uint32_t block) {
-  const surface::BlockMesh mesh = extractor_.extract(replica_.coverage().data(), block);
-  const bool holds_surface = !mesh.indices.empty();
-  if (!holds_surface && !shown_[block]) return false;
-  shown_[block] = holds_surface;
-  fanout_.publish_block(std::make_shared<const EncodedBlock>(encode(mesh, ++revision_[block], tick_)));
-  return true;
 }
 
 }  // namespace ream::stream

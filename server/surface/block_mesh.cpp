@@ -11,7 +11,6 @@
 namespace ream::surface {
 namespace {
 
-using voxel::block_edge;
 
 // The copy holds voxels -2..33 of the block: cells reach voxel 32, gradients one further.
 constexpr int margin = 2;

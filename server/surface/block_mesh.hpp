@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "voxel/replica.hpp"
+#include "surface/block_layout.hpp"
 
 namespace ream::surface {
 

@@ -45,7 +45,7 @@ class Welder {
   explicit Welder(const voxel::VoxelGrid& grid) : spacing_mm_(grid.spacing_mm) {}
 
   void add(const BlockMesh& block, const Vec3i& coordinates) {
-    const Vec3i origin = ((coordinates * voxel::block_edge).array() - 1) * units_per_voxel;
+    const Vec3i origin = ((coordinates * block_edge).array() - 1) * units_per_voxel;
     index_.clear();
     for (const BlockVertex& v : block.vertices) {
       const auto fresh = static_cast<uint32_t>(mesh.vertices_mm.size());
@@ -68,7 +68,7 @@ class Welder {
  private:
   static bool at_border(uint16_t position) {
     constexpr int low = units_per_voxel + units_per_voxel / 2;
-    return position == low || position == low + voxel::block_edge * units_per_voxel;
+    return position == low || position == low + block_edge * units_per_voxel;
   }
 
   Vec3 spacing_mm_;

@@ -57,7 +57,7 @@ std::vector<Triangle> block_triangles(const voxel::VoxelGrid& grid, const std::v
   for (uint32_t block = 0; block < extractor.block_count(); ++block) {
     const BlockMesh mesh = extractor.extract(coverage.data(), block);
     const Vec3i origin =
-        ((extractor.block_coordinates(block) * voxel::block_edge).array() - 1) * units_per_voxel;
+        ((extractor.block_coordinates(block) * block_edge).array() - 1) * units_per_voxel;
     for (size_t i = 0; i < mesh.indices.size(); i += 3) {
       Triangle t;
       for (size_t k = 0; k < 3; ++k) {
@@ -105,7 +105,7 @@ TEST(BlockMesh, NeighboursAgreeOnSharedVerticesAndNormals) {
   size_t shared = 0;
   for (uint32_t block = 0; block < extractor.block_count(); ++block) {
     const Vec3i origin =
-        ((extractor.block_coordinates(block) * voxel::block_edge).array() - 1) * units_per_voxel;
+        ((extractor.block_coordinates(block) * block_edge).array() - 1) * units_per_voxel;
     for (const BlockVertex& v : extractor.extract(coverage.data(), block).vertices) {
       const auto [place, fresh] =
           normals.try_emplace({origin.x() + v.x, origin.y() + v.y, origin.z() + v.z}, v.ox, v.oy);
