@@ -23,7 +23,7 @@ struct GridPositionHash {
 };
 
 std::vector<BlockMesh> extract_all(const voxel::VoxelGrid& grid, const uint8_t* coverage, int threads) {
-  const uint32_t count = BlockExtractor(grid).block_count();
+  const uint32_t count = BlockLayout(grid).count();
   std::vector<BlockMesh> meshes(count);
   std::atomic<uint32_t> next{0};
   const auto work = [&] {
@@ -90,9 +90,9 @@ TriangleMesh whole_surface(const voxel::VoxelGrid& grid, const uint8_t* coverage
   welder.mesh.vertices_mm.reserve(vertices);
   welder.mesh.normals.reserve(vertices);
   welder.mesh.triangles.reserve(triangles);
-  const BlockExtractor extractor(grid);
+  const BlockLayout layout(grid);
   for (BlockMesh& block : meshes) {
-    welder.add(block, extractor.block_coordinates(block.block));
+    welder.add(block, layout.coordinates(block.block));
     block = {};
   }
   return std::move(welder.mesh);

@@ -42,7 +42,7 @@ struct Session {
 std::map<uint32_t, Surface> expected(const voxel::BoneModel& bone) {
   surface::BlockExtractor extractor(bone.grid);
   std::map<uint32_t, Surface> result;
-  for (uint32_t block = 0; block < extractor.block_count(); ++block) {
+  for (uint32_t block = 0; block < extractor.layout().count(); ++block) {
     const surface::BlockMesh mesh = extractor.extract(bone.coverage.data(), block);
     if (!mesh.indices.empty()) result[block] = surface_of(mesh.vertices, mesh.indices);
   }
