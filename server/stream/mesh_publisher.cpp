@@ -80,13 +80,20 @@ bool MeshPublisher::due(int64_t now_ns) const {
 }
 
 void MeshPublisher::begin_update() {
+  uint8_t shown[voxel::brick_voxels];
   for (const voxel::BrickImage& image : waiting_.images()) {
+    voxel::read_brick(replica_.grid(), replica_.coverage().data(), image.brick, shown);
+    if (std::memcmp(shown, image.coverage, sizeof shown) == 0) continue;
     tick_ = std::max(tick_, image.tick);
     replica_.apply(image.brick, image.coverage);
-    const Vec3i brick = replica_.grid().brick_coordinates(image.brick);
-    surface::for_each_block(layout_, surface::blocks_touched(layout_, brick, 1), [this](uint32_t block) {
-      if (std::exchange(is_touched_[block], uint8_t{1}) == 0) to_extract_.push_back(block);
-    });
+    const Vec3i origin = replica_.grid().brick_coordinates(image.brick) * voxel::brick_edge;
+    const VoxelBox box = difference_box(shown, image.coverage);
+    surface::for_each_block(layout_,
+                            surface::blocks_touched(layout_, origin + box.low, origin + box.high, 1),
+                            [this](uint32_t block) {
+                              if (std::exchange(is_touched_[block], uint8_t{1}) == 0)
+                                to_extract_.push_back(block);
+                            });
   }
   waiting_.clear();
 }

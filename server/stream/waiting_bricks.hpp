@@ -7,6 +7,14 @@
 
 namespace ream::stream {
 
+/// Voxels of a brick, low to high along each axis.
+struct VoxelBox {
+  Vec3i low, high;
+};
+
+/// The box around the voxels, at least one, in which two images of a brick differ; within the brick.
+VoxelBox difference_box(const uint8_t* a, const uint8_t* b);
+
 /// Newest images of bricks whose change viewers have not been shown yet, each brick once. Takes memory for
 /// those only.
 class WaitingBricks {

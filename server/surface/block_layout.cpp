@@ -10,14 +10,12 @@ Vec3i BlockLayout::coordinates(uint32_t block) const {
   return {i % block_dims.x(), (i / block_dims.x()) % block_dims.y(), i / (block_dims.x() * block_dims.y())};
 }
 
-BlockRange blocks_touched(const BlockLayout& layout, const Vec3i& brick, int stride) {
+BlockRange blocks_touched(const BlockLayout& layout, const Vec3i& low, const Vec3i& high, int stride) {
   const int reach = reach_voxels(stride);
-  const Vec3i low = (brick * voxel::brick_edge).array() - reach;
-  const Vec3i high = (brick * voxel::brick_edge).array() + (voxel::brick_edge - 1 + reach);
   const auto block_of = [&](const Vec3i& voxel) -> Vec3i {
     return voxel.cwiseMax(0).cwiseMin(layout.grid_dims - Vec3i::Ones()) / block_edge;
   };
-  return {block_of(low), block_of(high)};
+  return {block_of(low.array() - reach), block_of(high.array() + reach)};
 }
 
 }  // namespace ream::surface

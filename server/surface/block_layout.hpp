@@ -31,8 +31,8 @@ struct BlockRange {
 /// and gradients reach two out; coarse samples look at their neighbours as well (coarse.hpp).
 constexpr int reach_voxels(int stride) { return stride == 1 ? 2 : 3 * stride; }
 
-/// Blocks whose surface at that stride may change with the brick's coverage.
-BlockRange blocks_touched(const BlockLayout& layout, const Vec3i& brick, int stride);
+/// Blocks whose surface at that stride may change with the coverage of the voxels low to high.
+BlockRange blocks_touched(const BlockLayout& layout, const Vec3i& low, const Vec3i& high, int stride);
 
 template <typename Visit>
 void for_each_block(const BlockLayout& layout, const BlockRange& range, Visit visit) {
