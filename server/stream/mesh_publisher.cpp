@@ -50,7 +50,7 @@ size_t MeshPublisher::poll(int64_t now_ns) {
     begin_update();
   }
   last_work_ns_ = now_ns;
-  extract(options_.max_blocks);
+  extract(options_.max_surfaces);
   return next_ == to_extract_.size() ? publish_ready() : 0;
 }
 
@@ -67,11 +67,7 @@ size_t MeshPublisher::flush(int64_t now_ns) {
 
 void MeshPublisher::drain(int64_t now_ns) {
   voxel::BrickImage image;
-  uint8_t shown[voxel::brick_voxels];
-  while (ring_.try_pop(image)) {
-    voxel::read_brick(replica_.grid(), replica_.coverage().data(), image.brick, shown);
-    waiting_.put(image, shown, now_ns);
-  }
+  while (ring_.try_pop(image)) waiting_.put(image, replica_.brick(image.brick), now_ns);
 }
 
 bool MeshPublisher::due(int64_t now_ns) const {
@@ -80,14 +76,13 @@ bool MeshPublisher::due(int64_t now_ns) const {
 }
 
 void MeshPublisher::begin_update() {
-  uint8_t shown[voxel::brick_voxels];
   for (const voxel::BrickImage& image : waiting_.images()) {
-    voxel::read_brick(replica_.grid(), replica_.coverage().data(), image.brick, shown);
-    if (std::memcmp(shown, image.coverage, sizeof shown) == 0) continue;
+    const uint8_t* shown = replica_.brick(image.brick);
+    if (std::memcmp(shown, image.coverage, voxel::brick_voxels) == 0) continue;
+    const VoxelBox box = difference_box(shown, image.coverage);
     tick_ = std::max(tick_, image.tick);
     replica_.apply(image.brick, image.coverage);
     const Vec3i origin = replica_.grid().brick_coordinates(image.brick) * voxel::brick_edge;
-    const VoxelBox box = difference_box(shown, image.coverage);
     surface::for_each_block(layout_,
                             surface::blocks_touched(layout_, origin + box.low, origin + box.high, 1),
                             [this](uint32_t block) {
@@ -98,13 +93,13 @@ void MeshPublisher::begin_update() {
   waiting_.clear();
 }
 
-void MeshPublisher::extract(size_t most_blocks) {
-  const size_t end = std::min(next_ + most_blocks, to_extract_.size());
-  for (; next_ < end; ++next_) {
+void MeshPublisher::extract(size_t most_surfaces) {
+  for (size_t surfaces = 0; next_ < to_extract_.size() && surfaces < most_surfaces; ++next_) {
     const uint32_t block = to_extract_[next_];
     is_touched_[block] = 0;
     const surface::BlockMesh mesh = extractor_.extract(replica_.coverage().data(), block);
     const uint64_t hash = surface_hash(mesh);
+    surfaces += hash != 0;
     if (hash == std::exchange(shown_[block], hash)) continue;
     ready_.push_back(std::make_shared<const EncodedBlock>(encode(mesh, ++revision_[block], tick_)));
   }

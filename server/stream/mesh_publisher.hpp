@@ -13,13 +13,13 @@ struct MeshPublisherOptions {
   int noticeable_coverage = 64;  ///< levels that a voxel must change to show at once: 1/4 voxel of surface
   int64_t max_delay_ns = 250'000'000;    ///< smaller changes show after this
   int64_t min_interval_ns = 30'000'000;  ///< between two pieces of work, so that others get their turn
-  size_t max_blocks = 32;                ///< extracted by one piece of work
+  size_t max_surfaces = 24;              ///< blocks that hold any, extracted by one piece of work
 };
 
 /// Follows the bone through the brick ring and publishes the surface of what changed. Changed bricks wait
 /// beside the replica until one of their voxels is noticeable_coverage levels away from what viewers hold, or
 /// until the first has waited for max_delay_ns. Then all that wait enter the replica, the blocks whose surface
-/// depends on them are extracted, max_blocks at a time, and when the last is ready those that differ from
+/// depends on them are extracted, max_surfaces at a time, and when the last is ready those that differ from
 /// what viewers hold are published together. So viewers always hold the surface of one coverage, closed and
 /// with borders equal to the bit. Used by one thread.
 class MeshPublisher {
@@ -44,7 +44,7 @@ class MeshPublisher {
   void drain(int64_t now_ns);
   bool due(int64_t now_ns) const;
   void begin_update();
-  void extract(size_t most_blocks);
+  void extract(size_t most_surfaces);
   size_t publish_ready();
 
   voxel::Replica replica_;

@@ -6,6 +6,7 @@
 #include <emmintrin.h>
 #endif
 
+#include "surface/brick_fill.hpp"
 #include "surface/coarse.hpp"
 
 namespace ream::surface {
@@ -49,10 +50,13 @@ bool BlockVolume::load(const uint8_t* coverage, const Vec3i& block) {
   const Vec3i first(margin_x, margin, margin);
   low_ = (block.array() == 0).select(first.array() - 1, first.array());
   last_ = first.array() + cells();
-  if (stride_ == 1)
+  if (stride_ == 1) {
+    const auto fill_at = [&](uint32_t brick) { return fill_of(coverage + size_t{brick} * voxel::brick_voxels); };
+    if (!may_hold_surface(grid_, block, fill_at)) return false;
     load_voxels(coverage, block);
-  else
+  } else {
     load_coarse(coverage, block);
+  }
   return find_filled();
 }
 

@@ -4,8 +4,8 @@
 #include <atomic>
 #include <thread>
 
-#include "core/vector_clones.hpp"
 #include "surface/block_mesh.hpp"
+#include "surface/brick_fill.hpp"
 #include "surface/octahedral.hpp"
 
 namespace ream::surface {
@@ -24,18 +24,6 @@ void in_parallel(uint32_t count, int threads, MakeWork make_work) {
   run();
 }
 
-enum class Fill : uint8_t { none, all, some };
-
-/// Which voxels of a brick are filled.
-REAM_VECTOR_CLONES Fill fill_of(const uint8_t* brick) {
-  uint8_t any = 0, all = 0xff;
-  for (int i = 0; i < voxel::brick_voxels; ++i) {
-    any |= brick[i];
-    all &= brick[i];
-  }
-  return (any & 0x80) == 0 ? Fill::none : (all & 0x80) != 0 ? Fill::all : Fill::some;
-}
-
 std::vector<Fill> fills(const voxel::VoxelGrid& grid, const uint8_t* coverage, int threads) {
   std::vector<Fill> result(grid.brick_count());
   const auto row = static_cast<uint32_t>(grid.brick_dims().x());
@@ -46,23 +34,6 @@ std::vector<Fill> fills(const voxel::VoxelGrid& grid, const uint8_t* coverage, i
     };
   });
   return result;
-}
-
-/// False only where the block cannot hold a surface: its bricks and those after them, whose first voxels its
-/// cells reach, are all empty or all full. Outside the grid is empty.
-bool may_hold_surface(const voxel::VoxelGrid& grid, const std::vector<Fill>& bricks, const Vec3i& block) {
-  constexpr int edge = block_edge / voxel::brick_edge;
-  const Vec3i low = block * edge, high = low.array() + edge, dims = grid.brick_dims();
-  const bool at_border = (low.array() == 0).any() || (high.array() >= dims.array()).any();
-  const Vec3i last = high.cwiseMin(dims - Vec3i::Ones());
-  const Fill first = at_border ? Fill::none : bricks[grid.brick_index(low)];
-  for (int z = low.z(); z <= last.z(); ++z)
-    for (int y = low.y(); y <= last.y(); ++y)
-      for (int x = low.x(); x <= last.x(); ++x) {
-        const Fill fill = bricks[grid.brick_index({x, y, z})];
-        if (fill == Fill::some || fill != first) return true;
-      }
-  return false;
 }
 
 /// Sets of axes as bits 0 to 2.
@@ -140,7 +111,8 @@ TriangleMesh whole_surface(const voxel::VoxelGrid& grid, const uint8_t* coverage
   std::vector<Part> parts(layout.count());
   in_parallel(layout.count(), threads, [&] {
     return [&, extractor = BlockExtractor(grid)](uint32_t block) mutable {
-      if (!may_hold_surface(grid, bricks, layout.coordinates(block))) return;
+      const auto fill_at = [&](uint32_t brick) { return bricks[brick]; };
+      if (!may_hold_surface(grid, layout.coordinates(block), fill_at)) return;
       parts[block].mesh = extractor.extract(coverage, block);
       count_owned(parts[block]);
     };

@@ -15,6 +15,8 @@ class Replica {
     write_brick(grid_, coverage_.data(), brick, image);
   }
 
+  /// The brick's coverage, brick_voxels bytes, x fastest.
+  const uint8_t* brick(uint32_t index) const { return coverage_.data() + size_t{index} * brick_voxels; }
   const VoxelGrid& grid() const { return grid_; }
   const std::vector<uint8_t>& coverage() const { return coverage_; }
 
