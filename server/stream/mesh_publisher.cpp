@@ -81,7 +81,7 @@ void MeshPublisher::begin_update() {
     if (std::memcmp(shown, image.coverage, voxel::brick_voxels) == 0) continue;
     const VoxelBox box = difference_box(shown, image.coverage);
     tick_ = std::max(tick_, image.tick);
-    replica_.apply(image.brick, image.coverage);
+    replica_.apply(image);
     const Vec3i origin = replica_.grid().brick_coordinates(image.brick) * voxel::brick_edge;
     surface::for_each_block(layout_,
                             surface::blocks_touched(layout_, origin + box.low, origin + box.high, 1),

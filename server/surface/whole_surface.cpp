@@ -44,8 +44,9 @@ struct Layers {
   size_t first = 0, behind = 0;
 };
 
-Layers layers_of(const BlockVertex& v) {
-  constexpr int first = units_per_voxel + units_per_voxel / 2, behind = first + block_edge * units_per_voxel;
+Layers layers_of(const BlockVertex& v, int stride) {
+  const int first = units_per_voxel + stride * units_per_voxel / 2;
+  const int behind = first + block_edge * units_per_voxel;
   const auto set = [&](int at) {
     return static_cast<size_t>((v.x == at) | (v.y == at) << 1 | (v.z == at) << 2);
   };
@@ -63,9 +64,9 @@ struct Part {
   std::array<std::vector<uint32_t>, axis_sets> lent;  ///< by set of axes: which of the owned vertices
 };
 
-void count_owned(Part& part) {
+void count_owned(Part& part, int stride) {
   for (const BlockVertex& v : part.mesh.vertices) {
-    const Layers layers = layers_of(v);
+    const Layers layers = layers_of(v, stride);
     if (layers.behind != 0) continue;
     if (layers.first != 0)
       for (size_t set = 1; set < axis_sets; ++set)
@@ -75,8 +76,8 @@ void count_owned(Part& part) {
 }
 
 /// Writes the part into the whole, whose arrays have their sizes already.
-void join(const BlockLayout& layout, const Vec3& spacing_mm, const std::vector<Part>& parts, const Part& part,
-          TriangleMesh& whole) {
+void join(const BlockLayout& layout, const Vec3& spacing_mm, int stride, const std::vector<Part>& parts,
+          const Part& part, TriangleMesh& whole) {
   const Vec3i block = layout.coordinates(part.mesh.block);
   std::array<const Part*, axis_sets> owner{};
   std::array<size_t, axis_sets> borrowed{};
@@ -84,7 +85,7 @@ void join(const BlockLayout& layout, const Vec3& spacing_mm, const std::vector<P
   std::vector<uint32_t> number;
   number.reserve(part.mesh.vertices.size());
   for (const BlockVertex& v : part.mesh.vertices) {
-    const size_t set = layers_of(v).behind;
+    const size_t set = layers_of(v, stride).behind;
     if (set != 0) {
       if (owner[set] == nullptr)
         owner[set] = &parts[layout.index(block + Vec3i(set & 1, set >> 1 & 1, set >> 2 & 1))];
@@ -103,18 +104,19 @@ void join(const BlockLayout& layout, const Vec3& spacing_mm, const std::vector<P
 
 }  // namespace
 
-TriangleMesh whole_surface(const voxel::VoxelGrid& grid, const uint8_t* coverage, int threads) {
+TriangleMesh whole_surface(const voxel::VoxelGrid& grid, const uint8_t* coverage, int threads, int stride) {
   validate(grid);
   threads = std::max(1, threads);
   const BlockLayout layout(grid);
+  const BlockExtractor checks_stride(grid, stride);  // here, where an Error can be caught
   const std::vector<Fill> bricks = fills(grid, coverage, threads);
   std::vector<Part> parts(layout.count());
   in_parallel(layout.count(), threads, [&] {
-    return [&, extractor = BlockExtractor(grid)](uint32_t block) mutable {
+    return [&, extractor = BlockExtractor(grid, stride)](uint32_t block) mutable {
       const auto fill_at = [&](uint32_t brick) { return bricks[brick]; };
       if (!may_hold_surface(grid, layout.coordinates(block), fill_at)) return;
       parts[block].mesh = extractor.extract(coverage, block);
-      count_owned(parts[block]);
+      count_owned(parts[block], stride);
     };
   });
   size_t vertices = 0, triangles = 0;
@@ -129,7 +131,7 @@ TriangleMesh whole_surface(const voxel::VoxelGrid& grid, const uint8_t* coverage
   whole.normals.resize(vertices);
   whole.triangles.resize(triangles);
   in_parallel(layout.count(), threads, [&] {
-    return [&](uint32_t block) { join(layout, grid.spacing_mm, parts, parts[block], whole); };
+    return [&](uint32_t block) { join(layout, grid.spacing_mm, stride, parts, parts[block], whole); };
   });
   return whole;
 }

@@ -11,8 +11,8 @@ class Replica {
   /// Copies the coverage as it is before the first tick.
   explicit Replica(const BoneModel& bone) : grid_(bone.grid), coverage_(bone.coverage) {}
 
-  void apply(uint32_t brick, const uint8_t* image) noexcept {
-    write_brick(grid_, coverage_.data(), brick, image);
+  void apply(const BrickImage& image) noexcept {
+    write_brick(grid_, coverage_.data(), image.brick, image.coverage);
   }
 
   /// The brick's coverage, brick_voxels bytes, x fastest.

@@ -1,8 +1,9 @@
 #pragma once
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <random>
 #include <vector>
 
@@ -48,32 +49,45 @@ inline std::vector<uint8_t> noise(const voxel::VoxelGrid& grid, unsigned seed) {
 
 struct Topology {
   bool closed = true;              ///< each directed edge once, and its opposite once
-  bool one_fan_per_vertex = true;  ///< triangles around each vertex form one ring
+  bool one_fan_per_vertex = true;  ///< triangles around each vertex form one ring; every vertex is used
   int64_t euler = 0;               ///< V - E + F
 };
 
 inline Topology topology(size_t vertex_count, const std::vector<std::array<uint32_t, 3>>& triangles) {
   Topology result;
-  std::map<std::pair<uint32_t, uint32_t>, uint32_t> opposite;  // directed edge to the triangle's third vertex
-  std::vector<uint32_t> corners(vertex_count);
-  std::vector<uint32_t> some_neighbour(vertex_count);
+  using DirectedEdge = std::pair<uint64_t, uint32_t>;  // from and to, and the triangle's third vertex
+  std::vector<DirectedEdge> edges;
+  std::vector<uint32_t> corners(vertex_count), some_neighbour(vertex_count);
+  const auto key = [](uint32_t from, uint32_t to) { return uint64_t{from} << 32 | to; };
   for (const auto& t : triangles)
     for (size_t i = 0; i < 3; ++i) {
-      if (!opposite.try_emplace({t[i], t[(i + 1) % 3]}, t[(i + 2) % 3]).second) result.closed = false;
+      edges.emplace_back(key(t[i], t[(i + 1) % 3]), t[(i + 2) % 3]);
       ++corners[t[i]];
       some_neighbour[t[i]] = t[(i + 1) % 3];
     }
-  for (const auto& [directed, third] : opposite)
-    if (!opposite.contains({directed.second, directed.first})) result.closed = false;
+  std::sort(edges.begin(), edges.end());
+  const auto find = [&](uint32_t from, uint32_t to) {
+    const auto place = std::lower_bound(edges.begin(), edges.end(), DirectedEdge{key(from, to), 0});
+    return place != edges.end() && place->first == key(from, to) ? &*place : nullptr;
+  };
+  for (size_t i = 0; i < edges.size(); ++i) {
+    const auto from = static_cast<uint32_t>(edges[i].first >> 32), to = static_cast<uint32_t>(edges[i].first);
+    if (i > 0 && edges[i - 1].first == edges[i].first) result.closed = false;
+    if (find(to, from) == nullptr) result.closed = false;
+  }
   for (uint32_t v = 0; result.closed && v < vertex_count; ++v) {
+    if (corners[v] == 0) {
+      result.one_fan_per_vertex = false;
+      continue;
+    }
     uint32_t ring = 0, neighbour = some_neighbour[v];
     do {
-      neighbour = opposite.at({v, neighbour});
+      neighbour = find(v, neighbour)->second;
       ++ring;
     } while (neighbour != some_neighbour[v] && ring <= corners[v]);
     if (ring != corners[v]) result.one_fan_per_vertex = false;
   }
-  result.euler = static_cast<int64_t>(vertex_count) - static_cast<int64_t>(opposite.size() / 2) +
+  result.euler = static_cast<int64_t>(vertex_count) - static_cast<int64_t>(edges.size() / 2) +
                  static_cast<int64_t>(triangles.size());
   return result;
 }
