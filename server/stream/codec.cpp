@@ -30,11 +30,12 @@ std::vector<std::byte> encoded(size_t bound, Encode encode) {
 
 }  // namespace
 
-EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t tick) {
+EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t tick, int stride) {
   EncodedBlock result;
   result.block = mesh.block;
   result.revision = revision;
   result.tick = tick;
+  result.stride = stride;
   if (mesh.indices.empty()) return result;
   choose_formats_once();
 

@@ -1,6 +1,7 @@
 #include "stream/mesh_publisher.hpp"
 
 #include <algorithm>
+#include <climits>
 #include <cstring>
 #include <utility>
 
@@ -23,43 +24,51 @@ uint64_t surface_hash(const surface::BlockMesh& mesh) {
 
 }  // namespace
 
+MeshPublisher::Level::Level(const voxel::VoxelGrid& grid, int stride_voxels)
+    : stride(stride_voxels),
+      extractor(grid, stride),
+      revision(extractor.layout().count()),
+      shown(extractor.layout().count()),
+      is_touched(extractor.layout().count()) {}
+
+void MeshPublisher::Level::touch(uint32_t block) {
+  if (std::exchange(is_touched[block], uint8_t{1}) == 0) to_extract.push_back(block);
+}
+
 MeshPublisher::MeshPublisher(const voxel::BoneModel& bone, voxel::BrickRing& ring, Fanout& fanout,
                              MeshPublisherOptions options)
-    : replica_(bone),
-      ring_(ring),
-      fanout_(fanout),
-      options_(options),
-      layout_(bone.grid),
-      extractor_(bone.grid),
-      revision_(layout_.count()),
-      shown_(layout_.count()),
-      is_touched_(layout_.count()) {}
+    : replica_(bone), ring_(ring), fanout_(fanout), options_(options), layout_(bone.grid) {
+  for (const int stride : {1, 2, 4}) levels_.emplace_back(bone.grid, stride);
+}
 
 void MeshPublisher::publish_all() {
-  for (uint32_t block = 0; block < layout_.count(); ++block) to_extract_.push_back(block);
-  extract(to_extract_.size());
+  Level& full = levels_.front();
+  for (uint32_t block = 0; block < layout_.count(); ++block) full.touch(block);
+  full.picture = Level::Picture::begun;
+  extract(INT_MAX);
   publish_ready();
-  fanout_.publish_picture_complete();
 }
 
 size_t MeshPublisher::poll(int64_t now_ns) {
   drain(now_ns);
   if (now_ns - last_work_ns_ < options_.min_interval_ns) return 0;
-  if (to_extract_.empty()) {
-    if (!due(now_ns)) return 0;
-    begin_update();
+  if (!extracting()) {
+    begin_pictures();
+    if (due(now_ns)) begin_update();
+    if (!extracting()) return 0;
   }
   last_work_ns_ = now_ns;
   extract(options_.max_surfaces);
-  return next_ == to_extract_.size() ? publish_ready() : 0;
+  return extracting() ? 0 : publish_ready();
 }
 
 size_t MeshPublisher::flush(int64_t now_ns) {
   drain(now_ns);
-  extract(to_extract_.size());
+  extract(INT_MAX);
   size_t published = publish_ready();
+  begin_pictures();
   begin_update();
-  extract(to_extract_.size());
+  extract(INT_MAX);
   published += publish_ready();
   last_work_ns_ = now_ns;
   return published;
@@ -75,6 +84,19 @@ bool MeshPublisher::due(int64_t now_ns) const {
                                now_ns - waiting_.since_ns() >= options_.max_delay_ns);
 }
 
+bool MeshPublisher::extracting() const {
+  return std::any_of(levels_.begin(), levels_.end(),
+                     [](const Level& level) { return level.next < level.to_extract.size(); });
+}
+
+void MeshPublisher::begin_pictures() {
+  for (Level& level : levels_) {
+    if (level.picture != Level::Picture::unwanted || !fanout_.wants(level.stride)) continue;
+    level.picture = Level::Picture::begun;
+    for (uint32_t block = 0; block < layout_.count(); ++block) level.touch(block);
+  }
+}
+
 void MeshPublisher::begin_update() {
   for (const voxel::BrickImage& image : waiting_.images()) {
     const uint8_t* shown = replica_.brick(image.brick);
@@ -83,34 +105,43 @@ void MeshPublisher::begin_update() {
     tick_ = std::max(tick_, image.tick);
     replica_.apply(image);
     const Vec3i origin = replica_.grid().brick_coordinates(image.brick) * voxel::brick_edge;
-    surface::for_each_block(layout_,
-                            surface::blocks_touched(layout_, origin + box.low, origin + box.high, 1),
-                            [this](uint32_t block) {
-                              if (std::exchange(is_touched_[block], uint8_t{1}) == 0)
-                                to_extract_.push_back(block);
-                            });
+    for (Level& level : levels_) {
+      if (level.picture == Level::Picture::unwanted) continue;
+      const auto range =
+          surface::blocks_touched(layout_, origin + box.low, origin + box.high, level.stride);
+      surface::for_each_block(layout_, range, [&level](uint32_t block) { level.touch(block); });
+    }
   }
   waiting_.clear();
 }
 
-void MeshPublisher::extract(size_t most_surfaces) {
-  for (size_t surfaces = 0; next_ < to_extract_.size() && surfaces < most_surfaces; ++next_) {
-    const uint32_t block = to_extract_[next_];
-    is_touched_[block] = 0;
-    const surface::BlockMesh mesh = extractor_.extract(replica_.coverage().data(), block);
-    const uint64_t hash = surface_hash(mesh);
-    surfaces += hash != 0;
-    if (hash == std::exchange(shown_[block], hash)) continue;
-    ready_.push_back(std::make_shared<const EncodedBlock>(encode(mesh, ++revision_[block], tick_)));
-  }
+void MeshPublisher::extract(int most_surfaces) {
+  constexpr int whole = 16;  // what a surface of stride 1 costs; triangles go with the stride's square
+  int64_t left = int64_t{most_surfaces} * whole;
+  for (Level& level : levels_)
+    for (; level.next < level.to_extract.size() && left > 0; ++level.next) {
+      const uint32_t block = level.to_extract[level.next];
+      level.is_touched[block] = 0;
+      const surface::BlockMesh mesh = level.extractor.extract(replica_.coverage().data(), block);
+      const uint64_t hash = surface_hash(mesh);
+      if (hash != 0) left -= whole / (level.stride * level.stride);
+      if (hash == std::exchange(level.shown[block], hash)) continue;
+      ready_.push_back(
+          std::make_shared<const EncodedBlock>(encode(mesh, ++level.revision[block], tick_, level.stride)));
+    }
 }
 
 size_t MeshPublisher::publish_ready() {
   for (SharedBlock& block : ready_) fanout_.publish_block(std::move(block));
   const size_t published = ready_.size();
   ready_.clear();
-  to_extract_.clear();
-  next_ = 0;
+  for (Level& level : levels_) {
+    level.to_extract.clear();
+    level.next = 0;
+    if (level.picture != Level::Picture::begun) continue;
+    level.picture = Level::Picture::complete;
+    fanout_.publish_picture_complete(level.stride);
+  }
   return published;
 }
 

@@ -13,7 +13,7 @@ struct MeshPublisherOptions {
   int noticeable_coverage = 64;  ///< levels that a voxel must change to show at once: 1/4 voxel of surface
   int64_t max_delay_ns = 250'000'000;    ///< smaller changes show after this
   int64_t min_interval_ns = 30'000'000;  ///< between two pieces of work, so that others get their turn
-  size_t max_surfaces = 24;              ///< blocks that hold any, extracted by one piece of work
+  int max_surfaces = 24;  ///< blocks that hold any, extracted by one piece of work; coarse ones count less
 };
 
 /// Follows the bone through the brick ring and publishes the surface of what changed. Changed bricks wait
@@ -21,7 +21,8 @@ struct MeshPublisherOptions {
 /// until the first has waited for max_delay_ns. Then all that wait enter the replica, the blocks whose surface
 /// depends on them are extracted, max_surfaces at a time, and when the last is ready those that differ from
 /// what viewers hold are published together. So viewers always hold the surface of one coverage, closed and
-/// with borders equal to the bit. Used by one thread.
+/// with borders equal to the bit. The same holds at the coarser strides, which are extracted from when the
+/// first viewer asks for them. Used by one thread.
 class MeshPublisher {
  public:
   /// `bone` as it is before the first tick; its coverage is copied here.
@@ -41,10 +42,29 @@ class MeshPublisher {
   const voxel::Replica& replica() const { return replica_; }
 
  private:
+  /// The surface at one stride.
+  struct Level {
+    Level(const voxel::VoxelGrid& grid, int stride_voxels);
+
+    int stride;
+    surface::BlockExtractor extractor;
+    enum class Picture { unwanted, begun, complete } picture = Picture::unwanted;
+    std::vector<uint32_t> revision;    ///< per block
+    std::vector<uint64_t> shown;       ///< per block: hash of the surface that viewers hold, 0 for none
+    std::vector<uint32_t> to_extract;  ///< blocks of the update in progress, from `next` on
+    size_t next = 0;
+    std::vector<uint8_t> is_touched;  ///< per block: in to_extract
+    void touch(uint32_t block);
+  };
+
   void drain(int64_t now_ns);
   bool due(int64_t now_ns) const;
+  bool extracting() const;
+  /// The first picture of strides that a viewer has come to ask for.
+  void begin_pictures();
   void begin_update();
-  void extract(size_t most_surfaces);
+  /// What counts is a surface of stride 1.
+  void extract(int most_surfaces);
   size_t publish_ready();
 
   voxel::Replica replica_;
@@ -52,17 +72,12 @@ class MeshPublisher {
   Fanout& fanout_;
   const MeshPublisherOptions options_;
   surface::BlockLayout layout_;
-  surface::BlockExtractor extractor_;
+  std::vector<Level> levels_;  ///< of strides 1, 2, 4
   WaitingBricks waiting_;
-  std::vector<uint32_t> revision_;  ///< per block
-  std::vector<uint64_t> shown_;     ///< per block: hash of the surface that viewers hold, 0 for none
   uint32_t tick_ = 0;
   int64_t last_work_ns_ = INT64_MIN / 2;
 
-  std::vector<uint32_t> to_extract_;  ///< blocks of the update in progress, from next_ on
-  size_t next_ = 0;
-  std::vector<SharedBlock> ready_;
-  std::vector<uint8_t> is_touched_;  ///< per block
+  std::vector<SharedBlock> ready_;  ///< of the update in progress
 };
 
 }  // namespace ream::stream

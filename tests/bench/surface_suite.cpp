@@ -30,9 +30,10 @@ class Collector final : public stream::Fanout {
  public:
   void publish_hello(stream::Message) override {}
   void publish_block(stream::SharedBlock block) override { blocks.push_back(std::move(block)); }
-  void publish_picture_complete() override {}
+  void publish_picture_complete(int) override {}
   void publish_telemetry(stream::SharedTelemetry) override {}
-  std::shared_ptr<stream::Mailbox> subscribe(std::function<void()>) override { return nullptr; }
+  bool wants(int) const override { return false; }
+  std::shared_ptr<stream::Mailbox> subscribe(std::function<void()>, int) override { return nullptr; }
 
   std::vector<stream::SharedBlock> blocks;
 };

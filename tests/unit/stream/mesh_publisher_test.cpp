@@ -39,8 +39,9 @@ struct Session {
 };
 
 /// What a viewer should hold, extracted from scratch.
-std::map<uint32_t, Surface> expected(const voxel::VoxelGrid& grid, const std::vector<uint8_t>& coverage) {
-  surface::BlockExtractor extractor(grid);
+std::map<uint32_t, Surface> expected(const voxel::VoxelGrid& grid, const std::vector<uint8_t>& coverage,
+                                     int stride = 1) {
+  surface::BlockExtractor extractor(grid, stride);
   std::map<uint32_t, Surface> result;
   for (uint32_t block = 0; block < extractor.layout().count(); ++block) {
     const surface::BlockMesh mesh = extractor.extract(coverage.data(), block);
@@ -59,7 +60,7 @@ TEST(MeshPublisher, FirstPictureIsTheWholeSurface) {
   Session s;
   MeshPublisher publisher(s.bone, s.ring, s.fanout);
   publisher.publish_all();
-  const auto mailbox = s.fanout.subscribe({});
+  const auto mailbox = s.fanout.subscribe({}, 1);
   Viewer viewer;
   viewer.pull(*mailbox);
   EXPECT_EQ(viewer.key_completes, 1);
@@ -73,7 +74,7 @@ TEST(MeshPublisher, RandomRemovalEndsWithTheSurfaceOfTheBone) {
   Session s;
   MeshPublisher publisher(s.bone, s.ring, s.fanout);
   publisher.publish_all();
-  const auto mailbox = s.fanout.subscribe({});
+  const auto mailbox = s.fanout.subscribe({}, 1);
   Viewer viewer;
   int64_t now = 0;
   for (int step = 0; step < 400; ++step, now += ms) {
@@ -106,7 +107,7 @@ TEST(MeshPublisher, ViewersAlwaysHoldTheSurfaceOfOneCoverage) {
   options.max_surfaces = 2;  // so that updates take several polls while removal goes on
   MeshPublisher publisher(s.bone, s.ring, s.fanout, options);
   publisher.publish_all();
-  const auto mailbox = s.fanout.subscribe({});
+  const auto mailbox = s.fanout.subscribe({}, 1);
   Viewer viewer;
   viewer.pull(*mailbox);
   std::map<uint32_t, Surface> shown = held(viewer);
@@ -155,6 +156,43 @@ TEST(MeshPublisher, LargeChangesShowAtOnceSmallOnesLater) {
   EXPECT_GT(publisher.poll(now + 30 * ms), 0u);
 }
 
+TEST(MeshPublisher, CoarseViewersGetTheirOwnPictureFromTheirArrivalOn) {
+  const unsigned seed = std::random_device{}();
+  std::cout << "seed " << seed << "\n";
+  std::mt19937 random(seed);
+  Session s;
+  MeshPublisherOptions options;
+  options.max_surfaces = 2;
+  MeshPublisher publisher(s.bone, s.ring, s.fanout, options);
+  publisher.publish_all();
+  std::map<int, std::shared_ptr<Mailbox>> mailboxes;
+  std::map<int, Viewer> viewers;
+  int64_t now = 0;
+  for (int step = 0; step < 200; ++step, now += 31 * ms) {
+    if (step == 20) mailboxes[4] = s.fanout.subscribe({}, 4);
+    if (step == 40) mailboxes[1] = s.fanout.subscribe({}, 1);
+    if (step == 60) mailboxes[2] = s.fanout.subscribe({}, 2);
+    const Vec3i voxel(static_cast<int>(random() % 96), static_cast<int>(random() % 64),
+                      static_cast<int>(random() % 64));
+    s.set(voxel, 0);
+    s.end_tick();
+    const bool shown = publisher.poll(now) > 0;
+    for (auto& [stride, mailbox] : mailboxes) {
+      viewers[stride].pull(*mailbox);
+      if (shown && viewers[stride].key_completes == 1) {
+        ASSERT_TRUE(held(viewers[stride]) == expected(s.bone.grid, publisher.replica().coverage(), stride))
+            << "seed " << seed << ", step " << step << ", stride " << stride;
+      }
+    }
+  }
+  publisher.flush(now);
+  for (auto& [stride, mailbox] : mailboxes) {
+    viewers[stride].pull(*mailbox);
+    EXPECT_EQ(viewers[stride].key_completes, 1) << stride;
+    EXPECT_TRUE(held(viewers[stride]) == expected(s.bone.grid, s.bone.coverage, stride)) << stride;
+  }
+}
+
 TEST(MeshPublisher, BlocksWhoseSurfaceStaysAreNotSent) {
   Session s;
   MeshPublisher publisher(s.bone, s.ring, s.fanout);
@@ -169,7 +207,7 @@ TEST(MeshPublisher, CreepAddsUpAndUnchangedBricksAreNotSent) {
   Session s;
   MeshPublisher publisher(s.bone, s.ring, s.fanout);
   publisher.publish_all();
-  const auto mailbox = s.fanout.subscribe({});
+  const auto mailbox = s.fanout.subscribe({}, 1);
   Viewer viewer;
   viewer.pull(*mailbox);
   const Vec3i at_surface(66, 32, 32);
@@ -197,7 +235,7 @@ TEST(MeshPublisher, ABlockThatLosesItsLastSurfaceIsToldEmptyOnce) {
   s.bone.coverage[s.bone.grid.index(lonely)] = 255;
   MeshPublisher publisher(s.bone, s.ring, s.fanout);
   publisher.publish_all();
-  const auto mailbox = s.fanout.subscribe({});
+  const auto mailbox = s.fanout.subscribe({}, 1);
   Viewer viewer;
   viewer.pull(*mailbox);
   EXPECT_EQ(viewer.blocks.size(), 1u);
