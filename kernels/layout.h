@@ -31,31 +31,44 @@ struct AffineArguments {
   float t[3];
 };
 
-// Narrow phase: one work-group's sums, 64-bit. For the cutting points, then for the others: seven rows of eight products
-// w g_i g_j (g of collide/contact_shell.hpp, row 6 holds the first moments), then the counts.
-#define REAM_CONTACT_PART_SUMS 56
-#define REAM_CONTACT_CUTTING 0
-#define REAM_CONTACT_GUIDING 56
-#define REAM_CONTACT_CUTTING_POINTS 112
-#define REAM_CONTACT_GUIDING_POINTS 113
-#define REAM_CONTACT_CLASS_POINTS 114
-#define REAM_CONTACT_CLASS_DENSITY 117
-#define REAM_CONTACT_SUMS 120
-// Points that one work-item decodes at once; the probe arrays are padded by as many.
+// Narrow phase (collide/contact_shell.hpp, contact_direction.hpp, contact_sums.hpp). A work-group's sums, 64-bit: products
+// and points of the cutting, then of the guiding blocks, then points and densities by class, then the depth key.
+#define REAM_CONTACT_PRODUCTS 21
+#define REAM_CONTACT_PART_SUMS 22
+#define REAM_CONTACT_CLASS_POINTS 44
+#define REAM_CONTACT_CLASS_DENSITY 47
+#define REAM_CONTACT_DEEPEST 50
+#define REAM_CONTACT_SUMS 51
+// Points of a chunk; a work-item of a processor takes them at once. Places and directions are padded by as many.
 #define REAM_CONTACT_CHUNK 16
-// Longest run of points between two additions to the 64-bit sums; 512 points of weight 28 and components 127 stay below 2^31.
-#define REAM_CONTACT_RUN 512
-#define REAM_ENGAGING_COVERAGE 128
-#define REAM_OCCUPANCY_EDGE 4
+#define REAM_PLACE_BITS 9
+#define REAM_AZIMUTH_BITS 10
+#define REAM_AZIMUTH_SHIFT 14
+#define REAM_SOLID_COVERAGE 128
+#define REAM_CARTILAGE_CODE 255
 
 struct ContactArguments {
-  struct AffineArguments voxel_from_tool;
-  ream_int32 dims_x, dims_y, dims_z;
-  ream_uint32 survivors;
+  ream_int32 per_unit[9];  // VoxelTransform
+  ream_int32 bits;
+  ream_int32 dims[3];
+  ream_int32 brick_row, brick_slice;
+  ream_int32 first_cortical_code;
+  ream_uint32 chunks;
 };
 
-struct ContactBlock {
-  ream_uint32 first, count;
+struct ContactBlockLayout {
+  ream_uint32 guiding;
+  ream_int32 origin_z_units;
+};
+
+struct DueChunkLayout {
+  ream_uint32 block, first, count;
+  ream_int32 base[3];
+};
+
+// A brick whose word of solid cells has changed, for devices with memory of their own.
+struct CellPatch {
+  ream_uint32 brick, word;
 };
 
 // Removal: what became of one listed brick; starts the brick's slot in the kernel's answer.

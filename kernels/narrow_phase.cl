@@ -1,111 +1,303 @@
 #include "common.h"
 #include "layout.h"
 
-// Contact sums of the shell's surviving blocks. Twin of server/collide/narrow_phase_cpu.cpp. LANES work-items a group: 1
-// where work-items are loops (CPU), a multiple of the warp elsewhere. A group takes every G-th block; its lanes take
-// chunks of 16 points, decode them as one vector, and add what the engaged ones contribute.
+// Contact sums of the shell's due chunks: whole numbers only. Twin of server/collide/contact_look_portable.cpp.
+// A group takes every G-th chunk. LANES work-items a group: 1 where work-items are loops (CPU) and one takes a chunk at a
+// time as vectors; elsewhere a multiple of the warp, and each takes one point at a time.
+
+#define NO_POINT LONG_MIN
+#define PLACE_MASK ((1 << REAM_PLACE_BITS) - 1)
+
+// What all points share, by address space: constant inputs and the bone.
+#define BONE                                                                                                    \
+  global const uint *places, global const ushort *directions, global const struct ContactBlockLayout *blocks,   \
+      global const struct DueChunkLayout *due, global const uint *meridian, global const uint *azimuth,         \
+      global const ushort *cells, global const uchar *coverage, global const uchar *density
 
 #if LANES > 1
-#define GROUP_BARRIER barrier(CLK_LOCAL_MEM_FENCE)
-#define ADD_TO_RUN(index, value) atomic_add(&run_sums[index], value)
-#else
-#define GROUP_BARRIER
-#define ADD_TO_RUN(index, value) run_sums[index] += value
-#endif
 
-#define NO_VOXEL 0xffffffffu
-
-// Voxel index of sixteen probes, NO_VOXEL outside the grid and beyond `remaining`, and the occupancy cells they lie in.
-static void find_voxels(float16 x, float16 y, float16 z, int remaining, const struct ContactArguments* a, uint* voxels,
-                        uint* cells) {
-  const float* m = a->voxel_from_tool.m;
-  const float* t = a->voxel_from_tool.t;
-  const float16 u = m[0] * x + m[1] * y + m[2] * z + t[0];
-  const float16 v = m[3] * x + m[4] * y + m[5] * z + t[1];
-  const float16 w = m[6] * x + m[7] * y + m[8] * z + t[2];
-  const int16 lane = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-  const int16 inside = (u >= 0.0f) & (v >= 0.0f) & (w >= 0.0f) & (u < (float)a->dims_x) & (v < (float)a->dims_y) &
-                       (w < (float)a->dims_z) & (lane < remaining);
-  const uint16 iu = convert_uint16(convert_int16(select((float16)(0.0f), u, inside)));
-  const uint16 iv = convert_uint16(convert_int16(select((float16)(0.0f), v, inside)));
-  const uint16 iw = convert_uint16(convert_int16(select((float16)(0.0f), w, inside)));
-  const uint row = (uint)a->dims_x;
-  const uint16 brick = iu / 8 + iv / 8 * (row / 8) + iw / 8 * (row / 8 * ((uint)a->dims_y / 8));
-  const uint cell_row = row / REAM_OCCUPANCY_EDGE, cell_slice = cell_row * ((uint)a->dims_y / REAM_OCCUPANCY_EDGE);
-  vstore16(select((uint16)(NO_VOXEL), brick * 512 + iu % 8 + iv % 8 * 8 + iw % 8 * 64, inside), 0, voxels);
-  vstore16(iu / REAM_OCCUPANCY_EDGE + iv / REAM_OCCUPANCY_EDGE * cell_row + iw / REAM_OCCUPANCY_EDGE * cell_slice, 0,
-           cells);
+static int turned(int product) {
+  return (product + (1 << (REAM_AZIMUTH_SHIFT - 1))) >> REAM_AZIMUTH_SHIFT;
 }
 
-// The 7 x 8 products of one side, kept in registers.
-#define DECLARE_PRODUCTS(s) int8 s##0 = 0, s##1 = 0, s##2 = 0, s##3 = 0, s##4 = 0, s##5 = 0, s##6 = 0
-#define ADD_PRODUCTS(s, wg, g) \
-  s##0 += wg.s0 * g; s##1 += wg.s1 * g; s##2 += wg.s2 * g; s##3 += wg.s3 * g; \
-  s##4 += wg.s4 * g; s##5 += wg.s5 * g; s##6 += wg.s6 * g
-#define ADD_ROW(row, first) \
-  ADD_TO_RUN(first, row.s0); ADD_TO_RUN(first + 1, row.s1); ADD_TO_RUN(first + 2, row.s2); ADD_TO_RUN(first + 3, row.s3); \
-  ADD_TO_RUN(first + 4, row.s4); ADD_TO_RUN(first + 5, row.s5); ADD_TO_RUN(first + 6, row.s6)
-#define ADD_PART(s, part) \
-  ADD_ROW(s##0, part); ADD_ROW(s##1, part + 8); ADD_ROW(s##2, part + 16); ADD_ROW(s##3, part + 24); \
-  ADD_ROW(s##4, part + 32); ADD_ROW(s##5, part + 40); ADD_ROW(s##6, part + 48)
+// Adds w g_i g_j, w g_i and w of one point.
+static void add_products(uint place, uint low_direction, global const uint* meridian, global const uint* azimuth,
+                         int* products) {
+  const uint direction = low_direction | (place >> 27) << 16;
+  const uint m = meridian[direction >> REAM_AZIMUTH_BITS];
+  const uint a = azimuth[direction & ((1u << REAM_AZIMUTH_BITS) - 1)];
+  const int radial = (int)(m << 24) >> 24, axial = (int)(m << 16) >> 24, arm = (int)(m << 8) >> 24;
+  const int weight = (int)(m >> 24), cosine = (int)(a << 16) >> 16, sine = (int)a >> 16;
+  const int g[5] = {turned(radial * cosine), turned(radial * sine), axial, turned(arm * sine), turned(-arm * cosine)};
+  int k = 0;
+  for (int i = 0; i < 5; ++i)
+    for (int j = i; j < 5; ++j) products[k++] += weight * g[i] * g[j];
+  for (int i = 0; i < 5; ++i) products[k++] += weight * g[i];
+  products[k] += weight;
+}
 
-kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void contact_sums(
-    global const float* probe_x, global const float* probe_y, global const float* probe_z, global const short* vectors,
-    global const uchar* weights, global const uchar* guiding, global const struct ContactBlock* blocks,
-    global const uint* survivors, global const uint* occupancy, global const uchar* coverage,
-    global const uchar* density, global const uchar* classes, struct ContactArguments arguments, global long* partial) {
-  local int run_sums[REAM_CONTACT_SUMS];
-  const int lane = get_local_id(0);
+static long depth_key(int origin_z_units, uint place, uint point) {
+  const int height = origin_z_units + (int)(place >> (2 * REAM_PLACE_BITS) & PLACE_MASK);
+  return ((long)height << 32) | (long)(0xffffffffu - point);
+}
+
+static int class_of(int code, int first_cortical_code) {
+  return code == REAM_CARTILAGE_CODE ? 2 : code >= first_cortical_code ? 1 : 0;
+}
+
+#endif
+
+// Points between two additions to the 64-bit sums; 451,612 a point stay below 2^31.
+#define POINTS_A_FLUSH 4096
+
+#if LANES == 1
+
+static int sum16(int16 v) {
+  const int8 a = v.lo + v.hi;
+  const int4 b = a.lo + a.hi;
+  const int2 c = b.lo + b.hi;
+  return c.x + c.y;
+}
+
+// Voxels of sixteen probes and their cells' state: 0x101 in solid bone, 1 where the voxel decides, 0 elsewhere.
+static int16 probe(uint16 place, int16 present, global const struct DueChunkLayout* at,
+                   const struct ContactArguments* a, global const ushort* cells, int16* voxel) {
+  const int* m = a->per_unit;
+  const int16 x = convert_int16(place & PLACE_MASK), y = convert_int16(place >> REAM_PLACE_BITS & PLACE_MASK),
+              z = convert_int16(place >> (2 * REAM_PLACE_BITS) & PLACE_MASK);
+  const int16 u = (m[0] * x + m[1] * y + m[2] * z + at->base[0]) >> a->bits;
+  const int16 v = (m[3] * x + m[4] * y + m[5] * z + at->base[1]) >> a->bits;
+  const int16 w = (m[6] * x + m[7] * y + m[8] * z + at->base[2]) >> a->bits;
+  const int16 inside = present & (as_uint16(u) < (uint)a->dims[0]) & (as_uint16(v) < (uint)a->dims[1]) &
+                       (as_uint16(w) < (uint)a->dims[2]);
+  const int16 brick = ((u >> 3) + (v >> 3) * a->brick_row + (w >> 3) * a->brick_slice) & inside;
+  int bricks[16], words[16];
+  vstore16(brick, 0, bricks);
+  for (int k = 0; k < 16; ++k) words[k] = cells[bricks[k]];
+  const int16 cell = ((u >> 2) & 1) | ((v >> 1) & 2) | (w & 4);
+  *voxel = (brick << 9) | (u & 7) | (v & 7) << 3 | (w & 7) << 6;
+  return (vload16(0, words) >> cell) & inside & 0x101;
+}
+
+// Bytes of the wanted lanes; the others read the first.
+static int16 bytes_at(global const uchar* bytes, int16 at, int16 wanted) {
+  int index[16], found[16];
+  vstore16(at & wanted, 0, index);
+  for (int k = 0; k < 16; ++k) found[k] = bytes[index[k]];
+  return vload16(0, found);
+}
+
+static int16 words_at(global const uint* words, int16 at) {
+  int index[16], found[16];
+  vstore16(at, 0, index);
+  for (int k = 0; k < 16; ++k) found[k] = (int)words[index[k]];
+  return vload16(0, found);
+}
+
+static int16 turned16(int16 product) {
+  return (product + (1 << (REAM_AZIMUTH_SHIFT - 1))) >> REAM_AZIMUTH_SHIFT;
+}
+
+// The sums of one side, lane by lane.
+typedef struct {
+  int16 products[REAM_CONTACT_PRODUCTS], points;
+  int chunks;
+} SideSums;
+
+static void clear(SideSums* side) {
+  for (int k = 0; k < REAM_CONTACT_PRODUCTS; ++k) side->products[k] = 0;
+  side->points = 0;
+  side->chunks = 0;
+}
+
+static void flush(SideSums* side, global long* sums) {
+  for (int k = 0; k < REAM_CONTACT_PRODUCTS; ++k) {
+    int lanes[16];
+    vstore16(side->products[k], 0, lanes);
+    long sum = 0;
+    for (int i = 0; i < 16; ++i) sum += lanes[i];
+    sums[k] += sum;
+  }
+  sums[REAM_CONTACT_PRODUCTS] += sum16(side->points);
+  clear(side);
+}
+
+static void add_chunk(uint16 place, uint16 low_direction, int16 engaged, global const uint* meridian,
+                      global const uint* azimuth, SideSums* side) {
+  const int16 direction = convert_int16(low_direction | (place >> 27) << 16) & engaged;
+  const int16 m = words_at(meridian, direction >> REAM_AZIMUTH_BITS);
+  const int16 a = words_at(azimuth, direction & ((1 << REAM_AZIMUTH_BITS) - 1));
+  const int16 radial = (m << 24) >> 24, arm = (m << 8) >> 24, weight = convert_int16(as_uint16(m) >> 24) & engaged;
+  const int16 cosine = (a << 16) >> 16, sine = a >> 16;
+  const int16 g[5] = {turned16(radial * cosine), turned16(radial * sine), (m << 16) >> 24, turned16(arm * sine),
+                      turned16(-arm * cosine)};
+  int k = 0;
+  for (int i = 0; i < 5; ++i) {
+    const int16 weighted = weight * g[i];
+    for (int j = i; j < 5; ++j) side->products[k++] += weighted * g[j];
+  }
+  for (int i = 0; i < 5; ++i) side->products[k++] += weight * g[i];
+  side->products[k] += weight;
+  side->points -= engaged;
+  ++side->chunks;
+}
+
+kernel __attribute__((reqd_work_group_size(1, 1, 1))) void contact_sums(BONE, struct ContactArguments arguments,
+                                                                        global long* partial, global uchar* touched) {
   global long* sums = partial + (size_t)get_group_id(0) * REAM_CONTACT_SUMS;
-  for (int k = lane; k < REAM_CONTACT_SUMS; k += LANES) {
-    sums[k] = 0;
-    run_sums[k] = 0;
-  }
-  GROUP_BARRIER;
+  for (int k = 0; k < REAM_CONTACT_DEEPEST; ++k) sums[k] = 0;
+  long deepest = NO_POINT;
+  const int16 lane = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  SideSums side;
+  clear(&side);
+  uint guiding = 0;
+  int16 cortical_points = 0, cartilage_points = 0, all_points = 0, all_density = 0, cortical_density = 0;
 
-  for (uint s = get_group_id(0); s < arguments.survivors; s += get_num_groups(0)) {
-    const struct ContactBlock block = blocks[survivors[s]];
-    for (uint run = 0; run < block.count; run += REAM_CONTACT_RUN) {
-      const uint run_end = min(block.count, run + REAM_CONTACT_RUN);
-      DECLARE_PRODUCTS(cut);
-      DECLARE_PRODUCTS(guide);
-      int points = 0, guided = 0;
-      for (uint chunk = run + lane * REAM_CONTACT_CHUNK; chunk < run_end; chunk += LANES * REAM_CONTACT_CHUNK) {
-        const uint first = block.first + chunk;
-        uint at[REAM_CONTACT_CHUNK], cell[REAM_CONTACT_CHUNK];
-        find_voxels(vload16(0, probe_x + first), vload16(0, probe_y + first), vload16(0, probe_z + first),
-                    (int)(run_end - chunk), &arguments, at, cell);
-        for (int k = 0; k < REAM_CONTACT_CHUNK; ++k) {
-          if (at[k] == NO_VOXEL || !(occupancy[cell[k] / 32] >> cell[k] % 32 & 1)) continue;
-          if (coverage[at[k]] < REAM_ENGAGING_COVERAGE) continue;
-          const int8 g = convert_int8(vload8(first + k, vectors));
-          const int8 wg = (int)weights[first + k] * g;
-          if (guiding[first + k]) {
-            ADD_PRODUCTS(guide, wg, g);
-            ++guided;
-          } else {
-            ADD_PRODUCTS(cut, wg, g);
-            ++points;
-            const int code = density[at[k]];
-            ADD_TO_RUN(REAM_CONTACT_CLASS_POINTS + classes[code], 1);
-            ADD_TO_RUN(REAM_CONTACT_CLASS_DENSITY + classes[code], code);
-          }
-        }
-      }
-      if (points != 0) {
-        ADD_PART(cut, REAM_CONTACT_CUTTING);
-        ADD_TO_RUN(REAM_CONTACT_CUTTING_POINTS, points);
-      }
-      if (guided != 0) {
-        ADD_PART(guide, REAM_CONTACT_GUIDING);
-        ADD_TO_RUN(REAM_CONTACT_GUIDING_POINTS, guided);
-      }
-      GROUP_BARRIER;
-      for (int k = lane; k < REAM_CONTACT_SUMS; k += LANES) {
-        sums[k] += run_sums[k];
-        run_sums[k] = 0;
-      }
-      GROUP_BARRIER;
+  for (uint s = get_group_id(0); s < arguments.chunks; s += get_num_groups(0)) {
+    global const struct DueChunkLayout* chunk = due + s;
+    const uint16 place = vload16(0, places + chunk->first);
+    int16 voxel;
+    const int16 state = probe(place, lane < (int)chunk->count, chunk, &arguments, cells, &voxel);
+    int16 engaged = state == 0x101;
+    const int16 unsure = state == 1;
+    if (any(unsure)) engaged |= unsure & (bytes_at(coverage, voxel, unsure) >= REAM_SOLID_COVERAGE);
+    touched[s] = any(engaged) != 0;
+    if (!any(engaged)) continue;
+    const struct ContactBlockLayout block = blocks[chunk->block];
+    if (block.guiding != guiding || side.chunks == POINTS_A_FLUSH) {
+      flush(&side, sums + guiding * REAM_CONTACT_PART_SUMS);
+      guiding = block.guiding;
     }
+    add_chunk(place, convert_uint16(vload16(0, directions + chunk->first)), engaged, meridian, azimuth, &side);
+    if (guiding) continue;
+    const int16 code = bytes_at(density, voxel, engaged) & engaged;
+    const int16 cartilage = engaged & (code == REAM_CARTILAGE_CODE);
+    const int16 cortical = engaged & ~cartilage & (code >= arguments.first_cortical_code);
+    all_points -= engaged;
+    all_density += code;
+    cortical_density += code & cortical;
+    cortical_points -= cortical;
+    cartilage_points -= cartilage;
+    const int16 height = select((int16)(-1), convert_int16(place >> (2 * REAM_PLACE_BITS) & PLACE_MASK), engaged);
+    const int8 high8 = max(height.lo, height.hi);
+    const int4 high4 = max(high8.lo, high8.hi);
+    const int2 high2 = max(high4.lo, high4.hi);
+    const int highest = max(high2.x, high2.y);
+    if (deepest != NO_POINT && block.origin_z_units + highest < (int)(deepest >> 32)) continue;
+    int heights[16];
+    vstore16(height, 0, heights);
+    for (uint k = 0; k < 16; ++k)
+      if (heights[k] == highest)
+        deepest = max(deepest, ((long)(block.origin_z_units + highest) << 32) | (long)(0xffffffffu - (chunk->first + k)));
   }
+  flush(&side, sums + guiding * REAM_CONTACT_PART_SUMS);
+  const int cortical = sum16(cortical_points), cartilage = sum16(cartilage_points);
+  const int cortical_codes = sum16(cortical_density), cartilage_codes = cartilage * REAM_CARTILAGE_CODE;
+  sums[REAM_CONTACT_CLASS_POINTS] = sum16(all_points) - cortical - cartilage;
+  sums[REAM_CONTACT_CLASS_POINTS + 1] = cortical;
+  sums[REAM_CONTACT_CLASS_POINTS + 2] = cartilage;
+  sums[REAM_CONTACT_CLASS_DENSITY] = sum16(all_density) - cortical_codes - cartilage_codes;
+  sums[REAM_CONTACT_CLASS_DENSITY + 1] = cortical_codes;
+  sums[REAM_CONTACT_CLASS_DENSITY + 2] = cartilage_codes;
+  sums[REAM_CONTACT_DEEPEST] = deepest;
+}
+
+#else
+
+static bool is_engaged(uint place, global const struct DueChunkLayout* at, const struct ContactArguments* a,
+                       global const ushort* cells, global const uchar* coverage, int* voxel) {
+  const int* m = a->per_unit;
+  const int x = place & PLACE_MASK, y = place >> REAM_PLACE_BITS & PLACE_MASK,
+            z = place >> (2 * REAM_PLACE_BITS) & PLACE_MASK;
+  const int u = (m[0] * x + m[1] * y + m[2] * z + at->base[0]) >> a->bits;
+  const int v = (m[3] * x + m[4] * y + m[5] * z + at->base[1]) >> a->bits;
+  const int w = (m[6] * x + m[7] * y + m[8] * z + at->base[2]) >> a->bits;
+  if ((uint)u >= (uint)a->dims[0] || (uint)v >= (uint)a->dims[1] || (uint)w >= (uint)a->dims[2]) return false;
+  const int brick = (u >> 3) + (v >> 3) * a->brick_row + (w >> 3) * a->brick_slice;
+  const int state = cells[brick] >> (((u >> 2) & 1) | ((v >> 1) & 2) | (w & 4)) & 0x101;
+  *voxel = (brick << 9) | (u & 7) | (v & 7) << 3 | (w & 7) << 6;
+  return state == 0x101 || (state == 1 && coverage[*voxel] >= REAM_SOLID_COVERAGE);
+}
+
+// Adds every lane's value k to sums[k], and clears the lane's own values.
+static void flush(int* values, int count, local int* scratch, global long* sums) {
+  const int lane = get_local_id(0);
+  for (int k = 0; k < count; ++k) {
+    scratch[k * LANES + lane] = values[k];
+    values[k] = 0;
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  for (int k = lane; k < count; k += LANES) {
+    long sum = 0;
+    for (int i = 0; i < LANES; ++i) sum += scratch[k * LANES + i];
+    sums[k] += sum;
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+}
+
+kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void contact_sums(BONE, struct ContactArguments arguments,
+                                                                            global long* partial,
+                                                                            global uchar* touched) {
+  local int scratch[REAM_CONTACT_PART_SUMS * LANES];
+  local long deepest_of[LANES];
+  const uint lane = get_local_id(0), group = get_group_id(0), groups = get_num_groups(0);
+  global long* sums = partial + (size_t)group * REAM_CONTACT_SUMS;
+  for (uint k = lane; k < REAM_CONTACT_DEEPEST; k += LANES) sums[k] = 0;
+  for (uint s = group + lane * groups; s < arguments.chunks; s += LANES * groups) touched[s] = 0;
+  barrier(CLK_GLOBAL_MEM_FENCE);
+  int cut[REAM_CONTACT_PART_SUMS], guided[REAM_CONTACT_PART_SUMS], classes[6];
+  for (int k = 0; k < REAM_CONTACT_PART_SUMS; ++k) cut[k] = guided[k] = 0;
+  for (int k = 0; k < 6; ++k) classes[k] = 0;
+  long deepest = NO_POINT;
+
+  // The group's points in a row, LANES at a time; every lane takes as many turns, so that all flush together.
+  const uint own_chunks = arguments.chunks > group ? (arguments.chunks - group + groups - 1) / groups : 0;
+  const uint turns = (own_chunks * REAM_CONTACT_CHUNK + LANES - 1) / LANES;
+  for (uint turn = 0; turn < turns; ++turn) {
+    if (turn % POINTS_A_FLUSH == POINTS_A_FLUSH - 1) {
+      flush(cut, REAM_CONTACT_PART_SUMS, scratch, sums);
+      flush(guided, REAM_CONTACT_PART_SUMS, scratch, sums + REAM_CONTACT_PART_SUMS);
+      flush(classes, 6, scratch, sums + REAM_CONTACT_CLASS_POINTS);
+    }
+    const uint item = turn * LANES + lane, own = item / REAM_CONTACT_CHUNK, i = item % REAM_CONTACT_CHUNK;
+    if (own >= own_chunks) continue;
+    const uint s = group + own * groups;
+    global const struct DueChunkLayout* chunk = due + s;
+    if (i >= chunk->count) continue;
+    const uint point = chunk->first + i, place = places[point];
+    int voxel;
+    if (!is_engaged(place, chunk, &arguments, cells, coverage, &voxel)) continue;
+    touched[s] = 1;
+    const struct ContactBlockLayout block = blocks[chunk->block];
+    if (block.guiding) {
+      add_products(place, directions[point], meridian, azimuth, guided);
+      ++guided[REAM_CONTACT_PRODUCTS];
+      continue;
+    }
+    add_products(place, directions[point], meridian, azimuth, cut);
+    ++cut[REAM_CONTACT_PRODUCTS];
+    const int code = density[voxel], bone_class = class_of(code, arguments.first_cortical_code);
+    for (int k = 0; k < 3; ++k) {
+      classes[k] += k == bone_class;
+      classes[3 + k] += k == bone_class ? code : 0;
+    }
+    deepest = max(deepest, depth_key(block.origin_z_units, place, point));
+  }
+  flush(cut, REAM_CONTACT_PART_SUMS, scratch, sums);
+  flush(guided, REAM_CONTACT_PART_SUMS, scratch, sums + REAM_CONTACT_PART_SUMS);
+  flush(classes, 6, scratch, sums + REAM_CONTACT_CLASS_POINTS);
+  deepest_of[lane] = deepest;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (lane == 0) {
+    for (int i = 1; i < LANES; ++i) deepest = max(deepest, deepest_of[i]);
+    sums[REAM_CONTACT_DEEPEST] = deepest;
+  }
+}
+
+#endif
+
+// Brings a device's own copy of the cells up to date.
+kernel void patch_cells(global const struct CellPatch* patches, uint count, global ushort* cells) {
+  const uint i = get_global_id(0);
+  if (i < count) cells[patches[i].brick] = (ushort)patches[i].word;
 }

@@ -1,6 +1,5 @@
 #pragma once
 #include "geometry/box.hpp"
-#include "voxel/bone_model.hpp"
 
 namespace ream::collide {
 
@@ -11,12 +10,10 @@ struct Voi {
   Aabb box_tool_mm;
 };
 
+/// `bone_box_grid` is around the bone that is left (SolidCells::bounds_mm).
 /// OBB/SAT test of the tool's box (tool frame) against the bone's box (grid frame), each grown by `reach_mm`,
 /// then the overlap of the bone's box, expressed in the tool frame, with the tool's box.
 Voi broad_phase(const Aabb& bone_box_grid, const Aabb& tool_box_tool, const Pose& grid_from_tool,
                 double reach_mm) noexcept;
-
-/// Box around all coverage above zero, mm, grid frame; empty for an empty bone.
-Aabb bone_bounds_mm(const voxel::BoneModel& bone);
 
 }  // namespace ream::collide

@@ -3,34 +3,68 @@
 #include <cstdint>
 #include <vector>
 
+#include "collide/contact_direction.hpp"
 #include "shell/point_shell.hpp"
 
 namespace ream::collide {
 
-/// Components a contact point adds to the sums: unit normal n and moment arm (r x n)/moment_length, each in
-/// 1/127, then 1 (so that first moments fall out of the same products), then padding.
-using ContactVector = std::array<int16_t, 8>;
+/// Points looked at together, as one vector: consecutive ones of a block, whose last chunk may have fewer.
+inline constexpr int chunk_points = 16;
+inline constexpr int most_block_points = 512;
+inline constexpr int most_block_chunks = most_block_points / chunk_points;
+
+/// Probes of one 8^3-cell block of the PointShell, or of a few small ones side by side, that are all cutting
+/// or all guiding.
+struct ContactBlock {
+  uint32_t first = 0;  ///< of its points
+  uint32_t first_chunk = 0;
+  uint16_t count = 0;
+  uint16_t guiding = 0;             ///< 1: guiding or smooth surface, which never cuts
+  Vec3i origin_units{0, 0, 0};      ///< of its points' places, tool frame, in place_unit_mm
+  int32_t height_units = 0;         ///< greatest place along z
+  std::array<int32_t, 21> whole{};  ///< ContactProducts of all its points
+};
 
 /// A PointShell made ready for one grid: where each point probes for bone and what it adds when it meets
-/// some. Struct of arrays in shell order, shared by all narrow phases.
+/// some. Six bytes a point and less than two for its block. Read-only, shared by all narrow phases.
+///
+/// Cutting points probe one voxel out from the true surface along the normal (DESIGN 3: engaged when bone
+/// lies within one voxel, for removal must not clear its own contact). Guiding points have no such need and
+/// probe one voxel below the surface, end faces also two nearer to the axis: corners of voxels, which stand
+/// out by up to 0.87 edges, shall not stop a nipple at the mouth of a hole that is barely wider, and its side
+/// meets the wall of the hole before its end does.
 struct ContactShell {
-  /// Probes, tool frame, mm. Cutting points probe one voxel out from the true surface along the normal
-  /// (DESIGN 3: engaged when bone lies within one voxel, for removal must not clear its own contact). Guiding
-  /// points have no such need and probe one voxel below the surface, end faces also two nearer to the axis:
-  /// corners of voxels, which stand out by up to 0.87 edges, shall not stop a nipple at the mouth of a hole
-  /// that is barely wider, and its side meets the wall of the hole before its end does.
-  std::vector<float> probe_x_mm, probe_y_mm, probe_z_mm;
-  std::vector<ContactVector> vectors;
-  std::vector<uint8_t> weights;           ///< area in 1/16 cell face
-  std::vector<uint8_t> guiding;           ///< 1: guiding or smooth surface, which never cuts
-  std::vector<shell::ShellBlock> blocks;  ///< spheres grown to hold the probes
+  /// Places in a block, nine bits each for x, y, z (x lowest) in place_unit_mm from the block's origin, then
+  /// the five high bits of the direction code. Padded by a chunk, as the directions, to be read in chunks.
+  std::vector<uint32_t> places;
+  std::vector<uint16_t> directions;  ///< low sixteen bits of the direction code
+  std::vector<ContactBlock> blocks;
+  /// Bounding spheres of the blocks' probes, tool frame, mm; struct of arrays for the culling.
+  std::vector<float> centre_x_mm, centre_y_mm, centre_z_mm, radius_mm;
+  DirectionTable table;
+  double place_unit_mm = 0.0;
   double moment_length_mm = 1.0;
   double cell_area_mm2 = 0.0;
   double probe_length_mm = 0.0;
   Aabb bounds_mm;
 
-  size_t size() const { return probe_x_mm.size(); }
+  size_t size() const { return places.size() - chunk_points; }
+  size_t chunk_count() const {
+    return blocks.empty() ? 0 : blocks.back().first_chunk + chunks_of(blocks.back());
+  }
+  static size_t chunks_of(const ContactBlock& block) {
+    return (static_cast<size_t>(block.count) + chunk_points - 1) / chunk_points;
+  }
+  /// Direction code of a point.
+  uint32_t direction(size_t point) const { return directions[point] | (places[point] >> 27) << 16; }
+  /// Where a point of a block probes, tool frame.
+  Vec3 probe_mm(const ContactBlock& block, size_t point) const;
+  /// Bytes held.
+  size_t bytes() const;
 };
+
+inline constexpr int place_bits = 9;
+inline constexpr uint32_t place_mask = (1u << place_bits) - 1;
 
 /// `probe_length_mm`: the grid's largest voxel edge.
 ContactShell make_contact_shell(const shell::PointShell& shell, double probe_length_mm);

@@ -1,7 +1,9 @@
 #include "collide/narrow_phase_cl.hpp"
 
+#include <algorithm>
 #include <cstring>
 
+#include "collide/contact_schedule.hpp"
 #include "core/error.hpp"
 #include "gpu/program.hpp"
 #include "kernels/layout.h"
@@ -9,29 +11,30 @@
 namespace ream::collide {
 namespace {
 
-static_assert(sizeof(ContactVector) == 16);
-static_assert(sizeof(layout::AffineArguments) == sizeof(GridAffine));
-static_assert(REAM_ENGAGING_COVERAGE == engaging_coverage);
-static_assert(REAM_OCCUPANCY_EDGE == voxel::occupancy_edge);
-
-/// A copy with room for one chunk behind, so that the last chunk may be loaded whole.
-gpu::Buffer padded_copy(const gpu::Queue& queue, std::vector<float> values) {
-  values.resize(values.size() + REAM_CONTACT_CHUNK, 0.0f);
-  return gpu::Buffer::copy_of(queue, std::span<const float>(values));
-}
+static_assert(REAM_CONTACT_PRODUCTS == std::tuple_size_v<ContactProducts>);
+static_assert(REAM_PLACE_BITS == place_bits && REAM_AZIMUTH_BITS == azimuth_bits);
+static_assert(REAM_AZIMUTH_SHIFT == azimuth_shift);
+static_assert(REAM_SOLID_COVERAGE == voxel::solid_coverage && REAM_CARTILAGE_CODE == voxel::cartilage_code);
+static_assert(sizeof(DueChunk) == sizeof(layout::DueChunkLayout));
+static_assert(REAM_CONTACT_CHUNK == chunk_points);
 
 gpu::Buffer block_table(const gpu::Queue& queue, const ContactShell& shell) {
-  std::vector<layout::ContactBlock> table;
-  for (const auto& block : shell.blocks) table.push_back({block.first, block.count});
-  return gpu::Buffer::copy_of(queue, std::span<const layout::ContactBlock>(table));
+  std::vector<layout::ContactBlockLayout> table;
+  table.reserve(shell.blocks.size());
+  for (const ContactBlock& block : shell.blocks) {
+    table.push_back({block.guiding, block.origin_units.z()});
+  }
+  return gpu::Buffer::copy_of(queue, std::span<const layout::ContactBlockLayout>(table));
 }
 
-void add_part(const int64_t* products, int64_t points, ContactSums::Part& part) {
-  part.points += points;
-  for (size_t i = 0; i < 7; ++i) part.first[i] += products[6 * 8 + i];
-  size_t k = 0;
-  for (size_t i = 0; i < 6; ++i)
-    for (size_t j = i; j < 6; ++j) part.second[k++] += products[i * 8 + j];
+layout::ContactArguments constant_arguments(const voxel::BoneModel& bone) {
+  const Vec3i dims = bone.grid.dims, bricks = bone.grid.brick_dims();
+  layout::ContactArguments a{};
+  for (int i = 0; i < 3; ++i) a.dims[i] = dims[i];
+  a.brick_row = bricks.x();
+  a.brick_slice = bricks.x() * bricks.y();
+  a.first_cortical_code = voxel::first_cortical_code(bone.cortical_threshold_g_cc);
+  return a;
 }
 
 class NarrowPhaseCl final : public NarrowPhase {
@@ -42,35 +45,57 @@ class NarrowPhaseCl final : public NarrowPhase {
         shape_(shape),
         program_(bone_->queue, "narrow_phase.cl", "-D LANES=" + std::to_string(shape.lanes)),
         kernel_(program_, "contact_sums"),
-        survivors_(std::max<size_t>(input.shell.blocks.size(), 1)),
+        patch_kernel_(program_, "patch_cells"),
+        due_(std::max<size_t>(input.shell.chunk_count(), 1)),
+        touched_(due_.size()),
+        view_(contact_view(input)),
+        is_clear_(best_look().is_clear),
+        schedule_(input),
         partial_(static_cast<size_t>(shape.groups) * REAM_CONTACT_SUMS),
-        probe_x_(padded_copy(bone_->queue, input.shell.probe_x_mm)),
-        probe_y_(padded_copy(bone_->queue, input.shell.probe_y_mm)),
-        probe_z_(padded_copy(bone_->queue, input.shell.probe_z_mm)),
-        vectors_(gpu::Buffer::copy_of(bone_->queue, std::span(input.shell.vectors))),
-        weights_(gpu::Buffer::copy_of(bone_->queue, std::span(input.shell.weights))),
-        guiding_(gpu::Buffer::copy_of(bone_->queue, std::span(input.shell.guiding))),
+        patches_(most_patches),
+        arguments_(constant_arguments(input.bone)),
+        places_(gpu::Buffer::copy_of(bone_->queue, std::span(input.shell.places))),
+        directions_(gpu::Buffer::copy_of(bone_->queue, std::span(input.shell.directions))),
         blocks_(block_table(bone_->queue, input.shell)),
-        occupancy_(gpu::Buffer::copy_of(bone_->queue, std::span(input.occupancy.words))),
-        survivor_buffer_(gpu::Buffer::over(bone_->queue, std::span(survivors_))),
-        partial_buffer_(gpu::Buffer::over(bone_->queue, std::span(partial_))) {
-    kernel_.set_all(probe_x_, probe_y_, probe_z_, vectors_, weights_, guiding_, blocks_, survivor_buffer_,
-                    occupancy_, bone_->coverage, bone_->density, bone_->classes, layout::ContactArguments{},
-                    partial_buffer_);
+        meridian_(gpu::Buffer::copy_of(bone_->queue, std::span(input.shell.table.meridian))),
+        azimuth_(gpu::Buffer::copy_of(bone_->queue, std::span(input.shell.table.azimuth))),
+        cells_(gpu::Buffer::over(bone_->queue, std::span(input.cells.words()))),
+        due_buffer_(gpu::Buffer::over(bone_->queue, std::span(due_))),
+        partial_buffer_(gpu::Buffer::over(bone_->queue, std::span(partial_))),
+        touched_buffer_(gpu::Buffer::over(bone_->queue, std::span(touched_))),
+        patch_buffer_(gpu::Buffer::over(bone_->queue, std::span(patches_))) {
+    kernel_.set_all(places_, directions_, blocks_, due_buffer_, meridian_, azimuth_, cells_, bone_->coverage,
+                    bone_->density, arguments_, partial_buffer_, touched_buffer_);
+    patch_kernel_.set_all(patch_buffer_, uint32_t{0}, cells_);
     ContactSums warm;
-    run(GridAffine{}, 0, warm);
+    patch_kernel_.enqueue(bone_->queue, most_patches, patch_lanes);
+    run({}, 0, warm);
     bone_->queue.finish();
   }
 
   bool contact(const QuantisedPose& grid_from_tool, const Voi& voi, ContactSums& sums) noexcept override {
     sums = {};
     if (!voi.touching) return true;
-    const GridAffine affine = voxel_from_tool(grid_from_tool, in_.bone.grid);
-    const size_t count = cull_blocks(in_.shell, in_.distance, voi, affine,
-                                     static_cast<float>(in_.bone.grid.min_spacing_mm()), survivors_);
-    if (count == 0) return true;
+    const VoxelTransform transform = voxel_transform(grid_from_tool, in_.bone.grid, in_.shell.place_unit_mm);
+    view_.per_unit = transform.per_unit;
+    view_.bits = transform.bits;
+    const auto due = schedule_.due(grid_from_tool, voi, transform);
+    if (due.empty()) return true;
+    std::copy(due.begin(), due.end(), due_.begin());
     try {
-      run(affine, count, sums);
+      run(transform, due.size(), sums);
+      schedule_.visited(view_, is_clear_, touched_);
+      return true;
+    } catch (const Error&) {
+      return false;
+    }
+  }
+
+  bool bricks_changed(std::span<const uint32_t> bricks) noexcept override {
+    if (cells_.shared()) return true;
+    try {
+      for (size_t done = 0; done < bricks.size(); done += most_patches)
+        patch(bricks.subspan(done, std::min(most_patches, bricks.size() - done)));
       return true;
     } catch (const Error&) {
       return false;
@@ -78,44 +103,62 @@ class NarrowPhaseCl final : public NarrowPhase {
   }
 
  private:
-  void run(const GridAffine& affine, size_t survivors, ContactSums& sums) {
+  void run(const VoxelTransform& transform, size_t chunks, ContactSums& sums) {
     const gpu::Queue& queue = bone_->queue;
-    const Vec3i& dims = in_.bone.grid.dims;
-    layout::ContactArguments arguments{{}, dims.x(), dims.y(), dims.z(), static_cast<uint32_t>(survivors)};
-    std::memcpy(&arguments.voxel_from_tool, &affine, sizeof affine);
-    kernel_.set(arguments_index, arguments);
-    if (!survivor_buffer_.shared())
-      survivor_buffer_.write(queue, survivors_.data(), survivors * sizeof(uint32_t));
+    std::copy(transform.per_unit.begin(), transform.per_unit.end(), arguments_.per_unit);
+    arguments_.bits = transform.bits;
+    arguments_.chunks = static_cast<uint32_t>(chunks);
+    kernel_.set(arguments_index, arguments_);
+    if (!due_buffer_.shared()) due_buffer_.write(queue, due_.data(), chunks * sizeof(DueChunk));
     kernel_.enqueue(queue, static_cast<size_t>(shape_.groups * shape_.lanes),
                     static_cast<size_t>(shape_.lanes));
-    if (partial_buffer_.shared())
+    if (partial_buffer_.shared()) {
       queue.finish();
-    else
+    } else {
       partial_buffer_.read(queue, partial_.data(), partial_buffer_.bytes());
+      touched_buffer_.read(queue, touched_.data(), chunks);
+    }
     for (size_t g = 0; g < static_cast<size_t>(shape_.groups); ++g)
       add_group(&partial_[g * REAM_CONTACT_SUMS], sums);
   }
 
+  void patch(std::span<const uint32_t> bricks) {
+    for (size_t i = 0; i < bricks.size(); ++i) patches_[i] = {bricks[i], in_.cells.word(bricks[i])};
+    if (!patch_buffer_.shared())
+      patch_buffer_.write(bone_->queue, patches_.data(), bricks.size() * sizeof(layout::CellPatch));
+    patch_kernel_.set(1, static_cast<uint32_t>(bricks.size()));
+    patch_kernel_.enqueue(bone_->queue, most_patches, patch_lanes);
+  }
+
   static void add_group(const int64_t* group, ContactSums& sums) {
-    add_part(group + REAM_CONTACT_CUTTING, group[REAM_CONTACT_CUTTING_POINTS], sums.cutting);
-    add_part(group + REAM_CONTACT_GUIDING, group[REAM_CONTACT_GUIDING_POINTS], sums.guiding);
+    add_products_to(sums.cutting, std::span(group, REAM_CONTACT_PRODUCTS), group[REAM_CONTACT_PRODUCTS]);
+    const int64_t* guiding = group + REAM_CONTACT_PART_SUMS;
+    add_products_to(sums.guiding, std::span(guiding, REAM_CONTACT_PRODUCTS), guiding[REAM_CONTACT_PRODUCTS]);
     for (size_t c = 0; c < voxel::bone_class_count; ++c) {
       sums.class_points[c] += group[REAM_CONTACT_CLASS_POINTS + c];
       sums.class_density[c] += group[REAM_CONTACT_CLASS_DENSITY + c];
     }
+    sums.deepest = std::max(sums.deepest, group[REAM_CONTACT_DEEPEST]);
   }
 
-  static constexpr unsigned arguments_index = 12;
+  static constexpr unsigned arguments_index = 9;
+  static constexpr size_t most_patches = 1024, patch_lanes = 64;
 
   NarrowPhaseInput in_;
   std::shared_ptr<BoneBuffers> bone_;
   LaunchShape shape_;
   gpu::Program program_;
-  gpu::Kernel kernel_;
-  std::vector<uint32_t> survivors_;
+  gpu::Kernel kernel_, patch_kernel_;
+  std::vector<DueChunk> due_;
+  std::vector<uint8_t> touched_;  ///< per due chunk: has engaged points
+  ContactView view_;              ///< the host's, for measuring what is free
+  IsClear is_clear_;
+  ContactSchedule schedule_;
   std::vector<int64_t> partial_;
-  gpu::Buffer probe_x_, probe_y_, probe_z_, vectors_, weights_, guiding_, blocks_, occupancy_,
-      survivor_buffer_, partial_buffer_;
+  std::vector<layout::CellPatch> patches_;
+  layout::ContactArguments arguments_;
+  gpu::Buffer places_, directions_, blocks_, meridian_, azimuth_, cells_, due_buffer_, partial_buffer_,
+      touched_buffer_, patch_buffer_;
 };
 
 }  // namespace

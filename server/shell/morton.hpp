@@ -3,24 +3,27 @@
 
 namespace ream::shell {
 
-/// Interleaves the low 10 bits of u, v, w (u lowest): thesis section 4.3.
-constexpr uint32_t spread_bits_10(uint32_t x) {
-  x &= 0x3ff;
-  x = (x | (x << 16)) & 0x030000ff;
-  x = (x | (x << 8)) & 0x0300f00f;
-  x = (x | (x << 4)) & 0x030c30c3;
-  return (x | (x << 2)) & 0x09249249;
+/// Interleaves the low 21 bits of u, v, w (u lowest) into 63 bits: thesis section 4.3, whose 10 bits in 32
+/// end at 1024 cells a side; for coordinates below 1024 the codes are the thesis' own.
+constexpr uint64_t spread_bits(uint64_t x) {
+  x &= 0x1fffff;
+  x = (x | (x << 32)) & 0x001f00000000ffffull;
+  x = (x | (x << 16)) & 0x001f0000ff0000ffull;
+  x = (x | (x << 8)) & 0x100f00f00f00f00full;
+  x = (x | (x << 4)) & 0x10c30c30c30c30c3ull;
+  return (x | (x << 2)) & 0x1249249249249249ull;
 }
-constexpr uint32_t gather_bits_10(uint32_t x) {
-  x &= 0x09249249;
-  x = (x | (x >> 2)) & 0x030c30c3;
-  x = (x | (x >> 4)) & 0x0300f00f;
-  x = (x | (x >> 8)) & 0x030000ff;
-  return (x | (x >> 16)) & 0x3ff;
+constexpr uint32_t gather_bits(uint64_t x) {
+  x &= 0x1249249249249249ull;
+  x = (x | (x >> 2)) & 0x10c30c30c30c30c3ull;
+  x = (x | (x >> 4)) & 0x100f00f00f00f00full;
+  x = (x | (x >> 8)) & 0x001f0000ff0000ffull;
+  x = (x | (x >> 16)) & 0x001f00000000ffffull;
+  return static_cast<uint32_t>((x | (x >> 32)) & 0x1fffff);
 }
-/// Each coordinate 0 to 1023.
-constexpr uint32_t morton_code(uint32_t u, uint32_t v, uint32_t w) {
-  return spread_bits_10(u) | (spread_bits_10(v) << 1) | (spread_bits_10(w) << 2);
+/// Each coordinate 0 to 2^21 - 1.
+constexpr uint64_t morton_code(uint32_t u, uint32_t v, uint32_t w) {
+  return spread_bits(u) | (spread_bits(v) << 1) | (spread_bits(w) << 2);
 }
 
 }  // namespace ream::shell

@@ -12,7 +12,7 @@
 namespace ream::shell {
 namespace {
 
-constexpr int most_cells_a_side = 1024;
+constexpr int most_cells_a_side = 2048;
 constexpr uint32_t block_bits = 9;             // 8^3 cells
 constexpr double facet_error_in_cells = 0.01;  // of the revolved surface that is voxelized
 constexpr double tie_in_cells = 1e-4;
@@ -36,12 +36,10 @@ void check_size(const ToolProfile& profile, double spacing_mm) {
                                               std::to_string(longest_mm / (most_cells_a_side - 2)) + " mm");
 }
 
-int8_t in_127ths(double component) { return static_cast<int8_t>(std::lround(127.0 * component)); }
-
-ShellPoint point_of(const MeridianHit& hit, const Vec3& normal, SurfaceRole role, uint32_t morton) {
+ShellPoint point_of(const MeridianHit& hit, const Vec3& normal, SurfaceRole role, uint64_t morton) {
   ShellPoint p;
   p.morton = morton;
-  p.normal = {in_127ths(normal.x()), in_127ths(normal.y()), in_127ths(normal.z())};
+  p.normal = normal.cast<float>();
   p.area_weight = static_cast<uint8_t>(std::lround(16.0 / normal.cwiseAbs().maxCoeff()));
   p.surface_offset_mm = static_cast<float>(-hit.signed_distance_mm);
   p.role = role;
@@ -62,7 +60,7 @@ bool is_second_layer(const SurfaceVoxels& voxels, const Vec3i& cell, const Vec3&
 
 void add_point(const SurfaceVoxels& voxels, const Meridian& meridian, const Vec3i& cell, bool with_smooth,
                PointShell& shell) {
-  const uint32_t code = morton_code(static_cast<uint32_t>(cell.x()), static_cast<uint32_t>(cell.y()),
+  const uint64_t code = morton_code(static_cast<uint32_t>(cell.x()), static_cast<uint32_t>(cell.y()),
                                     static_cast<uint32_t>(cell.z()));
   const Vec3 centre = shell.cell_centre_mm(code);
   const double radius = std::hypot(centre.x(), centre.y());
@@ -99,7 +97,7 @@ ShellBlock block_of(const PointShell& shell, uint32_t first, uint32_t count) {
 void add_blocks(PointShell& shell) {
   const auto count = static_cast<uint32_t>(shell.points.size());
   for (uint32_t first = 0; first < count;) {
-    const uint32_t block = shell.points[first].morton >> block_bits;
+    const uint64_t block = shell.points[first].morton >> block_bits;
     uint32_t end = first;
     while (end < count && shell.points[end].morton >> block_bits == block) ++end;
     shell.blocks.push_back(block_of(shell, first, end - first));
@@ -109,14 +107,13 @@ void add_blocks(PointShell& shell) {
 
 }  // namespace
 
-Vec3 PointShell::cell_centre_mm(uint32_t morton) const {
-  const Vec3 cell(gather_bits_10(morton), gather_bits_10(morton >> 1), gather_bits_10(morton >> 2));
+Vec3 PointShell::cell_centre_mm(uint64_t morton) const {
+  const Vec3 cell(gather_bits(morton), gather_bits(morton >> 1), gather_bits(morton >> 2));
   return origin_mm + spacing_mm * (cell.array() + 0.5).matrix();
 }
 
 Vec3 PointShell::surface_point_mm(const ShellPoint& p) const {
-  const Vec3 normal(p.normal[0], p.normal[1], p.normal[2]);
-  return cell_centre_mm(p.morton) + static_cast<double>(p.surface_offset_mm) / 127.0 * normal;
+  return cell_centre_mm(p.morton) + static_cast<double>(p.surface_offset_mm) * p.normal.cast<double>();
 }
 
 Aabb PointShell::bounds_mm() const {

@@ -10,10 +10,11 @@ namespace ream::shell {
 
 /// One point of the shell that feels bone, tool frame.
 struct ShellPoint {
-  uint32_t morton = 0;             ///< cell of the shell's grid
-  std::array<int8_t, 3> normal{};  ///< outward unit normal in 1/127
-  uint8_t area_weight = 16;        ///< area in 1/16 of a cell face: 16 / max|n_i| for the thin voxelization
-  float surface_offset_mm = 0;     ///< signed step along the normal from the cell centre to the true surface
+  uint64_t morton = 0;  ///< cell of the shell's grid
+  Vec3f normal =
+      Vec3f::UnitZ();  ///< outward, unit; it meets the axis, as the envelope is a surface of revolution
+  float surface_offset_mm = 0;  ///< signed step along the normal from the cell centre to the true surface
+  uint8_t area_weight = 16;     ///< area in 1/16 of a cell face: 16 / max|n_i| for the thin voxelization
   SurfaceRole role = SurfaceRole::cutting;
 };
 
@@ -25,7 +26,7 @@ struct ShellBlock {
 };
 
 /// The tool's envelope (revolved profile) as points: centroids of its 6-separable voxelization (thesis 4.3),
-/// sorted by Morton code, so that blocks of 8^3 cells are runs. At most 1024 cells a side. Smooth segments
+/// sorted by Morton code, so that blocks of 8^3 cells are runs. At most 2048 cells a side. Smooth segments
 /// (the back) give no points when `with_smooth` is false.
 struct PointShell {
   double spacing_mm = 0;
@@ -34,13 +35,13 @@ struct PointShell {
   std::vector<ShellPoint> points;
   std::vector<ShellBlock> blocks;
 
-  Vec3 cell_centre_mm(uint32_t morton) const;
+  Vec3 cell_centre_mm(uint64_t morton) const;
   /// Where the point lies on the true surface: cell centre + offset along the normal.
   Vec3 surface_point_mm(const ShellPoint& p) const;
   Aabb bounds_mm() const;
 };
 
-/// Throws Error invalid_input when the spacing makes more than 1024 cells a side or no points.
+/// Throws Error invalid_input when the spacing makes more than 2048 cells a side or no points.
 PointShell make_point_shell(const Tool& tool, double spacing_mm, bool with_smooth = true);
 
 }  // namespace ream::shell

@@ -27,8 +27,8 @@ Pose between(const Pose& world_from_a, const Pose& world_from_b, double fraction
 Approach look(const Model& model, State& state) noexcept {
   Approach found;
   const QuantisedPose pose = quantised(state.bone.grid.world_from_grid.inverse() * state.world_from_tool);
-  found.voi =
-      collide::broad_phase(model.bone_box_grid, model.tool_box_tool, dequantised(pose), model.thin_step_mm);
+  found.voi = collide::broad_phase(state.cells.bounds_mm(), model.tool_box_tool, dequantised(pose),
+                                   model.thin_step_mm);
   found.ok = state.backend.narrow_phase->contact(pose, found.voi, found.sums);
   return found;
 }

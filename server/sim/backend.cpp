@@ -7,9 +7,9 @@
 
 namespace ream::sim {
 
-Backend make_backend(const Model& model, voxel::BoneModel& bone) {
+Backend make_backend(const Model& model, voxel::BoneModel& bone, const voxel::SolidCells& cells) {
   const std::string& wish = model.settings.backend;
-  const collide::NarrowPhaseInput contact{model.contact_shell, bone, model.distance, model.occupancy};
+  const collide::NarrowPhaseInput contact{model.contact_shell, bone, model.distance, cells};
   const collide::RemovalInput removal{model.profile, bone};
   if (wish == "cpu" || wish == "auto")
     return {"cpu", collide::make_narrow_phase_cpu(contact), collide::make_removal_cpu(removal)};

@@ -18,6 +18,6 @@ struct Backend {
 /// `model.settings.backend`: "cpu" is the C++ form, "opencl" or "opencl:N" an OpenCL device, "auto" the C++
 /// form, which needs no driver and no kernel build before the first tick. Everything is allocated, built and
 /// warmed here. Errors: usage for other words, unavailable when the device cannot be had.
-Backend make_backend(const Model& model, voxel::BoneModel& bone);
+Backend make_backend(const Model& model, voxel::BoneModel& bone, const voxel::SolidCells& cells);
 
 }  // namespace ream::sim

@@ -22,14 +22,12 @@ Model make_model(const case_::Plan& plan, voxel::BoneModel& bone, shell::Tool to
   model.plan = plan;
   model.world_from_plan = world_from_plan(plan);
   model.tool = std::move(tool);
-  model.shell = shell::make_point_shell(model.tool, settings.tool_spacing_mm);
   model.profile =
       shell::swept_profile(model.tool.profile, collide::RemovalSchedule::needed_margin_mm(bone.grid));
-  model.contact_shell = collide::make_contact_shell(model.shell, bone.grid.spacing_mm.maxCoeff());
+  model.contact_shell = collide::make_contact_shell(
+      shell::make_point_shell(model.tool, settings.tool_spacing_mm), bone.grid.spacing_mm.maxCoeff());
   model.distance = voxel::brick_distance(bone);
-  model.occupancy = voxel::occupancy(bone);
-  model.bone_box_grid = collide::bone_bounds_mm(bone);
-  if (model.bone_box_grid.empty())
+  if (model.distance.nothing())
     throw Error(ErrorKind::invalid_input, "the case holds no bone; import it again with a lower threshold");
   model.tool_box_tool = model.contact_shell.bounds_mm;
   const double r = model.profile.max_radius_mm;

@@ -32,12 +32,9 @@ struct Model {
   case_::Plan plan;
   Pose world_from_plan;  ///< plan frame: origin at the entry, z along the axis into the bone
   shell::Tool tool;
-  shell::PointShell shell;
   shell::SweptProfile profile;
   collide::ContactShell contact_shell;
   voxel::BrickDistance distance;
-  voxel::Occupancy occupancy;
-  Aabb bone_box_grid;  ///< around all bone at the start; removal only shrinks it
   Aabb tool_box_tool;  ///< around probes and swept body
   std::unique_ptr<force::FeedModel> feed;
   force::CouplingParameters coupling;

@@ -15,6 +15,7 @@ struct State {
   State(const Model& model, voxel::BoneModel& bone);
 
   voxel::BoneModel& bone;
+  voxel::SolidCells cells;  ///< what of the bone is left; follows every cut
   Backend backend;
   collide::RemovalSchedule schedule;
   std::vector<uint8_t> changed, empty;         ///< per entry of the schedule's list

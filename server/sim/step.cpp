@@ -77,7 +77,10 @@ bool remove(State& state, const QuantisedPose& pose, TickReport& report) {
     return false;
   for (size_t i = 0; i < due.size(); ++i) {
     state.schedule.cut_done(due[i], state.changed[i], state.empty[i]);
-    if (state.changed[i] && state.brick_sender != nullptr) state.brick_sender->mark(due[i]);
+    if (!state.changed[i]) continue;
+    state.cells.set(
+        due[i], voxel::SolidCells::word_of(state.bone.coverage.data() + state.bone.grid.brick_base(due[i])));
+    if (state.brick_sender != nullptr) state.brick_sender->mark(due[i]);
   }
   for (size_t k = 0; k < 3; ++k) report.coverage_removed[k] = sums.coverage_removed[k];
   report.changed_bricks = sums.changed_bricks;

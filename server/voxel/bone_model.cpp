@@ -25,6 +25,13 @@ std::array<BoneClass, 256> class_table(double cortical_threshold_g_cc) {
   return table;
 }
 
+int32_t first_cortical_code(double cortical_threshold_g_cc) {
+  const auto table = class_table(cortical_threshold_g_cc);
+  int32_t code = 0;
+  while (code < cartilage_code && table[static_cast<size_t>(code)] != BoneClass::cortical) ++code;
+  return code;
+}
+
 size_t BoneModel::filled_voxels() const {
   size_t filled = 0;
   for (const uint8_t c : coverage) filled += c >= 128;

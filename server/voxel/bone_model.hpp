@@ -26,6 +26,9 @@ double density_g_cc(uint8_t code);
 /// Class of every density code for a cortical/cancellous threshold.
 std::array<BoneClass, 256> class_table(double cortical_threshold_g_cc = default_cortical_threshold_g_cc);
 
+/// Lowest code of cortical bone; those above, but for cartilage's own, are cortical too.
+int32_t first_cortical_code(double cortical_threshold_g_cc);
+
 /// Bone of one case: per voxel an unchanging density and what remains of the voxel. Coverage 255 is whole, 0
 /// is gone or never was bone; the surface is where coverage crosses 127.5. Density is meaningful where the
 /// coverage was ever above 0. Both arrays have grid.voxel_count() bytes in the order of VoxelGrid::index.

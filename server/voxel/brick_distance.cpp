@@ -2,15 +2,13 @@
 
 #include <algorithm>
 
-#include "voxel/bricks.hpp"
+#include "voxel/solid_cells.hpp"
 
 namespace ream::voxel {
 namespace {
 
 bool brick_has_bone(const BoneModel& bone, uint32_t brick) {
-  uint8_t image[brick_voxels];
-  read_brick(bone.grid, bone.coverage.data(), brick, image);
-  return std::any_of(image, image + brick_voxels, [](uint8_t c) { return c != 0; });
+  return (SolidCells::word_of(bone.coverage.data() + bone.grid.brick_base(brick)) & 0xff) != 0;
 }
 
 /// One separable pass of the Chebyshev distance transform along one axis: d[k] = min over j of max(d[j], |k -
@@ -65,9 +63,14 @@ float BrickDistance::lower_bound_voxels(float x, float y, float z) const noexcep
   return std::max(outside, inside);
 }
 
+bool BrickDistance::nothing() const noexcept {
+  return std::none_of(bricks.begin(), bricks.end(), [](uint8_t d) { return d == 0; });
+}
+
 BrickDistance brick_distance(const BoneModel& bone) {
-  BrickDistance field{bone.grid.brick_dims(), std::vector<uint8_t>(bone.grid.brick_count(), 255)};
-  for (uint32_t b = 0; b < field.bricks.size(); ++b)
+  BrickDistance field{bone.grid.brick_dims(),
+                      std::vector<uint8_t>((bone.grid.brick_count() + 3) / 4 * 4, 255)};
+  for (uint32_t b = 0; b < bone.grid.brick_count(); ++b)
     if (brick_has_bone(bone, b)) field.bricks[b] = 0;
   for (int axis = 0; axis < 3; ++axis) sweep_axis(field.bricks, field.brick_dims, axis);
   return field;

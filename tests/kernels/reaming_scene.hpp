@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Geometry>
+#include <optional>
 #include <random>
 
 #include "collide/contact_shell.hpp"
@@ -31,11 +32,10 @@ struct ReamingScene {
     contact = collide::make_contact_shell(shell::make_point_shell(tool, 0.25), grid.spacing_mm.maxCoeff());
     profile = shell::swept_profile(tool.profile, collide::RemovalSchedule::needed_margin_mm(grid));
     distance = voxel::brick_distance(bone);
-    occupancy = voxel::occupancy(bone);
-    bone_box_mm = collide::bone_bounds_mm(bone);
+    cells.emplace(bone);
   }
 
-  collide::NarrowPhaseInput contact_input() const { return {contact, bone, distance, occupancy}; }
+  collide::NarrowPhaseInput contact_input() const { return {contact, bone, distance, *cells}; }
 
   /// The tool's apex `depth_mm` below the top of the bone, pointing down, tilted by a small rotation vector.
   QuantisedPose pose(double depth_mm, const Vec3& tilt, const Vec3& shift_mm) const {
@@ -50,7 +50,7 @@ struct ReamingScene {
     return pose(3.0 + 5.0 * unit(random), tilt, Vec3(9.0 * unit(random), 8.0 * unit(random), 0.0));
   }
   collide::Voi voi(const QuantisedPose& grid_from_tool) const {
-    return collide::broad_phase(bone_box_mm, contact.bounds_mm, dequantised(grid_from_tool), 1.0);
+    return collide::broad_phase(cells->bounds_mm(), contact.bounds_mm, dequantised(grid_from_tool), 1.0);
   }
 
   voxel::BoneModel bone;
@@ -58,8 +58,7 @@ struct ReamingScene {
   collide::ContactShell contact;
   shell::SweptProfile profile;
   voxel::BrickDistance distance;
-  voxel::Occupancy occupancy;
-  Aabb bone_box_mm;
+  std::optional<voxel::SolidCells> cells;
 };
 
 }  // namespace ream::test

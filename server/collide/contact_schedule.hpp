@@ -1,0 +1,41 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "collide/contact_look.hpp"
+#include "collide/odometer.hpp"
+
+namespace ream::collide {
+
+/// Decides which chunks of the shell a look for contact must visit. A chunk whose probes were measured to lie
+/// some way off the bone cannot touch before the tool has moved that far, for bone only becomes less; it is
+/// left alone until then. So a tick's work follows what touches and what nearly does, not the size of the
+/// tool. Culling changes no result. Runs on the host, the same for every narrow phase; no allocation after
+/// construction.
+class ContactSchedule {
+ public:
+  /// Chunks measured a look: bounds the work of a tick that finds many of them free. Others are merely
+  /// visited again.
+  static constexpr size_t measures_a_look = 24;
+
+  explicit ContactSchedule(const NarrowPhaseInput& input);
+
+  /// Chunks to visit at this pose, in rising order; the list stays valid until the next call.
+  std::span<const DueChunk> due(const QuantisedPose& grid_from_tool, const Voi& voi,
+                                const VoxelTransform& transform) noexcept;
+  /// After the visits, with the view of the same look: touched[i] is 0 for entries of due() that have no
+  /// engaged points. Some of them are measured.
+  void visited(const ContactView& view, IsClear is_clear, std::span<const uint8_t> touched) noexcept;
+
+ private:
+  void measure(const ContactView& view, IsClear is_clear, const DueChunk& chunk) noexcept;
+
+  const NarrowPhaseInput in_;
+  Odometer odometer_;
+  std::vector<float> due_at_;   ///< per chunk: odometer reading at which it may touch again
+  std::vector<uint64_t> late_;  ///< a bit a chunk, of the look under way
+  std::vector<DueChunk> list_;
+  size_t count_ = 0, turn_ = 0;
+};
+
+}  // namespace ream::collide

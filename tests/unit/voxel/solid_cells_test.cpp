@@ -1,0 +1,78 @@
+#include "voxel/solid_cells.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/random_bone.hpp"
+
+namespace ream::voxel {
+namespace {
+
+constexpr unsigned seed = 20312;
+
+/// Half of the bricks whole, the others with random coverage.
+BoneModel patchy_bone(std::mt19937& random) {
+  BoneModel bone = test::random_bone(random, {32, 24, 16}, 0.9);
+  for (uint32_t b = 0; b < bone.grid.brick_count(); ++b)
+    if (random() % 2)
+      for (size_t i = 0; i < brick_voxels; ++i) bone.coverage[bone.grid.brick_base(b) + i] = 255;
+  return bone;
+}
+
+uint16_t expected_word(const BoneModel& bone, uint32_t brick) {
+  const Vec3i first = bone.grid.brick_coordinates(brick) * brick_edge;
+  int solid[8] = {};
+  for (int i = 0; i < brick_voxels; ++i) {
+    const Vec3i in(i % 8, i / 8 % 8, i / 64);
+    solid[in.x() / 4 + 2 * (in.y() / 4) + 4 * (in.z() / 4)] +=
+        bone.coverage[bone.grid.index(first + in)] >= 128;
+  }
+  uint32_t word = 0;
+  for (uint32_t k = 0; k < 8; ++k) word |= (solid[k] > 0 ? 1u << k : 0u) | (solid[k] == 64 ? 256u << k : 0u);
+  return static_cast<uint16_t>(word);
+}
+
+TEST(SolidCells, SayOfEachCellWhetherAnyAndAllVoxelsAreSolid) {
+  SCOPED_TRACE(testing::Message() << "seed " << seed);
+  std::mt19937 random(seed);
+  const BoneModel bone = patchy_bone(random);
+  const SolidCells cells(bone);
+  int whole = 0;
+  for (uint32_t b = 0; b < bone.grid.brick_count(); ++b) {
+    ASSERT_EQ(cells.word(b), expected_word(bone, b)) << "brick " << b;
+    whole += cells.word(b) == 0xffff;
+  }
+  EXPECT_GT(whole, 5);
+  EXPECT_EQ(cells.words().size(), bone.grid.brick_count() + 1);
+}
+
+TEST(SolidCells, TheBoxIsThatOfTheSolidCellsWhateverGoes) {
+  SCOPED_TRACE(testing::Message() << "seed " << seed);
+  std::mt19937 random(seed);
+  BoneModel bone = make_bone(test::grid_of({40, 24, 32}, {0.5, 0.25, 1.0}));
+  for (int i = 0; i < 60; ++i) bone.coverage[random() % bone.coverage.size()] = 200;
+  SolidCells cells(bone);
+  for (;;) {
+    Aabb box;
+    std::vector<size_t> left;
+    for (size_t i = 0; i < bone.coverage.size(); ++i) {
+      if (bone.coverage[i] < solid_coverage) continue;
+      left.push_back(i);
+      const Vec3i cell = bone.grid.coordinates(i) / cell_edge;
+      const Vec3 size = bone.grid.spacing_mm * cell_edge;
+      box.include(cell.cast<double>().cwiseProduct(size));
+      box.include((cell + Vec3i::Ones()).cast<double>().cwiseProduct(size));
+    }
+    const Aabb got = cells.bounds_mm();
+    ASSERT_EQ(got.empty(), left.empty());
+    if (left.empty()) break;
+    ASSERT_EQ(got.min, box.min) << left.size() << " voxels left";
+    ASSERT_EQ(got.max, box.max) << left.size() << " voxels left";
+    const size_t gone = left[random() % left.size()];
+    bone.coverage[gone] = 127;
+    const auto brick = static_cast<uint32_t>(gone / brick_voxels);
+    cells.set(brick, SolidCells::word_of(bone.coverage.data() + bone.grid.brick_base(brick)));
+  }
+}
+
+}  // namespace
+}  // namespace ream::voxel
