@@ -81,10 +81,9 @@ void add_session_routes(net::Router& router, SessionService& service, const Read
   router.on("GET", base + "/{id}/metrics", [&service](const net::Request& request) {
     return net::json_response(200, service.metrics(id_of(request)));
   });
-  router.on_websocket(base + "/{id}/stream",
-                      [&service](const net::Request& request) {
-                        return service.subscribe(id_of(request), stride_of(request));
-                      });
+  router.on_websocket(base + "/{id}/stream", [&service](const net::Request& request) {
+    return service.subscribe(id_of(request), stride_of(request));
+  });
 }
 
 }  // namespace ream::api

@@ -8,7 +8,9 @@ class ViewerStream final : public net::WebSocketSession {
   ViewerStream(std::shared_ptr<stream::Fanout> fanout, int stride)
       : fanout_(std::move(fanout)), stride_(stride) {}
 
-  void on_open(std::function<void()> wake) override { mailbox_ = fanout_->subscribe(std::move(wake), stride_); }
+  void on_open(std::function<void()> wake) override {
+    mailbox_ = fanout_->subscribe(std::move(wake), stride_);
+  }
 
   std::optional<net::SharedBytes> next() override {
     net::SharedBytes message = mailbox_->next();

@@ -107,8 +107,7 @@ void MeshPublisher::begin_update() {
     const Vec3i origin = replica_.grid().brick_coordinates(image.brick) * voxel::brick_edge;
     for (Level& level : levels_) {
       if (level.picture == Level::Picture::unwanted) continue;
-      const auto range =
-          surface::blocks_touched(layout_, origin + box.low, origin + box.high, level.stride);
+      const auto range = surface::blocks_touched(layout_, origin + box.low, origin + box.high, level.stride);
       surface::for_each_block(layout_, range, [&level](uint32_t block) { level.touch(block); });
     }
   }

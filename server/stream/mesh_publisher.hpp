@@ -18,11 +18,11 @@ struct MeshPublisherOptions {
 
 /// Follows the bone through the brick ring and publishes the surface of what changed. Changed bricks wait
 /// beside the replica until one of their voxels is noticeable_coverage levels away from what viewers hold, or
-/// until the first has waited for max_delay_ns. Then all that wait enter the replica, the blocks whose surface
-/// depends on them are extracted, max_surfaces at a time, and when the last is ready those that differ from
-/// what viewers hold are published together. So viewers always hold the surface of one coverage, closed and
-/// with borders equal to the bit. The same holds at the coarser strides, which are extracted from when the
-/// first viewer asks for them. Used by one thread.
+/// until the first has waited for max_delay_ns. Then all that wait enter the replica, the blocks whose
+/// surface depends on them are extracted, max_surfaces at a time, and when the last is ready those that
+/// differ from what viewers hold are published together. So viewers always hold the surface of one coverage,
+/// closed and with borders equal to the bit. The same holds at the coarser strides, which are extracted from
+/// when the first viewer asks for them. Used by one thread.
 class MeshPublisher {
  public:
   /// `bone` as it is before the first tick; its coverage is copied here.

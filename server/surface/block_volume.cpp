@@ -50,7 +50,9 @@ bool BlockVolume::load(const uint8_t* coverage, const Vec3i& block) {
   const Vec3i first(margin_x, margin, margin);
   low_ = (block.array() == 0).select(first.array() - 1, first.array());
   last_ = first.array() + cells();
-  const auto fill_at = [&](uint32_t brick) { return fill_of(coverage + size_t{brick} * voxel::brick_voxels); };
+  const auto fill_at = [&](uint32_t brick) {
+    return fill_of(coverage + size_t{brick} * voxel::brick_voxels);
+  };
   if (!may_hold_surface(grid_, block, fill_at)) return false;
   if (stride_ == 1)
     load_voxels(coverage, block);

@@ -11,9 +11,9 @@ enum class Fill : uint8_t { none, all, some };
 /// `brick` has brick_voxels bytes.
 Fill fill_of(const uint8_t* brick);
 
-/// False only where the block cannot hold a surface, at any stride: its bricks and those after it, whose first voxels its
-/// cells reach, are all empty or all full; outside the grid is empty. `fill_at` gives the Fill of a brick by
-/// its number, and is not asked further than needed.
+/// False only where the block cannot hold a surface, at any stride: its bricks and those after it, whose
+/// first voxels its cells reach, are all empty or all full; outside the grid is empty. `fill_at` gives the
+/// Fill of a brick by its number, and is not asked further than needed.
 template <typename FillAt>
 bool may_hold_surface(const voxel::VoxelGrid& grid, const Vec3i& block, FillAt fill_at) {
   constexpr int edge = block_edge / voxel::brick_edge;

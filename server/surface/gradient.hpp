@@ -23,7 +23,8 @@ inline std::array<int, 3> fall_at(const uint8_t* sample, int row_bytes, int slic
   std::array<Lanes, 3> sum, fall_y;  // of the slices before, at and after the sample, weighted along y
   for (int z = 0; z < 3; ++z) {
     const uint8_t* row = sample - 1 + (z - 1) * slice_bytes;
-    const Lanes before = load_lanes(row - row_bytes), at = load_lanes(row), after = load_lanes(row + row_bytes);
+    const Lanes before = load_lanes(row - row_bytes), at = load_lanes(row),
+                after = load_lanes(row + row_bytes);
     sum[static_cast<size_t>(z)] = before + at + at + after;
     fall_y[static_cast<size_t>(z)] = before - after;
   }

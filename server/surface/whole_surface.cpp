@@ -89,7 +89,8 @@ void join(const BlockLayout& layout, const Vec3& spacing_mm, int stride, const s
     if (set != 0) {
       if (owner[set] == nullptr)
         owner[set] = &parts[layout.index(block + Vec3i(set & 1, set >> 1 & 1, set >> 2 & 1))];
-      number.push_back(static_cast<uint32_t>(owner[set]->first_vertex + owner[set]->lent[set][borrowed[set]++]));
+      number.push_back(
+          static_cast<uint32_t>(owner[set]->first_vertex + owner[set]->lent[set][borrowed[set]++]));
       continue;
     }
     whole.vertices_mm[next] = position_mm(v, block, spacing_mm);

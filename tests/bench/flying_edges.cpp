@@ -35,8 +35,7 @@ std::optional<FlyingEdgesRun> run_flying_edges(const std::array<int, 3>& dims,
   const auto start = std::chrono::steady_clock::now();
   filter->Update();
   const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
-  return FlyingEdgesRun{taken.count(),
-                        static_cast<size_t>(filter->GetOutput()->GetNumberOfPolys())};
+  return FlyingEdgesRun{taken.count(), static_cast<size_t>(filter->GetOutput()->GetNumberOfPolys())};
 }
 
 #else

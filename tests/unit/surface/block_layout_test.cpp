@@ -28,7 +28,8 @@ TEST(BlockLayout, AVoxelTouchesExactlyTheBlocksWithinTwoVoxels) {
     for_each_block(layout, blocks_touched(layout, voxel, voxel, 1), [&](uint32_t b) { touched.insert(b); });
     for (uint32_t block = 0; block < layout.count(); ++block) {
       const Vec3i first = layout.coordinates(block) * block_edge;
-      if ((voxel.array() >= first.array() - 2).all() && (voxel.array() <= first.array() + block_edge + 1).all())
+      if ((voxel.array() >= first.array() - 2).all() &&
+          (voxel.array() <= first.array() + block_edge + 1).all())
         near.insert(block);
     }
     EXPECT_EQ(touched, near) << voxel.transpose();

@@ -56,8 +56,7 @@ std::vector<Triangle> block_triangles(const voxel::VoxelGrid& grid, const std::v
   std::vector<Triangle> result;
   for (uint32_t block = 0; block < extractor.layout().count(); ++block) {
     const BlockMesh mesh = extractor.extract(coverage.data(), block);
-    const Vec3i origin =
-        ((extractor.layout().coordinates(block) * block_edge).array() - 1) * units_per_voxel;
+    const Vec3i origin = ((extractor.layout().coordinates(block) * block_edge).array() - 1) * units_per_voxel;
     for (size_t i = 0; i < mesh.indices.size(); i += 3) {
       Triangle t;
       for (size_t k = 0; k < 3; ++k) {
@@ -104,8 +103,7 @@ TEST(BlockMesh, NeighboursAgreeOnSharedVerticesAndNormals) {
   std::map<Position, std::pair<int8_t, int8_t>> normals;
   size_t shared = 0;
   for (uint32_t block = 0; block < extractor.layout().count(); ++block) {
-    const Vec3i origin =
-        ((extractor.layout().coordinates(block) * block_edge).array() - 1) * units_per_voxel;
+    const Vec3i origin = ((extractor.layout().coordinates(block) * block_edge).array() - 1) * units_per_voxel;
     for (const BlockVertex& v : extractor.extract(coverage.data(), block).vertices) {
       const auto [place, fresh] =
           normals.try_emplace({origin.x() + v.x, origin.y() + v.y, origin.z() + v.z}, v.ox, v.oy);

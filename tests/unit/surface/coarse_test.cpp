@@ -59,8 +59,7 @@ TEST(Coarse, BesidePlaneSurfacesOfAnyTiltTheMeanIsEnough) {
   const voxel::VoxelGrid grid = grid_of({48, 48, 48});
   for (int i = 0; i < 20; ++i) {
     const Vec3 n = Vec3(normal(random), normal(random), normal(random)).normalized();
-    const auto coverage =
-        coverage_of(grid, [&](const Vec3& p) { return n.dot(Vec3(24, 24, 24) - p); });
+    const auto coverage = coverage_of(grid, [&](const Vec3& p) { return n.dot(Vec3(24, 24, 24) - p); });
     for (const int stride : {2, 4}) {
       const TriangleMesh mesh = whole_surface(grid, coverage.data(), 2, stride);
       for (const Vec3f& p : mesh.vertices_mm) {
