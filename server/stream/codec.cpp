@@ -39,8 +39,8 @@ EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t 
   if (mesh.indices.empty()) return result;
   choose_formats_once();
 
-  // The cheapest order: the best one for strips packs 9 % better and takes four times as long.
-  constexpr unsigned cache_vertices = 16;
+  // A cheap order: the best one, for strips, packs 10 % better and takes twice as long in all.
+  constexpr unsigned cache_vertices = 8;
   std::vector<uint32_t> indices(mesh.indices.size());
   meshopt_optimizeVertexCacheFifo(indices.data(), mesh.indices.data(), indices.size(), mesh.vertices.size(),
                                   cache_vertices);

@@ -20,11 +20,6 @@ void for_each_bit(uint64_t word, Visit visit) {
   for (; word != 0; word &= word - 1) visit(std::countr_zero(word));
 }
 
-/// Bits first..last.
-constexpr uint64_t bits(int first, int last) {
-  return (~uint64_t{0} << first) & (~uint64_t{0} >> (63 - last));
-}
-
 /// Where coverage crosses 127.5 between two samples, from the first, rounded to 1/1024 of their distance:
 /// 4..1020.
 int crossing(int first, int second) {

@@ -15,11 +15,6 @@ namespace {
 using voxel::brick_edge;
 static_assert(BlockVolume::margin_x == brick_edge && BlockVolume::row_bytes == 48);
 
-/// Bits first..last.
-constexpr uint64_t bits(int first, int last) {
-  return (~uint64_t{0} << first) & (~uint64_t{0} >> (63 - last));
-}
-
 /// Bit i is the top bit of byte i of a row: set where coverage is 128 or more.
 uint64_t top_bits(const uint8_t* row) {
   uint64_t result = 0;

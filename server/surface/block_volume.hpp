@@ -7,6 +7,11 @@
 
 namespace ream::surface {
 
+/// Bits first..last.
+constexpr uint64_t bits(int first, int last) {
+  return (~uint64_t{0} << first) & (~uint64_t{0} >> (63 - last));
+}
+
 /// Coverage of one block as marching cubes wants it: samples -2 to cells + 1 around the block's own, in rows
 /// of x, 0 outside the grid. At stride 1 samples are voxels, otherwise the coarse samples of coarse.hpp.
 /// Working memory, used for one block after another.
