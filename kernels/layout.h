@@ -47,6 +47,9 @@ struct AffineArguments {
 #define REAM_SOLID_COVERAGE 128
 #define REAM_CARTILAGE_CODE 255
 
+// Chunks of the largest block.
+#define REAM_CONTACT_BLOCK_CHUNKS 32
+
 struct ContactArguments {
   ream_int32 per_unit[9];  // VoxelTransform
   ream_int32 bits;
@@ -57,8 +60,9 @@ struct ContactArguments {
 };
 
 struct ContactBlockLayout {
-  ream_uint32 guiding;
-  ream_int32 origin_z_units;
+  ream_uint32 guiding, count;
+  ream_int32 origin_z_units, height_units;
+  ream_int32 whole[REAM_CONTACT_PRODUCTS];
 };
 
 struct DueChunkLayout {
@@ -71,22 +75,38 @@ struct CellPatch {
   ream_uint32 brick, word;
 };
 
+#define REAM_UNTOUCHED_LEVELS 1.0e9f
 // Removal: what became of one listed brick; starts the brick's slot in the kernel's answer.
 struct RemovalRecord {
   ream_uint32 hash_low, hash_high;  // sum of the changes' hashes, modulo 2^64
   ream_int32 removed[3];            // coverage levels by bone class
-  ream_uint32 changed, left;        // left: 0 when the brick is empty now
+  ream_uint32 changed;
+  float slack_levels;  // least level above its coverage of any voxel left; REAM_UNTOUCHED_LEVELS when none is
   ream_uint32 unused;
 };
 
 struct RemovalArguments {
   struct AffineArguments tool_from_voxel;
-  ream_int32 dims_x, dims_y;
   ream_int32 brick_dims_x, brick_dims_y;
   ream_uint32 bricks;
   ream_uint32 slot_bytes;  // a RemovalRecord each, or a record and the brick's 512 coverages for the host
   ream_int32 r2_count;
-  float z_min_mm, inverse_z_step, inverse_r2_step, r2_limit, z_limit, levels_per_mm;
+  float z_min_mm, inverse_z_step, inverse_r2_step, r2_limit, z_limit, levels_per_step;
+};
+
+// Removal by decay: points of a run, what stands for a point outside bone, and bricks put on the device at once.
+#define REAM_DECAY_RUN_POINTS 256
+#define REAM_NO_VOXEL 0xffffffffu
+#define REAM_DECAY_PUT_BRICKS 512
+
+struct DecayRunLayout {
+  ream_uint32 first, count;
+};
+
+struct DecayArguments {
+  struct AffineArguments voxel_from_tool;
+  ream_int32 dims_x, dims_y, dims_z;
+  ream_uint32 listed;  // runs
 };
 
 // Upsampling: where an output sample lies between two input samples (voxel/upsample.hpp).

@@ -2,8 +2,8 @@
 #include "layout.h"
 
 // Contact sums of the shell's due chunks: whole numbers only. Twin of server/collide/contact_look_portable.cpp.
-// A group takes every G-th chunk. LANES work-items a group: 1 where work-items are loops (CPU) and one takes a chunk at a
-// time as vectors; elsewhere a multiple of the warp, and each takes one point at a time.
+// LANES work-items a group: 1 where work-items are loops (CPU), and one takes a share of the chunks in a row, each as
+// vectors; elsewhere a multiple of the warp, a group takes every G-th chunk and its lanes one point at a time.
 
 #define NO_POINT LONG_MIN
 #define PLACE_MASK ((1 << REAM_PLACE_BITS) - 1)
@@ -98,19 +98,19 @@ static int16 turned16(int16 product) {
   return (product + (1 << (REAM_AZIMUTH_SHIFT - 1))) >> REAM_AZIMUTH_SHIFT;
 }
 
-// The sums of one side, lane by lane.
+// What a group has summed of one side, lane by lane, since it was added to the 64-bit sums.
 typedef struct {
-  int16 products[REAM_CONTACT_PRODUCTS], points;
+  int16 products[REAM_CONTACT_PRODUCTS];
   int chunks;
 } SideSums;
 
 static void clear(SideSums* side) {
   for (int k = 0; k < REAM_CONTACT_PRODUCTS; ++k) side->products[k] = 0;
-  side->points = 0;
   side->chunks = 0;
 }
 
 static void flush(SideSums* side, global long* sums) {
+  if (side->chunks == 0) return;
   for (int k = 0; k < REAM_CONTACT_PRODUCTS; ++k) {
     int lanes[16];
     vstore16(side->products[k], 0, lanes);
@@ -118,7 +118,6 @@ static void flush(SideSums* side, global long* sums) {
     for (int i = 0; i < 16; ++i) sum += lanes[i];
     sums[k] += sum;
   }
-  sums[REAM_CONTACT_PRODUCTS] += sum16(side->points);
   clear(side);
 }
 
@@ -138,8 +137,44 @@ static void add_chunk(uint16 place, uint16 low_direction, int16 engaged, global 
   }
   for (int i = 0; i < 5; ++i) side->products[k++] += weight * g[i];
   side->products[k] += weight;
-  side->points -= engaged;
   ++side->chunks;
+}
+
+// Sums over cutting points, lane by lane.
+typedef struct {
+  int16 points, cortical_points, cartilage_points, density, cortical_density;
+} ClassSums;
+
+static void add_density(int16 code, int16 engaged, int first_cortical_code, ClassSums* sums) {
+  const int16 cartilage = engaged & (code == REAM_CARTILAGE_CODE);
+  const int16 cortical = engaged & ~cartilage & (code >= first_cortical_code);
+  sums->points -= engaged;
+  sums->density += code;
+  sums->cortical_density += code & cortical;
+  sums->cortical_points -= cortical;
+  sums->cartilage_points -= cartilage;
+}
+
+static void write_classes(const ClassSums* s, global long* sums) {
+  const int cortical = sum16(s->cortical_points), cartilage = sum16(s->cartilage_points);
+  const int cortical_codes = sum16(s->cortical_density), cartilage_codes = cartilage * REAM_CARTILAGE_CODE;
+  sums[REAM_CONTACT_CLASS_POINTS] = sum16(s->points) - cortical - cartilage;
+  sums[REAM_CONTACT_CLASS_POINTS + 1] = cortical;
+  sums[REAM_CONTACT_CLASS_POINTS + 2] = cartilage;
+  sums[REAM_CONTACT_CLASS_DENSITY] = sum16(s->density) - cortical_codes - cartilage_codes;
+  sums[REAM_CONTACT_CLASS_DENSITY + 1] = cortical_codes;
+  sums[REAM_CONTACT_CLASS_DENSITY + 2] = cartilage_codes;
+}
+
+// The deepest of `deepest` and the engaged points of a chunk.
+static long deeper(long deepest, int origin_z_units, uint16 place, int16 engaged, uint first) {
+  const int16 height = select((int16)(-1), convert_int16(place >> (2 * REAM_PLACE_BITS) & PLACE_MASK), engaged);
+  int heights[16];
+  vstore16(height, 0, heights);
+  for (uint k = 0; k < 16; ++k)
+    if (heights[k] >= 0)
+      deepest = max(deepest, ((long)(origin_z_units + heights[k]) << 32) | (long)(0xffffffffu - (first + k)));
+  return deepest;
 }
 
 kernel __attribute__((reqd_work_group_size(1, 1, 1))) void contact_sums(BONE, struct ContactArguments arguments,
@@ -150,55 +185,51 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void contact_sums(BONE, st
   const int16 lane = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   SideSums side;
   clear(&side);
+  ClassSums classes = {0, 0, 0, 0, 0};
   uint guiding = 0;
-  int16 cortical_points = 0, cartilage_points = 0, all_points = 0, all_density = 0, cortical_density = 0;
+  const uint share = (arguments.chunks + get_num_groups(0) - 1) / get_num_groups(0);
+  const uint last = min(arguments.chunks, ((uint)get_group_id(0) + 1) * share);
 
-  for (uint s = get_group_id(0); s < arguments.chunks; s += get_num_groups(0)) {
-    global const struct DueChunkLayout* chunk = due + s;
-    const uint16 place = vload16(0, places + chunk->first);
-    int16 voxel;
-    const int16 state = probe(place, lane < (int)chunk->count, chunk, &arguments, cells, &voxel);
-    int16 engaged = state == 0x101;
-    const int16 unsure = state == 1;
-    if (any(unsure)) engaged |= unsure & (bytes_at(coverage, voxel, unsure) >= REAM_SOLID_COVERAGE);
-    touched[s] = any(engaged) != 0;
-    if (!any(engaged)) continue;
-    const struct ContactBlockLayout block = blocks[chunk->block];
-    if (block.guiding != guiding || side.chunks == POINTS_A_FLUSH) {
-      flush(&side, sums + guiding * REAM_CONTACT_PART_SUMS);
-      guiding = block.guiding;
+  // One block's chunks after another: a block that is wholly engaged has its sums ready.
+  for (uint first = get_group_id(0) * share, end = first; first < last; first = end) {
+    global const struct ContactBlockLayout* block = blocks + due[first].block;
+    int16 engaged_of[REAM_CONTACT_BLOCK_CHUNKS], points = 0;
+    for (; end < last && due[end].block == due[first].block; ++end) {
+      global const struct DueChunkLayout* chunk = due + end;
+      const uint16 place = vload16(0, places + chunk->first);
+      int16 voxel;
+      const int16 state = probe(place, lane < (int)chunk->count, chunk, &arguments, cells, &voxel);
+      int16 engaged = state == 0x101;
+      const int16 unsure = state == 1;
+      if (any(unsure)) engaged |= unsure & (bytes_at(coverage, voxel, unsure) >= REAM_SOLID_COVERAGE);
+      engaged_of[end - first] = engaged;
+      touched[end] = any(engaged) != 0;
+      if (!any(engaged)) continue;
+      points -= engaged;
+      if (block->guiding) continue;
+      add_density(bytes_at(density, voxel, engaged) & engaged, engaged, arguments.first_cortical_code, &classes);
+      if (deepest == NO_POINT || block->origin_z_units + block->height_units > (int)(deepest >> 32))
+        deepest = deeper(deepest, block->origin_z_units, place, engaged, chunk->first);
     }
-    add_chunk(place, convert_uint16(vload16(0, directions + chunk->first)), engaged, meridian, azimuth, &side);
-    if (guiding) continue;
-    const int16 code = bytes_at(density, voxel, engaged) & engaged;
-    const int16 cartilage = engaged & (code == REAM_CARTILAGE_CODE);
-    const int16 cortical = engaged & ~cartilage & (code >= arguments.first_cortical_code);
-    all_points -= engaged;
-    all_density += code;
-    cortical_density += code & cortical;
-    cortical_points -= cortical;
-    cartilage_points -= cartilage;
-    const int16 height = select((int16)(-1), convert_int16(place >> (2 * REAM_PLACE_BITS) & PLACE_MASK), engaged);
-    const int8 high8 = max(height.lo, height.hi);
-    const int4 high4 = max(high8.lo, high8.hi);
-    const int2 high2 = max(high4.lo, high4.hi);
-    const int highest = max(high2.x, high2.y);
-    if (deepest != NO_POINT && block.origin_z_units + highest < (int)(deepest >> 32)) continue;
-    int heights[16];
-    vstore16(height, 0, heights);
-    for (uint k = 0; k < 16; ++k)
-      if (heights[k] == highest)
-        deepest = max(deepest, ((long)(block.origin_z_units + highest) << 32) | (long)(0xffffffffu - (chunk->first + k)));
+    const uint total = sum16(points);
+    if (total == 0) continue;
+    if (block->guiding != guiding || side.chunks >= POINTS_A_FLUSH) {
+      flush(&side, sums + guiding * REAM_CONTACT_PART_SUMS);
+      guiding = block->guiding;
+    }
+    global long* part = sums + guiding * REAM_CONTACT_PART_SUMS;
+    part[REAM_CONTACT_PRODUCTS] += total;
+    if (total == block->count) {
+      for (int k = 0; k < REAM_CONTACT_PRODUCTS; ++k) part[k] += block->whole[k];
+      continue;
+    }
+    for (uint s = first; s < end; ++s)
+      if (any(engaged_of[s - first]))
+        add_chunk(vload16(0, places + due[s].first), convert_uint16(vload16(0, directions + due[s].first)),
+                  engaged_of[s - first], meridian, azimuth, &side);
   }
   flush(&side, sums + guiding * REAM_CONTACT_PART_SUMS);
-  const int cortical = sum16(cortical_points), cartilage = sum16(cartilage_points);
-  const int cortical_codes = sum16(cortical_density), cartilage_codes = cartilage * REAM_CARTILAGE_CODE;
-  sums[REAM_CONTACT_CLASS_POINTS] = sum16(all_points) - cortical - cartilage;
-  sums[REAM_CONTACT_CLASS_POINTS + 1] = cortical;
-  sums[REAM_CONTACT_CLASS_POINTS + 2] = cartilage;
-  sums[REAM_CONTACT_CLASS_DENSITY] = sum16(all_density) - cortical_codes - cartilage_codes;
-  sums[REAM_CONTACT_CLASS_DENSITY + 1] = cortical_codes;
-  sums[REAM_CONTACT_CLASS_DENSITY + 2] = cartilage_codes;
+  write_classes(&classes, sums);
   sums[REAM_CONTACT_DEEPEST] = deepest;
 }
 

@@ -21,8 +21,8 @@ static ulong mix64(ulong x) {
   return x ^ (x >> 31);
 }
 
-// Coverage that the eight voxels of a row may keep; (fu, fv, fw) are their voxel indices.
-static uchar8 kept_in_row(global const float* table, const struct RemovalArguments* p, float8 fu, float fv, float fw) {
+// Levels of the eight voxels of a row (brick_levels() of profile_table.cpp); (fu, fv, fw) are their voxel indices.
+static float8 row_levels(global const int* pairs, const struct RemovalArguments* p, float8 fu, float fv, float fw) {
   const float* m = p->tool_from_voxel.m;
   const float* t = p->tool_from_voxel.t;
   const float row_x = m[2] * fw + m[1] * fv + t[0];
@@ -38,17 +38,20 @@ static uchar8 kept_in_row(global const float* table, const struct RemovalArgumen
   const float8 tr = r - convert_float8(ir), th = h - convert_float8(ih);
   int at[8];
   vstore8(ih * p->r2_count + ir, 0, at);
-  float low0[8], low1[8], high0[8], high1[8];
+  int near_pairs[8], far_pairs[8];
   for (int u = 0; u < 8; ++u) {
-    low0[u] = table[at[u]];
-    low1[u] = table[at[u] + 1];
-    high0[u] = table[at[u] + p->r2_count];
-    high1[u] = table[at[u] + p->r2_count + 1];
+    near_pairs[u] = pairs[at[u]];
+    far_pairs[u] = pairs[at[u] + p->r2_count];
   }
-  const float8 a0 = vload8(0, low0), b0 = vload8(0, high0);
-  const float8 near_z = a0 + tr * (vload8(0, low1) - a0);
-  const float8 far_z = b0 + tr * (vload8(0, high1) - b0);
-  float8 level = (near_z + th * (far_z - near_z)) * p->levels_per_mm + 128.0f;
+  const int8 near_pair = vload8(0, near_pairs), far_pair = vload8(0, far_pairs);
+  const float8 near_0 = convert_float8(near_pair << 16 >> 16), near_1 = convert_float8(near_pair >> 16);
+  const float8 far_0 = convert_float8(far_pair << 16 >> 16), far_1 = convert_float8(far_pair >> 16);
+  const float8 near_z = near_0 + tr * (near_1 - near_0);
+  const float8 far_z = far_0 + tr * (far_1 - far_0);
+  return (near_z + th * (far_z - near_z)) * p->levels_per_step + 128.0f;
+}
+
+static uchar8 kept_coverage(float8 level) {
   level = select(level, (float8)(0.0f), level < 0.0f);
   level = select(level, (float8)(255.0f), level > 255.0f);
   return convert_uchar8(convert_int8(level));
@@ -58,12 +61,16 @@ static uchar8 kept_in_row(global const float* table, const struct RemovalArgumen
 typedef struct {
   ulong hash;
   int removed[3];
-  uint changed, left;
+  uint changed;
+  float slack;
 } LaneSums;
+
+static float smaller(float a, float b) { return a < b ? a : b; }
 
 // Lowers the row of eight voxels that starts at `at` to what it may keep.
 static void cut_row(global uchar* coverage, global const uchar* density, global const uchar* classes, size_t at,
-                    uchar8 before, uchar8 kept, LaneSums* sums) {
+                    uchar8 before, float8 levels, LaneSums* sums) {
+  const uchar8 kept = kept_coverage(levels);
   if (any(kept < before)) {
     uchar old_levels[8], new_levels[8];
     vstore8(before, 0, old_levels);
@@ -77,7 +84,11 @@ static void cut_row(global uchar* coverage, global const uchar* density, global 
     vstore8(before, 0, coverage + at);
     sums->changed = 1;
   }
-  sums->left |= as_ulong(before) != 0;
+  float8 above = levels - convert_float8(before);
+  above = select(above, (float8)(REAM_UNTOUCHED_LEVELS), convert_int8(before) == 0);
+  float slack[8];
+  vstore8(above, 0, slack);
+  for (int u = 0; u < 8; ++u) sums->slack = smaller(slack[u], sums->slack);
 }
 
 static void write_record(local const LaneSums* lanes, global struct RemovalRecord* record) {
@@ -86,18 +97,18 @@ static void write_record(local const LaneSums* lanes, global struct RemovalRecor
     all.hash += lanes[lane].hash;
     for (int k = 0; k < 3; ++k) all.removed[k] += lanes[lane].removed[k];
     all.changed |= lanes[lane].changed;
-    all.left |= lanes[lane].left;
+    all.slack = smaller(lanes[lane].slack, all.slack);
   }
   record->hash_low = (uint)all.hash;
   record->hash_high = (uint)(all.hash >> 32);
   for (int k = 0; k < 3; ++k) record->removed[k] = all.removed[k];
   record->changed = all.changed;
-  record->left = all.left;
+  record->slack_levels = all.slack;
   record->unused = 0;
 }
 
 kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void cut_bricks(
-    global uchar* coverage, global const uchar* density, global const uchar* classes, global const float* table,
+    global uchar* coverage, global const uchar* density, global const uchar* classes, global const int* pairs,
     global const uint* bricks, struct RemovalArguments arguments, global uchar* slots) {
   local LaneSums lanes[LANES];
   const int lane = get_local_id(0);
@@ -109,14 +120,14 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void cut_bricks(
     const int first_v = brick / arguments.brick_dims_x % arguments.brick_dims_y * BRICK_EDGE;
     const int first_w = brick / (arguments.brick_dims_x * arguments.brick_dims_y) * BRICK_EDGE;
     global uchar* slot = slots + (size_t)i * arguments.slot_bytes;
-    LaneSums sums = {0, {0, 0, 0}, 0, 0};
+    LaneSums sums = {0, {0, 0, 0}, 0, REAM_UNTOUCHED_LEVELS};
     for (int row = lane; row < BRICK_ROWS; row += LANES) {
       const int v = first_v + row % BRICK_EDGE, w = first_w + row / BRICK_EDGE;
       const size_t at = ((size_t)brick * BRICK_ROWS + row) * BRICK_EDGE;
       const uchar8 before = vload8(0, coverage + at);
       if (as_ulong(before) != 0)
         cut_row(coverage, density, classes, at, before,
-                kept_in_row(table, &arguments, (float)first_u + steps, (float)v, (float)w), &sums);
+                row_levels(pairs, &arguments, (float)first_u + steps, (float)v, (float)w), &sums);
       if (arguments.slot_bytes > sizeof(struct RemovalRecord))
         vstore8(vload8(0, coverage + at), row, slot + sizeof(struct RemovalRecord));
     }

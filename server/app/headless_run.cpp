@@ -7,6 +7,7 @@
 #include "app/interrupt.hpp"
 #include "app/session_files.hpp"
 #include "core/error.hpp"
+#include "core/log.hpp"
 #include "sim/haptic_loop.hpp"
 
 namespace ream::app {
@@ -45,6 +46,7 @@ HeadlessResult run_headless(Rig& rig, const std::filesystem::path& folder, bool 
     loop.black_box().write("ream-black-box.csv");
     throw Error(ErrorKind::unavailable, fault + " The last seconds are in ream-black-box.csv.");
   }
+  if (health.failed_over_tick >= 0) log::warn(sim::failover_words(health.failed_over_tick));
   const SessionFiles::Results results = files.finish(health, nlohmann::json::object());
   return {results.metrics, results.timing};
 }

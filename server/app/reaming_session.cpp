@@ -207,6 +207,10 @@ void ReamingSession::note_health() {
   sample_.tick_mean_us = static_cast<float>(health.tick_us.mean_us);
   sample_.tick_p99_us = static_cast<float>(health.tick_us.p99_us);
   sample_.ticks_missed = static_cast<uint32_t>(health.missed);
+  if (health.failed_over_tick >= 0 && !failover_told_) {
+    failover_told_ = true;
+    log::warn("session " + id_ + ": " + sim::failover_words(health.failed_over_tick));
+  }
   const std::lock_guard lock(mutex_);
   metrics_ = score::metrics_json(metrics, status_.force_scale, nullptr);
   status_.tick = sample_.tick + 1;

@@ -56,6 +56,7 @@ class ReamingSession final : public api::RunningSession {
   stream::MeshPublisher publisher_;
   stream::TelemetryBatcher batcher_;
   stream::TelemetrySample sample_;  ///< the newest, follower only
+  bool failover_told_ = false;      ///< follower only
 
   mutable std::mutex mutex_;  ///< guards what follows
   std::condition_variable changed_;

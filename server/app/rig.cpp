@@ -31,6 +31,7 @@ sim::Settings settings_for(const RunRequest& request, const device::Script& scri
                            const device::DeviceTraits& traits) {
   sim::Settings settings;
   settings.backend = request.backend;
+  settings.removal = request.removal;
   settings.tool_spacing_mm = request.tool_spacing_mm;
   settings.force_scale = script.force_scale;
   settings.stiffness_n_mm = script.stiffness_n_mm > 0.0 ? script.stiffness_n_mm : traits.stiffness_max_n_mm;
@@ -61,21 +62,26 @@ Rig::Rig(const RunRequest& request_in, const fs::path& data)
       state(model, bone_case.bone) {}
 
 nlohmann::json Rig::description() const {
-  return {{"build", version_text()},
-          {"case", bone_case.id},
-          {"case_name", bone_case.name},
-          {"side", case_::to_text(bone_case.side)},
-          {"script", request.script_name},
-          {"tool", model.tool.name},
-          {"tool_spacing_mm", model.settings.tool_spacing_mm},
-          {"shell_points", model.contact_shell.size()},
-          {"backend", state.backend.name},
-          {"force_scale", model.settings.force_scale},
-          {"stiffness_n_mm", model.settings.stiffness_n_mm},
-          {"random_seed", model.settings.random_seed},
-          {"grid_dims",
-           {bone_case.bone.grid.dims.x(), bone_case.bone.grid.dims.y(), bone_case.bone.grid.dims.z()}},
-          {"start_grid_hash", to_hex(bone_case.bone.coverage_hash())}};
+  nlohmann::json description = {
+      {"build", version_text()},
+      {"case", bone_case.id},
+      {"case_name", bone_case.name},
+      {"side", case_::to_text(bone_case.side)},
+      {"script", request.script_name},
+      {"tool", model.tool.name},
+      {"tool_spacing_mm", model.settings.tool_spacing_mm},
+      {"shell_points", model.contact_shell.size()},
+      {"backend", state.backend.name},
+      {"removal", sim::to_text(model.settings.removal)},
+      {"force_scale", model.settings.force_scale},
+      {"stiffness_n_mm", model.settings.stiffness_n_mm},
+      {"random_seed", model.settings.random_seed},
+      {"grid_dims",
+       {bone_case.bone.grid.dims.x(), bone_case.bone.grid.dims.y(), bone_case.bone.grid.dims.z()}},
+      {"start_grid_hash", to_hex(bone_case.bone.coverage_hash())}};
+  if (model.settings.removal == sim::RemovalLaw::decay)
+    description["decay_levels"] = model.settings.decay_levels;
+  return description;
 }
 
 }  // namespace ream::app

@@ -16,6 +16,7 @@ struct RunRequest {
   std::string case_name = "demo";    ///< `demo`, an id in the data folder, or the path of a case folder
   std::string script_name = "demo";  ///< `demo` or the path of a script
   std::string backend = "auto";
+  sim::RemovalLaw removal = sim::RemovalLaw::profile;
   std::string tool;  ///< empty: the plan's reamer
   std::optional<shell::ToolAxis> tool_axis;
   double tool_spacing_mm = 0.2;

@@ -45,6 +45,7 @@ SessionFiles::Results SessionFiles::finish(const sim::LoopHealth& health, const 
   write_json(folder_ / "metrics.json", results.metrics);
   write_json(folder_ / "timing.json", results.timing);
   nlohmann::json session = description_;
+  if (health.failed_over_tick >= 0) session["failed_over_at_tick"] = health.failed_over_tick;
   session.update(extra);
   write_json(folder_ / "session.json", session);
   return results;

@@ -23,25 +23,29 @@ inline int pair(int32_t low, int32_t high) {
   return static_cast<int>((static_cast<uint32_t>(low) & 0xffff) | static_cast<uint32_t>(high) << 16);
 }
 
-/// The numbers of a look at one block, in registers.
-struct Axes {
-  __m512i xy[3], z[3], base[3];
+/// What a look needs of the view in registers.
+struct Lens {
+  __m512i xy[3], z[3], dims[3], brick_row, brick_slice;
+  __m128i bits;
 };
 
-REAM_AVX512 inline Axes axes_of(const ContactView& view, const std::array<int32_t, 3>& base) {
-  Axes a;
+REAM_AVX512 inline Lens lens_of(const ContactView& view) {
+  Lens l;
   for (size_t i = 0; i < 3; ++i) {
-    a.xy[i] = _mm512_set1_epi32(pair(view.per_unit[3 * i], view.per_unit[3 * i + 1]));
-    a.z[i] = _mm512_set1_epi32(pair(view.per_unit[3 * i + 2], 0));
-    a.base[i] = _mm512_set1_epi32(base[i]);
+    l.xy[i] = _mm512_set1_epi32(pair(view.per_unit[3 * i], view.per_unit[3 * i + 1]));
+    l.z[i] = _mm512_set1_epi32(pair(view.per_unit[3 * i + 2], 0));
+    l.dims[i] = _mm512_set1_epi32(view.dims[i]);
   }
-  return a;
+  l.brick_row = _mm512_set1_epi32(view.brick_row);
+  l.brick_slice = _mm512_set1_epi32(view.brick_slice);
+  l.bits = _mm_cvtsi32_si128(view.bits);
+  return l;
 }
 
-REAM_AVX512 inline __m512i coordinate(const Axes& a, size_t i, __m512i xy, __m512i z, __m128i bits) {
-  const __m512i sum =
-      _mm512_add_epi32(_mm512_add_epi32(pair_products(xy, a.xy[i]), pair_products(z, a.z[i])), a.base[i]);
-  return _mm512_sra_epi32(sum, bits);
+REAM_AVX512 inline __m512i coordinate(const Lens& l, size_t i, __m512i xy, __m512i z, int32_t base) {
+  const __m512i sum = _mm512_add_epi32(_mm512_add_epi32(pair_products(xy, l.xy[i]), pair_products(z, l.z[i])),
+                                       _mm512_set1_epi32(base));
+  return _mm512_sra_epi32(sum, l.bits);
 }
 
 REAM_AVX512 inline __m512i low_bits(__m512i value, int mask) {
@@ -68,29 +72,28 @@ struct Probed {
   }
 };
 
-REAM_AVX512 inline Probed probe(const ContactView& view, const Axes& axes, const DueChunk& chunk) {
-  const __m128i bits = _mm_cvtsi32_si128(view.bits);
+REAM_AVX512 inline Probed probe(const uint32_t* places, const uint16_t* cells, const Lens& l,
+                                const DueChunk& chunk) {
   const auto present = static_cast<__mmask16>((1u << chunk.count) - 1);
-  const __m512i place = _mm512_loadu_si512(view.places + chunk.first);
+  const __m512i place = _mm512_loadu_si512(places + chunk.first);
   const __m512i x = low_bits(place, place_mask),
                 y = low_bits(_mm512_slli_epi32(place, 16 - place_bits), static_cast<int>(place_mask << 16)),
                 z = low_bits(_mm512_srli_epi32(place, 2 * place_bits), place_mask);
   const __m512i xy = _mm512_or_si512(x, y);
   Probed p;
-  p.u = coordinate(axes, 0, xy, z, bits);
-  p.v = coordinate(axes, 1, xy, z, bits);
-  p.w = coordinate(axes, 2, xy, z, bits);
-  __mmask16 inside = _mm512_mask_cmplt_epu32_mask(present, p.u, _mm512_set1_epi32(view.dims[0]));
-  inside = _mm512_mask_cmplt_epu32_mask(inside, p.v, _mm512_set1_epi32(view.dims[1]));
-  inside = _mm512_mask_cmplt_epu32_mask(inside, p.w, _mm512_set1_epi32(view.dims[2]));
-  p.brick = _mm512_add_epi32(
-      _mm512_srli_epi32(p.u, 3),
-      _mm512_add_epi32(_mm512_mullo_epi32(_mm512_srli_epi32(p.v, 3), _mm512_set1_epi32(view.brick_row)),
-                       _mm512_mullo_epi32(_mm512_srli_epi32(p.w, 3), _mm512_set1_epi32(view.brick_slice))));
+  p.u = coordinate(l, 0, xy, z, chunk.base[0]);
+  p.v = coordinate(l, 1, xy, z, chunk.base[1]);
+  p.w = coordinate(l, 2, xy, z, chunk.base[2]);
+  __mmask16 inside = _mm512_mask_cmplt_epu32_mask(present, p.u, l.dims[0]);
+  inside = _mm512_mask_cmplt_epu32_mask(inside, p.v, l.dims[1]);
+  inside = _mm512_mask_cmplt_epu32_mask(inside, p.w, l.dims[2]);
+  p.brick = _mm512_add_epi32(_mm512_srli_epi32(p.u, 3),
+                             _mm512_add_epi32(_mm512_mullo_epi32(_mm512_srli_epi32(p.v, 3), l.brick_row),
+                                              _mm512_mullo_epi32(_mm512_srli_epi32(p.w, 3), l.brick_slice)));
   p.cell = _mm512_or_si512(
       _mm512_or_si512(low_bits(_mm512_srli_epi32(p.u, 2), 1), low_bits(_mm512_srli_epi32(p.v, 1), 2)),
       low_bits(p.w, 4));
-  p.words = _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), inside, p.brick, view.cells, 2);
+  p.words = _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), inside, p.brick, cells, 2);
   return p;
 }
 
@@ -117,9 +120,10 @@ REAM_AVX512 inline bool meets(const ContactView& view, const Probed& p, Clearanc
 }
 
 REAM_AVX512 bool is_clear(const ContactView& view, const DueChunk& chunk, Clearance clearance) noexcept {
+  const Lens lens = lens_of(view);
   for (int corner = 0; corner < 8; ++corner) {
     const DueChunk moved = shifted(view, chunk, clearance, corner);
-    if (meets(view, probe(view, axes_of(view, moved.base), moved), clearance)) return false;
+    if (meets(view, probe(view.places, view.cells, lens, moved), clearance)) return false;
   }
   return true;
 }
@@ -156,8 +160,12 @@ struct Batch {
 
 REAM_AVX512 void find_voxels(const ContactView& view, std::span<const DueChunk> chunks, Batch& batch) {
   batch.unsure_voxels.count = 0;
+  // Copies, so that the compiler knows that stores do not change them.
+  const Lens lens = lens_of(view);
+  const uint32_t* const places = view.places;
+  const uint16_t* const cells = view.cells;
   for (size_t i = 0; i < chunks.size(); ++i) {
-    const Probed p = probe(view, axes_of(view, chunks[i].base), chunks[i]);
+    const Probed p = probe(places, cells, lens, chunks[i]);
     const Decided d = decided(p);
     const __m512i voxel = p.voxel();
     _mm512_store_si512(batch.voxel + i * lanes, voxel);

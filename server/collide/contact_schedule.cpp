@@ -55,6 +55,7 @@ std::span<const DueChunk> ContactSchedule::due(const QuantisedPose& grid_from_to
 
   const Culling culling(in_, voi, grid_from_tool);
   const auto& blocks = in_.shell.blocks;
+  const auto& first_chunks = in_.shell.first_chunks;
   uint32_t block = 0, next_block_chunk = 0;  // the block that chunks are in, and where the next one begins
   float gap = 0.0f;
   std::array<int32_t, 3> base{};
@@ -63,8 +64,8 @@ std::span<const DueChunk> ContactSchedule::due(const QuantisedPose& grid_from_to
     for (uint64_t bits = late_[word]; bits != 0; bits &= bits - 1) {
       const uint32_t chunk = 64 * word + static_cast<uint32_t>(std::countr_zero(bits));
       if (chunk >= next_block_chunk) {
-        while (block + 1 < blocks.size() && blocks[block + 1].first_chunk <= chunk) ++block;
-        next_block_chunk = block + 1 < blocks.size() ? blocks[block + 1].first_chunk : UINT32_MAX;
+        while (first_chunks[block + 1] <= chunk) ++block;
+        next_block_chunk = first_chunks[block + 1];
         gap = culling.gap_voxels(in_.shell, block);
         base = transform.base(blocks[block].origin_units);
       }
@@ -72,7 +73,7 @@ std::span<const DueChunk> ContactSchedule::due(const QuantisedPose& grid_from_to
         due_at_[chunk] = now + gap;
         continue;
       }
-      const uint32_t before = (chunk - blocks[block].first_chunk) * chunk_points;
+      const uint32_t before = (chunk - first_chunks[block]) * chunk_points;
       list_[count_++] = {block, blocks[block].first + before,
                          std::min<uint32_t>(blocks[block].count - before, chunk_points), base};
     }
@@ -93,7 +94,7 @@ void ContactSchedule::visited(const ContactView& view, IsClear is_clear,
 
 void ContactSchedule::measure(const ContactView& view, IsClear is_clear, const DueChunk& due) noexcept {
   const ContactBlock& block = in_.shell.blocks[due.block];
-  const uint32_t chunk = block.first_chunk + (due.first - block.first) / chunk_points;
+  const uint32_t chunk = in_.shell.first_chunks[due.block] + (due.first - block.first) / chunk_points;
   for (const Clearance clearance : {Clearance::brick, Clearance::cell, Clearance::voxel})
     if (is_clear(view, due, clearance)) {
       due_at_[chunk] = static_cast<float>(odometer_.voxels()) + clearance_voxels(clearance);

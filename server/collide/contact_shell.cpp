@@ -90,7 +90,7 @@ struct Run {
 };
 
 /// Small blocks side by side (of the same 16^3 cells) go together until they have so many points.
-constexpr size_t enough_points = 64;
+constexpr size_t enough_points = 96;
 constexpr int parent_bits = 12;
 
 bool go_together(const shell::PointShell& shell, const shell::ShellBlock& a, const shell::ShellBlock& b) {
@@ -128,7 +128,6 @@ void add_block(const std::vector<Probe>& probes, const Run& run, const MeridianE
   const Aabb box = box_of(probes, run);
   ContactBlock block;
   block.first = static_cast<uint32_t>(run.first);
-  block.first_chunk = static_cast<uint32_t>(out.chunk_count());
   block.count = static_cast<uint16_t>(run.count);
   block.guiding = probes[run.first].guiding;
   block.origin_units = (box.min / out.place_unit_mm).array().floor().cast<int>();
@@ -147,6 +146,8 @@ void add_block(const std::vector<Probe>& probes, const Run& run, const MeridianE
     radius_mm = std::max(radius_mm, (out.probe_mm(block, i) - centre).norm());
   }
   out.blocks.push_back(block);
+  out.first_chunks.push_back(out.first_chunks.back() +
+                             static_cast<uint32_t>((run.count + chunk_points - 1) / chunk_points));
   out.centre_x_mm.push_back(static_cast<float>(centre.x()));
   out.centre_y_mm.push_back(static_cast<float>(centre.y()));
   out.centre_z_mm.push_back(static_cast<float>(centre.z()));
@@ -166,7 +167,7 @@ Vec3 ContactShell::probe_mm(const ContactBlock& block, size_t point) const {
 
 size_t ContactShell::bytes() const {
   return places.size() * sizeof(uint32_t) + directions.size() * sizeof(uint16_t) +
-         blocks.size() * (sizeof(ContactBlock) + 4 * sizeof(float)) +
+         blocks.size() * (sizeof(ContactBlock) + sizeof(uint32_t) + 4 * sizeof(float)) +
          (table.meridian.size() + table.azimuth.size()) * sizeof(uint32_t);
 }
 
@@ -191,6 +192,7 @@ ContactShell make_contact_shell(const shell::PointShell& shell, double probe_len
     extent_mm = std::max(extent_mm, 2.0 * box_of(probes, run).half_size().maxCoeff());
   // Rounding the origin down and a place to nearest takes up to two units more.
   out.place_unit_mm = std::max(extent_mm, shell.spacing_mm) / (place_mask - 2);
+  out.first_chunks = {0};
   out.places.resize(probes.size() + chunk_points);
   out.directions.resize(probes.size() + chunk_points);
   for (const Run& run : runs) add_block(probes, run, entries, out);

@@ -17,7 +17,6 @@ inline constexpr int most_block_chunks = most_block_points / chunk_points;
 /// or all guiding.
 struct ContactBlock {
   uint32_t first = 0;  ///< of its points
-  uint32_t first_chunk = 0;
   uint16_t count = 0;
   uint16_t guiding = 0;             ///< 1: guiding or smooth surface, which never cuts
   Vec3i origin_units{0, 0, 0};      ///< of its points' places, tool frame, in place_unit_mm
@@ -39,6 +38,7 @@ struct ContactShell {
   std::vector<uint32_t> places;
   std::vector<uint16_t> directions;  ///< low sixteen bits of the direction code
   std::vector<ContactBlock> blocks;
+  std::vector<uint32_t> first_chunks;  ///< of the blocks, and one more: the number of chunks
   /// Bounding spheres of the blocks' probes, tool frame, mm; struct of arrays for the culling.
   std::vector<float> centre_x_mm, centre_y_mm, centre_z_mm, radius_mm;
   DirectionTable table;
@@ -49,12 +49,7 @@ struct ContactShell {
   Aabb bounds_mm;
 
   size_t size() const { return places.size() - chunk_points; }
-  size_t chunk_count() const {
-    return blocks.empty() ? 0 : blocks.back().first_chunk + chunks_of(blocks.back());
-  }
-  static size_t chunks_of(const ContactBlock& block) {
-    return (static_cast<size_t>(block.count) + chunk_points - 1) / chunk_points;
-  }
+  size_t chunk_count() const { return first_chunks.back(); }
   /// Direction code of a point.
   uint32_t direction(size_t point) const { return directions[point] | (places[point] >> 27) << 16; }
   /// Where a point of a block probes, tool frame.

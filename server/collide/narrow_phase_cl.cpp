@@ -16,13 +16,18 @@ static_assert(REAM_PLACE_BITS == place_bits && REAM_AZIMUTH_BITS == azimuth_bits
 static_assert(REAM_AZIMUTH_SHIFT == azimuth_shift);
 static_assert(REAM_SOLID_COVERAGE == voxel::solid_coverage && REAM_CARTILAGE_CODE == voxel::cartilage_code);
 static_assert(sizeof(DueChunk) == sizeof(layout::DueChunkLayout));
-static_assert(REAM_CONTACT_CHUNK == chunk_points);
+static_assert(REAM_CONTACT_CHUNK == chunk_points && REAM_CONTACT_BLOCK_CHUNKS == most_block_chunks);
 
 gpu::Buffer block_table(const gpu::Queue& queue, const ContactShell& shell) {
   std::vector<layout::ContactBlockLayout> table;
   table.reserve(shell.blocks.size());
   for (const ContactBlock& block : shell.blocks) {
-    table.push_back({block.guiding, block.origin_units.z()});
+    {
+      layout::ContactBlockLayout entry{
+          block.guiding, block.count, block.origin_units.z(), block.height_units, {}};
+      std::copy(block.whole.begin(), block.whole.end(), entry.whole);
+      table.push_back(entry);
+    }
   }
   return gpu::Buffer::copy_of(queue, std::span<const layout::ContactBlockLayout>(table));
 }

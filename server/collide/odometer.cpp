@@ -1,22 +1,8 @@
 #include "collide/odometer.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace ream::collide {
-namespace {
-
-/// Upper bound of the length of v without a square root: exact along axes and diagonals, at most 8 % over.
-double length_bound(const Vec3& v) {
-  double a = std::abs(v.x()), b = std::abs(v.y()), c = std::abs(v.z());
-  if (a < b) std::swap(a, b);
-  if (b < c) std::swap(b, c);
-  if (a < b) std::swap(a, b);
-  return a + 0.4142135624 * b + 0.3178372452 * c;
-}
-
-}  // namespace
-
 double Odometer::advance(const Pose& grid_from_tool) noexcept {
   double moved_mm = 0.0;
   // A point's way between two poses is linear in its place, so a corner of the box goes farthest.

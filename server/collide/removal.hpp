@@ -11,11 +11,9 @@
 
 namespace ream::collide {
 
-/// Coverage a voxel keeps at a signed distance (mm, outside positive) of its centre to the swept cutting
-/// body: 255 from half a voxel outside, 0 from half a voxel inside, linear between (DESIGN 3).
-/// `levels_per_mm` is 255 / voxel edge.
-inline uint8_t kept_coverage(float distance_mm, float levels_per_mm) noexcept {
-  const float level = distance_mm * levels_per_mm + 128.0f;
+/// Coverage that a voxel keeps at most, from its level: 255 where the voxel's centre is half a voxel outside
+/// the swept cutting body, 0 half a voxel inside, linear between (DESIGN 3). The level goes on beyond both.
+inline uint8_t kept_coverage(float level) noexcept {
   const float low = level < 0.0f ? 0.0f : level;
   return static_cast<uint8_t>(static_cast<int>(low > 255.0f ? 255.0f : low));
 }
@@ -28,19 +26,32 @@ struct RemovalSums {
   uint64_t change_hash = 0;  ///< sum of mix64(change_key) over changed voxels, modulo 2^64
   std::array<int64_t, voxel::bone_class_count> coverage_removed{};  ///< coverage levels by voxel::BoneClass
   uint32_t changed_bricks = 0;
+  bool operator==(const RemovalSums&) const = default;
 };
 
-/// Cuts bone by the swept profile: coverage = min(coverage, kept_coverage(distance)): absolute, idempotent,
-/// order-free. All memory is allocated at construction; cut() is called from the tick, by the one writer of
-/// the grid.
+/// What became of one brick.
+struct BrickOutcome {
+  bool changed = false, empty = false;  ///< empty: nothing of it is left
+  /// Least level above its coverage of any voxel that is left. While no point of the tool moves by as many
+  /// 255ths of a voxel, the brick does not change; untouched_levels for an empty one.
+  float slack_levels = 0.0f;
+  bool operator==(const BrickOutcome&) const = default;
+};
+inline constexpr float untouched_levels = 1.0e9f;
+
+/// Longest list of bricks for one cut.
+inline constexpr size_t most_bricks_a_cut = 256;
+
+/// Cuts bone by the swept profile: coverage = min(coverage, kept_coverage): absolute, idempotent, order-free.
+/// All memory is allocated at construction; cut() is called from the tick, by the one writer of the grid.
 class Removal {
  public:
   virtual ~Removal() = default;
-  /// Applies the body at `grid_from_tool` to the listed bricks (each at most once). `changed[i]` becomes 1
-  /// when brick i of the list changed, and `empty[i]` 1 when nothing of it is left. bone.coverage on the host
-  /// is up to date when it returns. False when the device failed.
+  /// Applies the body at `grid_from_tool` to the listed bricks (each at most once, at most
+  /// most_bricks_a_cut); `outcomes` are theirs. bone.coverage on the host is up to date when it returns.
+  /// False when the device failed: bone.coverage is then as it was before, and the rest is not to be used.
   virtual bool cut(const QuantisedPose& grid_from_tool, std::span<const uint32_t> bricks,
-                   std::span<uint8_t> changed, std::span<uint8_t> empty, RemovalSums& sums) noexcept = 0;
+                   std::span<BrickOutcome> outcomes, RemovalSums& sums) noexcept = 0;
 };
 
 struct RemovalInput {

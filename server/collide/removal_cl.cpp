@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "collide/guarded_removal.hpp"
+#include "collide/profile_table.hpp"
 #include "core/error.hpp"
 #include "gpu/program.hpp"
 #include "kernels/layout.h"
@@ -11,64 +13,58 @@
 namespace ream::collide {
 namespace {
 
-/// Bricks of one launch; a tick rarely has more due, and then launches again.
-constexpr size_t most_bricks_a_launch = 4096;
+static_assert(sizeof(layout::RemovalRecord) == 32);
 
-layout::RemovalArguments constant_arguments(const shell::SweptProfile& profile, const voxel::VoxelGrid& grid,
+layout::RemovalArguments constant_arguments(const ProfileTable& table, const voxel::VoxelGrid& grid,
                                             uint32_t slot_bytes) {
   layout::RemovalArguments a{};
-  a.dims_x = grid.dims.x();
-  a.dims_y = grid.dims.y();
   a.brick_dims_x = grid.brick_dims().x();
   a.brick_dims_y = grid.brick_dims().y();
   a.slot_bytes = slot_bytes;
-  a.r2_count = profile.r2_count;
-  a.z_min_mm = profile.z_min_mm;
-  a.inverse_z_step = profile.inverse_z_step;
-  a.inverse_r2_step = profile.inverse_r2_step;
-  a.r2_limit = static_cast<float>(profile.r2_count) - 1.5f;
-  a.z_limit = static_cast<float>(profile.z_count) - 1.5f;
-  a.levels_per_mm = coverage_levels_per_mm(grid);
+  a.r2_count = table.r2_count;
+  a.z_min_mm = table.z_min_mm;
+  a.inverse_z_step = table.inverse_z_step;
+  a.inverse_r2_step = table.inverse_r2_step;
+  a.r2_limit = table.r2_limit;
+  a.z_limit = table.z_limit;
+  a.levels_per_step = table.levels_per_step;
   return a;
 }
 
+/// A device that shares the host's memory may leave bricks half cut when it fails; guarded() is for that.
 class RemovalCl final : public Removal {
  public:
   RemovalCl(const RemovalInput& input, std::shared_ptr<BoneBuffers> bone, LaunchShape shape)
       : bone_(std::move(bone)),
         shape_(shape),
         slot_bytes_(sizeof(layout::RemovalRecord) + (bone_->coverage.shared() ? 0 : voxel::brick_voxels)),
-        capacity_(std::min(most_bricks_a_launch, input.bone.grid.brick_count())),
         program_(bone_->queue, "removal.cl", "-D LANES=" + std::to_string(shape.lanes)),
         kernel_(program_, "cut_bricks"),
-        list_(capacity_),
-        slots_(capacity_ * slot_bytes_),
-        table_buffer_(gpu::Buffer::copy_of(bone_->queue, std::span(input.profile.distance_mm))),
+        table_(profile_table(input.profile, coverage_levels_per_mm(input.bone.grid))),
+        list_(most_bricks_a_cut),
+        slots_(most_bricks_a_cut * slot_bytes_),
+        table_buffer_(gpu::Buffer::copy_of(bone_->queue, std::span(table_.pairs))),
         list_buffer_(gpu::Buffer::over(bone_->queue, std::span(list_))),
         slots_buffer_(gpu::Buffer::over(bone_->queue, std::span(slots_))),
-        arguments_(constant_arguments(input.profile, input.bone.grid, static_cast<uint32_t>(slot_bytes_))) {
+        arguments_(constant_arguments(table_, input.bone.grid, static_cast<uint32_t>(slot_bytes_))) {
     kernel_.set_all(bone_->coverage, bone_->density, bone_->classes, table_buffer_, list_buffer_, arguments_,
                     slots_buffer_);
     launch({});
     bone_->queue.finish();
   }
 
-  bool cut(const QuantisedPose& grid_from_tool, std::span<const uint32_t> bricks, std::span<uint8_t> changed,
-           std::span<uint8_t> empty, RemovalSums& sums) noexcept override {
+  bool cut(const QuantisedPose& grid_from_tool, std::span<const uint32_t> bricks,
+           std::span<BrickOutcome> outcomes, RemovalSums& sums) noexcept override {
     sums = {};
     const GridAffine affine = tool_from_voxel(grid_from_tool, bone_->bone.grid);
     std::memcpy(&arguments_.tool_from_voxel, &affine, sizeof affine);
     try {
-      for (size_t done = 0; done < bricks.size(); done += capacity_) {
-        const size_t count = std::min(capacity_, bricks.size() - done);
-        launch(bricks.subspan(done, count));
-        for (size_t i = 0; i < count; ++i)
-          take_slot(bricks[done + i], i, changed[done + i], empty[done + i], sums);
-      }
-      return true;
+      launch(bricks);
     } catch (const Error&) {
       return false;
     }
+    for (size_t i = 0; i < bricks.size(); ++i) outcomes[i] = take_slot(bricks[i], i, sums);
+    return true;
   }
 
  private:
@@ -86,27 +82,28 @@ class RemovalCl final : public Removal {
       slots_buffer_.read(queue, slots_.data(), bricks.size() * slot_bytes_);
   }
 
-  void take_slot(uint32_t brick, size_t slot, uint8_t& changed, uint8_t& empty, RemovalSums& sums) noexcept {
+  BrickOutcome take_slot(uint32_t brick, size_t slot, RemovalSums& sums) noexcept {
     const uint8_t* bytes = slots_.data() + slot * slot_bytes_;
     layout::RemovalRecord record;
     std::memcpy(&record, bytes, sizeof record);
-    changed = record.changed != 0;
-    empty = record.left == 0;
+    const bool changed = record.changed != 0;
     sums.changed_bricks += changed;
     sums.change_hash += record.hash_low | static_cast<uint64_t>(record.hash_high) << 32;
     for (size_t c = 0; c < voxel::bone_class_count; ++c) sums.coverage_removed[c] += record.removed[c];
     voxel::BoneModel& bone = bone_->bone;
     if (changed && !bone_->coverage.shared())
       voxel::write_brick(bone.grid, bone.coverage.data(), brick, bytes + sizeof record);
+    return {changed, record.slack_levels == untouched_levels, record.slack_levels};
   }
 
   static constexpr unsigned arguments_index = 5;
 
   std::shared_ptr<BoneBuffers> bone_;
   LaunchShape shape_;
-  size_t slot_bytes_, capacity_;
+  size_t slot_bytes_;
   gpu::Program program_;
   gpu::Kernel kernel_;
+  ProfileTable table_;
   std::vector<uint32_t> list_;
   std::vector<uint8_t> slots_;
   gpu::Buffer table_buffer_, list_buffer_, slots_buffer_;
@@ -117,7 +114,7 @@ class RemovalCl final : public Removal {
 
 std::unique_ptr<Removal> make_removal_cl(const RemovalInput& input, std::shared_ptr<BoneBuffers> bone,
                                          LaunchShape shape) {
-  return std::make_unique<RemovalCl>(input, std::move(bone), shape);
+  return guarded(std::make_unique<RemovalCl>(input, std::move(bone), shape), input.bone);
 }
 
 }  // namespace ream::collide

@@ -1,173 +1,176 @@
 #include "collide/removal_schedule.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <utility>
 
 #include "core/hash.hpp"
+#include "core/units.hpp"
 #include "voxel/bricks.hpp"
 
 namespace ream::collide {
 namespace {
 
-/// Motion between two builds of the active list, voxels.
-constexpr double rebuild_voxels = 1.0;
+/// Motion between two lists of near bricks, voxels.
+constexpr double relist_voxels = 1.0;
 
-/// Upper bound of the length of v without a square root: exact along axes and diagonals, at most 8 % over.
-double length_bound(const Vec3& v) {
-  double a = std::abs(v.x()), b = std::abs(v.y()), c = std::abs(v.z());
-  if (a < b) std::swap(a, b);
-  if (b < c) std::swap(b, c);
-  if (a < b) std::swap(a, b);
-  return a + 0.4142135624 * b + 0.3178372452 * c;
-}
+constexpr int word_bits = 32;
 
 /// A fraction in (0, 1] that differs from brick to brick.
-double phase(uint32_t brick) { return static_cast<double>(mix64(brick) % 64 + 1) / 64.0; }
-
-Vec3 corner(const Aabb& box, int i) {
-  return {i & 1 ? box.max.x() : box.min.x(), i & 2 ? box.max.y() : box.min.y(),
-          i & 4 ? box.max.z() : box.min.z()};
-}
+float phase(uint32_t brick) { return static_cast<float>(mix64(brick) % 64 + 1) / 64.0f; }
 
 }  // namespace
 
 RemovalSchedule::RemovalSchedule(const shell::SweptProfile& profile, const voxel::BoneModel& bone)
     : profile_(profile),
-      table_(profile),
-      bone_(bone),
       grid_(bone.grid),
+      body_tool_mm_{Vec3(-profile.max_radius_mm, -profile.max_radius_mm, profile.body_min_z_mm),
+                    Vec3(profile.max_radius_mm, profile.max_radius_mm, profile.body_max_z_mm)},
+      odometer_(body_tool_mm_, bone.grid.min_spacing_mm()),
       brick_reach_mm_(0.5 * voxel::brick_edge * bone.grid.spacing_mm.norm() +
                       0.5 * bone.grid.spacing_mm.maxCoeff()),
-      empty_(bone.grid.brick_count()),
-      hot_(bone.grid.brick_count()),
-      due_at_(bone.grid.brick_count()),
-      active_(bone.grid.brick_count()),
-      due_(bone.grid.brick_count()) {
-  const double r = profile.max_radius_mm;
-  body_tool_mm_ = {Vec3(-r, -r, profile.body_min_z_mm), Vec3(r, r, profile.body_max_z_mm)};
-  uint8_t image[voxel::brick_voxels];
-  for (uint32_t b = 0; b < empty_.size(); ++b) {
-    voxel::read_brick(grid_, bone.coverage.data(), b, image);
-    empty_[b] = std::all_of(image, image + voxel::brick_voxels, [](uint8_t c) { return c == 0; });
+      near_mm_(brick_reach_mm_ + 2.0 * relist_voxels * bone.grid.spacing_mm.maxCoeff()),
+      words_a_row_((bone.grid.brick_dims().x() + word_bits - 1) / word_bits) {
+  const Vec3i bricks = grid_.brick_dims();
+  occupied_.resize(static_cast<size_t>(words_a_row_) * static_cast<size_t>(bricks.y() * bricks.z()));
+  for (uint32_t b = 0; b < grid_.brick_count(); ++b) {
+    const uint8_t* coverage = bone.coverage.data() + grid_.brick_base(b);
+    if (std::all_of(coverage, coverage + voxel::brick_voxels, [](uint8_t c) { return c == 0; })) continue;
+    const int x = grid_.brick_coordinates(b).x();
+    const size_t row = b / static_cast<uint32_t>(bricks.x());
+    occupied_[row * static_cast<size_t>(words_a_row_) + static_cast<size_t>(x / word_bits)] |=
+        1u << (x % word_bits);
   }
+  near_.resize(most_near_bricks());
+  next_.resize(near_.size());
 }
 
 double RemovalSchedule::needed_margin_mm(const voxel::VoxelGrid& grid) {
   return 0.5 * voxel::brick_edge * grid.spacing_mm.norm() + 3.0 * grid.spacing_mm.maxCoeff();
 }
 
-double RemovalSchedule::advance_odometer(const Pose& grid_from_tool) noexcept {
-  double moved = 0.0;
-  if (started_)
-    for (int i = 0; i < 8; ++i) {
-      const Vec3 p = corner(body_tool_mm_, i);
-      moved = std::max(moved, length_bound(grid_from_tool.point(p) - previous_.point(p)));
-    }
-  started_ = true;
-  previous_ = grid_from_tool;
-  odometer_voxels_ = odometer_voxels_ + moved / grid_.min_spacing_mm();
-  return odometer_voxels_;
+/// The bricks whose centres lie within near_mm_ of the cylinder around the body fill at most that cylinder,
+/// grown by near_mm_ and half a brick's diagonal.
+size_t RemovalSchedule::most_near_bricks() const {
+  const double grown_mm = near_mm_ + 0.5 * voxel::brick_edge * grid_.spacing_mm.norm();
+  const double radius_mm = profile_.max_radius_mm + grown_mm;
+  const double height_mm = profile_.body_max_z_mm - profile_.body_min_z_mm + 2.0 * grown_mm;
+  const double bricks =
+      pi * radius_mm * radius_mm * height_mm / (grid_.voxel_volume_mm3() * voxel::brick_voxels);
+  return std::min(grid_.brick_count(), static_cast<size_t>(std::ceil(bricks)));
 }
 
-float RemovalSchedule::brick_distance_mm(uint32_t brick, const GridAffine& a) const noexcept {
-  const Vec3i first = grid_.brick_coordinates(brick) * voxel::brick_edge;
-  const float half = 0.5f * (voxel::brick_edge - 1);
-  const float u = static_cast<float>(first.x()) + half, v = static_cast<float>(first.y()) + half,
-              w = static_cast<float>(first.z()) + half;
+float RemovalSchedule::brick_distance_mm(const Vec3i& brick, const GridAffine& a) const noexcept {
+  constexpr float half = 0.5f * (voxel::brick_edge - 1);
+  const float u = static_cast<float>(brick.x() * voxel::brick_edge) + half,
+              v = static_cast<float>(brick.y() * voxel::brick_edge) + half,
+              w = static_cast<float>(brick.z() * voxel::brick_edge) + half;
   const float x = a.m[0] * u + a.m[1] * v + a.m[2] * w + a.t[0];
   const float y = a.m[3] * u + a.m[4] * v + a.m[5] * w + a.t[1];
   const float z = a.m[6] * u + a.m[7] * v + a.m[8] * w + a.t[2];
   return profile_.at(x * x + y * y, z);
 }
 
-void RemovalSchedule::rebuild_active(const Pose& grid_from_tool) noexcept {
-  const Aabb box = body_tool_mm_.transformed(grid_from_tool)
-                       .grown(2.0 * rebuild_voxels * grid_.spacing_mm.maxCoeff())
-                       .intersection(grid_.bounds_mm());
-  active_count_ = 0;
-  rebuild_at_ = odometer_voxels_ + rebuild_voxels;
-  if (box.empty()) return;
-  const Vec3i last_brick = grid_.brick_dims() - Vec3i::Ones();
-  const Vec3i low = (grid_.voxel_at(box.min) / voxel::brick_edge).cwiseMax(0).cwiseMin(last_brick);
-  const Vec3i high = (grid_.voxel_at(box.max) / voxel::brick_edge).cwiseMax(0).cwiseMin(last_brick);
-  const GridAffine affine = tool_from_voxel(quantised(grid_from_tool), grid_);
-  const double near_mm = brick_reach_mm_ + 2.0 * rebuild_voxels * grid_.spacing_mm.maxCoeff();
-  for (int z = low.z(); z <= high.z(); ++z)
-    for (int y = low.y(); y <= high.y(); ++y)
-      for (int x = low.x(); x <= high.x(); ++x) {
-        const uint32_t brick = grid_.brick_index({x, y, z});
-        if (!empty_[brick] && brick_distance_mm(brick, affine) <= near_mm) active_[active_count_++] = brick;
-      }
+/// Motion before a brick at that distance can be touched, voxels; 0 when it may be touched already.
+float RemovalSchedule::wait_voxels(float brick_distance_mm) const noexcept {
+  const double gap_mm = static_cast<double>(brick_distance_mm) - brick_reach_mm_;
+  if (gap_mm <= 0.0) return 0.0f;
+  return static_cast<float>(std::max(gap_mm / grid_.spacing_mm.maxCoeff(), revisit_voxels));
 }
 
-void RemovalSchedule::follow(const QuantisedPose& grid_from_tool) noexcept {
-  const Pose pose = dequantised(grid_from_tool);
-  if (advance_odometer(pose) >= rebuild_at_) rebuild_active(pose);
-}
-
-double RemovalSchedule::gap_voxels(uint32_t brick, const GridAffine& affine) const noexcept {
-  return (static_cast<double>(brick_distance_mm(brick, affine)) - brick_reach_mm_) /
-         grid_.spacing_mm.maxCoeff();
-}
-
-double RemovalSchedule::measured_gap_voxels(uint32_t brick, const GridAffine& affine) const noexcept {
-  alignas(64) float distances_mm[voxel::brick_voxels];
-  alignas(64) uint8_t coverage[voxel::brick_voxels];
-  brick_distances_mm(table_, affine, grid_.brick_coordinates(brick) * voxel::brick_edge, distances_mm);
-  voxel::read_brick(grid_, bone_.coverage.data(), brick, coverage);
-  float nearest_mm = shell::SweptProfile::far;
-  for (int i = 0; i < voxel::brick_voxels; ++i) {
-    const float d = coverage[i] != 0 ? distances_mm[i] : shell::SweptProfile::far;
-    nearest_mm = d < nearest_mm ? d : nearest_mm;
+void RemovalSchedule::find_near_bricks(const Pose& grid_from_tool) noexcept {
+  const Aabb box = body_tool_mm_.transformed(grid_from_tool).grown(near_mm_).intersection(grid_.bounds_mm());
+  next_count_ = 0;
+  if (!box.empty()) {
+    const Vec3i last_brick = grid_.brick_dims() - Vec3i::Ones();
+    const Vec3i low = (grid_.voxel_at(box.min) / voxel::brick_edge).cwiseMax(0).cwiseMin(last_brick);
+    const Vec3i high = (grid_.voxel_at(box.max) / voxel::brick_edge).cwiseMax(0).cwiseMin(last_brick);
+    const GridAffine affine = tool_from_voxel(quantised(grid_from_tool), grid_);
+    size_t old = 0;
+    for (int z = low.z(); z <= high.z(); ++z)
+      for (int y = low.y(); y <= high.y(); ++y) scan_row(y, z, low.x(), high.x(), affine, old);
   }
-  // The table is clamped at its margin, so a distance is never taken for more than that.
-  const double largest_mm = grid_.spacing_mm.maxCoeff();
-  return (std::min<double>(nearest_mm, profile_.margin_mm) - 0.5 * largest_mm) / largest_mm;
+  const uint32_t asked_first = turn_ < near_count_ ? near_[turn_].brick : 0;
+  std::swap(near_, next_);
+  near_count_ = next_count_;
+  base_voxels_ = odometer_.voxels();
+  turn_ = static_cast<size_t>(
+      std::partition_point(near_.begin(), near_.begin() + static_cast<std::ptrdiff_t>(near_count_),
+                           [&](const Near& near) { return near.brick < asked_first; }) -
+      near_.begin());
+  if (turn_ == near_count_) turn_ = 0;
+  listed_ = true;
+}
+
+/// Appends the near bricks of a row to next_; what near_ knows of them is kept (both ascend, `old` follows).
+void RemovalSchedule::scan_row(int y, int z, int first_x, int last_x, const GridAffine& affine,
+                               size_t& old) noexcept {
+  const Vec3i bricks = grid_.brick_dims();
+  const uint32_t* words =
+      occupied_.data() + static_cast<size_t>(words_a_row_) * static_cast<size_t>(y + bricks.y() * z);
+  for (int word = first_x / word_bits; word <= last_x / word_bits; ++word)
+    for (uint32_t bits = words[word]; bits != 0; bits &= bits - 1) {
+      const int x = word * word_bits + std::countr_zero(bits);
+      if (x < first_x || x > last_x) continue;
+      const float distance_mm = brick_distance_mm({x, y, z}, affine);
+      if (static_cast<double>(distance_mm) > near_mm_ || next_count_ == next_.size()) continue;
+      const uint32_t brick = grid_.brick_index({x, y, z});
+      while (old < near_count_ && near_[old].brick < brick) ++old;
+      const bool known = old < near_count_ && near_[old].brick == brick;
+      next_[next_count_++] = {brick, known ? near_[old].due_voxels - gone() : wait_voxels(distance_mm)};
+    }
 }
 
 std::span<const uint32_t> RemovalSchedule::due(const QuantisedPose& grid_from_tool) noexcept {
-  follow(grid_from_tool);
+  const Pose pose = dequantised(grid_from_tool);
+  odometer_.advance(pose);
+  const bool stale = !listed_ || odometer_.voxels() >= base_voxels_ + relist_voxels;
+  if (stale) find_near_bricks(pose);
+  const size_t most = stale ? most_bricks_a_tick / 4 : most_bricks_a_tick;
   const GridAffine affine = tool_from_voxel(grid_from_tool, grid_);
-  size_t n = 0;
-  for (size_t i = 0; i < active_count_; ++i) {
-    const uint32_t brick = active_[i];
-    if (empty_[brick] || odometer_voxels_ < due_at_[brick]) continue;
-    double gap = gap_voxels(brick, affine);
-    if (gap <= 0.0 && !hot_[brick]) gap = measured_gap_voxels(brick, affine);
-    if (gap > revisit_voxels) {
-      due_at_[brick] = odometer_voxels_ + gap;
-      continue;
+  const float now = gone();
+  size_t n = 0, at = turn_;
+  for (size_t asked = 0; asked < near_count_ && n < most; ++asked) {
+    Near& near = near_[at];
+    if (near.due_voxels <= now) {
+      const float wait = wait_voxels(brick_distance_mm(grid_.brick_coordinates(near.brick), affine));
+      if (wait > 0.0f) {
+        near.due_voxels = now + wait;
+      } else {
+        entry_[n] = static_cast<uint32_t>(at);
+        due_[n++] = near.brick;
+      }
     }
-    // Bricks that became due together (at a first contact, say) get phases of their own, so that later ticks
-    // share the work evenly.
-    const double regular = due_at_[brick] + revisit_voxels;
-    due_at_[brick] = regular > odometer_voxels_ ? regular : odometer_voxels_ + revisit_voxels * phase(brick);
-    if (gap <= 0.0) due_[n++] = brick;
+    at = at + 1 < near_count_ ? at + 1 : 0;
   }
+  turn_ = at;
   return {due_.data(), n};
 }
 
-void RemovalSchedule::pass(const QuantisedPose& grid_from_tool) noexcept {
-  follow(grid_from_tool);
-  const GridAffine affine = tool_from_voxel(grid_from_tool, grid_);
-  size_t measured = 0;
-  for (size_t i = 0; i < active_count_ && measured < idle_budget; ++i) {
-    next_to_measure_ = next_to_measure_ + 1 < active_count_ ? next_to_measure_ + 1 : 0;
-    const uint32_t brick = active_[next_to_measure_];
-    if (empty_[brick] || odometer_voxels_ < due_at_[brick]) continue;
-    double gap = gap_voxels(brick, affine);
-    if (gap <= 0.0) {
-      gap = measured_gap_voxels(brick, affine);
-      ++measured;
-    }
-    // A brick that would be cut stays due: it is only measured here.
-    if (gap > 0.0) due_at_[brick] = odometer_voxels_ + gap;
+void RemovalSchedule::cut_done(size_t i, const BrickOutcome& outcome) noexcept {
+  Near& near = near_[entry_[i]];
+  if (outcome.empty) {
+    const auto row = near.brick / static_cast<uint32_t>(grid_.brick_dims().x());
+    const int x = grid_.brick_coordinates(near.brick).x();
+    occupied_[row * static_cast<size_t>(words_a_row_) + static_cast<size_t>(x / word_bits)] &=
+        ~(1u << (x % word_bits));
   }
+  const float now = gone();
+  constexpr auto revisit = static_cast<float>(revisit_voxels);
+  const float slack_voxels = outcome.slack_levels * (1.0f / 255.0f);
+  if (slack_voxels > revisit) {
+    near.due_voxels = now + slack_voxels;
+    return;
+  }
+  // Bricks that became due together (at a first contact, say) get phases of their own, so that later ticks
+  // share the work evenly.
+  const float regular = near.due_voxels + revisit;
+  near.due_voxels = regular > now ? regular : now + revisit * phase(near.brick);
 }
 
-void RemovalSchedule::cut_done(uint32_t brick, bool changed, bool empty) noexcept {
-  hot_[brick] = changed;
-  if (empty) empty_[brick] = 1;
+void RemovalSchedule::pass(const QuantisedPose& grid_from_tool) noexcept {
+  odometer_.advance(dequantised(grid_from_tool));
 }
 
 }  // namespace ream::collide

@@ -66,6 +66,7 @@ void append_ticks(const std::vector<std::byte>& raw, std::vector<RecordedTick>& 
     const uint32_t flags = take(in);
     t.spindle_on = (flags & 1) != 0;
     t.paused = (flags & 2) != 0;
+    t.failed_over = (flags & 4) != 0;
     t.world_from_handle = take_pose(in);
     t.grid_from_tool = take_pose(in);
     const uint32_t low = take(in);
@@ -109,7 +110,8 @@ Recorder::~Recorder() {
 
 void Recorder::add(const TickReport& report) {
   put(pending_, report.tick);
-  put(pending_, static_cast<uint32_t>(report.spindle_on) | static_cast<uint32_t>(report.paused) << 1);
+  put(pending_, static_cast<uint32_t>(report.spindle_on) | static_cast<uint32_t>(report.paused) << 1 |
+                    static_cast<uint32_t>(report.failed_over) << 2);
   put(pending_, report.world_from_handle_q);
   put(pending_, report.grid_from_tool);
   put(pending_, static_cast<uint32_t>(report.session_hash));

@@ -40,6 +40,7 @@ class Recorder {
 struct RecordedTick {
   uint32_t tick = 0;
   bool spindle_on = false, paused = false;
+  bool failed_over = false;  ///< no cause: the same poses without the failure give the same hash
   QuantisedPose world_from_handle, grid_from_tool;
   uint64_t session_hash = 0;
 };

@@ -56,6 +56,11 @@ std::string to_words(LoopEnd end) {
   return "";
 }
 
+std::string failover_words(int64_t tick) {
+  return "the OpenCL device failed in tick " + std::to_string(tick) +
+         "; the session goes on with the C++ form and the same results";
+}
+
 HapticLoop::HapticLoop(const Model& model, State& state, device::HapticDevice& device,
                        SpscRing<TickReport>& reports, LoopOptions options)
     : model_(model), state_(state), device_(device), reports_(reports), options_(options) {}
@@ -148,7 +153,8 @@ bool HapticLoop::push(const TickReport& report) noexcept {
 }
 
 void HapticLoop::publish(LoopEnd end) noexcept {
-  published_.store({end, state_.tick, missed_, tick_us_.summary(), lateness_us_.summary()});
+  published_.store(
+      {end, state_.tick, missed_, state_.failed_over_tick, tick_us_.summary(), lateness_us_.summary()});
 }
 
 }  // namespace ream::sim

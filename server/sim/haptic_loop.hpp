@@ -29,11 +29,15 @@ enum class LoopEnd : uint8_t {
 /// One sentence for people; empty while running, finished or stopped.
 std::string to_words(LoopEnd end);
 
+/// One sentence for people about a device that failed while the session went on.
+std::string failover_words(int64_t tick);
+
 /// Health of the loop as others may read it at any time.
 struct LoopHealth {
   LoopEnd end = LoopEnd::running;
   uint32_t tick = 0;
-  uint64_t missed = 0;  ///< ticks that began more than a millisecond late
+  uint64_t missed = 0;            ///< ticks that began more than a millisecond late
+  int64_t failed_over_tick = -1;  ///< the tick in which the OpenCL device failed and the C++ form took over
   TimingSummary tick_us, lateness_us;
 };
 

@@ -8,6 +8,8 @@
 
 namespace ream::sim {
 
+const char* to_text(RemovalLaw law) { return law == RemovalLaw::decay ? "decay" : "profile"; }
+
 Pose world_from_plan(const case_::Plan& plan) {
   return {rotation_with_z_along(plan.axis_direction), plan.entry_mm};
 }
@@ -24,8 +26,9 @@ Model make_model(const case_::Plan& plan, voxel::BoneModel& bone, shell::Tool to
   model.tool = std::move(tool);
   model.profile =
       shell::swept_profile(model.tool.profile, collide::RemovalSchedule::needed_margin_mm(bone.grid));
-  model.contact_shell = collide::make_contact_shell(
-      shell::make_point_shell(model.tool, settings.tool_spacing_mm), bone.grid.spacing_mm.maxCoeff());
+  const shell::PointShell points = shell::make_point_shell(model.tool, settings.tool_spacing_mm);
+  model.contact_shell = collide::make_contact_shell(points, bone.grid.spacing_mm.maxCoeff());
+  if (settings.removal == RemovalLaw::decay) model.decay_shell = collide::make_decay_shell(points);
   model.distance = voxel::brick_distance(bone);
   if (model.distance.nothing())
     throw Error(ErrorKind::invalid_input, "the case holds no bone; import it again with a lower threshold");

@@ -4,6 +4,7 @@
 
 #include "case/case.hpp"
 #include "collide/contact_shell.hpp"
+#include "collide/decay.hpp"
 #include "collide/narrow_phase.hpp"
 #include "collide/removal_schedule.hpp"
 #include "force/coupling.hpp"
@@ -15,9 +16,16 @@
 
 namespace ream::sim {
 
+/// How bone is removed: by the distance to the swept cutting body, or as in the thesis' algorithm 4.1.
+enum class RemovalLaw { profile, decay };
+
+const char* to_text(RemovalLaw law);
+
 /// How a session is to be simulated; everything that the same input needs to give the same bits.
 struct Settings {
   std::string backend = "cpu";  ///< auto, cpu, opencl or opencl:N
+  RemovalLaw removal = RemovalLaw::profile;
+  int decay_levels = collide::default_decay_levels;  ///< see collide/decay.hpp
   double tool_spacing_mm = 0.2;
   double force_scale = 1.0;     ///< simulated N per hand N
   double stiffness_n_mm = 2.0;  ///< coupling, hand side
@@ -34,6 +42,7 @@ struct Model {
   shell::Tool tool;
   shell::SweptProfile profile;
   collide::ContactShell contact_shell;
+  collide::DecayShell decay_shell;  ///< empty unless bone is removed by decay
   voxel::BrickDistance distance;
   Aabb tool_box_tool;  ///< around probes and swept body
   std::unique_ptr<force::FeedModel> feed;

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -17,14 +18,23 @@ struct State {
   voxel::BoneModel& bone;
   voxel::SolidCells cells;  ///< what of the bone is left; follows every cut
   Backend backend;
+  /// The C++ form, ready in case the device of `backend` fails; empty parts when `backend` is it already.
+  Backend reserve;
+  int64_t failed_over_tick = -1;  ///< the tick in which the reserve took over
   collide::RemovalSchedule schedule;
-  std::vector<uint8_t> changed, empty;         ///< per entry of the schedule's list
+  std::array<collide::BrickOutcome, collide::RemovalSchedule::most_bricks_a_tick> outcomes;
+  std::array<uint32_t, collide::RemovalSchedule::most_bricks_a_tick> changed;  ///< bricks of the last cut
+  size_t changed_count = 0;
   voxel::BrickSender* brick_sender = nullptr;  ///< followers, where there are any; not owned
   int brick_budget = 256;                      ///< images sent a tick
 
   bool started = false;  ///< the tool has been put at the handle
   uint32_t tick = 0;
   Pose world_from_tool;
+  /// Whatever way the tool moves, as far as this no point of it meets bone (mm). 0: it touches nothing where
+  /// it stands; negative: nobody has looked there yet.
+  double free_path_mm = -1.0;
+  size_t nearest_block = 0;  ///< of the shell to bone, when that was last looked for
   uint64_t session_hash = 0;
 };
 

@@ -7,6 +7,7 @@
 #include "force/coefficients.hpp"
 #include "sim/approach.hpp"
 #include "sim/contact_resistance.hpp"
+#include "sim/remove_bone.hpp"
 
 namespace ream::sim {
 namespace {
@@ -25,12 +26,13 @@ Pose moved(const Pose& world_from_tool, const force::Vec6& motion, double fracti
           world_from_tool.translation_mm + world_from_tool.rotation * (fraction * shift)};
 }
 
-/// Advance against contact: at most one voxel a tick for any point, so that nothing is jumped.
+/// Advance against contact: no point goes farther than one look for contact allows, so that nothing is
+/// jumped.
 Pose moved_within_a_voxel(const Model& model, const Pose& world_from_tool, const force::Vec6& motion) {
   const Pose whole = moved(world_from_tool, motion, 1.0);
-  const double distance_mm = largest_motion_mm(model, world_from_tool, whole);
-  return distance_mm <= model.thin_step_mm ? whole
-                                           : moved(world_from_tool, motion, model.thin_step_mm / distance_mm);
+  const double limit_mm = look_every_voxels * model.thin_step_mm;
+  const double path_mm = path_bound_mm(model, world_from_tool, whole);
+  return path_mm <= limit_mm ? whole : moved(world_from_tool, motion, limit_mm / path_mm);
 }
 
 /// Spring, feed law and motion of the tool that touches bone; fills the force part of the report.
@@ -51,6 +53,7 @@ void press(const Model& model, State& state, const collide::ContactSums& sums,
   const Vec3 axis = state.world_from_tool.rotation.col(2);
   const Mat3 world_from_tool_axes = state.world_from_tool.rotation;
   state.world_from_tool = moved_within_a_voxel(model, state.world_from_tool, coupled.tool_motion);
+  state.free_path_mm = -1.0;
 
   const auto& w = coupled.wrench_on_tool;
   const Vec3 force_on_tool(w[0], w[1], w[2]), torque_on_tool(w[3], w[4], w[5]);
@@ -66,26 +69,6 @@ void press(const Model& model, State& state, const collide::ContactSums& sums,
       force::limited(world_from_tool_axes * (-per_hand * force_on_tool), model.settings.limits.force_max_n);
   report.hand_torque_n_mm = force::limited(world_from_tool_axes * (-per_hand * torque_on_tool),
                                            model.settings.limits.torque_max_n_mm);
-}
-
-/// Cuts what is due and tells the followers; folds the changes into the report.
-bool remove(State& state, const QuantisedPose& pose, TickReport& report) {
-  const auto due = state.schedule.due(pose);
-  collide::RemovalSums sums;
-  if (!state.backend.removal->cut(pose, due, {state.changed.data(), due.size()},
-                                  {state.empty.data(), due.size()}, sums))
-    return false;
-  for (size_t i = 0; i < due.size(); ++i) {
-    state.schedule.cut_done(due[i], state.changed[i], state.empty[i]);
-    if (!state.changed[i]) continue;
-    state.cells.set(
-        due[i], voxel::SolidCells::word_of(state.bone.coverage.data() + state.bone.grid.brick_base(due[i])));
-    if (state.brick_sender != nullptr) state.brick_sender->mark(due[i]);
-  }
-  for (size_t k = 0; k < 3; ++k) report.coverage_removed[k] = sums.coverage_removed[k];
-  report.changed_bricks = sums.changed_bricks;
-  if (sums.changed_bricks != 0) state.session_hash = hash_combine(state.session_hash, sums.change_hash);
-  return true;
 }
 
 /// The cause of the tick as it is recorded, folded into the rolling hash.
@@ -133,8 +116,13 @@ StepStatus step(const Model& model, State& state, const device::DeviceInput& raw
 
   const bool cuts = report.engaged && input.spindle_on;
   if (!cuts) state.schedule.pass(report.grid_from_tool);
-  if (cuts && !remove(state, report.grid_from_tool, report)) return StepStatus::collision_failed;
+  if (cuts && !remove_bone(state, report.grid_from_tool, report)) return StepStatus::collision_failed;
 
+  if (state.failed_over_tick == report.tick) {
+    report.failed_over = true;
+    report.hand_force_n.setZero();
+    report.hand_torque_n_mm.setZero();
+  }
   state.session_hash = hash_combine(state.session_hash, hash_of_cause(report));
   report.session_hash = state.session_hash;
   if (state.brick_sender != nullptr)

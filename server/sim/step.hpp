@@ -11,8 +11,9 @@ enum class StepStatus {
 };
 
 /// One millisecond: contact, force, motion, removal, hash; in that order, readable top to bottom. The report
-/// says what happened; on any status but ok it must not be used and the device must be given zero force. No
-/// lock, allocation, log, file, socket or exception.
+/// says what happened; on any status but ok it must not be used and the device must be given zero force. When
+/// the device that computes fails, the reserve takes over within the tick and the hand feels nothing for it.
+/// No lock, allocation, log, file, socket or exception.
 StepStatus step(const Model& model, State& state, const device::DeviceInput& input,
                 TickReport& report) noexcept;
 

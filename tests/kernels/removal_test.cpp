@@ -1,104 +1,71 @@
 #include "collide/removal_cl.hpp"
 
-#include <numeric>
+#include <algorithm>
 
 #include "collide/narrow_phase_cl.hpp"
 #include "every_device.hpp"
 #include "reaming_scene.hpp"
+#include "support/cut_bricks.hpp"
 
 namespace ream::collide {
 namespace {
 
-constexpr LaunchShape shapes[] = {{16, 1}, {5, 32}};
+constexpr LaunchShape shapes[] = {{1, 1}, {16, 1}, {3, 8}, {2, 64}};
+constexpr int pose_count = 1000;
 
-bool equal(const RemovalSums& a, const RemovalSums& b) {
-  return a.change_hash == b.change_hash && a.coverage_removed == b.coverage_removed &&
-         a.changed_bricks == b.changed_bricks;
-}
-
-struct Answer {
-  explicit Answer(size_t bricks) : changed(bricks, 9), empty(bricks, 9) {}
-  std::vector<uint8_t> changed, empty;
-  RemovalSums sums;
+/// Poses that go deeper and deeper, so that each of them finds something to cut, with the bricks around them.
+struct Visit {
+  QuantisedPose pose;
+  std::vector<uint32_t> bricks;
 };
 
-TEST(RemovalCl, CutsWhatTheCppTwinCutsAtRandomPoses) {
-  std::cout << "seed 41\n";
+std::vector<Visit> random_visits(const test::ReamingScene& scene, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  std::vector<Visit> visits;
+  for (int i = 0; i < pose_count; ++i) {
+    const double depth_mm = -1.0 + 9.0 * i / pose_count + unit(random);
+    const Vec3 tilt(0.6 * unit(random), 0.6 * unit(random), unit(random));
+    Visit visit;
+    visit.pose = scene.pose(depth_mm, tilt, Vec3(9.0 * unit(random), 8.0 * unit(random), 0.0));
+    const Vec3 apex = dequantised(visit.pose).translation_mm;
+    for (uint32_t b = 0; b < scene.bone.grid.brick_count(); ++b) {
+      const Vec3i middle = scene.bone.grid.brick_coordinates(b) * voxel::brick_edge + Vec3i::Constant(4);
+      if ((scene.bone.grid.centre_mm(middle) - apex).norm() < 7.0) visit.bricks.push_back(b);
+    }
+    std::shuffle(visit.bricks.begin(), visit.bricks.end(), random);
+    if (visit.bricks.size() > 96) visit.bricks.resize(96);
+    visits.push_back(std::move(visit));
+  }
+  return visits;
+}
+
+TEST(RemovalCl, CutsWhatTheCppTwinCutsAtAThousandRandomPoses) {
+  constexpr unsigned seed = 41;
+  std::cout << "seed " << seed << '\n';
+  test::ReamingScene cpu_scene(seed);
+  const auto visits = random_visits(cpu_scene, seed);
+  const auto cpu = make_removal_cpu({cpu_scene.profile, cpu_scene.bone});
+  std::vector<test::CutAnswer> expected;
+  size_t changed = 0;
+  for (const Visit& visit : visits) {
+    expected.push_back(test::cut_bricks(*cpu, visit.pose, visit.bricks));
+    changed += expected.back().sums.changed_bricks != 0;
+  }
+  EXPECT_GT(changed, pose_count / 2);
   test::on_every_device([&](const gpu::Device& device) {
     for (const LaunchShape shape : shapes) {
-      test::ReamingScene cpu_scene(41), cl_scene(41);
-      const auto cpu = make_removal_cpu({cpu_scene.profile, cpu_scene.bone});
-      const auto buffers = std::make_shared<BoneBuffers>(device, cl_scene.bone);
-      const auto cl = make_removal_cl({cl_scene.profile, cl_scene.bone}, buffers, shape);
-      std::mt19937 random(41);
-      std::vector<uint32_t> bricks(cpu_scene.bone.grid.brick_count());
-      std::iota(bricks.begin(), bricks.end(), 0u);
-      uint32_t changed = 0;
-      for (int i = 0; i < 8; ++i) {
-        const QuantisedPose pose = cpu_scene.random_pose(random);
-        std::shuffle(bricks.begin(), bricks.end(), random);
-        Answer expected(bricks.size()), answer(bricks.size());
-        ASSERT_TRUE(cpu->cut(pose, bricks, expected.changed, expected.empty, expected.sums));
-        ASSERT_TRUE(cl->cut(pose, bricks, answer.changed, answer.empty, answer.sums));
-        ASSERT_TRUE(equal(answer.sums, expected.sums)) << "pose " << i;
-        ASSERT_EQ(answer.changed, expected.changed);
-        ASSERT_EQ(answer.empty, expected.empty);
-        ASSERT_EQ(cl_scene.bone.coverage, cpu_scene.bone.coverage);
-        changed += expected.sums.changed_bricks;
+      SCOPED_TRACE(std::to_string(shape.groups) + " groups of " + std::to_string(shape.lanes));
+      test::ReamingScene scene(seed);
+      const auto cl = make_removal_cl({scene.profile, scene.bone},
+                                      std::make_shared<BoneBuffers>(device, scene.bone), shape);
+      for (size_t i = 0; i < visits.size(); ++i) {
+        const test::CutAnswer answer = test::cut_bricks(*cl, visits[i].pose, visits[i].bricks);
+        ASSERT_EQ(answer.sums, expected[i].sums) << "pose " << i;
+        ASSERT_EQ(answer.outcomes, expected[i].outcomes) << "pose " << i;
       }
-      EXPECT_GT(changed, 100u);
+      ASSERT_EQ(scene.bone.coverage, cpu_scene.bone.coverage);
     }
-  });
-}
-
-/// One tick as the step does it: contact, due bricks, cut, retire.
-struct Reaming {
-  Reaming(test::ReamingScene& scene_, std::unique_ptr<NarrowPhase> narrow, std::unique_ptr<Removal> cutter)
-      : scene(scene_),
-        narrow_phase(std::move(narrow)),
-        removal(std::move(cutter)),
-        schedule(scene.profile, scene.bone) {}
-
-  void tick(const QuantisedPose& pose, const Voi& voi) {
-    ASSERT_TRUE(narrow_phase->contact(pose, voi, contact));
-    const std::span<const uint32_t> due = schedule.due(pose);
-    Answer answer(due.size());
-    ASSERT_TRUE(removal->cut(pose, due, answer.changed, answer.empty, answer.sums));
-    for (size_t i = 0; i < due.size(); ++i)
-      schedule.cut_done(due[i], answer.changed[i] != 0, answer.empty[i] != 0);
-    sums = answer.sums;
-  }
-
-  test::ReamingScene& scene;
-  std::unique_ptr<NarrowPhase> narrow_phase;
-  std::unique_ptr<Removal> removal;
-  RemovalSchedule schedule;
-  ContactSums contact;
-  RemovalSums sums;
-};
-
-TEST(RemovalCl, AWholeShortReamingIsTheSameTickByTick) {
-  test::on_every_device([&](const gpu::Device& device) {
-    test::ReamingScene cpu_scene(42), cl_scene(42);
-    const LaunchShape shape = LaunchShape::fitting(device);
-    const auto buffers = std::make_shared<BoneBuffers>(device, cl_scene.bone);
-    Reaming cpu(cpu_scene, make_narrow_phase_cpu(cpu_scene.contact_input()),
-                make_removal_cpu({cpu_scene.profile, cpu_scene.bone}));
-    Reaming cl(cl_scene, make_narrow_phase_cl(cl_scene.contact_input(), buffers, shape),
-               make_removal_cl({cl_scene.profile, cl_scene.bone}, buffers, shape));
-    const uint64_t untouched = cpu_scene.bone.coverage_hash();
-    for (int i = 0; i < 400; ++i) {
-      const double t = 0.0015 * i;
-      const QuantisedPose pose =
-          cpu_scene.pose(-1.0 + 8.0 * t, Vec3(0.2 * t, -0.1 * t, 3.0 * t), Vec3(1.5 * t, -t, 0.0));
-      const Voi voi = cpu_scene.voi(pose);
-      cpu.tick(pose, voi);
-      cl.tick(pose, voi);
-      ASSERT_EQ(cl.contact, cpu.contact) << "tick " << i;
-      ASSERT_TRUE(equal(cl.sums, cpu.sums)) << "tick " << i;
-    }
-    EXPECT_EQ(cl_scene.bone.coverage, cpu_scene.bone.coverage);
-    EXPECT_NE(cpu_scene.bone.coverage_hash(), untouched);
   });
 }
 

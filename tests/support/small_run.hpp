@@ -10,15 +10,18 @@ namespace ream::test {
 /// Everything a short run needs, kept together because the model refers to the bone.
 struct SmallRun {
   SmallRun(voxel::BoneModel bone_in, const case_::Plan& plan, const std::string& tool,
-           const device::Script& script, const std::string& backend = "cpu")
+           const device::Script& script, const std::string& backend = "cpu",
+           sim::RemovalLaw removal = sim::RemovalLaw::profile)
       : bone(std::move(bone_in)),
-        model(sim::make_model(plan, bone, shell::make_tool(tool), settings(script, backend))),
+        model(sim::make_model(plan, bone, shell::make_tool(tool), settings(script, backend, removal))),
         state(model, bone),
         device(device::make_scripted_device(script, model.world_from_plan)) {}
 
-  static sim::Settings settings(const device::Script& script, const std::string& backend) {
+  static sim::Settings settings(const device::Script& script, const std::string& backend,
+                                sim::RemovalLaw removal = sim::RemovalLaw::profile) {
     sim::Settings s;
     s.backend = backend;
+    s.removal = removal;
     s.tool_spacing_mm = 0.25;
     s.force_scale = script.force_scale;
     s.stiffness_n_mm = script.stiffness_n_mm;

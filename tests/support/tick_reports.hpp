@@ -13,6 +13,7 @@ inline record::TickReport random_report(std::mt19937& random, uint32_t tick) {
   r.spindle_on = count(random) % 2 == 0;
   r.paused = count(random) % 2 == 0;
   r.engaged = count(random) % 2 == 0;
+  r.failed_over = count(random) % 2 == 0;
   r.world_from_handle = random_pose(random);
   r.world_from_tool = random_pose(random);
   r.world_from_handle_q = quantised(r.world_from_handle);

@@ -37,6 +37,7 @@ fs::path next_output_folder() {
 
 void simulate(const Options& options, const GlobalOptions& global) {
   RunRequest request = options.request;
+  if (options.removal == "decay") request.removal = sim::RemovalLaw::decay;
   if (!options.tool_axis.empty()) {
     const auto v = parse_numbers(options.tool_axis, 6, "--tool-axis");
     request.tool_axis = shell::ToolAxis{Vec3(v[0], v[1], v[2]), Vec3(v[3], v[4], v[5])};
@@ -91,8 +92,12 @@ void add_simulate_command(CLI::App& app, GlobalOptions& global) {
   command->add_option("--model", options->model, "Feed model")
       ->check(CLI::IsMember({"empirical"}))
       ->capture_default_str();
-  command->add_option("--removal", options->removal, "Removal law")
-      ->check(CLI::IsMember({"profile"}))
+  command
+      ->add_option(
+          "--removal", options->removal,
+          "Removal law: profile (distance to the swept cutting body) or decay (the thesis' algorithm "
+          "4.1, for comparison)")
+      ->check(CLI::IsMember({"profile", "decay"}))
       ->capture_default_str();
   command->add_option("--tool", options->request.tool,
                       "Reamer: 'sphere R', 'ellipse A,B' or a mesh file. Default: the plan's");

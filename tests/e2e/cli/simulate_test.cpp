@@ -64,6 +64,23 @@ TEST_F(Simulate, EqualRunsAndEveryBackendGiveTheSameBytes) {
       EXPECT_EQ(text_of(std::string(out) + file), text_of(std::string("cpu-1") + file)) << out << file;
 }
 
+TEST_F(Simulate, RemovalByDecayIsTheSameOnEveryBackendAndSaysSo) {
+  const std::string script = short_script();
+  for (const char* backend : {"cpu", "opencl"})
+    succeed({"simulate", "--case", "demo", "--script", script, "--backend", backend, "--removal", "decay",
+             "--out", std::string("decay-") + backend});
+  succeed({"simulate", "--case", "demo", "--script", script, "--out", "profile"});
+  expect_results("decay-cpu");
+  for (const char* file : {"/metrics.json", "/trace.csv", "/reamed.ply"})
+    EXPECT_EQ(text_of(std::string("decay-opencl") + file), text_of(std::string("decay-cpu") + file)) << file;
+  EXPECT_EQ(json_of("decay-cpu/session.json").at("removal"), "decay");
+  EXPECT_EQ(json_of("decay-cpu/session.json").at("decay_levels"), 16);
+  EXPECT_EQ(json_of("profile/session.json").at("removal"), "profile");
+  EXPECT_NE(text_of("decay-cpu/reamed.ply"), text_of("profile/reamed.ply"));
+  const record::Recording recording = record::read_recording(folder() / "decay-cpu/recording.ream");
+  EXPECT_EQ(nlohmann::json::parse(recording.header_json).at("removal"), "decay");
+}
+
 TEST_F(Simulate, WithoutAnOutputFolderItTakesTheNextFreeNumber) {
   const std::string script = short_script();
   for (const char* out : {"ream-out/1", "ream-out/2"}) {

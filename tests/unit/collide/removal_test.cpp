@@ -9,6 +9,7 @@
 
 #include "collide/removal_schedule.hpp"
 #include "core/hash.hpp"
+#include "support/cut_bricks.hpp"
 #include "support/random_pose.hpp"
 #include "support/test_bone.hpp"
 
@@ -22,11 +23,8 @@ struct Scene {
         profile(shell::swept_profile(tool.profile, collide::RemovalSchedule::needed_margin_mm(bone.grid))),
         removal(collide::make_removal_cpu({profile, bone})) {}
 
-  collide::RemovalSums cut(const QuantisedPose& pose, std::vector<uint32_t> bricks) {
-    std::vector<uint8_t> changed(bricks.size()), empty(bricks.size());
-    collide::RemovalSums sums;
-    EXPECT_TRUE(removal->cut(pose, bricks, changed, empty, sums));
-    return sums;
+  collide::RemovalSums cut(const QuantisedPose& pose, const std::vector<uint32_t>& bricks) {
+    return cut_bricks(*removal, pose, bricks).sums;
   }
   std::vector<uint32_t> all_bricks() const {
     std::vector<uint32_t> bricks(bone.grid.brick_count());
@@ -95,15 +93,12 @@ TEST(Removal, SumsAndHashAreThoseOfTheChangedVoxels) {
 TEST(RemovalSchedule, AScheduledPlungeEndsWithinAThirtySecondVoxelOfCuttingEverything) {
   Scene scheduled, full;
   collide::RemovalSchedule schedule(scheduled.profile, scheduled.bone);
-  std::vector<uint8_t> changed(scheduled.bone.grid.brick_count()), empty(changed.size());
   size_t visited = 0, ticks = 0;
   for (double z = 8.3; z > 5.5; z -= 0.002, ++ticks) {
     const QuantisedPose pose = quantised(at(8.0 + 0.1 * std::sin(40 * z), 8.0, z));
     const auto due = schedule.due(pose);
-    collide::RemovalSums sums;
-    ASSERT_TRUE(
-        scheduled.removal->cut(pose, due, {changed.data(), due.size()}, {empty.data(), due.size()}, sums));
-    for (size_t i = 0; i < due.size(); ++i) schedule.cut_done(due[i], changed[i], empty[i]);
+    const CutAnswer answer = cut_bricks(*scheduled.removal, pose, due);
+    for (size_t i = 0; i < due.size(); ++i) schedule.cut_done(i, answer.outcomes[i]);
     visited += due.size();
     full.cut(pose, full.all_bricks());
   }
