@@ -52,9 +52,9 @@ class RunningSession {
   /// The keys of metrics.json; grid_hash is null until the end.
   virtual nlohmann::json metrics() const = 0;
 
-  /// A viewer joins: Hello first, then the whole surface, then what changes. It may outlive stop(), not the
-  /// session.
-  virtual std::unique_ptr<net::WebSocketSession> subscribe() = 0;
+  /// A viewer joins: Hello first, then the whole surface, then what changes, with one sample every `stride`
+  /// (1, 2 or 4) voxels. It may outlive stop(), not the session.
+  virtual std::unique_ptr<net::WebSocketSession> subscribe(int stride) = 0;
 };
 
 /// Makes a session ready to start, which may take seconds. Called on worker threads, several at once.

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "api/request_body.hpp"
+#include "core/error.hpp"
 
 namespace ream::api {
 using nlohmann::json;
@@ -54,6 +55,15 @@ net::Response list(const SessionService& service) {
 
 const std::string& id_of(const net::Request& request) { return request.parameters.at("id"); }
 
+/// For slow links: the surface with one sample every 2 or 4 voxels.
+int stride_of(const net::Request& request) {
+  const auto given = request.query.find("stride");
+  if (given == request.query.end()) return 1;
+  for (const int stride : {1, 2, 4})
+    if (given->second == std::to_string(stride)) return stride;
+  throw Error(ErrorKind::invalid_input, "stride must be 1, 2 or 4, not '" + given->second + "'");
+}
+
 }  // namespace
 
 void add_session_routes(net::Router& router, SessionService& service, const Readiness& readiness) {
@@ -71,8 +81,9 @@ void add_session_routes(net::Router& router, SessionService& service, const Read
   router.on("GET", base + "/{id}/metrics", [&service](const net::Request& request) {
     return net::json_response(200, service.metrics(id_of(request)));
   });
-  router.on_websocket(base + "/{id}/stream",
-                      [&service](const net::Request& request) { return service.subscribe(id_of(request)); });
+  router.on_websocket(base + "/{id}/stream", [&service](const net::Request& request) {
+    return service.subscribe(id_of(request), stride_of(request));
+  });
 }
 
 }  // namespace ream::api

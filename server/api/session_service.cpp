@@ -173,9 +173,9 @@ SessionRecord SessionService::stop(const std::string& id) {
 
 nlohmann::json SessionService::metrics(const std::string& id) const { return find(id)->running->metrics(); }
 
-std::unique_ptr<net::WebSocketSession> SessionService::subscribe(const std::string& id) const {
+std::unique_ptr<net::WebSocketSession> SessionService::subscribe(const std::string& id, int stride) const {
   auto entry = find(id);
-  auto inner = entry->running->subscribe();
+  auto inner = entry->running->subscribe(stride);
   return std::make_unique<KeepingSession>(std::move(entry), std::move(inner));
 }
 

@@ -41,8 +41,8 @@ class SessionService {
   /// Error conflict when it has ended already.
   SessionRecord stop(const std::string& id);
   nlohmann::json metrics(const std::string& id) const;
-  /// The session lives on as long as somebody watches it.
-  std::unique_ptr<net::WebSocketSession> subscribe(const std::string& id) const;
+  /// The session lives on as long as somebody watches it. `stride` as RunningSession::subscribe.
+  std::unique_ptr<net::WebSocketSession> subscribe(const std::string& id, int stride) const;
 
   /// Stops every session that still runs; nothing can be created or started any more.
   void shut_down();

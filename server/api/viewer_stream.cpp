@@ -5,9 +5,12 @@ namespace {
 
 class ViewerStream final : public net::WebSocketSession {
  public:
-  explicit ViewerStream(std::shared_ptr<stream::Fanout> fanout) : fanout_(std::move(fanout)) {}
+  ViewerStream(std::shared_ptr<stream::Fanout> fanout, int stride)
+      : fanout_(std::move(fanout)), stride_(stride) {}
 
-  void on_open(std::function<void()> wake) override { mailbox_ = fanout_->subscribe(std::move(wake)); }
+  void on_open(std::function<void()> wake) override {
+    mailbox_ = fanout_->subscribe(std::move(wake), stride_);
+  }
 
   std::optional<net::SharedBytes> next() override {
     net::SharedBytes message = mailbox_->next();
@@ -21,13 +24,14 @@ class ViewerStream final : public net::WebSocketSession {
 
  private:
   std::shared_ptr<stream::Fanout> fanout_;
+  int stride_;
   std::shared_ptr<stream::Mailbox> mailbox_;
 };
 
 }  // namespace
 
-std::unique_ptr<net::WebSocketSession> viewer_stream(std::shared_ptr<stream::Fanout> fanout) {
-  return std::make_unique<ViewerStream>(std::move(fanout));
+std::unique_ptr<net::WebSocketSession> viewer_stream(std::shared_ptr<stream::Fanout> fanout, int stride) {
+  return std::make_unique<ViewerStream>(std::move(fanout), stride);
 }
 
 }  // namespace ream::api

@@ -143,7 +143,9 @@ nlohmann::json ReamingSession::metrics() const {
   return metrics_;
 }
 
-std::unique_ptr<net::WebSocketSession> ReamingSession::subscribe() { return api::viewer_stream(fanout_); }
+std::unique_ptr<net::WebSocketSession> ReamingSession::subscribe(int stride) {
+  return api::viewer_stream(fanout_, stride);
+}
 
 void ReamingSession::follow() {
   int64_t last_told_ns = 0;

@@ -34,7 +34,7 @@ class ReamingSession final : public api::RunningSession {
   void stop() override;
   api::SessionStatus status() const override;
   nlohmann::json metrics() const override;
-  std::unique_ptr<net::WebSocketSession> subscribe() override;
+  std::unique_ptr<net::WebSocketSession> subscribe(int stride) override;
 
  private:
   void follow();

@@ -30,16 +30,17 @@ std::vector<std::byte> encoded(size_t bound, Encode encode) {
 
 }  // namespace
 
-EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t tick) {
+EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t tick, int stride) {
   EncodedBlock result;
   result.block = mesh.block;
   result.revision = revision;
   result.tick = tick;
+  result.stride = stride;
   if (mesh.indices.empty()) return result;
   choose_formats_once();
 
-  // The cheapest order: the best one for strips packs 9 % better and takes four times as long.
-  constexpr unsigned cache_vertices = 16;
+  // A cheap order: the best one, for strips, packs 10 % better and takes twice as long in all.
+  constexpr unsigned cache_vertices = 8;
   std::vector<uint32_t> indices(mesh.indices.size());
   meshopt_optimizeVertexCacheFifo(indices.data(), mesh.indices.data(), indices.size(), mesh.vertices.size(),
                                   cache_vertices);

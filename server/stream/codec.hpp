@@ -14,6 +14,7 @@ struct EncodedBlock {
   uint32_t block = 0;
   uint32_t revision = 0;  ///< grows per block
   uint32_t tick = 0;      ///< the newest brick in it
+  int stride = 1;         ///< of the samples, in voxels; positions are in the same units at every stride
   uint32_t vertex_count = 0, index_count = 0;
   std::vector<std::byte> vertices, indices;
 
@@ -25,6 +26,6 @@ using SharedBlock = std::shared_ptr<const EncodedBlock>;
 
 /// Reorders vertices and triangles so that they pack well; the surface itself is unchanged. A mesh without
 /// triangles gives an empty block.
-EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t tick);
+EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t tick, int stride = 1);
 
 }  // namespace ream::stream

@@ -7,10 +7,10 @@ namespace ream::stream {
 // The lock is held while putting: a viewer that joins meanwhile gets each block exactly from the picture or
 // as news.
 template <typename Put>
-void LocalFanout::put_to_all(Put put) {
-  std::erase_if(viewers_, [&](const std::weak_ptr<Mailbox>& viewer) {
-    const std::shared_ptr<Mailbox> mailbox = viewer.lock();
-    if (mailbox) put(*mailbox);
+void LocalFanout::put_to_all(int stride, Put put) {
+  std::erase_if(viewers_, [&](const Viewer& viewer) {
+    const std::shared_ptr<Mailbox> mailbox = viewer.mailbox.lock();
+    if (mailbox && (stride == 0 || stride == viewer.stride)) put(*mailbox);
     return !mailbox;
   });
 }
@@ -18,43 +18,52 @@ void LocalFanout::put_to_all(Put put) {
 void LocalFanout::publish_hello(Message hello) {
   const std::lock_guard lock(mutex_);
   hello_ = std::move(hello);
-  put_to_all([&](Mailbox& mailbox) { mailbox.put_hello(hello_); });
+  put_to_all(0, [&](Mailbox& mailbox) { mailbox.put_hello(hello_); });
 }
 
 void LocalFanout::publish_block(SharedBlock block) {
   const std::lock_guard lock(mutex_);
+  auto& blocks = pictures_[block->stride].blocks;
   if (block->empty())
-    picture_.erase(block->block);
+    blocks.erase(block->block);
   else
-    picture_[block->block] = block;
-  put_to_all([&](Mailbox& mailbox) { mailbox.put_block(block); });
+    blocks[block->block] = block;
+  put_to_all(block->stride, [&](Mailbox& mailbox) { mailbox.put_block(block); });
 }
 
-void LocalFanout::publish_picture_complete() {
+void LocalFanout::publish_picture_complete(int stride) {
   const std::lock_guard lock(mutex_);
-  picture_complete_ = true;
-  put_to_all([](Mailbox& mailbox) { mailbox.put_picture_complete(); });
+  pictures_[stride].complete = true;
+  put_to_all(stride, [](Mailbox& mailbox) { mailbox.put_picture_complete(); });
 }
 
 void LocalFanout::publish_telemetry(SharedTelemetry batch) {
   const std::lock_guard lock(mutex_);
-  put_to_all([&](Mailbox& mailbox) { mailbox.put_telemetry(batch); });
+  put_to_all(0, [&](Mailbox& mailbox) { mailbox.put_telemetry(batch); });
 }
 
-std::shared_ptr<Mailbox> LocalFanout::subscribe(std::function<void()> notify) {
+bool LocalFanout::wants(int stride) const {
+  const std::lock_guard lock(mutex_);
+  return std::any_of(viewers_.begin(), viewers_.end(), [stride](const Viewer& viewer) {
+    return viewer.stride == stride && !viewer.mailbox.expired();
+  });
+}
+
+std::shared_ptr<Mailbox> LocalFanout::subscribe(std::function<void()> notify, int stride) {
   const std::lock_guard lock(mutex_);
   auto mailbox = std::make_shared<Mailbox>(std::move(notify));
   if (hello_) mailbox->put_hello(hello_);
-  for (const auto& [key, block] : picture_) mailbox->put_block(block);
-  if (picture_complete_) mailbox->put_picture_complete();
-  viewers_.push_back(mailbox);
+  const Picture& picture = pictures_[stride];
+  for (const auto& [key, block] : picture.blocks) mailbox->put_block(block);
+  if (picture.complete) mailbox->put_picture_complete();
+  viewers_.push_back({stride, mailbox});
   return mailbox;
 }
 
 size_t LocalFanout::viewers() const {
   const std::lock_guard lock(mutex_);
   return static_cast<size_t>(
-      std::count_if(viewers_.begin(), viewers_.end(), [](const auto& v) { return !v.expired(); }));
+      std::count_if(viewers_.begin(), viewers_.end(), [](const Viewer& v) { return !v.mailbox.expired(); }));
 }
 
 }  // namespace ream::stream

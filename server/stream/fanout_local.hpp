@@ -11,22 +11,32 @@ class LocalFanout final : public Fanout {
  public:
   void publish_hello(Message hello) override;
   void publish_block(SharedBlock block) override;
-  void publish_picture_complete() override;
+  void publish_picture_complete(int stride) override;
   void publish_telemetry(SharedTelemetry batch) override;
-  std::shared_ptr<Mailbox> subscribe(std::function<void()> notify) override;
+  bool wants(int stride) const override;
+  std::shared_ptr<Mailbox> subscribe(std::function<void()> notify, int stride) override;
 
   /// Mailboxes still held by somebody.
   size_t viewers() const;
 
  private:
+  struct Picture {
+    std::map<uint32_t, SharedBlock> blocks;  ///< newest surface of every block that holds any
+    bool complete = false;
+  };
+  struct Viewer {
+    int stride;
+    std::weak_ptr<Mailbox> mailbox;
+  };
+
+  /// To the viewers of one stride, or of all (0).
   template <typename Put>
-  void put_to_all(Put put);
+  void put_to_all(int stride, Put put);
 
   mutable std::mutex mutex_;
   Message hello_;
-  std::map<uint32_t, SharedBlock> picture_;  ///< newest surface of every block that holds any
-  bool picture_complete_ = false;
-  std::vector<std::weak_ptr<Mailbox>> viewers_;
+  std::map<int, Picture> pictures_;  ///< by stride
+  std::vector<Viewer> viewers_;
 };
 
 }  // namespace ream::stream

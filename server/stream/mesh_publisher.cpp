@@ -1,80 +1,147 @@
 #include "stream/mesh_publisher.hpp"
 
 #include <algorithm>
-#include <cstdlib>
+#include <climits>
+#include <cstring>
+#include <utility>
+
+#include "core/hash.hpp"
 
 namespace ream::stream {
+namespace {
+
+/// Not 0 unless the mesh is empty.
+uint64_t surface_hash(const surface::BlockMesh& mesh) {
+  uint64_t hash = mesh.indices.size();
+  for (const surface::BlockVertex& v : mesh.vertices) {
+    uint64_t word;
+    std::memcpy(&word, &v, sizeof word);
+    hash = mix64(hash ^ word);
+  }
+  for (const uint32_t index : mesh.indices) hash = hash * 0x9e3779b97f4a7c15ull + index;
+  return mesh.indices.empty() ? 0 : std::max<uint64_t>(hash, 1);
+}
+
+}  // namespace
+
+MeshPublisher::Level::Level(const voxel::VoxelGrid& grid, int stride_voxels)
+    : stride(stride_voxels),
+      extractor(grid, stride),
+      revision(extractor.layout().count()),
+      shown(extractor.layout().count()),
+      is_touched(extractor.layout().count()) {}
+
+void MeshPublisher::Level::touch(uint32_t block) {
+  if (std::exchange(is_touched[block], uint8_t{1}) == 0) to_extract.push_back(block);
+}
 
 MeshPublisher::MeshPublisher(const voxel::BoneModel& bone, voxel::BrickRing& ring, Fanout& fanout,
                              MeshPublisherOptions options)
-    : replica_(bone),
-      ring_(ring),
-      fanout_(fanout),
-      options_(options),
-      extractor_(bone.grid),
-      revision_(replica_.block_count()),
-      shown_(replica_.block_count()),
-      moved_(bone.grid.brick_count()) {}
+    : replica_(bone), ring_(ring), fanout_(fanout), options_(options), layout_(bone.grid) {
+  for (const int stride : {1, 2, 4}) levels_.emplace_back(bone.grid, stride);
+}
 
 void MeshPublisher::publish_all() {
-  for (uint32_t block = 0; block < replica_.block_count(); ++block) publish(block);
-  fanout_.publish_picture_complete();
+  Level& full = levels_.front();
+  for (uint32_t block = 0; block < layout_.count(); ++block) full.touch(block);
+  full.picture = Level::Picture::begun;
+  extract(INT_MAX);
+  publish_ready();
 }
 
 size_t MeshPublisher::poll(int64_t now_ns) {
   drain(now_ns);
-  if (moved_list_.empty() || now_ns - last_publish_ns_ < options_.min_interval_ns) return 0;
-  const bool due =
-      most_moved_ >= options_.noticeable_coverage || now_ns - moved_since_ns_ >= options_.max_delay_ns;
-  return due ? publish_changed(now_ns) : 0;
+  if (now_ns - last_work_ns_ < options_.min_interval_ns) return 0;
+  if (!extracting()) {
+    begin_pictures();
+    if (due(now_ns)) begin_update();
+    if (!extracting()) return 0;
+  }
+  last_work_ns_ = now_ns;
+  extract(options_.max_surfaces);
+  return extracting() ? 0 : publish_ready();
 }
 
 size_t MeshPublisher::flush(int64_t now_ns) {
   drain(now_ns);
-  return publish_changed(now_ns);
+  extract(INT_MAX);
+  size_t published = publish_ready();
+  begin_pictures();
+  begin_update();
+  extract(INT_MAX);
+  published += publish_ready();
+  last_work_ns_ = now_ns;
+  return published;
 }
 
 void MeshPublisher::drain(int64_t now_ns) {
   voxel::BrickImage image;
-  while (ring_.try_pop(image)) {
-    tick_ = std::max(tick_, image.tick);
-    const int change = largest_change(image);
-    if (change == 0) continue;
-    replica_.apply(image);
-    if (moved_list_.empty()) moved_since_ns_ = now_ns;
-    uint16_t& moved = moved_[image.brick];
-    if (moved == 0) moved_list_.push_back(image.brick);
-    moved = static_cast<uint16_t>(std::min(moved + change, int{UINT16_MAX}));
-    most_moved_ = std::max(most_moved_, int{moved});
+  while (ring_.try_pop(image)) waiting_.put(image, replica_.brick(image.brick), now_ns);
+}
+
+bool MeshPublisher::due(int64_t now_ns) const {
+  return !waiting_.empty() && (waiting_.most_moved() >= options_.noticeable_coverage ||
+                               now_ns - waiting_.since_ns() >= options_.max_delay_ns);
+}
+
+bool MeshPublisher::extracting() const {
+  return std::any_of(levels_.begin(), levels_.end(),
+                     [](const Level& level) { return level.next < level.to_extract.size(); });
+}
+
+void MeshPublisher::begin_pictures() {
+  for (Level& level : levels_) {
+    if (level.picture != Level::Picture::unwanted || !fanout_.wants(level.stride)) continue;
+    level.picture = Level::Picture::begun;
+    for (uint32_t block = 0; block < layout_.count(); ++block) level.touch(block);
   }
 }
 
-int MeshPublisher::largest_change(const voxel::BrickImage& image) {
-  uint8_t before[voxel::brick_voxels];
-  voxel::read_brick(replica_.grid(), replica_.coverage().data(), image.brick, before);
-  int largest = 0;
-  for (int i = 0; i < voxel::brick_voxels; ++i)
-    largest = std::max(largest, std::abs(before[i] - image.coverage[i]));
-  return largest;
+void MeshPublisher::begin_update() {
+  for (const voxel::BrickImage& image : waiting_.images()) {
+    const uint8_t* shown = replica_.brick(image.brick);
+    if (std::memcmp(shown, image.coverage, voxel::brick_voxels) == 0) continue;
+    const VoxelBox box = difference_box(shown, image.coverage);
+    tick_ = std::max(tick_, image.tick);
+    replica_.apply(image);
+    const Vec3i origin = replica_.grid().brick_coordinates(image.brick) * voxel::brick_edge;
+    for (Level& level : levels_) {
+      if (level.picture == Level::Picture::unwanted) continue;
+      const auto range = surface::blocks_touched(layout_, origin + box.low, origin + box.high, level.stride);
+      surface::for_each_block(layout_, range, [&level](uint32_t block) { level.touch(block); });
+    }
+  }
+  waiting_.clear();
 }
 
-size_t MeshPublisher::publish_changed(int64_t now_ns) {
-  size_t published = 0;
-  for (const uint32_t block : replica_.take_dirty_blocks()) published += publish(block);
-  for (const uint32_t brick : moved_list_) moved_[brick] = 0;
-  moved_list_.clear();
-  most_moved_ = 0;
-  last_publish_ns_ = now_ns;
+void MeshPublisher::extract(int most_surfaces) {
+  constexpr int whole = 16;  // what a surface of stride 1 costs; triangles go with the stride's square
+  int64_t left = int64_t{most_surfaces} * whole;
+  for (Level& level : levels_)
+    for (; level.next < level.to_extract.size() && left > 0; ++level.next) {
+      const uint32_t block = level.to_extract[level.next];
+      level.is_touched[block] = 0;
+      const surface::BlockMesh mesh = level.extractor.extract(replica_.coverage().data(), block);
+      const uint64_t hash = surface_hash(mesh);
+      if (hash != 0) left -= whole / (level.stride * level.stride);
+      if (hash == std::exchange(level.shown[block], hash)) continue;
+      ready_.push_back(
+          std::make_shared<const EncodedBlock>(encode(mesh, ++level.revision[block], tick_, level.stride)));
+    }
+}
+
+size_t MeshPublisher::publish_ready() {
+  for (SharedBlock& block : ready_) fanout_.publish_block(std::move(block));
+  const size_t published = ready_.size();
+  ready_.clear();
+  for (Level& level : levels_) {
+    level.to_extract.clear();
+    level.next = 0;
+    if (level.picture != Level::Picture::begun) continue;
+    level.picture = Level::Picture::complete;
+    fanout_.publish_picture_complete(level.stride);
+  }
   return published;
-}
-
-bool MeshPublisher::publish(uint32_t block) {
-  const surface::BlockMesh mesh = extractor_.extract(replica_.coverage().data(), block);
-  const bool holds_surface = !mesh.indices.empty();
-  if (!holds_surface && !shown_[block]) return false;
-  shown_[block] = holds_surface;
-  fanout_.publish_block(std::make_shared<const EncodedBlock>(encode(mesh, ++revision_[block], tick_)));
-  return true;
 }
 
 }  // namespace ream::stream

@@ -57,7 +57,7 @@ Message hello_message(const HelloInfo& info) {
       builder.CreateString(info.case_id), builder.CreateString(info.case_name),
       builder.CreateString(info.side),
       builder.CreateVector(std::vector<int32_t>{dims.x(), dims.y(), dims.z()}), &spacing, &world_from_grid,
-      voxel::block_edge, builder.CreateVector(positions), builder.CreateVector(indices),
+      surface::block_edge, builder.CreateVector(positions), builder.CreateVector(indices),
       builder.CreateString(info.tool_name), &entry, &direction, static_cast<float>(info.planned_depth_mm),
       static_cast<float>(info.force_scale), static_cast<float>(info.force_max_n));
   return finished(builder, wire::Body::Hello, hello);

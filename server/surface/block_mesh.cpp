@@ -1,68 +1,35 @@
 #include "surface/block_mesh.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <cstdlib>
-#include <cstring>
 
+#include "core/error.hpp"
+#include "surface/gradient.hpp"
 #include "surface/marching_cubes.hpp"
 #include "surface/octahedral.hpp"
 
 namespace ream::surface {
 namespace {
 
-using voxel::block_edge;
-
-// The copy holds voxels -2..33 of the block: cells reach voxel 32, gradients one further.
-constexpr int margin = 2;
-constexpr int edge = block_edge + 2 * margin;
-constexpr int row_bytes = 40;
-constexpr int slice_bytes = row_bytes * edge;
-constexpr int last_corner = margin + block_edge;
 constexpr int half = units_per_voxel / 2;
-
-/// Bits first..last.
-constexpr uint64_t bits(int first, int last) {
-  return (~uint64_t{0} << first) & (~uint64_t{0} >> (63 - last));
-}
-
-/// Bit i is the top bit of byte i: set where coverage is 128 or more.
-uint64_t filled_bits(const uint8_t* row) {
-  uint64_t result = 0;
-  for (int i = 0; i < row_bytes / 8; ++i) {
-    uint64_t word;
-    std::memcpy(&word, row + 8 * i, 8);
-    result |= (((word >> 7) & 0x0101010101010101ull) * 0x0102040810204080ull >> 56) << (8 * i);
-  }
-  return result;
-}
+constexpr int row_bytes = BlockVolume::row_bytes, slice_bytes = BlockVolume::slice_bytes;
+constexpr size_t most_triangles = 5;
 
 template <typename Visit>
 void for_each_bit(uint64_t word, Visit visit) {
   for (; word != 0; word &= word - 1) visit(std::countr_zero(word));
 }
 
-/// Where coverage crosses 127.5 between two voxel centres, from the first, rounded to 1/1024 voxel: 4..1020.
+/// Where coverage crosses 127.5 between two samples, from the first, rounded to 1/1024 of their distance:
+/// 4..1020.
 int crossing(int first, int second) {
   const int numerator = half * std::abs(255 - 2 * first), denominator = std::abs(second - first);
   return (2 * numerator + denominator) / (2 * denominator);
 }
 
-/// Minus the gradient of coverage at a voxel of the copy, times 32: central differences, averaged across with
-/// weights 1 2 1 because a coverage that falls within one voxel is too steep for bare ones (they show rings
-/// on round surfaces).
-Vec3i fall_at(const uint8_t* voxel) {
-  Vec3i fall = Vec3i::Zero();
-  for (int z = -1; z <= 1; ++z)
-    for (int y = -1; y <= 1; ++y) {
-      const uint8_t* row = voxel + z * slice_bytes + y * row_bytes;
-      const int sum = row[-1] + 2 * row[0] + row[1], weight_y = 2 - y * y, weight_z = 2 - z * z;
-      fall += Vec3i((row[-1] - row[1]) * weight_y * weight_z, -y * sum * weight_z, -z * sum * weight_y);
-    }
-  return fall;
+int slot(int axis, int x, int y, int z) {
+  return (((z & 1) * BlockVolume::edge + y) * row_bytes + x) * 3 + axis;
 }
-
-int slot(int axis, int x, int y, int z) { return (((z & 1) * edge + y) * row_bytes + x) * 3 + axis; }
 
 /// Slot of each cell edge relative to the cell's, for even and odd z.
 std::array<std::array<int, 12>, 2> edge_slots() {
@@ -76,6 +43,13 @@ std::array<std::array<int, 12>, 2> edge_slots() {
   return result;
 }
 
+int checked(int stride) {
+  if (stride != 1 && stride != 2 && stride != 4)
+    throw Error(ErrorKind::invalid_input,
+                "surface stride " + std::to_string(stride) + " is not possible; use 1, 2 or 4");
+  return stride;
+}
+
 }  // namespace
 
 Vec3f position_mm(const BlockVertex& vertex, const Vec3i& block, const Vec3& spacing_mm) {
@@ -84,113 +58,88 @@ Vec3f position_mm(const BlockVertex& vertex, const Vec3i& block, const Vec3& spa
   return (voxels.array() * spacing_mm.array()).cast<float>();
 }
 
-BlockExtractor::BlockExtractor(const voxel::VoxelGrid& grid)
-    : grid_(grid),
-      block_dims_((grid.dims.array() + (block_edge - 1)).matrix() / block_edge),
+BlockExtractor::BlockExtractor(const voxel::VoxelGrid& grid, int stride)
+    : layout_(grid),
       voxels_per_mm_((1.0 / grid.spacing_mm.array()).cast<float>()),
-      copy_(static_cast<size_t>(slice_bytes) * edge),
-      filled_(static_cast<size_t>(edge) * edge),
+      volume_(grid, checked(stride)),
       vertex_of_edge_(2 * static_cast<size_t>(slice_bytes) * 3) {}
-
-Vec3i BlockExtractor::block_coordinates(uint32_t block) const {
-  const int i = static_cast<int>(block);
-  return {i % block_dims_.x(), (i / block_dims_.x()) % block_dims_.y(),
-          i / (block_dims_.x() * block_dims_.y())};
-}
 
 BlockMesh BlockExtractor::extract(const uint8_t* coverage, uint32_t block) {
   BlockMesh mesh;
   mesh.block = block;
-  if (!load(coverage, block_coordinates(block))) return mesh;
-  for (int z = low_.z(); z <= last_corner; ++z) {
+  if (!volume_.load(coverage, layout_.coordinates(block))) return mesh;
+  index_count_ = 0;
+  for (int z = volume_.low().z(); z <= volume_.last().z(); ++z) {
     add_vertices(z, mesh);
-    if (z > low_.z()) add_triangles(z - 1, mesh);
+    if (z > volume_.low().z()) add_triangles(z - 1);
   }
+  mesh.indices.assign(indices_.begin(), indices_.begin() + static_cast<ptrdiff_t>(index_count_));
   return mesh;
 }
 
-bool BlockExtractor::load(const uint8_t* coverage, const Vec3i& block) {
-  const Vec3i origin = (block * block_edge).array() - margin;
-  low_ = (block.array() == 0).select(Vec3i::Constant(margin - 1), Vec3i::Constant(margin));
-  const int first = std::max(0, -origin.x()), last = std::min(edge, grid_.dims.x() - origin.x());
-  const uint64_t corners = bits(low_.x(), last_corner);
-  uint64_t any = 0, all = corners;
-  for (int z = 0; z < edge; ++z)
-    for (int y = 0; y < edge; ++y) {
-      uint8_t* row = copy_.data() + z * slice_bytes + y * row_bytes;
-      const int v = origin.y() + y, w = origin.z() + z;
-      if (v < 0 || w < 0 || v >= grid_.dims.y() || w >= grid_.dims.z()) {
-        std::memset(row, 0, row_bytes);
-      } else {
-        if (first > 0 || last < edge) std::memset(row, 0, row_bytes);
-        copy_row(coverage, {origin.x() + first, v, w}, last - first, row + first);
-      }
-      const uint64_t filled = filled_bits(row);
-      filled_[static_cast<size_t>(z * edge + y)] = filled;
-      if (y >= low_.y() && y <= last_corner && z >= low_.z() && z <= last_corner) {
-        any |= filled & corners;
-        all &= filled;
-      }
-    }
-  return any != 0 && all != corners;
-}
-
-void BlockExtractor::copy_row(const uint8_t* coverage, const Vec3i& from, int count, uint8_t* to) const {
-  for (int u = from.x(), end = from.x() + count; u < end;) {
-    const int run = std::min(voxel::brick_edge - u % voxel::brick_edge, end - u);
-    std::memcpy(to, coverage + grid_.index(u, from.y(), from.z()), static_cast<size_t>(run));
-    to += run;
-    u += run;
-  }
-}
-
 void BlockExtractor::add_vertices(int z, BlockMesh& mesh) {
-  const uint64_t corners = bits(low_.x(), last_corner), x_edges = bits(low_.x(), last_corner - 1);
-  for (int y = low_.y(); y <= last_corner; ++y) {
-    const uint64_t* row = filled_.data() + z * edge + y;
-    for_each_bit((row[0] ^ (row[0] >> 1)) & x_edges, [&](int x) { add_vertex(0, x, y, z, mesh); });
-    if (y < last_corner)
-      for_each_bit((row[0] ^ row[1]) & corners, [&](int x) { add_vertex(1, x, y, z, mesh); });
-    if (z < last_corner)
-      for_each_bit((row[0] ^ row[edge]) & corners, [&](int x) { add_vertex(2, x, y, z, mesh); });
+  const Vec3i &low = volume_.low(), &last = volume_.last();
+  const uint64_t corners = bits(low.x(), last.x()), x_edges = bits(low.x(), last.x() - 1);
+  const auto add = [&](uint64_t crossed, int axis, int y) {
+    for_each_bit(crossed, [&](int x) {
+      vertex_of_edge_[static_cast<size_t>(slot(axis, x, y, z))] = static_cast<uint32_t>(mesh.vertices.size());
+      mesh.vertices.push_back(make_vertex(axis, x, y, z));
+    });
+  };
+  for (int y = low.y(); y <= last.y(); ++y) {
+    const uint64_t filled = volume_.filled(y, z);
+    add((filled ^ (filled >> 1)) & x_edges, 0, y);
+    if (y < last.y()) add((filled ^ volume_.filled(y + 1, z)) & corners, 1, y);
+    if (z < last.z()) add((filled ^ volume_.filled(y, z + 1)) & corners, 2, y);
   }
 }
 
-void BlockExtractor::add_vertex(int axis, int x, int y, int z, BlockMesh& mesh) {
-  constexpr std::array<int, 3> stride = {1, row_bytes, slice_bytes};
-  const uint8_t* first = copy_.data() + z * slice_bytes + y * row_bytes + x;
-  const uint8_t* second = first + stride[static_cast<size_t>(axis)];
+BlockVertex BlockExtractor::make_vertex(int axis, int x, int y, int z) const {
+  constexpr std::array<int, 3> step = {1, row_bytes, slice_bytes};
+  const uint8_t* first = volume_.row(y, z) + x;
+  const uint8_t* second = first + step[static_cast<size_t>(axis)];
   const int offset = crossing(*first, *second);
 
   // Whole numbers, so the same in every block that has this vertex.
-  const Vec3i fall = fall_at(first) * (units_per_voxel - offset) + fall_at(second) * offset;
+  const std::array<int, 3> fall_first = fall_at(first, row_bytes, slice_bytes),
+                           fall_second = fall_at(second, row_bytes, slice_bytes);
+  Vec3i fall;
+  for (size_t i = 0; i < 3; ++i)
+    fall[static_cast<int>(i)] = fall_first[i] * (units_per_voxel - offset) + fall_second[i] * offset;
   Vec3f outward = fall.cast<float>().cwiseProduct(voxels_per_mm_);
   if (fall.isZero()) outward[axis] = *first > *second ? 1.0f : -1.0f;
   const std::array<int8_t, 2> normal = octahedral_from_direction(outward);
 
-  std::array<int, 3> p = {units_per_voxel * x - half, units_per_voxel * y - half, units_per_voxel * z - half};
-  p[static_cast<size_t>(axis)] += offset;
-  vertex_of_edge_[static_cast<size_t>(slot(axis, x, y, z))] = static_cast<uint32_t>(mesh.vertices.size());
-  mesh.vertices.push_back({static_cast<uint16_t>(p[0]), static_cast<uint16_t>(p[1]),
-                           static_cast<uint16_t>(p[2]), normal[0], normal[1]});
+  const int stride = volume_.stride(), centre = stride * half + units_per_voxel;
+  std::array<int, 3> p = {units_per_voxel * stride * (x - BlockVolume::margin_x) + centre,
+                          units_per_voxel * stride * (y - BlockVolume::margin) + centre,
+                          units_per_voxel * stride * (z - BlockVolume::margin) + centre};
+  p[static_cast<size_t>(axis)] += stride * offset;
+  return {static_cast<uint16_t>(p[0]), static_cast<uint16_t>(p[1]), static_cast<uint16_t>(p[2]), normal[0],
+          normal[1]};
 }
 
-void BlockExtractor::add_triangles(int z, BlockMesh& mesh) const {
+void BlockExtractor::add_triangles(int z) {
   static const std::array<std::array<int, 12>, 2> slots = edge_slots();
   const std::array<int, 12>& slot_of_edge = slots[static_cast<size_t>(z & 1)];
   const auto& cases = cell_cases();
-  for (int y = low_.y(); y < last_corner; ++y) {
-    const uint64_t* row = filled_.data() + z * edge + y;
-    const uint64_t a = row[0], b = row[1], c = row[edge], d = row[edge + 1];
+  const Vec3i &low = volume_.low(), &last = volume_.last();
+  for (int y = low.y(); y < last.y(); ++y) {
+    const uint64_t a = volume_.filled(y, z), b = volume_.filled(y + 1, z);
+    const uint64_t c = volume_.filled(y, z + 1), d = volume_.filled(y + 1, z + 1);
     const uint64_t any = a | b | c | d, all = a & b & c & d;
-    const uint64_t mixed = (any | (any >> 1)) & ~(all & (all >> 1)) & bits(low_.x(), last_corner - 1);
+    const uint64_t mixed = (any | (any >> 1)) & ~(all & (all >> 1)) & bits(low.x(), last.x() - 1);
+    const size_t most = index_count_ + 3 * most_triangles * static_cast<size_t>(std::popcount(mixed));
+    if (indices_.size() < most) indices_.resize(2 * most);
+    uint32_t* next = indices_.data() + index_count_;
     for_each_bit(mixed, [&](int x) {
       const auto pair = [x](uint64_t filled) { return (filled >> x) & 3; };
       const CellCase& cell = cases[pair(a) | pair(b) << 2 | pair(c) << 4 | pair(d) << 6];
       const uint32_t* vertex = vertex_of_edge_.data() + (y * row_bytes + x) * 3;
       for (size_t t = 0; t < cell.triangle_count; ++t)
-        for (const uint8_t e : cell.triangles[t]) mesh.indices.push_back(vertex[slot_of_edge[e]]);
+        for (const uint8_t e : cell.triangles[t]) *next++ = vertex[slot_of_edge[e]];
     });
+    index_count_ = static_cast<size_t>(next - indices_.data());
   }
 }
 

@@ -3,99 +3,138 @@
 #include <algorithm>
 #include <atomic>
 #include <thread>
-#include <unordered_map>
 
-#include "core/hash.hpp"
 #include "surface/block_mesh.hpp"
+#include "surface/brick_fill.hpp"
 #include "surface/octahedral.hpp"
 
 namespace ream::surface {
 namespace {
 
-using GridPosition = std::array<int32_t, 3>;  ///< 1/1024 voxel
-
-struct GridPositionHash {
-  size_t operator()(const GridPosition& p) const {
-    const uint64_t xy =
-        static_cast<uint64_t>(static_cast<uint32_t>(p[0])) << 32 | static_cast<uint32_t>(p[1]);
-    return mix64(xy ^ mix64(static_cast<uint32_t>(p[2])));
-  }
-};
-
-std::vector<BlockMesh> extract_all(const voxel::VoxelGrid& grid, const uint8_t* coverage, int threads) {
-  const uint32_t count = BlockExtractor(grid).block_count();
-  std::vector<BlockMesh> meshes(count);
+/// Calls work(item) for all items below count, on that many threads.
+template <typename MakeWork>
+void in_parallel(uint32_t count, int threads, MakeWork make_work) {
   std::atomic<uint32_t> next{0};
-  const auto work = [&] {
-    BlockExtractor extractor(grid);
-    for (uint32_t block = next++; block < count; block = next++)
-      meshes[block] = extractor.extract(coverage, block);
+  const auto run = [&] {
+    auto work = make_work();
+    for (uint32_t item = next++; item < count; item = next++) work(item);
   };
   std::vector<std::jthread> helpers;
-  for (int i = 1; i < threads; ++i) helpers.emplace_back(work);
-  work();
-  helpers.clear();
-  return meshes;
+  for (int i = 1; i < threads; ++i) helpers.emplace_back(run);
+  run();
 }
 
-/// Joins blocks in their order. Only vertices on planes through voxel centres where two blocks meet can be
-/// shared.
-class Welder {
- public:
-  explicit Welder(const voxel::VoxelGrid& grid) : spacing_mm_(grid.spacing_mm) {}
+std::vector<Fill> fills(const voxel::VoxelGrid& grid, const uint8_t* coverage, int threads) {
+  std::vector<Fill> result(grid.brick_count());
+  const auto row = static_cast<uint32_t>(grid.brick_dims().x());
+  in_parallel(static_cast<uint32_t>(grid.brick_count()) / row, threads, [&] {
+    return [&](uint32_t y) {
+      for (uint32_t brick = y * row; brick < (y + 1) * row; ++brick)
+        result[brick] = fill_of(coverage + size_t{brick} * voxel::brick_voxels);
+    };
+  });
+  return result;
+}
 
-  void add(const BlockMesh& block, const Vec3i& coordinates) {
-    const Vec3i origin = ((coordinates * voxel::block_edge).array() - 1) * units_per_voxel;
-    index_.clear();
-    for (const BlockVertex& v : block.vertices) {
-      const auto fresh = static_cast<uint32_t>(mesh.vertices_mm.size());
-      uint32_t index = fresh;
-      if (at_border(v.x) || at_border(v.y) || at_border(v.z))
-        index =
-            shared_.try_emplace({origin.x() + v.x, origin.y() + v.y, origin.z() + v.z}, fresh).first->second;
-      index_.push_back(index);
-      if (index != fresh) continue;
-      mesh.vertices_mm.push_back(position_mm(v, coordinates, spacing_mm_));
-      mesh.normals.push_back(direction_from_octahedral(v.ox, v.oy));
-    }
-    for (size_t i = 0; i < block.indices.size(); i += 3)
-      mesh.triangles.push_back(
-          {index_[block.indices[i]], index_[block.indices[i + 1]], index_[block.indices[i + 2]]});
-  }
+/// Sets of axes as bits 0 to 2.
+constexpr size_t axis_sets = 8;
 
-  TriangleMesh mesh;
-
- private:
-  static bool at_border(uint16_t position) {
-    constexpr int low = units_per_voxel + units_per_voxel / 2;
-    return position == low || position == low + voxel::block_edge * units_per_voxel;
-  }
-
-  Vec3 spacing_mm_;
-  std::unordered_map<GridPosition, uint32_t, GridPositionHash> shared_;
-  std::vector<uint32_t> index_;
+/// The axes along which a vertex lies on the block's first, or behind its last, layer of samples.
+struct Layers {
+  size_t first = 0, behind = 0;
 };
+
+Layers layers_of(const BlockVertex& v, int stride) {
+  const int first = units_per_voxel + stride * units_per_voxel / 2;
+  const int behind = first + block_edge * units_per_voxel;
+  const auto set = [&](int at) {
+    return static_cast<size_t>((v.x == at) | (v.y == at) << 1 | (v.z == at) << 2);
+  };
+  return {set(first), set(behind)};
+}
+
+/// A block's part of the whole surface. Where blocks meet, a vertex is owned by the block of its edge's lower
+/// corner. The others borrow it: those vertices of a block that lie behind it along a set of axes are owned
+/// by its neighbour along these axes, which has them on its first layers, in the same order (BlockExtractor).
+/// So a borrowed vertex is found by counting.
+struct Part {
+  BlockMesh mesh;
+  uint32_t owned = 0;
+  size_t first_vertex = 0, first_triangle = 0;
+  std::array<std::vector<uint32_t>, axis_sets> lent;  ///< by set of axes: which of the owned vertices
+};
+
+void count_owned(Part& part, int stride) {
+  for (const BlockVertex& v : part.mesh.vertices) {
+    const Layers layers = layers_of(v, stride);
+    if (layers.behind != 0) continue;
+    if (layers.first != 0)
+      for (size_t set = 1; set < axis_sets; ++set)
+        if ((set & layers.first) == set) part.lent[set].push_back(part.owned);
+    ++part.owned;
+  }
+}
+
+/// Writes the part into the whole, whose arrays have their sizes already.
+void join(const BlockLayout& layout, const Vec3& spacing_mm, int stride, const std::vector<Part>& parts,
+          const Part& part, TriangleMesh& whole) {
+  const Vec3i block = layout.coordinates(part.mesh.block);
+  std::array<const Part*, axis_sets> owner{};
+  std::array<size_t, axis_sets> borrowed{};
+  size_t next = part.first_vertex;
+  std::vector<uint32_t> number;
+  number.reserve(part.mesh.vertices.size());
+  for (const BlockVertex& v : part.mesh.vertices) {
+    const size_t set = layers_of(v, stride).behind;
+    if (set != 0) {
+      if (owner[set] == nullptr)
+        owner[set] = &parts[layout.index(block + Vec3i(set & 1, set >> 1 & 1, set >> 2 & 1))];
+      number.push_back(
+          static_cast<uint32_t>(owner[set]->first_vertex + owner[set]->lent[set][borrowed[set]++]));
+      continue;
+    }
+    whole.vertices_mm[next] = position_mm(v, block, spacing_mm);
+    whole.normals[next] = direction_from_octahedral(v.ox, v.oy);
+    number.push_back(static_cast<uint32_t>(next++));
+  }
+  auto triangle = whole.triangles.begin() + static_cast<ptrdiff_t>(part.first_triangle);
+  const std::vector<uint32_t>& indices = part.mesh.indices;
+  for (size_t i = 0; i < indices.size(); i += 3)
+    *triangle++ = {number[indices[i]], number[indices[i + 1]], number[indices[i + 2]]};
+}
 
 }  // namespace
 
-TriangleMesh whole_surface(const voxel::VoxelGrid& grid, const uint8_t* coverage, int threads) {
+TriangleMesh whole_surface(const voxel::VoxelGrid& grid, const uint8_t* coverage, int threads, int stride) {
   validate(grid);
-  std::vector<BlockMesh> meshes = extract_all(grid, coverage, std::max(1, threads));
+  threads = std::max(1, threads);
+  const BlockLayout layout(grid);
+  const BlockExtractor checks_stride(grid, stride);  // here, where an Error can be caught
+  const std::vector<Fill> bricks = fills(grid, coverage, threads);
+  std::vector<Part> parts(layout.count());
+  in_parallel(layout.count(), threads, [&] {
+    return [&, extractor = BlockExtractor(grid, stride)](uint32_t block) mutable {
+      const auto fill_at = [&](uint32_t brick) { return bricks[brick]; };
+      if (!may_hold_surface(grid, layout.coordinates(block), fill_at)) return;
+      parts[block].mesh = extractor.extract(coverage, block);
+      count_owned(parts[block], stride);
+    };
+  });
   size_t vertices = 0, triangles = 0;
-  for (const BlockMesh& block : meshes) {
-    vertices += block.vertices.size();
-    triangles += block.indices.size() / 3;
+  for (Part& part : parts) {
+    part.first_vertex = vertices;
+    part.first_triangle = triangles;
+    vertices += part.owned;
+    triangles += part.mesh.indices.size() / 3;
   }
-  Welder welder(grid);
-  welder.mesh.vertices_mm.reserve(vertices);
-  welder.mesh.normals.reserve(vertices);
-  welder.mesh.triangles.reserve(triangles);
-  const BlockExtractor extractor(grid);
-  for (BlockMesh& block : meshes) {
-    welder.add(block, extractor.block_coordinates(block.block));
-    block = {};
-  }
-  return std::move(welder.mesh);
+  TriangleMesh whole;
+  whole.vertices_mm.resize(vertices);
+  whole.normals.resize(vertices);
+  whole.triangles.resize(triangles);
+  in_parallel(layout.count(), threads, [&] {
+    return [&](uint32_t block) { join(layout, grid.spacing_mm, stride, parts, parts[block], whole); };
+  });
+  return whole;
 }
 
 }  // namespace ream::surface

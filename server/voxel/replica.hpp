@@ -5,36 +5,24 @@
 
 namespace ream::voxel {
 
-/// Edge of a surface block in voxels (4 bricks).
-inline constexpr int block_edge = 32;
-
-/// A follower's own copy of the coverage, kept up to date from brick images. Owned by one thread. Remembers
-/// which 32^3 surface blocks must be extracted again: a voxel at a block's border also touches its
-/// neighbours' surface (cells and gradients reach two voxels out).
+/// A follower's own copy of the coverage, brought up to date by brick images. Owned by one thread.
 class Replica {
  public:
   /// Copies the coverage as it is before the first tick.
-  explicit Replica(const BoneModel& bone);
+  explicit Replica(const BoneModel& bone) : grid_(bone.grid), coverage_(bone.coverage) {}
 
-  void apply(const BrickImage& image);
+  void apply(const BrickImage& image) noexcept {
+    write_brick(grid_, coverage_.data(), image.brick, image.coverage);
+  }
 
+  /// The brick's coverage, brick_voxels bytes, x fastest.
+  const uint8_t* brick(uint32_t index) const { return coverage_.data() + size_t{index} * brick_voxels; }
   const VoxelGrid& grid() const { return grid_; }
   const std::vector<uint8_t>& coverage() const { return coverage_; }
 
-  Vec3i block_dims() const { return block_dims_; }
-  size_t block_count() const { return dirty_.size(); }
-  Vec3i block_coordinates(uint32_t block) const;
-  /// Blocks touched since the last call, in order of first touch; clears the marks.
-  std::vector<uint32_t> take_dirty_blocks();
-
  private:
-  void mark_around(const Vec3i& brick);
-
   VoxelGrid grid_;
   std::vector<uint8_t> coverage_;
-  Vec3i block_dims_;
-  std::vector<uint8_t> dirty_;
-  std::vector<uint32_t> dirty_list_;
 };
 
 }  // namespace ream::voxel

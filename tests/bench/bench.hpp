@@ -25,5 +25,6 @@ struct Options {
 };
 
 std::vector<Row> collide_suite(const Options& options);
+std::vector<Row> surface_suite(const Options& options);
 
 }  // namespace ream::bench

@@ -49,7 +49,7 @@ class FakeSession final : public api::RunningSession {
             {"grid_hash", ended ? nlohmann::json("00112233445566ff") : nlohmann::json(nullptr)},
             {"session_hash", "0123456789abcdef"}};
   }
-  std::unique_ptr<net::WebSocketSession> subscribe() override;
+  std::unique_ptr<net::WebSocketSession> subscribe(int stride) override;
 
   void set(api::SessionState state, const std::string& fault = {}) {
     const std::lock_guard lock(mutex_);
@@ -95,7 +95,7 @@ class FakeViewer final : public net::WebSocketSession {
   std::function<void()> wake_;
 };
 
-inline std::unique_ptr<net::WebSocketSession> FakeSession::subscribe() {
+inline std::unique_ptr<net::WebSocketSession> FakeSession::subscribe(int) {
   return std::make_unique<FakeViewer>(request_.id);
 }
 

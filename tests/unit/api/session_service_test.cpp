@@ -42,7 +42,7 @@ TEST_F(SessionServiceTest, UnknownIdIsNotFound) {
   expect_error(ErrorKind::not_found, "no session 'nobody'", [&] { service.get("nobody"); });
   expect_error(ErrorKind::not_found, "nobody", [&] { service.start("nobody"); });
   expect_error(ErrorKind::not_found, "nobody", [&] { service.metrics("nobody"); });
-  expect_error(ErrorKind::not_found, "nobody", [&] { service.subscribe("nobody"); });
+  expect_error(ErrorKind::not_found, "nobody", [&] { service.subscribe("nobody", 1); });
 }
 
 TEST_F(SessionServiceTest, ListsNewestFirstUnderDifferentIds) {
@@ -90,7 +90,7 @@ TEST_F(SessionServiceTest, ForgetsTheOldestEndedOnesOnly) {
 TEST_F(SessionServiceTest, AViewerKeepsAForgottenSession) {
   const std::string watched = create();
   service.stop(watched);
-  auto viewer = service.subscribe(watched);
+  auto viewer = service.subscribe(watched, 1);
   for (int i = 0; i < 3; ++i) service.stop(create());
   create();
   expect_error(ErrorKind::not_found, watched, [&] { service.get(watched); });

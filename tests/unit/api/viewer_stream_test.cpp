@@ -12,7 +12,7 @@ TEST(ViewerStream, PullsFromItsMailboxAndIsWokenForMore) {
   const net::SharedBytes first = net::share("first"), second = net::share("second");
   fanout->publish_hello(first);
   int wakes = 0;
-  const auto viewer = viewer_stream(fanout);
+  const auto viewer = viewer_stream(fanout, 1);
   viewer->on_open([&wakes] { ++wakes; });
   EXPECT_EQ(viewer->next(), first);
   EXPECT_EQ(viewer->next(), std::nullopt);
@@ -26,7 +26,7 @@ TEST(ViewerStream, PullsFromItsMailboxAndIsWokenForMore) {
 TEST(ViewerStream, ClosingEndsTheSubscription) {
   const auto fanout = std::make_shared<stream::LocalFanout>();
   int wakes = 0;
-  const auto viewer = viewer_stream(fanout);
+  const auto viewer = viewer_stream(fanout, 1);
   EXPECT_EQ(fanout->viewers(), 0u);
   viewer->on_open([&wakes] { ++wakes; });
   EXPECT_EQ(viewer->next(), std::nullopt);

@@ -21,7 +21,7 @@ SharedTelemetry telemetry(uint32_t tick, size_t samples) {
 
 TEST(Mailbox, SlowViewerGetsOnlyTheNewestOfEachBlock) {
   LocalFanout fanout;
-  const auto mailbox = fanout.subscribe({});
+  const auto mailbox = fanout.subscribe({}, 1);
   for (uint32_t revision = 1; revision <= 100; ++revision)
     for (uint32_t block = 0; block < 5; ++block) fanout.publish_block(small_block(block, revision));
   Viewer viewer;
@@ -37,7 +37,7 @@ TEST(Mailbox, SlowFastAndLateViewersEndWithTheSamePicture) {
   for (int round = 0; round < 40; ++round) {
     LocalFanout fanout;
     fanout.publish_hello(any_hello());
-    const auto fast_box = fanout.subscribe({}), slow_box = fanout.subscribe({});
+    const auto fast_box = fanout.subscribe({}, 1), slow_box = fanout.subscribe({}, 1);
     std::shared_ptr<Mailbox> late_box;
     Viewer fast, slow, late;
     std::map<uint32_t, uint32_t> revisions;
@@ -47,8 +47,8 @@ TEST(Mailbox, SlowFastAndLateViewersEndWithTheSamePicture) {
     for (uint32_t step = 0; step < steps; ++step) {
       const auto block = static_cast<uint32_t>(random() % 12);
       fanout.publish_block(small_block(block, ++revisions[block], random() % 4 == 0));
-      if (step == joins) late_box = fanout.subscribe({});
-      if (step == complete) fanout.publish_picture_complete();
+      if (step == joins) late_box = fanout.subscribe({}, 1);
+      if (step == complete) fanout.publish_picture_complete(1);
       fast.pull(*fast_box);
       if (random() % 10 == 0) slow.pull(*slow_box, 1);
       if (late_box && random() % 5 == 0) late.pull(*late_box, 1);
@@ -68,8 +68,8 @@ TEST(Mailbox, LateJoinersFirstPictureEndsWithKeyComplete) {
   LocalFanout fanout;
   for (uint32_t block = 0; block < 20; ++block) fanout.publish_block(small_block(block, 1));
   fanout.publish_block(small_block(7, 2, true));
-  fanout.publish_picture_complete();
-  const auto mailbox = fanout.subscribe({});
+  fanout.publish_picture_complete(1);
+  const auto mailbox = fanout.subscribe({}, 1);
   fanout.publish_block(small_block(30, 1));  // news, after the picture
   Viewer viewer;
   viewer.pull(*mailbox, 1);
@@ -83,10 +83,10 @@ TEST(Mailbox, LateJoinersFirstPictureEndsWithKeyComplete) {
 
 TEST(Mailbox, AnEmptyPictureIsCompleteToo) {
   LocalFanout fanout;
-  const auto early = fanout.subscribe({});
+  const auto early = fanout.subscribe({}, 1);
   EXPECT_EQ(early->next(), nullptr);
-  fanout.publish_picture_complete();
-  const auto late = fanout.subscribe({});
+  fanout.publish_picture_complete(1);
+  const auto late = fanout.subscribe({}, 1);
   for (const auto& mailbox : {early, late}) {
     Viewer viewer;
     viewer.pull(*mailbox);
@@ -106,7 +106,7 @@ TEST(Mailbox, MessagesStayNearTheirSize) {
   LocalFanout fanout;
   for (mesh.block = 0; mesh.block < 60; ++mesh.block)
     fanout.publish_block(std::make_shared<const EncodedBlock>(encode(mesh, 1, 0)));
-  const auto mailbox = fanout.subscribe({});
+  const auto mailbox = fanout.subscribe({}, 1);
   Viewer viewer;
   viewer.pull(*mailbox);
   EXPECT_EQ(viewer.blocks.size(), 60u);
@@ -117,7 +117,7 @@ TEST(Mailbox, MessagesStayNearTheirSize) {
 
 TEST(Mailbox, OldTelemetryIsDroppedAndCounted) {
   LocalFanout fanout;
-  const auto mailbox = fanout.subscribe({});
+  const auto mailbox = fanout.subscribe({}, 1);
   const size_t batches = Mailbox::max_telemetry_batches + 10;
   for (uint32_t i = 0; i < batches; ++i) fanout.publish_telemetry(telemetry(33 * i, 33));
   Viewer viewer;
@@ -140,7 +140,7 @@ TEST(Mailbox, TelemetryAndSurfaceTakeTurns) {
 TEST(Mailbox, WakesOnceWhenThereIsSomethingAgain) {
   LocalFanout fanout;
   int calls = 0;
-  const auto mailbox = fanout.subscribe([&] { ++calls; });
+  const auto mailbox = fanout.subscribe([&] { ++calls; }, 1);
   fanout.publish_block(small_block(1, 1));
   EXPECT_EQ(calls, 0);  // next() has not yet found nothing
   while (mailbox->next()) {
@@ -152,7 +152,7 @@ TEST(Mailbox, WakesOnceWhenThereIsSomethingAgain) {
 
 TEST(Mailbox, LettingGoEndsTheSubscription) {
   LocalFanout fanout;
-  auto mailbox = fanout.subscribe({});
+  auto mailbox = fanout.subscribe({}, 1);
   EXPECT_EQ(fanout.viewers(), 1u);
   mailbox.reset();
   EXPECT_EQ(fanout.viewers(), 0u);
@@ -166,18 +166,18 @@ TEST(Mailbox, ViewersInOtherThreadsEndWithTheSamePicture) {
   std::vector<std::jthread> threads;
   for (Viewer& viewer : viewers)
     threads.emplace_back([&] {
-      const auto mailbox = fanout.subscribe({});
+      const auto mailbox = fanout.subscribe({}, 1);
       while (!done) viewer.pull(*mailbox);
       viewer.pull(*mailbox);
     });
   std::map<uint32_t, uint32_t> revisions;
   for (uint32_t i = 0; i < 3000; ++i)
     fanout.publish_block(small_block(i % 17, ++revisions[i % 17], i % 13 == 0));
-  fanout.publish_picture_complete();
+  fanout.publish_picture_complete(1);
   done = true;
   threads.clear();
   Viewer late;
-  const auto mailbox = fanout.subscribe({});
+  const auto mailbox = fanout.subscribe({}, 1);
   late.pull(*mailbox);
   for (const Viewer& viewer : viewers) EXPECT_TRUE(viewer.same_picture(late));
 }

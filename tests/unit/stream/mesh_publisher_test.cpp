@@ -39,11 +39,12 @@ struct Session {
 };
 
 /// What a viewer should hold, extracted from scratch.
-std::map<uint32_t, Surface> expected(const voxel::BoneModel& bone) {
-  surface::BlockExtractor extractor(bone.grid);
+std::map<uint32_t, Surface> expected(const voxel::VoxelGrid& grid, const std::vector<uint8_t>& coverage,
+                                     int stride = 1) {
+  surface::BlockExtractor extractor(grid, stride);
   std::map<uint32_t, Surface> result;
-  for (uint32_t block = 0; block < extractor.block_count(); ++block) {
-    const surface::BlockMesh mesh = extractor.extract(bone.coverage.data(), block);
+  for (uint32_t block = 0; block < extractor.layout().count(); ++block) {
+    const surface::BlockMesh mesh = extractor.extract(coverage.data(), block);
     if (!mesh.indices.empty()) result[block] = surface_of(mesh.vertices, mesh.indices);
   }
   return result;
@@ -59,11 +60,11 @@ TEST(MeshPublisher, FirstPictureIsTheWholeSurface) {
   Session s;
   MeshPublisher publisher(s.bone, s.ring, s.fanout);
   publisher.publish_all();
-  const auto mailbox = s.fanout.subscribe({});
+  const auto mailbox = s.fanout.subscribe({}, 1);
   Viewer viewer;
   viewer.pull(*mailbox);
   EXPECT_EQ(viewer.key_completes, 1);
-  EXPECT_TRUE(held(viewer) == expected(s.bone));
+  EXPECT_TRUE(held(viewer) == expected(s.bone.grid, s.bone.coverage));
 }
 
 TEST(MeshPublisher, RandomRemovalEndsWithTheSurfaceOfTheBone) {
@@ -73,7 +74,7 @@ TEST(MeshPublisher, RandomRemovalEndsWithTheSurfaceOfTheBone) {
   Session s;
   MeshPublisher publisher(s.bone, s.ring, s.fanout);
   publisher.publish_all();
-  const auto mailbox = s.fanout.subscribe({});
+  const auto mailbox = s.fanout.subscribe({}, 1);
   Viewer viewer;
   int64_t now = 0;
   for (int step = 0; step < 400; ++step, now += ms) {
@@ -93,32 +94,120 @@ TEST(MeshPublisher, RandomRemovalEndsWithTheSurfaceOfTheBone) {
   }
   publisher.flush(now);
   viewer.pull(*mailbox);
-  EXPECT_TRUE(held(viewer) == expected(s.bone)) << "seed " << seed;
+  EXPECT_TRUE(held(viewer) == expected(s.bone.grid, s.bone.coverage)) << "seed " << seed;
   EXPECT_TRUE(publisher.replica().coverage() == s.bone.coverage);
+}
+
+TEST(MeshPublisher, ViewersAlwaysHoldTheSurfaceOfOneCoverage) {
+  const unsigned seed = std::random_device{}();
+  std::cout << "seed " << seed << "\n";
+  std::mt19937 random(seed);
+  Session s;
+  MeshPublisherOptions options;
+  options.max_surfaces = 2;  // so that updates take several polls while removal goes on
+  MeshPublisher publisher(s.bone, s.ring, s.fanout, options);
+  publisher.publish_all();
+  const auto mailbox = s.fanout.subscribe({}, 1);
+  Viewer viewer;
+  viewer.pull(*mailbox);
+  std::map<uint32_t, Surface> shown = held(viewer);
+  int64_t now = 0;
+  int pictures = 0, polls_between = 0;
+  for (int step = 0; step < 300; ++step, now += 31 * ms) {
+    for (int i = 0; i < 5; ++i) {
+      const Vec3i voxel(static_cast<int>(random() % 96), static_cast<int>(random() % 64),
+                        static_cast<int>(random() % 64));
+      const uint8_t left = s.bone.coverage[s.bone.grid.index(voxel)];
+      if (left > 0) s.set(voxel, static_cast<uint8_t>(random() % left));
+    }
+    s.end_tick();
+    const size_t published = publisher.poll(now);
+    viewer.pull(*mailbox);
+    if (published > 0) {
+      // The update is complete: the replica is the coverage that it showed.
+      shown = expected(s.bone.grid, publisher.replica().coverage());
+      ++pictures;
+    } else {
+      ++polls_between;
+    }
+    ASSERT_TRUE(held(viewer) == shown) << "seed " << seed << ", step " << step;
+  }
+  EXPECT_GT(pictures, 10);
+  EXPECT_GT(polls_between, pictures);
 }
 
 TEST(MeshPublisher, LargeChangesShowAtOnceSmallOnesLater) {
   Session s;
   MeshPublisher publisher(s.bone, s.ring, s.fanout);
   publisher.publish_all();
+  const Vec3i at_surface(66, 32, 32);
+  const uint8_t left = s.bone.coverage[s.bone.grid.index(at_surface)];
+  ASSERT_GT(left, 70);
   int64_t now = 1000 * ms;
-  s.set({40, 32, 32}, 250);
+  s.set(at_surface, static_cast<uint8_t>(left - 5));
   s.end_tick();
   EXPECT_EQ(publisher.poll(now), 0u);
   EXPECT_EQ(publisher.poll(now + 249 * ms), 0u);
   now += 250 * ms;
   EXPECT_GT(publisher.poll(now), 0u);
-  s.set({40, 32, 32}, 0);
+  s.set(at_surface, static_cast<uint8_t>(left - 5 - 64));
   s.end_tick();
-  EXPECT_EQ(publisher.poll(now + 39 * ms), 0u) << "min_interval_ns";
-  EXPECT_GT(publisher.poll(now + 40 * ms), 0u);
+  EXPECT_EQ(publisher.poll(now + 29 * ms), 0u) << "min_interval_ns";
+  EXPECT_GT(publisher.poll(now + 30 * ms), 0u);
+}
+
+TEST(MeshPublisher, CoarseViewersGetTheirOwnPictureFromTheirArrivalOn) {
+  const unsigned seed = std::random_device{}();
+  std::cout << "seed " << seed << "\n";
+  std::mt19937 random(seed);
+  Session s;
+  MeshPublisherOptions options;
+  options.max_surfaces = 2;
+  MeshPublisher publisher(s.bone, s.ring, s.fanout, options);
+  publisher.publish_all();
+  std::map<int, std::shared_ptr<Mailbox>> mailboxes;
+  std::map<int, Viewer> viewers;
+  int64_t now = 0;
+  for (int step = 0; step < 200; ++step, now += 31 * ms) {
+    if (step == 20) mailboxes[4] = s.fanout.subscribe({}, 4);
+    if (step == 40) mailboxes[1] = s.fanout.subscribe({}, 1);
+    if (step == 60) mailboxes[2] = s.fanout.subscribe({}, 2);
+    const Vec3i voxel(static_cast<int>(random() % 96), static_cast<int>(random() % 64),
+                      static_cast<int>(random() % 64));
+    s.set(voxel, 0);
+    s.end_tick();
+    const bool shown = publisher.poll(now) > 0;
+    for (auto& [stride, mailbox] : mailboxes) {
+      viewers[stride].pull(*mailbox);
+      if (shown && viewers[stride].key_completes == 1) {
+        ASSERT_TRUE(held(viewers[stride]) == expected(s.bone.grid, publisher.replica().coverage(), stride))
+            << "seed " << seed << ", step " << step << ", stride " << stride;
+      }
+    }
+  }
+  publisher.flush(now);
+  for (auto& [stride, mailbox] : mailboxes) {
+    viewers[stride].pull(*mailbox);
+    EXPECT_EQ(viewers[stride].key_completes, 1) << stride;
+    EXPECT_TRUE(held(viewers[stride]) == expected(s.bone.grid, s.bone.coverage, stride)) << stride;
+  }
+}
+
+TEST(MeshPublisher, BlocksWhoseSurfaceStaysAreNotSent) {
+  Session s;
+  MeshPublisher publisher(s.bone, s.ring, s.fanout);
+  publisher.publish_all();
+  s.set({40, 32, 32}, 200);  // deep inside, in a corner of eight blocks
+  s.end_tick();
+  EXPECT_EQ(publisher.flush(0), 0u);
+  EXPECT_EQ(publisher.replica().coverage(), s.bone.coverage);
 }
 
 TEST(MeshPublisher, CreepAddsUpAndUnchangedBricksAreNotSent) {
   Session s;
   MeshPublisher publisher(s.bone, s.ring, s.fanout);
   publisher.publish_all();
-  const auto mailbox = s.fanout.subscribe({});
+  const auto mailbox = s.fanout.subscribe({}, 1);
   Viewer viewer;
   viewer.pull(*mailbox);
   const Vec3i at_surface(66, 32, 32);
@@ -136,7 +225,7 @@ TEST(MeshPublisher, CreepAddsUpAndUnchangedBricksAreNotSent) {
   s.end_tick();
   EXPECT_EQ(publisher.flush(now), 0u);
   viewer.pull(*mailbox);
-  EXPECT_TRUE(held(viewer) == expected(s.bone));
+  EXPECT_TRUE(held(viewer) == expected(s.bone.grid, s.bone.coverage));
 }
 
 TEST(MeshPublisher, ABlockThatLosesItsLastSurfaceIsToldEmptyOnce) {
@@ -146,7 +235,7 @@ TEST(MeshPublisher, ABlockThatLosesItsLastSurfaceIsToldEmptyOnce) {
   s.bone.coverage[s.bone.grid.index(lonely)] = 255;
   MeshPublisher publisher(s.bone, s.ring, s.fanout);
   publisher.publish_all();
-  const auto mailbox = s.fanout.subscribe({});
+  const auto mailbox = s.fanout.subscribe({}, 1);
   Viewer viewer;
   viewer.pull(*mailbox);
   EXPECT_EQ(viewer.blocks.size(), 1u);

@@ -16,7 +16,7 @@ TelemetrySample at_tick(uint32_t tick) {
 
 TEST(Telemetry, AboutThirtyMessagesASecondAndNoSampleLost) {
   LocalFanout fanout;
-  const auto mailbox = fanout.subscribe({});
+  const auto mailbox = fanout.subscribe({}, 1);
   TelemetryRing ring(64);
   TelemetryBatcher batcher(fanout);
   Viewer viewer;
@@ -34,7 +34,7 @@ TEST(Telemetry, AboutThirtyMessagesASecondAndNoSampleLost) {
 
 TEST(Telemetry, AGapEndsTheBatchAndIsCounted) {
   LocalFanout fanout;
-  const auto mailbox = fanout.subscribe({});
+  const auto mailbox = fanout.subscribe({}, 1);
   TelemetryBatcher batcher(fanout);
   for (const uint32_t tick : {10u, 11u, 12u, 20u, 21u}) batcher.add(at_tick(tick));
   batcher.flush();
@@ -49,7 +49,7 @@ TEST(Telemetry, AGapEndsTheBatchAndIsCounted) {
 
 TEST(Telemetry, AFullRingIsSeenAsLoss) {
   LocalFanout fanout;
-  const auto mailbox = fanout.subscribe({});
+  const auto mailbox = fanout.subscribe({}, 1);
   TelemetryRing ring(16);
   TelemetryBatcher batcher(fanout);
   Viewer viewer;
@@ -67,7 +67,7 @@ TEST(Telemetry, AFullRingIsSeenAsLoss) {
 
 TEST(Telemetry, StrideIsKept) {
   LocalFanout fanout;
-  const auto mailbox = fanout.subscribe({});
+  const auto mailbox = fanout.subscribe({}, 1);
   TelemetryBatcher batcher(fanout, 5);
   for (const uint32_t tick : {5u, 10u, 15u, 30u}) batcher.add(at_tick(tick));
   batcher.flush();

@@ -54,10 +54,9 @@ std::vector<Triangle> reference_triangles(const voxel::VoxelGrid& grid,
 std::vector<Triangle> block_triangles(const voxel::VoxelGrid& grid, const std::vector<uint8_t>& coverage) {
   BlockExtractor extractor(grid);
   std::vector<Triangle> result;
-  for (uint32_t block = 0; block < extractor.block_count(); ++block) {
+  for (uint32_t block = 0; block < extractor.layout().count(); ++block) {
     const BlockMesh mesh = extractor.extract(coverage.data(), block);
-    const Vec3i origin =
-        ((extractor.block_coordinates(block) * voxel::block_edge).array() - 1) * units_per_voxel;
+    const Vec3i origin = ((extractor.layout().coordinates(block) * block_edge).array() - 1) * units_per_voxel;
     for (size_t i = 0; i < mesh.indices.size(); i += 3) {
       Triangle t;
       for (size_t k = 0; k < 3; ++k) {
@@ -103,9 +102,8 @@ TEST(BlockMesh, NeighboursAgreeOnSharedVerticesAndNormals) {
   BlockExtractor extractor(grid);
   std::map<Position, std::pair<int8_t, int8_t>> normals;
   size_t shared = 0;
-  for (uint32_t block = 0; block < extractor.block_count(); ++block) {
-    const Vec3i origin =
-        ((extractor.block_coordinates(block) * voxel::block_edge).array() - 1) * units_per_voxel;
+  for (uint32_t block = 0; block < extractor.layout().count(); ++block) {
+    const Vec3i origin = ((extractor.layout().coordinates(block) * block_edge).array() - 1) * units_per_voxel;
     for (const BlockVertex& v : extractor.extract(coverage.data(), block).vertices) {
       const auto [place, fresh] =
           normals.try_emplace({origin.x() + v.x, origin.y() + v.y, origin.z() + v.z}, v.ox, v.oy);
@@ -122,7 +120,7 @@ TEST(BlockMesh, NoDegenerateTrianglesAndEveryVertexUsedInNoise) {
   const voxel::VoxelGrid grid = grid_of({64, 32, 32});
   const std::vector<uint8_t> coverage = noise(grid, seed);
   BlockExtractor extractor(grid);
-  for (uint32_t block = 0; block < extractor.block_count(); ++block) {
+  for (uint32_t block = 0; block < extractor.layout().count(); ++block) {
     const BlockMesh mesh = extractor.extract(coverage.data(), block);
     std::vector<bool> used(mesh.vertices.size());
     const auto at = [&](size_t i) {
@@ -157,9 +155,9 @@ TEST(BlockMesh, NormalsOfASphereArePointingOutwardsWithinTwoDegrees) {
   BlockExtractor extractor(grid);
   double worst_rad = 0;
   size_t count = 0;
-  for (uint32_t block = 0; block < extractor.block_count(); ++block)
+  for (uint32_t block = 0; block < extractor.layout().count(); ++block)
     for (const BlockVertex& v : extractor.extract(coverage.data(), block).vertices) {
-      const Vec3 p = position_mm(v, extractor.block_coordinates(block), spacing_mm).cast<double>();
+      const Vec3 p = position_mm(v, extractor.layout().coordinates(block), spacing_mm).cast<double>();
       const Vec3 n = direction_from_octahedral(v.ox, v.oy).cast<double>();
       EXPECT_NEAR((p - centre_mm).norm(), 12.0, 0.02);
       worst_rad = std::max(worst_rad, std::acos(std::min(1.0, n.dot((p - centre_mm).normalized()))));

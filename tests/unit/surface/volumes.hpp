@@ -1,9 +1,11 @@
 #pragma once
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "geometry/triangle_mesh.hpp"
@@ -48,32 +50,64 @@ inline std::vector<uint8_t> noise(const voxel::VoxelGrid& grid, unsigned seed) {
 
 struct Topology {
   bool closed = true;              ///< each directed edge once, and its opposite once
-  bool one_fan_per_vertex = true;  ///< triangles around each vertex form one ring
+  bool one_fan_per_vertex = true;  ///< triangles around each vertex form one ring; every vertex is used
   int64_t euler = 0;               ///< V - E + F
+};
+
+/// Directed edges by the vertex that they start from.
+class Fans {
+ public:
+  struct Edge {
+    uint32_t to, third;  ///< third vertex of the edge's triangle
+  };
+
+  Fans(size_t vertex_count, const std::vector<std::array<uint32_t, 3>>& triangles)
+      : first_(vertex_count + 1), edges_(3 * triangles.size()) {
+    for (const auto& t : triangles)
+      for (const uint32_t v : t) ++first_[v + 1];
+    for (size_t v = 0; v < vertex_count; ++v) first_[v + 1] += first_[v];
+    std::vector<size_t> next(first_.begin(), first_.end() - 1);
+    for (const auto& t : triangles)
+      for (size_t i = 0; i < 3; ++i) edges_[next[t[i]]++] = {t[(i + 1) % 3], t[(i + 2) % 3]};
+  }
+
+  std::span<const Edge> of(uint32_t vertex) const {
+    return {edges_.data() + first_[vertex], first_[vertex + 1] - first_[vertex]};
+  }
+  /// How often the edge is there, and the third vertex of its (last) triangle.
+  size_t count(uint32_t from, uint32_t to, uint32_t& third) const {
+    size_t found = 0;
+    for (const Edge& e : of(from))
+      if (e.to == to) ++found, third = e.third;
+    return found;
+  }
+
+ private:
+  std::vector<size_t> first_;
+  std::vector<Edge> edges_;
 };
 
 inline Topology topology(size_t vertex_count, const std::vector<std::array<uint32_t, 3>>& triangles) {
   Topology result;
-  std::map<std::pair<uint32_t, uint32_t>, uint32_t> opposite;  // directed edge to the triangle's third vertex
-  std::vector<uint32_t> corners(vertex_count);
-  std::vector<uint32_t> some_neighbour(vertex_count);
-  for (const auto& t : triangles)
-    for (size_t i = 0; i < 3; ++i) {
-      if (!opposite.try_emplace({t[i], t[(i + 1) % 3]}, t[(i + 2) % 3]).second) result.closed = false;
-      ++corners[t[i]];
-      some_neighbour[t[i]] = t[(i + 1) % 3];
-    }
-  for (const auto& [directed, third] : opposite)
-    if (!opposite.contains({directed.second, directed.first})) result.closed = false;
+  const Fans fans(vertex_count, triangles);
+  uint32_t third = 0;
+  for (uint32_t v = 0; v < vertex_count; ++v)
+    for (const Fans::Edge& e : fans.of(v))
+      if (fans.count(v, e.to, third) != 1 || fans.count(e.to, v, third) != 1) result.closed = false;
   for (uint32_t v = 0; result.closed && v < vertex_count; ++v) {
-    uint32_t ring = 0, neighbour = some_neighbour[v];
-    do {
-      neighbour = opposite.at({v, neighbour});
-      ++ring;
-    } while (neighbour != some_neighbour[v] && ring <= corners[v]);
-    if (ring != corners[v]) result.one_fan_per_vertex = false;
+    const auto fan = fans.of(v);
+    size_t ring = 0;
+    if (!fan.empty()) {
+      uint32_t neighbour = fan[0].to;
+      do {
+        fans.count(v, neighbour, third);
+        neighbour = third;
+        ++ring;
+      } while (neighbour != fan[0].to && ring <= fan.size());
+    }
+    if (ring == 0 || ring != fan.size()) result.one_fan_per_vertex = false;
   }
-  result.euler = static_cast<int64_t>(vertex_count) - static_cast<int64_t>(opposite.size() / 2) +
+  result.euler = static_cast<int64_t>(vertex_count) - static_cast<int64_t>(triangles.size() * 3 / 2) +
                  static_cast<int64_t>(triangles.size());
   return result;
 }

@@ -100,6 +100,8 @@ class ContractTest : public ServerTest {
     factory.made(2).set(api::SessionState::fault, "the device fell silent");
     expect_get(one, all + "/" + stuck, 200);
     expect_stream(path + "/stream", 101);
+    expect_stream(path + "/stream?stride=4", 101);
+    expect_stream(path + "/stream?stride=3", 422);
     expect_stream(path + "/stream", 403, foreign);
     expect_stream(all + "/nobody/stream", 404);
     expect_get(one + "/stream", path + "/stream", 426);
