@@ -1,75 +1,9 @@
-#include <cstdio>
-#include <memory>
-#include <thread>
-
-#include "bench/bench.hpp"
+#include "bench/collide_parts.hpp"
 #include "ct/phantom_case.hpp"
-#include "device/script.hpp"
-#include "sim/haptic_loop.hpp"
 
 namespace ream::bench {
-namespace {
 
-constexpr double thesis_tick_us = 314.89;  ///< thesis 5.4.2, on a GTX 970
-constexpr double issue_goal_us = 1000.0;
-
-/// Five seconds at the experiments' thrust after a short approach, as in the thesis' section 5.4.2.
-device::Script thesis_script() {
-  device::Script script;
-  script.duration_s = 6.0;
-  script.stiffness_n_mm = 100.0;
-  script.hand.start_mm = Vec3(0, 0, -8.0);
-  script.hand.force_profile = {{0.0, 10.0}, {0.5, 52.0}};
-  return script;
-}
-
-struct Measured {
-  sim::LoopHealth health;
-  double engaged_points = 0.0, removed_mm3 = 0.0;
-  std::string backend;
-};
-
-Measured measure(const case_::Case& bone_case, const std::string& backend) {
-  case_::Case copy = bone_case;
-  const device::Script script = thesis_script();
-  sim::Settings settings;
-  settings.backend = backend;
-  settings.tool_spacing_mm = 0.1;
-  settings.stiffness_n_mm = script.stiffness_n_mm;
-  settings.angular_stiffness_n_mm_rad = 1000.0 * script.stiffness_n_mm;
-  const sim::Model model =
-      sim::make_model(*copy.plan, copy.bone, shell::make_tool(shell::thesis_tool), settings);
-  sim::State state(model, copy.bone);
-  const auto device = device::make_scripted_device(script, model.world_from_plan);
-  SpscRing<record::TickReport> reports(1u << 13);
-  sim::HapticLoop loop(model, state, *device, reports, {false, sim::Realtime::off});
-  loop.start();
-  Measured m;
-  m.backend = state.backend.name;
-  int64_t engaged_ticks = 0;
-  record::TickReport report;
-  const auto take = [&] {
-    while (reports.try_pop(report)) {
-      engaged_ticks += report.engaged;
-      m.engaged_points += static_cast<double>(report.engaged_points);
-      for (const int64_t levels : report.coverage_removed)
-        m.removed_mm3 += static_cast<double>(levels) / 255.0 * copy.bone.grid.voxel_volume_mm3();
-    }
-  };
-  while (!loop.ended()) {
-    take();
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  loop.stop();
-  take();
-  m.health = loop.health();
-  if (engaged_ticks > 0) m.engaged_points /= static_cast<double>(engaged_ticks);
-  return m;
-}
-
-}  // namespace
-
-std::vector<Row> collide_suite(const Options&) {
+std::vector<Row> collide_suite(const Options& options) {
   const ct::PhantomPreset preset = ct::phantom_preset("thesis-5-4-2");
   const case_::Case bone_case = ct::make_phantom_case("thesis-5-4-2", preset.params, preset.upsample);
   const auto shell = shell::make_point_shell(shell::make_tool(shell::thesis_tool), 0.1);
@@ -77,17 +11,13 @@ std::vector<Row> collide_suite(const Options&) {
                          static_cast<double>(bone_case.bone.filled_voxels()), 12.7e6, "voxels", 0.0},
                         {"collide", "thesis-5-4-2 shell points", static_cast<double>(shell.points.size()),
                          213e3, "points", 0.0}};
-  for (const std::string backend : {"cpu", "opencl"}) {
-    const Measured m = measure(bone_case, backend);
-    const TimingSummary& t = m.health.tick_us;
-    const std::string name = "thesis-5-4-2 tick, " + m.backend;
-    rows.push_back({"collide", name + ", mean", t.mean_us, thesis_tick_us, "us", issue_goal_us});
-    rows.push_back({"collide", name + ", p50", t.p50_us, 0.0, "us", 0.0});
-    rows.push_back({"collide", name + ", p99", t.p99_us, 0.0, "us", 0.0});
-    rows.push_back({"collide", name + ", max", t.max_us, 0.0, "us", 0.0});
-    rows.push_back({"collide", name + ", engaged points", m.engaged_points, 0.0, "points", 0.0});
-    rows.push_back({"collide", name + ", removed", m.removed_mm3, 0.0, "mm3", 0.0});
-  }
+  const auto append = [&rows](std::vector<Row> more) {
+    rows.insert(rows.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+  };
+  append(memory_rows(bone_case, shell));
+  append(tick_rows(bone_case));
+  append(share_inside_rows(bone_case));
+  if (options.baselines) append(thesis_tables(options));
   return rows;
 }
 

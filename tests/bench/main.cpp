@@ -14,10 +14,15 @@ using namespace ream::bench;
 const std::map<std::string, std::function<std::vector<Row>(const Options&)>> suites{
     {"collide", collide_suite}};
 
-bool missed(const Row& row) { return row.goal > 0.0 && row.ours > row.goal; }
+bool missed(const Row& row) {
+  return row.goal > 0.0 && (row.goal_is == Goal::at_most ? row.ours > row.goal : row.ours < row.goal);
+}
 
+/// How many times better than the baseline, or else than the goal; 0 without either.
 double ratio(const Row& row) {
-  return row.baseline > 0.0 ? row.baseline / row.ours : row.goal > 0.0 ? row.goal / row.ours : 0.0;
+  const double other = row.baseline > 0.0 ? row.baseline : row.goal;
+  if (!(other > 0.0 && row.ours > 0.0)) return 0.0;
+  return row.goal_is == Goal::at_most ? other / row.ours : row.ours / other;
 }
 
 void print(const std::vector<Row>& rows, bool json) {
@@ -35,9 +40,11 @@ void print(const std::vector<Row>& rows, bool json) {
     return;
   }
   for (const Row& r : rows) {
-    std::printf("%-8s %-44s %12.4g %-7s", r.suite.c_str(), r.name.c_str(), r.ours, r.unit.c_str());
+    std::printf("%-8s %-84s %12.4g %-7s", r.suite.c_str(), r.name.c_str(), r.ours, r.unit.c_str());
     if (r.baseline > 0.0) std::printf(" baseline %.4g", r.baseline);
-    if (r.goal > 0.0) std::printf(" goal %.4g%s", r.goal, missed(r) ? " MISSED" : "");
+    if (r.goal > 0.0)
+      std::printf(" goal%s %.4g%s", r.goal_is == Goal::at_least ? " at least" : "", r.goal,
+                  missed(r) ? " MISSED" : "");
     std::printf("\n");
   }
 }
@@ -58,6 +65,7 @@ int main(int argc, char** argv) {
     std::cerr << "ream-bench: no suite '" << suite << "'\n";
     return 2;
   }
+  options.tables = json ? &std::cerr : &std::cout;
   try {
     std::vector<Row> rows;
     for (const auto& [name, run] : suites)

@@ -1,0 +1,94 @@
+#include "collide/contact_shell.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "shell/tool.hpp"
+
+namespace ream::collide {
+namespace {
+
+struct Made {
+  explicit Made(const char* tool_text, double spacing_mm, double probe_length_mm)
+      : shell(shell::make_point_shell(shell::make_tool(tool_text), spacing_mm)),
+        contact(make_contact_shell(shell, probe_length_mm)) {}
+  shell::PointShell shell;
+  ContactShell contact;
+};
+
+const Made& thesis() {
+  static const Made made("thesis", 0.1, 0.0835);
+  return made;
+}
+
+TEST(ContactShell, BlocksAndChunksHoldEveryPointOnce) {
+  const ContactShell& contact = thesis().contact;
+  EXPECT_EQ(contact.size(), thesis().shell.points.size());
+  uint32_t next = 0;
+  ASSERT_EQ(contact.first_chunks.size(), contact.blocks.size() + 1);
+  for (size_t b = 0; b < contact.blocks.size(); ++b) {
+    const ContactBlock& block = contact.blocks[b];
+    ASSERT_EQ(block.first, next);
+    ASSERT_GT(block.count, 0);
+    ASSERT_LE(block.count, most_block_points);
+    ASSERT_EQ(contact.first_chunks[b + 1] - contact.first_chunks[b], (block.count + 15u) / 16u);
+    next += block.count;
+  }
+  EXPECT_EQ(next, contact.size());
+}
+
+TEST(ContactShell, TakesNoMoreThanEightBytesAPoint) {
+  EXPECT_LT(static_cast<double>(thesis().contact.bytes()) / static_cast<double>(thesis().contact.size()),
+            8.0);
+}
+
+TEST(ContactShell, SpheresHoldTheirProbesAndSumsAreThoseOfTheirPoints) {
+  const ContactShell& contact = thesis().contact;
+  for (size_t b = 0; b < contact.blocks.size(); ++b) {
+    const ContactBlock& block = contact.blocks[b];
+    const Vec3 centre(contact.centre_x_mm[b], contact.centre_y_mm[b], contact.centre_z_mm[b]);
+    ContactProducts products{};
+    for (uint32_t i = block.first; i < block.first + block.count; ++i) {
+      ASSERT_LE((contact.probe_mm(block, i) - centre).norm(), contact.radius_mm[b]);
+      add_products(contact.table.vector(contact.direction(i)), products);
+    }
+    ASSERT_EQ(products, block.whole);
+  }
+}
+
+/// Points change places inside a block, so both are sorted into the same order first.
+TEST(ContactShell, CuttingProbesStandOneLengthOffTheSurfaceWithItsNormal) {
+  const Made made("sphere 20", 0.2, 0.3);
+  const Vec3 centre(0, 0, -20.0);  // the apex is the tool's origin
+  size_t cutting = 0;
+  for (const ContactBlock& block : made.contact.blocks) {
+    if (block.guiding) continue;
+    for (uint32_t i = block.first; i < block.first + block.count; ++i, ++cutting) {
+      const Vec3 probe = made.contact.probe_mm(block, i);
+      const Vec3 normal = (probe - centre).normalized();
+      ASSERT_NEAR((probe - centre).norm(), 20.3, 0.02);
+      const ContactVector v = made.contact.table.vector(made.contact.direction(i));
+      const Vec3 coded = Vec3(v.g[0], v.g[1], v.g[2]) / 127.0;
+      ASSERT_LT((coded - normal).norm(), 0.02);
+      const Vec3 arm = Vec3(v.g[3], v.g[4], 0.0) / 127.0 * made.contact.moment_length_mm;
+      ASSERT_LT((arm - (probe - 0.3 * normal).cross(normal)).norm(), 0.02 * made.contact.moment_length_mm);
+      ASSERT_NEAR(v.weight, 16.0 / normal.cwiseAbs().maxCoeff(), 1.0);
+    }
+  }
+  EXPECT_GT(cutting, 10000u);
+}
+
+TEST(ContactShell, ProbesOfARoundToolBalance) {
+  const Made made("sphere 20", 0.2, 0.3);
+  int64_t x = 0, y = 0, weight = 0;
+  for (const ContactBlock& block : made.contact.blocks) {
+    if (block.guiding) continue;
+    x += block.whole[15], y += block.whole[16], weight += block.whole[20];
+  }
+  EXPECT_LT(std::abs(static_cast<double>(x)), 0.002 * 127.0 * static_cast<double>(weight));
+  EXPECT_LT(std::abs(static_cast<double>(y)), 0.002 * 127.0 * static_cast<double>(weight));
+}
+
+}  // namespace
+}  // namespace ream::collide
