@@ -18,9 +18,9 @@ using test::expect_error;
 constexpr size_t ticks_per_chunk = 1000, bytes_per_tick = 112, chunk_header_bytes = 16, fixed_bytes = 24;
 
 bool same(const RecordedTick& a, const TickReport& b) {
-  return a.tick == b.tick && a.spindle_on == b.spindle_on && a.paused == b.paused && a.failed_over == b.failed_over &&
-         a.world_from_handle == b.world_from_handle_q && a.grid_from_tool == b.grid_from_tool &&
-         a.session_hash == b.session_hash;
+  return a.tick == b.tick && a.spindle_on == b.spindle_on && a.paused == b.paused &&
+         a.failed_over == b.failed_over && a.world_from_handle == b.world_from_handle_q &&
+         a.grid_from_tool == b.grid_from_tool && a.session_hash == b.session_hash;
 }
 
 class RecorderTest : public testing::Test {
