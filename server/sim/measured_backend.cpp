@@ -1,0 +1,159 @@
+#include "sim/measured_backend.hpp"
+
+#include <algorithm>
+
+#include "core/clock.hpp"
+#include "core/error.hpp"
+#include "core/timing_histogram.hpp"
+#include "gpu/device.hpp"
+
+namespace ream::sim {
+namespace {
+
+constexpr int warm_looks = 50, rounds = 40, looks_a_round = 25;
+constexpr double creep_mm = 1e-4;          ///< a look, more than reaming creeps in a tick
+constexpr double enough_engaged = 0.02;    ///< share of the points
+constexpr double deepest_search_mm = 5.0;  ///< past the planned entry
+constexpr size_t bricks_a_look = 48;
+
+/// What one trial needs: the tool just pressed on the bone, and bricks to work through.
+class Trial {
+ public:
+  Trial(const Model& model, const voxel::BoneModel& bone, const voxel::SolidCells& cells)
+      : model_(model),
+        cells_(cells),
+        grid_from_plan_(bone.grid.world_from_grid.inverse() * model.world_from_plan) {
+    const Vec3i at = bone.grid.voxel_at(grid_from_plan_.translation_mm) / voxel::brick_edge;
+    const Vec3i last = bone.grid.brick_dims() - Vec3i::Ones();
+    const uint32_t first = bone.grid.brick_index(at.cwiseMax(0).cwiseMin(last));
+    for (uint32_t b = first; b < bone.grid.brick_count() && bricks_.size() < bricks_a_look; ++b)
+      bricks_.push_back(b);
+  }
+
+  /// How far along the plan's axis the tool has enough points engaged.
+  double pressed_depth_mm(collide::NarrowPhase& narrow_phase) const {
+    const auto wanted =
+        static_cast<int64_t>(enough_engaged * static_cast<double>(model_.contact_shell.size()));
+    double depth_mm = -deepest_search_mm;
+    for (; depth_mm < deepest_search_mm; depth_mm += model_.thin_step_mm) {
+      collide::ContactSums sums;
+      if (!look(narrow_phase, depth_mm, sums)) break;
+      if (sums.engaged() >= wanted) break;
+    }
+    return depth_mm;
+  }
+
+  /// One tick's work, `number` creeps past the depth; how long it took, or a negative number when the device
+  /// failed.
+  double tick_us(Backend& backend, double depth_mm, int number) const {
+    const auto start = SteadyClock::now();
+    collide::ContactSums sums;
+    const bool ok =
+        look(*backend.narrow_phase, depth_mm + creep_mm * number, sums) && pass_over_bricks(backend);
+    return ok ? elapsed_us(start) : -1.0;
+  }
+
+ private:
+  bool look(collide::NarrowPhase& narrow_phase, double depth_mm, collide::ContactSums& sums) const {
+    const QuantisedPose pose = quantised(grid_from_plan_ * Pose{Mat3::Identity(), Vec3(0.0, 0.0, depth_mm)});
+    const collide::Voi voi = collide::broad_phase(cells_.bounds_mm(), model_.tool_box_tool, dequantised(pose),
+                                                  model_.thin_step_mm);
+    return narrow_phase.contact(pose, voi, sums);
+  }
+
+  /// The cutting body a metre away: the bricks are gone through and nothing changes.
+  bool pass_over_bricks(Backend& backend) const {
+    if (backend.removal == nullptr) return true;
+    const QuantisedPose away = quantised({Mat3::Identity(), Vec3(0.0, 0.0, 1000.0)});
+    std::array<collide::BrickOutcome, bricks_a_look> outcomes;
+    collide::RemovalSums sums;
+    return backend.removal->cut(away, bricks_, {outcomes.data(), bricks_.size()}, sums);
+  }
+
+  const Model& model_;
+  const voxel::SolidCells& cells_;
+  Pose grid_from_plan_;
+  std::vector<uint32_t> bricks_;
+};
+
+/// A backend on trial.
+struct Candidate {
+  Backend backend;
+  TimingHistogram times;
+  std::vector<double> slowest_us;  ///< of each round
+};
+
+/// False when the device failed.
+bool run_round(const Trial& trial, double depth_mm, int first, int count, bool counts, Candidate& candidate) {
+  double slowest = 0.0;
+  for (int i = 0; i < count; ++i) {
+    const double us = trial.tick_us(candidate.backend, depth_mm, first + i);
+    if (us < 0.0) return false;
+    slowest = std::max(slowest, us);
+    if (counts) candidate.times.add(us);
+  }
+  if (counts) candidate.slowest_us.push_back(slowest);
+  return true;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// All that can be had, and a timing for each device, with the reason where it cannot.
+std::vector<Candidate> candidates_of(const Model& model, voxel::BoneModel& bone,
+                                     const voxel::SolidCells& cells, std::vector<BackendTiming>& timings) {
+  std::vector<Candidate> candidates(1);
+  candidates[0].backend = make_cpp_backend(model, bone, cells);
+  timings.assign(1, {});
+  for (const gpu::Device& device : gpu::list_devices()) {
+    BackendTiming timing;
+    timing.wakes_threads = device.is_pocl && !device.name.starts_with("basic");
+    candidates.emplace_back();
+    try {
+      candidates.back().backend = make_opencl_backend(model, bone, cells, device);
+    } catch (const Error& e) {
+      timing.failure = e.what();
+    }
+    timing.name = "opencl: " + device.name;
+    timings.push_back(std::move(timing));
+  }
+  timings[0].name = candidates[0].backend.name;
+  return candidates;
+}
+
+}  // namespace
+
+bool is_quicker(const BackendTiming& a, const BackendTiming& than) {
+  if (!a.failure.empty() || !than.failure.empty()) return a.failure.empty();
+  return a.slow_us < than.slow_us && (!a.wakes_threads || a.p999_us < than.p999_us);
+}
+
+Backend make_measured_backend(const Model& model, voxel::BoneModel& bone, const voxel::SolidCells& cells,
+                              std::vector<BackendTiming>& timings) {
+  std::vector<Candidate> candidates = candidates_of(model, bone, cells, timings);
+  const Trial trial(model, bone, cells);
+  const double depth_mm = trial.pressed_depth_mm(*candidates[0].backend.narrow_phase);
+  for (int round = 0; round <= rounds; ++round)
+    for (size_t i = 0; i < candidates.size(); ++i) {
+      const bool warming = round == 0;
+      const int first = warming ? 0 : warm_looks + (round - 1) * looks_a_round;
+      if (timings[i].failure.empty() &&
+          !run_round(trial, depth_mm, first, warming ? warm_looks : looks_a_round, !warming, candidates[i]))
+        timings[i].failure = "failed while it was measured";
+    }
+  size_t best = 0;
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    const TimingSummary summary = candidates[i].times.summary();
+    timings[i].p50_us = summary.p50_us;
+    timings[i].p999_us = summary.p999_us;
+    timings[i].slow_us = median(candidates[i].slowest_us);
+    if (is_quicker(timings[i], timings[best])) best = i;
+  }
+  return std::move(candidates[best].backend);
+}
+
+}  // namespace ream::sim
