@@ -30,10 +30,14 @@ voxel::BoneModel wall(const Plane& plane) {
   grid.spacing_mm = Vec3::Constant(voxel_mm);
   voxel::BoneModel bone = voxel::make_bone(grid);
   const double half_mm = 0.5 * voxel_mm * plane.normal.cwiseAbs().maxCoeff();
-  for (size_t i = 0; i < bone.coverage.size(); ++i) {
-    bone.density[i] = 150;
-    const double d = plane.distance_mm(grid.centre_mm(grid.coordinates(i)));
-    if (d >= -half_mm && d < half_mm) bone.coverage[i] = 255;
+  std::fill(bone.density.begin(), bone.density.end(), uint8_t{150});
+  for (uint32_t b = 0; b < grid.brick_count(); ++b) {
+    const Vec3i first = grid.brick_coordinates(b) * voxel::brick_edge;
+    if (std::abs(plane.distance_mm(grid.centre_mm(first))) > 2.0 * voxel::brick_edge * voxel_mm) continue;
+    for (size_t i = grid.brick_base(b); i < grid.brick_base(b) + voxel::brick_voxels; ++i) {
+      const double d = plane.distance_mm(grid.centre_mm(grid.coordinates(i)));
+      if (d >= -half_mm && d < half_mm) bone.coverage[i] = 255;
+    }
   }
   return bone;
 }
@@ -49,10 +53,10 @@ struct WallRun {
     return plan;
   }
 
-  record::TickReport tick(const Pose& world_from_handle) {
+  record::TickReport tick(const Pose& world_from_handle, bool spindle_on = false) {
     device::DeviceInput input;
     input.world_from_handle = world_from_handle;
-    input.spindle_on = false;
+    input.spindle_on = spindle_on;
     record::TickReport report;
     EXPECT_EQ(sim::step(run.model, run.state, input, report), sim::StepStatus::ok);
     return report;
@@ -119,6 +123,28 @@ TEST(ThinWall, IsMetAtAnySpeedOfTheHandFromAnySide) {
     EXPECT_TRUE(engaged) << "seed " << seed << " case " << i;
   }
   std::cout << met << " of 60 walls met\n";
+}
+
+TEST(ThinWall, ATurningReamerMeetsItBeforeItCuts) {
+  constexpr unsigned seed = 20260304;
+  std::cout << "seed " << seed << '\n';
+  std::mt19937 random(seed);
+  for (int i = 0; i < 15; ++i) {
+    Plane plane{random_direction(random), 0.0};
+    plane.offset_mm = plane.normal.dot(Vec3::Constant(0.5 * size_mm));
+    WallRun w(plane, "sphere 4,3");
+    // The cutting cap first, tilted by up to half a radian.
+    Pose start = start_pose(w, random, plane.normal);
+    start.rotation = rotation_about(random_direction(random), random_vector(random, 0.5).x()) *
+                     rotation_with_z_along(plane.normal);
+    record::TickReport report;
+    for (int t = 0; t < 40 && !report.engaged; ++t) {
+      report = w.tick({start.rotation, start.translation_mm + 1.0 * t * plane.normal}, true);
+      ASSERT_LT(w.deepest_mm(dequantised(report.grid_from_tool)), deepest_allowed_mm)
+          << "seed " << seed << " case " << i << " tick " << t;
+    }
+    EXPECT_TRUE(report.engaged) << "seed " << seed << " case " << i;
+  }
 }
 
 TEST(ThinWall, WithdrawingAndPlungingMeetsItEveryTime) {
