@@ -25,8 +25,9 @@ inline int pair(int32_t low, int32_t high) {
 
 /// What a look needs of the view in registers.
 struct Lens {
-  __m512i xy[3], z[3], dims[3], brick_row, brick_slice;
+  __m512i xy[3], z[3], dims[3], brick_row, brick_slice, brick_steps;
   __m128i bits;
+  bool small_grid;  ///< a layer's bricks can be counted in 15 bits, so brick_steps serves
 };
 
 REAM_AVX512 inline Lens lens_of(const ContactView& view) {
@@ -38,6 +39,8 @@ REAM_AVX512 inline Lens lens_of(const ContactView& view) {
   }
   l.brick_row = _mm512_set1_epi32(view.brick_row);
   l.brick_slice = _mm512_set1_epi32(view.brick_slice);
+  l.brick_steps = _mm512_set1_epi32(pair(view.brick_row, view.brick_slice));
+  l.small_grid = view.brick_slice <= INT16_MAX;
   l.bits = _mm_cvtsi32_si128(view.bits);
   return l;
 }
@@ -50,6 +53,11 @@ REAM_AVX512 inline __m512i coordinate(const Lens& l, size_t i, __m512i xy, __m51
 
 REAM_AVX512 inline __m512i low_bits(__m512i value, int mask) {
   return _mm512_and_si512(value, _mm512_set1_epi32(mask));
+}
+
+/// a | (b & mask), in one instruction.
+REAM_AVX512 inline __m512i or_bits(__m512i a, __m512i b, int mask) {
+  return _mm512_ternarylogic_epi32(a, b, _mm512_set1_epi32(mask), 0xf8);
 }
 
 /// Bytes at `index` for the lanes of `mask`, 0 elsewhere; reads whole words, so never past an array whose
@@ -66,20 +74,29 @@ struct Probed {
   __m512i u, v, w, brick, words, cell;
 
   REAM_AVX512 __m512i voxel() const {
-    return _mm512_or_si512(
-        _mm512_or_si512(_mm512_slli_epi32(brick, 9), low_bits(u, 7)),
-        _mm512_or_si512(_mm512_slli_epi32(low_bits(v, 7), 3), _mm512_slli_epi32(low_bits(w, 7), 6)));
+    const __m512i of_row = or_bits(_mm512_slli_epi32(brick, 9), u, 7);
+    const __m512i of_layer = or_bits(of_row, _mm512_slli_epi32(v, 3), 7 << 3);
+    return or_bits(of_layer, _mm512_slli_epi32(w, 6), 7 << 6);
   }
 };
+
+REAM_AVX512 inline __m512i brick_of(const Lens& l, __m512i u, __m512i v, __m512i w) {
+  const __m512i x = _mm512_srli_epi32(u, 3), y = _mm512_srli_epi32(v, 3);
+  if (l.small_grid) {
+    const __m512i yz = or_bits(y, _mm512_slli_epi32(w, 16 - 3), static_cast<int>(0xffff0000u));
+    return _mm512_add_epi32(x, pair_products(yz, l.brick_steps));
+  }
+  return _mm512_add_epi32(x, _mm512_add_epi32(_mm512_mullo_epi32(y, l.brick_row),
+                                              _mm512_mullo_epi32(_mm512_srli_epi32(w, 3), l.brick_slice)));
+}
 
 REAM_AVX512 inline Probed probe(const uint32_t* places, const uint16_t* cells, const Lens& l,
                                 const DueChunk& chunk) {
   const auto present = static_cast<__mmask16>((1u << chunk.count) - 1);
   const __m512i place = _mm512_loadu_si512(places + chunk.first);
-  const __m512i x = low_bits(place, place_mask),
-                y = low_bits(_mm512_slli_epi32(place, 16 - place_bits), static_cast<int>(place_mask << 16)),
-                z = low_bits(_mm512_srli_epi32(place, 2 * place_bits), place_mask);
-  const __m512i xy = _mm512_or_si512(x, y);
+  const __m512i xy = or_bits(low_bits(place, place_mask), _mm512_slli_epi32(place, 16 - place_bits),
+                             static_cast<int>(place_mask << 16));
+  const __m512i z = low_bits(_mm512_srli_epi32(place, 2 * place_bits), place_mask);
   Probed p;
   p.u = coordinate(l, 0, xy, z, chunk.base[0]);
   p.v = coordinate(l, 1, xy, z, chunk.base[1]);
@@ -87,12 +104,9 @@ REAM_AVX512 inline Probed probe(const uint32_t* places, const uint16_t* cells, c
   __mmask16 inside = _mm512_mask_cmplt_epu32_mask(present, p.u, l.dims[0]);
   inside = _mm512_mask_cmplt_epu32_mask(inside, p.v, l.dims[1]);
   inside = _mm512_mask_cmplt_epu32_mask(inside, p.w, l.dims[2]);
-  p.brick = _mm512_add_epi32(_mm512_srli_epi32(p.u, 3),
-                             _mm512_add_epi32(_mm512_mullo_epi32(_mm512_srli_epi32(p.v, 3), l.brick_row),
-                                              _mm512_mullo_epi32(_mm512_srli_epi32(p.w, 3), l.brick_slice)));
-  p.cell = _mm512_or_si512(
-      _mm512_or_si512(low_bits(_mm512_srli_epi32(p.u, 2), 1), low_bits(_mm512_srli_epi32(p.v, 1), 2)),
-      low_bits(p.w, 4));
+  p.brick = brick_of(l, p.u, p.v, p.w);
+  const __m512i low_cell = low_bits(_mm512_srli_epi32(p.u, 2), 1);
+  p.cell = or_bits(or_bits(low_cell, _mm512_srli_epi32(p.v, 1), 2), p.w, 4);
   p.words = _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), inside, p.brick, cells, 2);
   return p;
 }

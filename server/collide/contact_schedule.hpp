@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "collide/contact_look.hpp"
+#include "collide/cull_blocks.hpp"
 #include "collide/odometer.hpp"
 
 namespace ream::collide {
@@ -28,12 +29,16 @@ class ContactSchedule {
   void visited(const ContactView& view, IsClear is_clear, std::span<const uint8_t> touched) noexcept;
 
  private:
+  void list_block(uint32_t number, float now, const Culling& culling,
+                  const VoxelTransform& transform) noexcept;
   void measure(const ContactView& view, IsClear is_clear, const DueChunk& chunk) noexcept;
+  void rebase() noexcept;
 
   const NarrowPhaseInput in_;
   Odometer odometer_;
-  std::vector<float> due_at_;   ///< per chunk: odometer reading at which it may touch again
-  std::vector<uint64_t> late_;  ///< a bit a chunk, of the look under way
+  /// Odometer readings: when a chunk may touch again, the least of a block's chunks (or less), and when a
+  /// block's sphere is to be held against the distance to bone again.
+  std::vector<float> chunk_due_at_, block_due_at_, gap_due_at_;
   std::vector<DueChunk> list_;
   size_t count_ = 0, turn_ = 0;
 };
