@@ -9,7 +9,8 @@
 namespace ream::bench {
 namespace {
 
-constexpr size_t warm_up_poses = 2;
+/// As many as a tool that comes to rest gets before it is felt.
+constexpr size_t warm_up_poses = 50;
 
 /// The rank nearest below; reorders `values`.
 double percentile_of(std::vector<double>& values, double fraction) {

@@ -127,6 +127,32 @@ TEST(NarrowPhase, PortableAndBestInstructionsGiveTheSameBits) {
   EXPECT_GT(engaged, 100000);
 }
 
+/// A layer of so many bricks that their number needs more than 15 bits.
+TEST(NarrowPhase, WideGridsGiveTheSameBitsToo) {
+  constexpr unsigned seed = 44;
+  std::mt19937 random(seed);
+  const voxel::BoneModel bone = slab({1480, 1464, 8}, 0.25, 1.5, 1.4);
+  ASSERT_GT(bone.grid.brick_dims().x() * bone.grid.brick_dims().y(), 32767);
+  const auto contact =
+      collide::make_contact_shell(shell::make_point_shell(shell::make_tool("sphere 6"), 0.3), 0.25);
+  const voxel::BrickDistance distance = voxel::brick_distance(bone);
+  const voxel::SolidCells cells(bone);
+  const collide::NarrowPhaseInput input{contact, bone, distance, cells};
+  const auto best = collide::make_narrow_phase_cpu(input);
+  const auto portable = collide::make_narrow_phase_cpu(input, collide::Instructions::portable);
+  int64_t engaged = 0;
+  for (int i = 0; i < 20; ++i) {
+    const Pose pose{rotation_with_z_along(-Vec3::UnitZ()), Vec3(300, 320, 0.8) + random_vector(random, 0.7)};
+    const QuantisedPose q = quantised(pose);
+    const collide::Voi voi = collide::broad_phase(cells.bounds_mm(), contact.bounds_mm, pose, 0.25);
+    collide::ContactSums a, b;
+    ASSERT_TRUE(best->contact(q, voi, a) && portable->contact(q, voi, b));
+    ASSERT_EQ(a, b) << "seed " << seed << " case " << i;
+    engaged += a.engaged();
+  }
+  EXPECT_GT(engaged, 1000);
+}
+
 TEST(NarrowPhase, SumsOfAFlatContactAreThoseOfTheGeometry) {
   Scene s("sphere 6,4");
   const auto phase = collide::make_narrow_phase_cpu(s.input());
