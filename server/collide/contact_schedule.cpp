@@ -16,7 +16,10 @@ constexpr float slack_voxels = 1.0f / 512.0f;
 constexpr float never = 1e30f;
 
 constexpr size_t blocks_at_once = 64;
-/// Of the free chunks one in so many is measured a look: those that stay near would be measured in vain.
+/// Chunks measured a look: so many, and one more for every so many that are due, which bounds the work of a
+/// tick that finds many of them free. Others are merely visited again.
+constexpr size_t least_measures = 24, due_a_measure = 32;
+/// Of the free chunks at most one in so many: those that stay near would be measured in vain.
 constexpr size_t measured_share = 4;
 
 /// late[i] = 1 where a block has a chunk that is due.
@@ -89,7 +92,8 @@ void ContactSchedule::visited(const ContactView& view, IsClear is_clear,
                               std::span<const uint8_t> touched) noexcept {
   const auto of_due = touched.first(count_);
   const size_t free = count_ - static_cast<size_t>(std::count(of_due.begin(), of_due.end(), uint8_t{1}));
-  const size_t most = std::min(measures_a_look, (free + measured_share - 1) / measured_share);
+  const size_t most =
+      std::min(least_measures + count_ / due_a_measure, (free + measured_share - 1) / measured_share);
   size_t measures = 0;
   for (size_t i = 0; i < count_ && measures < most; ++i) {
     // Begin where the last look ended, so that all have their turn.

@@ -15,10 +15,6 @@ namespace ream::collide {
 /// construction.
 class ContactSchedule {
  public:
-  /// Chunks measured a look: bounds the work of a tick that finds many of them free. Others are merely
-  /// visited again.
-  static constexpr size_t measures_a_look = 24;
-
   explicit ContactSchedule(const NarrowPhaseInput& input);
 
   /// Chunks to visit at this pose, in rising order; the list stays valid until the next call.
