@@ -2,7 +2,7 @@
 #include <thread>
 
 #include "bench/collide_parts.hpp"
-#include "device/script.hpp"
+#include "bench/seated_reaming.hpp"
 #include "sim/haptic_loop.hpp"
 
 namespace ream::bench {
@@ -12,16 +12,6 @@ constexpr double thesis_tick_us = 314.89;  ///< thesis 5.4.2, on a GTX 970
 constexpr double mean_goal_us = 1000.0, p50_goal_us = 300.0, p99_goal_us = 500.0;
 constexpr size_t ring_bricks = 4096;
 
-/// Five seconds at the experiments' thrust after a short approach, as in the thesis' section 5.4.2.
-device::Script thesis_script() {
-  device::Script script;
-  script.duration_s = 6.0;
-  script.stiffness_n_mm = 100.0;
-  script.hand.start_mm = Vec3(0, 0, -8.0);
-  script.hand.force_profile = {{0.0, 10.0}, {0.5, 52.0}};
-  return script;
-}
-
 struct Measured {
   sim::LoopHealth health;
   double engaged_points = 0.0, removed_mm3 = 0.0, brick_images = 0.0;
@@ -30,14 +20,9 @@ struct Measured {
 
 Measured measure(const case_::Case& bone_case, const std::string& backend) {
   case_::Case copy = bone_case;
-  const device::Script script = thesis_script();
-  sim::Settings settings;
-  settings.backend = backend;
-  settings.tool_spacing_mm = 0.1;
-  settings.stiffness_n_mm = script.stiffness_n_mm;
-  settings.angular_stiffness_n_mm_rad = 1000.0 * script.stiffness_n_mm;
-  const sim::Model model =
-      sim::make_model(*copy.plan, copy.bone, shell::make_tool(shell::thesis_tool), settings);
+  const device::Script script = seated_script();
+  const sim::Model model = sim::make_model(*copy.plan, copy.bone, shell::make_tool(shell::thesis_tool),
+                                           seated_settings(script, backend));
   sim::State state(model, copy.bone);
   voxel::BrickRing bricks(ring_bricks);
   voxel::BrickSender sender(copy.bone.grid, bricks);
