@@ -28,6 +28,7 @@ class ContactSchedule {
   void list_block(uint32_t number, float now, const Culling& culling,
                   const VoxelTransform& transform) noexcept;
   void measure(const ContactView& view, IsClear is_clear, const DueChunk& chunk) noexcept;
+  bool worth_measuring(Clearance clearance) const noexcept;
   void rebase() noexcept;
 
   const NarrowPhaseInput in_;
@@ -37,6 +38,7 @@ class ContactSchedule {
   std::vector<float> chunk_due_at_, block_due_at_, gap_due_at_;
   std::vector<DueChunk> list_;
   size_t count_ = 0, turn_ = 0;
+  float moved_voxels_ = 0.0f;  ///< since the look before
 };
 
 }  // namespace ream::collide
