@@ -67,6 +67,9 @@ ReamingSession::ReamingSession(const SessionHouse& house, const api::SessionRequ
       publisher_(rig_.bone_case.bone, bricks_, *fanout_),
       batcher_(*fanout_) {
   rig_.state.brick_sender = &sender_;
+  const sim::Backend& backend = rig_.state.backend;
+  log::info("session " + id_ + ": contact and removal on " + backend.name +
+            (backend.choice.empty() ? "" : " (" + backend.choice + ")"));
   status_.force_scale = rig_.model.settings.force_scale;
   metrics_ = score::metrics_json({}, status_.force_scale, nullptr);
   sample_.world_from_tool = sample_.world_from_handle =

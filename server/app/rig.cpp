@@ -6,7 +6,6 @@
 #include "app/version.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
-#include "core/log.hpp"
 #include "ct/phantom_case.hpp"
 
 namespace ream::app {
@@ -60,10 +59,7 @@ Rig::Rig(const RunRequest& request_in, const fs::path& data)
       device(device::make_scripted_device(script, sim::world_from_plan(plan_of(bone_case)))),
       model(sim::make_model(plan_of(bone_case), bone_case.bone, tool_for(request, plan_of(bone_case)),
                             settings_for(request, script, device->traits()))),
-      state(model, bone_case.bone) {
-  if (!state.backend.choice.empty())
-    log::info("backend " + state.backend.name + " (" + state.backend.choice + ")");
-}
+      state(model, bone_case.bone) {}
 
 nlohmann::json Rig::description() const {
   nlohmann::json description = {

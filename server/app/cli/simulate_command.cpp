@@ -65,7 +65,8 @@ void simulate(const Options& options, const GlobalOptions& global) {
             << " mm deep, thrust " << number("axial_thrust_mean_n") << " N mean and "
             << number("axial_thrust_peak_n") << " N peak\n"
             << "tick mean " << result.timing.at("tick_us").at("mean").get<double>() << " us on "
-            << rig.state.backend.name << '\n'
+            << rig.state.backend.name
+            << (rig.state.backend.choice.empty() ? "" : " (" + rig.state.backend.choice + ")") << '\n'
             << out.string() << '\n';
 }
 

@@ -88,7 +88,7 @@ TEST_F(BadInput, UnusableToolsAndBackendsAreNamed) {
   refuse(1, "missing.stl", demo_run({"--tool", "missing.stl"}));
   refuse(2, "cube 3", demo_run({"--tool", "cube 3"}));
   refuse(2, "sphere -3", demo_run({"--tool", "sphere -3"}));
-  refuse(1, "spacing", demo_run({"--tool-spacing-mm", "0.02"}));
+  refuse(1, "spacing", demo_run({"--tool", "ellipse 25,10", "--tool-spacing-mm", "0.02"}));
   refuse(2, "turbo", demo_run({"--backend", "turbo"}));
   refuse(2, "opencl:99", demo_run({"--backend", "opencl:99"}));
   refuse(1, "nan.ply", {"voxelize", "nan.ply", "--size", "1"});
