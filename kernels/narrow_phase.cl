@@ -13,8 +13,8 @@
 #define CONTACT_PARAMETERS                                                                                      \
   global const uint *places, global const ushort *directions, global const struct ContactBlockLayout *blocks,   \
       global const struct DueChunkLayout *due, global const uint *meridian, global const uint *azimuth,         \
-      global const ushort *cells, struct ContactArguments arguments, global long *partial, global uchar *touched, \
-      BONE_PARTS(global const uchar, coverage), BONE_PARTS(global const uchar, density)
+      global const ushort *cells, struct ContactArguments arguments, global long *partial,                      \
+      global uchar *touched, BONE_PARTS(global const uchar, coverage), BONE_PARTS(global const uchar, density)
 
 #if LANES > 1
 
@@ -202,7 +202,8 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void contact_sums(CONTACT_
       const int16 state = probe(place, lane < (int)chunk->count, chunk, &arguments, cells, &voxel);
       int16 engaged = state == 0x101;
       const int16 unsure = state == 1;
-      if (any(unsure)) engaged |= unsure & (bytes_at(PASS_PARTS(coverage), voxel, unsure) >= REAM_SOLID_COVERAGE);
+      if (any(unsure))
+        engaged |= unsure & (bytes_at(PASS_PARTS(coverage), voxel, unsure) >= REAM_SOLID_COVERAGE);
       engaged_of[end - first] = engaged;
       touched[end] = any(engaged) != 0;
       if (!any(engaged)) continue;

@@ -19,11 +19,12 @@ struct LaunchShape {
 };
 
 /// One session's bone on an OpenCL device, and the queue that works on it: the host's own arrays where the
-/// device shares memory, copies elsewhere; in parts where it does not allocate as much at once. Narrow phase and removal of a session share one of these, so that
-/// contact sees what removal cut. `bone` must outlive it and stay where it is.
+/// device shares memory, copies elsewhere; in parts where it does not allocate as much at once. Narrow phase
+/// and removal of a session share one of these, so that contact sees what removal cut. `bone` must outlive it
+/// and stay where it is.
 struct BoneBuffers {
-  /// Throws Error unavailable when the device fails or the bone is too large for it (bone_parts). No buffer of
-  /// the bone gets larger than `largest_buffer_bytes`; the device's own limit unless a test says less.
+  /// Throws Error unavailable when the device fails or the bone is too large for it (bone_parts). No buffer
+  /// of the bone gets larger than `largest_buffer_bytes`; the device's own limit unless a test says less.
   BoneBuffers(const gpu::Device& device, voxel::BoneModel& bone,
               std::optional<size_t> largest_buffer_bytes = {});
 
@@ -34,7 +35,7 @@ struct BoneBuffers {
   gpu::Queue queue;
   BoneParts parts;
   std::vector<gpu::Buffer> coverage, density;  ///< parts.built() each
-  gpu::Buffer classes;  ///< bone class of each density code, one byte each
+  gpu::Buffer classes;                         ///< bone class of each density code, one byte each
 };
 
 }  // namespace ream::collide

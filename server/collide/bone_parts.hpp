@@ -10,7 +10,8 @@ struct BoneParts {
   int count = 1;  ///< 1 to 4 that hold voxels
   int shift = 0;  ///< 0 where there is one part only
 
-  /// Numbers of parts that kernels are built for: 1, 2 or 4; where three hold voxels the fourth is there but empty.
+  /// Numbers of parts that kernels are built for: 1, 2 or 4; where three hold voxels the fourth is there but
+  /// empty.
   int built() const { return count == 3 ? 4 : count; }
   /// Compiler options for the kernels that include kernels/bone_parts.h, like " -D PARTS=2 -D PART_SHIFT=30".
   std::string build_options() const;
