@@ -16,8 +16,13 @@ constexpr float slack_voxels = 1.0f / 512.0f;
 constexpr float never = 1e30f;
 
 constexpr size_t blocks_at_once = 64;
-/// Of the free chunks one in so many is measured a look: those that stay near would be measured in vain.
+/// Chunks measured a look: so many, and one more for every so many that are due, which bounds the work of a
+/// tick that finds many of them free. Others are merely visited again.
+constexpr size_t least_measures = 24, due_a_measure = 32;
+/// Of the free chunks at most one in so many: those that stay near would be measured in vain.
 constexpr size_t measured_share = 4;
+/// A measure costs as much as a few visits: it is made where it is likely to save more.
+constexpr float worthwhile_looks = 4.0f;
 
 /// late[i] = 1 where a block has a chunk that is due.
 REAM_VECTOR_CLONES void find_late(const float* __restrict due_at, float now, int n,
@@ -37,7 +42,8 @@ ContactSchedule::ContactSchedule(const NarrowPhaseInput& input)
 
 std::span<const DueChunk> ContactSchedule::due(const QuantisedPose& grid_from_tool, const Voi& voi,
                                                const VoxelTransform& transform) noexcept {
-  odometer_.advance(dequantised(grid_from_tool));
+  const double before = odometer_.voxels();
+  moved_voxels_ = static_cast<float>(odometer_.advance(dequantised(grid_from_tool)) - before);
   if (odometer_.voxels() >= rebase_at_voxels) rebase();
   const auto now = static_cast<float>(odometer_.voxels());
   const Culling culling(in_, voi, grid_from_tool);
@@ -87,9 +93,11 @@ void ContactSchedule::rebase() noexcept {
 
 void ContactSchedule::visited(const ContactView& view, IsClear is_clear,
                               std::span<const uint8_t> touched) noexcept {
+  if (!worth_measuring(Clearance::brick)) return;
   const auto of_due = touched.first(count_);
   const size_t free = count_ - static_cast<size_t>(std::count(of_due.begin(), of_due.end(), uint8_t{1}));
-  const size_t most = std::min(measures_a_look, (free + measured_share - 1) / measured_share);
+  const size_t most =
+      std::min(least_measures + count_ / due_a_measure, (free + measured_share - 1) / measured_share);
   size_t measures = 0;
   for (size_t i = 0; i < count_ && measures < most; ++i) {
     // Begin where the last look ended, so that all have their turn.
@@ -100,11 +108,15 @@ void ContactSchedule::visited(const ContactView& view, IsClear is_clear,
   }
 }
 
+bool ContactSchedule::worth_measuring(Clearance clearance) const noexcept {
+  return clearance_voxels(clearance) >= worthwhile_looks * moved_voxels_;
+}
+
 void ContactSchedule::measure(const ContactView& view, IsClear is_clear, const DueChunk& due) noexcept {
   const ContactBlock& block = in_.shell.blocks[due.block];
   const uint32_t chunk = in_.shell.first_chunks[due.block] + (due.first - block.first) / chunk_points;
   for (const Clearance clearance : {Clearance::brick, Clearance::cell, Clearance::voxel})
-    if (is_clear(view, due, clearance)) {
+    if (worth_measuring(clearance) && is_clear(view, due, clearance)) {
       chunk_due_at_[chunk] = static_cast<float>(odometer_.voxels()) + clearance_voxels(clearance);
       return;
     }

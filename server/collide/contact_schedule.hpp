@@ -15,10 +15,6 @@ namespace ream::collide {
 /// construction.
 class ContactSchedule {
  public:
-  /// Chunks measured a look: bounds the work of a tick that finds many of them free. Others are merely
-  /// visited again.
-  static constexpr size_t measures_a_look = 24;
-
   explicit ContactSchedule(const NarrowPhaseInput& input);
 
   /// Chunks to visit at this pose, in rising order; the list stays valid until the next call.
@@ -32,6 +28,7 @@ class ContactSchedule {
   void list_block(uint32_t number, float now, const Culling& culling,
                   const VoxelTransform& transform) noexcept;
   void measure(const ContactView& view, IsClear is_clear, const DueChunk& chunk) noexcept;
+  bool worth_measuring(Clearance clearance) const noexcept;
   void rebase() noexcept;
 
   const NarrowPhaseInput in_;
@@ -41,6 +38,7 @@ class ContactSchedule {
   std::vector<float> chunk_due_at_, block_due_at_, gap_due_at_;
   std::vector<DueChunk> list_;
   size_t count_ = 0, turn_ = 0;
+  float moved_voxels_ = 0.0f;  ///< since the look before
 };
 
 }  // namespace ream::collide

@@ -34,6 +34,11 @@ class RemovalSchedule {
   /// A tick in which nothing is cut: keeps track of the motion.
   void pass(const QuantisedPose& grid_from_tool) noexcept;
 
+  /// Bytes held.
+  size_t bytes() const noexcept {
+    return occupied_.size() * sizeof(uint32_t) + (near_.size() + next_.size()) * sizeof(Near);
+  }
+
   /// The table margin that swept_profile() must be given for a grid so that brick distances can be bounded.
   static double needed_margin_mm(const voxel::VoxelGrid& grid);
 

@@ -33,6 +33,8 @@ class BrickSender {
   /// Sends at most `budget` marked bricks, oldest mark first, as they are in `coverage` now.
   void send(const uint8_t* coverage, uint32_t tick, int budget) noexcept;
   size_t pending() const noexcept { return count_; }
+  /// Bytes held, the ring apart.
+  size_t bytes() const noexcept { return marked_.size() + queue_.size() * sizeof(uint32_t); }
 
  private:
   const VoxelGrid grid_;

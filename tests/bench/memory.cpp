@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#include "collide/removal_schedule.hpp"
+#include "shell/swept_profile.hpp"
+#include "voxel/bricks.hpp"
+
 namespace ream::bench {
 namespace {
 
@@ -14,8 +18,13 @@ size_t bytes(const std::vector<T>& values) {
 
 size_t memory_of(const OurBone& b) {
   const size_t replica = b.bone.grid.voxel_count();
+  const shell::SweptProfile profile = shell::swept_profile(
+      shell::make_tool(shell::thesis_tool).profile, collide::RemovalSchedule::needed_margin_mm(b.bone.grid));
+  const collide::RemovalSchedule schedule(profile, b.bone);
+  voxel::BrickRing ring(2);
+  const voxel::BrickSender sender(b.bone.grid, ring);
   return bytes(b.bone.density) + bytes(b.bone.coverage) + replica + bytes(b.distance.bricks) +
-         bytes(b.cells.words());
+         bytes(b.cells.words()) + schedule.bytes() + sender.bytes();
 }
 
 size_t coverage_in_uniform_bricks(const voxel::BoneModel& bone) {

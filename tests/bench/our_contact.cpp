@@ -12,8 +12,10 @@ OurBone::OurBone(voxel::BoneModel model)
   prefer_huge_pages(bone.density.data(), bone.density.size());
 }
 
-OurContact::OurContact(OurBone& bone, const shell::PointShell& shell)
-    : bone_(bone), shell_(collide::make_contact_shell(shell, bone.bone.grid.spacing_mm.maxCoeff())) {}
+OurContact::OurContact(OurBone& bone, const shell::PointShell& shell, double probe_length_mm)
+    : bone_(bone),
+      shell_(collide::make_contact_shell(
+          shell, probe_length_mm > 0.0 ? probe_length_mm : bone.bone.grid.spacing_mm.maxCoeff())) {}
 
 collide::NarrowPhaseInput OurContact::input() const {
   return {shell_, bone_.bone, bone_.distance, bone_.cells};

@@ -22,7 +22,8 @@ struct OurBone {
 class OurContact {
  public:
   /// `bone` must outlive it.
-  OurContact(OurBone& bone, const shell::PointShell& shell);
+  /// Probes are a voxel long, as in a session, unless told otherwise (mm).
+  OurContact(OurBone& bone, const shell::PointShell& shell, double probe_length_mm = 0.0);
 
   /// The C++ form, and the OpenCL form on a device; both refer to this object. Without a volume of interest
   /// the whole tool is of interest. A device that fails throws Error unavailable.

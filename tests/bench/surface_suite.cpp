@@ -5,9 +5,9 @@
 
 #include "bench/bench.hpp"
 #include "bench/flying_edges.hpp"
+#include "bench/seated_reaming.hpp"
 #include "core/clock.hpp"
 #include "ct/phantom_case.hpp"
-#include "device/script.hpp"
 #include "sim/step.hpp"
 #include "stream/mesh_publisher.hpp"
 #include "stream/messages.hpp"
@@ -39,16 +39,6 @@ class Collector final : public stream::Fanout {
   std::vector<stream::SharedBlock> blocks;
 };
 
-/// A short approach, then the experiments' thrust, as in the thesis' section 5.4.2.
-device::Script seated_script() {
-  device::Script script;
-  script.duration_s = 6.0;
-  script.stiffness_n_mm = 100.0;
-  script.hand.start_mm = Vec3(0, 0, -8.0);
-  script.hand.force_profile = {{0.0, 10.0}, {0.5, 52.0}};
-  return script;
-}
-
 /// Of the calling thread: what one core has to give, also while other programs take their share.
 double processor_us() {
   timespec t{};
@@ -79,13 +69,8 @@ double percentile(std::vector<double> values, double fraction) {
 /// and encodes. Updates count from two seconds on, when the reamer sits in the bone.
 Seated measure_seated(case_::Case bone_case) {
   const device::Script script = seated_script();
-  sim::Settings settings;
-  settings.backend = "cpu";
-  settings.tool_spacing_mm = 0.1;
-  settings.stiffness_n_mm = script.stiffness_n_mm;
-  settings.angular_stiffness_n_mm_rad = 1000.0 * script.stiffness_n_mm;
-  const sim::Model model =
-      sim::make_model(*bone_case.plan, bone_case.bone, shell::make_tool(shell::thesis_tool), settings);
+  const sim::Model model = sim::make_model(
+      *bone_case.plan, bone_case.bone, shell::make_tool(shell::thesis_tool), seated_settings(script, "cpu"));
   sim::State state(model, bone_case.bone);
   voxel::BrickRing ring(8192);
   voxel::BrickSender sender(bone_case.bone.grid, ring);
