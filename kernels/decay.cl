@@ -1,5 +1,6 @@
 #include "common.h"
 #include "layout.h"
+#include "bone_parts.h"
 
 // Finds the points of the shell that lie in bone (algorithm 4.1). Twin of server/collide/decay_cpu.cpp. A group takes
 // every G-th listed run, its LANES work-items take the run's points. What the points take from their voxels is
@@ -7,8 +8,8 @@
 
 kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void find_hits(
     global const float* points_x, global const float* points_y, global const float* points_z,
-    global const struct DecayRunLayout* runs, global const uint* listed, global const uchar* coverage,
-    struct DecayArguments arguments, global uint* hits) {
+    global const struct DecayRunLayout* runs, global const uint* listed, struct DecayArguments arguments,
+    global uint* hits, BONE_PARTS(global const uchar, coverage)) {
   const float* m = arguments.voxel_from_tool.m;
   const float* t = arguments.voxel_from_tool.t;
   const int brick_row = arguments.dims_x / 8, brick_slice = brick_row * (arguments.dims_y / 8);
@@ -26,7 +27,7 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void find_hits(
           const int iu = (int)u, iv = (int)v, iw = (int)w;
           const int brick = (iu >> 3) + (iv >> 3) * brick_row + (iw >> 3) * brick_slice;
           const uint voxel = (uint)brick * 512u + (uint)((iu & 7) + (iv & 7) * 8 + (iw & 7) * 64);
-          if (coverage[voxel] != 0) hit = voxel;
+          if (*AT_VOXEL(coverage, voxel) != 0) hit = voxel;
         }
       }
       hits[(size_t)i * REAM_DECAY_RUN_POINTS + k] = hit;
@@ -35,8 +36,9 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void find_hits(
 }
 
 // Takes bricks that the host has lowered to a device with memory of its own: 64 rows of eight voxels each.
-kernel void put_bricks(global const uint* bricks, global const uchar* images, uint count, global uchar* coverage) {
+kernel void put_bricks(global const uint* bricks, global const uchar* images, uint count,
+                       BONE_PARTS(global uchar, coverage)) {
   const uint row = get_global_id(0);
   if (row >= count * 64u) return;
-  vstore8(vload8(row, images), (size_t)bricks[row / 64] * 64u + row % 64, coverage);
+  vstore8(vload8(row, images), 0, AT_VOXEL(coverage, (size_t)bricks[row / 64] * 512u + row % 64 * 8));
 }

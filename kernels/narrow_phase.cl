@@ -1,5 +1,6 @@
 #include "common.h"
 #include "layout.h"
+#include "bone_parts.h"
 
 // Contact sums of the shell's due chunks: whole numbers only. Twin of server/collide/contact_look_portable.cpp.
 // LANES work-items a group: 1 where work-items are loops (CPU), and one takes a share of the chunks in a row, each as
@@ -8,11 +9,12 @@
 #define NO_POINT LONG_MIN
 #define PLACE_MASK ((1 << REAM_PLACE_BITS) - 1)
 
-// What all points share, by address space: constant inputs and the bone.
-#define BONE                                                                                                    \
+// What both forms of the kernel take: the shell and its due chunks, the bone's cells, the answer, and the bone.
+#define CONTACT_PARAMETERS                                                                                      \
   global const uint *places, global const ushort *directions, global const struct ContactBlockLayout *blocks,   \
       global const struct DueChunkLayout *due, global const uint *meridian, global const uint *azimuth,         \
-      global const ushort *cells, global const uchar *coverage, global const uchar *density
+      global const ushort *cells, struct ContactArguments arguments, global long *partial,                      \
+      global uchar *touched, BONE_PARTS(global const uchar, coverage), BONE_PARTS(global const uchar, density)
 
 #if LANES > 1
 
@@ -80,10 +82,10 @@ static int16 probe(uint16 place, int16 present, global const struct DueChunkLayo
 }
 
 // Bytes of the wanted lanes; the others read the first.
-static int16 bytes_at(global const uchar* bytes, int16 at, int16 wanted) {
+static int16 bytes_at(BONE_PARTS(global const uchar, bytes), int16 at, int16 wanted) {
   int index[16], found[16];
   vstore16(at & wanted, 0, index);
-  for (int k = 0; k < 16; ++k) found[k] = bytes[index[k]];
+  for (int k = 0; k < 16; ++k) found[k] = *AT_VOXEL(bytes, index[k]);
   return vload16(0, found);
 }
 
@@ -177,8 +179,7 @@ static long deeper(long deepest, int origin_z_units, uint16 place, int16 engaged
   return deepest;
 }
 
-kernel __attribute__((reqd_work_group_size(1, 1, 1))) void contact_sums(BONE, struct ContactArguments arguments,
-                                                                        global long* partial, global uchar* touched) {
+kernel __attribute__((reqd_work_group_size(1, 1, 1))) void contact_sums(CONTACT_PARAMETERS) {
   global long* sums = partial + (size_t)get_group_id(0) * REAM_CONTACT_SUMS;
   for (int k = 0; k < REAM_CONTACT_DEEPEST; ++k) sums[k] = 0;
   long deepest = NO_POINT;
@@ -201,13 +202,14 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void contact_sums(BONE, st
       const int16 state = probe(place, lane < (int)chunk->count, chunk, &arguments, cells, &voxel);
       int16 engaged = state == 0x101;
       const int16 unsure = state == 1;
-      if (any(unsure)) engaged |= unsure & (bytes_at(coverage, voxel, unsure) >= REAM_SOLID_COVERAGE);
+      if (any(unsure))
+        engaged |= unsure & (bytes_at(PASS_PARTS(coverage), voxel, unsure) >= REAM_SOLID_COVERAGE);
       engaged_of[end - first] = engaged;
       touched[end] = any(engaged) != 0;
       if (!any(engaged)) continue;
       points -= engaged;
       if (block->guiding) continue;
-      add_density(bytes_at(density, voxel, engaged) & engaged, engaged, arguments.first_cortical_code, &classes);
+      add_density(bytes_at(PASS_PARTS(density), voxel, engaged) & engaged, engaged, arguments.first_cortical_code, &classes);
       if (deepest == NO_POINT || block->origin_z_units + block->height_units > (int)(deepest >> 32))
         deepest = deeper(deepest, block->origin_z_units, place, engaged, chunk->first);
     }
@@ -236,7 +238,7 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void contact_sums(BONE, st
 #else
 
 static bool is_engaged(uint place, global const struct DueChunkLayout* at, const struct ContactArguments* a,
-                       global const ushort* cells, global const uchar* coverage, int* voxel) {
+                       global const ushort* cells, BONE_PARTS(global const uchar, coverage), int* voxel) {
   const int* m = a->per_unit;
   const int x = place & PLACE_MASK, y = place >> REAM_PLACE_BITS & PLACE_MASK,
             z = place >> (2 * REAM_PLACE_BITS) & PLACE_MASK;
@@ -247,7 +249,7 @@ static bool is_engaged(uint place, global const struct DueChunkLayout* at, const
   const int brick = (u >> 3) + (v >> 3) * a->brick_row + (w >> 3) * a->brick_slice;
   const int state = cells[brick] >> (((u >> 2) & 1) | ((v >> 1) & 2) | (w & 4)) & 0x101;
   *voxel = (brick << 9) | (u & 7) | (v & 7) << 3 | (w & 7) << 6;
-  return state == 0x101 || (state == 1 && coverage[*voxel] >= REAM_SOLID_COVERAGE);
+  return state == 0x101 || (state == 1 && *AT_VOXEL(coverage, *voxel) >= REAM_SOLID_COVERAGE);
 }
 
 // Adds every lane's value k to sums[k], and clears the lane's own values.
@@ -266,9 +268,7 @@ static void flush(int* values, int count, local int* scratch, global long* sums)
   barrier(CLK_LOCAL_MEM_FENCE);
 }
 
-kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void contact_sums(BONE, struct ContactArguments arguments,
-                                                                            global long* partial,
-                                                                            global uchar* touched) {
+kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void contact_sums(CONTACT_PARAMETERS) {
   local int scratch[REAM_CONTACT_PART_SUMS * LANES];
   local long deepest_of[LANES];
   const uint lane = get_local_id(0), group = get_group_id(0), groups = get_num_groups(0);
@@ -297,7 +297,7 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void contact_sums(BONE
     if (i >= chunk->count) continue;
     const uint point = chunk->first + i, place = places[point];
     int voxel;
-    if (!is_engaged(place, chunk, &arguments, cells, coverage, &voxel)) continue;
+    if (!is_engaged(place, chunk, &arguments, cells, PASS_PARTS(coverage), &voxel)) continue;
     touched[s] = 1;
     const struct ContactBlockLayout block = blocks[chunk->block];
     if (block.guiding) {
@@ -307,7 +307,7 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void contact_sums(BONE
     }
     add_products(place, directions[point], meridian, azimuth, cut);
     ++cut[REAM_CONTACT_PRODUCTS];
-    const int code = density[voxel], bone_class = class_of(code, arguments.first_cortical_code);
+    const int code = *AT_VOXEL(density, voxel), bone_class = class_of(code, arguments.first_cortical_code);
     for (int k = 0; k < 3; ++k) {
       classes[k] += k == bone_class;
       classes[3 + k] += k == bone_class ? code : 0;

@@ -1,5 +1,6 @@
 #include "common.h"
 #include "layout.h"
+#include "bone_parts.h"
 
 // Cuts listed bricks by the swept profile. Twin of server/collide/removal_cpu.cpp. LANES work-items a group: 1 where
 // work-items are loops (CPU), up to 64 elsewhere. A group takes every G-th brick, its lanes take rows of eight voxels.
@@ -67,7 +68,7 @@ typedef struct {
 
 static float smaller(float a, float b) { return a < b ? a : b; }
 
-// Lowers the row of eight voxels that starts at `at` to what it may keep.
+// Lowers the row of eight voxels from voxel `at` on, whose bytes are given, to what it may keep.
 static void cut_row(global uchar* coverage, global const uchar* density, global const uchar* classes, size_t at,
                     uchar8 before, float8 levels, LaneSums* sums) {
   const uchar8 kept = kept_coverage(levels);
@@ -77,11 +78,11 @@ static void cut_row(global uchar* coverage, global const uchar* density, global 
     vstore8(kept, 0, new_levels);
     for (int u = 0; u < 8; ++u) {
       if (new_levels[u] >= old_levels[u]) continue;
-      sums->removed[classes[density[at + u]]] += old_levels[u] - new_levels[u];
+      sums->removed[classes[density[u]]] += old_levels[u] - new_levels[u];
       sums->hash += mix64((ulong)(at + u) * 256 + new_levels[u]);
     }
     before = min(before, kept);
-    vstore8(before, 0, coverage + at);
+    vstore8(before, 0, coverage);
     sums->changed = 1;
   }
   float8 above = levels - convert_float8(before);
@@ -108,8 +109,8 @@ static void write_record(local const LaneSums* lanes, global struct RemovalRecor
 }
 
 kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void cut_bricks(
-    global uchar* coverage, global const uchar* density, global const uchar* classes, global const int* pairs,
-    global const uint* bricks, struct RemovalArguments arguments, global uchar* slots) {
+    global const uchar* classes, global const int* pairs, global const uint* bricks, struct RemovalArguments arguments,
+    global uchar* slots, BONE_PARTS(global uchar, coverage), BONE_PARTS(global const uchar, density)) {
   local LaneSums lanes[LANES];
   const int lane = get_local_id(0);
   const float8 steps = (float8)(0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f);
@@ -124,12 +125,13 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void cut_bricks(
     for (int row = lane; row < BRICK_ROWS; row += LANES) {
       const int v = first_v + row % BRICK_EDGE, w = first_w + row / BRICK_EDGE;
       const size_t at = ((size_t)brick * BRICK_ROWS + row) * BRICK_EDGE;
-      const uchar8 before = vload8(0, coverage + at);
+      global uchar* row_coverage = AT_VOXEL(coverage, at);
+      const uchar8 before = vload8(0, row_coverage);
       if (as_ulong(before) != 0)
-        cut_row(coverage, density, classes, at, before,
+        cut_row(row_coverage, AT_VOXEL(density, at), classes, at, before,
                 row_levels(pairs, &arguments, (float)first_u + steps, (float)v, (float)w), &sums);
       if (arguments.slot_bytes > sizeof(struct RemovalRecord))
-        vstore8(vload8(0, coverage + at), row, slot + sizeof(struct RemovalRecord));
+        vstore8(vload8(0, row_coverage), row, slot + sizeof(struct RemovalRecord));
     }
     lanes[lane] = sums;
     GROUP_BARRIER;

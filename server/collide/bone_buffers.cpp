@@ -1,21 +1,36 @@
 #include "collide/bone_buffers.hpp"
 
-#include <limits>
-
-#include "core/error.hpp"
+#include <algorithm>
 
 namespace ream::collide {
+
+namespace {
+
+std::vector<gpu::Buffer> in_parts(const gpu::Queue& queue, std::span<uint8_t> bytes, BoneParts parts) {
+  std::vector<gpu::Buffer> buffers;
+  for (int p = 0; p < parts.count; ++p) {
+    const size_t from = static_cast<size_t>(p) << parts.shift;
+    const size_t size = parts.count == 1 ? bytes.size() : size_t{1} << parts.shift;
+    buffers.push_back(gpu::Buffer::over(queue, bytes.subspan(from, std::min(size, bytes.size() - from))));
+  }
+  while (buffers.size() < static_cast<size_t>(parts.built())) buffers.emplace_back(queue, 0);
+  return buffers;
+}
+
+}  // namespace
 
 LaunchShape LaunchShape::fitting(const gpu::Device& device) {
   return device.is_cpu ? LaunchShape{16, 1} : LaunchShape{256, 64};
 }
 
-BoneBuffers::BoneBuffers(const gpu::Device& device, voxel::BoneModel& session_bone)
-    : bone(session_bone), queue(device) {
-  if (bone.grid.voxel_count() >= std::numeric_limits<uint32_t>::max())
-    throw Error(ErrorKind::unavailable, "OpenCL: the bone has 2^32 voxels or more; use --backend cpu");
-  coverage = gpu::Buffer::over(queue, std::span(bone.coverage));
-  density = gpu::Buffer::over(queue, std::span(bone.density));
+BoneBuffers::BoneBuffers(const gpu::Device& device, voxel::BoneModel& session_bone,
+                         std::optional<size_t> largest_buffer_bytes)
+    : bone(session_bone),
+      queue(device),
+      parts(bone_parts(bone.grid.voxel_count(), largest_buffer_bytes.value_or(device.max_buffer_bytes),
+                       device.name)),
+      coverage(in_parts(queue, bone.coverage, parts)),
+      density(in_parts(queue, bone.density, parts)) {
   std::array<uint8_t, 256> codes{};
   const auto table = voxel::class_table(bone.cortical_threshold_g_cc);
   for (size_t i = 0; i < codes.size(); ++i) codes[i] = static_cast<uint8_t>(table[i]);

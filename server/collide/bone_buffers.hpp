@@ -1,7 +1,10 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <optional>
+#include <vector>
 
+#include "collide/bone_parts.hpp"
 #include "gpu/buffer.hpp"
 #include "voxel/bone_model.hpp"
 
@@ -16,17 +19,23 @@ struct LaunchShape {
 };
 
 /// One session's bone on an OpenCL device, and the queue that works on it: the host's own arrays where the
-/// device shares memory, copies elsewhere. Narrow phase and removal of a session share one of these, so that
-/// contact sees what removal cut. `bone` must outlive it and stay where it is.
+/// device shares memory, copies elsewhere; in parts where it does not allocate as much at once. Narrow phase
+/// and removal of a session share one of these, so that contact sees what removal cut. `bone` must outlive it
+/// and stay where it is.
 struct BoneBuffers {
-  /// Throws Error unavailable when the device fails or the bone is too large for it (2^32 voxels, or its
-  /// buffer limit).
-  BoneBuffers(const gpu::Device& device, voxel::BoneModel& bone);
+  /// Throws Error unavailable when the device fails or the bone is too large for it (bone_parts). No buffer
+  /// of the bone gets larger than `largest_buffer_bytes`; the device's own limit unless a test says less.
+  BoneBuffers(const gpu::Device& device, voxel::BoneModel& bone,
+              std::optional<size_t> largest_buffer_bytes = {});
+
+  /// True where kernels work on the host's own arrays.
+  bool shared() const { return coverage.front().shared(); }
 
   voxel::BoneModel& bone;
   gpu::Queue queue;
-  gpu::Buffer coverage, density;
-  gpu::Buffer classes;  ///< bone class of each density code, one byte each
+  BoneParts parts;
+  std::vector<gpu::Buffer> coverage, density;  ///< parts.built() each
+  gpu::Buffer classes;                         ///< bone class of each density code, one byte each
 };
 
 }  // namespace ream::collide

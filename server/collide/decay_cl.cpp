@@ -27,7 +27,8 @@ class DecayCl final : public Decay {
       : Decay(input),
         bone_(std::move(bone)),
         shape_(shape),
-        program_(bone_->queue, "decay.cl", "-D LANES=" + std::to_string(shape.lanes)),
+        program_(bone_->queue, "decay.cl",
+                 "-D LANES=" + std::to_string(shape.lanes) + bone_->parts.build_options()),
         find_(program_, "find_hits"),
         put_(program_, "put_bricks"),
         listed_(std::max<size_t>(input.shell.runs.size(), 1)),
@@ -45,7 +46,7 @@ class DecayCl final : public Decay {
     arguments_.dims_x = input.bone.grid.dims.x();
     arguments_.dims_y = input.bone.grid.dims.y();
     arguments_.dims_z = input.bone.grid.dims.z();
-    find_.set_all(x_, y_, z_, runs_, listed_buffer_, bone_->coverage, arguments_, hits_buffer_);
+    find_.set_all(x_, y_, z_, runs_, listed_buffer_, arguments_, hits_buffer_, bone_->coverage);
     put_.set_all(put_list_buffer_, put_images_buffer_, uint32_t{0}, bone_->coverage);
     launch(0);
     put_.enqueue(bone_->queue, put_rows, put_lanes);
@@ -53,7 +54,7 @@ class DecayCl final : public Decay {
   }
 
   bool publish() noexcept override {
-    if (bone_->coverage.shared()) return true;
+    if (bone_->shared()) return true;
     const std::span<const uint32_t> bricks = changed_bricks();
     try {
       for (size_t done = 0; done < bricks.size(); done += most_put)
@@ -101,7 +102,7 @@ class DecayCl final : public Decay {
     put_.enqueue(queue, put_rows, put_lanes);
   }
 
-  static constexpr unsigned arguments_index = 6;
+  static constexpr unsigned arguments_index = 5;
 
   std::shared_ptr<BoneBuffers> bone_;
   LaunchShape shape_;

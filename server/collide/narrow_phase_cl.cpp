@@ -48,7 +48,8 @@ class NarrowPhaseCl final : public NarrowPhase {
       : in_(input),
         bone_(std::move(bone)),
         shape_(shape),
-        program_(bone_->queue, "narrow_phase.cl", "-D LANES=" + std::to_string(shape.lanes)),
+        program_(bone_->queue, "narrow_phase.cl",
+                 "-D LANES=" + std::to_string(shape.lanes) + bone_->parts.build_options()),
         kernel_(program_, "contact_sums"),
         patch_kernel_(program_, "patch_cells"),
         due_(std::max<size_t>(input.shell.chunk_count(), 1)),
@@ -69,8 +70,8 @@ class NarrowPhaseCl final : public NarrowPhase {
         partial_buffer_(gpu::Buffer::over(bone_->queue, std::span(partial_))),
         touched_buffer_(gpu::Buffer::over(bone_->queue, std::span(touched_))),
         patch_buffer_(gpu::Buffer::over(bone_->queue, std::span(patches_))) {
-    kernel_.set_all(places_, directions_, blocks_, due_buffer_, meridian_, azimuth_, cells_, bone_->coverage,
-                    bone_->density, arguments_, partial_buffer_, touched_buffer_);
+    kernel_.set_all(places_, directions_, blocks_, due_buffer_, meridian_, azimuth_, cells_, arguments_,
+                    partial_buffer_, touched_buffer_, bone_->coverage, bone_->density);
     patch_kernel_.set_all(patch_buffer_, uint32_t{0}, cells_);
     ContactSums warm;
     patch_kernel_.enqueue(bone_->queue, most_patches, patch_lanes);
@@ -146,7 +147,7 @@ class NarrowPhaseCl final : public NarrowPhase {
     sums.deepest = std::max(sums.deepest, group[REAM_CONTACT_DEEPEST]);
   }
 
-  static constexpr unsigned arguments_index = 9;
+  static constexpr unsigned arguments_index = 7;
   static constexpr size_t most_patches = 1024, patch_lanes = 64;
 
   NarrowPhaseInput in_;

@@ -37,8 +37,9 @@ class RemovalCl final : public Removal {
   RemovalCl(const RemovalInput& input, std::shared_ptr<BoneBuffers> bone, LaunchShape shape)
       : bone_(std::move(bone)),
         shape_(shape),
-        slot_bytes_(sizeof(layout::RemovalRecord) + (bone_->coverage.shared() ? 0 : voxel::brick_voxels)),
-        program_(bone_->queue, "removal.cl", "-D LANES=" + std::to_string(shape.lanes)),
+        slot_bytes_(sizeof(layout::RemovalRecord) + (bone_->shared() ? 0 : voxel::brick_voxels)),
+        program_(bone_->queue, "removal.cl",
+                 "-D LANES=" + std::to_string(shape.lanes) + bone_->parts.build_options()),
         kernel_(program_, "cut_bricks"),
         table_(profile_table(input.profile, coverage_levels_per_mm(input.bone.grid))),
         list_(most_bricks_a_cut),
@@ -47,8 +48,8 @@ class RemovalCl final : public Removal {
         list_buffer_(gpu::Buffer::over(bone_->queue, std::span(list_))),
         slots_buffer_(gpu::Buffer::over(bone_->queue, std::span(slots_))),
         arguments_(constant_arguments(table_, input.bone.grid, static_cast<uint32_t>(slot_bytes_))) {
-    kernel_.set_all(bone_->coverage, bone_->density, bone_->classes, table_buffer_, list_buffer_, arguments_,
-                    slots_buffer_);
+    kernel_.set_all(bone_->classes, table_buffer_, list_buffer_, arguments_, slots_buffer_, bone_->coverage,
+                    bone_->density);
     launch({});
     bone_->queue.finish();
   }
@@ -91,12 +92,12 @@ class RemovalCl final : public Removal {
     sums.change_hash += record.hash_low | static_cast<uint64_t>(record.hash_high) << 32;
     for (size_t c = 0; c < voxel::bone_class_count; ++c) sums.coverage_removed[c] += record.removed[c];
     voxel::BoneModel& bone = bone_->bone;
-    if (changed && !bone_->coverage.shared())
+    if (changed && !bone_->shared())
       voxel::write_brick(bone.grid, bone.coverage.data(), brick, bytes + sizeof record);
     return {changed, record.slack_levels == untouched_levels, record.slack_levels};
   }
 
-  static constexpr unsigned arguments_index = 5;
+  static constexpr unsigned arguments_index = 3;
 
   std::shared_ptr<BoneBuffers> bone_;
   LaunchShape shape_;

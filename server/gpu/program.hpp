@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "gpu/buffer.hpp"
 
@@ -38,11 +39,12 @@ class Kernel {
   /// Throws Error unavailable when the program has no such kernel.
   Kernel(const Program& program, const std::string& name);
 
-  /// Arguments 0, 1, 2, ...: buffers, or plain values of exactly the kernel's types.
+  /// Arguments 0, 1, 2, ...: buffers, vectors of buffers (an argument each), or plain values of exactly the
+  /// kernel's types.
   template <class... Arguments>
   void set_all(const Arguments&... arguments) {
     unsigned index = 0;
-    (set(index++, arguments), ...);
+    (set_next(index, arguments), ...);
   }
   void set(unsigned index, const Buffer& buffer);
   template <class Value>
@@ -58,6 +60,13 @@ class Kernel {
   const std::string& name() const { return name_; }
 
  private:
+  template <class Argument>
+  void set_next(unsigned& index, const Argument& argument) {
+    set(index++, argument);
+  }
+  void set_next(unsigned& index, const std::vector<Buffer>& buffers) {
+    for (const Buffer& buffer : buffers) set(index++, buffer);
+  }
   void set_bytes(unsigned index, const void* value, size_t bytes);
 
   std::string name_;

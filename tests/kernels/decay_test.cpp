@@ -7,7 +7,6 @@ namespace ream::collide {
 namespace {
 
 constexpr LaunchShape shapes[] = {{1, 1}, {16, 1}, {3, 8}, {2, 64}};
-constexpr int pose_count = 1000;
 
 struct Answer {
   RemovalSums sums;
@@ -23,32 +22,60 @@ Answer apply(Decay& decay, const QuantisedPose& pose) {
   return answer;
 }
 
+/// Random poses, what the C++ twin takes at each, and the bone it leaves.
+struct Expected {
+  Expected(unsigned seed, const Vec3i& dims, int pose_count)
+      : scene(seed, dims), shell(make_decay_shell(shell::make_point_shell(scene.tool, 0.25))) {
+    std::mt19937 random(seed);
+    const auto cpu = make_decay_cpu({shell, scene.bone});
+    for (int i = 0; i < pose_count; ++i) {
+      poses.push_back(scene.random_pose(random));
+      answers.push_back(apply(*cpu, poses.back()));
+      changed += !answers.back().changed.empty();
+    }
+  }
+
+  test::ReamingScene scene;
+  DecayShell shell;
+  std::vector<QuantisedPose> poses;
+  std::vector<Answer> answers;
+  int changed = 0;
+};
+
+/// Takes from a bone of its own for every launch shape.
+void expect_the_same(const Expected& expected, unsigned seed, const gpu::Device& device,
+                     std::optional<size_t> largest_buffer_bytes = {}, int parts = 1) {
+  for (const LaunchShape shape : shapes) {
+    SCOPED_TRACE(std::to_string(shape.groups) + " groups of " + std::to_string(shape.lanes));
+    test::ReamingScene scene(seed, expected.scene.bone.grid.dims);
+    const auto buffers = std::make_shared<BoneBuffers>(device, scene.bone, largest_buffer_bytes);
+    ASSERT_EQ(buffers->parts.count, parts);
+    const auto cl = make_decay_cl({expected.shell, scene.bone}, buffers, shape);
+    for (size_t i = 0; i < expected.poses.size(); ++i)
+      ASSERT_EQ(apply(*cl, expected.poses[i]), expected.answers[i]) << "pose " << i;
+    ASSERT_EQ(scene.bone.coverage, expected.scene.bone.coverage);
+  }
+}
+
 TEST(DecayCl, TakesWhatTheCppTwinTakesAtAThousandRandomPoses) {
   constexpr unsigned seed = 51;
   std::cout << "seed " << seed << '\n';
-  test::ReamingScene cpu_scene(seed);
-  const DecayShell shell = make_decay_shell(shell::make_point_shell(cpu_scene.tool, 0.25));
-  std::mt19937 random(seed);
-  std::vector<QuantisedPose> poses;
-  for (int i = 0; i < pose_count; ++i) poses.push_back(cpu_scene.random_pose(random));
-  const auto cpu = make_decay_cpu({shell, cpu_scene.bone});
-  std::vector<Answer> expected;
-  size_t changed = 0;
-  for (const auto& pose : poses) {
-    expected.push_back(apply(*cpu, pose));
-    changed += !expected.back().changed.empty();
+  const Expected expected(seed, {96, 88, 72}, 1000);
+  EXPECT_GT(expected.changed, 750);
+  test::on_every_device([&](const gpu::Device& device) { expect_the_same(expected, seed, device); });
+}
+
+TEST(DecayCl, TakesTheSameWhereTheBoneIsInParts) {
+  constexpr unsigned seed = 52;
+  std::cout << "seed " << seed << '\n';
+  for (const auto& [dims, largest_buffer_bytes, parts] : test::small_parts) {
+    SCOPED_TRACE(std::to_string(parts) + " parts");
+    const Expected expected(seed, dims, 200);
+    EXPECT_GT(expected.changed, 100);
+    test::on_every_device([&, limit = largest_buffer_bytes, count = parts](const gpu::Device& device) {
+      expect_the_same(expected, seed, device, limit, count);
+    });
   }
-  EXPECT_GT(changed, pose_count * 3 / 4);
-  test::on_every_device([&](const gpu::Device& device) {
-    for (const LaunchShape shape : shapes) {
-      SCOPED_TRACE(std::to_string(shape.groups) + " groups of " + std::to_string(shape.lanes));
-      test::ReamingScene scene(seed);
-      const auto buffers = std::make_shared<BoneBuffers>(device, scene.bone);
-      const auto cl = make_decay_cl({shell, scene.bone}, buffers, shape);
-      for (size_t i = 0; i < poses.size(); ++i) ASSERT_EQ(apply(*cl, poses[i]), expected[i]) << "pose " << i;
-      ASSERT_EQ(scene.bone.coverage, cpu_scene.bone.coverage);
-    }
-  });
 }
 
 }  // namespace

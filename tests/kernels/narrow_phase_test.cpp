@@ -7,36 +7,62 @@ namespace {
 
 /// One lane as on CPUs, and groups of lanes as on GPUs, also where one group gets many blocks or none.
 constexpr LaunchShape shapes[] = {{16, 1}, {1, 1}, {3, 8}, {2, 64}};
-constexpr int pose_count = 1000;
+
+/// Random poses and what the C++ twin says of them.
+struct Expected {
+  Expected(const test::ReamingScene& scene, unsigned seed, size_t pose_count) : sums(pose_count) {
+    const auto cpu = make_narrow_phase_cpu(scene.contact_input());
+    std::mt19937 random(seed);
+    for (auto& answer : sums) {
+      poses.push_back(scene.random_pose(random));
+      EXPECT_TRUE(cpu->contact(poses.back(), scene.voi(poses.back()), answer));
+      engaged += answer.engaged();
+      guided += answer.guiding.points;
+    }
+  }
+
+  std::vector<QuantisedPose> poses;
+  std::vector<ContactSums> sums;
+  int64_t engaged = 0, guided = 0;
+};
+
+void expect_the_same(const test::ReamingScene& scene, const Expected& expected,
+                     const std::shared_ptr<BoneBuffers>& buffers) {
+  for (const LaunchShape shape : shapes) {
+    const auto cl = make_narrow_phase_cl(scene.contact_input(), buffers, shape);
+    for (size_t i = 0; i < expected.poses.size(); ++i) {
+      ContactSums sums;
+      ASSERT_TRUE(cl->contact(expected.poses[i], scene.voi(expected.poses[i]), sums));
+      ASSERT_EQ(sums, expected.sums[i]) << "pose " << i << ", lanes " << shape.lanes;
+    }
+  }
+}
 
 TEST(NarrowPhaseCl, SumsEqualTheCppTwinAtAThousandRandomPoses) {
   test::ReamingScene scene(31);
   std::cout << "seed 31, " << scene.contact.size() << " points in " << scene.contact.blocks.size()
             << " blocks\n";
-  const auto cpu = make_narrow_phase_cpu(scene.contact_input());
-  std::mt19937 random(31);
-  std::vector<QuantisedPose> poses;
-  std::vector<ContactSums> expected(pose_count);
-  int64_t engaged = 0, guided = 0;
-  for (auto& sums : expected) {
-    poses.push_back(scene.random_pose(random));
-    ASSERT_TRUE(cpu->contact(poses.back(), scene.voi(poses.back()), sums));
-    engaged += sums.engaged();
-    guided += sums.guiding.points;
-  }
-  EXPECT_GT(engaged, 250000);
-  EXPECT_GT(guided, 2500);
+  const Expected expected(scene, 31, 1000);
+  EXPECT_GT(expected.engaged, 250000);
+  EXPECT_GT(expected.guided, 2500);
   test::on_every_device([&](const gpu::Device& device) {
-    const auto buffers = std::make_shared<BoneBuffers>(device, scene.bone);
-    for (const LaunchShape shape : shapes) {
-      const auto cl = make_narrow_phase_cl(scene.contact_input(), buffers, shape);
-      for (size_t i = 0; i < poses.size(); ++i) {
-        ContactSums sums;
-        ASSERT_TRUE(cl->contact(poses[i], scene.voi(poses[i]), sums));
-        ASSERT_EQ(sums, expected[i]) << "pose " << i << ", lanes " << shape.lanes;
-      }
-    }
+    expect_the_same(scene, expected, std::make_shared<BoneBuffers>(device, scene.bone));
   });
+}
+
+TEST(NarrowPhaseCl, SumsAreTheSameWhereTheBoneIsInParts) {
+  std::cout << "seed 33\n";
+  for (const auto& [dims, largest_buffer_bytes, parts] : test::small_parts) {
+    SCOPED_TRACE(std::to_string(parts) + " parts");
+    test::ReamingScene scene(33, dims);
+    const Expected expected(scene, 33, 200);
+    EXPECT_GT(expected.engaged, 50000);
+    test::on_every_device([&, limit = largest_buffer_bytes, count = parts](const gpu::Device& device) {
+      const auto buffers = std::make_shared<BoneBuffers>(device, scene.bone, limit);
+      ASSERT_EQ(buffers->parts.count, count);
+      expect_the_same(scene, expected, buffers);
+    });
+  }
 }
 
 TEST(NarrowPhaseCl, NothingIsEngagedAwayFromTheBone) {

@@ -14,11 +14,11 @@ namespace ream::test {
 /// A small block of bone with a curved top, mixed densities and a rough surface of half-covered voxels, and a
 /// reamer with a nipple: everything that narrow phase and removal look at. The same for the same seed.
 struct ReamingScene {
-  explicit ReamingScene(unsigned seed) {
+  explicit ReamingScene(unsigned seed, const Vec3i& dims = {96, 88, 72}) {
     std::mt19937 random(seed);
     std::uniform_int_distribution<int> any_byte(0, 255);
     voxel::VoxelGrid grid;
-    grid.dims = {96, 88, 72};
+    grid.dims = dims;
     grid.spacing_mm = {0.25, 0.28, 0.25};
     bone = voxel::make_bone(grid);
     const Vec3 middle = grid.bounds_mm().centre();
@@ -60,5 +60,14 @@ struct ReamingScene {
   voxel::BrickDistance distance;
   std::optional<voxel::SolidCells> cells;
 };
+
+/// Grids of scenes and buffer limits, bytes, that cut them into `parts`; the tool meets bone in all of them.
+struct SmallParts {
+  Vec3i dims;
+  size_t largest_buffer_bytes;
+  int parts;
+};
+inline const SmallParts small_parts[] = {
+    {{112, 96, 48}, 300000, 2}, {{96, 80, 48}, 1 << 17, 3}, {{112, 96, 48}, 1 << 17, 4}};
 
 }  // namespace ream::test

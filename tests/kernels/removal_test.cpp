@@ -11,7 +11,6 @@ namespace ream::collide {
 namespace {
 
 constexpr LaunchShape shapes[] = {{1, 1}, {16, 1}, {3, 8}, {2, 64}};
-constexpr int pose_count = 1000;
 
 /// Poses that go deeper and deeper, so that each of them finds something to cut, with the bricks around them.
 struct Visit {
@@ -19,7 +18,7 @@ struct Visit {
   std::vector<uint32_t> bricks;
 };
 
-std::vector<Visit> random_visits(const test::ReamingScene& scene, unsigned seed) {
+std::vector<Visit> random_visits(const test::ReamingScene& scene, unsigned seed, int pose_count) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   std::vector<Visit> visits;
@@ -40,33 +39,61 @@ std::vector<Visit> random_visits(const test::ReamingScene& scene, unsigned seed)
   return visits;
 }
 
+/// What the C++ twin cuts at each visit, and the bone it leaves.
+struct Expected {
+  Expected(unsigned seed, const Vec3i& dims, int pose_count) : scene(seed, dims) {
+    visits = random_visits(scene, seed, pose_count);
+    const auto cpu = make_removal_cpu({scene.profile, scene.bone});
+    for (const Visit& visit : visits) {
+      answers.push_back(test::cut_bricks(*cpu, visit.pose, visit.bricks));
+      changed += answers.back().sums.changed_bricks != 0;
+    }
+  }
+
+  test::ReamingScene scene;
+  std::vector<Visit> visits;
+  std::vector<test::CutAnswer> answers;
+  int changed = 0;
+};
+
+/// Cuts a bone of its own for every launch shape.
+void expect_the_same(const Expected& expected, unsigned seed, const gpu::Device& device,
+                     std::optional<size_t> largest_buffer_bytes = {}, int parts = 1) {
+  for (const LaunchShape shape : shapes) {
+    SCOPED_TRACE(std::to_string(shape.groups) + " groups of " + std::to_string(shape.lanes));
+    test::ReamingScene scene(seed, expected.scene.bone.grid.dims);
+    const auto buffers = std::make_shared<BoneBuffers>(device, scene.bone, largest_buffer_bytes);
+    ASSERT_EQ(buffers->parts.count, parts);
+    const auto cl = make_removal_cl({scene.profile, scene.bone}, buffers, shape);
+    for (size_t i = 0; i < expected.visits.size(); ++i) {
+      const auto& [pose, bricks] = expected.visits[i];
+      const test::CutAnswer answer = test::cut_bricks(*cl, pose, bricks);
+      ASSERT_EQ(answer.sums, expected.answers[i].sums) << "pose " << i;
+      ASSERT_EQ(answer.outcomes, expected.answers[i].outcomes) << "pose " << i;
+    }
+    ASSERT_EQ(scene.bone.coverage, expected.scene.bone.coverage);
+  }
+}
+
 TEST(RemovalCl, CutsWhatTheCppTwinCutsAtAThousandRandomPoses) {
   constexpr unsigned seed = 41;
   std::cout << "seed " << seed << '\n';
-  test::ReamingScene cpu_scene(seed);
-  const auto visits = random_visits(cpu_scene, seed);
-  const auto cpu = make_removal_cpu({cpu_scene.profile, cpu_scene.bone});
-  std::vector<test::CutAnswer> expected;
-  size_t changed = 0;
-  for (const Visit& visit : visits) {
-    expected.push_back(test::cut_bricks(*cpu, visit.pose, visit.bricks));
-    changed += expected.back().sums.changed_bricks != 0;
+  const Expected expected(seed, {96, 88, 72}, 1000);
+  EXPECT_GT(expected.changed, 500);
+  test::on_every_device([&](const gpu::Device& device) { expect_the_same(expected, seed, device); });
+}
+
+TEST(RemovalCl, CutsTheSameWhereTheBoneIsInParts) {
+  constexpr unsigned seed = 42;
+  std::cout << "seed " << seed << '\n';
+  for (const auto& [dims, largest_buffer_bytes, parts] : test::small_parts) {
+    SCOPED_TRACE(std::to_string(parts) + " parts");
+    const Expected expected(seed, dims, 200);
+    EXPECT_GT(expected.changed, 100);
+    test::on_every_device([&, limit = largest_buffer_bytes, count = parts](const gpu::Device& device) {
+      expect_the_same(expected, seed, device, limit, count);
+    });
   }
-  EXPECT_GT(changed, pose_count / 2);
-  test::on_every_device([&](const gpu::Device& device) {
-    for (const LaunchShape shape : shapes) {
-      SCOPED_TRACE(std::to_string(shape.groups) + " groups of " + std::to_string(shape.lanes));
-      test::ReamingScene scene(seed);
-      const auto cl = make_removal_cl({scene.profile, scene.bone},
-                                      std::make_shared<BoneBuffers>(device, scene.bone), shape);
-      for (size_t i = 0; i < visits.size(); ++i) {
-        const test::CutAnswer answer = test::cut_bricks(*cl, visits[i].pose, visits[i].bricks);
-        ASSERT_EQ(answer.sums, expected[i].sums) << "pose " << i;
-        ASSERT_EQ(answer.outcomes, expected[i].outcomes) << "pose " << i;
-      }
-      ASSERT_EQ(scene.bone.coverage, cpu_scene.bone.coverage);
-    }
-  });
 }
 
 }  // namespace
