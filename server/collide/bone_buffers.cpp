@@ -20,7 +20,7 @@ std::vector<gpu::Buffer> in_parts(const gpu::Queue& queue, std::span<uint8_t> by
 }  // namespace
 
 LaunchShape LaunchShape::fitting(const gpu::Device& device) {
-  return device.is_cpu ? LaunchShape{16, 1} : LaunchShape{256, 64};
+  return device.is_cpu ? LaunchShape{4, 1} : LaunchShape{256, 64};
 }
 
 BoneBuffers::BoneBuffers(const gpu::Device& device, voxel::BoneModel& session_bone,

@@ -14,7 +14,8 @@ namespace ream::collide {
 /// so that everything is compiled before the first tick; results do not depend on it.
 struct LaunchShape {
   int groups = 0, lanes = 0;
-  /// CPUs run work-items as loops: few groups of one lane. Others: enough groups of 64 lanes to fill them.
+  /// CPUs run work-items as loops: few groups of one lane, for each has sums of its own to add up. Others:
+  /// enough groups of 64 lanes to fill them.
   static LaunchShape fitting(const gpu::Device& device);
 };
 
