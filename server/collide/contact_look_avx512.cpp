@@ -25,8 +25,7 @@ inline int pair(int32_t low, int32_t high) {
 
 /// What a look needs of the view in registers.
 struct Lens {
-  __m512i xy[3], z[3], dims[3], brick_row, brick_slice, brick_steps;
-  __m128i bits;
+  __m512i xy[3], z[3], dims[3], brick_row, brick_slice, brick_steps, bits;
   bool small_grid;  ///< a layer's bricks can be counted in 15 bits, so brick_steps serves
 };
 
@@ -41,14 +40,14 @@ REAM_AVX512 inline Lens lens_of(const ContactView& view) {
   l.brick_slice = _mm512_set1_epi32(view.brick_slice);
   l.brick_steps = _mm512_set1_epi32(pair(view.brick_row, view.brick_slice));
   l.small_grid = view.brick_slice <= INT16_MAX;
-  l.bits = _mm_cvtsi32_si128(view.bits);
+  l.bits = _mm512_set1_epi32(view.bits);
   return l;
 }
 
 REAM_AVX512 inline __m512i coordinate(const Lens& l, size_t i, __m512i xy, __m512i z, int32_t base) {
   const __m512i sum = _mm512_add_epi32(_mm512_add_epi32(pair_products(xy, l.xy[i]), pair_products(z, l.z[i])),
                                        _mm512_set1_epi32(base));
-  return _mm512_sra_epi32(sum, l.bits);
+  return _mm512_srav_epi32(sum, l.bits);
 }
 
 REAM_AVX512 inline __m512i low_bits(__m512i value, int mask) {
@@ -143,7 +142,7 @@ REAM_AVX512 bool is_clear(const ContactView& view, const DueChunk& chunk, Cleara
 }
 
 /// Chunks are worked on together, one question at a time, so that no branch waits for an answer from memory.
-constexpr size_t batch_chunks = 256;
+constexpr size_t batch_chunks = 512;
 constexpr size_t batch_points = batch_chunks * lanes;
 
 /// A list of numbers that vectors append to; room for one vector too many.
@@ -311,8 +310,14 @@ REAM_AVX512 inline Vectors vectors_at(const ContactView& view, const List& direc
           _mm512_srli_epi32(entry, 24)};
 }
 
-/// Products of all listed points, 32 at a time in halves of 32 bits. A batch's stay below 2^31: each lane
-/// takes two of every 32 points.
+REAM_AVX512 inline int64_t sum_of_lanes(__m512i lanes_32) {
+  const __m512i low = _mm512_cvtepi32_epi64(_mm512_castsi512_si256(lanes_32)),
+                high = _mm512_cvtepi32_epi64(_mm512_extracti64x4_epi64(lanes_32, 1));
+  return _mm512_reduce_add_epi64(_mm512_add_epi64(low, high));
+}
+
+/// Products of all listed points, 32 at a time in halves of 32 bits. Each lane takes two of every 32 points,
+/// of a batch 512 at most, and stays below 2^31.
 REAM_AVX512 void add_products_of(const ContactView& view, const List& directions, ContactSums::Part& part) {
   if (directions.count == 0) return;
   __m512i sums[21];
@@ -333,7 +338,7 @@ REAM_AVX512 void add_products_of(const ContactView& view, const List& directions
     sums[slot] = _mm512_dpwssd_epi32(sums[slot], weight, ones);
   }
   std::array<int64_t, 21> products;
-  for (size_t k = 0; k < products.size(); ++k) products[k] = _mm512_reduce_add_epi32(sums[k]);
+  for (size_t k = 0; k < products.size(); ++k) products[k] = sum_of_lanes(sums[k]);
   add_products_to(part, products, 0);
 }
 

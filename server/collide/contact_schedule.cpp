@@ -1,7 +1,9 @@
 #include "collide/contact_schedule.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "collide/cull_blocks.hpp"
 #include "core/vector_clones.hpp"
@@ -15,19 +17,18 @@ constexpr double rebase_at_voxels = 4096.0;
 constexpr float slack_voxels = 1.0f / 512.0f;
 constexpr float never = 1e30f;
 
-constexpr size_t blocks_at_once = 64;
 /// Chunks measured a look: so many, and one more for every so many that are due, which bounds the work of a
 /// tick that finds many of them free. Others are merely visited again.
 constexpr size_t least_measures = 24, due_a_measure = 32;
 /// Of the free chunks at most one in so many: those that stay near would be measured in vain.
-constexpr size_t measured_share = 4;
+constexpr size_t measured_share = 8;
 /// A measure costs as much as a few visits: it is made where it is likely to save more.
 constexpr float worthwhile_looks = 4.0f;
 
 /// late[i] = 1 where a block has a chunk that is due.
-REAM_VECTOR_CLONES void find_late(const float* __restrict due_at, float now, int n,
+REAM_VECTOR_CLONES void find_late(const float* __restrict due_at, float now, size_t n,
                                   uint8_t* __restrict late) {
-  for (int i = 0; i < n; ++i) late[i] = due_at[i] <= now ? 1 : 0;
+  for (size_t i = 0; i < n; ++i) late[i] = due_at[i] <= now ? 1 : 0;
 }
 
 }  // namespace
@@ -38,6 +39,7 @@ ContactSchedule::ContactSchedule(const NarrowPhaseInput& input)
       chunk_due_at_(input.shell.chunk_count(), 0.0f),
       block_due_at_(input.shell.blocks.size(), 0.0f),
       gap_due_at_(input.shell.blocks.size(), 0.0f),
+      late_((input.shell.blocks.size() + 7) / 8 * 8, 0),
       list_(input.shell.chunk_count()) {}
 
 std::span<const DueChunk> ContactSchedule::due(const QuantisedPose& grid_from_tool, const Voi& voi,
@@ -48,12 +50,14 @@ std::span<const DueChunk> ContactSchedule::due(const QuantisedPose& grid_from_to
   const auto now = static_cast<float>(odometer_.voxels());
   const Culling culling(in_, voi, grid_from_tool);
   count_ = 0;
-  for (size_t first = 0; first < block_due_at_.size(); first += blocks_at_once) {
-    uint8_t late[blocks_at_once];
-    const size_t n = std::min(blocks_at_once, block_due_at_.size() - first);
-    find_late(block_due_at_.data() + first, now + slack_voxels, static_cast<int>(n), late);
-    for (size_t i = 0; i < n; ++i)
-      if (late[i]) list_block(static_cast<uint32_t>(first + i), now, culling, transform);
+  find_late(block_due_at_.data(), now + slack_voxels, block_due_at_.size(), late_.data());
+  for (size_t first = 0; first < late_.size(); first += 8) {
+    // Eight flags at once; most are clear.
+    uint64_t flags;
+    std::memcpy(&flags, late_.data() + first, sizeof flags);
+    for (; flags != 0; flags &= flags - 1)
+      list_block(static_cast<uint32_t>(first) + static_cast<uint32_t>(std::countr_zero(flags)) / 8, now,
+                 culling, transform);
   }
   return {list_.data(), count_};
 }

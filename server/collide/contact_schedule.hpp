@@ -36,6 +36,7 @@ class ContactSchedule {
   /// Odometer readings: when a chunk may touch again, the least of a block's chunks (or less), and when a
   /// block's sphere is to be held against the distance to bone again.
   std::vector<float> chunk_due_at_, block_due_at_, gap_due_at_;
+  std::vector<uint8_t> late_;  ///< per block of the look under way, rounded up to eight: has due chunks
   std::vector<DueChunk> list_;
   size_t count_ = 0, turn_ = 0;
   float moved_voxels_ = 0.0f;  ///< since the look before
