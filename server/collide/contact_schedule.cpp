@@ -21,7 +21,7 @@ constexpr float never = 1e30f;
 /// tick that finds many of them free. Others are merely visited again.
 constexpr size_t least_measures = 24, due_a_measure = 32;
 /// Of the free chunks at most one in so many: those that stay near would be measured in vain.
-constexpr size_t measured_share = 8;
+constexpr size_t measured_share = 4;
 /// A measure costs as much as a few visits: it is made where it is likely to save more.
 constexpr float worthwhile_looks = 4.0f;
 
