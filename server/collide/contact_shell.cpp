@@ -49,7 +49,7 @@ Probe probe_of(const shell::PointShell& shell, const shell::ShellPoint& p, doubl
   return probe;
 }
 
-/// Numbers the distinct meridian entries; should there be too many, arms are told apart less finely.
+/// Numbers the distinct meridian entries; should there be too many, they are told apart less finely.
 class MeridianEntries {
  public:
   explicit MeridianEntries(const std::vector<Probe>& probes) {
@@ -69,8 +69,7 @@ class MeridianEntries {
     const auto stepped = [this](int v) {
       return std::clamp((v + (v < 0 ? -1 : 1) * (step_ / 2)) / step_ * step_, -127, 127);
     };
-    return {step_ > 1 ? stepped(p.normal_radial) : p.normal_radial,
-            step_ > 1 ? stepped(p.normal_z) : p.normal_z, step_ > 1 ? stepped(p.arm) : p.arm, p.weight};
+    return {stepped(p.normal_radial), stepped(p.normal_z), stepped(p.arm), p.weight};
   }
   size_t collect(const std::vector<Probe>& probes) {
     numbers_.clear();

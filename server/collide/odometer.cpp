@@ -7,8 +7,7 @@ double Odometer::advance(const Pose& grid_from_tool) noexcept {
   double moved_mm = 0.0;
   // A point's way between two poses is linear in its place, so a corner of the box goes farthest.
   for (int i = 0; started_ && i < 8; ++i) {
-    const Vec3 corner(i & 1 ? box_.max.x() : box_.min.x(), i & 2 ? box_.max.y() : box_.min.y(),
-                      i & 4 ? box_.max.z() : box_.min.z());
+    const Vec3 corner = box_.corner(i);
     moved_mm = std::max(moved_mm, length_bound(grid_from_tool.point(corner) - previous_.point(corner)));
   }
   started_ = true;

@@ -15,6 +15,10 @@ struct Aabb {
   }
   Vec3 centre() const { return 0.5 * (min + max); }
   Vec3 half_size() const { return 0.5 * (max - min); }
+  /// One of the eight; bit k of `number` takes the maximum along axis k.
+  Vec3 corner(int number) const {
+    return {number & 1 ? max.x() : min.x(), number & 2 ? max.y() : min.y(), number & 4 ? max.z() : min.z()};
+  }
   Aabb grown(double by) const { return {min.array() - by, max.array() + by}; }
   bool contains(const Vec3& p) const {
     return (p.array() >= min.array()).all() && (p.array() <= max.array()).all();

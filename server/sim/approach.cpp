@@ -34,13 +34,8 @@ Approach look(const Model& model, State& state) noexcept {
 
 double path_bound_mm(const Model& model, const Pose& world_from_a, const Pose& world_from_b) noexcept {
   const Vec3 turn = turn_of(world_from_a, world_from_b);
-  const Aabb& box = model.tool_box_tool;
   double arc = 0.0;
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 p(i & 1 ? box.max.x() : box.min.x(), i & 2 ? box.max.y() : box.min.y(),
-                 i & 4 ? box.max.z() : box.min.z());
-    arc = std::max(arc, length_bound(turn.cross(p)));
-  }
+  for (int i = 0; i < 8; ++i) arc = std::max(arc, length_bound(turn.cross(model.tool_box_tool.corner(i))));
   return length_bound(world_from_b.translation_mm - world_from_a.translation_mm) + arc;
 }
 

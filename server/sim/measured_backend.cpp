@@ -10,7 +10,9 @@
 namespace ream::sim {
 namespace {
 
-constexpr int warm_looks = 50, rounds = 40, looks_a_round = 25;
+constexpr int warm_looks = 50, most_rounds = 40, looks_a_round = 25;
+/// Of all trials together: where a tick is long, fewer rounds are enough to tell the candidates apart.
+constexpr double enough_s = 1.0;
 constexpr double creep_mm = 1e-4;          ///< a look, more than reaming creeps in a tick
 constexpr double enough_engaged = 0.02;    ///< share of the points
 constexpr double deepest_search_mm = 5.0;  ///< past the planned entry
@@ -137,7 +139,8 @@ Backend make_measured_backend(const Model& model, voxel::BoneModel& bone, const 
   std::vector<Candidate> candidates = candidates_of(model, bone, cells, timings);
   const Trial trial(model, bone, cells);
   const double depth_mm = trial.pressed_depth_mm(*candidates[0].backend.narrow_phase);
-  for (int round = 0; round <= rounds; ++round)
+  const auto start = SteadyClock::now();
+  for (int round = 0; round <= most_rounds && (round < 2 || elapsed_us(start) < enough_s * 1e6); ++round)
     for (size_t i = 0; i < candidates.size(); ++i) {
       const bool warming = round == 0;
       const int first = warming ? 0 : warm_looks + (round - 1) * looks_a_round;

@@ -1,12 +1,9 @@
 #include "collide/decay_cl.hpp"
 
-#include "every_device.hpp"
-#include "reaming_scene.hpp"
+#include "fresh_bones.hpp"
 
 namespace ream::collide {
 namespace {
-
-constexpr LaunchShape shapes[] = {{1, 1}, {16, 1}, {3, 8}, {2, 64}};
 
 struct Answer {
   RemovalSums sums;
@@ -42,19 +39,16 @@ struct Expected {
   int changed = 0;
 };
 
-/// Takes from a bone of its own for every launch shape.
 void expect_the_same(const Expected& expected, unsigned seed, const gpu::Device& device,
                      std::optional<size_t> largest_buffer_bytes = {}, int parts = 1) {
-  for (const LaunchShape shape : shapes) {
-    SCOPED_TRACE(std::to_string(shape.groups) + " groups of " + std::to_string(shape.lanes));
-    test::ReamingScene scene(seed, expected.scene.bone.grid.dims);
-    const auto buffers = std::make_shared<BoneBuffers>(device, scene.bone, largest_buffer_bytes);
-    ASSERT_EQ(buffers->parts.count, parts);
+  const auto check = [&](test::ReamingScene& scene, const std::shared_ptr<BoneBuffers>& buffers,
+                         LaunchShape shape) {
     const auto cl = make_decay_cl({expected.shell, scene.bone}, buffers, shape);
     for (size_t i = 0; i < expected.poses.size(); ++i)
       ASSERT_EQ(apply(*cl, expected.poses[i]), expected.answers[i]) << "pose " << i;
     ASSERT_EQ(scene.bone.coverage, expected.scene.bone.coverage);
-  }
+  };
+  test::with_every_shape(seed, expected.scene.bone.grid.dims, device, largest_buffer_bytes, parts, check);
 }
 
 TEST(DecayCl, TakesWhatTheCppTwinTakesAtAThousandRandomPoses) {
@@ -66,16 +60,7 @@ TEST(DecayCl, TakesWhatTheCppTwinTakesAtAThousandRandomPoses) {
 }
 
 TEST(DecayCl, TakesTheSameWhereTheBoneIsInParts) {
-  constexpr unsigned seed = 52;
-  std::cout << "seed " << seed << '\n';
-  for (const auto& [dims, largest_buffer_bytes, parts] : test::small_parts) {
-    SCOPED_TRACE(std::to_string(parts) + " parts");
-    const Expected expected(seed, dims, 200);
-    EXPECT_GT(expected.changed, 100);
-    test::on_every_device([&, limit = largest_buffer_bytes, count = parts](const gpu::Device& device) {
-      expect_the_same(expected, seed, device, limit, count);
-    });
-  }
+  test::in_small_parts<Expected>(52, [](const auto&... arguments) { expect_the_same(arguments...); });
 }
 
 }  // namespace
