@@ -1,14 +1,19 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "geometry/pose.hpp"
 
 namespace ream::device {
 
+/// Impedance devices give a pose and take a force; admittance devices give the hand's force and take a pose.
+enum class Causality { impedance, admittance };
+
 /// What a device can render, hand side, and who it is.
 struct DeviceTraits {
   std::string name;
+  Causality causality = Causality::impedance;
   double force_max_n = 0.0;      ///< continuous
   double torque_max_n_mm = 0.0;  ///< 0: no torque
   double stiffness_max_n_mm = 0.0;
@@ -16,14 +21,17 @@ struct DeviceTraits {
 };
 
 struct DeviceInput {
-  Pose world_from_handle;
+  Pose world_from_handle;                ///< impedance devices; admittance devices leave it as it is
+  Vec3 hand_force_n = Vec3::Zero();      ///< of the hand on the device, world frame; admittance devices only
+  Vec3 hand_torque_n_mm = Vec3::Zero();  ///< about the tool's origin, world frame; admittance devices only
   bool spindle_on = false;
   bool paused = false;
 };
 
 struct DeviceOutput {
-  Vec3 force_n = Vec3::Zero();      ///< on the hand, world frame
-  Vec3 torque_n_mm = Vec3::Zero();  ///< on the hand about the handle's origin, world frame
+  Vec3 force_n = Vec3::Zero();          ///< on the hand, world frame
+  Vec3 torque_n_mm = Vec3::Zero();      ///< on the hand about the handle's origin, world frame
+  std::optional<Pose> world_from_tool;  ///< where an admittance device moves to; empty: it stays
 };
 
 enum class DeviceStatus {

@@ -9,14 +9,15 @@ namespace {
 
 class EmpiricalFeedModel final : public FeedModel {
  public:
-  double resistance_n_s_mm(const EngagedBone& bone) const noexcept override {
-    double resistance = 0.0;
+  CuttingLoad load(const EngagedBone& bone, double) const noexcept override {
+    CuttingLoad load;
     for (int k = 0; k < 3; ++k) {
       const auto i = static_cast<size_t>(k);
       if (bone.share[i] > 0.0)
-        resistance += bone.share[i] * reference_thrust_n / empirical_feed_mm_s(k, bone.density_g_cc[i]);
+        load.resistance_n_s_mm +=
+            bone.share[i] * reference_thrust_n / empirical_feed_mm_s(k, bone.density_g_cc[i]);
     }
-    return resistance;
+    return load;
   }
 };
 

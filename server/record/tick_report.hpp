@@ -16,11 +16,13 @@ struct TickReport {
   Pose world_from_tool, world_from_handle;
   Vec3 hand_force_n = Vec3::Zero();  ///< sent to the device, world frame
   Vec3 hand_torque_n_mm = Vec3::Zero();
-  double thrust_n = 0.0;        ///< simulated, along the tool axis, pressing into the bone positive
-  double torque_n_mm = 0.0;     ///< simulated, magnitude of the moment about the tool's origin
-  double feed_rate_mm_s = 0.0;  ///< of the tool along its axis while engaged
-  double density_g_cc = 0.0;    ///< mean of the engaged cutting points
-  double share[3] = {0, 0, 0};  ///< cancellous, cortical, cartilage
+  double thrust_n = 0.0;             ///< simulated, along the tool axis, pressing into the bone positive
+  double torque_n_mm = 0.0;          ///< simulated, magnitude of the moment about the tool's origin
+  double spindle_torque_n_mm = 0.0;  ///< simulated, that turns the spindle; the hand holds against it
+  double vibration_g = 0.0;          ///< acceleration of the tool beside what contact does
+  double feed_rate_mm_s = 0.0;       ///< of the tool along its axis while engaged
+  double density_g_cc = 0.0;         ///< mean of the engaged cutting points
+  double share[3] = {0, 0, 0};       ///< cancellous, cortical, cartilage
   int64_t engaged_points = 0;
   int64_t coverage_removed[3] = {0, 0, 0};  ///< this tick, coverage levels (1/255 voxel) by class
   uint32_t changed_bricks = 0;

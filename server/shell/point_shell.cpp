@@ -40,7 +40,7 @@ ShellPoint point_of(const MeridianHit& hit, const Vec3& normal, SurfaceRole role
   ShellPoint p;
   p.morton = morton;
   p.normal = normal.cast<float>();
-  p.area_weight = static_cast<uint8_t>(std::lround(16.0 / normal.cwiseAbs().maxCoeff()));
+  p.area_weight = static_cast<uint8_t>(std::lround(area_weights_a_face / normal.cwiseAbs().maxCoeff()));
   p.surface_offset_mm = static_cast<float>(-hit.signed_distance_mm);
   p.role = role;
   return p;

@@ -8,13 +8,16 @@
 
 namespace ream::shell {
 
+/// Area weights are whole numbers of this part of a cell face.
+inline constexpr int area_weights_a_face = 16;
+
 /// One point of the shell that feels bone, tool frame.
 struct ShellPoint {
   uint64_t morton = 0;  ///< cell of the shell's grid
   Vec3f normal =
       Vec3f::UnitZ();  ///< outward, unit; it meets the axis, as the envelope is a surface of revolution
   float surface_offset_mm = 0;  ///< signed step along the normal from the cell centre to the true surface
-  uint8_t area_weight = 16;     ///< area in 1/16 of a cell face: 16 / max|n_i| for the thin voxelization
+  uint8_t area_weight = area_weights_a_face;  ///< area: 16 / max|n_i| for the thin voxelization
   SurfaceRole role = SurfaceRole::cutting;
 };
 

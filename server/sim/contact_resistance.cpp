@@ -25,11 +25,14 @@ double largest_translational(const collide::ContactSums::Part& part) {
 
 }  // namespace
 
-force::EngagedBone engaged_bone(const collide::ContactSums& sums) noexcept {
+force::EngagedBone engaged_bone(const Model& model, const collide::ContactSums& sums) noexcept {
   force::EngagedBone bone;
   int64_t total = 0;
   for (const int64_t n : sums.class_points) total += n;
   if (total == 0) return bone;
+  const double spacing_mm = model.settings.tool_spacing_mm;
+  bone.area_mm2 =
+      static_cast<double>(sums.cutting.first[6]) / shell::area_weights_a_face * spacing_mm * spacing_mm;
   for (size_t k = 0; k < 3; ++k) {
     if (sums.class_points[k] == 0) continue;
     const auto points = static_cast<double>(sums.class_points[k]);

@@ -5,8 +5,8 @@
 
 namespace ream::sim {
 
-/// Shares and mean densities of what the cutting surface engages.
-force::EngagedBone engaged_bone(const collide::ContactSums& sums) noexcept;
+/// Shares, mean densities and area of what the cutting surface engages.
+force::EngagedBone engaged_bone(const Model& model, const collide::ContactSums& sums) noexcept;
 
 /// The 6x6 resistance of DESIGN 3 from the contact sums: scaled so that full axial contact has the feed
 /// model's resistance, whatever the engaged area. A standing spindle (or thrust too small to cut) makes

@@ -35,6 +35,7 @@ struct State {
   /// it stands; negative: nobody has looked there yet.
   double free_path_mm = -1.0;
   size_t nearest_block = 0;  ///< of the shell to bone, when that was last looked for
+  double thrust_n = 0.0;     ///< simulated, of the last tick
   uint64_t session_hash = 0;
 };
 

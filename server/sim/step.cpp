@@ -38,11 +38,11 @@ Pose moved_within_a_voxel(const Model& model, const Pose& world_from_tool, const
 /// Spring, feed law and motion of the tool that touches bone; fills the force part of the report.
 void press(const Model& model, State& state, const collide::ContactSums& sums,
            const device::DeviceInput& input, TickReport& report) {
-  const force::EngagedBone bone = engaged_bone(sums);
-  const double resistance_n_s_mm = bone.any() ? model.feed->resistance_n_s_mm(bone) : 0.0;
+  const force::EngagedBone bone = engaged_bone(model, sums);
+  const force::CuttingLoad load = bone.any() ? model.feed->load(bone, state.thrust_n) : force::CuttingLoad{};
   const force::Vec6 delta = handle_minus_tool(state.world_from_tool, input.world_from_handle);
   const auto couple_when = [&](bool cuts) {
-    return force::couple(model.coupling, contact_resistance(model, sums, resistance_n_s_mm, cuts), delta,
+    return force::couple(model.coupling, contact_resistance(model, sums, load.resistance_n_s_mm, cuts), delta,
                          tick_s);
   };
   force::CouplingStep coupled = couple_when(input.spindle_on);
@@ -111,6 +111,7 @@ StepStatus step(const Model& model, State& state, const device::DeviceInput& raw
     if (!found.ok) return StepStatus::collision_failed;
     if (found.sums.engaged() > 0) press(model, state, found.sums, input, report);
   }
+  state.thrust_n = report.thrust_n;
   report.world_from_tool = state.world_from_tool;
   report.grid_from_tool = quantised(state.bone.grid.world_from_grid.inverse() * state.world_from_tool);
 

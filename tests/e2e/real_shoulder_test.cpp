@@ -57,7 +57,7 @@ struct Reaming {
     record::TickReport report;
     while (device->read(input) == device::DeviceStatus::ok &&
            sim::step(model, state, input, report) == sim::StepStatus::ok) {
-      device->write({report.hand_force_n, report.hand_torque_n_mm});
+      device->write({report.hand_force_n, report.hand_torque_n_mm, report.world_from_tool});
       reports.push_back(report);
     }
   }

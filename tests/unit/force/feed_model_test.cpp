@@ -33,11 +33,12 @@ TEST(EmpiricalFeedModel, MixesClassesByShare) {
   EngagedBone pure;
   pure.share = {0, 1, 0};
   pure.density_g_cc = {0, 1.68, 0};
-  EXPECT_NEAR(model->resistance_n_s_mm(pure), 52.0 / 0.026, 1e-6);  // the thesis' damping of 2000 N s/mm
+  EXPECT_NEAR(model->load(pure, 0.0).resistance_n_s_mm, 52.0 / 0.026,
+              1e-6);  // the thesis' damping of 2000 N s/mm
   EngagedBone mixed = pure;
   mixed.share = {0.5, 0.5, 0};
   mixed.density_g_cc = {0.6, 1.68, 0};
-  EXPECT_NEAR(model->resistance_n_s_mm(mixed), 0.5 * 52.0 / 0.026 + 0.5 * 52.0 / 0.216, 1e-6);
+  EXPECT_NEAR(model->load(mixed, 0.0).resistance_n_s_mm, 0.5 * 52.0 / 0.026 + 0.5 * 52.0 / 0.216, 1e-6);
 }
 
 }  // namespace
