@@ -1,5 +1,7 @@
 #include "force/virtual_mass.hpp"
 
+#include <algorithm>
+
 #include "core/clock.hpp"
 
 namespace ream::force {
@@ -22,12 +24,12 @@ CouplingParameters coupling_of(const VirtualMass& mass, double force_scale) noex
 Vec6 free_flight(const VirtualMass& mass, const Vec6& twist, const Wrench& hand) noexcept {
   const double linear_gain = tick_s * mm_s2_per_n_kg / mass.mass_kg;
   const double angular_gain = tick_s * mm_s2_per_n_kg / inertia_kg_mm2(mass);
-  const double slowed = 1.0 / (1.0 + linear_gain * mass.damping_n_s_mm);
+  const double kept = std::max(0.0, 1.0 - linear_gain * mass.damping_n_s_mm);
   Vec6 way{};
   for (size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<Eigen::Index>(i);
-    way[i] = tick_s * slowed * (twist[i] + linear_gain * hand.force_n[axis]);
-    way[3 + i] = tick_s * slowed * (twist[3 + i] + angular_gain * hand.torque_n_mm[axis]);
+    way[i] = tick_s * (kept * twist[i] + linear_gain * hand.force_n[axis]);
+    way[3 + i] = tick_s * (kept * twist[3 + i] + angular_gain * hand.torque_n_mm[axis]);
   }
   return way;
 }
