@@ -30,6 +30,7 @@ struct Settings {
   double force_scale = 1.0;     ///< simulated N per hand N
   double stiffness_n_mm = 2.0;  ///< coupling, hand side
   double angular_stiffness_n_mm_rad = 2000.0;
+  force::FeedSettings feed;
   force::DeviceLimits limits;
   uint64_t random_seed = 1;
 };
