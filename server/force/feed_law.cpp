@@ -6,8 +6,8 @@ namespace ream::force {
 
 double empirical_feed_mm_s(int bone_class, double density_g_cc, double specimen_factor) noexcept {
   const FeedLaw& law = bone_class == 1 ? cortical_feed_law : cancellous_feed_law;
-  const double feed_mm_s = bone_class == 2 ? cartilage_feed_mm_s
-                                           : law.slope_mm_s_per_g_cc * density_g_cc + law.intercept_mm_s;
+  const double feed_mm_s =
+      bone_class == 2 ? cartilage_feed_mm_s : law.slope_mm_s_per_g_cc * density_g_cc + law.intercept_mm_s;
   return std::max(slowest_feed_mm_s, specimen_factor * feed_mm_s);
 }
 

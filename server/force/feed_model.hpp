@@ -50,8 +50,9 @@ FeedKind feed_kind_from_text(const std::string& text);
 
 struct FeedSettings {
   FeedKind kind = FeedKind::empirical;
-  /// Above 0. Every model keeps the feed per revolution at a given thrust (what machining assumes; engineering
-  /// choice), so that the feed rate is proportional to it; at reference_spindle_rad_s it is the thesis' law.
+  /// Above 0. Every model keeps the feed per revolution at a given thrust (what machining assumes;
+  /// engineering choice), so that the feed rate is proportional to it; at reference_spindle_rad_s it is the
+  /// thesis' law.
   double spindle_rad_s = reference_spindle_rad_s;
   /// Feed of this specimen over the law's, above 0: specimens of one density differ. Those of table 5.1 range
   /// from 0.71 to 1.09 in cortical and from 0.91 to 1.10 in cancellous bone. Scales every class alike.

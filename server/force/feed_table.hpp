@@ -7,8 +7,8 @@
 namespace ream::force {
 
 /// Thrust and torque of all lips against the feed per revolution, for a specific cutting coefficient of 1
-/// N/mm^2: thrust in N per N/mm^2 (mm^2), torque in N mm per N/mm^2 (mm^3). Linear between its rows and beyond
-/// the last one; the first is all zero. Reading it takes comparison and + - x / only.
+/// N/mm^2: thrust in N per N/mm^2 (mm^2), torque in N mm per N/mm^2 (mm^3). Linear between its rows and
+/// beyond the last one; the first is all zero. Reading it takes comparison and + - x / only.
 class FeedTable {
  public:
   /// Feeds and thrusts ascend strictly from 0; at least two rows.

@@ -29,7 +29,7 @@ CuttingAngles cutting_angles(const LipElement& element, double offset_mm, double
 
 Mat3 machining_from_cutting(const CuttingAngles& a) {
   Mat3 r;
-  r << a.cos_tau, 0.0, -a.sin_tau,                                            //
+  r << a.cos_tau, 0.0, -a.sin_tau,                                          //
       a.sin_tau * a.sin_cutting, a.cos_cutting, a.cos_tau * a.sin_cutting,  //
       a.sin_tau * a.cos_cutting, -a.sin_cutting, a.cos_tau * a.cos_cutting;
   return r;
@@ -53,13 +53,15 @@ ElementLoad element_load(const LipElement& element, double offset_mm, const Cutt
   load.radius_mm = element.radius_mm;
   const double feed_a_lip_mm = conditions.feed_a_revolution_mm / lip_count;
   load.depth_of_cut_mm = feed_a_lip_mm * a.cos_tau * a.cos_cutting;
-  // With w = cos(lambda) dr / (sin(epsilon) cos(beta)), A.11 leaves this of l w, finite at both of lip's ends.
+  // With w = cos(lambda) dr / (sin(epsilon) cos(beta)), A.11 leaves this of l w, finite at both of lip's
+  // ends.
   load.chip_mm2 = feed_a_lip_mm * a.cos_cutting * element.radial_width_mm;
 
   const double depth = load.depth_of_cut_mm / reference_depth_of_cut_mm;
   const double speed =
       conditions.spindle_rad_s * element.radius_mm / a.cos_cutting / reference_lip_speed_mm_s;
-  const double cutting = conditions.specific_coefficient_n_mm2 * std::pow(depth, coefficients.depth_exponent) *
+  const double cutting = conditions.specific_coefficient_n_mm2 *
+                         std::pow(depth, coefficients.depth_exponent) *
                          std::pow(speed, coefficients.speed_exponent);
   const double friction = coefficients.friction * std::pow(depth, coefficients.friction_depth_exponent) *
                           std::pow(speed, coefficients.friction_speed_exponent);

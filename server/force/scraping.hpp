@@ -5,8 +5,8 @@
 
 namespace ream::force {
 
-/// Experimental: bone is worn off rather than cut (Archard 1953, Preston 1927; thesis 5.2 suspects scraping at
-/// 156 rpm). The depth worn a second is k p v, with pressure p and sliding speed v = 2 pi r n at n
+/// Experimental: bone is worn off rather than cut (Archard 1953, Preston 1927; thesis 5.2 suspects scraping
+/// at 156 rpm). The depth worn a second is k p v, with pressure p and sliding speed v = 2 pi r n at n
 /// revolutions a second. A cap that sinks evenly at f into a footprint of radius R needs
 ///   p(r) = f / (2 pi k n r),   thrust F = integral of p 2 pi r dr over the footprint = f R / (k n),
 ///   torque M = integral of friction p r 2 pi r dr = friction f R^2 / (2 k n) = friction F R / 2.

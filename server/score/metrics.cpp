@@ -72,8 +72,8 @@ nlohmann::json metrics_json(const Metrics& m, double force_scale, const uint64_t
           {"reaming_depth_mm", m.reaming_depth_mm},
           {"axial_thrust_mean_n", m.axial_thrust_mean_n},
           {"axial_thrust_peak_n", m.axial_thrust_peak_n},
-          {"apparent_stiffness_n_mm", m.apparent_stiffness_n_mm ? nlohmann::json(*m.apparent_stiffness_n_mm)
-                                                                : nlohmann::json()},
+          {"apparent_stiffness_n_mm",
+           m.apparent_stiffness_n_mm ? nlohmann::json(*m.apparent_stiffness_n_mm) : nlohmann::json()},
           {"duration_s", m.duration_s},
           {"contact_time_s", m.contact_time_s},
           {"force_scale", force_scale},

@@ -26,7 +26,8 @@ struct Metrics {
   uint64_t session_hash = 0;
 };
 
-/// Apparent stiffness is measured from the thrust at which lips begin to cut to 90 % of the experiments' 52 N.
+/// Apparent stiffness is measured from the thrust at which lips begin to cut to 90 % of the experiments' 52
+/// N.
 inline constexpr double stiffness_from_n = 1.0, stiffness_to_n = 0.9 * 52.0;
 
 /// Accumulates metrics from tick reports, in order. Sums in a fixed order, so equal runs give equal bytes.

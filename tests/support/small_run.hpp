@@ -15,7 +15,8 @@ struct SmallRun {
            sim::RemovalLaw removal = sim::RemovalLaw::profile,
            force::FeedKind feed_kind = force::FeedKind::empirical)
       : bone(std::move(bone_in)),
-        model(sim::make_model(plan, bone, shell::make_tool(tool), settings(script, backend, removal, feed_kind))),
+        model(sim::make_model(plan, bone, shell::make_tool(tool),
+                              settings(script, backend, removal, feed_kind))),
         state(model, bone),
         device(device::make_scripted_device(script, model.world_from_plan)) {}
 

@@ -92,9 +92,10 @@ void add_simulate_command(CLI::App& app, GlobalOptions& global) {
   command->add_option("--backend", options->request.backend, "auto, cpu, opencl or opencl:N")
       ->capture_default_str();
   command
-      ->add_option("--model", options->model,
-                   "Feed model: empirical (the thesis' law), oblique (cutting mechanics of its appendix A) or "
-                   "scraping (experimental: wear, resistance grows with the engaged area)")
+      ->add_option(
+          "--model", options->model,
+          "Feed model: empirical (the thesis' law), oblique (cutting mechanics of its appendix A) or "
+          "scraping (experimental: wear, resistance grows with the engaged area)")
       ->check(CLI::IsMember({"empirical", "oblique", "scraping"}))
       ->capture_default_str();
   command

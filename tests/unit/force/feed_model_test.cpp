@@ -65,7 +65,8 @@ TEST_P(EveryFeedModel, KeepsTheFeedOfARevolutionAtAnySpindleSpeed) {
     s.spindle_rad_s = times * reference_spindle_rad_s;
     const auto model = model_of(s);
     for (const double thrust_n : {10.0, 52.0}) {
-      const CuttingLoad a = at_reference->load(bone_of(0, 0.6), thrust_n), b = model->load(bone_of(0, 0.6), thrust_n);
+      const CuttingLoad a = at_reference->load(bone_of(0, 0.6), thrust_n),
+                        b = model->load(bone_of(0, 0.6), thrust_n);
       EXPECT_NEAR(a.resistance_n_s_mm / b.resistance_n_s_mm, times, 1e-9);
       EXPECT_NEAR(a.torque_arm_mm, b.torque_arm_mm, 1e-9);
     }

@@ -52,7 +52,11 @@ TEST(ObliqueCutting, FiveRadiiByHand) {
   // chip area and specific coefficient, torque likewise.
   struct {
     double radius_mm, sin_inclination, depth_mm, thrust, torque_mm;
-  } const by_hand[] = {{3.2, 0.934147511535, 0.017502484222, -0.00209486117543, 2.5383047829}, {6.0, 0.493119815859, 0.0176610370424, 0.375344094976, 5.94391043712}, {10.0, 0.285872416135, 0.0170513677871, 0.407613275011, 9.98546369039}, {14.0, 0.185072098775, 0.0154108893529, 0.373067939655, 13.9925745294}, {18.0, 0.0542735789139, 0.00570860027259, 0.133360447749, 17.9980759003}};
+  } const by_hand[] = {{3.2, 0.934147511535, 0.017502484222, -0.00209486117543, 2.5383047829},
+                       {6.0, 0.493119815859, 0.0176610370424, 0.375344094976, 5.94391043712},
+                       {10.0, 0.285872416135, 0.0170513677871, 0.407613275011, 9.98546369039},
+                       {14.0, 0.185072098775, 0.0154108893529, 0.373067939655, 13.9925745294},
+                       {18.0, 0.0542735789139, 0.00570860027259, 0.133360447749, 17.9980759003}};
   for (const auto& hand : by_hand) {
     const LipElement element = ellipse_element(hand.radius_mm, 0.1);
     const CuttingAngles angles = cutting_angles(element, thesis_offset_mm(), 0.09);
@@ -130,11 +134,12 @@ TEST(ObliqueCutting, AgreesWithTheCorrectedA16AndA17) {
 }
 
 TEST(ObliqueCutting, SpindleAndFeedDoTheWorkOfTheForces) {
-  // Torque times angle plus thrust times feed, over a revolution, is what the force does on the element's way.
-  // A.15 as printed, with y' in the place of y, does not keep it.
+  // Torque times angle plus thrust times feed, over a revolution, is what the force does on the element's
+  // way. A.15 as printed, with y' in the place of y, does not keep it.
   for (const double radius_mm : radii_mm)
     for (const double feed_mm : feeds_mm) {
-      const ElementLoad load = element_load(ellipse_element(radius_mm, 0.1), thesis_offset_mm(), {}, {feed_mm});
+      const ElementLoad load =
+          element_load(ellipse_element(radius_mm, 0.1), thesis_offset_mm(), {}, {feed_mm});
       const VectorReference v(radius_mm, thesis_offset_mm(), rise_of_ellipse(radius_mm), feed_mm);
       const double path_mm = std::hypot(2.0 * pi * radius_mm, feed_mm);
       const double work = -load.chip_mm2 * path_mm * v.velocity.dot(v.across_rake + 0.5 * v.chip_drag());
@@ -177,7 +182,8 @@ TEST(ObliqueCutting, PrintedA7IsRejected) {
     const double rise = (height(radius_mm + step_mm) - height(radius_mm - step_mm)) / (2.0 * step_mm);
     const LipElement element = ellipse_element(radius_mm, 0.1);
     EXPECT_NEAR(element.point_angle_cosine / element.point_angle_sine, rise, 1e-6 * rise);
-    const double printed = ellipse_a_mm * std::sqrt(ellipse_a_mm * ellipse_a_mm - radius_mm * radius_mm) / radius_mm;
+    const double printed =
+        ellipse_a_mm * std::sqrt(ellipse_a_mm * ellipse_a_mm - radius_mm * radius_mm) / radius_mm;
     EXPECT_GT(std::abs(printed * rise - 1.0), 5.0) << "radius " << radius_mm;
   }
 }
@@ -215,8 +221,8 @@ TEST(ObliqueCutting, AtTheRimOnlyTorqueIsLeft) {
 }
 
 TEST(ObliqueCutting, AFlatAndAHollowAreTheVectorsToo) {
-  // Flat lips of a mesh tool, and a surface that comes forward again outwards: there tau turns negative, which
-  // the arc cosine of A.11 cannot say.
+  // Flat lips of a mesh tool, and a surface that comes forward again outwards: there tau turns negative,
+  // which the arc cosine of A.11 cannot say.
   for (const double rise : {0.0, -0.4})
     for (const double radius_mm : {3.5, 8.0}) {
       const double length = std::sqrt(1.0 + rise * rise);
@@ -253,12 +259,13 @@ TEST(ObliqueCutting, ElementsConvergeFast) {
 }
 
 TEST(ObliqueCutting, LeavingTheOffsetToTheWebAngleMattersLittle) {
-  // A lip that lies on the swept surface rises by dz/dr times dr/ds along its own line; taking dz/dr (A.7 with
-  // y_A = r) changes torque over thrust by a few percent.
+  // A lip that lies on the swept surface rises by dz/dr times dr/ds along its own line; taking dz/dr (A.7
+  // with y_A = r) changes torque over thrust by a few percent.
   Lip exact = thesis_lip(500);
   for (LipElement& e : exact.elements) {
     const double out = std::sqrt(1.0 - exact.offset_mm * exact.offset_mm / (e.radius_mm * e.radius_mm));
-    const double rise = e.point_angle_cosine / e.point_angle_sine * out, length = std::sqrt(1.0 + rise * rise);
+    const double rise = e.point_angle_cosine / e.point_angle_sine * out,
+                 length = std::sqrt(1.0 + rise * rise);
     e.point_angle_sine = 1.0 / length;
     e.point_angle_cosine = rise / length;
   }
@@ -280,9 +287,10 @@ TEST(ObliqueCutting, PowerLawsScaleEachElement) {
   EXPECT_NEAR(load(fast, 0.09, 40.0).torque_n_mm, load(fast, 0.09, 20.0).torque_n_mm * std::pow(2.0, 0.2),
               1e-12);
   EXPECT_EQ(load(plain, 0.09, 40.0).thrust_n, base.thrust_n);
-  const double friction = 0.5 * std::pow(depth, -0.1) *
-                          std::pow(20.0 * 12.0 / reference_lip_speed_mm_s, -0.2);
-  EXPECT_NEAR(load(slippery, 0.09, 20.0).thrust_n, load({friction}, 0.09, 20.0).thrust_n, 1e-6 * base.thrust_n);
+  const double friction =
+      0.5 * std::pow(depth, -0.1) * std::pow(20.0 * 12.0 / reference_lip_speed_mm_s, -0.2);
+  EXPECT_NEAR(load(slippery, 0.09, 20.0).thrust_n, load({friction}, 0.09, 20.0).thrust_n,
+              1e-6 * base.thrust_n);
 }
 
 TEST(ObliqueCutting, ThrustOfEveryElementBeyondTheInnermostIsPositive) {

@@ -51,7 +51,14 @@ TEST(CuttingTool, ANippleHasNoLip) {
 TEST(CuttingTool, WallsAndHiddenPartsCutNothing) {
   // A flat to 6 mm, a step back, a groove that a wider part covers, and a hollow that comes forward again.
   const shell::ToolProfile profile{
-      {{0.0, 0.0}, {6.0, 0.0}, {6.0, -1.0}, {5.0, -1.5}, {8.0, -2.0}, {10.0, -1.8}, {10.0, -6.0}, {0.0, -6.0}},
+      {{0.0, 0.0},
+       {6.0, 0.0},
+       {6.0, -1.0},
+       {5.0, -1.5},
+       {8.0, -2.0},
+       {10.0, -1.8},
+       {10.0, -6.0},
+       {0.0, -6.0}},
       {SurfaceRole::cutting, SurfaceRole::cutting, SurfaceRole::cutting, SurfaceRole::cutting,
        SurfaceRole::cutting, SurfaceRole::smooth, SurfaceRole::smooth}};
   const force::Lip lip = cutting_tool(profile, 2.0).lip;
