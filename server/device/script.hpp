@@ -48,6 +48,7 @@ struct Script {
   double force_scale = 1.0;     ///< simulated N per hand N
   double stiffness_n_mm = 0.0;  ///< of the coupling, hand side; 0: the device's own
   double spindle_rpm = 156.0;
+  double specimen_factor = 1.0;  ///< feed of this specimen over the feed law's
   HandParameters hand;
   std::vector<TimedPose> poses;       ///< at least one for ScriptKind::poses, times ascending
   std::vector<TimedButtons> buttons;  ///< times ascending; before the first: spindle on, no pause
