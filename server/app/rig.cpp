@@ -1,5 +1,6 @@
 #include "app/rig.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/case_path.hpp"
@@ -20,6 +21,9 @@ const case_::Plan& plan_of(const case_::Case& c) {
   return *c.plan;
 }
 
+/// A coupling turns as stiffly as its linear spring does on a lever of 32 mm, the reamer's size, mm^2.
+constexpr double angular_per_linear_mm2 = 1000.0;
+
 device::Script find_script(const RunRequest& request) {
   device::Script script =
       request.script_name == "demo" ? device::demo_script() : device::load_script(request.script_name);
@@ -35,7 +39,8 @@ sim::Settings settings_for(const RunRequest& request, const device::Script& scri
   settings.tool_spacing_mm = request.tool_spacing_mm;
   settings.force_scale = script.force_scale;
   settings.stiffness_n_mm = script.stiffness_n_mm > 0.0 ? script.stiffness_n_mm : traits.stiffness_max_n_mm;
-  settings.angular_stiffness_n_mm_rad = settings.stiffness_n_mm * 1000.0;
+  settings.angular_stiffness_n_mm_rad =
+      std::min(settings.stiffness_n_mm * angular_per_linear_mm2, traits.angular_stiffness_max_n_mm_rad);
   settings.limits = {traits.force_max_n, traits.torque_max_n_mm};
   settings.random_seed = request.random_seed;
   return settings;
@@ -56,7 +61,8 @@ Rig::Rig(const RunRequest& request_in, const fs::path& data)
     : request(request_in),
       script(find_script(request)),
       bone_case(find_case(request.case_name, data)),
-      device(device::make_scripted_device(script, sim::world_from_plan(plan_of(bone_case)))),
+      device(device::make_scripted_device(script, sim::world_from_plan(plan_of(bone_case)),
+                                          request.random_seed)),
       model(sim::make_model(plan_of(bone_case), bone_case.bone, tool_for(request, plan_of(bone_case)),
                             settings_for(request, script, device->traits()))),
       state(model, bone_case.bone) {}
@@ -73,6 +79,7 @@ nlohmann::json Rig::description() const {
       {"shell_points", model.contact_shell.size()},
       {"backend", state.backend.name},
       {"removal", sim::to_text(model.settings.removal)},
+      {"device_profile", device->traits().profile},
       {"force_scale", model.settings.force_scale},
       {"stiffness_n_mm", model.settings.stiffness_n_mm},
       {"random_seed", model.settings.random_seed},
