@@ -1,6 +1,5 @@
 #include "app/rig.hpp"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/case_path.hpp"
@@ -8,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "ct/phantom_case.hpp"
+#include "sim/device_settings.hpp"
 
 namespace ream::app {
 namespace {
@@ -20,9 +20,6 @@ const case_::Plan& plan_of(const case_::Case& c) {
                                          " --axis X,Y,Z,DX,DY,DZ`");
   return *c.plan;
 }
-
-/// A coupling turns as stiffly as its linear spring does on a lever of 32 mm, the reamer's size, mm^2.
-constexpr double angular_per_linear_mm2 = 1000.0;
 
 device::Script find_script(const RunRequest& request) {
   device::Script script =
@@ -38,10 +35,7 @@ sim::Settings settings_for(const RunRequest& request, const device::Script& scri
   settings.removal = request.removal;
   settings.tool_spacing_mm = request.tool_spacing_mm;
   settings.force_scale = script.force_scale;
-  settings.stiffness_n_mm = script.stiffness_n_mm > 0.0 ? script.stiffness_n_mm : traits.stiffness_max_n_mm;
-  settings.angular_stiffness_n_mm_rad =
-      std::min(settings.stiffness_n_mm * angular_per_linear_mm2, traits.angular_stiffness_max_n_mm_rad);
-  settings.limits = {traits.force_max_n, traits.torque_max_n_mm};
+  sim::fit_to_device(traits, script.stiffness_n_mm, settings);
   settings.random_seed = request.random_seed;
   return settings;
 }

@@ -7,7 +7,7 @@ namespace ream::device {
 namespace {
 
 /// Time constant of the robot's speed control, and how long it may be held up before that is contact.
-constexpr double speed_control_s = 0.01, contact_after_s = 0.02, under_way_after_s = 0.1;
+constexpr double speed_control_s = 0.004, contact_after_s = 0.02, under_way_after_s = 0.1;
 /// How firmly the robot keeps its line and orientation. Engineering choice.
 constexpr double line_stiffness_n_mm = 20.0, line_damping_n_s_mm = 0.2;
 constexpr double turn_stiffness_n_mm_rad = 5.0e4, turn_damping_n_mm_s_rad = 500.0;

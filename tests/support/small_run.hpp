@@ -1,7 +1,9 @@
 #pragma once
 #include <vector>
 
+#include "device/profiles.hpp"
 #include "device/script.hpp"
+#include "sim/device_settings.hpp"
 #include "sim/step.hpp"
 #include "support/test_bone.hpp"
 
@@ -24,8 +26,8 @@ struct SmallRun {
     s.removal = removal;
     s.tool_spacing_mm = 0.25;
     s.force_scale = script.force_scale;
-    s.stiffness_n_mm = script.stiffness_n_mm;
-    s.angular_stiffness_n_mm_rad = 1000.0 * script.stiffness_n_mm;
+    sim::fit_to_device(device::device_profile(script.device_profile), script.stiffness_n_mm, s);
+    s.limits = {};  // what the simulation wants to render, not what a device makes of it
     return s;
   }
 
