@@ -6,6 +6,7 @@
 #include "app/version.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/units.hpp"
 #include "ct/phantom_case.hpp"
 #include "sim/device_settings.hpp"
 
@@ -37,6 +38,9 @@ sim::Settings settings_for(const RunRequest& request, const device::Script& scri
   settings.force_scale = script.force_scale;
   sim::fit_to_device(traits, script.stiffness_n_mm, settings);
   settings.random_seed = request.random_seed;
+  settings.feed.kind = request.feed_kind;
+  settings.feed.spindle_rad_s = rad_s_from_rpm(script.spindle_rpm);
+  settings.feed.specimen_factor = script.specimen_factor;
   return settings;
 }
 
@@ -76,12 +80,17 @@ nlohmann::json Rig::description() const {
       {"device_profile", device->traits().profile},
       {"force_scale", model.settings.force_scale},
       {"stiffness_n_mm", model.settings.stiffness_n_mm},
+      {"model", force::to_text(model.settings.feed.kind)},
+      {"spindle_rpm", script.spindle_rpm},
+      {"specimen_factor", model.settings.feed.specimen_factor},
       {"random_seed", model.settings.random_seed},
       {"grid_dims",
        {bone_case.bone.grid.dims.x(), bone_case.bone.grid.dims.y(), bone_case.bone.grid.dims.z()}},
       {"start_grid_hash", to_hex(bone_case.bone.coverage_hash())}};
   if (model.settings.removal == sim::RemovalLaw::decay)
     description["decay_levels"] = model.settings.decay_levels;
+  if (const uint64_t hash = model.feed->table_hash(); hash != 0)
+    description["feed_table_hash"] = to_hex(hash);
   return description;
 }
 

@@ -149,6 +149,7 @@ Script parse_script(const nlohmann::json& json, const std::string& where) {
   script.stiffness_n_mm = reader.number_or("stiffness_n_mm", script.stiffness_n_mm, 0.0, 100.0);
   parse_profile(reader, script);
   script.spindle_rpm = reader.number_or("spindle_rpm", script.spindle_rpm, 1.0, 2000.0);
+  script.specimen_factor = reader.number_or("specimen_factor", script.specimen_factor, 0.1, 10.0);
   if (script.kind == ScriptKind::hand) script.hand = parse_hand(reader.object("hand"));
   if (script.kind == ScriptKind::robot) script.robot = parse_robot(reader.object("robot"));
   if (script.kind == ScriptKind::poses) script.poses = parse_poses(reader);

@@ -77,6 +77,7 @@ struct Script {
   double stiffness_n_mm = 0.0;           ///< of the coupling, hand side; 0: the device's own
   std::string device_profile = "ideal";  ///< whose limits the hand feels through; device/profiles.hpp
   double spindle_rpm = 156.0;
+  double specimen_factor = 1.0;  ///< feed of this specimen over the feed law's
   HandParameters hand;
   RobotParameters robot;
   std::vector<TimedPose> poses;       ///< at least one for ScriptKind::poses, times ascending

@@ -43,7 +43,7 @@ INSTANTIATE_TEST_SUITE_P(
     Scripts, GoodScript,
     testing::Values(
         R"({"device": "hand", "duration_s": 1, "hand": {"force_profile": [{"t_s": 0, "force_n": 50}]}})",
-        R"({"device": "hand", "duration_s": 14400, "force_scale": 0.01, "stiffness_n_mm": 0, "spindle_rpm": 1,
+        R"({"device": "hand", "duration_s": 14400, "force_scale": 0.01, "stiffness_n_mm": 0, "spindle_rpm": 1, "specimen_factor": 0.1,
             "hand": {"start_mm": [0, 0, -5], "tilt_deg": [1, 2, 3], "mass_kg": 0.05, "arm_damping_n_s_mm": 100,
                      "guide_stiffness_n_mm": 0, "force_profile": [{"t_s": 14400, "force_n": -500}]}})",
         R"({"device": "poses", "duration_s": 0.001, "poses": [{"t_s": 0}]})",
@@ -87,6 +87,8 @@ INSTANTIATE_TEST_SUITE_P(
         R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0, "position_mm": [0, 0]}]})",
         R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0, "pose": 1}]})",
         R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "force_scale": 1001})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "specimen_factor": 0.05})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "specimen_factor": 11})",
         R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "durtion_s": 1})",
         R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "buttons": [{"spindle": true}]})",
         R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "buttons": [{"t_s": 0, "pause": 1}]})",

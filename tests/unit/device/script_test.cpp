@@ -43,7 +43,7 @@ json with(json script, const std::string& pointer, const json& value) {
 TEST(Script, ReadsEveryKeyOfAHand) {
   const Script script = parse_script(
       json::parse(R"({"device": "hand", "duration_s": 3.5, "force_scale": 26, "stiffness_n_mm": 2.5,
-        "spindle_rpm": 200,
+        "spindle_rpm": 200, "specimen_factor": 0.95,
         "hand": {"start_mm": [1, 2, -9], "tilt_deg": [90, 0, 0], "mass_kg": 2, "arm_damping_n_s_mm": 0.5,
                  "guide_stiffness_n_mm": 7, "force_profile": [{"t_s": 0.5, "force_n": -8}]},
         "buttons": [{"t_s": 1}, {"t_s": 2, "spindle": false, "pause": true}]})"),
@@ -53,6 +53,7 @@ TEST(Script, ReadsEveryKeyOfAHand) {
   EXPECT_EQ(script.force_scale, 26.0);
   EXPECT_EQ(script.stiffness_n_mm, 2.5);
   EXPECT_EQ(script.spindle_rpm, 200.0);
+  EXPECT_EQ(script.specimen_factor, 0.95);
   EXPECT_EQ(script.hand.start_mm, Vec3(1, 2, -9));
   EXPECT_NEAR(script.hand.tilt_rad.x(), pi / 2.0, 1e-15);
   EXPECT_EQ(script.hand.mass_kg, 2.0);
