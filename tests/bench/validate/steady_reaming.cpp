@@ -6,7 +6,7 @@ namespace ream::bench {
 namespace {
 
 constexpr size_t measured_ticks = 1000;
-constexpr double run_s = 2.0;
+constexpr double run_s = 3.0;
 
 }  // namespace
 

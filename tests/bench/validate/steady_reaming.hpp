@@ -18,7 +18,7 @@ struct SteadyReaming {
   double ripple_percent = 0.0;  ///< of the hand force over it: largest less smallest, over the mean
 };
 
-/// A hand that presses with a constant simulated force for two seconds, through the real tick.
+/// A hand that presses with a constant simulated force for three seconds, through the real tick.
 SteadyReaming steady_reaming(double density_g_cc, double force_n, double specimen_factor = 1.0,
                              const char* device_profile = "ideal");
 
