@@ -27,6 +27,14 @@ device::Script find_script(const RunRequest& request) {
   return script;
 }
 
+force::VibrationSettings vibration_settings(const device::ScriptVibration& script) {
+  force::VibrationSettings settings;
+  settings.source = force::vibration_source_from(script.source);
+  settings.recordings = {script.cortical_file, script.cancellous_file, script.idle_file, script.rate_hz};
+  settings.vibration_n_per_g = script.n_per_g;
+  return settings;
+}
+
 sim::Settings settings_for(const RunRequest& request, const device::Script& script,
                            const device::DeviceTraits& traits) {
   sim::Settings settings;
@@ -37,8 +45,18 @@ sim::Settings settings_for(const RunRequest& request, const device::Script& scri
   settings.stiffness_n_mm = script.stiffness_n_mm > 0.0 ? script.stiffness_n_mm : traits.stiffness_max_n_mm;
   settings.angular_stiffness_n_mm_rad = settings.stiffness_n_mm * 1000.0;
   settings.limits = {traits.force_max_n, traits.torque_max_n_mm};
+  settings.vibration = vibration_settings(script.vibration);
   settings.random_seed = request.random_seed;
   return settings;
+}
+
+nlohmann::json vibration_json(const sim::Model& model) {
+  const force::VibrationSettings& vibration = model.settings.vibration;
+  nlohmann::json json = {{"source", force::to_text(vibration.source)},
+                         {"seed", model.settings.random_seed},
+                         {"n_per_g", vibration.vibration_n_per_g}};
+  if (model.vibration) json["tracks_hash"] = to_hex(model.vibration->hash());
+  return json;
 }
 
 shell::Tool tool_for(const RunRequest& request, const case_::Plan& plan) {
@@ -75,6 +93,7 @@ nlohmann::json Rig::description() const {
       {"removal", sim::to_text(model.settings.removal)},
       {"force_scale", model.settings.force_scale},
       {"stiffness_n_mm", model.settings.stiffness_n_mm},
+      {"vibration", vibration_json(model)},
       {"random_seed", model.settings.random_seed},
       {"grid_dims",
        {bone_case.bone.grid.dims.x(), bone_case.bone.grid.dims.y(), bone_case.bone.grid.dims.z()}},

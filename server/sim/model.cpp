@@ -36,6 +36,7 @@ Model make_model(const case_::Plan& plan, voxel::BoneModel& bone, shell::Tool to
   const double r = model.profile.max_radius_mm;
   model.tool_box_tool.include(Vec3(-r, -r, model.profile.body_min_z_mm));
   model.tool_box_tool.include(Vec3(r, r, model.profile.body_max_z_mm));
+  model.vibration = force::make_vibration_tracks(settings.vibration, settings.random_seed);
   model.feed = force::make_empirical_feed_model();
   model.virtual_mass = settings.virtual_mass;
   model.coupling = settings.virtual_mass

@@ -12,8 +12,12 @@ struct SmallRun {
   SmallRun(voxel::BoneModel bone_in, const case_::Plan& plan, const std::string& tool,
            const device::Script& script, const std::string& backend = "cpu",
            sim::RemovalLaw removal = sim::RemovalLaw::profile)
+      : SmallRun(std::move(bone_in), plan, tool, script, settings(script, backend, removal)) {}
+
+  SmallRun(voxel::BoneModel bone_in, const case_::Plan& plan, const std::string& tool,
+           const device::Script& script, const sim::Settings& settings)
       : bone(std::move(bone_in)),
-        model(sim::make_model(plan, bone, shell::make_tool(tool), settings(script, backend, removal))),
+        model(sim::make_model(plan, bone, shell::make_tool(tool), settings)),
         state(model, bone),
         device(device::make_scripted_device(script, model.world_from_plan)) {}
 
@@ -24,6 +28,7 @@ struct SmallRun {
     s.removal = removal;
     s.tool_spacing_mm = 0.25;
     s.force_scale = script.force_scale;
+    s.vibration.source = force::VibrationSource::off;  // making it takes a while
     s.stiffness_n_mm = script.stiffness_n_mm;
     s.angular_stiffness_n_mm_rad = 1000.0 * script.stiffness_n_mm;
     return s;

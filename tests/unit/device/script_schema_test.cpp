@@ -50,7 +50,13 @@ INSTANTIATE_TEST_SUITE_P(
             "poses": [{"t_s": 0, "position_mm": [0, 0, -1]}, {"t_s": 1, "rotation_deg": [0, 5, 0]}],
             "buttons": []})",
         R"({"device": "poses", "duration_s": 2, "poses": [{"t_s": 0}],
-            "buttons": [{"t_s": 0.5, "spindle": false}, {"t_s": 1, "pause": true}]})"));
+            "buttons": [{"t_s": 0.5, "spindle": false}, {"t_s": 1, "pause": true}]})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "vibration": {}})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}],
+            "vibration": {"source": "off", "n_per_g": 0}})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}],
+            "vibration": {"source": "recording", "cortical_file": "a.wav", "cancellous_file": "b.csv",
+                          "idle_file": "c.csv", "rate_hz": 22050, "n_per_g": 5}})"));
 
 class BadScript : public ScriptSchema {};
 
@@ -84,7 +90,19 @@ INSTANTIATE_TEST_SUITE_P(
         R"({"device": "hand", "duration_s": 1, "hand": {"force_profile": [{"t_s": 0, "force_n": 501}]}})",
         R"({"device": "hand", "duration_s": 1, "hand": {"force_profile": [{"t_s": 0, "force_n": 1}], "mass_kg": 0}})",
         R"({"device": "hand", "duration_s": 1, "hand": {"force_profile": [{"t_s": 0, "force_n": 1}]},
-            "poses": [{"t_s": 0}]})"));
+            "poses": [{"t_s": 0}]})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "vibration": "off"})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "vibration": {"source": "none"}})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "vibration": {"volume": 1}})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "vibration": {"n_per_g": 6}})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "vibration": {"rate_hz": 22050}})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}],
+            "vibration": {"source": "recording", "cortical_file": "a.wav"}})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}],
+            "vibration": {"source": "recording", "cortical_file": "", "cancellous_file": "b.csv"}})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}],
+            "vibration": {"source": "recording", "cortical_file": "a.wav", "cancellous_file": "b.csv",
+                          "rate_hz": 999}})"));
 
 }  // namespace
 }  // namespace ream::device
