@@ -37,7 +37,7 @@ Butterworth4 butterworth_high_pass(double corner_hz, double rate_hz) {
   return butterworth(Band::high, corner_hz, rate_hz);
 }
 
-void apply(const Butterworth4& filter, std::span<double> signal) {
+void filter_in_place(const Butterworth4& filter, std::span<double> signal) {
   for (const Biquad& section : filter) {
     double first = 0.0, second = 0.0;  // transposed direct form II
     for (double& sample : signal) {

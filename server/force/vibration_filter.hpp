@@ -18,6 +18,6 @@ Butterworth4 butterworth_low_pass(double corner_hz, double rate_hz);
 Butterworth4 butterworth_high_pass(double corner_hz, double rate_hz);
 
 /// Filters in place, from rest.
-void apply(const Butterworth4& filter, std::span<double> signal);
+void filter_in_place(const Butterworth4& filter, std::span<double> signal);
 
 }  // namespace ream::force

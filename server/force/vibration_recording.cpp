@@ -79,15 +79,18 @@ Columns read_columns(std::string_view text, const std::string& where) {
 
 double rate_of(const Columns& columns, const std::string& where) {
   const std::vector<double>& times_s = columns.times_s;
-  const double step_s = (times_s.back() - times_s.front()) / static_cast<double>(times_s.size() - 1);
-  if (!(step_s > 0.0)) refuse(where, "has times that do not ascend; give seconds in the order of recording");
-  for (size_t i = 0; i < times_s.size(); ++i) {
-    const double due_s = times_s.front() + static_cast<double>(i) * step_s;
-    if (std::abs(times_s[i] - due_s) > 0.5 * step_s)
-      refuse_line(where, columns.lines[i],
+  std::vector<double> steps_s(times_s.size() - 1);
+  for (size_t i = 0; i < steps_s.size(); ++i) steps_s[i] = times_s[i + 1] - times_s[i];
+  std::vector<double> sorted = steps_s;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double usual_s = *middle;
+  if (!(usual_s > 0.0)) refuse(where, "has times that do not ascend; give seconds in the order of recording");
+  for (size_t i = 0; i < steps_s.size(); ++i)
+    if (std::abs(steps_s[i] - usual_s) > 0.5 * usual_s)
+      refuse_line(where, columns.lines[i + 1],
                   "breaks the even spacing of times; resample the recording or give one column and rate_hz");
-  }
-  return 1.0 / step_s;
+  return static_cast<double>(steps_s.size()) / (times_s.back() - times_s.front());
 }
 
 void check_rate(double rate_hz, const std::string& where) {

@@ -5,6 +5,7 @@
 
 #include "core/hash.hpp"
 #include "force/vibration_filter.hpp"
+#include "force/vibration_track.hpp"
 
 namespace ream::force {
 namespace {
@@ -22,10 +23,8 @@ constexpr double weakest_blow = 0.75;
 constexpr double reach_of_blows = 0.94, reach_of_noise = 3.3;
 /// Part of the time between blows in which the next may fall: two never come together and add up.
 constexpr double play_of_blows = 0.8;
-/// Longer than the track by what fades its end into its beginning, s.
-constexpr double spare_s = 0.6;
-/// Blows of the end are not faded into those of the beginning, where two could meet, s.
-constexpr double first_blow_s = spare_s;
+/// The end is faded into a beginning without blows: otherwise two could meet.
+constexpr double first_blow_s = vibration_seam_s;
 
 /// Even numbers from a 64-bit counter (splitmix64).
 class Random {
@@ -51,7 +50,7 @@ void colour(std::vector<double>& signal) {
     sample = now - before;
     before = now;
   }
-  apply(butterworth_low_pass(colour_corner_hz, vibration_sound_rate_hz), signal);
+  filter_in_place(butterworth_low_pass(colour_corner_hz, vibration_sound_rate_hz), signal);
 }
 
 /// What one blow of size 1 becomes once coloured and prepared.
@@ -65,7 +64,7 @@ Blow blow() {
   std::vector<double> response(static_cast<size_t>(0.1 * vibration_sound_rate_hz), 0.0);
   response[0] = 1.0;
   colour(response);
-  apply(butterworth_low_pass(vibration_low_pass_hz, vibration_sound_rate_hz), response);
+  filter_in_place(butterworth_low_pass(vibration_low_pass_hz, vibration_sound_rate_hz), response);
   Blow blow;
   for (size_t i = 0; i < response.size(); ++i) {
     blow.energy += response[i] * response[i];
@@ -104,7 +103,8 @@ std::vector<double> synthesized_vibration(VibrationKind kind, uint64_t seed) {
 
   // Even noise of +-w has variance w^2 / 3; the filter multiplies it by the energy of its response.
   const double noise = std::sqrt(3.0 * (1.0 - blows_share) * power_g2 / blow_of_one.energy);
-  std::vector<double> signal(static_cast<size_t>((level.seconds + spare_s) * vibration_sound_rate_hz));
+  std::vector<double> signal(
+      static_cast<size_t>((level.seconds + vibration_seam_s) * vibration_sound_rate_hz));
   for (double& sample : signal) sample = noise * (2.0 * random.even() - 1.0);
 
   if (blows_share > 0.0) {

@@ -13,8 +13,6 @@
 namespace ream::force {
 namespace {
 
-/// Time in which the end of a track gives way to its beginning, s.
-constexpr double seam_s = 0.5;
 /// Below this a signal is called still; the smallest step of a 24-bit file is 1.2e-7 of its range.
 constexpr double still = 1e-9;
 
@@ -30,7 +28,7 @@ void start_from_mean(std::span<double> signal) {
 /// Whole beats whose last sample leads into the first: what follows the end fades out while the beginning
 /// fades in, with constant power.
 std::vector<float> looped(std::span<const double> signal) {
-  const size_t seam = samples_in(seam_s);
+  const size_t seam = samples_in(vibration_seam_s);
   const size_t length = (signal.size() - seam) / sound_samples_a_beat * sound_samples_a_beat;
   std::vector<float> loop(signal.begin(), signal.begin() + static_cast<std::ptrdiff_t>(length));
   for (size_t i = 0; i < seam; ++i) {
@@ -62,8 +60,8 @@ VibrationTrack prepared_vibration(std::vector<double> signal, double g_rms, cons
     throw Error(ErrorKind::invalid_input,
                 std::string(name) + " is shorter than 2 s; take a longer recording");
   start_from_mean(signal);
-  apply(butterworth_high_pass(vibration_high_pass_hz, vibration_sound_rate_hz), signal);
-  apply(butterworth_low_pass(vibration_low_pass_hz, vibration_sound_rate_hz), signal);
+  filter_in_place(butterworth_high_pass(vibration_high_pass_hz, vibration_sound_rate_hz), signal);
+  filter_in_place(butterworth_low_pass(vibration_low_pass_hz, vibration_sound_rate_hz), signal);
   VibrationTrack track;
   track.sound_g = looped(signal);
   scale_to(g_rms, track.sound_g, name);

@@ -10,6 +10,8 @@ struct VibrationTrack {
   std::vector<float> device_g;  ///< 1 kHz, as many beats of 20 samples
 };
 
+/// Time in which the end of a signal gives way to its beginning: the track is this much shorter. Seconds.
+inline constexpr double vibration_seam_s = 0.5;
 /// Shortest signal that can be prepared, s.
 inline constexpr double shortest_vibration_s = 2.0;
 
