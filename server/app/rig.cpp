@@ -29,6 +29,14 @@ device::Script find_script(const RunRequest& request) {
   return script;
 }
 
+force::VibrationSettings vibration_settings(const device::ScriptVibration& script) {
+  force::VibrationSettings settings;
+  settings.source = force::vibration_source_from(script.source);
+  settings.recordings = {script.cortical_file, script.cancellous_file, script.idle_file, script.rate_hz};
+  settings.vibration_n_per_g = script.n_per_g;
+  return settings;
+}
+
 sim::Settings settings_for(const RunRequest& request, const device::Script& script,
                            const device::DeviceTraits& traits) {
   sim::Settings settings;
@@ -36,12 +44,22 @@ sim::Settings settings_for(const RunRequest& request, const device::Script& scri
   settings.removal = request.removal;
   settings.tool_spacing_mm = request.tool_spacing_mm;
   settings.force_scale = script.force_scale;
+  settings.vibration = vibration_settings(script.vibration);
   sim::fit_to_device(traits, script.stiffness_n_mm, settings);
   settings.random_seed = request.random_seed;
   settings.feed.kind = request.feed_kind;
   settings.feed.spindle_rad_s = rad_s_from_rpm(script.spindle_rpm);
   settings.feed.specimen_factor = script.specimen_factor;
   return settings;
+}
+
+nlohmann::json vibration_json(const sim::Model& model) {
+  const force::VibrationSettings& vibration = model.settings.vibration;
+  nlohmann::json json = {{"source", force::to_text(vibration.source)},
+                         {"seed", model.settings.random_seed},
+                         {"n_per_g", vibration.vibration_n_per_g}};
+  if (model.vibration) json["tracks_hash"] = to_hex(model.vibration->hash());
+  return json;
 }
 
 shell::Tool tool_for(const RunRequest& request, const case_::Plan& plan) {
@@ -83,6 +101,7 @@ nlohmann::json Rig::description() const {
       {"model", force::to_text(model.settings.feed.kind)},
       {"spindle_rpm", script.spindle_rpm},
       {"specimen_factor", model.settings.feed.specimen_factor},
+      {"vibration", vibration_json(model)},
       {"random_seed", model.settings.random_seed},
       {"grid_dims",
        {bone_case.bone.grid.dims.x(), bone_case.bone.grid.dims.y(), bone_case.bone.grid.dims.z()}},

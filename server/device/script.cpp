@@ -153,13 +153,16 @@ Script parse_script(const nlohmann::json& json, const std::string& where) {
   if (script.kind == ScriptKind::hand) script.hand = parse_hand(reader.object("hand"));
   if (script.kind == ScriptKind::robot) script.robot = parse_robot(reader.object("robot"));
   if (script.kind == ScriptKind::poses) script.poses = parse_poses(reader);
+  if (reader.has("vibration")) script.vibration = parse_vibration(reader.object("vibration"));
   if (reader.has("buttons")) script.buttons = parse_buttons(reader);
   reader.finish();
   return script;
 }
 
 Script load_script(const std::filesystem::path& path) {
-  return parse_script(read_json_file(path), path.string());
+  Script script = parse_script(read_json_file(path), path.string());
+  script.vibration.resolve(path.parent_path());
+  return script;
 }
 
 }  // namespace ream::device

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "device/haptic_device.hpp"
+#include "device/script_vibration.hpp"
 
 namespace ream::device {
 
@@ -78,6 +79,7 @@ struct Script {
   std::string device_profile = "ideal";  ///< whose limits the hand feels through; device/profiles.hpp
   double spindle_rpm = 156.0;
   double specimen_factor = 1.0;  ///< feed of this specimen over the feed law's
+  ScriptVibration vibration;
   HandParameters hand;
   RobotParameters robot;
   std::vector<TimedPose> poses;       ///< at least one for ScriptKind::poses, times ascending

@@ -30,9 +30,9 @@ Feeds simulate(const PublishedBone& bone) {
     if (run < thrusts_n.size())
       feeds.of_law[s][run] = steady_reaming(specimen.density_g_cc, thrusts_n[run]).feed_mm_s;
     else
-      feeds.of_specimen[s] = steady_reaming(specimen.density_g_cc, thrusts_n[reference_thrust],
-                                            specimen_factor(bone, specimen))
-                                 .feed_mm_s;
+      feeds.of_specimen[s] =
+          steady_reaming(specimen.density_g_cc, thrusts_n[reference_thrust], specimen_factor(bone, specimen))
+              .feed_mm_s;
   });
   return feeds;
 }
@@ -58,7 +58,8 @@ std::vector<Row> rows_of_specimens(const PublishedBone& bone, const Feeds& feeds
 void add_regressions(const PublishedBone& bone, const Regression& law, const Regression& specimens_,
                      std::vector<Row>& rows) {
   const auto row = [&](const char* what, double ours, double theirs) {
-    rows.push_back({"validate", name_of(bone, what), percent_off(ours, theirs), 0.0, "%", regression_goal_percent});
+    rows.push_back(
+        {"validate", name_of(bone, what), percent_off(ours, theirs), 0.0, "%", regression_goal_percent});
   };
   row(" slope of feed on density, off the published", law.slope, bone.law.slope_mm_s_per_g_cc);
   row(" intercept, off the published", law.intercept, bone.law.intercept_mm_s);
@@ -74,10 +75,10 @@ void print_tables(const PublishedBone& bone, const Feeds& feeds, const Regressio
   table.columns = {"D g/cc", "law", "ours", "factor", "ours, factor", "thesis"};
   for (size_t s = 0; s < specimens; ++s) {
     const Specimen& specimen = bone.specimens[s];
-    table.lines.push_back({std::to_string(s + 1),
-                           {specimen.density_g_cc, law_mm_s(bone, specimen.density_g_cc),
-                            feeds.of_law[s][reference_thrust], specimen_factor(bone, specimen),
-                            feeds.of_specimen[s], specimen.feed_mm_s}});
+    table.lines.push_back(
+        {std::to_string(s + 1),
+         {specimen.density_g_cc, law_mm_s(bone, specimen.density_g_cc), feeds.of_law[s][reference_thrust],
+          specimen_factor(bone, specimen), feeds.of_specimen[s], specimen.feed_mm_s}});
   }
   table.print(out, 4);
   TextTable lines;
@@ -90,9 +91,9 @@ void print_tables(const PublishedBone& bone, const Feeds& feeds, const Regressio
   line("ours, law alone", law);
   line("ours, specimen factors", ours);
   line("thesis' table, regressed here", theirs);
-  lines.lines.push_back({"thesis' text",
-                         {bone.law.slope_mm_s_per_g_cc, bone.law.intercept_mm_s, bone.rho, bone.r_squared,
-                          bone.p}});
+  lines.lines.push_back(
+      {"thesis' text",
+       {bone.law.slope_mm_s_per_g_cc, bone.law.intercept_mm_s, bone.rho, bone.r_squared, bone.p}});
   lines.print(out, 4);
 }
 
@@ -104,16 +105,17 @@ void plot(const PublishedBone& bone, const Feeds& feeds, const Regression& ours,
     rows.push_back({bone.specimens[s].density_g_cc, bone.specimens[s].feed_mm_s, feeds.of_specimen[s]});
   plots.data(name, "density_g_cc thesis_mm_s ours_mm_s", rows);
   std::ostringstream commands;
-  commands << "set title 'Feed rate and density, " << bone.name << " bone, 52 N (fig. 5." << bone.density_figure
-           << ")'\nset xlabel 'density, g/cc'\nset ylabel 'feed rate, mm/s'\nset offsets graph 0.1, graph 0.1, "
-              "graph 0.15, graph 0.15\n"
-           << "theirs(x) = " << bone.law.slope_mm_s_per_g_cc << " * x + " << bone.law.intercept_mm_s
-           << "\nours(x) = " << ours.slope << " * x + " << ours.intercept << "\nplot '" << name
-           << ".dat' using 1:2 with points pt 6 ps 1.8 lc rgb '#1f77b4' title 'thesis, table 5.1', '" << name
-           << ".dat' using 1:3 with points pt 7 ps 0.9 lc rgb '#d62728' title 'ours, specimen factors', theirs(x) "
-              "with lines lw 2 lc rgb '#1f77b4' title 'thesis, eq. 5."
-           << (bone.density_figure - 3)
-           << "', ours(x) with lines lw 2 dt 2 lc rgb '#d62728' title 'ours, regression'";
+  commands
+      << "set title 'Feed rate and density, " << bone.name << " bone, 52 N (fig. 5." << bone.density_figure
+      << ")'\nset xlabel 'density, g/cc'\nset ylabel 'feed rate, mm/s'\nset offsets graph 0.1, graph 0.1, "
+         "graph 0.15, graph 0.15\n"
+      << "theirs(x) = " << bone.law.slope_mm_s_per_g_cc << " * x + " << bone.law.intercept_mm_s
+      << "\nours(x) = " << ours.slope << " * x + " << ours.intercept << "\nplot '" << name
+      << ".dat' using 1:2 with points pt 6 ps 1.8 lc rgb '#1f77b4' title 'thesis, table 5.1', '" << name
+      << ".dat' using 1:3 with points pt 7 ps 0.9 lc rgb '#d62728' title 'ours, specimen factors', theirs(x) "
+         "with lines lw 2 lc rgb '#1f77b4' title 'thesis, eq. 5."
+      << (bone.density_figure - 3)
+      << "', ours(x) with lines lw 2 dt 2 lc rgb '#d62728' title 'ours, regression'";
   plots.script(name, commands.str());
 }
 

@@ -31,8 +31,8 @@ void Plots::data(const std::string& name, const std::string& columns,
 
 void Plots::script(const std::string& name, const std::string& commands) {
   write_file_atomically(folder_ / (name + ".gp"),
-                  "set terminal pngcairo size 900,600 font 'DejaVu Sans,11'\nset output '" + name +
-                      ".png'\nset grid lc rgb '#dddddd'\n" + commands + "\n");
+                        "set terminal pngcairo size 900,600 font 'DejaVu Sans,11'\nset output '" + name +
+                            ".png'\nset grid lc rgb '#dddddd'\n" + commands + "\n");
   scripts_.push_back(name);
 }
 

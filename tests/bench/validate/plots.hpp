@@ -12,7 +12,8 @@ class Plots {
   explicit Plots(std::filesystem::path folder);
 
   /// `<name>.dat`: a line of column names, then the rows.
-  void data(const std::string& name, const std::string& columns, const std::vector<std::vector<double>>& rows);
+  void data(const std::string& name, const std::string& columns,
+            const std::vector<std::vector<double>>& rows);
   /// `<name>.gp`, which draws `<name>.png`; `commands` go between the common head and the end. Files are
   /// named as data() wrote them.
   void script(const std::string& name, const std::string& commands);

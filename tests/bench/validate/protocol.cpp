@@ -83,8 +83,8 @@ SpecimenRun run_protocol(size_t index) {
                  &cancellous = published_cancellous.specimens[index];
   voxel::BoneModel bone = layered_slab(cortical.density_g_cc, cancellous.density_g_cc);
   SpecimenRun run;
-  run.cortical = run_phase(
-      bone, robot_script(0.0, cortical_depth_mm, specimen_factor(published_cortical, cortical)));
+  run.cortical =
+      run_phase(bone, robot_script(0.0, cortical_depth_mm, specimen_factor(published_cortical, cortical)));
   take_cortical_away(bone);
   run.cancellous = run_phase(bone, robot_script(cortical_layer_mm, cancellous_depth_mm,
                                                 specimen_factor(published_cancellous, cancellous)));

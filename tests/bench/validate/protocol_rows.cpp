@@ -36,13 +36,14 @@ void plot(const PublishedBone& bone, const Phases& phases, Plots& plots) {
   const std::string name = "fig-5-" + std::to_string(bone.thrust_figure);
   plots.data(name, "t_s thrust_n deviation_n advance_mm deviation_mm", curve(phases));
   std::ostringstream commands;
-  commands << "set title 'Thrust and displacement, " << bone.name << " bone, mean and deviation of six (fig. 5."
-           << bone.thrust_figure << ")'\nset xlabel 'time since contact, s'\nset ylabel 'thrust, N'\n"
+  commands << "set title 'Thrust and displacement, " << bone.name
+           << " bone, mean and deviation of six (fig. 5." << bone.thrust_figure
+           << ")'\nset xlabel 'time since contact, s'\nset ylabel 'thrust, N'\n"
            << "set y2label 'displacement, mm'\nset ytics nomirror\nset y2tics\nset yrange [0:70]\n"
            << "set y2range [0:*]\nset key top left\nset style fill transparent solid 0.25 noborder\nf = '"
            << name << ".dat'\nplot f using 1:($2-$3):($2+$3) with filledcurves lc rgb '#1f77b4' notitle, "
-           << "f using 1:2 with lines lw 2 lc rgb '#1f77b4' title 'thrust, ours', "
-           << bone.thrust_n.mean << " with lines dt 2 lc rgb '#1f77b4' title 'thesis, held thrust', "
+           << "f using 1:2 with lines lw 2 lc rgb '#1f77b4' title 'thrust, ours', " << bone.thrust_n.mean
+           << " with lines dt 2 lc rgb '#1f77b4' title 'thesis, held thrust', "
            << "f using 1:($4-$5):($4+$5) axes x1y2 with filledcurves lc rgb '#d62728' notitle, "
            << "f using 1:4 axes x1y2 with lines lw 2 lc rgb '#d62728' title 'displacement, ours'";
   plots.script(name, commands.str());
@@ -63,10 +64,11 @@ std::vector<Row> rows_of(const PublishedBone& bone, const Phases& phases, const 
   }
   stiffness.print(options.tables, 1);
   const std::string name = std::string("robot protocol, ") + bone.name;
-  return {{"validate", name + ", held thrust, mean of six", mean(thrust), bone.thrust_n.mean, "N", 0.0},
-          {"validate", name + ", held thrust, deviation", deviation(thrust), bone.thrust_n.deviation, "N", 0.0},
-          {"validate", name + ", feed, mean of six", mean(feed), bone.feed_mm_s.mean, "mm/s", 0.0},
-          {"validate", name + ", feed, deviation", deviation(feed), bone.feed_mm_s.deviation, "mm/s", 0.0}};
+  return {
+      {"validate", name + ", held thrust, mean of six", mean(thrust), bone.thrust_n.mean, "N", 0.0},
+      {"validate", name + ", held thrust, deviation", deviation(thrust), bone.thrust_n.deviation, "N", 0.0},
+      {"validate", name + ", feed, mean of six", mean(feed), bone.feed_mm_s.mean, "mm/s", 0.0},
+      {"validate", name + ", feed, deviation", deviation(feed), bone.feed_mm_s.deviation, "mm/s", 0.0}};
 }
 
 }  // namespace

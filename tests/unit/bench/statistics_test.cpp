@@ -71,7 +71,8 @@ TEST(PublishedBone, SpecimenFactorsAreThoseOfTheTable) {
   const std::array cancellous{1.073, 0.998, 0.913, 0.974, 1.099, 0.974};
   for (size_t i = 0; i < 6; ++i) {
     EXPECT_NEAR(specimen_factor(published_cortical, published_cortical.specimens[i]), cortical[i], 6e-4);
-    EXPECT_NEAR(specimen_factor(published_cancellous, published_cancellous.specimens[i]), cancellous[i], 6e-4);
+    EXPECT_NEAR(specimen_factor(published_cancellous, published_cancellous.specimens[i]), cancellous[i],
+                6e-4);
   }
 }
 

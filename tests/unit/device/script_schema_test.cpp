@@ -62,7 +62,13 @@ INSTANTIATE_TEST_SUITE_P(
         R"({"device": "robot", "duration_s": 1, "robot": {}})",
         R"({"device": "robot", "device_profile": "hapticmaster", "duration_s": 60,
             "robot": {"start_mm": [0, 0, -2], "tilt_deg": [1, 0, 0], "approach_mm_s": 1, "force_n": 52, "ramp_s": 5,
-                      "depth_mm": 0.5}})"));
+                      "depth_mm": 0.5}})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "vibration": {}})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}],
+            "vibration": {"source": "off", "n_per_g": 0}})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}],
+            "vibration": {"source": "recording", "cortical_file": "a.wav", "cancellous_file": "b.csv",
+                          "idle_file": "c.csv", "rate_hz": 22050, "n_per_g": 5}})"));
 
 class BadScript : public ScriptSchema, public testing::WithParamInterface<const char*> {};
 
@@ -111,7 +117,19 @@ INSTANTIATE_TEST_SUITE_P(
         R"({"device": "robot", "duration_s": 1})",
         R"({"device": "robot", "duration_s": 1, "robot": {}, "poses": [{"t_s": 0}]})",
         R"({"device": "robot", "duration_s": 1, "robot": {"depth_mm": 0}})",
-        R"({"device": "robot", "duration_s": 1, "robot": {"hand": 1}})"));
+        R"({"device": "robot", "duration_s": 1, "robot": {"hand": 1}})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "vibration": "off"})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "vibration": {"source": "none"}})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "vibration": {"volume": 1}})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "vibration": {"n_per_g": 6}})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}], "vibration": {"rate_hz": 22050}})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}],
+            "vibration": {"source": "recording", "cortical_file": "a.wav"}})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}],
+            "vibration": {"source": "recording", "cortical_file": "", "cancellous_file": "b.csv"}})",
+        R"({"device": "poses", "duration_s": 1, "poses": [{"t_s": 0}],
+            "vibration": {"source": "recording", "cortical_file": "a.wav", "cancellous_file": "b.csv",
+                          "rate_hz": 999}})"));
 
 TEST_F(ScriptSchema, KnowsEveryDeviceProfile) {
   const json schema = read_json_file(std::string(REAM_SOURCE_DIR) + "/proto/script.schema.json");

@@ -27,6 +27,7 @@ TEST(DeviceSettings, KeepWithinTheDevice) {
   EXPECT_GE(sigma.limits.force_slew_n, sigma.stiffness_n_mm * 0.5) << "half a metre a second goes through";
   EXPECT_LT(sigma.limits.force_slew_n, sigma.limits.force_max_n);
   EXPECT_EQ(sigma.start_up_ramp_s, 2.0);
+  EXPECT_EQ(sigma.vibration.vibration_max_n, 0.5);
   EXPECT_FALSE(sigma.virtual_mass.has_value());
   // A softer wrist than a lever would make it is the device's own affair.
   const device::DeviceTraits soft = [] {
