@@ -19,8 +19,8 @@ struct VirtualMass {
 CouplingParameters coupling_of(const VirtualMass& mass, double force_scale) noexcept;
 
 /// That delta, mm and rad, tool frame: one tick of free flight under the hand's wrench (hand N and N mm, tool
-/// frame, about the tool's origin) from the tool's twist (mm/s, rad/s). Damping acts on the twist
-/// before the tick, so that a hand that presses on bone loses nothing to it.
+/// frame, about the tool's origin) from the tool's twist (mm/s, rad/s). Damping is taken
+/// implicitly; coupling_of() holds its other half.
 Vec6 free_flight(const VirtualMass& mass, const Vec6& twist, const Wrench& hand) noexcept;
 
 }  // namespace ream::force

@@ -130,6 +130,34 @@ TEST(Script, AsksNoMoreOfADeviceThanItCan) {
                  "'device_profile' must be an impedance");
   const json robot = {{"device", "robot"}, {"duration_s", 1.0}, {"robot", json::object()}};
   expect_refused(with(robot, "/device_profile", "omega.3"), "'device_profile' must be an admittance");
+
+TEST(Script, ReadsHowTheReamerVibrates) {
+  EXPECT_EQ(parse_script(hand_script(), "run.json").vibration.source, "synthesized");
+  EXPECT_EQ(parse_script(with(hand_script(), "/vibration", {{"source", "off"}, {"n_per_g", 0.3}}), "run.json")
+                .vibration.n_per_g,
+            0.3);
+  const json recording = {{"source", "recording"},
+                          {"cortical_file", "hard.wav"},
+                          {"cancellous_file", "/somewhere/soft.csv"},
+                          {"rate_hz", 2000}};
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("scripts/run.json", with(hand_script(), "/vibration", recording).dump());
+  const ScriptVibration vibration = load_script(file).vibration;
+  EXPECT_EQ(vibration.source, "recording");
+  EXPECT_EQ(vibration.cortical_file, folder.path() / "scripts" / "hard.wav");
+  EXPECT_EQ(vibration.cancellous_file, "/somewhere/soft.csv");
+  EXPECT_TRUE(vibration.idle_file.empty());
+  EXPECT_EQ(vibration.rate_hz, 2000.0);
+}
+
+TEST(Script, RefusesAVibrationThatCannotBeMade) {
+  const auto refused = [](const json& vibration, const std::string& mentioned) {
+    expect_refused(with(hand_script(), "/vibration", vibration), mentioned);
+  };
+  refused({{"source", "loud"}}, "run.json.vibration: key 'source' must be");
+  refused({{"source", "recording"}, {"cortical_file", "a.wav"}}, "'cancellous_file' is missing");
+  refused({{"cortical_file", "a.wav"}}, "'cortical_file' is unknown");
+  refused({{"n_per_g", -0.1}}, "'n_per_g'");
 }
 
 TEST(Script, ReadsPosesInDegrees) {
