@@ -37,12 +37,31 @@ sim::Settings settings_for(const RunRequest& request, const device::Script& scri
   settings.stiffness_n_mm = script.stiffness_n_mm > 0.0 ? script.stiffness_n_mm : traits.stiffness_max_n_mm;
   settings.angular_stiffness_n_mm_rad = settings.stiffness_n_mm * 1000.0;
   settings.limits = {traits.force_max_n, traits.torque_max_n_mm};
+  settings.mount = script.mount;
   settings.random_seed = request.random_seed;
   return settings;
 }
 
 shell::Tool tool_for(const RunRequest& request, const case_::Plan& plan) {
   return shell::make_tool(request.tool.empty() ? plan.reamer : request.tool, request.tool_axis);
+}
+
+nlohmann::json guide_json(const sim::Model& model) {
+  nlohmann::json json = {{"kind", case_::to_text(model.plan.guide)}};
+  if (model.guide) {
+    json["clearance_mm"] = model.guide->clearance_mm;
+    json["length_mm"] = model.guide->length_mm;
+  }
+  return json;
+}
+
+nlohmann::json mount_json(const sim::Model& model) {
+  if (!model.mount) return "rigid";
+  const auto list = [](const Vec3& v) { return nlohmann::json{v.x(), v.y(), v.z()}; };
+  return {{"stiffness_n_mm", list(model.mount->stiffness_n_mm)},
+          {"damping_n_s_mm", list(model.mount->damping_n_s_mm)},
+          {"angular_stiffness_n_mm_rad", list(model.mount->angular_stiffness_n_mm_rad)},
+          {"angular_damping_n_mm_s_rad", list(model.mount->angular_damping_n_mm_s_rad)}};
 }
 
 }  // namespace
@@ -75,6 +94,8 @@ nlohmann::json Rig::description() const {
       {"removal", sim::to_text(model.settings.removal)},
       {"force_scale", model.settings.force_scale},
       {"stiffness_n_mm", model.settings.stiffness_n_mm},
+      {"guide", guide_json(model)},
+      {"mount", mount_json(model)},
       {"random_seed", model.settings.random_seed},
       {"grid_dims",
        {bone_case.bone.grid.dims.x(), bone_case.bone.grid.dims.y(), bone_case.bone.grid.dims.z()}},

@@ -72,6 +72,34 @@ std::vector<TimedButtons> parse_buttons(JsonReader& reader) {
   return buttons;
 }
 
+Vec3 positive_vector(JsonReader& reader, const std::string& key, bool may_be_zero) {
+  const auto v = reader.numbers(key, 3);
+  for (const double x : v)
+    if (!(may_be_zero ? x >= 0.0 : x > 0.0))
+      reader.refuse(key, may_be_zero ? "must not be negative" : "must be above 0");
+  return {v[0], v[1], v[2]};
+}
+
+ScapulaMount parse_mount(JsonReader reader) {
+  ScapulaMount mount;
+  mount.stiffness_n_mm = positive_vector(reader, "stiffness_n_mm", false);
+  mount.damping_n_s_mm = positive_vector(reader, "damping_n_s_mm", true);
+  mount.angular_stiffness_n_mm_rad = positive_vector(reader, "angular_stiffness_n_mm_rad", false);
+  mount.angular_damping_n_mm_s_rad = positive_vector(reader, "angular_damping_n_mm_s_rad", true);
+  reader.finish();
+  return mount;
+}
+
+/// "rigid", "chest_wall", or an object with all its numbers.
+std::optional<ScapulaMount> mount_or_rigid(const nlohmann::json& json, JsonReader& reader) {
+  if (!reader.has("mount")) return std::nullopt;
+  if (!json.at("mount").is_string()) return parse_mount(reader.object("mount"));
+  const std::string word = reader.text("mount");
+  if (word == "rigid") return std::nullopt;
+  if (word != "chest_wall") reader.refuse("mount", "must be 'rigid', 'chest_wall' or an object");
+  return chest_wall_mount;
+}
+
 }  // namespace
 
 Script parse_script(const nlohmann::json& json, const std::string& where) {
@@ -84,6 +112,7 @@ Script parse_script(const nlohmann::json& json, const std::string& where) {
   script.force_scale = reader.number_or("force_scale", script.force_scale, 0.01, 1000.0);
   script.stiffness_n_mm = reader.number_or("stiffness_n_mm", script.stiffness_n_mm, 0.0, 1000.0);
   script.spindle_rpm = reader.number_or("spindle_rpm", script.spindle_rpm, 1.0, 2000.0);
+  script.mount = mount_or_rigid(json, reader);
   if (script.kind == ScriptKind::hand) script.hand = parse_hand(reader.object("hand"));
   if (script.kind == ScriptKind::poses) script.poses = parse_poses(reader);
   if (reader.has("buttons")) script.buttons = parse_buttons(reader);

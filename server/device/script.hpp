@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "device/haptic_device.hpp"
+#include "device/scapula_mount.hpp"
 
 namespace ream::device {
 
@@ -48,6 +49,7 @@ struct Script {
   double force_scale = 1.0;     ///< simulated N per hand N
   double stiffness_n_mm = 0.0;  ///< of the coupling, hand side; 0: the device's own
   double spindle_rpm = 156.0;
+  std::optional<ScapulaMount> mount;  ///< empty: the bone is held rigidly
   HandParameters hand;
   std::vector<TimedPose> poses;       ///< at least one for ScriptKind::poses, times ascending
   std::vector<TimedButtons> buttons;  ///< times ascending; before the first: spindle on, no pause

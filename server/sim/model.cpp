@@ -5,6 +5,8 @@
 
 #include "core/error.hpp"
 #include "core/huge_pages.hpp"
+#include "sim/guided_handle.hpp"
+#include "sim/scapula_mount.hpp"
 
 namespace ream::sim {
 
@@ -38,6 +40,8 @@ Model make_model(const case_::Plan& plan, voxel::BoneModel& bone, shell::Tool to
   model.tool_box_tool.include(Vec3(r, r, model.profile.body_max_z_mm));
   model.feed = force::make_empirical_feed_model();
   model.coupling = {settings.stiffness_n_mm, settings.angular_stiffness_n_mm_rad, settings.force_scale};
+  model.guide = make_guide(model);
+  model.mount = stable_mount(model);
   model.thin_step_mm = bone.grid.min_spacing_mm();
   return model;
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "case/case.hpp"
@@ -8,7 +9,9 @@
 #include "collide/narrow_phase.hpp"
 #include "collide/removal_schedule.hpp"
 #include "force/coupling.hpp"
+#include "device/scapula_mount.hpp"
 #include "force/feed_model.hpp"
+#include "force/guide.hpp"
 #include "force/limits.hpp"
 #include "shell/point_shell.hpp"
 #include "shell/swept_profile.hpp"
@@ -31,6 +34,7 @@ struct Settings {
   double stiffness_n_mm = 2.0;  ///< coupling, hand side
   double angular_stiffness_n_mm_rad = 2000.0;
   force::DeviceLimits limits;
+  std::optional<device::ScapulaMount> mount;  ///< empty: the bone is held rigidly
   uint64_t random_seed = 1;
 };
 
@@ -47,12 +51,14 @@ struct Model {
   Aabb tool_box_tool;  ///< around probes and swept body
   std::unique_ptr<force::FeedModel> feed;
   force::CouplingParameters coupling;
+  std::optional<force::Guide> guide;
+  std::optional<device::ScapulaMount> mount;  ///< as simulated, see sim/scapula_mount.hpp
   double thin_step_mm =
       0.1;  ///< no point of the tool moves farther between two looks for contact (one voxel)
 };
 
 /// Prepares a planned case for a tool: cuts the pilot hole into `bone` and builds the rest. Errors: conflict
-/// when the case has no plan, those of make_point_shell and swept_profile.
+/// when the case has no plan or the guide does not fit, those of make_point_shell and swept_profile.
 Model make_model(const case_::Plan& plan, voxel::BoneModel& bone, shell::Tool tool, const Settings& settings);
 
 /// Plan frame of a plan, chosen the same way every time.

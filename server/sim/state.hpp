@@ -7,6 +7,7 @@
 #include "collide/removal_schedule.hpp"
 #include "record/tick_report.hpp"
 #include "sim/backend.hpp"
+#include "sim/scapula_mount.hpp"
 #include "voxel/bricks.hpp"
 
 namespace ream::sim {
@@ -36,6 +37,10 @@ struct State {
   double free_path_mm = -1.0;
   size_t nearest_block = 0;  ///< of the shell to bone, when that was last looked for
   double thrust_n = 0.0;     ///< simulated, of the last tick
+  force::GuideState guide;
+  MountState mount;
+  Pose world_from_bone_rest;  ///< how far the bone has moved from where the case has it
+  Pose world_from_grid;       ///< of the bone where it is now; the grid's own is where it rests
   uint64_t session_hash = 0;
 };
 

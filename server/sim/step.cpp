@@ -7,6 +7,7 @@
 #include "force/coefficients.hpp"
 #include "sim/approach.hpp"
 #include "sim/contact_resistance.hpp"
+#include "sim/guided_handle.hpp"
 #include "sim/remove_bone.hpp"
 
 namespace ream::sim {
@@ -35,8 +36,9 @@ Pose moved_within_a_voxel(const Model& model, const Pose& world_from_tool, const
   return path_mm <= limit_mm ? whole : moved(world_from_tool, motion, limit_mm / path_mm);
 }
 
-/// Spring, feed law and motion of the tool that touches bone; fills the force part of the report.
-void press(const Model& model, State& state, const collide::ContactSums& sums,
+/// Spring, feed law and motion of the tool that touches bone; fills the force part of the report. What the tool
+/// puts on the bone, simulated.
+Load press(const Model& model, State& state, const collide::ContactSums& sums,
            const device::DeviceInput& input, TickReport& report) {
   const force::EngagedBone bone = engaged_bone(model, sums);
   const force::CuttingLoad load = bone.any() ? model.feed->load(bone, state.thrust_n) : force::CuttingLoad{};
@@ -69,6 +71,36 @@ void press(const Model& model, State& state, const collide::ContactSums& sums,
       force::limited(world_from_tool_axes * (-per_hand * force_on_tool), model.settings.limits.force_max_n);
   report.hand_torque_n_mm = force::limited(world_from_tool_axes * (-per_hand * torque_on_tool),
                                            model.settings.limits.torque_max_n_mm);
+  return {world_from_tool_axes * force_on_tool, world_from_tool_axes * torque_on_tool};
+}
+
+/// The guide's share of what the hand feels.
+void add_to_hand(const Model& model, const Load& on_guide, TickReport& report) {
+  const double per_hand = 1.0 / model.coupling.force_scale;
+  report.hand_force_n =
+      force::limited(report.hand_force_n - per_hand * on_guide.force_n, model.settings.limits.force_max_n);
+  report.hand_torque_n_mm = force::limited(report.hand_torque_n_mm - per_hand * on_guide.torque_n_mm,
+                                           model.settings.limits.torque_max_n_mm);
+}
+
+/// Contact, guide and a bone that gives way: one tick of a tool that is not paused. False when the device that
+/// computes failed.
+bool move_tool(const Model& model, State& state, const device::DeviceInput& input, TickReport& report) {
+  device::DeviceInput allowed = input;
+  allowed.world_from_handle = guided(model, state, input.world_from_handle);
+  const Approach found = approach(model, state, allowed.world_from_handle);
+  if (!found.ok) return false;
+  Load on_bone;
+  if (found.sums.engaged() > 0) on_bone = press(model, state, found.sums, allowed, report);
+  if (state.guide.entered) {
+    const Load on_guide = load_on_guide(model, input.world_from_handle, allowed.world_from_handle);
+    add_to_hand(model, on_guide, report);
+    on_bone.force_n += on_guide.force_n;
+    on_bone.torque_n_mm += on_guide.torque_n_mm;
+  }
+  move_bone(model, state, on_bone, report.engaged);
+  keep_in_guide(model, state);
+  return true;
 }
 
 /// The cause of the tick as it is recorded, folded into the rolling hash.
@@ -106,14 +138,11 @@ StepStatus step(const Model& model, State& state, const device::DeviceInput& raw
   if (!state.started) state.world_from_tool = input.world_from_handle;
   state.started = true;
 
-  if (!input.paused) {
-    const Approach found = approach(model, state, input.world_from_handle);
-    if (!found.ok) return StepStatus::collision_failed;
-    if (found.sums.engaged() > 0) press(model, state, found.sums, input, report);
-  }
+  if (!input.paused && !move_tool(model, state, input, report)) return StepStatus::collision_failed;
   state.thrust_n = report.thrust_n;
   report.world_from_tool = state.world_from_tool;
-  report.grid_from_tool = quantised(state.bone.grid.world_from_grid.inverse() * state.world_from_tool);
+  report.world_from_bone_rest = state.world_from_bone_rest;
+  report.grid_from_tool = quantised(state.world_from_grid.inverse() * state.world_from_tool);
 
   const bool cuts = report.engaged && input.spindle_on;
   if (!cuts) state.schedule.pass(report.grid_from_tool);
