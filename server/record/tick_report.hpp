@@ -10,6 +10,7 @@ namespace ream::record {
 struct TickReport {
   uint32_t tick = 0;
   bool spindle_on = false, paused = false, engaged = false;
+  bool cutting = false;               ///< engaged, spindle on and pressed enough for the lips to cut
   bool failed_over = false;           ///< the device that computes failed in this tick; the hand felt nothing
   QuantisedPose world_from_handle_q;  ///< the cause: what the device said, as it was used
   QuantisedPose grid_from_tool;       ///< what was decided, as contact and removal saw it

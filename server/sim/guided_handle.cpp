@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "sim/press.hpp"
 
 namespace ream::sim {
 namespace {
@@ -52,14 +53,14 @@ Pose guided(const Model& model, State& state, const Pose& world_from_handle) noe
   return same(allowed, guide_from_handle) ? world_from_handle : world_from_guide_now * allowed;
 }
 
-Load load_on_guide(const Model& model, const Pose& world_from_handle,
-                   const Pose& world_from_guided) noexcept {
+void add_guide(const Model& model, const State& state, const Pose& world_from_handle,
+               const Pose& world_from_guided, ToolLoad& load) noexcept {
+  if (!state.guide.entered) return;
   const double linear = model.coupling.stiffness_n_mm * model.coupling.force_scale;
   const double angular = model.coupling.angular_stiffness_n_mm_rad * model.coupling.force_scale;
-  const Vec3 turn =
-      small_vector_from_rotation(world_from_guided.rotation.transpose() * world_from_handle.rotation);
-  return {linear * (world_from_handle.translation_mm - world_from_guided.translation_mm),
-          angular * (world_from_guided.rotation * turn)};
+  const force::Vec6 held_back = handle_minus_tool(world_from_guided, world_from_handle);
+  load.spring.force_n += linear * Vec3(held_back[0], held_back[1], held_back[2]);
+  load.spring.torque_n_mm += angular * Vec3(held_back[3], held_back[4], held_back[5]);
 }
 
 void keep_in_guide(const Model& model, State& state) noexcept {

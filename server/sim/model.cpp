@@ -39,7 +39,11 @@ Model make_model(const case_::Plan& plan, voxel::BoneModel& bone, shell::Tool to
   model.tool_box_tool.include(Vec3(-r, -r, model.profile.body_min_z_mm));
   model.tool_box_tool.include(Vec3(r, r, model.profile.body_max_z_mm));
   model.feed = force::make_empirical_feed_model();
-  model.coupling = {settings.stiffness_n_mm, settings.angular_stiffness_n_mm_rad, settings.force_scale};
+  model.virtual_mass = settings.virtual_mass;
+  model.coupling = settings.virtual_mass
+                       ? force::coupling_of(*settings.virtual_mass, settings.force_scale)
+                       : force::CouplingParameters{settings.stiffness_n_mm,
+                                                   settings.angular_stiffness_n_mm_rad, settings.force_scale};
   model.guide = make_guide(model);
   model.mount = stable_mount(model);
   model.thin_step_mm = bone.grid.min_spacing_mm();

@@ -8,11 +8,14 @@
 #include "collide/decay.hpp"
 #include "collide/narrow_phase.hpp"
 #include "collide/removal_schedule.hpp"
-#include "force/coupling.hpp"
+#include "core/units.hpp"
 #include "device/scapula_mount.hpp"
+#include "force/coefficients.hpp"
+#include "force/coupling.hpp"
 #include "force/feed_model.hpp"
 #include "force/guide.hpp"
 #include "force/limits.hpp"
+#include "force/virtual_mass.hpp"
 #include "shell/point_shell.hpp"
 #include "shell/swept_profile.hpp"
 #include "shell/tool.hpp"
@@ -34,6 +37,9 @@ struct Settings {
   double stiffness_n_mm = 2.0;  ///< coupling, hand side
   double angular_stiffness_n_mm_rad = 2000.0;
   force::DeviceLimits limits;
+  double start_up_ramp_s = 0.0;  ///< see force::StartUpRamp
+  /// Set for admittance devices; the coupling is then the mass' (force/virtual_mass.hpp).
+  std::optional<force::VirtualMass> virtual_mass;
   std::optional<device::ScapulaMount> mount;  ///< empty: the bone is held rigidly
   uint64_t random_seed = 1;
 };
@@ -51,6 +57,8 @@ struct Model {
   Aabb tool_box_tool;  ///< around probes and swept body
   std::unique_ptr<force::FeedModel> feed;
   force::CouplingParameters coupling;
+  std::optional<force::VirtualMass> virtual_mass;
+  double spindle_speed_rad_s = rad_s_from_rpm(force::reference_spindle_rpm);
   std::optional<force::Guide> guide;
   std::optional<device::ScapulaMount> mount;  ///< as simulated, see sim/scapula_mount.hpp
   double thin_step_mm =

@@ -31,7 +31,7 @@ std::optional<device::ScapulaMount> stable_mount(const Model& model) {
   return mount;
 }
 
-MountState given_way(const device::ScapulaMount& mount, const MountState& state, const Load& about_entry,
+MountState given_way(const device::ScapulaMount& mount, const MountState& state, const force::Wrench& about_entry,
                  double step_s) noexcept {
   return {
       settled(mount.stiffness_n_mm, mount.damping_n_s_mm, state.shift_mm, about_entry.force_n, step_s),
@@ -44,11 +44,15 @@ Pose displacement(const MountState& state, const Vec3& point_mm) noexcept {
   return {turn, point_mm + state.shift_mm - turn * point_mm};
 }
 
-void move_bone(const Model& model, State& state, const Load& on_bone, bool carried) noexcept {
+void move_bone(const Model& model, State& state, const ToolLoad& load, bool carried) noexcept {
   if (!model.mount) return;
   const Vec3 rest_mm = model.plan.entry_mm;
   const Vec3 arm_mm = state.world_from_tool.translation_mm - (rest_mm + state.mount.shift_mm);
-  const Load about_entry{on_bone.force_n, on_bone.torque_n_mm + arm_mm.cross(on_bone.force_n)};
+  const Mat3& world_from_tool = state.world_from_tool.rotation;
+  const Vec3 force_n = world_from_tool * load.spring.force_n;
+  const Vec3 torque_n_mm =
+      world_from_tool * (load.spring.torque_n_mm + load.spindle_torque_n_mm * Vec3::UnitZ());
+  const force::Wrench about_entry{force_n, torque_n_mm + arm_mm.cross(force_n)};
   state.mount = given_way(*model.mount, state.mount, about_entry, tick_s);
   const Pose before = state.world_from_bone_rest;
   state.world_from_bone_rest = displacement(state.mount, rest_mm);

@@ -7,6 +7,7 @@
 #include "collide/removal_schedule.hpp"
 #include "record/tick_report.hpp"
 #include "sim/backend.hpp"
+#include "sim/hand_output.hpp"
 #include "sim/scapula_mount.hpp"
 #include "voxel/bricks.hpp"
 
@@ -35,8 +36,11 @@ struct State {
   /// Whatever way the tool moves, as far as this no point of it meets bone (mm). 0: it touches nothing where
   /// it stands; negative: nobody has looked there yet.
   double free_path_mm = -1.0;
-  size_t nearest_block = 0;  ///< of the shell to bone, when that was last looked for
-  double thrust_n = 0.0;     ///< simulated, of the last tick
+  size_t nearest_block = 0;     ///< of the shell to bone, when that was last looked for
+  force::Vec6 tool_twist{};     ///< of the last tick, tool frame: mm/s, rad/s
+  double thrust_n = 0.0;        ///< simulated, of the last tick
+  double normal_force_n = 0.0;  ///< simulated, of the last tick, that presses tool and bone together
+  HandOutput output;
   force::GuideState guide;
   MountState mount;
   Pose world_from_bone_rest;  ///< how far the bone has moved from where the case has it

@@ -1,0 +1,39 @@
+#include "force/energy_guard.hpp"
+
+#include <algorithm>
+
+#include "core/clock.hpp"
+
+namespace ream::force {
+
+void EnergyGuard::observe(const Pose& world_from_handle) noexcept {
+  if (started_) {
+    const Vec3 way_mm = world_from_handle.translation_mm - world_from_handle_.translation_mm;
+    const Vec3 turn_rad =
+        world_from_handle_.rotation *
+        small_vector_from_rotation(world_from_handle_.rotation.transpose() * world_from_handle.rotation);
+    const double given_back_mj = rendered_.force_n.dot(way_mm) + rendered_.torque_n_mm.dot(turn_rad);
+    energy_mj_ -= given_back_mj;
+    saved_mj_ -= given_back_mj;
+    speed_mm_s_ = std::max(way_mm.norm() / tick_s, speed_mm_s_ * energy_guard::speed_kept);
+    speed_rad_s_ = std::max(turn_rad.norm() / tick_s, speed_rad_s_ * energy_guard::speed_kept);
+  }
+  started_ = true;
+  world_from_handle_ = world_from_handle;
+}
+
+Wrench EnergyGuard::allow(const Wrench& wanted, double stored_mj) noexcept {
+  using namespace energy_guard;
+  saved_mj_ = std::min(saved_mj_, stored_mj + most_saved_mj);
+  const double most_given_back_mj = tick_s * (wanted.force_n.norm() * (speed_mm_s_ + speed_gain_mm_s) +
+                                              wanted.torque_n_mm.norm() * (speed_rad_s_ + speed_gain_rad_s));
+  const double available_mj = std::max(0.0, saved_mj_ + credit_mj);
+  rendered_ = wanted;
+  if (most_given_back_mj > available_mj) {
+    rendered_ = wanted.scaled(available_mj / most_given_back_mj);
+    ++weakened_ticks_;
+  }
+  return rendered_;
+}
+
+}  // namespace ream::force

@@ -1,0 +1,32 @@
+#pragma once
+#include "force/energy_guard.hpp"
+#include "force/start_up.hpp"
+#include "record/tick_report.hpp"
+
+namespace ream::sim {
+
+struct Model;
+
+/// What acts on the tool at the end of a tick: simulated N and N mm, tool frame, about the tool's origin.
+struct ToolLoad {
+  force::Wrench spring;              ///< that the coupling puts on the tool
+  double spindle_torque_n_mm = 0.0;  ///< that turns the spindle, about +z
+};
+
+/// What of a session's hand output carries over from tick to tick.
+struct HandOutput {
+  explicit HandOutput(double start_up_ramp_s) : start_up(start_up_ramp_s) {}
+
+  force::StartUpRamp start_up;
+  force::EnergyGuard energy;
+  force::Wrench rendered;  ///< of the last tick, vibration left out
+};
+
+/// From what acts on the tool to what the hand feels, in this order: the force scale, the start-up ramp, the
+/// device's largest force and torque, the slew limit, the energy guard. An admittance device renders motion,
+/// so for it this only tells what the hand holds. Fills the report's hand force and torque; zero while
+/// paused. Called once in every tick, whatever happens.
+void render(const Model& model, HandOutput& output, const Pose& world_from_tool, const ToolLoad& load,
+            record::TickReport& report) noexcept;
+
+}  // namespace ream::sim

@@ -1,0 +1,96 @@
+#include "sim/press.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/clock.hpp"
+#include "core/units.hpp"
+#include "force/coefficients.hpp"
+#include "force/friction.hpp"
+#include "sim/approach.hpp"
+#include "sim/contact_resistance.hpp"
+
+namespace ream::sim {
+namespace {
+
+/// Advance against contact: no point goes farther than one look for contact allows, so that nothing is
+/// jumped.
+Pose moved_within_a_voxel(const Model& model, const Pose& world_from_tool, const force::Vec6& motion) {
+  const Pose whole = moved(world_from_tool, motion);
+  const double limit_mm = look_every_voxels * model.thin_step_mm;
+  const double path_mm = path_bound_mm(model, world_from_tool, whole);
+  return path_mm <= limit_mm ? whole : moved(world_from_tool, motion, limit_mm / path_mm);
+}
+
+/// How the engaged surface slid in the tick before.
+force::Sliding sliding(const Model& model, const State& state, const force::EngagedBone& bone,
+                       const Vec3& outward, bool spindle_on) {
+  const auto& t = state.tool_twist;
+  const Vec3 velocity_mm_s(t[0], t[1], t[2]);
+  force::Sliding s;
+  s.normal_force_n = state.normal_force_n;
+  s.along_speed_mm_s = (velocity_mm_s - outward * outward.dot(velocity_mm_s)).norm();
+  s.turn_speed_rad_s = (spindle_on ? model.spindle_speed_rad_s : 0.0) + std::abs(t[5]);
+  // Of a disc with the engaged area.
+  s.mean_radius_mm = 2.0 / 3.0 * std::sqrt(bone.area_mm2 / pi);
+  return s;
+}
+
+}  // namespace
+
+force::Vec6 handle_minus_tool(const Pose& world_from_tool, const Pose& world_from_handle) noexcept {
+  const Mat3 tool_from_world = world_from_tool.rotation.transpose();
+  const Vec3 d = tool_from_world * (world_from_handle.translation_mm - world_from_tool.translation_mm);
+  const Vec3 r = small_vector_from_rotation(tool_from_world * world_from_handle.rotation);
+  return {d.x(), d.y(), d.z(), r.x(), r.y(), r.z()};
+}
+
+Pose moved(const Pose& world_from_tool, const force::Vec6& motion, double fraction) noexcept {
+  const Vec3 shift(motion[0], motion[1], motion[2]), turn(motion[3], motion[4], motion[5]);
+  return {orthonormalized(world_from_tool.rotation * rotation_from_small_vector(fraction * turn)),
+          world_from_tool.translation_mm + world_from_tool.rotation * (fraction * shift)};
+}
+
+ToolLoad press(const Model& model, State& state, const collide::ContactSums& sums,
+               const device::DeviceInput& input, TickReport& report) noexcept {
+  const force::EngagedBone bone = engaged_bone(model, sums);
+  const force::CuttingLoad cutting =
+      bone.any() ? model.feed->load(bone, state.thrust_n) : force::CuttingLoad{};
+  const force::Vec6 delta = handle_minus_tool(state.world_from_tool, input.world_from_handle);
+  const auto couple_when = [&](bool cuts) {
+    force::Resistance resistance = contact_resistance(model, sums, cutting.resistance_n_s_mm, cuts);
+    force::add_friction(sliding(model, state, bone, resistance.outward, input.spindle_on), resistance);
+    return force::couple(model.coupling, resistance, delta, tick_s);
+  };
+  bool cuts = input.spindle_on;
+  force::CouplingStep coupled = couple_when(cuts);
+  if (cuts && std::abs(coupled.wrench_on_tool[2]) < force::start_threshold_n) {
+    cuts = false;
+    coupled = couple_when(cuts);
+  }
+
+  const Pose before = state.world_from_tool;
+  state.world_from_tool = moved_within_a_voxel(model, before, coupled.tool_motion);
+  state.free_path_mm = -1.0;
+  for (size_t i = 0; i < 6; ++i) state.tool_twist[i] = coupled.tool_motion[i] / tick_s;
+
+  const auto& w = coupled.wrench_on_tool;
+  ToolLoad load;
+  load.spring = {Vec3(w[0], w[1], w[2]), Vec3(w[3], w[4], w[5])};
+  if (cuts) load.spindle_torque_n_mm = cutting.torque_arm_mm * std::max(0.0, w[2]);
+  state.normal_force_n = load.spring.force_n.norm();
+
+  report.engaged = true;
+  report.cutting = cuts;
+  report.thrust_n = w[2];
+  report.torque_n_mm = load.spring.torque_n_mm.norm();
+  report.spindle_torque_n_mm = load.spindle_torque_n_mm;
+  report.feed_rate_mm_s =
+      before.rotation.col(2).dot(state.world_from_tool.translation_mm - before.translation_mm) / tick_s;
+  report.density_g_cc = bone.mean_density_g_cc();
+  for (size_t k = 0; k < 3; ++k) report.share[k] = bone.share[k];
+  report.engaged_points = sums.engaged();
+  return load;
+}
+
+}  // namespace ream::sim

@@ -1,0 +1,19 @@
+#pragma once
+#include "collide/contact_sums.hpp"
+#include "device/haptic_device.hpp"
+#include "sim/state.hpp"
+
+namespace ream::sim {
+
+/// Handle minus tool in the tool frame: mm, then rotation vector in rad.
+force::Vec6 handle_minus_tool(const Pose& world_from_tool, const Pose& world_from_handle) noexcept;
+
+/// The tool moved by `fraction` of a motion in its own frame.
+Pose moved(const Pose& world_from_tool, const force::Vec6& motion, double fraction = 1.0) noexcept;
+
+/// One tick of a tool that touches bone: spring, feed law, friction and the motion that follows. Moves
+/// state.world_from_tool and fills the report's part about contact.
+ToolLoad press(const Model& model, State& state, const collide::ContactSums& sums,
+               const device::DeviceInput& input, TickReport& report) noexcept;
+
+}  // namespace ream::sim
