@@ -67,8 +67,9 @@ nlohmann::json to_json(const Plan& plan) {
   nlohmann::json value = {{"entry_mm", list(plan.entry_mm)},
                           {"axis_direction", list(plan.axis_direction)},
                           {"depth_mm", plan.depth_mm},
-                          {"reamer", plan.reamer},
-                          {"guide", to_text(plan.guide)}};
+                          {"reamer", plan.reamer}};
+  // Programs that know of no guides read a plan that needs none.
+  if (plan.guide != GuideKind::none) value["guide"] = to_text(plan.guide);
   if (plan.pilot_hole) {
     value["pilot_diameter_mm"] = plan.pilot_hole->diameter_mm;
     value["pilot_depth_mm"] = plan.pilot_hole->depth_mm;

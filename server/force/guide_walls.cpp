@@ -9,7 +9,6 @@ namespace {
 /// Walls nearer to each other than this are one.
 constexpr double one_wall_mm = 1.0e-6;
 constexpr double rounding_mm = 1.0e-9;
-constexpr int most_turns = 30;
 
 /// How points of the axis give way to pushes on them: displacement of point i by a push at point j (mm per mm
 /// of push), which the spring's linear and angular parts share.
@@ -28,69 +27,103 @@ Vec2 within(const Vec2& v, double limit) {
   return length > limit ? Vec2(v * (limit / length)) : v;
 }
 
-Vec2 unit_or_x(const Vec2& v) {
-  const double length = v.norm();
-  return length > 0.0 ? Vec2(v / length) : Vec2(Vec2::UnitX());
-}
-
-Vec2 turned_left(const Vec2& v) { return {-v.y(), v.x()}; }
-
-/// Both points touch: Newton's method for the directions in which they lie on the walls, at which the pushes
-/// have no part along the walls.
+/// Both points touch: each wall pushes against its point's offset, in proportion to it. The two factors make the
+/// value of the dual problem, which is concave, largest. Newton's method on clearance over offset, which is
+/// nearly linear in them, gets there in a few steps; where it does not gain, the dual's own Newton step does,
+/// or each wall in turn while the other's push stays.
 class BothTouch {
  public:
   BothTouch(const GuideWalls& walls, const Compliance& give, const Vec2& leading, const Vec2& trailing)
-      : clearance_(walls.clearance_mm), leading_(leading), trailing_(trailing) {
+      : clearance_(walls.clearance_mm), give_(give), leading_(leading), trailing_(trailing) {
     const double apart = walls.leading_mm - walls.trailing_mm;
-    const double determinant = apart * apart / walls.angular_per_linear_mm2;
-    stiff_leading_ = give.trailing / determinant;
-    stiff_both_ = -give.both / determinant;
-    stiff_trailing_ = give.leading / determinant;
-    on_leading_ = unit_or_x(stiff_leading_ * leading + stiff_both_ * trailing);
-    on_trailing_ = unit_or_x(stiff_both_ * leading + stiff_trailing_ * trailing);
+    determinant_ = apart * apart / walls.angular_per_linear_mm2;
+    // Pushes that bring both points to the guide's axis.
+    const Vec2 push_1 = (give.trailing * leading - give.both * trailing) / determinant_;
+    const Vec2 push_2 = (give.leading * trailing - give.both * leading) / determinant_;
+    place(push_1.norm() / clearance_, push_2.norm() / clearance_);
   }
 
   void solve() {
-    for (int i = 0; i < most_turns; ++i)
-      if (turn() < 1.0e-14) return;
+    for (int i = 0; i < most_steps && miss() > close_enough; ++i)
+      if (!secular_step() && !dual_step()) wall_by_wall();
   }
 
-  Vec2 leading_push() const {
-    return stiff_leading_ * (leading_ - clearance_ * on_leading_) +
-           stiff_both_ * (trailing_ - clearance_ * on_trailing_);
-  }
-  Vec2 trailing_push() const {
-    return stiff_both_ * (leading_ - clearance_ * on_leading_) +
-           stiff_trailing_ * (trailing_ - clearance_ * on_trailing_);
-  }
+  Vec2 leading_push() const { return factor_1_ * at_1_; }
+  Vec2 trailing_push() const { return factor_2_ * at_2_; }
 
  private:
-  /// One step; how far it turned the directions, squared.
-  double turn() {
-    const Vec2 push_1 = leading_push(), push_2 = trailing_push();
-    const Vec2 along_1 = turned_left(on_leading_), along_2 = turned_left(on_trailing_);
-    const double slope_1 = -push_1.dot(along_1), slope_2 = -push_2.dot(along_2);
-    const double bend_1 = clearance_ * stiff_leading_ + push_1.dot(on_leading_);
-    const double bend_2 = clearance_ * stiff_trailing_ + push_2.dot(on_trailing_);
-    const double bend_both = clearance_ * stiff_both_ * along_1.dot(along_2);
-    const double determinant = bend_1 * bend_2 - bend_both * bend_both;
-    double turn_1, turn_2;
-    if (bend_1 > 0.0 && determinant > 0.0) {
-      turn_1 = (bend_both * slope_2 - bend_2 * slope_1) / determinant;
-      turn_2 = (bend_both * slope_1 - bend_1 * slope_2) / determinant;
-    } else {  // away from the minimum: downhill
-      turn_1 = -slope_1 / (2.0 * clearance_ * stiff_leading_ + std::abs(bend_1));
-      turn_2 = -slope_2 / (2.0 * clearance_ * stiff_trailing_ + std::abs(bend_2));
-    }
-    turn_1 = std::clamp(turn_1, -0.5, 0.5);
-    turn_2 = std::clamp(turn_2, -0.5, 0.5);
-    on_leading_ = unit_or_x(on_leading_ + turn_1 * along_1);
-    on_trailing_ = unit_or_x(on_trailing_ + turn_2 * along_2);
-    return turn_1 * turn_1 + turn_2 * turn_2;
+  double miss() const {
+    return std::max(std::abs(at_1_.norm() - clearance_), std::abs(at_2_.norm() - clearance_)) / clearance_;
   }
 
-  double clearance_, stiff_leading_, stiff_both_, stiff_trailing_;
-  Vec2 leading_, trailing_, on_leading_, on_trailing_;
+  /// Where the points are under pushes of these factors.
+  void place(double factor_1, double factor_2) {
+    factor_1_ = factor_1;
+    factor_2_ = factor_2;
+    whole_ = 1.0 + give_.leading * factor_1 + give_.trailing * factor_2 + determinant_ * factor_1 * factor_2;
+    at_1_ = ((1.0 + give_.trailing * factor_2) * leading_ - give_.both * factor_2 * trailing_) / whole_;
+    at_2_ = ((1.0 + give_.leading * factor_1) * trailing_ - give_.both * factor_1 * leading_) / whole_;
+  }
+
+  /// Of the dual problem, doubled.
+  double value() const {
+    const double squared = clearance_ * clearance_;
+    return factor_1_ * (at_1_.dot(leading_) - squared) + factor_2_ * (at_2_.dot(trailing_) - squared);
+  }
+
+  /// Changes the factors; takes it back when that does not gain. Near the end the value no longer tells.
+  bool gains_by(double change_1, double change_2) {
+    const double factor_1 = factor_1_, factor_2 = factor_2_, before = value(), missed = miss();
+    place(std::max(least_kept * factor_1, factor_1 + change_1),
+          std::max(least_kept * factor_2, factor_2 + change_2));
+    if (value() > before || (missed < nearly && miss() < missed)) return true;
+    place(factor_1, factor_2);
+    return false;
+  }
+
+  /// Solves for the change of the factors to which the offsets squared react as pushes times `give` times
+  /// offsets, less `wanted`.
+  bool step(double wanted_1, double wanted_2, int halvings) {
+    const double a = (give_.leading + determinant_ * factor_2_) / whole_ * at_1_.squaredNorm();
+    const double b = give_.both / whole_ * at_1_.dot(at_2_);
+    const double d = (give_.trailing + determinant_ * factor_1_) / whole_ * at_2_.squaredNorm();
+    const double determinant = a * d - b * b;
+    if (!(determinant > 0.0)) return false;
+    double change_1 = (d * wanted_1 - b * wanted_2) / determinant;
+    double change_2 = (a * wanted_2 - b * wanted_1) / determinant;
+    for (int i = 0; i <= halvings; ++i, change_1 *= 0.5, change_2 *= 0.5)
+      if (gains_by(change_1, change_2)) return true;
+    return false;
+  }
+
+  bool secular_step() {
+    const double squared_1 = at_1_.squaredNorm(), squared_2 = at_2_.squaredNorm();
+    return step(squared_1 * (std::sqrt(squared_1) / clearance_ - 1.0),
+                squared_2 * (std::sqrt(squared_2) / clearance_ - 1.0), 0);
+  }
+
+  bool dual_step() {
+    const double squared = clearance_ * clearance_;
+    return step(0.5 * (at_1_.squaredNorm() - squared), 0.5 * (at_2_.squaredNorm() - squared), 10);
+  }
+
+  void wall_by_wall() {
+    const Vec2 leading = leading_ - give_.both * trailing_push();
+    const Vec2 push_1 = (leading - within(leading, clearance_)) / give_.leading;
+    const Vec2 trailing = trailing_ - give_.both * push_1;
+    const Vec2 push_2 = (trailing - within(trailing, clearance_)) / give_.trailing;
+    place(push_1.norm() / clearance_, push_2.norm() / clearance_);
+  }
+
+  static constexpr int most_steps = 40;
+  static constexpr double close_enough = 1.0e-11;
+  static constexpr double nearly = 1.0e-3;
+  /// A factor falls to no less than this part of itself in a step, so that both stay above 0.
+  static constexpr double least_kept = 0.1;
+
+  double clearance_, determinant_ = 0.0, whole_ = 1.0, factor_1_ = 0.0, factor_2_ = 0.0;
+  Compliance give_;
+  Vec2 leading_, trailing_, at_1_ = Vec2::Zero(), at_2_ = Vec2::Zero();
 };
 
 }  // namespace

@@ -26,6 +26,7 @@ struct SmallRun {
     s.force_scale = script.force_scale;
     s.stiffness_n_mm = script.stiffness_n_mm;
     s.angular_stiffness_n_mm_rad = 1000.0 * script.stiffness_n_mm;
+    s.mount = script.mount;
     return s;
   }
 
