@@ -13,6 +13,7 @@
 #include "force/coupling.hpp"
 #include "force/feed_model.hpp"
 #include "force/limits.hpp"
+#include "force/vibration_tracks.hpp"
 #include "force/virtual_mass.hpp"
 #include "shell/point_shell.hpp"
 #include "shell/swept_profile.hpp"
@@ -35,6 +36,7 @@ struct Settings {
   double stiffness_n_mm = 2.0;  ///< coupling, hand side
   double angular_stiffness_n_mm_rad = 2000.0;
   force::FeedSettings feed;
+  force::VibrationSettings vibration;
   force::DeviceLimits limits;
   double start_up_ramp_s = 0.0;  ///< see force::StartUpRamp
   /// Set for admittance devices; the coupling is then the mass' (force/virtual_mass.hpp).
@@ -54,6 +56,7 @@ struct Model {
   voxel::BrickDistance distance;
   Aabb tool_box_tool;  ///< around probes and swept body
   std::unique_ptr<force::FeedModel> feed;
+  std::shared_ptr<const force::VibrationTracks> vibration;  ///< empty: the reamer does not vibrate
   force::CouplingParameters coupling;
   std::optional<force::VirtualMass> virtual_mass;
   double spindle_speed_rad_s = rad_s_from_rpm(force::reference_spindle_rpm);

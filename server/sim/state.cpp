@@ -8,6 +8,7 @@ State::State(const Model& model, voxel::BoneModel& bone_in)
       backend(make_backend(model, bone_in, cells)),
       reserve(backend.name == "cpu" ? Backend{} : make_cpp_backend(model, bone_in, cells)),
       schedule(model.profile, bone_in),
-      output(model.settings.start_up_ramp_s) {}
+      output(model.settings.start_up_ramp_s),
+      vibration(model.vibration, model.settings.random_seed) {}
 
 }  // namespace ream::sim
