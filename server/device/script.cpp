@@ -1,10 +1,13 @@
 #include "device/script.hpp"
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/json_reader.hpp"
 #include "core/units.hpp"
+#include "device/profiles.hpp"
 
 namespace ream::device {
 namespace {
@@ -17,11 +20,26 @@ Vec3 vector_or(JsonReader& reader, const std::string& key, const Vec3& fallback,
   return Vec3(v[0], v[1], v[2]) * scale;
 }
 
+std::string in_words(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
 /// The entry's t_s, which must be later than the one before.
 double next_time(JsonReader& entry, double previous_s) {
   const double t_s = entry.number("t_s", 0.0, longest_script_s);
   if (t_s <= previous_s) entry.refuse("t_s", "must be later than the entry before it");
   return t_s;
+}
+
+Wrist parse_wrist(JsonReader reader) {
+  Wrist wrist;
+  wrist.stiffness_n_mm_rad = reader.number_or("stiffness_n_mm_rad", wrist.stiffness_n_mm_rad, 0.0, 1.0e6);
+  wrist.damping_n_mm_s_rad = reader.number_or("damping_n_mm_s_rad", wrist.damping_n_mm_s_rad, 0.0, 1.0e5);
+  wrist.inertia_kg_mm2 = reader.number_or("inertia_kg_mm2", wrist.inertia_kg_mm2, 100.0, 1.0e6);
+  reader.finish();
+  return wrist;
 }
 
 HandParameters parse_hand(JsonReader reader) {
@@ -31,6 +49,13 @@ HandParameters parse_hand(JsonReader reader) {
   hand.mass_kg = reader.number_or("mass_kg", hand.mass_kg, 0.05, 100.0);
   hand.arm_damping_n_s_mm = reader.number_or("arm_damping_n_s_mm", hand.arm_damping_n_s_mm, 0.0, 100.0);
   hand.guide_stiffness_n_mm = reader.number_or("guide_stiffness_n_mm", hand.guide_stiffness_n_mm, 0.0, 100.0);
+  hand.arm_stiffness_n_mm = reader.number_or("arm_stiffness_n_mm", hand.arm_stiffness_n_mm, 0.0, 100.0);
+  hand.tremor_rms_n = reader.number_or("tremor_rms_n", hand.tremor_rms_n, 0.0, 50.0);
+  hand.correction_gain = reader.number_or("correction_gain", hand.correction_gain, 0.0, 0.95);
+  hand.reaction_time_s = reader.number_or("reaction_time_s", hand.reaction_time_s, 0.001, 1.0);
+  hand.grip_stiffness_n_mm = reader.number_or("grip_stiffness_n_mm", hand.grip_stiffness_n_mm, 0.1, 20.0);
+  hand.grip_damping_n_s_mm = reader.number_or("grip_damping_n_s_mm", hand.grip_damping_n_s_mm, 0.0, 0.2);
+  if (reader.has("wrist")) hand.wrist = parse_wrist(reader.object("wrist"));
   double previous_s = -1.0;
   for (JsonReader& entry : reader.objects("force_profile")) {
     previous_s = next_time(entry, previous_s);
@@ -40,6 +65,18 @@ HandParameters parse_hand(JsonReader reader) {
   if (hand.force_profile.empty()) reader.refuse("force_profile", "must have at least one entry");
   reader.finish();
   return hand;
+}
+
+RobotParameters parse_robot(JsonReader reader) {
+  RobotParameters robot;
+  robot.start_mm = vector_or(reader, "start_mm", robot.start_mm);
+  robot.tilt_rad = vector_or(reader, "tilt_deg", robot.tilt_rad, radians_from_degrees(1.0));
+  robot.approach_mm_s = reader.number_or("approach_mm_s", robot.approach_mm_s, 0.1, 50.0);
+  robot.force_n = reader.number_or("force_n", robot.force_n, 1.0, 500.0);
+  robot.ramp_s = reader.number_or("ramp_s", robot.ramp_s, 0.1, 60.0);
+  robot.depth_mm = reader.number_or("depth_mm", robot.depth_mm, 0.01, 50.0);
+  reader.finish();
+  return robot;
 }
 
 std::vector<TimedPose> parse_poses(JsonReader& reader) {
@@ -72,19 +109,49 @@ std::vector<TimedButtons> parse_buttons(JsonReader& reader) {
   return buttons;
 }
 
+ScriptKind parse_kind(JsonReader& reader) {
+  const std::string kind = reader.text("device");
+  if (kind == "hand") return ScriptKind::hand;
+  if (kind == "poses") return ScriptKind::poses;
+  if (kind == "robot") return ScriptKind::robot;
+  reader.refuse("device", "must be 'hand', 'poses' or 'robot'");
+}
+
+/// Which device plays the script, and what that device cannot do.
+void parse_profile(JsonReader& reader, Script& script) {
+  const bool robot = script.kind == ScriptKind::robot;
+  script.device_profile = reader.text_or("device_profile", robot ? "ideal-admittance" : "ideal");
+  DeviceTraits traits;
+  try {
+    traits = device_profile(script.device_profile);
+  } catch (const Error& e) {
+    reader.refuse("device_profile", std::string("is wrong: ") + e.what());
+  }
+  const bool gives_force = traits.causality == Causality::admittance;
+  if (robot && !gives_force)
+    reader.refuse("device_profile", "must be an admittance device for a robot, such as 'ideal-admittance'");
+  if (script.kind == ScriptKind::poses && gives_force)
+    reader.refuse("device_profile", "must be an impedance device for timed poses, such as 'ideal'");
+  if (script.stiffness_n_mm > traits.stiffness_max_n_mm)
+    reader.refuse("stiffness_n_mm", "is " + in_words(script.stiffness_n_mm) + ", but " +
+                                        script.device_profile + " renders at most " +
+                                        in_words(traits.stiffness_max_n_mm) + "; 0 takes the most it can");
+}
+
 }  // namespace
 
 Script parse_script(const nlohmann::json& json, const std::string& where) {
   JsonReader reader(json, where);
   Script script;
-  const std::string kind = reader.text("device");
-  if (kind != "hand" && kind != "poses") reader.refuse("device", "must be 'hand' or 'poses'");
-  script.kind = kind == "hand" ? ScriptKind::hand : ScriptKind::poses;
+  script.kind = parse_kind(reader);
   script.duration_s = reader.number("duration_s", 0.001, longest_script_s);
   script.force_scale = reader.number_or("force_scale", script.force_scale, 0.01, 1000.0);
-  script.stiffness_n_mm = reader.number_or("stiffness_n_mm", script.stiffness_n_mm, 0.0, 1000.0);
+  script.stiffness_n_mm = reader.number_or("stiffness_n_mm", script.stiffness_n_mm, 0.0, 100.0);
+  parse_profile(reader, script);
   script.spindle_rpm = reader.number_or("spindle_rpm", script.spindle_rpm, 1.0, 2000.0);
+  script.specimen_factor = reader.number_or("specimen_factor", script.specimen_factor, 0.1, 10.0);
   if (script.kind == ScriptKind::hand) script.hand = parse_hand(reader.object("hand"));
+  if (script.kind == ScriptKind::robot) script.robot = parse_robot(reader.object("robot"));
   if (script.kind == ScriptKind::poses) script.poses = parse_poses(reader);
   if (reader.has("vibration")) script.vibration = parse_vibration(reader.object("vibration"));
   if (reader.has("buttons")) script.buttons = parse_buttons(reader);

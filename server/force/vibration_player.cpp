@@ -6,6 +6,7 @@
 #include "core/clock.hpp"
 #include "core/hash.hpp"
 #include "core/units.hpp"
+#include "force/coefficients.hpp"
 
 namespace ream::force {
 namespace {
@@ -36,7 +37,7 @@ VibrationGains VibrationMix::next(const VibrationInput& input) noexcept {
     level_[k] += std::clamp(wanted[k] - level_[k], -most_change, most_change);
 
   if (input.spindle_on)
-    lip_phase_rad_ = std::fmod(lip_phase_rad_ + cutting_lips * input.spindle_speed_rad_s * tick_s, 2.0 * pi);
+    lip_phase_rad_ = std::fmod(lip_phase_rad_ + lip_count * input.spindle_speed_rad_s * tick_s, 2.0 * pi);
   const double lips = lips_mean_square_kept * (1.0 + lip_pass_depth * std::cos(lip_phase_rad_));
   VibrationGains gains;
   for (size_t k = 0; k < vibration_kinds; ++k) gains[k] = k == idle ? level_[k] : lips * level_[k];

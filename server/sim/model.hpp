@@ -35,6 +35,7 @@ struct Settings {
   double force_scale = 1.0;     ///< simulated N per hand N
   double stiffness_n_mm = 2.0;  ///< coupling, hand side
   double angular_stiffness_n_mm_rad = 2000.0;
+  force::FeedSettings feed;
   force::VibrationSettings vibration;
   force::DeviceLimits limits;
   double start_up_ramp_s = 0.0;  ///< see force::StartUpRamp
@@ -64,7 +65,7 @@ struct Model {
 };
 
 /// Prepares a planned case for a tool: cuts the pilot hole into `bone` and builds the rest. Errors: conflict
-/// when the case has no plan, those of make_point_shell and swept_profile.
+/// when the case has no plan, those of make_point_shell, swept_profile and make_feed_model.
 Model make_model(const case_::Plan& plan, voxel::BoneModel& bone, shell::Tool tool, const Settings& settings);
 
 /// Plan frame of a plan, chosen the same way every time.
