@@ -130,6 +130,7 @@ TEST(Script, AsksNoMoreOfADeviceThanItCan) {
                  "'device_profile' must be an impedance");
   const json robot = {{"device", "robot"}, {"duration_s", 1.0}, {"robot", json::object()}};
   expect_refused(with(robot, "/device_profile", "omega.3"), "'device_profile' must be an admittance");
+}
 
 TEST(Script, ReadsHowTheReamerVibrates) {
   EXPECT_EQ(parse_script(hand_script(), "run.json").vibration.source, "synthesized");
