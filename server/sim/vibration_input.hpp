@@ -10,7 +10,8 @@ inline force::VibrationInput vibration_input(const Model& model, const record::T
   return {report.spindle_on,
           model.settings.feed.spindle_rad_s,
           report.cutting,
-          {report.share[0], report.share[1], report.share[2]}};
+          {report.share[0], report.share[1], report.share[2]},
+          report.paused};
 }
 
 }  // namespace ream::sim
