@@ -130,138 +130,138 @@ TEST(Script, AsksNoMoreOfADeviceThanItCan) {
                  "'device_profile' must be an impedance");
   const json robot = {{"device", "robot"}, {"duration_s", 1.0}, {"robot", json::object()}};
   expect_refused(with(robot, "/device_profile", "omega.3"), "'device_profile' must be an admittance");
+}
 
-  TEST(Script, ReadsHowTheReamerVibrates) {
-    EXPECT_EQ(parse_script(hand_script(), "run.json").vibration.source, "synthesized");
-    EXPECT_EQ(
-        parse_script(with(hand_script(), "/vibration", {{"source", "off"}, {"n_per_g", 0.3}}), "run.json")
-            .vibration.n_per_g,
-        0.3);
-    const json recording = {{"source", "recording"},
-                            {"cortical_file", "hard.wav"},
-                            {"cancellous_file", "/somewhere/soft.csv"},
-                            {"rate_hz", 2000}};
-    const test::TemporaryFolder folder;
-    const auto file = folder.write("scripts/run.json", with(hand_script(), "/vibration", recording).dump());
-    const ScriptVibration vibration = load_script(file).vibration;
-    EXPECT_EQ(vibration.source, "recording");
-    EXPECT_EQ(vibration.cortical_file, folder.path() / "scripts" / "hard.wav");
-    EXPECT_EQ(vibration.cancellous_file, "/somewhere/soft.csv");
-    EXPECT_TRUE(vibration.idle_file.empty());
-    EXPECT_EQ(vibration.rate_hz, 2000.0);
-  }
+TEST(Script, ReadsHowTheReamerVibrates) {
+  EXPECT_EQ(parse_script(hand_script(), "run.json").vibration.source, "synthesized");
+  EXPECT_EQ(parse_script(with(hand_script(), "/vibration", {{"source", "off"}, {"n_per_g", 0.3}}), "run.json")
+                .vibration.n_per_g,
+            0.3);
+  const json recording = {{"source", "recording"},
+                          {"cortical_file", "hard.wav"},
+                          {"cancellous_file", "/somewhere/soft.csv"},
+                          {"rate_hz", 2000}};
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("scripts/run.json", with(hand_script(), "/vibration", recording).dump());
+  const ScriptVibration vibration = load_script(file).vibration;
+  EXPECT_EQ(vibration.source, "recording");
+  EXPECT_EQ(vibration.cortical_file, folder.path() / "scripts" / "hard.wav");
+  EXPECT_EQ(vibration.cancellous_file, "/somewhere/soft.csv");
+  EXPECT_TRUE(vibration.idle_file.empty());
+  EXPECT_EQ(vibration.rate_hz, 2000.0);
+}
 
-  TEST(Script, RefusesAVibrationThatCannotBeMade) {
-    const auto refused = [](const json& vibration, const std::string& mentioned) {
-      expect_refused(with(hand_script(), "/vibration", vibration), mentioned);
-    };
-    refused({{"source", "loud"}}, "run.json.vibration: key 'source' must be");
-    refused({{"source", "recording"}, {"cortical_file", "a.wav"}}, "'cancellous_file' is missing");
-    refused({{"cortical_file", "a.wav"}}, "'cortical_file' is unknown");
-    refused({{"n_per_g", -0.1}}, "'n_per_g'");
-  }
+TEST(Script, RefusesAVibrationThatCannotBeMade) {
+  const auto refused = [](const json& vibration, const std::string& mentioned) {
+    expect_refused(with(hand_script(), "/vibration", vibration), mentioned);
+  };
+  refused({{"source", "loud"}}, "run.json.vibration: key 'source' must be");
+  refused({{"source", "recording"}, {"cortical_file", "a.wav"}}, "'cancellous_file' is missing");
+  refused({{"cortical_file", "a.wav"}}, "'cortical_file' is unknown");
+  refused({{"n_per_g", -0.1}}, "'n_per_g'");
+}
 
-  TEST(Script, ReadsPosesInDegrees) {
-    const Script script =
-        parse_script(with(pose_script(), "/poses/1/rotation_deg", {0.0, 0.0, 30.0}), "run.json");
-    EXPECT_EQ(script.kind, ScriptKind::poses);
-    ASSERT_EQ(script.poses.size(), 2u);
-    EXPECT_EQ(script.poses[0].rotation_vector_rad, Vec3(0, 0, 0));
-    EXPECT_EQ(script.poses[1].position_mm, Vec3(0, 0, 2));
-    EXPECT_NEAR(script.poses[1].rotation_vector_rad.z(), pi / 6.0, 1e-15);
-  }
+TEST(Script, ReadsPosesInDegrees) {
+  const Script script =
+      parse_script(with(pose_script(), "/poses/1/rotation_deg", {0.0, 0.0, 30.0}), "run.json");
+  EXPECT_EQ(script.kind, ScriptKind::poses);
+  ASSERT_EQ(script.poses.size(), 2u);
+  EXPECT_EQ(script.poses[0].rotation_vector_rad, Vec3(0, 0, 0));
+  EXPECT_EQ(script.poses[1].position_mm, Vec3(0, 0, 2));
+  EXPECT_NEAR(script.poses[1].rotation_vector_rad.z(), pi / 6.0, 1e-15);
+}
 
-  TEST(Script, UnknownKeysAreRefusedByName) {
-    for (const char* pointer :
-         {"/durtion_s", "/hand/mass_g", "/hand/wrist/mass_kg", "/hand/force_profile/1/force_kn", "/poses"}) {
-      const std::string key = json::json_pointer(pointer).back();
-      expect_refused(with(hand_script(), pointer, 1.0), "key '" + key + "' is unknown");
-    }
-    expect_refused(with(pose_script(), "/poses/0/positon_mm", {0, 0, 0}), "key 'positon_mm' is unknown");
-    expect_refused(with(pose_script(), "/hand", json::object()), "key 'hand' is unknown");
-    expect_refused(with(hand_script(), "/buttons", json::parse(R"([{"t_s": 0, "paused": true}])")),
-                   "key 'paused' is unknown");
+TEST(Script, UnknownKeysAreRefusedByName) {
+  for (const char* pointer :
+       {"/durtion_s", "/hand/mass_g", "/hand/wrist/mass_kg", "/hand/force_profile/1/force_kn", "/poses"}) {
+    const std::string key = json::json_pointer(pointer).back();
+    expect_refused(with(hand_script(), pointer, 1.0), "key '" + key + "' is unknown");
   }
+  expect_refused(with(pose_script(), "/poses/0/positon_mm", {0, 0, 0}), "key 'positon_mm' is unknown");
+  expect_refused(with(pose_script(), "/hand", json::object()), "key 'hand' is unknown");
+  expect_refused(with(hand_script(), "/buttons", json::parse(R"([{"t_s": 0, "paused": true}])")),
+                 "key 'paused' is unknown");
+}
 
-  TEST(Script, WrongTypesAndRangesAreRefusedByPlaceAndKey) {
-    expect_refused(json::array(), "run.json must be a JSON object");
-    expect_refused(with(hand_script(), "/device", "foot"), "'device'");
-    expect_refused(with(hand_script(), "/device", 3), "'device'");
-    expect_refused(with(hand_script(), "/duration_s", "long"), "'duration_s' must be a number");
-    expect_refused(with(hand_script(), "/duration_s", 0.0), "'duration_s' is 0");
-    expect_refused(with(hand_script(), "/duration_s", -1.0), "'duration_s'");
-    expect_refused(with(hand_script(), "/force_scale", 0.0), "'force_scale'");
-    expect_refused(with(hand_script(), "/hand", 7), "run.json.hand");
-    expect_refused(with(hand_script(), "/hand/start_mm", {1, 2}), "'start_mm' must be a list of 3 numbers");
-    expect_refused(with(hand_script(), "/hand/start_mm", {1, 2, "3"}), "'start_mm'");
-    expect_refused(with(hand_script(), "/hand/mass_kg", 0.0), "'mass_kg'");
-    expect_refused(with(hand_script(), "/hand/force_profile", json::array()), "'force_profile'");
-    expect_refused(with(hand_script(), "/hand/force_profile/0/force_n", true),
-                   "run.json.hand.force_profile[0]");
-    expect_refused(with(hand_script(), "/buttons", json::parse(R"([{"t_s": 0, "pause": 1}])")),
-                   "'pause' must be true or false");
-    expect_refused(with(pose_script(), "/poses", json::object()), "'poses' must be a list");
-    expect_refused(with(pose_script(), "/poses", json::array()), "'poses'");
-  }
+TEST(Script, WrongTypesAndRangesAreRefusedByPlaceAndKey) {
+  expect_refused(json::array(), "run.json must be a JSON object");
+  expect_refused(with(hand_script(), "/device", "foot"), "'device'");
+  expect_refused(with(hand_script(), "/device", 3), "'device'");
+  expect_refused(with(hand_script(), "/duration_s", "long"), "'duration_s' must be a number");
+  expect_refused(with(hand_script(), "/duration_s", 0.0), "'duration_s' is 0");
+  expect_refused(with(hand_script(), "/duration_s", -1.0), "'duration_s'");
+  expect_refused(with(hand_script(), "/force_scale", 0.0), "'force_scale'");
+  expect_refused(with(hand_script(), "/hand", 7), "run.json.hand");
+  expect_refused(with(hand_script(), "/hand/start_mm", {1, 2}), "'start_mm' must be a list of 3 numbers");
+  expect_refused(with(hand_script(), "/hand/start_mm", {1, 2, "3"}), "'start_mm'");
+  expect_refused(with(hand_script(), "/hand/mass_kg", 0.0), "'mass_kg'");
+  expect_refused(with(hand_script(), "/hand/force_profile", json::array()), "'force_profile'");
+  expect_refused(with(hand_script(), "/hand/force_profile/0/force_n", true),
+                 "run.json.hand.force_profile[0]");
+  expect_refused(with(hand_script(), "/buttons", json::parse(R"([{"t_s": 0, "pause": 1}])")),
+                 "'pause' must be true or false");
+  expect_refused(with(pose_script(), "/poses", json::object()), "'poses' must be a list");
+  expect_refused(with(pose_script(), "/poses", json::array()), "'poses'");
+}
 
-  TEST(Script, MissingKeysAreNamed) {
-    for (const char* key : {"device", "duration_s", "hand"}) {
-      json script = hand_script();
-      script.erase(key);
-      expect_refused(script, std::string("key '") + key + "' is missing");
-    }
-    json script = pose_script();
-    script["poses"][1].erase("t_s");
-    expect_refused(script, "run.json.poses[1]: key 't_s' is missing");
+TEST(Script, MissingKeysAreNamed) {
+  for (const char* key : {"device", "duration_s", "hand"}) {
+    json script = hand_script();
+    script.erase(key);
+    expect_refused(script, std::string("key '") + key + "' is missing");
   }
+  json script = pose_script();
+  script["poses"][1].erase("t_s");
+  expect_refused(script, "run.json.poses[1]: key 't_s' is missing");
+}
 
-  TEST(Script, TimesMustAscend) {
-    const auto at = [](double t_s) { return json({{"t_s", t_s}}); };
-    for (const double late : {0.0, -1.0}) {
-      expect_refused(with(hand_script(), "/hand/force_profile/1/t_s", late), "force_profile[1]: key 't_s'");
-      expect_refused(with(pose_script(), "/poses/1/t_s", late), "poses[1]: key 't_s'");
-      expect_refused(with(hand_script(), "/buttons", json::array({at(0.0), at(late)})),
-                     "buttons[1]: key 't_s'");
-    }
+TEST(Script, TimesMustAscend) {
+  const auto at = [](double t_s) { return json({{"t_s", t_s}}); };
+  for (const double late : {0.0, -1.0}) {
+    expect_refused(with(hand_script(), "/hand/force_profile/1/t_s", late), "force_profile[1]: key 't_s'");
+    expect_refused(with(pose_script(), "/poses/1/t_s", late), "poses[1]: key 't_s'");
+    expect_refused(with(hand_script(), "/buttons", json::array({at(0.0), at(late)})),
+                   "buttons[1]: key 't_s'");
   }
+}
 
-  TEST(Script, NumbersMustBeFinite) {
-    for (const double value : {std::nan(""), std::numeric_limits<double>::infinity()}) {
-      expect_refused(with(hand_script(), "/duration_s", value), "'duration_s'");
-      expect_refused(with(hand_script(), "/hand/force_profile/0/force_n", value), "'force_n'");
-      expect_refused(with(hand_script(), "/hand/start_mm/1", value), "'start_mm'");
-      expect_refused(with(pose_script(), "/poses/0/t_s", value), "'t_s'");
-      expect_refused(with(pose_script(), "/poses/0/position_mm/2", value), "'position_mm'");
-    }
+TEST(Script, NumbersMustBeFinite) {
+  for (const double value : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    expect_refused(with(hand_script(), "/duration_s", value), "'duration_s'");
+    expect_refused(with(hand_script(), "/hand/force_profile/0/force_n", value), "'force_n'");
+    expect_refused(with(hand_script(), "/hand/start_mm/1", value), "'start_mm'");
+    expect_refused(with(pose_script(), "/poses/0/t_s", value), "'t_s'");
+    expect_refused(with(pose_script(), "/poses/0/position_mm/2", value), "'position_mm'");
   }
+}
 
-  TEST(Script, FilesThatAreNoScriptAreNamed) {
-    const test::TemporaryFolder folder;
-    expect_error(ErrorKind::not_found, "absent.json", [&] { load_script(folder.path() / "absent.json"); });
-    for (const char* text : {"", "{\"device\": NaN}", "{\"duration_s\": 1e999}", "\xff\xfe", "{}]"}) {
-      const auto file = folder.write("broken.json", text);
-      expect_error(ErrorKind::invalid_input, "broken.json", [&] { load_script(file); });
-    }
-    const auto file = folder.write("good.json", hand_script().dump());
-    EXPECT_EQ(load_script(file).duration_s, 2.0);
+TEST(Script, FilesThatAreNoScriptAreNamed) {
+  const test::TemporaryFolder folder;
+  expect_error(ErrorKind::not_found, "absent.json", [&] { load_script(folder.path() / "absent.json"); });
+  for (const char* text : {"", "{\"device\": NaN}", "{\"duration_s\": 1e999}", "\xff\xfe", "{}]"}) {
+    const auto file = folder.write("broken.json", text);
+    expect_error(ErrorKind::invalid_input, "broken.json", [&] { load_script(file); });
   }
+  const auto file = folder.write("good.json", hand_script().dump());
+  EXPECT_EQ(load_script(file).duration_s, 2.0);
+}
 
-  TEST(DemoScript, PushesIntoTheBoneAndLetsGoBeforeItEnds) {
-    const Script script = demo_script();
-    EXPECT_EQ(script.kind, ScriptKind::hand);
-    EXPECT_LT(script.hand.start_mm.z(), 0.0) << "it begins outside the bone";
-    ASSERT_FALSE(script.hand.force_profile.empty());
-    double previous_s = -1.0, strongest_n = 0.0;
-    for (const TimedForce& entry : script.hand.force_profile) {
-      EXPECT_GT(entry.t_s, previous_s);
-      EXPECT_LE(std::abs(entry.force_n), 500.0);
-      previous_s = entry.t_s;
-      strongest_n = std::max(strongest_n, entry.force_n);
-    }
-    EXPECT_GT(strongest_n, 0.0);
-    EXPECT_LT(script.hand.force_profile.back().force_n, 0.0);
-    EXPECT_LE(previous_s, script.duration_s);
+TEST(DemoScript, PushesIntoTheBoneAndLetsGoBeforeItEnds) {
+  const Script script = demo_script();
+  EXPECT_EQ(script.kind, ScriptKind::hand);
+  EXPECT_LT(script.hand.start_mm.z(), 0.0) << "it begins outside the bone";
+  ASSERT_FALSE(script.hand.force_profile.empty());
+  double previous_s = -1.0, strongest_n = 0.0;
+  for (const TimedForce& entry : script.hand.force_profile) {
+    EXPECT_GT(entry.t_s, previous_s);
+    EXPECT_LE(std::abs(entry.force_n), 500.0);
+    previous_s = entry.t_s;
+    strongest_n = std::max(strongest_n, entry.force_n);
   }
+  EXPECT_GT(strongest_n, 0.0);
+  EXPECT_LT(script.hand.force_profile.back().force_n, 0.0);
+  EXPECT_LE(previous_s, script.duration_s);
+}
 
 }  // namespace
 }  // namespace ream::device
