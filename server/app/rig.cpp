@@ -6,7 +6,9 @@
 #include "app/version.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/units.hpp"
 #include "ct/phantom_case.hpp"
+#include "sim/device_settings.hpp"
 
 namespace ream::app {
 namespace {
@@ -27,6 +29,14 @@ device::Script find_script(const RunRequest& request) {
   return script;
 }
 
+force::VibrationSettings vibration_settings(const device::ScriptVibration& script) {
+  force::VibrationSettings settings;
+  settings.source = force::vibration_source_from(script.source);
+  settings.recordings = {script.cortical_file, script.cancellous_file, script.idle_file, script.rate_hz};
+  settings.vibration_n_per_g = script.n_per_g;
+  return settings;
+}
+
 sim::Settings settings_for(const RunRequest& request, const device::Script& script,
                            const device::DeviceTraits& traits) {
   sim::Settings settings;
@@ -34,12 +44,23 @@ sim::Settings settings_for(const RunRequest& request, const device::Script& scri
   settings.removal = request.removal;
   settings.tool_spacing_mm = request.tool_spacing_mm;
   settings.force_scale = script.force_scale;
-  settings.stiffness_n_mm = script.stiffness_n_mm > 0.0 ? script.stiffness_n_mm : traits.stiffness_max_n_mm;
-  settings.angular_stiffness_n_mm_rad = settings.stiffness_n_mm * 1000.0;
-  settings.limits = {traits.force_max_n, traits.torque_max_n_mm};
+  settings.vibration = vibration_settings(script.vibration);
+  sim::fit_to_device(traits, script.stiffness_n_mm, settings);
   settings.mount = script.mount;
   settings.random_seed = request.random_seed;
+  settings.feed.kind = request.feed_kind;
+  settings.feed.spindle_rad_s = rad_s_from_rpm(script.spindle_rpm);
+  settings.feed.specimen_factor = script.specimen_factor;
   return settings;
+}
+
+nlohmann::json vibration_json(const sim::Model& model) {
+  const force::VibrationSettings& vibration = model.settings.vibration;
+  nlohmann::json json = {{"source", force::to_text(vibration.source)},
+                         {"seed", model.settings.random_seed},
+                         {"n_per_g", vibration.vibration_n_per_g}};
+  if (model.vibration) json["tracks_hash"] = to_hex(model.vibration->hash());
+  return json;
 }
 
 shell::Tool tool_for(const RunRequest& request, const case_::Plan& plan) {
@@ -75,7 +96,8 @@ Rig::Rig(const RunRequest& request_in, const fs::path& data)
     : request(request_in),
       script(find_script(request)),
       bone_case(find_case(request.case_name, data)),
-      device(device::make_scripted_device(script, sim::world_from_plan(plan_of(bone_case)))),
+      device(device::make_scripted_device(script, sim::world_from_plan(plan_of(bone_case)),
+                                          request.random_seed)),
       model(sim::make_model(plan_of(bone_case), bone_case.bone, tool_for(request, plan_of(bone_case)),
                             settings_for(request, script, device->traits()))),
       state(model, bone_case.bone) {}
@@ -92,16 +114,23 @@ nlohmann::json Rig::description() const {
       {"shell_points", model.contact_shell.size()},
       {"backend", state.backend.name},
       {"removal", sim::to_text(model.settings.removal)},
+      {"device_profile", device->traits().profile},
       {"force_scale", model.settings.force_scale},
       {"stiffness_n_mm", model.settings.stiffness_n_mm},
       {"guide", guide_json(model)},
       {"mount", mount_json(model)},
+      {"model", force::to_text(model.settings.feed.kind)},
+      {"spindle_rpm", script.spindle_rpm},
+      {"specimen_factor", model.settings.feed.specimen_factor},
+      {"vibration", vibration_json(model)},
       {"random_seed", model.settings.random_seed},
       {"grid_dims",
        {bone_case.bone.grid.dims.x(), bone_case.bone.grid.dims.y(), bone_case.bone.grid.dims.z()}},
       {"start_grid_hash", to_hex(bone_case.bone.coverage_hash())}};
   if (model.settings.removal == sim::RemovalLaw::decay)
     description["decay_levels"] = model.settings.decay_levels;
+  if (const uint64_t hash = model.feed->table_hash(); hash != 0)
+    description["feed_table_hash"] = to_hex(hash);
   return description;
 }
 

@@ -17,6 +17,7 @@ struct RunRequest {
   std::string script_name = "demo";  ///< `demo` or the path of a script
   std::string backend = "auto";
   sim::RemovalLaw removal = sim::RemovalLaw::profile;
+  force::FeedKind feed_kind = force::FeedKind::empirical;
   std::string tool;  ///< empty: the plan's reamer
   std::optional<shell::ToolAxis> tool_axis;
   double tool_spacing_mm = 0.2;

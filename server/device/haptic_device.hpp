@@ -1,5 +1,4 @@
 #pragma once
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -10,14 +9,21 @@ namespace ream::device {
 /// Impedance devices give a pose and take a force; admittance devices give the hand's force and take a pose.
 enum class Causality { impedance, admittance };
 
-/// What a device can render, hand side, and who it is.
+/// What a device can render, hand side, and who it is. See device/profiles.hpp for the devices we know.
 struct DeviceTraits {
   std::string name;
   Causality causality = Causality::impedance;
   double force_max_n = 0.0;      ///< continuous
   double torque_max_n_mm = 0.0;  ///< 0: no torque
   double stiffness_max_n_mm = 0.0;
-  int degrees_of_freedom = 6;  ///< sensed
+  double angular_stiffness_max_n_mm_rad = 0.0;
+  double damping_max_n_s_mm = 0.0;   ///< that the device renders without chatter; 0: not published
+  double workspace_radius_mm = 0.0;  ///< of the ball that its handle reaches
+  double start_up_ramp_s = 0.0;      ///< over which force rises from nothing after the start
+  double vibration_max_n = 0.0;      ///< amplitude that may be added to the contact force
+  double effective_mass_kg = 0.0;    ///< admittance devices: virtual mass that the hand moves; else 0
+  int degrees_of_freedom = 6;        ///< sensed
+  std::string profile = "ideal";     ///< name in device/profiles.hpp
 };
 
 struct DeviceInput {

@@ -1,10 +1,14 @@
 #include "device/script.hpp"
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/json_reader.hpp"
 #include "core/units.hpp"
+#include "device/profiles.hpp"
+#include "device/script_mount.hpp"
 
 namespace ream::device {
 namespace {
@@ -17,11 +21,26 @@ Vec3 vector_or(JsonReader& reader, const std::string& key, const Vec3& fallback,
   return Vec3(v[0], v[1], v[2]) * scale;
 }
 
+std::string in_words(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
 /// The entry's t_s, which must be later than the one before.
 double next_time(JsonReader& entry, double previous_s) {
   const double t_s = entry.number("t_s", 0.0, longest_script_s);
   if (t_s <= previous_s) entry.refuse("t_s", "must be later than the entry before it");
   return t_s;
+}
+
+Wrist parse_wrist(JsonReader reader) {
+  Wrist wrist;
+  wrist.stiffness_n_mm_rad = reader.number_or("stiffness_n_mm_rad", wrist.stiffness_n_mm_rad, 0.0, 1.0e6);
+  wrist.damping_n_mm_s_rad = reader.number_or("damping_n_mm_s_rad", wrist.damping_n_mm_s_rad, 0.0, 1.0e5);
+  wrist.inertia_kg_mm2 = reader.number_or("inertia_kg_mm2", wrist.inertia_kg_mm2, 100.0, 1.0e6);
+  reader.finish();
+  return wrist;
 }
 
 HandParameters parse_hand(JsonReader reader) {
@@ -31,6 +50,13 @@ HandParameters parse_hand(JsonReader reader) {
   hand.mass_kg = reader.number_or("mass_kg", hand.mass_kg, 0.05, 100.0);
   hand.arm_damping_n_s_mm = reader.number_or("arm_damping_n_s_mm", hand.arm_damping_n_s_mm, 0.0, 100.0);
   hand.guide_stiffness_n_mm = reader.number_or("guide_stiffness_n_mm", hand.guide_stiffness_n_mm, 0.0, 100.0);
+  hand.arm_stiffness_n_mm = reader.number_or("arm_stiffness_n_mm", hand.arm_stiffness_n_mm, 0.0, 100.0);
+  hand.tremor_rms_n = reader.number_or("tremor_rms_n", hand.tremor_rms_n, 0.0, 50.0);
+  hand.correction_gain = reader.number_or("correction_gain", hand.correction_gain, 0.0, 0.95);
+  hand.reaction_time_s = reader.number_or("reaction_time_s", hand.reaction_time_s, 0.001, 1.0);
+  hand.grip_stiffness_n_mm = reader.number_or("grip_stiffness_n_mm", hand.grip_stiffness_n_mm, 0.1, 20.0);
+  hand.grip_damping_n_s_mm = reader.number_or("grip_damping_n_s_mm", hand.grip_damping_n_s_mm, 0.0, 0.2);
+  if (reader.has("wrist")) hand.wrist = parse_wrist(reader.object("wrist"));
   double previous_s = -1.0;
   for (JsonReader& entry : reader.objects("force_profile")) {
     previous_s = next_time(entry, previous_s);
@@ -40,6 +66,18 @@ HandParameters parse_hand(JsonReader reader) {
   if (hand.force_profile.empty()) reader.refuse("force_profile", "must have at least one entry");
   reader.finish();
   return hand;
+}
+
+RobotParameters parse_robot(JsonReader reader) {
+  RobotParameters robot;
+  robot.start_mm = vector_or(reader, "start_mm", robot.start_mm);
+  robot.tilt_rad = vector_or(reader, "tilt_deg", robot.tilt_rad, radians_from_degrees(1.0));
+  robot.approach_mm_s = reader.number_or("approach_mm_s", robot.approach_mm_s, 0.1, 50.0);
+  robot.force_n = reader.number_or("force_n", robot.force_n, 1.0, 500.0);
+  robot.ramp_s = reader.number_or("ramp_s", robot.ramp_s, 0.1, 60.0);
+  robot.depth_mm = reader.number_or("depth_mm", robot.depth_mm, 0.01, 50.0);
+  reader.finish();
+  return robot;
 }
 
 std::vector<TimedPose> parse_poses(JsonReader& reader) {
@@ -72,32 +110,33 @@ std::vector<TimedButtons> parse_buttons(JsonReader& reader) {
   return buttons;
 }
 
-Vec3 positive_vector(JsonReader& reader, const std::string& key, bool may_be_zero) {
-  const auto v = reader.numbers(key, 3);
-  for (const double x : v)
-    if (!(may_be_zero ? x >= 0.0 : x > 0.0))
-      reader.refuse(key, may_be_zero ? "must not be negative" : "must be above 0");
-  return {v[0], v[1], v[2]};
+ScriptKind parse_kind(JsonReader& reader) {
+  const std::string kind = reader.text("device");
+  if (kind == "hand") return ScriptKind::hand;
+  if (kind == "poses") return ScriptKind::poses;
+  if (kind == "robot") return ScriptKind::robot;
+  reader.refuse("device", "must be 'hand', 'poses' or 'robot'");
 }
 
-ScapulaMount parse_mount(JsonReader reader) {
-  ScapulaMount mount;
-  mount.stiffness_n_mm = positive_vector(reader, "stiffness_n_mm", false);
-  mount.damping_n_s_mm = positive_vector(reader, "damping_n_s_mm", true);
-  mount.angular_stiffness_n_mm_rad = positive_vector(reader, "angular_stiffness_n_mm_rad", false);
-  mount.angular_damping_n_mm_s_rad = positive_vector(reader, "angular_damping_n_mm_s_rad", true);
-  reader.finish();
-  return mount;
-}
-
-/// "rigid", "chest_wall", or an object with all its numbers.
-std::optional<ScapulaMount> mount_or_rigid(const nlohmann::json& json, JsonReader& reader) {
-  if (!reader.has("mount")) return std::nullopt;
-  if (!json.at("mount").is_string()) return parse_mount(reader.object("mount"));
-  const std::string word = reader.text("mount");
-  if (word == "rigid") return std::nullopt;
-  if (word != "chest_wall") reader.refuse("mount", "must be 'rigid', 'chest_wall' or an object");
-  return chest_wall_mount;
+/// Which device plays the script, and what that device cannot do.
+void parse_profile(JsonReader& reader, Script& script) {
+  const bool robot = script.kind == ScriptKind::robot;
+  script.device_profile = reader.text_or("device_profile", robot ? "ideal-admittance" : "ideal");
+  DeviceTraits traits;
+  try {
+    traits = device_profile(script.device_profile);
+  } catch (const Error& e) {
+    reader.refuse("device_profile", std::string("is wrong: ") + e.what());
+  }
+  const bool gives_force = traits.causality == Causality::admittance;
+  if (robot && !gives_force)
+    reader.refuse("device_profile", "must be an admittance device for a robot, such as 'ideal-admittance'");
+  if (script.kind == ScriptKind::poses && gives_force)
+    reader.refuse("device_profile", "must be an impedance device for timed poses, such as 'ideal'");
+  if (script.stiffness_n_mm > traits.stiffness_max_n_mm)
+    reader.refuse("stiffness_n_mm", "is " + in_words(script.stiffness_n_mm) + ", but " +
+                                        script.device_profile + " renders at most " +
+                                        in_words(traits.stiffness_max_n_mm) + "; 0 takes the most it can");
 }
 
 }  // namespace
@@ -105,23 +144,27 @@ std::optional<ScapulaMount> mount_or_rigid(const nlohmann::json& json, JsonReade
 Script parse_script(const nlohmann::json& json, const std::string& where) {
   JsonReader reader(json, where);
   Script script;
-  const std::string kind = reader.text("device");
-  if (kind != "hand" && kind != "poses") reader.refuse("device", "must be 'hand' or 'poses'");
-  script.kind = kind == "hand" ? ScriptKind::hand : ScriptKind::poses;
+  script.kind = parse_kind(reader);
   script.duration_s = reader.number("duration_s", 0.001, longest_script_s);
   script.force_scale = reader.number_or("force_scale", script.force_scale, 0.01, 1000.0);
-  script.stiffness_n_mm = reader.number_or("stiffness_n_mm", script.stiffness_n_mm, 0.0, 1000.0);
+  script.stiffness_n_mm = reader.number_or("stiffness_n_mm", script.stiffness_n_mm, 0.0, 100.0);
+  parse_profile(reader, script);
   script.spindle_rpm = reader.number_or("spindle_rpm", script.spindle_rpm, 1.0, 2000.0);
-  script.mount = mount_or_rigid(json, reader);
+  script.specimen_factor = reader.number_or("specimen_factor", script.specimen_factor, 0.1, 10.0);
+  if (reader.has("mount")) script.mount = parse_mount(json.at("mount"), reader);
   if (script.kind == ScriptKind::hand) script.hand = parse_hand(reader.object("hand"));
+  if (script.kind == ScriptKind::robot) script.robot = parse_robot(reader.object("robot"));
   if (script.kind == ScriptKind::poses) script.poses = parse_poses(reader);
+  if (reader.has("vibration")) script.vibration = parse_vibration(reader.object("vibration"));
   if (reader.has("buttons")) script.buttons = parse_buttons(reader);
   reader.finish();
   return script;
 }
 
 Script load_script(const std::filesystem::path& path) {
-  return parse_script(read_json_file(path), path.string());
+  Script script = parse_script(read_json_file(path), path.string());
+  script.vibration.resolve(path.parent_path());
+  return script;
 }
 
 }  // namespace ream::device

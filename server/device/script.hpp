@@ -2,11 +2,13 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "device/haptic_device.hpp"
 #include "device/scapula_mount.hpp"
+#include "device/script_vibration.hpp"
 
 namespace ream::device {
 
@@ -29,6 +31,13 @@ struct TimedButtons {
   bool pause = false;
 };
 
+/// How the hand turns under torque, about the orientation that it holds.
+struct Wrist {
+  double stiffness_n_mm_rad = 5000.0;
+  double damping_n_mm_s_rad = 200.0;
+  double inertia_kg_mm2 = 10000.0;  ///< of hand and drill
+};
+
 /// Simulated hand: a mass on a damped arm that pushes along its axis with a force profile. All of it in
 /// simulated newtons, so that one script behaves alike at any force scale.
 struct HandParameters {
@@ -38,19 +47,43 @@ struct HandParameters {
   double mass_kg = 1.0;
   double arm_damping_n_s_mm = 1.0;
   double guide_stiffness_n_mm = 20.0;  ///< how firmly the hand keeps to its line sideways
+  double arm_stiffness_n_mm = 0.0;     ///< pulls the hand back along its line to where it began
+  double tremor_rms_n = 0.0;           ///< noise of 8 to 12 Hz on the push, each of three directions
+  /// The hand corrects its push by this share of what it meant to push less what it felt `reaction_time_s`
+  /// ago.
+  double correction_gain = 0.0;
+  double reaction_time_s = 0.2;
+  std::optional<Wrist> wrist;        ///< empty: the hand holds its orientation whatever it feels
+  double grip_stiffness_n_mm = 5.0;  ///< between hand and handle, on admittance devices
+  double grip_damping_n_s_mm = 0.1;
 };
 
-enum class ScriptKind { hand, poses };
+/// Robot of the experiments (thesis 5.1): drives until it touches, presses with a force that rises linearly
+/// and stays, and withdraws when the tool has advanced by `depth_mm` since it touched. Simulated newtons.
+struct RobotParameters {
+  Vec3 start_mm = Vec3(0.0, 0.0, -5.0);  ///< plan frame
+  Vec3 tilt_rad = Vec3::Zero();          ///< rotation vector of its line, plan frame
+  double approach_mm_s = 2.0;            ///< in the air, there and back
+  double force_n = 52.0;
+  double ramp_s = 2.0;
+  double depth_mm = 2.0;
+};
+
+enum class ScriptKind { hand, poses, robot };
 
 /// Input of a headless run; see proto/script.schema.json.
 struct Script {
   ScriptKind kind = ScriptKind::hand;
   double duration_s = 0.0;
-  double force_scale = 1.0;     ///< simulated N per hand N
-  double stiffness_n_mm = 0.0;  ///< of the coupling, hand side; 0: the device's own
+  double force_scale = 1.0;              ///< simulated N per hand N
+  double stiffness_n_mm = 0.0;           ///< of the coupling, hand side; 0: the device's own
+  std::string device_profile = "ideal";  ///< whose limits the hand feels through; device/profiles.hpp
   double spindle_rpm = 156.0;
+  double specimen_factor = 1.0;  ///< feed of this specimen over the feed law's
+  ScriptVibration vibration;
   std::optional<ScapulaMount> mount;  ///< empty: the bone is held rigidly
   HandParameters hand;
+  RobotParameters robot;
   std::vector<TimedPose> poses;       ///< at least one for ScriptKind::poses, times ascending
   std::vector<TimedButtons> buttons;  ///< times ascending; before the first: spindle on, no pause
 };
@@ -63,7 +96,9 @@ Script parse_script(const nlohmann::json& json, const std::string& where);
 /// The script `demo` that always exists.
 Script demo_script();
 
-/// A device that plays `script`; `world_from_plan` puts it on a case. Time advances one tick a read.
-std::unique_ptr<HapticDevice> make_scripted_device(const Script& script, const Pose& world_from_plan);
+/// A device that plays `script`; `world_from_plan` puts it on a case. Time advances one tick a read. Throws
+/// Error invalid_input for an unknown device profile.
+std::unique_ptr<HapticDevice> make_scripted_device(const Script& script, const Pose& world_from_plan,
+                                                   uint64_t random_seed = 1);
 
 }  // namespace ream::device

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/units.hpp"
 
 namespace ream::force {
 
@@ -26,5 +27,37 @@ inline constexpr double start_threshold_n = 1.0;
 
 /// Spindle speed of the experiments, rpm (thesis 5.1).
 inline constexpr double reference_spindle_rpm = 156.0;
+inline constexpr double reference_spindle_rad_s = rad_s_from_rpm(reference_spindle_rpm);
+
+/// Cutting lips of the reamer (thesis, appendix A.1).
+inline constexpr int lip_count = 5;
+
+/// The angle alpha of eq. A.1: lips pass the axis at this part of the cutting radius, a sin(alpha), which is
+/// 3.0 mm of the thesis' 18.25 mm (appendix A.1.1). Kept for tools of other sizes: engineering choice.
+inline constexpr double lip_angle_rad = radians_from_degrees(9.46);
+
+/// Specific cutting coefficient kc and friction coefficient kf of eq. 1.1 as the power laws of eq. 1.2, each
+/// about a reference so that what stands before the power keeps its unit:
+///   kc = K        (l / l_0)^depth_exponent          (V / V_0)^speed_exponent,           K in N/mm^2
+///   kf = friction (l / l_0)^friction_depth_exponent (V / V_0)^friction_speed_exponent
+/// with l the depth of cut and V the speed of the lip. K follows from the feed law (kc is calibrated so that
+/// the whole lip takes 52 N at f(D)). The rake term of eq. 1.2 is 1, as the rake is 0. The thesis measured no
+/// coefficient, so all of these are engineering choices.
+struct CuttingCoefficients {
+  /// Ratio of the forces along and across the rake face, 0.2 to 1: wet bone on steel, lips half sharp. Thrust
+  /// comes mostly from it as the rake is 0; below about 0.15 the lips would pull themselves in.
+  double friction = 0.5;
+  /// -0.9 to 0.9. 0 keeps thrust all but proportional to feed, as the feed law does; metals have -0.3 to 0.
+  double depth_exponent = 0.0;
+  /// -0.9 to 0.9. 0: at one feed per revolution the forces do not know the speed.
+  double speed_exponent = 0.0;
+  double friction_depth_exponent = 0.0;  ///< -0.9 to 0.9
+  double friction_speed_exponent = 0.0;  ///< -0.9 to 0.9
+};
+
+/// Where the power laws are 1: depth of cut (0.05 mm a revolution on five lips) in mm, and speed of a lip
+/// 10 mm off the axis of the thesis' spindle, in mm/s.
+inline constexpr double reference_depth_of_cut_mm = 0.01;
+inline constexpr double reference_lip_speed_mm_s = 10.0 * reference_spindle_rad_s;
 
 }  // namespace ream::force

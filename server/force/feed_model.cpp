@@ -1,34 +1,29 @@
 #include "force/feed_model.hpp"
 
-#include <algorithm>
-
-#include "force/coefficients.hpp"
+#include "core/error.hpp"
+#include "force/empirical_feed.hpp"
+#include "force/oblique_feed.hpp"
+#include "force/scraping.hpp"
 
 namespace ream::force {
-namespace {
 
-class EmpiricalFeedModel final : public FeedModel {
- public:
-  CuttingLoad load(const EngagedBone& bone, double) const noexcept override {
-    CuttingLoad load;
-    for (int k = 0; k < 3; ++k) {
-      const auto i = static_cast<size_t>(k);
-      if (bone.share[i] > 0.0)
-        load.resistance_n_s_mm +=
-            bone.share[i] * reference_thrust_n / empirical_feed_mm_s(k, bone.density_g_cc[i]);
-    }
-    return load;
-  }
-};
-
-}  // namespace
-
-double empirical_feed_mm_s(int bone_class, double density_g_cc) noexcept {
-  if (bone_class == 2) return cartilage_feed_mm_s;
-  const FeedLaw& law = bone_class == 1 ? cortical_feed_law : cancellous_feed_law;
-  return std::max(slowest_feed_mm_s, law.slope_mm_s_per_g_cc * density_g_cc + law.intercept_mm_s);
+const char* to_text(FeedKind kind) {
+  if (kind == FeedKind::oblique) return "oblique";
+  if (kind == FeedKind::scraping) return "scraping";
+  return "empirical";
 }
 
-std::unique_ptr<FeedModel> make_empirical_feed_model() { return std::make_unique<EmpiricalFeedModel>(); }
+FeedKind feed_kind_from_text(const std::string& text) {
+  for (const FeedKind kind : {FeedKind::empirical, FeedKind::oblique, FeedKind::scraping})
+    if (text == to_text(kind)) return kind;
+  throw Error(ErrorKind::usage,
+              "feed model \"" + text + "\" is not known; use empirical, oblique or scraping");
+}
+
+std::unique_ptr<FeedModel> make_feed_model(const FeedSettings& settings, const CuttingTool& tool) {
+  if (settings.kind == FeedKind::oblique) return make_oblique_feed_model(settings, tool.lip);
+  if (settings.kind == FeedKind::scraping) return make_scraping_feed_model(settings, tool.seated_area_mm2);
+  return make_empirical_feed_model(settings, tool.lip);
+}
 
 }  // namespace ream::force

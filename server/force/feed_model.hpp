@@ -1,6 +1,11 @@
 #pragma once
 #include <array>
+#include <cstdint>
 #include <memory>
+#include <string>
+
+#include "force/coefficients.hpp"
+#include "force/oblique_cutting.hpp"
 
 namespace ream::force {
 
@@ -29,14 +34,39 @@ class FeedModel {
   virtual ~FeedModel() = default;
   /// Needs bone.any(). `thrust_n`: simulated thrust of the tick before, for laws that are not linear in it.
   virtual CuttingLoad load(const EngagedBone& bone, double thrust_n) const noexcept = 0;
+  /// Of every number that was computed ahead and that load() reads; 0 when there is none.
+  virtual uint64_t table_hash() const noexcept { return 0; }
 };
 
-/// The thesis' statistical model (eqs 5.1, 5.2): f(D, F) = (F / 52 N)(m D + b) per class. The classes under
-/// the reamer act side by side, so their resistances add by share.
-std::unique_ptr<FeedModel> make_empirical_feed_model();
+enum class FeedKind {
+  empirical,  ///< the thesis' statistical law, eqs 5.1 and 5.2
+  oblique,    ///< the mechanics of appendix A, calibrated with the law
+  scraping,   ///< experimental: wear under pressure, calibrated with the law
+};
 
-/// Feed rate of one class (0 cancellous, 1 cortical, 2 cartilage) at the reference thrust, mm/s; never below
-/// slowest_feed_mm_s.
-double empirical_feed_mm_s(int bone_class, double density_g_cc) noexcept;
+const char* to_text(FeedKind kind);
+/// The words of to_text; Error usage for others.
+FeedKind feed_kind_from_text(const std::string& text);
+
+struct FeedSettings {
+  FeedKind kind = FeedKind::empirical;
+  /// Above 0. Every model keeps the feed per revolution at a given thrust (what machining assumes;
+  /// engineering choice), so that the feed rate is proportional to it; at reference_spindle_rad_s it is the
+  /// thesis' law.
+  double spindle_rad_s = reference_spindle_rad_s;
+  /// Feed of this specimen over the law's, above 0: specimens of one density differ. Those of table 5.1 range
+  /// from 0.71 to 1.09 in cortical and from 0.91 to 1.10 in cancellous bone. Scales every class alike.
+  double specimen_factor = 1.0;
+  CuttingCoefficients cutting;
+};
+
+/// What a feed model knows of the tool.
+struct CuttingTool {
+  Lip lip;
+  double seated_area_mm2 = 1.0;  ///< of the cutting surface in bone at the planned seating, above 0
+};
+
+/// Errors: invalid_input when the lip cuts nothing, or its thrust does not rise with the feed.
+std::unique_ptr<FeedModel> make_feed_model(const FeedSettings& settings, const CuttingTool& tool);
 
 }  // namespace ream::force

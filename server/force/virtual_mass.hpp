@@ -19,7 +19,8 @@ struct VirtualMass {
 CouplingParameters coupling_of(const VirtualMass& mass, double force_scale) noexcept;
 
 /// That delta, mm and rad, tool frame: one tick of free flight under the hand's wrench (hand N and N mm, tool
-/// frame, about the tool's origin) from the tool's twist (mm/s, rad/s). Damping is taken implicitly.
+/// frame, about the tool's origin) from the tool's twist (mm/s, rad/s). Damping is taken
+/// implicitly; coupling_of() holds its other half.
 Vec6 free_flight(const VirtualMass& mass, const Vec6& twist, const Wrench& hand) noexcept;
 
 }  // namespace ream::force

@@ -28,6 +28,20 @@ void MetricsAccumulator::add(const record::TickReport& r) {
   }
   for (size_t k = 0; k < voxel::bone_class_count; ++k) coverage_removed_[k] += r.coverage_removed[k];
   if (touched_ && r.changed_bricks > 0) deepest_mm_ = std::max(deepest_mm_, axial_mm);
+  follow_rise(r, axial_mm);
+}
+
+void MetricsAccumulator::follow_rise(const record::TickReport& r, double axial_mm) {
+  if (risen_) return;
+  const bool pressed = r.engaged && r.spindle_on && r.thrust_n >= stiffness_from_n;
+  if (pressed && !rising_) {
+    rise_thrust_n_ = r.thrust_n;
+    rise_mm_ = axial_mm;
+  }
+  rising_ = pressed;
+  if (!pressed || r.thrust_n < stiffness_to_n) return;
+  risen_ = true;
+  if (axial_mm > rise_mm_) apparent_stiffness_n_mm_ = (r.thrust_n - rise_thrust_n_) / (axial_mm - rise_mm_);
 }
 
 Metrics MetricsAccumulator::metrics() const {
@@ -44,6 +58,7 @@ Metrics MetricsAccumulator::metrics() const {
   m.reaming_depth_mm = touched_ ? deepest_mm_ - first_contact_mm_ : 0.0;
   m.axial_thrust_mean_n = cutting_ticks_ > 0 ? thrust_sum_n_ / static_cast<double>(cutting_ticks_) : 0.0;
   m.axial_thrust_peak_n = thrust_peak_n_;
+  m.apparent_stiffness_n_mm = apparent_stiffness_n_mm_;
   m.duration_s = static_cast<double>(ticks_) * tick_s;
   m.contact_time_s = static_cast<double>(contact_ticks_) * tick_s;
   m.session_hash = session_hash_;
@@ -58,6 +73,8 @@ nlohmann::json metrics_json(const Metrics& m, double force_scale, const uint64_t
           {"reaming_depth_mm", m.reaming_depth_mm},
           {"axial_thrust_mean_n", m.axial_thrust_mean_n},
           {"axial_thrust_peak_n", m.axial_thrust_peak_n},
+          {"apparent_stiffness_n_mm",
+           m.apparent_stiffness_n_mm ? nlohmann::json(*m.apparent_stiffness_n_mm) : nlohmann::json()},
           {"duration_s", m.duration_s},
           {"contact_time_s", m.contact_time_s},
           {"force_scale", force_scale},

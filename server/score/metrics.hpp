@@ -1,5 +1,6 @@
 #pragma once
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 
 #include "record/tick_report.hpp"
 #include "voxel/bone_model.hpp"
@@ -17,10 +18,17 @@ struct Metrics {
   double reaming_depth_mm = 0.0;
   double axial_thrust_mean_n = 0.0;  ///< over the ticks in contact with the spindle on
   double axial_thrust_peak_n = 0.0;
+  /// Thrust gained a mm of advance while thrust rises for the first time from stiffness_from_n to
+  /// stiffness_to_n (thesis 5.2: apparent machining stiffness); empty when it has not, or without advance.
+  std::optional<double> apparent_stiffness_n_mm;
   double duration_s = 0.0;
   double contact_time_s = 0.0;
   uint64_t session_hash = 0;
 };
+
+/// Apparent stiffness is measured from the thrust at which lips begin to cut to 90 % of the experiments' 52
+/// N.
+inline constexpr double stiffness_from_n = 1.0, stiffness_to_n = 0.9 * 52.0;
 
 /// Accumulates metrics from tick reports, in order. Sums in a fixed order, so equal runs give equal bytes.
 class MetricsAccumulator {
@@ -31,6 +39,8 @@ class MetricsAccumulator {
   Metrics metrics() const;
 
  private:
+  void follow_rise(const record::TickReport& report, double axial_mm);
+
   double voxel_volume_mm3_;
   Pose plan_from_world_;
   int64_t ticks_ = 0, contact_ticks_ = 0, cutting_ticks_ = 0;
@@ -38,6 +48,10 @@ class MetricsAccumulator {
   double thrust_sum_n_ = 0.0, thrust_peak_n_ = 0.0;
   bool touched_ = false;
   double first_contact_mm_ = 0.0, deepest_mm_ = 0.0;
+  bool rising_ = false;  ///< thrust is over stiffness_from_n since rise_thrust_n_ at rise_mm_
+  double rise_thrust_n_ = 0.0, rise_mm_ = 0.0;
+  bool risen_ = false;
+  std::optional<double> apparent_stiffness_n_mm_;
   uint64_t session_hash_ = 0;
 };
 

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/huge_pages.hpp"
+#include "sim/cutting_tool.hpp"
 #include "sim/guided_handle.hpp"
 #include "sim/scapula_mount.hpp"
 
@@ -38,7 +39,9 @@ Model make_model(const case_::Plan& plan, voxel::BoneModel& bone, shell::Tool to
   const double r = model.profile.max_radius_mm;
   model.tool_box_tool.include(Vec3(-r, -r, model.profile.body_min_z_mm));
   model.tool_box_tool.include(Vec3(r, r, model.profile.body_max_z_mm));
-  model.feed = force::make_empirical_feed_model();
+  model.vibration = force::make_vibration_tracks(settings.vibration, settings.random_seed);
+  model.feed = force::make_feed_model(settings.feed, cutting_tool(model.tool.profile, plan.depth_mm));
+  model.spindle_speed_rad_s = settings.feed.spindle_rad_s;
   model.virtual_mass = settings.virtual_mass;
   model.coupling = settings.virtual_mass
                        ? force::coupling_of(*settings.virtual_mass, settings.force_scale)

@@ -15,6 +15,7 @@
 #include "force/feed_model.hpp"
 #include "force/guide.hpp"
 #include "force/limits.hpp"
+#include "force/vibration_tracks.hpp"
 #include "force/virtual_mass.hpp"
 #include "shell/point_shell.hpp"
 #include "shell/swept_profile.hpp"
@@ -36,6 +37,8 @@ struct Settings {
   double force_scale = 1.0;     ///< simulated N per hand N
   double stiffness_n_mm = 2.0;  ///< coupling, hand side
   double angular_stiffness_n_mm_rad = 2000.0;
+  force::FeedSettings feed;
+  force::VibrationSettings vibration;
   force::DeviceLimits limits;
   double start_up_ramp_s = 0.0;  ///< see force::StartUpRamp
   /// Set for admittance devices; the coupling is then the mass' (force/virtual_mass.hpp).
@@ -56,6 +59,7 @@ struct Model {
   voxel::BrickDistance distance;
   Aabb tool_box_tool;  ///< around probes and swept body
   std::unique_ptr<force::FeedModel> feed;
+  std::shared_ptr<const force::VibrationTracks> vibration;  ///< empty: the reamer does not vibrate
   force::CouplingParameters coupling;
   std::optional<force::VirtualMass> virtual_mass;
   double spindle_speed_rad_s = rad_s_from_rpm(force::reference_spindle_rpm);
@@ -66,7 +70,8 @@ struct Model {
 };
 
 /// Prepares a planned case for a tool: cuts the pilot hole into `bone` and builds the rest. Errors: conflict
-/// when the case has no plan or the guide does not fit, those of make_point_shell and swept_profile.
+/// when the case has no plan or the guide does not fit, those of make_point_shell, swept_profile and
+/// make_feed_model.
 Model make_model(const case_::Plan& plan, voxel::BoneModel& bone, shell::Tool tool, const Settings& settings);
 
 /// Plan frame of a plan, chosen the same way every time.

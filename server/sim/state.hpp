@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "collide/removal_schedule.hpp"
+#include "force/vibration_player.hpp"
 #include "record/tick_report.hpp"
 #include "sim/backend.hpp"
 #include "sim/hand_output.hpp"
@@ -41,6 +42,7 @@ struct State {
   double thrust_n = 0.0;        ///< simulated, of the last tick
   double normal_force_n = 0.0;  ///< simulated, of the last tick, that presses tool and bone together
   HandOutput output;
+  force::VibrationPlayer vibration;
   force::GuideState guide;
   MountState mount;
   Pose world_from_bone_rest;  ///< how far the bone has moved from where the case has it

@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <functional>
 #include <iosfwd>
 #include <string>
@@ -21,10 +22,13 @@ struct Row {
 
 struct Options {
   bool baselines = false;
+  std::filesystem::path plots = "ream-validate";  ///< folder for the pictures of the suite `validate`
   std::ostream* tables = nullptr;  ///< where a suite prints tables for people as it measures; null: nowhere
 };
 
 std::vector<Row> collide_suite(const Options& options);
 std::vector<Row> surface_suite(const Options& options);
+/// Force against the thesis' chapter 5.
+std::vector<Row> validate_suite(const Options& options);
 
 }  // namespace ream::bench

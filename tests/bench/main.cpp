@@ -12,7 +12,7 @@ namespace {
 using namespace ream::bench;
 
 const std::map<std::string, std::function<std::vector<Row>(const Options&)>> suites{
-    {"collide", collide_suite}, {"surface", surface_suite}};
+    {"collide", collide_suite}, {"surface", surface_suite}, {"validate", validate_suite}};
 
 bool missed(const Row& row) {
   return row.goal > 0.0 && (row.goal_is == Goal::at_most ? row.ours > row.goal : row.ours < row.goal);
@@ -58,6 +58,7 @@ int main(int argc, char** argv) {
   bool check = false, json = false;
   app.add_option("suite", suite);
   app.add_flag("--baselines", options.baselines);
+  app.add_option("--plots", options.plots);
   app.add_flag("--check", check);
   app.add_flag("--json", json);
   CLI11_PARSE(app, argc, argv);

@@ -1,7 +1,10 @@
 #pragma once
 #include <vector>
 
+#include "core/units.hpp"
+#include "device/profiles.hpp"
 #include "device/script.hpp"
+#include "sim/device_settings.hpp"
 #include "sim/step.hpp"
 #include "support/test_bone.hpp"
 
@@ -11,21 +14,31 @@ namespace ream::test {
 struct SmallRun {
   SmallRun(voxel::BoneModel bone_in, const case_::Plan& plan, const std::string& tool,
            const device::Script& script, const std::string& backend = "cpu",
-           sim::RemovalLaw removal = sim::RemovalLaw::profile)
+           sim::RemovalLaw removal = sim::RemovalLaw::profile,
+           force::FeedKind feed_kind = force::FeedKind::empirical)
+      : SmallRun(std::move(bone_in), plan, tool, script, settings(script, backend, removal, feed_kind)) {}
+
+  SmallRun(voxel::BoneModel bone_in, const case_::Plan& plan, const std::string& tool,
+           const device::Script& script, const sim::Settings& settings)
       : bone(std::move(bone_in)),
-        model(sim::make_model(plan, bone, shell::make_tool(tool), settings(script, backend, removal))),
+        model(sim::make_model(plan, bone, shell::make_tool(tool), settings)),
         state(model, bone),
         device(device::make_scripted_device(script, model.world_from_plan)) {}
 
   static sim::Settings settings(const device::Script& script, const std::string& backend,
-                                sim::RemovalLaw removal = sim::RemovalLaw::profile) {
+                                sim::RemovalLaw removal = sim::RemovalLaw::profile,
+                                force::FeedKind feed_kind = force::FeedKind::empirical) {
     sim::Settings s;
     s.backend = backend;
     s.removal = removal;
     s.tool_spacing_mm = 0.25;
     s.force_scale = script.force_scale;
-    s.stiffness_n_mm = script.stiffness_n_mm;
-    s.angular_stiffness_n_mm_rad = 1000.0 * script.stiffness_n_mm;
+    s.vibration.source = force::VibrationSource::off;  // making it takes a while
+    sim::fit_to_device(device::device_profile(script.device_profile), script.stiffness_n_mm, s);
+    s.limits = {};  // what the simulation wants to render, not what a device makes of it
+    s.feed.kind = feed_kind;
+    s.feed.spindle_rad_s = rad_s_from_rpm(script.spindle_rpm);
+    s.feed.specimen_factor = script.specimen_factor;
     s.mount = script.mount;
     return s;
   }

@@ -12,7 +12,7 @@ namespace ream::app {
 namespace {
 
 struct Options {
-  std::string suite;
+  std::string suite, plots;
   bool baselines = false, check = false;
 };
 
@@ -30,6 +30,7 @@ std::filesystem::path bench_program() {
 void bench(const Options& options, const GlobalOptions& global) {
   std::vector<std::string> words{bench_program().string()};
   if (!options.suite.empty()) words.push_back(options.suite);
+  if (!options.plots.empty()) words.insert(words.end(), {"--plots", options.plots});
   if (options.baselines) words.push_back("--baselines");
   if (options.check) words.push_back("--check");
   if (global.json) words.push_back("--json");
@@ -47,6 +48,8 @@ void add_bench_command(CLI::App& app, GlobalOptions& global) {
   CLI::App* command = app.add_subcommand("bench", "Measure this build (runs ream-bench)");
   command->add_option("suite", options->suite, "One suite; all when left out");
   command->add_flag("--baselines", options->baselines, "Measure the baselines too");
+  command->add_option("--plots", options->plots,
+                      "Folder for the pictures of the suite validate. Default: ./ream-validate");
   command->add_flag("--check", options->check, "Exit 1 and name the rows that miss their goal");
   command->callback([options, &global] { bench(*options, global); });
 }

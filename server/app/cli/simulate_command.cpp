@@ -37,6 +37,7 @@ fs::path next_output_folder() {
 
 void simulate(const Options& options, const GlobalOptions& global) {
   RunRequest request = options.request;
+  request.feed_kind = force::feed_kind_from_text(options.model);
   if (options.removal == "decay") request.removal = sim::RemovalLaw::decay;
   if (!options.tool_axis.empty()) {
     const auto v = parse_numbers(options.tool_axis, 6, "--tool-axis");
@@ -90,8 +91,12 @@ void add_simulate_command(CLI::App& app, GlobalOptions& global) {
                     "One tick a millisecond instead of as fast as it goes");
   command->add_option("--backend", options->request.backend, "auto, cpu, opencl or opencl:N")
       ->capture_default_str();
-  command->add_option("--model", options->model, "Feed model")
-      ->check(CLI::IsMember({"empirical"}))
+  command
+      ->add_option(
+          "--model", options->model,
+          "Feed model: empirical (the thesis' law), oblique (cutting mechanics of its appendix A) or "
+          "scraping (experimental: wear, resistance grows with the engaged area)")
+      ->check(CLI::IsMember({"empirical", "oblique", "scraping"}))
       ->capture_default_str();
   command
       ->add_option(

@@ -81,6 +81,34 @@ TEST_F(Simulate, RemovalByDecayIsTheSameOnEveryBackendAndSaysSo) {
   EXPECT_EQ(nlohmann::json::parse(recording.header_json).at("removal"), "decay");
 }
 
+TEST_F(Simulate, EveryFeedModelSaysSoAndFeedsAsTheSpindleTurns) {
+  nlohmann::json script = json_of(short_script());
+  script["spindle_rpm"] = 312.0;
+  script["specimen_factor"] = 0.95;
+  write("fast.json", script.dump());
+  double law_depth_mm = 0.0;
+  for (const char* model : {"empirical", "oblique", "scraping"}) {
+    SCOPED_TRACE(model);
+    const std::string out = std::string("model-") + model;
+    succeed({"simulate", "--case", "demo", "--script", "fast.json", "--model", model, "--out", out});
+    expect_results(out);
+    const auto session = json_of(out + "/session.json");
+    const record::Recording recording = record::read_recording(folder() / out / "recording.ream");
+    const auto header = nlohmann::json::parse(recording.header_json);
+    for (const auto& description : {session, header}) {
+      EXPECT_EQ(description.at("model"), model);
+      EXPECT_EQ(description.at("spindle_rpm"), 312.0);
+      EXPECT_EQ(description.at("specimen_factor"), 0.95);
+      EXPECT_EQ(description.contains("feed_table_hash"), std::string(model) != "scraping");
+    }
+    const double depth_mm = json_of(out + "/metrics.json").at("reaming_depth_mm");
+    if (std::string(model) == "empirical") law_depth_mm = depth_mm;
+    if (std::string(model) == "oblique") EXPECT_NEAR(depth_mm, law_depth_mm, 0.02 * law_depth_mm);
+  }
+  succeed({"simulate", "--case", "demo", "--script", short_script(), "--out", "slow"});
+  EXPECT_LT(json_of("slow/metrics.json").at("reaming_depth_mm").get<double>(), 0.7 * law_depth_mm);
+}
+
 TEST_F(Simulate, WithoutAnOutputFolderItTakesTheNextFreeNumber) {
   const std::string script = short_script();
   for (const char* out : {"ream-out/1", "ream-out/2"}) {

@@ -43,7 +43,7 @@ json with(json script, const std::string& pointer, const json& value) {
 TEST(Script, ReadsEveryKeyOfAHand) {
   const Script script = parse_script(
       json::parse(R"({"device": "hand", "duration_s": 3.5, "force_scale": 26, "stiffness_n_mm": 2.5,
-        "spindle_rpm": 200,
+        "spindle_rpm": 200, "specimen_factor": 0.95,
         "hand": {"start_mm": [1, 2, -9], "tilt_deg": [90, 0, 0], "mass_kg": 2, "arm_damping_n_s_mm": 0.5,
                  "guide_stiffness_n_mm": 7, "force_profile": [{"t_s": 0.5, "force_n": -8}]},
         "buttons": [{"t_s": 1}, {"t_s": 2, "spindle": false, "pause": true}]})"),
@@ -53,6 +53,7 @@ TEST(Script, ReadsEveryKeyOfAHand) {
   EXPECT_EQ(script.force_scale, 26.0);
   EXPECT_EQ(script.stiffness_n_mm, 2.5);
   EXPECT_EQ(script.spindle_rpm, 200.0);
+  EXPECT_EQ(script.specimen_factor, 0.95);
   EXPECT_EQ(script.hand.start_mm, Vec3(1, 2, -9));
   EXPECT_NEAR(script.hand.tilt_rad.x(), pi / 2.0, 1e-15);
   EXPECT_EQ(script.hand.mass_kg, 2.0);
@@ -68,6 +69,98 @@ TEST(Script, ReadsEveryKeyOfAHand) {
   EXPECT_TRUE(script.buttons[1].pause);
 }
 
+TEST(Script, ReadsHowAHandShakesReactsAndTurns) {
+  json script = hand_script();
+  script["device_profile"] = "hapticmaster";
+  script["hand"].update({{"arm_stiffness_n_mm", 0.25},
+                         {"tremor_rms_n", 1.5},
+                         {"correction_gain", 0.5},
+                         {"reaction_time_s", 0.125},
+                         {"grip_stiffness_n_mm", 3.0},
+                         {"grip_damping_n_s_mm", 0.0625},
+                         {"wrist", {{"stiffness_n_mm_rad", 4000.0}, {"inertia_kg_mm2", 2000.0}}}});
+  const Script read = parse_script(script, "run.json");
+  EXPECT_EQ(read.device_profile, "hapticmaster");
+  EXPECT_EQ(read.hand.arm_stiffness_n_mm, 0.25);
+  EXPECT_EQ(read.hand.tremor_rms_n, 1.5);
+  EXPECT_EQ(read.hand.correction_gain, 0.5);
+  EXPECT_EQ(read.hand.reaction_time_s, 0.125);
+  EXPECT_EQ(read.hand.grip_stiffness_n_mm, 3.0);
+  EXPECT_EQ(read.hand.grip_damping_n_s_mm, 0.0625);
+  ASSERT_TRUE(read.hand.wrist.has_value());
+  EXPECT_EQ(read.hand.wrist->stiffness_n_mm_rad, 4000.0);
+  EXPECT_EQ(read.hand.wrist->damping_n_mm_s_rad, Wrist{}.damping_n_mm_s_rad);
+  EXPECT_EQ(read.hand.wrist->inertia_kg_mm2, 2000.0);
+}
+
+TEST(Script, LeftOutAHandNeitherShakesNorReactsNorTurns) {
+  const Script script = parse_script(hand_script(), "run.json");
+  EXPECT_EQ(script.device_profile, "ideal");
+  EXPECT_EQ(script.hand.arm_stiffness_n_mm, 0.0);
+  EXPECT_EQ(script.hand.tremor_rms_n, 0.0);
+  EXPECT_EQ(script.hand.correction_gain, 0.0);
+  EXPECT_FALSE(script.hand.wrist.has_value());
+}
+
+TEST(Script, ReadsARobot) {
+  const Script script = parse_script(
+      json::parse(
+          R"({"device": "robot", "duration_s": 60, "robot": {"start_mm": [0, 0, -2], "tilt_deg": [0, 90, 0],
+                      "approach_mm_s": 1, "force_n": 40, "ramp_s": 5, "depth_mm": 0.5}})"),
+      "run.json");
+  EXPECT_EQ(script.kind, ScriptKind::robot);
+  EXPECT_EQ(script.device_profile, "ideal-admittance");
+  EXPECT_EQ(script.robot.start_mm, Vec3(0, 0, -2));
+  EXPECT_NEAR(script.robot.tilt_rad.y(), pi / 2.0, 1e-15);
+  EXPECT_EQ(script.robot.approach_mm_s, 1.0);
+  EXPECT_EQ(script.robot.force_n, 40.0);
+  EXPECT_EQ(script.robot.ramp_s, 5.0);
+  EXPECT_EQ(script.robot.depth_mm, 0.5);
+}
+
+TEST(Script, AsksNoMoreOfADeviceThanItCan) {
+  expect_refused(with(hand_script(), "/device_profile", "omega"),
+                 "no device profile 'omega'; there are omega.3");
+  json touch = with(hand_script(), "/device_profile", "touch");
+  EXPECT_EQ(parse_script(touch, "run.json").stiffness_n_mm, 0.0);
+  EXPECT_EQ(parse_script(with(touch, "/stiffness_n_mm", 0.4), "run.json").stiffness_n_mm, 0.4);
+  expect_refused(with(touch, "/stiffness_n_mm", 0.5),
+                 "key 'stiffness_n_mm' is 0.5, but touch renders at most 0.4");
+  expect_refused(with(pose_script(), "/device_profile", "hapticmaster"),
+                 "'device_profile' must be an impedance");
+  const json robot = {{"device", "robot"}, {"duration_s", 1.0}, {"robot", json::object()}};
+  expect_refused(with(robot, "/device_profile", "omega.3"), "'device_profile' must be an admittance");
+}
+
+TEST(Script, ReadsHowTheReamerVibrates) {
+  EXPECT_EQ(parse_script(hand_script(), "run.json").vibration.source, "synthesized");
+  EXPECT_EQ(parse_script(with(hand_script(), "/vibration", {{"source", "off"}, {"n_per_g", 0.3}}), "run.json")
+                .vibration.n_per_g,
+            0.3);
+  const json recording = {{"source", "recording"},
+                          {"cortical_file", "hard.wav"},
+                          {"cancellous_file", "/somewhere/soft.csv"},
+                          {"rate_hz", 2000}};
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("scripts/run.json", with(hand_script(), "/vibration", recording).dump());
+  const ScriptVibration vibration = load_script(file).vibration;
+  EXPECT_EQ(vibration.source, "recording");
+  EXPECT_EQ(vibration.cortical_file, folder.path() / "scripts" / "hard.wav");
+  EXPECT_EQ(vibration.cancellous_file, "/somewhere/soft.csv");
+  EXPECT_TRUE(vibration.idle_file.empty());
+  EXPECT_EQ(vibration.rate_hz, 2000.0);
+}
+
+TEST(Script, RefusesAVibrationThatCannotBeMade) {
+  const auto refused = [](const json& vibration, const std::string& mentioned) {
+    expect_refused(with(hand_script(), "/vibration", vibration), mentioned);
+  };
+  refused({{"source", "loud"}}, "run.json.vibration: key 'source' must be");
+  refused({{"source", "recording"}, {"cortical_file", "a.wav"}}, "'cancellous_file' is missing");
+  refused({{"cortical_file", "a.wav"}}, "'cortical_file' is unknown");
+  refused({{"n_per_g", -0.1}}, "'n_per_g'");
+}
+
 TEST(Script, ReadsPosesInDegrees) {
   const Script script =
       parse_script(with(pose_script(), "/poses/1/rotation_deg", {0.0, 0.0, 30.0}), "run.json");
@@ -79,7 +172,8 @@ TEST(Script, ReadsPosesInDegrees) {
 }
 
 TEST(Script, UnknownKeysAreRefusedByName) {
-  for (const char* pointer : {"/durtion_s", "/hand/mass_g", "/hand/force_profile/1/force_kn", "/poses"}) {
+  for (const char* pointer :
+       {"/durtion_s", "/hand/mass_g", "/hand/wrist/mass_kg", "/hand/force_profile/1/force_kn", "/poses"}) {
     const std::string key = json::json_pointer(pointer).back();
     expect_refused(with(hand_script(), pointer, 1.0), "key '" + key + "' is unknown");
   }

@@ -5,8 +5,6 @@
 #include <Eigen/Dense>
 #include <random>
 
-#include "force/limits.hpp"
-
 namespace ream::force {
 namespace {
 
@@ -88,13 +86,6 @@ TEST(Coupling, SolvesTheSixBySixSystem) {
       EXPECT_NEAR(step.tool_motion[i], twist[static_cast<int>(i)] * tick_s, 1e-9)
           << "seed " << seed << " trial " << trial;
   }
-}
-
-TEST(Limits, KeepDirection) {
-  const Vec3 v = limited(Vec3(3, 4, 0), 2.5);
-  EXPECT_NEAR(v.norm(), 2.5, 1e-12);
-  EXPECT_NEAR(v.normalized().dot(Vec3(0.6, 0.8, 0)), 1.0, 1e-12);
-  EXPECT_EQ(limited(Vec3(1, 0, 0), 2.0), Vec3(1, 0, 0));
 }
 
 }  // namespace

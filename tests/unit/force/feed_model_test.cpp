@@ -2,43 +2,104 @@
 
 #include <gtest/gtest.h>
 
-#include "force/coefficients.hpp"
+#include "force/feed_law.hpp"
+#include "support/expect_error.hpp"
+#include "unit/force/thesis_lip.hpp"
 
 namespace ream::force {
 namespace {
 
-TEST(EmpiricalFeed, ReproducesTheThesisEquations) {
-  EXPECT_NEAR(empirical_feed_mm_s(1, 1.50), 0.035, 1e-12);
-  EXPECT_NEAR(empirical_feed_mm_s(0, 0.55), 0.233, 1e-12);
-  // The two laws cross at 1.069 g/cc (science.md, finding 3).
-  EXPECT_NEAR(empirical_feed_mm_s(0, 1.069), empirical_feed_mm_s(1, 1.069), 1e-3);
+constexpr double seated_area_mm2 = 180.0;
+
+std::unique_ptr<FeedModel> model_of(const FeedSettings& settings) {
+  return make_feed_model(settings, {test::thesis_lip(200), seated_area_mm2});
 }
 
-TEST(EmpiricalFeed, StaysWithinTheScatterOfTheSpecimens) {
-  // Table 5.1: density, feed; the largest deviation of a specimen from the law is 29 %.
-  const double cortical[][2] = {{1.52, .037}, {1.54, .035}, {1.61, .021},
-                                {1.40, .038}, {1.58, .026}, {1.30, .039}};
-  const double cancellous[][2] = {{.55, .25}, {.41, .28}, {.72, .16}, {.45, .26}, {.62, .23}, {.48, .25}};
-  for (const auto& s : cortical) EXPECT_NEAR(s[1] / empirical_feed_mm_s(1, s[0]), 1.0, 0.30);
-  for (const auto& s : cancellous) EXPECT_NEAR(s[1] / empirical_feed_mm_s(0, s[0]), 1.0, 0.11);
+/// In full contact, as at the planned seating.
+EngagedBone bone_of(int bone_class, double density_g_cc) {
+  EngagedBone bone;
+  bone.share[static_cast<size_t>(bone_class)] = 1.0;
+  bone.density_g_cc[static_cast<size_t>(bone_class)] = density_g_cc;
+  bone.area_mm2 = seated_area_mm2;
+  return bone;
 }
 
-TEST(EmpiricalFeed, NeverTurnsNegative) {
-  for (double d = 0.0; d <= 2.5; d += 0.01)
-    for (int k = 0; k < 3; ++k) EXPECT_GE(empirical_feed_mm_s(k, d), slowest_feed_mm_s);
+/// What every model owes.
+class EveryFeedModel : public testing::TestWithParam<FeedKind> {
+ protected:
+  static FeedSettings settings() {
+    FeedSettings s;
+    s.kind = GetParam();
+    return s;
+  }
+};
+
+TEST_P(EveryFeedModel, TakesTheReferenceThrustAtTheLawsFeed) {
+  for (const double factor : {1.0, 0.712}) {
+    FeedSettings s = settings();
+    s.specimen_factor = factor;
+    const auto model = model_of(s);
+    for (int bone_class = 0; bone_class < 3; ++bone_class)
+      for (int code = 0; code <= 250; ++code) {
+        const CuttingLoad load = model->load(bone_of(bone_class, 0.01 * code), 52.0);
+        const double feed_mm_s = empirical_feed_mm_s(bone_class, 0.01 * code, factor);
+        EXPECT_NEAR(load.resistance_n_s_mm * feed_mm_s, 52.0, 1e-9) << bone_class << ", code " << code;
+        EXPECT_GT(load.torque_arm_mm, 0.0);
+      }
+  }
 }
 
-TEST(EmpiricalFeedModel, MixesClassesByShare) {
-  const auto model = make_empirical_feed_model();
-  EngagedBone pure;
-  pure.share = {0, 1, 0};
-  pure.density_g_cc = {0, 1.68, 0};
-  EXPECT_NEAR(model->load(pure, 0.0).resistance_n_s_mm, 52.0 / 0.026,
-              1e-6);  // the thesis' damping of 2000 N s/mm
-  EngagedBone mixed = pure;
-  mixed.share = {0.5, 0.5, 0};
-  mixed.density_g_cc = {0.6, 1.68, 0};
-  EXPECT_NEAR(model->load(mixed, 0.0).resistance_n_s_mm, 0.5 * 52.0 / 0.026 + 0.5 * 52.0 / 0.216, 1e-6);
+TEST_P(EveryFeedModel, FollowsTheLawAtOtherThrusts) {
+  const auto model = model_of(settings());
+  for (const double thrust_n : {20.0, 35.0, 52.0, 78.0})
+    for (const auto& bone : {bone_of(1, 1.5), bone_of(0, 0.55)}) {
+      const double law = lawful_resistance_n_s_mm(bone, {});
+      EXPECT_NEAR(model->load(bone, thrust_n).resistance_n_s_mm, law, 0.015 * law) << thrust_n << " N";
+    }
+}
+
+TEST_P(EveryFeedModel, KeepsTheFeedOfARevolutionAtAnySpindleSpeed) {
+  const auto at_reference = model_of(settings());
+  for (const double times : {0.25, 0.5, 2.0, 4.0}) {
+    FeedSettings s = settings();
+    s.spindle_rad_s = times * reference_spindle_rad_s;
+    const auto model = model_of(s);
+    for (const double thrust_n : {10.0, 52.0}) {
+      const CuttingLoad a = at_reference->load(bone_of(0, 0.6), thrust_n),
+                        b = model->load(bone_of(0, 0.6), thrust_n);
+      EXPECT_NEAR(a.resistance_n_s_mm / b.resistance_n_s_mm, times, 1e-9);
+      EXPECT_NEAR(a.torque_arm_mm, b.torque_arm_mm, 1e-9);
+    }
+  }
+}
+
+TEST_P(EveryFeedModel, ClassesActSideBySide) {
+  const auto model = model_of(settings());
+  EngagedBone mixed = bone_of(0, 0.5);
+  mixed.share = {0.25, 0.75, 0.0};
+  mixed.density_g_cc = {0.5, 1.4, 0.0};
+  const double expected = 0.25 * 52.0 / 0.25 + 0.75 * 52.0 / 0.04;
+  EXPECT_NEAR(model->load(mixed, 52.0).resistance_n_s_mm, expected, 0.015 * expected);
+}
+
+TEST_P(EveryFeedModel, SaysTheSameBitsTwice) {
+  const auto a = model_of(settings()), b = model_of(settings());
+  EXPECT_EQ(a->table_hash(), b->table_hash());
+  for (double thrust_n = 0.0; thrust_n < 120.0; thrust_n += 0.37) {
+    const EngagedBone bone = bone_of(1, 1.1 + 0.004 * thrust_n);
+    EXPECT_EQ(a->load(bone, thrust_n).resistance_n_s_mm, b->load(bone, thrust_n).resistance_n_s_mm);
+    EXPECT_EQ(a->load(bone, thrust_n).torque_arm_mm, b->load(bone, thrust_n).torque_arm_mm);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, EveryFeedModel,
+                         testing::Values(FeedKind::empirical, FeedKind::oblique, FeedKind::scraping),
+                         [](const auto& kind) { return std::string(to_text(kind.param)); });
+
+TEST(FeedKind, HasAWordEach) {
+  for (const FeedKind kind : {FeedKind::empirical, FeedKind::oblique, FeedKind::scraping})
+    EXPECT_EQ(feed_kind_from_text(to_text(kind)), kind);
+  test::expect_error(ErrorKind::usage, "rubbing", [] { feed_kind_from_text("rubbing"); });
 }
 
 }  // namespace

@@ -54,6 +54,7 @@ const std::vector<Library>& single_room_libraries() {
       {"assimp", std::regex("assimp/.*"), "geometry"},
       {"SOCI", std::regex("soci/.*"), "store"},
       {"OSMesa and OpenGL", std::regex("(GL|EGL|GLES[0-9]*)/.*"), "render"},
+      {"libsndfile and libsamplerate", std::regex("(sndfile|samplerate)\\.h.*"), "force"},
       {"NATS", std::regex("nats(/.*|\\.h)"), "stream"},
   };
   return libraries;

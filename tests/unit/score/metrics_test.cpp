@@ -79,6 +79,43 @@ TEST(Metrics, ThrustIsOfTicksInContactWithTheSpindleOn) {
   EXPECT_DOUBLE_EQ(m.contact_time_s, 4e-3);
 }
 
+/// Thrust and advance of a straight line: `steps` ticks from (from_n, from_mm) to (to_n, to_mm).
+void rise(MetricsAccumulator& accumulator, double from_n, double to_n, double from_mm, double to_mm,
+          int steps) {
+  for (int i = 0; i <= steps; ++i) {
+    const double part = static_cast<double>(i) / steps;
+    accumulator.add(contact(Pose{}, from_mm + part * (to_mm - from_mm), from_n + part * (to_n - from_n)));
+  }
+}
+
+TEST(Metrics, ApparentStiffnessIsTheSlopeOfTheFirstRise) {
+  MetricsAccumulator accumulator(0.008, Pose{});
+  accumulator.add(in_the_air(Pose{}, -1.0));
+  EXPECT_FALSE(accumulator.metrics().apparent_stiffness_n_mm);
+  // A first try that lets go again, deep; then 60 N a mm; then anything.
+  rise(accumulator, 0.0, 40.0, 0.0, 3.0, 10);
+  accumulator.add(contact(Pose{}, 3.0, 0.4));
+  EXPECT_FALSE(accumulator.metrics().apparent_stiffness_n_mm);
+  rise(accumulator, 0.0, 60.0, 3.0, 4.0, 600);
+  rise(accumulator, 60.0, 90.0, 4.0, 9.0, 10);
+  rise(accumulator, 0.0, 90.0, 9.0, 9.5, 10);
+  EXPECT_NEAR(accumulator.metrics().apparent_stiffness_n_mm.value(), 60.0, 1e-9);
+}
+
+TEST(Metrics, ApparentStiffnessNeedsASpinningToolThatAdvances) {
+  MetricsAccumulator jump(0.008, Pose{});
+  jump.add(contact(Pose{}, 1.0, 50.0));
+  rise(jump, 0.0, 52.0, 1.0, 2.0, 10);
+  EXPECT_FALSE(jump.metrics().apparent_stiffness_n_mm) << "the first rise was all at once";
+  MetricsAccumulator standing(0.008, Pose{});
+  for (int i = 0; i < 60; ++i) {
+    TickReport r = contact(Pose{}, 0.01 * i, i);
+    r.spindle_on = false;
+    standing.add(r);
+  }
+  EXPECT_FALSE(standing.metrics().apparent_stiffness_n_mm);
+}
+
 TEST(Metrics, HashIsTheLastTicks) {
   std::mt19937 random(42);
   MetricsAccumulator accumulator(0.008, Pose{});
@@ -114,6 +151,13 @@ TEST(MetricsJson, HasTheKeysThatScriptsRelyOn) {
   EXPECT_EQ(json["session_hash"], "0000000000001234");
   EXPECT_EQ(json["grid_hash"], "0000000000abcdef");
   EXPECT_FALSE(json.contains("tick_us")) << "wall times differ between equal runs";
+}
+
+TEST(MetricsJson, ApparentStiffnessIsNullUntilItIsReached) {
+  Metrics m;
+  EXPECT_TRUE(metrics_json(m, 1.0, nullptr).at("apparent_stiffness_n_mm").is_null());
+  m.apparent_stiffness_n_mm = 58.5;
+  EXPECT_EQ(metrics_json(m, 1.0, nullptr).at("apparent_stiffness_n_mm"), 58.5);
 }
 
 TEST(MetricsJson, GridHashIsNullWhileTheRunGoesOn) {

@@ -1,0 +1,99 @@
+#include "device/profiles.hpp"
+
+#include <array>
+
+#include "core/error.hpp"
+
+namespace ream::device {
+namespace {
+
+/// The table as its sources print it: N, N m, N/m, N s/m, m, kg.
+struct Published {
+  const char* name;
+  Causality causality;
+  double force_n, torque_n_m, stiffness_n_m, damping_n_s_m, workspace_m;
+  int sensed;
+  double angular_stiffness_n_m_rad, mass_kg;
+};
+
+/// Without a published figure a device turns as stiffly as its linear spring does on a lever of this length.
+/// Engineering choice.
+constexpr double lever_squared_m2 = 1.0e-3;
+constexpr double by_lever = 0.0;
+
+constexpr Causality impedance = Causality::impedance, admittance = Causality::admittance;
+constexpr double gravity_m_s2 = 9.80665;
+
+/// Rows without a note: CHAI3D 3 device table (continuous force, closed loop at 1 kHz).
+constexpr std::array<Published, 17> table{{
+    {"omega.3", impedance, 12.0, 0.0, 5000.0, 30.0, 0.075, 3, by_lever, 0.0},
+    {"omega.6", impedance, 12.0, 0.0, 5000.0, 30.0, 0.075, 6, by_lever, 0.0},
+    {"omega.7", impedance, 12.0, 0.0, 5000.0, 30.0, 0.075, 7, by_lever, 0.0},
+    {"delta.3", impedance, 20.0, 0.0, 5000.0, 30.0, 0.15, 3, by_lever, 0.0},
+    {"sigma.7", impedance, 12.0, 0.2, 4000.0, 30.0, 0.075, 7, by_lever, 0.0},
+    {"lambda.7", impedance, 12.0, 0.2, 8000.0, 30.0, 0.1125, 7, by_lever, 0.0},
+    {"falcon", impedance, 8.0, 0.0, 3000.0, 20.0, 0.04, 3, by_lever, 0.0},
+    {"touch", impedance, 3.3, 0.0, 400.0, 4.0, 0.075, 6, by_lever, 0.0},
+    {"phantom-omni", impedance, 3.3, 0.0, 700.0, 5.0, 0.10, 6, by_lever, 0.0},
+    {"phantom-desktop", impedance, 7.9, 0.0, 1000.0, 5.0, 0.10, 6, by_lever, 0.0},
+    {"premium-1.5-6dof", impedance, 8.5, 0.188, 800.0, 5.0, 0.12, 6, by_lever, 0.0},
+    {"premium-3.0-6dof", impedance, 22.0, 0.188, 1000.0, 5.0, 0.25, 6, by_lever, 0.0},
+    // KUKA LBR iiwa in Cartesian impedance control: stiffness up to 5000 N/m and 300 N m/rad (libiiwa's
+    // documentation); force is the payload's weight; torque of the wrist axes and reach from the maker's data
+    // sheet; damping is critical (ratio 1, the control's upper end) with the payload as mass, 2 sqrt(K m).
+    {"kuka-iiwa-7", impedance, 7.0 * gravity_m_s2, 40.0, 5000.0, 374.0, 0.80, 6, 300.0, 0.0},
+    {"kuka-iiwa-14", impedance, 14.0 * gravity_m_s2, 40.0, 5000.0, 529.0, 0.82, 6, 300.0, 0.0},
+    // HapticMaster (Van der Linde and others, EuroHaptics 2002): nominal force; the low end of 10 to 50 kN/m;
+    // smallest tip mass; half of the arm's 0.36 m stroke. From memory: no source at hand.
+    {"hapticmaster", admittance, 100.0, 0.0, 10000.0, 0.0, 0.18, 3, by_lever, 2.0},
+    // No device: far beyond what a hand does, for scripts that study the simulation and not a device.
+    {"ideal", impedance, 1000.0, 100.0, 100000.0, 1.0e6, 10.0, 6, by_lever, 0.0},
+    {"ideal-admittance", admittance, 1000.0, 100.0, 100000.0, 1.0e6, 10.0, 6, by_lever, 1.0},
+}};
+
+/// Makers let force rise over this long once the handle is held (CHAI3D's cGenericTool).
+constexpr double usual_ramp_s = 2.0;
+/// What a hand takes for texture; drill vibration on top of contact stays within it. Engineering choice.
+constexpr double usual_vibration_max_n = 0.5;
+
+constexpr double mm_per_m = 1000.0;
+
+DeviceTraits traits_of(const Published& row) {
+  const std::string name = row.name;
+  const bool ideal = name.starts_with("ideal");
+  const double angular_n_m_rad = row.angular_stiffness_n_m_rad > 0.0 ? row.angular_stiffness_n_m_rad
+                                                                     : row.stiffness_n_m * lever_squared_m2;
+  DeviceTraits traits;
+  traits.name = traits.profile = name;
+  traits.causality = row.causality;
+  traits.force_max_n = row.force_n;
+  traits.torque_max_n_mm = row.torque_n_m * mm_per_m;
+  traits.stiffness_max_n_mm = row.stiffness_n_m / mm_per_m;
+  traits.angular_stiffness_max_n_mm_rad = angular_n_m_rad * mm_per_m;
+  traits.damping_max_n_s_mm = row.damping_n_s_m / mm_per_m;
+  traits.workspace_radius_mm = row.workspace_m * mm_per_m;
+  traits.start_up_ramp_s = ideal ? 0.0 : usual_ramp_s;
+  traits.vibration_max_n = ideal ? row.force_n : usual_vibration_max_n;
+  traits.effective_mass_kg = row.mass_kg;
+  traits.degrees_of_freedom = row.sensed;
+  return traits;
+}
+
+}  // namespace
+
+DeviceTraits device_profile(const std::string& name) {
+  std::string names;
+  for (const Published& row : table) {
+    if (name == row.name) return traits_of(row);
+    names += (names.empty() ? "" : ", ") + std::string(row.name);
+  }
+  throw Error(ErrorKind::invalid_input, "no device profile '" + name + "'; there are " + names);
+}
+
+std::vector<std::string> device_profile_names() {
+  std::vector<std::string> names;
+  for (const Published& row : table) names.emplace_back(row.name);
+  return names;
+}
+
+}  // namespace ream::device

@@ -1,0 +1,17 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "device/haptic_device.hpp"
+
+namespace ream::device {
+
+/// What the named device can render, hand side. Values are the makers' as CHAI3D's device table gives them,
+/// where profiles.cpp says nothing else. Throws Error invalid_input, listing the names, for an unknown one.
+/// The traits' `name` and `profile` are both `name`.
+DeviceTraits device_profile(const std::string& name);
+
+/// Every name that device_profile knows, in the order of its table.
+std::vector<std::string> device_profile_names();
+
+}  // namespace ream::device

@@ -1,0 +1,25 @@
+#pragma once
+#include <span>
+
+namespace ream::bench {
+
+double mean(std::span<const double> values);
+/// Of a sample (divided by n - 1); 0 for fewer than two values.
+double deviation(std::span<const double> values);
+
+/// Least squares of y on x, and how sure one may be of it.
+struct Regression {
+  double slope = 0.0, intercept = 0.0;
+  double rho = 0.0;  ///< Pearson's correlation
+  double r_squared = 0.0;
+  double p = 1.0;  ///< two-sided, of rho being 0
+};
+
+/// Needs as many x as y, at least three, and neither all equal.
+Regression regression(std::span<const double> x, std::span<const double> y);
+
+/// Chance that Student's t with `freedom` degrees is farther from 0 than `t` (two-sided); exact sums of
+/// Abramowitz & Stegun 26.7.3 and 26.7.4.
+double two_sided_p(double t, int freedom);
+
+}  // namespace ream::bench

@@ -1,0 +1,37 @@
+#include "force/empirical_feed.hpp"
+
+#include <gtest/gtest.h>
+
+#include "force/feed_law.hpp"
+#include "unit/force/thesis_lip.hpp"
+
+namespace ream::force {
+namespace {
+
+EngagedBone cortical(double density_g_cc) {
+  EngagedBone bone;
+  bone.share = {0, 1, 0};
+  bone.density_g_cc = {0, density_g_cc, 0};
+  return bone;
+}
+
+TEST(EmpiricalFeed, IsLinearInThrustToTheBit) {
+  const auto model = make_empirical_feed_model({}, test::thesis_lip(100));
+  for (const double thrust_n : {0.0, 1.0, 52.0, 300.0})
+    EXPECT_EQ(model->load(cortical(1.5), thrust_n).resistance_n_s_mm,
+              lawful_resistance_n_s_mm(cortical(1.5), {}));
+}
+
+TEST(EmpiricalFeed, TakesItsTorqueFromTheLipsAtTheReferenceFeed) {
+  const Lip lip = test::thesis_lip(200);
+  const auto model = make_empirical_feed_model({}, lip);
+  for (const double density_g_cc : {1.2, 1.5, 1.9}) {
+    const double feed_mm = (0.11 - 0.05 * density_g_cc) / 2.6;
+    const LipLoad load = whole_load(lip_loads(lip, {}, {feed_mm}));
+    EXPECT_NEAR(model->load(cortical(density_g_cc), 20.0).torque_arm_mm, load.torque_n_mm / load.thrust_n,
+                1e-4 * load.torque_n_mm / load.thrust_n);
+  }
+}
+
+}  // namespace
+}  // namespace ream::force
