@@ -16,8 +16,8 @@ struct PilotHole {
   double depth_mm = 12.0;    ///< below the entry point
 };
 
-/// What leads the reamer along the planned axis: nothing but the hand, its nipple in the pilot hole, or a pin on
-/// which a cannulated reamer runs.
+/// What leads the reamer along the planned axis: nothing but the hand, its nipple in the pilot hole, or a pin
+/// on which a cannulated reamer runs.
 enum class GuideKind { none, nipple, pin };
 
 /// Where and how to ream. World frame (LPS mm).

@@ -90,8 +90,7 @@ double sought_depth_mm(const Guide& guide, double before_mm, const Seen& handle)
     const double next = std::clamp(at + step, 0.0, last);
     if (next == at) return at;
     const double growth_next = growth_mm(guide, handle, next);
-    if ((growth_next < 0.0) != (growth < 0.0))
-      return refined(guide, handle, at, growth, next, growth_next);
+    if ((growth_next < 0.0) != (growth < 0.0)) return refined(guide, handle, at, growth, next, growth_next);
     at = next;
     growth = growth_next;
   }

@@ -3,8 +3,8 @@
 
 namespace ream::force {
 
-/// A rod on the tool's axis in a straight hole, or a bore around a fixed pin: two points of the tool's axis may
-/// leave the guide's axis sideways by no more than the clearance, the leading point and the one `inserted
+/// A rod on the tool's axis in a straight hole, or a bore around a fixed pin: two points of the tool's axis
+/// may leave the guide's axis sideways by no more than the clearance, the leading point and the one `inserted
 /// length` behind it. Guide frame: origin at the mouth of the planned hole, z along its axis into the bone.
 struct Guide {
   double leading_mm = 0.0;    ///< leading point on the tool's axis, tool frame z
@@ -12,7 +12,7 @@ struct Guide {
   double length_mm = 8.0;     ///< guided when wholly in
   double clearance_mm = 0.1;  ///< above 0
   double deepest_mm = 1.0e6;  ///< the leading point gets no deeper, guide frame z
-  bool threaded = false;      ///< a tool that begins past the mouth begins in the guide, wherever it is sideways
+  bool threaded = false;  ///< a tool that begins past the mouth begins in the guide, wherever it is sideways
   /// Angular over linear stiffness of the spring between handle and tool: which of two poses is nearer.
   double angular_per_linear_mm2 = 1000.0;
 };
@@ -39,15 +39,15 @@ Guide nipple_guide(double radius_mm, double height_mm, double hole_diameter_mm, 
 /// A cannulated reamer on a pin along the guide's axis. Somebody has threaded it before the session begins.
 Guide pin_guide();
 
-/// To be told after every tick where the tool is: it enters when its leading point passes the mouth within the
-/// clearance (or begins inside, or threaded), and leaves when it is lifted out. A tool that missed the mouth is not guided
-/// until it is lifted and put in.
+/// To be told after every tick where the tool is: it enters when its leading point passes the mouth within
+/// the clearance (or begins inside, or threaded), and leaves when it is lifted out. A tool that missed the
+/// mouth is not guided until it is lifted and put in.
 void follow(const Guide& guide, GuideState& state, const Pose& guide_from_tool) noexcept;
 
 /// The pose nearest to the handle that the guide allows, nearest by the energy of the spring between them, so
-/// that the spring's force is conservative and normal to the guide's walls: it never holds the tool back along
-/// the axis and never pulls it in. A tool held tilted goes no deeper than the mouth lets it. The handle itself
-/// when the tool is not in the guide, or when nothing is in its way. Only + - x / and square root; no
+/// that the spring's force is conservative and normal to the guide's walls: it never holds the tool back
+/// along the axis and never pulls it in. A tool held tilted goes no deeper than the mouth lets it. The handle
+/// itself when the tool is not in the guide, or when nothing is in its way. Only + - x / and square root; no
 /// allocation; bounded work.
 Pose constrained(const Guide& guide, GuideState& state, const Pose& guide_from_handle) noexcept;
 

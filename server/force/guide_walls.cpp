@@ -27,10 +27,10 @@ Vec2 within(const Vec2& v, double limit) {
   return length > limit ? Vec2(v * (limit / length)) : v;
 }
 
-/// Both points touch: each wall pushes against its point's offset, in proportion to it. The two factors make the
-/// value of the dual problem, which is concave, largest. Newton's method on clearance over offset, which is
-/// nearly linear in them, gets there in a few steps; where it does not gain, the dual's own Newton step does,
-/// or each wall in turn while the other's push stays.
+/// Both points touch: each wall pushes against its point's offset, in proportion to it. The two factors make
+/// the value of the dual problem, which is concave, largest. Newton's method on clearance over offset, which
+/// is nearly linear in them, gets there in a few steps; where it does not gain, the dual's own Newton step
+/// does, or each wall in turn while the other's push stays.
 class BothTouch {
  public:
   BothTouch(const GuideWalls& walls, const Compliance& give, const Vec2& leading, const Vec2& trailing)

@@ -5,8 +5,8 @@ namespace ream::force {
 
 using Vec2 = Eigen::Vector2d;
 
-/// A tool's axis between the walls of a guide: where it crosses the tool's origin sideways of the guide's axis
-/// (mm), and the sideways part of its unit direction.
+/// A tool's axis between the walls of a guide: where it crosses the tool's origin sideways of the guide's
+/// axis (mm), and the sideways part of its unit direction.
 struct AxisSideways {
   Vec2 origin_mm = Vec2::Zero(), slope = Vec2::Zero();
 };

@@ -40,8 +40,7 @@ std::optional<force::Guide> make_guide(const Model& model) {
                   "the plan's guide is the nipple, but it has no pilot hole; plan one, or another guide");
     guide = nipple_of(model.tool.profile, *model.plan.pilot_hole);
   }
-  guide.angular_per_linear_mm2 =
-      model.coupling.angular_stiffness_n_mm_rad / model.coupling.stiffness_n_mm;
+  guide.angular_per_linear_mm2 = model.coupling.angular_stiffness_n_mm_rad / model.coupling.stiffness_n_mm;
   return guide;
 }
 

@@ -23,20 +23,19 @@ std::optional<device::ScapulaMount> stable_mount(const Model& model) {
   device::ScapulaMount mount = *model.settings.mount;
   const double lever_mm = model.contact_shell.moment_length_mm;
   const double linear = model.coupling.stiffness_n_mm * model.coupling.force_scale;
-  const double angular = model.coupling.angular_stiffness_n_mm_rad * model.coupling.force_scale +
-                         lever_mm * lever_mm * linear;
+  const double angular =
+      model.coupling.angular_stiffness_n_mm_rad * model.coupling.force_scale + lever_mm * lever_mm * linear;
   const double least_linear = linear * tick_s / largest_gain, least_angular = angular * tick_s / largest_gain;
   mount.damping_n_s_mm = mount.damping_n_s_mm.cwiseMax(least_linear);
   mount.angular_damping_n_mm_s_rad = mount.angular_damping_n_mm_s_rad.cwiseMax(least_angular);
   return mount;
 }
 
-MountState given_way(const device::ScapulaMount& mount, const MountState& state, const force::Wrench& about_entry,
-                 double step_s) noexcept {
-  return {
-      settled(mount.stiffness_n_mm, mount.damping_n_s_mm, state.shift_mm, about_entry.force_n, step_s),
-      settled(mount.angular_stiffness_n_mm_rad, mount.angular_damping_n_mm_s_rad, state.turn_rad,
-              about_entry.torque_n_mm, step_s)};
+MountState given_way(const device::ScapulaMount& mount, const MountState& state,
+                     const force::Wrench& about_entry, double step_s) noexcept {
+  return {settled(mount.stiffness_n_mm, mount.damping_n_s_mm, state.shift_mm, about_entry.force_n, step_s),
+          settled(mount.angular_stiffness_n_mm_rad, mount.angular_damping_n_mm_s_rad, state.turn_rad,
+                  about_entry.torque_n_mm, step_s)};
 }
 
 Pose displacement(const MountState& state, const Vec3& point_mm) noexcept {

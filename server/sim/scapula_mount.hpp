@@ -22,14 +22,14 @@ struct MountState {
 std::optional<device::ScapulaMount> stable_mount(const Model& model);
 
 /// One tick (implicit Euler) of a mount under a force and its moment about the entry where it is now.
-MountState given_way(const device::ScapulaMount& mount, const MountState& state, const force::Wrench& about_entry,
-                 double tick_s) noexcept;
+MountState given_way(const device::ScapulaMount& mount, const MountState& state,
+                     const force::Wrench& about_entry, double tick_s) noexcept;
 
 /// World from rest of a bone displaced about `point_mm` (world frame, at rest).
 Pose displacement(const MountState& state, const Vec3& point_mm) noexcept;
 
-/// Moves the bone under what the tool puts on it, directly and through the guide, and with it the tool when that
-/// is `carried`. Does nothing where the bone is held rigidly.
+/// Moves the bone under what the tool puts on it, directly and through the guide, and with it the tool when
+/// that is `carried`. Does nothing where the bone is held rigidly.
 void move_bone(const Model& model, State& state, const ToolLoad& load, bool carried) noexcept;
 
 }  // namespace ream::sim

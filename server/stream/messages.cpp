@@ -93,8 +93,7 @@ Message telemetry_message(const TelemetryBatch& batch, uint32_t dropped) {
       column(builder, batch, &TelemetrySample::density_g_cc), newest.tick, &tool, &handle, newest.spindle_on,
       static_cast<wire::SessionState>(newest.state), newest.depth_mm, newest.removed_volume_mm3,
       newest.cortical_share, dropped, newest.tick_mean_us, newest.tick_p99_us, newest.ticks_missed,
-      builder.CreateString(newest.fault.data(), fault_length),
-      newest.world_from_bone_rest ? &bone : nullptr);
+      builder.CreateString(newest.fault.data(), fault_length), newest.world_from_bone_rest ? &bone : nullptr);
   return finished(builder, wire::Body::Telemetry, telemetry);
 }
 

@@ -174,8 +174,8 @@ TEST(Plan, ReadsStrictly) {
 }
 
 TEST(Plan, KeepsItsGuide) {
-  nlohmann::json value = {{"entry_mm", {1, 2, 3}},  {"axis_direction", {0, 0, 1}}, {"depth_mm", 2},
-                          {"reamer", "sphere 20"},  {"pilot_diameter_mm", 6.2},    {"pilot_depth_mm", 12}};
+  nlohmann::json value = {{"entry_mm", {1, 2, 3}}, {"axis_direction", {0, 0, 1}}, {"depth_mm", 2},
+                          {"reamer", "sphere 20"}, {"pilot_diameter_mm", 6.2},    {"pilot_depth_mm", 12}};
   EXPECT_EQ(plan_from_json(value, "p").guide, GuideKind::none);
   for (const GuideKind kind : {GuideKind::none, GuideKind::nipple, GuideKind::pin}) {
     value["guide"] = to_text(kind);

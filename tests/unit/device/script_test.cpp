@@ -220,7 +220,8 @@ TEST(Script, MountIsRigidUnlessItIsAskedFor) {
   EXPECT_EQ(mount->damping_n_s_mm, Vec3(0, 0.5, 1));
   EXPECT_EQ(mount->angular_stiffness_n_mm_rad, Vec3(4, 5, 6));
   EXPECT_EQ(mount->angular_damping_n_mm_s_rad, Vec3(7, 8, 9));
-  expect_refused(with(hand_script(), "/mount", "table"), "'mount' must be 'rigid', 'chest_wall' or an object");
+  expect_refused(with(hand_script(), "/mount", "table"),
+                 "'mount' must be 'rigid', 'chest_wall' or an object");
   expect_refused(with(with(hand_script(), "/mount", own), "/mount/stiffness_n_mm/1", 0), "run.json.mount");
 }
 

@@ -49,7 +49,8 @@ TEST(Guide, SidewaysItStopsAtTheClearance) {
   state = put_in(middle, 7.0);
   const Pose stopped = constrained(middle, state, upright(0.9, 1.2, 7.0));
   EXPECT_NEAR(sideways(stopped, 0.0), clearance_mm, 1e-6);
-  EXPECT_NEAR((upright(0.9, 1.2, 7.0).translation_mm - stopped.translation_mm).norm(), 1.5 - clearance_mm, 1e-6);
+  EXPECT_NEAR((upright(0.9, 1.2, 7.0).translation_mm - stopped.translation_mm).norm(), 1.5 - clearance_mm,
+              1e-6);
   EXPECT_NEAR(stopped.translation_mm.z(), 7.0, 1e-12);
 }
 
@@ -151,8 +152,8 @@ TEST(Guide, WanderingHandlesStayBetweenTheWallsAndAreNeverPulledIn) {
   }
 }
 
-/// Work of the hand against the spring between handle and tool over one tick, by the trapezoidal rule: N mm for
-/// a stiffness of 1 N/mm.
+/// Work of the hand against the spring between handle and tool over one tick, by the trapezoidal rule: N mm
+/// for a stiffness of 1 N/mm.
 class WorkMeter {
  public:
   explicit WorkMeter(const Guide& guide) : angular_(guide.angular_per_linear_mm2) {}
@@ -160,8 +161,7 @@ class WorkMeter {
   void add(const Pose& handle, const Pose& kept) {
     const Vec3 force = handle.translation_mm - kept.translation_mm;
     const Vec3 torque =
-        angular_ * (kept.rotation *
-                    small_vector_from_rotation(kept.rotation.transpose() * handle.rotation));
+        angular_ * (kept.rotation * small_vector_from_rotation(kept.rotation.transpose() * handle.rotation));
     if (begun_) {
       const Vec3 way = handle.translation_mm - handle_.translation_mm;
       const Vec3 turn =

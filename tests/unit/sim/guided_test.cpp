@@ -133,12 +133,14 @@ TEST(Guided, ALeaningHandKeepsToTheAxis) {
 TEST(Guided, NippleWithoutAHoleIsRefused) {
   voxel::BoneModel bone = slab({96, 96, 96}, 0.15, surface_mm, 0.6);
   case_::Plan plan = guided_plan(bone, case_::GuideKind::nipple);
+  sim::Settings settings;
+  settings.vibration.source = force::VibrationSource::off;
   plan.pilot_hole.reset();
   expect_error(ErrorKind::conflict, "no pilot hole",
-               [&] { sim::make_model(plan, bone, shell::make_tool(nippled), {}); });
+               [&] { sim::make_model(plan, bone, shell::make_tool(nippled), settings); });
   plan.pilot_hole = case_::PilotHole{2.9, 8.0};
   expect_error(ErrorKind::conflict, "does not fit",
-               [&] { sim::make_model(plan, bone, shell::make_tool(nippled), {}); });
+               [&] { sim::make_model(plan, bone, shell::make_tool(nippled), settings); });
 }
 
 TEST(Guided, APinGuidesAToolWithoutANipple) {
@@ -159,6 +161,7 @@ TEST(Guided, AnAdmittanceDeviceIsLedToo) {
   sim::Settings settings;
   settings.tool_spacing_mm = 0.25;
   settings.virtual_mass = force::VirtualMass{};
+  settings.vibration.source = force::VibrationSource::off;
   const sim::Model model = sim::make_model(plan, bone, shell::make_tool(nippled), settings);
   sim::State state(model, bone);
   const Pose plan_from_world = model.world_from_plan.inverse();
@@ -199,11 +202,13 @@ class Swings {
   Pose at(double t_s) const {
     std::array<double, 6> v{};
     for (const auto& s : swings_)
-      for (size_t i = 0; i < 6; ++i) v[i] += s[i].size * (std::sin(s[i].rate * t_s + s[i].phase) - std::sin(s[i].phase));
+      for (size_t i = 0; i < 6; ++i)
+        v[i] += s[i].size * (std::sin(s[i].rate * t_s + s[i].phase) - std::sin(s[i].phase));
     // In during the first second, out at the end of the fourth.
     const double z_mm = t_s < 1.0 ? -6.0 + 6.3 * t_s : t_s < 3.5 ? 0.3 : 0.3 - 12.0 * (t_s - 3.5);
     const double in = std::clamp(t_s - 0.5, 0.0, 1.0);
-    return {rotation_from_small_vector(in * Vec3(v[3], v[4], v[5])), Vec3(in * v[0], in * v[1], z_mm + in * v[2])};
+    return {rotation_from_small_vector(in * Vec3(v[3], v[4], v[5])),
+            Vec3(in * v[0], in * v[1], z_mm + in * v[2])};
   }
 
  private:
@@ -232,7 +237,8 @@ TEST(Guided, NoHandGetsEnergyOutOfGuideAndMount) {
       if (i > 0) {
         const Mat3& old = before.world_from_handle.rotation;
         const Vec3 way = report.world_from_handle.translation_mm - before.world_from_handle.translation_mm;
-        const Vec3 turn = old * small_vector_from_rotation(old.transpose() * report.world_from_handle.rotation);
+        const Vec3 turn =
+            old * small_vector_from_rotation(old.transpose() * report.world_from_handle.rotation);
         energy_mj -= before.hand_force_n.dot(way) + before.hand_torque_n_mm.dot(turn);
         least_mj = std::min(least_mj, energy_mj);
       }
