@@ -8,6 +8,7 @@
 #include "core/json_reader.hpp"
 #include "core/units.hpp"
 #include "device/profiles.hpp"
+#include "device/script_mount.hpp"
 
 namespace ream::device {
 namespace {
@@ -138,34 +139,6 @@ void parse_profile(JsonReader& reader, Script& script) {
                                         in_words(traits.stiffness_max_n_mm) + "; 0 takes the most it can");
 }
 
-Vec3 positive_vector(JsonReader& reader, const std::string& key, bool may_be_zero) {
-  const auto v = reader.numbers(key, 3);
-  for (const double x : v)
-    if (!(may_be_zero ? x >= 0.0 : x > 0.0))
-      reader.refuse(key, may_be_zero ? "must not be negative" : "must be above 0");
-  return {v[0], v[1], v[2]};
-}
-
-ScapulaMount parse_mount(JsonReader reader) {
-  ScapulaMount mount;
-  mount.stiffness_n_mm = positive_vector(reader, "stiffness_n_mm", false);
-  mount.damping_n_s_mm = positive_vector(reader, "damping_n_s_mm", true);
-  mount.angular_stiffness_n_mm_rad = positive_vector(reader, "angular_stiffness_n_mm_rad", false);
-  mount.angular_damping_n_mm_s_rad = positive_vector(reader, "angular_damping_n_mm_s_rad", true);
-  reader.finish();
-  return mount;
-}
-
-/// "rigid", "chest_wall", or an object with all its numbers.
-std::optional<ScapulaMount> mount_or_rigid(const nlohmann::json& json, JsonReader& reader) {
-  if (!reader.has("mount")) return std::nullopt;
-  if (!json.at("mount").is_string()) return parse_mount(reader.object("mount"));
-  const std::string word = reader.text("mount");
-  if (word == "rigid") return std::nullopt;
-  if (word != "chest_wall") reader.refuse("mount", "must be 'rigid', 'chest_wall' or an object");
-  return chest_wall_mount;
-}
-
 }  // namespace
 
 Script parse_script(const nlohmann::json& json, const std::string& where) {
@@ -178,7 +151,7 @@ Script parse_script(const nlohmann::json& json, const std::string& where) {
   parse_profile(reader, script);
   script.spindle_rpm = reader.number_or("spindle_rpm", script.spindle_rpm, 1.0, 2000.0);
   script.specimen_factor = reader.number_or("specimen_factor", script.specimen_factor, 0.1, 10.0);
-  script.mount = mount_or_rigid(json, reader);
+  if (reader.has("mount")) script.mount = parse_mount(json.at("mount"), reader);
   if (script.kind == ScriptKind::hand) script.hand = parse_hand(reader.object("hand"));
   if (script.kind == ScriptKind::robot) script.robot = parse_robot(reader.object("robot"));
   if (script.kind == ScriptKind::poses) script.poses = parse_poses(reader);

@@ -144,6 +144,7 @@ Guide pin_guide() {
   guide.mouth_mm = -pin_outside_mm;
   guide.length_mm = pin_bore_mm;
   guide.clearance_mm = pin_clearance_mm;
+  guide.threaded = true;
   return guide;
 }
 
@@ -153,7 +154,7 @@ void follow(const Guide& guide, GuideState& state, const Pose& guide_from_tool) 
   const bool through_mouth = !state.begun || state.depth_mm <= 0.0 || tool.depth_mm <= mouth_depth_mm;
   if (!state.entered && tool.depth_mm > 0.0 && through_mouth) {
     const Vec2 leading = tool.axis.origin_mm + guide.leading_mm * tool.axis.slope;
-    state.entered = leading.norm() <= guide.clearance_mm;
+    state.entered = leading.norm() <= guide.clearance_mm || (guide.threaded && !state.begun);
     state.held_mm = guide_from_tool.translation_mm.z();
   }
   state.begun = true;

@@ -12,6 +12,7 @@ struct Guide {
   double length_mm = 8.0;     ///< guided when wholly in
   double clearance_mm = 0.1;  ///< above 0
   double deepest_mm = 1.0e6;  ///< the leading point gets no deeper, guide frame z
+  bool threaded = false;  ///< a tool that begins past the mouth begins in the guide, wherever it is sideways
   /// Angular over linear stiffness of the spring between handle and tool: which of two poses is nearer.
   double angular_per_linear_mm2 = 1000.0;
 };
@@ -35,12 +36,12 @@ inline constexpr double mouth_depth_mm = 1.0;
 /// A nipple in a pilot hole that begins at the guide frame's origin. Error conflict when it does not fit.
 Guide nipple_guide(double radius_mm, double height_mm, double hole_diameter_mm, double hole_depth_mm);
 
-/// A cannulated reamer on a pin along the guide's axis.
+/// A cannulated reamer on a pin along the guide's axis. Somebody has threaded it before the session begins.
 Guide pin_guide();
 
 /// To be told after every tick where the tool is: it enters when its leading point passes the mouth within
-/// the clearance (or begins inside), and leaves when it is lifted out. A tool that missed the mouth is not
-/// guided until it is lifted and put in.
+/// the clearance (or begins inside, or threaded), and leaves when it is lifted out. A tool that missed the
+/// mouth is not guided until it is lifted and put in.
 void follow(const Guide& guide, GuideState& state, const Pose& guide_from_tool) noexcept;
 
 /// The pose nearest to the handle that the guide allows, nearest by the energy of the spring between them, so

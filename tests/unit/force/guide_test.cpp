@@ -100,13 +100,17 @@ TEST(Guide, ANippleTooThickIsRefused) {
 TEST(Guide, PinHoldsTheBoreOverItsLength) {
   const Guide guide = pin_guide();
   GuideState state;
-  follow(guide, state, upright(0, 0, -12.0));  // begins on the pin
+  follow(guide, state, upright(1.0, 0, -12.0));  // begins on the pin, whatever the hand does
   ASSERT_TRUE(state.entered);
   constrained(guide, state, upright(0, 0, -12.0));
   const Pose kept = constrained(guide, state, tilted(Vec3(2.0, -1.0, -12.0), 0.1, -0.05));
   EXPECT_NEAR(std::max(sideways(kept, 0.0), sideways(kept, -30.0)), pin_clearance_mm, 1e-6);
   EXPECT_NEAR(kept.translation_mm.z(), -12.0, 1e-9);
   EXPECT_NEAR(constrained(guide, state, upright(0, 0, 30.0)).translation_mm.z(), 30.0, 1e-9);
+  // Once it has been drawn off it must be put on again.
+  follow(guide, state, upright(0, 0, -81.0));
+  follow(guide, state, upright(1.0, 0, -79.0));
+  EXPECT_FALSE(state.entered);
 }
 
 /// A handle that wanders in and about the guide, a little each tick.

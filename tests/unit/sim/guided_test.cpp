@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <random>
 
 #include "sim/guided_handle.hpp"
 #include "support/expect_error.hpp"
@@ -131,12 +133,14 @@ TEST(Guided, ALeaningHandKeepsToTheAxis) {
 TEST(Guided, NippleWithoutAHoleIsRefused) {
   voxel::BoneModel bone = slab({96, 96, 96}, 0.15, surface_mm, 0.6);
   case_::Plan plan = guided_plan(bone, case_::GuideKind::nipple);
+  sim::Settings settings;
+  settings.vibration.source = force::VibrationSource::off;
   plan.pilot_hole.reset();
   expect_error(ErrorKind::conflict, "no pilot hole",
-               [&] { sim::make_model(plan, bone, shell::make_tool(nippled), {}); });
+               [&] { sim::make_model(plan, bone, shell::make_tool(nippled), settings); });
   plan.pilot_hole = case_::PilotHole{2.9, 8.0};
   expect_error(ErrorKind::conflict, "does not fit",
-               [&] { sim::make_model(plan, bone, shell::make_tool(nippled), {}); });
+               [&] { sim::make_model(plan, bone, shell::make_tool(nippled), settings); });
 }
 
 TEST(Guided, APinGuidesAToolWithoutANipple) {
@@ -148,6 +152,101 @@ TEST(Guided, APinGuidesAToolWithoutANipple) {
   for (const auto& r : run.run()) {
     EXPECT_LE(sideways(in_plan(run, r.world_from_tool, 0.0)), 0.1 + 1e-6) << "tick " << r.tick;
     EXPECT_LE(sideways(in_plan(run, r.world_from_tool, -30.0)), 0.1 + 1e-6) << "tick " << r.tick;
+  }
+}
+
+TEST(Guided, AnAdmittanceDeviceIsLedToo) {
+  voxel::BoneModel bone = slab({96, 96, 96}, 0.15, surface_mm, 0.6);
+  const case_::Plan plan = guided_plan(bone, case_::GuideKind::nipple);
+  sim::Settings settings;
+  settings.tool_spacing_mm = 0.25;
+  settings.virtual_mass = force::VirtualMass{};
+  settings.vibration.source = force::VibrationSource::off;
+  const sim::Model model = sim::make_model(plan, bone, shell::make_tool(nippled), settings);
+  sim::State state(model, bone);
+  const Pose plan_from_world = model.world_from_plan.inverse();
+  device::DeviceInput input;
+  input.world_from_handle = model.world_from_plan * Pose{Mat3::Identity(), Vec3(0, 0, -4.5)};
+  double deepest_mm = -10.0;
+  for (int i = 0; i < 4000; ++i) {
+    record::TickReport report;
+    input.spindle_on = true;
+    // Pressed in; leant on and tilted once it is in the hole.
+    const double lean_n = i > 1500 ? 10.0 : 0.0;
+    input.hand_force_n = model.world_from_plan.rotation * Vec3(lean_n, 0.0, i < 200 ? 1.0 : 10.0);
+    input.hand_torque_n_mm = model.world_from_plan.rotation * Vec3(0.0, 30.0 * lean_n, 0.0);
+    ASSERT_EQ(sim::step(model, state, input, report), sim::StepStatus::ok);
+    const Vec3 tip = plan_from_world.point(report.world_from_tool.point(Vec3(0, 0, 4.0)));
+    deepest_mm = std::max(deepest_mm, tip.z());
+    if (tip.z() > 0.5) {
+      EXPECT_LE(sideways(tip), clearance_mm + 1e-6) << "tick " << i;
+    }
+  }
+  EXPECT_TRUE(state.guide.entered);
+  EXPECT_GT(deepest_mm, 3.0);
+}
+
+/// A handle on a path of a few random swings about the seated reamer: at most 10 Hz, 0.2 m/s.
+class Swings {
+ public:
+  explicit Swings(unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    for (auto& s : swings_)
+      for (int i = 0; i < 6; ++i) {
+        const double hertz = 0.2 + 10.0 * share(random) * share(random);
+        const double most = i < 3 ? 1.5 : 0.08;
+        s[i] = {most * share(random) / (0.3 + hertz), 6.283185307 * hertz, 6.283185307 * share(random)};
+      }
+  }
+  Pose at(double t_s) const {
+    std::array<double, 6> v{};
+    for (const auto& s : swings_)
+      for (size_t i = 0; i < 6; ++i)
+        v[i] += s[i].size * (std::sin(s[i].rate * t_s + s[i].phase) - std::sin(s[i].phase));
+    // In during the first second, out at the end of the fourth.
+    const double z_mm = t_s < 1.0 ? -6.0 + 6.3 * t_s : t_s < 3.5 ? 0.3 : 0.3 - 12.0 * (t_s - 3.5);
+    const double in = std::clamp(t_s - 0.5, 0.0, 1.0);
+    return {rotation_from_small_vector(in * Vec3(v[3], v[4], v[5])),
+            Vec3(in * v[0], in * v[1], z_mm + in * v[2])};
+  }
+
+ private:
+  struct Swing {
+    double size, rate, phase;
+  };
+  std::array<std::array<Swing, 6>, 3> swings_{};
+};
+
+TEST(Guided, NoHandGetsEnergyOutOfGuideAndMount) {
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    device::Script script = steady_push(0.0, 4.0);
+    if (seed % 2 == 0) script.mount = device::chest_wall_mount;
+    if (seed % 3 == 0) script.stiffness_n_mm = 5.0;
+    SmallRun run = guided_run(script, seed % 4 < 2 ? case_::GuideKind::nipple : case_::GuideKind::pin);
+    const Swings hand(seed);
+    double energy_mj = 0.0, least_mj = 0.0;
+    int guided_ticks = 0;
+    device::DeviceInput input;
+    input.spindle_on = true;
+    record::TickReport before;
+    for (int i = 0; i < 4000; ++i) {
+      input.world_from_handle = run.model.world_from_plan * hand.at(1e-3 * i);
+      record::TickReport report;
+      ASSERT_EQ(sim::step(run.model, run.state, input, report), sim::StepStatus::ok) << "seed " << seed;
+      if (i > 0) {
+        const Mat3& old = before.world_from_handle.rotation;
+        const Vec3 way = report.world_from_handle.translation_mm - before.world_from_handle.translation_mm;
+        const Vec3 turn =
+            old * small_vector_from_rotation(old.transpose() * report.world_from_handle.rotation);
+        energy_mj -= before.hand_force_n.dot(way) + before.hand_torque_n_mm.dot(turn);
+        least_mj = std::min(least_mj, energy_mj);
+      }
+      before = report;
+      if (run.state.guide.entered) ++guided_ticks;
+    }
+    EXPECT_GT(least_mj, -1.0) << "seed " << seed;
+    EXPECT_GT(guided_ticks, 1000) << "seed " << seed;
   }
 }
 
