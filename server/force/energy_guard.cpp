@@ -5,6 +5,17 @@
 #include "core/clock.hpp"
 
 namespace ream::force {
+namespace {
+
+/// Most energy, mJ, that a force (or torque) of this size held for the coming tick can give a hand of that
+/// speed and readiness to move.
+double most_given_mj(double load, double speed, double speed_gain, double least_mass) {
+  constexpr double per_load_and_mass = 1000.0;  // 1 N moves 1 kg with 1000 mm/s^2
+  const double pushed = tick_s * per_load_and_mass * load / least_mass;
+  return tick_s * load * (speed + speed_gain + pushed);
+}
+
+}  // namespace
 
 void EnergyGuard::observe(const Pose& world_from_handle) noexcept {
   if (started_) {
@@ -25,8 +36,9 @@ void EnergyGuard::observe(const Pose& world_from_handle) noexcept {
 Wrench EnergyGuard::allow(const Wrench& wanted, double stored_mj) noexcept {
   using namespace energy_guard;
   saved_mj_ = std::min(saved_mj_, stored_mj + most_saved_mj);
-  const double most_given_back_mj = tick_s * (wanted.force_n.norm() * (speed_mm_s_ + speed_gain_mm_s) +
-                                              wanted.torque_n_mm.norm() * (speed_rad_s_ + speed_gain_rad_s));
+  const double most_given_back_mj =
+      most_given_mj(wanted.force_n.norm(), speed_mm_s_, speed_gain_mm_s, least_mass_kg) +
+      most_given_mj(wanted.torque_n_mm.norm(), speed_rad_s_, speed_gain_rad_s, least_inertia_kg_mm2);
   const double available_mj = std::max(0.0, saved_mj_ + credit_mj);
   rendered_ = wanted;
   if (most_given_back_mj > available_mj) {

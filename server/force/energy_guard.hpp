@@ -12,8 +12,10 @@ inline constexpr double credit_mj = 0.9;
 /// What was put in earlier pays for later only up to this much over what the spring now holds: bone has used
 /// up the rest.
 inline constexpr double most_saved_mj = 20.0;
-/// How fast a hand with a handle may gain speed: 100 m/s^2 and 1000 rad/s^2, in a tick's terms.
+/// How fast a hand may gain speed by itself in a tick: 100 m/s^2 and 1000 rad/s^2.
 inline constexpr double speed_gain_mm_s = 100.0, speed_gain_rad_s = 1.0;
+/// What the device's own wrench moves is at least this much of hand and handle.
+inline constexpr double least_mass_kg = 0.5, least_inertia_kg_mm2 = 1250.0;
 /// A hand that was fast may be so again in the other direction: its speed is forgotten by this part a tick.
 inline constexpr double speed_kept = 0.98;
 }  // namespace energy_guard
