@@ -13,6 +13,9 @@ namespace {
 
 constexpr auto idle = static_cast<size_t>(VibrationKind::idle);
 
+/// Sets the starts of tracks apart from what else comes from the seed.
+constexpr uint64_t start_of_kind = 0x100;
+
 /// The mean of (1 + d cos)^2 is 1 + d^2 / 2.
 const double lips_mean_square_kept = 1.0 / std::sqrt(1.0 + 0.5 * lip_pass_depth * lip_pass_depth);
 
@@ -47,7 +50,7 @@ VibrationGains VibrationMix::next(const VibrationInput& input) noexcept {
 std::array<size_t, vibration_kinds> start_beats(const VibrationTracks& tracks, uint64_t seed) {
   std::array<size_t, vibration_kinds> beats{};
   for (size_t k = 0; k < vibration_kinds; ++k)
-    beats[k] = hash_combine(seed, 0x62656174 + k) % (tracks.by_kind[k].device_g.size() / ticks_a_beat);
+    beats[k] = hash_combine(seed, start_of_kind + k) % (tracks.by_kind[k].device_g.size() / ticks_a_beat);
   return beats;
 }
 
