@@ -34,6 +34,7 @@ json whole_json(const case_::Case& c) {
     json plan = case_::to_json(*c.plan);
     for (const char* key : {"pilot_diameter_mm", "pilot_depth_mm"})
       if (!plan.contains(key)) plan[key] = nullptr;
+    plan["guide"] = case_::to_text(c.plan->guide);
     value["plan"] = std::move(plan);
   }
   return value;

@@ -194,6 +194,7 @@ void ReamingSession::take_reports() {
     sample_.density_g_cc = static_cast<float>(r.density_g_cc);
     sample_.world_from_tool = r.world_from_tool;
     sample_.world_from_handle = r.world_from_handle;
+    if (rig_.model.mount) sample_.world_from_bone_rest = r.world_from_bone_rest;
     sample_.spindle_on = r.spindle_on;
     sample_.cortical_share = static_cast<float>(r.share[static_cast<size_t>(voxel::BoneClass::cortical)]);
     sample_.state = r.paused ? stream::SessionState::paused : stream::SessionState::running;

@@ -46,6 +46,7 @@ sim::Settings settings_for(const RunRequest& request, const device::Script& scri
   settings.force_scale = script.force_scale;
   settings.vibration = vibration_settings(script.vibration);
   sim::fit_to_device(traits, script.stiffness_n_mm, settings);
+  settings.mount = script.mount;
   settings.random_seed = request.random_seed;
   settings.feed.kind = request.feed_kind;
   settings.feed.spindle_rad_s = rad_s_from_rpm(script.spindle_rpm);
@@ -64,6 +65,24 @@ nlohmann::json vibration_json(const sim::Model& model) {
 
 shell::Tool tool_for(const RunRequest& request, const case_::Plan& plan) {
   return shell::make_tool(request.tool.empty() ? plan.reamer : request.tool, request.tool_axis);
+}
+
+nlohmann::json guide_json(const sim::Model& model) {
+  nlohmann::json json = {{"kind", case_::to_text(model.plan.guide)}};
+  if (model.guide) {
+    json["clearance_mm"] = model.guide->clearance_mm;
+    json["length_mm"] = model.guide->length_mm;
+  }
+  return json;
+}
+
+nlohmann::json mount_json(const sim::Model& model) {
+  if (!model.mount) return "rigid";
+  const auto list = [](const Vec3& v) { return nlohmann::json{v.x(), v.y(), v.z()}; };
+  return {{"stiffness_n_mm", list(model.mount->stiffness_n_mm)},
+          {"damping_n_s_mm", list(model.mount->damping_n_s_mm)},
+          {"angular_stiffness_n_mm_rad", list(model.mount->angular_stiffness_n_mm_rad)},
+          {"angular_damping_n_mm_s_rad", list(model.mount->angular_damping_n_mm_s_rad)}};
 }
 
 }  // namespace
@@ -102,6 +121,8 @@ nlohmann::json Rig::description() const {
       {"spindle_rpm", script.spindle_rpm},
       {"specimen_factor", model.settings.feed.specimen_factor},
       {"vibration", vibration_json(model)},
+      {"guide", guide_json(model)},
+      {"mount", mount_json(model)},
       {"random_seed", model.settings.random_seed},
       {"grid_dims",
        {bone_case.bone.grid.dims.x(), bone_case.bone.grid.dims.y(), bone_case.bone.grid.dims.z()}},

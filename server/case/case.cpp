@@ -201,6 +201,25 @@ void save_case(const Case& c, const fs::path& folder, bool replace) {
   target.commit();
 }
 
+std::string to_text(GuideKind guide) {
+  switch (guide) {
+    case GuideKind::none:
+      return "none";
+    case GuideKind::nipple:
+      return "nipple";
+    case GuideKind::pin:
+      return "pin";
+  }
+  return "none";
+}
+
+GuideKind guide_from_text(const std::string& text) {
+  if (text == "none") return GuideKind::none;
+  if (text == "nipple") return GuideKind::nipple;
+  if (text == "pin") return GuideKind::pin;
+  throw Error(ErrorKind::invalid_input, "guide '" + text + "' must be none, nipple or pin");
+}
+
 std::string to_text(Side side) { return side == Side::left ? "left" : "right"; }
 
 Side side_from_text(const std::string& text) {

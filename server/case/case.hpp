@@ -16,6 +16,10 @@ struct PilotHole {
   double depth_mm = 12.0;    ///< below the entry point
 };
 
+/// What leads the reamer along the planned axis: nothing but the hand, its nipple in the pilot hole, or a pin
+/// on which a cannulated reamer runs.
+enum class GuideKind { none, nipple, pin };
+
 /// Where and how to ream. World frame (LPS mm).
 struct Plan {
   Vec3 entry_mm = Vec3::Zero();         ///< point of the axis on the native glenoid surface
@@ -23,6 +27,7 @@ struct Plan {
   double depth_mm = 2.0;                ///< planned reaming depth past first contact of the cutting surface
   std::string reamer = "ellipse 18.25,9";  ///< profile text or path of a mesh, see shell/tool.hpp
   std::optional<PilotHole> pilot_hole = PilotHole{};
+  GuideKind guide = GuideKind::none;  ///< nipple needs a pilot hole
 };
 
 /// Glenoid coordinate system, world frame, each a unit vector; side-aware (see DESIGN 3 and science 2.1).
@@ -78,6 +83,10 @@ void cut_pilot_hole(voxel::BoneModel& bone, const Plan& plan);
 /// First bone surface met when moving along the plan's direction through `point` (coverage crosses 127.5);
 /// empty when the ray misses the bone.
 std::optional<Vec3> surface_along(const voxel::BoneModel& bone, const Vec3& point_mm, const Vec3& direction);
+
+std::string to_text(GuideKind guide);
+/// Error invalid_input for other words than none, nipple and pin.
+GuideKind guide_from_text(const std::string& text);
 
 std::string to_text(Side side);
 Side side_from_text(const std::string& text);

@@ -31,6 +31,9 @@ void validate(const Plan& plan, const std::string& place) {
     throw Error(ErrorKind::invalid_input, place + ": axis_direction must not be zero");
   check_length(place, "depth_mm", plan.depth_mm, true);
   if (plan.reamer.empty()) throw Error(ErrorKind::invalid_input, place + ": reamer must name a tool");
+  if (plan.guide == GuideKind::nipple && !plan.pilot_hole)
+    throw Error(ErrorKind::invalid_input,
+                place + ": guide is nipple, which needs a pilot hole; plan one, or guide none or pin");
   if (!plan.pilot_hole) return;
   check_length(place, "pilot_diameter_mm", plan.pilot_hole->diameter_mm, false);
   check_length(place, "pilot_depth_mm", plan.pilot_hole->depth_mm, false);
@@ -50,6 +53,10 @@ Plan plan_from_json(const nlohmann::json& value, const std::string& place) {
   plan.pilot_hole.reset();
   if (reader.has("pilot_diameter_mm") || reader.has("pilot_depth_mm"))
     plan.pilot_hole = PilotHole{reader.number("pilot_diameter_mm"), reader.number("pilot_depth_mm")};
+  const std::string guide = reader.text_or("guide", "none");
+  if (guide != "none" && guide != "nipple" && guide != "pin")
+    reader.refuse("guide", "must be none, nipple or pin");
+  plan.guide = guide_from_text(guide);
   reader.finish();
   validate(plan, place);
   return plan;
@@ -61,6 +68,8 @@ nlohmann::json to_json(const Plan& plan) {
                           {"axis_direction", list(plan.axis_direction)},
                           {"depth_mm", plan.depth_mm},
                           {"reamer", plan.reamer}};
+  // Programs that know of no guides read a plan that needs none.
+  if (plan.guide != GuideKind::none) value["guide"] = to_text(plan.guide);
   if (plan.pilot_hole) {
     value["pilot_diameter_mm"] = plan.pilot_hole->diameter_mm;
     value["pilot_depth_mm"] = plan.pilot_hole->depth_mm;

@@ -8,6 +8,7 @@
 #include "core/json_reader.hpp"
 #include "core/units.hpp"
 #include "device/profiles.hpp"
+#include "device/script_mount.hpp"
 
 namespace ream::device {
 namespace {
@@ -150,6 +151,7 @@ Script parse_script(const nlohmann::json& json, const std::string& where) {
   parse_profile(reader, script);
   script.spindle_rpm = reader.number_or("spindle_rpm", script.spindle_rpm, 1.0, 2000.0);
   script.specimen_factor = reader.number_or("specimen_factor", script.specimen_factor, 0.1, 10.0);
+  if (reader.has("mount")) script.mount = parse_mount(json.at("mount"), reader);
   if (script.kind == ScriptKind::hand) script.hand = parse_hand(reader.object("hand"));
   if (script.kind == ScriptKind::robot) script.robot = parse_robot(reader.object("robot"));
   if (script.kind == ScriptKind::poses) script.poses = parse_poses(reader);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "device/haptic_device.hpp"
+#include "device/scapula_mount.hpp"
 #include "device/script_vibration.hpp"
 
 namespace ream::device {
@@ -80,6 +81,7 @@ struct Script {
   double spindle_rpm = 156.0;
   double specimen_factor = 1.0;  ///< feed of this specimen over the feed law's
   ScriptVibration vibration;
+  std::optional<ScapulaMount> mount;  ///< empty: the bone is held rigidly
   HandParameters hand;
   RobotParameters robot;
   std::vector<TimedPose> poses;       ///< at least one for ScriptKind::poses, times ascending

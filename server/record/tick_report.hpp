@@ -15,6 +15,7 @@ struct TickReport {
   QuantisedPose world_from_handle_q;  ///< the cause: what the device said, as it was used
   QuantisedPose grid_from_tool;       ///< what was decided, as contact and removal saw it
   Pose world_from_tool, world_from_handle;
+  Pose world_from_bone_rest;         ///< how far the bone has moved from where the case has it
   Vec3 hand_force_n = Vec3::Zero();  ///< sent to the device, world frame
   Vec3 hand_torque_n_mm = Vec3::Zero();
   double thrust_n = 0.0;             ///< simulated, along the tool axis, pressing into the bone positive

@@ -56,7 +56,8 @@ const std::string& TraceCsv::header_line() {
       "tool_x_mm,tool_y_mm,tool_z_mm,tool_qw,tool_qx,tool_qy,tool_qz,spindle_on,paused,"
       "thrust_n,hand_force_x_n,hand_force_y_n,hand_force_z_n,torque_n_mm,spindle_torque_n_mm,vibration_g,"
       "feed_rate_mm_s,density_g_cc,"
-      "share_cancellous,share_cortical,share_cartilage,engaged_points,removed_volume_mm3";
+      "share_cancellous,share_cortical,share_cartilage,engaged_points,removed_volume_mm3,"
+      "bone_x_mm,bone_y_mm,bone_z_mm,bone_qw,bone_qx,bone_qy,bone_qz";
   return line;
 }
 
@@ -82,6 +83,7 @@ void TraceCsv::add(const TickReport& r) {
   row.add(r.feed_rate_mm_s).add(r.density_g_cc);
   row.add(r.share[0]).add(r.share[1]).add(r.share[2]).add(r.engaged_points);
   row.add(static_cast<double>(coverage_removed_) / 255.0 * voxel_volume_mm3_);
+  row.add(r.world_from_bone_rest);
   row.write(file_);
 }
 

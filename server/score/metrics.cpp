@@ -14,7 +14,8 @@ MetricsAccumulator::MetricsAccumulator(double voxel_volume_mm3, const Pose& plan
 void MetricsAccumulator::add(const record::TickReport& r) {
   ++ticks_;
   session_hash_ = r.session_hash;
-  const double axial_mm = plan_from_world_.point(r.world_from_tool.translation_mm).z();
+  const Vec3 in_bone_mm = r.world_from_bone_rest.inverse().point(r.world_from_tool.translation_mm);
+  const double axial_mm = plan_from_world_.point(in_bone_mm).z();
   if (r.engaged) {
     ++contact_ticks_;
     if (!touched_) first_contact_mm_ = deepest_mm_ = axial_mm;

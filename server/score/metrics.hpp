@@ -33,7 +33,7 @@ inline constexpr double stiffness_from_n = 1.0, stiffness_to_n = 0.9 * 52.0;
 /// Accumulates metrics from tick reports, in order. Sums in a fixed order, so equal runs give equal bytes.
 class MetricsAccumulator {
  public:
-  /// `plan_from_world`: inverse of the plan frame (z along the axis into the bone).
+  /// `plan_from_world`: inverse of the plan frame (z along the axis into the bone), with the bone at rest.
   MetricsAccumulator(double voxel_volume_mm3, const Pose& plan_from_world);
   void add(const record::TickReport& report);
   Metrics metrics() const;

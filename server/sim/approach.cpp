@@ -21,7 +21,7 @@ bool same(const Pose& a, const Pose& b) {
 /// Contact of the tool as it stands; remembers when there is none.
 Approach look(const Model& model, State& state) noexcept {
   Approach found;
-  const QuantisedPose pose = quantised(state.bone.grid.world_from_grid.inverse() * state.world_from_tool);
+  const QuantisedPose pose = quantised(state.world_from_grid.inverse() * state.world_from_tool);
   const collide::Voi voi = collide::broad_phase(state.cells.bounds_mm(), model.tool_box_tool,
                                                 dequantised(pose), model.thin_step_mm);
   found.ok = work_or_fail_over(

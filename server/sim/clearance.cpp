@@ -16,7 +16,7 @@ double clearance_mm(const Model& model, State& state) noexcept {
   const collide::ContactShell& shell = model.contact_shell;
   const size_t blocks = shell.blocks.size();
   const voxel::VoxelGrid& grid = state.bone.grid;
-  const QuantisedPose pose = quantised(grid.world_from_grid.inverse() * state.world_from_tool);
+  const QuantisedPose pose = quantised(state.world_from_grid.inverse() * state.world_from_tool);
   const collide::BoneGap bone_gap(model.distance, grid, pose);
   float nearest = 1.0e6f;
   // The block that was nearest last time comes first: beside bone it alone answers.

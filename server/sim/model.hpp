@@ -9,9 +9,11 @@
 #include "collide/narrow_phase.hpp"
 #include "collide/removal_schedule.hpp"
 #include "core/units.hpp"
+#include "device/scapula_mount.hpp"
 #include "force/coefficients.hpp"
 #include "force/coupling.hpp"
 #include "force/feed_model.hpp"
+#include "force/guide.hpp"
 #include "force/limits.hpp"
 #include "force/vibration_tracks.hpp"
 #include "force/virtual_mass.hpp"
@@ -41,6 +43,7 @@ struct Settings {
   double start_up_ramp_s = 0.0;  ///< see force::StartUpRamp
   /// Set for admittance devices; the coupling is then the mass' (force/virtual_mass.hpp).
   std::optional<force::VirtualMass> virtual_mass;
+  std::optional<device::ScapulaMount> mount;  ///< empty: the bone is held rigidly
   uint64_t random_seed = 1;
 };
 
@@ -59,13 +62,15 @@ struct Model {
   std::shared_ptr<const force::VibrationTracks> vibration;  ///< empty: the reamer does not vibrate
   force::CouplingParameters coupling;
   std::optional<force::VirtualMass> virtual_mass;
-  double spindle_speed_rad_s = rad_s_from_rpm(force::reference_spindle_rpm);
+  std::optional<force::Guide> guide;
+  std::optional<device::ScapulaMount> mount;  ///< as simulated, see sim/scapula_mount.hpp
   double thin_step_mm =
       0.1;  ///< no point of the tool moves farther between two looks for contact (one voxel)
 };
 
 /// Prepares a planned case for a tool: cuts the pilot hole into `bone` and builds the rest. Errors: conflict
-/// when the case has no plan, those of make_point_shell, swept_profile and make_feed_model.
+/// when the case has no plan or the guide does not fit, those of make_point_shell, swept_profile and
+/// make_feed_model.
 Model make_model(const case_::Plan& plan, voxel::BoneModel& bone, shell::Tool tool, const Settings& settings);
 
 /// Plan frame of a plan, chosen the same way every time.

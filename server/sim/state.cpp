@@ -9,6 +9,7 @@ State::State(const Model& model, voxel::BoneModel& bone_in)
       reserve(backend.name == "cpu" ? Backend{} : make_cpp_backend(model, bone_in, cells)),
       schedule(model.profile, bone_in),
       output(model.settings.start_up_ramp_s),
-      vibration(model.vibration, model.settings.random_seed) {}
+      vibration(model.vibration, model.settings.random_seed),
+      world_from_grid(bone_in.grid.world_from_grid) {}
 
 }  // namespace ream::sim

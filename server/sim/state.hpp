@@ -9,6 +9,7 @@
 #include "record/tick_report.hpp"
 #include "sim/backend.hpp"
 #include "sim/hand_output.hpp"
+#include "sim/scapula_mount.hpp"
 #include "voxel/bricks.hpp"
 
 namespace ream::sim {
@@ -42,6 +43,10 @@ struct State {
   double normal_force_n = 0.0;  ///< simulated, of the last tick, that presses tool and bone together
   HandOutput output;
   force::VibrationPlayer vibration;
+  force::GuideState guide;
+  MountState mount;
+  Pose world_from_bone_rest;  ///< how far the bone has moved from where the case has it
+  Pose world_from_grid;       ///< of the bone where it is now; the grid's own is where it rests
   uint64_t session_hash = 0;
 };
 

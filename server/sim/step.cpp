@@ -5,6 +5,7 @@
 #include "core/clock.hpp"
 #include "core/hash.hpp"
 #include "sim/approach.hpp"
+#include "sim/guided_handle.hpp"
 #include "sim/press.hpp"
 #include "sim/remove_bone.hpp"
 #include "sim/vibration_input.hpp"
@@ -25,19 +26,24 @@ Pose world_from_handle(const Model& model, const State& state, const device::Dev
   return input.paused ? state.world_from_tool : flown(model, state, input);
 }
 
-/// Follows the handle, feels bone and moves against it.
+/// Follows the handle as far as the guide lets it, feels bone and moves against it, or with it.
 bool move_tool(const Model& model, State& state, const device::DeviceInput& input, ToolLoad& load,
                TickReport& report) {
   const Pose before = state.world_from_tool;
-  const Approach found = approach(model, state, input.world_from_handle);
+  device::DeviceInput allowed = input;
+  allowed.world_from_handle = guided(model, state, input.world_from_handle);
+  const Approach found = approach(model, state, allowed.world_from_handle);
   if (!found.ok) return false;
   if (found.sums.engaged() > 0) {
-    load = press(model, state, found.sums, input, report);
-    return true;
+    load = press(model, state, found.sums, allowed, report);
+  } else {
+    const force::Vec6 way = handle_minus_tool(before, state.world_from_tool);
+    for (size_t i = 0; i < 6; ++i) state.tool_twist[i] = way[i] / tick_s;
+    state.normal_force_n = 0.0;
   }
-  const force::Vec6 way = handle_minus_tool(before, state.world_from_tool);
-  for (size_t i = 0; i < 6; ++i) state.tool_twist[i] = way[i] / tick_s;
-  state.normal_force_n = 0.0;
+  add_guide(model, state, input.world_from_handle, allowed.world_from_handle, load);
+  move_bone(model, state, load, report.engaged);
+  keep_in_guide(model, state);
   return true;
 }
 
@@ -84,14 +90,15 @@ StepStatus step(const Model& model, State& state, const device::DeviceInput& raw
     return StepStatus::collision_failed;
   state.thrust_n = report.thrust_n;
   report.world_from_tool = state.world_from_tool;
-  report.grid_from_tool = quantised(state.bone.grid.world_from_grid.inverse() * state.world_from_tool);
+  report.world_from_bone_rest = state.world_from_bone_rest;
+  report.grid_from_tool = quantised(state.world_from_grid.inverse() * state.world_from_tool);
 
   const bool cuts = report.engaged && input.spindle_on;
   if (!cuts) state.schedule.pass(report.grid_from_tool);
   if (cuts && !remove_bone(state, report.grid_from_tool, report)) return StepStatus::collision_failed;
 
   report.failed_over = state.failed_over_tick == report.tick;
-  if (!report.paused) report.vibration_g = state.vibration.next_g(vibration_input(model, report));
+  report.vibration_g = state.vibration.next_g(vibration_input(model, report));
   render(model, state.output, state.world_from_tool, load, report);
   state.session_hash = hash_combine(state.session_hash, hash_of_cause(report));
   report.session_hash = state.session_hash;

@@ -82,6 +82,7 @@ Message telemetry_message(const TelemetryBatch& batch, uint32_t dropped) {
   FlatBufferBuilder builder(2048 + 24 * batch.samples.size());
   const TelemetrySample& newest = batch.samples.back();
   const wire::Pose tool = to_wire(newest.world_from_tool), handle = to_wire(newest.world_from_handle);
+  const wire::Pose bone = to_wire(newest.world_from_bone_rest.value_or(Pose{}));
   const size_t fault_length = strnlen(newest.fault.data(), newest.fault.size());
   const auto telemetry = wire::CreateTelemetry(
       builder, batch.samples.front().tick, batch.tick_stride,
@@ -92,7 +93,7 @@ Message telemetry_message(const TelemetryBatch& batch, uint32_t dropped) {
       column(builder, batch, &TelemetrySample::density_g_cc), newest.tick, &tool, &handle, newest.spindle_on,
       static_cast<wire::SessionState>(newest.state), newest.depth_mm, newest.removed_volume_mm3,
       newest.cortical_share, dropped, newest.tick_mean_us, newest.tick_p99_us, newest.ticks_missed,
-      builder.CreateString(newest.fault.data(), fault_length));
+      builder.CreateString(newest.fault.data(), fault_length), newest.world_from_bone_rest ? &bone : nullptr);
   return finished(builder, wire::Body::Telemetry, telemetry);
 }
 

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/spsc_ring.hpp"
@@ -31,6 +32,7 @@ struct TelemetrySample {
   float feed_rate_mm_s = 0;
   float density_g_cc = 0;  ///< mean of what is engaged, 0 without contact
   Pose world_from_tool, world_from_handle;
+  std::optional<Pose> world_from_bone_rest;  ///< how far the bone has moved; empty: it is held rigidly
   bool spindle_on = false;
   SessionState state = SessionState::created;
   float depth_mm = 0, removed_volume_mm3 = 0;

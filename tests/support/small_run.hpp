@@ -39,6 +39,7 @@ struct SmallRun {
     s.feed.kind = feed_kind;
     s.feed.spindle_rad_s = rad_s_from_rpm(script.spindle_rpm);
     s.feed.specimen_factor = script.specimen_factor;
+    s.mount = script.mount;
     return s;
   }
 

@@ -16,6 +16,7 @@ inline record::TickReport random_report(std::mt19937& random, uint32_t tick) {
   r.failed_over = count(random) % 2 == 0;
   r.world_from_handle = random_pose(random);
   r.world_from_tool = random_pose(random);
+  r.world_from_bone_rest = random_pose(random);
   r.world_from_handle_q = quantised(r.world_from_handle);
   r.grid_from_tool = quantised(random_pose(random));
   r.hand_force_n = random_vector(random, 50.0);

@@ -18,6 +18,7 @@ function main(root: HTMLElement): void {
   const scene = new BoneScene();
   const watcher = new Watcher(store, new Api(window.location.origin), new WorkerStreamSocket(), scene);
   effect(() => scene.setToolPose(store.telemetry.value?.worldFromTool ?? null));
+  effect(() => scene.setBonePose(store.telemetry.value?.worldFromBoneRest ?? null));
   effect(() => scene.setToolShown(store.reamerShown.value));
   publishDebugReadout(store, scene);
   render(<LivePage store={store} watcher={watcher} scene={scene} />, root);

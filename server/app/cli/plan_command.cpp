@@ -16,7 +16,7 @@ namespace ream::app {
 namespace {
 
 struct Options {
-  std::string case_name, axis, reamer;
+  std::string case_name, axis, reamer, guide;
   std::optional<double> depth_mm, pilot_diameter_mm, pilot_depth_mm;
   bool no_pilot = false;
 };
@@ -73,6 +73,7 @@ void plan_case(const Options& options, const GlobalOptions& global) {
   if (options.depth_mm) plan.depth_mm = *options.depth_mm;
   if (!options.reamer.empty()) plan.reamer = checked_reamer(options.reamer);
   set_pilot(plan, options);
+  if (!options.guide.empty()) plan.guide = case_::guide_from_text(options.guide);
   case_::save_plan(plan, folder);
   if (global.json) {
     std::cout << case_::to_json(plan).dump() << '\n';
@@ -83,7 +84,7 @@ void plan_case(const Options& options, const GlobalOptions& global) {
   if (plan.pilot_hole)
     std::cout << ", pilot hole " << plan.pilot_hole->diameter_mm << " x " << plan.pilot_hole->depth_mm
               << " mm";
-  std::cout << '\n' << (folder / "plan.json").string() << '\n';
+  std::cout << ", guide " << case_::to_text(plan.guide) << '\n' << (folder / "plan.json").string() << '\n';
 }
 
 }  // namespace
@@ -101,6 +102,10 @@ void add_plan_command(CLI::App& app, GlobalOptions& global) {
       ->excludes(no_pilot);
   command->add_option("--pilot-depth-mm", options->pilot_depth_mm, "Depth of the pilot hole below the entry")
       ->excludes(no_pilot);
+  command
+      ->add_option("--guide", options->guide,
+                   "What leads the reamer along the axis: none, nipple (in the pilot hole) or pin")
+      ->check(CLI::IsMember({"none", "nipple", "pin"}));
   command->callback([options, &global] { plan_case(*options, global); });
 }
 

@@ -168,6 +168,21 @@ TEST(Plan, ReadsStrictly) {
   bad("pilot_depth_mm", 3);
   bad("speed", 3);
   bad("reamer", "");
+  bad("guide", "nipple");  // without a pilot hole
+  bad("guide", "rail");
+  bad("guide", 1);
+}
+
+TEST(Plan, KeepsItsGuide) {
+  nlohmann::json value = {{"entry_mm", {1, 2, 3}}, {"axis_direction", {0, 0, 1}}, {"depth_mm", 2},
+                          {"reamer", "sphere 20"}, {"pilot_diameter_mm", 6.2},    {"pilot_depth_mm", 12}};
+  EXPECT_EQ(plan_from_json(value, "p").guide, GuideKind::none);
+  for (const GuideKind kind : {GuideKind::none, GuideKind::nipple, GuideKind::pin}) {
+    value["guide"] = to_text(kind);
+    const Plan plan = plan_from_json(value, "p");
+    EXPECT_EQ(plan.guide, kind);
+    EXPECT_EQ(plan_from_json(to_json(plan), "p").guide, kind);
+  }
 }
 
 }  // namespace

@@ -204,6 +204,27 @@ TEST(Script, WrongTypesAndRangesAreRefusedByPlaceAndKey) {
   expect_refused(with(pose_script(), "/poses", json::array()), "'poses'");
 }
 
+TEST(Script, MountIsRigidUnlessItIsAskedFor) {
+  EXPECT_FALSE(parse_script(hand_script(), "run.json").mount);
+  EXPECT_FALSE(parse_script(with(hand_script(), "/mount", "rigid"), "run.json").mount);
+  const auto chest_wall = parse_script(with(hand_script(), "/mount", "chest_wall"), "run.json").mount;
+  ASSERT_TRUE(chest_wall);
+  EXPECT_EQ(chest_wall->stiffness_n_mm, chest_wall_mount.stiffness_n_mm);
+  const json own = {{"stiffness_n_mm", {1, 2, 3}},
+                    {"damping_n_s_mm", {0, 0.5, 1}},
+                    {"angular_stiffness_n_mm_rad", {4, 5, 6}},
+                    {"angular_damping_n_mm_s_rad", {7, 8, 9}}};
+  const auto mount = parse_script(with(hand_script(), "/mount", own), "run.json").mount;
+  ASSERT_TRUE(mount);
+  EXPECT_EQ(mount->stiffness_n_mm, Vec3(1, 2, 3));
+  EXPECT_EQ(mount->damping_n_s_mm, Vec3(0, 0.5, 1));
+  EXPECT_EQ(mount->angular_stiffness_n_mm_rad, Vec3(4, 5, 6));
+  EXPECT_EQ(mount->angular_damping_n_mm_s_rad, Vec3(7, 8, 9));
+  expect_refused(with(hand_script(), "/mount", "table"),
+                 "'mount' must be 'rigid', 'chest_wall' or an object");
+  expect_refused(with(with(hand_script(), "/mount", own), "/mount/stiffness_n_mm/1", 0), "run.json.mount");
+}
+
 TEST(Script, MissingKeysAreNamed) {
   for (const char* key : {"device", "duration_s", "hand"}) {
     json script = hand_script();

@@ -77,6 +77,8 @@ TEST(TraceCsv, NumbersReadBackExactly) {
     const Mat3 rotation = rotation_from_quaternion(
         {read.at(i, "tool_qw"), read.at(i, "tool_qx"), read.at(i, "tool_qy"), read.at(i, "tool_qz")});
     EXPECT_LT((rotation - r.world_from_tool.rotation).norm(), 1e-12);
+    EXPECT_EQ(read.at(i, "bone_y_mm"), r.world_from_bone_rest.translation_mm.y());
+    EXPECT_EQ(read.at(i, "bone_qw"), quaternion_from_rotation(r.world_from_bone_rest.rotation)[0]);
     EXPECT_EQ(read.at(i, "spindle_on"), r.spindle_on);
     EXPECT_EQ(read.at(i, "paused"), r.paused);
     EXPECT_EQ(read.at(i, "thrust_n"), r.thrust_n);

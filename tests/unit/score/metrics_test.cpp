@@ -65,6 +65,19 @@ TEST(Metrics, DepthCountsFromFirstContactAlongThePlansAxis) {
   EXPECT_NEAR(accumulator.metrics().reaming_depth_mm, 1.5, 1e-9);
 }
 
+TEST(Metrics, DepthIsInTheBoneThatMoves) {
+  std::mt19937 random(42);
+  const Pose world_from_plan = test::random_pose(random);
+  MetricsAccumulator accumulator(0.008, world_from_plan.inverse());
+  for (const double axial_mm : {0.2, 0.9, 1.4}) {
+    TickReport r = contact(world_from_plan, axial_mm, 52.0);
+    r.world_from_bone_rest = test::random_pose(random, 5.0);
+    r.world_from_tool = r.world_from_bone_rest * r.world_from_tool;
+    accumulator.add(r);
+  }
+  EXPECT_NEAR(accumulator.metrics().reaming_depth_mm, 1.2, 1e-9);
+}
+
 TEST(Metrics, ThrustIsOfTicksInContactWithTheSpindleOn) {
   MetricsAccumulator accumulator(0.008, Pose{});
   accumulator.add(in_the_air(Pose{}, -1.0));

@@ -85,6 +85,19 @@ TEST(Messages, TelemetryIsParallelArraysAndTheNewestValues) {
   EXPECT_EQ(t->state(), wire::SessionState::fault);
   EXPECT_EQ(t->fault()->str(), "device gone");
   EXPECT_EQ(t->dropped(), 5u);
+  EXPECT_EQ(t->world_from_bone_rest(), nullptr);
+}
+
+TEST(Messages, TelemetryTellsWhereABoneThatMovesIs) {
+  TelemetryBatch batch = example_telemetry();
+  batch.samples.back().world_from_bone_rest = Pose{Mat3::Identity(), Vec3(0.5, -1.0, 2.0)};
+  const Message message = telemetry_message(batch, 0);
+  ASSERT_TRUE(verified(message->data(), message->size()));
+  const wire::Pose* bone =
+      wire::GetServerMessage(message->data())->body_as_Telemetry()->world_from_bone_rest();
+  ASSERT_NE(bone, nullptr);
+  EXPECT_FLOAT_EQ(bone->rotation().w(), 1.0f);
+  EXPECT_FLOAT_EQ(bone->translation_mm().z(), 2.0f);
 }
 
 TEST(Messages, TruncationsAreRefused) {

@@ -12,7 +12,7 @@ import {
   Vector3,
 } from 'three';
 
-import type { BlockSurface, Hello, MeshDelta } from '../wire/messages';
+import type { BlockSurface, Hello, MeshDelta, Pose } from '../wire/messages';
 
 /** Steps of a block's vertex positions in one voxel. */
 const stepsPerVoxel = 1024;
@@ -113,6 +113,12 @@ export class BoneView {
     } else {
       this.incoming = picture;
     }
+  }
+
+  /** How far the bone has moved from where the hello has it; null: not at all. */
+  setPose(worldFromBoneRest: Pose | null): void {
+    this.group.position.set(...(worldFromBoneRest?.translationMm ?? [0, 0, 0]));
+    this.group.quaternion.set(...(worldFromBoneRest?.rotationXyzw ?? [0, 0, 0, 1]));
   }
 
   apply(mesh: MeshDelta): void {

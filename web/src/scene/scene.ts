@@ -65,6 +65,12 @@ export class BoneScene {
     this.invalidate();
   }
 
+  /** Tool and bone come with the same message, so that they are drawn as they were at one moment. */
+  setBonePose(worldFromBoneRest: Pose | null): void {
+    this.bone.setPose(worldFromBoneRest);
+    this.invalidate();
+  }
+
   setToolShown(shown: boolean): void {
     this.tool.setShown(shown);
     this.invalidate();

@@ -103,6 +103,7 @@ function decodeTelemetry(t: WireTelemetry): Telemetry {
     tickP99Us: t.tickP99Us(),
     ticksMissed: t.ticksMissed(),
     fault: t.fault() ?? '',
+    worldFromBoneRest: pose(t.worldFromBoneRest()),
   };
 }
 

@@ -87,6 +87,8 @@ export interface Telemetry {
   tickP99Us: number;
   ticksMissed: number;
   fault: string;
+  /** How far the bone has moved from where the hello has it; null while it is held rigidly. */
+  worldFromBoneRest: Pose | null;
 }
 
 export type StreamMessage =

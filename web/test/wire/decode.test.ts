@@ -78,6 +78,7 @@ describe('StreamDecoder', () => {
     });
     expect([...telemetry.thrustN]).toEqual([10.5, 11.25, 12]);
     expect(telemetry.worldFromTool?.translationMm).toEqual([4, 5, 6]);
+    expect(telemetry.worldFromBoneRest).toEqual({ rotationXyzw: [0, 0, 1, 0], translationMm: [0.5, -1, 2.5] });
   });
 
   it('hands over buffers of its own, never the message', () => {

@@ -50,6 +50,7 @@ export function telemetry(changes: Partial<Telemetry> = {}): StreamMessage {
       tickP99Us: 0,
       ticksMissed: 0,
       fault: '',
+      worldFromBoneRest: null,
       ...changes,
     },
   };

@@ -1,0 +1,180 @@
+#include "force/guide.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "force/guide_walls.hpp"
+
+namespace ream::force {
+namespace {
+
+/// The rim of the hole is rounded: near full insertion the guided length ends within this part of it to
+/// either side, so that the wedging force has no jump.
+constexpr double rounding = 0.2;
+/// The depth of a wedged tool is sought in such steps, at most so many a tick (1 m/s).
+constexpr double seek_step_mm = 0.05;
+constexpr int most_seek_steps = 20, most_refinements = 12;
+constexpr double steepest_slope = 0.999;
+
+/// A tool's pose as the walls see it.
+struct Seen {
+  AxisSideways axis;
+  double depth_mm = 0.0;  ///< of the leading point below the mouth, as if upright
+};
+
+Seen seen(const Guide& guide, const Pose& pose) {
+  const Vec3 u = pose.rotation.col(2);
+  Vec2 slope(u.x(), u.y());
+  // A tool that points backwards is taken as lying across.
+  if (u.z() < 0.0) slope = slope.norm() > 0.0 ? Vec2(slope / slope.norm()) : Vec2(Vec2::UnitX());
+  return {{Vec2(pose.translation_mm.x(), pose.translation_mm.y()), slope},
+          pose.translation_mm.z() + guide.leading_mm - guide.mouth_mm};
+}
+
+struct Inserted {
+  double length_mm = 0.0, growth = 0.0;  ///< of the length with the depth
+};
+
+Inserted inserted(const Guide& guide, double depth_mm) {
+  const double begin = (1.0 - rounding) * guide.length_mm, end = (1.0 + rounding) * guide.length_mm;
+  if (depth_mm <= 0.0) return {};
+  if (depth_mm <= begin) return {depth_mm, 1.0};
+  if (depth_mm >= end) return {guide.length_mm, 0.0};
+  const double left = end - depth_mm, growth = left / (end - begin);
+  return {guide.length_mm - 0.5 * growth * left, growth};
+}
+
+BetweenWalls at_depth(const Guide& guide, const AxisSideways& axis, double depth_mm) {
+  return between_walls({guide.leading_mm, guide.leading_mm - inserted(guide, depth_mm).length_mm,
+                        guide.clearance_mm, guide.angular_per_linear_mm2},
+                       axis);
+}
+
+/// How much the spring's energy grows with depth, over the linear stiffness (mm), while the handle stays: its
+/// axial part and what the mouth does to a tilted tool.
+double growth_mm(const Guide& guide, const Seen& handle, double depth_mm) {
+  const BetweenWalls between = at_depth(guide, handle.axis, depth_mm);
+  return depth_mm - handle.depth_mm +
+         inserted(guide, depth_mm).growth * between.trailing_push_mm.dot(between.axis.slope);
+}
+
+/// Where the growth changes sign between two depths at which it has different ones: false position, with the
+/// weight of an end that stays halved (Illinois).
+double refined(const Guide& guide, const Seen& handle, double a_mm, double growth_a, double b_mm,
+               double growth_b) {
+  for (int i = 0; i < most_refinements && growth_a != growth_b; ++i) {
+    const double c_mm = b_mm - growth_b * (b_mm - a_mm) / (growth_b - growth_a);
+    const double growth_c = growth_mm(guide, handle, c_mm);
+    if (std::abs(growth_c) < 1.0e-10) return c_mm;
+    if ((growth_c < 0.0) != (growth_b < 0.0)) {
+      a_mm = b_mm;
+      growth_a = growth_b;
+    } else {
+      growth_a *= 0.5;
+    }
+    b_mm = c_mm;
+    growth_b = growth_c;
+  }
+  return b_mm;
+}
+
+/// The depth to which the tool follows the handle: downhill in energy from where it was.
+double sought_depth_mm(const Guide& guide, double before_mm, const Seen& handle) {
+  const double last = std::min(handle.depth_mm, guide.deepest_mm - guide.mouth_mm);
+  if (at_depth(guide, handle.axis, last).trailing_push_mm.squaredNorm() == 0.0) return last;
+  double at = std::clamp(before_mm, 0.0, last);
+  double growth = growth_mm(guide, handle, at);
+  const double step = growth < 0.0 ? seek_step_mm : -seek_step_mm;
+  for (int i = 0; i < most_seek_steps; ++i) {
+    const double next = std::clamp(at + step, 0.0, last);
+    if (next == at) return at;
+    const double growth_next = growth_mm(guide, handle, next);
+    if ((growth_next < 0.0) != (growth < 0.0)) return refined(guide, handle, at, growth, next, growth_next);
+    at = next;
+    growth = growth_next;
+  }
+  return at;
+}
+
+/// The least rotation that takes unit vector `a` to unit vector `b`.
+Mat3 least_rotation(const Vec3& a, const Vec3& b, const Vec3& across_a) {
+  const double cosine = a.dot(b);
+  if (cosine < -0.999999) return 2.0 * across_a * across_a.transpose() - Mat3::Identity();
+  const Vec3 v = a.cross(b);
+  Mat3 cross;
+  cross << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+  return Mat3::Identity() + cross + cross * cross / (1.0 + cosine);
+}
+
+/// `pose` with its axis as it is between the walls, at a depth; itself when it is that already.
+Pose put(const Pose& pose, const BetweenWalls& between, double shift_z_mm) {
+  if (between.free && shift_z_mm == 0.0) return pose;
+  Pose placed = pose;
+  placed.translation_mm.z() += shift_z_mm;
+  if (between.free) return placed;
+  placed.translation_mm.x() = between.axis.origin_mm.x();
+  placed.translation_mm.y() = between.axis.origin_mm.y();
+  Vec2 slope = between.axis.slope;
+  const double steepness = slope.norm();
+  if (steepness > steepest_slope) slope *= steepest_slope / steepness;
+  const Vec3 axis(slope.x(), slope.y(), std::sqrt(1.0 - slope.squaredNorm()));
+  placed.rotation =
+      orthonormalized(least_rotation(pose.rotation.col(2), axis, pose.rotation.col(0)) * pose.rotation);
+  return placed;
+}
+
+}  // namespace
+
+Guide nipple_guide(double radius_mm, double height_mm, double hole_diameter_mm, double hole_depth_mm) {
+  Guide guide;
+  guide.clearance_mm = 0.5 * hole_diameter_mm - radius_mm;
+  if (!(guide.clearance_mm > 0.0))
+    throw Error(ErrorKind::conflict, "a nipple of " + std::to_string(2.0 * radius_mm) +
+                                         " mm does not fit a pilot hole of " +
+                                         std::to_string(hole_diameter_mm) +
+                                         " mm; plan a wider hole, another reamer or another guide");
+  guide.leading_mm = guide.length_mm = height_mm;
+  guide.deepest_mm = hole_depth_mm;
+  return guide;
+}
+
+Guide pin_guide() {
+  Guide guide;
+  guide.mouth_mm = -pin_outside_mm;
+  guide.length_mm = pin_bore_mm;
+  guide.clearance_mm = pin_clearance_mm;
+  guide.threaded = true;
+  return guide;
+}
+
+void follow(const Guide& guide, GuideState& state, const Pose& guide_from_tool) noexcept {
+  const Seen tool = seen(guide, guide_from_tool);
+  if (tool.depth_mm <= 0.0) state.entered = false;
+  const bool through_mouth = !state.begun || state.depth_mm <= 0.0 || tool.depth_mm <= mouth_depth_mm;
+  if (!state.entered && tool.depth_mm > 0.0 && through_mouth) {
+    const Vec2 leading = tool.axis.origin_mm + guide.leading_mm * tool.axis.slope;
+    state.entered = leading.norm() <= guide.clearance_mm || (guide.threaded && !state.begun);
+    state.held_mm = guide_from_tool.translation_mm.z();
+  }
+  state.begun = true;
+  state.depth_mm = tool.depth_mm;
+}
+
+Pose constrained(const Guide& guide, GuideState& state, const Pose& guide_from_handle) noexcept {
+  const Seen handle = seen(guide, guide_from_handle);
+  if (!state.entered || handle.depth_mm <= 0.0) return guide_from_handle;
+  const double origin_mm = guide.mouth_mm - guide.leading_mm;  // of the tool with its leading point there
+  const double depth = sought_depth_mm(guide, state.held_mm - origin_mm, handle);
+  state.held_mm = depth + origin_mm;
+  return put(guide_from_handle, at_depth(guide, handle.axis, depth), depth - handle.depth_mm);
+}
+
+Pose held(const Guide& guide, const GuideState& state, const Pose& guide_from_tool) noexcept {
+  const Seen tool = seen(guide, guide_from_tool);
+  if (!state.entered || tool.depth_mm <= 0.0) return guide_from_tool;
+  const double depth = std::min(tool.depth_mm, guide.deepest_mm - guide.mouth_mm);
+  return put(guide_from_tool, at_depth(guide, tool.axis, depth), depth - tool.depth_mm);
+}
+
+}  // namespace ream::force

@@ -1,0 +1,77 @@
+#include "sim/guided_handle.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "sim/press.hpp"
+
+namespace ream::sim {
+namespace {
+
+Pose world_from_guide(const Model& model, const State& state) {
+  return state.world_from_bone_rest * model.world_from_plan;
+}
+
+bool same(const Pose& a, const Pose& b) {
+  return a.translation_mm == b.translation_mm && a.rotation == b.rotation;
+}
+
+force::Guide nipple_of(const shell::ToolProfile& profile, const case_::PilotHole& hole) {
+  double radius_mm = 0.0, height_mm = 0.0;
+  for (size_t i = 0; i < profile.roles.size() && profile.roles[i] == shell::SurfaceRole::guiding; ++i)
+    height_mm = std::max(height_mm, profile.points[i].z_mm);
+  for (size_t i = 0; i < profile.roles.size() && profile.roles[i] == shell::SurfaceRole::guiding; ++i)
+    radius_mm = std::max(radius_mm, profile.points[i].radius_mm);
+  if (height_mm <= 0.0) {
+    radius_mm = force::thesis_nipple_radius_mm;
+    height_mm = force::thesis_nipple_height_mm;
+  }
+  return force::nipple_guide(radius_mm, height_mm, hole.diameter_mm, hole.depth_mm);
+}
+
+}  // namespace
+
+std::optional<force::Guide> make_guide(const Model& model) {
+  if (model.plan.guide == case_::GuideKind::none) return std::nullopt;
+  force::Guide guide = force::pin_guide();
+  if (model.plan.guide == case_::GuideKind::nipple) {
+    if (!model.plan.pilot_hole)
+      throw Error(ErrorKind::conflict,
+                  "the plan's guide is the nipple, but it has no pilot hole; plan one, or another guide");
+    guide = nipple_of(model.tool.profile, *model.plan.pilot_hole);
+  }
+  guide.angular_per_linear_mm2 = model.coupling.angular_stiffness_n_mm_rad / model.coupling.stiffness_n_mm;
+  return guide;
+}
+
+Pose guided(const Model& model, State& state, const Pose& world_from_handle) noexcept {
+  if (!model.guide || !state.guide.entered) return world_from_handle;
+  const Pose world_from_guide_now = world_from_guide(model, state);
+  const Pose guide_from_handle = world_from_guide_now.inverse() * world_from_handle;
+  const Pose allowed = force::constrained(*model.guide, state.guide, guide_from_handle);
+  return same(allowed, guide_from_handle) ? world_from_handle : world_from_guide_now * allowed;
+}
+
+void add_guide(const Model& model, const State& state, const Pose& world_from_handle,
+               const Pose& world_from_guided, ToolLoad& load) noexcept {
+  if (!state.guide.entered) return;
+  const double linear = model.coupling.stiffness_n_mm * model.coupling.force_scale;
+  const double angular = model.coupling.angular_stiffness_n_mm_rad * model.coupling.force_scale;
+  const force::Vec6 held_back = handle_minus_tool(world_from_guided, world_from_handle);
+  load.spring.force_n += linear * Vec3(held_back[0], held_back[1], held_back[2]);
+  load.spring.torque_n_mm += angular * Vec3(held_back[3], held_back[4], held_back[5]);
+}
+
+void keep_in_guide(const Model& model, State& state) noexcept {
+  if (!model.guide) return;
+  const Pose world_from_guide_now = world_from_guide(model, state);
+  const Pose guide_from_tool = world_from_guide_now.inverse() * state.world_from_tool;
+  const Pose kept = force::held(*model.guide, state.guide, guide_from_tool);
+  if (!same(kept, guide_from_tool)) {
+    state.world_from_tool = world_from_guide_now * kept;
+    state.free_path_mm = -1.0;
+  }
+  force::follow(*model.guide, state.guide, kept);
+}
+
+}  // namespace ream::sim
