@@ -27,7 +27,7 @@ struct DeviceTraits {
 };
 
 struct DeviceInput {
-  Pose world_from_handle;                ///< impedance devices; admittance devices leave it as it is
+  Pose world_from_handle;                ///< sensed; of admittance devices only the first one counts
   Vec3 hand_force_n = Vec3::Zero();      ///< of the hand on the device, world frame; admittance devices only
   Vec3 hand_torque_n_mm = Vec3::Zero();  ///< about the tool's origin, world frame; admittance devices only
   bool spindle_on = false;

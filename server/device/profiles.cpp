@@ -40,11 +40,12 @@ constexpr std::array<Published, 17> table{{
     {"premium-3.0-6dof", impedance, 22.0, 0.188, 1000.0, 5.0, 0.25, 6, by_lever, 0.0},
     // KUKA LBR iiwa in Cartesian impedance control: stiffness up to 5000 N/m and 300 N m/rad (libiiwa's
     // documentation); force is the payload's weight; torque of the wrist axes and reach from the maker's data
-    // sheet; damping is critical (ratio 1, the control's upper end) with the payload as mass, 2 sqrt(K m).
+    // sheet, not checked; damping is critical (ratio 1, the control's upper end) with the payload as mass, 2
+    // sqrt(K m).
     {"kuka-iiwa-7", impedance, 7.0 * gravity_m_s2, 40.0, 5000.0, 374.0, 0.80, 6, 300.0, 0.0},
     {"kuka-iiwa-14", impedance, 14.0 * gravity_m_s2, 40.0, 5000.0, 529.0, 0.82, 6, 300.0, 0.0},
     // HapticMaster (Van der Linde and others, EuroHaptics 2002): nominal force; the low end of 10 to 50 kN/m;
-    // smallest tip mass; half of the arm's 0.36 m stroke. From memory: no source at hand.
+    // smallest tip mass; half of the arm's 0.36 m stroke. Not checked against the paper.
     {"hapticmaster", admittance, 100.0, 0.0, 10000.0, 0.0, 0.18, 3, by_lever, 2.0},
     // No device: far beyond what a hand does, for scripts that study the simulation and not a device.
     {"ideal", impedance, 1000.0, 100.0, 100000.0, 1.0e6, 10.0, 6, by_lever, 0.0},

@@ -1,5 +1,7 @@
 #include <algorithm>
 
+#include "core/clock.hpp"
+#include "core/error.hpp"
 #include "device/scripted_device.hpp"
 #include "device/told_pose.hpp"
 
@@ -21,7 +23,11 @@ class RobotDevice final : public ScriptedDevice {
   RobotDevice(const Script& script, const Pose& world_from_plan)
       : ScriptedDevice(script, world_from_plan, "robot"),
         robot_(script.robot),
-        held_(rotation_from_small_vector(script.robot.tilt_rad)) {}
+        held_(rotation_from_small_vector(script.robot.tilt_rad)) {
+    if (traits_.causality != Causality::admittance)
+      throw Error(ErrorKind::invalid_input,
+                  "a robot needs an admittance device, and " + traits_.profile + " is none");
+  }
 
   DeviceStatus write(const DeviceOutput& output) noexcept override {
     handle_.take(output, world_from_plan_.inverse());
@@ -41,6 +47,12 @@ class RobotDevice final : public ScriptedDevice {
     since_s_ = t_s;
     moved_s_ = t_s;
     from_mm_ = along_mm();
+  }
+
+  /// A pause stops the robot's clock too.
+  void wait() noexcept {
+    since_s_ += tick_s;
+    moved_s_ += tick_s;
   }
 
   double along_mm() const noexcept {
@@ -68,6 +80,7 @@ class RobotDevice final : public ScriptedDevice {
   }
 
   bool act(double t_s, DeviceInput& input) noexcept override {
+    if (input.paused) wait();
     const double axial = input.paused ? 0.0 : axial_n(t_s);
     if (phase_ == Phase::withdraw && along_mm() <= 0.0) return false;
     const Vec3 axis = held_.col(2);

@@ -97,7 +97,7 @@ Script parse_script(const nlohmann::json& json, const std::string& where);
 Script demo_script();
 
 /// A device that plays `script`; `world_from_plan` puts it on a case. Time advances one tick a read. Throws
-/// Error invalid_input for an unknown device profile.
+/// Error invalid_input for an unknown device profile, and for a robot on an impedance device.
 std::unique_ptr<HapticDevice> make_scripted_device(const Script& script, const Pose& world_from_plan,
                                                    uint64_t random_seed = 1);
 

@@ -34,7 +34,7 @@ double Tremor::filtered(std::array<Section, 2>& sections, double x) noexcept {
   return sections[1].run(sections[0].run(x, a1[0], a2[0]), a1[1], a2[1]);
 }
 
-Tremor::Tremor(uint64_t seed, double rms_n) : seed_(seed) {
+Tremor::Tremor(uint64_t seed, double rms_n) : seed_(hash_text("tremor", seed)) {
   // White noise of variance 1/3 comes out with that times the energy of the impulse response.
   double energy = 0.0;
   std::array<Section, 2> sections;

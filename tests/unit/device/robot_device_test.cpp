@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/clock.hpp"
 #include "device/script.hpp"
+#include "support/expect_error.hpp"
 #include "support/random_pose.hpp"
 
 namespace ream::device {
@@ -84,6 +87,24 @@ TEST(RobotDevice, PressesWithSimulatedNewtonsAtAnyForceScale) {
   const auto samples = run(script, Pose{}, {2000.0 / 26.0, Vec3(0, 0, -3)});
   ASSERT_EQ(samples.size(), 5000u);
   EXPECT_NEAR(samples.back().force_n, 52.0, 1e-6);
+}
+
+TEST(RobotDevice, GoesOnAfterAPauseAsIfNothingHadBeen) {
+  Script script = protocol();
+  script.buttons = {{0.5, true, true}, {1.5, true, false}};
+  const auto paused = run(script, Pose{}, {260.0, Vec3(0, 0, -3)});
+  const auto whole = run(protocol(), Pose{}, {260.0, Vec3(0, 0, -3)});
+  // The wall's mass does not stop for a pause, so the paused robot is a little ahead; it presses for as long.
+  const auto held = [](const std::vector<Sample>& samples) {
+    return std::count_if(samples.begin(), samples.end(), [](const Sample& s) { return s.force_n > 51.9; });
+  };
+  EXPECT_NEAR(static_cast<double>(held(paused)), static_cast<double>(held(whole)), 10.0);
+}
+
+TEST(RobotDevice, NeedsADeviceThatTakesForce) {
+  Script script = protocol();
+  script.device_profile = "ideal";
+  test::expect_error(ErrorKind::invalid_input, "admittance", [&] { make_scripted_device(script, Pose{}); });
 }
 
 TEST(RobotDevice, KeepsItsLine) {

@@ -110,6 +110,16 @@ TEST(HandDevice, BeginsAnewWhenOpenedAgain) {
   EXPECT_EQ(positions(*device, Pose{}), positions(*device, Pose{}));
 }
 
+TEST(HandDevice, ShakesByItsSeed) {
+  Script script = pushing(0.0, 0.5);
+  script.hand.tremor_rms_n = 2.0;
+  const auto path_of = [&](uint64_t seed) {
+    return positions(*make_scripted_device(script, Pose{}, seed), Pose{});
+  };
+  EXPECT_EQ(path_of(1), path_of(1));
+  EXPECT_NE(path_of(1), path_of(2));
+}
+
 TEST(PoseDevice, FollowsItsPosesWhateverItFeels) {
   std::mt19937 random(12);
   const Pose world_from_plan = test::random_pose(random);

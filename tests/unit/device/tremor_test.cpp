@@ -52,7 +52,8 @@ TEST(Tremor, HasTheRootMeanSquareAskedFor) {
 TEST(Tremor, LiesBetweenEightAndTwelveHertz) {
   const auto force_n = tremor_of(8, 1.0, 20000);
   for (int k = 0; k < 3; ++k) {
-    EXPECT_GT(power(force_n, k, 7, 14), 0.85) << "component " << k;
+    // Its edges are 3 dB down, so a part lies beyond them; 20 s tell it to about a tenth.
+    EXPECT_GT(power(force_n, k, 7, 14), 0.75) << "component " << k;
     EXPECT_LT(power(force_n, k, 0, 4), 0.03);
     EXPECT_LT(power(force_n, k, 25, 60), 0.03);
   }

@@ -38,14 +38,16 @@ TEST_P(EveryDevice, LetsAHandReamWithinItsLimits) {
     ASSERT_LE(r.hand_force_n.norm(), traits.force_max_n * (1.0 + 1e-12)) << "tick " << r.tick;
     ASSERT_LE(r.hand_torque_n_mm.norm(), traits.torque_max_n_mm * (1.0 + 1e-12)) << "tick " << r.tick;
   }
-  double thrust_sum_n = 0.0, feed_sum_mm_s = 0.0;
+  double thrust_sum_n = 0.0, feed_sum_mm_s = 0.0, felt_sum_n = 0.0;
   for (size_t i = 5000; i < reports.size(); ++i) {
     thrust_sum_n += reports[i].thrust_n;
     feed_sum_mm_s += reports[i].feed_rate_mm_s;
+    felt_sum_n += script.force_scale * reports[i].hand_force_n.norm();
   }
   // The tremor and the arm's damping take and give a newton or two.
   EXPECT_NEAR(thrust_sum_n / 1000.0, thrust_n, 2.0);
   EXPECT_NEAR(feed_sum_mm_s / 1000.0, 0.25, 0.015);
+  EXPECT_NEAR(felt_sum_n / thrust_sum_n, 1.0, 0.01) << "the hand feels what the tool presses with";
 }
 
 INSTANTIATE_TEST_SUITE_P(Profiles, EveryDevice, testing::ValuesIn(device::device_profile_names()),
