@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/hash.hpp"
 #include "force/feed_law.hpp"
 #include "force/feed_table.hpp"
 
@@ -22,7 +23,7 @@ class ObliqueFeedModel final : public FeedModel {
     const double feed_mm_s = feed_mm * settings_.spindle_rad_s / (2.0 * pi);
     return {thrust / feed_mm_s, table_.torque_mm3_at(feed_mm) / thrust_mm2};
   }
-  uint64_t table_hash() const noexcept override { return table_.hash(); }
+  uint64_t table_hash() const noexcept override { return hash_combine(calibration_.hash(), table_.hash()); }
 
  private:
   /// K of the bone under the reamer: 52 N at f(D) on the reference spindle.

@@ -29,9 +29,7 @@ inline constexpr double vibration_low_pass_hz = 500.0;  ///< ends what can be fe
 /// The shortest time that is a whole number of samples at 22,050 Hz and of ticks.
 inline constexpr size_t sound_samples_a_beat = 441, ticks_a_beat = 20;
 
-/// Lip passes a turn: the thesis' reamer has five cutting lips, 13 passes a second at 156 rpm.
-inline constexpr double cutting_lips = 5.0;
-/// Depth of the lip-pass modulation of amplitude. Engineering choice.
+/// Depth of the modulation of amplitude as the lips pass, 13 times a second at 156 rpm. Engineering choice.
 inline constexpr double lip_pass_depth = 0.2;
 /// Time in which one kind of vibration gives way to another. Engineering choice, ticks.
 inline constexpr int vibration_fade_ticks = 50;

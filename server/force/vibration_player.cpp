@@ -6,11 +6,15 @@
 #include "core/clock.hpp"
 #include "core/hash.hpp"
 #include "core/units.hpp"
+#include "force/coefficients.hpp"
 
 namespace ream::force {
 namespace {
 
 constexpr auto idle = static_cast<size_t>(VibrationKind::idle);
+
+/// The mean of (1 + d cos)^2 is 1 + d^2 / 2.
+const double lips_mean_square_kept = 1.0 / std::sqrt(1.0 + 0.5 * lip_pass_depth * lip_pass_depth);
 
 std::array<double, vibration_kinds> levels_wanted(const VibrationInput& input) noexcept {
   std::array<double, vibration_kinds> wanted{};
@@ -26,16 +30,15 @@ std::array<double, vibration_kinds> levels_wanted(const VibrationInput& input) n
 }  // namespace
 
 VibrationGains VibrationMix::next(const VibrationInput& input) noexcept {
+  if (input.paused) return level_ = {};
   constexpr double most_change = 1.0 / vibration_fade_ticks;
   const auto wanted = levels_wanted(input);
   for (size_t k = 0; k < vibration_kinds; ++k)
     level_[k] += std::clamp(wanted[k] - level_[k], -most_change, most_change);
 
   if (input.spindle_on)
-    lip_phase_rad_ = std::fmod(lip_phase_rad_ + cutting_lips * input.spindle_speed_rad_s * tick_s, 2.0 * pi);
-  // The mean of (1 + d cos)^2 is 1 + d^2 / 2.
-  static const double steady = 1.0 / std::sqrt(1.0 + 0.5 * lip_pass_depth * lip_pass_depth);
-  const double lips = steady * (1.0 + lip_pass_depth * std::cos(lip_phase_rad_));
+    lip_phase_rad_ = std::fmod(lip_phase_rad_ + lip_count * input.spindle_speed_rad_s * tick_s, 2.0 * pi);
+  const double lips = lips_mean_square_kept * (1.0 + lip_pass_depth * std::cos(lip_phase_rad_));
   VibrationGains gains;
   for (size_t k = 0; k < vibration_kinds; ++k) gains[k] = k == idle ? level_[k] : lips * level_[k];
   return gains;

@@ -13,6 +13,7 @@ struct VibrationInput {
   double spindle_speed_rad_s = 0.0;
   bool cutting = false;           ///< the lips are in bone
   std::array<double, 3> share{};  ///< of the engaged cutting points: cancellous, cortical, cartilage
+  bool paused = false;            ///< still at once; fades in again afterwards
 };
 
 /// How loud each kind is at one moment: factors of the tracks, lip-pass modulation included.

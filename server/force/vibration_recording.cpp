@@ -58,7 +58,7 @@ void read_row(std::string_view row, Columns& columns, const std::string& where, 
   }
   columns.samples.push_back(number(columns.timed ? trimmed(row.substr(comma + 1)) : row, where, line));
   if (columns.samples.size() > most_recording_samples)
-    refuse_line(where, line, "is beyond 50 million samples; take a shorter part of the recording");
+    refuse_line(where, line, "is beyond 20 million samples; take a shorter part of the recording");
 }
 
 Columns read_columns(std::string_view text, const std::string& where) {
@@ -115,7 +115,7 @@ VibrationRecording read_wav(const fs::path& path) {
     refuse(where, "has " + std::to_string(info.channels) + " channels; save the one of the accelerometer");
   if (info.frames < 2) refuse(where, "holds fewer than two samples; is it the right file?");
   if (static_cast<size_t>(info.frames) > most_recording_samples)
-    refuse(where, "is beyond 50 million samples; take a shorter part of the recording");
+    refuse(where, "is beyond 20 million samples; take a shorter part of the recording");
   VibrationRecording recording;
   recording.rate_hz = info.samplerate;
   recording.samples.resize(static_cast<size_t>(info.frames));

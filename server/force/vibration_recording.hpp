@@ -13,7 +13,7 @@ struct VibrationRecording {
 
 /// Limits of what is taken as a recording.
 inline constexpr double slowest_recording_hz = 1000.0, fastest_recording_hz = 1.0e6;
-inline constexpr size_t most_recording_samples = 50'000'000;
+inline constexpr size_t most_recording_samples = 20'000'000;
 
 /// Reads one channel from a WAV file, or from a CSV file of either form:
 ///   one column of g, with or without the heading `g`; the sampling rate is `rate_hz`;

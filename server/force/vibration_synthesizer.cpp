@@ -14,13 +14,13 @@ namespace {
 constexpr double colour_corner_hz = 400.0;
 /// Part of the power that comes in blows. Engineering choice: enough of them that each window of five seconds
 /// has one near the largest, and still a rustle between them.
-constexpr double share_of_blows = 0.8;
+constexpr double share_of_blows = 0.9;
 /// Blows are this strong at least, as part of the strongest; evenly spread between. Engineering choice.
-constexpr double weakest_blow = 0.75;
+constexpr double weakest_blow = 0.25;
 /// What half of peak-to-peak in five seconds is made of: the strongest of the blows in them after lip-pass
 /// modulation, as part of the strongest there can be, and a multiple of the noise's own g_rms. Found by
 /// measuring 100 seeds at both rates; their means lie 4 % on either side of what was asked for.
-constexpr double reach_of_blows = 0.94, reach_of_noise = 3.3;
+constexpr double reach_of_blows = 0.965, reach_of_noise = 3.3;
 /// Part of the time between blows in which the next may fall: two never come together and add up.
 constexpr double play_of_blows = 0.8;
 /// The end is faded into a beginning without blows: otherwise two could meet.

@@ -1,5 +1,7 @@
 #include "sim/hand_output.hpp"
 
+#include <algorithm>
+
 #include "sim/model.hpp"
 
 namespace ream::sim {
@@ -23,6 +25,14 @@ double stored_mj(const Model& model, const ToolLoad& load) {
           load.spring.torque_n_mm.squaredNorm() / c.angular_stiffness_n_mm_rad);
 }
 
+/// What the reamer's shaking adds along its axis, hand N, world frame: fed forward, with a limit of its own.
+Vec3 vibration_n(const Model& model, const Pose& world_from_tool, double vibration_g) {
+  const force::VibrationSettings& vibration = model.settings.vibration;
+  const double force_n = std::clamp(vibration_g * vibration.vibration_n_per_g, -vibration.vibration_max_n,
+                                    vibration.vibration_max_n);
+  return force_n * world_from_tool.rotation.col(2);
+}
+
 }  // namespace
 
 void render(const Model& model, HandOutput& output, const Pose& world_from_tool, const ToolLoad& load,
@@ -33,13 +43,16 @@ void render(const Model& model, HandOutput& output, const Pose& world_from_tool,
     output.start_up.restart();
   else if (!report.failed_over)
     wanted = force::limited(on_hand(model, world_from_tool, load), limits);
+  Vec3 shaking_n = Vec3::Zero();
   if (!model.virtual_mass) {
     output.energy.observe(report.world_from_handle);
-    if (!report.paused) wanted = wanted.scaled(output.start_up.next(wanted.force_n.norm()));
-    wanted = output.energy.allow(force::slewed(output.rendered, wanted, limits), stored_mj(model, load));
+    const double gain = report.paused ? 0.0 : output.start_up.next(wanted.force_n.norm());
+    wanted = force::slewed(output.rendered, wanted.scaled(gain), limits);
+    wanted = output.energy.allow(wanted, stored_mj(model, load));
+    if (!report.failed_over) shaking_n = gain * vibration_n(model, world_from_tool, report.vibration_g);
   }
   output.rendered = wanted;
-  report.hand_force_n = wanted.force_n;
+  report.hand_force_n = force::limited(Vec3(wanted.force_n + shaking_n), limits.force_max_n);
   report.hand_torque_n_mm = wanted.torque_n_mm;
 }
 

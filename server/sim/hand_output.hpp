@@ -23,9 +23,10 @@ struct HandOutput {
 };
 
 /// From what acts on the tool to what the hand feels, in this order: the force scale, the start-up ramp, the
-/// device's largest force and torque, the slew limit, the energy guard. An admittance device renders motion,
-/// so for it this only tells what the hand holds. Fills the report's hand force and torque; zero while
-/// paused. Called once in every tick, whatever happens.
+/// device's largest force and torque, the slew limit, the energy guard, then vibration, which has a limit of
+/// its own and with contact stays within the device's. An admittance device renders motion, so for it this
+/// only tells what the hand holds. Fills the report's hand force and torque; zero while paused. Called once
+/// in every tick, whatever happens.
 void render(const Model& model, HandOutput& output, const Pose& world_from_tool, const ToolLoad& load,
             record::TickReport& report) noexcept;
 

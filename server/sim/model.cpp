@@ -41,7 +41,6 @@ Model make_model(const case_::Plan& plan, voxel::BoneModel& bone, shell::Tool to
   model.tool_box_tool.include(Vec3(r, r, model.profile.body_max_z_mm));
   model.vibration = force::make_vibration_tracks(settings.vibration, settings.random_seed);
   model.feed = force::make_feed_model(settings.feed, cutting_tool(model.tool.profile, plan.depth_mm));
-  model.spindle_speed_rad_s = settings.feed.spindle_rad_s;
   model.virtual_mass = settings.virtual_mass;
   model.coupling = settings.virtual_mass
                        ? force::coupling_of(*settings.virtual_mass, settings.force_scale)

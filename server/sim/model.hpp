@@ -62,7 +62,6 @@ struct Model {
   std::shared_ptr<const force::VibrationTracks> vibration;  ///< empty: the reamer does not vibrate
   force::CouplingParameters coupling;
   std::optional<force::VirtualMass> virtual_mass;
-  double spindle_speed_rad_s = rad_s_from_rpm(force::reference_spindle_rpm);
   std::optional<force::Guide> guide;
   std::optional<device::ScapulaMount> mount;  ///< as simulated, see sim/scapula_mount.hpp
   double thin_step_mm =

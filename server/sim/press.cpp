@@ -30,7 +30,7 @@ force::Sliding sliding(const Model& model, const State& state, const force::Enga
   force::Sliding s;
   s.normal_force_n = state.normal_force_n;
   s.along_speed_mm_s = (velocity_mm_s - outward * outward.dot(velocity_mm_s)).norm();
-  s.turn_speed_rad_s = (spindle_on ? model.spindle_speed_rad_s : 0.0) + std::abs(t[5]);
+  s.turn_speed_rad_s = (spindle_on ? model.settings.feed.spindle_rad_s : 0.0) + std::abs(t[5]);
   // Of a disc with the engaged area.
   s.mean_radius_mm = 2.0 / 3.0 * std::sqrt(bone.area_mm2 / pi);
   return s;

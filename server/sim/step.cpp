@@ -98,7 +98,7 @@ StepStatus step(const Model& model, State& state, const device::DeviceInput& raw
   if (cuts && !remove_bone(state, report.grid_from_tool, report)) return StepStatus::collision_failed;
 
   report.failed_over = state.failed_over_tick == report.tick;
-  if (!report.paused) report.vibration_g = state.vibration.next_g(vibration_input(model, report));
+  report.vibration_g = state.vibration.next_g(vibration_input(model, report));
   render(model, state.output, state.world_from_tool, load, report);
   state.session_hash = hash_combine(state.session_hash, hash_of_cause(report));
   report.session_hash = state.session_hash;

@@ -103,7 +103,9 @@ TEST_F(Simulate, EveryFeedModelSaysSoAndFeedsAsTheSpindleTurns) {
     }
     const double depth_mm = json_of(out + "/metrics.json").at("reaming_depth_mm");
     if (std::string(model) == "empirical") law_depth_mm = depth_mm;
-    if (std::string(model) == "oblique") EXPECT_NEAR(depth_mm, law_depth_mm, 0.02 * law_depth_mm);
+    if (std::string(model) == "oblique") {
+      EXPECT_NEAR(depth_mm, law_depth_mm, 0.02 * law_depth_mm);
+    }
   }
   succeed({"simulate", "--case", "demo", "--script", short_script(), "--out", "slow"});
   EXPECT_LT(json_of("slow/metrics.json").at("reaming_depth_mm").get<double>(), 0.7 * law_depth_mm);

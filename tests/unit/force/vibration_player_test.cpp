@@ -73,6 +73,15 @@ TEST(VibrationPlayer, FadesWithoutAStep) {
   EXPECT_NEAR(before, 0.0, 1e-12);
 }
 
+TEST(VibrationPlayer, APauseIsStillAndFadesInAgain) {
+  VibrationPlayer player(constant_tracks({1.0f, 1.0f, 1.0f, 1.0f}), 3);
+  for (int i = 0; i < 60; ++i) player.next_g(idle);
+  VibrationInput paused = idle;
+  paused.paused = true;
+  EXPECT_EQ(player.next_g(paused), 0.0);
+  EXPECT_NEAR(player.next_g(idle), 1.0 / 50.0, 1e-12);
+}
+
 TEST(VibrationPlayer, LipPassesKeepTheMeanSquare) {
   VibrationPlayer player(constant_tracks({1.0f, 0.0f, 0.0f, 0.0f}), 3);
   mean_square(player, reaming(1.0, 0.0), 1000);
