@@ -36,7 +36,9 @@ inline constexpr double mouth_depth_mm = 1.0;
 /// A nipple in a pilot hole that begins at the guide frame's origin. Error conflict when it does not fit.
 Guide nipple_guide(double radius_mm, double height_mm, double hole_diameter_mm, double hole_depth_mm);
 
-/// A cannulated reamer on a pin along the guide's axis. Somebody has threaded it before the session begins.
+/// A cannulated reamer on a pin along the guide's axis. Somebody has threaded it before the session begins; a
+/// hand that begins beside the pin has not paid for the spring that this has drawn, so that the energy guard
+/// lets it feel less than the spring until it has.
 Guide pin_guide();
 
 /// To be told after every tick where the tool is: it enters when its leading point passes the mouth within
