@@ -26,6 +26,28 @@ Vec6 solve(Mat6 m, Vec6 x) {
   return x;
 }
 
+double along(const Vec6& v, const Vec3& direction) {
+  return v[0] * direction[0] + v[1] * direction[1] + v[2] * direction[2];
+}
+
+/// Moves the part of `from` along `direction` (unit), where it has one that way, over to `to`.
+void move_over(const Vec3& direction, Vec6& from, Vec6& to) {
+  const double part = along(from, direction);
+  if (part <= 0.0) return;
+  for (size_t i = 0; i < 3; ++i) {
+    const double share = part * direction[static_cast<Eigen::Index>(i)];
+    from[i] -= share;
+    to[i] += share;
+  }
+}
+
+/// The ways out of the bone in which nothing may hold the tool back: against the mean normal and, where bone
+/// lies ahead, backwards along the axis. The resistance matrix knows no such side: normals that differ make
+/// it hold on to a tool that slides out along a wall.
+std::array<Vec3, 2> ways_out(const Vec3& outward) {
+  return {outward, outward.z() < 0.0 ? Vec3(-Vec3::UnitZ()) : outward};
+}
+
 }  // namespace
 
 CouplingStep couple(const CouplingParameters& p, const Resistance& resistance, const Vec6& delta,
@@ -35,14 +57,9 @@ CouplingStep couple(const CouplingParameters& p, const Resistance& resistance, c
   const Vec6 stiffness{k_linear, k_linear, k_linear, k_angular, k_angular, k_angular};
 
   // What leaves the bone goes without resistance; the rest meets it.
-  const double along =
-      delta[0] * resistance.outward[0] + delta[1] * resistance.outward[1] + delta[2] * resistance.outward[2];
+  const auto outwards = ways_out(resistance.outward);
   Vec6 leaving{}, meeting = delta;
-  if (along > 0.0)
-    for (size_t i = 0; i < 3; ++i) {
-      leaving[i] = along * resistance.outward[static_cast<Eigen::Index>(i)];
-      meeting[i] = delta[i] - leaving[i];
-    }
+  for (const Vec3& way : outwards) move_over(way, meeting, leaving);
 
   double guiding_trace = 0.0;
   for (size_t i = 0; i < 3; ++i) guiding_trace += at(resistance.guiding, i, i);
@@ -60,10 +77,13 @@ CouplingStep couple(const CouplingParameters& p, const Resistance& resistance, c
   const Vec6 twist = solve(system, right);
 
   CouplingStep step;
+  Vec6 stretch{}, slack{};
+  for (size_t i = 0; i < 6; ++i) stretch[i] = meeting[i] - twist[i] * tick_s;
+  // Moving sideways may leave the spring pulling out: the tool follows that far instead.
+  for (const Vec3& way : outwards) move_over(way, stretch, slack);
   for (size_t i = 0; i < 6; ++i) {
-    const double advance = twist[i] * tick_s;
-    step.tool_motion[i] = leaving[i] + advance;
-    step.wrench_on_tool[i] = stiffness[i] * (meeting[i] - advance);
+    step.tool_motion[i] = leaving[i] + twist[i] * tick_s + slack[i];
+    step.wrench_on_tool[i] = stiffness[i] * stretch[i];
   }
   return step;
 }

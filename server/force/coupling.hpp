@@ -32,8 +32,9 @@ struct CouplingStep {
 
 /// One tick of the Maxwell element of DESIGN 3: the spring K between handle and tool in series with the
 /// bone's feed law. Solves (B + K T) twist = K delta implicitly (backward Euler, passive for any B), where
-/// `delta` is handle minus tool (mm, rad, tool frame). Never tensile: the part of delta that leaves the bone
-/// is followed without lag. Deterministic: only + - x / in a fixed order.
+/// `delta` is handle minus tool (mm, rad, tool frame). Never tensile, neither along the mean normal nor,
+/// where bone lies ahead, along the axis: the part of delta that leaves the bone is followed without lag.
+/// Deterministic: only + - x / in a fixed order.
 CouplingStep couple(const CouplingParameters& parameters, const Resistance& resistance, const Vec6& delta,
                     double tick_s) noexcept;
 

@@ -7,13 +7,16 @@
 namespace ream::sim {
 namespace {
 
-/// The tool's load as it comes to the hand, hand N and N mm, world frame: bone pushes back through the
-/// spring, and the housing of the drive is turned against the spindle.
-force::Wrench on_hand(const Model& model, const Pose& world_from_tool, const ToolLoad& load) {
+/// What bone and guide push back through the spring, hand N and N mm, world frame.
+force::Wrench contact_on_hand(const Model& model, const Pose& world_from_tool, const ToolLoad& load) {
   const double per_hand = -1.0 / model.coupling.force_scale;
   return {world_from_tool.rotation * (per_hand * load.spring.force_n),
-          world_from_tool.rotation *
-              (per_hand * (load.spring.torque_n_mm + load.spindle_torque_n_mm * Vec3::UnitZ()))};
+          world_from_tool.rotation * (per_hand * load.spring.torque_n_mm)};
+}
+
+/// The drive's housing is turned against the spindle, hand N mm, world frame.
+Vec3 spindle_on_hand(const Model& model, const Pose& world_from_tool, const ToolLoad& load) {
+  return world_from_tool.rotation.col(2) * (-load.spindle_torque_n_mm / model.coupling.force_scale);
 }
 
 /// Energy in the coupling's spring, hand side, mJ.
@@ -38,22 +41,27 @@ Vec3 vibration_n(const Model& model, const Pose& world_from_tool, double vibrati
 void render(const Model& model, HandOutput& output, const Pose& world_from_tool, const ToolLoad& load,
             record::TickReport& report) noexcept {
   const force::DeviceLimits& limits = model.settings.limits;
-  force::Wrench wanted;
-  if (report.paused)
-    output.start_up.restart();
-  else if (!report.failed_over)
-    wanted = force::limited(on_hand(model, world_from_tool, load), limits);
-  Vec3 shaking_n = Vec3::Zero();
+  if (report.paused) output.start_up.restart();
+  force::Wrench contact;
+  Vec3 spindle_n_mm = Vec3::Zero(), shaking_n = Vec3::Zero();
+  if (!report.paused && !report.failed_over) {
+    contact = force::limited(contact_on_hand(model, world_from_tool, load), limits);
+    spindle_n_mm = spindle_on_hand(model, world_from_tool, load);
+  }
   if (!model.virtual_mass) {
     output.energy.observe(report.world_from_handle);
-    const double gain = report.paused ? 0.0 : output.start_up.next(wanted.force_n.norm());
-    wanted = force::slewed(output.rendered, wanted.scaled(gain), limits);
-    wanted = output.energy.allow(wanted, stored_mj(model, load));
+    const double gain = report.paused ? 0.0 : output.start_up.next(contact.force_n.norm());
+    contact = force::slewed(output.contact, contact.scaled(gain), limits);
+    contact = output.energy.allow(contact, stored_mj(model, load));
+    spindle_n_mm = force::slewed(output.spindle_n_mm, Vec3(gain * spindle_n_mm), limits.torque_slew_n_mm);
     if (!report.failed_over) shaking_n = gain * vibration_n(model, world_from_tool, report.vibration_g);
   }
-  output.rendered = wanted;
-  report.hand_force_n = force::limited(Vec3(wanted.force_n + shaking_n), limits.force_max_n);
-  report.hand_torque_n_mm = wanted.torque_n_mm;
+  const double torque_left_n_mm = std::max(0.0, limits.torque_max_n_mm - contact.torque_n_mm.norm());
+  spindle_n_mm = force::limited(spindle_n_mm, torque_left_n_mm);
+  output.contact = contact;
+  output.spindle_n_mm = spindle_n_mm;
+  report.hand_force_n = force::limited(Vec3(contact.force_n + shaking_n), limits.force_max_n);
+  report.hand_torque_n_mm = contact.torque_n_mm + spindle_n_mm;
 }
 
 }  // namespace ream::sim

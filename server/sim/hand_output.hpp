@@ -19,14 +19,17 @@ struct HandOutput {
 
   force::StartUpRamp start_up;
   force::EnergyGuard energy;
-  force::Wrench rendered;  ///< of the last tick, vibration left out
+  /// Of the last tick, world frame: what bone and guide do to the hand, and what the spindle does beside it.
+  force::Wrench contact;
+  Vec3 spindle_n_mm = Vec3::Zero();
 };
 
-/// From what acts on the tool to what the hand feels, in this order: the force scale, the start-up ramp, the
-/// device's largest force and torque, the slew limit, the energy guard, then vibration, which has a limit of
-/// its own and with contact stays within the device's. An admittance device renders motion, so for it this
-/// only tells what the hand holds. Fills the report's hand force and torque; zero while paused. Called once
-/// in every tick, whatever happens.
+/// From what acts on the tool to what the hand feels. Contact: the force scale, the device's largest force
+/// and torque, the start-up ramp, the slew limit, the energy guard, in this order. Beside it, as they are a
+/// motor's work and not the bone's: the spindle's reaction, within the torque that contact leaves, and
+/// vibration, which has a limit of its own and with contact stays within the device's. An admittance device
+/// renders motion, so for it this only tells what the hand holds. Fills the report's hand force and torque;
+/// zero while paused. Called once in every tick, whatever happens.
 void render(const Model& model, HandOutput& output, const Pose& world_from_tool, const ToolLoad& load,
             record::TickReport& report) noexcept;
 
