@@ -1,5 +1,6 @@
 #include "force/coupling.hpp"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace ream::force {
@@ -26,26 +27,15 @@ Vec6 solve(Mat6 m, Vec6 x) {
   return x;
 }
 
-double along(const Vec6& v, const Vec3& direction) {
-  return v[0] * direction[0] + v[1] * direction[1] + v[2] * direction[2];
-}
-
 /// Moves the part of `from` along `direction` (unit), where it has one that way, over to `to`.
 void move_over(const Vec3& direction, Vec6& from, Vec6& to) {
-  const double part = along(from, direction);
+  const double part = from[0] * direction[0] + from[1] * direction[1] + from[2] * direction[2];
   if (part <= 0.0) return;
   for (size_t i = 0; i < 3; ++i) {
     const double share = part * direction[static_cast<Eigen::Index>(i)];
     from[i] -= share;
     to[i] += share;
   }
-}
-
-/// The ways out of the bone in which nothing may hold the tool back: against the mean normal and, where bone
-/// lies ahead, backwards along the axis. The resistance matrix knows no such side: normals that differ make
-/// it hold on to a tool that slides out along a wall.
-std::array<Vec3, 2> ways_out(const Vec3& outward) {
-  return {outward, outward.z() < 0.0 ? Vec3(-Vec3::UnitZ()) : outward};
 }
 
 }  // namespace
@@ -57,9 +47,8 @@ CouplingStep couple(const CouplingParameters& p, const Resistance& resistance, c
   const Vec6 stiffness{k_linear, k_linear, k_linear, k_angular, k_angular, k_angular};
 
   // What leaves the bone goes without resistance; the rest meets it.
-  const auto outwards = ways_out(resistance.outward);
   Vec6 leaving{}, meeting = delta;
-  for (const Vec3& way : outwards) move_over(way, meeting, leaving);
+  move_over(resistance.outward, meeting, leaving);
 
   double guiding_trace = 0.0;
   for (size_t i = 0; i < 3; ++i) guiding_trace += at(resistance.guiding, i, i);
@@ -80,11 +69,14 @@ CouplingStep couple(const CouplingParameters& p, const Resistance& resistance, c
   Vec6 stretch{}, slack{};
   for (size_t i = 0; i < 6; ++i) stretch[i] = meeting[i] - twist[i] * tick_s;
   // Moving sideways may leave the spring pulling out: the tool follows that far instead.
-  for (const Vec3& way : outwards) move_over(way, stretch, slack);
+  move_over(resistance.outward, stretch, slack);
   for (size_t i = 0; i < 6; ++i) {
     step.tool_motion[i] = leaving[i] + twist[i] * tick_s + slack[i];
     step.wrench_on_tool[i] = stiffness[i] * stretch[i];
   }
+  // The matrix knows no sides: normals that differ make it hold on to a tool that is drawn back along a wall.
+  // That is not felt.
+  if (resistance.outward.z() < 0.0) step.wrench_on_tool[2] = std::max(0.0, step.wrench_on_tool[2]);
   return step;
 }
 

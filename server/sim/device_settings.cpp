@@ -18,6 +18,7 @@ void fit_to_device(const device::DeviceTraits& traits, double stiffness_n_mm, Se
   settings.limits = force::limits_for(traits.force_max_n, traits.torque_max_n_mm, settings.stiffness_n_mm,
                                       settings.angular_stiffness_n_mm_rad);
   settings.start_up_ramp_s = traits.start_up_ramp_s;
+  settings.energy_guarded = traits.energy_guarded;
   settings.vibration.vibration_max_n = traits.vibration_max_n;
   settings.virtual_mass.reset();
   if (traits.causality == device::Causality::admittance)

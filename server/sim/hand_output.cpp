@@ -52,7 +52,7 @@ void render(const Model& model, HandOutput& output, const Pose& world_from_tool,
     output.energy.observe(report.world_from_handle);
     const double gain = report.paused ? 0.0 : output.start_up.next(contact.force_n.norm());
     contact = force::slewed(output.contact, contact.scaled(gain), limits);
-    contact = output.energy.allow(contact, stored_mj(model, load));
+    if (model.settings.energy_guarded) contact = output.energy.allow(contact, stored_mj(model, load));
     spindle_n_mm = force::slewed(output.spindle_n_mm, Vec3(gain * spindle_n_mm), limits.torque_slew_n_mm);
     if (!report.failed_over) shaking_n = gain * vibration_n(model, world_from_tool, report.vibration_g);
   }

@@ -35,6 +35,7 @@ Model make_model(const case_::Plan& plan, voxel::BoneModel& bone, shell::Tool to
   model.distance = voxel::brick_distance(bone);
   if (model.distance.nothing())
     throw Error(ErrorKind::invalid_input, "the case holds no bone; import it again with a lower threshold");
+  model.surface_place = SurfacePlace(model.tool.profile);
   model.tool_box_tool = model.contact_shell.bounds_mm;
   const double r = model.profile.max_radius_mm;
   model.tool_box_tool.include(Vec3(-r, -r, model.profile.body_min_z_mm));

@@ -20,6 +20,7 @@
 #include "shell/point_shell.hpp"
 #include "shell/swept_profile.hpp"
 #include "shell/tool.hpp"
+#include "sim/surface_place.hpp"
 
 namespace ream::sim {
 
@@ -41,6 +42,7 @@ struct Settings {
   force::VibrationSettings vibration;
   force::DeviceLimits limits;
   double start_up_ramp_s = 0.0;  ///< see force::StartUpRamp
+  bool energy_guarded = true;    ///< see force::EnergyGuard
   /// Set for admittance devices; the coupling is then the mass' (force/virtual_mass.hpp).
   std::optional<force::VirtualMass> virtual_mass;
   std::optional<device::ScapulaMount> mount;  ///< empty: the bone is held rigidly
@@ -57,6 +59,7 @@ struct Model {
   collide::ContactShell contact_shell;
   collide::DecayShell decay_shell;  ///< empty unless bone is removed by decay
   voxel::BrickDistance distance;
+  SurfacePlace surface_place;
   Aabb tool_box_tool;  ///< around probes and swept body
   std::unique_ptr<force::FeedModel> feed;
   std::shared_ptr<const force::VibrationTracks> vibration;  ///< empty: the reamer does not vibrate

@@ -26,9 +26,10 @@ Pose moved_within_a_voxel(const Model& model, const Pose& world_from_tool, const
 force::Sliding sliding(const Model& model, const State& state, const force::EngagedBone& bone,
                        const Vec3& outward, bool spindle_on) {
   const auto& t = state.tool_twist;
-  const Vec3 velocity_mm_s(t[0], t[1], t[2]);
   force::Sliding s;
+  s.point_mm = model.surface_place.point_mm(-outward);
   s.normal_force_n = state.normal_force_n;
+  const Vec3 velocity_mm_s = Vec3(t[0], t[1], t[2]) + Vec3(t[3], t[4], t[5]).cross(s.point_mm);
   s.along_speed_mm_s = (velocity_mm_s - outward * outward.dot(velocity_mm_s)).norm();
   s.turn_speed_rad_s = (spindle_on ? model.settings.feed.spindle_rad_s : 0.0) + std::abs(t[5]);
   // Of a disc with the engaged area.

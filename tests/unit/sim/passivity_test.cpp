@@ -141,11 +141,12 @@ struct Bench {
   SmallRun run;
 };
 
+/// All that render force but the ideal one, which is no device.
 std::vector<device::DeviceTraits> impedance_devices() {
   std::vector<device::DeviceTraits> devices;
   for (const std::string& name : device::device_profile_names()) {
     const device::DeviceTraits traits = device::device_profile(name);
-    if (traits.causality == device::Causality::impedance) devices.push_back(traits);
+    if (traits.causality == device::Causality::impedance && traits.energy_guarded) devices.push_back(traits);
   }
   return devices;
 }

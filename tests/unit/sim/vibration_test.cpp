@@ -70,7 +70,10 @@ TEST(Vibration, FollowsWhatTheToolDoes) {
   const auto reports = VibratingRun(settings(force::VibrationSource::synthesized)).reports;
   ASSERT_EQ(reports.size(), 1000u);
   ASSERT_TRUE(reports[400].cutting);
-  EXPECT_NEAR(rms_g(reports, 60, 100), 0.05, 0.03) << "idle spin before contact";
+  ASSERT_FALSE(reports[100].engaged);
+  // Forty ticks may hold one of the idle drill's blows, or none.
+  EXPECT_GT(rms_g(reports, 60, 100), 0.005) << "idle spin before contact";
+  EXPECT_LT(rms_g(reports, 60, 100), 0.15) << "idle spin before contact";
   EXPECT_GT(rms_g(reports, 250, 500), 0.15) << "cancellous bone";
   EXPECT_EQ(rms_g(reports, 500, 550), 0.0) << "at rest";
   EXPECT_LT(rms_g(reports, 990, 1000), 0.15) << "back in the air";
