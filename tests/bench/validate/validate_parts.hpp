@@ -16,6 +16,9 @@ std::vector<Row> protocol_rows(const Options& options, Plots& plots);
 /// A minute of each bone's vibration: table 5.2 and figures 5.6 to 5.9.
 std::vector<Row> vibration_rows(const Options& options, Plots& plots);
 
+/// What force and motion cost the tick, beside contact and removal.
+std::vector<Row> force_cost_rows();
+
 /// How far `ours` is from `theirs`, percent of theirs.
 double percent_off(double ours, double theirs);
 

@@ -13,6 +13,7 @@ std::vector<Row> validate_suite(const Options& options) {
   append(steady_rows(options));
   append(protocol_rows(options, plots));
   append(vibration_rows(options, plots));
+  append(force_cost_rows());
   const std::string outcome = plots.draw();
   if (options.tables != nullptr) *options.tables << '\n' << outcome << '\n';
   return rows;
