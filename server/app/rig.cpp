@@ -48,7 +48,8 @@ sim::Settings settings_for(const RunRequest& request, const device::Script& scri
   sim::fit_to_device(traits, script.stiffness_n_mm, settings);
   settings.mount = script.mount;
   settings.random_seed = request.random_seed;
-  settings.feed.kind = request.feed_kind;
+  settings.feed.kind =
+      force::feed_kind_from_text(request.feed_model.empty() ? script.feed_model : request.feed_model);
   settings.feed.spindle_rad_s = rad_s_from_rpm(script.spindle_rpm);
   settings.feed.specimen_factor = script.specimen_factor;
   return settings;

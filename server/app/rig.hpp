@@ -17,8 +17,8 @@ struct RunRequest {
   std::string script_name = "demo";  ///< `demo` or the path of a script
   std::string backend = "auto";
   sim::RemovalLaw removal = sim::RemovalLaw::profile;
-  force::FeedKind feed_kind = force::FeedKind::empirical;
-  std::string tool;  ///< empty: the plan's reamer
+  std::string feed_model;  ///< empty: the script's
+  std::string tool;        ///< empty: the plan's reamer
   std::optional<shell::ToolAxis> tool_axis;
   double tool_spacing_mm = 0.2;
   std::optional<double> force_scale;  ///< overrides the script's

@@ -11,9 +11,10 @@ class HandDevice final : public ScriptedDevice {
   HandDevice(const Script& script, const Pose& world_from_plan, uint64_t random_seed)
       : ScriptedDevice(script, world_from_plan, "hand"), hand_(script.hand, random_seed) {}
 
+  /// Vibration is made in hand newtons and is too quick for a hand to give way to.
   DeviceStatus write(const DeviceOutput& output) noexcept override {
     const Mat3 plan_from_world = world_from_plan_.rotation.transpose();
-    felt_.force_n = script_.force_scale * (plan_from_world * output.force_n);
+    felt_.force_n = script_.force_scale * (plan_from_world * (output.force_n - output.vibration_n));
     felt_.torque_n_mm = script_.force_scale * (plan_from_world * output.torque_n_mm);
     return DeviceStatus::ok;
   }

@@ -38,6 +38,7 @@ struct DeviceInput {
 struct DeviceOutput {
   Vec3 force_n = Vec3::Zero();      ///< on the hand, world frame
   Vec3 torque_n_mm = Vec3::Zero();  ///< on the hand about the handle's origin, world frame
+  Vec3 vibration_n = Vec3::Zero();  ///< the part of force_n that is vibration
   std::optional<Pose> world_from_tool =
       std::nullopt;  ///< where an admittance device moves to; empty: it stays
 };

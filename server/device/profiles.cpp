@@ -74,7 +74,7 @@ DeviceTraits traits_of(const Published& row) {
   traits.damping_max_n_s_mm = row.damping_n_s_m / mm_per_m;
   traits.workspace_radius_mm = row.workspace_m * mm_per_m;
   traits.start_up_ramp_s = ideal ? 0.0 : usual_ramp_s;
-  traits.vibration_max_n = ideal ? row.force_n : usual_vibration_max_n;
+  traits.vibration_max_n = usual_vibration_max_n;
   traits.energy_guarded = !ideal;
   traits.effective_mass_kg = row.mass_kg;
   traits.degrees_of_freedom = row.sensed;

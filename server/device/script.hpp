@@ -79,7 +79,8 @@ struct Script {
   double stiffness_n_mm = 0.0;           ///< of the coupling, hand side; 0: the device's own
   std::string device_profile = "ideal";  ///< whose limits the hand feels through; device/profiles.hpp
   double spindle_rpm = 156.0;
-  double specimen_factor = 1.0;  ///< feed of this specimen over the feed law's
+  std::string feed_model = "empirical";  ///< or oblique, scraping
+  double specimen_factor = 1.0;          ///< feed of this specimen over the feed law's
   ScriptVibration vibration;
   std::optional<ScapulaMount> mount;  ///< empty: the bone is held rigidly
   HandParameters hand;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "force/limits.hpp"
+
 namespace ream::force {
 namespace {
 
@@ -49,6 +51,8 @@ CouplingStep couple(const CouplingParameters& p, const Resistance& resistance, c
   // What leaves the bone goes without resistance; the rest meets it.
   Vec6 leaving{}, meeting = delta;
   move_over(resistance.outward, meeting, leaving);
+  const Vec3 asked(meeting[0], meeting[1], meeting[2]), stretched = limited(asked, p.stretch_max_mm);
+  for (size_t i = 0; i < 3; ++i) meeting[i] = stretched[static_cast<Eigen::Index>(i)];
 
   double guiding_trace = 0.0;
   for (size_t i = 0; i < 3; ++i) guiding_trace += at(resistance.guiding, i, i);
@@ -66,6 +70,7 @@ CouplingStep couple(const CouplingParameters& p, const Resistance& resistance, c
   const Vec6 twist = solve(system, right);
 
   CouplingStep step;
+  step.yielded = asked.norm() > p.stretch_max_mm;
   Vec6 stretch{}, slack{};
   for (size_t i = 0; i < 6; ++i) stretch[i] = meeting[i] - twist[i] * tick_s;
   // Moving sideways may leave the spring pulling out: the tool follows that far instead.

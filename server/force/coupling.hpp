@@ -15,6 +15,8 @@ struct CouplingParameters {
   double stiffness_n_mm = 2.0;  ///< hand side; a device's limit decides
   double angular_stiffness_n_mm_rad = 2000.0;
   double force_scale = 1.0;  ///< simulated N per hand N
+  /// The spring yields beyond this, so that what cuts is what a device of limited force can let a hand feel.
+  double stretch_max_mm = 1e9;
 };
 
 /// What resists the tool in one tick, tool frame, per unit of full axial contact.
@@ -28,6 +30,7 @@ struct Resistance {
 struct CouplingStep {
   Vec6 tool_motion{};     ///< how the tool moves in this tick, tool frame
   Vec6 wrench_on_tool{};  ///< simulated N and N mm that the spring puts on the tool at the end of the tick
+  bool yielded = false;   ///< the spring was stretched beyond its limit
 };
 
 /// One tick of the Maxwell element of DESIGN 3: the spring K between handle and tool in series with the

@@ -20,9 +20,8 @@ double most_given_mj(double load, double speed, double speed_gain, double least_
 void EnergyGuard::observe(const Pose& world_from_handle) noexcept {
   if (started_) {
     const Vec3 way_mm = world_from_handle.translation_mm - world_from_handle_.translation_mm;
-    const Vec3 turn_rad =
-        world_from_handle_.rotation *
-        small_vector_from_rotation(world_from_handle_.rotation.transpose() * world_from_handle.rotation);
+    const Mat3& before = world_from_handle_.rotation;
+    const Vec3 turn_rad = before * turn_between(before, world_from_handle.rotation);
     const double given_back_mj = rendered_.force_n.dot(way_mm) + rendered_.torque_n_mm.dot(turn_rad);
     energy_mj_ -= given_back_mj;
     saved_mj_ -= given_back_mj;

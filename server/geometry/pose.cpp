@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "core/units.hpp"
+
 namespace ream {
 
 Pose Pose::inverse() const {
@@ -22,6 +24,13 @@ Mat3 rotation_from_small_vector(const Vec3& v) {
 Vec3 small_vector_from_rotation(const Mat3& r) {
   const auto q = quaternion_from_rotation(r);
   return Vec3(q[1], q[2], q[3]) * (2.0 / q[0]);
+}
+
+Vec3 turn_between(const Mat3& a, const Mat3& b) {
+  const Vec3 turn = small_vector_from_rotation(a.transpose() * b);
+  if (!turn.allFinite()) return pi * Vec3::UnitZ();
+  const double length = turn.norm();
+  return length > pi ? Vec3(turn * (pi / length)) : turn;
 }
 
 Mat3 orthonormalized(const Mat3& r) {

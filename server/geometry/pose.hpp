@@ -30,6 +30,11 @@ Mat3 rotation_from_small_vector(const Vec3& v);
 /// pi.
 Vec3 small_vector_from_rotation(const Mat3& r);
 
+/// The turn from `a` to `b` (columns in one frame) as a rotation vector in a's frame, as
+/// small_vector_from_rotation gives it but never longer than pi: near half a turn that vector grows beyond
+/// all bounds, and half a turn has none.
+Vec3 turn_between(const Mat3& a, const Mat3& b);
+
 /// Gram-Schmidt clean-up of a rotation that has drifted by rounding.
 Mat3 orthonormalized(const Mat3& r);
 

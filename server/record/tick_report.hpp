@@ -10,17 +10,22 @@ namespace ream::record {
 struct TickReport {
   uint32_t tick = 0;
   bool spindle_on = false, paused = false, engaged = false;
-  bool cutting = false;               ///< engaged, spindle on and pressed enough for the lips to cut
+  bool cutting = false;  ///< engaged, spindle on, pressed enough, and the lips have bone to cut
+  /// The hand feels noticeably less than the simulated contact force over the force scale: a limit, the slew
+  /// limit or the energy guard is at work.
+  bool weakened = false;
   bool failed_over = false;           ///< the device that computes failed in this tick; the hand felt nothing
   QuantisedPose world_from_handle_q;  ///< the cause: what the device said, as it was used
   QuantisedPose grid_from_tool;       ///< what was decided, as contact and removal saw it
   Pose world_from_tool, world_from_handle;
-  Pose world_from_bone_rest;         ///< how far the bone has moved from where the case has it
-  Vec3 hand_force_n = Vec3::Zero();  ///< sent to the device, world frame
+  Pose world_from_bone_rest;             ///< how far the bone has moved from where the case has it
+  Vec3 hand_force_n = Vec3::Zero();      ///< sent to the device, world frame
+  Vec3 hand_vibration_n = Vec3::Zero();  ///< the part of it that is vibration
   Vec3 hand_torque_n_mm = Vec3::Zero();
   double thrust_n = 0.0;             ///< simulated, along the tool axis, pressing into the bone positive
   double torque_n_mm = 0.0;          ///< simulated, magnitude of the moment about the tool's origin
   double spindle_torque_n_mm = 0.0;  ///< simulated, that turns the spindle; the hand holds against it
+  double guide_force_n = 0.0;        ///< simulated, that the guide takes; in no other figure but the hand's
   double vibration_g = 0.0;          ///< acceleration of the tool beside what contact does
   double feed_rate_mm_s = 0.0;       ///< of the tool along its axis while engaged
   double density_g_cc = 0.0;         ///< mean of the engaged cutting points

@@ -54,7 +54,8 @@ const std::string& TraceCsv::header_line() {
   static const std::string line =
       "t_s,handle_x_mm,handle_y_mm,handle_z_mm,handle_qw,handle_qx,handle_qy,handle_qz,"
       "tool_x_mm,tool_y_mm,tool_z_mm,tool_qw,tool_qx,tool_qy,tool_qz,spindle_on,paused,"
-      "thrust_n,hand_force_x_n,hand_force_y_n,hand_force_z_n,torque_n_mm,spindle_torque_n_mm,vibration_g,"
+      "thrust_n,hand_force_x_n,hand_force_y_n,hand_force_z_n,torque_n_mm,spindle_torque_n_mm,guide_force_n,"
+      "vibration_g,hand_weakened,"
       "feed_rate_mm_s,density_g_cc,"
       "share_cancellous,share_cortical,share_cartilage,engaged_points,removed_volume_mm3,"
       "bone_x_mm,bone_y_mm,bone_z_mm,bone_qw,bone_qx,bone_qy,bone_qz";
@@ -79,7 +80,8 @@ void TraceCsv::add(const TickReport& r) {
   Row row;
   row.add(static_cast<double>(r.tick) * tick_s).add(r.world_from_handle).add(r.world_from_tool);
   row.add(static_cast<int64_t>(r.spindle_on)).add(static_cast<int64_t>(r.paused));
-  row.add(r.thrust_n).add(r.hand_force_n).add(r.torque_n_mm).add(r.spindle_torque_n_mm).add(r.vibration_g);
+  row.add(r.thrust_n).add(r.hand_force_n).add(r.torque_n_mm).add(r.spindle_torque_n_mm).add(r.guide_force_n);
+  row.add(r.vibration_g).add(static_cast<int64_t>(r.weakened));
   row.add(r.feed_rate_mm_s).add(r.density_g_cc);
   row.add(r.share[0]).add(r.share[1]).add(r.share[2]).add(r.engaged_points);
   row.add(static_cast<double>(coverage_removed_) / 255.0 * voxel_volume_mm3_);

@@ -14,6 +14,7 @@ MetricsAccumulator::MetricsAccumulator(double voxel_volume_mm3, const Pose& plan
 void MetricsAccumulator::add(const record::TickReport& r) {
   ++ticks_;
   session_hash_ = r.session_hash;
+  weakened_ticks_ += r.weakened ? 1 : 0;
   const Vec3 in_bone_mm = r.world_from_bone_rest.inverse().point(r.world_from_tool.translation_mm);
   const double axial_mm = plan_from_world_.point(in_bone_mm).z();
   if (r.engaged) {
@@ -60,6 +61,7 @@ Metrics MetricsAccumulator::metrics() const {
   m.axial_thrust_peak_n = thrust_peak_n_;
   m.apparent_stiffness_n_mm = apparent_stiffness_n_mm_;
   m.duration_s = static_cast<double>(ticks_) * tick_s;
+  m.weakened_time_s = static_cast<double>(weakened_ticks_) * tick_s;
   m.contact_time_s = static_cast<double>(contact_ticks_) * tick_s;
   m.session_hash = session_hash_;
   return m;
@@ -77,6 +79,7 @@ nlohmann::json metrics_json(const Metrics& m, double force_scale, const uint64_t
            m.apparent_stiffness_n_mm ? nlohmann::json(*m.apparent_stiffness_n_mm) : nlohmann::json()},
           {"duration_s", m.duration_s},
           {"contact_time_s", m.contact_time_s},
+          {"weakened_time_s", m.weakened_time_s},
           {"force_scale", force_scale},
           {"grid_hash", grid_hash ? nlohmann::json(to_hex(*grid_hash)) : nlohmann::json()},
           {"session_hash", to_hex(m.session_hash)}};

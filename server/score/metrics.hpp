@@ -23,6 +23,7 @@ struct Metrics {
   std::optional<double> apparent_stiffness_n_mm;
   double duration_s = 0.0;
   double contact_time_s = 0.0;
+  double weakened_time_s = 0.0;  ///< in which the hand felt noticeably less than what was simulated
   uint64_t session_hash = 0;
 };
 
@@ -43,7 +44,7 @@ class MetricsAccumulator {
 
   double voxel_volume_mm3_;
   Pose plan_from_world_;
-  int64_t ticks_ = 0, contact_ticks_ = 0, cutting_ticks_ = 0;
+  int64_t ticks_ = 0, contact_ticks_ = 0, cutting_ticks_ = 0, weakened_ticks_ = 0;
   int64_t coverage_removed_[voxel::bone_class_count] = {};
   double thrust_sum_n_ = 0.0, thrust_peak_n_ = 0.0;
   bool touched_ = false;

@@ -8,12 +8,6 @@
 namespace ream::sim {
 namespace {
 
-/// Rotation vector of between(); large but finite for half a turn, which has no Cayley vector.
-Vec3 turn_of(const Pose& world_from_a, const Pose& world_from_b) {
-  const Vec3 turn = small_vector_from_rotation(world_from_a.rotation.transpose() * world_from_b.rotation);
-  return turn.allFinite() ? turn : Vec3(1.0e6 * Vec3::UnitZ());
-}
-
 bool same(const Pose& a, const Pose& b) {
   return a.translation_mm == b.translation_mm && a.rotation == b.rotation;
 }
@@ -33,14 +27,14 @@ Approach look(const Model& model, State& state) noexcept {
 }  // namespace
 
 double path_bound_mm(const Model& model, const Pose& world_from_a, const Pose& world_from_b) noexcept {
-  const Vec3 turn = turn_of(world_from_a, world_from_b);
+  const Vec3 turn = turn_between(world_from_a.rotation, world_from_b.rotation);
   double arc = 0.0;
   for (int i = 0; i < 8; ++i) arc = std::max(arc, length_bound(turn.cross(model.tool_box_tool.corner(i))));
   return length_bound(world_from_b.translation_mm - world_from_a.translation_mm) + arc;
 }
 
 Pose between(const Pose& world_from_a, const Pose& world_from_b, double fraction) noexcept {
-  const Vec3 turn = turn_of(world_from_a, world_from_b);
+  const Vec3 turn = turn_between(world_from_a.rotation, world_from_b.rotation);
   return {
       orthonormalized(world_from_a.rotation * rotation_from_small_vector(fraction * turn)),
       world_from_a.translation_mm + fraction * (world_from_b.translation_mm - world_from_a.translation_mm)};

@@ -53,13 +53,17 @@ Pose guided(const Model& model, State& state, const Pose& world_from_handle) noe
 }
 
 void add_guide(const Model& model, const State& state, const Pose& world_from_handle,
-               const Pose& world_from_guided, ToolLoad& load) noexcept {
+               const Pose& world_from_guided, ToolLoad& load, TickReport& report) noexcept {
   if (!state.guide.entered) return;
   const double linear = model.coupling.stiffness_n_mm * model.coupling.force_scale;
   const double angular = model.coupling.angular_stiffness_n_mm_rad * model.coupling.force_scale;
   const force::Vec6 held_back = handle_minus_tool(world_from_guided, world_from_handle);
-  load.spring.force_n += linear * Vec3(held_back[0], held_back[1], held_back[2]);
-  load.spring.torque_n_mm += angular * Vec3(held_back[3], held_back[4], held_back[5]);
+  const Mat3 tool_from_guided = state.world_from_tool.rotation.transpose() * world_from_guided.rotation;
+  const Vec3 force_n = linear * (tool_from_guided * Vec3(held_back[0], held_back[1], held_back[2]));
+  load.spring.force_n += force_n;
+  load.spring.torque_n_mm += angular * (tool_from_guided * Vec3(held_back[3], held_back[4], held_back[5]));
+  load.asked_n += force_n.norm() / model.coupling.force_scale;
+  report.guide_force_n = force_n.norm();
 }
 
 void keep_in_guide(const Model& model, State& state) noexcept {

@@ -7,6 +7,9 @@
 namespace ream::sim {
 namespace {
 
+/// A hand that feels less than this share of the simulated contact force is told less than the truth.
+constexpr double felt_share = 0.99;
+
 /// What bone and guide push back through the spring, hand N and N mm, world frame.
 force::Wrench contact_on_hand(const Model& model, const Pose& world_from_tool, const ToolLoad& load) {
   const double per_hand = -1.0 / model.coupling.force_scale;
@@ -38,30 +41,40 @@ Vec3 vibration_n(const Model& model, const Pose& world_from_tool, double vibrati
 
 }  // namespace
 
+device::DeviceOutput output_of(const record::TickReport& report) noexcept {
+  return {report.hand_force_n, report.hand_torque_n_mm, report.hand_vibration_n, report.world_from_tool};
+}
+
 void render(const Model& model, HandOutput& output, const Pose& world_from_tool, const ToolLoad& load,
             record::TickReport& report) noexcept {
   const force::DeviceLimits& limits = model.settings.limits;
   if (report.paused) output.start_up.restart();
   force::Wrench contact;
   Vec3 spindle_n_mm = Vec3::Zero(), shaking_n = Vec3::Zero();
-  if (!report.paused && !report.failed_over) {
-    contact = force::limited(contact_on_hand(model, world_from_tool, load), limits);
+  const bool renders = !report.paused && !report.failed_over;
+  const force::Wrench simulated = contact_on_hand(model, world_from_tool, load);
+  if (renders) {
+    contact = force::limited(simulated, limits);
     spindle_n_mm = spindle_on_hand(model, world_from_tool, load);
   }
   if (!model.virtual_mass) {
     output.energy.observe(report.world_from_handle);
-    const double gain = report.paused ? 0.0 : output.start_up.next(contact.force_n.norm());
-    contact = force::slewed(output.contact, contact.scaled(gain), limits);
+    const double gain = report.paused ? 0.0 : output.start_up.next(load.asked_n);
+    contact.force_n = force::limited(contact.force_n, gain * limits.force_max_n);
+    contact.torque_n_mm = force::limited(contact.torque_n_mm, gain * limits.torque_max_n_mm);
+    contact = force::slewed(output.contact, contact, limits);
     if (model.settings.energy_guarded) contact = output.energy.allow(contact, stored_mj(model, load));
     spindle_n_mm = force::slewed(output.spindle_n_mm, Vec3(gain * spindle_n_mm), limits.torque_slew_n_mm);
-    if (!report.failed_over) shaking_n = gain * vibration_n(model, world_from_tool, report.vibration_g);
+    if (renders) shaking_n = gain * vibration_n(model, world_from_tool, report.vibration_g);
   }
   const double torque_left_n_mm = std::max(0.0, limits.torque_max_n_mm - contact.torque_n_mm.norm());
   spindle_n_mm = force::limited(spindle_n_mm, torque_left_n_mm);
   output.contact = contact;
   output.spindle_n_mm = spindle_n_mm;
   report.hand_force_n = force::limited(Vec3(contact.force_n + shaking_n), limits.force_max_n);
+  report.hand_vibration_n = report.hand_force_n - contact.force_n;
   report.hand_torque_n_mm = contact.torque_n_mm + spindle_n_mm;
+  report.weakened |= renders && contact.force_n.norm() < felt_share * simulated.force_n.norm();
 }
 
 }  // namespace ream::sim

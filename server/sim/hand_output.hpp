@@ -1,4 +1,5 @@
 #pragma once
+#include "device/haptic_device.hpp"
 #include "force/energy_guard.hpp"
 #include "force/start_up.hpp"
 #include "record/tick_report.hpp"
@@ -11,6 +12,9 @@ struct Model;
 struct ToolLoad {
   force::Wrench spring;              ///< that the coupling puts on the tool
   double spindle_torque_n_mm = 0.0;  ///< that turns the spindle, about +z
+  bool cuts = false;                 ///< pressed enough, and turning
+  /// What the spring between handle and tool would put on the hand without any limit, hand N.
+  double asked_n = 0.0;
 };
 
 /// What of a session's hand output carries over from tick to tick.
@@ -23,6 +27,9 @@ struct HandOutput {
   force::Wrench contact;
   Vec3 spindle_n_mm = Vec3::Zero();
 };
+
+/// What a device is told of a tick.
+device::DeviceOutput output_of(const record::TickReport& report) noexcept;
 
 /// From what acts on the tool to what the hand feels. Contact: the force scale, the device's largest force
 /// and torque, the start-up ramp, the slew limit, the energy guard, in this order. Beside it, as they are a

@@ -133,9 +133,7 @@ LoopEnd HapticLoop::one_tick(device::DeviceInput& input, double lateness_us) noe
   const double step_us = elapsed_us(start);
   black_box_.remember(report, step_us, lateness_us);
   if (status != StepStatus::ok) return end_of(status);
-  if (device_.write({report.hand_force_n, report.hand_torque_n_mm, report.world_from_tool}) !=
-      device::DeviceStatus::ok)
-    return LoopEnd::device_fault;
+  if (device_.write(output_of(report)) != device::DeviceStatus::ok) return LoopEnd::device_fault;
 
   tick_us_.add(step_us);
   lateness_us_.add(lateness_us);

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "collide/removal_schedule.hpp"
@@ -37,8 +38,10 @@ struct State {
   /// Whatever way the tool moves, as far as this no point of it meets bone (mm). 0: it touches nothing where
   /// it stands; negative: nobody has looked there yet.
   double free_path_mm = -1.0;
-  size_t nearest_block = 0;     ///< of the shell to bone, when that was last looked for
-  force::Vec6 tool_twist{};     ///< of the last tick, tool frame: mm/s, rad/s
+  size_t nearest_block = 0;  ///< of the shell to bone, when that was last looked for
+  force::Vec6 tool_twist{};  ///< of the last tick, tool frame: mm/s, rad/s
+  /// Where in the grid the tool's origin was when this contact last took bone away; empty before it has.
+  std::optional<Vec3> last_bite_mm;
   double thrust_n = 0.0;        ///< simulated, of the last tick
   double normal_force_n = 0.0;  ///< simulated, of the last tick, that presses tool and bone together
   HandOutput output;

@@ -41,7 +41,7 @@ bool move_tool(const Model& model, State& state, const device::DeviceInput& inpu
     for (size_t i = 0; i < 6; ++i) state.tool_twist[i] = way[i] / tick_s;
     state.normal_force_n = 0.0;
   }
-  add_guide(model, state, input.world_from_handle, allowed.world_from_handle, load);
+  add_guide(model, state, input.world_from_handle, allowed.world_from_handle, load, report);
   move_bone(model, state, load, report.engaged);
   keep_in_guide(model, state);
   return true;
@@ -62,9 +62,16 @@ bool is_finite(const TickReport& r) {
          std::isfinite(r.thrust_n);
 }
 
+/// Farther than this from the origin, mm, nothing is a place in a CT (and a recorded pose would overflow).
+constexpr double farthest_mm = 1000.0;
+
+bool is_usable(const Pose& pose) {
+  return pose.rotation.allFinite() && (pose.translation_mm.array().abs() < farthest_mm).all();
+}
+
 bool is_finite(const device::DeviceInput& input) {
-  return input.world_from_handle.translation_mm.allFinite() && input.world_from_handle.rotation.allFinite() &&
-         input.hand_force_n.allFinite() && input.hand_torque_n_mm.allFinite();
+  return is_usable(input.world_from_handle) && input.hand_force_n.allFinite() &&
+         input.hand_torque_n_mm.allFinite();
 }
 
 }  // namespace
@@ -76,7 +83,9 @@ StepStatus step(const Model& model, State& state, const device::DeviceInput& raw
   report.tick = state.tick++;
   report.spindle_on = raw_input.spindle_on;
   report.paused = raw_input.paused;
-  report.world_from_handle_q = quantised(world_from_handle(model, state, raw_input));
+  const Pose handle = world_from_handle(model, state, raw_input);
+  if (!is_usable(handle)) return StepStatus::not_finite;
+  report.world_from_handle_q = quantised(handle);
   device::DeviceInput input = raw_input;
   input.world_from_handle = dequantised(report.world_from_handle_q);
   report.world_from_handle = input.world_from_handle;
@@ -93,9 +102,12 @@ StepStatus step(const Model& model, State& state, const device::DeviceInput& raw
   report.world_from_bone_rest = state.world_from_bone_rest;
   report.grid_from_tool = quantised(state.world_from_grid.inverse() * state.world_from_tool);
 
-  const bool cuts = report.engaged && input.spindle_on;
-  if (!cuts) state.schedule.pass(report.grid_from_tool);
-  if (cuts && !remove_bone(state, report.grid_from_tool, report)) return StepStatus::collision_failed;
+  if (!load.cuts) state.schedule.pass(report.grid_from_tool);
+  if (load.cuts && !remove_bone(state, report.grid_from_tool, report)) return StepStatus::collision_failed;
+  if (!report.engaged)
+    state.last_bite_mm.reset();
+  else if (report.changed_bricks > 0)
+    state.last_bite_mm = dequantised(report.grid_from_tool).translation_mm;
 
   report.failed_over = state.failed_over_tick == report.tick;
   report.vibration_g = state.vibration.next_g(vibration_input(model, report));

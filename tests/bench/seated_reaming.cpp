@@ -17,6 +17,7 @@ sim::Settings seated_settings(const device::Script& script, const std::string& b
   settings.tool_spacing_mm = 0.1;
   settings.stiffness_n_mm = script.stiffness_n_mm;
   settings.angular_stiffness_n_mm_rad = 1000.0 * script.stiffness_n_mm;
+  settings.energy_guarded = false;
   return settings;
 }
 

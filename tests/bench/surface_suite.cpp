@@ -89,7 +89,7 @@ Seated measure_seated(case_::Case bone_case) {
   std::vector<double> feeds;
   while (device->read(input) == device::DeviceStatus::ok) {
     if (sim::step(model, state, input, report) != sim::StepStatus::ok) break;
-    device->write({report.hand_force_n, report.hand_torque_n_mm, report.world_from_tool});
+    device->write(sim::output_of(report));
     if (state.tick % update_ticks != 0) continue;
     const auto start = SteadyClock::now();
     const double start_us = processor_us();

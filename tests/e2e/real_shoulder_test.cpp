@@ -57,7 +57,7 @@ struct Reaming {
     record::TickReport report;
     while (device->read(input) == device::DeviceStatus::ok &&
            sim::step(model, state, input, report) == sim::StepStatus::ok) {
-      device->write({report.hand_force_n, report.hand_torque_n_mm, report.world_from_tool});
+      device->write(sim::output_of(report));
       reports.push_back(report);
     }
   }
@@ -68,6 +68,8 @@ struct Reaming {
     s.tool_spacing_mm = 0.1;
     s.stiffness_n_mm = hand_script().stiffness_n_mm;
     s.angular_stiffness_n_mm_rad = 1000.0 * s.stiffness_n_mm;
+    s.energy_guarded = false;
+    s.vibration.source = force::VibrationSource::off;
     return s;
   }
 

@@ -51,7 +51,7 @@ struct SmallRun {
     while (device->read(input) == device::DeviceStatus::ok) {
       record::TickReport report;
       if (sim::step(model, state, input, report) != sim::StepStatus::ok) break;
-      device->write({report.hand_force_n, report.hand_torque_n_mm, report.world_from_tool});
+      device->write(sim::output_of(report));
       reports.push_back(report);
     }
     return reports;

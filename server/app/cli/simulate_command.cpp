@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 struct Options {
   RunRequest request;
   std::string tool_axis;
-  std::string model = "empirical", removal = "profile";
+  std::string removal = "profile";
   double force_scale = 0.0;
   fs::path out;
   bool wall_clock = false;
@@ -37,7 +37,6 @@ fs::path next_output_folder() {
 
 void simulate(const Options& options, const GlobalOptions& global) {
   RunRequest request = options.request;
-  request.feed_kind = force::feed_kind_from_text(options.model);
   if (options.removal == "decay") request.removal = sim::RemovalLaw::decay;
   if (!options.tool_axis.empty()) {
     const auto v = parse_numbers(options.tool_axis, 6, "--tool-axis");
@@ -93,11 +92,10 @@ void add_simulate_command(CLI::App& app, GlobalOptions& global) {
       ->capture_default_str();
   command
       ->add_option(
-          "--model", options->model,
+          "--model", options->request.feed_model,
           "Feed model: empirical (the thesis' law), oblique (cutting mechanics of its appendix A) or "
-          "scraping (experimental: wear, resistance grows with the engaged area)")
-      ->check(CLI::IsMember({"empirical", "oblique", "scraping"}))
-      ->capture_default_str();
+          "scraping (experimental: wear, resistance grows with the engaged area). Default: the script's")
+      ->check(CLI::IsMember({"empirical", "oblique", "scraping"}));
   command
       ->add_option(
           "--removal", options->removal,

@@ -51,7 +51,7 @@ double force_us(const sim::Model& model, sim::State& state, const device::Device
   const auto pressing = SteadyClock::now();
   sim::ToolLoad load;
   if (found.sums.engaged() > 0) load = sim::press(model, state, found.sums, allowed, report);
-  sim::add_guide(model, state, input.world_from_handle, allowed.world_from_handle, load);
+  sim::add_guide(model, state, input.world_from_handle, allowed.world_from_handle, load, report);
   sim::move_bone(model, state, load, report.engaged);
   sim::keep_in_guide(model, state);
   state.thrust_n = report.thrust_n;

@@ -43,7 +43,7 @@ TEST(GrippingHand, FollowsAHandleThatMovesAndLosesItsArmsDamping) {
   handle.translation_mm = script.hand.start_mm;
   while (device->read(input) == DeviceStatus::ok) {
     handle.translation_mm.z() += 5.0 * tick_s;
-    device->write({Vec3::Zero(), Vec3::Zero(), handle});
+    device->write({Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), handle});
   }
   EXPECT_NEAR(input.hand_force_n.z(), 40.0 - 2.0 * 5.0, 0.01);
 }
@@ -55,7 +55,8 @@ TEST(GrippingHand, WristTurnsAHandleBack) {
   DeviceInput input;
   device->open();
   Pose handle{rotation_from_small_vector(Vec3(0.02, 0, 0)), script.hand.start_mm};
-  while (device->read(input) == DeviceStatus::ok) device->write({Vec3::Zero(), Vec3::Zero(), handle});
+  while (device->read(input) == DeviceStatus::ok)
+    device->write({Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), handle});
   EXPECT_LT((input.hand_torque_n_mm - Vec3(-100, 0, 0)).norm(), 0.1);
 }
 
@@ -73,7 +74,7 @@ TEST(GrippingHand, DrivesAFreeMassToTheSpeedOfItsArm) {
     velocity_mm_s += tick_s * 1000.0 * input.hand_force_n;
     handle.translation_mm += tick_s * velocity_mm_s;
     fastest_mm_s = std::max(fastest_mm_s, velocity_mm_s.norm());
-    device->write({Vec3::Zero(), Vec3::Zero(), handle});
+    device->write({Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), handle});
   }
   EXPECT_NEAR(velocity_mm_s.z(), 20.0, 0.1);
   EXPECT_LT(fastest_mm_s, 40.0);

@@ -38,7 +38,8 @@ std::vector<Sample> run(const Script& script, const Pose& world_from_plan, Yield
     samples.push_back({static_cast<double>(samples.size()) * tick_s, script.force_scale * force_n.z(),
                        wall.position_mm.z()});
     wall.take(force_n);
-    device->write({Vec3::Zero(), Vec3::Zero(), world_from_plan * Pose{Mat3::Identity(), wall.position_mm}});
+    device->write({Vec3::Zero(), Vec3::Zero(), Vec3::Zero(),
+                   world_from_plan * Pose{Mat3::Identity(), wall.position_mm}});
   }
   return samples;
 }
@@ -118,7 +119,7 @@ TEST(RobotDevice, KeepsItsLine) {
   for (int tick = 0; device->read(input) == DeviceStatus::ok; ++tick) {
     mass.take(input.hand_force_n + Vec3(tick > 100 && tick < 1000 ? 10.0 : 0.0, 0, 0));
     farthest_mm = std::max(farthest_mm, mass.position_mm.x());
-    device->write({Vec3::Zero(), Vec3::Zero(), Pose{Mat3::Identity(), mass.position_mm}});
+    device->write({Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Pose{Mat3::Identity(), mass.position_mm}});
   }
   EXPECT_LT(farthest_mm, 1.0) << "10 N on 20 N/mm, at most twice on the way";
   EXPECT_LT(std::abs(mass.position_mm.x()), 0.01);

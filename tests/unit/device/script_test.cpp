@@ -43,7 +43,7 @@ json with(json script, const std::string& pointer, const json& value) {
 TEST(Script, ReadsEveryKeyOfAHand) {
   const Script script = parse_script(
       json::parse(R"({"device": "hand", "duration_s": 3.5, "force_scale": 26, "stiffness_n_mm": 2.5,
-        "spindle_rpm": 200, "specimen_factor": 0.95,
+        "spindle_rpm": 200, "feed_model": "oblique", "specimen_factor": 0.95,
         "hand": {"start_mm": [1, 2, -9], "tilt_deg": [90, 0, 0], "mass_kg": 2, "arm_damping_n_s_mm": 0.5,
                  "guide_stiffness_n_mm": 7, "force_profile": [{"t_s": 0.5, "force_n": -8}]},
         "buttons": [{"t_s": 1}, {"t_s": 2, "spindle": false, "pause": true}]})"),
@@ -53,6 +53,7 @@ TEST(Script, ReadsEveryKeyOfAHand) {
   EXPECT_EQ(script.force_scale, 26.0);
   EXPECT_EQ(script.stiffness_n_mm, 2.5);
   EXPECT_EQ(script.spindle_rpm, 200.0);
+  EXPECT_EQ(script.feed_model, "oblique");
   EXPECT_EQ(script.specimen_factor, 0.95);
   EXPECT_EQ(script.hand.start_mm, Vec3(1, 2, -9));
   EXPECT_NEAR(script.hand.tilt_rad.x(), pi / 2.0, 1e-15);
@@ -191,6 +192,7 @@ TEST(Script, WrongTypesAndRangesAreRefusedByPlaceAndKey) {
   expect_refused(with(hand_script(), "/duration_s", 0.0), "'duration_s' is 0");
   expect_refused(with(hand_script(), "/duration_s", -1.0), "'duration_s'");
   expect_refused(with(hand_script(), "/force_scale", 0.0), "'force_scale'");
+  expect_refused(with(hand_script(), "/feed_model", "rubbing"), "'feed_model' must be 'empirical'");
   expect_refused(with(hand_script(), "/hand", 7), "run.json.hand");
   expect_refused(with(hand_script(), "/hand/start_mm", {1, 2}), "'start_mm' must be a list of 3 numbers");
   expect_refused(with(hand_script(), "/hand/start_mm", {1, 2, "3"}), "'start_mm'");

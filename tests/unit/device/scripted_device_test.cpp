@@ -66,7 +66,7 @@ TEST(HandDevice, MovesAlikeAtAnyForceScaleAndFeelsScaledForce) {
     double before_mm = 0.0;
     while (device->read(input) == DeviceStatus::ok) {
       // What the hand feels, times the scale, is half of what it pushes: it ends at half the speed.
-      device->write({Vec3(0, 0, -2.0 / scale), Vec3::Zero(), {}});
+      device->write({Vec3(0, 0, -2.0 / scale), Vec3::Zero(), Vec3::Zero(), {}});
       const double now_mm = input.world_from_handle.translation_mm.z();
       if (now_mm > script.hand.start_mm.z() + 100.0) {
         EXPECT_NEAR((now_mm - before_mm) / tick_length_s, 2.0 / 0.05, 0.05);
@@ -86,7 +86,7 @@ TEST(HandDevice, SpringBringsItBackToItsLine) {
   double farthest_mm = 0.0;
   for (int tick = 0; device->read(input) == DeviceStatus::ok; ++tick) {
     farthest_mm = std::max(farthest_mm, std::abs(input.world_from_handle.translation_mm.x()));
-    device->write({Vec3(tick < 500 ? 10.0 : 0.0, 0, 0), Vec3::Zero(), {}});
+    device->write({Vec3(tick < 500 ? 10.0 : 0.0, 0, 0), Vec3::Zero(), Vec3::Zero(), {}});
   }
   // 10 N against 20 N/mm: half a millimetre where it settles, at most twice that on the way.
   EXPECT_GT(farthest_mm, 0.45);
@@ -137,7 +137,7 @@ TEST(PoseDevice, FollowsItsPosesWhateverItFeels) {
     ASSERT_LT((plan_from_handle.translation_mm - (Vec3(0, 0, -5) + s * Vec3(1, 2, 8))).norm(), 1e-9);
     // The Cayley map is exact to third order in the angle.
     ASSERT_LT((plan_from_handle.rotation - test::rotation_about(Vec3::UnitX(), 0.3 * s)).norm(), 0.01);
-    device->write({Vec3(0, 0, 1e3), Vec3(1e3, 0, 0), {}});
+    device->write({Vec3(0, 0, 1e3), Vec3(1e3, 0, 0), Vec3::Zero(), {}});
   }
   EXPECT_EQ(ticks, 2000);
 }

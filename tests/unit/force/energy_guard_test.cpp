@@ -53,6 +53,16 @@ TEST(EnergyGuard, CountsTurning) {
   EXPECT_NEAR(guard.energy_mj(), 0.5, 1e-9);
 }
 
+TEST(EnergyGuard, SurvivesAHandleThatTurnsRoundInATick) {
+  EnergyGuard guard;
+  guard.observe({});
+  guard.allow({Vec3::Zero(), Vec3(5, 5, 5)}, 100.0);
+  Mat3 half_turn;
+  half_turn << -1, 0, 0, 0, -1, 0, 0, 0, 1;
+  guard.observe({half_turn, Vec3::Zero()});
+  EXPECT_LE(std::abs(guard.energy_mj()), 5.0 * std::sqrt(3.0) * 3.1416);
+}
+
 /// The adversary: a handle of random acceleration up to what is assumed, on walls of any stiffness, that
 /// likes to reverse where it pays. Without the guard such hands draw energy without end.
 TEST(EnergyGuard, NoHandDrawsMoreThanTheCredit) {

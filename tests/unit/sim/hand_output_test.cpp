@@ -23,6 +23,7 @@ struct Rendering {
     sim::ToolLoad load;
     load.spring.force_n = Vec3(0, 0, thrust_n);
     load.spindle_torque_n_mm = spindle_n_mm;
+    load.asked_n = thrust_n / run.model.settings.force_scale;
     record::TickReport report;
     report.vibration_g = vibration_g;
     report.paused = paused;
@@ -82,6 +83,20 @@ TEST(HandOutput, WithoutLoadThereIsNothingFromOneTickToTheNext) {
   const auto report = r.tick(output, 0.0, 0.0, 0.0);
   EXPECT_EQ(report.hand_force_n.norm(), 0.0);
   EXPECT_EQ(report.hand_torque_n_mm.norm(), 0.0);
+}
+
+TEST(Step, AHandleThatTurnsRoundInATickLeavesEverythingFinite) {
+  SmallRun run(slab({48, 48, 48}, 0.25, 8.0, 0.6), slab_plan(slab({48, 48, 48}, 0.25, 8.0, 0.6), 8.0),
+               "sphere 6,4", steady_push(1.0, 1.0));
+  for (int tick = 0; tick < 200; ++tick) {
+    device::DeviceInput input;
+    Pose plan_from_handle{Mat3::Identity(), Vec3(0, 0, tick < 50 ? -1.0 + 0.03 * tick : 0.5)};
+    if (tick >= 100 && tick % 2 == 0) plan_from_handle.rotation << -1, 0, 0, 0, -1, 0, 0, 0, 1;
+    input.world_from_handle = run.model.world_from_plan * plan_from_handle;
+    input.spindle_on = true;
+    record::TickReport report;
+    ASSERT_EQ(sim::step(run.model, run.state, input, report), sim::StepStatus::ok) << tick;
+  }
 }
 
 }  // namespace

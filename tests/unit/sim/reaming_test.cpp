@@ -101,6 +101,24 @@ TEST(Reaming, WithdrawingNeverPulls) {
             1e-5);
 }
 
+TEST(Reaming, PeckingReamsOn) {
+  // Lifting off and pressing again must not cost bone: what has been cut does not hold the tool up.
+  const auto removed_mm3 = [](bool pecks) {
+    voxel::BoneModel bone = slab({96, 96, 96}, 0.15, surface_mm, 0.5);
+    const case_::Plan plan = slab_plan(bone, surface_mm);
+    device::Script script = steady_push(52.0, pecks ? 5.0 : 4.0);
+    if (pecks)
+      script.hand.force_profile = {{0.0, 52.0}, {2.0, 52.0}, {2.1, -10.0}, {2.9, -10.0}, {3.0, 52.0}};
+    SmallRun run(std::move(bone), plan, "sphere 8,5", script);
+    int64_t levels = 0;
+    for (const auto& r : run.run())
+      for (const int64_t removed : r.coverage_removed) levels += removed;
+    return static_cast<double>(levels) / 255.0 * run.bone.grid.voxel_volume_mm3();
+  };
+  const double steady = removed_mm3(false);
+  EXPECT_NEAR(removed_mm3(true), steady, 0.12 * steady);
+}
+
 TEST(Reaming, SameInputsGiveTheSameBits) {
   SmallRun a = press_on_slab(60.0, 0.6, 1.0), b = press_on_slab(60.0, 0.6, 1.0);
   const auto ra = a.run(), rb = b.run();

@@ -29,7 +29,8 @@ double apex_mm(const SmallRun& run, const record::TickReport& report) {
 }
 
 TEST(RobotProtocol, RampsToItsForceReachesItsDepthAndComesBack) {
-  SmallRun run = on_slab(robot(0.6), 0.5);
+  // Counted from where bone is first felt, a voxel ahead of where it is cut.
+  SmallRun run = on_slab(robot(0.75), 0.5);
   const auto reports = run.run();
   ASSERT_LT(reports.size(), 60000u) << "it ends by itself";
   double deepest_mm = 0.0, touched_mm = 0.0;
@@ -42,7 +43,7 @@ TEST(RobotProtocol, RampsToItsForceReachesItsDepthAndComesBack) {
     ++held_ticks;
     ASSERT_NEAR(r.feed_rate_mm_s, -0.34 * 0.5 + 0.42, 0.02 * 0.25) << "tick " << r.tick;
   }
-  EXPECT_NEAR(deepest_mm - touched_mm, 0.6, 0.03);
+  EXPECT_NEAR(deepest_mm - touched_mm, 0.75, 0.03);
   EXPECT_GT(held_ticks, 1000);
   EXPECT_NEAR(apex_mm(run, reports.back()), -1.0, 0.02);
   EXPECT_FALSE(reports.back().engaged);
