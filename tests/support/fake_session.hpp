@@ -44,6 +44,7 @@ class FakeSession final : public api::RunningSession {
             {"reaming_depth_mm", 0.75},
             {"axial_thrust_mean_n", 40.0},
             {"axial_thrust_peak_n", 61.0},
+            {"weakened_time_s", 0.25},
             {"apparent_stiffness_n_mm", 60.0},
             {"duration_s", 1.5},
             {"force_scale", status().force_scale},

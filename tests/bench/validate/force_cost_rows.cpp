@@ -28,6 +28,7 @@ test::SmallRun everything_on() {
   script.mount = device::chest_wall_mount;
   sim::Settings settings = test::SmallRun::settings(script, "cpu");
   sim::fit_to_device(device::device_profile("kuka-iiwa-14"), 0.0, settings);
+  settings.start_up_ramp_s = 0.0;
   settings.feed.kind = force::FeedKind::oblique;
   settings.vibration.source = force::VibrationSource::synthesized;
   return {std::move(bone), plan, "ellipse 6,4", script, settings};

@@ -59,6 +59,7 @@ export class FakeSession {
       reaming_depth_mm: this.depthMm,
       axial_thrust_mean_n: this.peakN * 0.8,
       axial_thrust_peak_n: this.peakN,
+      weakened_time_s: 0,
       apparent_stiffness_n_mm: null,
       duration_s: this.tick / 1000,
       force_scale: this.forceScale,
