@@ -14,6 +14,8 @@ namespace ream::app {
 namespace {
 
 constexpr size_t report_ring_ticks = 16384;
+/// A first touch or two is always a little soft; longer than this is worth a word.
+constexpr double told_weakened_s = 2.0;
 
 /// False when there was nothing to take.
 bool drain(SpscRing<record::TickReport>& reports, SessionFiles& files) {
@@ -48,6 +50,10 @@ HeadlessResult run_headless(Rig& rig, const std::filesystem::path& folder, bool 
   }
   if (health.failed_over_tick >= 0) log::warn(sim::failover_words(health.failed_over_tick));
   const SessionFiles::Results results = files.finish(health, nlohmann::json::object());
+  if (const double weakened_s = results.metrics.at("weakened_time_s").get<double>();
+      weakened_s > told_weakened_s)
+    log::warn("the hand felt less than it asked for during " + std::to_string(weakened_s) + " s, as " +
+              rig.device->traits().profile + " renders no more; a larger force_scale helps");
   return {results.metrics, results.timing};
 }
 

@@ -1,5 +1,7 @@
 #include "device/script.hpp"
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -15,9 +17,14 @@ namespace {
 
 constexpr double longest_script_s = 4.0 * 3600.0;
 
+/// Farther, in mm or degrees, no place or turn in a script makes sense.
+constexpr double largest_component = 1000.0;
+
 Vec3 vector_or(JsonReader& reader, const std::string& key, const Vec3& fallback, double scale = 1.0) {
   if (!reader.has(key)) return fallback;
   const auto v = reader.numbers(key, 3);
+  for (const double component : v)
+    if (std::abs(component) > largest_component) reader.refuse(key, "must be within -1000 and 1000");
   return Vec3(v[0], v[1], v[2]) * scale;
 }
 

@@ -196,6 +196,7 @@ TEST(Script, WrongTypesAndRangesAreRefusedByPlaceAndKey) {
   expect_refused(with(hand_script(), "/hand", 7), "run.json.hand");
   expect_refused(with(hand_script(), "/hand/start_mm", {1, 2}), "'start_mm' must be a list of 3 numbers");
   expect_refused(with(hand_script(), "/hand/start_mm", {1, 2, "3"}), "'start_mm'");
+  expect_refused(with(hand_script(), "/hand/start_mm", {1e9, 0, 5}), "'start_mm' must be within");
   expect_refused(with(hand_script(), "/hand/mass_kg", 0.0), "'mass_kg'");
   expect_refused(with(hand_script(), "/hand/force_profile", json::array()), "'force_profile'");
   expect_refused(with(hand_script(), "/hand/force_profile/0/force_n", true),

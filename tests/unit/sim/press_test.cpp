@@ -147,5 +147,40 @@ TEST(Press, ABoneThatStandsStillHoldsAReamerThatStandsStill) {
   EXPECT_GT(reports.back().hand_force_n.norm(), 50.0);
 }
 
+TEST(Press, WhatCutsIsNoMoreThanTheDeviceLetsTheHandFeel) {
+  // A hand far stronger than its device runs ahead of the tool; the tool does not follow with its spring's
+  // force.
+  voxel::BoneModel bone = slab({96, 96, 96}, spacing_mm, surface_mm, 0.5);
+  const case_::Plan plan = slab_plan(bone, surface_mm);
+  device::Script script = steady_push(20.0, 1.0);
+  script.stiffness_n_mm = 0.4;
+  sim::Settings settings = SmallRun::settings(script, "cpu");
+  sim::fit_to_device(device::device_profile("touch"), 0.4, settings);
+  settings.start_up_ramp_s = 0.0;
+  SmallRun run(std::move(bone), plan, "sphere 8,5", script, settings);
+  const auto reports = run.run();
+  for (const auto& r : reports) ASSERT_LE(r.thrust_n, 3.3 + 1e-9) << "tick " << r.tick;
+  EXPECT_NEAR(reports.back().thrust_n, 3.3, 0.1);
+  EXPECT_TRUE(reports.back().weakened);
+}
+
+TEST(Press, NothingIsPressedBeforeTheStartUpRampOpens) {
+  voxel::BoneModel bone = slab({96, 96, 96}, spacing_mm, surface_mm, 0.5);
+  const case_::Plan plan = slab_plan(bone, surface_mm);
+  device::Script script;
+  script.kind = device::ScriptKind::poses;
+  script.duration_s = 0.5;
+  script.stiffness_n_mm = 1.0;
+  script.poses = {{0.0, Vec3(0, 0, 0.0), Vec3::Zero()}, {0.01, Vec3(0, 0, 3.0), Vec3::Zero()}};
+  sim::Settings settings = SmallRun::settings(script, "cpu");
+  sim::fit_to_device(device::device_profile("omega.6"), 1.0, settings);
+  SmallRun run(std::move(bone), plan, "sphere 8,5", script, settings);
+  const auto reports = run.run();
+  const auto& early = reports[300];
+  EXPECT_TRUE(early.weakened);
+  EXPECT_LT(early.thrust_n, 2.0) << "of the 3 N that the spring would give";
+  EXPECT_NEAR(early.hand_force_n.norm(), early.thrust_n, 0.1);
+}
+
 }  // namespace
 }  // namespace ream::test
