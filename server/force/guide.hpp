@@ -24,9 +24,6 @@ struct GuideState {
   double depth_mm = 0.0;  ///< of the tool's leading point below the mouth, when last seen
   double held_mm = 0.0;   ///< guide frame z of the last constrained pose
 };
-
-/// The thesis reamer's nipple: radius and height above the apex, mm.
-inline constexpr double thesis_nipple_radius_mm = 3.0, thesis_nipple_height_mm = 8.0;
 /// Cannulated reamer on a guide pin: radial clearance, length of the bore, and how far the pin stands out of
 /// the bone. Engineering choices.
 inline constexpr double pin_clearance_mm = 0.1, pin_bore_mm = 30.0, pin_outside_mm = 80.0;

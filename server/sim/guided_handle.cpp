@@ -16,16 +16,17 @@ bool same(const Pose& a, const Pose& b) {
   return a.translation_mm == b.translation_mm && a.rotation == b.rotation;
 }
 
-force::Guide nipple_of(const shell::ToolProfile& profile, const case_::PilotHole& hole) {
+force::Guide nipple_of(const shell::Tool& tool, const case_::PilotHole& hole) {
+  const shell::ToolProfile& profile = tool.profile;
   double radius_mm = 0.0, height_mm = 0.0;
   for (size_t i = 0; i < profile.roles.size() && profile.roles[i] == shell::SurfaceRole::guiding; ++i)
     height_mm = std::max(height_mm, profile.points[i].z_mm);
   for (size_t i = 0; i < profile.roles.size() && profile.roles[i] == shell::SurfaceRole::guiding; ++i)
     radius_mm = std::max(radius_mm, profile.points[i].radius_mm);
-  if (height_mm <= 0.0) {
-    radius_mm = force::thesis_nipple_radius_mm;
-    height_mm = force::thesis_nipple_height_mm;
-  }
+  if (height_mm <= 0.0)
+    throw Error(ErrorKind::conflict, "the plan's guide is the nipple, but reamer '" + tool.name +
+                                         "' has none; choose one with a nipple, such as 'ellipse 18.25,9 "
+                                         "nipple 3,8', or guide the reamer by a pin");
   return force::nipple_guide(radius_mm, height_mm, hole.diameter_mm, hole.depth_mm);
 }
 
@@ -38,7 +39,7 @@ std::optional<force::Guide> make_guide(const Model& model) {
     if (!model.plan.pilot_hole)
       throw Error(ErrorKind::conflict,
                   "the plan's guide is the nipple, but it has no pilot hole; plan one, or another guide");
-    guide = nipple_of(model.tool.profile, *model.plan.pilot_hole);
+    guide = nipple_of(model.tool, *model.plan.pilot_hole);
   }
   guide.angular_per_linear_mm2 = model.coupling.angular_stiffness_n_mm_rad / model.coupling.stiffness_n_mm;
   return guide;

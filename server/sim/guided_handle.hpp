@@ -5,8 +5,8 @@
 
 namespace ream::sim {
 
-/// The guide that the plan asks for and the tool has: its own nipple (what of it guides above the apex), else
-/// the thesis reamer's. Error conflict when it does not fit the pilot hole or there is none.
+/// The guide that the plan asks for; a nipple is what of the tool guides above its apex. Error conflict when
+/// the tool has none, or it does not fit the pilot hole, or there is no hole.
 std::optional<force::Guide> make_guide(const Model& model);
 
 /// Where the guide lets the tool follow the handle to; the handle itself without a guide.

@@ -31,7 +31,7 @@ test::SmallRun everything_on() {
   settings.start_up_ramp_s = 0.0;
   settings.feed.kind = force::FeedKind::oblique;
   settings.vibration.source = force::VibrationSource::synthesized;
-  return {std::move(bone), plan, "ellipse 6,4", script, settings};
+  return {std::move(bone), plan, "ellipse 6,4 nipple 3,8", script, settings};
 }
 
 /// One tick in the order of sim::step; returns the time of the parts that make force and motion, without

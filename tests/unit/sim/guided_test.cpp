@@ -138,6 +138,9 @@ TEST(Guided, NippleWithoutAHoleIsRefused) {
   plan.pilot_hole.reset();
   expect_error(ErrorKind::conflict, "no pilot hole",
                [&] { sim::make_model(plan, bone, shell::make_tool(nippled), settings); });
+  plan.pilot_hole = case_::PilotHole{3.2, 8.0};
+  expect_error(ErrorKind::conflict, "has none",
+               [&] { sim::make_model(plan, bone, shell::make_tool("sphere 8,5"), settings); });
   plan.pilot_hole = case_::PilotHole{2.9, 8.0};
   expect_error(ErrorKind::conflict, "does not fit",
                [&] { sim::make_model(plan, bone, shell::make_tool(nippled), settings); });
