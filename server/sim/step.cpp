@@ -62,8 +62,8 @@ bool is_finite(const TickReport& r) {
          std::isfinite(r.thrust_n);
 }
 
-/// Farther than this from the origin, mm, nothing is a place in a CT (and a recorded pose would overflow).
-constexpr double farthest_mm = 1000.0;
+/// Recorded poses reach to 2.1 m; scanners' tables put bones as far as this from the origin, mm.
+constexpr double farthest_mm = 2000.0;
 
 bool is_usable(const Pose& pose) {
   return pose.rotation.allFinite() && (pose.translation_mm.array().abs() < farthest_mm).all();
@@ -100,7 +100,9 @@ StepStatus step(const Model& model, State& state, const device::DeviceInput& raw
   state.thrust_n = report.thrust_n;
   report.world_from_tool = state.world_from_tool;
   report.world_from_bone_rest = state.world_from_bone_rest;
-  report.grid_from_tool = quantised(state.world_from_grid.inverse() * state.world_from_tool);
+  const Pose grid_from_tool = state.world_from_grid.inverse() * state.world_from_tool;
+  if (!is_usable(grid_from_tool)) return StepStatus::not_finite;
+  report.grid_from_tool = quantised(grid_from_tool);
 
   if (!load.cuts) state.schedule.pass(report.grid_from_tool);
   if (load.cuts && !remove_bone(state, report.grid_from_tool, report)) return StepStatus::collision_failed;
