@@ -23,16 +23,18 @@ struct SweptTally {
   /// Farthest a kept voxel lies inside the swept body and a changed one outside, mm (from -+ half a voxel
   /// on).
   double deepest_kept_mm = 0.0, farthest_changed_mm = 0.0;
-  size_t poses = 0;
+  size_t poses = 0, settled_poses = 0;
 
   size_t wrong() const { return not_gone + not_kept + off_at_surface + grown; }
   std::string text() const;
 };
 
-/// Compares every voxel with the body swept over the poses at which the tool cut (in contact, spindle on), a
+/// Compares every voxel with the body swept over the poses at which the tool cut, a
 /// pose for every 1/64 voxel of motion. Expected coverage falls from 255 half a voxel (smallest edge) outside
 /// to 0 half a voxel inside; the tool may have moved 1/32 voxel since the last look, and `tolerance_mm` is
-/// allowed for the body itself. `before`: coverage after the pilot hole and before the first tick.
+/// allowed for the body itself. Bone must be gone where the tool went on cutting until every brick near it
+/// had its turn, and whole where it never cut. `before`: coverage after the pilot hole and before the first
+/// tick.
 SweptTally compare_with_sweep(const voxel::BoneModel& bone, const std::vector<uint8_t>& before,
                               const CuttingBody& body, const std::vector<record::TickReport>& reports,
                               double tolerance_mm);
