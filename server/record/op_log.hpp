@@ -1,0 +1,82 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "record/log_sink.hpp"
+#include "record/ops.hpp"
+
+namespace ream::record {
+
+/// Where a chunk is in the file and what it is about, as its header says.
+struct ChunkPlace {
+  uint64_t offset = 0;  ///< of its header in the file
+  uint32_t stored_bytes = 0, raw_bytes = 0;
+  uint32_t first_tick = 0, ticks = 0;  ///< rows of tick that it holds; 0: notes only
+  bool has_key = false;                ///< holds a key of bricks
+  bool has_notes = false;              ///< holds ops other than tick, bricks and checkpoint
+};
+
+/// Writes an op log: a magic number and revision, then chunks. A chunk is one zstd frame of ops behind a header
+/// with lengths, what it holds, a checksum of the stored bytes and one of the header itself; checksums are
+/// chained, so that a chunk lost from the middle is noticed. Used by one thread; nothing is written before
+/// close_chunk().
+class OpLogWriter {
+ public:
+  /// A new log.
+  explicit OpLogWriter(std::unique_ptr<LogSink> sink);
+  /// One that goes on after what a reader found whole. `sink` has been cut to reader.whole_bytes().
+  OpLogWriter(std::unique_ptr<LogSink> sink, uint64_t chain);
+
+  /// Adds an op to the chunk that is being made. Rows of tick are kept and become one op when it is closed.
+  template <typename Op>
+  void add(const Op& op);
+  /// Compresses and appends the chunk; nothing when no op was added. Throws Error io; the log must then not
+  /// be used any more, and the file is whole up to the chunk before.
+  void close_chunk();
+  void sync() { sink_->sync(); }
+  uint64_t bytes_written() const { return bytes_written_; }
+
+ private:
+  std::unique_ptr<LogSink> sink_;
+  uint64_t chain_ = 0, bytes_written_ = 0;
+  ops::Bytes raw_;
+  std::vector<ops::Tick> rows_;
+  ChunkPlace place_;
+};
+
+/// Reads an op log of any revision so far. Opening reads chunk headers only, some milliseconds for an hour.
+class OpLogReader {
+ public:
+  /// Error not_found, io; invalid_input when it is no recording or not even its first chunk is whole.
+  explicit OpLogReader(const std::filesystem::path& path);
+  ~OpLogReader();
+  OpLogReader(OpLogReader&&) noexcept;
+  OpLogReader& operator=(OpLogReader&&) noexcept;
+
+  uint32_t revision() const;
+  const std::filesystem::path& path() const;
+  /// Chunks whose headers are whole and whose bytes are all there, in the file's order.
+  const std::vector<ChunkPlace>& chunks() const;
+  /// Bytes of the file up to the end of the last of chunks().
+  uint64_t whole_bytes() const;
+  /// One sentence about what follows the last of chunks(); empty when nothing does.
+  const std::string& damage() const;
+  /// Value to continue writing with after the last of chunks().
+  uint64_t chain() const;
+
+  /// The ops of chunk `i`, decompressed, for ops::read(). Error invalid_input, naming file and time, when the
+  /// bytes are not those that were written. Safe from several threads.
+  ops::Bytes read_chunk(size_t i) const;
+  /// Reads every chunk; the first that is damaged ends chunks(), whole_bytes() and damage() are then about
+  /// that. Takes about a second a gigabyte.
+  void check_all();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ream::record

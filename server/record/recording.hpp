@@ -1,0 +1,54 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "record/op_log.hpp"
+#include "record/tick_report.hpp"
+
+namespace ream::record {
+
+/// A tick as it is kept: what TickReport says in the precision of the log. Whoever scores, shows or exports
+/// takes as_recorded(report), so that a live session and its recording give the same bytes.
+ops::Tick tick_op(const TickReport& report);
+/// `world_from_grid`: of the case, with the bone at rest.
+TickReport report_of(const ops::Tick& tick, const Pose& world_from_grid);
+TickReport as_recorded(const TickReport& report, const Pose& world_from_grid);
+
+/// A recording.ream opened for reading: its notes in memory, its ticks read as they are asked for.
+class Recording {
+ public:
+  /// Errors: those of OpLogReader; invalid_input when the first op is no header.
+  explicit Recording(const std::filesystem::path& path);
+
+  const ops::Header& header() const { return header_; }
+  const std::vector<ops::Segment>& segments() const { return segments_; }  ///< the first begins at tick 0
+  const std::vector<ops::Event>& events() const { return events_; }
+  const std::vector<ops::Annotation>& annotations() const { return annotations_; }
+  const std::optional<ops::End>& end() const { return end_; }  ///< empty: it was never closed
+  uint32_t tick_count() const { return tick_count_; }
+  const OpLogReader& log() const { return log_; }
+
+  /// Calls `told` with ticks first..last-1 (of those there are), in order.
+  /// Error invalid_input at the first damaged chunk; ticks before it have been told.
+  void for_each_tick(uint32_t first, uint32_t last, const std::function<void(const ops::Tick&)>& told) const;
+  std::vector<ops::Tick> ticks(uint32_t first, uint32_t last) const;
+  /// Of the chunk that holds the tick; the last chunk with ticks for ticks beyond it.
+  size_t chunk_of(uint32_t tick) const;
+  /// All checkpoints, in order (reads the whole file).
+  std::vector<ops::Checkpoint> checkpoints() const;
+
+ private:
+  OpLogReader log_;
+  ops::Header header_;
+  std::vector<ops::Segment> segments_;
+  std::vector<ops::Event> events_;
+  std::vector<ops::Annotation> annotations_;
+  std::optional<ops::End> end_;
+  std::vector<size_t> tick_chunks_;  ///< chunks with ticks
+  uint32_t tick_count_ = 0;
+};
+
+}  // namespace ream::record
