@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/vec.hpp"
 #include "net/problem.hpp"
 
 namespace ream::api {
@@ -21,6 +22,13 @@ class RequestBody {
   std::string name(const std::string& key);
   /// A finite number above `above` and at most `most`; none when absent.
   std::optional<double> number_or_none(const std::string& key, double above, double most);
+  /// A finite number of at least `least` and at most `most`; none when absent.
+  std::optional<double> number_from_or_none(const std::string& key, double least, double most);
+  /// Text for people of `least` to `most` characters. Empty when absent and `least` is 0, or when there is
+  /// something wrong with it.
+  std::string words(const std::string& key, size_t least, size_t most);
+  /// Three finite numbers, none larger than `most` either way; none when absent or null.
+  std::optional<Vec3> point_or_none(const std::string& key, double most);
 
   /// Throws RequestError 422 with one entry per fault.
   void finish();

@@ -3,6 +3,7 @@
 #include <contract.hpp>
 #include <nlohmann/json.hpp>
 
+#include "api/annotation_resource.hpp"
 #include "api/case_resource.hpp"
 #include "api/session_resource.hpp"
 #include "net/static_files.hpp"
@@ -32,6 +33,7 @@ net::Router router_of(const ServerOptions& options, SessionService& sessions, co
   add_contract_route(router);
   add_case_routes(router, options.cases_folder);
   add_session_routes(router, sessions, readiness);
+  add_annotation_routes(router, sessions);
   router.otherwise([files = net::StaticFiles(options.web_folder)](const net::Request& request) {
     return files.respond(request);
   });
@@ -41,7 +43,7 @@ net::Router router_of(const ServerOptions& options, SessionService& sessions, co
 }  // namespace
 
 Server::Server(ServerOptions options)
-    : sessions_(std::move(options.make_session), options.sessions),
+    : sessions_(std::move(options.make_session), options.sessions, options.sessions_folder),
       router_(router_of(options, sessions_, readiness_)),
       listener_(router_, options.listen),
       readiness_(std::move(options.prepare)) {}

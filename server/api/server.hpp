@@ -15,7 +15,8 @@ struct ServerOptions {
   net::ListenOptions listen;
   std::filesystem::path cases_folder;
   std::filesystem::path web_folder;  ///< the built page; served under "/"
-  SessionFactory make_session;
+  std::filesystem::path sessions_folder;  ///< where sessions keep their folders
+  SessionMakers make_session;
   SessionLimits sessions;
   std::function<void()> prepare;  ///< run once in the background; /readyz is 503 until it is done
 };

@@ -10,6 +10,7 @@ using nlohmann::json;
 namespace {
 
 constexpr double largest_force_scale = 1000.0;
+constexpr size_t longest_reamer = 100;
 const std::string base = "/api/v1/sessions";
 
 json to_json(const SessionRecord& record) {
@@ -19,11 +20,12 @@ json to_json(const SessionRecord& record) {
           {"case", record.request.case_id},
           {"script", record.request.script},
           {"state", to_text(status.state)},
-          {"created_utc", record.created_utc},
+          {"created_utc", record.request.created_utc},
           {"tick", status.tick},
           {"duration_s", status.duration_s},
           {"force_scale", status.force_scale},
           {"fault", status.fault.empty() ? json(nullptr) : json(status.fault)},
+          {"streamable", record.streamable},
           {"loop",
            {{"mean_us", tick.mean_us},
             {"p50_us", tick.p50_us},
@@ -55,6 +57,17 @@ net::Response list(const SessionService& service) {
 
 const std::string& id_of(const net::Request& request) { return request.parameters.at("id"); }
 
+net::Response resume(SessionService& service, const Readiness& readiness, const net::Request& request) {
+  std::string reamer;
+  if (!request.body.empty()) {
+    RequestBody body(request);
+    reamer = body.words("reamer", 0, longest_reamer);
+    body.finish();
+  }
+  readiness.require_prepared();
+  return net::json_response(200, to_json(service.resume(id_of(request), reamer)));
+}
+
 /// For slow links: the surface with one sample every 2 or 4 voxels.
 int stride_of(const net::Request& request) {
   const auto given = request.query.find("stride");
@@ -77,6 +90,9 @@ void add_session_routes(net::Router& router, SessionService& service, const Read
   });
   router.on("POST", base + "/{id}/stop", [&service](const net::Request& request) {
     return net::json_response(200, to_json(service.stop(id_of(request))));
+  });
+  router.on("POST", base + "/{id}/resume", [&](const net::Request& request) {
+    return resume(service, readiness, request);
   });
   router.on("GET", base + "/{id}/metrics", [&service](const net::Request& request) {
     return net::json_response(200, service.metrics(id_of(request)));

@@ -44,6 +44,8 @@ stream::SessionState wire_state(api::SessionState state) {
       return stream::SessionState::stopped;
     case api::SessionState::fault:
       return stream::SessionState::fault;
+    case api::SessionState::interrupted:
+      return stream::SessionState::interrupted;
   }
   return stream::SessionState::fault;
 }

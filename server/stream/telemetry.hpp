@@ -19,7 +19,8 @@ enum class SessionState : uint8_t {
   paused = 2,
   finished = 3,
   stopped = 4,
-  fault = 5
+  fault = 5,
+  interrupted = 6
 };
 
 /// One tick as viewers see it. World frame, mm; forces N, torque N mm. No heap inside, so it may pass through

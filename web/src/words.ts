@@ -17,6 +17,7 @@ export const words = {
     finished: 'Finished',
     stopped: 'Stopped',
     fault: 'Fault',
+    interrupted: 'Interrupted',
   } satisfies Record<SessionState, string>,
   stateHint: {
     created: 'The bone before reaming.',
@@ -25,6 +26,7 @@ export const words = {
     finished: 'The demo has ended. This is the bone as it was left.',
     stopped: 'The session was stopped. This is the bone as it was left.',
     fault: 'The session ended with a fault; the hand was sent no force.',
+    interrupted: 'The server ended in mid-session. What was recorded up to then is kept.',
   } satisfies Record<SessionState, string>,
 
   stateUnknown: (state: string) => `What the session is doing is not known; when last heard of it was ${state}.`,

@@ -67,7 +67,8 @@ void serve(const Options& options, const GlobalOptions& global) {
   server_options.listen.port = options.port;
   server_options.cases_folder = cases_folder(house.data);
   server_options.web_folder = web_folder(options.web);
-  server_options.make_session = [house](const api::SessionRequest& request) {
+  server_options.sessions_folder = sessions_folder(house.data);
+  server_options.make_session.make = [house](const api::SessionRequest& request) {
     return std::make_unique<ReamingSession>(house, request);
   };
   server_options.prepare = [house] { ct::load_or_make_demo_case(house.data); };

@@ -121,6 +121,8 @@ function sessionState(state: WireState): SessionState {
       return 'stopped';
     case WireState.fault:
       return 'fault';
+    case WireState.interrupted:
+      return 'interrupted';
     default:
       throw new Error(`unknown session state ${String(state)}`);
   }

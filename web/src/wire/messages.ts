@@ -14,7 +14,7 @@ export interface Pose {
   translationMm: Triple;
 }
 
-export type SessionState = 'created' | 'running' | 'paused' | 'finished' | 'stopped' | 'fault';
+export type SessionState = 'created' | 'running' | 'paused' | 'finished' | 'stopped' | 'fault' | 'interrupted';
 
 export interface ToolMesh {
   name: string;
