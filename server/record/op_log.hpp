@@ -19,10 +19,10 @@ struct ChunkPlace {
   bool has_notes = false;              ///< holds ops other than tick, bricks and checkpoint
 };
 
-/// Writes an op log: a magic number and revision, then chunks. A chunk is one zstd frame of ops behind a header
-/// with lengths, what it holds, a checksum of the stored bytes and one of the header itself; checksums are
-/// chained, so that a chunk lost from the middle is noticed. Used by one thread; nothing is written before
-/// close_chunk().
+/// Writes an op log: a magic number and revision, then chunks. A chunk is one zstd frame of ops behind a
+/// header with lengths, what it holds, a checksum of the stored bytes and one of the header itself; checksums
+/// are chained, so that a chunk lost from the middle is noticed. Used by one thread; nothing is written
+/// before close_chunk().
 class OpLogWriter {
  public:
   /// A new log.
