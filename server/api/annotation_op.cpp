@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "api/session_folder.hpp"
+#include "api/new_id.hpp"
 #include "core/clock.hpp"
 #include "core/error.hpp"
 

@@ -26,7 +26,7 @@ net::Response annotate(SessionService& service, const net::Request& request) {
   NewAnnotation note;
   note.words = body.words("words", 1, longest_words);
   note.author = body.words("author", 0, longest_author);
-  note.at_s = body.number_from_or_none("at_s", 0.0, longest_session_s);
+  note.at_s = body.number_within_or_none("at_s", 0.0, longest_session_s);
   note.place_mm = body.point_or_none("place_mm", farthest_mm);
   body.finish();
   return net::json_response(201, to_json(service.annotate(request.parameters.at("id"), note)));

@@ -88,15 +88,6 @@ std::optional<double> RequestBody::number_or_none(const std::string& key, double
   return number;
 }
 
-std::optional<double> RequestBody::number_from_or_none(const std::string& key, double least, double most) {
-  const nlohmann::json* value = find(key);
-  if (!value) return std::nullopt;
-  if (value->is_number() && value->get<double>() >= least && value->get<double>() <= most)
-    return value->get<double>();
-  complain(key, "must be a number from " + plain_number(least) + " to " + plain_number(most));
-  return std::nullopt;
-}
-
 std::string RequestBody::words(const std::string& key, size_t least, size_t most) {
   const nlohmann::json* value = find(key);
   if (!value && least == 0) return {};
@@ -121,6 +112,29 @@ std::optional<Vec3> RequestBody::point_or_none(const std::string& key, double mo
   if (value->is_array() && value->size() == 3 && std::all_of(value->begin(), value->end(), fits))
     return Vec3((*value)[0].get<double>(), (*value)[1].get<double>(), (*value)[2].get<double>());
   complain(key, "must be three numbers, each at most " + plain_number(most) + " either way");
+  return std::nullopt;
+}
+
+std::optional<double> RequestBody::number_within_or_none(const std::string& key, double least, double most) {
+  const nlohmann::json* value = find(key);
+  if (!value) return std::nullopt;
+  if (!value->is_number()) {
+    complain(key, std::string("must be a number, not ") + value->type_name());
+    return std::nullopt;
+  }
+  const double number = value->get<double>();
+  if (!std::isfinite(number) || number < least || number > most) {
+    complain(key, "must be from " + plain_number(least) + " to " + plain_number(most));
+    return std::nullopt;
+  }
+  return number;
+}
+
+std::optional<bool> RequestBody::flag_or_none(const std::string& key) {
+  const nlohmann::json* value = find(key);
+  if (!value) return std::nullopt;
+  if (value->is_boolean()) return value->get<bool>();
+  complain(key, std::string("must be true or false, not ") + value->type_name());
   return std::nullopt;
 }
 

@@ -2,9 +2,9 @@
 
 #include <sys/stat.h>
 
-#include <ctime>
 #include <nlohmann/json.hpp>
 
+#include "api/new_id.hpp"
 #include "api/request_body.hpp"
 #include "core/clock.hpp"
 #include "core/error.hpp"
@@ -14,14 +14,6 @@ namespace ream::api {
 namespace fs = std::filesystem;
 using nlohmann::json;
 namespace {
-
-std::string utc_text(std::time_t time) {
-  std::tm parts{};
-  gmtime_r(&time, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
-}
 
 std::string changed_utc(const fs::path& file) {
   struct stat about {};
@@ -84,8 +76,6 @@ FolderRecord record_of(const json& session, const fs::path& folder) {
 }
 
 }  // namespace
-
-std::string utc_now() { return utc_text(std::time(nullptr)); }
 
 fs::path session_json(const fs::path& folder) { return folder / "session.json"; }
 fs::path metrics_json(const fs::path& folder) { return folder / "metrics.json"; }

@@ -13,9 +13,6 @@ struct SessionRecord {
   bool streamable = true;  ///< held in memory: its stream can be opened
 };
 
-/// "2025-03-01T12:00:00Z"
-std::string utc_now();
-
 /// Names of what lies in a session's folder.
 std::filesystem::path session_json(const std::filesystem::path& folder);
 std::filesystem::path metrics_json(const std::filesystem::path& folder);
