@@ -40,6 +40,7 @@ SessionArchive::Known SessionArchive::look(const fs::path& folder) const {
     if (found != known_.end() && found->second.stamp == stamp) return found->second;
   }
   Known known{stamp, std::nullopt, {}};
+  if (stamp == 0) return known;
   bool lasting = true;
   try {
     FolderRecord found = read_session_folder(folder);
@@ -55,10 +56,10 @@ SessionArchive::Known SessionArchive::look(const fs::path& folder) const {
 
 std::vector<SessionRecord> SessionArchive::list() const {
   std::vector<SessionRecord> records;
-  std::error_code failed;
+  std::error_code failed, ignored;
   for (const auto& entry : fs::directory_iterator(folder_, failed)) {
     const std::string id = entry.path().filename().string();
-    if (!is_name(id) || !entry.is_directory(failed)) continue;
+    if (!is_name(id) || !entry.is_directory(ignored)) continue;
     const bool known_before = [&] {
       const std::lock_guard lock(mutex_);
       return known_.contains(id);
@@ -66,7 +67,7 @@ std::vector<SessionRecord> SessionArchive::list() const {
     Known known = look(entry.path());
     if (known.record)
       records.push_back(std::move(*known.record));
-    else if (!known_before)
+    else if (!known.damage.empty() && !known_before)
       log::warn("session " + id + " is left out: " + known.damage);
   }
   std::sort(records.begin(), records.end(), newer);
@@ -77,7 +78,7 @@ std::optional<SessionRecord> SessionArchive::find(const std::string& id) const {
   std::error_code failed;
   if (!is_name(id) || !fs::is_directory(folder_of(id), failed)) return std::nullopt;
   const Known known = look(folder_of(id));
-  if (!known.record) throw Error(ErrorKind::invalid_input, known.damage);
+  if (!known.record && !known.damage.empty()) throw Error(ErrorKind::invalid_input, known.damage);
   return known.record;
 }
 
