@@ -8,9 +8,9 @@
 
 namespace ream::record {
 
-inline constexpr uint32_t ticks_per_chunk = 250;    ///< a chunk is a quarter of a second
-inline constexpr uint32_t chunks_per_key = 64;      ///< keys of bricks every 16 s
-inline constexpr double sync_interval_s = 1.0;      ///< fsync; a lost power supply costs no more
+inline constexpr uint32_t ticks_per_chunk = 250;  ///< a chunk is a quarter of a second
+inline constexpr uint32_t chunks_per_key = 64;    ///< keys of bricks every 16 s
+inline constexpr double sync_interval_s = 1.0;    ///< fsync; a lost power supply costs no more
 
 /// Writes recording.ream on a thread of its own. add() only hands over; a chunk of 250 ticks, the bricks that
 /// they changed, and a checkpoint are encoded, compressed, appended and from time to time fsynced by the
@@ -20,8 +20,8 @@ class Recorder {
  public:
   /// A new recording. `start_coverage` is read for bricks that change for the first time, when they are
   /// added: a follower's replica will do, if it takes brick images in after add().
-  Recorder(std::unique_ptr<LogSink> sink, ops::Header header, ops::Segment segment, const voxel::VoxelGrid& grid,
-           const uint8_t* start_coverage);
+  Recorder(std::unique_ptr<LogSink> sink, ops::Header header, ops::Segment segment,
+           const voxel::VoxelGrid& grid, const uint8_t* start_coverage);
   /// Goes on with one that was read, after recording.tick_count() ticks. `bone` stands at its end.
   Recorder(std::unique_ptr<LogSink> sink, const Recording& recording, const RecordedBone& bone,
            ops::Segment segment, const uint8_t* start_coverage);
@@ -34,7 +34,8 @@ class Recorder {
   void add(const ops::Tick& tick);
   void add(ops::Event event);
   void add(ops::Annotation annotation);
-  /// Writes what is pending and the end, and waits for it. Throws Error io when that or anything before failed.
+  /// Writes what is pending and the end, and waits for it. Throws Error io when that or anything before
+  /// failed.
   void finish(const std::string& state);
   /// One sentence when writing has failed; else empty. From any thread.
   std::string failure() const;
