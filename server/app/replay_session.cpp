@@ -6,8 +6,8 @@
 
 #include "api/viewer_stream.hpp"
 #include "app/data_folder.hpp"
+#include "app/recorded_session.hpp"
 #include "app/stream_words.hpp"
-#include "case/plan.hpp"
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
@@ -20,17 +20,6 @@ constexpr auto follower_period = std::chrono::milliseconds(10);
 /// A replay that rests tells its viewers so this often, so that a silent link is a broken one.
 constexpr int64_t heartbeat_ns = 500'000'000;
 
-std::filesystem::path recording_path(const SessionHouse& house, const api::ReplayRequest& request) {
-  return sessions_folder(house.data) / request.replay_of / "recording.ream";
-}
-
-case_::Plan recorded_plan(const record::Recording& recording) {
-  const std::string place = "the plan in " + recording.log().path().string();
-  const auto json = nlohmann::json::parse(recording.header().plan, nullptr, false);
-  if (json.is_discarded()) throw Error(ErrorKind::invalid_input, place + " is not JSON");
-  return case_::plan_from_json(json, place);
-}
-
 double recorded_force_max_n(const record::Recording& recording) {
   const std::string place = "the settings in " + recording.log().path().string();
   const auto json = nlohmann::json::parse(recording.header().settings, nullptr, false);
@@ -38,23 +27,17 @@ double recorded_force_max_n(const record::Recording& recording) {
   return sim::settings_from_json(json, place).limits.force_max_n;
 }
 
-/// The case as it was before tick 0. Its densities are not needed.
-case_::Case recorded_case(const record::Recording& recording, const case_::Plan& plan,
-                          const std::filesystem::path& data) {
+/// Without its densities, which nobody looks at here.
+case_::Case bone_before(const record::Recording& recording, const std::filesystem::path& data) {
   if (recording.tick_count() == 0)
     throw Error(ErrorKind::invalid_input, recording.log().path().string() + " holds no tick to show");
-  case_::Case c = find_case(recording.header().case_id, data);
-  case_::cut_pilot_hole(c.bone, plan);
+  case_::Case c = case_of(recording, {}, data);
   c.bone.density = {};
-  if (c.bone.coverage_hash() != recording.header().start_grid_hash)
-    throw Error(ErrorKind::conflict, "the bone of case '" + c.id + "' is not the one in " +
-                                         recording.log().path().string() +
-                                         "; it was imported or planned anew since");
   return c;
 }
 
-score::MetricsAccumulator no_metrics(const case_::Case& c, const case_::Plan& plan) {
-  return {c.bone.grid.voxel_volume_mm3(), sim::world_from_plan(plan).inverse()};
+score::MetricsAccumulator no_metrics(const case_::Case& c) {
+  return {c.bone.grid.voxel_volume_mm3(), sim::world_from_plan(*c.plan).inverse()};
 }
 
 }  // namespace
@@ -62,10 +45,9 @@ score::MetricsAccumulator no_metrics(const case_::Case& c, const case_::Plan& pl
 ReplaySession::ReplaySession(const SessionHouse& house, const api::ReplayRequest& request)
     : house_(house),
       request_(request),
-      recording_(recording_path(house, request)),
-      plan_(recorded_plan(recording_)),
-      bone_case_(recorded_case(recording_, plan_, house.data)),
-      timeline_(recording_, bone_case_.bone.grid.world_from_grid, no_metrics(bone_case_, plan_)),
+      recording_(sessions_folder(house.data) / request.replay_of / "recording.ream"),
+      bone_case_(bone_before(recording_, house.data)),
+      timeline_(recording_, bone_case_.bone.grid.world_from_grid, no_metrics(bone_case_)),
       fanout_(std::make_shared<stream::LocalFanout>()),
       picture_(recording_, bone_case_, timeline_, hello(), *fanout_),
       playhead_(recording_.tick_count()) {
@@ -77,7 +59,7 @@ ReplaySession::ReplaySession(const SessionHouse& house, const api::ReplayRequest
 ReplaySession::~ReplaySession() { stop(); }
 
 stream::HelloInfo ReplaySession::hello() const {
-  stream::HelloInfo info = hello_of(bone_case_, plan_, {});
+  stream::HelloInfo info = hello_of(bone_case_, *bone_case_.plan, {});
   info.session_id = request_.id;
   info.server_epoch = house_.server_epoch;
   info.force_scale = recording_.header().force_scale;

@@ -35,7 +35,6 @@ class ReplaySession final : public api::RunningReplay {
   const SessionHouse house_;
   const api::ReplayRequest request_;
   const record::Recording recording_;
-  const case_::Plan plan_;
   const case_::Case bone_case_;  ///< before tick 0
   const MetricsTimeline timeline_;
   const std::shared_ptr<stream::LocalFanout> fanout_;

@@ -19,7 +19,8 @@ class LogSink {
 };
 
 /// A new file (which must not exist), or one that goes on after its first `keep_bytes`; what it holds behind
-/// them is cut off. Throws Error io.
+/// them is cut off. A file has one writer at a time: Error conflict while another process holds it. Throws
+/// Error io.
 std::unique_ptr<LogSink> create_log_file(const std::filesystem::path& path);
 std::unique_ptr<LogSink> continue_log_file(const std::filesystem::path& path, uint64_t keep_bytes);
 

@@ -3,8 +3,10 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
+#include "record/compression.hpp"
 #include "record/log_sink.hpp"
 #include "record/ops.hpp"
 
@@ -19,10 +21,10 @@ struct ChunkPlace {
   bool has_notes = false;              ///< holds ops other than tick, bricks and checkpoint
 };
 
-/// Writes an op log: a magic number and revision, then chunks. A chunk is one zstd frame of ops behind a header
-/// with lengths, what it holds, a checksum of the stored bytes and one of the header itself; checksums are
-/// chained, so that a chunk lost from the middle is noticed. Used by one thread; nothing is written before
-/// close_chunk().
+/// Writes an op log: a magic number and revision, then chunks. A chunk is one zstd frame of ops behind a
+/// header with lengths, what it holds, a checksum of the stored bytes and one of the header itself; checksums
+/// are chained, so that a chunk lost from the middle is noticed. Used by one thread; nothing is written
+/// before close_chunk().
 class OpLogWriter {
  public:
   /// A new log.
@@ -30,9 +32,19 @@ class OpLogWriter {
   /// One that goes on after what a reader found whole. `sink` has been cut to reader.whole_bytes().
   OpLogWriter(std::unique_ptr<LogSink> sink, uint64_t chain);
 
-  /// Adds an op to the chunk that is being made. Rows of tick are kept and become one op when it is closed.
+  /// Adds an op to the chunk that is being made. Rows of tick become one op, where the first of them stood.
   template <typename Op>
-  void add(const Op& op);
+  void add(const Op& op) {
+    if constexpr (std::is_same_v<Op, ops::Tick>) {
+      rows_.push_back(op);
+    } else {
+      ops::put(rows_.empty() ? raw_ : after_rows_, op);
+      if constexpr (std::is_same_v<Op, ops::Bricks>)
+        place_.has_key = place_.has_key || op.key != 0;
+      else if constexpr (!std::is_same_v<Op, ops::Checkpoint>)
+        place_.has_notes = true;
+    }
+  }
   /// Compresses and appends the chunk; nothing when no op was added. Throws Error io; the log must then not
   /// be used any more, and the file is whole up to the chunk before.
   void close_chunk();
@@ -41,21 +53,27 @@ class OpLogWriter {
 
  private:
   std::unique_ptr<LogSink> sink_;
+  Compressor compressor_;
   uint64_t chain_ = 0, bytes_written_ = 0;
-  ops::Bytes raw_;
+  bool failed_ = false;
+  ops::Bytes file_header_;  ///< until it has been written
+  ops::Bytes raw_;          ///< ops added before the chunk's first tick
   std::vector<ops::Tick> rows_;
+  ops::Bytes after_rows_;
   ChunkPlace place_;
 };
 
 /// Reads an op log of any revision so far. Opening reads chunk headers only, some milliseconds for an hour.
 class OpLogReader {
  public:
-  /// Error not_found, io; invalid_input when it is no recording or not even its first chunk is whole.
+  /// Error not_found, io; invalid_input when it is no recording, one of a newer revision, or not even its
+  /// first chunk is whole. Of revision 1, which has no such headers, all is read.
   explicit OpLogReader(const std::filesystem::path& path);
   ~OpLogReader();
   OpLogReader(OpLogReader&&) noexcept;
   OpLogReader& operator=(OpLogReader&&) noexcept;
 
+  /// For ops::read().
   uint32_t revision() const;
   const std::filesystem::path& path() const;
   /// Chunks whose headers are whole and whose bytes are all there, in the file's order.
@@ -64,7 +82,8 @@ class OpLogReader {
   uint64_t whole_bytes() const;
   /// One sentence about what follows the last of chunks(); empty when nothing does.
   const std::string& damage() const;
-  /// Value to continue writing with after the last of chunks().
+  /// Value to continue writing with after the last of chunks(). Error conflict for an older revision, which
+  /// is not continued.
   uint64_t chain() const;
 
   /// The ops of chunk `i`, decompressed, for ops::read(). Error invalid_input, naming file and time, when the

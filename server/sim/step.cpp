@@ -20,9 +20,10 @@ Pose flown(const Model& model, const State& state, const device::DeviceInput& in
   return moved(state.world_from_tool, force::free_flight(*model.virtual_mass, state.tool_twist, hand));
 }
 
-/// What the handle's pose is in this tick: sensed, or for an admittance device the virtual mass' own.
+/// What the handle's pose is in this tick: sensed or given, or for an admittance device the virtual mass'
+/// own.
 Pose world_from_handle(const Model& model, const State& state, const device::DeviceInput& input) {
-  if (!model.virtual_mass || !state.started) return input.world_from_handle;
+  if (!model.virtual_mass || !state.started || state.handle_given) return input.world_from_handle;
   return input.paused ? state.world_from_tool : flown(model, state, input);
 }
 
@@ -113,8 +114,10 @@ StepStatus step(const Model& model, State& state, const device::DeviceInput& raw
   render(model, state.output, state.world_from_tool, load, report);
   state.session_hash = hash_combine(state.session_hash, hash_of_cause(report));
   report.session_hash = state.session_hash;
-  if (state.brick_sender != nullptr)
+  if (state.brick_sender != nullptr) {
     state.brick_sender->send(state.bone.coverage.data(), report.tick, state.brick_budget);
+    report.bricks_waiting = static_cast<uint32_t>(state.brick_sender->pending());
+  }
   return is_finite(report) ? StepStatus::ok : StepStatus::not_finite;
 }
 
