@@ -22,6 +22,7 @@ void add_commands(CLI::App& app, ream::app::GlobalOptions& global) {
   add_plan_command(app, global);
   add_voxelize_command(app, global);
   add_list_command(app, global);
+  add_replay_command(app, global);
   add_bench_command(app, global);
 }
 
