@@ -7,7 +7,7 @@
 #include "api/request_body.hpp"
 #include "api/session_folder.hpp"
 #include "app/data_folder.hpp"
-#include "app/recorded_metrics.hpp"
+#include "app/recorded_session.hpp"
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -39,8 +39,7 @@ Closing without_recording(api::SessionState state, const std::string& cause, con
   return {state, cause + "; nothing of it can be used: " + why.what(), 0, {}};
 }
 
-Closing with_recording(const record::Recording& recording, const fs::path& data, api::SessionState state,
-                       const std::string& cause) {
+Closing with_recording(const record::Recording& recording, api::SessionState state, const std::string& cause) {
   Closing closing{state, {}, recording.tick_count(), {}};
   if (const auto& end = recording.end()) {
     closing.state = api::session_state_from(end->state).value_or(state);
@@ -50,12 +49,7 @@ Closing with_recording(const record::Recording& recording, const fs::path& data,
     closing.words = cause + "; everything up to " + seconds(closing.ticks) + " is kept";
     if (!recording.log().damage().empty()) closing.words += ": " + recording.log().damage();
   }
-  try {
-    closing.metrics = recorded_metrics_json(recording, recorded_case_description(recording, data));
-  } catch (const Error& e) {
-    if (e.kind() == ErrorKind::io) throw;
-    closing.words += (closing.words.empty() ? "no metrics: " : "; no metrics: ") + std::string(e.what());
-  }
+  closing.metrics = rescored_json(recording);
   return closing;
 }
 
@@ -90,13 +84,12 @@ std::optional<FileLock> left_alive(const fs::path& folder) {
 
 }  // namespace
 
-std::string close_session_folder(const fs::path& folder, const fs::path& data, api::SessionState state,
-                                 const std::string& cause) {
+std::string close_session_folder(const fs::path& folder, api::SessionState state, const std::string& cause) {
   std::optional<record::Recording> recording;
   std::optional<Closing> closing;
   try {
     recording.emplace(api::recording_file(folder), record::Recording::Trust::checked);
-    closing = with_recording(*recording, data, state, cause);
+    closing = with_recording(*recording, state, cause);
   } catch (const Error& e) {
     if (e.kind() == ErrorKind::io) throw;
     recording.reset();
@@ -129,7 +122,7 @@ std::vector<std::string> recover_sessions(const fs::path& data) {
     }
     if (!lock) continue;
     try {
-      const std::string words = close_session_folder(entry.path(), data, api::SessionState::interrupted,
+      const std::string words = close_session_folder(entry.path(), api::SessionState::interrupted,
                                                      "the server ended in mid-session");
       lines.push_back("session " + id + ": " + (words.empty() ? "it had ended in order" : words));
     } catch (const Error& e) {
