@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "app/interrupt.hpp"
+#include "app/loop_rings.hpp"
 #include "app/session_files.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
@@ -13,35 +14,32 @@
 namespace ream::app {
 namespace {
 
-constexpr size_t report_ring_ticks = 16384;
 /// A first touch or two is always a little soft; longer than this is worth a word.
 constexpr double told_weakened_s = 2.0;
 
-/// False when there was nothing to take.
-bool drain(SpscRing<record::TickReport>& reports, SessionFiles& files) {
-  record::TickReport report;
-  bool any = false;
-  while (reports.try_pop(report)) {
-    files.add(report);
-    any = true;
-  }
-  return any;
-}
+/// Chunks that may wait for the disk before a run in virtual time waits for it.
+constexpr size_t enough_waiting_chunks = 16;
 
 }  // namespace
 
-HeadlessResult run_headless(Rig& rig, const std::filesystem::path& folder, bool wall_clock) {
-  SpscRing<record::TickReport> reports(report_ring_ticks);
-  SessionFiles files(rig, folder);
+HeadlessResult run_headless(Rig& rig, std::span<const uint8_t> start_coverage,
+                            const std::filesystem::path& folder, bool wall_clock) {
+  LoopRings rings(rig.bone_case.bone.grid);
+  rig.state.brick_sender = &rings.sender;
+  SessionFiles files(rig, folder, start_coverage.data(), SessionFiles::Trace::written);
   const auto realtime = wall_clock ? sim::Realtime::attempt : sim::Realtime::off;
-  sim::HapticLoop loop(rig.model, rig.state, *rig.device, reports, {wall_clock, realtime});
+  sim::HapticLoop loop(rig.model, rig.state, *rig.device, rings.reports, {wall_clock, realtime});
+  const auto take_brick = [&](const voxel::BrickImage& image) { files.add(image); };
+  const auto take_report = [&](const record::TickReport& report) { files.add(report); };
   loop.start();
   while (!loop.ended()) {
     throw_if_interrupted();
-    if (!drain(reports, files)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const bool late = files.recorder().waiting_chunks() > enough_waiting_chunks;
+    if (late || !rings.drain(take_brick, take_report)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   loop.stop();
-  drain(reports, files);
+  rig.state.brick_sender = nullptr;
+  rings.drain_rest(rig.bone_case.bone, rig.state.tick - 1, take_brick, take_report);
 
   const sim::LoopHealth health = loop.health();
   if (const std::string fault = to_words(health.end); !fault.empty()) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "app/rig.hpp"
 
@@ -13,8 +14,10 @@ struct HeadlessResult {
 };
 
 /// Runs the rig to the end of its script in virtual time (or at 1 kHz when `wall_clock`) and writes
-/// metrics.json, timing.json, session.json, trace.csv and recording.ream into `folder`. Errors: io;
+/// metrics.json, timing.json, session.json, trace.csv and recording.ream into `folder`. `start_coverage` is a
+/// copy of the bone's coverage before the first tick. Errors: io;
 /// unavailable for a fault of the loop (a black box is left in the working folder); interrupted.
-HeadlessResult run_headless(Rig& rig, const std::filesystem::path& folder, bool wall_clock);
+HeadlessResult run_headless(Rig& rig, std::span<const uint8_t> start_coverage,
+                            const std::filesystem::path& folder, bool wall_clock);
 
 }  // namespace ream::app

@@ -14,8 +14,6 @@
 namespace ream::app {
 namespace {
 
-constexpr size_t brick_ring_size = 8192;
-constexpr size_t report_ring_ticks = 16384;
 constexpr auto follower_period = std::chrono::milliseconds(10);
 /// A session that rests tells its viewers so this often, so that a silent link is a broken one.
 constexpr int64_t heartbeat_ns = 500'000'000;
@@ -59,14 +57,12 @@ ReamingSession::ReamingSession(const SessionHouse& house, const api::SessionRequ
     : house_(house),
       id_(request.id),
       rig_(run_request(house, request), house.data),
-      bricks_(brick_ring_size),
-      sender_(rig_.bone_case.bone.grid, bricks_),
-      reports_(report_ring_ticks),
-      loop_(rig_.model, rig_.state, *rig_.device, reports_, {true, house.realtime}),
+      rings_(rig_.bone_case.bone.grid),
+      loop_(rig_.model, rig_.state, *rig_.device, rings_.reports, {true, house.realtime}),
       fanout_(std::make_shared<stream::LocalFanout>()),
-      publisher_(rig_.bone_case.bone, bricks_, *fanout_),
+      publisher_(rig_.bone_case.bone, *fanout_),
       batcher_(*fanout_) {
-  rig_.state.brick_sender = &sender_;
+  rig_.state.brick_sender = &rings_.sender;
   const sim::Backend& backend = rig_.state.backend;
   log::info("session " + id_ + ": contact and removal on " + backend.name +
             (backend.choice.empty() ? "" : " (" + backend.choice + ")"));
@@ -109,7 +105,8 @@ stream::HelloInfo ReamingSession::hello() const {
 void ReamingSession::start() {
   const std::filesystem::path folder = sessions_folder(house_.data) / id_;
   make_writable_folder(folder);
-  auto files = std::make_unique<SessionFiles>(rig_, folder);
+  auto files = std::make_unique<SessionFiles>(rig_, folder, publisher_.replica().coverage().data(),
+                                              SessionFiles::Trace::left_out);
   {
     const std::lock_guard lock(mutex_);
     if (status_.state != api::SessionState::created)
@@ -163,7 +160,7 @@ void ReamingSession::follow() {
     if (leaving) return;
     const bool ended = loop_.ended();  // read before draining: then nothing can be missed
     if (running && !finished) try {
-        take_reports();
+        take(ended);
         if (ended) finish();
       } catch (const Error& e) {
         fail(e.what());
@@ -180,27 +177,40 @@ void ReamingSession::follow() {
   }
 }
 
-void ReamingSession::take_reports() {
-  record::TickReport r;
+void ReamingSession::take(bool ended) {
+  const int64_t now_ns = steady_ns();
+  const auto take_brick = [&](const voxel::BrickImage& image) {
+    files_->add(image);  // before the replica has it: the recorder reads there what the brick was
+    publisher_.take(image, now_ns);
+  };
   bool any = false;
-  while (reports_.try_pop(r)) {
+  const auto take_one = [&](const record::TickReport& report) {
     any = true;
-    files_->add(r);
-    sample_.tick = r.tick;
-    sample_.thrust_n = static_cast<float>(r.thrust_n);
-    sample_.hand_force_n = static_cast<float>(r.hand_force_n.norm());
-    sample_.torque_n_mm = static_cast<float>(r.torque_n_mm);
-    sample_.feed_rate_mm_s = static_cast<float>(r.feed_rate_mm_s);
-    sample_.density_g_cc = static_cast<float>(r.density_g_cc);
-    sample_.world_from_tool = r.world_from_tool;
-    sample_.world_from_handle = r.world_from_handle;
-    if (rig_.model.mount) sample_.world_from_bone_rest = r.world_from_bone_rest;
-    sample_.spindle_on = r.spindle_on;
-    sample_.cortical_share = static_cast<float>(r.share[static_cast<size_t>(voxel::BoneClass::cortical)]);
-    sample_.state = r.paused ? stream::SessionState::paused : stream::SessionState::running;
-    batcher_.add(sample_);
-  }
+    take_report(files_->add(report));
+  };
+  if (ended)
+    rings_.drain_rest(rig_.bone_case.bone, rig_.state.tick - 1, take_brick, take_one);
+  else
+    rings_.drain(take_brick, take_one);
+  if (const std::string failure = files_->recorder().failure(); !failure.empty())
+    throw Error(ErrorKind::io, "the recording failed and the session ended: " + failure);
   if (any) note_health();
+}
+
+void ReamingSession::take_report(const record::TickReport& r) {
+  sample_.tick = r.tick;
+  sample_.thrust_n = static_cast<float>(r.thrust_n);
+  sample_.hand_force_n = static_cast<float>(r.hand_force_n.norm());
+  sample_.torque_n_mm = static_cast<float>(r.torque_n_mm);
+  sample_.feed_rate_mm_s = static_cast<float>(r.feed_rate_mm_s);
+  sample_.density_g_cc = static_cast<float>(r.density_g_cc);
+  sample_.world_from_tool = r.world_from_tool;
+  sample_.world_from_handle = r.world_from_handle;
+  if (rig_.model.mount) sample_.world_from_bone_rest = r.world_from_bone_rest;
+  sample_.spindle_on = r.spindle_on;
+  sample_.cortical_share = static_cast<float>(r.share[static_cast<size_t>(voxel::BoneClass::cortical)]);
+  sample_.state = r.paused ? stream::SessionState::paused : stream::SessionState::running;
+  batcher_.add(sample_);
 }
 
 void ReamingSession::note_health() {

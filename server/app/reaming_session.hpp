@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "api/running_session.hpp"
+#include "app/loop_rings.hpp"
 #include "app/rig.hpp"
 #include "app/session_files.hpp"
 #include "sim/haptic_loop.hpp"
@@ -38,7 +39,8 @@ class ReamingSession final : public api::RunningSession {
 
  private:
   void follow();
-  void take_reports();
+  void take(bool ended);
+  void take_report(const record::TickReport& report);
   void publish_state(api::SessionState state);
   void note_health();
   void finish();
@@ -48,9 +50,7 @@ class ReamingSession final : public api::RunningSession {
   const SessionHouse house_;
   const std::string id_;
   Rig rig_;
-  voxel::BrickRing bricks_;
-  voxel::BrickSender sender_;
-  SpscRing<record::TickReport> reports_;
+  LoopRings rings_;
   sim::HapticLoop loop_;
   std::shared_ptr<stream::LocalFanout> fanout_;
   stream::MeshPublisher publisher_;

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/recording_header.hpp"
 #include "core/file.hpp"
 
 namespace ream::app {
@@ -22,23 +23,29 @@ void write_json(const std::filesystem::path& path, const nlohmann::json& json) {
 
 }  // namespace
 
-SessionFiles::SessionFiles(const Rig& rig, const std::filesystem::path& folder)
+SessionFiles::SessionFiles(const Rig& rig, const std::filesystem::path& folder, const uint8_t* start_coverage,
+                           Trace trace)
     : rig_(rig),
       folder_(folder),
       description_(rig.description()),
-      trace_(folder / "trace.csv", rig.bone_case.bone.grid.voxel_volume_mm3()),
-      recorder_(folder / "recording.ream", description_),
-      metrics_(rig.bone_case.bone.grid.voxel_volume_mm3(), rig.model.world_from_plan.inverse()) {}
+      recorder_(record::create_log_file(folder / "recording.ream"), header_of(rig),
+                segment_of(rig, 0, "start"), start_coverage),
+      metrics_(rig.bone_case.bone.grid.voxel_volume_mm3(), rig.model.world_from_plan.inverse()) {
+  if (trace == Trace::written)
+    trace_.emplace(folder / "trace.csv", rig.bone_case.bone.grid.voxel_volume_mm3());
+}
 
-void SessionFiles::add(const record::TickReport& report) {
-  trace_.add(report);
+record::TickReport SessionFiles::add(const record::TickReport& report) {
+  const record::TickReport kept = record::as_recorded(report, rig_.bone_case.bone.grid.world_from_grid);
+  if (trace_) trace_->add(kept);
+  metrics_.add(kept);
   recorder_.add(report);
-  metrics_.add(report);
+  return kept;
 }
 
 SessionFiles::Results SessionFiles::finish(const sim::LoopHealth& health, const nlohmann::json& extra) {
-  trace_.finish();
-  recorder_.finish();
+  if (trace_) trace_->finish();
+  recorder_.finish(extra.value("state", "finished"));
   const uint64_t grid_hash = rig_.bone_case.bone.coverage_hash();
   Results results{score::metrics_json(metrics_.metrics(), rig_.model.settings.force_scale, &grid_hash),
                   timing_json(health)};

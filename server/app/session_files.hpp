@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/rig.hpp"
 #include "record/recorder.hpp"
@@ -10,15 +11,24 @@
 
 namespace ream::app {
 
-/// What a run leaves behind: follows the loop's reports into trace.csv and recording.ream and writes
-/// metrics.json, timing.json and session.json at the end. Used by one follower thread.
+/// What a run leaves behind: follows the loop into recording.ream, and where it is wanted trace.csv, and
+/// writes metrics.json, timing.json and session.json at the end. All of them hold what the recording keeps
+/// (record::as_recorded). Used by one follower thread.
 class SessionFiles {
  public:
-  /// Opens trace and recording in `folder`, which must exist. Error io.
-  SessionFiles(const Rig& rig, const std::filesystem::path& folder);
+  enum class Trace { written, left_out };
 
-  void add(const record::TickReport& report);
+  /// Opens trace and recording in `folder`, which must exist. `start_coverage` as for record::Recorder.
+  /// Error io.
+  SessionFiles(const Rig& rig, const std::filesystem::path& folder, const uint8_t* start_coverage,
+               Trace trace);
+
+  /// All images of a tick come before its report.
+  void add(const voxel::BrickImage& image) { recorder_.add(image); }
+  /// Returns the report as it is kept.
+  record::TickReport add(const record::TickReport& report);
   score::Metrics metrics() const { return metrics_.metrics(); }
+  const record::Recorder& recorder() const { return recorder_; }
 
   struct Results {
     nlohmann::json metrics, timing;
@@ -30,7 +40,7 @@ class SessionFiles {
   const Rig& rig_;
   const std::filesystem::path folder_;
   const nlohmann::json description_;  ///< of the rig before the first tick
-  record::TraceCsv trace_;
+  std::optional<record::TraceCsv> trace_;
   record::Recorder recorder_;
   score::MetricsAccumulator metrics_;
 };

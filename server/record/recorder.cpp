@@ -1,167 +1,223 @@
 #include "record/recorder.hpp"
 
-#include <unistd.h>
-#include <zstd.h>
-
-#include <cerrno>
+#include <atomic>
+#include <condition_variable>
 #include <cstring>
-#include <nlohmann/json.hpp>
+#include <ctime>
+#include <deque>
+#include <mutex>
+#include <thread>
+#include <unordered_set>
 
+#include "core/clock.hpp"
 #include "core/error.hpp"
-#include "core/file.hpp"
-#include "core/hash.hpp"
+#include "record/chunk_encoder.hpp"
 
 namespace ream::record {
 namespace {
 
-constexpr char magic[8] = {'r', 'e', 'a', 'm', 'r', 'e', 'c', '1'};
-/// After the magic number: how long the header's JSON is, and its checksum.
-struct FileHeader {
-  uint64_t text_bytes = 0, checksum = 0;
-};
-
-constexpr uint32_t ticks_per_chunk = 1000;
-constexpr size_t words_per_tick = 2 + 12 + 12 + 2;  ///< tick, flags, two poses, hash in two halves
-constexpr uint32_t largest_chunk = 64u << 20;
-
-/// Precedes each chunk; the checksum is over the stored (compressed) bytes.
-struct ChunkHeader {
-  uint32_t stored_bytes = 0, raw_bytes = 0;
-  uint64_t checksum = 0;
-};
-
-void put(std::vector<std::byte>& out, uint32_t word) {
-  for (int k = 0; k < 4; ++k) out.push_back(static_cast<std::byte>(word >> (8 * k)));
+double thread_cpu_s() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-void put(std::vector<std::byte>& out, const QuantisedPose& pose) {
-  for (const int32_t q : pose.rotation_q30) put(out, static_cast<uint32_t>(q));
-  for (const int32_t q : pose.translation_nm) put(out, static_cast<uint32_t>(q));
-}
-
-uint32_t take(const std::byte*& in) {
-  uint32_t word = 0;
-  for (int k = 0; k < 4; ++k) word |= std::to_integer<uint32_t>(*in++) << (8 * k);
-  return word;
-}
-
-QuantisedPose take_pose(const std::byte*& in) {
-  QuantisedPose pose;
-  for (int32_t& q : pose.rotation_q30) q = static_cast<int32_t>(take(in));
-  for (int32_t& q : pose.translation_nm) q = static_cast<int32_t>(take(in));
-  return pose;
-}
-
-std::vector<std::byte> compressed(const std::vector<std::byte>& raw) {
-  std::vector<std::byte> out(ZSTD_compressBound(raw.size()));
-  out.resize(ZSTD_compress(out.data(), out.size(), raw.data(), raw.size(), 1));
-  return out;
-}
-
-void append_ticks(const std::vector<std::byte>& raw, std::vector<RecordedTick>& ticks) {
-  const std::byte* in = raw.data();
-  for (size_t i = 0; i < raw.size() / (4 * words_per_tick); ++i) {
-    RecordedTick t;
-    t.tick = take(in);
-    const uint32_t flags = take(in);
-    t.spindle_on = (flags & 1) != 0;
-    t.paused = (flags & 2) != 0;
-    t.failed_over = (flags & 4) != 0;
-    t.world_from_handle = take_pose(in);
-    t.grid_from_tool = take_pose(in);
-    const uint32_t low = take(in);
-    t.session_hash = low | static_cast<uint64_t>(take(in)) << 32;
-    ticks.push_back(t);
-  }
-}
-
-/// Takes the header's JSON and returns where the chunks begin.
-size_t read_header(const std::vector<std::byte>& bytes, const std::filesystem::path& path,
-                   std::string& json) {
-  FileHeader header;
-  const size_t fixed = sizeof magic + sizeof header;
-  if (bytes.size() < sizeof magic || std::memcmp(bytes.data(), magic, sizeof magic) != 0)
-    throw Error(ErrorKind::invalid_input, path.string() + " is not a recording of this program");
-  if (bytes.size() >= fixed) std::memcpy(&header, bytes.data() + sizeof magic, sizeof header);
-  if (bytes.size() < fixed || header.text_bytes > bytes.size() - fixed)
-    throw Error(ErrorKind::invalid_input, path.string() + " ends inside its header; the recording is lost");
-  json.assign(reinterpret_cast<const char*>(bytes.data()) + fixed, header.text_bytes);
-  if (hash_text(json) != header.checksum)
-    throw Error(ErrorKind::invalid_input, path.string() + " is damaged in its header; the recording is lost");
-  return fixed + json.size();
+BrickCoverages starts_of(const BrickCoverages& changed, const RecordedBone& bone) {
+  BrickCoverages starts;
+  for (const auto& [brick, now] : changed)
+    std::memcpy(starts[brick].level, bone.start_of(brick), voxel::brick_voxels);
+  return starts;
 }
 
 }  // namespace
 
-Recorder::Recorder(const std::filesystem::path& path, const nlohmann::json& header) : path_(path) {
-  file_ = std::fopen(path.c_str(), "wb");
-  if (file_ == nullptr)
-    throw Error(ErrorKind::io, "cannot write " + path.string() + ": " + std::strerror(errno));
-  const std::string text = header.dump();
-  const FileHeader fixed{text.size(), hash_text(text)};
-  write_all(magic, sizeof magic);
-  write_all(&fixed, sizeof fixed);
-  write_all(text.data(), text.size());
+/// The thread and what it shares with the follower.
+struct Recorder::Impl {
+  Impl(OpLogWriter log, ChunkEncoder bricks, const uint8_t* start)
+      : writer(std::move(log)), encoder(std::move(bricks)), start_coverage(start) {}
+
+  ~Impl() {
+    {
+      const std::lock_guard lock(mutex);
+      leaving = true;
+    }
+    wake.notify_one();
+    if (thread.joinable()) thread.join();
+  }
+
+  void begin(const ops::Segment& segment, const ops::Header* header) {
+    if (header != nullptr) writer.add(*header);
+    writer.add(segment);
+    writer.close_chunk();
+    writer.sync();
+    bytes_written = writer.bytes_written();
+    thread = std::thread([this] { write_chunks(); });
+  }
+
+  void write_chunks() {
+    for (;;) {
+      ChunkContents contents;
+      {
+        std::unique_lock lock(mutex);
+        wake.wait(lock, [this] { return leaving || !queue.empty(); });
+        if (queue.empty()) return;
+        contents = std::move(queue.front());
+        queue.pop_front();
+        ++in_hand;
+      }
+      if (!failed) try {
+          write(std::move(contents));
+        } catch (const std::exception& e) {
+          fail(e.what());
+        }
+      cpu_s = thread_cpu_s();
+      {
+        const std::lock_guard lock(mutex);
+        --in_hand;
+      }
+      done.notify_all();
+    }
+  }
+
+  void write(ChunkContents contents) {
+    encoder.encode(std::move(contents), writer);
+    writer.close_chunk();
+    bytes_written = writer.bytes_written();
+    const int64_t now_ns = steady_ns();
+    if (static_cast<double>(now_ns - synced_ns) * 1e-9 < sync_interval_s) return;
+    writer.sync();
+    synced_ns = now_ns;
+  }
+
+  void fail(const std::string& why) {
+    const std::lock_guard lock(mutex);
+    if (words.empty()) words = why;
+    failed = true;
+  }
+
+  void hand_over(ChunkContents contents) {
+    {
+      const std::lock_guard lock(mutex);
+      if (queue.size() >= most_waiting_chunks && words.empty()) {
+        words = "the disk is more than a minute behind the recording";
+        failed = true;
+      }
+      if (!failed) queue.push_back(std::move(contents));
+    }
+    wake.notify_one();
+  }
+
+  /// Bricks of images up to the last row's tick, oldest first.
+  void close_chunk() {
+    if (contents.rows.empty() && contents.notes.empty()) return;
+    while (!contents.rows.empty() && !images.empty() && images.front().now.tick <= contents.rows.back().tick) {
+      contents.bricks.push_back(std::move(images.front()));
+      images.pop_front();
+    }
+    hand_over(std::move(contents));
+    contents = {};
+  }
+
+  // The thread's.
+  OpLogWriter writer;
+  ChunkEncoder encoder;
+  int64_t synced_ns = steady_ns();
+
+  // The follower's.
+  const uint8_t* start_coverage;
+  ChunkContents contents;
+  uint32_t next_tick = 0;
+  std::deque<ChangedBrick> images;         ///< not yet in a chunk
+  std::unordered_set<uint32_t> known;      ///< bricks whose start the encoder has
+
+  // Of both.
+  mutable std::mutex mutex;
+  std::condition_variable wake, done;
+  std::deque<ChunkContents> queue;
+  size_t in_hand = 0;
+  bool leaving = false;
+  std::string words;
+  std::atomic<bool> failed{false};
+  std::atomic<double> cpu_s{0.0};
+  std::atomic<uint64_t> bytes_written{0};
+  std::thread thread;
+};
+
+Recorder::Recorder(std::unique_ptr<LogSink> sink, const ops::Header& header, const ops::Segment& segment,
+                   const uint8_t* start_coverage)
+    : impl_(std::make_unique<Impl>(OpLogWriter(std::move(sink)), ChunkEncoder(header.start_grid_hash, {}, {}),
+                                   start_coverage)) {
+  impl_->begin(segment, &header);
 }
 
-Recorder::~Recorder() {
-  if (file_ != nullptr) std::fclose(file_);
+Recorder::Recorder(std::unique_ptr<LogSink> sink, const Recording& recording, const RecordedBone& bone,
+                   const ops::Segment& segment, const uint8_t* start_coverage)
+    : impl_(std::make_unique<Impl>(
+          OpLogWriter(std::move(sink), recording.log().chain()),
+          ChunkEncoder(bone.coverage_hash(), bone.changed(), starts_of(bone.changed(), bone)),
+          start_coverage)) {
+  for (const auto& [brick, now] : bone.changed()) impl_->known.insert(brick);
+  impl_->next_tick = recording.tick_count();
+  impl_->begin(segment, nullptr);
+}
+
+Recorder::~Recorder() = default;
+
+void Recorder::add(const voxel::BrickImage& image) {
+  if (impl_->failed) return;
+  ChangedBrick changed{image, nullptr};
+  if (impl_->known.insert(image.brick).second) {
+    changed.start = std::make_unique<BrickCoverage>();
+    std::memcpy(changed.start->level, impl_->start_coverage + size_t{image.brick} * voxel::brick_voxels,
+                voxel::brick_voxels);
+  }
+  impl_->images.push_back(std::move(changed));
 }
 
 void Recorder::add(const TickReport& report) {
-  put(pending_, report.tick);
-  put(pending_, static_cast<uint32_t>(report.spindle_on) | static_cast<uint32_t>(report.paused) << 1 |
-                    static_cast<uint32_t>(report.failed_over) << 2);
-  put(pending_, report.world_from_handle_q);
-  put(pending_, report.grid_from_tool);
-  put(pending_, static_cast<uint32_t>(report.session_hash));
-  put(pending_, static_cast<uint32_t>(report.session_hash >> 32));
-  if (++pending_ticks_ == ticks_per_chunk) write_chunk();
+  if (impl_->failed) return;
+  impl_->contents.rows.push_back(tick_op(report));
+  impl_->next_tick = report.tick + 1;
+  if (impl_->contents.rows.size() >= ticks_per_chunk && report.bricks_waiting == 0) impl_->close_chunk();
 }
 
-void Recorder::finish() {
-  if (pending_ticks_ > 0) write_chunk();
-  if (std::fflush(file_) != 0 || ::fsync(fileno(file_)) != 0)
-    throw Error(ErrorKind::io, "cannot write " + path_.string() + ": " + std::strerror(errno));
-}
+void Recorder::add(const ops::Event& event) { impl_->contents.notes.emplace_back(event); }
 
-void Recorder::write_chunk() {
-  const std::vector<std::byte> stored = compressed(pending_);
-  const ChunkHeader header{static_cast<uint32_t>(stored.size()), static_cast<uint32_t>(pending_.size()),
-                           hash_bytes(stored)};
-  write_all(&header, sizeof header);
-  write_all(stored.data(), stored.size());
-  if (std::fflush(file_) != 0)
-    throw Error(ErrorKind::io, "cannot write " + path_.string() + ": " + std::strerror(errno));
-  pending_.clear();
-  pending_ticks_ = 0;
-}
+void Recorder::add(const ops::Annotation& annotation) { impl_->contents.notes.emplace_back(annotation); }
 
-void Recorder::write_all(const void* data, size_t size) {
-  if (std::fwrite(data, 1, size, file_) != size)
-    throw Error(ErrorKind::io, "cannot write " + path_.string() + ": " + std::strerror(errno));
-}
-
-Recording read_recording(const std::filesystem::path& path) {
-  const std::vector<std::byte> bytes = read_binary_file(path);
-  Recording recording;
-  size_t at = read_header(bytes, path, recording.header_json);
-  ChunkHeader header;
-  while (bytes.size() - at >= sizeof header) {
-    std::memcpy(&header, bytes.data() + at, sizeof header);
-    const std::span<const std::byte> stored(
-        bytes.data() + at + sizeof header,
-        std::min<size_t>(header.stored_bytes, bytes.size() - at - sizeof header));
-    if (stored.size() != header.stored_bytes || header.raw_bytes > largest_chunk ||
-        hash_bytes(stored) != header.checksum)
-      break;
-    std::vector<std::byte> raw(header.raw_bytes);
-    if (ZSTD_decompress(raw.data(), raw.size(), stored.data(), stored.size()) != raw.size()) break;
-    append_ticks(raw, recording.ticks);
-    at += sizeof header + stored.size();
+void Recorder::finish(const std::string& state) {
+  Impl& impl = *impl_;
+  const uint32_t ticks = impl.next_tick;
+  impl.close_chunk();
+  impl.contents.notes.emplace_back(ops::End{ticks, state});
+  impl.close_chunk();
+  {
+    std::unique_lock lock(impl.mutex);
+    impl.done.wait(lock, [&] { return impl.queue.empty() && impl.in_hand == 0; });
+    impl.leaving = true;
   }
-  recording.complete = at == bytes.size();
-  return recording;
+  impl.wake.notify_one();
+  impl.thread.join();
+  if (!impl.failed) try {
+      impl.writer.sync();
+    } catch (const Error& e) {
+      impl.fail(e.what());
+    }
+  if (impl.failed) throw Error(ErrorKind::io, failure());
 }
+
+std::string Recorder::failure() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->words;
+}
+
+size_t Recorder::waiting_chunks() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->queue.size() + impl_->in_hand;
+}
+
+double Recorder::cpu_s() const { return impl_->cpu_s; }
+
+uint64_t Recorder::bytes_written() const { return impl_->bytes_written; }
 
 }  // namespace ream::record

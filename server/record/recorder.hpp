@@ -1,60 +1,56 @@
 #pragma once
-#include <cstdio>
-#include <filesystem>
-#include <nlohmann/json_fwd.hpp>
-#include <vector>
+#include <memory>
+#include <string>
 
-#include "record/tick_report.hpp"
+#include "record/recorded_bone.hpp"
+#include "voxel/bricks.hpp"
 
 namespace ream::record {
 
-/// Writes recording.ream: a JSON header (what was simulated, by which build) and, in chunks of one second,
-/// the cause of every tick (handle pose and buttons as they were used, the decided tool pose) with the
-/// rolling hash. Each chunk is zstd with length and checksum and is flushed whole, so that a killed process
-/// loses at most the last second. The file format is not yet promised. Used by one follower thread, never by
-/// the tick.
+inline constexpr uint32_t ticks_per_chunk = 250;     ///< a chunk is a quarter of a second
+inline constexpr uint32_t chunks_per_key = 64;       ///< keys of bricks every 16 s
+inline constexpr double sync_interval_s = 1.0;       ///< fsync; a loss of power costs no more
+inline constexpr size_t most_waiting_chunks = 240;   ///< a minute; a disk that is later has failed
+
+/// Writes recording.ream on a thread of its own. add() only hands over; a chunk of 250 ticks (a few more while
+/// brick images are behind), the bricks that they changed, and a checkpoint are encoded, compressed, appended
+/// and from time to time fsynced by the thread. A failure (a full disk) stops the writing, not the caller:
+/// failure() says it, and what was written before is whole. Used by one follower thread.
 class Recorder {
  public:
-  /// Throws Error io when the file cannot be created.
-  Recorder(const std::filesystem::path& path, const nlohmann::json& header);
+  /// A new recording, which can be read from here on. `start_coverage` is read for bricks that change for the
+  /// first time, when they are added: a follower's replica will do, if it takes brick images in after add().
+  /// Throws Error io.
+  Recorder(std::unique_ptr<LogSink> sink, const ops::Header& header, const ops::Segment& segment,
+           const uint8_t* start_coverage);
+  /// Goes on with one that was read, after recording.tick_count() ticks; `sink` continues its whole bytes.
+  /// `bone` stands at its end; of bricks that it has changed start_coverage is not read.
+  Recorder(std::unique_ptr<LogSink> sink, const Recording& recording, const RecordedBone& bone,
+           const ops::Segment& segment, const uint8_t* start_coverage);
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Throws Error io when the disk is full.
+  /// A changed brick. All images sent up to tick t must have been added before t's report is.
+  void add(const voxel::BrickImage& image);
   void add(const TickReport& report);
-  /// Writes what is pending and fsyncs. Called once at the end.
-  void finish();
+  void add(const ops::Event& event);
+  void add(const ops::Annotation& annotation);
+  /// Writes what is pending and the end, and waits for it. Throws Error io when that or anything before
+  /// failed.
+  void finish(const std::string& state);
+
+  /// One sentence when writing has failed; else empty. From any thread.
+  std::string failure() const;
+  /// Chunks that the thread has not written yet: who may wait, waits while it is more than a few.
+  size_t waiting_chunks() const;
+  /// Processor time of the thread so far, and bytes written. From any thread.
+  double cpu_s() const;
+  uint64_t bytes_written() const;
 
  private:
-  void write_chunk();
-  void write_all(const void* data, size_t size);
-
-  std::filesystem::path path_;
-  std::FILE* file_ = nullptr;
-  std::vector<std::byte> pending_;
-  uint32_t pending_ticks_ = 0;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
-
-/// One tick as it was recorded.
-struct RecordedTick {
-  uint32_t tick = 0;
-  bool spindle_on = false, paused = false;
-  bool failed_over = false;  ///< no cause: the same poses without the failure give the same hash
-  QuantisedPose world_from_handle, grid_from_tool;
-  uint64_t session_hash = 0;
-};
-
-/// A recording read back; stops at the last whole chunk and says in `complete` whether that was the end of
-/// the file.
-struct Recording {
-  std::string header_json;
-  std::vector<RecordedTick> ticks;
-  bool complete = false;
-};
-
-/// Error invalid_input when the file is no recording or its header is damaged; a damaged tail only clears
-/// `complete`.
-Recording read_recording(const std::filesystem::path& path);
 
 }  // namespace ream::record

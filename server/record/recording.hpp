@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "record/grid_json.hpp"
 #include "record/op_log.hpp"
 #include "record/tick_report.hpp"
 
@@ -20,10 +21,16 @@ TickReport as_recorded(const TickReport& report, const Pose& world_from_grid);
 /// A recording.ream opened for reading: its notes in memory, its ticks read as they are asked for.
 class Recording {
  public:
-  /// Errors: those of OpLogReader; invalid_input when the first op is no header.
-  explicit Recording(const std::filesystem::path& path);
+  /// Whether chunks are read when they are needed, or all of them now.
+  enum class Trust { until_read, checked };
+
+  /// Errors: those of OpLogReader; invalid_input when there is no header. What is damaged further on is left
+  /// out and said in log().damage().
+  explicit Recording(const std::filesystem::path& path, Trust trust = Trust::until_read);
 
   const ops::Header& header() const { return header_; }
+  /// Of the bone at rest. Error invalid_input in recordings that do not say it.
+  voxel::VoxelGrid grid() const { return grid_from_text(header_.grid); }
   const std::vector<ops::Segment>& segments() const { return segments_; }  ///< the first begins at tick 0
   const std::vector<ops::Event>& events() const { return events_; }
   const std::vector<ops::Annotation>& annotations() const { return annotations_; }
@@ -41,6 +48,8 @@ class Recording {
   std::vector<ops::Checkpoint> checkpoints() const;
 
  private:
+  void read_notes();
+
   OpLogReader log_;
   ops::Header header_;
   std::vector<ops::Segment> segments_;

@@ -113,8 +113,10 @@ StepStatus step(const Model& model, State& state, const device::DeviceInput& raw
   render(model, state.output, state.world_from_tool, load, report);
   state.session_hash = hash_combine(state.session_hash, hash_of_cause(report));
   report.session_hash = state.session_hash;
-  if (state.brick_sender != nullptr)
+  if (state.brick_sender != nullptr) {
     state.brick_sender->send(state.bone.coverage.data(), report.tick, state.brick_budget);
+    report.bricks_waiting = static_cast<uint32_t>(state.brick_sender->pending());
+  }
   return is_finite(report) ? StepStatus::ok : StepStatus::not_finite;
 }
 

@@ -37,8 +37,19 @@ void MeshPublisher::Level::touch(uint32_t block) {
 
 MeshPublisher::MeshPublisher(const voxel::BoneModel& bone, voxel::BrickRing& ring, Fanout& fanout,
                              MeshPublisherOptions options)
+    : MeshPublisher(bone, &ring, fanout, options) {}
+
+MeshPublisher::MeshPublisher(const voxel::BoneModel& bone, Fanout& fanout, MeshPublisherOptions options)
+    : MeshPublisher(bone, nullptr, fanout, options) {}
+
+MeshPublisher::MeshPublisher(const voxel::BoneModel& bone, voxel::BrickRing* ring, Fanout& fanout,
+                             MeshPublisherOptions options)
     : replica_(bone), ring_(ring), fanout_(fanout), options_(options), layout_(bone.grid) {
   for (const int stride : {1, 2, 4}) levels_.emplace_back(bone.grid, stride);
+}
+
+void MeshPublisher::take(const voxel::BrickImage& image, int64_t now_ns) {
+  waiting_.put(image, replica_.brick(image.brick), now_ns);
 }
 
 void MeshPublisher::publish_all() {
@@ -75,8 +86,9 @@ size_t MeshPublisher::flush(int64_t now_ns) {
 }
 
 void MeshPublisher::drain(int64_t now_ns) {
+  if (ring_ == nullptr) return;
   voxel::BrickImage image;
-  while (ring_.try_pop(image)) waiting_.put(image, replica_.brick(image.brick), now_ns);
+  while (ring_->try_pop(image)) take(image, now_ns);
 }
 
 bool MeshPublisher::due(int64_t now_ns) const {
@@ -98,11 +110,12 @@ void MeshPublisher::begin_pictures() {
 }
 
 void MeshPublisher::begin_update() {
+  uint32_t newest = 0;
   for (const voxel::BrickImage& image : waiting_.images()) {
     const uint8_t* shown = replica_.brick(image.brick);
     if (std::memcmp(shown, image.coverage, voxel::brick_voxels) == 0) continue;
     const VoxelBox box = difference_box(shown, image.coverage);
-    tick_ = std::max(tick_, image.tick);
+    newest = std::max(newest, image.tick);
     replica_.apply(image);
     const Vec3i origin = replica_.grid().brick_coordinates(image.brick) * voxel::brick_edge;
     for (Level& level : levels_) {
@@ -111,6 +124,7 @@ void MeshPublisher::begin_update() {
       surface::for_each_block(layout_, range, [&level](uint32_t block) { level.touch(block); });
     }
   }
+  if (newest > 0) tick_ = newest;  // in a replay it may be an earlier one
   waiting_.clear();
 }
 

@@ -29,6 +29,12 @@ class MeshPublisher {
   MeshPublisher(const voxel::BoneModel& bone, voxel::BrickRing& ring, Fanout& fanout,
                 MeshPublisherOptions options = {});
 
+  /// The same without a ring: changed bricks come by take().
+  MeshPublisher(const voxel::BoneModel& bone, Fanout& fanout, MeshPublisherOptions options = {});
+
+  /// A brick as it is now, more bone than before or less.
+  void take(const voxel::BrickImage& image, int64_t now_ns);
+
   /// Publishes the first whole picture. Call once, before poll().
   void publish_all();
   /// Takes in all bricks that wait in the ring, then does one piece of work if there is any. `now_ns` as
@@ -57,6 +63,8 @@ class MeshPublisher {
     void touch(uint32_t block);
   };
 
+  MeshPublisher(const voxel::BoneModel& bone, voxel::BrickRing* ring, Fanout& fanout,
+                MeshPublisherOptions options);
   void drain(int64_t now_ns);
   bool due(int64_t now_ns) const;
   bool extracting() const;
@@ -68,7 +76,7 @@ class MeshPublisher {
   size_t publish_ready();
 
   voxel::Replica replica_;
-  voxel::BrickRing& ring_;
+  voxel::BrickRing* const ring_;  ///< null: bricks come by take() only
   Fanout& fanout_;
   const MeshPublisherOptions options_;
   surface::BlockLayout layout_;

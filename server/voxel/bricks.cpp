@@ -1,5 +1,7 @@
 #include "voxel/bricks.hpp"
 
+#include "core/hash.hpp"
+
 namespace ream::voxel {
 
 void read_brick(const VoxelGrid& grid, const uint8_t* coverage, uint32_t brick, uint8_t* image) noexcept {
@@ -8,6 +10,14 @@ void read_brick(const VoxelGrid& grid, const uint8_t* coverage, uint32_t brick, 
 
 void write_brick(const VoxelGrid& grid, uint8_t* coverage, uint32_t brick, const uint8_t* image) noexcept {
   std::memcpy(coverage + grid.brick_base(brick), image, brick_voxels);
+}
+
+uint64_t brick_hash(uint32_t brick, const uint8_t* coverage) noexcept {
+  const uint64_t base = uint64_t{brick} * brick_voxels;
+  uint64_t sum = 0;
+  for (uint64_t k = 0; k < brick_voxels; ++k)
+    if (coverage[k] != 0) sum += mix64((base + k) * 256 + coverage[k]);
+  return sum;
 }
 
 BrickSender::BrickSender(const VoxelGrid& grid, BrickRing& ring)

@@ -20,6 +20,9 @@ struct BrickImage {
 void read_brick(const VoxelGrid& grid, const uint8_t* coverage, uint32_t brick, uint8_t* image) noexcept;
 void write_brick(const VoxelGrid& grid, uint8_t* coverage, uint32_t brick, const uint8_t* image) noexcept;
 
+/// What a brick of that coverage adds to BoneModel::coverage_hash().
+uint64_t brick_hash(uint32_t brick, const uint8_t* coverage) noexcept;
+
 using BrickRing = SpscRing<BrickImage>;
 
 /// The haptic thread's side of the brick ring: remembers which bricks changed and sends a bounded number of

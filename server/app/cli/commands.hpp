@@ -21,6 +21,8 @@ void add_plan_command(CLI::App& app, GlobalOptions& options);
 void add_voxelize_command(CLI::App& app, GlobalOptions& options);
 void add_simulate_command(CLI::App& app, GlobalOptions& options);
 void add_serve_command(CLI::App& app, GlobalOptions& options);
+void add_score_command(CLI::App& app, GlobalOptions& options);
+void add_export_command(CLI::App& app, GlobalOptions& options);
 void add_list_command(CLI::App& app, GlobalOptions& options);
 void add_bench_command(CLI::App& app, GlobalOptions& options);
 

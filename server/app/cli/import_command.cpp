@@ -5,6 +5,8 @@
 
 #include "app/cli/case_path.hpp"
 #include "app/cli/commands.hpp"
+#include "app/data_folder.hpp"
+#include "app/session_bundle.hpp"
 #include "app/cli/numbers.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
@@ -64,7 +66,19 @@ void report(const case_::Case& c, const std::filesystem::path& out, bool json) {
             << out.string() << '\n';
 }
 
+void import_bundle(const Options& options, const GlobalOptions& global) {
+  const std::filesystem::path data = data_folder(global.data);
+  const std::string id = import_session_bundle(options.path, data);
+  const std::string folder = (sessions_folder(data) / id).string();
+  if (global.json)
+    std::cout << nlohmann::json{{"session", id}, {"out", folder}}.dump() << '\n';
+  else
+    std::cout << "session " << id << '\n' << folder << '\n';
+}
+
 void import_case(const Options& options, const GlobalOptions& global) {
+  if (is_session_bundle(options.path)) return import_bundle(options, global);
+  if (options.out.empty()) throw Error(ErrorKind::usage, "--out is required: the name of the new case");
   const ct::ImportOptions import = parsed(options);
   const auto out = case_path(options.out, global.data);
   if (!options.replace && std::filesystem::exists(out / "case.json"))
@@ -81,10 +95,12 @@ void import_case(const Options& options, const GlobalOptions& global) {
 void add_import_command(CLI::App& app, GlobalOptions& global) {
   auto options = std::make_shared<Options>();
   auto& segmentation = options->import.segmentation;
-  CLI::App* command = app.add_subcommand("import", "Make a case out of a CT");
-  command->add_option("PATH", options->path, "Folder of DICOM slices, or a NRRD, NIfTI or MetaImage file")
+  CLI::App* command = app.add_subcommand("import", "Make a case out of a CT, or take in a session from another machine");
+  command
+      ->add_option("PATH", options->path,
+                   "Folder of DICOM slices, a NRRD, NIfTI or MetaImage file, or a session's bundle (.zip of ream export)")
       ->required();
-  command->add_option("--out", options->out, "Name of the new case, or a folder")->required();
+  command->add_option("--out", options->out, "Name of the new case, or a folder; not for a session's bundle");
   command->add_option("--name", options->name, "Name for people");
   command->add_option("--label", options->label,
                       "Label map that tells bone, instead of threshold and growing");

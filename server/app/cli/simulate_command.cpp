@@ -49,7 +49,7 @@ void simulate(const Options& options, const GlobalOptions& global) {
   catch_interrupts();
   Rig rig(request, data_folder(global.data));
   const std::vector<uint8_t> before = rig.bone_case.bone.coverage;
-  const HeadlessResult result = run_headless(rig, folder.path(), options.wall_clock);
+  const HeadlessResult result = run_headless(rig, before, folder.path(), options.wall_clock);
   write_reamed_pictures(rig, before, folder.path());
   throw_if_interrupted();
   folder.commit();

@@ -1,0 +1,179 @@
+#include "record/recording.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+
+namespace ream::record {
+namespace {
+
+enum Flag : uint32_t { spindle_on = 1, paused = 2, failed_over = 4, engaged = 8, cutting = 16, weakened = 32 };
+
+uint32_t flags_of(const TickReport& r) {
+  return (r.spindle_on ? spindle_on : 0u) | (r.paused ? paused : 0u) | (r.failed_over ? failed_over : 0u) |
+         (r.engaged ? engaged : 0u) | (r.cutting ? cutting : 0u) | (r.weakened ? weakened : 0u);
+}
+
+/// Takes the ops it names and lets all others pass.
+template <typename... Takers>
+struct Taking : Takers... {
+  using Takers::operator()...;
+  template <typename Op>
+  void operator()(const Op&) const
+    requires(!(std::is_invocable_v<Takers, const Op&> || ...))
+  {}
+};
+template <typename... Takers>
+Taking(Takers...) -> Taking<Takers...>;
+
+}  // namespace
+
+ops::Tick tick_op(const TickReport& r) {
+  const auto f = [](double value) { return static_cast<float>(value); };
+  ops::Tick t;
+  t.tick = r.tick;
+  t.flags = flags_of(r);
+  t.world_from_handle = r.world_from_handle_q;
+  t.grid_from_tool = r.grid_from_tool;
+  t.session_hash = r.session_hash;
+  t.world_from_bone_rest = quantised(r.world_from_bone_rest);
+  t.thrust_n = f(r.thrust_n);
+  t.torque_n_mm = f(r.torque_n_mm);
+  t.spindle_torque_n_mm = f(r.spindle_torque_n_mm);
+  t.guide_force_n = f(r.guide_force_n);
+  t.hand_force_x_n = f(r.hand_force_n.x());
+  t.hand_force_y_n = f(r.hand_force_n.y());
+  t.hand_force_z_n = f(r.hand_force_n.z());
+  t.hand_vibration_x_n = f(r.hand_vibration_n.x());
+  t.hand_vibration_y_n = f(r.hand_vibration_n.y());
+  t.hand_vibration_z_n = f(r.hand_vibration_n.z());
+  t.hand_torque_x_n_mm = f(r.hand_torque_n_mm.x());
+  t.hand_torque_y_n_mm = f(r.hand_torque_n_mm.y());
+  t.hand_torque_z_n_mm = f(r.hand_torque_n_mm.z());
+  t.vibration_g = f(r.vibration_g);
+  t.feed_rate_mm_s = f(r.feed_rate_mm_s);
+  t.density_g_cc = f(r.density_g_cc);
+  t.share_cancellous = f(r.share[0]);
+  t.share_cortical = f(r.share[1]);
+  t.share_cartilage = f(r.share[2]);
+  t.engaged_points = static_cast<uint32_t>(r.engaged_points);
+  t.removed_cancellous = static_cast<int32_t>(r.coverage_removed[0]);
+  t.removed_cortical = static_cast<int32_t>(r.coverage_removed[1]);
+  t.removed_cartilage = static_cast<int32_t>(r.coverage_removed[2]);
+  t.changed_bricks = r.changed_bricks;
+  return t;
+}
+
+TickReport report_of(const ops::Tick& t, const Pose& world_from_grid) {
+  TickReport r;
+  r.tick = t.tick;
+  r.spindle_on = (t.flags & spindle_on) != 0;
+  r.paused = (t.flags & paused) != 0;
+  r.failed_over = (t.flags & failed_over) != 0;
+  r.engaged = (t.flags & engaged) != 0;
+  r.cutting = (t.flags & cutting) != 0;
+  r.weakened = (t.flags & weakened) != 0;
+  r.world_from_handle_q = t.world_from_handle;
+  r.grid_from_tool = t.grid_from_tool;
+  r.world_from_handle = dequantised(t.world_from_handle);
+  r.world_from_bone_rest = dequantised(t.world_from_bone_rest);
+  r.world_from_tool = r.world_from_bone_rest * world_from_grid * dequantised(t.grid_from_tool);
+  r.session_hash = t.session_hash;
+  r.thrust_n = t.thrust_n;
+  r.torque_n_mm = t.torque_n_mm;
+  r.spindle_torque_n_mm = t.spindle_torque_n_mm;
+  r.guide_force_n = t.guide_force_n;
+  r.hand_force_n = Vec3(t.hand_force_x_n, t.hand_force_y_n, t.hand_force_z_n);
+  r.hand_vibration_n = Vec3(t.hand_vibration_x_n, t.hand_vibration_y_n, t.hand_vibration_z_n);
+  r.hand_torque_n_mm = Vec3(t.hand_torque_x_n_mm, t.hand_torque_y_n_mm, t.hand_torque_z_n_mm);
+  r.vibration_g = t.vibration_g;
+  r.feed_rate_mm_s = t.feed_rate_mm_s;
+  r.density_g_cc = t.density_g_cc;
+  r.share[0] = t.share_cancellous;
+  r.share[1] = t.share_cortical;
+  r.share[2] = t.share_cartilage;
+  r.engaged_points = t.engaged_points;
+  r.coverage_removed[0] = t.removed_cancellous;
+  r.coverage_removed[1] = t.removed_cortical;
+  r.coverage_removed[2] = t.removed_cartilage;
+  r.changed_bricks = t.changed_bricks;
+  return r;
+}
+
+TickReport as_recorded(const TickReport& report, const Pose& world_from_grid) {
+  return report_of(tick_op(report), world_from_grid);
+}
+
+Recording::Recording(const std::filesystem::path& path, Trust trust) : log_(path) {
+  if (trust == Trust::checked) log_.check_all();
+  try {
+    read_notes();
+  } catch (const Error&) {
+    log_.check_all();
+    read_notes();
+  }
+  for (size_t i = 0; i < log_.chunks().size(); ++i) {
+    const ChunkPlace& place = log_.chunks()[i];
+    if (place.ticks == 0) continue;
+    tick_chunks_.push_back(i);
+    tick_count_ = place.first_tick + place.ticks;
+  }
+}
+
+void Recording::read_notes() {
+  bool any_header = false;
+  segments_.clear();
+  events_.clear();
+  annotations_.clear();
+  end_.reset();
+  const Taking take{[&](const ops::Header& op) {
+                      header_ = op;
+                      any_header = true;
+                    },
+                    [&](const ops::Segment& op) {
+                      segments_.push_back(op);
+                      end_.reset();
+                    },
+                    [&](const ops::Event& op) { events_.push_back(op); },
+                    [&](const ops::Annotation& op) { annotations_.push_back(op); },
+                    [&](const ops::End& op) { end_ = op; }};
+  for (size_t i = 0; i < log_.chunks().size(); ++i)
+    if (log_.chunks()[i].has_notes) ops::read(log_.read_chunk(i), log_.revision(), take);
+  if (!any_header)
+    throw Error(ErrorKind::invalid_input,
+                log_.path().string() + " does not say what was simulated; it is no session's recording");
+}
+
+size_t Recording::chunk_of(uint32_t tick) const {
+  const std::vector<ChunkPlace>& chunks = log_.chunks();
+  const auto after = std::partition_point(tick_chunks_.begin(), tick_chunks_.end(),
+                                          [&](size_t i) { return chunks[i].first_tick <= tick; });
+  return after == tick_chunks_.begin() ? 0 : *(after - 1);
+}
+
+void Recording::for_each_tick(uint32_t first, uint32_t last,
+                              const std::function<void(const ops::Tick&)>& told) const {
+  const Taking take{[&](const ops::Tick& op) {
+    if (op.tick >= first && op.tick < last) told(op);
+  }};
+  for (const size_t i : tick_chunks_) {
+    const ChunkPlace& place = log_.chunks()[i];
+    if (place.first_tick >= last) break;
+    if (place.first_tick + place.ticks > first) ops::read(log_.read_chunk(i), log_.revision(), take);
+  }
+}
+
+std::vector<ops::Tick> Recording::ticks(uint32_t first, uint32_t last) const {
+  std::vector<ops::Tick> found;
+  for_each_tick(first, last, [&](const ops::Tick& op) { found.push_back(op); });
+  return found;
+}
+
+std::vector<ops::Checkpoint> Recording::checkpoints() const {
+  std::vector<ops::Checkpoint> found;
+  const Taking take{[&](const ops::Checkpoint& op) { found.push_back(op); }};
+  for (const size_t i : tick_chunks_) ops::read(log_.read_chunk(i), log_.revision(), take);
+  return found;
+}
+
+}  // namespace ream::record

@@ -1,0 +1,153 @@
+#include "store/zip_archive.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+#include <zip.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "core/error.hpp"
+
+namespace ream::store {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t piece_bytes = 1u << 20;
+
+struct Discard {
+  void operator()(zip_t* archive) const { zip_discard(archive); }
+};
+struct CloseEntry {
+  void operator()(zip_file_t* entry) const { zip_fclose(entry); }
+};
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+std::string words_of(int code) {
+  zip_error_t error;
+  zip_error_init_with_code(&error, code);
+  std::string words = zip_error_strerror(&error);
+  zip_error_fini(&error);
+  return words;
+}
+
+std::unique_ptr<zip_t, Discard> open_to_read(const fs::path& path) {
+  std::error_code failed;
+  if (!fs::is_regular_file(path, failed))
+    throw Error(ErrorKind::not_found, "there is no file " + path.string());
+  int code = 0;
+  std::unique_ptr<zip_t, Discard> archive(zip_open(path.c_str(), ZIP_RDONLY | ZIP_CHECKCONS, &code));
+  if (!archive)
+    throw Error(ErrorKind::invalid_input, path.string() + " is no whole zip archive: " + words_of(code));
+  return archive;
+}
+
+bool stays_inside(const std::string& name) {
+  if (name.empty() || name.find('\\') != std::string::npos || name.find('\0') != std::string::npos)
+    return false;
+  const fs::path path(name);
+  if (path.is_absolute()) return false;
+  for (const fs::path& part : path)
+    if (part == ".." || part == ".") return false;
+  return true;
+}
+
+void write_entry(zip_t* archive, const ArchiveEntry& entry, const fs::path& zip) {
+  zip_source_t* source = zip_source_file(archive, entry.file.c_str(), 0, -1);
+  const zip_int64_t index =
+      source == nullptr ? -1 : zip_file_add(archive, entry.name.c_str(), source, ZIP_FL_ENC_UTF_8);
+  if (index < 0) {
+    if (source != nullptr) zip_source_free(source);
+    throw Error(ErrorKind::io, "cannot put " + entry.file.string() + " into " + zip.string() + ": " +
+                                   zip_strerror(archive));
+  }
+  const std::string kind = entry.file.extension();
+  const bool packed = kind == ".zst" || kind == ".ream" || kind == ".png";
+  zip_set_file_compression(archive, static_cast<zip_uint64_t>(index), packed ? ZIP_CM_STORE : ZIP_CM_DEFLATE, 0);
+}
+
+void sync_file(const fs::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool synced = file >= 0 && ::fsync(file) == 0;
+  if (file >= 0) ::close(file);
+  if (!synced) throw Error(ErrorKind::io, "cannot write " + path.string());
+}
+
+/// Copies at most `limit` bytes out and returns how many there were.
+uint64_t unpack_entry(zip_t* archive, zip_uint64_t index, const std::string& name, const fs::path& to,
+                      uint64_t limit) {
+  const auto damaged = [&](const std::string& how) {
+    return Error(ErrorKind::invalid_input, "the archive's " + name + " " + how);
+  };
+  std::unique_ptr<zip_file_t, CloseEntry> entry(zip_fopen_index(archive, index, 0));
+  if (!entry) throw damaged(std::string("cannot be read: ") + zip_strerror(archive));
+  fs::create_directories(to.parent_path());
+  std::unique_ptr<std::FILE, CloseFile> file(std::fopen(to.c_str(), "wb"));
+  if (!file) throw Error(ErrorKind::io, "cannot write " + to.string());
+  std::vector<char> piece(piece_bytes);
+  uint64_t total = 0;
+  for (;;) {
+    const zip_int64_t got = zip_fread(entry.get(), piece.data(), piece.size());
+    if (got < 0) throw damaged("is damaged");
+    if (got == 0) break;
+    total += static_cast<uint64_t>(got);
+    if (total > limit) throw damaged("is larger than may be unpacked");
+    if (std::fwrite(piece.data(), 1, static_cast<size_t>(got), file.get()) != static_cast<size_t>(got))
+      throw Error(ErrorKind::io, "cannot write " + to.string());
+  }
+  if (std::fflush(file.get()) != 0 || ::fsync(fileno(file.get())) != 0)
+    throw Error(ErrorKind::io, "cannot write " + to.string());
+  return total;
+}
+
+}  // namespace
+
+void write_zip(const fs::path& path, const std::vector<ArchiveEntry>& entries) {
+  const fs::path temporary = path.string() + ".tmp";
+  int code = 0;
+  std::unique_ptr<zip_t, Discard> archive(zip_open(temporary.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code));
+  if (!archive) throw Error(ErrorKind::io, "cannot write " + path.string() + ": " + words_of(code));
+  for (const ArchiveEntry& entry : entries) write_entry(archive.get(), entry, path);
+  if (zip_close(archive.get()) != 0)
+    throw Error(ErrorKind::io, "cannot write " + path.string() + ": " + zip_strerror(archive.get()));
+  archive.release();  // closing has freed it
+  try {
+    sync_file(temporary);
+    fs::rename(temporary, path);
+  } catch (const fs::filesystem_error& e) {
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    throw Error(ErrorKind::io, "cannot write " + path.string() + ": " + e.code().message());
+  }
+}
+
+std::vector<std::string> zip_names(const fs::path& path) {
+  const auto archive = open_to_read(path);
+  std::vector<std::string> names;
+  for (zip_int64_t i = 0; i < zip_get_num_entries(archive.get(), 0); ++i)
+    if (const char* name = zip_get_name(archive.get(), static_cast<zip_uint64_t>(i), 0); name != nullptr)
+      names.emplace_back(name);
+  return names;
+}
+
+void unpack_zip(const fs::path& path, const fs::path& folder, const UnpackLimits& limits) {
+  const auto archive = open_to_read(path);
+  const auto count = static_cast<uint64_t>(zip_get_num_entries(archive.get(), 0));
+  if (count > limits.entries)
+    throw Error(ErrorKind::invalid_input, path.string() + " holds " + std::to_string(count) +
+                                              " files, more than may be unpacked");
+  uint64_t room = limits.bytes;
+  for (zip_uint64_t i = 0; i < count; ++i) {
+    const char* given = zip_get_name(archive.get(), i, 0);
+    const std::string name = given == nullptr ? "" : given;
+    if (!stays_inside(name))
+      throw Error(ErrorKind::invalid_input, path.string() + " holds a file named '" + name + "', which may not be unpacked");
+    if (name.back() == '/') continue;
+    room -= unpack_entry(archive.get(), i, name, folder / name, room);
+  }
+}
+
+}  // namespace ream::store

@@ -1,0 +1,32 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace ream::store {
+
+/// A file and the name it has in an archive (with '/').
+struct ArchiveEntry {
+  std::filesystem::path file;
+  std::string name;
+};
+
+/// Writes a zip archive as a whole (temporary name, fsync, rename). Files that are compressed already are
+/// stored as they are. Error io.
+void write_zip(const std::filesystem::path& path, const std::vector<ArchiveEntry>& entries);
+
+/// Limits of what is unpacked, so that a small file cannot fill a disk.
+struct UnpackLimits {
+  uint64_t entries = 1000;
+  uint64_t bytes = uint64_t{16} << 30;
+};
+
+/// Names of an archive's files. Error not_found, invalid_input when it is no zip archive.
+std::vector<std::string> zip_names(const std::filesystem::path& path);
+/// Unpacks every file into `folder`, which exists. Checksums are checked. Error invalid_input naming the
+/// entry: damaged, a name that would leave the folder, a link, or beyond the limits; io.
+void unpack_zip(const std::filesystem::path& path, const std::filesystem::path& folder,
+                const UnpackLimits& limits = {});
+
+}  // namespace ream::store
