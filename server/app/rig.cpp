@@ -15,13 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const case_::Plan& plan_of(const case_::Case& c) {
-  if (!c.plan)
-    throw Error(ErrorKind::conflict, "case '" + c.id + "' has no plan; make one with `ream plan " + c.id +
-                                         " --axis X,Y,Z,DX,DY,DZ`");
-  return *c.plan;
-}
-
 device::Script find_script(const RunRequest& request) {
   device::Script script =
       request.script_name == "demo" ? device::demo_script() : device::load_script(request.script_name);
@@ -64,10 +57,6 @@ nlohmann::json vibration_json(const sim::Model& model) {
   return json;
 }
 
-shell::Tool tool_for(const RunRequest& request, const case_::Plan& plan) {
-  return shell::make_tool(request.tool.empty() ? plan.reamer : request.tool, request.tool_axis);
-}
-
 nlohmann::json guide_json(const sim::Model& model) {
   nlohmann::json json = {{"kind", case_::to_text(model.plan.guide)}};
   if (model.guide) {
@@ -93,15 +82,36 @@ case_::Case find_case(const std::string& name, const fs::path& data) {
   return case_::load_case(case_path(name, data));
 }
 
-Rig::Rig(const RunRequest& request_in, const fs::path& data)
-    : request(request_in),
-      script(find_script(request)),
-      bone_case(find_case(request.case_name, data)),
-      device(device::make_scripted_device(script, sim::world_from_plan(plan_of(bone_case)),
-                                          request.random_seed)),
-      model(sim::make_model(plan_of(bone_case), bone_case.bone, tool_for(request, plan_of(bone_case)),
-                            settings_for(request, script, device->traits()))),
-      state(model, bone_case.bone) {}
+const case_::Plan& plan_of(const case_::Case& c) {
+  if (!c.plan)
+    throw Error(ErrorKind::conflict, "case '" + c.id + "' has no plan; make one with `ream plan " + c.id +
+                                         " --axis X,Y,Z,DX,DY,DZ`");
+  return *c.plan;
+}
+
+RigParts asked_for(const RunRequest& request, const fs::path& data) {
+  RigParts parts;
+  parts.request = request;
+  parts.script = find_script(request);
+  parts.bone_case = find_case(request.case_name, data);
+  const case_::Plan& plan = plan_of(parts.bone_case);
+  parts.case_hash = case_::case_hash(parts.bone_case);
+  parts.reamer = reamer_asked_for(request.tool.empty() ? plan.reamer : request.tool, request.tool_axis);
+  parts.tool = shell::make_tool(parts.reamer.words, request.tool_axis);
+  parts.device = device::make_scripted_device(parts.script, sim::world_from_plan(plan), request.random_seed);
+  parts.settings = settings_for(request, parts.script, parts.device->traits());
+  return parts;
+}
+
+Rig::Rig(RigParts parts)
+    : request(std::move(parts.request)),
+      script(std::move(parts.script)),
+      bone_case(std::move(parts.bone_case)),
+      case_hash(parts.case_hash),
+      reamer(std::move(parts.reamer)),
+      device(std::move(parts.device)),
+      model(sim::make_model(plan_of(bone_case), bone_case.bone, std::move(parts.tool), parts.settings)),
+      state(model, bone_case.bone, parts.from) {}
 
 nlohmann::json Rig::description() const {
   nlohmann::json description = {

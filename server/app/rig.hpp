@@ -1,12 +1,13 @@
 #pragma once
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
+#include "app/reamer.hpp"
 #include "case/case.hpp"
 #include "device/script.hpp"
-#include "shell/tool.hpp"
 #include "sim/state.hpp"
 
 namespace ream::app {
@@ -25,27 +26,49 @@ struct RunRequest {
   uint64_t random_seed = 1;
 };
 
-/// One case, one tool, one script, ready for the first tick. Everything in it stays where it is (the model
-/// refers to the bone), so it is made once and neither copied nor moved.
+/// What a rig is made of, each thing found, read and checked beforehand.
+struct RigParts {
+  RunRequest request;
+  device::Script script;
+  case_::Case bone_case;   ///< with a plan; its coverage is what is left when the rig begins
+  uint64_t case_hash = 0;  ///< of the case as it was loaded
+  Reamer reamer;
+  shell::Tool tool;  ///< made of it
+  sim::Settings settings;
+  std::unique_ptr<device::HapticDevice> device;  ///< may be null where somebody else steps the state
+  sim::CarriedOn from;
+};
+
+/// The parts of a new session. Errors: not_found and invalid_input of case, script and reamer; conflict when
+/// the case has no plan. `data` is where cases are looked up; the demo case is made there on first use.
+RigParts asked_for(const RunRequest& request, const std::filesystem::path& data);
+
+/// One case, one tool, one device, ready for the first tick of a segment. Everything in it stays where it is
+/// (the model refers to the bone), so it is made once and neither copied nor moved.
 class Rig {
  public:
-  /// Errors: not_found and invalid_input of case, script and tool; conflict when the case has no plan;
-  /// unavailable for the backend. `data` is where cases are looked up; the demo case is made there on first
-  /// use.
-  Rig(const RunRequest& request, const std::filesystem::path& data);
+  /// Errors: those of make_model; unavailable for the backend.
+  explicit Rig(RigParts parts);
+  /// Errors: those of asked_for, too.
+  Rig(const RunRequest& request_in, const std::filesystem::path& data) : Rig(asked_for(request_in, data)) {}
   Rig(const Rig&) = delete;
   Rig& operator=(const Rig&) = delete;
 
   const RunRequest request;
   device::Script script;
   case_::Case bone_case;
-  std::unique_ptr<device::HapticDevice> device;  ///< before the model, which needs its limits
+  const uint64_t case_hash;
+  const Reamer reamer;
+  std::unique_ptr<device::HapticDevice> device;
   sim::Model model;
   sim::State state;
 
-  /// What was simulated, by which build; the header of recordings and session.json.
+  /// What was simulated, by which build, for people. Of a rig with a device, before its first tick.
   nlohmann::json description() const;
 };
+
+/// The plan of a case. Error conflict when it has none.
+const case_::Plan& plan_of(const case_::Case& c);
 
 /// The case that a name means; see RunRequest::case_name.
 case_::Case find_case(const std::string& name, const std::filesystem::path& data);

@@ -73,6 +73,10 @@ Case load_case_description(const std::filesystem::path& folder);
 CaseSummary load_case_summary(const std::filesystem::path& folder);
 void save_case(const Case& c, const std::filesystem::path& folder, bool replace = false);
 
+/// Of what reaming decides by: grid, threshold, density and coverage. Equal cases have equal hashes on every
+/// machine. Of a case as it was loaded, its pilot hole not cut. Takes about 2 ns a voxel.
+uint64_t case_hash(const Case& c);
+
 /// Replaces only the plan of an existing case.
 void save_plan(const Plan& plan, const std::filesystem::path& case_folder);
 

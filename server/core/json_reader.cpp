@@ -70,10 +70,20 @@ int64_t JsonReader::integer_or(const std::string& key, int64_t fallback, int64_t
   return has(key) ? integer(key, min, max) : fallback;
 }
 
+uint64_t JsonReader::unsigned_integer(const std::string& key) {
+  const auto& value = at(key);
+  if (!value.is_number_unsigned()) refuse(key, "must be a whole number of at least 0");
+  return value.get<uint64_t>();
+}
+
+bool JsonReader::boolean(const std::string& key) {
+  const auto& value = at(key);
+  if (!value.is_boolean()) refuse(key, "must be true or false");
+  return value.get<bool>();
+}
+
 bool JsonReader::boolean_or(const std::string& key, bool fallback) {
-  if (!has(key)) return fallback;
-  if (!at(key).is_boolean()) refuse(key, "must be true or false");
-  return at(key).get<bool>();
+  return has(key) ? boolean(key) : fallback;
 }
 
 std::string JsonReader::text(const std::string& key) {

@@ -24,6 +24,9 @@ class JsonReader {
   int64_t integer(const std::string& key, int64_t min = INT64_MIN, int64_t max = INT64_MAX);
   int64_t integer_or(const std::string& key, int64_t fallback, int64_t min = INT64_MIN,
                      int64_t max = INT64_MAX);
+  /// A whole number from 0 to 2^64 - 1.
+  uint64_t unsigned_integer(const std::string& key);
+  bool boolean(const std::string& key);
   bool boolean_or(const std::string& key, bool fallback);
   std::string text(const std::string& key);
   std::string text_or(const std::string& key, const std::string& fallback);

@@ -28,6 +28,8 @@ namespace ream::sim {
 enum class RemovalLaw { profile, decay };
 
 const char* to_text(RemovalLaw law);
+/// The words of to_text; Error invalid_input for others.
+RemovalLaw removal_law_from_text(const std::string& text);
 
 /// How a session is to be simulated; everything that the same input needs to give the same bits.
 struct Settings {

@@ -15,22 +15,34 @@
 
 namespace ream::sim {
 
+/// What a segment of a session takes over from the one before it; else the session begins.
+struct CarriedOn {
+  uint32_t tick = 0;  ///< the next
+  uint64_t session_hash = 0;
+};
+
 /// Everything that a tick changes. Owned by the haptic thread once the session runs.
 struct State {
-  State(const Model& model, voxel::BoneModel& bone);
+  State(const Model& model, voxel::BoneModel& bone, const CarriedOn& from = {});
 
   voxel::BoneModel& bone;
   voxel::SolidCells cells;  ///< what of the bone is left; follows every cut
   Backend backend;
   /// The C++ form, ready in case the device of `backend` fails; empty parts when `backend` is it already.
   Backend reserve;
-  int64_t failed_over_tick = -1;  ///< the tick in which the reserve took over
+  /// The tick in which the reserve took over. Set before the first tick it repeats a recorded failure: the
+  /// hand feels nothing in that tick, and no other device may fail.
+  int64_t failed_over_tick = -1;
   collide::RemovalSchedule schedule;
   std::array<collide::BrickOutcome, collide::RemovalSchedule::most_bricks_a_tick> outcomes;
   std::array<uint32_t, collide::RemovalSchedule::most_bricks_a_tick> changed;  ///< bricks of the last cut
   size_t changed_count = 0;
   voxel::BrickSender* brick_sender = nullptr;  ///< followers, where there are any; not owned
   int brick_budget = 256;                      ///< images sent a tick
+
+  /// The input's pose is the handle's from the first tick to the last, also where a virtual mass would
+  /// otherwise fly under the hand's force: of recorded causes.
+  bool handle_given = false;
 
   bool started = false;  ///< the tool has been put at the handle
   uint32_t tick = 0;

@@ -20,9 +20,10 @@ Pose flown(const Model& model, const State& state, const device::DeviceInput& in
   return moved(state.world_from_tool, force::free_flight(*model.virtual_mass, state.tool_twist, hand));
 }
 
-/// What the handle's pose is in this tick: sensed, or for an admittance device the virtual mass' own.
+/// What the handle's pose is in this tick: sensed or given, or for an admittance device the virtual mass'
+/// own.
 Pose world_from_handle(const Model& model, const State& state, const device::DeviceInput& input) {
-  if (!model.virtual_mass || !state.started) return input.world_from_handle;
+  if (!model.virtual_mass || !state.started || state.handle_given) return input.world_from_handle;
   return input.paused ? state.world_from_tool : flown(model, state, input);
 }
 

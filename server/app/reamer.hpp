@@ -1,0 +1,29 @@
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "shell/tool.hpp"
+
+namespace ream::app {
+
+/// A reamer as it was asked for, with all that is needed to make it again elsewhere.
+struct Reamer {
+  std::string words;                      ///< as make_tool takes them, or the name of a mesh file
+  std::optional<shell::ToolAxis> axis;    ///< of a mesh; empty: estimated
+  std::vector<std::byte> mesh_file = {};  ///< its bytes; empty for words
+};
+
+/// Reads the mesh file, where `words` name one. Error not_found, io.
+Reamer reamer_asked_for(const std::string& words, const std::optional<shell::ToolAxis>& axis);
+
+/// The tool once more: from the words, or from the bytes of the mesh file, which must not refer to other
+/// files. Errors: those of make_tool; io.
+shell::Tool tool_of(const Reamer& reamer);
+
+/// Six numbers as recordings keep an axis, "" for none, and back. Error invalid_input naming `place`.
+std::string axis_to_text(const std::optional<shell::ToolAxis>& axis);
+std::optional<shell::ToolAxis> axis_from_text(const std::string& text, const std::string& place);
+
+}  // namespace ream::app

@@ -1,0 +1,100 @@
+#include "sim/settings_json.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "device/profiles.hpp"
+#include "sim/device_settings.hpp"
+#include "support/expect_error.hpp"
+
+namespace ream::sim {
+namespace {
+
+using nlohmann::json;
+
+/// Every number of every object replaced by one that needs all of its bits.
+void scramble(json& value, std::mt19937_64& random) {
+  if (value.is_structured())
+    for (auto& inner : value) scramble(inner, random);
+  else if (value.is_number_float())
+    value = std::uniform_real_distribution<double>(1e-3, 1e3)(random);
+  else if (value.is_number_unsigned())
+    value = random() | 1ull << 63;
+}
+
+json full_settings() {
+  Settings settings;
+  fit_to_device(device::device_profile("hapticmaster"), 0.0, settings);
+  settings.mount = device::chest_wall_mount;
+  settings.vibration.recordings.cortical = "/somewhere/co\"rtical.wav";
+  settings.removal = RemovalLaw::decay;
+  settings.feed.kind = force::FeedKind::oblique;
+  return to_json(settings);
+}
+
+TEST(SettingsJson, KeepEveryBitOfEveryNumber) {
+  const uint64_t seed = 20261;
+  std::cout << "seed " << seed << '\n';
+  std::mt19937_64 random(seed);
+  for (int turn = 0; turn < 200; ++turn) {
+    json wanted = full_settings();
+    scramble(wanted, random);
+    const std::string text = wanted.dump();
+    const Settings read = settings_from_json(json::parse(text), "test");
+    ASSERT_EQ(to_json(read).dump(), text);
+    ASSERT_EQ(read.random_seed, wanted.at("random_seed").get<uint64_t>());
+    ASSERT_EQ(read.feed.cutting.friction, wanted.at("feed").at("cutting").at("friction").get<double>());
+  }
+}
+
+TEST(SettingsJson, TellWhatIsThereFromWhatIsNot) {
+  Settings settings;
+  EXPECT_FALSE(settings_from_json(to_json(settings), "test").virtual_mass.has_value());
+  EXPECT_FALSE(settings_from_json(to_json(settings), "test").mount.has_value());
+  settings.virtual_mass.emplace().mass_kg = 3.25;
+  settings.mount = device::chest_wall_mount;
+  const Settings read = settings_from_json(to_json(settings), "test");
+  EXPECT_EQ(read.virtual_mass->mass_kg, 3.25);
+  EXPECT_EQ(read.mount->angular_damping_n_mm_s_rad, settings.mount->angular_damping_n_mm_s_rad);
+}
+
+/// Calls `each` with every object inside `value` and its path.
+void for_each_object(json& value, const std::string& path,
+                     const std::function<void(json&, const std::string&)>& each) {
+  each(value, path);
+  for (auto& [key, inner] : value.items())
+    if (inner.is_object()) for_each_object(inner, path + "." + key, each);
+}
+
+TEST(SettingsJson, RefuseEveryMissingOrUnknownKeyByName) {
+  json settings = full_settings();
+  int objects = 0;
+  for_each_object(settings, "test", [&](json& object, const std::string& path) {
+    ++objects;
+    const json whole = object;
+    for (const auto& [key, ignored] : whole.items()) {
+      object.erase(key);
+      test::expect_error(ErrorKind::invalid_input, path + ": key '" + key + "'",
+                         [&] { settings_from_json(settings, "test"); });
+      object = whole;
+    }
+    object["colour"] = 1;
+    test::expect_error(ErrorKind::invalid_input, path + ": key 'colour' is unknown",
+                       [&] { settings_from_json(settings, "test"); });
+    object = whole;
+  });
+  EXPECT_EQ(objects, 8);
+}
+
+TEST(SettingsJson, RefuseWordsThatMeanNothing) {
+  json settings = full_settings();
+  settings["removal"] = "chisel";
+  test::expect_error(ErrorKind::invalid_input, "key 'removal'",
+                     [&] { settings_from_json(settings, "test"); });
+}
+
+}  // namespace
+}  // namespace ream::sim
