@@ -52,6 +52,8 @@ class LogDamage : public testing::Test {
   }
 
   std::filesystem::path write(const Bytes& bytes) {
+    // A new file each time: rewriting one makes some file systems wait for the disk.
+    std::filesystem::remove(folder_.path() / "damaged.ream");
     return folder_.write("damaged.ream", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   }
 

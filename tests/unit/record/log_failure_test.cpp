@@ -104,6 +104,7 @@ TEST_F(LogFailure, ADiskThatIsFullAtAnyByteLeavesEveryWholeChunk) {
     expect_error(ErrorKind::io, "full", [&] { write_small_chunks(log, 3); });
     expect_error(ErrorKind::io, "failed before", [&] { log.close_chunk(); });
     ASSERT_EQ(disk.size(), room) << "nothing may follow what did not fit";
+    std::filesystem::remove(path_);
     folder_.write("recording.ream", {reinterpret_cast<const char*>(disk.data()), disk.size()});
     size_t chunks = 0;
     while (ends[chunks] <= room) ++chunks;
