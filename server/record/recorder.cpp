@@ -109,13 +109,13 @@ struct Recorder::Impl {
 
   /// Bricks of images up to the last row's tick, oldest first.
   void close_chunk() {
-    if (contents.rows.empty() && contents.notes.empty()) return;
-    while (!contents.rows.empty() && !images.empty() && images.front().now.tick <= contents.rows.back().tick) {
-      contents.bricks.push_back(std::move(images.front()));
+    if (open_chunk.rows.empty() && open_chunk.notes.empty()) return;
+    while (!open_chunk.rows.empty() && !images.empty() && images.front().now.tick <= open_chunk.rows.back().tick) {
+      open_chunk.bricks.push_back(std::move(images.front()));
       images.pop_front();
     }
-    hand_over(std::move(contents));
-    contents = {};
+    hand_over(std::move(open_chunk));
+    open_chunk = {};
   }
 
   // The thread's.
@@ -125,7 +125,7 @@ struct Recorder::Impl {
 
   // The follower's.
   const uint8_t* start_coverage;
-  ChunkContents contents;
+  ChunkContents open_chunk;
   uint32_t next_tick = 0;
   std::deque<ChangedBrick> images;         ///< not yet in a chunk
   std::unordered_set<uint32_t> known;      ///< bricks whose start the encoder has
@@ -176,20 +176,20 @@ void Recorder::add(const voxel::BrickImage& image) {
 
 void Recorder::add(const TickReport& report) {
   if (impl_->failed) return;
-  impl_->contents.rows.push_back(tick_op(report));
+  impl_->open_chunk.rows.push_back(tick_op(report));
   impl_->next_tick = report.tick + 1;
-  if (impl_->contents.rows.size() >= ticks_per_chunk && report.bricks_waiting == 0) impl_->close_chunk();
+  if (impl_->open_chunk.rows.size() >= ticks_per_chunk && report.bricks_waiting == 0) impl_->close_chunk();
 }
 
-void Recorder::add(const ops::Event& event) { impl_->contents.notes.emplace_back(event); }
+void Recorder::add(const ops::Event& event) { impl_->open_chunk.notes.emplace_back(event); }
 
-void Recorder::add(const ops::Annotation& annotation) { impl_->contents.notes.emplace_back(annotation); }
+void Recorder::add(const ops::Annotation& annotation) { impl_->open_chunk.notes.emplace_back(annotation); }
 
 void Recorder::finish(const std::string& state) {
   Impl& impl = *impl_;
   const uint32_t ticks = impl.next_tick;
   impl.close_chunk();
-  impl.contents.notes.emplace_back(ops::End{ticks, state});
+  impl.open_chunk.notes.emplace_back(ops::End{ticks, state});
   impl.close_chunk();
   {
     std::unique_lock lock(impl.mutex);
