@@ -18,8 +18,6 @@ namespace {
 
 using record::Difference;
 
-/// Between two looks at the whole bone, which take a nanosecond a voxel; about the time between two keys.
-constexpr uint32_t ticks_between_grid_hashes = 16000;
 constexpr uint32_t ticks_between_looks_for_interrupts = 1000;
 
 /// Hash of a table as the header has it; empty when it had none.
@@ -155,7 +153,7 @@ class Verifier {
       return;
     }
     const bool last = next_checkpoint_ + 1 == checkpoints_.size();
-    if (!last && tick < grid_compared_tick_ + ticks_between_grid_hashes) return;
+    if (!last && tick < grid_compared_tick_ + request_.ticks_between_grid_hashes) return;
     grid_compared_tick_ = tick;
     result_.grid_hash = rig_->bone_case.bone.coverage_hash();
     if (checkpoint.grid_hash != result_.grid_hash)

@@ -12,6 +12,8 @@ namespace ream::app {
 struct VerifyRequest {
   std::string backend = "cpu";       ///< auto, cpu, opencl or opencl:N
   uint32_t until_tick = UINT32_MAX;  ///< so many ticks, or all there are
+  /// Between two looks at the whole bone, a nanosecond a voxel each; by default as often as there are keys.
+  uint32_t ticks_between_grid_hashes = 16000;
 };
 
 /// What came of it.

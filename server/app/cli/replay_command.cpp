@@ -95,8 +95,10 @@ void review(const Options& options, const GlobalOptions& global, const record::R
 
 void verify(const Options& options, const GlobalOptions& global, const record::Recording& recording,
             case_::Case bone_case) {
-  const VerifyResult found =
-      verify_replay(recording, std::move(bone_case), {options.backend, until_tick(options)});
+  VerifyRequest request;
+  request.backend = options.backend;
+  request.until_tick = until_tick(options);
+  const VerifyResult found = verify_replay(recording, std::move(bone_case), request);
   json answer = about(recording, found.ticks);
   answer["verified"] = !found.difference.has_value();
   answer["backend"] = found.backend;
