@@ -65,6 +65,7 @@ record::TickReport SessionFiles::add(const record::TickReport& report) {
 SessionFiles::Results SessionFiles::finish(const sim::LoopHealth& health, const nlohmann::json& extra) {
   if (trace_) trace_->finish();
   recorder_->finish(extra.value("state", "finished"));
+  recorder_.reset();  // others may append remarks or go on from here
   const uint64_t grid_hash = rig_.bone_case.bone.coverage_hash();
   Results results{score::metrics_json(metrics_.metrics(), rig_.model.settings.force_scale, &grid_hash),
                   timing_json(health)};

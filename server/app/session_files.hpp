@@ -51,7 +51,7 @@ class SessionFiles {
   const std::filesystem::path folder_;
   const nlohmann::json description_;  ///< of the rig before the first tick
   std::optional<record::TraceCsv> trace_;
-  std::optional<record::Recorder> recorder_;
+  std::optional<record::Recorder> recorder_;  ///< until finished or abandoned
   score::MetricsAccumulator metrics_;
 };
 
