@@ -81,6 +81,29 @@ std::optional<double> RequestBody::number_or_none(const std::string& key, double
   return number;
 }
 
+std::optional<double> RequestBody::number_within_or_none(const std::string& key, double least, double most) {
+  const nlohmann::json* value = find(key);
+  if (!value) return std::nullopt;
+  if (!value->is_number()) {
+    complain(key, std::string("must be a number, not ") + value->type_name());
+    return std::nullopt;
+  }
+  const double number = value->get<double>();
+  if (!std::isfinite(number) || number < least || number > most) {
+    complain(key, "must be from " + plain_number(least) + " to " + plain_number(most));
+    return std::nullopt;
+  }
+  return number;
+}
+
+std::optional<bool> RequestBody::flag_or_none(const std::string& key) {
+  const nlohmann::json* value = find(key);
+  if (!value) return std::nullopt;
+  if (value->is_boolean()) return value->get<bool>();
+  complain(key, std::string("must be true or false, not ") + value->type_name());
+  return std::nullopt;
+}
+
 void RequestBody::finish() {
   for (const auto& [key, value] : value_.items())
     if (!asked_.contains(key)) complain(key, "is not a known key");

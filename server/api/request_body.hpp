@@ -21,6 +21,10 @@ class RequestBody {
   std::string name(const std::string& key);
   /// A finite number above `above` and at most `most`; none when absent.
   std::optional<double> number_or_none(const std::string& key, double above, double most);
+  /// A finite number from `least` to `most`, both included; none when absent.
+  std::optional<double> number_within_or_none(const std::string& key, double least, double most);
+  /// True or false; none when absent.
+  std::optional<bool> flag_or_none(const std::string& key);
 
   /// Throws RequestError 422 with one entry per fault.
   void finish();

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "api/case_resource.hpp"
+#include "api/replay_resource.hpp"
 #include "api/session_resource.hpp"
 #include "net/static_files.hpp"
 
@@ -26,12 +27,14 @@ void add_contract_route(net::Router& router) {
   });
 }
 
-net::Router router_of(const ServerOptions& options, SessionService& sessions, const Readiness& readiness) {
+net::Router router_of(const ServerOptions& options, SessionService& sessions, ReplayService& replays,
+                      const Readiness& readiness) {
   net::Router router;
   add_health_routes(router, readiness);
   add_contract_route(router);
   add_case_routes(router, options.cases_folder);
-  add_session_routes(router, sessions, readiness);
+  add_session_routes(router, sessions, replays, readiness);
+  add_replay_routes(router, sessions, replays, readiness);
   router.otherwise([files = net::StaticFiles(options.web_folder)](const net::Request& request) {
     return files.respond(request);
   });
@@ -42,7 +45,8 @@ net::Router router_of(const ServerOptions& options, SessionService& sessions, co
 
 Server::Server(ServerOptions options)
     : sessions_(std::move(options.make_session), options.sessions),
-      router_(router_of(options, sessions_, readiness_)),
+      replays_(std::move(options.make_replay), options.replays),
+      router_(router_of(options, sessions_, replays_, readiness_)),
       listener_(router_, options.listen),
       readiness_(std::move(options.prepare)) {}
 
@@ -69,6 +73,7 @@ void Server::request_stop() {
 
 void Server::stop() {
   listener_.stop();
+  replays_.shut_down();
   sessions_.shut_down();
 }
 

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "api/readiness.hpp"
+#include "api/replay_service.hpp"
 #include "api/session_service.hpp"
 #include "net/listener.hpp"
 
@@ -17,6 +18,8 @@ struct ServerOptions {
   std::filesystem::path web_folder;  ///< the built page; served under "/"
   SessionFactory make_session;
   SessionLimits sessions;
+  ReplayFactory make_replay;
+  ReplayLimits replays;
   std::function<void()> prepare;  ///< run once in the background; /readyz is 503 until it is done
 };
 
@@ -48,6 +51,7 @@ class Server {
   // Order matters: nothing is prepared before the port is ours. stop() has ended the listener before any of
   // these goes.
   SessionService sessions_;
+  ReplayService replays_;
   net::Router router_;
   net::Listener listener_;
   Readiness readiness_;

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "api/replay_resource.hpp"
 #include "api/request_body.hpp"
 #include "core/error.hpp"
 
@@ -16,6 +17,7 @@ json to_json(const SessionRecord& record) {
   const SessionStatus& status = record.status;
   const TimingSummary& tick = status.tick_us;
   return {{"id", record.request.id},
+          {"kind", "session"},
           {"case", record.request.case_id},
           {"script", record.request.script},
           {"state", to_text(status.state)},
@@ -47,10 +49,13 @@ net::Response create(SessionService& service, const Readiness& readiness, const 
   return response;
 }
 
-net::Response list(const SessionService& service) {
+net::Response list(const SessionService& service, const ReplayService& replays) {
   json sessions = json::array();
   for (const SessionRecord& record : service.list()) sessions.push_back(to_json(record));
-  return net::json_response(200, {{"sessions", std::move(sessions)}});
+  json open_replays = json::array();
+  for (const ReplayRecord& record : replays.list()) open_replays.push_back(to_json(record));
+  return net::json_response(200,
+                            {{"sessions", std::move(sessions)}, {"replays", std::move(open_replays)}});
 }
 
 const std::string& id_of(const net::Request& request) { return request.parameters.at("id"); }
@@ -66,23 +71,29 @@ int stride_of(const net::Request& request) {
 
 }  // namespace
 
-void add_session_routes(net::Router& router, SessionService& service, const Readiness& readiness) {
-  router.on("GET", base, [&service](const net::Request&) { return list(service); });
+void add_session_routes(net::Router& router, SessionService& service, ReplayService& replays,
+                        const Readiness& readiness) {
+  router.on("GET", base, [&](const net::Request&) { return list(service, replays); });
   router.on("POST", base, [&](const net::Request& request) { return create(service, readiness, request); });
-  router.on("GET", base + "/{id}", [&service](const net::Request& request) {
-    return net::json_response(200, to_json(service.get(id_of(request))));
+  router.on("GET", base + "/{id}", [&](const net::Request& request) {
+    const std::string& id = id_of(request);
+    return net::json_response(200, replays.has(id) ? to_json(replays.get(id)) : to_json(service.get(id)));
   });
   router.on("POST", base + "/{id}/start", [&service](const net::Request& request) {
     return net::json_response(200, to_json(service.start(id_of(request))));
   });
-  router.on("POST", base + "/{id}/stop", [&service](const net::Request& request) {
-    return net::json_response(200, to_json(service.stop(id_of(request))));
+  router.on("POST", base + "/{id}/stop", [&](const net::Request& request) {
+    const std::string& id = id_of(request);
+    return net::json_response(200, replays.has(id) ? to_json(replays.stop(id)) : to_json(service.stop(id)));
   });
-  router.on("GET", base + "/{id}/metrics", [&service](const net::Request& request) {
-    return net::json_response(200, service.metrics(id_of(request)));
+  router.on("GET", base + "/{id}/metrics", [&](const net::Request& request) {
+    const std::string& id = id_of(request);
+    return net::json_response(200, replays.has(id) ? replays.metrics(id) : service.metrics(id));
   });
-  router.on_websocket(base + "/{id}/stream", [&service](const net::Request& request) {
-    return service.subscribe(id_of(request), stride_of(request));
+  router.on_websocket(base + "/{id}/stream", [&](const net::Request& request) {
+    const std::string& id = id_of(request);
+    return replays.has(id) ? replays.subscribe(id, stride_of(request))
+                           : service.subscribe(id, stride_of(request));
   });
 }
 

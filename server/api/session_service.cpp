@@ -1,53 +1,14 @@
 #include "api/session_service.hpp"
 
 #include <algorithm>
-#include <ctime>
 #include <nlohmann/json.hpp>
-#include <random>
 
+#include "api/keeping_session.hpp"
+#include "api/new_id.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 
 namespace ream::api {
-namespace {
-
-constexpr size_t id_length = 8;
-
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
-}
-
-/// Without letters that are easily taken for one another when read aloud or typed.
-std::string random_id() {
-  static constexpr std::string_view letters = "23456789abcdefghjkmnpqrstuvwxyz";
-  std::random_device entropy;
-  std::uniform_int_distribution<size_t> pick(0, letters.size() - 1);
-  std::string id;
-  for (size_t i = 0; i < id_length; ++i) id += letters[pick(entropy)];
-  return id;
-}
-
-/// A viewer's connection, which keeps the session it looks at.
-class KeepingSession final : public net::WebSocketSession {
- public:
-  KeepingSession(std::shared_ptr<void> kept, std::unique_ptr<net::WebSocketSession> inner)
-      : kept_(std::move(kept)), inner_(std::move(inner)) {}
-  void on_open(std::function<void()> wake) override { inner_->on_open(std::move(wake)); }
-  std::optional<net::SharedBytes> next() override { return inner_->next(); }
-  void on_message(std::span<const std::byte> message) override { inner_->on_message(message); }
-  void on_close() noexcept override { inner_->on_close(); }
-
- private:
-  std::shared_ptr<void> kept_;
-  std::unique_ptr<net::WebSocketSession> inner_;
-};
-
-}  // namespace
 
 struct SessionService::Entry {
   SessionRequest request;

@@ -6,6 +6,7 @@
 
 #include "api/viewer_stream.hpp"
 #include "app/data_folder.hpp"
+#include "app/stream_words.hpp"
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -85,18 +86,9 @@ ReamingSession::~ReamingSession() {
 }
 
 stream::HelloInfo ReamingSession::hello() const {
-  stream::HelloInfo info;
+  stream::HelloInfo info = hello_of(rig_.bone_case, rig_.model.plan, rig_.model.tool);
   info.session_id = id_;
   info.server_epoch = house_.server_epoch;
-  info.case_id = rig_.bone_case.id;
-  info.case_name = rig_.bone_case.name;
-  info.side = case_::to_text(rig_.bone_case.side);
-  info.grid = rig_.bone_case.bone.grid;
-  info.tool = rig_.model.tool.mesh;
-  info.tool_name = rig_.model.tool.name;
-  info.axis_entry_mm = rig_.model.plan.entry_mm;
-  info.axis_direction = rig_.model.plan.axis_direction;
-  info.planned_depth_mm = rig_.model.plan.depth_mm;
   info.force_scale = rig_.model.settings.force_scale;
   info.force_max_n = rig_.model.settings.limits.force_max_n;
   return info;
@@ -198,17 +190,7 @@ void ReamingSession::take(bool ended) {
 }
 
 void ReamingSession::take_report(const record::TickReport& r) {
-  sample_.tick = r.tick;
-  sample_.thrust_n = static_cast<float>(r.thrust_n);
-  sample_.hand_force_n = static_cast<float>(r.hand_force_n.norm());
-  sample_.torque_n_mm = static_cast<float>(r.torque_n_mm);
-  sample_.feed_rate_mm_s = static_cast<float>(r.feed_rate_mm_s);
-  sample_.density_g_cc = static_cast<float>(r.density_g_cc);
-  sample_.world_from_tool = r.world_from_tool;
-  sample_.world_from_handle = r.world_from_handle;
-  if (rig_.model.mount) sample_.world_from_bone_rest = r.world_from_bone_rest;
-  sample_.spindle_on = r.spindle_on;
-  sample_.cortical_share = static_cast<float>(r.share[static_cast<size_t>(voxel::BoneClass::cortical)]);
+  fill_in(r, sample_);
   sample_.state = r.paused ? stream::SessionState::paused : stream::SessionState::running;
   batcher_.add(sample_);
 }

@@ -8,13 +8,15 @@
 
 namespace ream::test {
 
-/// Every field has a value of its own that depends on `seed` and its place only: the same on every machine.
+/// Every field that `revision` has gets a value of its own that depends on `seed` and its place only: the
+/// same on every machine.
 template <typename Op>
-Op example_op(uint64_t seed) {
+Op example_op(uint64_t seed, uint32_t revision = record::ops::newest_revision) {
   Op op;
   uint64_t place = 0;
   const auto number = [&] { return hash_combine(hash_combine(seed, Op::code), place); };
-  Op::visit_fields(op, [&]<typename Field>(Field& field, uint32_t) {
+  Op::visit_fields(op, [&]<typename Field>(Field& field, uint32_t since) {
+    if (since > revision) return;
     ++place;
     if constexpr (std::is_same_v<Field, std::string>)
       field = "text " + to_hex(number());
@@ -33,8 +35,8 @@ Op example_op(uint64_t seed) {
 }
 
 /// Like a hand at work: poses creep, flags and most figures change now and then, the hash always.
-inline record::ops::Tick example_tick(uint32_t tick) {
-  auto row = example_op<record::ops::Tick>(1 + tick / 40);
+inline record::ops::Tick example_tick(uint32_t tick, uint32_t revision = record::ops::newest_revision) {
+  auto row = example_op<record::ops::Tick>(1 + tick / 40, revision);
   const auto creep = static_cast<int32_t>(tick % 40);
   for (QuantisedPose* pose : {&row.world_from_handle, &row.grid_from_tool})
     for (int32_t& nm : pose->translation_nm) nm = nm / 4 + 25 * creep;

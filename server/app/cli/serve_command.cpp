@@ -10,6 +10,7 @@
 #include "app/data_folder.hpp"
 #include "app/interrupt.hpp"
 #include "app/reaming_session.hpp"
+#include "app/replay_session.hpp"
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -69,6 +70,9 @@ void serve(const Options& options, const GlobalOptions& global) {
   server_options.web_folder = web_folder(options.web);
   server_options.make_session = [house](const api::SessionRequest& request) {
     return std::make_unique<ReamingSession>(house, request);
+  };
+  server_options.make_replay = [house](const api::ReplayRequest& request) {
+    return std::make_unique<ReplaySession>(house, request);
   };
   server_options.prepare = [house] { ct::load_or_make_demo_case(house.data); };
   api::Server server(std::move(server_options));

@@ -105,6 +105,41 @@ class ContractTest : public ServerTest {
     expect_stream(path + "/stream", 403, foreign);
     expect_stream(all + "/nobody/stream", 404);
     expect_get(one + "/stream", path + "/stream", 426);
+    replays_of(id);
+  }
+
+  void replays_of(const std::string& ended) {
+    const std::string path = all + "/" + ended + "/replay", live = all + "/" + create();
+    expect_post(one + "/replay", path, 403, "", foreign);
+    expect_post(one + "/replay", all + "/nobody/replay", 404);
+    expect_post(one + "/replay", live + "/replay", 409);
+    replays.refuse = [] { throw Error(ErrorKind::invalid_input, "recording.ream is damaged"); };
+    expect_post(one + "/replay", path, 422);
+    replays.refuse = [] {};
+    expect_post(one + "/replay", path, 201);
+    const std::string id = json::parse(get(all).body).at("replays").at(0).at("id"), open = all + "/" + id;
+    expect_get(all, all, 200);
+    expect_get(one, open, 200);
+    expect_get(one + "/metrics", open + "/metrics", 200);
+    expect_stream(open + "/stream", 101);
+    expect_post(one + "/playback", open + "/playback", 200, R"({"playing": true, "speed": 4, "position_s": 2.5})");
+    expect_post(one + "/playback", open + "/playback", 400, "{");
+    expect_post(one + "/playback", open + "/playback", 403, "{}", foreign);
+    expect_post(one + "/playback", all + "/nobody/playback", 404, "{}");
+    expect_post(one + "/playback", live + "/playback", 404, "{}");
+    expect_post(one + "/playback", open + "/playback", 413,
+                std::string(options.listen.limits.body_bytes + 1, ' '));
+    expect_post(one + "/playback", open + "/playback", 415, "{}", {{"Content-Type", "text/plain"}});
+    expect_post(one + "/playback", open + "/playback", 422, R"({"position_s": 11})");
+    for (size_t i = 0; i < options.replays.open; ++i) {
+      expect_post(one + "/replay", path, 201);
+      replays.made(i + 1).set_unwatched_s(0.0);
+    }
+    expect_get(one, open, 404);
+    expect_post(one + "/replay", path, 503);
+    const std::string newest = json::parse(get(all).body).at("replays").at(0).at("id");
+    expect_post(one + "/stop", all + "/" + newest + "/stop", 200);
+    expect_get(one, all + "/" + newest, 404);
   }
 
   void too_many() {
@@ -174,6 +209,23 @@ TEST_F(ContractTest, TakesExactlyTheBodiesThatTheSchemaTakes) {
         R"({"case": 1, "script": true})", R"({"case": "planned", "script": "demo", "Case": "x"})"}) {
     const bool fits = checker.faults(schema, json::parse(body)).empty();
     EXPECT_EQ(post(all, body).status, fits ? 201 : 422) << body;
+  }
+}
+
+TEST_F(ContractTest, TakesExactlyTheChangesOfPlaybackThatTheSchemaTakes) {
+  start();
+  const std::string ended = create();
+  post(all + "/" + ended + "/stop");
+  const json made = json::parse(post(all + "/" + ended + "/replay").body);
+  const std::string path = all + "/" + made.at("id").get<std::string>() + "/playback";
+  const json& schema = contract.at("components").at("schemas").at("PlaybackChange");
+  for (const char* body :
+       {"{}", "[]", R"({"playing": true})", R"({"playing": 1})", R"({"playing": null})", R"({"speed": 0})",
+        R"({"speed": 16})", R"({"speed": 16.1})", R"({"speed": -1})", R"({"speed": "2"})",
+        R"({"position_s": 0})", R"({"position_s": 10})", R"({"position_s": -0.1})",
+        R"({"position_s": 1, "speed": 2, "playing": false})", R"({"position": 1})"}) {
+    const bool fits = checker.faults(schema, json::parse(body)).empty();
+    EXPECT_EQ(post(path, body).status, fits ? 200 : 422) << body;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "api/server.hpp"
+#include "support/fake_replay.hpp"
 #include "support/fake_session.hpp"
 #include "support/raw_http.hpp"
 #include "support/temporary_folder.hpp"
@@ -36,6 +37,7 @@ class ServerTest : public testing::Test {
     options.cases_folder = folder.path() / "cases";
     options.web_folder = folder.path() / "web";
     options.make_session = factory.function();
+    options.make_replay = replays.function();
   }
 
   void start() {
@@ -54,6 +56,7 @@ class ServerTest : public testing::Test {
 
   TemporaryFolder folder;
   FakeFactory factory;
+  FakeReplayFactory replays;
   api::ServerOptions options;
   std::unique_ptr<api::Server> server;
 };
