@@ -3,7 +3,9 @@
 #include <contract.hpp>
 #include <nlohmann/json.hpp>
 
+#include "api/annotation_resource.hpp"
 #include "api/case_resource.hpp"
+#include "api/replay_resource.hpp"
 #include "api/session_resource.hpp"
 #include "net/static_files.hpp"
 
@@ -26,12 +28,15 @@ void add_contract_route(net::Router& router) {
   });
 }
 
-net::Router router_of(const ServerOptions& options, SessionService& sessions, const Readiness& readiness) {
+net::Router router_of(const ServerOptions& options, SessionService& sessions, ReplayService& replays,
+                      const Readiness& readiness) {
   net::Router router;
   add_health_routes(router, readiness);
   add_contract_route(router);
   add_case_routes(router, options.cases_folder);
-  add_session_routes(router, sessions, readiness);
+  add_session_routes(router, sessions, replays, readiness);
+  add_annotation_routes(router, sessions);
+  add_replay_routes(router, sessions, replays, readiness);
   router.otherwise([files = net::StaticFiles(options.web_folder)](const net::Request& request) {
     return files.respond(request);
   });
@@ -41,8 +46,9 @@ net::Router router_of(const ServerOptions& options, SessionService& sessions, co
 }  // namespace
 
 Server::Server(ServerOptions options)
-    : sessions_(std::move(options.make_session), options.sessions),
-      router_(router_of(options, sessions_, readiness_)),
+    : sessions_(std::move(options.make_session), options.sessions, options.sessions_folder),
+      replays_(std::move(options.make_replay), options.replays),
+      router_(router_of(options, sessions_, replays_, readiness_)),
       listener_(router_, options.listen),
       readiness_(std::move(options.prepare)) {}
 
@@ -69,6 +75,7 @@ void Server::request_stop() {
 
 void Server::stop() {
   listener_.stop();
+  replays_.shut_down();
   sessions_.shut_down();
 }
 

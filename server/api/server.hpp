@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "api/readiness.hpp"
+#include "api/replay_service.hpp"
 #include "api/session_service.hpp"
 #include "net/listener.hpp"
 
@@ -15,8 +16,11 @@ struct ServerOptions {
   net::ListenOptions listen;
   std::filesystem::path cases_folder;
   std::filesystem::path web_folder;  ///< the built page; served under "/"
-  SessionFactory make_session;
+  std::filesystem::path sessions_folder;  ///< where sessions keep their folders
+  SessionMakers make_session;
   SessionLimits sessions;
+  ReplayFactory make_replay;
+  ReplayLimits replays;
   std::function<void()> prepare;  ///< run once in the background; /readyz is 503 until it is done
 };
 
@@ -48,6 +52,7 @@ class Server {
   // Order matters: nothing is prepared before the port is ours. stop() has ended the listener before any of
   // these goes.
   SessionService sessions_;
+  ReplayService replays_;
   net::Router router_;
   net::Listener listener_;
   Readiness readiness_;

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "api/replay_resource.hpp"
 #include "api/request_body.hpp"
 #include "core/error.hpp"
 
@@ -10,20 +11,23 @@ using nlohmann::json;
 namespace {
 
 constexpr double largest_force_scale = 1000.0;
+constexpr size_t longest_reamer = 100;
 const std::string base = "/api/v1/sessions";
 
 json to_json(const SessionRecord& record) {
   const SessionStatus& status = record.status;
   const TimingSummary& tick = status.tick_us;
   return {{"id", record.request.id},
+          {"kind", "session"},
           {"case", record.request.case_id},
           {"script", record.request.script},
           {"state", to_text(status.state)},
-          {"created_utc", record.created_utc},
+          {"created_utc", record.request.created_utc},
           {"tick", status.tick},
           {"duration_s", status.duration_s},
           {"force_scale", status.force_scale},
           {"fault", status.fault.empty() ? json(nullptr) : json(status.fault)},
+          {"streamable", record.streamable},
           {"loop",
            {{"mean_us", tick.mean_us},
             {"p50_us", tick.p50_us},
@@ -47,13 +51,27 @@ net::Response create(SessionService& service, const Readiness& readiness, const 
   return response;
 }
 
-net::Response list(const SessionService& service) {
+net::Response list(const SessionService& service, const ReplayService& replays) {
   json sessions = json::array();
   for (const SessionRecord& record : service.list()) sessions.push_back(to_json(record));
-  return net::json_response(200, {{"sessions", std::move(sessions)}});
+  json open_replays = json::array();
+  for (const ReplayRecord& record : replays.list()) open_replays.push_back(to_json(record));
+  return net::json_response(200,
+                            {{"sessions", std::move(sessions)}, {"replays", std::move(open_replays)}});
 }
 
 const std::string& id_of(const net::Request& request) { return request.parameters.at("id"); }
+
+net::Response resume(SessionService& service, const Readiness& readiness, const net::Request& request) {
+  std::string reamer;
+  if (!request.body.empty()) {
+    RequestBody body(request);
+    reamer = body.words("reamer", 0, longest_reamer);
+    body.finish();
+  }
+  readiness.require_prepared();
+  return net::json_response(200, to_json(service.resume(id_of(request), reamer)));
+}
 
 /// For slow links: the surface with one sample every 2 or 4 voxels.
 int stride_of(const net::Request& request) {
@@ -66,23 +84,32 @@ int stride_of(const net::Request& request) {
 
 }  // namespace
 
-void add_session_routes(net::Router& router, SessionService& service, const Readiness& readiness) {
-  router.on("GET", base, [&service](const net::Request&) { return list(service); });
+void add_session_routes(net::Router& router, SessionService& service, ReplayService& replays,
+                        const Readiness& readiness) {
+  router.on("GET", base, [&](const net::Request&) { return list(service, replays); });
   router.on("POST", base, [&](const net::Request& request) { return create(service, readiness, request); });
-  router.on("GET", base + "/{id}", [&service](const net::Request& request) {
-    return net::json_response(200, to_json(service.get(id_of(request))));
+  router.on("GET", base + "/{id}", [&](const net::Request& request) {
+    const std::string& id = id_of(request);
+    return net::json_response(200, replays.has(id) ? to_json(replays.get(id)) : to_json(service.get(id)));
   });
   router.on("POST", base + "/{id}/start", [&service](const net::Request& request) {
     return net::json_response(200, to_json(service.start(id_of(request))));
   });
-  router.on("POST", base + "/{id}/stop", [&service](const net::Request& request) {
-    return net::json_response(200, to_json(service.stop(id_of(request))));
+  router.on("POST", base + "/{id}/stop", [&](const net::Request& request) {
+    const std::string& id = id_of(request);
+    return net::json_response(200, replays.has(id) ? to_json(replays.stop(id)) : to_json(service.stop(id)));
   });
-  router.on("GET", base + "/{id}/metrics", [&service](const net::Request& request) {
-    return net::json_response(200, service.metrics(id_of(request)));
+  router.on("POST", base + "/{id}/resume", [&](const net::Request& request) {
+    return resume(service, readiness, request);
   });
-  router.on_websocket(base + "/{id}/stream", [&service](const net::Request& request) {
-    return service.subscribe(id_of(request), stride_of(request));
+  router.on("GET", base + "/{id}/metrics", [&](const net::Request& request) {
+    const std::string& id = id_of(request);
+    return net::json_response(200, replays.has(id) ? replays.metrics(id) : service.metrics(id));
+  });
+  router.on_websocket(base + "/{id}/stream", [&](const net::Request& request) {
+    const std::string& id = id_of(request);
+    return replays.has(id) ? replays.subscribe(id, stride_of(request))
+                           : service.subscribe(id, stride_of(request));
   });
 }
 

@@ -1,11 +1,14 @@
 #pragma once
 #include "api/readiness.hpp"
+#include "api/replay_service.hpp"
 #include "api/session_service.hpp"
 #include "net/router.hpp"
 
 namespace ream::api {
 
-/// /api/v1/sessions and all below it. `service` and `readiness` outlive the router.
-void add_session_routes(net::Router& router, SessionService& service, const Readiness& readiness);
+/// /api/v1/sessions and all below it; ids of replays are answered by `replays`. What is given outlives the
+/// router.
+void add_session_routes(net::Router& router, SessionService& service, ReplayService& replays,
+                        const Readiness& readiness);
 
 }  // namespace ream::api

@@ -4,8 +4,12 @@
 
 namespace ream::record {
 
+/// What a device said in a recorded tick, as it was used.
+device::DeviceInput input_of(const ops::Tick& tick);
+
 /// A recording as a device: gives handle poses and buttons of a range of ticks as they were used, in memory
-/// before the first tick. What it is told is ignored.
+/// before the first tick (52 bytes each). What it is told is ignored. A state that it drives needs
+/// handle_given, and failed_over_tick where the recording has one.
 class ReplayDevice final : public device::HapticDevice {
  public:
   /// Ticks first..last-1. Error invalid_input for a damaged chunk among them.
@@ -22,7 +26,7 @@ class ReplayDevice final : public device::HapticDevice {
  private:
   struct Cause {
     QuantisedPose world_from_handle;
-    bool spindle_on = false, paused = false;
+    uint32_t flags = 0;
   };
   std::vector<Cause> causes_;
   size_t next_ = 0;

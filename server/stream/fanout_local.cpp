@@ -21,6 +21,12 @@ void LocalFanout::publish_hello(Message hello) {
   put_to_all(0, [&](Mailbox& mailbox) { mailbox.put_hello(hello_); });
 }
 
+void LocalFanout::publish_tool(Message hello, Message change) {
+  const std::lock_guard lock(mutex_);
+  hello_ = std::move(hello);
+  put_to_all(0, [&](Mailbox& mailbox) { mailbox.put_tool(change); });
+}
+
 void LocalFanout::publish_block(SharedBlock block) {
   const std::lock_guard lock(mutex_);
   auto& blocks = pictures_[block->stride].blocks;

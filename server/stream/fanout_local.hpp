@@ -10,14 +10,14 @@ namespace ream::stream {
 class LocalFanout final : public Fanout {
  public:
   void publish_hello(Message hello) override;
+  void publish_tool(Message hello, Message change) override;
   void publish_block(SharedBlock block) override;
   void publish_picture_complete(int stride) override;
   void publish_telemetry(SharedTelemetry batch) override;
   bool wants(int stride) const override;
   std::shared_ptr<Mailbox> subscribe(std::function<void()> notify, int stride) override;
 
-  /// Mailboxes still held by somebody.
-  size_t viewers() const;
+  size_t viewers() const override;
 
  private:
   struct Picture {

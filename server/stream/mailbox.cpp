@@ -7,6 +7,7 @@ namespace ream::stream {
 Message Mailbox::next() {
   const std::lock_guard lock(mutex_);
   if (hello_) return std::exchange(hello_, nullptr);
+  if (tool_) return std::exchange(tool_, nullptr);
   const bool mesh_waits = !order_.empty() || picture_ == Picture::sending;
   if (!telemetry_.empty() && !(mesh_waits && telemetry_had_its_turn_)) {
     telemetry_had_its_turn_ = true;
@@ -44,6 +45,12 @@ Message Mailbox::next_mesh() {
 void Mailbox::put_hello(Message hello) {
   std::unique_lock lock(mutex_);
   hello_ = std::move(hello);
+  wake(std::move(lock));
+}
+
+void Mailbox::put_tool(Message change) {
+  std::unique_lock lock(mutex_);
+  tool_ = std::move(change);
   wake(std::move(lock));
 }
 

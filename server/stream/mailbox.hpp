@@ -26,6 +26,8 @@ class Mailbox {
 
   /// The fanout's side.
   void put_hello(Message hello);
+  /// Goes before any telemetry that was put after it; the newest takes the place of one that still waits.
+  void put_tool(Message change);
   void put_block(SharedBlock block);
   void put_telemetry(SharedTelemetry batch);
   /// The blocks put so far complete the first whole picture: the message with the last of them says so.
@@ -40,7 +42,7 @@ class Mailbox {
   std::mutex mutex_;
   bool asleep_ = false;  ///< next() found nothing, notify is owed
   bool telemetry_had_its_turn_ = false;
-  Message hello_;
+  Message hello_, tool_;
   std::unordered_map<uint32_t, SharedBlock> newest_;
   std::deque<uint32_t> order_;  ///< keys of newest_, in order of first arrival
   enum class Picture { incomplete, sending, sent } picture_ = Picture::incomplete;

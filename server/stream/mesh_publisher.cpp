@@ -110,12 +110,11 @@ void MeshPublisher::begin_pictures() {
 }
 
 void MeshPublisher::begin_update() {
-  uint32_t newest = 0;
+  if (!waiting_.empty()) tick_ = waiting_.newest_tick();
   for (const voxel::BrickImage& image : waiting_.images()) {
     const uint8_t* shown = replica_.brick(image.brick);
     if (std::memcmp(shown, image.coverage, voxel::brick_voxels) == 0) continue;
     const VoxelBox box = difference_box(shown, image.coverage);
-    newest = std::max(newest, image.tick);
     replica_.apply(image);
     const Vec3i origin = replica_.grid().brick_coordinates(image.brick) * voxel::brick_edge;
     for (Level& level : levels_) {
@@ -124,7 +123,6 @@ void MeshPublisher::begin_update() {
       surface::for_each_block(layout_, range, [&level](uint32_t block) { level.touch(block); });
     }
   }
-  if (newest > 0) tick_ = newest;  // in a replay it may be an earlier one
   waiting_.clear();
 }
 

@@ -39,15 +39,22 @@ flatbuffers::Offset<flatbuffers::Vector<float>> column(FlatBufferBuilder& builde
   return builder.CreateVector<float>(batch.samples.size(), [&](size_t i) { return batch.samples[i].*field; });
 }
 
+/// A mesh as the wire has it: three floats a vertex, three indices a triangle.
+struct FlatMesh {
+  std::vector<float> positions;
+  std::vector<uint32_t> indices;
+
+  explicit FlatMesh(const TriangleMesh& mesh) {
+    for (const Vec3f& p : mesh.vertices_mm) positions.insert(positions.end(), {p.x(), p.y(), p.z()});
+    for (const auto& t : mesh.triangles) indices.insert(indices.end(), t.begin(), t.end());
+  }
+};
+
 }  // namespace
 
 Message hello_message(const HelloInfo& info) {
   FlatBufferBuilder builder;
-  const TriangleMesh& tool = info.tool;
-  std::vector<float> positions;
-  std::vector<uint32_t> indices;
-  for (const Vec3f& p : tool.vertices_mm) positions.insert(positions.end(), {p.x(), p.y(), p.z()});
-  for (const auto& t : tool.triangles) indices.insert(indices.end(), t.begin(), t.end());
+  const FlatMesh tool(info.tool);
   const Vec3i& dims = info.grid.dims;
   const wire::Vec3 spacing = to_wire(info.grid.spacing_mm), entry = to_wire(info.axis_entry_mm),
                    direction = to_wire(info.axis_direction);
@@ -57,10 +64,20 @@ Message hello_message(const HelloInfo& info) {
       builder.CreateString(info.case_id), builder.CreateString(info.case_name),
       builder.CreateString(info.side),
       builder.CreateVector(std::vector<int32_t>{dims.x(), dims.y(), dims.z()}), &spacing, &world_from_grid,
-      surface::block_edge, builder.CreateVector(positions), builder.CreateVector(indices),
+      surface::block_edge, builder.CreateVector(tool.positions), builder.CreateVector(tool.indices),
       builder.CreateString(info.tool_name), &entry, &direction, static_cast<float>(info.planned_depth_mm),
-      static_cast<float>(info.force_scale), static_cast<float>(info.force_max_n));
+      static_cast<float>(info.force_scale), static_cast<float>(info.force_max_n),
+      info.replay_of.empty() ? 0 : builder.CreateString(info.replay_of), info.duration_ticks);
   return finished(builder, wire::Body::Hello, hello);
+}
+
+Message tool_message(const TriangleMesh& mesh, const std::string& tool_name) {
+  FlatBufferBuilder builder;
+  const FlatMesh tool(mesh);
+  const auto change =
+      wire::CreateToolChange(builder, builder.CreateVector(tool.positions), builder.CreateVector(tool.indices),
+                             builder.CreateString(tool_name));
+  return finished(builder, wire::Body::ToolChange, change);
 }
 
 Message mesh_message(std::span<const SharedBlock> blocks, bool key_complete) {
@@ -83,6 +100,10 @@ Message telemetry_message(const TelemetryBatch& batch, uint32_t dropped) {
   const TelemetrySample& newest = batch.samples.back();
   const wire::Pose tool = to_wire(newest.world_from_tool), handle = to_wire(newest.world_from_handle);
   const wire::Pose bone = to_wire(newest.world_from_bone_rest.value_or(Pose{}));
+  flatbuffers::Offset<wire::Playback> playback;
+  if (newest.playback)
+    playback = wire::CreatePlayback(builder, newest.playback->position_ticks, newest.playback->speed,
+                                    newest.playback->playing, newest.playback->jump);
   const size_t fault_length = strnlen(newest.fault.data(), newest.fault.size());
   const auto telemetry = wire::CreateTelemetry(
       builder, batch.samples.front().tick, batch.tick_stride,
@@ -93,7 +114,8 @@ Message telemetry_message(const TelemetryBatch& batch, uint32_t dropped) {
       column(builder, batch, &TelemetrySample::density_g_cc), newest.tick, &tool, &handle, newest.spindle_on,
       static_cast<wire::SessionState>(newest.state), newest.depth_mm, newest.removed_volume_mm3,
       newest.cortical_share, dropped, newest.tick_mean_us, newest.tick_p99_us, newest.ticks_missed,
-      builder.CreateString(newest.fault.data(), fault_length), newest.world_from_bone_rest ? &bone : nullptr);
+      builder.CreateString(newest.fault.data(), fault_length), newest.world_from_bone_rest ? &bone : nullptr,
+      playback);
   return finished(builder, wire::Body::Telemetry, telemetry);
 }
 

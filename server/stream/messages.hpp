@@ -32,9 +32,14 @@ struct HelloInfo {
   double planned_depth_mm = 0;
   double force_scale = 1;  ///< simulated N per hand N
   double force_max_n = 0;  ///< hand N that the device may render
+  std::string replay_of;   ///< session that was recorded; empty: this is live
+  uint32_t duration_ticks = 0;  ///< of the recording
 };
 
 Message hello_message(const HelloInfo& info);
+
+/// Another tool is in the hand; for viewers who had their hello.
+Message tool_message(const TriangleMesh& tool, const std::string& tool_name);
 
 /// `key_complete`: this ends the first whole picture of a late joiner.
 Message mesh_message(std::span<const SharedBlock> blocks, bool key_complete);

@@ -35,6 +35,11 @@ void TelemetryBatcher::flush() {
   fanout_.publish_telemetry(std::make_shared<const TelemetryBatch>(std::exchange(batch_, std::move(next))));
 }
 
+void TelemetryBatcher::jump() {
+  flush();
+  any_ = false;
+}
+
 void TelemetryBatcher::poll(TelemetryRing& ring, int64_t now_ns) {
   TelemetrySample sample;
   while (ring.try_pop(sample)) add(sample);

@@ -19,7 +19,17 @@ enum class SessionState : uint8_t {
   paused = 2,
   finished = 3,
   stopped = 4,
-  fault = 5
+  fault = 5,
+  interrupted = 6,
+  replaying = 7
+};
+
+/// As Playback of proto/stream.fbs.
+struct Playback {
+  uint32_t position_ticks = 0;
+  float speed = 1;
+  bool playing = false;
+  uint32_t jump = 0;
 };
 
 /// One tick as viewers see it. World frame, mm; forces N, torque N mm. No heap inside, so it may pass through
@@ -39,6 +49,7 @@ struct TelemetrySample {
   float cortical_share = 0;
   float tick_mean_us = 0, tick_p99_us = 0;  ///< health of the loop
   uint32_t ticks_missed = 0;
+  std::optional<Playback> playback;         ///< in replays only
   std::array<char, 160> fault{};  ///< words, zero-terminated, when state is fault
 };
 
@@ -66,6 +77,8 @@ class TelemetryBatcher {
   void publish_if_due(int64_t now_ns);
   /// Publishes what was collected, now: the last samples of a session are not kept back.
   void flush();
+  /// Publishes what was collected; the next sample may be of any tick and nothing between is lost.
+  void jump();
   /// Drains the ring, then publish_if_due.
   void poll(TelemetryRing& ring, int64_t now_ns);
 

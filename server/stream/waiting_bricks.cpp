@@ -51,12 +51,14 @@ void WaitingBricks::put(const voxel::BrickImage& image, const uint8_t* shown, in
     images_[known->second] = image;
   }
   most_moved_ = std::max(most_moved_, moved);
+  newest_tick_ = std::max(newest_tick_, image.tick);
 }
 
 void WaitingBricks::clear() {
   images_.clear();
   place_.clear();
   most_moved_ = 0;
+  newest_tick_ = 0;
 }
 
 }  // namespace ream::stream

@@ -25,6 +25,8 @@ class WaitingBricks {
 
   bool empty() const { return images_.empty(); }
   const std::vector<voxel::BrickImage>& images() const { return images_; }
+  /// Of them; in a replay it may be earlier than what is shown.
+  uint32_t newest_tick() const { return newest_tick_; }
   /// Coverage levels by which any voxel differed from what is shown, at most.
   int most_moved() const { return most_moved_; }
   /// When the first of them was put.
@@ -34,6 +36,7 @@ class WaitingBricks {
   std::vector<voxel::BrickImage> images_;
   std::unordered_map<uint32_t, size_t> place_;
   int most_moved_ = 0;
+  uint32_t newest_tick_ = 0;
   int64_t since_ns_ = 0;
 };
 

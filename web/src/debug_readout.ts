@@ -13,6 +13,8 @@ export interface DebugReadout {
   serverEpoch: string | null;
   lastTick: number | null;
   traceRevision: number;
+  replayOf: string | null;
+  positionTicks: number | null;
 }
 
 declare global {
@@ -34,6 +36,8 @@ export function publishDebugReadout(store: Store, scene: BoneScene): void {
       serverEpoch: store.hello.value?.serverEpoch ?? null,
       lastTick: store.telemetry.value?.tick ?? null,
       traceRevision: store.traceRevision.value,
+      replayOf: store.hello.value?.replayOf ?? null,
+      positionTicks: store.playback.value?.positionTicks ?? null,
     }),
   });
 }

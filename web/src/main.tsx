@@ -7,6 +7,7 @@ import { render } from 'preact';
 import { publishDebugReadout } from './debug_readout';
 import { LivePage } from './pages/live_page';
 import { BoneScene } from './scene/scene';
+import { addressOfReplay, replayInAddress } from './state/replay_address';
 import { Store } from './state/store';
 import { Watcher } from './state/watcher';
 import { Api } from './wire/api';
@@ -22,7 +23,18 @@ function main(root: HTMLElement): void {
   effect(() => scene.setToolShown(store.reamerShown.value));
   publishDebugReadout(store, scene);
   render(<LivePage store={store} watcher={watcher} scene={scene} />, root);
+  const named = replayInAddress(window.location.hash);
+  if (named !== null) store.replayId.value = named;
   watcher.start();
+  effect(() => {
+    const { pathname, search } = window.location;
+    window.history.replaceState(null, '', pathname + search + addressOfReplay(store.replayId.value));
+  });
+  window.addEventListener('hashchange', () => {
+    const replayId = replayInAddress(window.location.hash);
+    if (replayId === null) watcher.leaveReplay();
+    else watcher.watchReplay(replayId);
+  });
 }
 
 const root = document.getElementById('app');

@@ -17,6 +17,8 @@ export const words = {
     finished: 'Finished',
     stopped: 'Stopped',
     fault: 'Fault',
+    interrupted: 'Interrupted',
+    replaying: 'Replay',
   } satisfies Record<SessionState, string>,
   stateHint: {
     created: 'The bone before reaming.',
@@ -25,9 +27,37 @@ export const words = {
     finished: 'The demo has ended. This is the bone as it was left.',
     stopped: 'The session was stopped. This is the bone as it was left.',
     fault: 'The session ended with a fault; the hand was sent no force.',
+    interrupted: 'The server ended in mid-session. What was recorded up to then is kept.',
+    replaying: 'This is a recording.',
   } satisfies Record<SessionState, string>,
 
   stateUnknown: (state: string) => `What the session is doing is not known; when last heard of it was ${state}.`,
+
+  replay: 'Replay',
+  replayBadge: 'Replay – not live',
+  linkReplay: 'Replay',
+  backToLive: 'Back to live',
+  replayOf: (id: string) => (id === '' ? 'Opening the recording' : `Recording of session ${id}`),
+  recordedAs: (state: string) => `It ended as: ${state}.`,
+  replayGone: 'The replay has ended. This is the simulator as it is now.',
+  replaySession: (id: string) => `Replay session ${id}`,
+  sessions: (count: number) => `Sessions (${count})`,
+  noSessions: 'None yet.',
+  playback: 'Playback',
+  play: 'Play',
+  rest: 'Pause',
+  moment: 'Moment of the recording',
+  momentOf: (position: string, duration: string) => `${position} of ${duration}`,
+  speed: 'Speed',
+  replayed: 'replay',
+  mark: (kind: string) =>
+    kind === 'annotation'
+      ? 'Remark'
+      : kind === 'resume'
+        ? 'Resumed'
+        : kind === 'reamer'
+          ? 'Reamer changed'
+          : kind.charAt(0).toUpperCase() + kind.slice(1),
 
   linkConnecting: 'Connecting',
   linkLive: 'Live',

@@ -45,7 +45,7 @@ function answerApi(
   const call = `${request.method} ${action ?? (id === undefined ? 'all' : 'one')}`;
   if (!(request.url ?? '').startsWith('/api/v1/sessions')) return false;
   if (call === 'GET all') {
-    json(response, 200, { sessions: sessions.map((s) => s.describe()).reverse() });
+    json(response, 200, { sessions: sessions.map((s) => s.describe()).reverse(), replays: [] });
     return true;
   }
   if (call === 'POST all') {

@@ -39,6 +39,7 @@ export class FakeSession {
     const loop = { mean_us: 184, p50_us: 170, p99_us: 391, p999_us: 700, max_us: 900, missed: 0 };
     return {
       id: this.id,
+      kind: 'session',
       case: 'demo',
       script: 'demo',
       state: SessionState[this.state],

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "api/server.hpp"
+#include "support/fake_replay.hpp"
 #include "support/fake_session.hpp"
 #include "support/raw_http.hpp"
 #include "support/temporary_folder.hpp"
@@ -35,7 +36,9 @@ class ServerTest : public testing::Test {
     options.listen.port = 0;
     options.cases_folder = folder.path() / "cases";
     options.web_folder = folder.path() / "web";
-    options.make_session = factory.function();
+    options.make_session = factory.makers();
+    options.sessions_folder = folder.path() / "sessions";
+    options.make_replay = replays.function();
   }
 
   void start() {
@@ -54,6 +57,7 @@ class ServerTest : public testing::Test {
 
   TemporaryFolder folder;
   FakeFactory factory;
+  FakeReplayFactory replays;
   api::ServerOptions options;
   std::unique_ptr<api::Server> server;
 };

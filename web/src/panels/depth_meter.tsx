@@ -8,7 +8,8 @@ const reachedWithinMm = 0.05;
 /** Reaming depth against the plan. */
 export function DepthMeter({ store }: { store: Store }) {
   const plannedMm = store.hello.value?.plannedDepthMm ?? 0;
-  const depthMm = store.telemetry.value?.depthMm ?? null;
+  const toldMm = store.telemetry.value?.depthMm ?? NaN;
+  const depthMm = Number.isFinite(toldMm) ? toldMm : null;
   const share = plannedMm > 0 && depthMm !== null ? Math.min(Math.max(depthMm / plannedMm, 0), 1) : 0;
   const pastMm = depthMm === null ? 0 : depthMm - plannedMm;
   const past = plannedMm > 0 && pastMm > reachedWithinMm;

@@ -30,7 +30,9 @@ export function ForcePlot({ store }: { store: Store }) {
           <span data-testid="thrust" class="big">
             {shown}
           </span>{' '}
-          N{!store.live.value && newest !== null && <span class="not-live"> {words.notLive}</span>}
+          N{newest !== null && !store.live.value && (
+            <span class="not-live"> {store.upToDate.value ? words.replayed : words.notLive}</span>
+          )}
         </p>
       </div>
       <div

@@ -14,6 +14,7 @@ const linkWords: Record<LinkState['kind'], string> = {
 export function Header({ store }: { store: Store }) {
   const hello = store.hello.value;
   const link = store.link.value.kind;
+  const look = link === 'live' && store.replaying.value ? 'replay' : link;
   return (
     <header class="header">
       <h1 class="product">
@@ -25,9 +26,9 @@ export function Header({ store }: { store: Store }) {
           <span>{hello.caseName || hello.caseId}</span>
         </p>
       )}
-      <p class={`link link-${link}`} role="status" data-testid="link-state" data-link={link}>
+      <p class={`link link-${look}`} role="status" data-testid="link-state" data-link={link}>
         <span class="link-dot" aria-hidden="true" />
-        {linkWords[link]}
+        {look === 'replay' ? words.linkReplay : linkWords[link]}
       </p>
     </header>
   );

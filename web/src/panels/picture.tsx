@@ -25,10 +25,15 @@ export function Picture({ store, scene }: { store: Store; scene: BoneScene }) {
     return () => canvas.remove();
   }, [scene]);
 
-  const stale = store.hasPicture.value && !store.live.value;
+  const stale = store.hasPicture.value && !store.upToDate.value;
   return (
     <main class={stale ? 'picture stale' : 'picture'} data-testid="picture" data-stale={stale}>
       <div class="canvas-place" ref={place} />
+      {store.replaying.value && (
+        <p class="replay-badge" data-testid="replay-badge">
+          {words.replayBadge}
+        </p>
+      )}
       <LinkNotice store={store} />
       <div class="views" role="group" aria-label={words.view}>
         {views.map(([view, label]) => (

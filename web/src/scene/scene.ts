@@ -1,6 +1,6 @@
 import { NeutralToneMapping, Scene, WebGLRenderer } from 'three';
 
-import type { Hello, MeshDelta, Pose } from '../wire/messages';
+import type { Hello, MeshDelta, Pose, ToolMesh } from '../wire/messages';
 import { BoneView } from './bone_view';
 import { CameraRig, type ViewName } from './camera_rig';
 import { OperatingLights } from './lights';
@@ -57,6 +57,12 @@ export class BoneScene {
 
   apply(mesh: MeshDelta): void {
     this.bone.apply(mesh);
+    this.invalidate();
+  }
+
+  /** Another reamer from here on; drawn once its pose is told. */
+  setTool(tool: ToolMesh): void {
+    this.tool.setMesh(tool);
     this.invalidate();
   }
 

@@ -5,6 +5,11 @@ export function isActive(session: Pick<Session, 'state'>): boolean {
   return session.state === 'running' || session.state === 'paused';
 }
 
+/** Whether a session has ended after something was recorded. */
+export function canBeReplayed(session: Pick<Session, 'state' | 'tick'>): boolean {
+  return session.state !== 'created' && !isActive(session) && session.tick > 0;
+}
+
 /**
  * The session to watch, or undefined when one should be created: the watched one while it is under way, else the newest
  * under way, else the watched one, else the newest of all. `unstreamable` holds ids that gave no stream.

@@ -1,8 +1,8 @@
 import { computed, signal } from '@preact/signals';
 
-import type { Metrics } from '../wire/api';
+import type { Mark, Metrics, Session } from '../wire/api';
 import type { LinkState } from '../wire/link';
-import type { Hello, SessionState, Telemetry } from '../wire/messages';
+import type { Hello, Playback, SessionState, Telemetry } from '../wire/messages';
 import { ForceTrace } from './force_trace';
 
 /** Length of the force plot, seconds of session time. */
@@ -33,11 +33,23 @@ export class Store {
 
   readonly reamerShown = signal(true);
 
+  /** All sessions that the server knows, newest first. */
+  readonly sessions = signal<readonly Session[]>([]);
+  /** The replay that is to be watched; null: what is live. */
+  readonly replayId = signal<string | null>(null);
+  /** Where the watched replay stands; null while none is watched. */
+  readonly playback = signal<Playback | null>(null);
+  readonly marks = signal<readonly Mark[]>([]);
+
   readonly trace = new ForceTrace(plotSeconds * 1000 + 1000);
   /** Grows when the trace changes. */
   readonly traceRevision = signal(0);
 
+  /** Whether what is shown is a recording, or will be. */
+  readonly replaying = computed(() => this.replayId.value !== null || (this.hello.value?.replayOf ?? '') !== '');
+  /** Whether what is shown is all that the stream has told, of the present or of a recording. */
+  readonly upToDate = computed(() => this.link.value.kind === 'live' && this.pictureComplete.value);
   /** Whether what is shown is the present state of the simulator. */
-  readonly live = computed(() => this.link.value.kind === 'live' && this.pictureComplete.value);
+  readonly live = computed(() => this.upToDate.value && !this.replaying.value);
   readonly active = computed(() => this.sessionState.value === 'running' || this.sessionState.value === 'paused');
 }

@@ -1,26 +1,31 @@
 import { batch } from '@preact/signals';
 
-import { ApiError, type Api } from '../wire/api';
+import { ApiError, type Api, type PlaybackChange, type Session } from '../wire/api';
 import { Link, type LinkState } from '../wire/link';
-import type { Hello, MeshDelta, StreamMessage, Telemetry } from '../wire/messages';
+import type { Hello, MeshDelta, StreamMessage, Telemetry, ToolMesh } from '../wire/messages';
 import type { StreamSocket } from '../wire/stream_socket';
+import { words } from '../words';
 import { chooseSession, isActive } from './choose_session';
+import { Scrubber } from './scrubber';
 import type { Store } from './store';
 
 /** Where pictures go. */
 export interface Picture {
   begin(hello: Hello): void;
   apply(mesh: MeshDelta): void;
+  setTool(tool: ToolMesh): void;
 }
 
 const idlePollMs = 2500;
 
 /**
  * Watches one session at a time: finds it, follows its stream into the store and the picture, and finds another when
- * it is gone or a newer one runs. Carries out what the user asks for.
+ * it is gone or a newer one runs. Watches a replay instead while one is wanted. Carries out what the user asks for.
  */
 export class Watcher {
   private readonly link: Link;
+  /** Goes to moments of the watched replay. */
+  readonly scrubber: Scrubber;
   private readonly unstreamable = new Set<string>();
   /** A stream was asked for and has not said hello. */
   private awaitingHello = false;
@@ -38,10 +43,15 @@ export class Watcher {
       onState: (state) => this.onLink(state),
       onMessage: (message) => this.onMessage(message),
     });
+    this.scrubber = new Scrubber(
+      (positionS) => this.changeReplay({ position_s: positionS }),
+      (error) => this.tell(error),
+    );
   }
 
   start(): void {
     this.link.connect();
+    void this.readSessions();
     setInterval(() => void this.lookForNewer(), idlePollMs);
   }
 
@@ -66,6 +76,40 @@ export class Watcher {
     });
   }
 
+  /** Opens the recording of a session and watches it. */
+  async openReplay(sessionId: string): Promise<void> {
+    await this.carryOut(async () => this.watchReplay((await this.api.openReplay(sessionId)).id));
+  }
+
+  /** Watches a replay that is open, perhaps by somebody else's hand. */
+  watchReplay(replayId: string): void {
+    if (replayId === this.store.replayId.value) return;
+    this.store.replayId.value = replayId;
+    this.link.connect();
+  }
+
+  /** Back to what is live. The replay stays open for others. */
+  leaveReplay(): void {
+    if (this.store.replayId.value === null) return;
+    batch(() => {
+      this.store.replayId.value = null;
+      this.store.sessionId.value = null;
+      this.store.playback.value = null;
+      this.store.marks.value = [];
+    });
+    this.link.connect();
+  }
+
+  /** Plays, rests or changes the speed of the watched replay. */
+  async play(change: PlaybackChange): Promise<void> {
+    await this.changeReplay(change).catch((error: unknown) => this.tell(error));
+  }
+
+  private async changeReplay(change: PlaybackChange): Promise<void> {
+    const id = this.store.replayId.value;
+    if (id !== null) await this.api.changePlayback(id, change);
+  }
+
   private async startNew() {
     return this.api.start((await this.api.createDemo()).id);
   }
@@ -86,15 +130,25 @@ export class Watcher {
     try {
       await action();
     } catch (error) {
-      this.store.problem.value = error instanceof Error ? error.message : String(error);
+      this.tell(error);
     } finally {
       this.store.busy.value = false;
     }
   }
 
+  private tell(error: unknown): void {
+    this.store.problem.value = error instanceof Error ? error.message : String(error);
+  }
+
   private async findStream(): Promise<string> {
     this.awaitingHello = false;
+    const replayId = this.store.replayId.value;
+    if (replayId !== null) {
+      const stream = await this.findReplay(replayId);
+      if (stream !== null) return stream;
+    }
     const sessions = await this.api.sessions();
+    this.store.sessions.value = sessions;
     const session =
       chooseSession(sessions, this.store.sessionId.value, this.unstreamable) ?? (await this.api.createDemo());
     batch(() => {
@@ -104,6 +158,28 @@ export class Watcher {
     });
     this.awaitingHello = true;
     return this.api.streamUrl(session.id);
+  }
+
+  /** Null when the replay is gone; then what is live is to be watched. */
+  private async findReplay(replayId: string): Promise<string | null> {
+    try {
+      const replay = await this.api.replay(replayId);
+      batch(() => {
+        this.store.sessionId.value = replay.id;
+        this.store.sessionState.value = 'replaying';
+        this.store.marks.value = replay.marks;
+      });
+      return this.api.streamUrl(replay.id);
+    } catch (error) {
+      if (!(error instanceof ApiError) || error.status !== 404) throw error;
+      batch(() => {
+        this.store.replayId.value = null;
+        this.store.sessionId.value = null;
+        this.store.playback.value = null;
+        this.store.problem.value = words.replayGone;
+      });
+      return null;
+    }
   }
 
   private onLink(state: LinkState): void {
@@ -137,9 +213,17 @@ export class Watcher {
           return;
         case 'telemetry':
           return this.onTelemetry(message.telemetry);
+        case 'tool':
+          return this.picture.setTool(message.tool);
       }
     });
-    this.link.expectTraffic(this.store.telemetry.value !== null && this.store.sessionState.value === 'running');
+    const state = this.store.sessionState.value;
+    if (state === 'stopped' && this.store.playback.value !== null && this.store.replayId.value !== null) {
+      this.leaveReplay();
+      this.store.problem.value = words.replayGone;
+      return;
+    }
+    this.link.expectTraffic(this.store.telemetry.value !== null && (state === 'running' || state === 'replaying'));
   }
 
   private onHello(hello: Hello): void {
@@ -151,6 +235,7 @@ export class Watcher {
       this.store.trace.clear();
       ++this.store.traceRevision.value;
       this.store.telemetry.value = null;
+      this.store.playback.value = null;
       this.store.metrics.value = null;
     }
     this.store.hello.value = hello;
@@ -160,12 +245,18 @@ export class Watcher {
   }
 
   private onTelemetry(telemetry: Telemetry): void {
+    if (telemetry.playback?.jump !== this.store.playback.value?.jump) {
+      this.store.trace.clear();
+      ++this.store.traceRevision.value;
+    }
     if (telemetry.thrustN.length > 0) {
       this.store.trace.append(telemetry.firstTick, telemetry.tickStride, telemetry.thrustN);
       ++this.store.traceRevision.value;
     }
     const ended = this.store.sessionState.value !== telemetry.state;
     this.store.telemetry.value = telemetry;
+    this.store.playback.value = telemetry.playback;
+    if (telemetry.playback !== null) this.scrubber.streamTold();
     this.store.sessionState.value = telemetry.state;
     if (ended) void this.readMetrics();
   }
@@ -174,7 +265,7 @@ export class Watcher {
   private async readMetrics(): Promise<void> {
     const id = this.store.sessionId.value;
     const state = this.store.sessionState.value;
-    if (id === null || !(state === 'finished' || state === 'stopped')) {
+    if (id === null || this.store.replaying.value || !(state === 'finished' || state === 'stopped')) {
       this.store.metrics.value = null;
       return;
     }
@@ -182,10 +273,17 @@ export class Watcher {
     if (id === this.store.sessionId.value) this.store.metrics.value = metrics;
   }
 
+  private async readSessions(): Promise<readonly Session[]> {
+    const sessions = await this.api.sessions().catch(() => null);
+    if (sessions !== null) this.store.sessions.value = sessions;
+    return sessions ?? [];
+  }
+
   /** While the watched session rests, another may have been started elsewhere, or this one. */
   private async lookForNewer(): Promise<void> {
-    if (this.store.link.value.kind !== 'live' || this.store.active.value || this.store.busy.value) return;
-    const sessions = await this.api.sessions().catch(() => []);
+    if (this.store.link.value.kind !== 'live' || this.store.busy.value) return;
+    const sessions = await this.readSessions();
+    if (this.store.active.value || this.store.replaying.value || this.store.busy.value) return;
     const chosen = chooseSession(sessions, this.store.sessionId.value, this.unstreamable);
     if (chosen !== undefined && isActive(chosen) && chosen.id !== this.store.sessionId.value) this.link.connect();
   }

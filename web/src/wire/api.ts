@@ -14,6 +14,30 @@ export interface Session {
   fault: string | null;
 }
 
+/** A recording that is shown on the server for all who watch it. */
+export interface Replay {
+  id: string;
+  /** The session that was recorded. */
+  replay_of: string;
+  playback: { position_s: number; duration_s: number; speed: number; playing: boolean };
+  /** Moments worth finding, in order of time. */
+  marks: Mark[];
+}
+
+export interface Mark {
+  at_s: number;
+  /** "annotation", "reamer", "resume" or the name of an event. */
+  kind: string;
+  words: string;
+}
+
+/** What is absent stays as it is. */
+export interface PlaybackChange {
+  playing?: boolean;
+  speed?: number;
+  position_s?: number;
+}
+
 /** The figures of a session that the page shows; more are sent. */
 export interface Metrics {
   removed_volume_mm3: number;
@@ -54,6 +78,15 @@ export class Api {
   }
   stop(id: string): Promise<Session> {
     return this.call('POST', `sessions/${encodeURIComponent(id)}/stop`);
+  }
+  openReplay(sessionId: string): Promise<Replay> {
+    return this.call('POST', `sessions/${encodeURIComponent(sessionId)}/replay`);
+  }
+  replay(id: string): Promise<Replay> {
+    return this.call('GET', `sessions/${encodeURIComponent(id)}`);
+  }
+  changePlayback(id: string, change: PlaybackChange): Promise<Replay> {
+    return this.call('POST', `sessions/${encodeURIComponent(id)}/playback`, change);
   }
   metrics(id: string): Promise<Metrics> {
     return this.call('GET', `sessions/${encodeURIComponent(id)}/metrics`);

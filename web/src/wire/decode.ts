@@ -4,12 +4,24 @@ import { decodeBlock } from './decode_block';
 import { Body } from './generated/ream/wire/body';
 import { Hello as WireHello } from './generated/ream/wire/hello';
 import { MeshDelta as WireMeshDelta } from './generated/ream/wire/mesh-delta';
+import type { Playback as WirePlayback } from './generated/ream/wire/playback';
 import type { Pose as WirePose } from './generated/ream/wire/pose';
 import { ServerMessage } from './generated/ream/wire/server-message';
 import { SessionState as WireState } from './generated/ream/wire/session-state';
 import { Telemetry as WireTelemetry } from './generated/ream/wire/telemetry';
+import { ToolChange } from './generated/ream/wire/tool-change';
 import type { Vec3 } from './generated/ream/wire/vec3';
-import type { Hello, MeshDelta, Pose, SessionState, StreamMessage, Telemetry, Triple } from './messages';
+import type {
+  Hello,
+  MeshDelta,
+  Playback,
+  Pose,
+  SessionState,
+  StreamMessage,
+  Telemetry,
+  ToolMesh,
+  Triple,
+} from './messages';
 
 /** Decodes one connection's messages in order; the first must be the hello. Throws on anything else. */
 export class StreamDecoder {
@@ -32,6 +44,9 @@ export class StreamDecoder {
       const telemetry = requireTable(message.body(new WireTelemetry()) as WireTelemetry | null);
       return { kind: 'telemetry', telemetry: decodeTelemetry(telemetry) };
     }
+    if (type === Body.ToolChange) {
+      return { kind: 'tool', tool: decodeTool(requireTable(message.body(new ToolChange()) as ToolChange | null)) };
+    }
     throw new Error(`message of unknown type ${String(type)}`);
   }
 }
@@ -45,6 +60,8 @@ export function transferables(message: StreamMessage): ArrayBuffer[] {
       return message.mesh.blocks.flatMap((b) => [b.positions.buffer, b.normals.buffer, b.indices.buffer]);
     case 'telemetry':
       return [message.telemetry.thrustN.buffer];
+    case 'tool':
+      return [message.tool.positionsMm.buffer, message.tool.indices.buffer];
   }
 }
 
@@ -60,16 +77,22 @@ function decodeHello(hello: WireHello): Hello {
     voxelSpacingMm: triple(hello.voxelSpacingMm(), [1, 1, 1]),
     worldFromGrid: pose(hello.worldFromGrid()) ?? { rotationXyzw: [0, 0, 0, 1], translationMm: [0, 0, 0] },
     blockEdgeVoxels: hello.blockEdgeVoxels(),
-    tool: {
-      name: hello.toolName() ?? '',
-      positionsMm: Float32Array.from(hello.toolPositionsMmArray() ?? []),
-      indices: Uint32Array.from(hello.toolIndicesArray() ?? []),
-    },
+    tool: decodeTool(hello),
     axisEntryMm: triple(hello.axisEntryMm(), [0, 0, 0]),
     axisDirection: triple(hello.axisDirection(), [1, 0, 0]),
     plannedDepthMm: hello.plannedDepthMm(),
     forceScale: hello.forceScale(),
     handForceMaxN: hello.forceMaxN(),
+    replayOf: hello.replayOf() ?? '',
+    durationTicks: hello.durationTicks(),
+  };
+}
+
+function decodeTool(message: WireHello | ToolChange): ToolMesh {
+  return {
+    name: message.toolName() ?? '',
+    positionsMm: Float32Array.from(message.toolPositionsMmArray() ?? []),
+    indices: Uint32Array.from(message.toolIndicesArray() ?? []),
   };
 }
 
@@ -104,7 +127,13 @@ function decodeTelemetry(t: WireTelemetry): Telemetry {
     ticksMissed: t.ticksMissed(),
     fault: t.fault() ?? '',
     worldFromBoneRest: pose(t.worldFromBoneRest()),
+    playback: decodePlayback(t.playback()),
   };
+}
+
+function decodePlayback(p: WirePlayback | null): Playback | null {
+  if (p === null) return null;
+  return { positionTicks: p.positionTicks(), speed: p.speed(), playing: p.playing(), jump: p.jump() };
 }
 
 function sessionState(state: WireState): SessionState {
@@ -121,6 +150,10 @@ function sessionState(state: WireState): SessionState {
       return 'stopped';
     case WireState.fault:
       return 'fault';
+    case WireState.interrupted:
+      return 'interrupted';
+    case WireState.replaying:
+      return 'replaying';
     default:
       throw new Error(`unknown session state ${String(state)}`);
   }

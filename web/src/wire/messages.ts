@@ -14,7 +14,15 @@ export interface Pose {
   translationMm: Triple;
 }
 
-export type SessionState = 'created' | 'running' | 'paused' | 'finished' | 'stopped' | 'fault';
+export type SessionState =
+  | 'created'
+  | 'running'
+  | 'paused'
+  | 'finished'
+  | 'stopped'
+  | 'fault'
+  | 'interrupted'
+  | 'replaying';
 
 export interface ToolMesh {
   name: string;
@@ -43,6 +51,10 @@ export interface Hello {
   /** Simulated newtons per newton at the hand. */
   forceScale: number;
   handForceMaxN: number;
+  /** The session that was recorded; empty: this is no replay but live. */
+  replayOf: string;
+  /** Of the recording, 0 for what is live. */
+  durationTicks: number;
 }
 
 /** The surface of one block; no vertices means that the block is empty now. */
@@ -62,6 +74,15 @@ export interface BlockSurface {
 export interface MeshDelta {
   blocks: BlockSurface[];
   keyComplete: boolean;
+}
+
+/** Where a replay stands; times are those of the recording. */
+export interface Playback {
+  positionTicks: number;
+  speed: number;
+  playing: boolean;
+  /** Grows with every jump: a trace of another jump does not belong to this one. */
+  jump: number;
 }
 
 /** A batch of the force trace (entry i is of tick firstTick + i * tickStride) and the newest state. */
@@ -89,10 +110,15 @@ export interface Telemetry {
   fault: string;
   /** How far the bone has moved from where the hello has it; null while it is held rigidly. */
   worldFromBoneRest: Pose | null;
+  /** Null for what is live. */
+  playback: Playback | null;
 }
 
 export type StreamMessage =
-  { kind: 'hello'; hello: Hello } | { kind: 'mesh'; mesh: MeshDelta } | { kind: 'telemetry'; telemetry: Telemetry };
+  | { kind: 'hello'; hello: Hello }
+  | { kind: 'mesh'; mesh: MeshDelta }
+  | { kind: 'telemetry'; telemetry: Telemetry }
+  | { kind: 'tool'; tool: ToolMesh };
 
 /** Page to worker. Each `open` closes what was open before; `connection` numbers the answers. */
 export type WorkerRequest = { kind: 'open'; connection: number; url: string } | { kind: 'close' };

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 
-import { chooseSession } from '../../src/state/choose_session';
+import { canBeReplayed, chooseSession } from '../../src/state/choose_session';
 import type { Session } from '../../src/wire/api';
 
 const session = (id: string, state: Session['state'], second: number): Session => ({
@@ -38,5 +38,14 @@ describe('chooseSession', () => {
     expect(chooseSession([session('a', 'finished', 1), session('b', 'finished', 2)], 'b', new Set(['b']))?.id).toBe(
       'a',
     );
+  });
+});
+
+describe('canBeReplayed', () => {
+  it('asks for an end and something recorded', () => {
+    const can = (state: Session['state'], tick: number) => canBeReplayed({ ...session('a', state, 1), tick });
+    expect((['finished', 'stopped', 'fault'] as const).map((state) => can(state, 5))).toEqual([true, true, true]);
+    expect((['created', 'running', 'paused'] as const).map((state) => can(state, 5))).toEqual([false, false, false]);
+    expect(can('stopped', 0)).toBe(false);
   });
 });

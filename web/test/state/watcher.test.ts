@@ -2,7 +2,7 @@ import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 
 import { Store } from '../../src/state/store';
 import { Watcher } from '../../src/state/watcher';
-import { ApiError, type Api, type Metrics, type Session } from '../../src/wire/api';
+import { ApiError, type Api, type Metrics, type PlaybackChange, type Replay, type Session } from '../../src/wire/api';
 import { hello, telemetry, wholePicture } from '../wire/fake_messages';
 import { FakeSocket } from '../wire/fake_socket';
 
@@ -40,6 +40,26 @@ class FakeApi {
   start = (id: string) => this.change(id, 'running');
   stop = (id: string) => this.change(id, 'stopped');
   metrics = () => this.answer({ axial_thrust_mean_n: 12 } as Metrics);
+  replays: Replay[] = [];
+  changes: PlaybackChange[] = [];
+  openReplay = (sessionId: string) => {
+    const replay: Replay = {
+      id: `r${sessionId}`,
+      replay_of: sessionId,
+      playback: { position_s: 0, duration_s: 10, speed: 1, playing: false },
+      marks: [{ at_s: 2, kind: 'annotation', words: 'here' }],
+    };
+    this.replays.push(replay);
+    return this.answer(replay);
+  };
+  replay = (id: string) => {
+    const found = this.replays.find((replay) => replay.id === id);
+    return found === undefined ? Promise.reject(new ApiError(`no replay '${id}'`, 404)) : this.answer(found);
+  };
+  changePlayback = (id: string, change: PlaybackChange) => {
+    this.changes.push(change);
+    return this.replay(id);
+  };
   streamUrl = (id: string) => `ws://${id}`;
 }
 
@@ -58,7 +78,7 @@ describe('Watcher', () => {
     socket = new FakeSocket();
     store = new Store();
     begun.length = 0;
-    const picture = { begin: (h: { sessionId: string }) => begun.push(h.sessionId), apply: () => undefined };
+    const picture = { begin: (h: { sessionId: string }) => begun.push(h.sessionId), apply: () => undefined, setTool: () => undefined };
     watcher = new Watcher(store, api as unknown as Api, socket, picture);
   });
   afterEach(() => vi.useRealTimers());
@@ -165,5 +185,106 @@ describe('Watcher', () => {
     await watcher.runDemo();
     expect(store.problem.value).toBe('4 sessions are live; stop one first');
     expect(store.busy.value).toBe(false);
+  });
+
+  describe('with a recording', () => {
+    const replayOf = (sessionId: string) => {
+      socket.handlers?.onMessage(
+        hello({ sessionId: `r${sessionId}`, serverEpoch: '1', replayOf: sessionId, durationTicks: 10000 }),
+      );
+      socket.handlers?.onMessage(wholePicture);
+    };
+    const playback = (positionTicks: number, jump: number, thrustN: number[] = []) =>
+      socket.handlers?.onMessage(
+        telemetry({
+          state: 'replaying',
+          firstTick: positionTicks - thrustN.length,
+          thrustN: new Float32Array(thrustN),
+          playback: { positionTicks, speed: 1, playing: true, jump },
+        }),
+      );
+    const open = async () => {
+      watcher.start();
+      await settle();
+      serve('s1', '1');
+      api.list[0]!.state = 'stopped';
+      await watcher.openReplay('s1');
+      await settle();
+      replayOf('s1');
+    };
+
+    it('watches the replay and never calls it live', async () => {
+      await open();
+      expect(socket.opened.at(-1)).toBe('ws://rs1');
+      expect(store.replaying.value).toBe(true);
+      expect(store.upToDate.value).toBe(true);
+      expect(store.live.value).toBe(false);
+      expect(store.marks.value.map((mark) => mark.at_s)).toEqual([2]);
+      expect(store.metrics.value).toBeNull();
+    });
+
+    it('keeps no line and no value across a jump', async () => {
+      await open();
+      playback(5000, 0, [50, 51]);
+      playback(5002, 0, [52, 53]);
+      expect(store.trace.window(20).values).toEqual([50, 51, 52, 53]);
+      playback(1000, 1, [7]);
+      playback(1001, 1, [8]);
+      expect(store.trace.window(20)).toEqual({ seconds: [0.999, 1], values: [7, 8] });
+    });
+
+    it('stays with it though a session is started elsewhere, and comes back when asked to', async () => {
+      await open();
+      const other = await api.createDemo();
+      await api.start(other.id);
+      await vi.advanceTimersByTimeAsync(3000);
+      expect(socket.opened.at(-1)).toBe('ws://rs1');
+      expect(store.sessions.value.map((session) => session.id)).toContain(other.id);
+      watcher.leaveReplay();
+      await settle();
+      expect(socket.opened.at(-1)).toBe(`ws://${other.id}`);
+      expect(store.live.value).toBe(false);
+      serve(other.id, '1');
+      expect(store.live.value).toBe(true);
+      expect(store.playback.value).toBeNull();
+    });
+
+    it('goes to moments and says so to the server', async () => {
+      await open();
+      playback(0, 0);
+      watcher.scrubber.seek(4);
+      await watcher.play({ playing: true });
+      expect(api.changes).toEqual([{ position_s: 4 }, { playing: true }]);
+      api.changePlayback = () => Promise.reject(new ApiError('position_s is past the end', 422));
+      watcher.scrubber.seek(40);
+      await settle();
+      expect(store.problem.value).toBe('position_s is past the end');
+    });
+
+    it('goes back to what is live, in words, when the replay was ended', async () => {
+      await open();
+      playback(0, 0);
+      api.replays = [];
+      socket.handlers?.onMessage(
+        telemetry({ state: 'stopped', playback: { positionTicks: 0, speed: 1, playing: false, jump: 0 } }),
+      );
+      await settle();
+      expect(store.replayId.value).toBeNull();
+      expect(store.problem.value).toContain('replay has ended');
+      expect(socket.opened.at(-1)).toBe('ws://s1');
+    });
+
+    it('takes up a replay again after the link was lost, and lets go of one that is gone', async () => {
+      await open();
+      socket.end();
+      await vi.advanceTimersByTimeAsync(300);
+      expect(socket.opened.at(-1)).toBe('ws://rs1');
+      replayOf('s1');
+      api.replays = [];
+      socket.end();
+      await vi.advanceTimersByTimeAsync(600);
+      expect(socket.opened.at(-1)).toBe('ws://s1');
+      expect(store.problem.value).toContain('replay has ended');
+    });
   });
 });

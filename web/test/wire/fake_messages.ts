@@ -21,6 +21,8 @@ export function hello(changes: Partial<Hello> = {}): StreamMessage {
       plannedDepthMm: 2,
       forceScale: 26,
       handForceMaxN: 3,
+      replayOf: '',
+      durationTicks: 0,
       ...changes,
     },
   };
@@ -51,6 +53,7 @@ export function telemetry(changes: Partial<Telemetry> = {}): StreamMessage {
       ticksMissed: 0,
       fault: '',
       worldFromBoneRest: null,
+      playback: null,
       ...changes,
     },
   };

@@ -1,0 +1,23 @@
+#pragma once
+#include <memory>
+
+#include "net/websocket.hpp"
+
+namespace ream::api {
+
+/// A viewer's connection, which keeps what it looks at.
+class KeepingSession final : public net::WebSocketSession {
+ public:
+  KeepingSession(std::shared_ptr<void> kept, std::unique_ptr<net::WebSocketSession> inner)
+      : kept_(std::move(kept)), inner_(std::move(inner)) {}
+  void on_open(std::function<void()> wake) override { inner_->on_open(std::move(wake)); }
+  std::optional<net::SharedBytes> next() override { return inner_->next(); }
+  void on_message(std::span<const std::byte> message) override { inner_->on_message(message); }
+  void on_close() noexcept override { inner_->on_close(); }
+
+ private:
+  std::shared_ptr<void> kept_;
+  std::unique_ptr<net::WebSocketSession> inner_;
+};
+
+}  // namespace ream::api

@@ -1,0 +1,16 @@
+#pragma once
+#include <ctime>
+#include <string>
+
+namespace ream::api {
+
+/// Eight letters and digits at random, without those that are easily taken for one another when read aloud or
+/// typed.
+std::string random_id();
+
+/// A moment as "2025-03-01T12:00:00Z".
+std::string utc_text(std::time_t time);
+/// The present one.
+std::string utc_now();
+
+}  // namespace ream::api

@@ -1,0 +1,131 @@
+#include "api/replay_service.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "api/keeping_session.hpp"
+#include "api/new_id.hpp"
+#include "core/error.hpp"
+
+namespace ream::api {
+
+struct ReplayService::Entry {
+  ReplayRequest request;
+  std::string created_utc;
+  std::unique_ptr<RunningReplay> running;
+
+  ReplayRecord record(bool open = true) const {
+    return {request, created_utc, open, running->status(), running->marks()};
+  }
+};
+
+ReplayService::ReplayService(ReplayFactory factory, ReplayLimits limits)
+    : factory_(std::move(factory)), limits_(limits) {}
+
+ReplayService::~ReplayService() { shut_down(); }
+
+/// Gives the replay that has to go for it, if any.
+std::shared_ptr<ReplayService::Entry> ReplayService::reserve_place() {
+  const std::lock_guard lock(mutex_);
+  if (closed_) throw Error(ErrorKind::unavailable, "the server is stopping");
+  std::shared_ptr<Entry> leaving;
+  if (entries_.size() + being_made_ >= limits_.open) {
+    auto least_watched = entries_.end();
+    double unwatched_s = 0.0;
+    for (auto entry = entries_.begin(); entry != entries_.end(); ++entry)
+      if (const double s = (*entry)->running->status().unwatched_s; s > unwatched_s) {
+        least_watched = entry;
+        unwatched_s = s;
+      }
+    if (least_watched == entries_.end())
+      throw Error(ErrorKind::unavailable,
+                  std::to_string(limits_.open) +
+                      " replays are watched, as many as this server shows at once; stop one first");
+    leaving = std::move(*least_watched);
+    entries_.erase(least_watched);
+  }
+  ++being_made_;
+  return leaving;
+}
+
+ReplayRecord ReplayService::create(ReplayRequest wanted) {
+  reserve_place().reset();
+  auto entry = std::make_shared<Entry>();
+  try {
+    wanted.id = "r" + random_id();  // longer than any session's, so that it is none's
+    entry->request = std::move(wanted);
+    entry->created_utc = utc_now();
+    entry->running = factory_(entry->request);
+  } catch (...) {
+    const std::lock_guard lock(mutex_);
+    --being_made_;
+    throw;
+  }
+  const std::lock_guard lock(mutex_);
+  --being_made_;
+  if (closed_) throw Error(ErrorKind::unavailable, "the server is stopping");
+  entries_.push_back(entry);
+  return entry->record();
+}
+
+std::shared_ptr<ReplayService::Entry> ReplayService::find(const std::string& id) const {
+  const std::lock_guard lock(mutex_);
+  for (const auto& entry : entries_)
+    if (entry->request.id == id) return entry;
+  throw Error(ErrorKind::not_found, "no replay '" + id + "'; it has ended or never was");
+}
+
+bool ReplayService::has(const std::string& id) const {
+  const std::lock_guard lock(mutex_);
+  return std::any_of(entries_.begin(), entries_.end(),
+                     [&](const auto& entry) { return entry->request.id == id; });
+}
+
+std::vector<ReplayRecord> ReplayService::list() const {
+  Entries entries;
+  {
+    const std::lock_guard lock(mutex_);
+    entries = entries_;
+  }
+  std::vector<ReplayRecord> records;
+  for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry) records.push_back((*entry)->record());
+  return records;
+}
+
+ReplayRecord ReplayService::get(const std::string& id) const { return find(id)->record(); }
+
+ReplayRecord ReplayService::change(const std::string& id, const PlaybackChange& change) {
+  const auto entry = find(id);
+  entry->running->change(change);
+  return entry->record();
+}
+
+ReplayRecord ReplayService::stop(const std::string& id) {
+  const auto entry = find(id);
+  {
+    const std::lock_guard lock(mutex_);
+    std::erase(entries_, entry);
+  }
+  entry->running->stop();
+  return entry->record(false);
+}
+
+nlohmann::json ReplayService::metrics(const std::string& id) const { return find(id)->running->metrics(); }
+
+std::unique_ptr<net::WebSocketSession> ReplayService::subscribe(const std::string& id, int stride) const {
+  auto entry = find(id);
+  auto inner = entry->running->subscribe(stride);
+  return std::make_unique<KeepingSession>(std::move(entry), std::move(inner));
+}
+
+void ReplayService::shut_down() {
+  Entries entries;
+  {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+    entries.swap(entries_);
+  }
+  for (const auto& entry : entries) entry->running->stop();
+}
+
+}  // namespace ream::api

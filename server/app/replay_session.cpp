@@ -1,0 +1,173 @@
+#include "app/replay_session.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "api/viewer_stream.hpp"
+#include "app/data_folder.hpp"
+#include "app/recorded_session.hpp"
+#include "app/stream_words.hpp"
+#include "core/clock.hpp"
+#include "core/error.hpp"
+#include "core/log.hpp"
+#include "sim/settings_json.hpp"
+
+namespace ream::app {
+namespace {
+
+constexpr auto follower_period = std::chrono::milliseconds(10);
+/// A replay that rests tells its viewers so this often, so that a silent link is a broken one.
+constexpr int64_t heartbeat_ns = 500'000'000;
+
+double recorded_force_max_n(const record::Recording& recording) {
+  const std::string place = "the settings in " + recording.log().path().string();
+  const auto json = nlohmann::json::parse(recording.header().settings, nullptr, false);
+  if (json.is_discarded()) throw Error(ErrorKind::invalid_input, place + " is not JSON");
+  return sim::settings_from_json(json, place).limits.force_max_n;
+}
+
+/// Without its densities, which nobody looks at here.
+case_::Case bone_before(const record::Recording& recording, const std::filesystem::path& data) {
+  if (recording.tick_count() == 0)
+    throw Error(ErrorKind::invalid_input, recording.log().path().string() + " holds no tick to show");
+  case_::Case c = case_of(recording, {}, data);
+  c.bone.density = {};
+  return c;
+}
+
+score::MetricsAccumulator no_metrics(const case_::Case& c) {
+  return {c.bone.grid.voxel_volume_mm3(), sim::world_from_plan(*c.plan).inverse()};
+}
+
+}  // namespace
+
+ReplaySession::ReplaySession(const SessionHouse& house, const api::ReplayRequest& request)
+    : house_(house),
+      request_(request),
+      recording_(sessions_folder(house.data) / request.replay_of / "recording.ream"),
+      bone_case_(bone_before(recording_, house.data)),
+      timeline_(recording_, bone_case_.bone.grid.world_from_grid, no_metrics(bone_case_)),
+      fanout_(std::make_shared<stream::LocalFanout>()),
+      picture_(recording_, bone_case_, timeline_, hello(), *fanout_),
+      playhead_(recording_.tick_count()) {
+  bone_hash_ = picture_.bone_hash();
+  last_watched_ns_ = steady_ns();
+  follower_ = std::thread([this] { follow(); });
+}
+
+ReplaySession::~ReplaySession() { stop(); }
+
+stream::HelloInfo ReplaySession::hello() const {
+  stream::HelloInfo info = hello_of(bone_case_, *bone_case_.plan, {});
+  info.session_id = request_.id;
+  info.server_epoch = house_.server_epoch;
+  info.force_scale = recording_.header().force_scale;
+  info.force_max_n = recorded_force_max_n(recording_);
+  info.replay_of = request_.replay_of;
+  info.duration_ticks = recording_.tick_count();
+  return info;
+}
+
+api::PlaybackStatus ReplaySession::status() const {
+  const std::lock_guard lock(mutex_);
+  api::PlaybackStatus status;
+  status.position_s = playhead_.position_ticks() * tick_s;
+  status.duration_s = playhead_.duration_ticks() * tick_s;
+  status.speed = playhead_.speed();
+  status.playing = playhead_.playing();
+  status.fault = fault_;
+  status.force_scale = recording_.header().force_scale;
+  if (fanout_->viewers() == 0) status.unwatched_s = static_cast<double>(steady_ns() - last_watched_ns_) * 1e-9;
+  return status;
+}
+
+std::vector<api::ReplayMark> ReplaySession::marks() const {
+  std::vector<api::ReplayMark> marks;
+  for (const record::ops::Segment& segment : recording_.segments())
+    if (segment.first_tick > 0) marks.push_back({segment.first_tick * tick_s, segment.reason, segment.tool});
+  for (const record::ops::Event& event : recording_.events())
+    marks.push_back({event.tick * tick_s, event.kind, event.words});
+  for (const record::ops::Annotation& annotation : recording_.annotations())
+    marks.push_back({annotation.tick * tick_s, "annotation", annotation.words});
+  std::stable_sort(marks.begin(), marks.end(),
+                   [](const auto& a, const auto& b) { return a.at_s < b.at_s; });
+  return marks;
+}
+
+nlohmann::json ReplaySession::metrics() const {
+  uint32_t ticks = 0;
+  std::optional<uint64_t> grid_hash;
+  {
+    const std::lock_guard lock(mutex_);
+    ticks = playhead_.position_ticks();
+    if (bone_ticks_ == ticks) grid_hash = bone_hash_;
+  }
+  return score::metrics_json(timeline_.wait_for(ticks).metrics(), recording_.header().force_scale,
+                             grid_hash ? &*grid_hash : nullptr);
+}
+
+void ReplaySession::change(const api::PlaybackChange& change) {
+  {
+    const std::lock_guard lock(mutex_);
+    playhead_.change(change);
+    fault_.clear();
+  }
+  changed_.notify_all();
+}
+
+void ReplaySession::stop() {
+  const std::lock_guard one_at_a_time(stopping_);
+  {
+    const std::lock_guard lock(mutex_);
+    if (leaving_) return;
+    leaving_ = true;
+  }
+  changed_.notify_all();
+  follower_.join();
+  picture_.tell(stream::SessionState::stopped);
+}
+
+std::unique_ptr<net::WebSocketSession> ReplaySession::subscribe(int stride) {
+  return api::viewer_stream(fanout_, stride);
+}
+
+void ReplaySession::follow() {
+  int64_t before_ns = steady_ns(), last_told_ns = before_ns;
+  for (;;) {
+    ReplayMoment moment;
+    const int64_t now_ns = steady_ns();
+    {
+      const std::lock_guard lock(mutex_);
+      if (leaving_) return;
+      playhead_.advance(now_ns - before_ns);
+      moment = {playhead_.position_ticks(), playhead_.jumps(), static_cast<float>(playhead_.speed()),
+                playhead_.playing(), fault_};
+      if (fanout_->viewers() > 0) last_watched_ns_ = now_ns;
+    }
+    before_ns = now_ns;
+    try {
+      picture_.show(moment);
+    } catch (const Error& e) {
+      give_up(e.what());
+    }
+    picture_.poll(steady_ns());
+    if (!moment.playing && now_ns - last_told_ns > heartbeat_ns) {
+      picture_.tell(stream::SessionState::replaying);
+      last_told_ns = now_ns;
+    }
+    std::unique_lock lock(mutex_);
+    bone_ticks_ = picture_.bone_ticks();
+    bone_hash_ = picture_.bone_hash();
+    changed_.wait_for(lock, follower_period, [&] { return leaving_ || playhead_.jumps() != moment.jump; });
+  }
+}
+
+void ReplaySession::give_up(const std::string& words) {
+  log::error("replay of session " + request_.replay_of + ": " + words);
+  const std::lock_guard lock(mutex_);
+  playhead_.rest_at(picture_.ticks());
+  fault_ = words;
+}
+
+}  // namespace ream::app

@@ -1,0 +1,55 @@
+#pragma once
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "api/running_replay.hpp"
+#include "app/metrics_timeline.hpp"
+#include "app/playhead.hpp"
+#include "app/reaming_session.hpp"
+#include "app/replay_picture.hpp"
+#include "stream/fanout_local.hpp"
+
+namespace ream::app {
+
+/// The replay of a recording in the folder of a session: one thread moves its picture on as it is told.
+class ReplaySession final : public api::RunningReplay {
+ public:
+  /// Rests at the start, which viewers who join get at once. Errors: those of Recording and of case and tool;
+  /// invalid_input when no tick was recorded; conflict when the case's bone is not the one that was recorded.
+  ReplaySession(const SessionHouse& house, const api::ReplayRequest& request);
+  ~ReplaySession() override;
+
+  api::PlaybackStatus status() const override;
+  std::vector<api::ReplayMark> marks() const override;
+  nlohmann::json metrics() const override;
+  void change(const api::PlaybackChange& change) override;
+  void stop() override;
+  std::unique_ptr<net::WebSocketSession> subscribe(int stride) override;
+
+ private:
+  void follow();
+  void give_up(const std::string& words);
+  stream::HelloInfo hello() const;
+
+  const SessionHouse house_;
+  const api::ReplayRequest request_;
+  const record::Recording recording_;
+  const case_::Case bone_case_;  ///< before tick 0
+  const MetricsTimeline timeline_;
+  const std::shared_ptr<stream::LocalFanout> fanout_;
+  ReplayPicture picture_;  ///< of the thread
+
+  mutable std::mutex mutex_;  ///< guards what follows
+  std::condition_variable changed_;
+  Playhead playhead_;
+  std::string fault_;
+  uint64_t bone_hash_ = 0;
+  uint32_t bone_ticks_ = 0;
+  int64_t last_watched_ns_ = 0;
+  bool leaving_ = false;
+  std::mutex stopping_;  ///< one stop() at a time
+  std::thread follower_;
+};
+
+}  // namespace ream::app

@@ -1,0 +1,86 @@
+#pragma once
+#include <atomic>
+#include <mutex>
+#include <nlohmann/json.hpp>
+
+#include "api/running_replay.hpp"
+#include "core/error.hpp"
+#include "support/fake_session.hpp"
+
+namespace ream::test {
+
+/// A replay of ten seconds without a recording; its clock stands still.
+class FakeReplay final : public api::RunningReplay {
+ public:
+  explicit FakeReplay(api::ReplayRequest request) : request_(std::move(request)) {
+    status_.duration_s = 10.0;
+    status_.force_scale = 26.0;
+    status_.unwatched_s = 1.0;
+    ++alive();
+  }
+  ~FakeReplay() override { --alive(); }
+
+  api::PlaybackStatus status() const override {
+    const std::lock_guard lock(mutex_);
+    return status_;
+  }
+  std::vector<api::ReplayMark> marks() const override { return {{2.5, "annotation", "too steep here"}}; }
+  nlohmann::json metrics() const override { return FakeSession({request_.id, "demo", "demo", 26.0}).metrics(); }
+  void change(const api::PlaybackChange& change) override {
+    const std::lock_guard lock(mutex_);
+    if (change.position_s && *change.position_s > status_.duration_s)
+      throw Error(ErrorKind::invalid_input, "position_s is past the end");
+    if (change.position_s) status_.position_s = *change.position_s;
+    if (change.playing) status_.playing = *change.playing;
+    if (change.speed) status_.speed = *change.speed;
+  }
+  void stop() override { ++stops(); }
+  std::unique_ptr<net::WebSocketSession> subscribe(int) override {
+    return std::make_unique<FakeViewer>(request_.id);
+  }
+
+  void set_unwatched_s(double seconds) {
+    const std::lock_guard lock(mutex_);
+    status_.unwatched_s = seconds;
+  }
+  static std::atomic<int>& alive() {
+    static std::atomic<int> count{0};
+    return count;
+  }
+  static std::atomic<int>& stops() {
+    static std::atomic<int> count{0};
+    return count;
+  }
+
+ private:
+  const api::ReplayRequest request_;
+  mutable std::mutex mutex_;
+  api::PlaybackStatus status_;
+};
+
+/// Makes fake replays and remembers them; what goes wrong is said by `refuse`.
+class FakeReplayFactory {
+ public:
+  std::function<void()> refuse = [] {};
+
+  api::ReplayFactory function() {
+    return [this](const api::ReplayRequest& request) -> std::unique_ptr<api::RunningReplay> {
+      refuse();
+      auto replay = std::make_unique<FakeReplay>(request);
+      const std::lock_guard lock(mutex_);
+      made_.push_back(replay.get());
+      return replay;
+    };
+  }
+  /// In order of making; the caller knows which still live.
+  FakeReplay& made(size_t index) {
+    const std::lock_guard lock(mutex_);
+    return *made_.at(index);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<FakeReplay*> made_;
+};
+
+}  // namespace ream::test

@@ -1,0 +1,129 @@
+#include "app/replay_session.hpp"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "app/data_folder.hpp"
+#include "app/headless_run.hpp"
+#include "case/case.hpp"
+#include "core/error.hpp"
+#include "support/expect_error.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/test_bone.hpp"
+#include "unit/stream/viewer.hpp"
+
+namespace ream::app {
+namespace {
+
+using test::expect_error;
+
+/// A short session on a slab, recorded in a data folder.
+class ReplaySessionTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = std::make_unique<test::TemporaryFolder>();
+    case_::Case c;
+    c.id = c.name = c.source = "slab";
+    c.bone = test::slab({48, 48, 24}, 0.5, 8.0, 0.6);
+    c.plan = test::slab_plan(c.bone, 8.0);
+    c.plan->reamer = "sphere 8";
+    case_::save_case(c, cases_folder(folder_->path()) / "slab");
+    const auto script = folder_->write("scripts/press.json", R"({"device": "hand", "duration_s": 3.2,
+        "vibration": {"source": "off"}, "hand": {"start_mm": [0, 0, -1], "force_profile": [{"t_s": 0, "force_n": 30}]}})");
+    RunRequest request;
+    request.case_name = "slab";
+    request.script_name = script.string();
+    request.backend = "cpu";
+    Rig rig(request, folder_->path());
+    const auto session = sessions_folder(folder_->path()) / "abcdefgh";
+    std::filesystem::create_directories(session);
+    const std::vector<uint8_t> start = rig.bone_case.bone.coverage;
+    metrics_ = run_headless(rig, start, session, false).metrics;
+  }
+  static void TearDownTestSuite() { folder_.reset(); }
+
+  static SessionHouse house() {
+    SessionHouse house;
+    house.data = folder_->path();
+    house.server_epoch = 7;
+    return house;
+  }
+  static api::ReplayRequest request(const std::string& of = "abcdefgh") { return {"rabcdefgh", of, "slab", "press"}; }
+
+  /// Waits until the replay stands there and rests.
+  static void until(const ReplaySession& replay, double position_s) {
+    while (replay.status().position_s != position_s || replay.status().playing)
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+
+  static inline std::unique_ptr<test::TemporaryFolder> folder_;
+  static inline nlohmann::json metrics_;
+};
+
+TEST_F(ReplaySessionTest, AtItsEndItsMetricsAreTheSessions) {
+  ASSERT_GT(metrics_.at("removed_volume_mm3").get<double>(), 1.0);
+  ReplaySession replay(house(), request());
+  EXPECT_EQ(replay.status().duration_s, metrics_.at("duration_s").get<double>());
+  EXPECT_EQ(replay.metrics().at("removed_volume_mm3"), 0.0);
+  replay.change({true, 16.0, 1.0});
+  until(replay, replay.status().duration_s);
+  while (replay.metrics().at("grid_hash").is_null()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  EXPECT_EQ(replay.metrics(), metrics_);
+}
+
+TEST_F(ReplaySessionTest, TellsViewersWhereItStandsAndThatItHasEnded) {
+  ReplaySession replay(house(), request());
+  const auto stream = replay.subscribe(1);
+  stream->on_open([] {});
+  stream::Viewer viewer;
+  wire::SessionState state{};
+  uint32_t position_ticks = 0;
+  std::string replay_of;
+  const auto pull = [&] {
+    while (const auto message = stream->next()) {
+      viewer.receive(*message);
+      const wire::ServerMessage* m = wire::GetServerMessage((*message)->data());
+      if (const wire::Hello* hello = m->body_as_Hello()) replay_of = hello->replay_of()->str();
+      if (const wire::Telemetry* t = m->body_as_Telemetry()) {
+        state = t->state();
+        position_ticks = t->playback()->position_ticks();
+      }
+    }
+  };
+  replay.change({{}, {}, 1.5});
+  while (position_ticks != 1500) {
+    pull();
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  EXPECT_EQ(replay_of, "abcdefgh");
+  EXPECT_EQ(state, wire::SessionState::replaying);
+  EXPECT_EQ(viewer.key_completes, 1);
+  EXPECT_EQ(replay.status().unwatched_s, 0.0);
+  replay.stop();
+  pull();
+  EXPECT_EQ(state, wire::SessionState::stopped);
+  replay.stop();
+}
+
+TEST_F(ReplaySessionTest, RefusesWhatItCannotShow) {
+  expect_error(ErrorKind::not_found, "nobody", [] { ReplaySession(house(), request("nobody")); });
+  folder_->write("sessions/broken/recording.ream", "no recording");
+  EXPECT_THROW(ReplaySession(house(), request("broken")), Error);
+  ReplaySession replay(house(), request());
+  expect_error(ErrorKind::invalid_input, "position_s", [&] { replay.change({{}, {}, 1000.0}); });
+}
+
+TEST_F(ReplaySessionTest, RefusesACaseThatHasChanged) {
+  const auto folder = cases_folder(folder_->path()) / "slab";
+  case_::Case c = case_::load_case(folder);
+  case_::Case changed = c;
+  changed.bone.coverage[changed.bone.grid.index(24, 24, 5)] = 7;
+  case_::save_case(changed, folder, true);
+  expect_error(ErrorKind::conflict, "slab", [] { ReplaySession(house(), request()); });
+  case_::save_case(c, folder, true);
+  EXPECT_NO_THROW(ReplaySession(house(), request()));
+}
+
+}  // namespace
+}  // namespace ream::app

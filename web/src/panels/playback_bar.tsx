@@ -1,0 +1,83 @@
+import type { Store } from '../state/store';
+import type { Watcher } from '../state/watcher';
+import type { Mark } from '../wire/api';
+import { words } from '../words';
+import { minutes } from './format';
+
+const speeds = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
+const sliderStepS = 0.05;
+
+/** Where the replay stands, and the ways to another moment. */
+export function PlaybackBar({ store, watcher }: { store: Store; watcher: Watcher }) {
+  const playback = store.playback.value;
+  const durationS = (store.hello.value?.durationTicks ?? 0) / 1000;
+  const positionS = watcher.scrubber.wantedS.value ?? (playback?.positionTicks ?? 0) / 1000;
+  const playing = playback?.playing ?? false;
+  const usable = playback !== null && store.link.value.kind === 'live';
+  return (
+    <section class="playback" aria-label={words.playback} data-testid="playback">
+      <button
+        type="button"
+        class="play-button"
+        data-testid="play"
+        data-playing={playing}
+        disabled={!usable}
+        onClick={() => void watcher.play({ playing: !playing })}
+      >
+        {playing ? words.rest : words.play}
+      </button>
+      <div class="timeline">
+        <input
+          type="range"
+          data-testid="seek"
+          aria-label={words.moment}
+          aria-valuetext={words.momentOf(minutes(positionS), minutes(durationS))}
+          min={0}
+          max={durationS}
+          step={sliderStepS}
+          value={positionS}
+          disabled={!usable}
+          onInput={(event) => watcher.scrubber.seek(Math.min(event.currentTarget.valueAsNumber, durationS))}
+        />
+        <div class="marks">
+          {store.marks.value.map((mark, i) => (
+            <MarkButton key={i} mark={mark} durationS={durationS} watcher={watcher} />
+          ))}
+        </div>
+      </div>
+      <p class="playback-time" data-testid="playback-time">
+        {minutes(positionS)} <span class="soft">/ {minutes(durationS)}</span>
+      </p>
+      <label class="speed">
+        {words.speed}{' '}
+        <select
+          data-testid="speed"
+          disabled={!usable}
+          onChange={(event) => void watcher.play({ speed: Number(event.currentTarget.value) })}
+        >
+          {speeds.map((speed) => (
+            <option key={speed} value={speed} selected={Math.abs(speed - (playback?.speed ?? 1)) < 1e-6}>
+              {speed}×
+            </option>
+          ))}
+        </select>
+      </label>
+    </section>
+  );
+}
+
+function MarkButton({ mark, durationS, watcher }: { mark: Mark; durationS: number; watcher: Watcher }) {
+  const at = durationS > 0 ? Math.min(mark.at_s / durationS, 1) : 0;
+  const title = `${minutes(mark.at_s)} ${words.mark(mark.kind)}${mark.words === '' ? '' : `: ${mark.words}`}`;
+  return (
+    <button
+      type="button"
+      class={mark.kind === 'annotation' ? 'mark mark-annotation' : 'mark'}
+      data-testid="mark"
+      style={{ left: `${(at * 100).toFixed(3)}%` }}
+      title={title}
+      aria-label={title}
+      onClick={() => watcher.scrubber.seek(Math.min(mark.at_s, durationS))}
+    />
+  );
+}

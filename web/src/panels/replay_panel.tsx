@@ -1,0 +1,31 @@
+import type { Store } from '../state/store';
+import type { Watcher } from '../state/watcher';
+import { words } from '../words';
+
+/** Says that this is a recording, of what, and leads back to what is live. */
+export function ReplayPanel({ store, watcher }: { store: Store; watcher: Watcher }) {
+  const of = store.hello.value?.replayOf ?? '';
+  const recorded = store.sessions.value.find((session) => session.id === of);
+  const fault = store.telemetry.value?.fault ?? '';
+  return (
+    <section class="replay" aria-label={words.replayBadge} data-testid="replay-panel">
+      <div class="run-buttons">
+        <button
+          type="button"
+          class="run-button"
+          data-testid="leave-replay"
+          onClick={() => {
+            watcher.leaveReplay();
+          }}
+        >
+          {words.backToLive}
+        </button>
+      </div>
+      <p class="session-state" data-testid="session-state" data-state={store.sessionState.value} aria-live="polite">
+        <strong>{words.replayOf(of)}.</strong>{' '}
+        {recorded !== undefined && words.recordedAs(words.state[recorded.state].toLowerCase())}
+        {fault !== '' && ` ${words.fault}: ${fault}`}
+      </p>
+    </section>
+  );
+}

@@ -1,0 +1,43 @@
+import { canBeReplayed } from '../state/choose_session';
+import type { Store } from '../state/store';
+import type { Watcher } from '../state/watcher';
+import type { Session } from '../wire/api';
+import { words } from '../words';
+import { dayAndTime, minutes } from './format';
+
+/** Earlier sessions, newest first; those that have ended can be replayed. */
+export function SessionList({ store, watcher }: { store: Store; watcher: Watcher }) {
+  const sessions = store.sessions.value.filter((session) => session.state !== 'created');
+  return (
+    <details class="sessions" data-testid="sessions">
+      <summary>{words.sessions(sessions.length)}</summary>
+      {sessions.length === 0 && <p class="soft">{words.noSessions}</p>}
+      <ul>
+        {sessions.map((session) => (
+          <Row key={session.id} session={session} store={store} watcher={watcher} />
+        ))}
+      </ul>
+    </details>
+  );
+}
+
+function Row({ session, store, watcher }: { session: Session; store: Store; watcher: Watcher }) {
+  return (
+    <li data-testid={`session-${session.id}`} data-state={session.state}>
+      <span class="session-when">{dayAndTime(session.created_utc)}</span>
+      <span>
+        {session.case} <span class="soft">{minutes(session.duration_s)}</span>
+      </span>
+      <span class={`session-word session-${session.state}`}>{words.state[session.state]}</span>
+      <button
+        type="button"
+        data-testid={`replay-${session.id}`}
+        disabled={!canBeReplayed(session) || store.busy.value || store.hello.value?.replayOf === session.id}
+        aria-label={words.replaySession(session.id)}
+        onClick={() => void watcher.openReplay(session.id)}
+      >
+        {words.replay}
+      </button>
+    </li>
+  );
+}
