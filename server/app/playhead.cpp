@@ -29,7 +29,7 @@ void Playhead::change(const api::PlaybackChange& change) {
     throw Error(ErrorKind::invalid_input, "position_s must be from 0 to the duration, " + number(duration_s) +
                                               ", not " + number(*change.position_s));
   if (change.position_s) {
-    position_ticks_ = std::min(std::round(*change.position_s / tick_s), double{duration_ticks_});
+    position_ticks_ = std::min(std::round(*change.position_s / tick_s), static_cast<double>(duration_ticks_));
     ++jumps_;
   }
   if (change.speed && *change.speed > 0.0) speed_ = *change.speed;
