@@ -1,6 +1,5 @@
 #include "api/new_id.hpp"
 
-#include <ctime>
 #include <random>
 #include <string_view>
 
@@ -11,14 +10,15 @@ constexpr size_t id_length = 8;
 
 }  // namespace
 
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
+std::string utc_text(std::time_t time) {
   std::tm parts{};
-  gmtime_r(&now, &parts);
+  gmtime_r(&time, &parts);
   char text[32];
   std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
   return text;
 }
+
+std::string utc_now() { return utc_text(std::time(nullptr)); }
 
 std::string random_id() {
   static constexpr std::string_view letters = "23456789abcdefghjkmnpqrstuvwxyz";

@@ -1,4 +1,5 @@
 #pragma once
+#include <ctime>
 #include <string>
 
 namespace ream::api {
@@ -7,7 +8,9 @@ namespace ream::api {
 /// typed.
 std::string random_id();
 
-/// The present moment as "2025-03-01T12:00:00Z".
+/// A moment as "2025-03-01T12:00:00Z".
+std::string utc_text(std::time_t time);
+/// The present one.
 std::string utc_now();
 
 }  // namespace ream::api

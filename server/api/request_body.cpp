@@ -1,5 +1,6 @@
 #include "api/request_body.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace ream::api {
@@ -17,6 +18,12 @@ std::string pointer_to(const std::string& key) {
 std::string plain_number(double value) {
   const std::string text = nlohmann::json(value).dump();
   return text.size() > 2 && text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
+}
+
+/// Of UTF-8: bytes that begin one.
+size_t characters(const std::string& text) {
+  return static_cast<size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
 }  // namespace
@@ -79,6 +86,33 @@ std::optional<double> RequestBody::number_or_none(const std::string& key, double
     return std::nullopt;
   }
   return number;
+}
+
+std::string RequestBody::words(const std::string& key, size_t least, size_t most) {
+  const nlohmann::json* value = find(key);
+  if (!value && least == 0) return {};
+  if (!value) {
+    complain(key, "is missing");
+  } else if (!value->is_string()) {
+    complain(key, std::string("must be a text, not ") + value->type_name());
+  } else if (const auto text = value->get<std::string>(); characters(text) < least || characters(text) > most) {
+    complain(key, "must be " + std::to_string(least) + " to " + std::to_string(most) + " characters long");
+  } else {
+    return text;
+  }
+  return {};
+}
+
+std::optional<Vec3> RequestBody::point_or_none(const std::string& key, double most) {
+  const nlohmann::json* value = find(key);
+  if (!value || value->is_null()) return std::nullopt;
+  const auto fits = [most](const nlohmann::json& number) {
+    return number.is_number() && std::abs(number.get<double>()) <= most;
+  };
+  if (value->is_array() && value->size() == 3 && std::all_of(value->begin(), value->end(), fits))
+    return Vec3((*value)[0].get<double>(), (*value)[1].get<double>(), (*value)[2].get<double>());
+  complain(key, "must be three numbers, each at most " + plain_number(most) + " either way");
+  return std::nullopt;
 }
 
 std::optional<double> RequestBody::number_within_or_none(const std::string& key, double least, double most) {

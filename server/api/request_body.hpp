@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/vec.hpp"
 #include "net/problem.hpp"
 
 namespace ream::api {
@@ -21,6 +22,11 @@ class RequestBody {
   std::string name(const std::string& key);
   /// A finite number above `above` and at most `most`; none when absent.
   std::optional<double> number_or_none(const std::string& key, double above, double most);
+  /// Text for people of `least` to `most` characters. Empty when absent and `least` is 0, or when there is
+  /// something wrong with it.
+  std::string words(const std::string& key, size_t least, size_t most);
+  /// Three finite numbers, none larger than `most` either way; none when absent or null.
+  std::optional<Vec3> point_or_none(const std::string& key, double most);
   /// A finite number from `least` to `most`, both included; none when absent.
   std::optional<double> number_within_or_none(const std::string& key, double least, double most);
   /// True or false; none when absent.

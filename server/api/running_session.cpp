@@ -16,8 +16,18 @@ std::string to_text(SessionState state) {
       return "stopped";
     case SessionState::fault:
       return "fault";
+    case SessionState::interrupted:
+      return "interrupted";
   }
   return "fault";
+}
+
+std::optional<SessionState> session_state_from(const std::string& text) {
+  for (const SessionState state : {SessionState::created, SessionState::running, SessionState::paused,
+                                   SessionState::finished, SessionState::stopped, SessionState::fault,
+                                   SessionState::interrupted})
+    if (text == to_text(state)) return state;
+  return std::nullopt;
 }
 
 bool is_live(SessionState state) {

@@ -6,15 +6,18 @@
 #include <optional>
 #include <string>
 
+#include "api/annotation.hpp"
 #include "core/timing_histogram.hpp"
 #include "net/websocket.hpp"
 
 namespace ream::api {
 
-enum class SessionState { created, running, paused, finished, stopped, fault };
+enum class SessionState { created, running, paused, finished, stopped, fault, interrupted };
 
-/// The word of REST and recordings: "created", "running", ...
+/// The word of REST and session.json: "created", "running", ...
 std::string to_text(SessionState state);
+/// Empty for other words.
+std::optional<SessionState> session_state_from(const std::string& text);
 
 /// Whether it still runs or can: created, running or paused.
 bool is_live(SessionState state);
@@ -24,6 +27,7 @@ struct SessionRequest {
   std::string id;  ///< given by the server
   std::string case_id, script;
   std::optional<double> force_scale;  ///< simulated N per hand N; none: the script's
+  std::string created_utc = {};       ///< "2025-03-01T12:00:00Z", given by the server
 };
 
 struct SessionStatus {
@@ -31,7 +35,7 @@ struct SessionStatus {
   uint32_t tick = 0;
   double duration_s = 0.0;
   double force_scale = 1.0;
-  std::string fault;  ///< words for people, empty unless state is fault
+  std::string fault;  ///< words for people, empty unless state is fault or interrupted
   TimingSummary tick_us;
   uint64_t missed = 0;  ///< ticks that began too late
 };
@@ -52,6 +56,12 @@ class RunningSession {
   /// The keys of metrics.json; grid_hash is null until the end.
   virtual nlohmann::json metrics() const = 0;
 
+  /// Puts a remark into the recording while it is being written. Error conflict when it is not: before the
+  /// start, and from the end on.
+  virtual Annotation annotate(const NewAnnotation& note) = 0;
+  /// All of the recording so far.
+  virtual std::vector<Annotation> annotations() const = 0;
+
   /// A viewer joins: Hello first, then the whole surface, then what changes, with one sample every `stride`
   /// (1, 2 or 4) voxels. It may outlive stop(), not the session.
   virtual std::unique_ptr<net::WebSocketSession> subscribe(int stride) = 0;
@@ -60,5 +70,11 @@ class RunningSession {
 /// Makes a session ready to start, which may take seconds. Called on worker threads, several at once.
 /// Errors: not_found (case, script), conflict (case without a plan), invalid_input, unavailable.
 using SessionFactory = std::function<std::unique_ptr<RunningSession>(const SessionRequest&)>;
+
+/// Makes a session ready to go on from what lies in the folder of `request.id`; `reamer` empty: the same.
+/// Writes nothing yet. Errors: those of a factory; conflict when another process has the session; not_found
+/// and invalid_input when there is no recording to go on from.
+using SessionResumer =
+    std::function<std::unique_ptr<RunningSession>(const SessionRequest& request, const std::string& reamer)>;
 
 }  // namespace ream::api

@@ -3,6 +3,7 @@
 #include <contract.hpp>
 #include <nlohmann/json.hpp>
 
+#include "api/annotation_resource.hpp"
 #include "api/case_resource.hpp"
 #include "api/replay_resource.hpp"
 #include "api/session_resource.hpp"
@@ -34,6 +35,7 @@ net::Router router_of(const ServerOptions& options, SessionService& sessions, Re
   add_contract_route(router);
   add_case_routes(router, options.cases_folder);
   add_session_routes(router, sessions, replays, readiness);
+  add_annotation_routes(router, sessions);
   add_replay_routes(router, sessions, replays, readiness);
   router.otherwise([files = net::StaticFiles(options.web_folder)](const net::Request& request) {
     return files.respond(request);
@@ -44,7 +46,7 @@ net::Router router_of(const ServerOptions& options, SessionService& sessions, Re
 }  // namespace
 
 Server::Server(ServerOptions options)
-    : sessions_(std::move(options.make_session), options.sessions),
+    : sessions_(std::move(options.make_session), options.sessions, options.sessions_folder),
       replays_(std::move(options.make_replay), options.replays),
       router_(router_of(options, sessions_, replays_, readiness_)),
       listener_(router_, options.listen),

@@ -16,7 +16,8 @@ struct ServerOptions {
   net::ListenOptions listen;
   std::filesystem::path cases_folder;
   std::filesystem::path web_folder;  ///< the built page; served under "/"
-  SessionFactory make_session;
+  std::filesystem::path sessions_folder;  ///< where sessions keep their folders
+  SessionMakers make_session;
   SessionLimits sessions;
   ReplayFactory make_replay;
   ReplayLimits replays;

@@ -11,6 +11,7 @@ using nlohmann::json;
 namespace {
 
 constexpr double largest_force_scale = 1000.0;
+constexpr size_t longest_reamer = 100;
 const std::string base = "/api/v1/sessions";
 
 json to_json(const SessionRecord& record) {
@@ -21,11 +22,12 @@ json to_json(const SessionRecord& record) {
           {"case", record.request.case_id},
           {"script", record.request.script},
           {"state", to_text(status.state)},
-          {"created_utc", record.created_utc},
+          {"created_utc", record.request.created_utc},
           {"tick", status.tick},
           {"duration_s", status.duration_s},
           {"force_scale", status.force_scale},
           {"fault", status.fault.empty() ? json(nullptr) : json(status.fault)},
+          {"streamable", record.streamable},
           {"loop",
            {{"mean_us", tick.mean_us},
             {"p50_us", tick.p50_us},
@@ -60,6 +62,17 @@ net::Response list(const SessionService& service, const ReplayService& replays) 
 
 const std::string& id_of(const net::Request& request) { return request.parameters.at("id"); }
 
+net::Response resume(SessionService& service, const Readiness& readiness, const net::Request& request) {
+  std::string reamer;
+  if (!request.body.empty()) {
+    RequestBody body(request);
+    reamer = body.words("reamer", 0, longest_reamer);
+    body.finish();
+  }
+  readiness.require_prepared();
+  return net::json_response(200, to_json(service.resume(id_of(request), reamer)));
+}
+
 /// For slow links: the surface with one sample every 2 or 4 voxels.
 int stride_of(const net::Request& request) {
   const auto given = request.query.find("stride");
@@ -85,6 +98,9 @@ void add_session_routes(net::Router& router, SessionService& service, ReplayServ
   router.on("POST", base + "/{id}/stop", [&](const net::Request& request) {
     const std::string& id = id_of(request);
     return net::json_response(200, replays.has(id) ? to_json(replays.stop(id)) : to_json(service.stop(id)));
+  });
+  router.on("POST", base + "/{id}/resume", [&](const net::Request& request) {
+    return resume(service, readiness, request);
   });
   router.on("GET", base + "/{id}/metrics", [&](const net::Request& request) {
     const std::string& id = id_of(request);

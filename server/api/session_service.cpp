@@ -5,6 +5,7 @@
 
 #include "api/keeping_session.hpp"
 #include "api/new_id.hpp"
+#include "api/recorded_annotations.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 
@@ -12,16 +13,16 @@ namespace ream::api {
 
 struct SessionService::Entry {
   SessionRequest request;
-  std::string created_utc;
   std::unique_ptr<RunningSession> running;
   std::mutex changing;  ///< one start or stop at a time
 
-  SessionRecord record() const { return {request, created_utc, running->status()}; }
+  SessionRecord record() const { return {request, running->status()}; }
   bool live() const { return is_live(running->status().state); }
 };
 
-SessionService::SessionService(SessionFactory factory, SessionLimits limits)
-    : factory_(std::move(factory)), limits_(limits) {}
+SessionService::SessionService(SessionMakers makers, SessionLimits limits,
+                               const std::filesystem::path& sessions_folder)
+    : makers_(std::move(makers)), limits_(limits), archive_(sessions_folder) {}
 
 SessionService::~SessionService() { shut_down(); }
 
@@ -42,7 +43,8 @@ std::string SessionService::unused_id() const {
     const std::string id = random_id();
     const bool taken = std::any_of(entries_.begin(), entries_.end(),
                                    [&](const auto& entry) { return entry->request.id == id; });
-    if (!taken) return id;
+    std::error_code failed;
+    if (!taken && !std::filesystem::exists(archive_.folder_of(id), failed)) return id;
   }
 }
 
@@ -70,9 +72,9 @@ SessionRecord SessionService::create(SessionRequest wanted) {
       const std::lock_guard lock(mutex_);
       wanted.id = unused_id();
     }
+    wanted.created_utc = utc_now();
     entry->request = std::move(wanted);
-    entry->created_utc = utc_now();
-    entry->running = factory_(entry->request);
+    entry->running = makers_.make(entry->request);
   } catch (...) {
     const std::lock_guard lock(mutex_);
     --being_made_;
@@ -87,11 +89,24 @@ SessionRecord SessionService::create(SessionRequest wanted) {
   return entry->record();
 }
 
-std::shared_ptr<SessionService::Entry> SessionService::find(const std::string& id) const {
+std::shared_ptr<SessionService::Entry> SessionService::find_or_none(const std::string& id) const {
   const std::lock_guard lock(mutex_);
   for (const auto& entry : entries_)
     if (entry->request.id == id) return entry;
+  return nullptr;
+}
+
+SessionRecord SessionService::archived(const std::string& id) const {
+  if (auto record = archive_.find(id)) return *record;
   throw Error(ErrorKind::not_found, "no session '" + id + "'; GET /api/v1/sessions lists them");
+}
+
+std::shared_ptr<SessionService::Entry> SessionService::find(const std::string& id) const {
+  if (auto entry = find_or_none(id)) return entry;
+  const SessionState state = archived(id).status.state;
+  throw Error(ErrorKind::conflict,
+              "session '" + id + "' is " + to_text(state) +
+                  (is_live(state) ? " in another process" : "; it is only kept in its folder"));
 }
 
 std::vector<SessionRecord> SessionService::list() const {
@@ -101,11 +116,22 @@ std::vector<SessionRecord> SessionService::list() const {
     entries = entries_;
   }
   std::vector<SessionRecord> records;
-  for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry) records.push_back((*entry)->record());
+  std::set<std::string> here;
+  for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry) {
+    records.push_back((*entry)->record());
+    here.insert((*entry)->request.id);
+  }
+  for (SessionRecord& record : archive_.list())
+    if (!here.contains(record.request.id)) records.push_back(std::move(record));
+  std::stable_sort(records.begin(), records.end(),
+                   [](const auto& a, const auto& b) { return a.request.created_utc > b.request.created_utc; });
   return records;
 }
 
-SessionRecord SessionService::get(const std::string& id) const { return find(id)->record(); }
+SessionRecord SessionService::get(const std::string& id) const {
+  const auto entry = find_or_none(id);
+  return entry ? entry->record() : archived(id);
+}
 
 SessionRecord SessionService::start(const std::string& id) {
   const auto entry = find(id);
@@ -132,7 +158,76 @@ SessionRecord SessionService::stop(const std::string& id) {
   return entry->record();
 }
 
-nlohmann::json SessionService::metrics(const std::string& id) const { return find(id)->running->metrics(); }
+std::shared_ptr<SessionService::Entry> SessionService::made_again(const SessionRecord& before,
+                                                                 const std::string& reamer) {
+  auto entry = std::make_shared<Entry>();
+  entry->request = before.request;
+  entry->running = makers_.resume(before.request, reamer);
+  entry->running->start();
+  return entry;
+}
+
+SessionRecord SessionService::resume(const std::string& id, const std::string& reamer) {
+  const SessionRecord before = get(id);
+  const SessionState state = before.status.state;
+  if (state != SessionState::interrupted && state != SessionState::stopped)
+    throw Error(ErrorKind::conflict, "session '" + id + "' is " + to_text(state) +
+                                         "; only an interrupted or stopped session can go on");
+  {
+    const std::lock_guard lock(mutex_);
+    if (!being_resumed_.insert(id).second)
+      throw Error(ErrorKind::conflict, "session '" + id + "' is being resumed already");
+  }
+  const auto done = [this, &id](bool reserved) {
+    being_resumed_.erase(id);
+    if (reserved) --being_made_;
+  };
+  std::shared_ptr<Entry> entry, old;
+  bool reserved = false;
+  try {
+    reserve_place();
+    reserved = true;
+    entry = made_again(before, reamer);
+  } catch (...) {
+    const std::lock_guard lock(mutex_);
+    done(reserved);
+    throw;
+  }
+  const std::lock_guard lock(mutex_);
+  done(true);
+  if (closed_) throw Error(ErrorKind::unavailable, "the server is stopping");
+  const auto place = std::find_if(entries_.begin(), entries_.end(),
+                                  [&](const auto& other) { return other->request.id == id; });
+  if (place != entries_.end()) {
+    old = std::move(*place);
+    entries_.erase(place);
+  }
+  entries_.push_back(entry);
+  return entry->record();
+}
+
+nlohmann::json SessionService::metrics(const std::string& id) const {
+  const auto entry = find_or_none(id);
+  return entry ? entry->running->metrics() : archive_.metrics(id);
+}
+
+Annotation SessionService::annotate(const std::string& id, const NewAnnotation& note) {
+  const auto entry = find_or_none(id);
+  if (entry && entry->live()) try {
+      return entry->running->annotate(note);
+    } catch (const Error&) {
+      if (entry->live()) throw;  // else it ended in the meantime
+    }
+  if (!entry) archived(id);
+  return annotate_recording(archive_.folder_of(id), note);
+}
+
+std::vector<Annotation> SessionService::annotations(const std::string& id) const {
+  const auto entry = find_or_none(id);
+  if (entry && entry->live()) return entry->running->annotations();
+  if (!entry) archived(id);
+  return recorded_annotations(archive_.folder_of(id));
+}
 
 std::unique_ptr<net::WebSocketSession> SessionService::subscribe(const std::string& id, int stride) const {
   auto entry = find(id);

@@ -4,10 +4,13 @@
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "api/annotation.hpp"
 #include "api/running_session.hpp"
+#include "api/session_archive.hpp"
 
 namespace ream::api {
 
@@ -16,32 +19,41 @@ struct SessionLimits {
   size_t kept = 16;  ///< ended ones that can still be looked at; the oldest go first
 };
 
-/// A session as others see it.
-struct SessionRecord {
-  SessionRequest request;
-  std::string created_utc;  ///< "2025-03-01T12:00:00Z"
-  SessionStatus status;
+/// What makes sessions. `resume` makes one that goes on from what an ended one left in its folder.
+struct SessionMakers {
+  SessionFactory make;
+  SessionResumer resume;
 };
 
-/// Owns the sessions of this server. Thread-safe. Unknown ids throw Error not_found.
+/// Owns the sessions of this server and knows all that lie in the data folder. Thread-safe. Unknown ids throw
+/// Error not_found.
 class SessionService {
  public:
-  SessionService(SessionFactory factory, SessionLimits limits);
+  /// `sessions_folder`: where sessions keep their folders; empty: nowhere.
+  SessionService(SessionMakers makers, SessionLimits limits, const std::filesystem::path& sessions_folder);
   ~SessionService();
   SessionService(const SessionService&) = delete;
   SessionService& operator=(const SessionService&) = delete;
 
   /// `wanted.id` is chosen here. Errors: unavailable when as many are live as may be; those of the factory.
   SessionRecord create(SessionRequest wanted);
-  /// Newest first.
+  /// Newest first: those of this server, then what else lies in the data folder.
   std::vector<SessionRecord> list() const;
   SessionRecord get(const std::string& id) const;
   /// Error conflict unless created.
   SessionRecord start(const std::string& id);
   /// Error conflict when it has ended already.
   SessionRecord stop(const std::string& id);
+  /// Goes on with one that was interrupted or stopped, under the same id, and starts it. `reamer`: empty for
+  /// the same as before. Errors: conflict in any other state or when another process has it; those of create()
+  /// and start().
+  SessionRecord resume(const std::string& id, const std::string& reamer);
   nlohmann::json metrics(const std::string& id) const;
-  /// The session lives on as long as somebody watches it. `stride` as RunningSession::subscribe.
+  /// Into the running recording, or behind the end of one that has ended. Error conflict before the start.
+  Annotation annotate(const std::string& id, const NewAnnotation& note);
+  std::vector<Annotation> annotations(const std::string& id) const;
+  /// The session lives on as long as somebody watches it. `stride` as RunningSession::subscribe. Error
+  /// conflict when it is only in its folder.
   std::unique_ptr<net::WebSocketSession> subscribe(const std::string& id, int stride) const;
 
   /// Stops every session that still runs; nothing can be created or started any more.
@@ -49,15 +61,20 @@ class SessionService {
 
  private:
   struct Entry;
+  std::shared_ptr<Entry> find_or_none(const std::string& id) const;
   std::shared_ptr<Entry> find(const std::string& id) const;
+  SessionRecord archived(const std::string& id) const;
+  std::shared_ptr<Entry> made_again(const SessionRecord& before, const std::string& reamer);
   void reserve_place();
   std::string unused_id() const;
   std::vector<std::shared_ptr<Entry>> take_surplus();
 
-  const SessionFactory factory_;
+  const SessionMakers makers_;
   const SessionLimits limits_;
+  const SessionArchive archive_;
   mutable std::mutex mutex_;
   std::vector<std::shared_ptr<Entry>> entries_;  ///< oldest first
+  std::set<std::string> being_resumed_;
   size_t being_made_ = 0;
   bool closed_ = false;
 };

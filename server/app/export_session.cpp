@@ -22,7 +22,8 @@ void export_surface(const record::Recording& recording, case_::Case& bone_case,
   record::RecordedBone recorded(recording, bone.grid, bone.coverage);
   recorded.seek(UINT32_MAX, [](const voxel::BrickImage&) {});
   recorded.write_to(bone.coverage);
-  write_ply(ply, surface::whole_surface(bone.grid, bone.coverage.data()).transformed(bone.grid.world_from_grid));
+  write_ply(ply,
+            surface::whole_surface(bone.grid, bone.coverage.data()).transformed(bone.grid.world_from_grid));
 }
 
 }  // namespace ream::app

@@ -35,7 +35,8 @@ HeadlessResult run_headless(Rig& rig, std::span<const uint8_t> start_coverage,
   while (!loop.ended()) {
     throw_if_interrupted();
     const bool late = files.recorder().waiting_chunks() > enough_waiting_chunks;
-    if (late || !rings.drain(take_brick, take_report)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (late || !rings.drain(take_brick, take_report))
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   loop.stop();
   rig.state.brick_sender = nullptr;

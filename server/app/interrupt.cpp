@@ -20,6 +20,8 @@ void catch_interrupts() {
   ::sigaction(SIGTERM, &action, nullptr);
 }
 
+void take_file_size_limit_as_error() { ::signal(SIGXFSZ, SIG_IGN); }
+
 bool interrupted() noexcept { return signalled != 0; }
 
 void throw_if_interrupted() {

@@ -7,6 +7,11 @@ namespace ream::app {
 void catch_interrupts();
 bool interrupted() noexcept;
 
+/// From now on a write beyond the process' limit of file size fails like one to a full disk, with words,
+/// instead of ending the process.
+void take_file_size_limit_as_error();
+
+
 /// Throws Error io "interrupted; nothing was written" once a signal has come.
 void throw_if_interrupted();
 

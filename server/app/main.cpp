@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "app/cli/commands.hpp"
+#include "app/interrupt.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
 
@@ -24,6 +25,7 @@ void add_commands(CLI::App& app, ream::app::GlobalOptions& global) {
   add_score_command(app, global);
   add_export_command(app, global);
   add_list_command(app, global);
+  add_replay_command(app, global);
   add_bench_command(app, global);
 }
 
@@ -33,6 +35,7 @@ int main(int argc, char** argv) {
   CLI::App app("ream: a training simulator for glenoid reaming");
   ream::app::GlobalOptions global;
   add_commands(app, global);
+  ream::app::take_file_size_limit_as_error();
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

@@ -4,8 +4,11 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "api/annotation_op.hpp"
+#include "api/session_folder.hpp"
 #include "api/viewer_stream.hpp"
 #include "app/data_folder.hpp"
+#include "app/session_recovery.hpp"
 #include "app/stream_words.hpp"
 #include "core/clock.hpp"
 #include "core/error.hpp"
@@ -43,6 +46,8 @@ stream::SessionState wire_state(api::SessionState state) {
       return stream::SessionState::stopped;
     case api::SessionState::fault:
       return stream::SessionState::fault;
+    case api::SessionState::interrupted:
+      return stream::SessionState::interrupted;
   }
   return stream::SessionState::fault;
 }
@@ -55,9 +60,31 @@ api::SessionState end_state(sim::LoopEnd end) {
 }  // namespace
 
 ReamingSession::ReamingSession(const SessionHouse& house, const api::SessionRequest& request)
+    : ReamingSession(house, request, Beginning{nullptr, false, asked_for(run_request(house, request), house.data)}) {}
+
+ReamingSession::ReamingSession(const SessionHouse& house, const api::SessionRequest& request,
+                               const std::string& reamer)
+    : ReamingSession(house, request, resumed(house, request, reamer)) {}
+
+ReamingSession::Beginning ReamingSession::resumed(const SessionHouse& house, const api::SessionRequest& request,
+                                                  const std::string& reamer) {
+  Beginning beginning;
+  beginning.from = std::make_unique<ResumePoint>(sessions_folder(house.data) / request.id, house.data);
+  beginning.parts = beginning.from->parts(run_request(house, request), reamer);
+  beginning.changed_tool =
+      beginning.parts.reamer.words != beginning.from->recording().segments().back().tool;
+  return beginning;
+}
+
+ReamingSession::ReamingSession(const SessionHouse& house, const api::SessionRequest& request,
+                               Beginning beginning)
     : house_(house),
+      request_(request),
       id_(request.id),
-      rig_(run_request(house, request), house.data),
+      folder_(sessions_folder(house.data) / id_),
+      from_(std::move(beginning.from)),
+      changed_tool_(beginning.changed_tool),
+      rig_(std::move(beginning.parts)),
       rings_(rig_.bone_case.bone.grid),
       loop_(rig_.model, rig_.state, *rig_.device, rings_.reports, {true, house.realtime}),
       fanout_(std::make_shared<stream::LocalFanout>()),
@@ -68,7 +95,15 @@ ReamingSession::ReamingSession(const SessionHouse& house, const api::SessionRequ
   log::info("session " + id_ + ": contact and removal on " + backend.name +
             (backend.choice.empty() ? "" : " (" + backend.choice + ")"));
   status_.force_scale = rig_.model.settings.force_scale;
-  metrics_ = score::metrics_json({}, status_.force_scale, nullptr);
+  score::Metrics metrics;
+  if (from_) {
+    metrics = from_->metrics().metrics();
+    status_.tick = sample_.tick = from_->ticks();
+    for (const record::ops::Annotation& op : from_->recording().annotations())
+      annotations_.push_back(api::annotation_of(op));
+  }
+  status_.duration_s = metrics.duration_s;
+  metrics_ = score::metrics_json(metrics, status_.force_scale, nullptr);
   sample_.world_from_tool = sample_.world_from_handle =
       rig_.model.world_from_plan * Pose{Mat3::Identity(), rig_.script.hand.start_mm};
   fanout_->publish_hello(stream::hello_message(hello()));
@@ -94,22 +129,53 @@ stream::HelloInfo ReamingSession::hello() const {
   return info;
 }
 
+/// session.json beside what describes the run.
+nlohmann::json ReamingSession::told_of(api::SessionState state, const std::string& fault) const {
+  nlohmann::json told = {{"id", id_},
+                         {"state", api::to_text(state)},
+                         {"created_utc", request_.created_utc},
+                         {"script", request_.script}};
+  if (!fault.empty()) told["fault"] = fault;
+  if (!api::is_live(state)) told["ticks"] = status().tick;
+  return told;
+}
+
+/// The recording first: what session.json calls running has one.
+void ReamingSession::open_files() {
+  make_writable_folder(folder_);
+  lock_ = from_ ? from_->take_lock() : locked(folder_);
+  const uint8_t* coverage = publisher_.replica().coverage().data();
+  auto files = from_ ? std::make_unique<SessionFiles>(rig_, folder_, coverage, *from_, changed_tool_)
+                     : std::make_unique<SessionFiles>(rig_, folder_, coverage, SessionFiles::Trace::left_out);
+  nlohmann::json session = files->description();
+  session.update(told_of(api::SessionState::running, {}));
+  write_file_atomically(api::session_json(folder_), session.dump(2) + "\n");
+  const std::lock_guard lock(mutex_);
+  files_ = std::move(files);
+  status_.state = api::SessionState::running;
+}
+
 void ReamingSession::start() {
-  const std::filesystem::path folder = sessions_folder(house_.data) / id_;
-  make_writable_folder(folder);
-  auto files = std::make_unique<SessionFiles>(rig_, folder, publisher_.replica().coverage().data(),
-                                              SessionFiles::Trace::left_out);
-  {
+  if (status().state != api::SessionState::created)
+    throw Error(ErrorKind::conflict, "session " + id_ + " has been started already");
+  try {
+    open_files();
+  } catch (const Error& e) {
+    lock_.reset();
+    std::error_code ignored;
+    if (!from_) std::filesystem::remove_all(folder_, ignored);
     const std::lock_guard lock(mutex_);
-    if (status_.state != api::SessionState::created)
-      throw Error(ErrorKind::conflict, "session " + id_ + " has been started already");
-    files_ = std::move(files);
-    status_.state = api::SessionState::running;
+    status_.state = api::SessionState::fault;
+    status_.fault = e.what();
+    throw;
   }
+  from_.reset();
   try {
     loop_.start();
   } catch (const Error& e) {
-    fail(e.what());
+    std::unique_lock lock(mutex_);
+    start_failure_ = e.what();
+    changed_.wait(lock, [this] { return finished_; });
     throw;
   }
 }
@@ -135,6 +201,21 @@ nlohmann::json ReamingSession::metrics() const {
   return metrics_;
 }
 
+api::Annotation ReamingSession::annotate(const api::NewAnnotation& note) {
+  const std::lock_guard lock(mutex_);
+  if (!files_ || finished_)
+    throw Error(ErrorKind::conflict, "session '" + id_ + "' is " + api::to_text(status_.state) +
+                                         "; a remark needs a recording");
+  remarks_.push_back(api::annotation_op(note, status_.tick));
+  annotations_.push_back(api::annotation_of(remarks_.back()));
+  return annotations_.back();
+}
+
+std::vector<api::Annotation> ReamingSession::annotations() const {
+  const std::lock_guard lock(mutex_);
+  return annotations_;
+}
+
 std::unique_ptr<net::WebSocketSession> ReamingSession::subscribe(int stride) {
   return api::viewer_stream(fanout_, stride);
 }
@@ -142,21 +223,11 @@ std::unique_ptr<net::WebSocketSession> ReamingSession::subscribe(int stride) {
 void ReamingSession::follow() {
   int64_t last_told_ns = 0;
   for (;;) {
-    bool running = false, leaving = false, finished = false;
     {
       const std::lock_guard lock(mutex_);
-      running = files_ != nullptr;
-      leaving = leaving_;
-      finished = finished_;
+      if (leaving_) return;
     }
-    if (leaving) return;
-    const bool ended = loop_.ended();  // read before draining: then nothing can be missed
-    if (running && !finished) try {
-        take(ended);
-        if (ended) finish();
-      } catch (const Error& e) {
-        fail(e.what());
-      }
+    follow_once();
     publisher_.poll(steady_ns());
     const int64_t now_ns = steady_ns();
     const api::SessionState state = status().state;
@@ -166,6 +237,30 @@ void ReamingSession::follow() {
     }
     batcher_.publish_if_due(now_ns);
     std::this_thread::sleep_for(follower_period);
+  }
+}
+
+std::string ReamingSession::start_failure() const {
+  const std::lock_guard lock(mutex_);
+  return start_failure_;
+}
+
+/// Takes what the loop has done, while there is a recording to put it in.
+void ReamingSession::follow_once() {
+  std::vector<record::ops::Annotation> remarks;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!files_ || finished_) return;
+    remarks.swap(remarks_);
+  }
+  const bool ended = loop_.ended();  // read before draining: then nothing can be missed
+  try {
+    for (const record::ops::Annotation& remark : remarks) files_->add(remark);
+    take(ended);
+    if (ended) finish();
+    if (!start_failure().empty()) throw Error(ErrorKind::unavailable, start_failure());
+  } catch (const Error& e) {
+    end_without_force(e.what());
   }
 }
 
@@ -230,33 +325,42 @@ void ReamingSession::publish_state(api::SessionState state) {
 
 void ReamingSession::finish() {
   const sim::LoopHealth health = loop_.health();
-  const std::filesystem::path folder = sessions_folder(house_.data) / id_;
+  const api::SessionState state = end_state(health.end);
   const std::string fault = to_words(health.end);
-  if (!fault.empty()) loop_.black_box().write(folder / "black-box.csv");
+  if (!fault.empty()) loop_.black_box().write(folder_ / "black-box.csv");
   publisher_.flush(steady_ns());
-  const auto results = files_->finish(health, {{"id", id_}, {"state", api::to_text(end_state(health.end))}});
   note_health();
-  {
-    const std::lock_guard lock(mutex_);
-    status_.state = end_state(health.end);
-    status_.fault = fault;
-    metrics_ = results.metrics;
-    finished_ = true;
-  }
-  changed_.notify_all();
-  publish_state(end_state(health.end));
+  const auto results = files_->finish(health, told_of(state, fault));
+  close(state, fault, results.metrics);
 }
 
-void ReamingSession::fail(const std::string& words) {
+/// What was recorded up to here is closed as a fault; on a disk that takes nothing more, the next start of the
+/// server does so.
+void ReamingSession::end_without_force(const std::string& words) {
   log::error("session " + id_ + ": " + words);
   loop_.request_stop();
+  files_->abandon();
+  nlohmann::json metrics = this->metrics();
+  try {
+    close_session_folder(folder_, api::SessionState::fault, words);
+    metrics = read_json_file(api::metrics_json(folder_));
+  } catch (const Error& e) {
+    log::error("session " + id_ + " could not be closed; the next start of the server tries again: " + e.what());
+  }
+  close(api::SessionState::fault, words, metrics);
+}
+
+void ReamingSession::close(api::SessionState state, const std::string& fault, const nlohmann::json& metrics) {
   {
     const std::lock_guard lock(mutex_);
-    status_.state = api::SessionState::fault;
-    status_.fault = words;
+    status_.state = state;
+    status_.fault = fault;
+    metrics_ = metrics;
+    lock_.reset();
     finished_ = true;
   }
   changed_.notify_all();
+  publish_state(state);
 }
 
 }  // namespace ream::app

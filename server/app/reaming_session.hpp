@@ -7,6 +7,7 @@
 
 #include "api/running_session.hpp"
 #include "app/loop_rings.hpp"
+#include "app/resume_point.hpp"
 #include "app/rig.hpp"
 #include "app/session_files.hpp"
 #include "sim/haptic_loop.hpp"
@@ -29,26 +30,51 @@ class ReamingSession final : public api::RunningSession {
  public:
   /// Errors: those of Rig.
   ReamingSession(const SessionHouse& house, const api::SessionRequest& request);
+  /// Goes on with one that was interrupted or stopped, under the same id; see api::SessionResumer. Errors:
+  /// those of ResumePoint and Rig.
+  ReamingSession(const SessionHouse& house, const api::SessionRequest& request, const std::string& reamer);
   ~ReamingSession() override;
 
   void start() override;
   void stop() override;
   api::SessionStatus status() const override;
   nlohmann::json metrics() const override;
+  api::Annotation annotate(const api::NewAnnotation& note) override;
+  std::vector<api::Annotation> annotations() const override;
   std::unique_ptr<net::WebSocketSession> subscribe(int stride) override;
 
  private:
+  /// What a session is made of, new or going on.
+  struct Beginning {
+    std::unique_ptr<ResumePoint> from;  ///< empty: new
+    bool changed_tool = false;          ///< since it ended
+    RigParts parts;
+  };
+  static Beginning resumed(const SessionHouse& house, const api::SessionRequest& request,
+                           const std::string& reamer);
+  ReamingSession(const SessionHouse& house, const api::SessionRequest& request, Beginning beginning);
+
+  void open_files();
+  nlohmann::json told_of(api::SessionState state, const std::string& fault) const;
   void follow();
+  void follow_once();
+  std::string start_failure() const;
   void take(bool ended);
   void take_report(const record::TickReport& report);
   void publish_state(api::SessionState state);
   void note_health();
   void finish();
-  void fail(const std::string& words);
+  void end_without_force(const std::string& words);
+  void close(api::SessionState state, const std::string& fault, const nlohmann::json& metrics);
   stream::HelloInfo hello() const;
 
   const SessionHouse house_;
+  const api::SessionRequest request_;
   const std::string id_;
+  const std::filesystem::path folder_;
+  std::unique_ptr<ResumePoint> from_;  ///< until started, where it goes on with another
+  const bool changed_tool_;
+  std::optional<FileLock> lock_;  ///< of the folder, while it runs
   Rig rig_;
   LoopRings rings_;
   sim::HapticLoop loop_;
@@ -63,6 +89,9 @@ class ReamingSession final : public api::RunningSession {
   api::SessionStatus status_;
   nlohmann::json metrics_;
   std::unique_ptr<SessionFiles> files_;  ///< set by start(), used by the follower
+  std::vector<record::ops::Annotation> remarks_;  ///< for the follower to record
+  std::vector<api::Annotation> annotations_;
+  std::string start_failure_;  ///< for the follower to end the session with
   bool leaving_ = false, finished_ = false;
   std::mutex stopping_;  ///< one stop() at a time
   std::thread follower_;

@@ -35,14 +35,17 @@ fs::path recording_path(const std::string& name, const fs::path& data) {
                                         ", and no such folder or file; `ream list sessions` lists them");
 }
 
-score::Metrics rescored(const record::Recording& recording) {
+score::MetricsAccumulator accumulated(const record::Recording& recording) {
   const voxel::VoxelGrid grid = recording.grid();
-  score::MetricsAccumulator metrics(grid.voxel_volume_mm3(), sim::world_from_plan(plan_of(recording)).inverse());
+  score::MetricsAccumulator metrics(grid.voxel_volume_mm3(),
+                                    sim::world_from_plan(plan_of(recording)).inverse());
   recording.for_each_tick(0, UINT32_MAX, [&](const record::ops::Tick& tick) {
     metrics.add(record::report_of(tick, grid.world_from_grid));
   });
-  return metrics.metrics();
+  return metrics;
 }
+
+score::Metrics rescored(const record::Recording& recording) { return accumulated(recording).metrics(); }
 
 nlohmann::json rescored_json(const record::Recording& recording) {
   const auto checkpoints = recording.checkpoints();

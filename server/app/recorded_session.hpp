@@ -13,6 +13,9 @@ namespace ream::app {
 /// or such a file. Error not_found says where was looked.
 std::filesystem::path recording_path(const std::string& name, const std::filesystem::path& data);
 
+/// All ticks of a recording, added up as a live session does. Error invalid_input at damage that opening did
+/// not show.
+score::MetricsAccumulator accumulated(const record::Recording& recording);
 /// What the recording's ticks are worth now, by this build's definitions; the same as the live session's to
 /// the bit. Error invalid_input at damage that opening did not show.
 score::Metrics rescored(const record::Recording& recording);

@@ -15,13 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-device::Script find_script(const RunRequest& request) {
-  device::Script script =
-      request.script_name == "demo" ? device::demo_script() : device::load_script(request.script_name);
-  if (request.force_scale) script.force_scale = *request.force_scale;
-  return script;
-}
-
 force::VibrationSettings vibration_settings(const device::ScriptVibration& script) {
   force::VibrationSettings settings;
   settings.source = force::vibration_source_from(script.source);
@@ -80,6 +73,13 @@ nlohmann::json mount_json(const sim::Model& model) {
 case_::Case find_case(const std::string& name, const fs::path& data) {
   if (name == "demo") return ct::load_or_make_demo_case(data);
   return case_::load_case(case_path(name, data));
+}
+
+device::Script find_script(const RunRequest& request) {
+  device::Script script =
+      request.script_name == "demo" ? device::demo_script() : device::load_script(request.script_name);
+  if (request.force_scale) script.force_scale = *request.force_scale;
+  return script;
 }
 
 const case_::Plan& plan_of(const case_::Case& c) {

@@ -70,6 +70,9 @@ class Rig {
 /// The plan of a case. Error conflict when it has none.
 const case_::Plan& plan_of(const case_::Case& c);
 
+/// The script that a request means, its force scale the request's. Errors: those of load_script.
+device::Script find_script(const RunRequest& request);
+
 /// The case that a name means; see RunRequest::case_name.
 case_::Case find_case(const std::string& name, const std::filesystem::path& data);
 

@@ -42,8 +42,8 @@ std::string session_id(const fs::path& folder, const record::Recording& recordin
       return session["id"].get<std::string>();
   }
   const auto checkpoints = recording.checkpoints();
-  return "run" + to_hex(checkpoints.empty() ? recording.header().start_grid_hash
-                                            : checkpoints.back().session_hash);
+  return "run" +
+         to_hex(checkpoints.empty() ? recording.header().start_grid_hash : checkpoints.back().session_hash);
 }
 
 void add_files(const fs::path& folder, const std::set<std::string>& names, const std::string& under,
@@ -74,7 +74,8 @@ nlohmann::json read_bundle_json(const fs::path& folder, const fs::path& zip) {
     return Error(ErrorKind::invalid_input, zip.string() + " is no session bundle: " + why);
   };
   if (!bundle.is_object() || bundle.value("format", "") != format) throw refuse("bundle.json says so");
-  if (bundle.value("revision", 0) != revision) throw refuse("it was made by a newer version; update this one");
+  if (bundle.value("revision", 0) != revision)
+    throw refuse("it was made by a newer version; update this one");
   for (const char* key : {"session", "case"})
     if (!bundle.contains(key) || !bundle[key].is_string() || !is_id(bundle[key].get<std::string>()))
       throw refuse(std::string("bundle.json has no usable '") + key + "'");
@@ -96,7 +97,8 @@ void write_session_bundle(const fs::path& recording_file, const std::string& cas
   write_file_atomically(made.path / "bundle.json", bundle.dump(2) + "\n");
   std::vector<store::ArchiveEntry> entries{{made.path / "bundle.json", "bundle.json"}};
   add_files(folder, session_files, "session", entries);
-  add_files(case_path(case_name.empty() ? recording.header().case_id : case_name, data), case_files, "case", entries);
+  add_files(case_path(case_name.empty() ? recording.header().case_id : case_name, data), case_files, "case",
+            entries);
   store::write_zip(zip, entries);
 }
 
@@ -126,9 +128,10 @@ std::string import_session_bundle(const fs::path& zip, const fs::path& data) {
   const bool known = fs::exists(case_to);
   const uint64_t hash = case_::case_hash(case_::load_case(known ? case_to : unpacked.path / "case"));
   if (hash != recording.header().case_hash || recording.header().case_id != case_id)
-    throw Error(ErrorKind::conflict,
-                known ? "another case '" + case_id + "' is in the data folder; import with --data into one of its own"
-                      : zip.string() + " holds a case that is not its session's");
+    throw Error(
+        ErrorKind::conflict,
+        known ? "another case '" + case_id + "' is in the data folder; import with --data into one of its own"
+              : zip.string() + " holds a case that is not its session's");
   if (!known) fs::rename(unpacked.path / "case", case_to);
   std::error_code failed;
   fs::rename(unpacked.path / "session", session_to, failed);

@@ -7,7 +7,8 @@ namespace ream::app {
 /// A session and its case as one file, to be looked at, rescored and proven on another machine: bundle.json,
 /// session/ (the session's folder) and case/ (the case's).
 
-/// Writes it. `recording` as recording_path() finds it, `case_name` as for case_of(). Errors: those of the recording and its case; io.
+/// Writes it. `recording` as recording_path() finds it, `case_name` as for case_of(). Errors: those of the
+/// recording and its case; io.
 void write_session_bundle(const std::filesystem::path& recording, const std::string& case_name,
                           const std::filesystem::path& data, const std::filesystem::path& zip);
 

@@ -4,6 +4,7 @@
 
 #include "app/recording_header.hpp"
 #include "core/file.hpp"
+#include "core/hash.hpp"
 
 namespace ream::app {
 namespace {
@@ -21,6 +22,13 @@ void write_json(const std::filesystem::path& path, const nlohmann::json& json) {
   write_file_atomically(path, json.dump(2) + "\n");
 }
 
+/// The start of the session stays what it was.
+nlohmann::json resumed_description(const Rig& rig, const ResumePoint& from) {
+  nlohmann::json description = rig.description();
+  description["start_grid_hash"] = to_hex(from.recording().header().start_grid_hash);
+  return description;
+}
+
 }  // namespace
 
 SessionFiles::SessionFiles(const Rig& rig, const std::filesystem::path& folder, const uint8_t* start_coverage,
@@ -28,24 +36,35 @@ SessionFiles::SessionFiles(const Rig& rig, const std::filesystem::path& folder, 
     : rig_(rig),
       folder_(folder),
       description_(rig.description()),
-      recorder_(record::create_log_file(folder / "recording.ream"), header_of(rig),
+      recorder_(std::in_place, record::create_log_file(folder / "recording.ream"), header_of(rig),
                 segment_of(rig, 0, "start"), start_coverage),
       metrics_(rig.bone_case.bone.grid.voxel_volume_mm3(), rig.model.world_from_plan.inverse()) {
   if (trace == Trace::written)
     trace_.emplace(folder / "trace.csv", rig.bone_case.bone.grid.voxel_volume_mm3());
 }
 
+SessionFiles::SessionFiles(const Rig& rig, const std::filesystem::path& folder, const uint8_t* start_coverage,
+                           const ResumePoint& from, bool changed_tool)
+    : rig_(rig),
+      folder_(folder),
+      description_(resumed_description(rig, from)),
+      recorder_(std::in_place,
+                record::continue_log_file(folder / "recording.ream", from.recording().log().whole_bytes()),
+                from.recording(), from.bone(), segment_of(rig, from.ticks(), changed_tool ? "reamer" : "resume"),
+                start_coverage),
+      metrics_(from.metrics()) {}
+
 record::TickReport SessionFiles::add(const record::TickReport& report) {
   const record::TickReport kept = record::as_recorded(report, rig_.bone_case.bone.grid.world_from_grid);
   if (trace_) trace_->add(kept);
   metrics_.add(kept);
-  recorder_.add(report);
+  recorder_->add(report);
   return kept;
 }
 
 SessionFiles::Results SessionFiles::finish(const sim::LoopHealth& health, const nlohmann::json& extra) {
   if (trace_) trace_->finish();
-  recorder_.finish(extra.value("state", "finished"));
+  recorder_->finish(extra.value("state", "finished"));
   const uint64_t grid_hash = rig_.bone_case.bone.coverage_hash();
   Results results{score::metrics_json(metrics_.metrics(), rig_.model.settings.force_scale, &grid_hash),
                   timing_json(health)};

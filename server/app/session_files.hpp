@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "app/resume_point.hpp"
 #include "app/rig.hpp"
 #include "record/recorder.hpp"
 #include "record/trace_csv.hpp"
@@ -23,25 +24,34 @@ class SessionFiles {
   SessionFiles(const Rig& rig, const std::filesystem::path& folder, const uint8_t* start_coverage,
                Trace trace);
 
+  /// Goes on with a session after what was recorded of it. `changed_tool`: it is not the one before.
+  SessionFiles(const Rig& rig, const std::filesystem::path& folder, const uint8_t* start_coverage,
+               const ResumePoint& from, bool changed_tool);
+
   /// All images of a tick come before its report.
-  void add(const voxel::BrickImage& image) { recorder_.add(image); }
+  void add(const voxel::BrickImage& image) { recorder_->add(image); }
+  void add(const record::ops::Annotation& annotation) { recorder_->add(annotation); }
   /// Returns the report as it is kept.
   record::TickReport add(const record::TickReport& report);
+  /// What session.json says from the start on.
+  const nlohmann::json& description() const { return description_; }
   score::Metrics metrics() const { return metrics_.metrics(); }
-  const record::Recorder& recorder() const { return recorder_; }
+  const record::Recorder& recorder() const { return *recorder_; }
 
   struct Results {
     nlohmann::json metrics, timing;
   };
   /// Closes and writes everything; only after the loop has ended. `extra` is merged into session.json.
   Results finish(const sim::LoopHealth& health, const nlohmann::json& extra);
+  /// Lets go of a recording that cannot be written any more, as far as it is; nothing else may follow.
+  void abandon() { recorder_.reset(); }
 
  private:
   const Rig& rig_;
   const std::filesystem::path folder_;
   const nlohmann::json description_;  ///< of the rig before the first tick
   std::optional<record::TraceCsv> trace_;
-  record::Recorder recorder_;
+  std::optional<record::Recorder> recorder_;
   score::MetricsAccumulator metrics_;
 };
 

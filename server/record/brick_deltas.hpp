@@ -18,10 +18,10 @@ struct BrickCoverage {
 /// Bricks that differ from the start, by index.
 using BrickCoverages = std::unordered_map<uint32_t, BrickCoverage>;
 
-/// The `images` of a bricks op: as many u32 as it has bricks, each index less the one before (ascending), then
-/// 512 bytes a brick, by how much the coverage of each voxel has fallen (modulo 256, x fastest) since the
-/// bricks op before, or in a key since the start. A voxel is cut once and most of a brick stays, so most of
-/// it is zero.
+/// The `images` of a bricks op: as many u32 as it has bricks, each index less the one before (ascending),
+/// then 512 bytes a brick, by how much the coverage of each voxel has fallen (modulo 256, x fastest) since
+/// the bricks op before, or in a key since the start. A voxel is cut once and most of a brick stays, so most
+/// of it is zero.
 class BrickDeltaWriter {
  public:
   /// Bricks ascending. `before` is what the reader holds of it, `now` what it shall hold.

@@ -12,8 +12,7 @@ ChunkEncoder::ChunkEncoder(uint64_t grid_hash, BrickCoverages changed, BrickCove
     : grid_hash_(grid_hash), now_(std::move(changed)), start_(std::move(starts)) {}
 
 void ChunkEncoder::encode(ChunkContents contents, OpLogWriter& writer) {
-  for (const Note& note : contents.notes)
-    std::visit([&](const auto& op) { writer.add(op); }, note);
+  for (const Note& note : contents.notes) std::visit([&](const auto& op) { writer.add(op); }, note);
   if (contents.rows.empty()) return;
   for (const ops::Tick& row : contents.rows) writer.add(row);
   const ops::Tick& last = contents.rows.back();

@@ -32,7 +32,8 @@ voxel::VoxelGrid grid_from_text(const std::string& text) {
     read.spacing_mm = vector(grid.at("spacing_mm"));
     const json& pose = grid.at("world_from_grid");
     for (int i = 0; i < 9; ++i)
-      read.world_from_grid.rotation(i / 3, i % 3) = pose.at("rotation").at(static_cast<size_t>(i)).get<double>();
+      read.world_from_grid.rotation(i / 3, i % 3) =
+          pose.at("rotation").at(static_cast<size_t>(i)).get<double>();
     read.world_from_grid.translation_mm = vector(pose.at("translation_mm"));
     voxel::validate(read);
     return read;

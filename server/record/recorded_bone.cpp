@@ -23,10 +23,7 @@ Bricks(Take) -> Bricks<Take>;
 
 RecordedBone::RecordedBone(const Recording& recording, const voxel::VoxelGrid& grid,
                            std::span<const uint8_t> start_coverage)
-    : recording_(recording),
-      grid_(grid),
-      start_(start_coverage),
-      hash_(recording.header().start_grid_hash) {}
+    : recording_(recording), grid_(grid), start_(start_coverage), hash_(recording.header().start_grid_hash) {}
 
 const uint8_t* RecordedBone::now(uint32_t brick) const {
   const auto found = changed_.find(brick);

@@ -44,8 +44,8 @@ class RecordedBone {
   const voxel::VoxelGrid grid_;
   std::span<const uint8_t> start_;
   BrickCoverages changed_;
-  BrickCoverages touched_;     ///< by the seek in progress, as they were before it
-  size_t next_chunk_ = 0;                 ///< all before it are in
+  BrickCoverages touched_;  ///< by the seek in progress, as they were before it
+  size_t next_chunk_ = 0;   ///< all before it are in
   uint32_t ticks_ = 0;
   uint64_t hash_ = 0;
 };

@@ -110,7 +110,8 @@ struct Recorder::Impl {
   /// Bricks of images up to the last row's tick, oldest first.
   void close_chunk() {
     if (open_chunk.rows.empty() && open_chunk.notes.empty()) return;
-    while (!open_chunk.rows.empty() && !images.empty() && images.front().now.tick <= open_chunk.rows.back().tick) {
+    while (!open_chunk.rows.empty() && !images.empty() &&
+           images.front().now.tick <= open_chunk.rows.back().tick) {
       open_chunk.bricks.push_back(std::move(images.front()));
       images.pop_front();
     }
@@ -127,8 +128,8 @@ struct Recorder::Impl {
   const uint8_t* start_coverage;
   ChunkContents open_chunk;
   uint32_t next_tick = 0;
-  std::deque<ChangedBrick> images;         ///< not yet in a chunk
-  std::unordered_set<uint32_t> known;      ///< bricks whose start the encoder has
+  std::deque<ChangedBrick> images;     ///< not yet in a chunk
+  std::unordered_set<uint32_t> known;  ///< bricks whose start the encoder has
 
   // Of both.
   mutable std::mutex mutex;

@@ -7,15 +7,15 @@
 
 namespace ream::record {
 
-inline constexpr uint32_t ticks_per_chunk = 250;     ///< a chunk is a quarter of a second
-inline constexpr uint32_t chunks_per_key = 64;       ///< keys of bricks every 16 s
-inline constexpr double sync_interval_s = 1.0;       ///< fsync; a loss of power costs no more
-inline constexpr size_t most_waiting_chunks = 240;   ///< a minute; a disk that is later has failed
+inline constexpr uint32_t ticks_per_chunk = 250;    ///< a chunk is a quarter of a second
+inline constexpr uint32_t chunks_per_key = 64;      ///< keys of bricks every 16 s
+inline constexpr double sync_interval_s = 1.0;      ///< fsync; a loss of power costs no more
+inline constexpr size_t most_waiting_chunks = 240;  ///< a minute; a disk that is later has failed
 
-/// Writes recording.ream on a thread of its own. add() only hands over; a chunk of 250 ticks (a few more while
-/// brick images are behind), the bricks that they changed, and a checkpoint are encoded, compressed, appended
-/// and from time to time fsynced by the thread. A failure (a full disk) stops the writing, not the caller:
-/// failure() says it, and what was written before is whole. Used by one follower thread.
+/// Writes recording.ream on a thread of its own. add() only hands over; a chunk of 250 ticks (a few more
+/// while brick images are behind), the bricks that they changed, and a checkpoint are encoded, compressed,
+/// appended and from time to time fsynced by the thread. A failure (a full disk) stops the writing, not the
+/// caller: failure() says it, and what was written before is whole. Used by one follower thread.
 class Recorder {
  public:
   /// A new recording, which can be read from here on. `start_coverage` is read for bricks that change for the

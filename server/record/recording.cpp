@@ -7,7 +7,14 @@
 namespace ream::record {
 namespace {
 
-enum Flag : uint32_t { spindle_on = 1, paused = 2, failed_over = 4, engaged = 8, cutting = 16, weakened = 32 };
+enum Flag : uint32_t {
+  spindle_on = 1,
+  paused = 2,
+  failed_over = 4,
+  engaged = 8,
+  cutting = 16,
+  weakened = 32
+};
 
 uint32_t flags_of(const TickReport& r) {
   return (r.spindle_on ? spindle_on : 0u) | (r.paused ? paused : 0u) | (r.failed_over ? failed_over : 0u) |
@@ -19,9 +26,7 @@ template <typename... Takers>
 struct Taking : Takers... {
   using Takers::operator()...;
   template <typename Op>
-  void operator()(const Op&) const
-    requires(!(std::is_invocable_v<Takers, const Op&> || ...))
-  {}
+  void operator()(const Op&) const requires(!(std::is_invocable_v<Takers, const Op&> || ...)) {}
 };
 template <typename... Takers>
 Taking(Takers...) -> Taking<Takers...>;

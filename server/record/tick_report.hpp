@@ -34,7 +34,7 @@ struct TickReport {
   int64_t coverage_removed[3] = {0, 0, 0};  ///< this tick, coverage levels (1/255 voxel) by class
   uint32_t changed_bricks = 0;
   uint32_t bricks_waiting = 0;  ///< changed ones whose images go to followers in later ticks
-  uint64_t session_hash = 0;  ///< rolling, up to and including this tick
+  uint64_t session_hash = 0;    ///< rolling, up to and including this tick
 };
 
 }  // namespace ream::record

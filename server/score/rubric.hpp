@@ -35,7 +35,8 @@ struct Score {
 
 /// Error not_found, invalid_input (names file and key).
 Rubric load_rubric(const std::filesystem::path& path);
-/// `metrics` as metrics_json gives them. Error invalid_input when the rubric names a metric that there is not.
+/// `metrics` as metrics_json gives them. Error invalid_input when the rubric names a metric that there is
+/// not.
 Score apply_rubric(const Rubric& rubric, const nlohmann::json& metrics);
 nlohmann::json to_json(const Rubric& rubric, const Score& score);
 

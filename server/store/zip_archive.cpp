@@ -61,12 +61,13 @@ void write_entry(zip_t* archive, const ArchiveEntry& entry, const fs::path& zip)
       source == nullptr ? -1 : zip_file_add(archive, entry.name.c_str(), source, ZIP_FL_ENC_UTF_8);
   if (index < 0) {
     if (source != nullptr) zip_source_free(source);
-    throw Error(ErrorKind::io, "cannot put " + entry.file.string() + " into " + zip.string() + ": " +
-                                   zip_strerror(archive));
+    throw Error(ErrorKind::io,
+                "cannot put " + entry.file.string() + " into " + zip.string() + ": " + zip_strerror(archive));
   }
   const std::string kind = entry.file.extension();
   const bool packed = kind == ".zst" || kind == ".ream" || kind == ".png";
-  zip_set_file_compression(archive, static_cast<zip_uint64_t>(index), packed ? ZIP_CM_STORE : ZIP_CM_DEFLATE, 0);
+  zip_set_file_compression(archive, static_cast<zip_uint64_t>(index), packed ? ZIP_CM_STORE : ZIP_CM_DEFLATE,
+                           0);
 }
 
 void sync_file(const fs::path& path) {
@@ -137,14 +138,15 @@ void unpack_zip(const fs::path& path, const fs::path& folder, const UnpackLimits
   const auto archive = open_to_read(path);
   const auto count = static_cast<uint64_t>(zip_get_num_entries(archive.get(), 0));
   if (count > limits.entries)
-    throw Error(ErrorKind::invalid_input, path.string() + " holds " + std::to_string(count) +
-                                              " files, more than may be unpacked");
+    throw Error(ErrorKind::invalid_input,
+                path.string() + " holds " + std::to_string(count) + " files, more than may be unpacked");
   uint64_t room = limits.bytes;
   for (zip_uint64_t i = 0; i < count; ++i) {
     const char* given = zip_get_name(archive.get(), i, 0);
     const std::string name = given == nullptr ? "" : given;
     if (!stays_inside(name))
-      throw Error(ErrorKind::invalid_input, path.string() + " holds a file named '" + name + "', which may not be unpacked");
+      throw Error(ErrorKind::invalid_input,
+                  path.string() + " holds a file named '" + name + "', which may not be unpacked");
     if (name.back() == '/') continue;
     room -= unpack_entry(archive.get(), i, name, folder / name, room);
   }

@@ -20,6 +20,7 @@ enum class SessionState : uint8_t {
   finished = 3,
   stopped = 4,
   fault = 5,
+  interrupted = 6,
   replaying = 7
 };
 

@@ -104,10 +104,10 @@ void add_rows(const std::string& what, const Measured& with, const Measured& wit
               std::vector<Row>& rows) {
   const std::string name = "thesis-5-4-2, " + what + ", ";
   rows.push_back({"record", name + "ticks in contact", with.engaged_percent, 0.0, "%", 0.0});
-  rows.push_back({"record", name + "recording a minute", with.megabytes_a_minute, 0.0, "MB",
-                  megabytes_a_minute_goal});
-  rows.push_back({"record", name + "recorder's thread", with.recorder_cpu_percent, 0.0, "%",
-                  core_share_goal_percent});
+  rows.push_back(
+      {"record", name + "recording a minute", with.megabytes_a_minute, 0.0, "MB", megabytes_a_minute_goal});
+  rows.push_back(
+      {"record", name + "recorder's thread", with.recorder_cpu_percent, 0.0, "%", core_share_goal_percent});
   rows.push_back({"record", name + "tick p99 with and (baseline) without", with.tick_p99_us,
                   without.tick_p99_us, "us", 0.0});
   rows.push_back({"record", name + "ticks missed with and (baseline) without", with.missed_percent,

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "api/running_session.hpp"
+#include "api/session_service.hpp"
 #include "core/error.hpp"
 
 namespace ream::test {
@@ -51,6 +51,18 @@ class FakeSession final : public api::RunningSession {
             {"grid_hash", ended ? nlohmann::json("00112233445566ff") : nlohmann::json(nullptr)},
             {"session_hash", "0123456789abcdef"}};
   }
+  api::Annotation annotate(const api::NewAnnotation& note) override {
+    if (status().state != api::SessionState::running) throw Error(ErrorKind::conflict, "nothing is recorded");
+    const api::Annotation kept{"2025-03-01T12:00:00Z", note.words, note.author, note.at_s.value_or(1.5),
+                               note.place_mm};
+    const std::lock_guard lock(mutex_);
+    annotations_.push_back(kept);
+    return kept;
+  }
+  std::vector<api::Annotation> annotations() const override {
+    const std::lock_guard lock(mutex_);
+    return annotations_;
+  }
   std::unique_ptr<net::WebSocketSession> subscribe(int stride) override;
 
   void set(api::SessionState state, const std::string& fault = {}) {
@@ -73,6 +85,7 @@ class FakeSession final : public api::RunningSession {
   api::SessionRequest request_;
   mutable std::mutex mutex_;
   api::SessionStatus status_;
+  std::vector<api::Annotation> annotations_;
 };
 
 /// Sends "hello <session>" and then whatever the viewer sends, back.
@@ -113,6 +126,13 @@ class FakeFactory {
       made_.push_back(session.get());
       return session;
     };
+  }
+  api::SessionMakers makers() {
+    return {function(), [this](const api::SessionRequest& request, const std::string& reamer) {
+              if (reamer == "spoon") throw Error(ErrorKind::invalid_input, "no reamer 'spoon'");
+              if (reamer == "missing") throw Error(ErrorKind::unavailable, "no device");
+              return function()(request);
+            }};
   }
   /// In order of making; the caller knows which still live.
   FakeSession& made(size_t index) {

@@ -58,10 +58,19 @@ bool has_any_type(const json& value, const json& types) {
                      [&](const json& type) { return has_type(value, type.get<std::string>()); });
 }
 
+/// Lengths are in characters, not bytes.
+void check_length(const json& schema, const json& value, const std::string& at, std::vector<std::string>& faults) {
+  const auto text = value.get<std::string>();
+  const auto length = static_cast<size_t>(
+      std::count_if(text.begin(), text.end(), [](unsigned char c) { return (c & 0xc0) != 0x80; }));
+  if (length < schema.value("minLength", size_t{0})) faults.push_back(at + ": is too short");
+  if (length > schema.value("maxLength", length)) faults.push_back(at + ": is too long");
+}
+
 void require_known_keywords(const json& schema) {
   static const std::set<std::string> known = {
       "$ref",  "type",     "const",    "enum",    "required", "properties",       "additionalProperties",
-      "items", "minItems", "maxItems", "minimum", "maximum",  "exclusiveMinimum", "pattern",
+      "items", "minItems", "maxItems", "minimum", "maximum",  "exclusiveMinimum", "pattern", "minLength", "maxLength",
       "oneOf", "allOf",    "if",       "then",    "not",      "description",      "title",
       "$defs", "$schema",  "$id",      "default"};
   for (const auto& [key, value] : schema.items())
@@ -110,6 +119,7 @@ void SchemaChecker::check(const json& unresolved, const json& value, const std::
     if (schema.contains("exclusiveMinimum") && number <= schema["exclusiveMinimum"].get<double>())
       complain("is too small");
   }
+  if (value.is_string()) check_length(schema, value, at, faults);
   if (value.is_string() && schema.contains("pattern") &&
       !std::regex_search(value.get<std::string>(), std::regex(schema["pattern"].get<std::string>())))
     complain(value.dump() + " does not match " + schema["pattern"].dump());

@@ -15,7 +15,10 @@ namespace ream::test {
 class RecordedCutting {
  public:
   RecordedCutting(unsigned seed, const Vec3i& dims)
-      : random(seed), bone(random_bone(random, dims, 0.8)), follower(bone.coverage), sender(bone.grid, ring) {}
+      : random(seed),
+        bone(random_bone(random, dims, 0.8)),
+        follower(bone.coverage),
+        sender(bone.grid, ring) {}
 
   record::ops::Header header() const {
     record::ops::Header h;

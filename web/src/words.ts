@@ -17,6 +17,7 @@ export const words = {
     finished: 'Finished',
     stopped: 'Stopped',
     fault: 'Fault',
+    interrupted: 'Interrupted',
     replaying: 'Replay',
   } satisfies Record<SessionState, string>,
   stateHint: {
@@ -26,6 +27,7 @@ export const words = {
     finished: 'The demo has ended. This is the bone as it was left.',
     stopped: 'The session was stopped. This is the bone as it was left.',
     fault: 'The session ended with a fault; the hand was sent no force.',
+    interrupted: 'The server ended in mid-session. What was recorded up to then is kept.',
     replaying: 'This is a recording.',
   } satisfies Record<SessionState, string>,
 

@@ -26,8 +26,9 @@ void export_session(const Options& options, const GlobalOptions& global) {
   const fs::path file = recording_path(options.session, data);
   const std::string kind = options.out.extension();
   if (kind != ".csv" && kind != ".ply" && kind != ".zip")
-    throw Error(ErrorKind::usage, "--out " + options.out.string() +
-                                      " must end in .csv (force trace), .ply (reamed surface) or .zip (bundle)");
+    throw Error(ErrorKind::usage,
+                "--out " + options.out.string() +
+                    " must end in .csv (force trace), .ply (reamed surface) or .zip (bundle)");
   if (kind == ".zip") {
     write_session_bundle(file, options.case_name, data, options.out);
   } else {

@@ -5,9 +5,9 @@
 
 #include "app/cli/case_path.hpp"
 #include "app/cli/commands.hpp"
+#include "app/cli/numbers.hpp"
 #include "app/data_folder.hpp"
 #include "app/session_bundle.hpp"
-#include "app/cli/numbers.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "ct/import.hpp"
@@ -95,10 +95,12 @@ void import_case(const Options& options, const GlobalOptions& global) {
 void add_import_command(CLI::App& app, GlobalOptions& global) {
   auto options = std::make_shared<Options>();
   auto& segmentation = options->import.segmentation;
-  CLI::App* command = app.add_subcommand("import", "Make a case out of a CT, or take in a session from another machine");
+  CLI::App* command =
+      app.add_subcommand("import", "Make a case out of a CT, or take in a session from another machine");
   command
       ->add_option("PATH", options->path,
-                   "Folder of DICOM slices, a NRRD, NIfTI or MetaImage file, or a session's bundle (.zip of ream export)")
+                   "Folder of DICOM slices, a NRRD, NIfTI or MetaImage file, or a session's bundle (.zip of "
+                   "ream export)")
       ->required();
   command->add_option("--out", options->out, "Name of the new case, or a folder; not for a session's bundle");
   command->add_option("--name", options->name, "Name for people");

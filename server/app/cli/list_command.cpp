@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "api/session_archive.hpp"
 #include "app/cli/commands.hpp"
 #include "app/data_folder.hpp"
 #include "case/case.hpp"
@@ -35,31 +36,53 @@ nlohmann::json listed_case(const fs::path& folder) {
           {"dims", {c.dims.x(), c.dims.y(), c.dims.z()}}};
 }
 
-nlohmann::json listed_session(const fs::path& folder) {
-  nlohmann::json session = read_json_file(folder / "session.json");
-  session["id"] = folder.filename().string();
-  return session;
+nlohmann::json listed_cases(const fs::path& data) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (const fs::path& folder : folders_in(cases_folder(data))) try {
+      rows.push_back(listed_case(folder));
+    } catch (const Error& e) {
+      log::warn(e.what());
+    }
+  return rows;
+}
+
+/// session.json with what the folder adds to it, newest first.
+nlohmann::json listed_sessions(const fs::path& data) {
+  const api::SessionArchive archive(sessions_folder(data));
+  nlohmann::json rows = nlohmann::json::array();
+  for (const api::SessionRecord& record : archive.list()) {
+    const std::string& id = record.request.id;
+    nlohmann::json row = read_json_file(api::session_json(archive.folder_of(id)));
+    row["id"] = id;
+    row["state"] = api::to_text(record.status.state);
+    row["created_utc"] = record.request.created_utc;
+    row["duration_s"] = record.status.duration_s;
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+void print_case(const nlohmann::json& row) {
+  std::cout << row.at("id").get<std::string>() << '\t' << row.value("name", "") << '\t'
+            << row.value("side", "") << '\t' << (row.at("planned").get<bool>() ? "planned" : "no plan") << '\n';
+}
+
+void print_session(const nlohmann::json& row) {
+  const auto text = [&row](const char* key) { return row.at(key).get<std::string>(); };
+  std::cout << text("id") << '\t' << row.value("case_name", "") << '\t' << row.value("side", "") << '\t'
+            << text("state") << '\t' << text("created_utc") << '\t' << row.at("duration_s").get<double>()
+            << " s\n";
 }
 
 void list(const std::string& what, const GlobalOptions& global) {
   const fs::path data = data_folder(global.data);
   const bool cases = what == "cases";
-  nlohmann::json rows = nlohmann::json::array();
-  for (const fs::path& folder : folders_in(cases ? cases_folder(data) : sessions_folder(data))) try {
-      rows.push_back(cases ? listed_case(folder) : listed_session(folder));
-    } catch (const Error& e) {
-      log::warn(e.what());
-    }
+  const nlohmann::json rows = cases ? listed_cases(data) : listed_sessions(data);
   if (global.json) {
     std::cout << rows.dump() << '\n';
     return;
   }
-  for (const auto& row : rows) {
-    std::cout << row.at("id").get<std::string>() << '\t' << row.value(cases ? "name" : "case_name", "")
-              << '\t' << row.value("side", "");
-    if (cases) std::cout << '\t' << (row.at("planned").get<bool>() ? "planned" : "no plan");
-    std::cout << '\n';
-  }
+  for (const auto& row : rows) cases ? print_case(row) : print_session(row);
 }
 
 }  // namespace

@@ -31,7 +31,8 @@ void print(const nlohmann::json& json) {
   std::cout << json.at("session").get<std::string>() << '\n';
   const bool by_rubric = json.contains("score");
   if (!by_rubric) {
-    for (const auto& [key, value] : json.at("metrics").items()) std::cout << "  " << key << "  " << value << '\n';
+    for (const auto& [key, value] : json.at("metrics").items())
+      std::cout << "  " << key << "  " << value << '\n';
     return;
   }
   const nlohmann::json& score = json.at("score");

@@ -10,6 +10,7 @@
 #include "app/data_folder.hpp"
 #include "app/interrupt.hpp"
 #include "app/reaming_session.hpp"
+#include "app/session_recovery.hpp"
 #include "app/replay_session.hpp"
 #include "core/clock.hpp"
 #include "core/error.hpp"
@@ -61,6 +62,7 @@ void serve(const Options& options, const GlobalOptions& global) {
   house.backend = options.backend;
   house.realtime = realtime_from_text(options.realtime);
   make_writable_folder(sessions_folder(house.data));
+  for (const std::string& line : recover_sessions(house.data)) log::warn(line);
   catch_interrupts();
 
   api::ServerOptions server_options;
@@ -68,8 +70,12 @@ void serve(const Options& options, const GlobalOptions& global) {
   server_options.listen.port = options.port;
   server_options.cases_folder = cases_folder(house.data);
   server_options.web_folder = web_folder(options.web);
-  server_options.make_session = [house](const api::SessionRequest& request) {
+  server_options.sessions_folder = sessions_folder(house.data);
+  server_options.make_session.make = [house](const api::SessionRequest& request) {
     return std::make_unique<ReamingSession>(house, request);
+  };
+  server_options.make_session.resume = [house](const api::SessionRequest& request, const std::string& reamer) {
+    return std::make_unique<ReamingSession>(house, request, reamer);
   };
   server_options.make_replay = [house](const api::ReplayRequest& request) {
     return std::make_unique<ReplaySession>(house, request);

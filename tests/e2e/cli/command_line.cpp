@@ -14,9 +14,14 @@ constexpr auto longest_run = std::chrono::seconds(240);
 }  // namespace
 
 std::unique_ptr<ChildProcess> CommandLine::start(const Words& arguments, const std::string& name) {
+  Words command = {std::string(REAM_BINARY_DIR) + "/ream"};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return start_program(command, name);
+}
+
+std::unique_ptr<ChildProcess> CommandLine::start_program(const Words& command, const std::string& name) {
   ChildProcess::Setting setting;
-  setting.command = {std::string(REAM_BINARY_DIR) + "/ream"};
-  setting.command.insert(setting.command.end(), arguments.begin(), arguments.end());
+  setting.command = command;
   const fs::path home = printed_.path() / "home";
   fs::create_directories(home);
   setting.environment = {{"HOME", home.string()},

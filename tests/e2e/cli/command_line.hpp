@@ -30,6 +30,8 @@ class CommandLine : public testing::Test {
 
   /// Starts a command and lets it run; what it prints goes to <name>.out and <name>.err in printed().
   std::unique_ptr<ChildProcess> start(const Words& arguments, const std::string& name);
+  /// The same for any program, given by its path.
+  std::unique_ptr<ChildProcess> start_program(const Words& command, const std::string& name);
   std::string printed(const std::string& file) const;
 
   const std::filesystem::path& folder() const { return folder_.path(); }

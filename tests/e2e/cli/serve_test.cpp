@@ -5,7 +5,7 @@
 
 #include "core/hash.hpp"
 #include "e2e/cli/command_line.hpp"
-#include "record/recorder.hpp"
+#include "record/recording.hpp"
 #include "support/raw_http.hpp"
 
 namespace ream::test {
@@ -61,12 +61,12 @@ TEST_F(Serve, ToldToEndItEndsTheSessionWholeAndQuickly) {
   EXPECT_GT(metrics.at("duration_s").get<double>(), 2.0);
   EXPECT_LT(metrics.at("duration_s").get<double>(), 30.0);
   EXPECT_EQ(json_of(folder + "/session.json").at("state"), "stopped");
-  const record::Recording recording = record::read_recording(this->folder() / folder / "recording.ream");
-  EXPECT_TRUE(recording.complete);
-  ASSERT_FALSE(recording.ticks.empty());
-  EXPECT_DOUBLE_EQ(static_cast<double>(recording.ticks.size()) * 1e-3,
-                   metrics.at("duration_s").get<double>());
-  EXPECT_EQ(to_hex(recording.ticks.back().session_hash), metrics.at("session_hash"));
+  const record::Recording recording(this->folder() / folder / "recording.ream");
+  EXPECT_EQ(recording.log().damage(), "");
+  ASSERT_TRUE(recording.end());
+  EXPECT_EQ(recording.end()->state, "stopped");
+  EXPECT_DOUBLE_EQ(recording.tick_count() * 1e-3, metrics.at("duration_s").get<double>());
+  EXPECT_EQ(to_hex(recording.checkpoints().back().session_hash), metrics.at("session_hash"));
   for (const std::string& entry : tree()) EXPECT_EQ(entry.find(".tmp"), std::string::npos) << entry;
   EXPECT_EQ(answer({"list", "sessions"}).at(0).at("id"), id);
 }

@@ -6,7 +6,7 @@
 
 #include "core/hash.hpp"
 #include "e2e/cli/command_line.hpp"
-#include "record/recorder.hpp"
+#include "record/recording.hpp"
 
 namespace ream::test {
 namespace {
@@ -30,11 +30,15 @@ class Simulate : public CommandLine {
     const std::string trace = text_of(out + "/trace.csv");
     EXPECT_EQ(static_cast<size_t>(std::count(trace.begin(), trace.end(), '\n')), ticks + 1);
 
-    const record::Recording recording = record::read_recording(folder() / out / "recording.ream");
-    EXPECT_TRUE(recording.complete);
-    ASSERT_EQ(recording.ticks.size(), ticks);
-    EXPECT_EQ(to_hex(recording.ticks.back().session_hash), metrics.at("session_hash"));
-    EXPECT_EQ(recording.ticks.back().tick, ticks - 1);
+    const record::Recording recording(folder() / out / "recording.ream", record::Recording::Trust::checked);
+    EXPECT_EQ(recording.log().damage(), "");
+    ASSERT_TRUE(recording.end());
+    EXPECT_EQ(recording.end()->ticks, ticks);
+    ASSERT_EQ(recording.tick_count(), ticks);
+    const record::ops::Checkpoint last = recording.checkpoints().back();
+    EXPECT_EQ(last.tick, ticks - 1);
+    EXPECT_EQ(to_hex(last.session_hash), metrics.at("session_hash"));
+    EXPECT_EQ(to_hex(last.grid_hash), metrics.at("grid_hash"));
   }
 };
 
@@ -77,8 +81,8 @@ TEST_F(Simulate, RemovalByDecayIsTheSameOnEveryBackendAndSaysSo) {
   EXPECT_EQ(json_of("decay-cpu/session.json").at("decay_levels"), 16);
   EXPECT_EQ(json_of("profile/session.json").at("removal"), "profile");
   EXPECT_NE(text_of("decay-cpu/reamed.ply"), text_of("profile/reamed.ply"));
-  const record::Recording recording = record::read_recording(folder() / "decay-cpu/recording.ream");
-  EXPECT_EQ(nlohmann::json::parse(recording.header_json).at("removal"), "decay");
+  const record::Recording recording(folder() / "decay-cpu/recording.ream");
+  EXPECT_EQ(nlohmann::json::parse(recording.header().description).at("removal"), "decay");
 }
 
 TEST_F(Simulate, EveryFeedModelSaysSoAndFeedsAsTheSpindleTurns) {
@@ -93,8 +97,8 @@ TEST_F(Simulate, EveryFeedModelSaysSoAndFeedsAsTheSpindleTurns) {
     succeed({"simulate", "--case", "demo", "--script", "fast.json", "--model", model, "--out", out});
     expect_results(out);
     const auto session = json_of(out + "/session.json");
-    const record::Recording recording = record::read_recording(folder() / out / "recording.ream");
-    const auto header = nlohmann::json::parse(recording.header_json);
+    const record::Recording recording(folder() / out / "recording.ream");
+    const auto header = nlohmann::json::parse(recording.header().description);
     for (const auto& description : {session, header}) {
       EXPECT_EQ(description.at("model"), model);
       EXPECT_EQ(description.at("spindle_rpm"), 312.0);

@@ -7,6 +7,7 @@
 
 #include "support/expect_error.hpp"
 #include "support/fake_session.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace ream::api {
 namespace {
@@ -18,10 +19,11 @@ SessionRequest demo() { return {{}, "demo", "demo", {}}; }
 
 class SessionServiceTest : public testing::Test {
  protected:
-  SessionServiceTest() : service(factory.function(), {3, 2}) {}
+  SessionServiceTest() : service(factory.makers(), {3, 2}, folder.path()) {}
   std::string create() { return service.create(demo()).request.id; }
 
   const int alive_before = FakeSession::alive();
+  const test::TemporaryFolder folder;
   test::FakeFactory factory;
   SessionService service;
 };

@@ -51,7 +51,8 @@ TEST_F(RecordingTest, AnyRangeOfTicksCanBeRead) {
   SCOPED_TRACE(testing::Message() << "seed " << seed);
   record(1100);
   const Recording recording(path_);
-  for (const auto& [first, last] : {std::pair{0u, 1u}, {249u, 251u}, {250u, 500u}, {1099u, 5000u}, {600u, 600u}}) {
+  for (const auto& [first, last] :
+       {std::pair{0u, 1u}, {249u, 251u}, {250u, 500u}, {1099u, 5000u}, {600u, 600u}}) {
     const auto ticks = recording.ticks(first, last);
     ASSERT_EQ(ticks.size(), std::min(last, 1100u) - first);
     for (size_t i = 0; i < ticks.size(); ++i) EXPECT_EQ(ticks[i].tick, first + i);

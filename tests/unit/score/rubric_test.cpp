@@ -67,7 +67,8 @@ TEST_F(RubricTest, UnusableRubricsAreRefusedByName) {
   refused({{"version", 1}, {"criteria", {one}}}, "name");
   refused({{"name", "a"}, {"version", 0}, {"criteria", {one}}}, "version");
   refused({{"name", "a"}, {"version", 1}, {"criteria", json::array()}}, "criteria");
-  refused({{"name", "a"}, {"version", 1}, {"criteria", {{{"metric", "x"}, {"none", 1}, {"full", 1}}}}}, "full");
+  refused({{"name", "a"}, {"version", 1}, {"criteria", {{{"metric", "x"}, {"none", 1}, {"full", 1}}}}},
+          "full");
   refused({{"name", "a"}, {"version", 1}, {"criteria", {one}}, {"extra", 1}}, "extra");
   for (const char* absent : {"hash", "nothing"})
     expect_error(ErrorKind::invalid_input, absent, [&] {

@@ -95,15 +95,18 @@ class ContractTest : public ServerTest {
     expect_post(one + "/stop", path + "/stop", 409);
     expect_post(one + "/stop", all + "/nobody/stop", 404);
     expect_get(one + "/metrics", path + "/metrics", 200);
+    resume(path);
+    annotations(path);
     const std::string stuck = create("no-start");
     expect_post(one + "/start", all + "/" + stuck + "/start", 503);
-    factory.made(2).set(api::SessionState::fault, "the device fell silent");
+    factory.made(3).set(api::SessionState::fault, "the device fell silent");
     expect_get(one, all + "/" + stuck, 200);
     expect_stream(path + "/stream", 101);
     expect_stream(path + "/stream?stride=4", 101);
     expect_stream(path + "/stream?stride=3", 422);
     expect_stream(path + "/stream", 403, foreign);
     expect_stream(all + "/nobody/stream", 404);
+    expect_stream(all + "/earlier/stream", 409);
     expect_get(one + "/stream", path + "/stream", 426);
     replays_of(id);
   }
@@ -142,6 +145,35 @@ class ContractTest : public ServerTest {
     expect_get(one, all + "/" + newest, 404);
   }
 
+  void resume(const std::string& path) {
+    const std::string pattern = one + "/resume";
+    expect_post(pattern, path + "/resume", 400, "{");
+    expect_post(pattern, path + "/resume", 403, "", foreign);
+    expect_post(pattern, all + "/nobody/resume", 404);
+    expect_post(pattern, path + "/resume", 415, "{}", {{"Content-Type", "text/plain"}});
+    expect_post(pattern, path + "/resume", 422, R"({"reamer": "spoon"})");
+    expect_post(pattern, path + "/resume", 503, R"({"reamer": "missing"})");
+    expect_post(pattern, path + "/resume", 200, R"({"reamer": "sphere 20"})");
+    expect_post(pattern, path + "/resume", 409);
+  }
+
+  void annotations(const std::string& path) {
+    const std::string pattern = one + "/annotations", good = R"({"words": "too steep", "place_mm": [1, 2, 3.5]})";
+    expect_post(pattern, path + "/annotations", 201, good);
+    expect_post(pattern, path + "/annotations", 400, "{");
+    expect_post(pattern, path + "/annotations", 403, good, foreign);
+    expect_post(pattern, all + "/nobody/annotations", 404, good);
+    const std::string ready = create();
+    expect_post(pattern, all + "/" + ready + "/annotations", 409, good);
+    expect_post(one + "/stop", all + "/" + ready + "/stop", 200);
+    expect_post(pattern, path + "/annotations", 413, std::string(options.listen.limits.body_bytes + 1, ' '));
+    expect_post(pattern, path + "/annotations", 415, good, {{"Content-Type", "text/plain"}});
+    expect_post(pattern, path + "/annotations", 422, R"({"words": ""})");
+    expect_get(pattern, path + "/annotations", 200);
+    expect_get(pattern, all + "/nobody/annotations", 404);
+    expect_post(one + "/stop", path + "/stop", 200);
+  }
+
   void too_many() {
     while (post(all, R"({"case": "planned", "script": "demo"})").status == 201) {
     }
@@ -168,6 +200,7 @@ TEST_F(ContractTest, ServesWhatIsDescribedAndNothingElse) {
 TEST_F(ContractTest, EveryDescribedReplyIsGivenAsDescribed) {
   std::promise<void> release;
   options.prepare = [&] { release.get_future().wait(); };
+  folder.write("sessions/earlier/session.json", R"({"case": "planned", "script": "demo", "state": "stopped"})");
   start();
   expect_get("/readyz", "/readyz", 503);
   expect_get("/healthz", "/healthz", 200);
@@ -226,6 +259,30 @@ TEST_F(ContractTest, TakesExactlyTheChangesOfPlaybackThatTheSchemaTakes) {
         R"({"position_s": 1, "speed": 2, "playing": false})", R"({"position": 1})"}) {
     const bool fits = checker.faults(schema, json::parse(body)).empty();
     EXPECT_EQ(post(path, body).status, fits ? 200 : 422) << body;
+  }
+}
+
+TEST_F(ContractTest, TakesExactlyTheRemarksThatTheSchemaTakes) {
+  start();
+  const std::string path = all + "/" + create();
+  ASSERT_EQ(post(path + "/start").status, 200);
+  const json& schema = contract.at("components").at("schemas").at("NewAnnotation");
+  const auto long_words = [](size_t characters) {
+    std::string text;
+    for (size_t i = 0; i < characters; ++i) text += "\u00e4";
+    return json{{"words", text}}.dump();
+  };
+  for (const std::string& body :
+       {std::string(R"({"words": "here"})"), std::string(R"({"words": ""})"), std::string(R"({"words": 3})"),
+        std::string("{}"), std::string("[]"), long_words(4000), long_words(4001),
+        std::string(R"({"words": "here", "author": "anna"})"), std::string(R"({"words": "here", "author": null})"),
+        std::string(R"({"words": "here", "at_s": 0})"), std::string(R"({"words": "here", "at_s": -1})"),
+        std::string(R"({"words": "here", "at_s": 1e9})"), std::string(R"({"words": "here", "at_s": "1"})"),
+        std::string(R"({"words": "here", "place_mm": null})"), std::string(R"({"words": "here", "place_mm": [1, 2]})"),
+        std::string(R"({"words": "here", "place_mm": [1, 2, 3e6]})"),
+        std::string(R"({"words": "here", "place_mm": [1, -2, 3.5]})"), std::string(R"({"words": "here", "colour": 1})")}) {
+    const bool fits = checker.faults(schema, json::parse(body)).empty();
+    EXPECT_EQ(post(path + "/annotations", body).status, fits ? 201 : 422) << body.substr(0, 100);
   }
 }
 

@@ -28,6 +28,7 @@ TEST(SchemaChecker, TellsApart) {
   expect_tells_apart(R"({"minimum": 0, "maximum": 2})", "2", {"-0.1", "2.1"});
   expect_tells_apart(R"({"exclusiveMinimum": 0})", "0.1", {"0", "-1"});
   expect_tells_apart(R"({"pattern": "^[0-9a-f]{4}$"})", "\"00af\"", {"\"00aff\"", "\"00AF\""});
+  expect_tells_apart(R"({"minLength": 2, "maxLength": 3})", "\"\u00e4\u00f6\u00fc\"", {"\"a\"", "\"abcd\""});
   expect_tells_apart(R"({"items": {"type": "number"}, "minItems": 2, "maxItems": 3})", "[1, 2]",
                      {"[1]", "[1,2,3,4]", "[1,null]"});
   expect_tells_apart(

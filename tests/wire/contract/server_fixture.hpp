@@ -36,7 +36,8 @@ class ServerTest : public testing::Test {
     options.listen.port = 0;
     options.cases_folder = folder.path() / "cases";
     options.web_folder = folder.path() / "web";
-    options.make_session = factory.function();
+    options.make_session = factory.makers();
+    options.sessions_folder = folder.path() / "sessions";
     options.make_replay = replays.function();
   }
 

@@ -150,6 +150,8 @@ function sessionState(state: WireState): SessionState {
       return 'stopped';
     case WireState.fault:
       return 'fault';
+    case WireState.interrupted:
+      return 'interrupted';
     case WireState.replaying:
       return 'replaying';
     default:

@@ -14,7 +14,15 @@ export interface Pose {
   translationMm: Triple;
 }
 
-export type SessionState = 'created' | 'running' | 'paused' | 'finished' | 'stopped' | 'fault' | 'replaying';
+export type SessionState =
+  | 'created'
+  | 'running'
+  | 'paused'
+  | 'finished'
+  | 'stopped'
+  | 'fault'
+  | 'interrupted'
+  | 'replaying';
 
 export interface ToolMesh {
   name: string;

@@ -1,0 +1,50 @@
+#include "api/annotation_resource.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "api/request_body.hpp"
+
+namespace ream::api {
+using nlohmann::json;
+namespace {
+
+constexpr size_t longest_words = 4000, longest_author = 100;
+constexpr double longest_session_s = 4e6, farthest_mm = 1e6;
+
+json to_json(const Annotation& annotation) {
+  json place;
+  if (const auto& p = annotation.place_mm) place = {p->x(), p->y(), p->z()};
+  return {{"utc", annotation.utc},
+          {"words", annotation.words},
+          {"author", annotation.author},
+          {"at_s", annotation.at_s},
+          {"place_mm", std::move(place)}};
+}
+
+net::Response annotate(SessionService& service, const net::Request& request) {
+  RequestBody body(request);
+  NewAnnotation note;
+  note.words = body.words("words", 1, longest_words);
+  note.author = body.words("author", 0, longest_author);
+  note.at_s = body.number_within_or_none("at_s", 0.0, longest_session_s);
+  note.place_mm = body.point_or_none("place_mm", farthest_mm);
+  body.finish();
+  return net::json_response(201, to_json(service.annotate(request.parameters.at("id"), note)));
+}
+
+net::Response list(const SessionService& service, const net::Request& request) {
+  json annotations = json::array();
+  for (const Annotation& annotation : service.annotations(request.parameters.at("id")))
+    annotations.push_back(to_json(annotation));
+  return net::json_response(200, {{"annotations", std::move(annotations)}});
+}
+
+}  // namespace
+
+void add_annotation_routes(net::Router& router, SessionService& service) {
+  const std::string path = "/api/v1/sessions/{id}/annotations";
+  router.on("GET", path, [&service](const net::Request& request) { return list(service, request); });
+  router.on("POST", path, [&service](const net::Request& request) { return annotate(service, request); });
+}
+
+}  // namespace ream::api

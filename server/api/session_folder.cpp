@@ -1,0 +1,95 @@
+#include "api/session_folder.hpp"
+
+#include <sys/stat.h>
+
+#include <nlohmann/json.hpp>
+
+#include "api/new_id.hpp"
+#include "api/request_body.hpp"
+#include "core/clock.hpp"
+#include "core/error.hpp"
+#include "core/file.hpp"
+
+namespace ream::api {
+namespace fs = std::filesystem;
+using nlohmann::json;
+namespace {
+
+std::string changed_utc(const fs::path& file) {
+  struct stat about {};
+  ::stat(file.c_str(), &about);
+  return utc_text(about.st_mtime);
+}
+
+/// Scripts and cases of runs from the command line may be paths.
+std::string plain_name(const std::string& text) {
+  if (is_name(text)) return text;
+  const std::string stem = fs::path(text).stem().string();
+  return is_name(stem) ? stem : "unnamed";
+}
+
+TimingSummary loop_times(const json& timing) {
+  const json tick = timing.value("tick_us", json::object());
+  TimingSummary summary;
+  summary.mean_us = tick.value("mean", 0.0);
+  summary.p50_us = tick.value("p50", 0.0);
+  summary.p99_us = tick.value("p99", 0.0);
+  summary.p999_us = tick.value("p999", 0.0);
+  summary.max_us = tick.value("max", 0.0);
+  return summary;
+}
+
+SessionState state_of(const json& session, const fs::path& folder) {
+  const std::string word = session.value("state", "finished");
+  const auto state = session_state_from(word);
+  if (!state)
+    throw Error(ErrorKind::invalid_input,
+                session_json(folder).string() + ": '" + word + "' is no state of a session");
+  return *state;
+}
+
+FolderRecord record_of(const json& session, const fs::path& folder) {
+  FolderRecord found;
+  SessionRecord& record = found.record;
+  record.streamable = false;
+  record.request.id = folder.filename().string();
+  record.request.case_id = plain_name(session.value("case", ""));
+  record.request.script = plain_name(session.value("script", ""));
+  record.request.created_utc = session.value("created_utc", "");
+  if (record.request.created_utc.empty()) record.request.created_utc = changed_utc(session_json(folder));
+  SessionStatus& status = record.status;
+  status.state = state_of(session, folder);
+  found.lasting = !is_live(status.state);
+  if (!found.lasting && !FileLock::held(lock_file(folder))) status.state = SessionState::interrupted;
+  status.force_scale = session.value("force_scale", 1.0);
+  status.fault = session.value("fault", "");
+  status.tick = session.value("ticks", 0u);
+  status.duration_s = status.tick * tick_s;
+  std::error_code failed;
+  if (const fs::path timing = folder / "timing.json"; fs::exists(timing, failed)) {
+    const json times = read_json_file(timing);
+    status.tick_us = loop_times(times);
+    status.missed = times.value("missed", uint64_t{0});
+    if (!session.contains("ticks")) status.duration_s = (status.tick = times.value("ticks", 0u)) * tick_s;
+  }
+  return found;
+}
+
+}  // namespace
+
+fs::path session_json(const fs::path& folder) { return folder / "session.json"; }
+fs::path metrics_json(const fs::path& folder) { return folder / "metrics.json"; }
+fs::path recording_file(const fs::path& folder) { return folder / "recording.ream"; }
+fs::path lock_file(const fs::path& folder) { return folder / "lock"; }
+
+FolderRecord read_session_folder(const fs::path& folder) {
+  const json session = read_json_file(session_json(folder));
+  try {
+    return record_of(session, folder);
+  } catch (const json::exception&) {
+    throw Error(ErrorKind::invalid_input,
+                session_json(folder).string() + " or timing.json beside it is not as sessions have them");
+  }
+}
+
+}  // namespace ream::api

@@ -1,0 +1,34 @@
+#pragma once
+#include <filesystem>
+
+#include "api/running_session.hpp"
+#include "core/file_lock.hpp"
+
+namespace ream::api {
+
+/// A session as others see it.
+struct SessionRecord {
+  SessionRequest request;
+  SessionStatus status;
+  bool streamable = true;  ///< held in memory: its stream can be opened
+};
+
+/// Names of what lies in a session's folder.
+std::filesystem::path session_json(const std::filesystem::path& folder);
+std::filesystem::path metrics_json(const std::filesystem::path& folder);
+std::filesystem::path recording_file(const std::filesystem::path& folder);
+/// Held (core/file_lock.hpp) by the process in which the session lives, or that changes its files.
+std::filesystem::path lock_file(const std::filesystem::path& folder);
+
+struct FolderRecord {
+  SessionRecord record;
+  /// Stays true until session.json is replaced. Else the session was left in a live state: that is its state
+  /// while somebody holds its lock, and interrupted from then on.
+  bool lasting = true;
+};
+
+/// What session.json and timing.json say, under the folder's name as id. Errors: not_found, invalid_input,
+/// io.
+FolderRecord read_session_folder(const std::filesystem::path& folder);
+
+}  // namespace ream::api

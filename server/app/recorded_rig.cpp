@@ -1,0 +1,93 @@
+#include "app/recorded_rig.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "app/data_folder.hpp"
+#include "case/plan.hpp"
+#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "sim/settings_json.hpp"
+
+namespace ream::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A JSON text of a recording's header. Error invalid_input naming it.
+nlohmann::json parsed(const std::string& text, const std::string& place) {
+  try {
+    return nlohmann::json::parse(text);
+  } catch (const nlohmann::json::parse_error&) {
+    throw Error(ErrorKind::invalid_input, place + " cannot be read");
+  }
+}
+
+std::string place_of(const record::Recording& recording, const char* what) {
+  return recording.log().path().string() + ": the " + what;
+}
+
+}  // namespace
+
+case_::Case recorded_case(const record::Recording& recording, const std::string& case_name,
+                          const fs::path& data) {
+  const record::ops::Header& header = recording.header();
+  case_::Case found;
+  try {
+    found = find_case(case_name.empty() ? header.case_id : case_name, data);
+  } catch (const Error& e) {
+    throw Error(e.kind(), "the case '" + header.case_id + "' of this recording cannot be had (" + e.what() +
+                              "); say where it is with --case");
+  }
+  if (const uint64_t hash = case_::case_hash(found); hash != header.case_hash)
+    throw Error(ErrorKind::conflict, "the case '" + found.id + "' is not what was recorded (its hash is " +
+                                         to_hex(hash) + ", recorded " + to_hex(header.case_hash) +
+                                         "); say where the old one is with --case");
+  const std::string place = place_of(recording, "recorded plan");
+  found.plan = case_::plan_from_json(parsed(header.plan, place), place);
+  return found;
+}
+
+sim::Settings recorded_settings(const record::Recording& recording, const std::string& backend) {
+  const std::string place = place_of(recording, "recorded settings");
+  sim::Settings settings = sim::settings_from_json(parsed(recording.header().settings, place), place);
+  settings.backend = backend;
+  return settings;
+}
+
+Reamer recorded_reamer(const record::Recording& recording, const record::ops::Segment& segment) {
+  return {segment.tool, axis_from_text(segment.tool_axis, place_of(recording, "recorded reamer")),
+          segment.tool_file};
+}
+
+RigParts recorded_parts(const record::Recording& recording, const record::ops::Segment& segment,
+                        case_::Case bone_case, const sim::CarriedOn& from, const std::string& backend) {
+  RigParts parts;
+  parts.request.case_name = bone_case.id;
+  parts.request.backend = backend;
+  parts.bone_case = std::move(bone_case);
+  parts.case_hash = recording.header().case_hash;
+  parts.reamer = recorded_reamer(recording, segment);
+  parts.tool = tool_of(parts.reamer);
+  parts.settings = recorded_settings(recording, backend);
+  parts.from = from;
+  return parts;
+}
+
+fs::path find_recording(const std::string& name, const fs::path& data) {
+  const bool bare = name.find('/') == std::string::npos && name != "." && name != "..";
+  std::error_code failed;
+  if (fs::is_regular_file(name, failed)) return name;
+  if (fs::is_directory(name, failed)) {
+    if (const fs::path file = fs::path(name) / "recording.ream"; fs::exists(file, failed)) return file;
+    if (!bare) throw Error(ErrorKind::not_found, name + " holds no recording.ream");
+  }
+  if (bare) {
+    const fs::path file = sessions_folder(data_folder(data)) / name / "recording.ream";
+    if (fs::exists(file, failed)) return file;
+    throw Error(ErrorKind::not_found, "no recording '" + name + "': neither a session of " +
+                                          data_folder(data).string() + " nor a folder or file here");
+  }
+  throw Error(ErrorKind::not_found, "no recording " + name);
+}
+
+}  // namespace ream::app

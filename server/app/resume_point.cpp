@@ -1,0 +1,74 @@
+#include "app/resume_point.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "api/session_folder.hpp"
+#include "app/recorded_rig.hpp"
+#include "app/recorded_session.hpp"
+#include "core/error.hpp"
+
+namespace ream::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// By words only: whoever asks over the network names no files of this machine.
+Reamer reamer_of_words(const std::string& words) {
+  if (!words.starts_with("sphere ") && !words.starts_with("ellipse ") && words != "thesis")
+    throw Error(ErrorKind::invalid_input,
+                "reamer \"" + words + "\" is not known; \"sphere R\" and \"ellipse A,B\" are, in mm");
+  return reamer_asked_for(words, std::nullopt);
+}
+
+shell::Tool made(const Reamer& reamer) {
+  try {
+    return tool_of(reamer);
+  } catch (const Error& e) {
+    throw Error(ErrorKind::invalid_input, e.what());
+  }
+}
+
+uint64_t last_session_hash(const record::Recording& recording) {
+  const uint32_t count = recording.tick_count();
+  return count == 0 ? 0 : recording.ticks(count - 1, count).back().session_hash;
+}
+
+}  // namespace
+
+FileLock locked(const fs::path& folder) {
+  if (auto lock = FileLock::attempt(api::lock_file(folder))) return std::move(*lock);
+  throw Error(ErrorKind::conflict, "session '" + folder.filename().string() + "' is in use by another process");
+}
+
+ResumePoint::ResumePoint(const fs::path& folder, const fs::path& data)
+    : lock_(locked(folder)),
+      recording_(api::recording_file(folder), record::Recording::Trust::checked),
+      case_(case_of(recording_, {}, data)),
+      start_coverage_(case_.bone.coverage),
+      bone_(recording_, case_.bone.grid, start_coverage_),
+      metrics_(accumulated(recording_)) {
+  bone_.seek(ticks(), [](const voxel::BrickImage&) {});
+  if (bone_.ticks() != ticks())
+    throw Error(ErrorKind::invalid_input, recording_.log().path().string() + " does not hold the bone of its end");
+  bone_.write_to(case_.bone.coverage);
+}
+
+RigParts ResumePoint::parts(const RunRequest& request, const std::string& reamer) {
+  const record::ops::Segment& before = recording_.segments().back();
+  const uint64_t session_hash = last_session_hash(recording_);
+  RigParts parts =
+      recorded_parts(recording_, before, std::move(case_), {ticks(), session_hash}, request.backend);
+  if (!reamer.empty() && reamer != before.tool) {
+    parts.reamer = reamer_of_words(reamer);
+    parts.tool = made(parts.reamer);
+  }
+  parts.request.script_name = request.script_name;
+  parts.request.random_seed = recording_.header().random_seed;
+  parts.script = find_script(request);
+  parts.script.force_scale = parts.settings.force_scale;
+  parts.device = device::make_scripted_device(parts.script, sim::world_from_plan(plan_of(parts.bone_case)),
+                                              recording_.header().random_seed);
+  return parts;
+}
+
+}  // namespace ream::app

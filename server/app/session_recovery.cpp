@@ -1,0 +1,135 @@
+#include "app/session_recovery.hpp"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "api/request_body.hpp"
+#include "api/session_folder.hpp"
+#include "app/data_folder.hpp"
+#include "app/recorded_session.hpp"
+#include "core/clock.hpp"
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/staged_file.hpp"
+#include "record/append_notes.hpp"
+
+namespace ream::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::string seconds(uint32_t ticks) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f s", ticks * tick_s);
+  return text;
+}
+
+/// What is to be written about a session that is closed now.
+struct Closing {
+  api::SessionState state;
+  std::string words;
+  uint32_t ticks = 0;
+  std::optional<json> metrics;
+};
+
+/// About one whose recording cannot be used at all.
+Closing without_recording(api::SessionState state, const std::string& cause, const Error& why) {
+  return {state, cause + "; nothing of it can be used: " + why.what(), 0, {}};
+}
+
+Closing with_recording(const record::Recording& recording, api::SessionState state, const std::string& cause) {
+  Closing closing{state, {}, recording.tick_count(), {}};
+  if (const auto& end = recording.end()) {
+    closing.state = api::session_state_from(end->state).value_or(state);
+    for (const record::ops::Event& event : recording.events())
+      if (event.kind == end->state) closing.words = event.words;
+  } else {
+    closing.words = cause + "; everything up to " + seconds(closing.ticks) + " is kept";
+    if (!recording.log().damage().empty()) closing.words += ": " + recording.log().damage();
+  }
+  closing.metrics = rescored_json(recording);
+  return closing;
+}
+
+json session_of(const fs::path& folder, const Closing& closing) {
+  json session = read_json_file(api::session_json(folder));
+  session["state"] = api::to_text(closing.state);
+  session["ticks"] = closing.ticks;
+  if (closing.words.empty())
+    session.erase("fault");
+  else
+    session["fault"] = closing.words;
+  return session;
+}
+
+std::string pretty(const json& value) { return value.dump(2) + "\n"; }
+
+void remove_temporaries(const fs::path& folder) {
+  std::error_code failed;
+  std::vector<fs::path> strays;
+  for (const auto& entry : fs::directory_iterator(folder, failed))
+    if (entry.path().extension() == ".tmp") strays.push_back(entry.path());
+  for (const fs::path& stray : strays) fs::remove(stray, failed);
+}
+
+/// A session whose session.json has a live state that no process stands for; its lock is held by the result.
+std::optional<FileLock> left_alive(const fs::path& folder) {
+  if (api::read_session_folder(folder).lasting) return std::nullopt;
+  auto lock = FileLock::attempt(api::lock_file(folder));
+  if (lock && api::read_session_folder(folder).lasting) return std::nullopt;
+  return lock;
+}
+
+}  // namespace
+
+std::string close_session_folder(const fs::path& folder, api::SessionState state, const std::string& cause) {
+  std::optional<record::Recording> recording;
+  std::optional<Closing> closing;
+  try {
+    recording.emplace(api::recording_file(folder), record::Recording::Trust::checked);
+    closing = with_recording(*recording, state, cause);
+  } catch (const Error& e) {
+    if (e.kind() == ErrorKind::io) throw;
+    recording.reset();
+    closing = without_recording(state, cause, e);
+  }
+  std::optional<StagedFile> metrics;
+  if (closing->metrics) metrics.emplace(api::metrics_json(folder), pretty(*closing->metrics));
+  StagedFile session(api::session_json(folder), pretty(session_of(folder, *closing)));
+  if (recording && !recording->end())
+    record::append_notes(recording->log(), {record::ops::Event{closing->ticks, api::to_text(state), closing->words},
+                                            record::ops::End{closing->ticks, api::to_text(state)}});
+  if (metrics) metrics->commit();
+  session.commit();
+  remove_temporaries(folder);
+  return closing->words;
+}
+
+std::vector<std::string> recover_sessions(const fs::path& data) {
+  std::vector<std::string> lines;
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(sessions_folder(data), failed)) {
+    const std::string id = entry.path().filename().string();
+    std::error_code no_file;
+    if (!api::is_name(id) || !fs::exists(api::session_json(entry.path()), no_file)) continue;
+    std::optional<FileLock> lock;
+    try {
+      lock = left_alive(entry.path());
+    } catch (const Error&) {
+      continue;  // damaged: whoever lists sessions says so
+    }
+    if (!lock) continue;
+    try {
+      const std::string words = close_session_folder(entry.path(), api::SessionState::interrupted,
+                                                     "the server ended in mid-session");
+      lines.push_back("session " + id + ": " + (words.empty() ? "it had ended in order" : words));
+    } catch (const Error& e) {
+      lines.push_back("session " + id + " could not be closed and is left as it was: " + e.what());
+    }
+  }
+  return lines;
+}
+
+}  // namespace ream::app

@@ -1,0 +1,233 @@
+#include <signal.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+#include <iostream>
+#include <optional>
+#include <random>
+#include <thread>
+
+#include "case/case.hpp"
+#include "e2e/cli/command_line.hpp"
+#include "record/recording.hpp"
+#include "support/raw_http.hpp"
+#include "support/test_bone.hpp"
+
+namespace ream::test {
+namespace {
+
+using nlohmann::json;
+using namespace std::chrono_literals;
+
+constexpr double longest_loss_s = 1.0;
+
+/// A server on a small block of bone, which it can load in no time.
+class KilledServer : public CommandLine {
+ protected:
+  void SetUp() override {
+    write("web/index.html", "<!doctype html><title>page</title>");
+    case_::Case block;
+    block.id = "block";
+    block.name = "A block";
+    block.source = "made for this test";
+    block.bone = slab({72, 72, 48}, 0.5, 16.0, 1.2);
+    block.plan = slab_plan(block.bone, 16.0);
+    block.plan->reamer = "sphere 12,8";
+    case_::save_case(block, folder() / "data/cases/block");
+    write("data/scripts/press.json",
+          R"({"device": "hand", "duration_s": 600, "stiffness_n_mm": 100,
+              "hand": {"start_mm": [0, 0, -0.3], "force_profile": [{"t_s": 0, "force_n": 40}]}})");
+  }
+
+  /// `before`: words of a shell that are run in the server's process first.
+  void serve(const std::string& before = {}) {
+    const std::string program = std::string(REAM_BINARY_DIR) + "/ream";
+    server_ = start_program({"/bin/sh", "-c",
+                             before + " exec " + program + " serve --port 0 --web web --backend cpu --realtime off --json"},
+                            "server");
+    until("the server says where it is", [&] { return printed("server.out").ends_with('\n'); });
+    const std::string url = json::parse(printed("server.out")).at("url");
+    port_ = static_cast<uint16_t>(std::stoi(url.substr(url.rfind(':') + 1)));
+    until("it is ready", [&] { return http_request(port_, "GET", "/readyz").status == 200; });
+  }
+
+  void until(const std::string& what, const std::function<bool()>& reached) {
+    for (int i = 0; i < 6000 && !server_->ended(); ++i) {
+      if (reached()) return;
+      std::this_thread::sleep_for(10ms);
+    }
+    throw std::runtime_error("waited in vain until " + what + "\n" + printed("server.err"));
+  }
+
+  json request(int status, const std::string& method, const std::string& target, const std::string& body = {}) {
+    const HttpReply reply = http_request(port_, method, target, body);
+    EXPECT_EQ(reply.status, status) << method << ' ' << target << '\n' << reply.body;
+    return json::parse(reply.body);
+  }
+  std::string create() {
+    return request(201, "POST", "/api/v1/sessions", R"({"case": "block", "script": "press"})").at("id");
+  }
+  static std::string path_of(const std::string& id) { return "/api/v1/sessions/" + id; }
+  std::filesystem::path folder_of(const std::string& id) const { return folder() / "data/sessions" / id; }
+
+  /// Asks for metrics as fast as it goes until the server is dead; the last duration it told, if it ever
+  /// started the session.
+  std::optional<double> watch_until_killed(const std::string& id, std::chrono::milliseconds life) {
+    std::thread killer([this, life] {
+      std::this_thread::sleep_for(life);
+      server_->send_signal(SIGKILL);
+    });
+    std::optional<double> seen;
+    try {
+      if (http_request(port_, "POST", path_of(id) + "/start").status == 200) seen = 0.0;
+      for (;;)
+        seen = std::max(seen.value_or(0.0), json::parse(http_request(port_, "GET", path_of(id) + "/metrics").body)
+                                                .at("duration_s")
+                                                .get<double>());
+    } catch (const std::exception&) {  // it is dead
+    }
+    killer.join();
+    EXPECT_EQ(server_->wait(10s), 128 + SIGKILL);
+    return seen;
+  }
+
+  void expect_recovered(const std::string& id, std::optional<double> seen_s) {
+    const HttpReply reply = http_request(port_, "GET", path_of(id));
+    if (reply.status == 404) {
+      EXPECT_FALSE(seen_s) << "a session that ran is not listed";
+      return;
+    }
+    const json session = json::parse(reply.body);
+    EXPECT_EQ(session.at("state"), "interrupted");
+    const record::Recording recording(folder_of(id) / "recording.ream", record::Recording::Trust::checked);
+    EXPECT_EQ(recording.log().damage(), "");
+    EXPECT_EQ(recording.end().value().state, "interrupted");
+    const double kept_s = session.at("duration_s").get<double>();
+    EXPECT_DOUBLE_EQ(kept_s, recording.tick_count() * 1e-3);
+    EXPECT_GE(kept_s, seen_s.value_or(0.0) - longest_loss_s);
+    worst_loss_s_ = std::max(worst_loss_s_, seen_s.value_or(0.0) - kept_s);
+    EXPECT_DOUBLE_EQ(request(200, "GET", path_of(id) + "/metrics").at("duration_s").get<double>(), kept_s);
+    const std::string said = printed("server.err");
+    const auto first = said.find("session " + id);
+    EXPECT_NE(first, std::string::npos) << said;
+    EXPECT_EQ(said.find("session " + id, first + 1), std::string::npos) << "said more than once\n" << said;
+  }
+
+  void expect_nothing_half_written() {
+    for (const std::string& entry : tree()) EXPECT_EQ(entry.find(".tmp"), std::string::npos) << entry;
+  }
+
+  std::unique_ptr<ChildProcess> server_;
+  uint16_t port_ = 0;
+  double worst_loss_s_ = 0.0;
+};
+
+TEST_F(KilledServer, LosesLessThanASecondAtAnyMoment) {
+  const char* wanted = std::getenv("REAM_KILLS");
+  const int kills = wanted ? std::atoi(wanted) : 20;
+  const unsigned seed = std::random_device{}();
+  std::cout << "seed " << seed << ", " << kills << " kills (REAM_KILLS)\n";
+  std::mt19937 random(seed);
+  std::uniform_int_distribution<int> life_ms(0, 2500);
+  int recorded = 0;
+  std::optional<std::string> id;
+  std::optional<double> seen_s;
+  for (int kill = 0; kill <= kills; ++kill) {
+    serve();
+    if (id) expect_recovered(*id, seen_s);
+    expect_nothing_half_written();
+    if (id && kill % 5 == 0 && seen_s.value_or(0.0) > longest_loss_s) {
+      succeed({"replay", *id, "--verify"});
+      ++recorded;
+    }
+    if (kill == kills) break;
+    id = create();
+    seen_s = watch_until_killed(*id, std::chrono::milliseconds(life_ms(random)));
+    if (HasFailure()) FAIL() << "seed " << seed << ", kill " << kill << '\n' << printed("server.err");
+  }
+  std::cout << "longest time lost " << worst_loss_s_ << " s; " << recorded << " recordings proven\n";
+}
+
+TEST_F(KilledServer, AnInterruptedSessionGoesOnAndIsExact) {
+  serve();
+  const std::string id = create();
+  const auto seen_s = watch_until_killed(id, 2000ms);
+  ASSERT_GT(seen_s.value_or(0.0), 0.5);
+  serve();
+  expect_recovered(id, seen_s);
+  const json before = request(200, "GET", path_of(id) + "/metrics");
+  const json resumed = request(200, "POST", path_of(id) + "/resume", R"({"reamer": "sphere 14,8"})");
+  EXPECT_EQ(resumed.at("id"), id);
+  EXPECT_EQ(resumed.at("state"), "running");
+  request(409, "POST", path_of(id) + "/resume");
+  EXPECT_EQ(answer({"list", "sessions"}).at(0).at("state"), "running");
+  request(201, "POST", path_of(id) + "/annotations", R"({"words": "goes on here", "author": "anna"})");
+  const double first_s = before.at("duration_s");
+  until("it has gone on for a second", [&] {
+    return request(200, "GET", path_of(id) + "/metrics").at("duration_s").get<double>() > first_s + 1.0;
+  });
+  EXPECT_EQ(request(200, "POST", path_of(id) + "/stop").at("state"), "stopped");
+  request(201, "POST", path_of(id) + "/annotations", R"({"words": "after the end"})");
+  EXPECT_EQ(request(200, "GET", path_of(id) + "/annotations").at("annotations").size(), 2u);
+  const json after = request(200, "GET", path_of(id) + "/metrics");
+  EXPECT_GE(after.at("removed_volume_mm3"), before.at("removed_volume_mm3"));
+  const record::Recording recording(folder_of(id) / "recording.ream", record::Recording::Trust::checked);
+  ASSERT_EQ(recording.segments().size(), 2u);
+  EXPECT_EQ(recording.segments()[1].reason, "reamer");
+  EXPECT_EQ(recording.segments()[1].tool, "sphere 14,8");
+  EXPECT_DOUBLE_EQ(recording.tick_count() * 1e-3, after.at("duration_s").get<double>());
+  succeed({"replay", id, "--verify"});
+  request(409, "POST", path_of(create()) + "/resume");
+  request(200, "POST", path_of(id) + "/resume");
+  request(200, "POST", path_of(id) + "/stop");
+  succeed({"replay", id, "--verify"});
+}
+
+TEST_F(KilledServer, AFullDiskEndsTheSessionNotTheServer) {
+  serve();  // makes what is always there
+  server_->send_signal(SIGTERM);
+  ASSERT_EQ(server_->wait(20s), 0);
+  serve("ulimit -f 64;");  // files of 32 KiB at most
+  const std::string id = create();
+  request(200, "POST", path_of(id) + "/start");
+  until("the session has ended",
+        [&] { return request(200, "GET", path_of(id)).at("state").get<std::string>() != "running"; });
+  const json session = request(200, "GET", path_of(id));
+  EXPECT_EQ(session.at("state"), "fault");
+  EXPECT_NE(session.at("fault").get<std::string>().find("recording.ream"), std::string::npos) << session;
+  const json metrics = request(200, "GET", path_of(id) + "/metrics");
+  request(200, "GET", "/healthz");
+  server_->send_signal(SIGTERM);
+  EXPECT_EQ(server_->wait(20s), 0) << printed("server.err");
+  serve();
+  const json later = request(200, "GET", path_of(id));
+  EXPECT_TRUE(later.at("state") == "fault" || later.at("state") == "interrupted") << later;
+  const record::Recording recording(folder_of(id) / "recording.ream", record::Recording::Trust::checked);
+  EXPECT_EQ(recording.log().damage(), "");
+  EXPECT_GT(recording.tick_count(), 0u);
+  EXPECT_DOUBLE_EQ(request(200, "GET", path_of(id) + "/metrics").at("duration_s").get<double>(),
+                   recording.tick_count() * 1e-3);
+  expect_nothing_half_written();
+  const std::string next = create();
+  request(200, "POST", path_of(next) + "/start");
+  request(200, "POST", path_of(next) + "/stop");
+}
+
+TEST_F(KilledServer, TwoServersOnOneDataFolderLeaveEachOtherAlone) {
+  serve();
+  const std::string id = create();
+  request(200, "POST", path_of(id) + "/start");
+  auto first = std::move(server_);
+  const uint16_t first_port = port_;
+  serve();
+  EXPECT_EQ(request(200, "GET", path_of(id)).at("state"), "running");
+  request(409, "POST", path_of(id) + "/stop");
+  request(409, "POST", path_of(id) + "/resume");
+  request(409, "POST", path_of(id) + "/annotations", R"({"words": "not from here"})");
+  EXPECT_EQ(http_request(first_port, "POST", path_of(id) + "/stop").status, 200);
+  EXPECT_EQ(request(200, "GET", path_of(id)).at("state"), "stopped");
+}
+
+}  // namespace
+}  // namespace ream::test

@@ -1,0 +1,96 @@
+#include "core/file.hpp"
+#include "e2e/cli/command_line.hpp"
+
+namespace ream::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// What can be done with a recording once the run is over.
+class RecordedSession : public CommandLine {
+ protected:
+  void SetUp() override {
+    succeed({"simulate", "--case", "demo", "--script", short_script(), "--out", "run", "--backend", "cpu"});
+  }
+
+  void flip_byte(const fs::path& file, double at_share) {
+    std::string bytes = read_text_file(file);
+    bytes[static_cast<size_t>(at_share * static_cast<double>(bytes.size()))] ^= 0x10;
+    write_file_atomically(file, bytes);
+  }
+};
+
+TEST_F(RecordedSession, IsScoredAgainAsItWas) {
+  EXPECT_EQ(answer({"score", "run"}).at("metrics"), json_of("run/metrics.json"));
+  EXPECT_EQ(answer({"score", "run/recording.ream"}).at("metrics"), json_of("run/metrics.json"));
+  write("rubric.json", R"({"name": "gentle", "version": 2, "criteria": [
+      {"metric": "axial_thrust_peak_n", "none": 1000, "full": 0},
+      {"metric": "removed_volume_mm3", "none": 1e6, "full": 1e5, "weight": 3}]})");
+  const json score = answer({"score", "run", "--rubric", "rubric.json"}).at("score");
+  const double peak_n = json_of("run/metrics.json").at("axial_thrust_peak_n");
+  EXPECT_NEAR(score.at("points").get<double>(), ((100.0 - peak_n / 10.0) + 3 * 100.0) / 4.0, 1e-9);
+  EXPECT_NE(succeed({"score", "run", "--rubric", "rubric.json"}).out.find("gentle, version 2"),
+            std::string::npos);
+  EXPECT_EQ(answer({"score", "run", "run"}).size(), 2u);
+}
+
+TEST_F(RecordedSession, IsExportedAsTheRunWroteIt) {
+  succeed({"export", "run", "--out", "again.csv"});
+  succeed({"export", "run", "--out", "again.ply"});
+  EXPECT_EQ(text_of("again.csv"), text_of("run/trace.csv"));
+  EXPECT_EQ(text_of("again.ply"), text_of("run/reamed.ply"));
+}
+
+TEST_F(RecordedSession, GoesToAnotherMachineInOneFile) {
+  succeed({"export", "run", "--out", "bundle.zip"});
+  const std::string id = answer({"import", "bundle.zip", "--data", "elsewhere"}).at("session");
+  EXPECT_EQ(answer({"list", "sessions", "--data", "elsewhere"}).at(0).at("id"), id);
+  EXPECT_EQ(answer({"score", id, "--data", "elsewhere"}).at("metrics"), json_of("run/metrics.json"));
+  succeed({"export", id, "--out", "there.ply", "--data", "elsewhere"});
+  EXPECT_EQ(text_of("there.ply"), text_of("run/reamed.ply"));
+  refuse(1, id, {"import", "bundle.zip", "--data", "elsewhere"});
+}
+
+TEST_F(RecordedSession, ADamagedBundleLeavesNothing) {
+  succeed({"export", "run", "--out", "bundle.zip"});
+  fs::create_directories(folder() / "elsewhere/sessions");
+  fs::create_directories(folder() / "elsewhere/cases");
+  flip_byte(folder() / "bundle.zip", 0.4);
+  refuse(1, "damaged", {"import", "bundle.zip", "--data", "elsewhere"});
+}
+
+TEST_F(RecordedSession, AChangedCaseIsNotTakenForTheRecordings) {
+  succeed({"export", "run", "--out", "bundle.zip"});
+  const fs::path coverage = folder() / "data/cases/demo/coverage.zst";
+  const fs::path density = folder() / "data/cases/demo/density.zst";
+  write_file_atomically(coverage, read_text_file(density));
+  fs::create_directories(folder() / "data/sessions");
+  refuse(1, "case 'demo' has changed", {"export", "run", "--out", "a.ply"});
+  refuse(1, "another case 'demo'", {"import", "bundle.zip"});
+}
+
+TEST_F(RecordedSession, DamageIsSaidAndWhatCameBeforeIsScored) {
+  const json whole = json_of("run/metrics.json");
+  flip_byte(folder() / "run/recording.ream", 0.7);
+  const Outcome scored = run({"score", "run", "--json"});
+  EXPECT_EQ(scored.exit_code, 0);
+  EXPECT_NE(scored.error.find("damage"), std::string::npos) << scored.error;
+  const json metrics = json::parse(scored.out).at("metrics");
+  EXPECT_LT(metrics.at("duration_s").get<double>(), whole.at("duration_s").get<double>());
+  EXPECT_GT(metrics.at("duration_s").get<double>(), 0.0);
+}
+
+TEST_F(RecordedSession, WrongInputIsNamed) {
+  refuse(1, "no session 'nobody'", {"score", "nobody"});
+  refuse(1, "holds no recording.ream", {"score", "data"});
+  refuse(1, "nowhere.json", {"score", "run", "--rubric", "nowhere.json"});
+  refuse(2, ".csv", {"export", "run", "--out", "a.doc"});
+  refuse(1, "not a recording", {"score", "run/trace.csv"});
+  write("bad.json",
+        R"({"name": "x", "version": 1, "criteria": [{"metric": "depth", "none": 0, "full": 1}]})");
+  refuse(1, "no metric 'depth'", {"score", "run", "--rubric", "bad.json"});
+}
+
+}  // namespace
+}  // namespace ream::test
