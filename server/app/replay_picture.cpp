@@ -11,7 +11,6 @@
 namespace ream::app {
 namespace {
 
-constexpr uint32_t window_ticks = 1000;
 /// After a jump viewers are sent this much of the trace before it, every tenth tick of it.
 constexpr uint32_t history_ticks = 20'000, history_stride = 10;
 
@@ -45,7 +44,7 @@ void ReplayPicture::show(const ReplayMoment& moment) {
   shown_.jump = moment.jump;
   shown_.speed = moment.speed;
   shown_.playing = moment.playing;
-  shown_.fault = moment.fault;
+  set_fault(moment.fault);
   sample_.playback = {moment.position_ticks, moment.speed, moment.playing, moment.jump};
   if (jumped)
     jump_to(moment.position_ticks);
@@ -53,7 +52,8 @@ void ReplayPicture::show(const ReplayMoment& moment) {
     play_to(moment.position_ticks);
   show_tool();
   catch_up_metrics();
-  if (changed) tell(stream::SessionState::replaying);
+  // Ticks that were played have told of changes themselves.
+  if (jumped || (changed && !moved)) tell(stream::SessionState::replaying);
 }
 
 void ReplayPicture::seek_bone(uint32_t ticks) {
@@ -98,8 +98,10 @@ void ReplayPicture::take_tick(uint32_t tick) {
 }
 
 const record::ops::Tick& ReplayPicture::tick_at(uint32_t tick) {
-  if (window_.empty() || tick < window_.front().tick || tick > window_.back().tick)
-    window_ = recording_.ticks(tick, tick + window_ticks);
+  if (window_.empty() || tick < window_.front().tick || tick > window_.back().tick) {
+    const record::ChunkPlace& place = recording_.log().chunks().at(recording_.chunk_of(tick));
+    window_ = recording_.ticks(place.first_tick, place.first_tick + place.ticks);
+  }
   return window_.at(tick - window_.front().tick);
 }
 
@@ -152,11 +154,14 @@ void ReplayPicture::poll(int64_t now_ns) {
   batcher_.publish_if_due(now_ns);
 }
 
-void ReplayPicture::tell(stream::SessionState state) {
-  const std::string& fault = shown_.fault;
-  sample_.state = state;
+void ReplayPicture::set_fault(const std::string& fault) {
+  shown_.fault = fault;
   sample_.fault.fill('\0');
   std::memcpy(sample_.fault.data(), fault.data(), std::min(fault.size(), sample_.fault.size() - 1));
+}
+
+void ReplayPicture::tell(stream::SessionState state) {
+  sample_.state = state;
   batcher_.add(sample_);
   batcher_.flush();
 }

@@ -27,8 +27,8 @@ class ReplayPicture {
  public:
   /// Publishes the hello and the first whole picture. `before`: bone before tick 0; `hello` lacks only the
   /// tool. What is given outlives this, `hello` apart. Errors: those of Recording and of tools.
-  ReplayPicture(const record::Recording& recording, const case_::Case& before, const MetricsTimeline& timeline,
-                stream::HelloInfo hello, stream::Fanout& fanout);
+  ReplayPicture(const record::Recording& recording, const case_::Case& before,
+                const MetricsTimeline& timeline, stream::HelloInfo hello, stream::Fanout& fanout);
 
   /// Forwards without a jump every tick between is shown too. Error invalid_input for a damaged chunk; what
   /// was shown before then stays.
@@ -52,6 +52,7 @@ class ReplayPicture {
   void catch_up_metrics();
   void publish_history(uint32_t end_tick);
   void take_tick(uint32_t tick);
+  void set_fault(const std::string& fault);
   const record::ops::Tick& tick_at(uint32_t tick);
   shell::Tool tool_of_segment(size_t segment) const;
 
@@ -65,7 +66,7 @@ class ReplayPicture {
   stream::TelemetryBatcher batcher_;
   stream::TelemetrySample sample_;                    ///< the newest
   std::optional<score::MetricsAccumulator> metrics_;  ///< of what is shown; empty: not known yet
-  std::vector<record::ops::Tick> window_;             ///< read ahead
+  std::vector<record::ops::Tick> window_;             ///< of one chunk
   ReplayMoment shown_;
   size_t segment_ = 0;
 };

@@ -92,10 +92,12 @@ class Verifier {
               std::to_string(rig_->state.tick)});
       return;
     }
+    if (segment.first_tick > 0) return;
+    // The header's tables are those of the first reamer.
     if (const std::string feed = recorded_table(recording_, "feed"), found = feed_table(); feed != found)
       differ({"table", "feed", feed, found});
     const uint64_t hash = rig_->bone_case.bone.coverage_hash();
-    if (segment.first_tick == 0 && hash != recording_.header().start_grid_hash)
+    if (hash != recording_.header().start_grid_hash)
       differ({"bone", "start_grid_hash", to_hex(recording_.header().start_grid_hash), to_hex(hash)});
   }
 

@@ -4,6 +4,7 @@
 
 #include "bench/bench.hpp"
 #include "bench/seated_reaming.hpp"
+#include "bench/seek_rows.hpp"
 #include "core/clock.hpp"
 #include "ct/phantom_case.hpp"
 #include "record/recorder.hpp"
@@ -126,6 +127,7 @@ std::vector<Row> record_suite(const Options&) {
   add_rows("a minute of pecking at 20 N", measure(bone_case, pecking, true, folder), without, rows);
   const Measured pressed = measure(bone_case, pressing, false, folder);
   add_rows("six seconds pressed at 52 N", measure(bone_case, pressing, true, folder), pressed, rows);
+  add_seek_rows(bone_case, folder, rows);
   std::filesystem::remove_all(folder);
   return rows;
 }

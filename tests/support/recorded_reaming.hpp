@@ -7,6 +7,7 @@
 #include "app/verify_replay.hpp"
 #include "core/file.hpp"
 #include "record/recorder.hpp"
+#include "sim/step.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_bone.hpp"
 
@@ -33,21 +34,21 @@ class RecordedReaming {
   }
 
   /// A hand that leans on the bone for `duration_s`, pauses and lets go of the spindle.
-  static nlohmann::json push(const std::string& profile, double duration_s = 1.2) {
+  static nlohmann::json push(const std::string& profile, double duration_s = 3.0) {
     using nlohmann::json;
     return {{"device", "hand"},
             {"device_profile", profile},
             {"duration_s", duration_s},
-            {"force_scale", 4.0},
+            {"force_scale", 10.0},
             {"vibration", {{"source", "off"}}},
             {"hand",
              {{"start_mm", {0.0, 0.0, -0.6}},
               {"tremor_rms_n", 2.0},
               {"force_profile", {{{"t_s", 0.0}, {"force_n", 45.0}}}}}},
             {"buttons",
-             {{{"t_s", 0.5 * duration_s}, {"pause", true}},
-              {{"t_s", 0.6 * duration_s}, {"pause", false}},
-              {{"t_s", 0.9 * duration_s}, {"spindle", false}}}}};
+             {{{"t_s", 0.1}, {"pause", true}},
+              {{"t_s", 0.15}, {"pause", false}},
+              {{"t_s", 0.95 * duration_s}, {"spindle", false}}}}};
   }
 
   app::RunRequest request(const nlohmann::json& script) const {

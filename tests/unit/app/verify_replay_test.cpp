@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <iostream>
+#include <algorithm>
+#include <cmath>
 
 #include "app/review_recording.hpp"
+#include "core/hash.hpp"
+#include "geometry/mesh_io.hpp"
 #include "gpu/device.hpp"
 #include "support/changed_recording.hpp"
 #include "support/expect_error.hpp"
@@ -29,7 +32,7 @@ void expect_the_same_everywhere(const RecordedReaming& reaming, const std::files
   const record::Recording recording(path);
   const Review review = review_recording(recording, recorded_case(recording, "", reaming.data()), UINT32_MAX);
   EXPECT_FALSE(review.difference.has_value());
-  EXPECT_GT(review.metrics.removed_volume_mm3, 0.5);
+  EXPECT_GT(review.metrics.removed_volume_mm3, 0.05);
   EXPECT_EQ(review.ticks, recording.tick_count());
   ASSERT_GE(every_backend().size(), 2u) << "no OpenCL device: install pocl-opencl-icd";
   for (const std::string& backend : every_backend()) {
@@ -62,8 +65,8 @@ TEST_P(VerifyDevices, TheSameOnEveryBackend) {
 INSTANTIATE_TEST_SUITE_P(Profiles, VerifyDevices,
                          testing::Values("ideal", "touch", "omega.6", "kuka-iiwa-7", "hapticmaster",
                                          "ideal-admittance"),
-                         [](const auto& info) {
-                           std::string name = info.param;
+                         [](const auto& profile) {
+                           std::string name = profile.param;
                            std::replace_if(
                                name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
                            return name;
@@ -71,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(Profiles, VerifyDevices,
 
 TEST(VerifyReplay, ARobotsRun) {
   RecordedReaming reaming;
-  json script = RecordedReaming::push("ideal-admittance", 3.0);
+  json script = RecordedReaming::push("ideal-admittance");
   script.erase("hand");
   script["device"] = "robot";
   script["robot"] = {{"start_mm", {0.0, 0.0, -0.8}}, {"ramp_s", 0.5}, {"depth_mm", 0.3}};
@@ -132,7 +135,7 @@ TEST(VerifyReplay, ReamersInTurnOneOfThemAMesh) {
   std::filesystem::remove(mesh);
   const record::Recording recording(path);
   ASSERT_EQ(recording.segments().size(), 3u);
-  EXPECT_EQ(recording.tick_count(), 3600u);
+  EXPECT_EQ(recording.tick_count(), 9000u);
   expect_the_same_everywhere(reaming, path);
 }
 
@@ -163,6 +166,8 @@ class Deceived : public testing::Test {
     });
   }
 
+  /// Kept, so that making them again costs nothing.
+  static inline const auto tracks = force::make_vibration_tracks({}, 1);
   RecordedReaming reaming_;
   std::filesystem::path path_ = reaming_.record([] {
     json script = RecordedReaming::push("ideal");
@@ -179,8 +184,12 @@ TEST_F(Deceived, OneInputThatWasNotSo) {
   expect_difference(
       reaming_.verify(with_changed_tick(400, [](Tick& t) { t.world_from_handle.translation_nm[2] -= 200; })),
       400, "pose", "grid_from_tool.z_nm");
-  expect_difference(reaming_.verify(with_changed_tick(300, [](Tick& t) { t.flags ^= 1; })), 300, "pose",
-                    "grid_from_tool.z_nm");
+  expect_difference(
+      reaming_.verify(with_changed_tick(7, [](Tick& t) { t.world_from_handle.translation_nm[0] += 1; })), 7,
+      "pose", "grid_from_tool.x_nm");
+  const VerifyResult standing = reaming_.verify(with_changed_tick(350, [](Tick& t) { t.flags ^= 1; }));
+  EXPECT_TRUE(standing.difference.has_value());
+  EXPECT_EQ(standing.ticks, 350u);
 }
 
 TEST_F(Deceived, OnePoseOneVoxelOneForceThatWereNotSo) {
@@ -227,8 +236,10 @@ TEST_F(Deceived, AnotherSeed) {
     json settings = json::parse(h.settings);
     settings["random_seed"] = 2;
     h.settings = settings.dump();
-    const auto tracks = force::make_vibration_tracks({}, 2);
-    h.tables = json{{"vibration", to_hex(tracks->hash())}}.dump();
+    const auto others = force::make_vibration_tracks({}, 2);
+    json tables = json::parse(h.tables);
+    tables["vibration"] = to_hex(others->hash());
+    h.tables = tables.dump();
   });
   expect_difference(reaming_.verify(twice), 0, "vibration", "vibration_g");
 }

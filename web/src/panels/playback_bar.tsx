@@ -5,7 +5,9 @@ import { words } from '../words';
 import { minutes } from './format';
 
 const speeds = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
-const sliderStepS = 0.05;
+/** A tick, so that any moment and the very end can be reached; arrow keys go further. */
+const sliderStepS = 0.001;
+const keyStepS = 1;
 
 /** Where the replay stands, and the ways to another moment. */
 export function PlaybackBar({ store, watcher }: { store: Store; watcher: Watcher }) {
@@ -37,6 +39,12 @@ export function PlaybackBar({ store, watcher }: { store: Store; watcher: Watcher
           step={sliderStepS}
           value={positionS}
           disabled={!usable}
+          onKeyDown={(event) => {
+            const steps = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[event.key];
+            if (steps === undefined) return;
+            event.preventDefault();
+            watcher.scrubber.seek(Math.min(Math.max(positionS + steps * keyStepS, 0), durationS));
+          }}
           onInput={(event) => watcher.scrubber.seek(Math.min(event.currentTarget.valueAsNumber, durationS))}
         />
         <div class="marks">
