@@ -12,7 +12,8 @@ export function canBeReplayed(session: Pick<Session, 'state' | 'tick'>): boolean
 
 /**
  * The session to watch, or undefined when one should be created: the watched one while it is under way, else the newest
- * under way, else the watched one, else the newest of all. `unstreamable` holds ids that gave no stream.
+ * under way, else the watched one, else the newest of all. `unstreamable` holds ids that gave no stream;
+ * sessions that are only in their folders have none.
  */
 export function chooseSession(
   sessions: readonly Session[],
@@ -20,7 +21,7 @@ export function chooseSession(
   unstreamable: ReadonlySet<string>,
 ): Session | undefined {
   const newestFirst = sessions
-    .filter((s) => !unstreamable.has(s.id))
+    .filter((s) => s.streamable !== false && !unstreamable.has(s.id))
     .sort((a, b) => (a.created_utc < b.created_utc ? 1 : a.created_utc > b.created_utc ? -1 : 0));
   const watched = newestFirst.find((s) => s.id === watchedId);
   if (watched !== undefined && isActive(watched)) return watched;

@@ -12,6 +12,8 @@ export interface Session {
   duration_s: number;
   force_scale: number;
   fault: string | null;
+  /** False for sessions of earlier runs of the server, which are only in their folders; absent means true. */
+  streamable?: boolean;
 }
 
 /** A recording that is shown on the server for all who watch it. */

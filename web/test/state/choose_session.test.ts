@@ -25,6 +25,11 @@ describe('chooseSession', () => {
     expect(chooseSession(all, null, none)?.id).toBe('b');
     expect(chooseSession(all, 'c', none)?.id).toBe('b');
   });
+  it('leaves those of earlier runs of the server aside', () => {
+    const earlier = { ...session('b', 'finished', 2), streamable: false };
+    expect(chooseSession([session('a', 'finished', 1), earlier], 'b', none)?.id).toBe('a');
+    expect(chooseSession([earlier], null, none)).toBeUndefined();
+  });
   it('stays with a watched session that runs', () => {
     expect(chooseSession([session('a', 'paused', 1), session('b', 'running', 2)], 'a', none)?.id).toBe('a');
   });
