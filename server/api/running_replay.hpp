@@ -31,9 +31,9 @@ struct PlaybackStatus {
   double position_s = 0.0, duration_s = 0.0;
   double speed = 1.0;  ///< seconds of the recording a second, also while it rests
   bool playing = false;
-  std::string fault;          ///< why it cannot go on from here; empty: nothing is wrong
-  double force_scale = 1.0;   ///< simulated N per hand N
-  double unwatched_s = 0.0;   ///< since the last viewer left
+  std::string fault;         ///< why it cannot go on from here; empty: nothing is wrong
+  double force_scale = 1.0;  ///< simulated N per hand N
+  double unwatched_s = 0.0;  ///< since the last viewer left
 };
 
 /// What to change; what is absent stays as it is.

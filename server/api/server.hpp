@@ -15,7 +15,7 @@ namespace ream::api {
 struct ServerOptions {
   net::ListenOptions listen;
   std::filesystem::path cases_folder;
-  std::filesystem::path web_folder;  ///< the built page; served under "/"
+  std::filesystem::path web_folder;       ///< the built page; served under "/"
   std::filesystem::path sessions_folder;  ///< where sessions keep their folders
   SessionMakers make_session;
   SessionLimits sessions;

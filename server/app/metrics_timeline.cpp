@@ -53,9 +53,9 @@ void MetricsTimeline::read_all() {
 score::MetricsAccumulator MetricsTimeline::from_second(const score::MetricsAccumulator& second,
                                                        uint32_t ticks) const {
   score::MetricsAccumulator metrics = second;
-  recording_.for_each_tick(
-      ticks - ticks % ticks_per_second, ticks,
-      [&](const record::ops::Tick& tick) { metrics.add(record::report_of(tick, world_from_grid_)); });
+  recording_.for_each_tick(ticks - ticks % ticks_per_second, ticks, [&](const record::ops::Tick& tick) {
+    metrics.add(record::report_of(tick, world_from_grid_));
+  });
   return metrics;
 }
 

@@ -22,8 +22,8 @@ void Playhead::change(const api::PlaybackChange& change) {
   const double duration_s = duration_ticks_ * tick_s;
   if (change.speed && *change.speed != 0.0 &&
       !(*change.speed >= api::slowest_playback && *change.speed <= api::fastest_playback))
-    throw Error(ErrorKind::invalid_input, "speed must be 0 or from " + number(api::slowest_playback) + " to " +
-                                              number(api::fastest_playback) + ", not " +
+    throw Error(ErrorKind::invalid_input, "speed must be 0 or from " + number(api::slowest_playback) +
+                                              " to " + number(api::fastest_playback) + ", not " +
                                               number(*change.speed));
   if (change.position_s && !(*change.position_s >= 0.0 && *change.position_s <= duration_s))
     throw Error(ErrorKind::invalid_input, "position_s must be from 0 to the duration, " + number(duration_s) +

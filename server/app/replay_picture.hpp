@@ -27,8 +27,8 @@ class ReplayPicture {
  public:
   /// Publishes the hello and the first whole picture. `before`: bone before tick 0; `hello` lacks only the
   /// tool. What is given outlives this, `hello` apart. Errors: those of Recording and of tools.
-  ReplayPicture(const record::Recording& recording, const case_::Case& before, const MetricsTimeline& timeline,
-                stream::HelloInfo hello, stream::Fanout& fanout);
+  ReplayPicture(const record::Recording& recording, const case_::Case& before,
+                const MetricsTimeline& timeline, stream::HelloInfo hello, stream::Fanout& fanout);
 
   /// Forwards without a jump every tick between is shown too. Error invalid_input for a damaged chunk; what
   /// was shown before then stays.

@@ -78,7 +78,8 @@ api::PlaybackStatus ReplaySession::status() const {
   status.playing = playhead_.playing();
   status.fault = fault_;
   status.force_scale = recording_.header().force_scale;
-  if (fanout_->viewers() == 0) status.unwatched_s = static_cast<double>(steady_ns() - last_watched_ns_) * 1e-9;
+  if (fanout_->viewers() == 0)
+    status.unwatched_s = static_cast<double>(steady_ns() - last_watched_ns_) * 1e-9;
   return status;
 }
 
@@ -90,8 +91,7 @@ std::vector<api::ReplayMark> ReplaySession::marks() const {
     marks.push_back({event.tick * tick_s, event.kind, event.words});
   for (const record::ops::Annotation& annotation : recording_.annotations())
     marks.push_back({annotation.tick * tick_s, "annotation", annotation.words});
-  std::stable_sort(marks.begin(), marks.end(),
-                   [](const auto& a, const auto& b) { return a.at_s < b.at_s; });
+  std::stable_sort(marks.begin(), marks.end(), [](const auto& a, const auto& b) { return a.at_s < b.at_s; });
   return marks;
 }
 

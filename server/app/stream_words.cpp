@@ -4,7 +4,8 @@ namespace ream::app {
 namespace {
 
 bool is_at_rest(const Pose& world_from_bone_rest) {
-  return world_from_bone_rest.rotation == Mat3::Identity() && world_from_bone_rest.translation_mm == Vec3::Zero();
+  return world_from_bone_rest.rotation == Mat3::Identity() &&
+         world_from_bone_rest.translation_mm == Vec3::Zero();
 }
 
 }  // namespace

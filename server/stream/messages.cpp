@@ -75,8 +75,8 @@ Message tool_message(const TriangleMesh& mesh, const std::string& tool_name) {
   FlatBufferBuilder builder;
   const FlatMesh tool(mesh);
   const auto change =
-      wire::CreateToolChange(builder, builder.CreateVector(tool.positions), builder.CreateVector(tool.indices),
-                             builder.CreateString(tool_name));
+      wire::CreateToolChange(builder, builder.CreateVector(tool.positions),
+                             builder.CreateVector(tool.indices), builder.CreateString(tool_name));
   return finished(builder, wire::Body::ToolChange, change);
 }
 

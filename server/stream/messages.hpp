@@ -30,9 +30,9 @@ struct HelloInfo {
   std::string tool_name;
   Vec3 axis_entry_mm = Vec3::Zero(), axis_direction = Vec3::UnitX();  ///< world frame
   double planned_depth_mm = 0;
-  double force_scale = 1;  ///< simulated N per hand N
-  double force_max_n = 0;  ///< hand N that the device may render
-  std::string replay_of;   ///< session that was recorded; empty: this is live
+  double force_scale = 1;       ///< simulated N per hand N
+  double force_max_n = 0;       ///< hand N that the device may render
+  std::string replay_of;        ///< session that was recorded; empty: this is live
   uint32_t duration_ticks = 0;  ///< of the recording
 };
 

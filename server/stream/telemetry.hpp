@@ -49,8 +49,8 @@ struct TelemetrySample {
   float cortical_share = 0;
   float tick_mean_us = 0, tick_p99_us = 0;  ///< health of the loop
   uint32_t ticks_missed = 0;
-  std::optional<Playback> playback;         ///< in replays only
-  std::array<char, 160> fault{};  ///< words, zero-terminated, when state is fault
+  std::optional<Playback> playback;  ///< in replays only
+  std::array<char, 160> fault{};     ///< words, zero-terminated, when state is fault
 };
 
 /// From the loop (or whoever follows it) to the batcher; a full ring loses samples, which viewers are told.

@@ -107,8 +107,8 @@ void add_seek_rows(const case_::Case& bone_case, const std::filesystem::path& fo
 
   const auto opening = SteadyClock::now();
   const record::Recording recording(file);
-  rows.push_back({"record", "seek, an hour of thesis-5-4-2, opening the file", elapsed_us(opening) * 1e-3, 0.0,
-                  "ms", 0.0});
+  rows.push_back({"record", "seek, an hour of thesis-5-4-2, opening the file", elapsed_us(opening) * 1e-3,
+                  0.0, "ms", 0.0});
   rows.push_back({"record", "seek, an hour of thesis-5-4-2, size of the file",
                   static_cast<double>(std::filesystem::file_size(file)) * 1e-6, 0.0, "MB", 0.0});
 

@@ -25,7 +25,9 @@ class FakeReplay final : public api::RunningReplay {
     return status_;
   }
   std::vector<api::ReplayMark> marks() const override { return {{2.5, "annotation", "too steep here"}}; }
-  nlohmann::json metrics() const override { return FakeSession({request_.id, "demo", "demo", 26.0}).metrics(); }
+  nlohmann::json metrics() const override {
+    return FakeSession({request_.id, "demo", "demo", 26.0}).metrics();
+  }
   void change(const api::PlaybackChange& change) override {
     const std::lock_guard lock(mutex_);
     if (change.position_s && *change.position_s > status_.duration_s)

@@ -80,11 +80,13 @@ TEST(Playhead, SpeedZeroRestsAndKeepsTheSpeed) {
 TEST(Playhead, RefusesWhatIsOutOfRangeAndChangesNothing) {
   Playhead head(2500);
   head.change({true, 2.0, 1.0});
-  expect_error(ErrorKind::invalid_input, "speed must be 0 or from 0.1 to 16, not 0.05",
-               [&] { head.change({false, 0.05, {}}); });
+  expect_error(ErrorKind::invalid_input, "speed must be 0 or from 0.1 to 16, not 0.05", [&] {
+    head.change({false, 0.05, {}});
+  });
   expect_error(ErrorKind::invalid_input, "not 17", [&] { head.change({false, 17.0, {}}); });
-  expect_error(ErrorKind::invalid_input, "position_s must be from 0 to the duration, 2.5, not 2.6",
-               [&] { head.change({false, 1.0, 2.6}); });
+  expect_error(ErrorKind::invalid_input, "position_s must be from 0 to the duration, 2.5, not 2.6", [&] {
+    head.change({false, 1.0, 2.6});
+  });
   expect_error(ErrorKind::invalid_input, "not -0.1", [&] { head.change({false, 1.0, -0.1}); });
   EXPECT_TRUE(head.playing());
   EXPECT_EQ(head.speed(), 2.0);

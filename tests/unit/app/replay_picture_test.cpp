@@ -57,7 +57,8 @@ struct ReplayViewer {
 
  private:
   void take(const wire::Telemetry& t) {
-    always_replaying = always_replaying && t.playback() != nullptr && t.state() == wire::SessionState::replaying;
+    always_replaying =
+        always_replaying && t.playback() != nullptr && t.state() == wire::SessionState::replaying;
     if (t.playback() == nullptr) return;
     if (t.playback()->jump() != jump) {
       trace.clear();
@@ -93,8 +94,8 @@ class ReplayPictureTest : public testing::Test {
     segment.first_tick = reamer_changed_at;
     segment.reason = "reamer";
     segment.tool = "sphere 8";
-    record::Recorder recorder(record::continue_log_file(path_, so_far.log().whole_bytes()), so_far, bone, segment,
-                              session_.follower.data());
+    record::Recorder recorder(record::continue_log_file(path_, so_far.log().whole_bytes()), so_far, bone,
+                              segment, session_.follower.data());
     session_.run(recorder, ticks_in_all - reamer_changed_at);
     recorder.finish("finished");
   }

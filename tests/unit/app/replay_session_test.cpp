@@ -49,7 +49,9 @@ class ReplaySessionTest : public testing::Test {
     house.server_epoch = 7;
     return house;
   }
-  static api::ReplayRequest request(const std::string& of = "abcdefgh") { return {"rabcdefgh", of, "slab", "press"}; }
+  static api::ReplayRequest request(const std::string& of = "abcdefgh") {
+    return {"rabcdefgh", of, "slab", "press"};
+  }
 
   /// Waits until the replay stands there and rests.
   static void until(const ReplaySession& replay, double position_s) {
@@ -68,7 +70,8 @@ TEST_F(ReplaySessionTest, AtItsEndItsMetricsAreTheSessions) {
   EXPECT_EQ(replay.metrics().at("removed_volume_mm3"), 0.0);
   replay.change({true, 16.0, 1.0});
   until(replay, replay.status().duration_s);
-  while (replay.metrics().at("grid_hash").is_null()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  while (replay.metrics().at("grid_hash").is_null())
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
   EXPECT_EQ(replay.metrics(), metrics_);
 }
 

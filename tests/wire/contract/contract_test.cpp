@@ -125,7 +125,8 @@ class ContractTest : public ServerTest {
     expect_get(one, open, 200);
     expect_get(one + "/metrics", open + "/metrics", 200);
     expect_stream(open + "/stream", 101);
-    expect_post(one + "/playback", open + "/playback", 200, R"({"playing": true, "speed": 4, "position_s": 2.5})");
+    expect_post(one + "/playback", open + "/playback", 200,
+                R"({"playing": true, "speed": 4, "position_s": 2.5})");
     expect_post(one + "/playback", open + "/playback", 400, "{");
     expect_post(one + "/playback", open + "/playback", 403, "{}", foreign);
     expect_post(one + "/playback", all + "/nobody/playback", 404, "{}");
@@ -158,7 +159,8 @@ class ContractTest : public ServerTest {
   }
 
   void annotations(const std::string& path) {
-    const std::string pattern = one + "/annotations", good = R"({"words": "too steep", "place_mm": [1, 2, 3.5]})";
+    const std::string pattern = one + "/annotations",
+                      good = R"({"words": "too steep", "place_mm": [1, 2, 3.5]})";
     expect_post(pattern, path + "/annotations", 201, good);
     expect_post(pattern, path + "/annotations", 400, "{");
     expect_post(pattern, path + "/annotations", 403, good, foreign);
@@ -200,7 +202,8 @@ TEST_F(ContractTest, ServesWhatIsDescribedAndNothingElse) {
 TEST_F(ContractTest, EveryDescribedReplyIsGivenAsDescribed) {
   std::promise<void> release;
   options.prepare = [&] { release.get_future().wait(); };
-  folder.write("sessions/earlier/session.json", R"({"case": "planned", "script": "demo", "state": "stopped"})");
+  folder.write("sessions/earlier/session.json",
+               R"({"case": "planned", "script": "demo", "state": "stopped"})");
   start();
   expect_get("/readyz", "/readyz", 503);
   expect_get("/healthz", "/healthz", 200);
@@ -275,12 +278,15 @@ TEST_F(ContractTest, TakesExactlyTheRemarksThatTheSchemaTakes) {
   for (const std::string& body :
        {std::string(R"({"words": "here"})"), std::string(R"({"words": ""})"), std::string(R"({"words": 3})"),
         std::string("{}"), std::string("[]"), long_words(4000), long_words(4001),
-        std::string(R"({"words": "here", "author": "anna"})"), std::string(R"({"words": "here", "author": null})"),
-        std::string(R"({"words": "here", "at_s": 0})"), std::string(R"({"words": "here", "at_s": -1})"),
-        std::string(R"({"words": "here", "at_s": 1e9})"), std::string(R"({"words": "here", "at_s": "1"})"),
-        std::string(R"({"words": "here", "place_mm": null})"), std::string(R"({"words": "here", "place_mm": [1, 2]})"),
+        std::string(R"({"words": "here", "author": "anna"})"),
+        std::string(R"({"words": "here", "author": null})"), std::string(R"({"words": "here", "at_s": 0})"),
+        std::string(R"({"words": "here", "at_s": -1})"), std::string(R"({"words": "here", "at_s": 1e9})"),
+        std::string(R"({"words": "here", "at_s": "1"})"),
+        std::string(R"({"words": "here", "place_mm": null})"),
+        std::string(R"({"words": "here", "place_mm": [1, 2]})"),
         std::string(R"({"words": "here", "place_mm": [1, 2, 3e6]})"),
-        std::string(R"({"words": "here", "place_mm": [1, -2, 3.5]})"), std::string(R"({"words": "here", "colour": 1})")}) {
+        std::string(R"({"words": "here", "place_mm": [1, -2, 3.5]})"),
+        std::string(R"({"words": "here", "colour": 1})")}) {
     const bool fits = checker.faults(schema, json::parse(body)).empty();
     EXPECT_EQ(post(path + "/annotations", body).status, fits ? 201 : 422) << body.substr(0, 100);
   }
