@@ -14,7 +14,8 @@ record::ops::Annotation annotation_op(const NewAnnotation& note, uint32_t ticks)
   if (note.at_s) {
     const double tick = std::round(*note.at_s / tick_s);
     if (tick > ticks)
-      throw Error(ErrorKind::invalid_input, "at_s is " + std::to_string(*note.at_s) + ", but the session has only " +
+      throw Error(ErrorKind::invalid_input, "at_s is " + std::to_string(*note.at_s) +
+                                                ", but the session has only " +
                                                 std::to_string(ticks * tick_s) + " s so far");
     op.tick = static_cast<uint32_t>(tick);
   }

@@ -20,7 +20,8 @@ std::vector<Annotation> recorded_annotations(const std::filesystem::path& folder
 Annotation annotate_recording(const std::filesystem::path& folder, const NewAnnotation& note) {
   const auto lock = FileLock::attempt(lock_file(folder));
   if (!lock)
-    throw Error(ErrorKind::conflict, "session '" + folder.filename().string() + "' is in use by another process");
+    throw Error(ErrorKind::conflict,
+                "session '" + folder.filename().string() + "' is in use by another process");
   const record::Recording recording(recording_file(folder));
   const record::ops::Annotation op = annotation_op(note, recording.tick_count());
   record::append_notes(recording.log(), {{op}});

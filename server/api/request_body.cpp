@@ -22,8 +22,8 @@ std::string plain_number(double value) {
 
 /// Of UTF-8: bytes that begin one.
 size_t characters(const std::string& text) {
-  return static_cast<size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+  return static_cast<size_t>(std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
 }  // namespace
@@ -95,7 +95,8 @@ std::string RequestBody::words(const std::string& key, size_t least, size_t most
     complain(key, "is missing");
   } else if (!value->is_string()) {
     complain(key, std::string("must be a text, not ") + value->type_name());
-  } else if (const auto text = value->get<std::string>(); characters(text) < least || characters(text) > most) {
+  } else if (const auto text = value->get<std::string>();
+             characters(text) < least || characters(text) > most) {
     complain(key, "must be " + std::to_string(least) + " to " + std::to_string(most) + " characters long");
   } else {
     return text;

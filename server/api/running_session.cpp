@@ -23,9 +23,9 @@ std::string to_text(SessionState state) {
 }
 
 std::optional<SessionState> session_state_from(const std::string& text) {
-  for (const SessionState state : {SessionState::created, SessionState::running, SessionState::paused,
-                                   SessionState::finished, SessionState::stopped, SessionState::fault,
-                                   SessionState::interrupted})
+  for (const SessionState state :
+       {SessionState::created, SessionState::running, SessionState::paused, SessionState::finished,
+        SessionState::stopped, SessionState::fault, SessionState::interrupted})
     if (text == to_text(state)) return state;
   return std::nullopt;
 }

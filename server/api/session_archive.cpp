@@ -24,7 +24,8 @@ int64_t stamp_of(const fs::path& folder) {
 
 bool newer(const SessionRecord& a, const SessionRecord& b) {
   const SessionRequest &first = a.request, &second = b.request;
-  return first.created_utc != second.created_utc ? first.created_utc > second.created_utc : first.id < second.id;
+  return first.created_utc != second.created_utc ? first.created_utc > second.created_utc
+                                                 : first.id < second.id;
 }
 
 }  // namespace
@@ -83,7 +84,8 @@ std::optional<SessionRecord> SessionArchive::find(const std::string& id) const {
 }
 
 nlohmann::json SessionArchive::metrics(const std::string& id) const {
-  if (!find(id)) throw Error(ErrorKind::not_found, "no session '" + id + "'; GET /api/v1/sessions lists them");
+  if (!find(id))
+    throw Error(ErrorKind::not_found, "no session '" + id + "'; GET /api/v1/sessions lists them");
   std::error_code failed;
   if (!fs::exists(metrics_json(folder_of(id)), failed))
     throw Error(ErrorKind::not_found, "session '" + id + "' left no metrics");

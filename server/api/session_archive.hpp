@@ -20,7 +20,8 @@ class SessionArchive {
 
   /// Newest first. Folders that are damaged are left out, and warned about once each.
   std::vector<SessionRecord> list() const;
-  /// Empty when there is no such folder, or no session.json in it. Error invalid_input or io when it is damaged.
+  /// Empty when there is no such folder, or no session.json in it. Error invalid_input or io when it is
+  /// damaged.
   std::optional<SessionRecord> find(const std::string& id) const;
   /// What metrics.json holds. Error not_found when there is no such session or it left none.
   nlohmann::json metrics(const std::string& id) const;

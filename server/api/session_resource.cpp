@@ -56,8 +56,7 @@ net::Response list(const SessionService& service, const ReplayService& replays) 
   for (const SessionRecord& record : service.list()) sessions.push_back(to_json(record));
   json open_replays = json::array();
   for (const ReplayRecord& record : replays.list()) open_replays.push_back(to_json(record));
-  return net::json_response(200,
-                            {{"sessions", std::move(sessions)}, {"replays", std::move(open_replays)}});
+  return net::json_response(200, {{"sessions", std::move(sessions)}, {"replays", std::move(open_replays)}});
 }
 
 const std::string& id_of(const net::Request& request) { return request.parameters.at("id"); }
@@ -99,9 +98,8 @@ void add_session_routes(net::Router& router, SessionService& service, ReplayServ
     const std::string& id = id_of(request);
     return net::json_response(200, replays.has(id) ? to_json(replays.stop(id)) : to_json(service.stop(id)));
   });
-  router.on("POST", base + "/{id}/resume", [&](const net::Request& request) {
-    return resume(service, readiness, request);
-  });
+  router.on("POST", base + "/{id}/resume",
+            [&](const net::Request& request) { return resume(service, readiness, request); });
   router.on("GET", base + "/{id}/metrics", [&](const net::Request& request) {
     const std::string& id = id_of(request);
     return net::json_response(200, replays.has(id) ? replays.metrics(id) : service.metrics(id));

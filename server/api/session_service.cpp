@@ -123,8 +123,9 @@ std::vector<SessionRecord> SessionService::list() const {
   }
   for (SessionRecord& record : archive_.list())
     if (!here.contains(record.request.id)) records.push_back(std::move(record));
-  std::stable_sort(records.begin(), records.end(),
-                   [](const auto& a, const auto& b) { return a.request.created_utc > b.request.created_utc; });
+  std::stable_sort(records.begin(), records.end(), [](const auto& a, const auto& b) {
+    return a.request.created_utc > b.request.created_utc;
+  });
   return records;
 }
 
@@ -159,7 +160,7 @@ SessionRecord SessionService::stop(const std::string& id) {
 }
 
 std::shared_ptr<SessionService::Entry> SessionService::made_again(const SessionRecord& before,
-                                                                 const std::string& reamer) {
+                                                                  const std::string& reamer) {
   auto entry = std::make_shared<Entry>();
   entry->request = before.request;
   entry->running = makers_.resume(before.request, reamer);

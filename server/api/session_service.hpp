@@ -45,8 +45,8 @@ class SessionService {
   /// Error conflict when it has ended already.
   SessionRecord stop(const std::string& id);
   /// Goes on with one that was interrupted or stopped, under the same id, and starts it. `reamer`: empty for
-  /// the same as before. Errors: conflict in any other state or when another process has it; those of create()
-  /// and start().
+  /// the same as before. Errors: conflict in any other state or when another process has it; those of
+  /// create() and start().
   SessionRecord resume(const std::string& id, const std::string& reamer);
   nlohmann::json metrics(const std::string& id) const;
   /// Into the running recording, or behind the end of one that has ended. Error conflict before the start.

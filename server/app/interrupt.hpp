@@ -11,7 +11,6 @@ bool interrupted() noexcept;
 /// instead of ending the process.
 void take_file_size_limit_as_error();
 
-
 /// Throws Error io "interrupted; nothing was written" once a signal has come.
 void throw_if_interrupted();
 

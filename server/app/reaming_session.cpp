@@ -60,19 +60,20 @@ api::SessionState end_state(sim::LoopEnd end) {
 }  // namespace
 
 ReamingSession::ReamingSession(const SessionHouse& house, const api::SessionRequest& request)
-    : ReamingSession(house, request, Beginning{nullptr, false, asked_for(run_request(house, request), house.data)}) {}
+    : ReamingSession(house, request,
+                     Beginning{nullptr, false, asked_for(run_request(house, request), house.data)}) {}
 
 ReamingSession::ReamingSession(const SessionHouse& house, const api::SessionRequest& request,
                                const std::string& reamer)
     : ReamingSession(house, request, resumed(house, request, reamer)) {}
 
-ReamingSession::Beginning ReamingSession::resumed(const SessionHouse& house, const api::SessionRequest& request,
+ReamingSession::Beginning ReamingSession::resumed(const SessionHouse& house,
+                                                  const api::SessionRequest& request,
                                                   const std::string& reamer) {
   Beginning beginning;
   beginning.from = std::make_unique<ResumePoint>(sessions_folder(house.data) / request.id, house.data);
   beginning.parts = beginning.from->parts(run_request(house, request), reamer);
-  beginning.changed_tool =
-      beginning.parts.reamer.words != beginning.from->recording().segments().back().tool;
+  beginning.changed_tool = beginning.parts.reamer.words != beginning.from->recording().segments().back().tool;
   return beginning;
 }
 
@@ -204,8 +205,8 @@ nlohmann::json ReamingSession::metrics() const {
 api::Annotation ReamingSession::annotate(const api::NewAnnotation& note) {
   const std::lock_guard lock(mutex_);
   if (!files_ || finished_)
-    throw Error(ErrorKind::conflict, "session '" + id_ + "' is " + api::to_text(status_.state) +
-                                         "; a remark needs a recording");
+    throw Error(ErrorKind::conflict,
+                "session '" + id_ + "' is " + api::to_text(status_.state) + "; a remark needs a recording");
   remarks_.push_back(api::annotation_op(note, status_.tick));
   annotations_.push_back(api::annotation_of(remarks_.back()));
   return annotations_.back();
@@ -334,8 +335,8 @@ void ReamingSession::finish() {
   close(state, fault, results.metrics);
 }
 
-/// What was recorded up to here is closed as a fault; on a disk that takes nothing more, the next start of the
-/// server does so.
+/// What was recorded up to here is closed as a fault; on a disk that takes nothing more, the next start of
+/// the server does so.
 void ReamingSession::end_without_force(const std::string& words) {
   log::error("session " + id_ + ": " + words);
   loop_.request_stop();
@@ -345,7 +346,8 @@ void ReamingSession::end_without_force(const std::string& words) {
     close_session_folder(folder_, api::SessionState::fault, words);
     metrics = read_json_file(api::metrics_json(folder_));
   } catch (const Error& e) {
-    log::error("session " + id_ + " could not be closed; the next start of the server tries again: " + e.what());
+    log::error("session " + id_ +
+               " could not be closed; the next start of the server tries again: " + e.what());
   }
   close(api::SessionState::fault, words, metrics);
 }

@@ -88,7 +88,7 @@ class ReamingSession final : public api::RunningSession {
   std::condition_variable changed_;
   api::SessionStatus status_;
   nlohmann::json metrics_;
-  std::unique_ptr<SessionFiles> files_;  ///< set by start(), used by the follower
+  std::unique_ptr<SessionFiles> files_;           ///< set by start(), used by the follower
   std::vector<record::ops::Annotation> remarks_;  ///< for the follower to record
   std::vector<api::Annotation> annotations_;
   std::string start_failure_;  ///< for the follower to end the session with

@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/data_folder.hpp"
 #include "case/plan.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
@@ -31,6 +30,10 @@ std::string place_of(const record::Recording& recording, const char* what) {
 case_::Case recorded_case(const record::Recording& recording, const std::string& case_name,
                           const fs::path& data) {
   const record::ops::Header& header = recording.header();
+  if (header.settings.empty())
+    throw Error(ErrorKind::invalid_input,
+                recording.log().path().string() +
+                    " is of an older revision that does not say enough to go through it or compute it again");
   case_::Case found;
   try {
     found = find_case(case_name.empty() ? header.case_id : case_name, data);
@@ -71,23 +74,6 @@ RigParts recorded_parts(const record::Recording& recording, const record::ops::S
   parts.settings = recorded_settings(recording, backend);
   parts.from = from;
   return parts;
-}
-
-fs::path find_recording(const std::string& name, const fs::path& data) {
-  const bool bare = name.find('/') == std::string::npos && name != "." && name != "..";
-  std::error_code failed;
-  if (fs::is_regular_file(name, failed)) return name;
-  if (fs::is_directory(name, failed)) {
-    if (const fs::path file = fs::path(name) / "recording.ream"; fs::exists(file, failed)) return file;
-    if (!bare) throw Error(ErrorKind::not_found, name + " holds no recording.ream");
-  }
-  if (bare) {
-    const fs::path file = sessions_folder(data_folder(data)) / name / "recording.ream";
-    if (fs::exists(file, failed)) return file;
-    throw Error(ErrorKind::not_found, "no recording '" + name + "': neither a session of " +
-                                          data_folder(data).string() + " nor a folder or file here");
-  }
-  throw Error(ErrorKind::not_found, "no recording " + name);
 }
 
 }  // namespace ream::app

@@ -24,8 +24,4 @@ Reamer recorded_reamer(const record::Recording& recording, const record::ops::Se
 RigParts recorded_parts(const record::Recording& recording, const record::ops::Segment& segment,
                         case_::Case bone_case, const sim::CarriedOn& from, const std::string& backend);
 
-/// The recording that a name means: a file, a folder with recording.ream, or the id of a session
-/// in the data folder. Error not_found.
-std::filesystem::path find_recording(const std::string& name, const std::filesystem::path& data);
-
 }  // namespace ream::app

@@ -37,7 +37,8 @@ uint64_t last_session_hash(const record::Recording& recording) {
 
 FileLock locked(const fs::path& folder) {
   if (auto lock = FileLock::attempt(api::lock_file(folder))) return std::move(*lock);
-  throw Error(ErrorKind::conflict, "session '" + folder.filename().string() + "' is in use by another process");
+  throw Error(ErrorKind::conflict,
+              "session '" + folder.filename().string() + "' is in use by another process");
 }
 
 ResumePoint::ResumePoint(const fs::path& folder, const fs::path& data)
@@ -49,7 +50,8 @@ ResumePoint::ResumePoint(const fs::path& folder, const fs::path& data)
       metrics_(accumulated(recording_)) {
   bone_.seek(ticks(), [](const voxel::BrickImage&) {});
   if (bone_.ticks() != ticks())
-    throw Error(ErrorKind::invalid_input, recording_.log().path().string() + " does not hold the bone of its end");
+    throw Error(ErrorKind::invalid_input,
+                recording_.log().path().string() + " does not hold the bone of its end");
   bone_.write_to(case_.bone.coverage);
 }
 

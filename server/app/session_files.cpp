@@ -50,8 +50,8 @@ SessionFiles::SessionFiles(const Rig& rig, const std::filesystem::path& folder, 
       description_(resumed_description(rig, from)),
       recorder_(std::in_place,
                 record::continue_log_file(folder / "recording.ream", from.recording().log().whole_bytes()),
-                from.recording(), from.bone(), segment_of(rig, from.ticks(), changed_tool ? "reamer" : "resume"),
-                start_coverage),
+                from.recording(), from.bone(),
+                segment_of(rig, from.ticks(), changed_tool ? "reamer" : "resume"), start_coverage),
       metrics_(from.metrics()) {}
 
 record::TickReport SessionFiles::add(const record::TickReport& report) {

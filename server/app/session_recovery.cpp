@@ -39,7 +39,8 @@ Closing without_recording(api::SessionState state, const std::string& cause, con
   return {state, cause + "; nothing of it can be used: " + why.what(), 0, {}};
 }
 
-Closing with_recording(const record::Recording& recording, api::SessionState state, const std::string& cause) {
+Closing with_recording(const record::Recording& recording, api::SessionState state,
+                       const std::string& cause) {
   Closing closing{state, {}, recording.tick_count(), {}};
   if (const auto& end = recording.end()) {
     closing.state = api::session_state_from(end->state).value_or(state);
@@ -99,8 +100,9 @@ std::string close_session_folder(const fs::path& folder, api::SessionState state
   if (closing->metrics) metrics.emplace(api::metrics_json(folder), pretty(*closing->metrics));
   StagedFile session(api::session_json(folder), pretty(session_of(folder, *closing)));
   if (recording && !recording->end())
-    record::append_notes(recording->log(), {record::ops::Event{closing->ticks, api::to_text(state), closing->words},
-                                            record::ops::End{closing->ticks, api::to_text(state)}});
+    record::append_notes(recording->log(),
+                         {record::ops::Event{closing->ticks, api::to_text(state), closing->words},
+                          record::ops::End{closing->ticks, api::to_text(state)}});
   if (metrics) metrics->commit();
   session.commit();
   remove_temporaries(folder);

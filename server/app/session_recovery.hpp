@@ -11,7 +11,8 @@ namespace ream::app {
 /// appends an event and the end, computes metrics from the recorded ticks, and writes metrics.json and
 /// session.json with `state` and `cause` ("the server was killed"), to which is added what was kept. A
 /// recording that says it was closed keeps the state it says. The caller holds the folder's lock. Returns the
-/// words of session.json. Throws Error when something cannot be read or written; everything is then as it was.
+/// words of session.json. Throws Error when something cannot be read or written; everything is then as it
+/// was.
 std::string close_session_folder(const std::filesystem::path& folder, api::SessionState state,
                                  const std::string& cause);
 

@@ -4,8 +4,8 @@
 
 namespace ream {
 
-/// Holds a lock file for as long as it lives. The system lets go of it when the process ends, however it ends;
-/// the file itself stays. Works between processes and within one.
+/// Holds a lock file for as long as it lives. The system lets go of it when the process ends, however it
+/// ends; the file itself stays. Works between processes and within one.
 class FileLock {
  public:
   /// Makes the file if need be. Empty when somebody else holds it. Throws Error io.

@@ -59,7 +59,8 @@ bool has_any_type(const json& value, const json& types) {
 }
 
 /// Lengths are in characters, not bytes.
-void check_length(const json& schema, const json& value, const std::string& at, std::vector<std::string>& faults) {
+void check_length(const json& schema, const json& value, const std::string& at,
+                  std::vector<std::string>& faults) {
   const auto text = value.get<std::string>();
   const auto length = static_cast<size_t>(
       std::count_if(text.begin(), text.end(), [](unsigned char c) { return (c & 0xc0) != 0x80; }));
@@ -68,11 +69,33 @@ void check_length(const json& schema, const json& value, const std::string& at, 
 }
 
 void require_known_keywords(const json& schema) {
-  static const std::set<std::string> known = {
-      "$ref",  "type",     "const",    "enum",    "required", "properties",       "additionalProperties",
-      "items", "minItems", "maxItems", "minimum", "maximum",  "exclusiveMinimum", "pattern", "minLength", "maxLength",
-      "oneOf", "allOf",    "if",       "then",    "not",      "description",      "title",
-      "$defs", "$schema",  "$id",      "default"};
+  static const std::set<std::string> known = {"$ref",
+                                              "type",
+                                              "const",
+                                              "enum",
+                                              "required",
+                                              "properties",
+                                              "additionalProperties",
+                                              "items",
+                                              "minItems",
+                                              "maxItems",
+                                              "minimum",
+                                              "maximum",
+                                              "exclusiveMinimum",
+                                              "pattern",
+                                              "minLength",
+                                              "maxLength",
+                                              "oneOf",
+                                              "allOf",
+                                              "if",
+                                              "then",
+                                              "not",
+                                              "description",
+                                              "title",
+                                              "$defs",
+                                              "$schema",
+                                              "$id",
+                                              "default"};
   for (const auto& [key, value] : schema.items())
     if (!known.contains(key))
       throw std::logic_error("the checker does not know the schema keyword '" + key + "'");

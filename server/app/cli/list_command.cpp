@@ -64,7 +64,8 @@ nlohmann::json listed_sessions(const fs::path& data) {
 
 void print_case(const nlohmann::json& row) {
   std::cout << row.at("id").get<std::string>() << '\t' << row.value("name", "") << '\t'
-            << row.value("side", "") << '\t' << (row.at("planned").get<bool>() ? "planned" : "no plan") << '\n';
+            << row.value("side", "") << '\t' << (row.at("planned").get<bool>() ? "planned" : "no plan")
+            << '\n';
 }
 
 void print_session(const nlohmann::json& row) {

@@ -8,6 +8,7 @@
 #include "app/cli/commands.hpp"
 #include "app/data_folder.hpp"
 #include "app/interrupt.hpp"
+#include "app/recorded_session.hpp"
 #include "app/review_recording.hpp"
 #include "app/verify_replay.hpp"
 #include "core/clock.hpp"
@@ -113,7 +114,7 @@ void verify(const Options& options, const GlobalOptions& global, const record::R
 void replay(const Options& options, const GlobalOptions& global) {
   catch_interrupts();
   const auto data = data_folder(global.data);
-  const record::Recording recording(find_recording(options.recording, data));
+  const record::Recording recording(recording_path(options.recording, data));
   case_::Case bone_case = recorded_case(recording, options.case_name, data);
   (options.verify ? verify : review)(options, global, recording, std::move(bone_case));
 }

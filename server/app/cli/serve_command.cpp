@@ -10,8 +10,8 @@
 #include "app/data_folder.hpp"
 #include "app/interrupt.hpp"
 #include "app/reaming_session.hpp"
-#include "app/session_recovery.hpp"
 #include "app/replay_session.hpp"
+#include "app/session_recovery.hpp"
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -74,7 +74,8 @@ void serve(const Options& options, const GlobalOptions& global) {
   server_options.make_session.make = [house](const api::SessionRequest& request) {
     return std::make_unique<ReamingSession>(house, request);
   };
-  server_options.make_session.resume = [house](const api::SessionRequest& request, const std::string& reamer) {
+  server_options.make_session.resume = [house](const api::SessionRequest& request,
+                                               const std::string& reamer) {
     return std::make_unique<ReamingSession>(house, request, reamer);
   };
   server_options.make_replay = [house](const api::ReplayRequest& request) {

@@ -43,9 +43,10 @@ class KilledServer : public CommandLine {
   /// `before`: words of a shell that are run in the server's process first.
   void serve(const std::string& before = {}) {
     const std::string program = std::string(REAM_BINARY_DIR) + "/ream";
-    server_ = start_program({"/bin/sh", "-c",
-                             before + " exec " + program + " serve --port 0 --web web --backend cpu --realtime off --json"},
-                            "server");
+    server_ = start_program(
+        {"/bin/sh", "-c",
+         before + " exec " + program + " serve --port 0 --web web --backend cpu --realtime off --json"},
+        "server");
     until("the server says where it is", [&] { return printed("server.out").ends_with('\n'); });
     const std::string url = json::parse(printed("server.out")).at("url");
     port_ = static_cast<uint16_t>(std::stoi(url.substr(url.rfind(':') + 1)));
@@ -60,7 +61,8 @@ class KilledServer : public CommandLine {
     throw std::runtime_error("waited in vain until " + what + "\n" + printed("server.err"));
   }
 
-  json request(int status, const std::string& method, const std::string& target, const std::string& body = {}) {
+  json request(int status, const std::string& method, const std::string& target,
+               const std::string& body = {}) {
     const HttpReply reply = http_request(port_, method, target, body);
     EXPECT_EQ(reply.status, status) << method << ' ' << target << '\n' << reply.body;
     return json::parse(reply.body);
@@ -82,9 +84,10 @@ class KilledServer : public CommandLine {
     try {
       if (http_request(port_, "POST", path_of(id) + "/start").status == 200) seen = 0.0;
       for (;;)
-        seen = std::max(seen.value_or(0.0), json::parse(http_request(port_, "GET", path_of(id) + "/metrics").body)
-                                                .at("duration_s")
-                                                .get<double>());
+        seen = std::max(seen.value_or(0.0),
+                        json::parse(http_request(port_, "GET", path_of(id) + "/metrics").body)
+                            .at("duration_s")
+                            .get<double>());
     } catch (const std::exception&) {  // it is dead
     }
     killer.join();

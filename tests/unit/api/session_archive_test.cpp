@@ -15,9 +15,10 @@ using test::expect_error;
 
 class SessionArchiveTest : public testing::Test {
  protected:
-  void put(const std::string& id, const std::string& utc, const std::string& state, json more = json::object()) {
-    json session = {{"case", "demo"},       {"script", "demo"}, {"created_utc", utc}, {"state", state},
-                    {"force_scale", 13.0}, {"ticks", 1250}};
+  void put(const std::string& id, const std::string& utc, const std::string& state,
+           json more = json::object()) {
+    json session = {{"case", "demo"}, {"script", "demo"},    {"created_utc", utc},
+                    {"state", state}, {"force_scale", 13.0}, {"ticks", 1250}};
     session.update(more);
     folder.write(id + "/session.json", session.dump());
   }
@@ -33,7 +34,8 @@ class SessionArchiveTest : public testing::Test {
 
 TEST_F(SessionArchiveTest, TellsWhatTheFolderSays) {
   put("aaaa", "2025-03-01T12:00:00Z", "fault", {{"fault", "the device fell silent"}});
-  folder.write("aaaa/timing.json", R"({"tick_us": {"mean": 90.5, "max": 400.0}, "missed": 3, "ticks": 1250})");
+  folder.write("aaaa/timing.json",
+               R"({"tick_us": {"mean": 90.5, "max": 400.0}, "missed": 3, "ticks": 1250})");
   folder.write("aaaa/metrics.json", R"({"reaming_depth_mm": 1.5})");
   const SessionRecord record = archive.find("aaaa").value();
   EXPECT_EQ(record.request.id, "aaaa");

@@ -26,10 +26,12 @@ class SessionRecoveryTest : public testing::Test {
   fs::path leave_running(const std::string& id, uint32_t ticks) {
     const fs::path folder = sessions_folder(data.path()) / id;
     fs::create_directories(folder);
-    write_file_atomically(api::session_json(folder),
-                          json{{"case", "test"}, {"script", "demo"}, {"state", "running"},
-                               {"created_utc", "2025-03-01T12:00:00Z"}, {"force_scale", 2.0}}
-                              .dump());
+    write_file_atomically(api::session_json(folder), json{{"case", "test"},
+                                                          {"script", "demo"},
+                                                          {"state", "running"},
+                                                          {"created_utc", "2025-03-01T12:00:00Z"},
+                                                          {"force_scale", 2.0}}
+                                                         .dump());
     test::RecordedCutting cutting(7, {16, 16, 16});
     record::ops::Header header = cutting.header();
     header.force_scale = 2.0;
@@ -85,7 +87,8 @@ TEST_F(SessionRecoveryTest, KeepsAFolderWithoutAUsableRecording) {
   ASSERT_EQ(lines.size(), 2u);
   for (const fs::path& each : {folder, empty}) {
     EXPECT_EQ(session(each).at("state"), "interrupted");
-    EXPECT_NE(session(each).at("fault").get<std::string>().find("nothing of it can be used"), std::string::npos);
+    EXPECT_NE(session(each).at("fault").get<std::string>().find("nothing of it can be used"),
+              std::string::npos);
     EXPECT_FALSE(fs::exists(api::metrics_json(each)));
   }
   EXPECT_TRUE(fs::exists(api::recording_file(folder)));
@@ -147,11 +150,13 @@ TEST_F(SessionRecoveryTest, RemarksGoBehindTheEnd) {
   const record::Recording recording(api::recording_file(folder), record::Recording::Trust::checked);
   EXPECT_EQ(recording.end().value().state, "interrupted");
   EXPECT_EQ(recording.tick_count(), 500u);
-  test::expect_error(ErrorKind::invalid_input, "at_s",
-                     [&] { api::annotate_recording(folder, {"later", "", 0.6, {}}); });
+  test::expect_error(ErrorKind::invalid_input, "at_s", [&] {
+    api::annotate_recording(folder, {"later", "", 0.6, {}});
+  });
   const auto lock = FileLock::attempt(api::lock_file(folder));
-  test::expect_error(ErrorKind::conflict, "in use",
-                     [&] { api::annotate_recording(folder, {"now", "", {}, {}}); });
+  test::expect_error(ErrorKind::conflict, "in use", [&] {
+    api::annotate_recording(folder, {"now", "", {}, {}});
+  });
 }
 
 }  // namespace

@@ -236,9 +236,9 @@ TEST_F(Deceived, AnotherSeed) {
     json settings = json::parse(h.settings);
     settings["random_seed"] = 2;
     h.settings = settings.dump();
-    const auto tracks = force::make_vibration_tracks({}, 2);
+    const auto others = force::make_vibration_tracks({}, 2);
     json tables = json::parse(h.tables);
-    tables["vibration"] = to_hex(tracks->hash());
+    tables["vibration"] = to_hex(others->hash());
     h.tables = tables.dump();
   });
   expect_difference(reaming_.verify(twice), 0, "vibration", "vibration_g");
