@@ -136,6 +136,34 @@ TEST(MeshPublisher, ViewersAlwaysHoldTheSurfaceOfOneCoverage) {
   EXPECT_GT(polls_between, pictures);
 }
 
+TEST(MeshPublisher, WithoutARingBoneMayGrowBack) {
+  const unsigned seed = std::random_device{}();
+  std::cout << "seed " << seed << "\n";
+  std::mt19937 random(seed);
+  const Session s;
+  LocalFanout fanout;
+  MeshPublisher publisher(s.bone, fanout);
+  publisher.publish_all();
+  const auto mailbox = fanout.subscribe({}, 1);
+  Viewer viewer;
+  viewer.pull(*mailbox);
+  std::vector<uint8_t> coverage = s.bone.coverage;
+  for (int step = 0; step < 60; ++step) {
+    for (int i = 0; i < 5; ++i) {
+      voxel::BrickImage image;
+      image.brick = static_cast<uint32_t>(random() % s.bone.grid.brick_count());
+      image.tick = static_cast<uint32_t>(random() % 1000);
+      for (uint8_t& level : image.coverage) level = static_cast<uint8_t>(random() % 2 * 255);
+      if (step >= 40) voxel::read_brick(s.bone.grid, s.bone.coverage.data(), image.brick, image.coverage);
+      voxel::write_brick(s.bone.grid, coverage.data(), image.brick, image.coverage);
+      publisher.take(image, step * ms);
+    }
+    publisher.flush(step * ms);
+    viewer.pull(*mailbox);
+    ASSERT_TRUE(held(viewer) == expected(s.bone.grid, coverage)) << "seed " << seed << ", step " << step;
+  }
+}
+
 TEST(MeshPublisher, LargeChangesShowAtOnceSmallOnesLater) {
   Session s;
   MeshPublisher publisher(s.bone, s.ring, s.fanout);

@@ -100,6 +100,43 @@ TEST(Messages, TelemetryTellsWhereABoneThatMovesIs) {
   EXPECT_FLOAT_EQ(bone->translation_mm().z(), 2.0f);
 }
 
+TEST(Messages, OnlyAReplaySaysThatItIsOne) {
+  HelloInfo info = example_hello();
+  const Message live = hello_message(info);
+  EXPECT_EQ(wire::GetServerMessage(live->data())->body_as_Hello()->replay_of(), nullptr);
+  info.replay_of = "abcdefgh";
+  info.duration_ticks = 61234;
+  const Message replay = hello_message(info);
+  const wire::Hello* hello = wire::GetServerMessage(replay->data())->body_as_Hello();
+  EXPECT_EQ(hello->replay_of()->str(), "abcdefgh");
+  EXPECT_EQ(hello->duration_ticks(), 61234u);
+
+  TelemetryBatch batch = example_telemetry();
+  const Message present = telemetry_message(batch, 0);
+  EXPECT_EQ(wire::GetServerMessage(present->data())->body_as_Telemetry()->playback(), nullptr);
+  batch.samples.back().playback = Playback{133, 0.25f, true, 7};
+  batch.samples.back().state = SessionState::replaying;
+  const Message past = telemetry_message(batch, 0);
+  const wire::Telemetry* t = wire::GetServerMessage(past->data())->body_as_Telemetry();
+  ASSERT_NE(t->playback(), nullptr);
+  EXPECT_EQ(t->state(), wire::SessionState::replaying);
+  EXPECT_EQ(t->playback()->position_ticks(), 133u);
+  EXPECT_EQ(t->playback()->speed(), 0.25f);
+  EXPECT_TRUE(t->playback()->playing());
+  EXPECT_EQ(t->playback()->jump(), 7u);
+}
+
+TEST(Messages, AChangeOfToolCarriesItsMesh) {
+  const HelloInfo info = example_hello();
+  const Message message = tool_message(info.tool, "sphere 8");
+  ASSERT_TRUE(verified(message->data(), message->size()));
+  const wire::ToolChange* change = wire::GetServerMessage(message->data())->body_as_ToolChange();
+  ASSERT_NE(change, nullptr);
+  EXPECT_EQ(change->tool_name()->str(), "sphere 8");
+  EXPECT_EQ(change->tool_positions_mm()->size(), 9u);
+  EXPECT_EQ(change->tool_indices()->size(), 3u);
+}
+
 TEST(Messages, TruncationsAreRefused) {
   const std::vector<SharedBlock> blocks = {small_block(1, 1), small_block(2, 5), small_block(3, 1, true)};
   for (const Message& message : {hello_message(example_hello()), mesh_message(blocks, true),

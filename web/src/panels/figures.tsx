@@ -55,10 +55,14 @@ export function Figures({ store }: { store: Store }) {
       <Figure name={words.forceScale} unit=": 1">
         {fixed(hello?.forceScale, 0)}
       </Figure>
-      <Figure name={words.loop} unit="µs" id="tick-times">
-        {fixed(t?.tickMeanUs, 0)} / {fixed(t?.tickP99Us, 0)}
-      </Figure>
-      <Figure name={words.missed}>{fixed(t?.ticksMissed, 0)}</Figure>
+      {!store.replaying.value && (
+        <>
+          <Figure name={words.loop} unit="µs" id="tick-times">
+            {fixed(t?.tickMeanUs, 0)} / {fixed(t?.tickP99Us, 0)}
+          </Figure>
+          <Figure name={words.missed}>{fixed(t?.ticksMissed, 0)}</Figure>
+        </>
+      )}
       {t !== null && t.dropped > 0 && <Figure name={words.lostSamples}>{fixed(t.dropped, 0)}</Figure>}
     </dl>
   );

@@ -30,7 +30,8 @@ export function ForcePlot({ store }: { store: Store }) {
           <span data-testid="thrust" class="big">
             {shown}
           </span>{' '}
-          N{newest !== null && !store.live.value && (
+          N
+          {newest !== null && !store.live.value && (
             <span class="not-live"> {store.upToDate.value ? words.replayed : words.notLive}</span>
           )}
         </p>

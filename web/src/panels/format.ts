@@ -15,7 +15,13 @@ export function minutes(seconds: number): string {
 
 /** Day and time of a moment as the server writes it, in the viewer's own time zone. */
 export function dayAndTime(utc: string): string {
-  return new Date(utc).toLocaleString(undefined, { day: 'numeric', month: 'short', hour: '2-digit', minute: '2-digit' });
+  return new Date(utc).toLocaleString(undefined, {
+    day: 'numeric',
+    month: 'short',
+    hour: '2-digit',
+    minute: '2-digit',
+    hourCycle: 'h23',
+  });
 }
 
 /** Hours, minutes and seconds of a wall-clock time. */

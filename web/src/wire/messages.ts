@@ -15,14 +15,7 @@ export interface Pose {
 }
 
 export type SessionState =
-  | 'created'
-  | 'running'
-  | 'paused'
-  | 'finished'
-  | 'stopped'
-  | 'fault'
-  | 'interrupted'
-  | 'replaying';
+  'created' | 'running' | 'paused' | 'finished' | 'stopped' | 'fault' | 'interrupted' | 'replaying';
 
 export interface ToolMesh {
   name: string;

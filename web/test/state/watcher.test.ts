@@ -78,7 +78,11 @@ describe('Watcher', () => {
     socket = new FakeSocket();
     store = new Store();
     begun.length = 0;
-    const picture = { begin: (h: { sessionId: string }) => begun.push(h.sessionId), apply: () => undefined, setTool: () => undefined };
+    const picture = {
+      begin: (h: { sessionId: string }) => begun.push(h.sessionId),
+      apply: () => undefined,
+      setTool: () => undefined,
+    };
     watcher = new Watcher(store, api as unknown as Api, socket, picture);
   });
   afterEach(() => vi.useRealTimers());

@@ -1,10 +1,19 @@
 // The golden messages were made from proto/golden/*.json by `flatc -b`; the block inside was encoded by libmeshoptimizer
 // 0.18, so nothing here was written by the code that reads it.
+import { Builder } from 'flatbuffers';
 import { readFileSync } from 'node:fs';
 import { beforeAll, describe, expect, it } from 'vitest';
 
 import { StreamDecoder, transferables } from '../../src/wire/decode';
 import { meshDecoderReady } from '../../src/wire/decode_block';
+import {
+  Body,
+  Hello,
+  Playback,
+  ServerMessage,
+  SessionState,
+  Telemetry,
+} from '../../src/wire/generated/stream_generated';
 import type { StreamMessage } from '../../src/wire/messages';
 
 const golden = (name: string) =>
@@ -118,3 +127,44 @@ function cyclicTriangles(indices: ArrayLike<number>): number[][] {
   }
   return triangles.sort((a, b) => a.join().localeCompare(b.join()));
 }
+
+describe('StreamDecoder of a replay', () => {
+  const message = (b: Builder, type: Body, body: number) => {
+    ServerMessage.startServerMessage(b);
+    ServerMessage.addBodyType(b, type);
+    ServerMessage.addBody(b, body);
+    b.finish(ServerMessage.endServerMessage(b));
+    return b.asUint8Array();
+  };
+
+  it('says of what it is and where it stands', () => {
+    const decoder = new StreamDecoder();
+    const b = new Builder();
+    const of = b.createString('abcdefgh');
+    Hello.startHello(b);
+    Hello.addReplayOf(b, of);
+    Hello.addDurationTicks(b, 61234);
+    const hello = decoder.decode(message(b, Body.Hello, Hello.endHello(b)));
+    expect(hello).toMatchObject({ hello: { replayOf: 'abcdefgh', durationTicks: 61234 } });
+
+    const c = new Builder();
+    Playback.startPlayback(c);
+    Playback.addPositionTicks(c, 133);
+    Playback.addSpeed(c, 0.25);
+    Playback.addPlaying(c, true);
+    Playback.addJump(c, 7);
+    const playback = Playback.endPlayback(c);
+    Telemetry.startTelemetry(c);
+    Telemetry.addState(c, SessionState.replaying);
+    Telemetry.addPlayback(c, playback);
+    const told = decoder.decode(message(c, Body.Telemetry, Telemetry.endTelemetry(c)));
+    expect(told).toMatchObject({
+      telemetry: { state: 'replaying', playback: { positionTicks: 133, speed: 0.25, playing: true, jump: 7 } },
+    });
+  });
+
+  it('is nothing of the kind in what is live', () => {
+    expect(decoded('hello', 'hello').hello.replayOf).toBe('');
+    expect(decoded('telemetry', 'telemetry').telemetry.playback).toBeNull();
+  });
+});
