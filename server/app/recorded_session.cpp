@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/data_folder.hpp"
-#include "app/rig.hpp"
+#include "app/recorded_rig.hpp"
 #include "case/plan.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
@@ -55,13 +55,9 @@ nlohmann::json rescored_json(const record::Recording& recording) {
 }
 
 case_::Case case_of(const record::Recording& recording, const std::string& case_name, const fs::path& data) {
-  const record::ops::Header& header = recording.header();
-  case_::Case c = find_case(case_name.empty() ? header.case_id : case_name, data);
-  if (case_::case_hash(c) != header.case_hash)
-    throw Error(ErrorKind::conflict, "case '" + c.id + "' has changed since the session was recorded");
-  c.plan = plan_of(recording);
+  case_::Case c = recorded_case(recording, case_name, data);
   case_::cut_pilot_hole(c.bone, *c.plan);
-  if (c.bone.coverage_hash() != header.start_grid_hash)
+  if (c.bone.coverage_hash() != recording.header().start_grid_hash)
     throw Error(ErrorKind::conflict, "the bone of case '" + c.id + "' is not that of the recording");
   return c;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "record/grid_json.hpp"
 
 namespace ream::record {
 namespace {
@@ -147,6 +148,15 @@ void Recording::read_notes() {
   if (!any_header)
     throw Error(ErrorKind::invalid_input,
                 log_.path().string() + " does not say what was simulated; it is no session's recording");
+}
+
+voxel::VoxelGrid Recording::grid() const {
+  if (header_.grid.empty())
+    throw Error(ErrorKind::invalid_input,
+                log_.path().string() +
+                    " is of an older revision that does not say where its voxels are, so "
+                    "nothing can be measured in it");
+  return grid_from_text(header_.grid);
 }
 
 size_t Recording::chunk_of(uint32_t tick) const {

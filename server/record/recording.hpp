@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "record/grid_json.hpp"
 #include "record/op_log.hpp"
 #include "record/tick_report.hpp"
+#include "voxel/voxel_grid.hpp"
 
 namespace ream::record {
 
@@ -30,7 +30,7 @@ class Recording {
 
   const ops::Header& header() const { return header_; }
   /// Of the bone at rest. Error invalid_input in recordings that do not say it.
-  voxel::VoxelGrid grid() const { return grid_from_text(header_.grid); }
+  voxel::VoxelGrid grid() const;
   const std::vector<ops::Segment>& segments() const { return segments_; }  ///< the first begins at tick 0
   const std::vector<ops::Event>& events() const { return events_; }
   const std::vector<ops::Annotation>& annotations() const { return annotations_; }

@@ -114,9 +114,13 @@ void verify(const Options& options, const GlobalOptions& global, const record::R
 void replay(const Options& options, const GlobalOptions& global) {
   catch_interrupts();
   const auto data = data_folder(global.data);
-  const record::Recording recording(recording_path(options.recording, data));
+  // All chunks are looked at first, so that what comes before damage is gone through to its end.
+  const record::Recording recording(recording_path(options.recording, data),
+                                    record::Recording::Trust::checked);
   case_::Case bone_case = recorded_case(recording, options.case_name, data);
   (options.verify ? verify : review)(options, global, recording, std::move(bone_case));
+  if (const std::string& damage = recording.log().damage(); !damage.empty())
+    throw Error(ErrorKind::invalid_input, damage);
 }
 
 }  // namespace

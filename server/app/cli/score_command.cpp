@@ -21,7 +21,7 @@ struct Options {
 nlohmann::json scored(const std::string& name, const std::optional<score::Rubric>& rubric,
                       const std::filesystem::path& data) {
   const record::Recording recording(recording_path(name, data), record::Recording::Trust::checked);
-  if (const std::string& damage = recording.log().damage(); !damage.empty()) log::warn(name + ": " + damage);
+  if (const std::string& damage = recording.log().damage(); !damage.empty()) log::warn(damage);
   nlohmann::json json = {{"session", name}, {"metrics", rescored_json(recording)}};
   if (rubric) json["score"] = score::to_json(*rubric, score::apply_rubric(*rubric, json["metrics"]));
   return json;

@@ -66,7 +66,7 @@ TEST_F(RecordedSession, AChangedCaseIsNotTakenForTheRecordings) {
   const fs::path density = folder() / "data/cases/demo/density.zst";
   write_file_atomically(coverage, read_text_file(density));
   fs::create_directories(folder() / "data/sessions");
-  refuse(1, "case 'demo' has changed", {"export", "run", "--out", "a.ply"});
+  refuse(1, "case 'demo' is not what was recorded", {"export", "run", "--out", "a.ply"});
   refuse(1, "another case 'demo'", {"import", "bundle.zip"});
 }
 
