@@ -30,9 +30,11 @@ constexpr int threads = 2, whole_runs = 9;
 class Collector final : public stream::Fanout {
  public:
   void publish_hello(stream::Message) override {}
+  void publish_tool(stream::Message, stream::Message) override {}
   void publish_block(stream::SharedBlock block) override { blocks.push_back(std::move(block)); }
   void publish_picture_complete(int) override {}
   void publish_telemetry(stream::SharedTelemetry) override {}
+  size_t viewers() const override { return 1; }
   bool wants(int) const override { return false; }
   std::shared_ptr<stream::Mailbox> subscribe(std::function<void()>, int) override { return nullptr; }
 

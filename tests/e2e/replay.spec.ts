@@ -54,7 +54,7 @@ async function seek(page: Page, seconds: number): Promise<void> {
 test('a recorded session is opened from the list, moved about in, and says that it is no live one', async ({
   page,
 }) => {
-  const sessionId = await recordDemo(page, 9000);
+  const sessionId = await recordDemo(page, 16_000);
   const canvas = page.getByTestId('bone-canvas');
   const plot = page.getByTestId('force-plot');
   await page.getByTestId('show-reamer').uncheck();
@@ -68,28 +68,29 @@ test('a recorded session is opened from the list, moved about in, and says that 
   await expect(page.getByTestId('replay-badge')).toBeVisible();
   await expect(page.getByTestId('run-demo')).toBeHidden();
   expect((await readout(page)).live).toBe(false);
+  // A thin layer goes: few pixels change by much, but none where nothing is gone.
   const durationS = Number(await page.getByTestId('seek').getAttribute('max'));
-  expect(durationS).toBeGreaterThan(9);
+  expect(durationS).toBeGreaterThan(16);
 
   await drawn(page);
   const atStart = await picture(canvas);
   await seek(page, durationS);
   const atEnd = await picture(canvas);
-  expect((await compare(page, atEnd, atStart)).changed).toBeGreaterThan(500);
+  expect((await compare(page, atEnd, atStart)).changed).toBeGreaterThan(40);
   await expect.poll(async () => Number(await page.getByTestId('removed-volume').textContent())).toBe(removedLive);
   const forceAtEnd = await picture(plot);
 
   await seek(page, 5);
   const atFive = await picture(canvas);
-  expect((await compare(page, atFive, atEnd)).changed).toBeGreaterThan(100);
+  expect((await compare(page, atFive, atEnd)).changed).toBeGreaterThan(40);
   expect((await compare(page, await picture(plot), forceAtEnd)).changed).toBeGreaterThan(100);
   await seek(page, durationS);
-  await expect.poll(async () => (await compare(page, await picture(plot), forceAtEnd)).changed).toBeLessThan(50);
-  await expect.poll(async () => (await compare(page, await picture(canvas), atEnd)).changed).toBeLessThan(50);
+  await expect.poll(async () => (await compare(page, await picture(plot), forceAtEnd)).changed).toBeLessThan(5);
+  await expect.poll(async () => (await compare(page, await picture(canvas), atEnd)).changed).toBeLessThan(5);
   await seek(page, 5);
-  await expect.poll(async () => (await compare(page, await picture(canvas), atFive)).changed).toBeLessThan(50);
+  await expect.poll(async () => (await compare(page, await picture(canvas), atFive)).changed).toBeLessThan(5);
   await seek(page, 0);
-  await expect.poll(async () => (await compare(page, await picture(canvas), atStart)).changed).toBeLessThan(50);
+  await expect.poll(async () => (await compare(page, await picture(canvas), atStart)).changed).toBeLessThan(5);
 
   await page.getByTestId('speed').selectOption('4');
   await page.getByTestId('play').click();
