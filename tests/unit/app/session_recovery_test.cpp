@@ -10,6 +10,7 @@
 #include "app/recorded_session.hpp"
 #include "case/plan.hpp"
 #include "core/file.hpp"
+#include "record/grid_json.hpp"
 #include "support/expect_error.hpp"
 #include "support/recorded_cutting.hpp"
 #include "support/temporary_folder.hpp"
