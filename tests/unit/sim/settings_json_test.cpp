@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "core/file.hpp"
 #include "device/profiles.hpp"
 #include "sim/device_settings.hpp"
 #include "support/expect_error.hpp"
@@ -108,6 +108,16 @@ TEST(SettingsJson, AMissingKeyKeepsItsDefaultAndUnknownOnesAreRefusedByName) {
     object = whole;
   });
   EXPECT_EQ(objects, 8);
+}
+
+/// Settings as the first recordings that can be computed again hold them. Later builds must read them, and
+/// may say more but nothing else.
+TEST(SettingsJson, ThoseOfTheFirstRecordingsAreReadAsTheyWere) {
+  const json golden = read_json_file(REAM_SOURCE_DIR "/proto/golden/recording_settings.json");
+  const json read = to_json(settings_from_json(golden, "golden"));
+  json merged = read;
+  merged.merge_patch(golden);
+  EXPECT_EQ(merged, read);
 }
 
 TEST(SettingsJson, RefuseWordsThatMeanNothing) {
