@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "api/annotation.hpp"
+#include "record/recording.hpp"
 
 namespace ream::api {
 
@@ -10,8 +11,14 @@ namespace ream::api {
 /// Errors: those of record::Recording.
 std::vector<Annotation> recorded_annotations(const std::filesystem::path& folder);
 
-/// Appends one to it, behind its end. Errors: conflict when a process has the session; not_found when it left
-/// no recording; invalid_input when the remark is about a time beyond the end; io, with nothing written.
+/// Error not_found when the session left no recording, as one that was never started.
+void require_recording(const std::filesystem::path& folder);
+/// Error conflict when the session's recording is damaged: to write behind the damage would cut off the rest.
+void require_undamaged(const record::Recording& recording, const std::filesystem::path& folder);
+
+/// Appends one to it, behind its end. Errors: conflict when a process has the session or the recording is
+/// damaged; not_found when it left no recording; invalid_input when the remark is about a time beyond the
+/// end; io, with nothing written.
 Annotation annotate_recording(const std::filesystem::path& folder, const NewAnnotation& note);
 
 }  // namespace ream::api

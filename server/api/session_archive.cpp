@@ -58,7 +58,8 @@ SessionArchive::Known SessionArchive::look(const fs::path& folder) const {
 std::vector<SessionRecord> SessionArchive::list() const {
   std::vector<SessionRecord> records;
   std::error_code failed, ignored;
-  for (const auto& entry : fs::directory_iterator(folder_, failed)) {
+  for (fs::directory_iterator next(folder_, failed), end; !failed && next != end; next.increment(failed)) {
+    const fs::directory_entry& entry = *next;
     const std::string id = entry.path().filename().string();
     if (!is_name(id) || !entry.is_directory(ignored)) continue;
     const bool known_before = [&] {

@@ -175,6 +175,7 @@ SessionRecord SessionService::resume(const std::string& id, const std::string& r
     throw Error(ErrorKind::conflict, "session '" + id + "' is " + to_text(state) +
                                          "; only an interrupted or stopped session can go on");
   {
+    const std::lock_guard no_remark(annotating_);
     const std::lock_guard lock(mutex_);
     if (!being_resumed_.insert(id).second)
       throw Error(ErrorKind::conflict, "session '" + id + "' is being resumed already");
@@ -212,14 +213,29 @@ nlohmann::json SessionService::metrics(const std::string& id) const {
   return entry ? entry->running->metrics() : archive_.metrics(id);
 }
 
-Annotation SessionService::annotate(const std::string& id, const NewAnnotation& note) {
+std::optional<Annotation> SessionService::annotate_live(const std::string& id, const NewAnnotation& note) {
   const auto entry = find_or_none(id);
-  if (entry && entry->live()) try {
-      return entry->running->annotate(note);
-    } catch (const Error&) {
-      if (entry->live()) throw;  // else it ended in the meantime
-    }
   if (!entry) archived(id);
+  if (!entry || !entry->live()) return std::nullopt;
+  try {
+    return entry->running->annotate(note);
+  } catch (const Error&) {
+    if (entry->live()) throw;
+    return std::nullopt;  // it ended in the meantime
+  }
+}
+
+Annotation SessionService::annotate(const std::string& id, const NewAnnotation& note) {
+  if (auto kept = annotate_live(id, note)) return *kept;
+  const std::lock_guard one_at_a_time(annotating_);  // and no resume begins meanwhile
+  {
+    const std::lock_guard lock(mutex_);
+    if (being_resumed_.contains(id))
+      throw Error(ErrorKind::conflict, "session '" + id +
+                                           "' is being resumed; a remark can be made as soon "
+                                           "as it runs");
+  }
+  if (auto kept = annotate_live(id, note)) return *kept;  // it may go on by now
   return annotate_recording(archive_.folder_of(id), note);
 }
 

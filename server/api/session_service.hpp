@@ -49,7 +49,8 @@ class SessionService {
   /// create() and start().
   SessionRecord resume(const std::string& id, const std::string& reamer);
   nlohmann::json metrics(const std::string& id) const;
-  /// Into the running recording, or behind the end of one that has ended. Error conflict before the start.
+  /// Into the running recording, or behind the end of one that has ended. Error conflict before the start
+  /// and while it is being resumed.
   Annotation annotate(const std::string& id, const NewAnnotation& note);
   std::vector<Annotation> annotations(const std::string& id) const;
   /// The session lives on as long as somebody watches it. `stride` as RunningSession::subscribe. Error
@@ -67,11 +68,13 @@ class SessionService {
   std::shared_ptr<Entry> made_again(const SessionRecord& before, const std::string& reamer);
   void reserve_place();
   std::string unused_id() const;
+  std::optional<Annotation> annotate_live(const std::string& id, const NewAnnotation& note);
   std::vector<std::shared_ptr<Entry>> take_surplus();
 
   const SessionMakers makers_;
   const SessionLimits limits_;
   const SessionArchive archive_;
+  std::mutex annotating_;  ///< one remark behind an end at a time; locked before mutex_
   mutable std::mutex mutex_;
   std::vector<std::shared_ptr<Entry>> entries_;  ///< oldest first
   std::set<std::string> being_resumed_;

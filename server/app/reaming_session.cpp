@@ -1,5 +1,6 @@
 #include "app/reaming_session.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -8,7 +9,6 @@
 #include "api/session_folder.hpp"
 #include "api/viewer_stream.hpp"
 #include "app/data_folder.hpp"
-#include "app/session_recovery.hpp"
 #include "app/stream_words.hpp"
 #include "core/clock.hpp"
 #include "core/error.hpp"
@@ -52,16 +52,12 @@ stream::SessionState wire_state(api::SessionState state) {
   return stream::SessionState::fault;
 }
 
-api::SessionState end_state(sim::LoopEnd end) {
-  if (end == sim::LoopEnd::finished) return api::SessionState::finished;
-  return end == sim::LoopEnd::stopped ? api::SessionState::stopped : api::SessionState::fault;
-}
-
 }  // namespace
 
 ReamingSession::ReamingSession(const SessionHouse& house, const api::SessionRequest& request)
     : ReamingSession(house, request,
-                     Beginning{nullptr, false, asked_for(run_request(house, request), house.data)}) {}
+                     Beginning{nullptr, false, api::SessionState::fault,
+                               asked_for(run_request(house, request), house.data)}) {}
 
 ReamingSession::ReamingSession(const SessionHouse& house, const api::SessionRequest& request,
                                const std::string& reamer)
@@ -71,7 +67,9 @@ ReamingSession::Beginning ReamingSession::resumed(const SessionHouse& house,
                                                   const api::SessionRequest& request,
                                                   const std::string& reamer) {
   Beginning beginning;
-  beginning.from = std::make_unique<ResumePoint>(sessions_folder(house.data) / request.id, house.data);
+  const std::filesystem::path folder = sessions_folder(house.data) / request.id;
+  beginning.from = std::make_unique<ResumePoint>(folder, house.data);
+  beginning.before = api::read_session_folder(folder).record.status.state;
   beginning.parts = beginning.from->parts(run_request(house, request), reamer);
   beginning.changed_tool = beginning.parts.reamer.words != beginning.from->recording().segments().back().tool;
   return beginning;
@@ -85,6 +83,7 @@ ReamingSession::ReamingSession(const SessionHouse& house, const api::SessionRequ
       folder_(sessions_folder(house.data) / id_),
       from_(std::move(beginning.from)),
       changed_tool_(beginning.changed_tool),
+      state_without_start_(beginning.before),
       rig_(std::move(beginning.parts)),
       rings_(rig_.bone_case.bone.grid),
       loop_(rig_.model, rig_.state, *rig_.device, rings_.reports, {true, house.realtime}),
@@ -100,8 +99,7 @@ ReamingSession::ReamingSession(const SessionHouse& house, const api::SessionRequ
   if (from_) {
     metrics = from_->metrics().metrics();
     status_.tick = sample_.tick = from_->ticks();
-    for (const record::ops::Annotation& op : from_->recording().annotations())
-      annotations_.push_back(api::annotation_of(op));
+    annotations_ = from_->recording().annotations();
   }
   status_.duration_s = metrics.duration_s;
   metrics_ = score::metrics_json(metrics, status_.force_scale, nullptr);
@@ -109,7 +107,7 @@ ReamingSession::ReamingSession(const SessionHouse& house, const api::SessionRequ
       rig_.model.world_from_plan * Pose{Mat3::Identity(), rig_.script.hand.start_mm};
   fanout_->publish_hello(stream::hello_message(hello()));
   publisher_.publish_all();
-  follower_ = std::thread([this] { follow(); });
+  follower_ = std::thread([this] { follow_to_the_end(); });
 }
 
 ReamingSession::~ReamingSession() {
@@ -141,16 +139,24 @@ nlohmann::json ReamingSession::told_of(api::SessionState state, const std::strin
   return told;
 }
 
-/// The recording first: what session.json calls running has one.
+/// The recording first: what session.json calls running has one. A recording that was to go on is as it was
+/// when this fails.
 void ReamingSession::open_files() {
   make_writable_folder(folder_);
   lock_ = from_ ? from_->take_lock() : locked(folder_);
   const uint8_t* coverage = publisher_.replica().coverage().data();
-  auto files = from_ ? std::make_unique<SessionFiles>(rig_, folder_, coverage, *from_, changed_tool_)
-                     : std::make_unique<SessionFiles>(rig_, folder_, coverage, SessionFiles::Trace::left_out);
-  nlohmann::json session = files->description();
-  session.update(told_of(api::SessionState::running, {}));
-  write_file_atomically(api::session_json(folder_), session.dump(2) + "\n");
+  std::unique_ptr<SessionFiles> files;
+  try {
+    files = from_ ? std::make_unique<SessionFiles>(rig_, folder_, coverage, *from_, changed_tool_)
+                  : std::make_unique<SessionFiles>(rig_, folder_, coverage, SessionFiles::Trace::left_out);
+    nlohmann::json session = files->description();
+    session.update(told_of(api::SessionState::running, {}));
+    write_file_atomically(api::session_json(folder_), session.dump(2) + "\n");
+  } catch (const std::exception&) {
+    files.reset();
+    if (from_) from_->cut_to_its_end();
+    throw;
+  }
   const std::lock_guard lock(mutex_);
   files_ = std::move(files);
   status_.state = api::SessionState::running;
@@ -161,7 +167,7 @@ void ReamingSession::start() {
     throw Error(ErrorKind::conflict, "session " + id_ + " has been started already");
   try {
     open_files();
-  } catch (const Error& e) {
+  } catch (const std::exception& e) {
     lock_.reset();
     std::error_code ignored;
     if (!from_) std::filesystem::remove_all(folder_, ignored);
@@ -173,7 +179,7 @@ void ReamingSession::start() {
   from_.reset();
   try {
     loop_.start();
-  } catch (const Error& e) {
+  } catch (const std::exception& e) {
     std::unique_lock lock(mutex_);
     start_failure_ = e.what();
     changed_.wait(lock, [this] { return finished_; });
@@ -203,22 +209,42 @@ nlohmann::json ReamingSession::metrics() const {
 }
 
 api::Annotation ReamingSession::annotate(const api::NewAnnotation& note) {
-  const std::lock_guard lock(mutex_);
+  std::unique_lock lock(mutex_);
+  if (closing_) changed_.wait(lock, [this] { return finished_; });
   if (!files_ || finished_)
     throw Error(ErrorKind::conflict,
                 "session '" + id_ + "' is " + api::to_text(status_.state) + "; a remark needs a recording");
   remarks_.push_back(api::annotation_op(note, status_.tick));
-  annotations_.push_back(api::annotation_of(remarks_.back()));
-  return annotations_.back();
+  annotations_.push_back(remarks_.back());
+  return api::annotation_of(remarks_.back());
 }
 
 std::vector<api::Annotation> ReamingSession::annotations() const {
   const std::lock_guard lock(mutex_);
-  return annotations_;
+  std::vector<api::Annotation> annotations;
+  for (const record::ops::Annotation& op : annotations_) annotations.push_back(api::annotation_of(op));
+  return annotations;
 }
 
 std::unique_ptr<net::WebSocketSession> ReamingSession::subscribe(int stride) {
   return api::viewer_stream(fanout_, stride);
+}
+
+/// Whatever goes wrong in the follower ends this session, not the server.
+void ReamingSession::follow_to_the_end() {
+  try {
+    follow();
+  } catch (const std::exception& e) {
+    log::error("session " + id_ + ": its follower failed: " + e.what());
+    loop_.request_stop();
+    {
+      const std::lock_guard lock(mutex_);
+      if (!finished_) status_.state = api::SessionState::fault;
+      closing_ = finished_ = true;
+      lock_.reset();
+    }
+    changed_.notify_all();
+  }
 }
 
 void ReamingSession::follow() {
@@ -246,21 +272,23 @@ std::string ReamingSession::start_failure() const {
   return start_failure_;
 }
 
-/// Takes what the loop has done, while there is a recording to put it in.
+/// Takes what the loop has done, while there is a recording to put it in. From the last time on no remark is
+/// accepted.
 void ReamingSession::follow_once() {
   std::vector<record::ops::Annotation> remarks;
+  const bool ended = loop_.ended();  // read before draining: then nothing can be missed
   {
     const std::lock_guard lock(mutex_);
     if (!files_ || finished_) return;
+    closing_ = ended || !start_failure_.empty();
     remarks.swap(remarks_);
   }
-  const bool ended = loop_.ended();  // read before draining: then nothing can be missed
   try {
     for (const record::ops::Annotation& remark : remarks) files_->add(remark);
     take(ended);
     if (ended) finish();
     if (!start_failure().empty()) throw Error(ErrorKind::unavailable, start_failure());
-  } catch (const Error& e) {
+  } catch (const std::exception& e) {
     end_without_force(e.what());
   }
 }
@@ -302,6 +330,7 @@ void ReamingSession::note_health() {
   if (health.failed_over_tick >= 0 && !failover_told_) {
     failover_told_ = true;
     log::warn("session " + id_ + ": " + sim::failover_words(health.failed_over_tick));
+    files_->note_failover(health.failed_over_tick);
   }
   const std::lock_guard lock(mutex_);
   metrics_ = score::metrics_json(metrics, status_.force_scale, nullptr);
@@ -322,47 +351,6 @@ void ReamingSession::publish_state(api::SessionState state) {
   std::memcpy(sample_.fault.data(), words.data(), std::min(words.size(), sample_.fault.size() - 1));
   batcher_.add(sample_);
   batcher_.flush();
-}
-
-void ReamingSession::finish() {
-  const sim::LoopHealth health = loop_.health();
-  const api::SessionState state = end_state(health.end);
-  const std::string fault = to_words(health.end);
-  if (!fault.empty()) loop_.black_box().write(folder_ / "black-box.csv");
-  publisher_.flush(steady_ns());
-  note_health();
-  const auto results = files_->finish(health, told_of(state, fault));
-  close(state, fault, results.metrics);
-}
-
-/// What was recorded up to here is closed as a fault; on a disk that takes nothing more, the next start of
-/// the server does so.
-void ReamingSession::end_without_force(const std::string& words) {
-  log::error("session " + id_ + ": " + words);
-  loop_.request_stop();
-  files_->abandon();
-  nlohmann::json metrics = this->metrics();
-  try {
-    close_session_folder(folder_, api::SessionState::fault, words);
-    metrics = read_json_file(api::metrics_json(folder_));
-  } catch (const Error& e) {
-    log::error("session " + id_ +
-               " could not be closed; the next start of the server tries again: " + e.what());
-  }
-  close(api::SessionState::fault, words, metrics);
-}
-
-void ReamingSession::close(api::SessionState state, const std::string& fault, const nlohmann::json& metrics) {
-  {
-    const std::lock_guard lock(mutex_);
-    status_.state = state;
-    status_.fault = fault;
-    metrics_ = metrics;
-    lock_.reset();
-    finished_ = true;
-  }
-  changed_.notify_all();
-  publish_state(state);
 }
 
 }  // namespace ream::app

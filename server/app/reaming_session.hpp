@@ -46,8 +46,9 @@ class ReamingSession final : public api::RunningSession {
  private:
   /// What a session is made of, new or going on.
   struct Beginning {
-    std::unique_ptr<ResumePoint> from;  ///< empty: new
-    bool changed_tool = false;          ///< since it ended
+    std::unique_ptr<ResumePoint> from;                    ///< empty: new
+    bool changed_tool = false;                            ///< since it ended
+    api::SessionState before = api::SessionState::fault;  ///< it is this again when it cannot be started
     RigParts parts;
   };
   static Beginning resumed(const SessionHouse& house, const api::SessionRequest& request,
@@ -56,6 +57,7 @@ class ReamingSession final : public api::RunningSession {
 
   void open_files();
   nlohmann::json told_of(api::SessionState state, const std::string& fault) const;
+  void follow_to_the_end();
   void follow();
   void follow_once();
   std::string start_failure() const;
@@ -64,6 +66,8 @@ class ReamingSession final : public api::RunningSession {
   void publish_state(api::SessionState state);
   void note_health();
   void finish();
+  void write_black_box() const;
+  void append_missing_remarks();
   void end_without_force(const std::string& words);
   void close(api::SessionState state, const std::string& fault, const nlohmann::json& metrics);
   stream::HelloInfo hello() const;
@@ -74,6 +78,7 @@ class ReamingSession final : public api::RunningSession {
   const std::filesystem::path folder_;
   std::unique_ptr<ResumePoint> from_;  ///< until started, where it goes on with another
   const bool changed_tool_;
+  const api::SessionState state_without_start_;
   std::optional<FileLock> lock_;  ///< of the folder, while it runs
   Rig rig_;
   LoopRings rings_;
@@ -88,12 +93,13 @@ class ReamingSession final : public api::RunningSession {
   std::condition_variable changed_;
   api::SessionStatus status_;
   nlohmann::json metrics_;
-  std::unique_ptr<SessionFiles> files_;           ///< set by start(), used by the follower
-  std::vector<record::ops::Annotation> remarks_;  ///< for the follower to record
-  std::vector<api::Annotation> annotations_;
-  std::string start_failure_;  ///< for the follower to end the session with
+  std::unique_ptr<SessionFiles> files_;               ///< set by start(), used by the follower
+  std::vector<record::ops::Annotation> remarks_;      ///< for the follower to record
+  std::vector<record::ops::Annotation> annotations_;  ///< all that were accepted
+  std::string start_failure_;                         ///< for the follower to end the session with
   bool leaving_ = false, finished_ = false;
-  std::mutex stopping_;  ///< one stop() at a time
+  bool closing_ = false;  ///< no remark gets into the recording any more; finished_ follows
+  std::mutex stopping_;   ///< one stop() at a time
   std::thread follower_;
 };
 

@@ -2,10 +2,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "api/recorded_annotations.hpp"
 #include "api/session_folder.hpp"
 #include "app/recorded_rig.hpp"
 #include "app/recorded_session.hpp"
 #include "core/error.hpp"
+#include "core/log.hpp"
+#include "record/log_sink.hpp"
 
 namespace ream::app {
 namespace {
@@ -33,6 +36,17 @@ uint64_t last_session_hash(const record::Recording& recording) {
   return count == 0 ? 0 : recording.ticks(count - 1, count).back().session_hash;
 }
 
+FileLock lock_of_recorded(const fs::path& folder) {
+  api::require_recording(folder);
+  return locked(folder);
+}
+
+record::Recording undamaged(const fs::path& folder) {
+  record::Recording recording(api::recording_file(folder), record::Recording::Trust::checked);
+  api::require_undamaged(recording, folder);
+  return recording;
+}
+
 }  // namespace
 
 FileLock locked(const fs::path& folder) {
@@ -41,9 +55,17 @@ FileLock locked(const fs::path& folder) {
               "session '" + folder.filename().string() + "' is in use by another process");
 }
 
+void ResumePoint::cut_to_its_end() const {
+  try {
+    record::continue_log_file(recording_.log().path(), recording_.log().whole_bytes())->sync();
+  } catch (const Error& e) {
+    log::error(std::string("a recording that did not go on could not be put back: ") + e.what());
+  }
+}
+
 ResumePoint::ResumePoint(const fs::path& folder, const fs::path& data)
-    : lock_(locked(folder)),
-      recording_(api::recording_file(folder), record::Recording::Trust::checked),
+    : lock_(lock_of_recorded(folder)),
+      recording_(undamaged(folder)),
       case_(case_of(recording_, {}, data)),
       start_coverage_(case_.bone.coverage),
       bone_(recording_, case_.bone.grid, start_coverage_),

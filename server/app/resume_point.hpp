@@ -15,8 +15,8 @@ namespace ream::app {
 class ResumePoint {
  public:
   /// `folder`: of the session; locked for as long as this lives, or until the lock is taken. Errors: conflict
-  /// when a process has the session or its case has changed; not_found and invalid_input for recording and
-  /// case.
+  /// when a process has the session, its recording is damaged (to go on would cut off what follows the
+  /// damage) or its case has changed; not_found and invalid_input for recording and case.
   ResumePoint(const std::filesystem::path& folder, const std::filesystem::path& data);
   ResumePoint(const ResumePoint&) = delete;
   ResumePoint& operator=(const ResumePoint&) = delete;
@@ -25,6 +25,10 @@ class ResumePoint {
   /// anew. `request`: backend and script count. `reamer`: words, or empty for the one before. To be called
   /// once. Error invalid_input for the reamer; those of script and device.
   RigParts parts(const RunRequest& request, const std::string& reamer);
+
+  /// Undoes what was appended to the recording since it was read; nobody may be writing it. On a failure it
+  /// says so in the log.
+  void cut_to_its_end() const;
 
   /// Ticks that were recorded; the next is theirs.
   uint32_t ticks() const { return recording_.tick_count(); }
@@ -42,7 +46,7 @@ class ResumePoint {
   score::MetricsAccumulator metrics_;
 };
 
-/// The lock of a session's folder. Error conflict when somebody else has it.
+/// The lock of a session's folder, which exists. Error conflict when somebody else has it.
 FileLock locked(const std::filesystem::path& folder);
 
 }  // namespace ream::app

@@ -3,8 +3,10 @@
 #include <nlohmann/json.hpp>
 
 #include "app/recording_header.hpp"
+#include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/hash.hpp"
+#include "core/log.hpp"
 
 namespace ream::app {
 namespace {
@@ -52,18 +54,40 @@ SessionFiles::SessionFiles(const Rig& rig, const std::filesystem::path& folder, 
                 record::continue_log_file(folder / "recording.ream", from.recording().log().whole_bytes()),
                 from.recording(), from.bone(),
                 segment_of(rig, from.ticks(), changed_tool ? "reamer" : "resume"), start_coverage),
-      metrics_(from.metrics()) {}
+      metrics_(from.metrics()),
+      ticks_(from.ticks()) {}
+
+void SessionFiles::note_failover(int64_t tick) {
+  if (tick < 0 || failover_noted_) return;
+  failover_noted_ = true;
+  recorder_->add(record::ops::Event{static_cast<uint32_t>(tick), "failover", sim::failover_words(tick)});
+}
+
+void SessionFiles::abandon(const std::string& state, const std::string& words) {
+  if (!recorder_) return;
+  try {
+    recorder_->add(record::ops::Event{ticks_, state, words});
+    recorder_->finish(state);
+  } catch (const Error& e) {
+    log::warn(folder_.string() + ": the recording could not be ended in order: " + e.what());
+  }
+  recorder_.reset();
+}
 
 record::TickReport SessionFiles::add(const record::TickReport& report) {
   const record::TickReport kept = record::as_recorded(report, rig_.bone_case.bone.grid.world_from_grid);
   if (trace_) trace_->add(kept);
   metrics_.add(kept);
   recorder_->add(report);
+  ticks_ = report.tick + 1;
   return kept;
 }
 
 SessionFiles::Results SessionFiles::finish(const sim::LoopHealth& health, const nlohmann::json& extra) {
   if (trace_) trace_->finish();
+  note_failover(health.failed_over_tick);
+  if (const std::string fault = extra.value("fault", ""); !fault.empty())
+    recorder_->add(record::ops::Event{ticks_, extra.value("state", "fault"), fault});
   recorder_->finish(extra.value("state", "finished"));
   recorder_.reset();  // others may append remarks or go on from here
   const uint64_t grid_hash = rig_.bone_case.bone.coverage_hash();

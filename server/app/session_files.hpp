@@ -31,6 +31,8 @@ class SessionFiles {
   /// All images of a tick come before its report.
   void add(const voxel::BrickImage& image) { recorder_->add(image); }
   void add(const record::ops::Annotation& annotation) { recorder_->add(annotation); }
+  /// Records once that the device that computes failed in that tick; none if negative.
+  void note_failover(int64_t tick);
   /// Returns the report as it is kept.
   record::TickReport add(const record::TickReport& report);
   /// What session.json says from the start on.
@@ -41,10 +43,12 @@ class SessionFiles {
   struct Results {
     nlohmann::json metrics, timing;
   };
-  /// Closes and writes everything; only after the loop has ended. `extra` is merged into session.json.
+  /// Closes and writes everything; only after the loop has ended. `extra` is merged into session.json; its
+  /// "fault" is recorded as an event.
   Results finish(const sim::LoopHealth& health, const nlohmann::json& extra);
-  /// Lets go of a recording that cannot be written any more, as far as it is; nothing else may follow.
-  void abandon() { recorder_.reset(); }
+  /// Lets go of the recording in mid-session, ended in order as `state` for the reason `words` if it can
+  /// still be written; nothing else may follow.
+  void abandon(const std::string& state, const std::string& words);
 
  private:
   const Rig& rig_;
@@ -53,6 +57,8 @@ class SessionFiles {
   std::optional<record::TraceCsv> trace_;
   std::optional<record::Recorder> recorder_;  ///< until finished or abandoned
   score::MetricsAccumulator metrics_;
+  uint32_t ticks_ = 0;  ///< recorded so far
+  bool failover_noted_ = false;
 };
 
 }  // namespace ream::app

@@ -1,6 +1,8 @@
 #include "app/session_recovery.hpp"
 
+#include <algorithm>
 #include <cstdio>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -19,6 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+
+constexpr uint64_t most_cut_bytes = 1'000'000;
 
 std::string seconds(uint32_t ticks) {
   char text[32];
@@ -70,9 +74,29 @@ std::string pretty(const json& value) { return value.dump(2) + "\n"; }
 void remove_temporaries(const fs::path& folder) {
   std::error_code failed;
   std::vector<fs::path> strays;
-  for (const auto& entry : fs::directory_iterator(folder, failed))
-    if (entry.path().extension() == ".tmp") strays.push_back(entry.path());
+  for (fs::directory_iterator next(folder, failed), end; !failed && next != end; next.increment(failed))
+    if (next->path().extension() == ".tmp") strays.push_back(next->path());
   for (const fs::path& stray : strays) fs::remove(stray, failed);
+}
+
+/// What is going to be cut off behind the recording's whole chunks, when that is more than a torn last one:
+/// kept beside it as recording.ream.cut (recording.ream.cut.2, ...). Throws Error io.
+void keep_what_is_cut(const record::OpLogReader& log) {
+  const uint64_t size = fs::file_size(log.path()), cut = size - log.whole_bytes();
+  const uint64_t chunk = log.chunks().empty() ? 0 : log.chunks().back().stored_bytes;
+  if (cut <= std::min(chunk, most_cut_bytes)) return;
+  std::ifstream from(log.path(), std::ios::binary);
+  from.seekg(static_cast<std::streamoff>(log.whole_bytes()));
+  fs::path kept = log.path();
+  kept += ".cut";
+  for (int n = 2; fs::exists(kept); ++n) kept = log.path().string() + ".cut." + std::to_string(n);
+  std::ofstream to(kept, std::ios::binary);
+  to << from.rdbuf();
+  to.close();
+  if (from && to && fs::file_size(kept) == cut) return;
+  std::error_code ignored;
+  fs::remove(kept, ignored);
+  throw Error(ErrorKind::io, "cannot write " + kept.string());
 }
 
 /// A session whose session.json has a live state that no process stands for; its lock is held by the result.
@@ -99,10 +123,12 @@ std::string close_session_folder(const fs::path& folder, api::SessionState state
   std::optional<StagedFile> metrics;
   if (closing->metrics) metrics.emplace(api::metrics_json(folder), pretty(*closing->metrics));
   StagedFile session(api::session_json(folder), pretty(session_of(folder, *closing)));
-  if (recording && !recording->end())
+  if (recording && !recording->end()) {
+    keep_what_is_cut(recording->log());
     record::append_notes(recording->log(),
                          {record::ops::Event{closing->ticks, api::to_text(state), closing->words},
                           record::ops::End{closing->ticks, api::to_text(state)}});
+  }
   if (metrics) metrics->commit();
   session.commit();
   remove_temporaries(folder);
@@ -112,7 +138,9 @@ std::string close_session_folder(const fs::path& folder, api::SessionState state
 std::vector<std::string> recover_sessions(const fs::path& data) {
   std::vector<std::string> lines;
   std::error_code failed;
-  for (const auto& entry : fs::directory_iterator(sessions_folder(data), failed)) {
+  const fs::path sessions = sessions_folder(data);
+  for (fs::directory_iterator next(sessions, failed), end; !failed && next != end; next.increment(failed)) {
+    const fs::directory_entry& entry = *next;
     const std::string id = entry.path().filename().string();
     std::error_code no_file;
     if (!api::is_name(id) || !fs::exists(api::session_json(entry.path()), no_file)) continue;

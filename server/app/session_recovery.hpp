@@ -7,7 +7,8 @@
 
 namespace ream::app {
 
-/// Closes what a session left behind that did not come to its end: cuts the recording to its whole chunks,
+/// Closes what a session left behind that did not come to its end: cuts the recording to its whole chunks
+/// (more than a torn last one is kept beside it, as recording.ream.cut),
 /// appends an event and the end, computes metrics from the recorded ticks, and writes metrics.json and
 /// session.json with `state` and `cause` ("the server was killed"), to which is added what was kept. A
 /// recording that says it was closed keeps the state it says. The caller holds the folder's lock. Returns the

@@ -1,5 +1,7 @@
 #include "sim/haptic_loop.hpp"
 
+#include <system_error>
+
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "sim/tick_clock.hpp"
@@ -70,12 +72,18 @@ HapticLoop::~HapticLoop() { stop(); }
 void HapticLoop::start() {
   device_.open();
   std::atomic<int> granted{-1};
-  thread_ = std::thread([this, &granted] {
-    const bool usable = !options_.wall_clock || make_realtime(options_.realtime);
-    granted.store(usable, std::memory_order_release);
-    granted.notify_one();
-    if (usable) loop();
-  });
+  try {
+    thread_ = std::thread([this, &granted] {
+      const bool usable = !options_.wall_clock || make_realtime(options_.realtime);
+      granted.store(usable, std::memory_order_release);
+      granted.notify_one();
+      if (usable) loop();
+    });
+  } catch (const std::system_error& e) {
+    device_.close();
+    throw Error(ErrorKind::unavailable,
+                std::string("no thread can be started for the haptic loop: ") + e.what());
+  }
   granted.wait(-1, std::memory_order_acquire);
   if (granted.load(std::memory_order_acquire) == 1) return;
   thread_.join();

@@ -79,6 +79,20 @@ TEST_F(SessionRecoveryTest, CutsAwayATornTail) {
   EXPECT_EQ(recording.log().damage(), "");
 }
 
+TEST_F(SessionRecoveryTest, KeepsWhatItCutsFromTheMiddle) {
+  const fs::path folder = leave_running("aaaa", 2000);
+  const fs::path path = api::recording_file(folder);
+  auto bytes = read_binary_file(path);
+  const uint64_t damaged = record::Recording(path).log().chunks().at(3).offset;
+  bytes[damaged] ^= std::byte{1};
+  write_file_atomically(path, bytes);
+  ASSERT_EQ(recover_sessions(data.path()).size(), 1u);
+  EXPECT_EQ(record::Recording(path).log().damage(), "");
+  const auto cut = read_binary_file(path.string() + ".cut");
+  EXPECT_TRUE(
+      std::equal(cut.begin(), cut.end(), bytes.begin() + static_cast<std::ptrdiff_t>(damaged), bytes.end()));
+}
+
 TEST_F(SessionRecoveryTest, KeepsAFolderWithoutAUsableRecording) {
   const fs::path folder = leave_running("aaaa", 250);
   write_file_atomically(api::recording_file(folder), std::string_view("REAM"));

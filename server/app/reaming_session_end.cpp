@@ -1,0 +1,94 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "api/session_folder.hpp"
+#include "app/reaming_session.hpp"
+#include "app/session_recovery.hpp"
+#include "core/clock.hpp"
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/log.hpp"
+#include "record/append_notes.hpp"
+
+namespace ream::app {
+namespace {
+
+api::SessionState end_state(sim::LoopEnd end) {
+  if (end == sim::LoopEnd::finished) return api::SessionState::finished;
+  return end == sim::LoopEnd::stopped ? api::SessionState::stopped : api::SessionState::fault;
+}
+
+}  // namespace
+
+void ReamingSession::finish() {
+  const sim::LoopHealth health = loop_.health();
+  const api::SessionState state = end_state(health.end);
+  const std::string fault = to_words(health.end);
+  if (!fault.empty()) write_black_box();
+  publisher_.flush(steady_ns());
+  note_health();
+  const auto results = files_->finish(health, told_of(state, fault));
+  close(state, fault, results.metrics);
+}
+
+void ReamingSession::write_black_box() const {
+  try {
+    loop_.black_box().write(folder_ / "black-box.csv");
+  } catch (const std::exception& e) {
+    log::error("session " + id_ + ": its black box could not be written: " + e.what());
+  }
+}
+
+/// Remarks that were accepted but that the recording did not get, as it had failed; in the order of
+/// acceptance they are the last.
+void ReamingSession::append_missing_remarks() {
+  const record::Recording recording(api::recording_file(folder_));
+  std::vector<record::Note> missing;
+  {
+    const std::lock_guard lock(mutex_);
+    for (size_t i = recording.annotations().size(); i < annotations_.size(); ++i) {
+      record::ops::Annotation remark = annotations_[i];
+      remark.tick = std::min(remark.tick, recording.tick_count());
+      missing.emplace_back(remark);
+    }
+  }
+  if (!missing.empty()) record::append_notes(recording.log(), missing);
+}
+
+/// What was recorded up to here is closed as a fault, or, where it never went on, as what it was before; on a
+/// disk that takes nothing more, the next start of the server does so.
+void ReamingSession::end_without_force(const std::string& words) {
+  log::error("session " + id_ + ": " + words);
+  loop_.request_stop();
+  {
+    const std::lock_guard lock(mutex_);
+    closing_ = true;
+  }
+  const api::SessionState state = start_failure().empty() ? api::SessionState::fault : state_without_start_;
+  nlohmann::json metrics = this->metrics();
+  try {
+    files_->abandon(api::to_text(state), words);
+    close_session_folder(folder_, state, words);
+    append_missing_remarks();
+    metrics = read_json_file(api::metrics_json(folder_));
+  } catch (const std::exception& e) {
+    log::error("session " + id_ +
+               " could not be closed; the next start of the server tries again: " + e.what());
+  }
+  close(state, words, metrics);
+}
+
+void ReamingSession::close(api::SessionState state, const std::string& fault, const nlohmann::json& metrics) {
+  {
+    const std::lock_guard lock(mutex_);
+    status_.state = state;
+    status_.fault = fault;
+    metrics_ = metrics;
+    lock_.reset();
+    finished_ = true;
+  }
+  changed_.notify_all();
+  publish_state(state);
+}
+
+}  // namespace ream::app
