@@ -22,7 +22,8 @@ struct ReplayRequest {
 /// A moment that is worth finding.
 struct ReplayMark {
   double at_s = 0.0;
-  std::string kind;   ///< "annotation", "damaged", or what the recording calls the event: failover, interrupted, ...
+  std::string
+      kind;  ///< "annotation", "damaged", or what the recording calls the event: failover, interrupted, ...
   std::string words;  ///< for people; may be empty
 };
 

@@ -31,8 +31,8 @@ class MetricsTimeline {
 
   /// After `ticks` ticks; nothing when the recording has not been read up to there yet, or is damaged before.
   std::optional<score::MetricsAccumulator> at(uint32_t ticks) const;
-  /// The same, waiting for it. Errors: unavailable when `patience` is over, invalid_input when the recording is
-  /// damaged before.
+  /// The same, waiting for it. Errors: unavailable when `patience` is over, invalid_input when the recording
+  /// is damaged before.
   score::MetricsAccumulator wait_for(uint32_t ticks, std::chrono::milliseconds patience) const;
   /// The first damage among the ticks, as far as the recording has been read.
   RecordingDamage damage() const;

@@ -102,8 +102,7 @@ void ReplayPicture::play_to(uint32_t ticks) {
     tick_at(shown_.position_ticks);
     const uint32_t end = std::min(ticks, window_.back().tick + 1);
     while (shown_.position_ticks < end) {
-      const record::TickReport report =
-          record::report_of(tick_at(shown_.position_ticks), world_from_grid_);
+      const record::TickReport report = record::report_of(tick_at(shown_.position_ticks), world_from_grid_);
       if (metrics_) metrics_->add(report);
       fill_in(report, sample_);
       sample_.playback->position_ticks = ++shown_.position_ticks;

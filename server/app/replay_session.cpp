@@ -79,7 +79,8 @@ api::PlaybackStatus ReplaySession::status() const {
   status.speed = playhead_.speed();
   status.playing = playhead_.playing();
   status.fault = fault_;
-  if (const std::vector<RecordingDamage> found = damage(); !found.empty()) status.warning = found.front().words;
+  if (const std::vector<RecordingDamage> found = damage(); !found.empty())
+    status.warning = found.front().words;
   status.force_scale = recording_.header().force_scale;
   if (fanout_->viewers() == 0)
     status.unwatched_s = static_cast<double>(steady_ns() - last_watched_ns_) * 1e-9;
@@ -118,8 +119,8 @@ nlohmann::json ReplaySession::metrics() const {
     ticks = playhead_.position_ticks();
     if (bone_ticks_ == ticks) grid_hash = bone_hash_;
   }
-  return score::metrics_json(timeline_.wait_for(ticks, metrics_patience).metrics(), recording_.header().force_scale,
-                             grid_hash ? &*grid_hash : nullptr);
+  return score::metrics_json(timeline_.wait_for(ticks, metrics_patience).metrics(),
+                             recording_.header().force_scale, grid_hash ? &*grid_hash : nullptr);
 }
 
 void ReplaySession::change(const api::PlaybackChange& change) {

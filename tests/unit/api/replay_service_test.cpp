@@ -94,7 +94,8 @@ TEST_F(ReplayServiceTest, NothingIsOpenedAfterShutDown) {
 
 TEST_F(ReplayServiceTest, WhatIsNobodysEndsByItself) {
   const auto moment = std::chrono::milliseconds(1);
-  ReplayService patient(factory.function(), {.open = 3, .unattended = std::chrono::hours(1), .look_every = moment});
+  ReplayService patient(factory.function(),
+                        {.open = 3, .unattended = std::chrono::hours(1), .look_every = moment});
   ReplayService brief(factory.function(), {.open = 3, .unattended = moment, .look_every = moment});
   const std::string kept = patient.create({{}, "abcdefgh", "demo", "demo"}).request.id;
   factory.made(0).set_unwatched_s(7200.0);  // asked for a moment ago

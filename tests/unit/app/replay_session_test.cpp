@@ -146,6 +146,8 @@ TEST_F(DamagedReplayTest, AJumpIntoDamageRestsWhereItWasAndTheReplayGoesOn) {
   {
     ReplaySession replay(house(), request("damaged"));
     replay.change({{}, {}, 1.0});
+    while (replay.metrics().at("grid_hash").is_null())
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
     for (const double into_s : {damaged_s + 0.1, 3.0}) {
       replay.change({{}, {}, into_s});
       EXPECT_NE(fault_of(replay).find("damaged"), std::string::npos);
