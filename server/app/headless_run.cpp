@@ -17,6 +17,8 @@ namespace {
 /// A first touch or two is always a little soft; longer than this is worth a word.
 constexpr double told_weakened_s = 2.0;
 
+/// Nobody's tick is late in virtual time, so the recording may have every changed brick at once.
+constexpr int bricks_a_tick_without_hurry = 8192;
 /// Chunks that may wait for the disk before a run in virtual time waits for it.
 constexpr size_t enough_waiting_chunks = 16;
 
@@ -26,6 +28,7 @@ HeadlessResult run_headless(Rig& rig, std::span<const uint8_t> start_coverage,
                             const std::filesystem::path& folder, bool wall_clock) {
   LoopRings rings(rig.bone_case.bone.grid);
   rig.state.brick_sender = &rings.sender;
+  if (!wall_clock) rig.state.brick_budget = bricks_a_tick_without_hurry;
   SessionFiles files(rig, folder, start_coverage.data(), SessionFiles::Trace::written);
   const auto realtime = wall_clock ? sim::Realtime::attempt : sim::Realtime::off;
   sim::HapticLoop loop(rig.model, rig.state, *rig.device, rings.reports, {wall_clock, realtime});

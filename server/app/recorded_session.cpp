@@ -15,8 +15,12 @@ namespace {
 namespace fs = std::filesystem;
 
 case_::Plan plan_of(const record::Recording& recording) {
-  return case_::plan_from_json(nlohmann::json::parse(recording.header().plan),
-                               recording.log().path().string() + ", its plan");
+  const std::string place = recording.log().path().string() + ", its plan";
+  try {
+    return case_::plan_from_json(nlohmann::json::parse(recording.header().plan), place);
+  } catch (const nlohmann::json::parse_error&) {
+    throw Error(ErrorKind::invalid_input, place + ": cannot be read");
+  }
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "app/session_bundle.hpp"
 
+#include <stdlib.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -11,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/hash.hpp"
+#include "core/log.hpp"
 #include "store/zip_archive.hpp"
 
 namespace ream::app {
@@ -53,18 +56,20 @@ void add_files(const fs::path& folder, const std::set<std::string>& names, const
     if (fs::is_regular_file(folder / name, failed)) entries.push_back({folder / name, under + "/" + name});
 }
 
-/// A folder that goes with its contents when it is no longer needed.
-struct TemporaryFolder {
-  explicit TemporaryFolder(const fs::path& place) : path(place) {
-    fs::remove_all(path);
-    fs::create_directories(path);
+/// A new folder beside others that goes with its contents when it is no longer needed.
+struct PassingFolder {
+  explicit PassingFolder(const fs::path& beside) {
+    std::string name = beside.string() + ".XXXXXX";
+    if (::mkdtemp(name.data()) == nullptr)
+      throw Error(ErrorKind::io, "cannot make a folder beside " + beside.string());
+    path = name;
   }
-  ~TemporaryFolder() {
+  ~PassingFolder() {
     std::error_code ignored;
     fs::remove_all(path, ignored);
   }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  PassingFolder(const PassingFolder&) = delete;
+  PassingFolder& operator=(const PassingFolder&) = delete;
   fs::path path;
 };
 
@@ -87,9 +92,10 @@ nlohmann::json read_bundle_json(const fs::path& folder, const fs::path& zip) {
 void write_session_bundle(const fs::path& recording_file, const std::string& case_name, const fs::path& data,
                           const fs::path& zip) {
   const record::Recording recording(recording_file, record::Recording::Trust::checked);
+  if (const std::string& damage = recording.log().damage(); !damage.empty()) log::warn(damage);
   case_of(recording, case_name, data);
   const fs::path folder = fs::absolute(recording_file).parent_path();
-  const TemporaryFolder made(zip.string() + ".parts");
+  const PassingFolder made(zip);
   const nlohmann::json bundle = {{"format", format},
                                  {"revision", revision},
                                  {"session", session_id(folder, recording)},
@@ -116,7 +122,7 @@ bool is_session_bundle(const fs::path& file) {
 std::string import_session_bundle(const fs::path& zip, const fs::path& data) {
   make_writable_folder(sessions_folder(data));
   make_writable_folder(cases_folder(data));
-  const TemporaryFolder unpacked(data / ("." + zip.filename().string() + ".import"));
+  const PassingFolder unpacked(data / ("." + zip.filename().string()));
   store::unpack_zip(zip, unpacked.path);
   const nlohmann::json bundle = read_bundle_json(unpacked.path, zip);
   const std::string session = bundle["session"], case_id = bundle["case"];
@@ -140,6 +146,8 @@ std::string import_session_bundle(const fs::path& zip, const fs::path& data) {
     if (!known) fs::rename(case_to, unpacked.path / "case", ignored);
     throw Error(ErrorKind::io, "cannot write " + session_to.string() + ": " + failed.message());
   }
+  sync_folder(cases_folder(data));
+  sync_folder(sessions_folder(data));
   return session;
 }
 

@@ -26,13 +26,6 @@ void write_all(int fd, const std::byte* data, size_t size, const fs::path& path)
   }
 }
 
-void sync_folder(const fs::path& folder) {
-  const int fd = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY);
-  if (fd < 0) return;
-  ::fsync(fd);
-  ::close(fd);
-}
-
 fs::path temporary_beside(const fs::path& path) {
   fs::path name = path;
   name += "." + std::to_string(::getpid()) + ".tmp";
@@ -64,6 +57,13 @@ std::vector<std::byte> read_binary_file(const fs::path& path) {
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   if (!in) throw Error(ErrorKind::io, "cannot read " + path.string() + ": " + reason());
   return bytes;
+}
+
+void sync_folder(const fs::path& folder) {
+  const int fd = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY);
+  if (fd < 0) return;
+  ::fsync(fd);
+  ::close(fd);
 }
 
 void write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {
@@ -112,6 +112,7 @@ void make_writable_folder(const fs::path& path) {
   if (fd < 0) throw Error(ErrorKind::io, "cannot write in folder " + path.string() + ": " + reason());
   ::close(fd);
   ::unlink(probe.c_str());
+  sync_folder(path.parent_path());
 }
 
 FolderInProgress::FolderInProgress(fs::path final_path, bool replace)

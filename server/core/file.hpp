@@ -22,6 +22,10 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view t
 /// Parsed JSON; Error invalid_input names the file and the place of a syntax error.
 nlohmann::json read_json_file(const std::filesystem::path& path);
 
+/// Names that were made in the folder survive a loss of power from here on, where the file system can promise
+/// it.
+void sync_folder(const std::filesystem::path& folder);
+
 /// Creates `path` and its parents and proves that a file can be written there. Throws Error io.
 void make_writable_folder(const std::filesystem::path& path);
 

@@ -18,7 +18,7 @@ void ChunkEncoder::encode(ChunkContents contents, OpLogWriter& writer) {
   const ops::Tick& last = contents.rows.back();
   add_bricks(contents.bricks, last.tick, writer);
   if (++chunks_ % chunks_per_key == 0) add_key(last.tick, writer);
-  writer.add(ops::Checkpoint{last.tick, last.session_hash, grid_hash_});
+  if (contents.bone_is_whole) writer.add(ops::Checkpoint{last.tick, last.session_hash, grid_hash_});
 }
 
 void ChunkEncoder::add_bricks(std::vector<ChangedBrick>& bricks, uint32_t tick, OpLogWriter& writer) {

@@ -20,8 +20,14 @@ struct ChangedBrick {
 /// What becomes one chunk.
 struct ChunkContents {
   std::vector<ops::Tick> rows;
-  std::vector<ChangedBrick> bricks;  ///< oldest first; the last of each brick counts
+  std::vector<ChangedBrick> bricks;  ///< each brick once
+  bool bone_is_whole = true;         ///< with them a reader has the bone after the last row
   std::vector<Note> notes;
+
+  /// Memory, roughly.
+  size_t bytes() const {
+    return rows.size() * sizeof(ops::Tick) + bricks.size() * (sizeof(ChangedBrick) + sizeof(BrickCoverage));
+  }
 };
 
 /// Turns the contents of chunks into ops: keeps what a reader knows of each brick and the hash of the whole

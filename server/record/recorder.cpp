@@ -7,6 +7,7 @@
 #include <deque>
 #include <mutex>
 #include <thread>
+#include <unordered_map>
 #include <unordered_set>
 
 #include "core/clock.hpp"
@@ -15,6 +16,9 @@
 
 namespace ream::record {
 namespace {
+
+constexpr auto sync_interval =
+    std::chrono::duration_cast<SteadyClock::duration>(std::chrono::duration<double>(sync_interval_s));
 
 double thread_cpu_s() {
   timespec t{};
@@ -59,8 +63,8 @@ struct Recorder::Impl {
       ChunkContents contents;
       {
         std::unique_lock lock(mutex);
-        wake.wait(lock, [this] { return leaving || !queue.empty(); });
-        if (queue.empty()) return;
+        if (!wait_for_chunk(lock)) return;
+        queued_bytes -= queue.front().bytes();
         contents = std::move(queue.front());
         queue.pop_front();
         ++in_hand;
@@ -79,14 +83,36 @@ struct Recorder::Impl {
     }
   }
 
+  /// False when there is nothing more to do. What has been written is synced in time, also when nothing
+  /// follows.
+  bool wait_for_chunk(std::unique_lock<std::mutex>& lock) {
+    const auto something = [this] { return leaving || !queue.empty(); };
+    while (unsynced && !failed) {
+      if (wake.wait_until(lock, sync_due, something)) return !queue.empty();
+      lock.unlock();
+      sync();
+      lock.lock();
+    }
+    wake.wait(lock, something);
+    return !queue.empty();
+  }
+
   void write(ChunkContents contents) {
     encoder.encode(std::move(contents), writer);
     writer.close_chunk();
     bytes_written = writer.bytes_written();
-    const int64_t now_ns = steady_ns();
-    if (static_cast<double>(now_ns - synced_ns) * 1e-9 < sync_interval_s) return;
-    writer.sync();
-    synced_ns = now_ns;
+    if (!unsynced) sync_due = SteadyClock::now() + sync_interval;
+    unsynced = true;
+    if (SteadyClock::now() >= sync_due) sync();
+  }
+
+  void sync() {
+    try {
+      writer.sync();
+    } catch (const std::exception& e) {
+      fail(e.what());
+    }
+    unsynced = false;
   }
 
   void fail(const std::string& why) {
@@ -98,11 +124,14 @@ struct Recorder::Impl {
   void hand_over(ChunkContents contents) {
     {
       const std::lock_guard lock(mutex);
-      if (queue.size() >= most_waiting_chunks && words.empty()) {
-        words = "the disk is more than a minute behind the recording";
+      if (queued_bytes > most_waiting_bytes && words.empty()) {
+        words = "the disk is too far behind the recording";
         failed = true;
       }
-      if (!failed) queue.push_back(std::move(contents));
+      if (!failed) {
+        queued_bytes += contents.bytes();
+        queue.push_back(std::move(contents));
+      }
     }
     wake.notify_one();
   }
@@ -110,24 +139,41 @@ struct Recorder::Impl {
   /// Bricks of images up to the last row's tick, oldest first.
   void close_chunk() {
     if (open_chunk.rows.empty() && open_chunk.notes.empty()) return;
+    std::unordered_map<uint32_t, size_t> place;
     while (!open_chunk.rows.empty() && !images.empty() &&
            images.front().now.tick <= open_chunk.rows.back().tick) {
-      open_chunk.bricks.push_back(std::move(images.front()));
+      take_newest(std::move(images.front()), place);
       images.pop_front();
     }
+    open_chunk.bone_is_whole = bricks_waiting == 0 || rest_was_sent();
     hand_over(std::move(open_chunk));
     open_chunk = {};
   }
 
+  /// Of each brick only the last image counts; what it was at the start came with the first.
+  void take_newest(ChangedBrick&& brick, std::unordered_map<uint32_t, size_t>& place) {
+    const auto [at, first] = place.try_emplace(brick.now.brick, open_chunk.bricks.size());
+    if (first)
+      open_chunk.bricks.push_back(std::move(brick));
+    else
+      open_chunk.bricks[at->second].now = brick.now;
+  }
+
+  /// The images that had to wait came after the loop ended, in the name of the last tick.
+  bool rest_was_sent() const { return finishing && images.empty(); }
+
   // The thread's.
   OpLogWriter writer;
   ChunkEncoder encoder;
-  int64_t synced_ns = steady_ns();
+  bool unsynced = false;
+  SteadyClock::time_point sync_due;
 
   // The follower's.
   const uint8_t* start_coverage;
   ChunkContents open_chunk;
   uint32_t next_tick = 0;
+  uint32_t bricks_waiting = 0;  ///< after the last row
+  bool finishing = false;
   std::deque<ChangedBrick> images;     ///< not yet in a chunk
   std::unordered_set<uint32_t> known;  ///< bricks whose start the encoder has
 
@@ -135,7 +181,7 @@ struct Recorder::Impl {
   mutable std::mutex mutex;
   std::condition_variable wake, done;
   std::deque<ChunkContents> queue;
-  size_t in_hand = 0;
+  size_t in_hand = 0, queued_bytes = 0;
   bool leaving = false;
   std::string words;
   std::atomic<bool> failed{false};
@@ -162,7 +208,14 @@ Recorder::Recorder(std::unique_ptr<LogSink> sink, const Recording& recording, co
   impl_->begin(segment, nullptr);
 }
 
-Recorder::~Recorder() = default;
+/// What was not finished is kept as far as it goes, without an end.
+Recorder::~Recorder() {
+  try {
+    impl_->close_chunk();
+  } catch (const std::exception& e) {
+    impl_->fail(e.what());
+  }
+}
 
 void Recorder::add(const voxel::BrickImage& image) {
   if (impl_->failed) return;
@@ -179,7 +232,10 @@ void Recorder::add(const TickReport& report) {
   if (impl_->failed) return;
   impl_->open_chunk.rows.push_back(tick_op(report));
   impl_->next_tick = report.tick + 1;
-  if (impl_->open_chunk.rows.size() >= ticks_per_chunk && report.bricks_waiting == 0) impl_->close_chunk();
+  impl_->bricks_waiting = report.bricks_waiting;
+  const size_t rows = impl_->open_chunk.rows.size();
+  if (rows >= ticks_per_chunk && (report.bricks_waiting == 0 || rows >= most_ticks_per_chunk))
+    impl_->close_chunk();
 }
 
 void Recorder::add(const ops::Event& event) { impl_->open_chunk.notes.emplace_back(event); }
@@ -189,6 +245,7 @@ void Recorder::add(const ops::Annotation& annotation) { impl_->open_chunk.notes.
 void Recorder::finish(const std::string& state) {
   Impl& impl = *impl_;
   const uint32_t ticks = impl.next_tick;
+  impl.finishing = true;
   impl.close_chunk();
   impl.open_chunk.notes.emplace_back(ops::End{ticks, state});
   impl.close_chunk();

@@ -7,10 +7,13 @@
 
 namespace ream::record {
 
-inline constexpr uint32_t ticks_per_chunk = 250;    ///< a chunk is a quarter of a second
-inline constexpr uint32_t chunks_per_key = 64;      ///< keys of bricks every 16 s
-inline constexpr double sync_interval_s = 1.0;      ///< fsync; a loss of power costs no more
-inline constexpr size_t most_waiting_chunks = 240;  ///< a minute; a disk that is later has failed
+inline constexpr uint32_t ticks_per_chunk = 250;  ///< a chunk is a quarter of a second
+inline constexpr uint32_t chunks_per_key = 64;    ///< keys of bricks every 16 s
+inline constexpr double sync_interval_s = 1.0;    ///< fsync; a loss of power costs no more
+/// Rows of a chunk while brick images are behind; such a chunk has no checkpoint, and the bone of its moment
+/// is not quite what it was.
+inline constexpr uint32_t most_ticks_per_chunk = 4 * ticks_per_chunk;
+inline constexpr size_t most_waiting_bytes = size_t{512} << 20;  ///< a disk that is later has failed
 
 /// Writes recording.ream on a thread of its own. add() only hands over; a chunk of 250 ticks (a few more
 /// while brick images are behind), the bricks that they changed, and a checkpoint are encoded, compressed,

@@ -166,15 +166,28 @@ size_t Recording::chunk_of(uint32_t tick) const {
   return after == tick_chunks_.begin() ? 0 : *(after - 1);
 }
 
+std::vector<ops::Tick> Recording::rows_of(size_t i) const {
+  const ChunkPlace& place = log_.chunks()[i];
+  std::vector<ops::Tick> rows;
+  rows.reserve(place.ticks);
+  ops::read(log_.read_chunk(i), log_.revision(), Taking{[&](const ops::Tick& op) { rows.push_back(op); }});
+  bool in_order = rows.size() == place.ticks;
+  for (size_t k = 0; in_order && k < rows.size(); ++k) in_order = rows[k].tick == place.first_tick + k;
+  if (!in_order)
+    throw Error(ErrorKind::invalid_input, log_.path().string() +
+                                              " does not hold the ticks that it announces from tick " +
+                                              std::to_string(place.first_tick) + " on");
+  return rows;
+}
+
 void Recording::for_each_tick(uint32_t first, uint32_t last,
                               const std::function<void(const ops::Tick&)>& told) const {
-  const Taking take{[&](const ops::Tick& op) {
-    if (op.tick >= first && op.tick < last) told(op);
-  }};
   for (const size_t i : tick_chunks_) {
     const ChunkPlace& place = log_.chunks()[i];
     if (place.first_tick >= last) break;
-    if (place.first_tick + place.ticks > first) ops::read(log_.read_chunk(i), log_.revision(), take);
+    if (place.first_tick + place.ticks <= first) continue;
+    for (const ops::Tick& row : rows_of(i))
+      if (row.tick >= first && row.tick < last) told(row);
   }
 }
 

@@ -49,6 +49,8 @@ class Recording {
 
  private:
   void read_notes();
+  /// The ticks of chunk `i`. Error invalid_input when they are not those that its header announces.
+  std::vector<ops::Tick> rows_of(size_t i) const;
 
   OpLogReader log_;
   ops::Header header_;

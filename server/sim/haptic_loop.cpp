@@ -133,12 +133,15 @@ LoopEnd HapticLoop::one_tick(device::DeviceInput& input, double lateness_us) noe
   const double step_us = elapsed_us(start);
   black_box_.remember(report, step_us, lateness_us);
   if (status != StepStatus::ok) return end_of(status);
-  if (device_.write(output_of(report)) != device::DeviceStatus::ok) return LoopEnd::device_fault;
+  const device::DeviceStatus written = device_.write(output_of(report));
 
   tick_us_.add(step_us);
   lateness_us_.add(lateness_us);
   if (lateness_us >= 1000.0) ++missed_;
-  return push(report) ? LoopEnd::running : LoopEnd::followers_late;
+  // Bone may have been cut, so the tick is told even when it is the last.
+  const bool told = push(report);
+  if (written != device::DeviceStatus::ok) return LoopEnd::device_fault;
+  return told ? LoopEnd::running : LoopEnd::followers_late;
 }
 
 bool HapticLoop::push(const TickReport& report) noexcept {

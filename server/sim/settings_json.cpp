@@ -44,23 +44,34 @@ class Reader {
  public:
   Reader(const json& value, const std::string& place) : value_(value), reader_(value, place) {}
 
-  void field(const char* key, double& value) { value = reader_.number(key); }
-  void field(const char* key, int& value) { value = static_cast<int>(reader_.integer(key, 0, INT32_MAX)); }
-  void field(const char* key, uint64_t& value) { value = reader_.unsigned_integer(key); }
-  void field(const char* key, bool& value) { value = reader_.boolean(key); }
+  void field(const char* key, double& value) {
+    if (reader_.has(key)) value = reader_.number(key);
+  }
+  void field(const char* key, int& value) {
+    if (reader_.has(key)) value = static_cast<int>(reader_.integer(key, 0, INT32_MAX));
+  }
+  void field(const char* key, uint64_t& value) {
+    if (reader_.has(key)) value = reader_.unsigned_integer(key);
+  }
+  void field(const char* key, bool& value) { value = reader_.boolean_or(key, value); }
   void field(const char* key, Vec3& value) {
+    if (!reader_.has(key)) return;
     const auto numbers = reader_.numbers(key, 3);
     value = {numbers[0], numbers[1], numbers[2]};
   }
-  void field(const char* key, std::filesystem::path& value) { value = reader_.text(key); }
-  void field(const char* key, RemovalLaw& value) { value = word(key, removal_law_from_text); }
-  void field(const char* key, force::FeedKind& value) { value = word(key, force::feed_kind_from_text); }
+  void field(const char* key, std::filesystem::path& value) { value = reader_.text_or(key, value.string()); }
+  void field(const char* key, RemovalLaw& value) {
+    if (reader_.has(key)) value = word(key, removal_law_from_text);
+  }
+  void field(const char* key, force::FeedKind& value) {
+    if (reader_.has(key)) value = word(key, force::feed_kind_from_text);
+  }
   void field(const char* key, force::VibrationSource& value) {
-    value = word(key, force::vibration_source_from);
+    if (reader_.has(key)) value = word(key, force::vibration_source_from);
   }
   template <typename Part>
   void part(const char* key, Part& value) {
-    if (!reader_.has(key)) reader_.refuse(key, "is missing");
+    if (!reader_.has(key)) return;
     Reader reader(value_.at(key), reader_.place() + "." + key);
     for_each_field(reader, value);
     reader.finish();
@@ -68,8 +79,7 @@ class Reader {
   template <typename Part>
   void part(const char* key, std::optional<Part>& value) {
     value.reset();
-    if (!reader_.has(key)) reader_.refuse(key, "is missing");
-    if (!value_.at(key).is_null()) part(key, value.emplace());
+    if (reader_.has(key) && !value_.at(key).is_null()) part(key, value.emplace());
   }
   void finish() const { reader_.finish(); }
 

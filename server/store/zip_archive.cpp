@@ -70,11 +70,11 @@ void write_entry(zip_t* archive, const ArchiveEntry& entry, const fs::path& zip)
                            0);
 }
 
-void sync_file(const fs::path& path) {
+bool sync_file(const fs::path& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   const bool synced = file >= 0 && ::fsync(file) == 0;
   if (file >= 0) ::close(file);
-  if (!synced) throw Error(ErrorKind::io, "cannot write " + path.string());
+  return synced;
 }
 
 /// Copies at most `limit` bytes out and returns how many there were.
@@ -115,13 +115,12 @@ void write_zip(const fs::path& path, const std::vector<ArchiveEntry>& entries) {
   if (zip_close(archive.get()) != 0)
     throw Error(ErrorKind::io, "cannot write " + path.string() + ": " + zip_strerror(archive.get()));
   archive.release();  // closing has freed it
-  try {
-    sync_file(temporary);
-    fs::rename(temporary, path);
-  } catch (const fs::filesystem_error& e) {
-    std::error_code ignored;
+  std::error_code failed, ignored;
+  const bool synced = sync_file(temporary);
+  if (synced) fs::rename(temporary, path, failed);
+  if (!synced || failed) {
     fs::remove(temporary, ignored);
-    throw Error(ErrorKind::io, "cannot write " + path.string() + ": " + e.code().message());
+    throw Error(ErrorKind::io, "cannot write " + path.string());
   }
 }
 

@@ -9,6 +9,7 @@
 #include "core/hash.hpp"
 #include "geometry/mesh_io.hpp"
 #include "gpu/device.hpp"
+#include "record/replay_device.hpp"
 #include "support/changed_recording.hpp"
 #include "support/expect_error.hpp"
 #include "support/recorded_reaming.hpp"
@@ -71,6 +72,27 @@ INSTANTIATE_TEST_SUITE_P(Profiles, VerifyDevices,
                                name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
                            return name;
                          });
+
+/// The recording in the loop's own hands: what it sends is reamed, recorded and scored as the first time.
+TEST(VerifyReplay, ARecordingIsADevice) {
+  for (const char* profile : {"touch", "ideal-admittance"}) {
+    SCOPED_TRACE(profile);
+    RecordedReaming reaming;
+    const std::filesystem::path path = reaming.record(RecordedReaming::push(profile));
+    const record::Recording recording(path);
+    RigParts parts = recorded_parts(recording, recording.segments().front(),
+                                    recorded_case(recording, "", reaming.data()), {}, "cpu");
+    device::DeviceTraits traits;
+    traits.profile = profile;
+    parts.device = std::make_unique<record::ReplayDevice>(recording, 0, recording.tick_count(), traits);
+    Rig rig(std::move(parts));
+    rig.state.handle_given = true;
+    const record::Recording again(reaming.record(rig));
+    const auto ticks = recording.ticks(0, UINT32_MAX);
+    EXPECT_EQ(again.ticks(0, UINT32_MAX), ticks);
+    EXPECT_EQ(again.checkpoints(), recording.checkpoints());
+  }
+}
 
 TEST(VerifyReplay, ARobotsRun) {
   RecordedReaming reaming;

@@ -75,6 +75,38 @@ TEST_F(RecordedBoneTest, HasWholeMomentsThoughImagesComeLate) {
   expect_truth_at_random_moments(session, 60);
 }
 
+TEST_F(RecordedBoneTest, ImagesThatComeMuchTooLateCostCheckpointsAndNothingElse) {
+  SCOPED_TRACE(testing::Message() << "seed " << seed);
+  RecordedCutting session(seed, dims);
+  {
+    Recorder recorder(create_log_file(path_), session.header(), RecordedCutting::segment(0),
+                      session.follower.data());
+    session.run(recorder, 5 * most_ticks_per_chunk, 0);
+    session.run(recorder, 700);
+    recorder.finish("finished");
+  }
+  const Recording recording(path_, Recording::Trust::checked);
+  EXPECT_EQ(recording.tick_count(), session.tick);
+  const auto checkpoints = recording.checkpoints();
+  EXPECT_EQ(checkpoints.size(), 3u) << "only where the bone is known";
+  RecordedBone bone(recording, session.bone.grid, session.start);
+  bone.seek(session.tick, [](const voxel::BrickImage&) {});
+  EXPECT_EQ(bone.coverage_hash(), session.bone.coverage_hash());
+  EXPECT_EQ(checkpoints.back().grid_hash, session.bone.coverage_hash());
+}
+
+TEST_F(RecordedBoneTest, WhatIsNotFinishedIsKeptAsFarAsItGoes) {
+  SCOPED_TRACE(testing::Message() << "seed " << seed);
+  RecordedCutting session(seed, dims);
+  {
+    Recorder recorder(create_log_file(path_), session.header(), RecordedCutting::segment(0),
+                      session.follower.data());
+    session.run(recorder, 610);
+  }
+  EXPECT_FALSE(Recording(path_).end());
+  expect_truth_at_random_moments(session, 30);
+}
+
 TEST_F(RecordedBoneTest, GoesOnInAContinuedRecording) {
   SCOPED_TRACE(testing::Message() << "seed " << seed);
   RecordedCutting session(seed, dims);
