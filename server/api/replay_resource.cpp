@@ -56,6 +56,7 @@ json to_json(const ReplayRecord& record) {
           {"duration_s", status.duration_s},
           {"force_scale", status.force_scale},
           {"fault", status.fault.empty() ? json(nullptr) : json(status.fault)},
+          {"warning", status.warning.empty() ? json(nullptr) : json(status.warning)},
           {"playback",
            {{"position_s", status.position_s},
             {"duration_s", status.duration_s},

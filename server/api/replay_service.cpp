@@ -1,11 +1,14 @@
 #include "api/replay_service.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <nlohmann/json.hpp>
 
 #include "api/keeping_session.hpp"
 #include "api/new_id.hpp"
+#include "core/clock.hpp"
 #include "core/error.hpp"
+#include "core/log.hpp"
 
 namespace ream::api {
 
@@ -13,16 +16,53 @@ struct ReplayService::Entry {
   ReplayRequest request;
   std::string created_utc;
   std::unique_ptr<RunningReplay> running;
+  std::atomic<int64_t> asked_ns{steady_ns()};  ///< when somebody last named it
 
+  bool unattended_for(std::chrono::nanoseconds time) const {
+    return steady_ns() - asked_ns > time.count() &&
+           running->status().unwatched_s > std::chrono::duration<double>(time).count();
+  }
   ReplayRecord record(bool open = true) const {
     return {request, created_utc, open, running->status(), running->marks()};
   }
 };
 
 ReplayService::ReplayService(ReplayFactory factory, ReplayLimits limits)
-    : factory_(std::move(factory)), limits_(limits) {}
+    : factory_(std::move(factory)), limits_(limits) {
+  caretaker_ = std::thread([this] { end_unattended(); });
+}
 
-ReplayService::~ReplayService() { shut_down(); }
+ReplayService::~ReplayService() {
+  shut_down();
+  caretaker_.join();
+}
+
+void ReplayService::end_unattended() {
+  std::unique_lock lock(mutex_);
+  while (!closing_.wait_for(lock, limits_.look_every, [this] { return closed_; })) {
+    try {
+      Entries ending = take_unattended();
+      lock.unlock();
+      for (const auto& entry : ending) {
+        log::info("replay of session " + entry->request.replay_of + " ends: nobody has watched it for long");
+        entry->running->stop();
+      }
+    } catch (const std::exception& failure) {
+      log::error(std::string("a replay that nobody watches could not be ended: ") + failure.what());
+    }
+    if (!lock.owns_lock()) lock.lock();
+  }
+}
+
+/// Under the lock.
+ReplayService::Entries ReplayService::take_unattended() {
+  const auto first = std::stable_partition(entries_.begin(), entries_.end(), [this](const auto& entry) {
+    return !entry->unattended_for(limits_.unattended);
+  });
+  Entries taken(first, entries_.end());
+  entries_.erase(first, entries_.end());
+  return taken;
+}
 
 /// Gives the replay that has to go for it, if any.
 std::shared_ptr<ReplayService::Entry> ReplayService::reserve_place() {
@@ -71,7 +111,10 @@ ReplayRecord ReplayService::create(ReplayRequest wanted) {
 std::shared_ptr<ReplayService::Entry> ReplayService::find(const std::string& id) const {
   const std::lock_guard lock(mutex_);
   for (const auto& entry : entries_)
-    if (entry->request.id == id) return entry;
+    if (entry->request.id == id) {
+      entry->asked_ns = steady_ns();
+      return entry;
+    }
   throw Error(ErrorKind::not_found, "no replay '" + id + "'; it has ended or never was");
 }
 
@@ -125,6 +168,7 @@ void ReplayService::shut_down() {
     closed_ = true;
     entries.swap(entries_);
   }
+  closing_.notify_all();
   for (const auto& entry : entries) entry->running->stop();
 }
 

@@ -1,6 +1,9 @@
 #pragma once
+#include <chrono>
+#include <condition_variable>
 #include <memory>
 #include <mutex>
+#include <thread>
 #include <vector>
 
 #include "api/running_replay.hpp"
@@ -9,6 +12,9 @@ namespace ream::api {
 
 struct ReplayLimits {
   size_t open = 4;  ///< at once
+  /// A replay that for so long nobody has watched or asked about ends by itself.
+  std::chrono::milliseconds unattended = std::chrono::minutes(15);
+  std::chrono::milliseconds look_every = std::chrono::seconds(30);  ///< for such replays
 };
 
 /// A replay as others see it.
@@ -50,6 +56,8 @@ class ReplayService {
   using Entries = std::vector<std::shared_ptr<Entry>>;
   std::shared_ptr<Entry> find(const std::string& id) const;
   std::shared_ptr<Entry> reserve_place();
+  void end_unattended();
+  Entries take_unattended();
 
   const ReplayFactory factory_;
   const ReplayLimits limits_;
@@ -57,6 +65,8 @@ class ReplayService {
   Entries entries_;  ///< oldest first
   size_t being_made_ = 0;
   bool closed_ = false;
+  std::condition_variable closing_;
+  std::thread caretaker_;  ///< ends unattended replays
 };
 
 }  // namespace ream::api

@@ -22,7 +22,8 @@ struct ReplayRequest {
 /// A moment that is worth finding.
 struct ReplayMark {
   double at_s = 0.0;
-  std::string kind;   ///< "annotation", or what the recording calls the event: failover, interrupted, ...
+  std::string
+      kind;  ///< "annotation", "damaged", or what the recording calls the event: failover, interrupted, ...
   std::string words;  ///< for people; may be empty
 };
 
@@ -32,6 +33,7 @@ struct PlaybackStatus {
   double speed = 1.0;  ///< seconds of the recording a second, also while it rests
   bool playing = false;
   std::string fault;         ///< why it cannot go on from here; empty: nothing is wrong
+  std::string warning;       ///< what of the recording is damaged, as far as known; empty: nothing
   double force_scale = 1.0;  ///< simulated N per hand N
   double unwatched_s = 0.0;  ///< since the last viewer left
 };
@@ -52,8 +54,8 @@ class RunningReplay {
   virtual PlaybackStatus status() const = 0;
   /// In order of time.
   virtual std::vector<ReplayMark> marks() const = 0;
-  /// The keys of metrics.json, up to the moment shown. Takes as long as reading the recording up to there at
-  /// first. Error invalid_input for a damaged recording.
+  /// The keys of metrics.json, up to the moment shown. Errors: unavailable while the recording has not been
+  /// read up to there; invalid_input when it is damaged before.
   virtual nlohmann::json metrics() const = 0;
 
   /// Returns at once; what viewers see follows. From the end, playing begins at the start again. Error

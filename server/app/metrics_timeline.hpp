@@ -1,7 +1,9 @@
 #pragma once
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -9,6 +11,12 @@
 #include "score/metrics.hpp"
 
 namespace ream::app {
+
+/// Where a recording cannot be read any further.
+struct RecordingDamage {
+  uint32_t after_ticks = 0;  ///< ticks before it
+  std::string words;         ///< empty: none has been found
+};
 
 /// Metrics of a recording at any of its moments. A thread of its own reads the recording once from the start
 /// and keeps what was accumulated after each second; a moment costs the ticks since the last whole second.
@@ -23,8 +31,11 @@ class MetricsTimeline {
 
   /// After `ticks` ticks; nothing when the recording has not been read up to there yet, or is damaged before.
   std::optional<score::MetricsAccumulator> at(uint32_t ticks) const;
-  /// The same, waiting for it. Error invalid_input when the recording is damaged before.
-  score::MetricsAccumulator wait_for(uint32_t ticks) const;
+  /// The same, waiting for it. Errors: unavailable when `patience` is over, invalid_input when the recording
+  /// is damaged before.
+  score::MetricsAccumulator wait_for(uint32_t ticks, std::chrono::milliseconds patience) const;
+  /// The first damage among the ticks, as far as the recording has been read.
+  RecordingDamage damage() const;
 
  private:
   void read_all();
@@ -35,6 +46,7 @@ class MetricsTimeline {
   mutable std::mutex mutex_;  ///< guards what follows
   mutable std::condition_variable grown_;
   std::vector<score::MetricsAccumulator> seconds_;  ///< entry i: after i seconds
+  uint32_t reached_ticks_ = 0;                      ///< ticks that have been read
   std::string damage_;
   bool done_ = false, leaving_ = false;
   std::thread reader_;

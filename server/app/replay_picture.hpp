@@ -30,8 +30,8 @@ class ReplayPicture {
   ReplayPicture(const record::Recording& recording, const case_::Case& before,
                 const MetricsTimeline& timeline, stream::HelloInfo hello, stream::Fanout& fanout);
 
-  /// Forwards without a jump every tick between is shown too. Error invalid_input for a damaged chunk; what
-  /// was shown before then stays.
+  /// Forwards without a jump every tick between is shown too. Error invalid_input for a damaged chunk: a jump
+  /// has then changed nothing, and playing stands before that chunk.
   void show(const ReplayMoment& moment);
   /// Publishes what waits and is due; `now_ns` as steady_ns(); call every 10 ms or so.
   void poll(int64_t now_ns);
@@ -45,14 +45,15 @@ class ReplayPicture {
   uint64_t bone_hash() const { return bone_.coverage_hash(); }
 
  private:
-  void jump_to(uint32_t ticks);
+  void jump_to(const ReplayMoment& moment);
   void play_to(uint32_t ticks);
   void seek_bone(uint32_t ticks);
   void show_tool();
   void catch_up_metrics();
-  void publish_history(uint32_t end_tick);
-  void take_tick(uint32_t tick);
-  void set_fault(const std::string& fault);
+  void show_metrics();
+  void settle(const ReplayMoment& moment, uint32_t position_ticks);
+  std::vector<record::ops::Tick> history_before(uint32_t end_tick) const;
+  void publish_history(const std::vector<record::ops::Tick>& history);
   const record::ops::Tick& tick_at(uint32_t tick);
   shell::Tool tool_of_segment(size_t segment) const;
 

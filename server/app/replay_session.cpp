@@ -16,6 +16,8 @@
 namespace ream::app {
 namespace {
 
+/// A request for metrics waits this long for the recording to be read.
+constexpr auto metrics_patience = std::chrono::seconds(1);
 constexpr auto follower_period = std::chrono::milliseconds(10);
 /// A replay that rests tells its viewers so this often, so that a silent link is a broken one.
 constexpr int64_t heartbeat_ns = 500'000'000;
@@ -77,10 +79,22 @@ api::PlaybackStatus ReplaySession::status() const {
   status.speed = playhead_.speed();
   status.playing = playhead_.playing();
   status.fault = fault_;
+  if (const std::vector<RecordingDamage> found = damage(); !found.empty())
+    status.warning = found.front().words;
   status.force_scale = recording_.header().force_scale;
   if (fanout_->viewers() == 0)
     status.unwatched_s = static_cast<double>(steady_ns() - last_watched_ns_) * 1e-9;
   return status;
+}
+
+/// In order of time: among the ticks, and what made the end of the file useless.
+std::vector<RecordingDamage> ReplaySession::damage() const {
+  std::vector<RecordingDamage> found;
+  if (RecordingDamage among_ticks = timeline_.damage(); !among_ticks.words.empty())
+    found.push_back(std::move(among_ticks));
+  if (const std::string& words = recording_.log().damage(); !words.empty())
+    found.push_back({recording_.tick_count(), words});
+  return found;
 }
 
 std::vector<api::ReplayMark> ReplaySession::marks() const {
@@ -91,6 +105,8 @@ std::vector<api::ReplayMark> ReplaySession::marks() const {
     marks.push_back({event.tick * tick_s, event.kind, event.words});
   for (const record::ops::Annotation& annotation : recording_.annotations())
     marks.push_back({annotation.tick * tick_s, "annotation", annotation.words});
+  for (const RecordingDamage& damage : damage())
+    marks.push_back({damage.after_ticks * tick_s, "damaged", damage.words});
   std::stable_sort(marks.begin(), marks.end(), [](const auto& a, const auto& b) { return a.at_s < b.at_s; });
   return marks;
 }
@@ -103,8 +119,8 @@ nlohmann::json ReplaySession::metrics() const {
     ticks = playhead_.position_ticks();
     if (bone_ticks_ == ticks) grid_hash = bone_hash_;
   }
-  return score::metrics_json(timeline_.wait_for(ticks).metrics(), recording_.header().force_scale,
-                             grid_hash ? &*grid_hash : nullptr);
+  return score::metrics_json(timeline_.wait_for(ticks, metrics_patience).metrics(),
+                             recording_.header().force_scale, grid_hash ? &*grid_hash : nullptr);
 }
 
 void ReplaySession::change(const api::PlaybackChange& change) {
@@ -133,28 +149,23 @@ std::unique_ptr<net::WebSocketSession> ReplaySession::subscribe(int stride) {
 }
 
 void ReplaySession::follow() {
-  int64_t before_ns = steady_ns(), last_told_ns = before_ns;
+  int64_t before_ns = steady_ns();
   for (;;) {
     ReplayMoment moment;
     const int64_t now_ns = steady_ns();
-    {
-      const std::lock_guard lock(mutex_);
-      if (leaving_) return;
-      playhead_.advance(now_ns - before_ns);
-      moment = {playhead_.position_ticks(), playhead_.jumps(), static_cast<float>(playhead_.speed()),
-                playhead_.playing(), fault_};
-      if (fanout_->viewers() > 0) last_watched_ns_ = now_ns;
-    }
-    before_ns = now_ns;
     try {
-      picture_.show(moment);
-    } catch (const Error& e) {
-      give_up(e.what());
-    }
-    picture_.poll(steady_ns());
-    if (!moment.playing && now_ns - last_told_ns > heartbeat_ns) {
-      picture_.tell(stream::SessionState::replaying);
-      last_told_ns = now_ns;
+      {
+        const std::lock_guard lock(mutex_);
+        if (leaving_) return;
+        playhead_.advance(now_ns - before_ns);
+        moment = {playhead_.position_ticks(), playhead_.jumps(), static_cast<float>(playhead_.speed()),
+                  playhead_.playing(), fault_};
+        if (fanout_->viewers() > 0) last_watched_ns_ = now_ns;
+      }
+      before_ns = now_ns;
+      present(moment, now_ns);
+    } catch (const std::exception& e) {
+      give_up(e.what(), moment.jump);
     }
     std::unique_lock lock(mutex_);
     bone_ticks_ = picture_.bone_ticks();
@@ -163,9 +174,20 @@ void ReplaySession::follow() {
   }
 }
 
-void ReplaySession::give_up(const std::string& words) {
-  log::error("replay of session " + request_.replay_of + ": " + words);
+void ReplaySession::present(const ReplayMoment& moment, int64_t now_ns) {
+  picture_.show(moment);
+  picture_.poll(steady_ns());
+  if (moment.playing || now_ns - last_told_ns_ <= heartbeat_ns) return;
+  picture_.tell(stream::SessionState::replaying);
+  last_told_ns_ = now_ns;
+}
+
+/// Rests where the picture stands, which could be read; another jump since then stays wanted.
+void ReplaySession::give_up(const std::string& words, uint32_t jump) {
+  if (words != logged_fault_) log::error("replay of session " + request_.replay_of + ": " + words);
+  logged_fault_ = words;
   const std::lock_guard lock(mutex_);
+  if (playhead_.jumps() != jump) return;
   playhead_.rest_at(picture_.ticks());
   fault_ = words;
 }

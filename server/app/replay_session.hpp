@@ -29,7 +29,9 @@ class ReplaySession final : public api::RunningReplay {
 
  private:
   void follow();
-  void give_up(const std::string& words);
+  void present(const ReplayMoment& moment, int64_t now_ns);
+  void give_up(const std::string& words, uint32_t jump);
+  std::vector<RecordingDamage> damage() const;
   stream::HelloInfo hello() const;
 
   const SessionHouse house_;
@@ -38,7 +40,9 @@ class ReplaySession final : public api::RunningReplay {
   const case_::Case bone_case_;  ///< before tick 0
   const MetricsTimeline timeline_;
   const std::shared_ptr<stream::LocalFanout> fanout_;
-  ReplayPicture picture_;  ///< of the thread
+  ReplayPicture picture_;  ///< of the thread, as the next two
+  int64_t last_told_ns_ = 0;
+  std::string logged_fault_;
 
   mutable std::mutex mutex_;  ///< guards what follows
   std::condition_variable changed_;

@@ -127,7 +127,7 @@ void add_seek_rows(const case_::Case& bone_case, const std::filesystem::path& fo
   const app::MetricsTimeline timeline(
       recording, before.bone.grid.world_from_grid,
       {before.bone.grid.voxel_volume_mm3(), sim::world_from_plan(*before.plan).inverse()});
-  timeline.wait_for(recording.tick_count());
+  timeline.wait_for(recording.tick_count(), std::chrono::minutes(10));
   app::ReplayPicture picture(recording, before, timeline, stream::HelloInfo{}, fanout);
   const auto viewer = fanout.subscribe({}, 1);
   while (viewer->next()) {

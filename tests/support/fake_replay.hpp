@@ -2,6 +2,7 @@
 #include <atomic>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "api/running_replay.hpp"
 #include "core/error.hpp"
@@ -16,6 +17,7 @@ class FakeReplay final : public api::RunningReplay {
     status_.duration_s = 10.0;
     status_.force_scale = 26.0;
     status_.unwatched_s = 1.0;
+    status_.warning = "recording.ream ends inside a chunk";
     ++alive();
   }
   ~FakeReplay() override { --alive(); }
@@ -26,6 +28,10 @@ class FakeReplay final : public api::RunningReplay {
   }
   std::vector<api::ReplayMark> marks() const override { return {{2.5, "annotation", "too steep here"}}; }
   nlohmann::json metrics() const override {
+    {
+      const std::lock_guard lock(mutex_);
+      if (metrics_problem_) throw Error(*metrics_problem_, "no metrics of this moment");
+    }
     return FakeSession({request_.id, "demo", "demo", 26.0}).metrics();
   }
   void change(const api::PlaybackChange& change) override {
@@ -45,6 +51,11 @@ class FakeReplay final : public api::RunningReplay {
     const std::lock_guard lock(mutex_);
     status_.unwatched_s = seconds;
   }
+  /// Metrics are refused so.
+  void refuse_metrics(ErrorKind kind) {
+    const std::lock_guard lock(mutex_);
+    metrics_problem_ = kind;
+  }
   static std::atomic<int>& alive() {
     static std::atomic<int> count{0};
     return count;
@@ -58,17 +69,20 @@ class FakeReplay final : public api::RunningReplay {
   const api::ReplayRequest request_;
   mutable std::mutex mutex_;
   api::PlaybackStatus status_;
+  std::optional<ErrorKind> metrics_problem_;
 };
 
 /// Makes fake replays and remembers them; what goes wrong is said by `refuse`.
 class FakeReplayFactory {
  public:
   std::function<void()> refuse = [] {};
+  double first_unwatched_s = 1.0;  ///< of replays to be made
 
   api::ReplayFactory function() {
     return [this](const api::ReplayRequest& request) -> std::unique_ptr<api::RunningReplay> {
       refuse();
       auto replay = std::make_unique<FakeReplay>(request);
+      replay->set_unwatched_s(first_unwatched_s);
       const std::lock_guard lock(mutex_);
       made_.push_back(replay.get());
       return replay;

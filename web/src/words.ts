@@ -39,6 +39,7 @@ export const words = {
   backToLive: 'Back to live',
   replayOf: (id: string) => (id === '' ? 'Opening the recording' : `Recording of session ${id}`),
   recordedAs: (state: string) => `It ended as: ${state}.`,
+  recordingDamaged: (how: string) => `Part of this recording is damaged and cannot be shown: ${how}.`,
   replayGone: 'The replay has ended. This is the simulator as it is now.',
   replaySession: (id: string) => `Replay session ${id}`,
   sessions: (count: number) => `Sessions (${count})`,
@@ -57,7 +58,9 @@ export const words = {
         ? 'Resumed'
         : kind === 'reamer'
           ? 'Reamer changed'
-          : kind.charAt(0).toUpperCase() + kind.slice(1),
+          : kind === 'damaged'
+            ? 'Recording damaged'
+            : kind.charAt(0).toUpperCase() + kind.slice(1),
 
   linkConnecting: 'Connecting',
   linkLive: 'Live',

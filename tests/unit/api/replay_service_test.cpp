@@ -15,7 +15,7 @@ using test::FakeReplay;
 
 class ReplayServiceTest : public testing::Test {
  protected:
-  ReplayServiceTest() : service(factory.function(), {2}) {}
+  ReplayServiceTest() : service(factory.function(), ReplayLimits{.open = 2}) {}
   std::string create() { return service.create({{}, "abcdefgh", "demo", "demo"}).request.id; }
 
   const int alive_before = FakeReplay::alive();
@@ -90,6 +90,32 @@ TEST_F(ReplayServiceTest, NothingIsOpenedAfterShutDown) {
   EXPECT_EQ(FakeReplay::stops(), stops + 1);
   EXPECT_EQ(FakeReplay::alive(), alive_before);
   expect_error(ErrorKind::unavailable, "stopping", [&] { create(); });
+}
+
+TEST_F(ReplayServiceTest, WhatIsNobodysEndsByItself) {
+  const auto moment = std::chrono::milliseconds(1);
+  ReplayService patient(factory.function(),
+                        {.open = 3, .unattended = std::chrono::hours(1), .look_every = moment});
+  ReplayService brief(factory.function(), {.open = 3, .unattended = moment, .look_every = moment});
+  const std::string kept = patient.create({{}, "abcdefgh", "demo", "demo"}).request.id;
+  factory.made(0).set_unwatched_s(7200.0);  // asked for a moment ago
+  const int stops = FakeReplay::stops();
+  const std::string left = brief.create({{}, "abcdefgh", "demo", "demo"}).request.id;
+  while (brief.has(left)) std::this_thread::sleep_for(moment);
+  while (FakeReplay::alive() > alive_before + 1) std::this_thread::sleep_for(moment);
+  EXPECT_EQ(FakeReplay::stops(), stops + 1);
+  EXPECT_TRUE(patient.has(kept));
+}
+
+TEST_F(ReplayServiceTest, WatchedReplaysDoNotEndByThemselves) {
+  const auto moment = std::chrono::milliseconds(1);
+  factory.first_unwatched_s = 0.0;
+  ReplayService brief(factory.function(), {.open = 2, .unattended = moment, .look_every = moment});
+  const std::string watched = brief.create({{}, "abcdefgh", "demo", "demo"}).request.id;
+  factory.first_unwatched_s = 1.0;
+  const std::string left = brief.create({{}, "abcdefgh", "demo", "demo"}).request.id;
+  while (brief.has(left)) std::this_thread::sleep_for(moment);
+  EXPECT_TRUE(brief.has(watched));
 }
 
 TEST_F(ReplayServiceTest, HoldsFromManyThreads) {

@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <iostream>
 
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "stream/fanout_local.hpp"
+#include "support/damage.hpp"
 #include "support/recorded_cutting.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/stream/viewer.hpp"
@@ -20,6 +20,7 @@ using test::RecordedCutting;
 
 constexpr uint32_t reamer_changed_at = 1500, ticks_in_all = 3130;
 constexpr unsigned seed = 4711;
+constexpr auto patience = std::chrono::minutes(1);
 
 using Surfaces = std::map<uint32_t, Surface>;
 
@@ -109,6 +110,14 @@ class ReplayPictureTest : public testing::Test {
     viewer_.pull();
   }
   score::MetricsAccumulator start() const { return {before_.bone.grid.voxel_volume_mm3(), Pose{}}; }
+
+  record::ChunkPlace damage_chunk(size_t chunk) {
+    const record::ChunkPlace damaged = record::Recording(path_).log().chunks().at(chunk);
+    EXPECT_GT(damaged.ticks, 0u);
+    EXPECT_FALSE(damaged.has_notes);
+    test::damage(path_, damaged.offset + 60);
+    return damaged;
+  }
 
   void jump(uint32_t ticks) {
     picture_->show({ticks, ++jumps_, 1.0f, false, {}});
@@ -225,7 +234,7 @@ TEST_F(ReplayPictureTest, TheReamerIsTheOneOfTheMomentForLateJoinersToo) {
 
 TEST_F(ReplayPictureTest, MetricsAreThoseUpToTheMoment) {
   open();
-  timeline_->wait_for(ticks_in_all);
+  timeline_->wait_for(ticks_in_all, patience);
   for (const uint32_t ticks : {2999u, 3000u, 3001u, 7u, 0u, ticks_in_all, 1000u}) {
     score::MetricsAccumulator metrics = start();
     for (uint32_t tick = 0; tick < ticks; ++tick)
@@ -233,26 +242,62 @@ TEST_F(ReplayPictureTest, MetricsAreThoseUpToTheMoment) {
     jump(ticks);
     EXPECT_EQ(viewer_.removed_mm3, static_cast<float>(metrics.metrics().removed_volume_mm3)) << ticks;
     EXPECT_EQ(viewer_.depth_mm, static_cast<float>(metrics.metrics().reaming_depth_mm)) << ticks;
-    EXPECT_EQ(timeline_->wait_for(ticks).metrics().session_hash, metrics.metrics().session_hash);
+    EXPECT_EQ(timeline_->wait_for(ticks, patience).metrics().session_hash, metrics.metrics().session_hash);
   }
 }
 
 TEST_F(ReplayPictureTest, ADamagedMomentIsSaidAndAllBeforeItCanBeSeen) {
-  const record::ChunkPlace damaged = record::Recording(path_).log().chunks().at(10);
-  ASSERT_GT(damaged.ticks, 0u);
-  ASSERT_FALSE(damaged.has_notes);
-  {
-    std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
-    file.seekp(static_cast<std::streamoff>(damaged.offset + 60));
-    file.put('x').put('y');
-  }
+  const record::ChunkPlace damaged = damage_chunk(10);
   open();
-  EXPECT_THROW(jump(3000), Error);
-  jump(damaged.first_tick - 1);
+  jump(700);
+  const uint32_t shown_before = picture_->ticks();
+  for (const uint32_t ticks : {3000u, damaged.first_tick + 1, damaged.first_tick + damaged.ticks}) {
+    EXPECT_THROW(jump(ticks), Error);
+    EXPECT_EQ(picture_->ticks(), shown_before) << "after a jump to " << ticks;
+    viewer_.pull();
+    EXPECT_EQ(viewer_.position_ticks, shown_before);
+  }
+  jump(700);
   expect_bone_as_it_was();
-  EXPECT_THROW(timeline_->wait_for(3000), Error);
-  EXPECT_NO_THROW(timeline_->wait_for(1000));
-  EXPECT_FALSE(timeline_->at(3000).has_value());
+  jump(damaged.first_tick);
+  EXPECT_EQ(viewer_.position_ticks, damaged.first_tick);
+  expect_bone_as_it_was();
+  EXPECT_THROW(timeline_->wait_for(3000, patience), Error);
+  EXPECT_THROW(timeline_->wait_for(damaged.first_tick + 1, patience), Error);
+  EXPECT_NO_THROW(timeline_->wait_for(damaged.first_tick, patience));
+  EXPECT_FALSE(timeline_->at(damaged.first_tick + 1).has_value());
+  EXPECT_EQ(timeline_->damage().after_ticks, damaged.first_tick);
+  EXPECT_FALSE(timeline_->damage().words.empty());
+}
+
+TEST_F(ReplayPictureTest, PlayingIntoDamageRestsBeforeIt) {
+  const record::ChunkPlace damaged = damage_chunk(10);
+  open();
+  jump(damaged.first_tick - 600);
+  const ReplayMoment beyond{damaged.first_tick + damaged.ticks + 20, jumps_, 1.0f, true, {}};
+  EXPECT_THROW(picture_->show(beyond), Error);
+  EXPECT_EQ(picture_->ticks(), damaged.first_tick);
+  EXPECT_EQ(picture_->bone_ticks(), damaged.first_tick);
+  EXPECT_NO_THROW(picture_->show({damaged.first_tick, jumps_, 1.0f, false, "damaged"}));
+  for (int i = 0; i < 20; ++i) picture_->poll(now_ns_ += 1'000'000'000);
+  viewer_.pull();
+  EXPECT_EQ(viewer_.trace.back().first, damaged.first_tick - 1);
+  expect_bone_as_it_was();
+}
+
+TEST_F(ReplayPictureTest, MetricsAreNotWaitedForLongerThanAsked) {
+  open();
+  for (int attempt = 0; attempt < 1000; ++attempt) {
+    const MetricsTimeline fresh(*recording_, before_.bone.grid.world_from_grid, start());
+    try {
+      fresh.wait_for(ticks_in_all, std::chrono::milliseconds(0));
+    } catch (const Error& e) {
+      EXPECT_EQ(e.kind(), ErrorKind::unavailable);
+      EXPECT_NO_THROW(fresh.wait_for(ticks_in_all, patience));
+      return;
+    }
+  }
+  FAIL() << "the recording was always read at once";
 }
 
 }  // namespace

@@ -7,7 +7,10 @@
 #include "app/data_folder.hpp"
 #include "app/headless_run.hpp"
 #include "case/case.hpp"
+#include "core/clock.hpp"
 #include "core/error.hpp"
+#include "record/recording.hpp"
+#include "support/damage.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_bone.hpp"
@@ -107,6 +110,91 @@ TEST_F(ReplaySessionTest, TellsViewersWhereItStandsAndThatItHasEnded) {
   pull();
   EXPECT_EQ(state, wire::SessionState::stopped);
   replay.stop();
+}
+
+/// A copy of the session whose recording has a damaged chunk, which begins at `damaged_s`.
+class DamagedReplayTest : public ReplaySessionTest {
+ protected:
+  DamagedReplayTest() {
+    const auto sessions = sessions_folder(folder_->path());
+    std::filesystem::remove_all(sessions / "damaged");
+    std::filesystem::copy(sessions / "abcdefgh", sessions / "damaged");
+    const record::ChunkPlace place = record::Recording(path()).log().chunks().at(7);
+    EXPECT_FALSE(place.has_notes);
+    damaged_s = place.first_tick * tick_s;
+    test::damage(path(), place.offset + 60);
+  }
+  static std::filesystem::path path() {
+    return sessions_folder(folder_->path()) / "damaged" / "recording.ream";
+  }
+  /// Waits until a fault is told.
+  static std::string fault_of(const ReplaySession& replay) {
+    while (replay.status().fault.empty()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    return replay.status().fault;
+  }
+  static size_t count(const std::string& text, const std::string& part) {
+    size_t n = 0;
+    for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+    return n;
+  }
+
+  double damaged_s = 0.0;
+};
+
+TEST_F(DamagedReplayTest, AJumpIntoDamageRestsWhereItWasAndTheReplayGoesOn) {
+  testing::internal::CaptureStderr();
+  {
+    ReplaySession replay(house(), request("damaged"));
+    replay.change({{}, {}, 1.0});
+    while (replay.metrics().at("grid_hash").is_null())
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    for (const double into_s : {damaged_s + 0.1, 3.0}) {
+      replay.change({{}, {}, into_s});
+      EXPECT_NE(fault_of(replay).find("damaged"), std::string::npos);
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      EXPECT_FALSE(replay.status().fault.empty());
+      EXPECT_EQ(replay.status().position_s, 1.0);
+    }
+    replay.change({{}, {}, 0.5});
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    EXPECT_EQ(replay.status().fault, "");
+    EXPECT_EQ(replay.status().position_s, 0.5);
+    EXPECT_NO_THROW(replay.metrics());
+    replay.change({true, 16.0, {}});
+    fault_of(replay);
+    until(replay, damaged_s);
+  }
+  EXPECT_EQ(count(testing::internal::GetCapturedStderr(), "replay of session"), 1u);
+}
+
+TEST_F(DamagedReplayTest, DamageIsToldBeforeItIsReached) {
+  const ReplaySession replay(house(), request("damaged"));
+  while (replay.status().warning.empty()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  EXPECT_EQ(replay.status().fault, "");
+  EXPECT_NE(replay.status().warning.find("is damaged"), std::string::npos);
+  ASSERT_FALSE(replay.marks().empty());
+  EXPECT_EQ(replay.marks().back().kind, "damaged");
+  EXPECT_EQ(replay.marks().back().at_s, damaged_s);
+  EXPECT_EQ(replay.marks().back().words, replay.status().warning);
+}
+
+TEST_F(DamagedReplayTest, ACutEndIsToldToo) {
+  const auto whole = sessions_folder(folder_->path()) / "abcdefgh" / "recording.ream";
+  std::filesystem::copy_file(whole, path(), std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::resize_file(path(), record::Recording(whole).log().chunks().back().offset + 70);
+  const ReplaySession replay(house(), request("damaged"));
+  EXPECT_FALSE(replay.status().warning.empty());
+  ASSERT_FALSE(replay.marks().empty());
+  EXPECT_EQ(replay.marks().back().kind, "damaged");
+  EXPECT_EQ(replay.marks().back().at_s, replay.status().duration_s);
+}
+
+TEST_F(ReplaySessionTest, AWholeRecordingHasNoWarning) {
+  ReplaySession replay(house(), request());
+  replay.change({{}, {}, replay.status().duration_s});
+  replay.metrics();  // by now all has been read
+  EXPECT_EQ(replay.status().warning, "");
+  for (const api::ReplayMark& mark : replay.marks()) EXPECT_NE(mark.kind, "damaged");
 }
 
 TEST_F(ReplaySessionTest, RefusesWhatItCannotShow) {

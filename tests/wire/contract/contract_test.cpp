@@ -124,6 +124,10 @@ class ContractTest : public ServerTest {
     expect_get(all, all, 200);
     expect_get(one, open, 200);
     expect_get(one + "/metrics", open + "/metrics", 200);
+    replays.made(0).refuse_metrics(ErrorKind::unavailable);
+    expect_get(one + "/metrics", open + "/metrics", 503);
+    replays.made(0).refuse_metrics(ErrorKind::invalid_input);
+    expect_get(one + "/metrics", open + "/metrics", 422);
     expect_stream(open + "/stream", 101);
     expect_post(one + "/playback", open + "/playback", 200,
                 R"({"playing": true, "speed": 4, "position_s": 2.5})");

@@ -7,6 +7,7 @@ export function ReplayPanel({ store, watcher }: { store: Store; watcher: Watcher
   const of = store.hello.value?.replayOf ?? '';
   const recorded = store.sessions.value.find((session) => session.id === of);
   const fault = store.telemetry.value?.fault ?? '';
+  const warning = store.recordingWarning.value;
   return (
     <section class="replay" aria-label={words.replayBadge} data-testid="replay-panel">
       <div class="run-buttons">
@@ -26,6 +27,11 @@ export function ReplayPanel({ store, watcher }: { store: Store; watcher: Watcher
         {recorded !== undefined && words.recordedAs(words.state[recorded.state].toLowerCase())}
         {fault !== '' && ` ${words.fault}: ${fault}`}
       </p>
+      {warning !== null && (
+        <p class="session-state" role="status" data-testid="recording-warning">
+          {words.recordingDamaged(warning)}
+        </p>
+      )}
     </section>
   );
 }

@@ -40,6 +40,8 @@ export class Store {
   /** Where the watched replay stands; null while none is watched. */
   readonly playback = signal<Playback | null>(null);
   readonly marks = signal<readonly Mark[]>([]);
+  /** What of the watched recording is damaged, in the server's words; null: nothing, as far as is known. */
+  readonly recordingWarning = signal<string | null>(null);
 
   readonly trace = new ForceTrace(plotSeconds * 1000 + 1000);
   /** Grows when the trace changes. */

@@ -1,6 +1,6 @@
 import { batch } from '@preact/signals';
 
-import { ApiError, type Api, type PlaybackChange, type Session } from '../wire/api';
+import { ApiError, type Api, type PlaybackChange, type Replay, type Session } from '../wire/api';
 import { Link, type LinkState } from '../wire/link';
 import type { Hello, MeshDelta, StreamMessage, Telemetry, ToolMesh } from '../wire/messages';
 import type { StreamSocket } from '../wire/stream_socket';
@@ -96,6 +96,7 @@ export class Watcher {
       this.store.sessionId.value = null;
       this.store.playback.value = null;
       this.store.marks.value = [];
+      this.store.recordingWarning.value = null;
     });
     this.link.connect();
   }
@@ -107,7 +108,17 @@ export class Watcher {
 
   private async changeReplay(change: PlaybackChange): Promise<void> {
     const id = this.store.replayId.value;
-    if (id !== null) await this.api.changePlayback(id, change);
+    if (id === null) return;
+    const replay = await this.api.changePlayback(id, change);
+    if (id === this.store.replayId.value) this.takeNotes(replay);
+  }
+
+  /** Damage may be found, and marks be made, while the replay is open. */
+  private takeNotes(replay: Replay): void {
+    batch(() => {
+      this.store.marks.value = replay.marks;
+      this.store.recordingWarning.value = replay.warning;
+    });
   }
 
   private async startNew() {
@@ -167,7 +178,7 @@ export class Watcher {
       batch(() => {
         this.store.sessionId.value = replay.id;
         this.store.sessionState.value = 'replaying';
-        this.store.marks.value = replay.marks;
+        this.takeNotes(replay);
       });
       return this.api.streamUrl(replay.id);
     } catch (error) {
@@ -176,6 +187,7 @@ export class Watcher {
         this.store.replayId.value = null;
         this.store.sessionId.value = null;
         this.store.playback.value = null;
+        this.store.recordingWarning.value = null;
         this.store.problem.value = words.replayGone;
       });
       return null;

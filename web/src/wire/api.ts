@@ -22,13 +22,15 @@ export interface Replay {
   /** The session that was recorded. */
   replay_of: string;
   playback: { position_s: number; duration_s: number; speed: number; playing: boolean };
+  /** What of the recording is damaged, as far as the server has read it. */
+  warning: string | null;
   /** Moments worth finding, in order of time. */
   marks: Mark[];
 }
 
 export interface Mark {
   at_s: number;
-  /** "annotation", "reamer", "resume" or the name of an event. */
+  /** "annotation", "reamer", "resume", "damaged" or the name of an event. */
   kind: string;
   words: string;
 }

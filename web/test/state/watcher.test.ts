@@ -48,6 +48,7 @@ class FakeApi {
       replay_of: sessionId,
       playback: { position_s: 0, duration_s: 10, speed: 1, playing: false },
       marks: [{ at_s: 2, kind: 'annotation', words: 'here' }],
+      warning: null,
     };
     this.replays.push(replay);
     return this.answer(replay);
@@ -263,6 +264,16 @@ describe('Watcher', () => {
       watcher.scrubber.seek(40);
       await settle();
       expect(store.problem.value).toBe('position_s is past the end');
+    });
+
+    it('says that the recording is damaged, also when the server finds it later', async () => {
+      await open();
+      expect(store.recordingWarning.value).toBeNull();
+      api.replays[0]!.warning = 'damaged after 1.75 s';
+      await watcher.play({ playing: true });
+      expect(store.recordingWarning.value).toBe('damaged after 1.75 s');
+      watcher.leaveReplay();
+      expect(store.recordingWarning.value).toBeNull();
     });
 
     it('goes back to what is live, in words, when the replay was ended', async () => {
