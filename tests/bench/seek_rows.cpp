@@ -1,6 +1,7 @@
 #include "bench/seek_rows.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <numeric>
 #include <random>
 #include <thread>
