@@ -27,7 +27,9 @@ void require_recording(const std::filesystem::path& folder) {
 }
 
 void require_undamaged(const record::Recording& recording, const std::filesystem::path& folder) {
-  if (const std::string& damage = recording.log().damage(); !damage.empty())
+  const std::string& damage = recording.log().damage();
+  // Behind the session's end there are only remarks, and only the newest can be torn.
+  if (!damage.empty() && !recording.end())
     throw Error(ErrorKind::conflict,
                 "session '" + folder.filename().string() +
                     "' cannot be written to any more, as its recording is damaged: " + damage);
