@@ -53,18 +53,18 @@ TEST_F(SessionRecoveryTest, ClosesWhatWasLeftRunning) {
   write_file_atomically(folder / "metrics.json.77.tmp", std::string_view("{"));
   const auto lines = recover_sessions(data.path());
   ASSERT_EQ(lines.size(), 1u);
-  EXPECT_NE(lines[0].find("session aaaa: the server ended in mid-session; everything up to 1.00 s is kept"),
+  EXPECT_NE(lines[0].find("session aaaa: the server ended in mid-session; everything up to 1.10 s is kept"),
             std::string::npos)
       << lines[0];
   EXPECT_EQ(session(folder).at("state"), "interrupted");
-  EXPECT_EQ(session(folder).at("ticks"), 1000);
+  EXPECT_EQ(session(folder).at("ticks"), 1100);
   const record::Recording recording(api::recording_file(folder), record::Recording::Trust::checked);
   EXPECT_EQ(recording.log().damage(), "");
-  EXPECT_EQ(recording.tick_count(), 1000u);
+  EXPECT_EQ(recording.tick_count(), 1100u);
   EXPECT_EQ(recording.end().value().state, "interrupted");
   EXPECT_EQ(recording.events().at(0).kind, "interrupted");
   EXPECT_EQ(read_json_file(api::metrics_json(folder)), rescored_json(recording));
-  EXPECT_DOUBLE_EQ(read_json_file(api::metrics_json(folder)).at("duration_s").get<double>(), 1.0);
+  EXPECT_DOUBLE_EQ(read_json_file(api::metrics_json(folder)).at("duration_s").get<double>(), 1.1);
   for (const auto& entry : fs::directory_iterator(folder)) EXPECT_NE(entry.path().extension(), ".tmp");
   EXPECT_TRUE(recover_sessions(data.path()).empty()) << "once is enough";
 }
