@@ -13,8 +13,8 @@ std::vector<Annotation> recorded_annotations(const std::filesystem::path& folder
 
 /// Error not_found when the session left no recording, as one that was never started.
 void require_recording(const std::filesystem::path& folder);
-/// Error conflict when the recording is damaged before the end of the session: to write there would cut off the
-/// rest.
+/// Error conflict when the recording is damaged before the end of the session: to write there would cut off
+/// the rest.
 void require_undamaged(const record::Recording& recording, const std::filesystem::path& folder);
 
 /// Appends one to it, behind its end. Errors: conflict when a process has the session or the recording is

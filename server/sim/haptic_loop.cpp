@@ -47,7 +47,8 @@ std::string to_words(LoopEnd end) {
     case LoopEnd::collision_failed:
       return "The OpenCL device failed; start again with --backend cpu.";
     case LoopEnd::not_finite:
-      return "A pose or force was not a number; the force was set to zero and the session ended.";
+      return "The handle was more than 2 m from the origin, or a force was not a number; the "
+             "force was set to zero and the session ended.";
     case LoopEnd::followers_late:
       return "The recording could not keep up with the loop; check the disk, then start a new session.";
     case LoopEnd::running:
