@@ -1,5 +1,7 @@
 #include "record/recorder.hpp"
 
+#include <sys/resource.h>
+
 #include <atomic>
 #include <condition_variable>
 #include <cstring>
@@ -17,6 +19,7 @@
 namespace ream::record {
 namespace {
 
+constexpr int recorder_nice = 10;
 constexpr auto sync_interval =
     std::chrono::duration_cast<SteadyClock::duration>(std::chrono::duration<double>(sync_interval_s));
 
@@ -59,6 +62,8 @@ struct Recorder::Impl {
   }
 
   void write_chunks() {
+    // On Linux of this thread only. It is never in a hurry, others are; if refused it stays as it is.
+    ::setpriority(PRIO_PROCESS, 0, recorder_nice);
     for (;;) {
       ChunkContents contents;
       {

@@ -14,6 +14,7 @@ namespace ream::bench {
 namespace {
 
 constexpr double megabyte = 1e6;
+constexpr int turns = 5;
 constexpr double megabytes_a_minute_goal = 30.0, core_share_goal_percent = 5.0, more_misses_goal_points = 0.1;
 
 /// What a follower does with the loop's rings; none: it drops what it takes.
@@ -40,6 +41,14 @@ struct Follower {
 struct Measured {
   double missed_percent = 0.0, tick_p99_us = 0.0;
   double recorder_cpu_percent = 0.0, megabytes_a_minute = 0.0, engaged_percent = 0.0;
+
+  /// Towards the mean of so many.
+  void add_share(const Measured& one, int of) {
+    for (double Measured::*field :
+         {&Measured::missed_percent, &Measured::tick_p99_us, &Measured::recorder_cpu_percent,
+          &Measured::megabytes_a_minute, &Measured::engaged_percent})
+      this->*field += one.*field / of;
+  }
 };
 
 /// A minute of it: press, lift, press again, as a hand does that looks now and then.
@@ -125,8 +134,13 @@ std::vector<Row> record_suite(const Options&) {
   const device::Script pecking = pecking_script(20.0), pressing = seated_script();
   const Measured without = measure(bone_case, pecking, false, folder);
   add_rows("a minute of pecking at 20 N", measure(bone_case, pecking, true, folder), without, rows);
-  const Measured pressed = measure(bone_case, pressing, false, folder);
-  add_rows("six seconds pressed at 52 N", measure(bone_case, pressing, true, folder), pressed, rows);
+  // Six seconds are few ticks to count misses in, so the two take turns.
+  Measured pressed, recorded;
+  for (int turn = 0; turn < turns; ++turn) {
+    pressed.add_share(measure(bone_case, pressing, false, folder), turns);
+    recorded.add_share(measure(bone_case, pressing, true, folder), turns);
+  }
+  add_rows("six seconds pressed at 52 N", recorded, pressed, rows);
   add_seek_rows(bone_case, folder, rows);
   std::filesystem::remove_all(folder);
   return rows;
