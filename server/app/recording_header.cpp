@@ -1,9 +1,8 @@
 #include "app/recording_header.hpp"
 
-#include <array>
-#include <ctime>
 #include <nlohmann/json.hpp>
 
+#include "api/new_id.hpp"
 #include "app/version.hpp"
 #include "case/plan.hpp"
 #include "core/hash.hpp"
@@ -11,19 +10,6 @@
 #include "sim/settings_json.hpp"
 
 namespace ream::app {
-namespace {
-
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  ::gmtime_r(&now, &parts);
-  std::array<char, 32> text{};
-  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text.data();
-}
-
-}  // namespace
-
 std::string table_hashes(const sim::Model& model) {
   nlohmann::json hashes = nlohmann::json::object();
   if (const uint64_t feed = model.feed->table_hash(); feed != 0) hashes["feed"] = to_hex(feed);
@@ -51,7 +37,7 @@ record::ops::Segment segment_of(const Rig& rig, uint32_t first_tick, const std::
   record::ops::Segment segment;
   segment.first_tick = first_tick;
   segment.reason = reason;
-  segment.utc = utc_now();
+  segment.utc = api::utc_now();
   segment.tool = rig.reamer.words;
   segment.tool_axis = axis_to_text(rig.reamer.axis);
   segment.tool_file = rig.reamer.mesh_file;

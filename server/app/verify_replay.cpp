@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "record/replay_device.hpp"
+#include "record/tick_flags.hpp"
 #include "sim/step.hpp"
 
 namespace ream::app {
@@ -127,7 +128,7 @@ class Verifier {
 
   void repeat(const record::ops::Tick& recorded) {
     sim::State& state = rig_->state;
-    if ((recorded.flags & failed_over_flag) != 0 && state.failed_over_tick < 0)
+    if ((recorded.flags & record::failed_over_flag) != 0 && state.failed_over_tick < 0)
       state.failed_over_tick = recorded.tick;
     record::TickReport report;
     const sim::StepStatus status = sim::step(rig_->model, state, record::input_of(recorded), report);
@@ -165,8 +166,6 @@ class Verifier {
   void differ(const Difference& difference) {
     if (!result_.difference) result_.difference = difference;
   }
-
-  static constexpr uint32_t failed_over_flag = 4;
 
   const record::Recording& recording_;
   case_::Case bone_case_;

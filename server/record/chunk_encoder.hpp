@@ -1,15 +1,13 @@
 #pragma once
 #include <memory>
-#include <variant>
 #include <vector>
 
 #include "record/brick_deltas.hpp"
+#include "record/note.hpp"
 #include "record/op_log.hpp"
 #include "voxel/bricks.hpp"
 
 namespace ream::record {
-
-using Note = std::variant<ops::Event, ops::Annotation, ops::End>;
 
 /// A changed brick on its way into a chunk.
 struct ChangedBrick {

@@ -6,21 +6,6 @@
 #include "core/error.hpp"
 
 namespace ream::record {
-namespace {
-
-/// Takes bricks ops, and lets others pass.
-template <typename Take>
-struct Bricks {
-  Take take;
-  void operator()(const ops::Bricks& op) { take(op); }
-  template <typename Op>
-  void operator()(const Op&) {}
-};
-template <typename Take>
-Bricks(Take) -> Bricks<Take>;
-
-}  // namespace
-
 RecordedBone::RecordedBone(const Recording& recording, const voxel::VoxelGrid& grid,
                            std::span<const uint8_t> start_coverage)
     : recording_(recording), grid_(grid), start_(start_coverage), hash_(recording.header().start_grid_hash) {}
@@ -55,7 +40,7 @@ void RecordedBone::apply_chunk(size_t chunk, bool from_key) {
                       [&](uint32_t brick, const uint8_t* falls) { apply(brick, falls, from_key); });
   };
   const OpLogReader& log = recording_.log();
-  ops::read(log.read_chunk(chunk), log.revision(), Bricks{take});
+  ops::read(log.read_chunk(chunk), log.revision(), take);
   const ChunkPlace& place = log.chunks()[chunk];
   next_chunk_ = chunk + 1;
   if (place.ticks > 0) ticks_ = place.first_tick + place.ticks;

@@ -4,30 +4,21 @@
 
 #include "core/error.hpp"
 #include "record/grid_json.hpp"
+#include "record/tick_flags.hpp"
 
 namespace ream::record {
 namespace {
 
-enum Flag : uint32_t {
-  spindle_on = 1,
-  paused = 2,
-  failed_over = 4,
-  engaged = 8,
-  cutting = 16,
-  weakened = 32
-};
-
 uint32_t flags_of(const TickReport& r) {
-  return (r.spindle_on ? spindle_on : 0u) | (r.paused ? paused : 0u) | (r.failed_over ? failed_over : 0u) |
-         (r.engaged ? engaged : 0u) | (r.cutting ? cutting : 0u) | (r.weakened ? weakened : 0u);
+  return (r.spindle_on ? spindle_on_flag : 0u) | (r.paused ? paused_flag : 0u) |
+         (r.failed_over ? failed_over_flag : 0u) | (r.engaged ? engaged_flag : 0u) |
+         (r.cutting ? cutting_flag : 0u) | (r.weakened ? weakened_flag : 0u);
 }
 
-/// Takes the ops it names and lets all others pass.
+/// Takes the ops it names; ops::read() passes over the others unread.
 template <typename... Takers>
 struct Taking : Takers... {
   using Takers::operator()...;
-  template <typename Op>
-  void operator()(const Op&) const requires(!(std::is_invocable_v<Takers, const Op&> || ...)) {}
 };
 template <typename... Takers>
 Taking(Takers...) -> Taking<Takers...>;
@@ -73,12 +64,12 @@ ops::Tick tick_op(const TickReport& r) {
 TickReport report_of(const ops::Tick& t, const Pose& world_from_grid) {
   TickReport r;
   r.tick = t.tick;
-  r.spindle_on = (t.flags & spindle_on) != 0;
-  r.paused = (t.flags & paused) != 0;
-  r.failed_over = (t.flags & failed_over) != 0;
-  r.engaged = (t.flags & engaged) != 0;
-  r.cutting = (t.flags & cutting) != 0;
-  r.weakened = (t.flags & weakened) != 0;
+  r.spindle_on = (t.flags & spindle_on_flag) != 0;
+  r.paused = (t.flags & paused_flag) != 0;
+  r.failed_over = (t.flags & failed_over_flag) != 0;
+  r.engaged = (t.flags & engaged_flag) != 0;
+  r.cutting = (t.flags & cutting_flag) != 0;
+  r.weakened = (t.flags & weakened_flag) != 0;
   r.world_from_handle_q = t.world_from_handle;
   r.grid_from_tool = t.grid_from_tool;
   r.world_from_handle = dequantised(t.world_from_handle);

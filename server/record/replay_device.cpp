@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "record/tick_flags.hpp"
+
 namespace ream::record {
 namespace {
-
-constexpr uint32_t spindle_on_flag = 1, paused_flag = 2;
 
 void set_input(const QuantisedPose& world_from_handle, uint32_t flags, device::DeviceInput& input) noexcept {
   input.world_from_handle = dequantised(world_from_handle);
