@@ -60,13 +60,20 @@ void RequestBody::complain(const std::string& key, const std::string& what) {
 }
 
 std::string RequestBody::name(const std::string& key) {
+  return text_that(key, is_name,
+                   "may hold only a-z, 0-9 and -, and at most " + std::to_string(longest_name) + " of them");
+}
+
+std::string RequestBody::text_that(const std::string& key,
+                                   const std::function<bool(const std::string&)>& fits,
+                                   const std::string& rule) {
   const nlohmann::json* value = find(key);
   if (!value) {
     complain(key, "is missing");
   } else if (!value->is_string()) {
     complain(key, std::string("must be a text, not ") + value->type_name());
-  } else if (const auto text = value->get<std::string>(); !is_name(text)) {
-    complain(key, "may hold only a-z, 0-9 and -, and at most " + std::to_string(longest_name) + " of them");
+  } else if (const auto text = value->get<std::string>(); !fits(text)) {
+    complain(key, rule);
   } else {
     return text;
   }
@@ -74,34 +81,16 @@ std::string RequestBody::name(const std::string& key) {
 }
 
 std::optional<double> RequestBody::number_or_none(const std::string& key, double above, double most) {
-  const nlohmann::json* value = find(key);
-  if (!value) return std::nullopt;
-  if (!value->is_number()) {
-    complain(key, std::string("must be a number, not ") + value->type_name());
-    return std::nullopt;
-  }
-  const double number = value->get<double>();
-  if (!std::isfinite(number) || number <= above || number > most) {
-    complain(key, "must be above " + plain_number(above) + " and at most " + plain_number(most));
-    return std::nullopt;
-  }
-  return number;
+  return number_that(
+      key, [&](double number) { return number > above && number <= most; },
+      "must be above " + plain_number(above) + " and at most " + plain_number(most));
 }
 
 std::string RequestBody::words(const std::string& key, size_t least, size_t most) {
-  const nlohmann::json* value = find(key);
-  if (!value && least == 0) return {};
-  if (!value) {
-    complain(key, "is missing");
-  } else if (!value->is_string()) {
-    complain(key, std::string("must be a text, not ") + value->type_name());
-  } else if (const auto text = value->get<std::string>();
-             characters(text) < least || characters(text) > most) {
-    complain(key, "must be " + std::to_string(least) + " to " + std::to_string(most) + " characters long");
-  } else {
-    return text;
-  }
-  return {};
+  if (least == 0 && !find(key)) return {};
+  return text_that(
+      key, [&](const std::string& text) { return characters(text) >= least && characters(text) <= most; },
+      "must be " + std::to_string(least) + " to " + std::to_string(most) + " characters long");
 }
 
 std::optional<Vec3> RequestBody::point_or_none(const std::string& key, double most) {
@@ -117,6 +106,14 @@ std::optional<Vec3> RequestBody::point_or_none(const std::string& key, double mo
 }
 
 std::optional<double> RequestBody::number_within_or_none(const std::string& key, double least, double most) {
+  return number_that(
+      key, [&](double number) { return number >= least && number <= most; },
+      "must be from " + plain_number(least) + " to " + plain_number(most));
+}
+
+std::optional<double> RequestBody::number_that(const std::string& key,
+                                               const std::function<bool(double)>& fits,
+                                               const std::string& rule) {
   const nlohmann::json* value = find(key);
   if (!value) return std::nullopt;
   if (!value->is_number()) {
@@ -124,11 +121,9 @@ std::optional<double> RequestBody::number_within_or_none(const std::string& key,
     return std::nullopt;
   }
   const double number = value->get<double>();
-  if (!std::isfinite(number) || number < least || number > most) {
-    complain(key, "must be from " + plain_number(least) + " to " + plain_number(most));
-    return std::nullopt;
-  }
-  return number;
+  if (std::isfinite(number) && fits(number)) return number;
+  complain(key, rule);
+  return std::nullopt;
 }
 
 std::optional<bool> RequestBody::flag_or_none(const std::string& key) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -38,6 +39,12 @@ class RequestBody {
  private:
   const nlohmann::json* find(const std::string& key);
   void complain(const std::string& key, const std::string& what);
+  /// A finite number that fits, else a complaint with the rule; none when absent.
+  std::optional<double> number_that(const std::string& key, const std::function<bool(double)>& fits,
+                                    const std::string& rule);
+  /// A text that fits, else a complaint with the rule and an empty one.
+  std::string text_that(const std::string& key, const std::function<bool(const std::string&)>& fits,
+                        const std::string& rule);
 
   nlohmann::json value_;
   std::set<std::string> asked_;
