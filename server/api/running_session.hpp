@@ -27,7 +27,27 @@ struct SessionRequest {
   std::string id;  ///< given by the server
   std::string case_id, script;
   std::optional<double> force_scale;  ///< simulated N per hand N; none: the script's
+  std::string device = "script";      ///< name in the registry of devices: script, network, browser, ...
+  std::string device_profile = {};    ///< what it can render; empty: the script's
   std::string created_utc = {};       ///< "2025-03-01T12:00:00Z", given by the server
+};
+
+/// Health of the haptic loop since the session began.
+struct LoopStatus {
+  TimingSummary tick_us, lateness_us;
+  TimingSummary read_us, step_us, write_us;  ///< the parts of a tick
+  uint64_t missed = 0;                       ///< ticks that began more than a millisecond late
+  bool realtime = false, locked = false;     ///< real-time priority, memory locked
+  int cpu = -1;                              ///< that the loop is pinned to; -1: to none
+};
+
+/// How the session's device is doing.
+struct DeviceLinkStatus {
+  std::string name;              ///< as asked for
+  std::string state;             ///< fresh, held, fading or lost; empty before the first tick
+  std::optional<double> rtt_ms;  ///< of devices that are reached over a network, once it is known
+  /// Messages: taken, missing in their numbering, come too late to be used, refused as senseless.
+  uint64_t received = 0, missing = 0, late = 0, refused = 0;
 };
 
 struct SessionStatus {
@@ -36,8 +56,8 @@ struct SessionStatus {
   double duration_s = 0.0;
   double force_scale = 1.0;
   std::string fault;  ///< words for people, empty unless state is fault or interrupted
-  TimingSummary tick_us;
-  uint64_t missed = 0;  ///< ticks that began too late
+  LoopStatus loop;
+  DeviceLinkStatus device;
 };
 
 /// One training session, ready for its first tick: what the server asks of it. Called from several worker
@@ -65,6 +85,10 @@ class RunningSession {
   /// A viewer joins: Hello first, then the whole surface, then what changes, with one sample every `stride`
   /// (1, 2 or 4) voxels. It may outlive stop(), not the session.
   virtual std::unique_ptr<net::WebSocketSession> subscribe(int stride) = 0;
+
+  /// The session's device takes its place (proto/device.fbs), and that of one that was there before. It may
+  /// outlive stop(), not the session. Error conflict when the session's device is none that connects itself.
+  virtual std::unique_ptr<net::WebSocketSession> connect_device() = 0;
 };
 
 /// Makes a session ready to start, which may take seconds. Called on worker threads, several at once.

@@ -68,8 +68,8 @@ FolderRecord record_of(const json& session, const fs::path& folder) {
   std::error_code failed;
   if (const fs::path timing = folder / "timing.json"; fs::exists(timing, failed)) {
     const json times = read_json_file(timing);
-    status.tick_us = loop_times(times);
-    status.missed = times.value("missed", uint64_t{0});
+    status.loop.tick_us = loop_times(times);
+    status.loop.missed = times.value("missed", uint64_t{0});
     if (!session.contains("ticks")) status.duration_s = (status.tick = times.value("ticks", 0u)) * tick_s;
   }
   return found;

@@ -16,7 +16,7 @@ const std::string base = "/api/v1/sessions";
 
 json to_json(const SessionRecord& record) {
   const SessionStatus& status = record.status;
-  const TimingSummary& tick = status.tick_us;
+  const TimingSummary& tick = status.loop.tick_us;
   return {{"id", record.request.id},
           {"kind", "session"},
           {"case", record.request.case_id},
@@ -34,7 +34,7 @@ json to_json(const SessionRecord& record) {
             {"p99_us", tick.p99_us},
             {"p999_us", tick.p999_us},
             {"max_us", tick.max_us},
-            {"missed", status.missed}}}};
+            {"missed", status.loop.missed}}}};
 }
 
 net::Response create(SessionService& service, const Readiness& readiness, const net::Request& request) {

@@ -29,6 +29,8 @@ RunRequest run_request(const SessionHouse& house, const api::SessionRequest& req
                                              : (house.data / "scripts" / (request.script + ".json")).string();
   run.backend = house.backend;
   run.force_scale = request.force_scale;
+  run.device = request.device;
+  run.device_profile = request.device_profile;
   return run;
 }
 
@@ -230,6 +232,11 @@ std::unique_ptr<net::WebSocketSession> ReamingSession::subscribe(int stride) {
   return api::viewer_stream(fanout_, stride);
 }
 
+std::unique_ptr<net::WebSocketSession> ReamingSession::connect_device() {
+  throw Error(ErrorKind::conflict, "session '" + id_ + "' has the device '" + request_.device +
+                                       "', which does not connect itself");
+}
+
 /// Whatever goes wrong in the follower ends this session, not the server.
 void ReamingSession::follow_to_the_end() {
   try {
@@ -336,8 +343,8 @@ void ReamingSession::note_health() {
   metrics_ = score::metrics_json(metrics, status_.force_scale, nullptr);
   status_.tick = sample_.tick + 1;
   status_.duration_s = metrics.duration_s;
-  status_.tick_us = health.tick_us;
-  status_.missed = health.missed;
+  status_.loop.tick_us = health.tick_us;
+  status_.loop.missed = health.missed;
   if (status_.state == api::SessionState::running || status_.state == api::SessionState::paused)
     status_.state = sample_.state == stream::SessionState::paused ? api::SessionState::paused
                                                                   : api::SessionState::running;

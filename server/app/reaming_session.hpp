@@ -42,6 +42,7 @@ class ReamingSession final : public api::RunningSession {
   api::Annotation annotate(const api::NewAnnotation& note) override;
   std::vector<api::Annotation> annotations() const override;
   std::unique_ptr<net::WebSocketSession> subscribe(int stride) override;
+  std::unique_ptr<net::WebSocketSession> connect_device() override;
 
  private:
   /// What a session is made of, new or going on.

@@ -98,7 +98,10 @@ RigParts asked_for(const RunRequest& request, const fs::path& data) {
   parts.case_hash = case_::case_hash(parts.bone_case);
   parts.reamer = reamer_asked_for(request.tool.empty() ? plan.reamer : request.tool, request.tool_axis);
   parts.tool = shell::make_tool(parts.reamer.words, request.tool_axis);
-  parts.device = device::make_scripted_device(parts.script, sim::world_from_plan(plan), request.random_seed);
+  MadeDevice made = make_device({request.device, request.device_profile, &parts.script,
+                                 sim::world_from_plan(plan), request.random_seed, data});
+  parts.device = std::move(made.device);
+  parts.link = std::move(made.link);
   parts.settings = settings_for(request, parts.script, parts.device->traits());
   return parts;
 }
@@ -110,6 +113,7 @@ Rig::Rig(RigParts parts)
       case_hash(parts.case_hash),
       reamer(std::move(parts.reamer)),
       device(std::move(parts.device)),
+      link(std::move(parts.link)),
       model(sim::make_model(plan_of(bone_case), bone_case.bone, std::move(parts.tool), parts.settings)),
       state(model, bone_case.bone, parts.from) {}
 

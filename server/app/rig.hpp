@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "app/device_registry.hpp"
 #include "app/reamer.hpp"
 #include "case/case.hpp"
 #include "device/script.hpp"
@@ -24,6 +25,8 @@ struct RunRequest {
   double tool_spacing_mm = 0.2;
   std::optional<double> force_scale;  ///< overrides the script's
   uint64_t random_seed = 1;
+  std::string device = "script";  ///< app/device_registry.hpp
+  std::string device_profile;     ///< empty: the script's
 };
 
 /// What a rig is made of, each thing found, read and checked beforehand.
@@ -36,6 +39,7 @@ struct RigParts {
   shell::Tool tool;  ///< made of it
   sim::Settings settings;
   std::unique_ptr<device::HapticDevice> device;  ///< may be null where somebody else steps the state
+  std::shared_ptr<device::RemoteLink> link;      ///< of devices that connect over the network
   sim::CarriedOn from;
 };
 
@@ -60,6 +64,7 @@ class Rig {
   const uint64_t case_hash;
   const Reamer reamer;
   std::unique_ptr<device::HapticDevice> device;
+  std::shared_ptr<device::RemoteLink> link;
   sim::Model model;
   sim::State state;
 

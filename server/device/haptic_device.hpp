@@ -9,6 +9,16 @@ namespace ream::device {
 /// Impedance devices give a pose and take a force; admittance devices give the hand's force and take a pose.
 enum class Causality { impedance, admittance };
 
+/// How old a pose may get before the hand is no longer trusted, ms (reference for both rows: haptic devices'
+/// firmware gives up after 32 ms; a browser's frames come every 17 ms).
+struct StaleLimits {
+  double hold_ms = 5.0;   ///< up to here the last pose is as good as a new one
+  double fade_ms = 10.0;  ///< from here on the force falls to nothing within 20 ms
+  double lost_ms = 50.0;  ///< from here on the session rests until poses come again
+};
+constexpr StaleLimits haptic_stale_limits{5.0, 10.0, 50.0};
+constexpr StaleLimits browser_stale_limits{100.0, 100.0, 250.0};
+
 /// What a device can render, hand side, and who it is. See device/profiles.hpp for the devices we know.
 struct DeviceTraits {
   std::string name;
@@ -25,14 +35,19 @@ struct DeviceTraits {
   bool energy_guarded = true;        ///< false: stiffer than can be held passive, for scripts only
   int degrees_of_freedom = 6;        ///< sensed
   std::string profile = "ideal";     ///< name in device/profiles.hpp
+  StaleLimits stale;
 };
 
 struct DeviceInput {
   Pose world_from_handle;                ///< sensed; of admittance devices only the first one counts
   Vec3 hand_force_n = Vec3::Zero();      ///< of the hand on the device, world frame; admittance devices only
   Vec3 hand_torque_n_mm = Vec3::Zero();  ///< about the tool's origin, world frame; admittance devices only
+  double age_ms = 0.0;  ///< since the hardware said all this; infinite: it has never said anything
+  // Buttons, true while they are pressed.
   bool spindle_on = false;
   bool paused = false;
+  bool clutch = false;  ///< the hand moves without the tool
+  bool deadman = true;  ///< somebody holds the handle; true of devices that cannot tell
 };
 
 struct DeviceOutput {
@@ -63,6 +78,10 @@ class HapticDevice {
   /// Newest input; `input` keeps its last value when the status is not ok.
   virtual DeviceStatus read(DeviceInput& input) noexcept = 0;
   virtual DeviceStatus write(const DeviceOutput& output) noexcept = 0;
+  /// Takes all force away at once and for good (until the next open()), where the device allows that from
+  /// outside its loop. Any thread may call it beside the others, and a signal handler of a crash: it does
+  /// nothing that is not safe there.
+  virtual void take_force_away() noexcept {}
 };
 
 }  // namespace ream::device

@@ -12,7 +12,7 @@ namespace {
 uint32_t flags_of(const TickReport& r) {
   return (r.spindle_on ? spindle_on_flag : 0u) | (r.paused ? paused_flag : 0u) |
          (r.failed_over ? failed_over_flag : 0u) | (r.engaged ? engaged_flag : 0u) |
-         (r.cutting ? cutting_flag : 0u) | (r.weakened ? weakened_flag : 0u);
+         (r.cutting ? cutting_flag : 0u) | (r.weakened ? weakened_flag : 0u) | (r.stale ? stale_flag : 0u);
 }
 
 /// Takes the ops it names; ops::read() passes over the others unread.
@@ -70,6 +70,7 @@ TickReport report_of(const ops::Tick& t, const Pose& world_from_grid) {
   r.engaged = (t.flags & engaged_flag) != 0;
   r.cutting = (t.flags & cutting_flag) != 0;
   r.weakened = (t.flags & weakened_flag) != 0;
+  r.stale = (t.flags & stale_flag) != 0;
   r.world_from_handle_q = t.world_from_handle;
   r.grid_from_tool = t.grid_from_tool;
   r.world_from_handle = dequantised(t.world_from_handle);

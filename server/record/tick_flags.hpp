@@ -10,7 +10,8 @@ enum TickFlag : uint32_t {
   failed_over_flag = 4,
   engaged_flag = 8,
   cutting_flag = 16,
-  weakened_flag = 32
+  weakened_flag = 32,
+  stale_flag = 64
 };
 
 }  // namespace ream::record

@@ -14,6 +14,7 @@ struct TickReport {
   /// The hand feels noticeably less than the simulated contact force over the force scale: a limit, the slew
   /// limit or the energy guard is at work.
   bool weakened = false;
+  bool stale = false;                 ///< a cause: the pose was too old, the force on the hand fades out
   bool failed_over = false;           ///< the device that computes failed in this tick; the hand felt nothing
   QuantisedPose world_from_handle_q;  ///< the cause: what the device said, as it was used
   QuantisedPose grid_from_tool;       ///< what was decided, as contact and removal saw it

@@ -64,6 +64,7 @@ class FakeSession final : public api::RunningSession {
     return annotations_;
   }
   std::unique_ptr<net::WebSocketSession> subscribe(int stride) override;
+  std::unique_ptr<net::WebSocketSession> connect_device() override;
 
   void set(api::SessionState state, const std::string& fault = {}) {
     const std::lock_guard lock(mutex_);
@@ -112,6 +113,13 @@ class FakeViewer final : public net::WebSocketSession {
 
 inline std::unique_ptr<net::WebSocketSession> FakeSession::subscribe(int) {
   return std::make_unique<FakeViewer>(request_.id);
+}
+
+inline std::unique_ptr<net::WebSocketSession> FakeSession::connect_device() {
+  if (request_.device == "script")
+    throw Error(ErrorKind::conflict,
+                "session '" + request_.id + "' plays a script; no device connects to it");
+  return std::make_unique<FakeViewer>("device of " + request_.id);
 }
 
 /// Makes fake sessions and remembers them; the case's name decides what goes wrong.

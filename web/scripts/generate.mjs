@@ -1,19 +1,25 @@
-// Writes src/wire/generated from proto/stream.fbs with flatc, only when the schema is newer than what is there.
+// Writes src/wire/generated from the schemas in proto with flatc, only when one is newer than what is there.
 import { execFileSync } from 'node:child_process';
 import { existsSync, mkdirSync, rmSync, statSync } from 'node:fs';
 import { dirname, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 const webFolder = resolve(dirname(fileURLToPath(import.meta.url)), '..');
-const schema = resolve(webFolder, '../proto/stream.fbs');
+const schemas = ['stream', 'device'].map((name) => ({
+  source: resolve(webFolder, `../proto/${name}.fbs`),
+  index: resolve(webFolder, `src/wire/generated/${name}_generated.ts`),
+}));
 const target = resolve(webFolder, 'src/wire/generated');
-const index = resolve(target, 'stream_generated.ts');
 
-if (!existsSync(index) || statSync(index).mtimeMs < statSync(schema).mtimeMs) {
+const outdated = schemas.some(
+  ({ index }) => !existsSync(index) || schemas.some(({ source }) => statSync(index).mtimeMs < statSync(source).mtimeMs),
+);
+if (outdated) {
   rmSync(target, { recursive: true, force: true });
   mkdirSync(target, { recursive: true });
   try {
-    execFileSync(process.env.FLATC ?? 'flatc', ['--ts', '-o', target, schema], { stdio: 'inherit' });
+    const sources = schemas.map(({ source }) => source);
+    execFileSync(process.env.FLATC ?? 'flatc', ['--ts', '-o', target, ...sources], { stdio: 'inherit' });
   } catch (error) {
     rmSync(target, { recursive: true, force: true });
     console.error(`cannot generate ${target}: ${error.message}; flatc comes with the package flatbuffers-compiler`);

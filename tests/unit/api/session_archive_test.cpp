@@ -46,8 +46,8 @@ TEST_F(SessionArchiveTest, TellsWhatTheFolderSays) {
   EXPECT_EQ(record.status.tick, 1250u);
   EXPECT_DOUBLE_EQ(record.status.duration_s, 1.25);
   EXPECT_EQ(record.status.force_scale, 13.0);
-  EXPECT_EQ(record.status.tick_us.max_us, 400.0);
-  EXPECT_EQ(record.status.missed, 3u);
+  EXPECT_EQ(record.status.loop.tick_us.max_us, 400.0);
+  EXPECT_EQ(record.status.loop.missed, 3u);
   EXPECT_FALSE(record.streamable);
   EXPECT_EQ(archive.metrics("aaaa").at("reaming_depth_mm"), 1.5);
 }

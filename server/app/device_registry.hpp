@@ -1,0 +1,51 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "device/remote_link.hpp"
+#include "device/script.hpp"
+
+namespace ream::app {
+
+/// What a device is made for.
+struct DeviceWish {
+  std::string name = "script";
+  std::string profile;  ///< what it can render (device/profiles.hpp); empty: the script's
+  const device::Script* script = nullptr;
+  Pose world_from_plan;
+  uint64_t random_seed = 1;
+  std::filesystem::path data;  ///< where set-ups of devices are kept
+};
+
+struct MadeDevice {
+  std::unique_ptr<device::HapticDevice> device;
+  std::shared_ptr<device::RemoteLink> link;  ///< of devices that connect over the network; else empty
+};
+
+/// What is known of a device without opening it.
+struct DeviceOffer {
+  std::string name;
+  std::string about;  ///< one line for people
+  bool usable = true;
+  std::string reason;  ///< why it is not usable, and what to do
+  double force_max_n = 0.0;
+  int degrees_of_freedom = 6;
+};
+
+/// A kind of device that sessions can have.
+struct DeviceKind {
+  std::string name;
+  std::function<DeviceOffer()> offer;
+  std::function<MadeDevice(const DeviceWish&)> make;
+};
+
+/// Every kind, in the order in which people are shown them.
+const std::vector<DeviceKind>& device_kinds();
+
+/// Errors: invalid_input, listing the names, for an unknown one; those of the kind.
+MadeDevice make_device(const DeviceWish& wish);
+
+}  // namespace ream::app

@@ -1,0 +1,50 @@
+#pragma once
+#include <atomic>
+#include <cstdint>
+
+#include "core/latest_slot.hpp"
+#include "device/haptic_device.hpp"
+
+namespace ream::device {
+
+enum class LinkState : uint8_t { fresh, held, fading, lost };
+
+/// One word for people and REST: "fresh", "held", "fading", "lost".
+const char* to_text(LinkState state) noexcept;
+
+/// The newest thing that a device's client said; see proto/device.fbs.
+struct RemoteInput {
+  int64_t arrived_ns = 0;           ///< steady_ns()
+  int64_t previous_arrived_ns = 0;  ///< of the one before it; 0: none, or the link was broken in between
+  bool steering = false;            ///< which of the two kinds below it is
+  Pose device_from_handle;          ///< Handle: the device's own frame
+  Vec3 hand_force_n = Vec3::Zero();
+  Vec3 sideways_mm = Vec3::Zero();  ///< Steering: world frame, from the planned entry
+  Vec3 lean = Vec3::Zero();         ///< world frame; zero: along the planned axis
+  double push_n = 0.0;
+  bool spindle_on = false, paused = false, clutch = false, deadman = true;
+};
+
+/// What goes back to it.
+struct RemoteOutput {
+  int64_t written_ns = 0;  ///< steady_ns() of the tick; one that is too old is not passed on
+  uint32_t tick = 0;
+  LinkState link = LinkState::lost;
+  bool paused = false, engaged = false;
+  Vec3 force_n = Vec3::Zero(), torque_n_mm = Vec3::Zero();
+  double thrust_n = 0.0, vibration_g = 0.0;
+};
+
+/// What is between the haptic thread and the thread that talks to a device over a network: newest-wins both
+/// ways, nobody waits. The device (device/network_device, device/steered_hand_device) is on one side, the
+/// socket (device/device_socket) on the other.
+struct RemoteLink {
+  LatestSlot<RemoteInput> input;              ///< written by the socket's side, read by the haptic thread
+  LatestSlot<RemoteOutput> output;            ///< the other way
+  std::atomic<bool> force_taken_away{false};  ///< take_force_away() was called: nothing but zero goes out
+  /// Counts of messages, and the way there and back in us (-1: not known): written by the socket's side.
+  std::atomic<uint64_t> received{0}, missing{0}, late{0}, refused{0}, connections{0};
+  std::atomic<int64_t> rtt_us{-1};
+};
+
+}  // namespace ream::device
