@@ -1,9 +1,9 @@
 #pragma once
+#include <array>
 #include <atomic>
 #include <cstdint>
 
 #include "core/latest_slot.hpp"
-#include "device/haptic_device.hpp"
 
 namespace ream::device {
 
@@ -13,14 +13,17 @@ enum class LinkState : uint8_t { fresh, held, fading, lost };
 const char* to_text(LinkState state) noexcept;
 
 /// The newest thing that a device's client said; see proto/device.fbs.
+/// Plain numbers only: it goes through a slot.
 struct RemoteInput {
   int64_t arrived_ns = 0;           ///< steady_ns()
   int64_t previous_arrived_ns = 0;  ///< of the one before it; 0: none, or the link was broken in between
   bool steering = false;            ///< which of the two kinds below it is
-  Pose device_from_handle;          ///< Handle: the device's own frame
-  Vec3 hand_force_n = Vec3::Zero();
-  Vec3 sideways_mm = Vec3::Zero();  ///< Steering: world frame, from the planned entry
-  Vec3 lean = Vec3::Zero();         ///< world frame; zero: along the planned axis
+  // Handle: the device's own frame.
+  std::array<double, 4> rotation_wxyz{1, 0, 0, 0};
+  std::array<double, 3> place_mm{}, hand_force_n{};
+  // Steering: world frame.
+  std::array<double, 3> sideways_mm{};  ///< from the planned entry
+  std::array<double, 3> lean{};         ///< all zero: along the planned axis
   double push_n = 0.0;
   bool spindle_on = false, paused = false, clutch = false, deadman = true;
 };
@@ -31,7 +34,7 @@ struct RemoteOutput {
   uint32_t tick = 0;
   LinkState link = LinkState::lost;
   bool paused = false, engaged = false;
-  Vec3 force_n = Vec3::Zero(), torque_n_mm = Vec3::Zero();
+  std::array<double, 3> force_n{}, torque_n_mm{};
   double thrust_n = 0.0, vibration_g = 0.0;
 };
 

@@ -14,7 +14,7 @@ namespace ream::bench {
 namespace {
 
 constexpr double megabyte = 1e6;
-constexpr int turns = 5;
+constexpr int turns = 12;
 constexpr double megabytes_a_minute_goal = 30.0, core_share_goal_percent = 5.0, more_misses_goal_points = 0.1;
 
 /// What a follower does with the loop's rings; none: it drops what it takes.
