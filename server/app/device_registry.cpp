@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "device/mapped_device.hpp"
 #include "device/network_device.hpp"
 #include "device/profiles.hpp"
 #include "device/steered_hand_device.hpp"
@@ -34,6 +35,17 @@ std::string profile_of(const DeviceWish& wish, const std::string& usual) {
   return said ? wish.script->device_profile : usual;
 }
 
+/// A real device's tool begins this far before the planned entry.
+constexpr double start_before_entry_mm = 30.0;
+
+std::unique_ptr<device::HapticDevice> mapped(const DeviceWish& wish,
+                                             std::unique_ptr<device::HapticDevice> device) {
+  const Pose before_entry{Mat3::Identity(), Vec3(0.0, 0.0, -start_before_entry_mm)};
+  return std::make_unique<device::MappedDevice>(std::move(device),
+                                                device::load_device_setup(wish.data, wish.name),
+                                                wish.world_from_plan * before_entry);
+}
+
 DeviceKind network() {
   return {"network", "touch",
           [] {
@@ -42,7 +54,8 @@ DeviceKind network() {
           },
           [](const DeviceWish& wish) {
             auto link = std::make_shared<device::RemoteLink>();
-            return MadeDevice{std::make_unique<device::NetworkDevice>(profile_of(wish, "touch"), link), link};
+            return MadeDevice{
+                mapped(wish, std::make_unique<device::NetworkDevice>(profile_of(wish, "touch"), link)), link};
           }};
 }
 
