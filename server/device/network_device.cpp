@@ -51,9 +51,11 @@ LinkState InputAge::state() const noexcept {
   return age_ms_ >= limits_.hold_ms ? LinkState::held : LinkState::fresh;
 }
 
-RemoteOutput remote_output(const DeviceOutput& output, LinkState state, int64_t now_ns) noexcept {
+RemoteOutput remote_output(const DeviceOutput& output, uint64_t connection, LinkState state,
+                           int64_t now_ns) noexcept {
   RemoteOutput remote;
   remote.written_ns = now_ns;
+  remote.connection = connection;
   remote.tick = output.tick;
   remote.link = state;
   remote.paused = output.paused;
@@ -82,7 +84,9 @@ void NetworkDevice::open() {
   link_->force_taken_away.store(false, std::memory_order_release);
 }
 
-void NetworkDevice::close() noexcept { link_->output.store(remote_output({}, LinkState::lost, now_ns_())); }
+void NetworkDevice::close() noexcept {
+  link_->output.store(remote_output({}, connection_, LinkState::lost, now_ns_()));
+}
 
 void NetworkDevice::glide_to(const Pose& pose, int64_t now_ns) noexcept {
   const bool same_connection = newest_.connection == connection_;
@@ -119,7 +123,7 @@ DeviceStatus NetworkDevice::read(DeviceInput& input) noexcept {
 }
 
 DeviceStatus NetworkDevice::write(const DeviceOutput& output) noexcept {
-  link_->output.store(remote_output(output, age_.state(), now_ns_()));
+  link_->output.store(remote_output(output, connection_, age_.state(), now_ns_()));
   return DeviceStatus::ok;
 }
 

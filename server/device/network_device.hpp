@@ -24,8 +24,9 @@ class InputAge {
   double age_ms_ = 0.0;
 };
 
-/// `output` as it goes back over the link.
-RemoteOutput remote_output(const DeviceOutput& output, LinkState state, int64_t now_ns) noexcept;
+/// `output` as it goes back over the link, to the connection that the device follows.
+RemoteOutput remote_output(const DeviceOutput& output, uint64_t connection, LinkState state,
+                           int64_t now_ns) noexcept;
 
 /// A haptic device that some client connects over the network with. Its poses and forces are in the device's
 /// own frame. A new pose is not jumped to: the handle glides there within the usual time between two, which

@@ -30,7 +30,8 @@ struct RemoteInput {
 
 /// What goes back to it.
 struct RemoteOutput {
-  int64_t written_ns = 0;  ///< steady_ns() of the tick; one that is too old is not passed on
+  int64_t written_ns = 0;   ///< steady_ns() of the tick; one that is too old is not passed on
+  uint64_t connection = 0;  ///< whose input it answers to; the force is for nobody else
   uint32_t tick = 0;
   LinkState link = LinkState::lost;
   bool paused = false, engaged = false;

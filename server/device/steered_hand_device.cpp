@@ -74,7 +74,9 @@ class SteeredHandDevice final : public HapticDevice {
     link_->force_taken_away.store(false, std::memory_order_release);
   }
 
-  void close() noexcept override { link_->output.store(remote_output({}, LinkState::lost, now_ns_())); }
+  void close() noexcept override {
+    link_->output.store(remote_output({}, wish_.connection, LinkState::lost, now_ns_()));
+  }
 
   void take_force_away() noexcept override { link_->force_taken_away.store(true, std::memory_order_release); }
 
@@ -94,7 +96,7 @@ class SteeredHandDevice final : public HapticDevice {
   DeviceStatus write(const DeviceOutput& output) noexcept override {
     const Mat3 plan_from_world = world_from_plan_.rotation.transpose();
     felt_.force_n = force_scale_ * (plan_from_world * (output.force_n - output.vibration_n));
-    link_->output.store(remote_output(output, age_.state(), now_ns_()));
+    link_->output.store(remote_output(output, wish_.connection, age_.state(), now_ns_()));
     return DeviceStatus::ok;
   }
 
