@@ -10,6 +10,7 @@ namespace ream::sim {
 namespace {
 
 constexpr uint32_t publish_every_ticks = 500;
+constexpr std::chrono::milliseconds look_for_end{1};
 
 /// Leaves the device without force and closed, whatever happens in between.
 class DeviceGuard {
@@ -49,6 +50,10 @@ std::string to_words(LoopEnd end) {
     case LoopEnd::not_finite:
       return "The handle was more than 2 m from the origin, or a force was not a number; the "
              "force was set to zero and the session ended.";
+    case LoopEnd::stood_still:
+      return "The haptic loop stood still and the force was taken away; start a new session, on a computer "
+             "with "
+             "less to do.";
     case LoopEnd::followers_late:
       return "The recording could not keep up with the loop; check the disk, then start a new session.";
     case LoopEnd::running:
@@ -66,9 +71,20 @@ std::string failover_words(int64_t tick) {
 
 HapticLoop::HapticLoop(const Model& model, State& state, device::HapticDevice& device,
                        SpscRing<TickReport>& reports, LoopOptions options)
-    : model_(model), state_(state), device_(device), reports_(reports), options_(options) {}
+    : model_(model),
+      state_(state),
+      device_(device),
+      reports_(reports),
+      options_(options),
+      watchdog_(device.traits().stale) {
+  if (options.wall_clock)
+    guard_.emplace(device, LoopGuard::limit_for(device.traits()), options.realtime != Realtime::off);
+}
 
-HapticLoop::~HapticLoop() { stop(); }
+HapticLoop::~HapticLoop() {
+  stop();
+  if (thread_.joinable()) thread_.join();
+}
 
 void HapticLoop::start() {
   device_.open();
@@ -103,7 +119,8 @@ LoopEnd HapticLoop::run() {
 
 void HapticLoop::stop() noexcept {
   request_stop();
-  if (thread_.joinable()) thread_.join();
+  while (thread_.joinable() && !ended() && stood_still_ms() == 0) std::this_thread::sleep_for(look_for_end);
+  if (thread_.joinable() && ended()) thread_.join();
 }
 
 LoopHealth HapticLoop::health() noexcept {
@@ -120,13 +137,18 @@ void HapticLoop::loop() noexcept {
     while (end == LoopEnd::running) {
       const double lateness_us = options_.wall_clock ? clock.wait() : 0.0;
       if (stop_.load(std::memory_order_relaxed)) {
-        end = LoopEnd::stopped;
+        end = stood_still_ms() > 0 ? LoopEnd::stood_still : LoopEnd::stopped;
+        break;
+      }
+      if (guard_ && !guard_->beat()) {
+        end = LoopEnd::stood_still;
         break;
       }
       end = one_tick(input, lateness_us);
       if (state_.tick % publish_every_ticks == 0) publish(end);
     }
   }
+  if (guard_) guard_->end();
   publish(end);
   ended_.store(true, std::memory_order_release);
 }
@@ -137,9 +159,13 @@ LoopEnd HapticLoop::one_tick(device::DeviceInput& input, double lateness_us) noe
   if (read == device::DeviceStatus::finished) return LoopEnd::finished;
   if (read != device::DeviceStatus::ok) return LoopEnd::device_fault;
 
+  device::DeviceInput trusted = input;
+  const device::LinkState link = watchdog_.judge(state_.tick, trusted);
   TickReport report;
-  const StepStatus status = step(model_, state_, input, report);
+  const StepStatus status = step(model_, state_, trusted, report);
+  report.link = link;
   const double step_us = elapsed_us(start);
+  report.timing = {lateness_us, 0.0, step_us, 0.0};
   black_box_.remember(report, step_us, lateness_us);
   if (status != StepStatus::ok) return end_of(status);
   const device::DeviceStatus written = device_.write(output_of(report));
@@ -164,8 +190,8 @@ bool HapticLoop::push(const TickReport& report) noexcept {
 }
 
 void HapticLoop::publish(LoopEnd end) noexcept {
-  published_.store(
-      {end, state_.tick, missed_, state_.failed_over_tick, tick_us_.summary(), lateness_us_.summary()});
+  published_.store({end, state_.tick, missed_, state_.failed_over_tick, tick_us_.summary(),
+                    lateness_us_.summary(), watchdog_.state(), watchdog_.losses(), watchdog_.lost_tick()});
 }
 
 }  // namespace ream::sim
