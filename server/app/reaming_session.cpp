@@ -54,6 +54,11 @@ stream::SessionState wire_state(api::SessionState state) {
   return stream::SessionState::fault;
 }
 
+api::LoopStatus loop_status(const sim::LoopHealth& health) {
+  return {health.tick_us,  health.lateness_us,   health.read_us,         health.step_us,     health.write_us,
+          health.missed,   health.realtime.fifo, health.realtime.locked, health.realtime.cpu};
+}
+
 }  // namespace
 
 ReamingSession::ReamingSession(const SessionHouse& house, const api::SessionRequest& request)
@@ -343,8 +348,7 @@ void ReamingSession::note_health() {
   metrics_ = score::metrics_json(metrics, status_.force_scale, nullptr);
   status_.tick = sample_.tick + 1;
   status_.duration_s = metrics.duration_s;
-  status_.loop.tick_us = health.tick_us;
-  status_.loop.missed = health.missed;
+  status_.loop = loop_status(health);
   if (status_.state == api::SessionState::running || status_.state == api::SessionState::paused)
     status_.state = sample_.state == stream::SessionState::paused ? api::SessionState::paused
                                                                   : api::SessionState::running;
