@@ -28,6 +28,7 @@ RunRequest run_request(const SessionHouse& house, const api::SessionRequest& req
   run.script_name = request.script == "demo" ? request.script
                                              : (house.data / "scripts" / (request.script + ".json")).string();
   run.backend = house.backend;
+  run.tool_spacing_mm = house.tool_spacing_mm;
   run.force_scale = request.force_scale;
   run.device = request.device;
   run.device_profile = request.device_profile;
