@@ -25,6 +25,7 @@ struct SessionHouse {
   uint64_t server_epoch = 0;  ///< differs after each start of the server
   std::string backend = "auto";
   sim::Realtime realtime = sim::Realtime::attempt;
+  double tool_spacing_mm = 0.2;  ///< of the points that feel bone
 };
 
 /// A live session: the haptic loop on its own thread, and one follower thread that keeps files, metrics,
