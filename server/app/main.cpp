@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "app/cli/commands.hpp"
+#include "app/crash_guard.hpp"
 #include "app/interrupt.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
@@ -36,6 +37,7 @@ int main(int argc, char** argv) {
   ream::app::GlobalOptions global;
   add_commands(app, global);
   ream::app::take_file_size_limit_as_error();
+  ream::app::take_force_away_on_crash();
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

@@ -31,6 +31,7 @@ class SessionFiles {
   /// All images of a tick come before its report.
   void add(const voxel::BrickImage& image) { recorder_->add(image); }
   void add(const record::ops::Annotation& annotation) { recorder_->add(annotation); }
+  void add(const record::ops::Event& event) { recorder_->add(event); }
   /// Records once that the device that computes failed in that tick; none if negative.
   void note_failover(int64_t tick);
   /// Returns the report as it is kept.

@@ -36,6 +36,7 @@ struct DeviceTraits {
   int degrees_of_freedom = 6;        ///< sensed
   std::string profile = "ideal";     ///< name in device/profiles.hpp
   StaleLimits stale;
+  bool simulated = false;  ///< nobody's hand is in it: a loop that stands still harms no one
 };
 
 struct DeviceInput {
@@ -48,6 +49,7 @@ struct DeviceInput {
   bool paused = false;
   bool clutch = false;  ///< the hand moves without the tool
   bool deadman = true;  ///< somebody holds the handle; true of devices that cannot tell
+  bool stale = false;   ///< too old to push against: set by sim::PoseWatchdog, and by a replay of it
 };
 
 struct DeviceOutput {

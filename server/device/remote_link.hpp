@@ -4,13 +4,9 @@
 #include <cstdint>
 
 #include "core/latest_slot.hpp"
+#include "device/link_state.hpp"
 
 namespace ream::device {
-
-enum class LinkState : uint8_t { fresh, held, fading, lost };
-
-/// One word for people and REST: "fresh", "held", "fading", "lost".
-const char* to_text(LinkState state) noexcept;
 
 /// The newest thing that a device's client said; see proto/device.fbs.
 /// Plain numbers only: it goes through a slot.

@@ -61,6 +61,7 @@ class SteeredHandDevice final : public HapticDevice {
                   "a hand in the browser feels through an impedance device; profile '" + profile +
                       "' is none, choose 'ideal'");
     traits_.name = "browser";
+    traits_.simulated = true;
     traits_.stale = browser_stale_limits;
   }
 
