@@ -45,7 +45,6 @@ struct RemoteLink {
   /// Counts of messages, and the way there and back in us (-1: not known): written by the socket's side.
   std::atomic<uint64_t> received{0}, missing{0}, late{0}, refused{0}, connections{0};
   std::atomic<int64_t> rtt_us{-1};
-  std::atomic<LinkState> state{LinkState::lost};  ///< by the age of the newest input, written by the device
 };
 
 }  // namespace ream::device

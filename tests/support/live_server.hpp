@@ -19,6 +19,7 @@ class LiveServer {
   LiveServer() {
     const app::SessionHouse house{reaming_.data(), 1, "cpu", sim::Realtime::off};
     std::filesystem::create_directories(app::sessions_folder(house.data));
+    std::filesystem::create_directories(house.data / "scripts");
     api::ServerOptions options;
     options.listen.port = 0;
     options.cases_folder = app::cases_folder(house.data);
