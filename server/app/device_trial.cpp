@@ -70,7 +70,7 @@ class Trial {
   double length_s() const { return times_.still_s + times_.wall_s + times_.ramp_down_s; }
   bool over() const {
     if (!seen_.connected) return static_cast<double>(seen_.ticks) * tick_s >= times_.wait_s;
-    return since_first_s() >= length_s();
+    return ticks_since_first_ >= static_cast<uint64_t>(std::llround(length_s() / tick_s));
   }
 
   /// False when the device can give or take nothing any more.

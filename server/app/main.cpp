@@ -27,6 +27,7 @@ void add_commands(CLI::App& app, ream::app::GlobalOptions& global) {
   add_export_command(app, global);
   add_list_command(app, global);
   add_replay_command(app, global);
+  add_devices_command(app, global);
   add_bench_command(app, global);
 }
 

@@ -359,14 +359,14 @@ void ReamingSession::take_report(const record::TickReport& r) {
 }
 
 void ReamingSession::note_events(const record::TickReport& report) {
-  const bool was_lost = events_.device_is_lost();
-  for (const record::ops::Event& event : events_.of(report)) {
+  for (const record::ops::Event& event : files_->newest_events()) {
     log::info("session " + id_ + ", tick " + std::to_string(event.tick) + ": " + event.words);
-    files_->add(event);
     if (event.kind == "device_lost") keep_black_box(recent_);
   }
   device_state_ = report.link;
-  if (events_.device_is_lost() != was_lost) tell_fault(events_.device_words());
+  if (files_->events().device_is_lost() == device_is_lost_) return;
+  device_is_lost_ = !device_is_lost_;
+  tell_fault(files_->events().device_words());
 }
 
 /// The loop's thread is dead, stuck or very late; the guard has left the device without force. A late one

@@ -10,7 +10,6 @@
 #include "app/loop_rings.hpp"
 #include "app/resume_point.hpp"
 #include "app/rig.hpp"
-#include "app/session_events.hpp"
 #include "app/session_files.hpp"
 #include "device/device_socket.hpp"
 #include "sim/haptic_loop.hpp"
@@ -100,7 +99,7 @@ class ReamingSession final : public api::RunningSession {
   stream::TelemetryBatcher batcher_;
   stream::TelemetrySample sample_;  ///< the newest, follower only
   bool failover_told_ = false;      ///< follower only
-  SessionEvents events_;            ///< follower only
+  bool device_is_lost_ = false;     ///< follower only
   sim::BlackBox recent_;  ///< the last seconds as the follower has them, for faults that do not end it
   device::LinkState device_state_ = device::LinkState::lost;  ///< follower only
   int64_t standstill_told_ns_ = 0;  ///< follower only; 0: the loop has not stood still
