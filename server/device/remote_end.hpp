@@ -10,9 +10,9 @@ namespace ream::device {
 /// newest input and says how old it is, and writes what goes back. Wait-free.
 class RemoteEnd {
  public:
-  /// `now_ns`: the clock of RemoteLink's times.
-  RemoteEnd(std::shared_ptr<RemoteLink> link, int64_t (*now_ns)())
-      : link_(std::move(link)), now_ns_(now_ns) {}
+  /// `clock_ns`: the clock of RemoteLink's times.
+  RemoteEnd(std::shared_ptr<RemoteLink> link, int64_t (*clock_ns)())
+      : link_(std::move(link)), now_ns_(clock_ns) {}
 
   /// Forgets what was said before; force may go out.
   void open() noexcept;
