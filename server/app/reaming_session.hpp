@@ -11,6 +11,7 @@
 #include "app/rig.hpp"
 #include "app/session_files.hpp"
 #include "sim/haptic_loop.hpp"
+#include "sim/loop_places.hpp"
 #include "stream/fanout_local.hpp"
 #include "stream/mesh_publisher.hpp"
 
@@ -22,6 +23,7 @@ struct SessionHouse {
   uint64_t server_epoch = 0;  ///< differs after each start of the server
   std::string backend = "auto";
   sim::Realtime realtime = sim::Realtime::attempt;
+  std::shared_ptr<sim::LoopPlaces> places = std::make_shared<sim::LoopPlaces>();
 };
 
 /// A live session: the haptic loop on its own thread, and one follower thread that keeps files, metrics,
@@ -83,6 +85,8 @@ class ReamingSession final : public api::RunningSession {
   std::optional<FileLock> lock_;  ///< of the folder, while it runs
   Rig rig_;
   LoopRings rings_;
+  const double rehearsed_us_;                      ///< slow ticks of this session, before the first
+  std::unique_ptr<sim::LoopPlaces::Place> place_;  ///< of the loop while it runs
   sim::HapticLoop loop_;
   std::shared_ptr<stream::LocalFanout> fanout_;
   stream::MeshPublisher publisher_;
