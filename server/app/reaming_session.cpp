@@ -30,6 +30,7 @@ RunRequest run_request(const SessionHouse& house, const api::SessionRequest& req
   run.script_name = request.script == "demo" ? request.script
                                              : (house.data / "scripts" / (request.script + ".json")).string();
   run.backend = house.backend;
+  run.tool_spacing_mm = house.tool_spacing_mm;
   run.force_scale = request.force_scale;
   run.device = request.device;
   run.device_profile = request.device_profile;
@@ -54,6 +55,11 @@ stream::SessionState wire_state(api::SessionState state) {
       return stream::SessionState::interrupted;
   }
   return stream::SessionState::fault;
+}
+
+api::LoopStatus loop_status(const sim::LoopHealth& health) {
+  return {health.tick_us,  health.lateness_us,   health.read_us,         health.step_us,     health.write_us,
+          health.missed,   health.realtime.fifo, health.realtime.locked, health.realtime.cpu};
 }
 
 }  // namespace
@@ -351,8 +357,7 @@ void ReamingSession::note_health() {
   metrics_ = score::metrics_json(metrics, status_.force_scale, nullptr);
   status_.tick = sample_.tick + 1;
   status_.duration_s = metrics.duration_s;
-  status_.loop.tick_us = health.tick_us;
-  status_.loop.missed = health.missed;
+  status_.loop = loop_status(health);
   if (status_.state == api::SessionState::running || status_.state == api::SessionState::paused)
     status_.state = sample_.state == stream::SessionState::paused ? api::SessionState::paused
                                                                   : api::SessionState::running;

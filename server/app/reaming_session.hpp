@@ -24,6 +24,7 @@ struct SessionHouse {
   std::string backend = "auto";
   sim::Realtime realtime = sim::Realtime::attempt;
   std::shared_ptr<sim::LoopPlaces> places = std::make_shared<sim::LoopPlaces>();
+  double tool_spacing_mm = 0.2;  ///< of the points that feel bone
 };
 
 /// A live session: the haptic loop on its own thread, and one follower thread that keeps files, metrics,

@@ -9,12 +9,10 @@
 #include "core/timing_histogram.hpp"
 #include "device/haptic_device.hpp"
 #include "sim/black_box.hpp"
+#include "sim/realtime.hpp"
 #include "sim/step.hpp"
 
 namespace ream::sim {
-
-/// How the loop gets its scheduling: real-time priority and locked memory demanded, tried, or left alone.
-enum class Realtime { require, attempt, off };
 
 enum class LoopEnd : uint8_t {
   running,
@@ -39,11 +37,14 @@ struct LoopHealth {
   uint64_t missed = 0;            ///< ticks that began more than a millisecond late
   int64_t failed_over_tick = -1;  ///< the tick in which the OpenCL device failed and the C++ form took over
   TimingSummary tick_us, lateness_us;
+  TimingSummary read_us, step_us, write_us;  ///< the parts of a tick
+  RealtimeGrant realtime;
 };
 
 struct LoopOptions {
   bool wall_clock = true;  ///< false: virtual time, each tick as soon as the last is done
   Realtime realtime = Realtime::attempt;
+  int cpu = -1;  ///< that the loop's thread is to run on; -1: any
 };
 
 /// The 1 kHz loop: read, compute, check, limit, write. In virtual time it runs the same ticks without
@@ -58,7 +59,7 @@ class HapticLoop {
   HapticLoop& operator=(const HapticLoop&) = delete;
 
   /// Opens the device and starts the thread. Errors: those of open(); unavailable when real time is required
-  /// and refused.
+  /// and any part of it refused.
   void start();
   /// Asks the loop to end; from any thread.
   void request_stop() noexcept { stop_.store(true, std::memory_order_relaxed); }
@@ -76,9 +77,13 @@ class HapticLoop {
   const BlackBox& black_box() const { return black_box_; }
 
  private:
+  std::string refusal() const;
   void loop() noexcept;
   LoopEnd one_tick(device::DeviceInput& input, double lateness_us) noexcept;
+  LoopEnd compute_and_write(const device::DeviceInput& input, TickTiming& timing) noexcept;
+  void count(const TickTiming& timing) noexcept;
   bool push(const TickReport& report) noexcept;
+  void summarise(uint32_t which) noexcept;
   void publish(LoopEnd end) noexcept;
 
   const Model& model_;
@@ -90,9 +95,9 @@ class HapticLoop {
   std::atomic<bool> stop_{false}, ended_{false};
   LatestSlot<LoopHealth> published_;
   LoopHealth last_seen_;
-  TimingHistogram tick_us_, lateness_us_;
+  TimingHistogram tick_us_, lateness_us_, read_us_, step_us_, write_us_;
+  LoopHealth health_;  ///< the loop's own
   BlackBox black_box_;
-  uint64_t missed_ = 0;
 };
 
 }  // namespace ream::sim
