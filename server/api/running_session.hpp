@@ -44,6 +44,7 @@ struct LoopStatus {
 /// How the session's device is doing.
 struct DeviceLinkStatus {
   std::string name;              ///< as asked for
+  std::string profile;           ///< what it can render (device/profiles.hpp)
   std::string state;             ///< fresh, held, fading or lost; empty before the first tick
   std::optional<double> rtt_ms;  ///< of devices that are reached over a network, once it is known
   /// Messages: taken, missing in their numbering, come too late to be used, refused as senseless.
@@ -55,7 +56,9 @@ struct SessionStatus {
   uint32_t tick = 0;
   double duration_s = 0.0;
   double force_scale = 1.0;
-  std::string fault;  ///< words for people, empty unless state is fault or interrupted
+  /// Words for people: why state is fault or interrupted, or what keeps a live session from going on now (its
+  /// device is lost); else empty.
+  std::string fault;
   LoopStatus loop;
   DeviceLinkStatus device;
 };

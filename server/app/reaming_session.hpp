@@ -6,10 +6,12 @@
 #include <thread>
 
 #include "api/running_session.hpp"
+#include "app/crash_guard.hpp"
 #include "app/loop_rings.hpp"
 #include "app/resume_point.hpp"
 #include "app/rig.hpp"
 #include "app/session_files.hpp"
+#include "device/device_socket.hpp"
 #include "sim/haptic_loop.hpp"
 #include "sim/loop_places.hpp"
 #include "stream/fanout_local.hpp"
@@ -70,11 +72,17 @@ class ReamingSession final : public api::RunningSession {
   void publish_state(api::SessionState state);
   void note_health();
   void finish();
-  void write_black_box() const;
+  void note_events(const record::TickReport& report);
+  void note_standstill();
+  std::string end_words(sim::LoopEnd end) const;
+  void tell_fault(const std::string& words);
+  void keep_black_box(const sim::BlackBox& box) const;
   void append_missing_remarks();
   void end_without_force(const std::string& words);
   void close(api::SessionState state, const std::string& fault, const nlohmann::json& metrics);
   stream::HelloInfo hello() const;
+  std::shared_ptr<device::DevicePort> port_of_device() const;
+  void note_device();
 
   const SessionHouse house_;
   const api::SessionRequest request_;
@@ -89,11 +97,16 @@ class ReamingSession final : public api::RunningSession {
   const double rehearsed_us_;                      ///< slow ticks of this session, before the first
   std::unique_ptr<sim::LoopPlaces::Place> place_;  ///< of the loop while it runs
   sim::HapticLoop loop_;
+  std::shared_ptr<device::DevicePort> port_;  ///< of devices that connect over the network
   std::shared_ptr<stream::LocalFanout> fanout_;
   stream::MeshPublisher publisher_;
   stream::TelemetryBatcher batcher_;
   stream::TelemetrySample sample_;  ///< the newest, follower only
   bool failover_told_ = false;      ///< follower only
+  bool device_is_lost_ = false;     ///< follower only
+  sim::BlackBox recent_;  ///< the last seconds as the follower has them, for faults that do not end it
+  device::LinkState device_state_ = device::LinkState::lost;  ///< follower only
+  int64_t standstill_told_ns_ = 0;  ///< follower only; 0: the loop has not stood still
 
   mutable std::mutex mutex_;  ///< guards what follows
   std::condition_variable changed_;
@@ -106,6 +119,7 @@ class ReamingSession final : public api::RunningSession {
   bool leaving_ = false, finished_ = false;
   bool closing_ = false;  ///< no remark gets into the recording any more; finished_ follows
   std::mutex stopping_;   ///< one stop() at a time
+  CrashWatch crash_watch_;
   std::thread follower_;
 };
 

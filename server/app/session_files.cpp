@@ -88,6 +88,8 @@ record::TickReport SessionFiles::add(const record::TickReport& report) {
   metrics_.add(kept);
   recorder_->add(report);
   ticks_ = report.tick + 1;
+  newest_events_ = events_.of(report);
+  for (const record::ops::Event& event : newest_events_) recorder_->add(event);
   return kept;
 }
 

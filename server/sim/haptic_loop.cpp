@@ -11,6 +11,7 @@ namespace {
 
 constexpr uint32_t publish_every_ticks = 500;
 constexpr uint32_t summaries = 5;
+constexpr std::chrono::milliseconds look_for_end{1};
 
 /// Leaves the device without force and closed, whatever happens in between.
 class DeviceGuard {
@@ -54,6 +55,10 @@ std::string to_words(LoopEnd end) {
     case LoopEnd::not_finite:
       return "The handle was more than 2 m from the origin, or a force was not a number; the "
              "force was set to zero and the session ended.";
+    case LoopEnd::stood_still:
+      return "The haptic loop stood still and the force was taken away; start a new session, on a computer "
+             "with "
+             "less to do.";
     case LoopEnd::followers_late:
       return "The recording could not keep up with the loop; check the disk, then start a new session.";
     case LoopEnd::running:
@@ -71,9 +76,20 @@ std::string failover_words(int64_t tick) {
 
 HapticLoop::HapticLoop(const Model& model, State& state, device::HapticDevice& device,
                        SpscRing<TickReport>& reports, LoopOptions options)
-    : model_(model), state_(state), device_(device), reports_(reports), options_(options) {}
+    : model_(model),
+      state_(state),
+      device_(device),
+      reports_(reports),
+      options_(options),
+      watchdog_(device.traits().stale) {
+  if (options.wall_clock)
+    guard_.emplace(device, LoopGuard::limit_for(device.traits()), options.realtime != Realtime::off);
+}
 
-HapticLoop::~HapticLoop() { stop(); }
+HapticLoop::~HapticLoop() {
+  stop();
+  if (thread_.joinable()) thread_.join();
+}
 
 void HapticLoop::start() {
   device_.open();
@@ -113,7 +129,8 @@ LoopEnd HapticLoop::run() {
 
 void HapticLoop::stop() noexcept {
   request_stop();
-  if (thread_.joinable()) thread_.join();
+  while (thread_.joinable() && !ended() && stood_still_ms() == 0) std::this_thread::sleep_for(look_for_end);
+  if (thread_.joinable() && ended()) thread_.join();
 }
 
 LoopHealth HapticLoop::health() noexcept {
@@ -130,7 +147,11 @@ void HapticLoop::loop() noexcept {
     while (end == LoopEnd::running) {
       const double lateness_us = options_.wall_clock ? clock.wait() : 0.0;
       if (stop_.load(std::memory_order_relaxed)) {
-        end = LoopEnd::stopped;
+        end = stood_still_ms() > 0 ? LoopEnd::stood_still : LoopEnd::stopped;
+        break;
+      }
+      if (guard_ && !guard_->beat()) {
+        end = LoopEnd::stood_still;
         break;
       }
       end = one_tick(input, lateness_us);
@@ -138,6 +159,7 @@ void HapticLoop::loop() noexcept {
     }
   }
   for (uint32_t which = 0; which < summaries; ++which) summarise(which);
+  if (guard_) guard_->end();
   publish(end);
   ended_.store(true, std::memory_order_release);
 }
@@ -154,15 +176,19 @@ LoopEnd HapticLoop::one_tick(device::DeviceInput& input, double lateness_us) noe
 }
 
 LoopEnd HapticLoop::compute_and_write(const device::DeviceInput& input, TickTiming& timing) noexcept {
+  device::DeviceInput trusted = input;
+  const device::LinkState link = watchdog_.judge(state_.tick, trusted);
   TickReport report;
   const auto start = SteadyClock::now();
-  const StepStatus status = step(model_, state_, input, report);
+  const StepStatus status = step(model_, state_, trusted, report);
+  report.link = link;
   const auto stepped = SteadyClock::now();
   timing.step_us = microseconds(stepped - start);
   device::DeviceStatus written = device::DeviceStatus::ok;
   if (status == StepStatus::ok) written = device_.write(output_of(report));
   timing.write_us = elapsed_us(stepped);
-  black_box_.remember(report, timing);
+  report.timing = timing;
+  black_box_.remember(report);
   if (status != StepStatus::ok) return end_of(status);
 
   count(timing);
@@ -221,6 +247,9 @@ void HapticLoop::publish(LoopEnd end) noexcept {
   health_.end = end;
   health_.tick = state_.tick;
   health_.failed_over_tick = state_.failed_over_tick;
+  health_.link = watchdog_.state();
+  health_.losses = watchdog_.losses();
+  health_.lost_tick = watchdog_.lost_tick();
   published_.store(health_);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -9,6 +10,8 @@
 #include "core/timing_histogram.hpp"
 #include "device/haptic_device.hpp"
 #include "sim/black_box.hpp"
+#include "sim/loop_guard.hpp"
+#include "sim/pose_watchdog.hpp"
 #include "sim/realtime.hpp"
 #include "sim/step.hpp"
 
@@ -18,9 +21,10 @@ enum class LoopEnd : uint8_t {
   running,
   finished,          ///< the device's script came to its end
   stopped,           ///< stop() was called
-  device_fault,      ///< the device could not be read or written, or gave nothing new for too long
+  device_fault,      ///< the device could not be read or written
   collision_failed,  ///< the OpenCL device failed
   not_finite,        ///< a pose or force was not a number
+  stood_still,       ///< the loop did not tick for too long, and the force was taken away meanwhile
   followers_late,    ///< the recording could not keep up; nothing may be lost, so the session ends
 };
 
@@ -39,6 +43,9 @@ struct LoopHealth {
   TimingSummary tick_us, lateness_us;
   TimingSummary read_us, step_us, write_us;  ///< the parts of a tick
   RealtimeGrant realtime;
+  device::LinkState link = device::LinkState::lost;  ///< of the device
+  uint64_t losses = 0;                               ///< how often the device was lost
+  int64_t lost_tick = -1;                            ///< when last; -1: never
 };
 
 struct LoopOptions {
@@ -63,13 +70,16 @@ class HapticLoop {
   void start();
   /// Asks the loop to end; from any thread.
   void request_stop() noexcept { stop_.store(true, std::memory_order_relaxed); }
-  /// Asks the loop to end and waits for it. Safe to call twice.
+  /// Asks the loop to end and waits for it, but not for one that stands still. Safe to call twice.
   void stop() noexcept;
   /// Runs the whole loop on the calling thread instead of start().
   LoopEnd run();
 
   /// True once the loop has ended (all reports are in the ring then).
   bool ended() const noexcept { return ended_.load(std::memory_order_acquire); }
+  /// How long a wall-clock loop has stood still, ms, so that its device was left without force (LoopGuard);
+  /// 0: it has not. Any thread.
+  int64_t stood_still_ms() const noexcept { return guard_ ? guard_->stood_still_ms() : 0; }
   /// Newest health; one reader thread.
   LoopHealth health() noexcept;
   /// Whole histograms and black box; only after ended().
@@ -98,6 +108,8 @@ class HapticLoop {
   TimingHistogram tick_us_, lateness_us_, read_us_, step_us_, write_us_;
   LoopHealth health_;  ///< the loop's own
   BlackBox black_box_;
+  PoseWatchdog watchdog_;
+  std::optional<LoopGuard> guard_;  ///< of a wall-clock loop
 };
 
 }  // namespace ream::sim
