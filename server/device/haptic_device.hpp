@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 
+#include "device/link_state.hpp"
 #include "geometry/pose.hpp"
 
 namespace ream::device {
@@ -60,6 +61,7 @@ struct DeviceOutput {
       std::nullopt;  ///< where an admittance device moves to; empty: it stays
   // What a device may show beside what it renders.
   uint32_t tick = 0;
+  LinkState link = LinkState::lost;  ///< how far what it said was trusted
   bool paused = false, engaged = false;
   double thrust_n = 0.0;  ///< simulated
   double vibration_g = 0.0;

@@ -52,9 +52,15 @@ double HandOutput::fade(bool stale) noexcept {
 }
 
 device::DeviceOutput output_of(const record::TickReport& report) noexcept {
-  return {report.hand_force_n, report.hand_torque_n_mm, report.hand_vibration_n, report.world_from_tool,
-          report.tick,         report.paused,           report.engaged,          report.thrust_n,
-          report.vibration_g};
+  device::DeviceOutput output{report.hand_force_n, report.hand_torque_n_mm, report.hand_vibration_n,
+                              report.world_from_tool};
+  output.tick = report.tick;
+  output.link = report.link;
+  output.paused = report.paused;
+  output.engaged = report.engaged;
+  output.thrust_n = report.thrust_n;
+  output.vibration_g = report.vibration_g;
+  return output;
 }
 
 void render(const Model& model, HandOutput& output, const Pose& world_from_tool, const ToolLoad& load,
