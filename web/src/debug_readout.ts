@@ -1,4 +1,5 @@
 import type { BoneScene } from './scene/scene';
+import type { PracticeStore } from './state/practice_store';
 import type { Store } from './state/store';
 
 /** What browser tests read as `window.__ream`; a snapshot at each reading. */
@@ -15,6 +16,9 @@ export interface DebugReadout {
   traceRevision: number;
   replayOf: string | null;
   positionTicks: number | null;
+  /** Steering from this page: state of the device's connection, else null. */
+  deviceLink: string | null;
+  pushN: number;
 }
 
 declare global {
@@ -23,7 +27,7 @@ declare global {
   }
 }
 
-export function publishDebugReadout(store: Store, scene: BoneScene): void {
+export function publishDebugReadout(store: Store, practice: PracticeStore, scene: BoneScene): void {
   Object.defineProperty(window, '__ream', {
     get: (): DebugReadout => ({
       framesDrawn: scene.framesDrawn,
@@ -38,6 +42,8 @@ export function publishDebugReadout(store: Store, scene: BoneScene): void {
       traceRevision: store.traceRevision.value,
       replayOf: store.hello.value?.replayOf ?? null,
       positionTicks: store.playback.value?.positionTicks ?? null,
+      deviceLink: practice.sessionId.value === null ? null : practice.link.value.kind,
+      pushN: practice.hand.pushN.value,
     }),
   });
 }
