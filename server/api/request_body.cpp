@@ -64,6 +64,10 @@ std::string RequestBody::name(const std::string& key) {
                    "may hold only a-z, 0-9 and -, and at most " + std::to_string(longest_name) + " of them");
 }
 
+std::string RequestBody::name_or(const std::string& key, const std::string& otherwise) {
+  return find(key) ? name(key) : otherwise;
+}
+
 std::string RequestBody::text_that(const std::string& key,
                                    const std::function<bool(const std::string&)>& fits,
                                    const std::string& rule) {

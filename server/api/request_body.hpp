@@ -21,6 +21,8 @@ class RequestBody {
 
   /// A name of [a-z0-9-], at most 64 long. Empty when there is something wrong with it.
   std::string name(const std::string& key);
+  /// The same; `otherwise` when absent.
+  std::string name_or(const std::string& key, const std::string& otherwise);
   /// A finite number above `above` and at most `most`; none when absent.
   std::optional<double> number_or_none(const std::string& key, double above, double most);
   /// Text for people of `least` to `most` characters. Empty when absent and `least` is 0, or when there is

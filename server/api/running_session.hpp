@@ -44,6 +44,7 @@ struct LoopStatus {
 /// How the session's device is doing.
 struct DeviceLinkStatus {
   std::string name;              ///< as asked for
+  std::string profile;           ///< what it can render (device/profiles.hpp)
   std::string state;             ///< fresh, held, fading or lost; empty before the first tick
   std::optional<double> rtt_ms;  ///< of devices that are reached over a network, once it is known
   /// Messages: taken, missing in their numbering, come too late to be used, refused as senseless.

@@ -34,7 +34,7 @@ net::Router router_of(const ServerOptions& options, SessionService& sessions, Re
   add_health_routes(router, readiness);
   add_contract_route(router);
   add_case_routes(router, options.cases_folder);
-  add_session_routes(router, sessions, replays, readiness);
+  add_session_routes(router, sessions, replays, readiness, options.usual_device);
   add_annotation_routes(router, sessions);
   add_replay_routes(router, sessions, replays, readiness);
   router.otherwise([files = net::StaticFiles(options.web_folder)](const net::Request& request) {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <string>
 
 #include "api/readiness.hpp"
 #include "api/replay_service.hpp"
@@ -19,6 +20,7 @@ struct ServerOptions {
   std::filesystem::path sessions_folder;  ///< where sessions keep their folders
   SessionMakers make_session;
   SessionLimits sessions;
+  std::string usual_device = "script";  ///< of sessions that name none
   ReplayFactory make_replay;
   ReplayLimits replays;
   std::function<void()> prepare;  ///< run once in the background; /readyz is 503 until it is done

@@ -55,12 +55,17 @@ FolderRecord record_of(const json& session, const fs::path& folder) {
   record.request.id = folder.filename().string();
   record.request.case_id = plain_name(session.value("case", ""));
   record.request.script = plain_name(session.value("script", ""));
+  record.request.device = session.value("device", "script");
+  // A script's own says itself.
+  if (record.request.device != "script") record.request.device_profile = session.value("device_profile", "");
   record.request.created_utc = session.value("created_utc", "");
   if (record.request.created_utc.empty()) record.request.created_utc = changed_utc(session_json(folder));
   SessionStatus& status = record.status;
   status.state = state_of(session, folder);
   found.lasting = !is_live(status.state);
   if (!found.lasting && !FileLock::held(lock_file(folder))) status.state = SessionState::interrupted;
+  status.device.name = record.request.device;
+  status.device.profile = session.value("device_profile", "");
   status.force_scale = session.value("force_scale", 1.0);
   status.fault = session.value("fault", "");
   status.tick = session.value("ticks", 0u);

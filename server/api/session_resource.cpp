@@ -11,12 +11,43 @@ using nlohmann::json;
 namespace {
 
 constexpr double largest_force_scale = 1000.0;
-constexpr size_t longest_reamer = 100;
+constexpr size_t longest_reamer = 100, longest_profile = 64;
 const std::string base = "/api/v1/sessions";
+
+json to_json(const TimingSummary& times) {
+  return {{"mean_us", times.mean_us},
+          {"p50_us", times.p50_us},
+          {"p99_us", times.p99_us},
+          {"p999_us", times.p999_us},
+          {"max_us", times.max_us}};
+}
+
+json to_json(const LoopStatus& loop) {
+  json told = to_json(loop.tick_us);
+  told.update({{"missed", loop.missed},
+               {"lateness", to_json(loop.lateness_us)},
+               {"read", to_json(loop.read_us)},
+               {"step", to_json(loop.step_us)},
+               {"write", to_json(loop.write_us)},
+               {"realtime", loop.realtime},
+               {"memory_locked", loop.locked},
+               {"cpu", loop.cpu < 0 ? json(nullptr) : json(loop.cpu)}});
+  return told;
+}
+
+json to_json(const DeviceLinkStatus& device) {
+  return {{"name", device.name},
+          {"profile", device.profile},
+          {"state", device.state.empty() ? json(nullptr) : json(device.state)},
+          {"rtt_ms", device.rtt_ms ? json(*device.rtt_ms) : json(nullptr)},
+          {"received", device.received},
+          {"missing", device.missing},
+          {"late", device.late},
+          {"refused", device.refused}};
+}
 
 json to_json(const SessionRecord& record) {
   const SessionStatus& status = record.status;
-  const TimingSummary& tick = status.loop.tick_us;
   return {{"id", record.request.id},
           {"kind", "session"},
           {"case", record.request.case_id},
@@ -28,20 +59,18 @@ json to_json(const SessionRecord& record) {
           {"force_scale", status.force_scale},
           {"fault", status.fault.empty() ? json(nullptr) : json(status.fault)},
           {"streamable", record.streamable},
-          {"loop",
-           {{"mean_us", tick.mean_us},
-            {"p50_us", tick.p50_us},
-            {"p99_us", tick.p99_us},
-            {"p999_us", tick.p999_us},
-            {"max_us", tick.max_us},
-            {"missed", status.loop.missed}}}};
+          {"loop", to_json(status.loop)},
+          {"device", to_json(status.device)}};
 }
 
-net::Response create(SessionService& service, const Readiness& readiness, const net::Request& request) {
+net::Response create(SessionService& service, const Readiness& readiness, const std::string& usual_device,
+                     const net::Request& request) {
   RequestBody body(request);
   SessionRequest wanted;
   wanted.case_id = body.name("case");
-  wanted.script = body.name("script");
+  wanted.device = body.name_or("device", usual_device);
+  wanted.script = body.name_or("script", wanted.device == "script" ? "demo" : "practice");
+  wanted.device_profile = body.words("device_profile", 0, longest_profile);
   wanted.force_scale = body.number_or_none("force_scale", 0.0, largest_force_scale);
   body.finish();
   readiness.require_prepared();
@@ -84,9 +113,11 @@ int stride_of(const net::Request& request) {
 }  // namespace
 
 void add_session_routes(net::Router& router, SessionService& service, ReplayService& replays,
-                        const Readiness& readiness) {
+                        const Readiness& readiness, const std::string& usual_device) {
   router.on("GET", base, [&](const net::Request&) { return list(service, replays); });
-  router.on("POST", base, [&](const net::Request& request) { return create(service, readiness, request); });
+  router.on("POST", base, [&, usual_device](const net::Request& request) {
+    return create(service, readiness, usual_device, request);
+  });
   router.on("GET", base + "/{id}", [&](const net::Request& request) {
     const std::string& id = id_of(request);
     return net::json_response(200, replays.has(id) ? to_json(replays.get(id)) : to_json(service.get(id)));
@@ -108,6 +139,12 @@ void add_session_routes(net::Router& router, SessionService& service, ReplayServ
     const std::string& id = id_of(request);
     return replays.has(id) ? replays.subscribe(id, stride_of(request))
                            : service.subscribe(id, stride_of(request));
+  });
+  router.on_websocket(base + "/{id}/device", [&](const net::Request& request) {
+    const std::string& id = id_of(request);
+    if (replays.has(id))
+      throw Error(ErrorKind::conflict, "'" + id + "' is a replay; no device connects to it");
+    return service.connect_device(id);
   });
 }
 

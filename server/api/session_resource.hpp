@@ -7,8 +7,8 @@
 namespace ream::api {
 
 /// /api/v1/sessions and all below it; ids of replays are answered by `replays`. What is given outlives the
-/// router.
+/// router. `usual_device`: of sessions that name none.
 void add_session_routes(net::Router& router, SessionService& service, ReplayService& replays,
-                        const Readiness& readiness);
+                        const Readiness& readiness, const std::string& usual_device);
 
 }  // namespace ream::api

@@ -252,6 +252,12 @@ std::unique_ptr<net::WebSocketSession> SessionService::subscribe(const std::stri
   return std::make_unique<KeepingSession>(std::move(entry), std::move(inner));
 }
 
+std::unique_ptr<net::WebSocketSession> SessionService::connect_device(const std::string& id) const {
+  auto entry = find(id);
+  auto inner = entry->running->connect_device();
+  return std::make_unique<KeepingSession>(std::move(entry), std::move(inner));
+}
+
 void SessionService::shut_down() {
   std::vector<std::shared_ptr<Entry>> entries;
   {

@@ -57,6 +57,10 @@ class SessionService {
   /// conflict when it is only in its folder.
   std::unique_ptr<net::WebSocketSession> subscribe(const std::string& id, int stride) const;
 
+  /// A client becomes the session's device, see RunningSession::connect_device. Error conflict when the
+  /// session is only in its folder.
+  std::unique_ptr<net::WebSocketSession> connect_device(const std::string& id) const;
+
   /// Stops every session that still runs; nothing can be created or started any more.
   void shut_down();
 

@@ -3,21 +3,24 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "device/mapped_device.hpp"
+#include "device/network_device.hpp"
 #include "device/profiles.hpp"
+#include "device/steered_hand_device.hpp"
 
 namespace ream::app {
 namespace {
 
+DeviceOffer offer_of(const std::string& name, const std::string& about, const std::string& profile) {
+  const device::DeviceTraits traits = device::device_profile(profile);
+  return {name, about, true, "", traits.force_max_n, traits.degrees_of_freedom};
+}
+
 DeviceKind scripted() {
-  return {"script",
+  return {"script", "",
           [] {
-            const device::DeviceTraits ideal = device::device_profile("ideal");
-            return DeviceOffer{"script",
-                               "A simulated hand, robot or list of poses that plays a script",
-                               true,
-                               "",
-                               ideal.force_max_n,
-                               ideal.degrees_of_freedom};
+            return offer_of("script", "A simulated hand, robot or list of poses that plays a script",
+                            "ideal");
           },
           [](const DeviceWish& wish) {
             return MadeDevice{
@@ -25,22 +28,82 @@ DeviceKind scripted() {
           }};
 }
 
-}  // namespace
-
-const std::vector<DeviceKind>& device_kinds() {
-  static const std::vector<DeviceKind> kinds{scripted()};
-  return kinds;
+/// Of a remote device: nobody else's but its own.
+std::string profile_of(const DeviceWish& wish, const std::string& usual) {
+  if (!wish.profile.empty()) return wish.profile;
+  const bool said = wish.script->kind == device::ScriptKind::remote && !wish.script->device_profile.empty();
+  return said ? wish.script->device_profile : usual;
 }
 
-MadeDevice make_device(const DeviceWish& wish) {
+/// A real device's tool begins this far before the planned entry.
+constexpr double start_before_entry_mm = 30.0;
+
+std::unique_ptr<device::HapticDevice> mapped(const DeviceWish& wish,
+                                             std::unique_ptr<device::HapticDevice> device) {
+  const Pose before_entry{Mat3::Identity(), Vec3(0.0, 0.0, -start_before_entry_mm)};
+  return std::make_unique<device::MappedDevice>(std::move(device),
+                                                device::load_device_setup(wish.data, wish.name),
+                                                wish.world_from_plan * before_entry);
+}
+
+DeviceKind network() {
+  return {"network", "touch",
+          [] {
+            return offer_of("network", "A haptic device whose own computer connects over the network",
+                            "touch");
+          },
+          [](const DeviceWish& wish) {
+            auto link = std::make_shared<device::RemoteLink>();
+            return MadeDevice{
+                mapped(wish, std::make_unique<device::NetworkDevice>(profile_of(wish, "touch"), link)), link};
+          }};
+}
+
+DeviceKind browser() {
+  return {"browser", "ideal",
+          [] {
+            return offer_of("browser", "Mouse, touch screen, keys or gamepad, in the page of the session",
+                            "ideal");
+          },
+          [](const DeviceWish& wish) {
+            auto link = std::make_shared<device::RemoteLink>();
+            return MadeDevice{
+                device::make_steered_hand_device(profile_of(wish, "ideal"), wish.world_from_plan,
+                                                 wish.script->force_scale, link),
+                link};
+          }};
+}
+
+const DeviceKind& kind_of(const std::string& name) {
   const std::vector<DeviceKind>& kinds = device_kinds();
   const auto kind =
-      std::find_if(kinds.begin(), kinds.end(), [&](const DeviceKind& k) { return k.name == wish.name; });
-  if (kind != kinds.end()) return kind->make(wish);
+      std::find_if(kinds.begin(), kinds.end(), [&](const DeviceKind& k) { return k.name == name; });
+  if (kind != kinds.end()) return *kind;
   std::string names;
   for (const DeviceKind& known : kinds) names += (names.empty() ? "" : ", ") + known.name;
   throw Error(ErrorKind::invalid_input,
-              "no device '" + wish.name + "'; there are " + names + " (`ream devices` tells more)");
+              "no device '" + name + "'; there are " + names + " (`ream devices` tells more)");
 }
+
+}  // namespace
+
+const std::vector<DeviceKind>& device_kinds() {
+  static const std::vector<DeviceKind> kinds{scripted(), network(), browser()};
+  return kinds;
+}
+
+void settle_for_device(const std::string& device, const std::string& profile, device::Script& script) {
+  const DeviceKind& kind = kind_of(device);
+  if (kind.usual_profile.empty()) {
+    if (!profile.empty())
+      throw Error(ErrorKind::invalid_input,
+                  "device_profile '" + profile + "' is asked for, but a script says its own");
+    return;
+  }
+  const std::string resolved = profile_of({device, profile, &script, {}, 1, {}}, kind.usual_profile);
+  device::fit_to_remote(resolved, script);
+}
+
+MadeDevice make_device(const DeviceWish& wish) { return kind_of(wish.name).make(wish); }
 
 }  // namespace ream::app

@@ -38,12 +38,20 @@ struct DeviceOffer {
 /// A kind of device that sessions can have.
 struct DeviceKind {
   std::string name;
+  /// What it renders with (device/profiles.hpp) unless somebody says otherwise; empty: scripts say.
+  std::string usual_profile;
   std::function<DeviceOffer()> offer;
   std::function<MadeDevice(const DeviceWish&)> make;
 };
 
 /// Every kind, in the order in which people are shown them.
 const std::vector<DeviceKind>& device_kinds();
+
+/// Puts into a script what a session with this device leaves to it: whose limits the hand feels through, and
+/// with a script that leaves it open the force scale. `profile`: asked for, or empty for the usual one.
+/// Errors: invalid_input for an unknown device or profile, and for a profile beside a script that says its
+/// own.
+void settle_for_device(const std::string& device, const std::string& profile, device::Script& script);
 
 /// Errors: invalid_input, listing the names, for an unknown one; those of the kind.
 MadeDevice make_device(const DeviceWish& wish);

@@ -25,8 +25,9 @@ constexpr int64_t heartbeat_ns = 500'000'000;
 RunRequest run_request(const SessionHouse& house, const api::SessionRequest& request) {
   RunRequest run;
   run.case_name = request.case_id;
-  run.script_name = request.script == "demo" ? request.script
-                                             : (house.data / "scripts" / (request.script + ".json")).string();
+  const bool built_in = request.script == "demo" || request.script == "practice";
+  run.script_name =
+      built_in ? request.script : (house.data / "scripts" / (request.script + ".json")).string();
   run.backend = house.backend;
   run.force_scale = request.force_scale;
   run.device = request.device;
@@ -89,6 +90,7 @@ ReamingSession::ReamingSession(const SessionHouse& house, const api::SessionRequ
       rig_(std::move(beginning.parts)),
       rings_(rig_.bone_case.bone.grid),
       loop_(rig_.model, rig_.state, *rig_.device, rings_.reports, {true, house.realtime}),
+      port_(port_of_device()),
       fanout_(std::make_shared<stream::LocalFanout>()),
       publisher_(rig_.bone_case.bone, *fanout_),
       batcher_(*fanout_) {
@@ -96,6 +98,8 @@ ReamingSession::ReamingSession(const SessionHouse& house, const api::SessionRequ
   const sim::Backend& backend = rig_.state.backend;
   log::info("session " + id_ + ": contact and removal on " + backend.name +
             (backend.choice.empty() ? "" : " (" + backend.choice + ")"));
+  status_.device.name = request_.device;
+  status_.device.profile = rig_.device->traits().profile;
   status_.force_scale = rig_.model.settings.force_scale;
   score::Metrics metrics;
   if (from_) {
@@ -135,7 +139,8 @@ nlohmann::json ReamingSession::told_of(api::SessionState state, const std::strin
   nlohmann::json told = {{"id", id_},
                          {"state", api::to_text(state)},
                          {"created_utc", request_.created_utc},
-                         {"script", request_.script}};
+                         {"script", request_.script},
+                         {"device", request_.device}};
   if (!fault.empty()) told["fault"] = fault;
   if (!api::is_live(state)) told["ticks"] = status().tick;
   return told;
@@ -233,8 +238,20 @@ std::unique_ptr<net::WebSocketSession> ReamingSession::subscribe(int stride) {
 }
 
 std::unique_ptr<net::WebSocketSession> ReamingSession::connect_device() {
-  throw Error(ErrorKind::conflict, "session '" + id_ + "' has the device '" + request_.device +
-                                       "', which does not connect itself");
+  if (port_) return port_->connect();
+  throw Error(ErrorKind::conflict,
+              "session '" + id_ + "' has the device '" + request_.device +
+                  "', which does not connect itself; a session with the device 'browser' "
+                  "or 'network' waits for a client");
+}
+
+std::shared_ptr<device::DevicePort> ReamingSession::port_of_device() const {
+  if (!rig_.link) return nullptr;
+  const device::DeviceTraits& traits = rig_.device->traits();
+  const auto kind = request_.device == "browser" ? device::RemoteKind::steering : device::RemoteKind::handle;
+  return std::make_shared<device::DevicePort>(
+      rig_.link, kind,
+      device::DeviceWelcome{id_, request_.device, rig_.model.settings.limits.force_max_n, traits.stale});
 }
 
 /// Whatever goes wrong in the follower ends this session, not the server.
@@ -345,13 +362,32 @@ void ReamingSession::note_health() {
   status_.duration_s = metrics.duration_s;
   status_.loop.tick_us = health.tick_us;
   status_.loop.missed = health.missed;
+  note_device();
   if (status_.state == api::SessionState::running || status_.state == api::SessionState::paused)
     status_.state = sample_.state == stream::SessionState::paused ? api::SessionState::paused
                                                                   : api::SessionState::running;
 }
 
+/// With the mutex held.
+void ReamingSession::note_device() {
+  api::DeviceLinkStatus& device = status_.device;
+  device.state = device::to_text(device::LinkState::fresh);
+  if (!rig_.link) return;
+  const device::RemoteLink& link = *rig_.link;
+  device.state = device::to_text(link.state);
+  const int64_t rtt_us = link.rtt_us;
+  device.rtt_ms = rtt_us < 0 ? std::nullopt : std::optional(1.0e-3 * static_cast<double>(rtt_us));
+  device.received = link.received;
+  device.missing = link.missing;
+  device.late = link.late;
+  device.refused = link.refused;
+  port_->tell(sample_.state == stream::SessionState::paused ? device::RemoteSessionState::paused
+                                                            : device::RemoteSessionState::running);
+}
+
 void ReamingSession::publish_state(api::SessionState state) {
   sample_.state = wire_state(state);
+  if (port_) port_->tell(static_cast<device::RemoteSessionState>(sample_.state));
   if (!api::is_live(state)) sample_.spindle_on = false;
   const std::string words = status().fault;
   sample_.fault.fill('\0');

@@ -10,6 +10,7 @@
 #include "app/resume_point.hpp"
 #include "app/rig.hpp"
 #include "app/session_files.hpp"
+#include "device/device_socket.hpp"
 #include "sim/haptic_loop.hpp"
 #include "stream/fanout_local.hpp"
 #include "stream/mesh_publisher.hpp"
@@ -72,6 +73,8 @@ class ReamingSession final : public api::RunningSession {
   void end_without_force(const std::string& words);
   void close(api::SessionState state, const std::string& fault, const nlohmann::json& metrics);
   stream::HelloInfo hello() const;
+  std::shared_ptr<device::DevicePort> port_of_device() const;
+  void note_device();
 
   const SessionHouse house_;
   const api::SessionRequest request_;
@@ -84,6 +87,7 @@ class ReamingSession final : public api::RunningSession {
   Rig rig_;
   LoopRings rings_;
   sim::HapticLoop loop_;
+  std::shared_ptr<device::DevicePort> port_;  ///< of devices that connect over the network
   std::shared_ptr<stream::LocalFanout> fanout_;
   stream::MeshPublisher publisher_;
   stream::TelemetryBatcher batcher_;

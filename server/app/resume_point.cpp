@@ -64,7 +64,8 @@ void ResumePoint::cut_to_its_end() const {
 }
 
 ResumePoint::ResumePoint(const fs::path& folder, const fs::path& data)
-    : lock_(lock_of_recorded(folder)),
+    : data_(data),
+      lock_(lock_of_recorded(folder)),
       recording_(undamaged(folder)),
       case_(case_of(recording_, {}, data)),
       start_coverage_(case_.bone.coverage),
@@ -89,9 +90,15 @@ RigParts ResumePoint::parts(const RunRequest& request, const std::string& reamer
   parts.request.script_name = request.script_name;
   parts.request.random_seed = recording_.header().random_seed;
   parts.script = find_script(request);
+  parts.request.device = request.device;
+  parts.request.device_profile = request.device_profile;
+  settle_for_device(request.device, request.device_profile, parts.script);
   parts.script.force_scale = parts.settings.force_scale;
-  parts.device = device::make_scripted_device(parts.script, sim::world_from_plan(plan_of(parts.bone_case)),
-                                              recording_.header().random_seed);
+  MadeDevice made =
+      make_device({request.device, request.device_profile, &parts.script,
+                   sim::world_from_plan(plan_of(parts.bone_case)), recording_.header().random_seed, data_});
+  parts.device = std::move(made.device);
+  parts.link = std::move(made.link);
   return parts;
 }
 

@@ -22,8 +22,8 @@ class ResumePoint {
   ResumePoint& operator=(const ResumePoint&) = delete;
 
   /// What a rig is made of that goes on from here with the recorded settings, under a script that begins
-  /// anew. `request`: backend and script count. `reamer`: words, or empty for the one before. To be called
-  /// once. Error invalid_input for the reamer; those of script and device.
+  /// anew. `request`: backend, script and device count. `reamer`: words, or empty for the one before. To be
+  /// called once. Error invalid_input for the reamer; those of script and device.
   RigParts parts(const RunRequest& request, const std::string& reamer);
 
   /// Undoes what was appended to the recording since it was read; nobody may be writing it. On a failure it
@@ -38,6 +38,7 @@ class ResumePoint {
   FileLock take_lock() { return std::move(lock_); }
 
  private:
+  const std::filesystem::path data_;
   FileLock lock_;
   record::Recording recording_;
   case_::Case case_;

@@ -76,8 +76,9 @@ case_::Case find_case(const std::string& name, const fs::path& data) {
 }
 
 device::Script find_script(const RunRequest& request) {
-  device::Script script =
-      request.script_name == "demo" ? device::demo_script() : device::load_script(request.script_name);
+  device::Script script = request.script_name == "demo"       ? device::demo_script()
+                          : request.script_name == "practice" ? device::practice_script()
+                                                              : device::load_script(request.script_name);
   if (request.force_scale) script.force_scale = *request.force_scale;
   return script;
 }
@@ -93,6 +94,7 @@ RigParts asked_for(const RunRequest& request, const fs::path& data) {
   RigParts parts;
   parts.request = request;
   parts.script = find_script(request);
+  settle_for_device(request.device, request.device_profile, parts.script);
   parts.bone_case = find_case(request.case_name, data);
   const case_::Plan& plan = plan_of(parts.bone_case);
   parts.case_hash = case_::case_hash(parts.bone_case);

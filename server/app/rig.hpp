@@ -16,7 +16,7 @@ namespace ream::app {
 /// What somebody asked to be simulated.
 struct RunRequest {
   std::string case_name = "demo";    ///< `demo`, an id in the data folder, or the path of a case folder
-  std::string script_name = "demo";  ///< `demo` or the path of a script
+  std::string script_name = "demo";  ///< `demo`, `practice` or the path of a script
   std::string backend = "auto";
   sim::RemovalLaw removal = sim::RemovalLaw::profile;
   std::string feed_model;  ///< empty: the script's

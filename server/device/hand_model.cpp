@@ -31,6 +31,11 @@ void HandModel::begin() noexcept {
   rest();
 }
 
+void HandModel::hold(const Vec3& on_line_mm, const Mat3& held) noexcept {
+  hand_.start_mm = on_line_mm;
+  held_ = held;
+}
+
 void HandModel::rest() noexcept {
   velocity_mm_s_.setZero();
   turn_rate_rad_s_.setZero();

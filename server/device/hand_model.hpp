@@ -25,6 +25,9 @@ class HandModel {
   void begin() noexcept;
   /// One tick under the force that the script means to push with and what the handle does to the hand.
   void advance(double target_n, const Load& felt) noexcept;
+  /// From here on the hand keeps to another line, through `on_line_mm` along the z axis of `held`, and holds
+  /// its handle so. Plan frame.
+  void hold(const Vec3& on_line_mm, const Mat3& held) noexcept;
   /// A person who pauses rests the hand where it is.
   void rest() noexcept;
 

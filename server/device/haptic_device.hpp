@@ -56,6 +56,11 @@ struct DeviceOutput {
   Vec3 vibration_n = Vec3::Zero();  ///< the part of force_n that is vibration
   std::optional<Pose> world_from_tool =
       std::nullopt;  ///< where an admittance device moves to; empty: it stays
+  // What a device may show beside what it renders.
+  uint32_t tick = 0;
+  bool paused = false, engaged = false;
+  double thrust_n = 0.0;  ///< simulated
+  double vibration_g = 0.0;
 };
 
 enum class DeviceStatus {

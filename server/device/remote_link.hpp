@@ -15,9 +15,9 @@ const char* to_text(LinkState state) noexcept;
 /// The newest thing that a device's client said; see proto/device.fbs.
 /// Plain numbers only: it goes through a slot.
 struct RemoteInput {
-  int64_t arrived_ns = 0;           ///< steady_ns()
-  int64_t previous_arrived_ns = 0;  ///< of the one before it; 0: none, or the link was broken in between
-  bool steering = false;            ///< which of the two kinds below it is
+  int64_t arrived_ns = 0;   ///< steady_ns()
+  uint64_t connection = 0;  ///< on which it came, counted from 1
+  bool steering = false;    ///< which of the two kinds below it is
   // Handle: the device's own frame.
   std::array<double, 4> rotation_wxyz{1, 0, 0, 0};
   std::array<double, 3> place_mm{}, hand_force_n{};
@@ -48,6 +48,7 @@ struct RemoteLink {
   /// Counts of messages, and the way there and back in us (-1: not known): written by the socket's side.
   std::atomic<uint64_t> received{0}, missing{0}, late{0}, refused{0}, connections{0};
   std::atomic<int64_t> rtt_us{-1};
+  std::atomic<LinkState> state{LinkState::lost};  ///< by the age of the newest input, written by the device
 };
 
 }  // namespace ream::device

@@ -69,15 +69,22 @@ struct RobotParameters {
   double depth_mm = 2.0;
 };
 
-enum class ScriptKind { hand, poses, robot };
+enum class ScriptKind {
+  hand,
+  poses,
+  robot,
+  remote,  ///< somebody else holds the device; the script only says how the session is set up
+};
 
 /// Input of a headless run; see proto/script.schema.json.
 struct Script {
   ScriptKind kind = ScriptKind::hand;
   double duration_s = 0.0;
-  double force_scale = 1.0;              ///< simulated N per hand N
-  double stiffness_n_mm = 0.0;           ///< of the coupling, hand side; 0: the device's own
-  std::string device_profile = "ideal";  ///< whose limits the hand feels through; device/profiles.hpp
+  double force_scale = 1.0;     ///< simulated N per hand N
+  double stiffness_n_mm = 0.0;  ///< of the coupling, hand side; 0: the device's own
+  /// Whose limits the hand feels through; device/profiles.hpp. Empty, of remote ones only: the device's
+  /// usual.
+  std::string device_profile = "ideal";
   double spindle_rpm = 156.0;
   std::string feed_model = "empirical";  ///< or oblique, scraping
   double specimen_factor = 1.0;          ///< feed of this specimen over the feed law's
@@ -97,8 +104,18 @@ Script parse_script(const nlohmann::json& json, const std::string& where);
 /// The script `demo` that always exists.
 Script demo_script();
 
+/// The script `practice` that always exists: for somebody with a device of their own, without an end. Force
+/// scale and profile are the device's (fit_to_remote).
+Script practice_script();
+
+/// Fits a script to a remote device: `profile`, no more stiffness than that renders, and where the script
+/// leaves it open (0) the least whole force scale at which 80 simulated N are not too much for it.
+/// Error invalid_input for an unknown profile.
+void fit_to_remote(const std::string& profile, Script& script);
+
 /// A device that plays `script`; `world_from_plan` puts it on a case. Time advances one tick a read. Throws
-/// Error invalid_input for an unknown device profile, and for a robot on an impedance device.
+/// Error invalid_input for an unknown device profile, for a robot on an impedance device, and for a remote
+/// script.
 std::unique_ptr<HapticDevice> make_scripted_device(const Script& script, const Pose& world_from_plan,
                                                    uint64_t random_seed = 1);
 

@@ -1,6 +1,7 @@
 #include "device/scripted_device.hpp"
 
 #include "core/clock.hpp"
+#include "core/error.hpp"
 #include "device/profiles.hpp"
 #include "device/scripted_timeline.hpp"
 
@@ -34,6 +35,9 @@ std::unique_ptr<HapticDevice> make_scripted_device(const Script& script, const P
       return make_pose_device(script, world_from_plan);
     case ScriptKind::robot:
       return make_robot_device(script, world_from_plan);
+    case ScriptKind::remote:
+      throw Error(ErrorKind::invalid_input,
+                  "this script plays nothing, it is for somebody with a device; name one, such as 'browser'");
     case ScriptKind::hand:
       break;
   }

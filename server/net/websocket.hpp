@@ -1,12 +1,20 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "net/message.hpp"
 
 namespace ream::net {
+
+/// How a session ends a connection from its side.
+struct Farewell {
+  uint16_t code = 1000;  ///< RFC 6455, 7.4; 4000 to 4999 are the session's own
+  std::string words;     ///< for people; what goes beyond 123 bytes is cut off
+};
 
 /// The server's side of one WebSocket connection. All calls come one after another (never two at once) from
 /// the I/O threads, so none may block. An exception that leaves a call closes the connection (code 1011).
@@ -21,6 +29,9 @@ class WebSocketSession {
   /// The next binary message, or nothing for now. Asked for when the previous one has left and after each
   /// wake, so a slow viewer pulls less often and the session decides what it may skip.
   virtual std::optional<SharedBytes> next() = 0;
+
+  /// Asked for whenever next() has nothing: closes the connection in words.
+  virtual std::optional<Farewell> farewell() { return std::nullopt; }
 
   /// One whole message of the peer.
   virtual void on_message(std::span<const std::byte> message) = 0;

@@ -19,6 +19,8 @@ using asio::ip::tcp;
 using boost::system::error_code;
 namespace {
 
+constexpr size_t longest_reason = 123;  ///< bytes, RFC 6455, 5.5
+
 /// The handshake must be read before this connection exists, so it is rebuilt from what the router saw.
 http::request<http::empty_body> handshake_of(const Request& request) {
   http::request<http::empty_body> handshake{http::verb::get, request.path, 11};
@@ -103,12 +105,21 @@ class WebSocketConnection final : public Connection,
     if (writing_ || closing_ || finished_) return;
     std::optional<SharedBytes> message;
     guarded([&] { message = session_->next(); });
+    if (!message || !*message) say_farewell();
     if (!message || !*message || closing_) return;
     outgoing_ = std::move(*message);
     writing_ = true;
     watchdog_.arm(engine_.limits.write, shared_from_this());
     stream_.async_write(asio::buffer(outgoing_->data(), outgoing_->size()),
                         [self = shared_from_this()](error_code failed, size_t) { self->on_written(failed); });
+  }
+
+  void say_farewell() {
+    std::optional<Farewell> farewell;
+    guarded([&] { farewell = session_->farewell(); });
+    if (farewell)
+      close({static_cast<websocket::close_code>(farewell->code),
+             beast::string_view(farewell->words).substr(0, longest_reason)});
   }
 
   void on_written(error_code failed) {
@@ -149,7 +160,7 @@ class WebSocketConnection final : public Connection,
     }
   }
 
-  void close(websocket::close_code code) {
+  void close(const websocket::close_reason& reason) {
     if (closing_ || finished_) return;
     if (!accepted_) {  // no closing handshake before the opening one is over
       finish();
@@ -158,7 +169,7 @@ class WebSocketConnection final : public Connection,
     closing_ = true;
     let_go();
     watchdog_.arm(engine_.limits.linger, shared_from_this());
-    stream_.async_close(code, [self = shared_from_this()](error_code) { self->finish(); });
+    stream_.async_close(reason, [self = shared_from_this()](error_code) { self->finish(); });
   }
 
   void finish() noexcept {

@@ -42,7 +42,9 @@ Vec3 vibration_n(const Model& model, const Pose& world_from_tool, double vibrati
 }  // namespace
 
 device::DeviceOutput output_of(const record::TickReport& report) noexcept {
-  return {report.hand_force_n, report.hand_torque_n_mm, report.hand_vibration_n, report.world_from_tool};
+  return {report.hand_force_n, report.hand_torque_n_mm, report.hand_vibration_n, report.world_from_tool,
+          report.tick,         report.paused,           report.engaged,          report.thrust_n,
+          report.vibration_g};
 }
 
 void render(const Model& model, HandOutput& output, const Pose& world_from_tool, const ToolLoad& load,

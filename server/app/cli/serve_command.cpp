@@ -8,6 +8,7 @@
 #include "api/server.hpp"
 #include "app/cli/commands.hpp"
 #include "app/data_folder.hpp"
+#include "app/device_registry.hpp"
 #include "app/interrupt.hpp"
 #include "app/reaming_session.hpp"
 #include "app/replay_session.hpp"
@@ -27,7 +28,7 @@ struct Options {
   std::string host = "127.0.0.1";
   uint16_t port = 8080;
   fs::path web;
-  std::string backend = "auto", realtime = "try";
+  std::string backend = "auto", realtime = "try", device = "script";
 };
 
 /// The built page: --web, else web/ beside the program's folder, else web/dist of the source tree it was
@@ -51,6 +52,12 @@ sim::Realtime realtime_from_text(const std::string& text) {
   return text == "require" ? sim::Realtime::require
          : text == "off"   ? sim::Realtime::off
                            : sim::Realtime::attempt;
+}
+
+std::vector<std::string> device_names() {
+  std::vector<std::string> names;
+  for (const DeviceKind& kind : device_kinds()) names.push_back(kind.name);
+  return names;
 }
 
 void serve(const Options& options, const GlobalOptions& global) {
@@ -78,6 +85,7 @@ void serve(const Options& options, const GlobalOptions& global) {
                                                const std::string& reamer) {
     return std::make_unique<ReamingSession>(house, request, reamer);
   };
+  server_options.usual_device = options.device;
   server_options.make_replay = [house](const api::ReplayRequest& request) {
     return std::make_unique<ReplaySession>(house, request);
   };
@@ -107,6 +115,9 @@ void add_serve_command(CLI::App& app, GlobalOptions& global) {
   command->add_option("--port", options->port, "Port; 0 takes any free one")->capture_default_str();
   command->add_option("--web", options->web, "Folder of the built page");
   command->add_option("--backend", options->backend, "auto, cpu, opencl or opencl:N")->capture_default_str();
+  command->add_option("--device", options->device, "Device of sessions that name none")
+      ->check(CLI::IsMember(device_names()))
+      ->capture_default_str();
   command->add_option("--realtime", options->realtime, "Real-time priority of the haptic loop")
       ->check(CLI::IsMember({"require", "try", "off"}))
       ->capture_default_str();

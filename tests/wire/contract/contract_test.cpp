@@ -108,7 +108,26 @@ class ContractTest : public ServerTest {
     expect_stream(all + "/nobody/stream", 404);
     expect_stream(all + "/earlier/stream", 409);
     expect_get(one + "/stream", path + "/stream", 426);
+    device(path);
     replays_of(id);
+  }
+
+  void expect_device(const std::string& path, int status,
+                     const std::map<std::string, std::string>& headers = {}) {
+    const RawWebSocket client(server->port(), path, headers);
+    expect_as_described("GET", one + "/device", status, client.handshake());
+  }
+
+  void device(const std::string& scripted) {
+    const json made = json::parse(post(all, R"({"case": "planned", "device": "network"})").body);
+    EXPECT_EQ(made.at("script"), "practice");
+    const std::string path = all + "/" + made.at("id").get<std::string>();
+    expect_device(path + "/device", 101);
+    expect_device(path + "/device", 403, foreign);
+    expect_device(all + "/nobody/device", 404);
+    expect_device(scripted + "/device", 409);
+    expect_get(one + "/device", path + "/device", 426);
+    expect_post(one + "/stop", path + "/stop", 200);
   }
 
   void replays_of(const std::string& ended) {
@@ -236,17 +255,29 @@ TEST_F(ContractTest, TakesExactlyTheBodiesThatTheSchemaTakes) {
   options.sessions.live = 100;
   start();
   const json& schema = contract.at("components").at("schemas").at("NewSession");
-  for (const char* body :
-       {R"({"case": "planned", "script": "demo"})",
-        R"({"case": "planned", "script": "demo", "force_scale": 1000})",
-        R"({"case": "planned", "script": "demo", "force_scale": 0.001})",
-        R"({"case": "planned", "script": "demo", "force_scale": 0})",
-        R"({"case": "planned", "script": "demo", "force_scale": 1000.1})",
-        R"({"case": "planned", "script": "demo", "force_scale": "1"})",
-        R"({"case": "planned", "script": "demo", "force_scale": null})", R"({"case": "planned"})",
-        R"({"script": "demo"})", "{}", "[]", "null", R"({"case": "../planned", "script": "demo"})",
-        R"({"case": "planned", "script": "/etc/passwd"})", R"({"case": "", "script": "demo"})",
-        R"({"case": 1, "script": true})", R"({"case": "planned", "script": "demo", "Case": "x"})"}) {
+  for (const char* body : {R"({"case": "planned", "script": "demo"})",
+                           R"({"case": "planned", "script": "demo", "force_scale": 1000})",
+                           R"({"case": "planned", "script": "demo", "force_scale": 0.001})",
+                           R"({"case": "planned", "script": "demo", "force_scale": 0})",
+                           R"({"case": "planned", "script": "demo", "force_scale": 1000.1})",
+                           R"({"case": "planned", "script": "demo", "force_scale": "1"})",
+                           R"({"case": "planned", "script": "demo", "force_scale": null})",
+                           R"({"case": "planned"})",
+                           R"({"script": "demo"})",
+                           "{}",
+                           "[]",
+                           "null",
+                           R"({"case": "../planned", "script": "demo"})",
+                           R"({"case": "planned", "script": "/etc/passwd"})",
+                           R"({"case": "", "script": "demo"})",
+                           R"({"case": 1, "script": true})",
+                           R"({"case": "planned", "device": "browser"})",
+                           R"({"case": "planned", "device": "../x"})",
+                           R"({"case": "planned", "device": null})",
+                           R"({"case": "planned", "device": "network", "device_profile": "omega.3"})",
+                           R"({"case": "planned", "device": "network", "device_profile": ""})",
+                           R"({"case": "planned", "device_profile": 3})",
+                           R"({"case": "planned", "script": "demo", "Case": "x"})"}) {
     const bool fits = checker.faults(schema, json::parse(body)).empty();
     EXPECT_EQ(post(all, body).status, fits ? 201 : 422) << body;
   }

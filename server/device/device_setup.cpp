@@ -1,0 +1,161 @@
+#include "device/device_setup.hpp"
+
+#include <Eigen/SVD>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/json_reader.hpp"
+
+namespace ream::device {
+namespace {
+
+constexpr double least_motion_mm = 10.0;
+/// Two motions that are closer to each other, or to each other's opposite, than 60 degrees tell no axes.
+constexpr double most_cosine = 0.5;
+constexpr double rotation_tolerance = 1e-6;
+
+/// A planned axis this near to the body's leaves no direction up; cosine.
+constexpr double along_the_body = 0.99;
+const Vec3 superior = Vec3::UnitZ(), anterior = -Vec3::UnitY();  // the world is LPS
+
+constexpr std::array<const char*, 3> person_axes{"right", "up", "towards"};
+constexpr std::array<const char*, 3> tool_axes{"x", "y", "z"};
+
+[[noreturn]] void refuse(const std::string& words) { throw Error(ErrorKind::invalid_input, words); }
+
+Vec3 direction_of(const Vec3& motion_mm, const std::string& name) {
+  const double length_mm = motion_mm.norm();
+  if (!std::isfinite(length_mm)) refuse("the motion " + name + " is not a number");
+  if (length_mm < least_motion_mm)
+    refuse("the motion " + name + " was only " + std::to_string(std::lround(length_mm)) +
+           " mm long; move the handle at least 10 mm, better 50");
+  return motion_mm / length_mm;
+}
+
+void require_apart(const Vec3& a, const Vec3& b, const std::string& names) {
+  if (std::abs(a.dot(b)) > most_cosine)
+    refuse("the motions " + names + " went almost the same way; move straight, and square to the one before");
+}
+
+/// The rotation whose rows have these names. `key` of the reader.
+Mat3 rotation_of(JsonReader& reader, const std::string& key, const std::array<const char*, 3>& names) {
+  JsonReader rows = reader.object(key);
+  Mat3 rotation;
+  for (int row = 0; row < 3; ++row) {
+    const std::vector<double> numbers = rows.numbers(names[static_cast<size_t>(row)], 3);
+    rotation.row(row) = Vec3(numbers[0], numbers[1], numbers[2]);
+  }
+  rows.finish();
+  if (!((rotation * rotation.transpose() - Mat3::Identity()).norm() < rotation_tolerance) ||
+      rotation.determinant() < 0.0)
+    reader.refuse(key,
+                  "must be a rotation: three directions of length 1, square to each other, right-handed");
+  return rotation;
+}
+
+nlohmann::json named_rows(const Mat3& rotation, const std::array<const char*, 3>& names) {
+  nlohmann::json json;
+  for (int row = 0; row < 3; ++row)
+    json[names[static_cast<size_t>(row)]] = {rotation(row, 0), rotation(row, 1), rotation(row, 2)};
+  return json;
+}
+
+/// "-y" and the like; all zero for anything else.
+Vec3 axis_from_word(std::string word) {
+  const double sign = word.starts_with('-') ? -1.0 : 1.0;
+  if (word.starts_with('-') || word.starts_with('+')) word.erase(0, 1);
+  if (word.size() != 1 || word[0] < 'x' || word[0] > 'z') return Vec3::Zero();
+  return sign * Vec3::Unit(word[0] - 'x');
+}
+
+}  // namespace
+
+const char* to_text(Hand hand) noexcept { return hand == Hand::left ? "left" : "right"; }
+
+Mat3 handle_from_tool(const DeviceSetup& setup) {
+  const Mat3 mirror = Vec3(-1.0, 1.0, 1.0).asDiagonal();
+  return setup.hand == Hand::left ? Mat3(mirror * setup.handle_from_tool * mirror) : setup.handle_from_tool;
+}
+
+Mat3 person_from_motions(const Vec3& right_mm, const Vec3& up_mm, const Vec3& towards_mm) {
+  const Vec3 right = direction_of(right_mm, "to the right"), up = direction_of(up_mm, "up"),
+             towards = direction_of(towards_mm, "towards you");
+  require_apart(right, up, "to the right and up");
+  require_apart(up, towards, "up and towards you");
+  require_apart(towards, right, "towards you and to the right");
+  Mat3 device_from_person;
+  device_from_person << right, up, towards;
+  if (device_from_person.determinant() <= 0.0)
+    refuse(
+        "the three motions are mirrored; one of them went the wrong way, so start again: right, up, towards "
+        "you");
+  // The nearest rotation to a matrix is U V^T of its singular value decomposition (Kabsch 1976).
+  const Eigen::JacobiSVD<Mat3> svd(device_from_person, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return (svd.matrixU() * svd.matrixV().transpose()).transpose();
+}
+
+Mat3 person_from_axes(const std::string& words) {
+  Mat3 person_from_device;
+  size_t begin = 0;
+  for (int row = 0; row < 3; ++row) {
+    const size_t end = row < 2 ? words.find(',', begin) : words.size();
+    if (end == std::string::npos || begin > end) break;
+    person_from_device.row(row) = axis_from_word(words.substr(begin, end - begin));
+    begin = end + 1;
+    if (row == 2 && person_from_device.determinant() > 0.5) return person_from_device;
+  }
+  refuse("axes '" + words +
+         "' must name the device's axes that go to your right, up and towards you, right-handed, as in "
+         "x,y,z or -y,z,-x");
+}
+
+Mat3 world_from_person(const Vec3& axis_direction) {
+  const Vec3 towards = -axis_direction.normalized();
+  const Vec3 wanted_up = std::abs(towards.dot(superior)) < along_the_body ? superior : anterior;
+  const Vec3 up = (wanted_up - towards * towards.dot(wanted_up)).normalized();
+  Mat3 rotation;
+  rotation << up.cross(towards), up, towards;
+  return rotation;
+}
+
+DeviceSetup parse_device_setup(const nlohmann::json& json, const std::string& place) {
+  JsonReader reader(json, place);
+  DeviceSetup setup;
+  setup.person_from_device = rotation_of(reader, "axes", person_axes);
+  setup.scale = reader.number("scale", DeviceSetup::least_scale, DeviceSetup::most_scale);
+  const std::string hand = reader.text("hand");
+  if (hand != "left" && hand != "right") reader.refuse("hand", "is '" + hand + "', must be left or right");
+  setup.hand = hand == "left" ? Hand::left : Hand::right;
+  if (reader.has("grip")) setup.handle_from_tool = rotation_of(reader, "grip", tool_axes).transpose();
+  reader.finish();
+  return setup;
+}
+
+nlohmann::json to_json(const DeviceSetup& setup) {
+  return {{"axes", named_rows(setup.person_from_device, person_axes)},
+          {"scale", setup.scale},
+          {"hand", to_text(setup.hand)},
+          {"grip", named_rows(setup.handle_from_tool.transpose(), tool_axes)}};
+}
+
+std::filesystem::path device_setup_path(const std::filesystem::path& data, const std::string& device) {
+  return data / "devices" / (device + ".json");
+}
+
+DeviceSetup load_device_setup(const std::filesystem::path& data, const std::string& device) {
+  const std::filesystem::path path = device_setup_path(data, device);
+  if (!std::filesystem::exists(path)) return {};
+  return parse_device_setup(read_json_file(path), path.string());
+}
+
+void save_device_setup(const std::filesystem::path& data, const std::string& device,
+                       const DeviceSetup& setup) {
+  const std::filesystem::path path = device_setup_path(data, device);
+  make_writable_folder(path.parent_path());
+  write_file_atomically(path, to_json(setup).dump(2) + "\n");
+}
+
+}  // namespace ream::device

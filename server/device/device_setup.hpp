@@ -1,0 +1,59 @@
+#pragma once
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "geometry/pose.hpp"
+
+namespace ream::device {
+
+/// Which hand holds the tool.
+enum class Hand { right, left };
+const char* to_text(Hand hand) noexcept;
+
+/// How a haptic device stands in front of a person and how the tool lies in the hand. The person's frame: x
+/// to the right, y up, z towards the person.
+struct DeviceSetup {
+  Mat3 person_from_device = Mat3::Identity();  ///< a rotation
+  /// World mm for each mm of the device. Forces stay hand newtons, as they are recorded and shown; lengths in
+  /// the hand are shorter by the scale, and torques with them. So all work is smaller by one and the same
+  /// factor, and what is passive in the world is passive in the hand.
+  double scale = 1.0;
+  Hand hand = Hand::right;
+  /// How the tool lies in a right hand: its axes in the handle's, which are the device's when the device
+  /// reports no turn. As it is here, a handle without a turn points the tool away from the person.
+  Mat3 handle_from_tool = Vec3(1.0, -1.0, -1.0).asDiagonal();
+
+  static constexpr double least_scale = 0.05, most_scale = 20.0;
+};
+
+/// How the tool lies in the hand that holds it: in a left one mirrored, left for right.
+Mat3 handle_from_tool(const DeviceSetup& setup);
+
+/// Set-up of the device from its motions (device frame, mm) while a person moved the handle to the right, up,
+/// and towards themselves: the rotation that turns them nearest to x, y and z. Errors, invalid_input: a
+/// motion shorter than 10 mm; two less than 60 degrees apart; the three are mirrored.
+Mat3 person_from_motions(const Vec3& right_mm, const Vec3& up_mm, const Vec3& towards_mm);
+
+/// Axes as people write them, "X,Y,Z": for the person's right, up and towards, the device's axis that goes
+/// there, as in "x,y,z" or "-y,z,-x". Error invalid_input.
+Mat3 person_from_axes(const std::string& words);
+
+/// The rotation that takes the person's coordinates to the world's, for a planned axis (into the bone, world,
+/// any length but 0): it goes away from the person, and up is towards the patient's head as far as possible,
+/// as for one who sits upright; where the axis is along the body, up is to the front.
+Mat3 world_from_person(const Vec3& axis_direction);
+
+/// As in data/devices/NAME.json; see proto/device-setup.schema.json. `place` names the file in errors, which
+/// are invalid_input.
+DeviceSetup parse_device_setup(const nlohmann::json& json, const std::string& place);
+nlohmann::json to_json(const DeviceSetup& setup);
+
+/// Where the set-up of a device is kept, and what is kept there: without a file the set-up as it is made.
+std::filesystem::path device_setup_path(const std::filesystem::path& data, const std::string& device);
+DeviceSetup load_device_setup(const std::filesystem::path& data, const std::string& device);
+/// All of it or nothing. Error io.
+void save_device_setup(const std::filesystem::path& data, const std::string& device,
+                       const DeviceSetup& setup);
+
+}  // namespace ream::device

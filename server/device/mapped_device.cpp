@@ -1,0 +1,109 @@
+#include "device/mapped_device.hpp"
+
+#include "core/clock.hpp"
+
+namespace ream::device {
+namespace {
+
+constexpr double tick_ms = 1e3 * tick_s;
+
+DeviceTraits seen_from_the_world(DeviceTraits traits, double scale) {
+  traits.torque_max_n_mm *= scale;
+  traits.stiffness_max_n_mm /= scale;
+  traits.angular_stiffness_max_n_mm_rad *= scale;
+  traits.damping_max_n_s_mm /= scale;
+  traits.workspace_radius_mm *= scale;
+  traits.effective_mass_kg /= scale;
+  return traits;
+}
+
+bool is_finite(const DeviceInput& input) noexcept {
+  return input.world_from_handle.rotation.allFinite() && input.world_from_handle.translation_mm.allFinite() &&
+         input.hand_force_n.allFinite() && input.hand_torque_n_mm.allFinite();
+}
+
+}  // namespace
+
+MappedDevice::MappedDevice(std::unique_ptr<HapticDevice> device, const DeviceSetup& setup,
+                           const Pose& world_from_start)
+    : device_(std::move(device)),
+      world_from_device_(world_from_person(world_from_start.rotation.col(2)) * setup.person_from_device),
+      handle_from_tool_(device::handle_from_tool(setup)),
+      scale_(setup.scale),
+      world_from_start_(world_from_start),
+      traits_(seen_from_the_world(device_->traits(), setup.scale)),
+      world_from_handle_(world_from_start) {}
+
+void MappedDevice::open() {
+  device_->open();
+  told_ = {};
+  world_from_handle_ = world_from_start_;
+  unsaid_ms_ = 0.0;
+  rests_ = turning_ = true;
+}
+
+Vec3 MappedDevice::mapped_mm(const Vec3& device_mm) const noexcept {
+  return world_from_device_ * (scale_ * device_mm);
+}
+
+DeviceStatus MappedDevice::read(DeviceInput& input) noexcept {
+  DeviceInput told = told_;
+  const DeviceStatus status = device_->read(told);
+  if (status != DeviceStatus::ok) return status;
+  const double since_ms = told_.age_ms + unsaid_ms_ + tick_ms;
+  unsaid_ms_ += tick_ms;
+  if (is_finite(told)) {
+    unsaid_ms_ = 0.0;
+    told_ = told;
+  }
+  input.age_ms = told_.age_ms + unsaid_ms_;
+  input.clutch = told_.clutch;
+  input.deadman = told_.deadman;
+  input.paused = told_.paused || told_.clutch || !told_.deadman || input.age_ms >= traits_.stale.lost_ms;
+  input.spindle_on = told_.spindle_on && told_.deadman;
+  follow(input.paused, since_ms);
+  input.world_from_handle = world_from_handle_;
+  input.hand_force_n = world_from_device_ * told_.hand_force_n;
+  input.hand_torque_n_mm = world_from_device_ * (scale_ * told_.hand_torque_n_mm);
+  return DeviceStatus::ok;
+}
+
+void MappedDevice::follow(bool rests, double since_ms) noexcept {
+  const Vec3 place_mm = told_.world_from_handle.translation_mm;
+  const bool jumped = (place_mm - last_mm_).norm() > fastest_hand_mm_s * 1e-3 * since_ms;
+  if (rests || rests_ || jumped) offset_mm_ = world_from_handle_.translation_mm - mapped_mm(place_mm);
+  world_from_handle_.translation_mm = offset_mm_ + mapped_mm(place_mm);
+  if (!rests) turn_to(world_from_device_ * told_.world_from_handle.rotation * handle_from_tool_);
+  turning_ |= rests;
+  rests_ = rests;
+  last_mm_ = place_mm;
+}
+
+void MappedDevice::turn_to(const Mat3& world_from_tool) noexcept {
+  const Vec3 turn_rad = turn_between(world_from_handle_.rotation, world_from_tool);
+  const double step_rad = turn_rate_rad_s * tick_s, angle_rad = turn_rad.norm();
+  turning_ &= angle_rad > step_rad;
+  world_from_handle_.rotation =
+      turning_ ? orthonormalized(world_from_handle_.rotation *
+                                 rotation_from_small_vector(turn_rad * (step_rad / angle_rad)))
+               : world_from_tool;
+}
+
+DeviceStatus MappedDevice::write(const DeviceOutput& output) noexcept {
+  const Mat3 device_from_world = world_from_device_.transpose();
+  DeviceOutput told = output;
+  told.force_n = device_from_world * output.force_n;
+  told.vibration_n = device_from_world * output.vibration_n;
+  told.torque_n_mm = device_from_world * (output.torque_n_mm / scale_);
+  if (output.world_from_tool)
+    told.world_from_tool =
+        Pose{device_from_world * output.world_from_tool->rotation * handle_from_tool_.transpose(),
+             device_from_world * (output.world_from_tool->translation_mm - offset_mm_) / scale_};
+  if (rests_) {
+    told.force_n = told.torque_n_mm = told.vibration_n = Vec3::Zero();
+    told.world_from_tool.reset();
+  }
+  return device_->write(told);
+}
+
+}  // namespace ream::device
