@@ -177,7 +177,7 @@ export const words = {
   handFading: 'Link slow',
   handSilent: 'No answer',
   handLost: 'Link lost',
-  handEnded: 'Not in your hand',
+  handEnded: (reason: string) => `This page does not steer any more: ${reason}`,
   roundTrip: (ms: string) => `${ms} ms`,
 
   noticeHandConnecting: 'Reaching for the reamer…',
@@ -186,7 +186,6 @@ export const words = {
   noticeHandSilent: 'The simulator does not answer your hand',
   noticeHandLost: 'The reamer is out of your hand: the link is lost',
   noticeHandLostText: 'No force, and the session rests.',
-  noticeHandEnded: 'This page does not steer any more',
   noticeLetGo: 'You have let go; the spindle has stopped',
   noticeLetGoText: 'Come back to the picture to take hold again, and start the spindle anew.',
   noticePaused: 'Paused',

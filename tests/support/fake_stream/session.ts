@@ -4,7 +4,7 @@ import { SessionState } from '../../../web/src/wire/generated/stream_generated';
 import { entryMm, intactBone, plannedDepthMm, sweptByCap, type Point } from './bone';
 import { FakeHand } from './hand';
 import { helloMessage, meshMessage, telemetryMessage, type RevisedBlock } from './messages';
-import { blockDims, blockEdge, Field, meshBlock } from './surface_nets';
+import { blockDims, blockEdge, type BlockMesh, Field, meshBlock } from './surface_nets';
 
 const stepMs = 33;
 const approachMm = 12;
@@ -19,7 +19,7 @@ export class FakeSession {
   tick = 0;
   readonly createdUtc = new Date().toISOString();
   private readonly field = new Field(intactBone);
-  private readonly blocks: RevisedBlock[] = [];
+  private readonly blocks: RevisedBlock[];
   private readonly viewers = new Set<WebSocket>();
   /** The device that steers it; null: a script does. */
   readonly hand: FakeHand | null;
@@ -35,13 +35,15 @@ export class FakeSession {
     private readonly device: string,
   ) {
     this.hand = device === 'browser' ? new FakeHand(id) : null;
-    this.field.fill();
-    for (let block = 0; block < blockDims[0] * blockDims[1] * blockDims[2]; ++block)
-      this.blocks.push({ block, revision: 1, mesh: meshBlock(this.field, block) });
+    intact ??= wholeBone();
+    this.field.values.set(intact.values);
+    this.blocks = intact.meshes.map((mesh, block) => ({ block, revision: 1, mesh }));
   }
 
   describe(): object {
-    const loop = { mean_us: 184, p50_us: 170, p99_us: 391, p999_us: 700, max_us: 900, missed: 0 };
+    const times = { mean_us: 184, p50_us: 170, p99_us: 391, p999_us: 700, max_us: 900 };
+    const lateness = { mean_us: 4, p50_us: 3, p99_us: 9, p999_us: 80, max_us: 300 };
+    const loop = { ...times, missed: 0, lateness, realtime: true, memory_locked: true, cpu: -1 };
     return {
       id: this.id,
       kind: 'session',
@@ -185,6 +187,16 @@ export class FakeSession {
   private send(message: Uint8Array): void {
     for (const viewer of this.viewers) viewer.send(message);
   }
+}
+
+/** The bone that every session begins with, made when it is first needed. */
+let intact: { values: Float32Array; meshes: BlockMesh[] } | undefined;
+
+function wholeBone(): { values: Float32Array; meshes: BlockMesh[] } {
+  const field = new Field(intactBone);
+  field.fill();
+  const count = blockDims[0] * blockDims[1] * blockDims[2];
+  return { values: field.values, meshes: Array.from({ length: count }, (_, block) => meshBlock(field, block)) };
 }
 
 function blockOf(x: number, y: number, z: number): number {

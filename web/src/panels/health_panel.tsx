@@ -40,7 +40,7 @@ function Loop({ session }: { session: Session | null }) {
     <>
       <Pair name={words.tickTimes} id="tick-p99" a={loop?.p50_us} b={loop?.p99_us} />
       <Pair name={words.tickTail} a={loop?.p999_us} b={loop?.max_us} />
-      {loop?.lateness_us !== undefined && <Lateness timing={loop.lateness_us} />}
+      {loop?.lateness !== undefined && <Lateness timing={loop.lateness} />}
       {loop?.realtime !== undefined && (
         <Figure name={words.realtime} id="realtime">
           {loop.realtime ? words.granted : words.notGranted}
@@ -67,7 +67,7 @@ function Device({ session, practice }: { session: Session | null; practice: Prac
     <>
       <Figure name={words.device} id="device-state">
         {words.deviceName(device.name)}
-        {device.state !== '' && `, ${words.deviceState(device.state)}`}
+        {device.state !== null && `, ${words.deviceState(device.state)}`}
       </Figure>
       {rttMs !== null && (
         <Figure name={words.deviceRtt} unit="ms" id="device-rtt">

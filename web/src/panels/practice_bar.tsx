@@ -136,8 +136,7 @@ function HandState({ practice }: { practice: PracticeStore }) {
   const link = practice.link.value.kind;
   const feedback = practice.feedback.value;
   const slow = feedback !== null && feedback.link !== 'fresh';
-  const look =
-    link === 'holding' ? (slow ? 'silent' : 'live') : link === 'lost' || link === 'ended' ? 'lost' : 'silent';
+  const look = link === 'holding' ? (slow ? 'silent' : 'live') : link === 'lost' ? 'lost' : 'silent';
   return (
     <p class={`hand-link link-${look}`} role="status" data-testid="hand-link" data-link={link} title={words.handLink}>
       <span class="link-dot" aria-hidden="true" />
@@ -145,7 +144,9 @@ function HandState({ practice }: { practice: PracticeStore }) {
         {handWords(practice)}
         {practice.gamepad.value && ` · ${words.gamepadFound}`}
       </span>
-      {feedback !== null && feedback.rttMs !== null && <span class="soft rtt">{words.roundTrip(fixed(feedback.rttMs, 0))}</span>}
+      {feedback !== null && feedback.rttMs !== null && (
+        <span class="soft rtt">{words.roundTrip(fixed(feedback.rttMs, 0))}</span>
+      )}
     </p>
   );
 }
@@ -157,9 +158,8 @@ function handWords(practice: PracticeStore): string {
     case 'silent':
       return words.handSilent;
     case 'lost':
-      return words.handLost;
     case 'ended':
-      return words.handEnded;
+      return words.handLost;
     case 'holding':
       switch (practice.feedback.value?.link) {
         case 'held':

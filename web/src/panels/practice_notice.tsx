@@ -28,7 +28,7 @@ function ofLink(practice: PracticeStore): Notice | null {
     case 'lost':
       return ['lost', words.noticeHandLost, `${words.noticeHandLostText} ${words.retryNow}`];
     case 'ended':
-      return ['lost', words.noticeHandEnded, link.reason];
+      return null;
     case 'holding':
       if (practice.feedback.value?.link === 'fading') return ['silent', words.noticeHandFading, ''];
       if (practice.feedback.value?.link === 'lost') return ['lost', words.noticeHandPoseLost, ''];

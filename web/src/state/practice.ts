@@ -4,8 +4,9 @@ import { GamepadHand } from '../practice/gamepad_hand';
 import { KeyHand } from '../practice/key_hand';
 import { PointerHand, type SteeredView } from '../practice/pointer_hand';
 import { Rumble } from '../practice/rumble';
-import { DeviceLink } from '../wire/device_link';
+import { DeviceLink, type DeviceLinkState } from '../wire/device_link';
 import type { DeviceSocket } from '../wire/device_socket';
+import { words } from '../words';
 import type { PracticeStore } from './practice_store';
 import type { Store } from './store';
 
@@ -44,15 +45,7 @@ export class Practice {
   ) {
     this.link = new DeviceLink({
       socket,
-      onState: (state) => {
-        batch(() => {
-          practice.link.value = state;
-          if (state.kind !== 'holding') practice.feedback.value = null;
-          // What was pressed when the connection went is pressed anew.
-          if (state.kind === 'lost' || state.kind === 'ended') practice.hand.letGo();
-        });
-        if (state.kind !== 'holding') this.rumble.forget();
-      },
+      onState: (state) => this.onLink(state),
       onFeedback: (feedback) => {
         practice.feedback.value = feedback;
         this.rumble.feel(feedback.vibrationG);
@@ -68,6 +61,20 @@ export class Practice {
       const state = store.sessionState.value;
       if (elsewhere || (state !== null && state !== 'created' && !store.active.value)) this.leave();
     });
+  }
+
+  private onLink(state: DeviceLinkState): void {
+    batch(() => {
+      this.practice.link.value = state;
+      if (state.kind !== 'holding') this.practice.feedback.value = null;
+      // What was pressed when the connection went is pressed anew.
+      if (state.kind === 'lost') this.practice.hand.letGo();
+      if (state.kind === 'ended') {
+        this.leave();
+        this.store.problem.value = words.handEnded(state.reason);
+      }
+    });
+    if (state.kind !== 'holding') this.rumble.forget();
   }
 
   /** The session that was steered before the page was loaded anew. */

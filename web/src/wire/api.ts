@@ -31,7 +31,8 @@ export interface LoopHealth extends Timing {
   mean_us: number;
   /** Ticks that began more than a millisecond late. */
   missed: number;
-  lateness_us: Timing;
+  /** Of the ticks' beginnings. */
+  lateness: Timing;
   realtime: boolean;
 }
 
@@ -39,8 +40,8 @@ export interface LoopHealth extends Timing {
 export interface DeviceHealth {
   /** script, network, browser, ... */
   name: string;
-  /** fresh, held, fading or lost; empty before the first tick. */
-  state: string;
+  /** fresh, held, fading or lost; null before the first tick. */
+  state: string | null;
   rtt_ms: number | null;
 }
 
@@ -107,7 +108,7 @@ export class Api {
   }
   /** A demo that waits for a hand in a browser. */
   createPractice(): Promise<Session> {
-    return this.call('POST', 'sessions', { case: 'demo', script: 'demo', device: 'browser' });
+    return this.call('POST', 'sessions', { case: 'demo', device: 'browser' });
   }
   session(id: string): Promise<Session> {
     return this.call('GET', `sessions/${encodeURIComponent(id)}`);

@@ -28,13 +28,24 @@ export function encodeHello(name: string): Uint8Array<ArrayBuffer> {
   return finish(b, DeviceBody.DeviceHello, DeviceHello.endDeviceHello(b));
 }
 
-/** `sentUs` by the page's clock, `echoUs` the newest feedback's stamp. */
-export function encodeSteering(wish: Wish, sequence: number, sentUs: bigint, echoUs: bigint): Uint8Array<ArrayBuffer> {
+/** When a message is sent, and the newest feedback that the page had by then. */
+export interface SteeringTimes {
+  sequence: number;
+  /** The page's clock. */
+  sentUs: bigint;
+  /** Stamp of that feedback; 0: none. */
+  echoUs: bigint;
+  /** How long the page has had it. */
+  echoAgeUs: number;
+}
+
+export function encodeSteering(wish: Wish, times: SteeringTimes): Uint8Array<ArrayBuffer> {
   const b = new Builder(160);
   Steering.startSteering(b);
-  Steering.addSequence(b, sequence);
-  Steering.addSentUs(b, sentUs);
-  Steering.addEchoUs(b, echoUs);
+  Steering.addSequence(b, times.sequence);
+  Steering.addSentUs(b, times.sentUs);
+  Steering.addEchoUs(b, times.echoUs);
+  Steering.addEchoAgeUs(b, times.echoAgeUs);
   Steering.addSidewaysMm(b, Vec3.createVec3(b, ...wish.sidewaysMm));
   Steering.addLean(b, Vec3.createVec3(b, ...wish.lean));
   Steering.addPushN(b, wish.pushN);
@@ -56,7 +67,11 @@ export function decodeDeviceMessage(bytes: Uint8Array): DeviceReport {
 }
 
 function buttons(wish: Wish): Button {
-  return (wish.spindleOn ? Button.spindle : 0) | (wish.paused ? Button.pause : 0) | (wish.held ? Button.deadman : 0);
+  return (
+    (wish.spindleOn ? Button.spindle : 0) |
+    (wish.paused || !wish.held ? Button.pause : 0) |
+    (wish.held ? Button.deadman : 0)
+  );
 }
 
 function decodeWelcome(w: WireWelcome): Welcome {

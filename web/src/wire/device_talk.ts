@@ -10,6 +10,7 @@ const waitingBytesMax = 2048;
 export class DeviceTalk {
   private sequence = 0;
   private echoUs = 0n;
+  private heardMs = 0;
   private welcomed = false;
   private wish: Wish | null = null;
   private wishedMs = 0;
@@ -27,15 +28,21 @@ export class DeviceTalk {
   hear(bytes: Uint8Array): DeviceReport {
     const report = decodeDeviceMessage(bytes);
     if (report.kind === 'welcome') this.welcomed = true;
-    else this.echoUs = report.feedback.stampUs;
+    if (report.kind === 'feedback') this.echo(report.feedback.stampUs);
     return report;
   }
 
+  private echo(stampUs: bigint): void {
+    this.echoUs = stampUs;
+    this.heardMs = this.nowMs();
+  }
+
   setWish(wish: Wish): void {
+    const before = this.wish;
     this.wish = wish;
     this.wishedMs = this.nowMs();
     // What takes force away is not left to the next beat.
-    if (!wish.held || wish.pushN <= 0) this.beat();
+    if (before !== null && ((before.held && !wish.held) || (before.pushN > 0 && wish.pushN <= 0))) this.beat();
   }
 
   /** To be called a hundred times a second or so. */
@@ -43,7 +50,9 @@ export class DeviceTalk {
     if (!this.welcomed || this.wish === null || this.socket.bufferedAmount > waitingBytesMax) return;
     const now = this.nowMs();
     const wish = now - this.wishedMs > wishGoodForMs ? letGo(this.wish) : this.wish;
-    this.socket.send(encodeSteering(wish, ++this.sequence, BigInt(Math.round(now * 1000)), this.echoUs));
+    const echoAgeUs = this.echoUs === 0n ? 0 : Math.round((now - this.heardMs) * 1000);
+    const sentUs = BigInt(Math.round(now * 1000));
+    this.socket.send(encodeSteering(wish, { sequence: ++this.sequence, sentUs, echoUs: this.echoUs, echoAgeUs }));
   }
 }
 
