@@ -19,6 +19,8 @@ export interface DebugReadout {
   /** Steering from this page: state of the device's connection, else null. */
   deviceLink: string | null;
   pushN: number;
+  /** How far the reamer's origin is past the planned entry along the axis, mm. */
+  toolDepthMm: number | null;
 }
 
 declare global {
@@ -44,6 +46,14 @@ export function publishDebugReadout(store: Store, practice: PracticeStore, scene
       positionTicks: store.playback.value?.positionTicks ?? null,
       deviceLink: practice.sessionId.value === null ? null : practice.link.value.kind,
       pushN: practice.hand.pushN.value,
+      toolDepthMm: toolDepthMm(store),
     }),
   });
+}
+
+function toolDepthMm(store: Store): number | null {
+  const hello = store.hello.value;
+  const at = store.telemetry.value?.worldFromTool?.translationMm;
+  if (hello === null || at === undefined) return null;
+  return hello.axisDirection.reduce((sum, unit, i) => sum + unit * ((at[i] ?? 0) - (hello.axisEntryMm[i] ?? 0)), 0);
 }

@@ -78,7 +78,8 @@ export class FakeHand {
     this.paused = (steering.buttons() & Button.pause) !== 0;
     const sideways = steering.sidewaysMm();
     if (sideways !== null) this.sidewaysMm = [sideways.x(), sideways.y(), sideways.z()];
-    if (steering.echoUs() > 0n) this.rttMs = (Date.now() * 1000 - Number(steering.echoUs())) / 1000;
+    if (steering.echoUs() > 0n)
+      this.rttMs = Math.max((Date.now() * 1000 - Number(steering.echoUs()) - steering.echoAgeUs()) / 1000, 0);
     peer.send(this.feedback());
   }
 

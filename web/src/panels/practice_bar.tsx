@@ -52,6 +52,9 @@ export function PracticeBar({ practice }: { practice: PracticeStore }) {
         >
           {words.pauseButton(hand.paused.value)}
         </button>
+        <p class="soft off-plan" data-testid="off-plan">
+          {words.offPlan(fixed(practice.offPlanMm.value, 1))}
+        </p>
         <HandState practice={practice} />
       </div>
       <PushMeter practice={practice} />
@@ -60,23 +63,15 @@ export function PracticeBar({ practice }: { practice: PracticeStore }) {
   );
 }
 
-/** The push as it is wished and the thrust that comes of it, on one scale, and how hard a full push is. */
+/** The push as it is wished and the thrust that comes of it (a mark), and below how hard a full push is; one scale. */
 function PushMeter({ practice }: { practice: PracticeStore }) {
   const { hand } = practice;
   const pushN = hand.pushN.value;
-  const thrustN = practice.feedback.value?.thrustN ?? null;
+  const thrustN = practice.feedback.value?.thrustN ?? 0;
   const share = (newtons: number) => `${((Math.max(newtons, 0) / levelMostN) * 100).toFixed(1)}%`;
   return (
     <div class="push">
-      <p class="push-words">
-        <span>
-          {words.push} <strong data-testid="push-now">{fixed(pushN, 0)}</strong> N
-        </span>
-        <span class="soft">
-          {words.thrust} <span data-testid="hand-thrust">{fixed(thrustN, 0)}</span> N
-        </span>
-        <span class="soft">{words.offPlan(fixed(practice.offPlanMm.value, 1))}</span>
-      </p>
+      <span aria-hidden="true">{words.push}</span>
       <div
         class="push-meter"
         role="meter"
@@ -87,20 +82,26 @@ function PushMeter({ practice }: { practice: PracticeStore }) {
         aria-valuetext={words.pushMeter(fixed(pushN, 0), fixed(hand.levelN.value, 0))}
       >
         <div class="push-now" style={{ width: share(pushN) }} />
-        <div class="push-thrust" style={{ left: share(thrustN ?? 0) }} />
+        <div class="push-thrust" style={{ left: share(thrustN) }} />
       </div>
+      <span class="push-figure">
+        <strong data-testid="push-now">{fixed(pushN, 0)}</strong> N
+      </span>
+      <label for="push-level">{words.pushLevel}</label>
       <input
+        id="push-level"
         type="range"
         data-testid="push-level"
-        aria-label={words.pushLevel}
         aria-valuetext={`${fixed(hand.levelN.value, 0)} N`}
-        title={words.pushLevel}
         min={0}
         max={levelMostN}
         step={1}
         value={hand.levelN.value}
         onInput={(event) => hand.setLevel(Math.max(event.currentTarget.valueAsNumber, levelLeastN))}
       />
+      <span class="push-figure">
+        <strong>{fixed(hand.levelN.value, 0)}</strong> N
+      </span>
     </div>
   );
 }
