@@ -200,6 +200,7 @@ void ReamingSession::start() {
   }
   from_.reset();
   try {
+    loop_.pin_to(place_->cpu());
     loop_.start();
   } catch (const std::exception& e) {
     std::unique_lock lock(mutex_);
