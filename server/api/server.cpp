@@ -5,6 +5,7 @@
 
 #include "api/annotation_resource.hpp"
 #include "api/case_resource.hpp"
+#include "api/prometheus.hpp"
 #include "api/replay_resource.hpp"
 #include "api/session_resource.hpp"
 #include "net/static_files.hpp"
@@ -22,6 +23,13 @@ void add_health_routes(net::Router& router, const Readiness& readiness) {
   });
 }
 
+void add_metrics_route(net::Router& router, const SessionService& sessions) {
+  router.on("GET", "/metrics", [&sessions](const net::Request&) {
+    return net::bytes_response(200, "text/plain; version=0.0.4; charset=utf-8",
+                               net::share(prometheus_text(sessions.held())));
+  });
+}
+
 void add_contract_route(net::Router& router) {
   router.on("GET", "/api/v1/openapi.yaml", [](const net::Request&) {
     return net::bytes_response(200, "application/yaml", net::share(embedded::contract::find("openapi.yaml")));
@@ -32,6 +40,7 @@ net::Router router_of(const ServerOptions& options, SessionService& sessions, Re
                       const Readiness& readiness) {
   net::Router router;
   add_health_routes(router, readiness);
+  add_metrics_route(router, sessions);
   add_contract_route(router);
   add_case_routes(router, options.cases_folder);
   add_session_routes(router, sessions, replays, readiness, options.usual_device);

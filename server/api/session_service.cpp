@@ -109,18 +109,22 @@ std::shared_ptr<SessionService::Entry> SessionService::find(const std::string& i
                   (is_live(state) ? " in another process" : "; it is only kept in its folder"));
 }
 
-std::vector<SessionRecord> SessionService::list() const {
+std::vector<SessionRecord> SessionService::held() const {
   std::vector<std::shared_ptr<Entry>> entries;
   {
     const std::lock_guard lock(mutex_);
     entries = entries_;
   }
   std::vector<SessionRecord> records;
+  for (const auto& entry : entries) records.push_back(entry->record());
+  return records;
+}
+
+std::vector<SessionRecord> SessionService::list() const {
+  std::vector<SessionRecord> records = held();
+  std::reverse(records.begin(), records.end());
   std::set<std::string> here;
-  for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry) {
-    records.push_back((*entry)->record());
-    here.insert((*entry)->request.id);
-  }
+  for (const SessionRecord& record : records) here.insert(record.request.id);
   for (SessionRecord& record : archive_.list())
     if (!here.contains(record.request.id)) records.push_back(std::move(record));
   std::stable_sort(records.begin(), records.end(), [](const auto& a, const auto& b) {

@@ -37,6 +37,8 @@ class SessionService {
 
   /// `wanted.id` is chosen here. Errors: unavailable when as many are live as may be; those of the factory.
   SessionRecord create(SessionRequest wanted);
+  /// Those of this server that are still held in memory, oldest first.
+  std::vector<SessionRecord> held() const;
   /// Newest first: those of this server, then what else lies in the data folder.
   std::vector<SessionRecord> list() const;
   SessionRecord get(const std::string& id) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
@@ -14,6 +15,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"
+#include "sim/rehearsal.hpp"
 
 namespace ream::app {
 namespace {
@@ -97,6 +99,7 @@ ReamingSession::ReamingSession(const SessionHouse& house, const api::SessionRequ
       state_without_start_(beginning.before),
       rig_(std::move(beginning.parts)),
       rings_(rig_.bone_case.bone.grid),
+      rehearsed_us_(sim::rehearsed_tick_us(rig_.model, rig_.state)),
       loop_(rig_.model, rig_.state, *rig_.device, rings_.reports, {true, house.realtime}),
       port_(port_of_device()),
       fanout_(std::make_shared<stream::LocalFanout>()),
@@ -106,7 +109,8 @@ ReamingSession::ReamingSession(const SessionHouse& house, const api::SessionRequ
   rig_.state.brick_sender = &rings_.sender;
   const sim::Backend& backend = rig_.state.backend;
   log::info("session " + id_ + ": contact and removal on " + backend.name +
-            (backend.choice.empty() ? "" : " (" + backend.choice + ")"));
+            (backend.choice.empty() ? "" : " (" + backend.choice + ")") + ", slow ticks take " +
+            std::to_string(std::lround(rehearsed_us_)) + " us");
   status_.device.name = request_.device;
   status_.device.profile = rig_.device->traits().profile;
   status_.force_scale = rig_.model.settings.force_scale;
@@ -181,9 +185,11 @@ void ReamingSession::open_files() {
 void ReamingSession::start() {
   if (status().state != api::SessionState::created)
     throw Error(ErrorKind::conflict, "session " + id_ + " has been started already");
+  place_ = house_.places->take(id_, rehearsed_us_);
   try {
     open_files();
   } catch (const std::exception& e) {
+    place_.reset();
     lock_.reset();
     std::error_code ignored;
     if (!from_) std::filesystem::remove_all(folder_, ignored);
@@ -194,6 +200,7 @@ void ReamingSession::start() {
   }
   from_.reset();
   try {
+    loop_.pin_to(place_->cpu());
     loop_.start();
   } catch (const std::exception& e) {
     std::unique_lock lock(mutex_);
@@ -276,6 +283,7 @@ void ReamingSession::follow_to_the_end() {
       if (!finished_) status_.state = api::SessionState::fault;
       closing_ = finished_ = true;
       lock_.reset();
+      place_.reset();
     }
     changed_.notify_all();
   }
@@ -407,6 +415,7 @@ void ReamingSession::note_health() {
     keep_black_box(recent_);
     files_->note_failover(health.failed_over_tick);
   }
+  place_->measured(health.tick_us.p99_us, health.tick, health.missed);
   const std::lock_guard lock(mutex_);
   metrics_ = score::metrics_json(metrics, status_.force_scale, nullptr);
   status_.tick = sample_.tick + 1;

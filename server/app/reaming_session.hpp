@@ -13,6 +13,7 @@
 #include "app/session_files.hpp"
 #include "device/device_socket.hpp"
 #include "sim/haptic_loop.hpp"
+#include "sim/loop_places.hpp"
 #include "stream/fanout_local.hpp"
 #include "stream/mesh_publisher.hpp"
 
@@ -24,6 +25,7 @@ struct SessionHouse {
   uint64_t server_epoch = 0;  ///< differs after each start of the server
   std::string backend = "auto";
   sim::Realtime realtime = sim::Realtime::attempt;
+  std::shared_ptr<sim::LoopPlaces> places = std::make_shared<sim::LoopPlaces>();
   double tool_spacing_mm = 0.2;  ///< of the points that feel bone
 };
 
@@ -92,6 +94,8 @@ class ReamingSession final : public api::RunningSession {
   std::optional<FileLock> lock_;  ///< of the folder, while it runs
   Rig rig_;
   LoopRings rings_;
+  const double rehearsed_us_;                      ///< slow ticks of this session, before the first
+  std::unique_ptr<sim::LoopPlaces::Place> place_;  ///< of the loop while it runs
   sim::HapticLoop loop_;
   std::shared_ptr<device::DevicePort> port_;  ///< of devices that connect over the network
   std::shared_ptr<stream::LocalFanout> fanout_;

@@ -95,6 +95,7 @@ void ReamingSession::close(api::SessionState state, const std::string& fault, co
     status_.fault = fault;
     metrics_ = metrics;
     lock_.reset();
+    place_.reset();
     finished_ = true;
   }
   changed_.notify_all();

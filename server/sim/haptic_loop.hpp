@@ -65,6 +65,8 @@ class HapticLoop {
   HapticLoop(const HapticLoop&) = delete;
   HapticLoop& operator=(const HapticLoop&) = delete;
 
+  /// The CPU that start() is to use, in place of the options'; before it.
+  void pin_to(int cpu) noexcept { options_.cpu = cpu; }
   /// Opens the device and starts the thread. Errors: those of open(); unavailable when real time is required
   /// and any part of it refused.
   void start();

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/timing_histogram.hpp"
 #include "gpu/device.hpp"
+#include "sim/tick_trial.hpp"
 
 namespace ream::sim {
 namespace {
@@ -13,70 +14,7 @@ namespace {
 constexpr int warm_looks = 50, most_rounds = 40, looks_a_round = 25;
 /// Of all trials together: where a tick is long, fewer rounds are enough to tell the candidates apart.
 constexpr double enough_s = 1.0;
-constexpr double creep_mm = 1e-4;          ///< a look, more than reaming creeps in a tick
-constexpr double enough_engaged = 0.02;    ///< share of the points
-constexpr double deepest_search_mm = 5.0;  ///< past the planned entry
-constexpr size_t bricks_a_look = 48;
-
-/// What one trial needs: the tool just pressed on the bone, and bricks to work through.
-class Trial {
- public:
-  Trial(const Model& model, const voxel::BoneModel& bone, const voxel::SolidCells& cells)
-      : model_(model),
-        cells_(cells),
-        grid_from_plan_(bone.grid.world_from_grid.inverse() * model.world_from_plan) {
-    const Vec3i at = bone.grid.voxel_at(grid_from_plan_.translation_mm) / voxel::brick_edge;
-    const Vec3i last = bone.grid.brick_dims() - Vec3i::Ones();
-    const uint32_t first = bone.grid.brick_index(at.cwiseMax(0).cwiseMin(last));
-    for (uint32_t b = first; b < bone.grid.brick_count() && bricks_.size() < bricks_a_look; ++b)
-      bricks_.push_back(b);
-  }
-
-  /// How far along the plan's axis the tool has enough points engaged.
-  double pressed_depth_mm(collide::NarrowPhase& narrow_phase) const {
-    const auto wanted =
-        static_cast<int64_t>(enough_engaged * static_cast<double>(model_.contact_shell.size()));
-    double depth_mm = -deepest_search_mm;
-    for (; depth_mm < deepest_search_mm; depth_mm += model_.thin_step_mm) {
-      collide::ContactSums sums;
-      if (!look(narrow_phase, depth_mm, sums)) break;
-      if (sums.engaged() >= wanted) break;
-    }
-    return depth_mm;
-  }
-
-  /// One tick's work, `number` creeps past the depth; how long it took, or a negative number when the device
-  /// failed.
-  double tick_us(Backend& backend, double depth_mm, int number) const {
-    const auto start = SteadyClock::now();
-    collide::ContactSums sums;
-    const bool ok =
-        look(*backend.narrow_phase, depth_mm + creep_mm * number, sums) && pass_over_bricks(backend);
-    return ok ? elapsed_us(start) : -1.0;
-  }
-
- private:
-  bool look(collide::NarrowPhase& narrow_phase, double depth_mm, collide::ContactSums& sums) const {
-    const QuantisedPose pose = quantised(grid_from_plan_ * Pose{Mat3::Identity(), Vec3(0.0, 0.0, depth_mm)});
-    const collide::Voi voi = collide::broad_phase(cells_.bounds_mm(), model_.tool_box_tool, dequantised(pose),
-                                                  model_.thin_step_mm);
-    return narrow_phase.contact(pose, voi, sums);
-  }
-
-  /// The cutting body a metre away: the bricks are gone through and nothing changes.
-  bool pass_over_bricks(Backend& backend) const {
-    if (backend.removal == nullptr) return true;
-    const QuantisedPose away = quantised({Mat3::Identity(), Vec3(0.0, 0.0, 1000.0)});
-    std::array<collide::BrickOutcome, bricks_a_look> outcomes;
-    collide::RemovalSums sums;
-    return backend.removal->cut(away, bricks_, {outcomes.data(), bricks_.size()}, sums);
-  }
-
-  const Model& model_;
-  const voxel::SolidCells& cells_;
-  Pose grid_from_plan_;
-  std::vector<uint32_t> bricks_;
-};
+constexpr double enough_engaged = 0.02;  ///< share of the points
 
 /// A backend on trial.
 struct Candidate {
@@ -86,7 +24,8 @@ struct Candidate {
 };
 
 /// False when the device failed.
-bool run_round(const Trial& trial, double depth_mm, int first, int count, bool counts, Candidate& candidate) {
+bool run_round(const TickTrial& trial, double depth_mm, int first, int count, bool counts,
+               Candidate& candidate) {
   double slowest = 0.0;
   for (int i = 0; i < count; ++i) {
     const double us = trial.tick_us(candidate.backend, depth_mm, first + i);
@@ -137,8 +76,8 @@ bool is_quicker(const BackendTiming& a, const BackendTiming& than) {
 Backend make_measured_backend(const Model& model, voxel::BoneModel& bone, const voxel::SolidCells& cells,
                               std::vector<BackendTiming>& timings) {
   std::vector<Candidate> candidates = candidates_of(model, bone, cells, timings);
-  const Trial trial(model, bone, cells);
-  const double depth_mm = trial.pressed_depth_mm(*candidates[0].backend.narrow_phase);
+  const TickTrial trial(model, bone, cells);
+  const double depth_mm = trial.pressed_depth_mm(*candidates[0].backend.narrow_phase, enough_engaged);
   const auto start = SteadyClock::now();
   for (int round = 0; round <= most_rounds && (round < 2 || elapsed_us(start) < enough_s * 1e6); ++round)
     for (size_t i = 0; i < candidates.size(); ++i) {

@@ -15,10 +15,10 @@
 #include <ucontext.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstddef>
 #include <cstring>
-#include <mutex>
 #include <numeric>
 #include <stdexcept>
 #include <vector>
@@ -74,7 +74,10 @@ struct Range {
   }
 };
 Range this_program;
-std::vector<Range> runtime;  ///< libc and libstdc++: they do what their callers ask for
+std::vector<Range> open_cl;  ///< the loader's and the vendors' libraries
+
+/// Parts of the names of libraries that are, or belong to, an implementation of OpenCL.
+constexpr const char* open_cl_names[] = {"OpenCL", "opencl", "pocl", "amdocl", "igdrcl", "intelocl", "cuda"};
 
 int note_object(dl_phdr_info* object, size_t, void*) {
   Range range{UINTPTR_MAX, 0};
@@ -85,36 +88,32 @@ int note_object(dl_phdr_info* object, size_t, void*) {
     range.to = std::max<uintptr_t>(range.to, object->dlpi_addr + header.p_vaddr + header.p_memsz);
   }
   const std::string name = object->dlpi_name;
-  if (name.empty())
-    this_program = range;
-  else
-    for (const char* part : {"libc.so", "libstdc++.so", "libgcc_s.so", "ld-linux", "vdso"})
-      if (name.find(part) != std::string::npos) runtime.push_back(range);
+  if (name.empty()) this_program = range;
+  for (const char* part : open_cl_names)
+    if (name.find(part) != std::string::npos) open_cl.push_back(range);
   return 0;
 }
 
-bool in_runtime(const void* p) {
-  for (const Range& range : runtime)
-    if (range.holds(p)) return true;
+/// Whether OpenCL lies on the way from where it happened to the first code of this program. `caller` is whom
+/// the interposed function was called by, or where the system call was made.
+bool is_vendors(void* const* frames, int count, const void* caller) {
+  void* const* const end = frames + count;
+  for (void* const* frame = std::find(frames, end, caller); frame != end; ++frame) {
+    if (this_program.holds(*frame)) return false;
+    for (const Range& range : open_cl)
+      if (range.holds(*frame)) return true;
+  }
   return false;
 }
 
-/// Code of this program that is not the trap itself: the first one outwards that is not the runtime's tells
-/// who did it. `skipped` innermost calls are the trap's own.
-bool is_ours(void* const* frames, int count, int skipped) {
-  for (int i = skipped; i < count; ++i)
-    if (!in_runtime(frames[i])) return this_program.holds(frames[i]);
-  return true;
-}
-
-[[gnu::noinline]] void spring(Trap trap, long system_call, int skipped) {
+void spring(Trap trap, long system_call, const void* caller) {
   armed = false;  // what the look around itself does is not counted
   const int saved_errno = errno;
   std::array<void*, most_frames> frames;
   const int count = ::backtrace(frames.data(), most_frames);
-  const bool ours = is_ours(frames.data(), count, skipped);
-  ++(ours ? findings.ours : findings.vendors)[static_cast<size_t>(trap)];
-  if (ours && findings.first_count == 0) {
+  const bool vendors = is_vendors(frames.data(), count, caller);
+  ++(vendors ? findings.vendors : findings.ours)[static_cast<size_t>(trap)];
+  if (!vendors && findings.first_count == 0) {
     findings.first_frames = frames;
     findings.first_count = count;
     findings.first = trap;
@@ -126,11 +125,10 @@ bool is_ours(void* const* frames, int count, int skipped) {
 
 void on_system_call(int, siginfo_t* info, void* context) {
   auto& registers = static_cast<ucontext_t*>(context)->uc_mcontext.gregs;
-  // Frames: spring, this, and the signal's way back.
-  if (armed) spring(Trap::system_call, info->si_syscall, 3);
-  registers[REG_RAX] =
-      ream_let_through(info->si_syscall, registers[REG_RDI], registers[REG_RSI], registers[REG_RDX],
-                       registers[REG_R10], registers[REG_R8], registers[REG_R9]);
+  if (armed) spring(Trap::system_call, info->si_syscall, info->si_call_addr);
+  registers[REG_RAX] = ream_let_through(info->si_syscall, registers[REG_RDI], registers[REG_RSI],
+                                        registers[REG_RDX], registers[REG_R10], registers[REG_R8],
+                                        registers[REG_R9]);
 }
 
 void install_filter() {
@@ -166,8 +164,8 @@ Function next(const char* name) {
   return reinterpret_cast<Function>(found != nullptr ? found : ::dlsym(RTLD_NEXT, name));
 }
 
-[[gnu::noinline]] void trapped(Trap trap) {
-  if (armed) spring(trap, -1, 3);  // frames: spring, this, and the interposed function
+void trapped(Trap trap, const void* caller) {
+  if (armed) spring(trap, -1, caller);
 }
 
 }  // namespace
@@ -195,8 +193,8 @@ std::string Caught::words() const {
   for (int i = 0; i < trap_kinds; ++i) {
     const auto kind = static_cast<size_t>(i);
     if (ours[kind] + vendors[kind] == 0) continue;
-    words += std::string(to_text(static_cast<Trap>(i))) + ": " + std::to_string(ours[kind]) + " of ours, " +
-             std::to_string(vendors[kind]) + " inside libraries\n";
+    words += std::string(to_text(static_cast<Trap>(i))) + ": " + std::to_string(ours[kind]) +
+             " of ours, " + std::to_string(vendors[kind]) + " inside OpenCL\n";
   }
   return words + first;
 }
@@ -205,7 +203,7 @@ void Traps::prepare() {
   std::array<void*, most_frames> frames;
   ::backtrace(frames.data(), most_frames);  // loads what it needs now
   this_program = {};
-  runtime.clear();
+  open_cl.clear();
   ::dl_iterate_phdr(note_object, nullptr);
   findings = {};
 }
@@ -238,39 +236,39 @@ using ream::test::trapped;
 extern "C" {
 
 void* malloc(size_t size) {
-  trapped(Trap::allocate);
+  trapped(Trap::allocate, __builtin_return_address(0));
   return __libc_malloc(size);
 }
 void* calloc(size_t count, size_t size) {
-  trapped(Trap::allocate);
+  trapped(Trap::allocate, __builtin_return_address(0));
   return __libc_calloc(count, size);
 }
 void* realloc(void* old, size_t size) {
-  trapped(Trap::allocate);
+  trapped(Trap::allocate, __builtin_return_address(0));
   return __libc_realloc(old, size);
 }
 void* memalign(size_t alignment, size_t size) {
-  trapped(Trap::allocate);
+  trapped(Trap::allocate, __builtin_return_address(0));
   return __libc_memalign(alignment, size);
 }
 void* aligned_alloc(size_t alignment, size_t size) {
-  trapped(Trap::allocate);
+  trapped(Trap::allocate, __builtin_return_address(0));
   return __libc_memalign(alignment, size);
 }
 int posix_memalign(void** out, size_t alignment, size_t size) {
-  trapped(Trap::allocate);
+  trapped(Trap::allocate, __builtin_return_address(0));
   *out = __libc_memalign(alignment, size);
   return *out == nullptr ? ENOMEM : 0;
 }
 void free(void* p) {
-  if (p != nullptr) trapped(Trap::release);
+  if (p != nullptr) trapped(Trap::release, __builtin_return_address(0));
   __libc_free(p);
 }
 
 #define REAM_TRAPPED(trap, name, parameters, arguments)                  \
   int name parameters {                                                  \
     static const auto real = ream::test::next<int(*) parameters>(#name); \
-    trapped(trap);                                                       \
+    trapped(trap, __builtin_return_address(0)); \
     return real arguments;                                               \
   }
 
@@ -283,8 +281,8 @@ REAM_TRAPPED(Trap::lock, pthread_rwlock_wrlock, (pthread_rwlock_t * l), (l))
 REAM_TRAPPED(Trap::lock, pthread_rwlock_trywrlock, (pthread_rwlock_t * l), (l))
 REAM_TRAPPED(Trap::lock, pthread_spin_lock, (pthread_spinlock_t * l), (l))
 REAM_TRAPPED(Trap::lock, pthread_cond_wait, (pthread_cond_t * c, pthread_mutex_t* m), (c, m))
-REAM_TRAPPED(Trap::lock, pthread_cond_timedwait, (pthread_cond_t * c, pthread_mutex_t* m, const timespec* t),
-             (c, m, t))
+REAM_TRAPPED(Trap::lock, pthread_cond_timedwait,
+             (pthread_cond_t * c, pthread_mutex_t* m, const timespec* t), (c, m, t))
 REAM_TRAPPED(Trap::lock, pthread_cond_clockwait,
              (pthread_cond_t * c, pthread_mutex_t* m, clockid_t k, const timespec* t), (c, m, k, t))
 REAM_TRAPPED(Trap::lock, sem_wait, (sem_t * s), (s))

@@ -12,8 +12,8 @@ const char* to_text(Trap trap);
 
 /// What the watched stretch of a thread did.
 struct Caught {
-  std::array<uint64_t, trap_kinds> ours{};     ///< by code of this program
-  std::array<uint64_t, trap_kinds> vendors{};  ///< inside shared libraries that code of this program called
+  std::array<uint64_t, trap_kinds> ours{};     ///< by code of this program, or what it called
+  std::array<uint64_t, trap_kinds> vendors{};  ///< inside an implementation of OpenCL that it called
   std::string first;                           ///< where the first of ours was, with its callers; else empty
 
   uint64_t of_ours() const;

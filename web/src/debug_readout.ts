@@ -1,4 +1,5 @@
 import type { BoneScene } from './scene/scene';
+import type { PracticeStore } from './state/practice_store';
 import type { Store } from './state/store';
 
 /** What browser tests read as `window.__ream`; a snapshot at each reading. */
@@ -15,6 +16,11 @@ export interface DebugReadout {
   traceRevision: number;
   replayOf: string | null;
   positionTicks: number | null;
+  /** Steering from this page: state of the device's connection, else null. */
+  deviceLink: string | null;
+  pushN: number;
+  /** How far the reamer's origin is past the planned entry along the axis, mm. */
+  toolDepthMm: number | null;
 }
 
 declare global {
@@ -23,7 +29,7 @@ declare global {
   }
 }
 
-export function publishDebugReadout(store: Store, scene: BoneScene): void {
+export function publishDebugReadout(store: Store, practice: PracticeStore, scene: BoneScene): void {
   Object.defineProperty(window, '__ream', {
     get: (): DebugReadout => ({
       framesDrawn: scene.framesDrawn,
@@ -38,6 +44,16 @@ export function publishDebugReadout(store: Store, scene: BoneScene): void {
       traceRevision: store.traceRevision.value,
       replayOf: store.hello.value?.replayOf ?? null,
       positionTicks: store.playback.value?.positionTicks ?? null,
+      deviceLink: practice.sessionId.value === null ? null : practice.link.value.kind,
+      pushN: practice.hand.pushN.value,
+      toolDepthMm: toolDepthMm(store),
     }),
   });
+}
+
+function toolDepthMm(store: Store): number | null {
+  const hello = store.hello.value;
+  const at = store.telemetry.value?.worldFromTool?.translationMm;
+  if (hello === null || at === undefined) return null;
+  return hello.axisDirection.reduce((sum, unit, i) => sum + unit * ((at[i] ?? 0) - (hello.axisEntryMm[i] ?? 0)), 0);
 }

@@ -7,25 +7,61 @@ import { render } from 'preact';
 import { publishDebugReadout } from './debug_readout';
 import { LivePage } from './pages/live_page';
 import { BoneScene } from './scene/scene';
+import { Practice } from './state/practice';
+import { PracticeStore } from './state/practice_store';
+import { browserWindow, letGoWhenLeft } from './state/practice_window';
+import { isActive } from './state/choose_session';
 import { addressOfReplay, replayInAddress } from './state/replay_address';
 import { Store } from './state/store';
 import { Watcher } from './state/watcher';
 import { Api } from './wire/api';
+import { WorkerDeviceSocket } from './wire/device_socket';
 import { WorkerStreamSocket } from './wire/stream_socket';
 import { words } from './words';
 
 function main(root: HTMLElement): void {
   const store = new Store();
   const scene = new BoneScene();
-  const watcher = new Watcher(store, new Api(window.location.origin), new WorkerStreamSocket(), scene);
+  const api = new Api(window.location.origin);
+  const watcher = new Watcher(store, api, new WorkerStreamSocket(), scene);
+  const practiceStore = new PracticeStore(store);
+  const practice = new Practice(
+    practiceStore,
+    store,
+    new WorkerDeviceSocket(),
+    scene.canvas,
+    scene,
+    browserWindow(),
+    (id) => api.deviceUrl(id),
+  );
+  letGoWhenLeft(practice);
   effect(() => scene.setToolPose(store.telemetry.value?.worldFromTool ?? null));
   effect(() => scene.setBonePose(store.telemetry.value?.worldFromBoneRest ?? null));
   effect(() => scene.setToolShown(store.reamerShown.value));
-  publishDebugReadout(store, scene);
-  render(<LivePage store={store} watcher={watcher} scene={scene} />, root);
+  effect(() => scene.setAim(practiceStore.plan.value, practiceStore.hand.place.value));
+  publishDebugReadout(store, practiceStore, scene);
+  render(
+    <LivePage store={store} watcher={watcher} scene={scene} practice={practice} practiceStore={practiceStore} />,
+    root,
+  );
+  followReplayAddress(store, watcher);
+  void goOnSteering(api, store, practice).finally(() => watcher.start());
+}
+
+/** A page that was loaded anew takes its session back into the hand. */
+async function goOnSteering(api: Api, store: Store, practice: Practice): Promise<void> {
+  const id = practice.rememberedId();
+  if (id === null || store.replayId.value !== null) return;
+  const session = await api.session(id).catch(() => null);
+  if (session === null || !isActive(session)) return practice.forget();
+  store.sessionId.value = id;
+  practice.steer(id);
+}
+
+/** The address names the replay that is watched, and the other way round. */
+function followReplayAddress(store: Store, watcher: Watcher): void {
   const named = replayInAddress(window.location.hash);
   if (named !== null) store.replayId.value = named;
-  watcher.start();
   effect(() => {
     const { pathname, search } = window.location;
     window.history.replaceState(null, '', pathname + search + addressOfReplay(store.replayId.value));

@@ -5,6 +5,10 @@ export const words = {
   product: 'ream',
   tagline: 'Glenoid reaming',
 
+  practise: 'Practise',
+  practising: 'Practising…',
+  takeOver: 'Take over',
+  takeOverHint: 'Somebody practises on another page.',
   runDemo: 'Run demo',
   running: 'Reaming…',
   starting: 'Starting…',
@@ -30,6 +34,8 @@ export const words = {
     interrupted: 'The server ended in mid-session. What was recorded up to then is kept.',
     replaying: 'This is a recording.',
   } satisfies Record<SessionState, string>,
+
+  practiceHint: 'You have the reamer.',
 
   stateUnknown: (state: string) => `What the session is doing is not known; when last heard of it was ${state}.`,
 
@@ -128,6 +134,94 @@ export const words = {
   viewAxis: 'Along axis',
   viewSide: 'From the side',
   showReamer: 'Reamer',
+  guideTitle: 'How to ream',
+  guideAim: 'Aim: the orange dot into the green ring',
+  guideSpindle: 'Start the spindle (S)',
+  guidePress: 'Press: hold the left button, a second finger or space',
+  guideDepth: 'Watch the depth; stop where it is planned',
+  guideControls: 'All controls',
+  guideControlList: [
+    ['Aim', 'move; arrow keys'],
+    ['Push', 'left button; space'],
+    ['Withdraw', 'right button; B'],
+    ['How hard', 'wheel; + and −'],
+    ['Lean', 'Alt and drag; Shift and arrows'],
+    ['Turn view', 'middle button, or Ctrl and drag'],
+    ['Zoom', 'Ctrl and wheel'],
+    ['Back to plan', 'Home'],
+    ['Gamepad', 'sticks aim and lean, triggers push and withdraw, A spindle, B pause'],
+  ] as const,
+  guideDone: 'done',
+  guideHide: 'Got it',
+  guideShow: 'Help',
+
+  practice: 'Practice',
+  spindleButton: (on: boolean) => (on ? 'Spindle on' : 'Spindle off'),
+  pauseButton: (paused: boolean) => (paused ? 'Go on' : 'Pause'),
+  pushButton: 'Push',
+  withdrawButton: 'Withdraw',
+  holdHint: 'Hold to push',
+  push: 'Push',
+  pushMeter: (now: string, level: string) => `${now} of ${level} newtons`,
+  pushLevel: 'Hardest',
+  leanUp: 'Lean up',
+  leanFront: 'Lean forward',
+  degrees: (degrees: string) => `${degrees}°`,
+  upright: 'Upright',
+  offPlan: (mm: string) => `${mm} mm off the plan`,
+  gamepadFound: 'Gamepad',
+  handLink: 'Your hand',
+  handConnecting: 'Reaching for the reamer',
+  handHolding: 'In your hand',
+  handHeld: 'Link a little slow',
+  handFading: 'Link slow',
+  handSilent: 'No answer',
+  handLost: 'Link lost',
+  handEnded: (reason: string) => `This page does not steer any more: ${reason}`,
+  roundTrip: (ms: string) => `${ms} ms`,
+
+  noticeHandConnecting: 'Reaching for the reamer…',
+  noticeHandFading: 'The link to the simulator is slow; the force fades',
+  noticeHandPoseLost: 'The simulator does not hear your hand; the session rests',
+  noticeHandSilent: 'The simulator does not answer your hand',
+  noticeHandLost: 'The reamer is out of your hand: the link is lost',
+  noticeHandLostText: 'No force, and the session rests.',
+  noticeLetGo: 'You have let go; the spindle has stopped',
+  noticeLetGoText: 'Come back to the picture to take hold again, and start the spindle anew.',
+  noticePaused: 'Paused',
+  noticePausedText: 'Press P, or the button below, to go on.',
+  noticeSpindleOff: 'The spindle is off',
+  noticeSpindleOffText: 'Start it before you press.',
+  noticeDepth: 'Planned depth reached',
+  noticeDepthText: 'Release, and withdraw.',
+
+  health: 'Simulator health',
+  healthUnknown: 'not known',
+  healthOnTime: 'on time',
+  healthLate: (percent: string) => `${percent} % of ticks late`,
+  tickTimes: 'Tick p50 / p99',
+  tickTail: 'Tick p99.9 / max',
+  lateness: 'Lateness p50 / p99',
+  latenessTail: 'Lateness p99.9 / max',
+  missedShare: 'Ticks missed',
+  realtime: 'Real-time priority',
+  granted: 'granted',
+  notGranted: 'not granted',
+  device: 'Device',
+  deviceName: (name: string) =>
+    name === 'script'
+      ? 'Script'
+      : name === 'browser'
+        ? 'Hand in a browser'
+        : name === 'network'
+          ? 'Network device'
+          : name,
+  deviceState: (state: string) =>
+    ({ fresh: 'answers', held: 'a little slow', fading: 'slow, force fades', lost: 'does not answer' })[state] ?? state,
+  deviceRtt: 'There and back',
+
+  practiceLabel:
+    'Bone and reamer; you steer the reamer. Arrow keys aim, with Shift they lean the reamer, with Control they turn the view. Space pushes, B withdraws, S switches the spindle, P pauses, plus and minus change how hard a push is, Home goes back to the plan.',
   sceneLabel:
     'Bone and reamer in three dimensions. Drag or use the arrow keys to turn, plus and minus to zoom, Home to reset.',
 };

@@ -19,13 +19,15 @@ export async function serve(port: number, webFolder: string): Promise<string> {
   });
   const sockets = new WebSocketServer({ noServer: true });
   server.on('upgrade', (request, socket, head) => {
-    const id = /^\/api\/v1\/sessions\/([^/]+)\/stream$/.exec(request.url ?? '')?.[1];
+    const [, id, what] = /^\/api\/v1\/sessions\/([^/]+)\/(stream|device)$/.exec(request.url ?? '') ?? [];
     const session = sessions.find((s) => s.id === id);
-    if (session === undefined) {
+    if (session === undefined || (what === 'device' && session.hand === null)) {
       socket.end('HTTP/1.1 404 Not Found\r\n\r\n');
       return;
     }
-    sockets.handleUpgrade(request, socket, head, (viewer) => session.join(viewer));
+    sockets.handleUpgrade(request, socket, head, (peer) =>
+      what === 'device' ? session.hand?.take(peer) : session.join(peer),
+    );
   });
   await new Promise<void>((resolve, reject) => {
     server.once('error', reject);
@@ -49,9 +51,12 @@ function answerApi(
     return true;
   }
   if (call === 'POST all') {
-    const created = new FakeSession(`fake${epoch % 100000n}n${sessions.length}`, 26, epoch);
-    sessions.push(created);
-    json(response, 201, created.describe());
+    void readBody(request).then((body) => {
+      const id = `fake${epoch % 100000n}n${sessions.length}`;
+      const created = new FakeSession(id, 26, epoch, (body as { device?: string }).device ?? 'script');
+      sessions.push(created);
+      json(response, 201, created.describe());
+    });
     return true;
   }
   const session = sessions.find((s) => s.id === id);
@@ -60,9 +65,15 @@ function answerApi(
   else if (call === 'GET metrics') json(response, 200, session.metrics());
   else if (call === 'POST start') changeState(response, session, SessionState.created, () => session.start());
   else if (call === 'POST stop')
-    changeState(response, session, SessionState.running, () => session.end(SessionState.stopped));
+    changeState(response, session, session.restingState(), () => session.end(SessionState.stopped));
   else problem(response, 405, `${call} is not known`);
   return true;
+}
+
+async function readBody(request: IncomingMessage): Promise<unknown> {
+  let text = '';
+  for await (const chunk of request) text += String(chunk);
+  return text === '' ? {} : JSON.parse(text);
 }
 
 function changeState(response: ServerResponse, session: FakeSession, needed: SessionState, change: () => void): void {

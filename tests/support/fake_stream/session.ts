@@ -2,8 +2,9 @@ import type { WebSocket } from 'ws';
 
 import { SessionState } from '../../../web/src/wire/generated/stream_generated';
 import { entryMm, intactBone, plannedDepthMm, sweptByCap, type Point } from './bone';
+import { FakeHand } from './hand';
 import { helloMessage, meshMessage, telemetryMessage, type RevisedBlock } from './messages';
-import { blockDims, blockEdge, Field, meshBlock } from './surface_nets';
+import { blockDims, blockEdge, type BlockMesh, Field, meshBlock } from './surface_nets';
 
 const stepMs = 33;
 const approachMm = 12;
@@ -18,8 +19,10 @@ export class FakeSession {
   tick = 0;
   readonly createdUtc = new Date().toISOString();
   private readonly field = new Field(intactBone);
-  private readonly blocks: RevisedBlock[] = [];
+  private readonly blocks: RevisedBlock[];
   private readonly viewers = new Set<WebSocket>();
+  /** The device that steers it; null: a script does. */
+  readonly hand: FakeHand | null;
   private depthMm = 0;
   private removedMm3 = 0;
   private peakN = 0;
@@ -29,14 +32,18 @@ export class FakeSession {
     readonly id: string,
     readonly forceScale: number,
     private readonly serverEpoch: bigint,
+    private readonly device: string,
   ) {
-    this.field.fill();
-    for (let block = 0; block < blockDims[0] * blockDims[1] * blockDims[2]; ++block)
-      this.blocks.push({ block, revision: 1, mesh: meshBlock(this.field, block) });
+    this.hand = device === 'browser' ? new FakeHand(id) : null;
+    intact ??= wholeBone();
+    this.field.values.set(intact.values);
+    this.blocks = intact.meshes.map((mesh, block) => ({ block, revision: 1, mesh }));
   }
 
   describe(): object {
-    const loop = { mean_us: 184, p50_us: 170, p99_us: 391, p999_us: 700, max_us: 900, missed: 0 };
+    const times = { mean_us: 184, p50_us: 170, p99_us: 391, p999_us: 700, max_us: 900 };
+    const lateness = { mean_us: 4, p50_us: 3, p99_us: 9, p999_us: 80, max_us: 300 };
+    const loop = { ...times, missed: 0, lateness, realtime: true, memory_locked: true, cpu: -1 };
     return {
       id: this.id,
       kind: 'session',
@@ -49,6 +56,7 @@ export class FakeSession {
       force_scale: this.forceScale,
       fault: null,
       loop,
+      device: { name: this.device, state: this.hand?.link ?? 'fresh', rtt_ms: this.hand === null ? null : 1.5 },
     };
   }
 
@@ -95,17 +103,29 @@ export class FakeSession {
   private advance(tick: number): void {
     const from = this.tick;
     this.tick = tick;
+    this.hand?.advance(tick - from);
+    this.rest(this.hand?.resting ?? false);
     const depth = this.apexDepthMm(tick / 1000);
     if (depth > this.depthMm) {
       this.cutTo(depth);
       this.depthMm = depth;
     }
-    if (tick >= durationS * 1000) this.end(SessionState.finished);
+    if (this.hand === null && tick >= durationS * 1000) this.end(SessionState.finished);
     else this.send(this.telemetry(from));
+  }
+
+  /** The state in which it can be stopped. */
+  restingState(): SessionState {
+    return this.state === SessionState.paused ? SessionState.paused : SessionState.running;
+  }
+
+  private rest(resting: boolean): void {
+    this.state = resting ? SessionState.paused : SessionState.running;
   }
 
   /** How far the apex is past the entry, mm. */
   private apexDepthMm(seconds: number): number {
+    if (this.hand !== null) return this.hand.depthMm;
     if (seconds < approachS) return -approachMm * (1 - seconds / approachS);
     const cutting = (seconds - approachS) * feedMmS;
     if (cutting <= plannedDepthMm) return cutting;
@@ -113,6 +133,7 @@ export class FakeSession {
   }
 
   private thrustN(tick: number): number {
+    if (this.hand !== null) return this.hand.thrustN;
     const depth = this.apexDepthMm(tick / 1000);
     if (depth <= 0 || tick / 1000 > approachS + plannedDepthMm / feedMmS) return 0;
     return 58 * (1 - Math.exp(-depth * 4)) + 2.5 * Math.sin(tick * 0.05) + 1.5 * Math.sin(tick * 0.31);
@@ -122,7 +143,8 @@ export class FakeSession {
     const ticks = Array.from({ length: Math.max(this.tick - fromTick, 0) }, (_, i) => fromTick + i);
     const thrustN = ticks.map((tick) => this.thrustN(tick));
     this.peakN = Math.max(this.peakN, ...thrustN);
-    const apexMm: Point = [entryMm[0] - this.apexDepthMm(this.tick / 1000), entryMm[1], entryMm[2]];
+    const [, besideY, besideZ] = this.hand?.sidewaysMm ?? [0, 0, 0];
+    const apexMm: Point = [entryMm[0] - this.apexDepthMm(this.tick / 1000), entryMm[1] + besideY, entryMm[2] + besideZ];
     return telemetryMessage({
       firstTick: fromTick,
       thrustN,
@@ -131,7 +153,7 @@ export class FakeSession {
       densityGCc: thrustN.map((n) => (n > 0 ? 0.62 : 0)),
       tick: this.tick,
       apexMm,
-      spindleOn: this.state === SessionState.running,
+      spindleOn: this.state === SessionState.running && (this.hand?.spindleOn ?? true),
       state: this.state,
       depthMm: this.depthMm,
       removedMm3: this.removedMm3,
@@ -165,6 +187,16 @@ export class FakeSession {
   private send(message: Uint8Array): void {
     for (const viewer of this.viewers) viewer.send(message);
   }
+}
+
+/** The bone that every session begins with, made when it is first needed. */
+let intact: { values: Float32Array; meshes: BlockMesh[] } | undefined;
+
+function wholeBone(): { values: Float32Array; meshes: BlockMesh[] } {
+  const field = new Field(intactBone);
+  field.fill();
+  const count = blockDims[0] * blockDims[1] * blockDims[2];
+  return { values: field.values, meshes: Array.from({ length: count }, (_, block) => meshBlock(field, block)) };
 }
 
 function blockOf(x: number, y: number, z: number): number {

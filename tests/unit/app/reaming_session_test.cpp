@@ -63,7 +63,7 @@ class ReamingSessionTest : public testing::Test {
               return std::make_unique<ReamingSession>(house(), request, reamer);
             }};
   }
-  SessionHouse house() const { return {reaming.data(), 1, "cpu", sim::Realtime::off}; }
+  SessionHouse house() const { return {reaming.data(), 1, "cpu", sim::Realtime::off, places}; }
   static api::SessionRequest wanted() { return {{}, "slab", "push", {}}; }
   fs::path folder(const std::string& id) const { return sessions_folder(reaming.data()) / id; }
   void run_for_a_while(const std::string& id, uint32_t ticks) {
@@ -79,6 +79,8 @@ class ReamingSessionTest : public testing::Test {
   }
 
   const test::RecordedReaming reaming;
+  const std::shared_ptr<sim::LoopPlaces> places =
+      std::make_shared<sim::LoopPlaces>(std::vector{sim::allowed_cpus().front()});
   api::SessionService service{makers(), {4, 4}, sessions_folder(reaming.data())};
 };
 
@@ -104,6 +106,23 @@ TEST_F(ReamingSessionTest, NoAcceptedRemarkIsLostAtTheEnd) {
       kept.push_back(annotation.words);
     EXPECT_EQ(kept, accepted);
   }
+}
+
+TEST_F(ReamingSessionTest, OneThatWouldMakeRunningOnesMissWaitsUntilThereIsRoom) {
+  const std::string stopped = stopped_session(), created = service.create(wanted()).request.id;
+  const auto recording = read_binary_file(folder(stopped) / "recording.ream");
+  auto other = places->take("other", 1000.0);
+  test::expect_error(ErrorKind::unavailable, "running sessions use 1000 us", [&] { service.start(created); });
+  EXPECT_EQ(service.get(created).status.state, api::SessionState::created);
+  EXPECT_FALSE(fs::exists(folder(created)));
+  test::expect_error(ErrorKind::unavailable, "Stop one first", [&] { service.resume(stopped, ""); });
+  EXPECT_EQ(service.get(stopped).status.state, api::SessionState::stopped);
+  EXPECT_EQ(read_binary_file(folder(stopped) / "recording.ream"), recording);
+  other.reset();
+  service.start(created);
+  EXPECT_EQ(service.get(created).status.state, api::SessionState::running);
+  service.stop(created);
+  EXPECT_NO_THROW(other = places->take("other", 1000.0)) << "a session that has ended leaves its place";
 }
 
 TEST_F(ReamingSessionTest, ASessionThatCouldNotGoOnCanStillBeResumed) {

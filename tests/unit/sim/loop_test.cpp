@@ -1,9 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <sstream>
 
+#include "core/file.hpp"
 #include "sim/haptic_loop.hpp"
+#include "support/expect_error.hpp"
 #include "support/small_run.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace ream::test {
 namespace {
@@ -90,6 +95,50 @@ TEST(HapticLoop, APoseThatIsNotANumberEndsTheSessionWithoutForce) {
   r.device.nan_at = 400;
   EXPECT_EQ(r.go(), sim::LoopEnd::not_finite);
   EXPECT_EQ(r.device.last.force_n.norm(), 0.0);
+}
+
+TEST(HapticLoop, EveryTickIsTimedAndSoAreItsParts) {
+  LoopRun r;
+  sim::HapticLoop loop(r.run.model, r.run.state, r.device, r.reports, {false, sim::Realtime::off});
+  loop.run();
+  const sim::LoopHealth health = loop.health();
+  EXPECT_EQ(health.tick, 1000u);
+  EXPECT_EQ(health.missed, 0u) << "virtual time is never late";
+  for (const TimingSummary* times :
+       {&health.tick_us, &health.lateness_us, &health.read_us, &health.step_us, &health.write_us})
+    EXPECT_EQ(times->count, 1000u);
+  EXPECT_NEAR(health.tick_us.mean_us,
+              health.read_us.mean_us + health.step_us.mean_us + health.write_us.mean_us, 1e-6);
+  EXPECT_GT(health.step_us.mean_us, 0.0);
+}
+
+TEST(HapticLoop, AllRealTimeIsThereOrTheLoopDoesNotStart) {
+  constexpr int no_such_cpu = 1 << 20;
+  LoopRun r;
+  sim::HapticLoop loop(r.run.model, r.run.state, r.device, r.reports,
+                       {true, sim::Realtime::require, no_such_cpu});
+  expect_error(ErrorKind::unavailable, [&] { loop.start(); });
+  EXPECT_FALSE(r.device.is_open);
+  EXPECT_EQ(r.device.reads, 0);
+}
+
+TEST(HapticLoop, TheBlackBoxTellsTheLastTicksOldestFirst) {
+  LoopRun r;
+  r.device.fault_at = 700;
+  sim::HapticLoop loop(r.run.model, r.run.state, r.device, r.reports, {false, sim::Realtime::off});
+  loop.run();
+  const TemporaryFolder folder;
+  loop.black_box().write(folder.path() / "black-box.csv");
+  std::istringstream lines(read_text_file(folder.path() / "black-box.csv"));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_TRUE(line.starts_with("tick,lateness_us,read_us,step_us,write_us,")) << line;
+  const auto columns = std::count(line.begin(), line.end(), ',');
+  for (int tick = 0; std::getline(lines, line); ++tick) {
+    EXPECT_TRUE(line.starts_with(std::to_string(tick) + ",0,")) << line;
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','), columns);
+  }
+  EXPECT_EQ(loop.black_box().size(), 700u);
 }
 
 TEST(HapticLoop, StopEndsAWallClockLoopWithoutForce) {

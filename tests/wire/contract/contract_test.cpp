@@ -236,6 +236,7 @@ TEST_F(ContractTest, EveryDescribedReplyIsGivenAsDescribed) {
   }
   expect_get("/readyz", "/readyz", 200);
   expect_get("/api/v1/openapi.yaml", "/api/v1/openapi.yaml", 200);
+  expect_get("/metrics", "/metrics", 200);
   cases();
   creation();
   life_of_a_session();

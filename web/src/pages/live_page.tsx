@@ -2,31 +2,46 @@ import { DepthMeter } from '../panels/depth_meter';
 import { Figures, Results } from '../panels/figures';
 import { ForcePlot } from '../panels/force_plot';
 import { Header } from '../panels/header';
+import { HealthPanel } from '../panels/health_panel';
 import { Picture } from '../panels/picture';
 import { PlaybackBar } from '../panels/playback_bar';
+import { PracticeBar } from '../panels/practice_bar';
 import { ProblemBanner } from '../panels/problem_banner';
 import { ReplayPanel } from '../panels/replay_panel';
 import { RunPanel } from '../panels/run_panel';
 import { SessionList } from '../panels/session_list';
 import type { BoneScene } from '../scene/scene';
+import type { Practice } from '../state/practice';
+import type { PracticeStore } from '../state/practice_store';
 import type { Store } from '../state/store';
 import type { Watcher } from '../state/watcher';
 
+export interface LivePageParts {
+  store: Store;
+  watcher: Watcher;
+  scene: BoneScene;
+  practice: Practice;
+  practiceStore: PracticeStore;
+}
+
 /** One session, live or as it was recorded: picture, force, numbers, and what can be done. */
-export function LivePage({ store, watcher, scene }: { store: Store; watcher: Watcher; scene: BoneScene }) {
+export function LivePage({ store, watcher, scene, practice, practiceStore }: LivePageParts) {
+  const bar = store.replaying.value ? 'page-replay' : practiceStore.steering.value ? 'page-practice' : '';
   return (
-    <div class={store.replaying.value ? 'page page-replay' : 'page'}>
+    <div class={`page ${bar}`}>
       <Header store={store} />
-      <Picture store={store} scene={scene} />
+      <Picture store={store} practice={practiceStore} scene={scene} />
       {store.replaying.value && <PlaybackBar store={store} watcher={watcher} />}
+      {practiceStore.steering.value && <PracticeBar practice={practiceStore} />}
       <aside class={store.upToDate.value ? 'side' : 'side stale'}>
         {store.replaying.value ? (
           <ReplayPanel store={store} watcher={watcher} />
         ) : (
-          <RunPanel store={store} watcher={watcher} />
+          <RunPanel store={store} watcher={watcher} practice={practice} practiceStore={practiceStore} />
         )}
         <ProblemBanner store={store} />
         <SessionList store={store} watcher={watcher} />
+        {!store.replaying.value && <HealthPanel store={store} practice={practiceStore} />}
         <div class="readings">
           <ForcePlot store={store} />
           <DepthMeter store={store} />

@@ -4,7 +4,8 @@ import type { Store } from '../state/store';
 import { words } from '../words';
 import { fixed } from './format';
 
-function Figure({
+/** One number with its name. */
+export function Figure({
   name,
   unit,
   id,

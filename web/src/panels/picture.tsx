@@ -2,9 +2,12 @@ import { useEffect, useRef } from 'preact/hooks';
 
 import type { BoneScene } from '../scene/scene';
 import type { ViewName } from '../scene/camera_rig';
+import type { PracticeStore } from '../state/practice_store';
 import type { Store } from '../state/store';
 import { words } from '../words';
+import { Guide } from './guide';
 import { LinkNotice } from './link_notice';
+import { PracticeNotice } from './practice_notice';
 
 const views: readonly (readonly [ViewName, string])[] = [
   ['plan', words.viewPlan],
@@ -13,17 +16,23 @@ const views: readonly (readonly [ViewName, string])[] = [
 ];
 
 /** The bone and the reamer, with the view's buttons; dimmed whenever it is not live. */
-export function Picture({ store, scene }: { store: Store; scene: BoneScene }) {
+export function Picture({ store, practice, scene }: { store: Store; practice: PracticeStore; scene: BoneScene }) {
   const place = useRef<HTMLDivElement>(null);
   useEffect(() => {
     const canvas = scene.canvas;
     canvas.tabIndex = 0;
-    canvas.setAttribute('role', 'img');
-    canvas.setAttribute('aria-label', words.sceneLabel);
     canvas.dataset.testid = 'bone-canvas';
     place.current?.prepend(canvas);
     return () => canvas.remove();
   }, [scene]);
+  const steering = practice.steering.value;
+  useEffect(() => {
+    const { canvas } = scene;
+    canvas.setAttribute('role', steering ? 'application' : 'img');
+    canvas.setAttribute('aria-label', steering ? words.practiceLabel : words.sceneLabel);
+    canvas.classList.toggle('steered', steering);
+    if (steering) canvas.focus({ preventScroll: true });
+  }, [scene, steering]);
 
   const stale = store.hasPicture.value && !store.upToDate.value;
   return (
@@ -34,7 +43,12 @@ export function Picture({ store, scene }: { store: Store; scene: BoneScene }) {
           {words.replayBadge}
         </p>
       )}
-      <LinkNotice store={store} />
+      {steering && <Guide store={store} practice={practice} />}
+      {steering && store.upToDate.value ? (
+        <PracticeNotice store={store} practice={practice} />
+      ) : (
+        <LinkNotice store={store} />
+      )}
       <div class="views" role="group" aria-label={words.view}>
         {views.map(([view, label]) => (
           <button type="button" key={view} data-testid={`view-${view}`} onClick={() => scene.look(view)}>

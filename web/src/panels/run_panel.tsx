@@ -1,26 +1,46 @@
+import type { Practice } from '../state/practice';
+import type { PracticeStore } from '../state/practice_store';
 import type { Store } from '../state/store';
 import type { Watcher } from '../state/watcher';
 import { words } from '../words';
 
-/** The one thing to do, and what the session is doing. */
-export function RunPanel({ store, watcher }: { store: Store; watcher: Watcher }) {
-  const state = store.sessionState.value;
+interface Parts {
+  store: Store;
+  watcher: Watcher;
+  practice: Practice;
+  practiceStore: PracticeStore;
+}
+
+/** The things to do, and what the session is doing. */
+export function RunPanel({ store, watcher, practice, practiceStore }: Parts) {
   const reachable = store.link.value.kind === 'live';
   const active = reachable && store.active.value;
-  const fault = state === 'fault' ? store.telemetry.value?.fault : '';
-  const label = store.busy.value ? words.starting : active ? words.running : words.runDemo;
+  const idle = reachable && !active && !store.busy.value;
+  const running = practiceStore.sessionId.value === null ? words.running : words.practising;
   return (
     <section class="run" aria-label={words.runDemo}>
       <div class="run-buttons">
+        {!active && (
+          <button
+            type="button"
+            class="run-button"
+            data-testid="practise"
+            disabled={!idle}
+            onClick={() => void practise(watcher, practice)}
+          >
+            {words.practise}
+          </button>
+        )}
         <button
           type="button"
-          class="run-button"
+          class={active ? 'run-button' : 'run-button run-second'}
           data-testid="run-demo"
-          disabled={!reachable || active || store.busy.value}
+          disabled={!idle}
           onClick={() => void watcher.runDemo()}
         >
-          {label}
+          {store.busy.value ? words.starting : active ? running : words.runDemo}
         </button>
+        {active && <TakeOver store={store} practice={practice} practiceStore={practiceStore} />}
         {active && (
           <button
             type="button"
@@ -33,18 +53,62 @@ export function RunPanel({ store, watcher }: { store: Store; watcher: Watcher })
           </button>
         )}
       </div>
-      {state !== null && (
-        <p class="session-state" data-testid="session-state" data-state={state} aria-live="polite">
-          {reachable ? (
-            <>
-              <strong>{words.state[state]}.</strong> {words.stateHint[state]}
-              {fault && ` ${words.fault}: ${fault}`}
-            </>
-          ) : (
-            words.stateUnknown(words.state[state].toLowerCase())
-          )}
-        </p>
-      )}
+      <StateLine store={store} practiceStore={practiceStore} reachable={reachable} />
     </section>
   );
+}
+
+async function practise(watcher: Watcher, practice: Practice): Promise<void> {
+  const sessionId = await watcher.practise();
+  if (sessionId !== null) practice.steer(sessionId);
+}
+
+/** For pages that watch while another one steers. */
+function TakeOver({ store, practice, practiceStore }: Omit<Parts, 'watcher'>) {
+  const id = store.sessionId.value;
+  const details = store.details.value;
+  if (id === null || details?.id !== id || details.device?.name !== 'browser' || practiceStore.sessionId.value === id)
+    return null;
+  return (
+    <button
+      type="button"
+      class="stop-button take-over"
+      data-testid="take-over"
+      title={words.takeOverHint}
+      onClick={() => practice.steer(id)}
+    >
+      {words.takeOver}
+    </button>
+  );
+}
+
+function StateLine({
+  store,
+  practiceStore,
+  reachable,
+}: Pick<Parts, 'store' | 'practiceStore'> & { reachable: boolean }) {
+  const state = store.sessionState.value;
+  if (state === null) return null;
+  const fault = store.telemetry.value?.fault ?? '';
+  return (
+    <p class="session-state" data-testid="session-state" data-state={state} aria-live="polite">
+      {reachable ? (
+        <>
+          <strong>{words.state[state]}.</strong> {hint(store, practiceStore, state)}
+          {fault !== '' && ` ${state === 'fault' ? `${words.fault}: ` : ''}${fault}`}
+        </>
+      ) : (
+        words.stateUnknown(words.state[state].toLowerCase())
+      )}
+    </p>
+  );
+}
+
+function hint(store: Store, practiceStore: PracticeStore, state: keyof typeof words.stateHint): string {
+  if (state !== 'running') return words.stateHint[state];
+  if (practiceStore.sessionId.value !== null) return words.practiceHint;
+  const details = store.details.value;
+  return details?.id === store.sessionId.value && details?.device?.name === 'browser'
+    ? words.takeOverHint
+    : words.stateHint.running;
 }

@@ -1,6 +1,7 @@
-import { PerspectiveCamera, Spherical, Vector3 } from 'three';
+import { PerspectiveCamera, Spherical, Vector2, Vector3 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 
+import type { Ray } from '../practice/plan_frame';
 import type { Hello } from '../wire/messages';
 
 export type ViewName = 'plan' | 'axis' | 'side';
@@ -9,6 +10,8 @@ export type ViewName = 'plan' | 'axis' | 'side';
 const fieldRadiusMm = 34;
 const keyTurnRad = 0.09;
 const keyZoom = 1.1;
+/** A drag over the height of the picture turns half around. */
+const turnRadPerHeight = Math.PI;
 
 /** LPS: z is superior, y posterior. */
 const superior = new Vector3(0, 0, 1);
@@ -19,8 +22,12 @@ export class CameraRig {
   private readonly controls: OrbitControls;
   private readonly entry = new Vector3();
   private readonly intoBone = new Vector3(-1, 0, 0);
+  private guided = false;
 
-  constructor(surface: HTMLElement, onMove: () => void) {
+  constructor(
+    private readonly surface: HTMLElement,
+    onMove: () => void,
+  ) {
     this.camera.up.copy(superior);
     this.controls = new OrbitControls(this.camera, surface);
     this.controls.minDistance = 20;
@@ -53,6 +60,43 @@ export class CameraRig {
     this.camera.updateProjectionMatrix();
   }
 
+  /** While `guided` pointer and keys are somebody else's, who turns and zooms the view by calls. */
+  setGuided(guided: boolean): void {
+    this.guided = guided;
+    this.controls.enabled = !guided;
+  }
+
+  /** The line of sight under a place of the window, world frame. */
+  rayAt(clientX: number, clientY: number): Ray {
+    const box = this.surface.getBoundingClientRect();
+    const onPicture = new Vector2(
+      ((clientX - box.left) / box.width) * 2 - 1,
+      1 - ((clientY - box.top) / box.height) * 2,
+    );
+    this.camera.updateMatrixWorld();
+    const origin = this.camera.position.clone();
+    const direction = new Vector3(onPicture.x, onPicture.y, 0.5).unproject(this.camera).sub(origin).normalize();
+    return { origin, direction };
+  }
+
+  /** To the right and up on the picture, world frame, units. */
+  screenDirections(): { right: Vector3; up: Vector3 } {
+    this.camera.updateMatrixWorld();
+    const column = (i: number) => new Vector3().setFromMatrixColumn(this.camera.matrixWorld, i);
+    return { right: column(0), up: column(1) };
+  }
+
+  turnBy(rightPx: number, downPx: number): void {
+    const radPerPx = turnRadPerHeight / Math.max(this.surface.clientHeight, 1);
+    this.turn(-rightPx * radPerPx, -downPx * radPerPx);
+  }
+
+  /** More than 1: away. */
+  zoom(factor: number): void {
+    this.camera.position.sub(this.controls.target).multiplyScalar(factor).add(this.controls.target);
+    this.controls.update();
+  }
+
   /** From here the field fits the narrower side of the picture. */
   private fittingDistance(): number {
     const halfVertical = (this.camera.fov * Math.PI) / 360;
@@ -61,6 +105,7 @@ export class CameraRig {
   }
 
   private onKey(event: KeyboardEvent): void {
+    if (this.guided) return;
     const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
     if (step !== undefined) this.turn((step[0] ?? 0) * keyTurnRad, (step[1] ?? 0) * keyTurnRad);
     else if (event.key === '+' || event.key === '=') this.zoom(1 / keyZoom);
@@ -80,11 +125,6 @@ export class CameraRig {
     spherical.makeSafe();
     const turned = new Vector3().setFromSpherical(spherical);
     this.camera.position.copy(this.controls.target).add(new Vector3(turned.x, -turned.z, turned.y));
-    this.controls.update();
-  }
-
-  private zoom(factor: number): void {
-    this.camera.position.sub(this.controls.target).multiplyScalar(factor).add(this.controls.target);
     this.controls.update();
   }
 }

@@ -1,6 +1,10 @@
 import { NeutralToneMapping, Scene, WebGLRenderer } from 'three';
 
+import type { ScreenAxes } from '../practice/gamepad_hand';
+import type { Beside, PlanFrame, Ray } from '../practice/plan_frame';
+import type { SteeredView } from '../practice/pointer_hand';
 import type { Hello, MeshDelta, Pose, ToolMesh } from '../wire/messages';
+import { AimView } from './aim_view';
 import { BoneView } from './bone_view';
 import { CameraRig, type ViewName } from './camera_rig';
 import { OperatingLights } from './lights';
@@ -10,12 +14,13 @@ import { ToolView } from './tool_view';
 const pixelRatioMax = 2;
 
 /** The three-dimensional picture. Draws only when something changed. */
-export class BoneScene {
+export class BoneScene implements SteeredView {
   readonly canvas = document.createElement('canvas');
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly bone = new BoneView();
   private readonly tool = new ToolView();
+  private readonly aim = new AimView();
   private readonly lights: OperatingLights;
   private readonly rig: CameraRig;
   private framedCase: string | null = null;
@@ -29,7 +34,7 @@ export class BoneScene {
     this.renderer.toneMappingExposure = 1.05;
     this.rig = new CameraRig(this.canvas, () => this.invalidate());
     this.lights = new OperatingLights(this.scene);
-    this.scene.add(this.bone.group, this.tool.group);
+    this.scene.add(this.bone.group, this.tool.group, this.aim.group);
     new ResizeObserver(() => this.resize()).observe(this.canvas);
   }
 
@@ -79,6 +84,32 @@ export class BoneScene {
 
   setToolShown(shown: boolean): void {
     this.tool.setShown(shown);
+    this.invalidate();
+  }
+
+  /** Where the hand aims beside the plan; null: nobody steers here, and the picture is turned by pointer and keys. */
+  setAim(plan: PlanFrame | null, place: Beside): void {
+    this.rig.setGuided(plan !== null);
+    this.aim.set(plan, place);
+    this.invalidate();
+  }
+
+  rayAt(clientX: number, clientY: number): Ray {
+    return this.rig.rayAt(clientX, clientY);
+  }
+
+  screenAxes(plan: PlanFrame): ScreenAxes {
+    const { right, up } = this.rig.screenDirections();
+    return { right: plan.beside(right), up: plan.beside(up) };
+  }
+
+  turnBy(rightPx: number, downPx: number): void {
+    this.rig.turnBy(rightPx, downPx);
+    this.invalidate();
+  }
+
+  zoomBy(factor: number): void {
+    this.rig.zoom(factor);
     this.invalidate();
   }
 

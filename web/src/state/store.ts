@@ -33,6 +33,9 @@ export class Store {
 
   readonly reamerShown = signal(true);
 
+  /** The watched session as REST last described it: health of its loop and its device. */
+  readonly details = signal<Session | null>(null);
+
   /** All sessions that the server knows, newest first. */
   readonly sessions = signal<readonly Session[]>([]);
   /** The replay that is to be watched; null: what is live. */

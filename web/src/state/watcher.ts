@@ -68,6 +68,19 @@ export class Watcher {
     });
   }
 
+  /** Makes and starts a session that a hand in the browser steers, and watches it; its id, or null when that failed. */
+  async practise(): Promise<string | null> {
+    let id: string | null = null;
+    await this.carryOut(async () => {
+      const session = await this.api.start((await this.api.createPractice()).id);
+      id = session.id;
+      this.store.sessionId.value = session.id;
+      this.store.sessionState.value = session.state;
+      this.link.connect();
+    });
+    return id;
+  }
+
   /** Ends the watched session. */
   async stop(): Promise<void> {
     await this.carryOut(async () => {
@@ -285,6 +298,17 @@ export class Watcher {
     if (id === this.store.sessionId.value) this.store.metrics.value = metrics;
   }
 
+  /** Health of the watched session; without it the page shows the rest. */
+  private async readDetails(): Promise<void> {
+    const id = this.store.sessionId.value;
+    if (id === null || this.store.replaying.value) {
+      this.store.details.value = null;
+      return;
+    }
+    const details = await this.api.session(id).catch(() => null);
+    if (id === this.store.sessionId.value) this.store.details.value = details;
+  }
+
   private async readSessions(): Promise<readonly Session[]> {
     const sessions = await this.api.sessions().catch(() => null);
     if (sessions !== null) this.store.sessions.value = sessions;
@@ -294,6 +318,7 @@ export class Watcher {
   /** While the watched session rests, another may have been started elsewhere, or this one. */
   private async lookForNewer(): Promise<void> {
     if (this.store.link.value.kind !== 'live' || this.store.busy.value) return;
+    void this.readDetails();
     const sessions = await this.readSessions();
     if (this.store.active.value || this.store.replaying.value || this.store.busy.value) return;
     const chosen = chooseSession(sessions, this.store.sessionId.value, this.unstreamable);

@@ -12,8 +12,37 @@ export interface Session {
   duration_s: number;
   force_scale: number;
   fault: string | null;
+  loop?: Partial<LoopHealth>;
+  device?: DeviceHealth;
   /** False for sessions of earlier runs of the server, which are only in their folders; absent means true. */
   streamable?: boolean;
+}
+
+/** Times of one kind since the session began, us. */
+export interface Timing {
+  p50_us: number;
+  p99_us: number;
+  p999_us: number;
+  max_us: number;
+}
+
+/** How the haptic loop has kept its time; servers of earlier versions tell less. */
+export interface LoopHealth extends Timing {
+  mean_us: number;
+  /** Ticks that began more than a millisecond late. */
+  missed: number;
+  /** Of the ticks' beginnings. */
+  lateness: Timing;
+  realtime: boolean;
+}
+
+/** How the session's device is doing. */
+export interface DeviceHealth {
+  /** script, network, browser, ... */
+  name: string;
+  /** fresh, held, fading or lost; null before the first tick. */
+  state: string | null;
+  rtt_ms: number | null;
 }
 
 /** A recording that is shown on the server for all who watch it. */
@@ -77,6 +106,13 @@ export class Api {
   createDemo(): Promise<Session> {
     return this.call('POST', 'sessions', { case: 'demo', script: 'demo' });
   }
+  /** A demo that waits for a hand in a browser. */
+  createPractice(): Promise<Session> {
+    return this.call('POST', 'sessions', { case: 'demo', device: 'browser' });
+  }
+  session(id: string): Promise<Session> {
+    return this.call('GET', `sessions/${encodeURIComponent(id)}`);
+  }
   start(id: string): Promise<Session> {
     return this.call('POST', `sessions/${encodeURIComponent(id)}/start`);
   }
@@ -96,7 +132,14 @@ export class Api {
     return this.call('GET', `sessions/${encodeURIComponent(id)}/metrics`);
   }
   streamUrl(id: string): string {
-    return `${this.base.replace(/^http/, 'ws')}/api/v1/sessions/${encodeURIComponent(id)}/stream`;
+    return this.socketUrl(id, 'stream');
+  }
+  deviceUrl(id: string): string {
+    return this.socketUrl(id, 'device');
+  }
+
+  private socketUrl(id: string, what: string): string {
+    return `${this.base.replace(/^http/, 'ws')}/api/v1/sessions/${encodeURIComponent(id)}/${what}`;
   }
 
   private async call<T>(method: 'GET' | 'POST', path: string, body?: object): Promise<T> {

@@ -37,6 +37,10 @@ class FakeApi {
     this.list.unshift(session);
     return this.answer({ ...session });
   };
+  session = (id: string) => {
+    const found = this.list.find((s) => s.id === id);
+    return found === undefined ? Promise.reject(new ApiError(`no session '${id}'`, 404)) : this.answer({ ...found });
+  };
   start = (id: string) => this.change(id, 'running');
   stop = (id: string) => this.change(id, 'stopped');
   metrics = () => this.answer({ axial_thrust_mean_n: 12 } as Metrics);

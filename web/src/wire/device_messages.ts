@@ -1,0 +1,43 @@
+import type { Triple } from './messages';
+
+/** The device protocol this page speaks; see proto/device.fbs. */
+export const deviceProtocolRevision = 1;
+
+/** What the person wants the simulated hand to do; world frame. */
+export interface Wish {
+  /** From the planned entry, square to the planned axis. */
+  sidewaysMm: Triple;
+  /** Where the tool's axis should point, of any length but 0. */
+  lean: Triple;
+  /** Simulated N along the axis, negative to withdraw. */
+  pushN: number;
+  spindleOn: boolean;
+  paused: boolean;
+  /** Somebody holds the tool (the deadman button). */
+  held: boolean;
+}
+
+/** How the server takes the newest wish: used, a little old, too old so that the force fades, or none for too long. */
+export type PoseLink = 'fresh' | 'held' | 'fading' | 'lost';
+
+export interface Welcome {
+  protocolRevision: number;
+  sessionId: string;
+  device: string;
+}
+
+export interface Feedback {
+  /** Newest wish that the server has taken. */
+  sequence: number;
+  /** The server's clock. */
+  stampUs: bigint;
+  link: PoseLink;
+  thrustN: number;
+  vibrationG: number;
+  /** The reamer touches bone. */
+  engaged: boolean;
+  /** There and back; null while it is not known. */
+  rttMs: number | null;
+}
+
+export type DeviceReport = { kind: 'welcome'; welcome: Welcome } | { kind: 'feedback'; feedback: Feedback };

@@ -1,0 +1,66 @@
+import type { DeviceReport, Wish } from './device_messages';
+
+/** Page to worker. Each `open` closes what was open before; `connection` numbers the answers. */
+export type DeviceWorkerRequest =
+  { kind: 'open'; connection: number; url: string } | { kind: 'wish'; wish: Wish } | { kind: 'close' };
+
+/** Worker to page. `closed` comes once per opened connection that was not closed by request. */
+export type DeviceWorkerReport =
+  | { kind: 'report'; connection: number; report: DeviceReport }
+  | { kind: 'closed'; connection: number; code: number; reason: string };
+
+export interface DeviceHandlers {
+  onReport(report: DeviceReport): void;
+  /** The connection ended or never came about; not called after `close` or another `open`. */
+  onClosed(code: number, reason: string): void;
+}
+
+/** One device connection at a time; opening another ends the one before, which is not heard of again. */
+export interface DeviceSocket {
+  open(url: string, handlers: DeviceHandlers): void;
+  /** The newest wish is sent again and again, until there is a newer one. */
+  wish(wish: Wish): void;
+  close(): void;
+}
+
+/** The device connection as the worker keeps it; the worker is made when it is first needed. */
+export class WorkerDeviceSocket implements DeviceSocket {
+  private worker: Worker | null = null;
+  private connection = 0;
+  private handlers: DeviceHandlers | null = null;
+
+  open(url: string, handlers: DeviceHandlers): void {
+    this.handlers = handlers;
+    this.worker ??= this.create();
+    this.send({ kind: 'open', connection: ++this.connection, url });
+  }
+
+  wish(wish: Wish): void {
+    this.send({ kind: 'wish', wish });
+  }
+
+  close(): void {
+    this.handlers = null;
+    this.send({ kind: 'close' });
+  }
+
+  private create(): Worker {
+    const worker = new Worker(new URL('./device_worker.ts', import.meta.url), { type: 'module' });
+    worker.onmessage = (event: MessageEvent<DeviceWorkerReport>) => {
+      const said = event.data;
+      const handlers = this.handlers;
+      if (said.connection !== this.connection || handlers === null) return;
+      if (said.kind === 'report') {
+        handlers.onReport(said.report);
+      } else {
+        this.handlers = null;
+        handlers.onClosed(said.code, said.reason);
+      }
+    };
+    return worker;
+  }
+
+  private send(request: DeviceWorkerRequest): void {
+    this.worker?.postMessage(request);
+  }
+}

@@ -1,0 +1,39 @@
+import type { DeviceReport, Feedback, Wish } from '../../src/wire/device_messages';
+import type { DeviceHandlers, DeviceSocket } from '../../src/wire/device_socket';
+
+/** A device connection whose server is the test. */
+export class FakeDeviceSocket implements DeviceSocket {
+  readonly opened: string[] = [];
+  readonly wishes: Wish[] = [];
+  closed = 0;
+  handlers: DeviceHandlers | null = null;
+
+  open(url: string, handlers: DeviceHandlers): void {
+    this.opened.push(url);
+    this.handlers = handlers;
+  }
+  wish(wish: Wish): void {
+    this.wishes.push(wish);
+  }
+  close(): void {
+    ++this.closed;
+    this.handlers = null;
+  }
+}
+
+export function welcome(protocolRevision = 1): DeviceReport {
+  return { kind: 'welcome', welcome: { protocolRevision, sessionId: 's1', device: 'browser' } };
+}
+
+export function feedback(change: Partial<Feedback> = {}): DeviceReport {
+  const calm: Feedback = {
+    sequence: 1,
+    stampUs: 1n,
+    link: 'fresh',
+    thrustN: 0,
+    vibrationG: 0,
+    engaged: false,
+    rttMs: 1,
+  };
+  return { kind: 'feedback', feedback: { ...calm, ...change } };
+}
