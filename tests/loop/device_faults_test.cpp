@@ -206,8 +206,8 @@ class DeviceFault : public testing::TestWithParam<std::tuple<const char*, size_t
     });
     const bool went_on = !stood_still(id);
     if (went_on) {
-      fault.told(server.get(id).at("device"));
       server.post("/" + id + "/stop");
+      fault.told(server.get(id).at("device"));
     }
     const Felt after = presser.press();
     EXPECT_EQ(after.force(), 0.0);
