@@ -68,7 +68,7 @@ TEST_F(ServerTest, ListsSessionsNewestFirst) {
 
 TEST_F(ServerTest, BadBodiesAreExplainedAndMakeNothing) {
   start();
-  const json problem = json::parse(post(sessions, R"({"case": 1, "scrpt": "demo"})").body);
+  const json problem = json::parse(post(sessions, R"({"case": 1, "script": "..", "scrpt": "demo"})").body);
   EXPECT_EQ(problem.at("status"), 422);
   EXPECT_EQ(problem.at("errors").size(), 3u) << problem;
   EXPECT_NE(problem.at("detail").get<std::string>().find("'scrpt' is not a known key"), std::string::npos);
