@@ -56,8 +56,8 @@ stream::SessionState wire_state(api::SessionState state) {
 }
 
 api::LoopStatus loop_status(const sim::LoopHealth& health) {
-  return {health.tick_us,  health.lateness_us,   health.read_us,         health.step_us,     health.write_us,
-          health.missed,   health.realtime.fifo, health.realtime.locked, health.realtime.cpu};
+  return {health.tick_us, health.lateness_us,   health.read_us,         health.step_us,     health.write_us,
+          health.missed,  health.realtime.fifo, health.realtime.locked, health.realtime.cpu};
 }
 
 }  // namespace

@@ -23,9 +23,10 @@ void BlackBox::write(const std::filesystem::path& path) const {
     const Vec3 &handle = r.world_from_handle.translation_mm, &tool = r.world_from_tool.translation_mm;
     const TickTiming& t = e.timing;
     out << r.tick << ',' << t.lateness_us << ',' << t.read_us << ',' << t.step_us << ',' << t.write_us << ','
-        << r.spindle_on << ',' << r.paused << ',' << r.stale << ',' << r.engaged_points << ',' << r.thrust_n << ',' << r.hand_force_n.norm() << ',' << r.feed_rate_mm_s
-        << ',' << r.density_g_cc << ',' << handle.x() << ',' << handle.y() << ',' << handle.z() << ','
-        << tool.x() << ',' << tool.y() << ',' << tool.z() << ',' << r.changed_bricks << '\n';
+        << r.spindle_on << ',' << r.paused << ',' << r.stale << ',' << r.engaged_points << ',' << r.thrust_n
+        << ',' << r.hand_force_n.norm() << ',' << r.feed_rate_mm_s << ',' << r.density_g_cc << ','
+        << handle.x() << ',' << handle.y() << ',' << handle.z() << ',' << tool.x() << ',' << tool.y() << ','
+        << tool.z() << ',' << r.changed_bricks << '\n';
   }
   write_file_atomically(path, out.str());
 }

@@ -27,7 +27,9 @@ constexpr double press_n = 52.0, peck_every_s = 5.0;
 /// Press, lift for a look, press again; the last press lasts to the end.
 json pecking(double duration_s) {
   json profile = json::array();
-  const auto add = [&](double t_s, double force_n) { profile.push_back({{"t_s", t_s}, {"force_n", force_n}}); };
+  const auto add = [&](double t_s, double force_n) {
+    profile.push_back({{"t_s", t_s}, {"force_n", force_n}});
+  };
   add(0.0, 10.0);
   add(0.5, press_n);
   for (double t = peck_every_s; t < duration_s; t += peck_every_s) {
@@ -70,8 +72,7 @@ struct ServedReaming::House {
   }
 
   json ask(const char* method, const std::string& path, const std::string& body = {}) const {
-    const test::HttpReply reply =
-        test::http_request(server->port(), method, "/api/v1/sessions" + path, body);
+    const test::HttpReply reply = test::http_request(server->port(), method, "/api/v1/sessions" + path, body);
     if (reply.status >= 300)
       throw Error(ErrorKind::unavailable, std::string(method) + " " + path + ": " + reply.body);
     return json::parse(reply.body);
@@ -104,7 +105,8 @@ ServedTurn ServedReaming::run(StreamViewer& viewer) {
   const api::SessionStatus status =
       api::read_session_folder(app::sessions_folder(house_->folder.path()) / id).record.status;
   if (status.state != api::SessionState::finished)
-    throw Error(ErrorKind::unavailable, "the session ended as " + to_text(status.state) + ": " + status.fault);
+    throw Error(ErrorKind::unavailable,
+                "the session ended as " + to_text(status.state) + ": " + status.fault);
   turn.loop = status.loop;
   turn.ticks = status.tick;
   return turn;

@@ -19,8 +19,14 @@ double percentile(const std::vector<double>& sorted, double fraction) {
 
 TEST(TimingHistogram, AgreesWithSortedTimes) {
   std::mt19937 random(51);
-  for (const auto& [count, log_us] : {std::pair{1u, 5.0}, {2u, 5.0}, {10u, 5.0}, {999u, 5.0}, {50000u, 5.0},
-                                      {999u, 1.0}, {50000u, 1.0}, {50000u, -3.0}}) {
+  for (const auto& [count, log_us] : {std::pair{1u, 5.0},
+                                      {2u, 5.0},
+                                      {10u, 5.0},
+                                      {999u, 5.0},
+                                      {50000u, 5.0},
+                                      {999u, 1.0},
+                                      {50000u, 1.0},
+                                      {50000u, -3.0}}) {
     std::lognormal_distribution<double> time_us(log_us, 1.0);
     auto histogram = std::make_unique<TimingHistogram>();
     std::vector<double> times;
