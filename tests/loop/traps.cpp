@@ -126,9 +126,9 @@ void spring(Trap trap, long system_call, const void* caller) {
 void on_system_call(int, siginfo_t* info, void* context) {
   auto& registers = static_cast<ucontext_t*>(context)->uc_mcontext.gregs;
   if (armed) spring(Trap::system_call, info->si_syscall, info->si_call_addr);
-  registers[REG_RAX] = ream_let_through(info->si_syscall, registers[REG_RDI], registers[REG_RSI],
-                                        registers[REG_RDX], registers[REG_R10], registers[REG_R8],
-                                        registers[REG_R9]);
+  registers[REG_RAX] =
+      ream_let_through(info->si_syscall, registers[REG_RDI], registers[REG_RSI], registers[REG_RDX],
+                       registers[REG_R10], registers[REG_R8], registers[REG_R9]);
 }
 
 void install_filter() {
@@ -193,8 +193,8 @@ std::string Caught::words() const {
   for (int i = 0; i < trap_kinds; ++i) {
     const auto kind = static_cast<size_t>(i);
     if (ours[kind] + vendors[kind] == 0) continue;
-    words += std::string(to_text(static_cast<Trap>(i))) + ": " + std::to_string(ours[kind]) +
-             " of ours, " + std::to_string(vendors[kind]) + " inside OpenCL\n";
+    words += std::string(to_text(static_cast<Trap>(i))) + ": " + std::to_string(ours[kind]) + " of ours, " +
+             std::to_string(vendors[kind]) + " inside OpenCL\n";
   }
   return words + first;
 }
@@ -268,7 +268,7 @@ void free(void* p) {
 #define REAM_TRAPPED(trap, name, parameters, arguments)                  \
   int name parameters {                                                  \
     static const auto real = ream::test::next<int(*) parameters>(#name); \
-    trapped(trap, __builtin_return_address(0)); \
+    trapped(trap, __builtin_return_address(0));                          \
     return real arguments;                                               \
   }
 
@@ -281,8 +281,8 @@ REAM_TRAPPED(Trap::lock, pthread_rwlock_wrlock, (pthread_rwlock_t * l), (l))
 REAM_TRAPPED(Trap::lock, pthread_rwlock_trywrlock, (pthread_rwlock_t * l), (l))
 REAM_TRAPPED(Trap::lock, pthread_spin_lock, (pthread_spinlock_t * l), (l))
 REAM_TRAPPED(Trap::lock, pthread_cond_wait, (pthread_cond_t * c, pthread_mutex_t* m), (c, m))
-REAM_TRAPPED(Trap::lock, pthread_cond_timedwait,
-             (pthread_cond_t * c, pthread_mutex_t* m, const timespec* t), (c, m, t))
+REAM_TRAPPED(Trap::lock, pthread_cond_timedwait, (pthread_cond_t * c, pthread_mutex_t* m, const timespec* t),
+             (c, m, t))
 REAM_TRAPPED(Trap::lock, pthread_cond_clockwait,
              (pthread_cond_t * c, pthread_mutex_t* m, clockid_t k, const timespec* t), (c, m, k, t))
 REAM_TRAPPED(Trap::lock, sem_wait, (sem_t * s), (s))
