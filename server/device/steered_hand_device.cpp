@@ -18,8 +18,8 @@ constexpr double arm_damping_n_s_mm = 2.0;
 constexpr double reach_mm = 60.0;
 constexpr double wish_time_s = 0.04;
 constexpr double push_rate_n_s = 400.0, sideways_rate_mm_s = 60.0, lean_rate_rad_s = 1.0;
-/// The line goes no farther ahead of the hand than this: with the model's guide stiffness it pulls with 40 N.
-constexpr double line_ahead_mm = 2.0;
+/// The line goes no farther ahead of the hand than this: with the model's guide stiffness it pulls with 80 N.
+constexpr double line_ahead_mm = 4.0;
 /// Over which the push of a hand that hears nothing falls to nothing: as the force on it does.
 constexpr double letting_go_ms = 20.0;
 
