@@ -9,6 +9,7 @@
 
 #include "app/crash_guard.hpp"
 #include "app/interrupt.hpp"
+#include "core/error.hpp"
 #include "support/recorded_reaming.hpp"
 
 // A program with a device in somebody's hand, told by its argument how to end. What its device is told, last
