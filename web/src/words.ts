@@ -163,7 +163,7 @@ export const words = {
   holdHint: 'Hold to push',
   push: 'Push',
   pushMeter: (now: string, level: string) => `${now} of ${level} newtons`,
-  pushLevel: 'Hardest',
+  pushLevel: 'Full push',
   leanUp: 'Lean up',
   leanFront: 'Lean forward',
   degrees: (degrees: string) => `${degrees}°`,

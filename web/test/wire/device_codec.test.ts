@@ -13,9 +13,9 @@ const golden = (name: string) => new Uint8Array(file(`${name}.bin`));
 function read<T>(bytes: Uint8Array, type: DeviceBody, body: T): T {
   const message = DeviceMessage.getRootAsDeviceMessage(new ByteBuffer(bytes));
   expect(message.bodyType()).toBe(type);
-  const found: T | null = message.body(body as never);
+  const found: unknown = message.body(body as never);
   if (found === null) throw new Error('a message lacks its body');
-  return found;
+  return found as T;
 }
 
 /** All that a Steering says. */
