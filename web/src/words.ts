@@ -36,6 +36,7 @@ export const words = {
   } satisfies Record<SessionState, string>,
 
   practiceHint: 'You have the reamer.',
+  deviceHint: 'The hand on the haptic device is reaming.',
 
   stateUnknown: (state: string) => `What the session is doing is not known; when last heard of it was ${state}.`,
 

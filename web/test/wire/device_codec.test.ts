@@ -13,7 +13,7 @@ const golden = (name: string) => new Uint8Array(file(`${name}.bin`));
 function read<T>(bytes: Uint8Array, type: DeviceBody, body: T): T {
   const message = DeviceMessage.getRootAsDeviceMessage(new ByteBuffer(bytes));
   expect(message.bodyType()).toBe(type);
-  const found: unknown = message.body(body as never);
+  const found: unknown = message.body(body);
   if (found === null) throw new Error('a message lacks its body');
   return found as T;
 }
