@@ -56,7 +56,9 @@ struct SessionStatus {
   uint32_t tick = 0;
   double duration_s = 0.0;
   double force_scale = 1.0;
-  std::string fault;  ///< words for people, empty unless state is fault or interrupted
+  /// Words for people: why state is fault or interrupted, or what keeps a live session from going on now (its
+  /// device is lost); else empty.
+  std::string fault;
   LoopStatus loop;
   DeviceLinkStatus device;
 };

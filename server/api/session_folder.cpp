@@ -28,15 +28,30 @@ std::string plain_name(const std::string& text) {
   return is_name(stem) ? stem : "unnamed";
 }
 
-TimingSummary loop_times(const json& timing) {
-  const json tick = timing.value("tick_us", json::object());
+TimingSummary summary_of(const json& timing, const char* what) {
+  const json times = timing.value(what, json::object());
   TimingSummary summary;
-  summary.mean_us = tick.value("mean", 0.0);
-  summary.p50_us = tick.value("p50", 0.0);
-  summary.p99_us = tick.value("p99", 0.0);
-  summary.p999_us = tick.value("p999", 0.0);
-  summary.max_us = tick.value("max", 0.0);
+  summary.mean_us = times.value("mean", 0.0);
+  summary.p50_us = times.value("p50", 0.0);
+  summary.p99_us = times.value("p99", 0.0);
+  summary.p999_us = times.value("p999", 0.0);
+  summary.max_us = times.value("max", 0.0);
   return summary;
+}
+
+/// Sessions of earlier builds have fewer of them.
+LoopStatus loop_of(const json& timing) {
+  LoopStatus loop;
+  loop.tick_us = summary_of(timing, "tick_us");
+  loop.lateness_us = summary_of(timing, "lateness_us");
+  loop.read_us = summary_of(timing, "read_us");
+  loop.step_us = summary_of(timing, "step_us");
+  loop.write_us = summary_of(timing, "write_us");
+  loop.missed = timing.value("missed", uint64_t{0});
+  loop.realtime = timing.value("realtime", false);
+  loop.locked = timing.value("locked", false);
+  loop.cpu = timing.value("cpu", -1);
+  return loop;
 }
 
 SessionState state_of(const json& session, const fs::path& folder) {
@@ -73,8 +88,7 @@ FolderRecord record_of(const json& session, const fs::path& folder) {
   std::error_code failed;
   if (const fs::path timing = folder / "timing.json"; fs::exists(timing, failed)) {
     const json times = read_json_file(timing);
-    status.loop.tick_us = loop_times(times);
-    status.loop.missed = times.value("missed", uint64_t{0});
+    status.loop = loop_of(times);
     if (!session.contains("ticks")) status.duration_s = (status.tick = times.value("ticks", 0u)) * tick_s;
   }
   return found;

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "app/crash_guard.hpp"
 #include "app/interrupt.hpp"
 #include "app/loop_rings.hpp"
 #include "app/session_files.hpp"
@@ -34,6 +35,7 @@ HeadlessResult run_headless(Rig& rig, std::span<const uint8_t> start_coverage,
   sim::HapticLoop loop(rig.model, rig.state, *rig.device, rings.reports, {wall_clock, realtime});
   const auto take_brick = [&](const voxel::BrickImage& image) { files.add(image); };
   const auto take_report = [&](const record::TickReport& report) { files.add(report); };
+  const CrashWatch crash_watch(*rig.device);
   loop.start();
   while (!loop.ended()) {
     throw_if_interrupted();

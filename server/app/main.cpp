@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "app/cli/commands.hpp"
+#include "app/crash_guard.hpp"
 #include "app/interrupt.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
@@ -26,6 +27,7 @@ void add_commands(CLI::App& app, ream::app::GlobalOptions& global) {
   add_export_command(app, global);
   add_list_command(app, global);
   add_replay_command(app, global);
+  add_devices_command(app, global);
   add_bench_command(app, global);
 }
 
@@ -36,6 +38,7 @@ int main(int argc, char** argv) {
   ream::app::GlobalOptions global;
   add_commands(app, global);
   ream::app::take_file_size_limit_as_error();
+  ream::app::take_force_away_on_crash();
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

@@ -21,6 +21,8 @@ namespace {
 constexpr auto follower_period = std::chrono::milliseconds(10);
 /// A session that rests tells its viewers so this often, so that a silent link is a broken one.
 constexpr int64_t heartbeat_ns = 500'000'000;
+/// A loop that stands still for longer than this will not come back: its session ends without it.
+constexpr int64_t longest_standstill_ns = 1'000'000'000;
 
 RunRequest run_request(const SessionHouse& house, const api::SessionRequest& request) {
   RunRequest run;
@@ -29,6 +31,7 @@ RunRequest run_request(const SessionHouse& house, const api::SessionRequest& req
   run.script_name =
       built_in ? request.script : (house.data / "scripts" / (request.script + ".json")).string();
   run.backend = house.backend;
+  run.tool_spacing_mm = house.tool_spacing_mm;
   run.force_scale = request.force_scale;
   run.device = request.device;
   run.device_profile = request.device_profile;
@@ -53,6 +56,11 @@ stream::SessionState wire_state(api::SessionState state) {
       return stream::SessionState::interrupted;
   }
   return stream::SessionState::fault;
+}
+
+api::LoopStatus loop_status(const sim::LoopHealth& health) {
+  return {health.tick_us, health.lateness_us,   health.read_us,         health.step_us,     health.write_us,
+          health.missed,  health.realtime.fifo, health.realtime.locked, health.realtime.cpu};
 }
 
 }  // namespace
@@ -93,7 +101,8 @@ ReamingSession::ReamingSession(const SessionHouse& house, const api::SessionRequ
       port_(port_of_device()),
       fanout_(std::make_shared<stream::LocalFanout>()),
       publisher_(rig_.bone_case.bone, *fanout_),
-      batcher_(*fanout_) {
+      batcher_(*fanout_),
+      crash_watch_(*rig_.device) {
   rig_.state.brick_sender = &rings_.sender;
   const sim::Backend& backend = rig_.state.backend;
   log::info("session " + id_ + ": contact and removal on " + backend.name +
@@ -261,6 +270,7 @@ void ReamingSession::follow_to_the_end() {
   } catch (const std::exception& e) {
     log::error("session " + id_ + ": its follower failed: " + e.what());
     loop_.request_stop();
+    keep_black_box(recent_);
     {
       const std::lock_guard lock(mutex_);
       if (!finished_) status_.state = api::SessionState::fault;
@@ -310,7 +320,10 @@ void ReamingSession::follow_once() {
   try {
     for (const record::ops::Annotation& remark : remarks) files_->add(remark);
     take(ended);
-    if (ended) finish();
+    if (ended)
+      finish();
+    else if (loop_.stood_still_ms() > 0)
+      note_standstill();
     if (!start_failure().empty()) throw Error(ErrorKind::unavailable, start_failure());
   } catch (const std::exception& e) {
     end_without_force(e.what());
@@ -326,7 +339,9 @@ void ReamingSession::take(bool ended) {
   bool any = false;
   const auto take_one = [&](const record::TickReport& report) {
     any = true;
+    recent_.remember(report);
     take_report(files_->add(report));
+    note_events(report);
   };
   if (ended)
     rings_.drain_rest(rig_.bone_case.bone, rig_.state.tick - 1, take_brick, take_one);
@@ -343,6 +358,41 @@ void ReamingSession::take_report(const record::TickReport& r) {
   batcher_.add(sample_);
 }
 
+void ReamingSession::note_events(const record::TickReport& report) {
+  for (const record::ops::Event& event : files_->newest_events()) {
+    log::info("session " + id_ + ", tick " + std::to_string(event.tick) + ": " + event.words);
+    if (event.kind == "device_lost") keep_black_box(recent_);
+  }
+  device_state_ = report.link;
+  if (files_->events().device_is_lost() == device_is_lost_) return;
+  device_is_lost_ = !device_is_lost_;
+  tell_fault(files_->events().device_words());
+}
+
+/// The loop's thread is dead, stuck or very late; the guard has left the device without force. A late one
+/// ends by itself when it is back.
+void ReamingSession::note_standstill() {
+  const std::string words = end_words(sim::LoopEnd::stood_still);
+  const int64_t now_ns = steady_ns();
+  if (standstill_told_ns_ == 0) {
+    standstill_told_ns_ = now_ns;
+    log::error("session " + id_ + ": " + words);
+    keep_black_box(recent_);
+    tell_fault(words);
+    batcher_.add(sample_);
+    batcher_.flush();
+  }
+  if (now_ns - standstill_told_ns_ > longest_standstill_ns) throw Error(ErrorKind::unavailable, words);
+}
+
+/// To REST, and to viewers from the next sample on; empty: there is none any more.
+void ReamingSession::tell_fault(const std::string& words) {
+  sample_.fault.fill('\0');
+  std::memcpy(sample_.fault.data(), words.data(), std::min(words.size(), sample_.fault.size() - 1));
+  const std::lock_guard lock(mutex_);
+  status_.fault = words;
+}
+
 void ReamingSession::note_health() {
   const score::Metrics metrics = files_->metrics();
   const sim::LoopHealth health = loop_.health();
@@ -354,14 +404,14 @@ void ReamingSession::note_health() {
   if (health.failed_over_tick >= 0 && !failover_told_) {
     failover_told_ = true;
     log::warn("session " + id_ + ": " + sim::failover_words(health.failed_over_tick));
+    keep_black_box(recent_);
     files_->note_failover(health.failed_over_tick);
   }
   const std::lock_guard lock(mutex_);
   metrics_ = score::metrics_json(metrics, status_.force_scale, nullptr);
   status_.tick = sample_.tick + 1;
   status_.duration_s = metrics.duration_s;
-  status_.loop.tick_us = health.tick_us;
-  status_.loop.missed = health.missed;
+  status_.loop = loop_status(health);
   note_device();
   if (status_.state == api::SessionState::running || status_.state == api::SessionState::paused)
     status_.state = sample_.state == stream::SessionState::paused ? api::SessionState::paused
@@ -371,10 +421,9 @@ void ReamingSession::note_health() {
 /// With the mutex held.
 void ReamingSession::note_device() {
   api::DeviceLinkStatus& device = status_.device;
-  device.state = device::to_text(device::LinkState::fresh);
+  device.state = device::to_text(device_state_);
   if (!rig_.link) return;
   const device::RemoteLink& link = *rig_.link;
-  device.state = device::to_text(link.state);
   const int64_t rtt_us = link.rtt_us;
   device.rtt_ms = rtt_us < 0 ? std::nullopt : std::optional(1.0e-3 * static_cast<double>(rtt_us));
   device.received = link.received;
@@ -389,9 +438,7 @@ void ReamingSession::publish_state(api::SessionState state) {
   sample_.state = wire_state(state);
   if (port_) port_->tell(static_cast<device::RemoteSessionState>(sample_.state));
   if (!api::is_live(state)) sample_.spindle_on = false;
-  const std::string words = status().fault;
-  sample_.fault.fill('\0');
-  std::memcpy(sample_.fault.data(), words.data(), std::min(words.size(), sample_.fault.size() - 1));
+  tell_fault(status().fault);
   batcher_.add(sample_);
   batcher_.flush();
 }

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "api/running_session.hpp"
+#include "app/crash_guard.hpp"
 #include "app/loop_rings.hpp"
 #include "app/resume_point.hpp"
 #include "app/rig.hpp"
@@ -23,6 +24,7 @@ struct SessionHouse {
   uint64_t server_epoch = 0;  ///< differs after each start of the server
   std::string backend = "auto";
   sim::Realtime realtime = sim::Realtime::attempt;
+  double tool_spacing_mm = 0.2;  ///< of the points that feel bone
 };
 
 /// A live session: the haptic loop on its own thread, and one follower thread that keeps files, metrics,
@@ -68,7 +70,11 @@ class ReamingSession final : public api::RunningSession {
   void publish_state(api::SessionState state);
   void note_health();
   void finish();
-  void write_black_box() const;
+  void note_events(const record::TickReport& report);
+  void note_standstill();
+  std::string end_words(sim::LoopEnd end) const;
+  void tell_fault(const std::string& words);
+  void keep_black_box(const sim::BlackBox& box) const;
   void append_missing_remarks();
   void end_without_force(const std::string& words);
   void close(api::SessionState state, const std::string& fault, const nlohmann::json& metrics);
@@ -93,6 +99,10 @@ class ReamingSession final : public api::RunningSession {
   stream::TelemetryBatcher batcher_;
   stream::TelemetrySample sample_;  ///< the newest, follower only
   bool failover_told_ = false;      ///< follower only
+  bool device_is_lost_ = false;     ///< follower only
+  sim::BlackBox recent_;  ///< the last seconds as the follower has them, for faults that do not end it
+  device::LinkState device_state_ = device::LinkState::lost;  ///< follower only
+  int64_t standstill_told_ns_ = 0;  ///< follower only; 0: the loop has not stood still
 
   mutable std::mutex mutex_;  ///< guards what follows
   std::condition_variable changed_;
@@ -105,6 +115,7 @@ class ReamingSession final : public api::RunningSession {
   bool leaving_ = false, finished_ = false;
   bool closing_ = false;  ///< no remark gets into the recording any more; finished_ follows
   std::mutex stopping_;   ///< one stop() at a time
+  CrashWatch crash_watch_;
   std::thread follower_;
 };
 

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "api/session_folder.hpp"
+#include "app/black_box_files.hpp"
 #include "app/reaming_session.hpp"
 #include "app/session_recovery.hpp"
 #include "core/clock.hpp"
@@ -23,17 +24,25 @@ api::SessionState end_state(sim::LoopEnd end) {
 void ReamingSession::finish() {
   const sim::LoopHealth health = loop_.health();
   const api::SessionState state = end_state(health.end);
-  const std::string fault = to_words(health.end);
-  if (!fault.empty()) write_black_box();
+  const std::string fault = end_words(health.end);
+  if (!fault.empty()) keep_black_box(loop_.black_box());
   publisher_.flush(steady_ns());
   note_health();
   const auto results = files_->finish(health, told_of(state, fault));
   close(state, fault, results.metrics);
 }
 
-void ReamingSession::write_black_box() const {
+std::string ReamingSession::end_words(sim::LoopEnd end) const {
+  if (end != sim::LoopEnd::stood_still) return to_words(end);
+  return "The haptic loop stopped for " + std::to_string(loop_.stood_still_ms()) +
+         " ms; force off. Start a new session, on a computer with less to do.";
+}
+
+/// The last seconds of the loop, beside the recording, at any fault.
+void ReamingSession::keep_black_box(const sim::BlackBox& box) const {
   try {
-    loop_.black_box().write(folder_ / "black-box.csv");
+    const std::filesystem::path path = write_black_box(box, folder_, sample_.tick);
+    log::info("session " + id_ + ": the last seconds are in " + path.string());
   } catch (const std::exception& e) {
     log::error("session " + id_ + ": its black box could not be written: " + e.what());
   }
@@ -64,6 +73,7 @@ void ReamingSession::end_without_force(const std::string& words) {
     const std::lock_guard lock(mutex_);
     closing_ = true;
   }
+  if (start_failure().empty()) keep_black_box(recent_);
   const api::SessionState state = start_failure().empty() ? api::SessionState::fault : state_without_start_;
   nlohmann::json metrics = this->metrics();
   try {

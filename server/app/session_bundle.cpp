@@ -1,4 +1,5 @@
 #include "app/session_bundle.hpp"
+#include "app/black_box_files.hpp"
 
 #include <stdlib.h>
 
@@ -103,6 +104,8 @@ void write_session_bundle(const fs::path& recording_file, const std::string& cas
   write_file_atomically(made.path / "bundle.json", bundle.dump(2) + "\n");
   std::vector<store::ArchiveEntry> entries{{made.path / "bundle.json", "bundle.json"}};
   add_files(folder, session_files, "session", entries);
+  for (const fs::path& box : black_boxes_in(folder))
+    entries.push_back({box, "session/" + box.filename().string()});
   add_files(case_path(case_name.empty() ? recording.header().case_id : case_name, data), case_files, "case",
             entries);
   store::write_zip(zip, entries);

@@ -11,13 +11,21 @@
 namespace ream::app {
 namespace {
 
+nlohmann::json summary_json(const TimingSummary& t) {
+  return {{"mean", t.mean_us}, {"p50", t.p50_us}, {"p99", t.p99_us}, {"p999", t.p999_us}, {"max", t.max_us}};
+}
+
 nlohmann::json timing_json(const sim::LoopHealth& health) {
-  const TimingSummary& t = health.tick_us;
-  return {
-      {"tick_us",
-       {{"mean", t.mean_us}, {"p50", t.p50_us}, {"p99", t.p99_us}, {"p999", t.p999_us}, {"max", t.max_us}}},
-      {"missed", health.missed},
-      {"ticks", t.count}};
+  return {{"tick_us", summary_json(health.tick_us)},
+          {"lateness_us", summary_json(health.lateness_us)},
+          {"read_us", summary_json(health.read_us)},
+          {"step_us", summary_json(health.step_us)},
+          {"write_us", summary_json(health.write_us)},
+          {"missed", health.missed},
+          {"ticks", health.tick_us.count},
+          {"realtime", health.realtime.fifo},
+          {"locked", health.realtime.locked},
+          {"cpu", health.realtime.cpu}};
 }
 
 void write_json(const std::filesystem::path& path, const nlohmann::json& json) {
@@ -80,6 +88,8 @@ record::TickReport SessionFiles::add(const record::TickReport& report) {
   metrics_.add(kept);
   recorder_->add(report);
   ticks_ = report.tick + 1;
+  newest_events_ = events_.of(report);
+  for (const record::ops::Event& event : newest_events_) recorder_->add(event);
   return kept;
 }
 

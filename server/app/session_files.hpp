@@ -5,6 +5,7 @@
 
 #include "app/resume_point.hpp"
 #include "app/rig.hpp"
+#include "app/session_events.hpp"
 #include "record/recorder.hpp"
 #include "record/trace_csv.hpp"
 #include "score/metrics.hpp"
@@ -33,10 +34,13 @@ class SessionFiles {
   void add(const record::ops::Annotation& annotation) { recorder_->add(annotation); }
   /// Records once that the device that computes failed in that tick; none if negative.
   void note_failover(int64_t tick);
-  /// Returns the report as it is kept.
+  /// Records with it the events that begin with it. Returns the report as it is kept.
   record::TickReport add(const record::TickReport& report);
   /// What session.json says from the start on.
   const nlohmann::json& description() const { return description_; }
+  /// Those of the last report, and what they come from.
+  const std::vector<record::ops::Event>& newest_events() const { return newest_events_; }
+  const SessionEvents& events() const { return events_; }
   score::Metrics metrics() const { return metrics_.metrics(); }
   const record::Recorder& recorder() const { return *recorder_; }
 
@@ -57,6 +61,8 @@ class SessionFiles {
   std::optional<record::TraceCsv> trace_;
   std::optional<record::Recorder> recorder_;  ///< until finished or abandoned
   score::MetricsAccumulator metrics_;
+  SessionEvents events_;
+  std::vector<record::ops::Event> newest_events_;
   uint32_t ticks_ = 0;  ///< recorded so far
   bool failover_noted_ = false;
 };

@@ -68,7 +68,7 @@ std::optional<net::SharedBytes> DeviceSocket::next() {
   feedback.stamp_us = static_cast<uint64_t>(port_->now_ns_() / ns_per_us);
   feedback.state = port_->state_;
   feedback.rtt_ms = rtt_us_ < 0 ? -1.0 : 1.0e-3 * static_cast<double>(rtt_us_);
-  feedback.output = port_->newest_output();
+  feedback.output = port_->newest_output(number_);
   return feedback_message(feedback);
 }
 
@@ -175,12 +175,13 @@ bool DevicePort::put(uint64_t number, const RemoteInput& input) {
   return true;
 }
 
-RemoteOutput DevicePort::newest_output() {
+RemoteOutput DevicePort::newest_output(uint64_t number) {
   const std::lock_guard lock(mutex_);
   link_->output.take(output_);
   RemoteOutput output = output_;
   const bool too_old = now_ns_() - output.written_ns > output_too_old_ns;
-  if (too_old || has_ended(state_) || link_->force_taken_away.load(std::memory_order_acquire)) {
+  if (too_old || output.connection != number || has_ended(state_) ||
+      link_->force_taken_away.load(std::memory_order_acquire)) {
     output.force_n = output.torque_n_mm = {};
     output.vibration_g = 0.0;
   }

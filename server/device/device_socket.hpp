@@ -50,7 +50,8 @@ class DevicePort : public std::enable_shared_from_this<DevicePort> {
   void leave(uint64_t number) noexcept;
   /// False when somebody else has taken over.
   bool put(uint64_t number, const RemoteInput& input);
-  RemoteOutput newest_output();
+  /// Without force unless it is for the caller.
+  RemoteOutput newest_output(uint64_t number);
 
   const std::shared_ptr<RemoteLink> link_;
   const RemoteKind kind_;

@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 
+#include "device/link_state.hpp"
 #include "geometry/pose.hpp"
 
 namespace ream::device {
@@ -36,6 +37,7 @@ struct DeviceTraits {
   int degrees_of_freedom = 6;        ///< sensed
   std::string profile = "ideal";     ///< name in device/profiles.hpp
   StaleLimits stale;
+  bool simulated = false;  ///< nobody's hand is in it: a loop that stands still harms no one
 };
 
 struct DeviceInput {
@@ -48,6 +50,7 @@ struct DeviceInput {
   bool paused = false;
   bool clutch = false;  ///< the hand moves without the tool
   bool deadman = true;  ///< somebody holds the handle; true of devices that cannot tell
+  bool stale = false;   ///< too old to push against: set by sim::PoseWatchdog, and by a replay of it
 };
 
 struct DeviceOutput {
@@ -58,6 +61,7 @@ struct DeviceOutput {
       std::nullopt;  ///< where an admittance device moves to; empty: it stays
   // What a device may show beside what it renders.
   uint32_t tick = 0;
+  LinkState link = LinkState::lost;  ///< how far what it said was trusted
   bool paused = false, engaged = false;
   double thrust_n = 0.0;  ///< simulated
   double vibration_g = 0.0;

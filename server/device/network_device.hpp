@@ -3,29 +3,9 @@
 
 #include "core/clock.hpp"
 #include "device/haptic_device.hpp"
-#include "device/remote_link.hpp"
+#include "device/remote_end.hpp"
 
 namespace ream::device {
-
-/// How old the newest input of a link is, ms: infinite before the first and for one read after each new
-/// connection, as that may hold its device elsewhere. Also keeps the link's state.
-class InputAge {
- public:
-  explicit InputAge(const StaleLimits& limits) : limits_(limits) {}
-  /// Looks for news and takes it into `input`. True: there is news to be used.
-  bool take(RemoteLink& link, RemoteInput& input, int64_t now_ns) noexcept;
-  double age_ms() const noexcept { return age_ms_; }
-  LinkState state() const noexcept;
-
- private:
-  StaleLimits limits_;
-  RemoteInput waiting_;
-  bool broken_ = false;
-  double age_ms_ = 0.0;
-};
-
-/// `output` as it goes back over the link.
-RemoteOutput remote_output(const DeviceOutput& output, LinkState state, int64_t now_ns) noexcept;
 
 /// A haptic device that some client connects over the network with. Its poses and forces are in the device's
 /// own frame. A new pose is not jumped to: the handle glides there within the usual time between two, which
@@ -41,16 +21,14 @@ class NetworkDevice final : public HapticDevice {
   void close() noexcept override;
   DeviceStatus read(DeviceInput& input) noexcept override;
   DeviceStatus write(const DeviceOutput& output) noexcept override;
-  void take_force_away() noexcept override { link_->force_taken_away.store(true, std::memory_order_release); }
+  void take_force_away() noexcept override { end_.take_force_away(); }
 
  private:
   void glide_to(const Pose& pose, int64_t now_ns) noexcept;
   Pose gliding(int64_t now_ns) const noexcept;
 
   DeviceTraits traits_;
-  const std::shared_ptr<RemoteLink> link_;
-  int64_t (*const now_ns_)();
-  InputAge age_;
+  RemoteEnd end_;
   RemoteInput newest_;
   uint64_t connection_ = 0;  ///< that the poses below are of; 0: there is none yet
   Pose from_, to_;

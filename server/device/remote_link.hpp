@@ -4,13 +4,9 @@
 #include <cstdint>
 
 #include "core/latest_slot.hpp"
+#include "device/link_state.hpp"
 
 namespace ream::device {
-
-enum class LinkState : uint8_t { fresh, held, fading, lost };
-
-/// One word for people and REST: "fresh", "held", "fading", "lost".
-const char* to_text(LinkState state) noexcept;
 
 /// The newest thing that a device's client said; see proto/device.fbs.
 /// Plain numbers only: it goes through a slot.
@@ -30,7 +26,8 @@ struct RemoteInput {
 
 /// What goes back to it.
 struct RemoteOutput {
-  int64_t written_ns = 0;  ///< steady_ns() of the tick; one that is too old is not passed on
+  int64_t written_ns = 0;   ///< steady_ns() of the tick; one that is too old is not passed on
+  uint64_t connection = 0;  ///< whose input it answers to; the force is for nobody else
   uint32_t tick = 0;
   LinkState link = LinkState::lost;
   bool paused = false, engaged = false;
@@ -48,7 +45,6 @@ struct RemoteLink {
   /// Counts of messages, and the way there and back in us (-1: not known): written by the socket's side.
   std::atomic<uint64_t> received{0}, missing{0}, late{0}, refused{0}, connections{0};
   std::atomic<int64_t> rtt_us{-1};
-  std::atomic<LinkState> state{LinkState::lost};  ///< by the age of the newest input, written by the device
 };
 
 }  // namespace ream::device

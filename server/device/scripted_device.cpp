@@ -10,6 +10,7 @@ namespace ream::device {
 ScriptedDevice::ScriptedDevice(const Script& script, const Pose& world_from_plan, const char* name)
     : script_(script), world_from_plan_(world_from_plan), traits_(device_profile(script.device_profile)) {
   traits_.name = name;
+  traits_.simulated = true;
 }
 
 void ScriptedDevice::open() {

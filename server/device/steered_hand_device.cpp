@@ -5,8 +5,8 @@
 
 #include "core/error.hpp"
 #include "device/hand_model.hpp"
-#include "device/network_device.hpp"
 #include "device/profiles.hpp"
+#include "device/remote_end.hpp"
 
 namespace ream::device {
 namespace {
@@ -18,8 +18,8 @@ constexpr double arm_damping_n_s_mm = 2.0;
 constexpr double reach_mm = 60.0;
 constexpr double wish_time_s = 0.04;
 constexpr double push_rate_n_s = 400.0, sideways_rate_mm_s = 60.0, lean_rate_rad_s = 1.0;
-/// The line goes no farther ahead of the hand than this: with the model's guide stiffness it pulls with 40 N.
-constexpr double line_ahead_mm = 2.0;
+/// The line goes no farther ahead of the hand than this: with the model's guide stiffness it pulls with 80 N.
+constexpr double line_ahead_mm = 4.0;
 /// Over which the push of a hand that hears nothing falls to nothing: as the force on it does.
 constexpr double letting_go_ms = 20.0;
 
@@ -52,38 +52,36 @@ class SteeredHandDevice final : public HapticDevice {
       : traits_(device_profile(profile)),
         world_from_plan_(world_from_plan),
         force_scale_(force_scale),
-        link_(std::move(link)),
-        now_ns_(now_ns),
-        age_(browser_stale_limits),
+        end_(std::move(link), now_ns),
         hand_(steered_hand(), 1) {
     if (traits_.causality != Causality::impedance)
       throw Error(ErrorKind::invalid_input,
                   "a hand in the browser feels through an impedance device; profile '" + profile +
                       "' is none, choose 'ideal'");
     traits_.name = "browser";
+    traits_.simulated = true;
     traits_.stale = browser_stale_limits;
   }
 
   const DeviceTraits& traits() const noexcept override { return traits_; }
 
   void open() override {
-    age_ = InputAge(browser_stale_limits);
+    end_.open();
     hand_.begin();
     sideways_mm_ = lean_ = felt_.force_n = felt_.torque_n_mm = Vec3::Zero();
     push_n_ = 0.0;
-    link_->force_taken_away.store(false, std::memory_order_release);
   }
 
-  void close() noexcept override { link_->output.store(remote_output({}, LinkState::lost, now_ns_())); }
+  void close() noexcept override { end_.write({}); }
 
-  void take_force_away() noexcept override { link_->force_taken_away.store(true, std::memory_order_release); }
+  void take_force_away() noexcept override { end_.take_force_away(); }
 
   DeviceStatus read(DeviceInput& input) noexcept override {
-    age_.take(*link_, wish_, now_ns_());
-    input.age_ms = age_.age_ms();
+    end_.take(wish_);
+    input.age_ms = end_.age_ms();
     input.spindle_on = wish_.spindle_on;
     input.paused = wish_.paused;
-    if (wish_.paused || age_.state() == LinkState::lost)
+    if (wish_.paused || end_.age_ms() >= traits_.stale.lost_ms)
       rest();
     else
       follow();
@@ -94,7 +92,7 @@ class SteeredHandDevice final : public HapticDevice {
   DeviceStatus write(const DeviceOutput& output) noexcept override {
     const Mat3 plan_from_world = world_from_plan_.rotation.transpose();
     felt_.force_n = force_scale_ * (plan_from_world * (output.force_n - output.vibration_n));
-    link_->output.store(remote_output(output, age_.state(), now_ns_()));
+    end_.write(output);
     return DeviceStatus::ok;
   }
 
@@ -129,7 +127,7 @@ class SteeredHandDevice final : public HapticDevice {
 
   /// 1 while wishes come; falls to nothing when they do not.
   double grip() const noexcept {
-    return std::clamp(1.0 - (age_.age_ms() - browser_stale_limits.fade_ms) / letting_go_ms, 0.0, 1.0);
+    return std::clamp(1.0 - (end_.age_ms() - traits_.stale.fade_ms) / letting_go_ms, 0.0, 1.0);
   }
 
   Vec3 in_plan(const std::array<double, 3>& world) const noexcept {
@@ -161,9 +159,7 @@ class SteeredHandDevice final : public HapticDevice {
   DeviceTraits traits_;
   const Pose world_from_plan_;
   const double force_scale_;
-  const std::shared_ptr<RemoteLink> link_;
-  int64_t (*const now_ns_)();
-  InputAge age_;
+  RemoteEnd end_;
   RemoteInput wish_;
   HandModel hand_;
   Vec3 sideways_mm_ = Vec3::Zero(), lean_ = Vec3::Zero();

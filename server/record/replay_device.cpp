@@ -11,6 +11,7 @@ void set_input(const QuantisedPose& world_from_handle, uint32_t flags, device::D
   input.world_from_handle = dequantised(world_from_handle);
   input.spindle_on = (flags & spindle_on_flag) != 0;
   input.paused = (flags & paused_flag) != 0;
+  input.stale = (flags & stale_flag) != 0;
 }
 
 }  // namespace

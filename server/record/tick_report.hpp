@@ -1,9 +1,15 @@
 #pragma once
 #include <cstdint>
 
+#include "device/link_state.hpp"
 #include "geometry/pose.hpp"
 
 namespace ream::record {
+
+/// When a tick began and how long its parts took, us.
+struct TickTiming {
+  double lateness_us = 0.0, read_us = 0.0, step_us = 0.0, write_us = 0.0;
+};
 
 /// What one tick was told, found and did: everything that followers (trace, telemetry, recording, score) need
 /// to know. Trivially copyable: it travels through rings.
@@ -14,7 +20,8 @@ struct TickReport {
   /// The hand feels noticeably less than the simulated contact force over the force scale: a limit, the slew
   /// limit or the energy guard is at work.
   bool weakened = false;
-  bool stale = false;                 ///< a cause: the pose was too old, the force on the hand fades out
+  bool stale = false;  ///< a cause: the pose was too old, the force on the hand fades out
+  device::LinkState link = device::LinkState::fresh;  ///< of the device; not recorded
   bool failed_over = false;           ///< the device that computes failed in this tick; the hand felt nothing
   QuantisedPose world_from_handle_q;  ///< the cause: what the device said, as it was used
   QuantisedPose grid_from_tool;       ///< what was decided, as contact and removal saw it
@@ -36,6 +43,7 @@ struct TickReport {
   uint32_t changed_bricks = 0;
   uint32_t bricks_waiting = 0;  ///< changed ones whose images go to followers in later ticks
   uint64_t session_hash = 0;    ///< rolling, up to and including this tick
+  TickTiming timing;            ///< of this computer; not recorded
 };
 
 }  // namespace ream::record

@@ -41,10 +41,26 @@ Vec3 vibration_n(const Model& model, const Pose& world_from_tool, double vibrati
 
 }  // namespace
 
+double HandOutput::fade(bool stale) noexcept {
+  if (stale || (faded_ticks > 0 && faded_ticks < fade_ticks))
+    faded_ticks = std::min(faded_ticks + 1, fade_ticks);
+  else if (faded_ticks > 0) {
+    faded_ticks = 0;
+    start_up.restart();
+  }
+  return 1.0 - static_cast<double>(faded_ticks) / fade_ticks;
+}
+
 device::DeviceOutput output_of(const record::TickReport& report) noexcept {
-  return {report.hand_force_n, report.hand_torque_n_mm, report.hand_vibration_n, report.world_from_tool,
-          report.tick,         report.paused,           report.engaged,          report.thrust_n,
-          report.vibration_g};
+  device::DeviceOutput output{report.hand_force_n, report.hand_torque_n_mm, report.hand_vibration_n,
+                              report.world_from_tool};
+  output.tick = report.tick;
+  output.link = report.link;
+  output.paused = report.paused;
+  output.engaged = report.engaged;
+  output.thrust_n = report.thrust_n;
+  output.vibration_g = report.vibration_g;
+  return output;
 }
 
 void render(const Model& model, HandOutput& output, const Pose& world_from_tool, const ToolLoad& load,
@@ -54,6 +70,7 @@ void render(const Model& model, HandOutput& output, const Pose& world_from_tool,
   force::Wrench contact;
   Vec3 spindle_n_mm = Vec3::Zero(), shaking_n = Vec3::Zero();
   const bool renders = !report.paused && !report.failed_over;
+  const double faded = output.fade(report.stale);
   const force::Wrench simulated = contact_on_hand(model, world_from_tool, load);
   if (renders) {
     contact = force::limited(simulated, limits);
@@ -61,9 +78,10 @@ void render(const Model& model, HandOutput& output, const Pose& world_from_tool,
   }
   if (!model.virtual_mass) {
     output.energy.observe(report.world_from_handle);
-    const double gain = report.paused ? 0.0 : output.start_up.next(load.asked_n);
-    contact.force_n = force::limited(contact.force_n, gain * limits.force_max_n);
-    contact.torque_n_mm = force::limited(contact.torque_n_mm, gain * limits.torque_max_n_mm);
+    const double risen = report.paused ? 0.0 : output.start_up.next(load.asked_n);
+    contact.force_n = faded * force::limited(contact.force_n, risen * limits.force_max_n);
+    contact.torque_n_mm = faded * force::limited(contact.torque_n_mm, risen * limits.torque_max_n_mm);
+    const double gain = faded * risen;
     contact = force::slewed(output.contact, contact, limits);
     if (model.settings.energy_guarded) contact = output.energy.allow(contact, stored_mj(model, load));
     spindle_n_mm = force::slewed(output.spindle_n_mm, Vec3(gain * spindle_n_mm), limits.torque_slew_n_mm);

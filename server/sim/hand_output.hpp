@@ -21,18 +21,25 @@ struct ToolLoad {
 struct HandOutput {
   explicit HandOutput(double start_up_ramp_s) : start_up(start_up_ramp_s) {}
 
+  /// Of this tick: 1, falling to 0 within fade_ticks of a stale pose, and so on to the end even if new poses
+  /// come before. Then the start-up ramp begins anew, as the hand may be anywhere.
+  double fade(bool stale) noexcept;
+  static constexpr int fade_ticks = 20;
+
   force::StartUpRamp start_up;
   force::EnergyGuard energy;
   /// Of the last tick, world frame: what bone and guide do to the hand, and what the spindle does beside it.
   force::Wrench contact;
   Vec3 spindle_n_mm = Vec3::Zero();
+  int faded_ticks = 0;  ///< since a pose was too old
 };
 
 /// What a device is told of a tick.
 device::DeviceOutput output_of(const record::TickReport& report) noexcept;
 
 /// From what acts on the tool to what the hand feels. Contact: the force scale, the device's largest force
-/// and torque, the start-up ramp, the slew limit, the energy guard, in this order. Beside it, as they are a
+/// and torque, the start-up ramp and the fading of a stale pose, the slew limit, the energy guard, in this
+/// order. Beside it, as they are a
 /// motor's work and not the bone's: the spindle's reaction, within the torque that contact leaves, and
 /// vibration, which has a limit of its own and with contact stays within the device's. An admittance device
 /// renders motion, so for it this only tells what the hand holds. Fills the report's hand force and torque;

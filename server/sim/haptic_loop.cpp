@@ -10,6 +10,8 @@ namespace ream::sim {
 namespace {
 
 constexpr uint32_t publish_every_ticks = 500;
+constexpr uint32_t summaries = 5;
+constexpr std::chrono::milliseconds look_for_end{1};
 
 /// Leaves the device without force and closed, whatever happens in between.
 class DeviceGuard {
@@ -25,6 +27,10 @@ class DeviceGuard {
  private:
   device::HapticDevice& device_;
 };
+
+double microseconds(SteadyClock::duration duration) {
+  return std::chrono::duration<double, std::micro>(duration).count();
+}
 
 LoopEnd end_of(StepStatus status) {
   switch (status) {
@@ -49,6 +55,10 @@ std::string to_words(LoopEnd end) {
     case LoopEnd::not_finite:
       return "The handle was more than 2 m from the origin, or a force was not a number; the "
              "force was set to zero and the session ended.";
+    case LoopEnd::stood_still:
+      return "The haptic loop stood still and the force was taken away; start a new session, on a computer "
+             "with "
+             "less to do.";
     case LoopEnd::followers_late:
       return "The recording could not keep up with the loop; check the disk, then start a new session.";
     case LoopEnd::running:
@@ -66,33 +76,49 @@ std::string failover_words(int64_t tick) {
 
 HapticLoop::HapticLoop(const Model& model, State& state, device::HapticDevice& device,
                        SpscRing<TickReport>& reports, LoopOptions options)
-    : model_(model), state_(state), device_(device), reports_(reports), options_(options) {}
+    : model_(model),
+      state_(state),
+      device_(device),
+      reports_(reports),
+      options_(options),
+      watchdog_(device.traits().stale) {
+  if (options.wall_clock)
+    guard_.emplace(device, LoopGuard::limit_for(device.traits()), options.realtime != Realtime::off);
+}
 
-HapticLoop::~HapticLoop() { stop(); }
+HapticLoop::~HapticLoop() {
+  stop();
+  if (thread_.joinable()) thread_.join();
+}
 
 void HapticLoop::start() {
   device_.open();
-  std::atomic<int> granted{-1};
+  std::atomic<bool> asked{false};
+  bool usable = true;
   try {
-    thread_ = std::thread([this, &granted] {
-      const bool usable = !options_.wall_clock || make_realtime(options_.realtime);
-      granted.store(usable, std::memory_order_release);
-      granted.notify_one();
-      if (usable) loop();
+    thread_ = std::thread([this, &asked, &usable] {
+      if (options_.wall_clock) health_.realtime = ask_for_realtime(options_.realtime, options_.cpu);
+      usable = options_.realtime != Realtime::require || refusal().empty();
+      const bool go_on = usable;
+      asked.store(true, std::memory_order_release);
+      asked.notify_one();
+      if (go_on) loop();
     });
   } catch (const std::system_error& e) {
     device_.close();
     throw Error(ErrorKind::unavailable,
                 std::string("no thread can be started for the haptic loop: ") + e.what());
   }
-  granted.wait(-1, std::memory_order_acquire);
-  if (granted.load(std::memory_order_acquire) == 1) return;
+  asked.wait(false, std::memory_order_acquire);
+  if (usable) return;
   thread_.join();
   device_.close();
-  throw Error(
-      ErrorKind::unavailable,
-      "real-time scheduling was refused; give the program CAP_SYS_NICE and unlimited locked memory, or use "
-      "--realtime try");
+  throw Error(ErrorKind::unavailable, refusal());
+}
+
+std::string HapticLoop::refusal() const {
+  if (!options_.wall_clock) return "";
+  return refusal_words(health_.realtime, options_.realtime, options_.cpu);
 }
 
 LoopEnd HapticLoop::run() {
@@ -103,7 +129,8 @@ LoopEnd HapticLoop::run() {
 
 void HapticLoop::stop() noexcept {
   request_stop();
-  if (thread_.joinable()) thread_.join();
+  while (thread_.joinable() && !ended() && stood_still_ms() == 0) std::this_thread::sleep_for(look_for_end);
+  if (thread_.joinable() && ended()) thread_.join();
 }
 
 LoopHealth HapticLoop::health() noexcept {
@@ -120,37 +147,64 @@ void HapticLoop::loop() noexcept {
     while (end == LoopEnd::running) {
       const double lateness_us = options_.wall_clock ? clock.wait() : 0.0;
       if (stop_.load(std::memory_order_relaxed)) {
-        end = LoopEnd::stopped;
+        end = stood_still_ms() > 0 ? LoopEnd::stood_still : LoopEnd::stopped;
+        break;
+      }
+      if (guard_ && !guard_->beat()) {
+        end = LoopEnd::stood_still;
         break;
       }
       end = one_tick(input, lateness_us);
-      if (state_.tick % publish_every_ticks == 0) publish(end);
+      summarise(state_.tick % publish_every_ticks);
     }
   }
+  for (uint32_t which = 0; which < summaries; ++which) summarise(which);
+  if (guard_) guard_->end();
   publish(end);
   ended_.store(true, std::memory_order_release);
 }
 
 LoopEnd HapticLoop::one_tick(device::DeviceInput& input, double lateness_us) noexcept {
+  TickTiming timing;
+  timing.lateness_us = lateness_us;
   const auto start = SteadyClock::now();
   const device::DeviceStatus read = device_.read(input);
+  timing.read_us = elapsed_us(start);
   if (read == device::DeviceStatus::finished) return LoopEnd::finished;
   if (read != device::DeviceStatus::ok) return LoopEnd::device_fault;
+  return compute_and_write(input, timing);
+}
 
+LoopEnd HapticLoop::compute_and_write(const device::DeviceInput& input, TickTiming& timing) noexcept {
+  device::DeviceInput trusted = input;
+  const device::LinkState link = watchdog_.judge(state_.tick, trusted);
   TickReport report;
-  const StepStatus status = step(model_, state_, input, report);
-  const double step_us = elapsed_us(start);
-  black_box_.remember(report, step_us, lateness_us);
+  const auto start = SteadyClock::now();
+  const StepStatus status = step(model_, state_, trusted, report);
+  report.link = link;
+  const auto stepped = SteadyClock::now();
+  timing.step_us = microseconds(stepped - start);
+  device::DeviceStatus written = device::DeviceStatus::ok;
+  if (status == StepStatus::ok) written = device_.write(output_of(report));
+  timing.write_us = elapsed_us(stepped);
+  report.timing = timing;
+  black_box_.remember(report);
   if (status != StepStatus::ok) return end_of(status);
-  const device::DeviceStatus written = device_.write(output_of(report));
 
-  tick_us_.add(step_us);
-  lateness_us_.add(lateness_us);
-  if (lateness_us >= 1000.0) ++missed_;
+  count(timing);
   // Bone may have been cut, so the tick is told even when it is the last.
   const bool told = push(report);
   if (written != device::DeviceStatus::ok) return LoopEnd::device_fault;
   return told ? LoopEnd::running : LoopEnd::followers_late;
+}
+
+void HapticLoop::count(const TickTiming& timing) noexcept {
+  tick_us_.add(timing.read_us + timing.step_us + timing.write_us);
+  lateness_us_.add(timing.lateness_us);
+  read_us_.add(timing.read_us);
+  step_us_.add(timing.step_us);
+  write_us_.add(timing.write_us);
+  if (timing.lateness_us >= 1000.0) ++health_.missed;
 }
 
 bool HapticLoop::push(const TickReport& report) noexcept {
@@ -163,9 +217,40 @@ bool HapticLoop::push(const TickReport& report) noexcept {
   return true;
 }
 
+/// Looking through a histogram takes a few us, so each has a tick of its own.
+void HapticLoop::summarise(uint32_t which) noexcept {
+  switch (which) {
+    case 0:
+      health_.tick_us = tick_us_.summary();
+      break;
+    case 1:
+      health_.lateness_us = lateness_us_.summary();
+      break;
+    case 2:
+      health_.read_us = read_us_.summary();
+      break;
+    case 3:
+      health_.step_us = step_us_.summary();
+      break;
+    case 4:
+      health_.write_us = write_us_.summary();
+      break;
+    case summaries:
+      publish(LoopEnd::running);
+      break;
+    default:
+      break;
+  }
+}
+
 void HapticLoop::publish(LoopEnd end) noexcept {
-  published_.store(
-      {end, state_.tick, missed_, state_.failed_over_tick, tick_us_.summary(), lateness_us_.summary()});
+  health_.end = end;
+  health_.tick = state_.tick;
+  health_.failed_over_tick = state_.failed_over_tick;
+  health_.link = watchdog_.state();
+  health_.losses = watchdog_.losses();
+  health_.lost_tick = watchdog_.lost_tick();
+  published_.store(health_);
 }
 
 }  // namespace ream::sim

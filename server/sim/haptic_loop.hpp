@@ -1,6 +1,7 @@
 #pragma once
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -9,20 +10,21 @@
 #include "core/timing_histogram.hpp"
 #include "device/haptic_device.hpp"
 #include "sim/black_box.hpp"
+#include "sim/loop_guard.hpp"
+#include "sim/pose_watchdog.hpp"
+#include "sim/realtime.hpp"
 #include "sim/step.hpp"
 
 namespace ream::sim {
-
-/// How the loop gets its scheduling: real-time priority and locked memory demanded, tried, or left alone.
-enum class Realtime { require, attempt, off };
 
 enum class LoopEnd : uint8_t {
   running,
   finished,          ///< the device's script came to its end
   stopped,           ///< stop() was called
-  device_fault,      ///< the device could not be read or written, or gave nothing new for too long
+  device_fault,      ///< the device could not be read or written
   collision_failed,  ///< the OpenCL device failed
   not_finite,        ///< a pose or force was not a number
+  stood_still,       ///< the loop did not tick for too long, and the force was taken away meanwhile
   followers_late,    ///< the recording could not keep up; nothing may be lost, so the session ends
 };
 
@@ -39,11 +41,17 @@ struct LoopHealth {
   uint64_t missed = 0;            ///< ticks that began more than a millisecond late
   int64_t failed_over_tick = -1;  ///< the tick in which the OpenCL device failed and the C++ form took over
   TimingSummary tick_us, lateness_us;
+  TimingSummary read_us, step_us, write_us;  ///< the parts of a tick
+  RealtimeGrant realtime;
+  device::LinkState link = device::LinkState::lost;  ///< of the device
+  uint64_t losses = 0;                               ///< how often the device was lost
+  int64_t lost_tick = -1;                            ///< when last; -1: never
 };
 
 struct LoopOptions {
   bool wall_clock = true;  ///< false: virtual time, each tick as soon as the last is done
   Realtime realtime = Realtime::attempt;
+  int cpu = -1;  ///< that the loop's thread is to run on; -1: any
 };
 
 /// The 1 kHz loop: read, compute, check, limit, write. In virtual time it runs the same ticks without
@@ -58,17 +66,20 @@ class HapticLoop {
   HapticLoop& operator=(const HapticLoop&) = delete;
 
   /// Opens the device and starts the thread. Errors: those of open(); unavailable when real time is required
-  /// and refused.
+  /// and any part of it refused.
   void start();
   /// Asks the loop to end; from any thread.
   void request_stop() noexcept { stop_.store(true, std::memory_order_relaxed); }
-  /// Asks the loop to end and waits for it. Safe to call twice.
+  /// Asks the loop to end and waits for it, but not for one that stands still. Safe to call twice.
   void stop() noexcept;
   /// Runs the whole loop on the calling thread instead of start().
   LoopEnd run();
 
   /// True once the loop has ended (all reports are in the ring then).
   bool ended() const noexcept { return ended_.load(std::memory_order_acquire); }
+  /// How long a wall-clock loop has stood still, ms, so that its device was left without force (LoopGuard);
+  /// 0: it has not. Any thread.
+  int64_t stood_still_ms() const noexcept { return guard_ ? guard_->stood_still_ms() : 0; }
   /// Newest health; one reader thread.
   LoopHealth health() noexcept;
   /// Whole histograms and black box; only after ended().
@@ -76,9 +87,13 @@ class HapticLoop {
   const BlackBox& black_box() const { return black_box_; }
 
  private:
+  std::string refusal() const;
   void loop() noexcept;
   LoopEnd one_tick(device::DeviceInput& input, double lateness_us) noexcept;
+  LoopEnd compute_and_write(const device::DeviceInput& input, TickTiming& timing) noexcept;
+  void count(const TickTiming& timing) noexcept;
   bool push(const TickReport& report) noexcept;
+  void summarise(uint32_t which) noexcept;
   void publish(LoopEnd end) noexcept;
 
   const Model& model_;
@@ -90,9 +105,11 @@ class HapticLoop {
   std::atomic<bool> stop_{false}, ended_{false};
   LatestSlot<LoopHealth> published_;
   LoopHealth last_seen_;
-  TimingHistogram tick_us_, lateness_us_;
+  TimingHistogram tick_us_, lateness_us_, read_us_, step_us_, write_us_;
+  LoopHealth health_;  ///< the loop's own
   BlackBox black_box_;
-  uint64_t missed_ = 0;
+  PoseWatchdog watchdog_;
+  std::optional<LoopGuard> guard_;  ///< of a wall-clock loop
 };
 
 }  // namespace ream::sim

@@ -27,6 +27,8 @@ struct Options {
 };
 
 std::vector<Row> collide_suite(const Options& options);
+/// Whether the haptic loop is on time in a served session.
+std::vector<Row> loop_suite(const Options& options);
 /// What recording costs, and how soon any moment of a recording opens.
 std::vector<Row> record_suite(const Options& options);
 std::vector<Row> surface_suite(const Options& options);

@@ -13,6 +13,7 @@ using namespace ream::bench;
 
 const std::map<std::string, std::function<std::vector<Row>(const Options&)>> suites{
     {"collide", collide_suite},
+    {"loop", loop_suite},
     {"record", record_suite},
     {"surface", surface_suite},
     {"validate", validate_suite}};

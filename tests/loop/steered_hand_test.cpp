@@ -5,9 +5,7 @@
 
 #include <cmath>
 
-#include "app/rig.hpp"
 #include "device/profiles.hpp"
-#include "force/feed_model.hpp"
 #include "sim/device_settings.hpp"
 #include "support/small_run.hpp"
 
@@ -24,7 +22,6 @@ class SteeredHand : public testing::Test {
  protected:
   SteeredHand() {
     now_ns = 1'000'000'000;
-    state.backend = sim::make_backend(model, bone, state.cells);
     hand->open();
   }
 

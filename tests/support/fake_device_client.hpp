@@ -42,6 +42,8 @@ class FakeDeviceClient {
   void send(HandleWords words);
   void send(SteeringWords words);
   void send_raw(const std::string& bytes) { socket_->send_binary(bytes); }
+  /// What lies below, for those who break its rules.
+  RawSocket& socket() { return socket_->socket(); }
   /// The next answer; empty when the server has closed.
   std::optional<Felt> receive();
   /// Reads on until the server closes: code and words.

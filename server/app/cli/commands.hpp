@@ -25,6 +25,7 @@ void add_score_command(CLI::App& app, GlobalOptions& options);
 void add_export_command(CLI::App& app, GlobalOptions& options);
 void add_list_command(CLI::App& app, GlobalOptions& options);
 void add_replay_command(CLI::App& app, GlobalOptions& options);
+void add_devices_command(CLI::App& app, GlobalOptions& options);
 void add_bench_command(CLI::App& app, GlobalOptions& options);
 
 }  // namespace ream::app

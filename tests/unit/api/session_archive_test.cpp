@@ -52,6 +52,18 @@ TEST_F(SessionArchiveTest, TellsWhatTheFolderSays) {
   EXPECT_EQ(archive.metrics("aaaa").at("reaming_depth_mm"), 1.5);
 }
 
+TEST_F(SessionArchiveTest, KeepsTheDeviceForThoseWhoGoOn) {
+  put("aaaa", "2025-03-01T12:00:00Z", "stopped", {{"device", "network"}, {"device_profile", "omega.3"}});
+  put("bbbb", "2025-03-01T12:00:00Z", "stopped", {{"device_profile", "ideal"}});
+  const SessionRecord remote = archive.find("aaaa").value(), scripted = archive.find("bbbb").value();
+  EXPECT_EQ(remote.request.device, "network");
+  EXPECT_EQ(remote.request.device_profile, "omega.3");
+  EXPECT_EQ(remote.status.device.name, "network");
+  EXPECT_EQ(scripted.request.device, "script");
+  EXPECT_EQ(scripted.request.device_profile, "");
+  EXPECT_EQ(scripted.status.device.profile, "ideal");
+}
+
 TEST_F(SessionArchiveTest, ListsNewestFirstAndLeavesDamagedOnesOut) {
   put("older", "2025-03-01T12:00:00Z", "finished");
   put("newest", "2025-03-03T12:00:00Z", "stopped");

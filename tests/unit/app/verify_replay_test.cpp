@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "app/review_recording.hpp"
@@ -10,6 +11,7 @@
 #include "geometry/mesh_io.hpp"
 #include "gpu/device.hpp"
 #include "record/replay_device.hpp"
+#include "record/tick_flags.hpp"
 #include "support/changed_recording.hpp"
 #include "support/expect_error.hpp"
 #include "support/recorded_reaming.hpp"
@@ -91,6 +93,53 @@ TEST(VerifyReplay, ARecordingIsADevice) {
     const auto ticks = recording.ticks(0, UINT32_MAX);
     EXPECT_EQ(again.ticks(0, UINT32_MAX), ticks);
     EXPECT_EQ(again.checkpoints(), recording.checkpoints());
+  }
+}
+
+/// Falls silent for a while every now and then: 8 ms are held, 30 ms fade the force, 200 ms lose the device.
+class HaltingDevice final : public device::HapticDevice {
+ public:
+  explicit HaltingDevice(std::unique_ptr<device::HapticDevice> inner) : inner_(std::move(inner)) {}
+  const device::DeviceTraits& traits() const noexcept override { return inner_->traits(); }
+  void open() override { inner_->open(); }
+  void close() noexcept override { inner_->close(); }
+  device::DeviceStatus read(device::DeviceInput& input) noexcept override {
+    constexpr std::array<int, 3> silences_ms{8, 30, 200};
+    const int tick = tick_++;
+    const int silence_ms = silences_ms[static_cast<size_t>(tick / 500) % silences_ms.size()];
+    silent_ms_ = tick % 500 >= 250 && tick % 500 < 250 + silence_ms ? silent_ms_ + 1 : 0;
+    input.age_ms = silent_ms_;
+    return silent_ms_ > 0 ? device::DeviceStatus::ok : inner_->read(input);
+  }
+  device::DeviceStatus write(const device::DeviceOutput& output) noexcept override {
+    return inner_->write(output);
+  }
+
+ private:
+  std::unique_ptr<device::HapticDevice> inner_;
+  int tick_ = 0, silent_ms_ = 0;
+};
+
+/// What was too old is a cause like any other: force and bone come out the same on every backend.
+TEST(VerifyReplay, ADeviceThatFallsSilentNowAndThen) {
+  for (const char* profile : {"touch", "ideal", "ideal-admittance"}) {
+    SCOPED_TRACE(profile);
+    RecordedReaming reaming;
+    RigParts parts = asked_for(reaming.request(RecordedReaming::push(profile)), reaming.data());
+    parts.device = std::make_unique<HaltingDevice>(std::move(parts.device));
+    Rig rig(std::move(parts));
+    const std::filesystem::path path = reaming.record(rig);
+    uint32_t stale = 0, lost = 0;
+    record::Recording(path).for_each_tick(0, UINT32_MAX, [&](const Tick& tick) {
+      const bool is_stale = (tick.flags & record::stale_flag) != 0;
+      const bool is_paused = (tick.flags & record::paused_flag) != 0;
+      stale += is_stale;
+      lost += is_stale && is_paused;
+    });
+    EXPECT_GT(stale, 300u);
+    EXPECT_GT(lost, 250u);
+    EXPECT_LT(lost, stale);
+    expect_the_same_everywhere(reaming, path);
   }
 }
 
@@ -212,6 +261,8 @@ TEST_F(Deceived, OneInputThatWasNotSo) {
   const VerifyResult standing = reaming_.verify(with_changed_tick(350, [](Tick& t) { t.flags ^= 1; }));
   EXPECT_TRUE(standing.difference.has_value());
   EXPECT_EQ(standing.ticks, 350u);
+  expect_difference(reaming_.verify(with_changed_tick(360, [](Tick& t) { t.flags |= record::stale_flag; })),
+                    360, "bone", "session_hash");
 }
 
 TEST_F(Deceived, OnePoseOneVoxelOneForceThatWereNotSo) {

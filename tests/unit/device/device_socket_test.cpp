@@ -48,8 +48,9 @@ class DeviceSocketTest : public testing::Test {
     now_ns = 5'000'000'000;
     port->tell(RemoteSessionState::running);
   }
-  void write_force(double force_n) {
+  void write_force(double force_n, uint64_t connection = 1) {
     RemoteOutput output;
+    output.connection = connection;
     output.written_ns = now_ns;
     output.tick = 77;
     output.link = LinkState::fresh;
@@ -211,6 +212,16 @@ TEST_F(DeviceSocketTest, ANewClientTakesOver) {
   EXPECT_EQ(input.connection, 2u);
   EXPECT_EQ(second.feedback()->sequence(), 1u);
   EXPECT_EQ(second.session->farewell(), std::nullopt);
+}
+
+TEST_F(DeviceSocketTest, AForceIsForTheConnectionWhosePosesItAnswers) {
+  Client first(*port), second(*port);
+  write_force(1.5, 1);
+  second.say(numbered(1));
+  EXPECT_EQ(second.feedback()->force_n()->z(), 0.0f);
+  write_force(1.5, 2);
+  second.say(numbered(2));
+  EXPECT_EQ(second.feedback()->force_n()->z(), 1.5f);
 }
 
 TEST_F(DeviceSocketTest, OneWithAnotherRevisionDoesNotTakeOver) {

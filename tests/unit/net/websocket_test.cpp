@@ -23,6 +23,7 @@ struct Desk {
   std::condition_variable changed;
   std::deque<SharedBytes> outgoing;
   std::function<void()> wake;
+  std::optional<Farewell> farewell;
   int opened = 0, closed = 0, asked = 0;
 
   void put(SharedBytes message) {
@@ -58,6 +59,10 @@ class DeskSession final : public WebSocketSession {
     SharedBytes message = desk_->outgoing.front();
     desk_->outgoing.pop_front();
     return message;
+  }
+  std::optional<Farewell> farewell() override {
+    const std::lock_guard lock(desk_->mutex);
+    return desk_->farewell;
   }
   void on_message(std::span<const std::byte> message) override {
     const std::string text(reinterpret_cast<const char*>(message.data()), message.size());
@@ -141,6 +146,23 @@ TEST_F(WebSocketTest, ClosingByThePeerReachesTheSessionOnce) {
 
 TEST_F(WebSocketTest, VanishedPeerReachesTheSession) {
   { RawWebSocket client(start(), "/stream/1"); }
+  EXPECT_TRUE(desk->wait_closed());
+}
+
+TEST_F(WebSocketTest, ASessionEndsItsConnectionInWordsAfterItsLastMessage) {
+  RawWebSocket client(start(), "/stream/1");
+  client.send_binary("hi");
+  EXPECT_EQ(client.receive().payload, "echo hi");
+  {
+    const std::lock_guard lock(desk->mutex);
+    desk->farewell = Farewell{4001, std::string(200, 'w')};
+  }
+  desk->put(share("last"));
+  EXPECT_EQ(client.receive().payload, "last");
+  const auto closing = client.receive();
+  EXPECT_EQ(closing.close_code(), 4001);
+  EXPECT_EQ(closing.payload.substr(2), std::string(123, 'w'));
+  client.send_close(4001);
   EXPECT_TRUE(desk->wait_closed());
 }
 

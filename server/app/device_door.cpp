@@ -1,0 +1,29 @@
+#include "app/device_door.hpp"
+
+namespace ream::app {
+namespace {
+
+const std::string session = "trial";
+
+}  // namespace
+
+DeviceDoor::DeviceDoor(std::shared_ptr<device::RemoteLink> link, const std::string& device,
+                       const device::DeviceTraits& traits, uint16_t port)
+    : device_port_(std::make_shared<device::DevicePort>(
+          std::move(link), device::RemoteKind::handle,
+          device::DeviceWelcome{session, device, traits.force_max_n, traits.stale})) {
+  router_.on_websocket("/api/v1/sessions/" + session + "/device",
+                       [door = device_port_](const net::Request&) { return door->connect(); });
+  net::ListenOptions options;
+  options.port = port;
+  options.worker_threads = 1;
+  listener_ = std::make_unique<net::Listener>(router_, options);
+  device_port_->tell(device::RemoteSessionState::running);
+  listener_->start();
+}
+
+std::string DeviceDoor::url() const {
+  return "ws://127.0.0.1:" + std::to_string(listener_->port()) + "/api/v1/sessions/" + session + "/device";
+}
+
+}  // namespace ream::app

@@ -1,0 +1,57 @@
+#pragma once
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "device/haptic_device.hpp"
+
+namespace ream::sim {
+
+/// Watches a haptic loop from a thread of its own. A loop that has not begun a tick for longer than `limit`
+/// is dead or stuck: the guard takes the force away from its device, once and for good, and says so.
+class LoopGuard {
+ public:
+  /// After this long a device that somebody holds must not render an old force any more; of a simulated one
+  /// only a loop that does not come back is worth a word.
+  static constexpr std::chrono::milliseconds held_limit{50}, simulated_limit{2000};
+  static std::chrono::milliseconds limit_for(const device::DeviceTraits& traits) {
+    return traits.simulated ? simulated_limit : held_limit;
+  }
+
+  /// Watches from the first beat on. `device` outlives the guard. `realtime`: with a real-time priority above
+  /// the loop's, where it is granted, so that a loop that spins without end cannot keep the guard from its
+  /// work. Throws std::system_error without a thread.
+  LoopGuard(device::HapticDevice& device, std::chrono::milliseconds limit, bool realtime);
+  ~LoopGuard();
+  LoopGuard(const LoopGuard&) = delete;
+  LoopGuard& operator=(const LoopGuard&) = delete;
+
+  /// The loop begins a tick; wait-free. False: it has stood still, and must end.
+  bool beat() noexcept;
+  /// The loop has ended in order: nothing is watched any more.
+  void end() noexcept { ended_.store(true, std::memory_order_release); }
+
+  /// For how long the loop stood still before the force was taken away and since, ms; any thread. 0: it has
+  /// not.
+  int64_t stood_still_ms() const noexcept { return stood_still_ms_.load(std::memory_order_acquire); }
+
+ private:
+  bool tripped() const noexcept { return stood_still_ms() > 0; }
+  void watch(bool realtime);
+  void look() noexcept;
+
+  device::HapticDevice& device_;
+  const std::chrono::milliseconds limit_;
+  std::atomic<int64_t> beat_ns_{0};
+  std::atomic<bool> ended_{false};
+  std::atomic<int64_t> stood_still_ms_{0};
+  int64_t tripped_beat_ns_ = -1;  ///< the last beat before the loop stood still
+  std::mutex mutex_;
+  std::condition_variable leaving_changed_;
+  bool leaving_ = false;
+  std::thread thread_;
+};
+
+}  // namespace ream::sim

@@ -1,0 +1,52 @@
+#include "sim/realtime.hpp"
+
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+
+namespace ream::sim {
+namespace {
+
+constexpr int fifo_priority = 40;
+/// Ordinary threads may be woken up to 50 us late so that the kernel can bundle timers; ours may not.
+constexpr unsigned long timer_slack_ns = 1;
+
+bool pin_to(int cpu) noexcept {
+  if (cpu >= CPU_SETSIZE) return false;
+  cpu_set_t only;
+  CPU_ZERO(&only);
+  CPU_SET(static_cast<size_t>(cpu), &only);
+  return ::pthread_setaffinity_np(::pthread_self(), sizeof only, &only) == 0;
+}
+
+}  // namespace
+
+RealtimeGrant ask_for_realtime(Realtime mode, int cpu) noexcept {
+  RealtimeGrant grant;
+  if (mode == Realtime::off) return grant;
+  ::prctl(PR_SET_TIMERSLACK, timer_slack_ns);
+  sched_param parameters{};
+  parameters.sched_priority = fifo_priority;
+  grant.fifo = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO | SCHED_RESET_ON_FORK, &parameters) == 0;
+  grant.locked = ::mlockall(MCL_CURRENT) == 0;
+  if (cpu >= 0 && pin_to(cpu)) grant.cpu = cpu;
+  return grant;
+}
+
+std::string refusal_words(const RealtimeGrant& grant, Realtime mode, int cpu) {
+  if (mode == Realtime::off) return "";
+  std::string refused, remedy;
+  const auto add = [&](const std::string& what, const std::string& what_to_do) {
+    refused += (refused.empty() ? "" : " and ") + what;
+    remedy += (remedy.empty() ? "" : ", ") + what_to_do;
+  };
+  if (!grant.fifo) add("real-time priority", "give the program CAP_SYS_NICE");
+  if (!grant.locked) add("locking its memory", "allow it unlimited locked memory (ulimit -l, CAP_IPC_LOCK)");
+  if (cpu >= 0 && grant.cpu != cpu)
+    add("CPU " + std::to_string(cpu), "let it run on that CPU (taskset, cpuset)");
+  if (refused.empty()) return "";
+  return "the haptic loop was refused " + refused + "; " + remedy + ", or use --realtime try";
+}
+
+}  // namespace ream::sim

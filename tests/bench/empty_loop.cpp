@@ -1,0 +1,58 @@
+#include "bench/empty_loop.hpp"
+
+#include <thread>
+
+#include "device/profiles.hpp"
+#include "support/test_bone.hpp"
+
+namespace ream::bench {
+namespace {
+
+class IdleDevice final : public device::HapticDevice {
+ public:
+  IdleDevice(const Pose& world_from_handle, int64_t ticks)
+      : traits_(device::device_profile("ideal")), ticks_left_(ticks) {
+    rests_.world_from_handle = world_from_handle;
+    rests_.paused = true;
+  }
+  const device::DeviceTraits& traits() const noexcept override { return traits_; }
+  void open() override {}
+  void close() noexcept override {}
+  device::DeviceStatus read(device::DeviceInput& input) noexcept override {
+    if (ticks_left_-- <= 0) return device::DeviceStatus::finished;
+    input = rests_;
+    return device::DeviceStatus::ok;
+  }
+  device::DeviceStatus write(const device::DeviceOutput&) noexcept override {
+    return device::DeviceStatus::ok;
+  }
+
+ private:
+  device::DeviceTraits traits_;
+  device::DeviceInput rests_;
+  int64_t ticks_left_;
+};
+
+}  // namespace
+
+sim::LoopHealth run_empty_loop(double seconds, sim::Realtime realtime, int cpu) {
+  constexpr double surface_mm = 2.0;
+  voxel::BoneModel bone = test::slab({16, 16, 16}, 0.5, surface_mm, 0.5);
+  const case_::Plan plan = test::slab_plan(bone, surface_mm);
+  const sim::Model model = sim::make_model(plan, bone, shell::make_tool("sphere 2,1"), sim::Settings{});
+  sim::State state(model, bone);
+  IdleDevice device(model.world_from_plan, static_cast<int64_t>(seconds / tick_s));
+  SpscRing<record::TickReport> reports(1024);
+  sim::HapticLoop loop(model, state, device, reports, {true, realtime, cpu});
+  loop.start();
+  record::TickReport report;
+  while (!loop.ended()) {
+    while (reports.try_pop(report)) {
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  loop.stop();
+  return loop.health();
+}
+
+}  // namespace ream::bench

@@ -1,0 +1,10 @@
+#pragma once
+#include "sim/haptic_loop.hpp"
+
+namespace ream::bench {
+
+/// The haptic loop with nothing to do, for that many seconds: a device that says and does nothing, a tool
+/// that rests beside a pinch of bone. What it cannot do in time, no reaming can.
+sim::LoopHealth run_empty_loop(double seconds, sim::Realtime realtime, int cpu);
+
+}  // namespace ream::bench

@@ -1,0 +1,115 @@
+#include "bench/served_reaming.hpp"
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "api/server.hpp"
+#include "api/session_folder.hpp"
+#include "app/data_folder.hpp"
+#include "app/reaming_session.hpp"
+#include "core/clock.hpp"
+#include "core/error.hpp"
+#include "ct/phantom_case.hpp"
+#include "shell/tool.hpp"
+#include "support/raw_http.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace ream::bench {
+using nlohmann::json;
+namespace {
+
+constexpr const char* case_name = "thesis-5-4-2";
+constexpr const char* script_name = "pecking";
+constexpr double thesis_spacing_mm = 0.1;
+constexpr double press_n = 52.0, peck_every_s = 5.0;
+
+/// Press, lift for a look, press again; the last press lasts to the end.
+json pecking(double duration_s) {
+  json profile = json::array();
+  const auto add = [&](double t_s, double force_n) {
+    profile.push_back({{"t_s", t_s}, {"force_n", force_n}});
+  };
+  add(0.0, 10.0);
+  add(0.5, press_n);
+  for (double t = peck_every_s; t < duration_s; t += peck_every_s) {
+    add(t - 0.4, press_n);
+    add(t - 0.3, -8.0);
+    add(t - 0.1, -8.0);
+    add(t, 10.0);
+    add(t + 0.3, press_n);
+  }
+  return {{"device", "hand"},
+          {"duration_s", duration_s},
+          {"stiffness_n_mm", 100.0},
+          {"hand", {{"start_mm", {0.0, 0.0, -8.0}}, {"force_profile", profile}}}};
+}
+
+}  // namespace
+
+struct ServedReaming::House {
+  House(sim::Realtime realtime, double turn_s) {
+    const ct::PhantomPreset preset = ct::phantom_preset(case_name);
+    case_::Case bone_case = ct::make_phantom_case(case_name, preset.params, preset.upsample);
+    bone_case.plan->reamer = shell::thesis_tool;
+    case_::save_case(bone_case, app::cases_folder(folder.path()) / case_name);
+    folder.write("scripts/" + std::string(script_name) + ".json", pecking(turn_s).dump());
+    app::SessionHouse house;
+    house.data = folder.path();
+    house.backend = "cpu";
+    house.realtime = realtime;
+    house.tool_spacing_mm = thesis_spacing_mm;
+    api::ServerOptions options;
+    options.listen.port = 0;
+    options.cases_folder = app::cases_folder(house.data);
+    options.sessions_folder = app::sessions_folder(house.data);
+    options.sessions.kept = 1;  // each keeps its bone
+    options.make_session.make = [house](const api::SessionRequest& request) {
+      return std::make_unique<app::ReamingSession>(house, request);
+    };
+    server = std::make_unique<api::Server>(std::move(options));
+    server->start();
+  }
+
+  json ask(const char* method, const std::string& path, const std::string& body = {}) const {
+    const test::HttpReply reply = test::http_request(server->port(), method, "/api/v1/sessions" + path, body);
+    if (reply.status >= 300)
+      throw Error(ErrorKind::unavailable, std::string(method) + " " + path + ": " + reply.body);
+    return json::parse(reply.body);
+  }
+
+  test::TemporaryFolder folder;
+  std::unique_ptr<api::Server> server;
+};
+
+ServedReaming::ServedReaming(sim::Realtime realtime, double turn_s)
+    : house_(std::make_unique<House>(realtime, turn_s)) {}
+
+ServedReaming::~ServedReaming() = default;
+
+ServedTurn ServedReaming::run(StreamViewer& viewer) {
+  ServedTurn turn;
+  const std::string id =
+      house_->ask("POST", "", json{{"case", case_name}, {"script", script_name}}.dump()).at("id");
+  viewer.watch(house_->server->port(), id);
+  house_->ask("POST", "/" + id + "/start");
+  uint64_t missed = 0;
+  for (json told; told.is_null() || told.at("state") == "running";) {
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    told = house_->ask("GET", "/" + id);
+    const uint64_t missed_so_far = told.at("loop").at("missed");
+    turn.missed_in_second.push_back(missed_so_far - missed);
+    missed = missed_so_far;
+  }
+  turn.streamed_mb = static_cast<double>(viewer.stop_watching()) * 1e-6;
+  const api::SessionStatus status =
+      api::read_session_folder(app::sessions_folder(house_->folder.path()) / id).record.status;
+  if (status.state != api::SessionState::finished)
+    throw Error(ErrorKind::unavailable,
+                "the session ended as " + to_text(status.state) + ": " + status.fault);
+  turn.loop = status.loop;
+  turn.ticks = status.tick;
+  return turn;
+}
+
+}  // namespace ream::bench

@@ -1,0 +1,80 @@
+#pragma once
+#include <chrono>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <thread>
+
+#include "api/server.hpp"
+#include "app/data_folder.hpp"
+#include "app/reaming_session.hpp"
+#include "support/raw_http.hpp"
+#include "support/recorded_reaming.hpp"
+
+namespace ream::test {
+
+/// The real server on a free port, with the case `slab` and the loop on ordinary threads.
+class LiveServer {
+ public:
+  LiveServer() {
+    const app::SessionHouse house{reaming_.data(), 1, "cpu", sim::Realtime::off};
+    std::filesystem::create_directories(app::sessions_folder(house.data));
+    std::filesystem::create_directories(house.data / "scripts");
+    api::ServerOptions options;
+    options.listen.port = 0;
+    options.cases_folder = app::cases_folder(house.data);
+    options.sessions_folder = app::sessions_folder(house.data);
+    options.sessions.live = 16;
+    options.make_session.make = [house](const api::SessionRequest& request) {
+      return std::make_unique<app::ReamingSession>(house, request);
+    };
+    options.make_session.resume = [house](const api::SessionRequest& request, const std::string& reamer) {
+      return std::make_unique<app::ReamingSession>(house, request, reamer);
+    };
+    options.make_replay = [](const api::ReplayRequest&) -> std::unique_ptr<api::RunningReplay> {
+      throw Error(ErrorKind::unavailable, "no replays in this test");
+    };
+    options.prepare = [] {};
+    server_ = std::make_unique<api::Server>(std::move(options));
+    server_->start();
+    until("the server to be ready", [this] { return http_request(port(), "GET", "/readyz").status == 200; });
+  }
+
+  uint16_t port() const { return server_->port(); }
+  std::filesystem::path folder(const std::string& id) const {
+    return app::sessions_folder(reaming_.data()) / id;
+  }
+  const RecordedReaming& reaming() const { return reaming_; }
+
+  nlohmann::json post(const std::string& path, const nlohmann::json& body = nullptr) const {
+    const HttpReply reply =
+        http_request(port(), "POST", "/api/v1/sessions" + path, body.is_null() ? std::string() : body.dump());
+    if (reply.status >= 300) throw std::runtime_error(path + ": " + reply.body);
+    return nlohmann::json::parse(reply.body);
+  }
+  nlohmann::json get(const std::string& id) const {
+    return nlohmann::json::parse(http_request(port(), "GET", "/api/v1/sessions/" + id).body);
+  }
+  /// Id of a session that runs.
+  std::string run(const nlohmann::json& wanted) const {
+    const std::string id = post("", wanted).at("id");
+    post("/" + id + "/start");
+    return id;
+  }
+
+  /// Waits for what must come, however slow the machine; throws after two minutes.
+  template <typename Condition>
+  static void until(const std::string& what, Condition condition) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+    while (!condition()) {
+      if (std::chrono::steady_clock::now() > end) throw std::runtime_error("waited in vain for " + what);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+
+ private:
+  RecordedReaming reaming_;
+  std::unique_ptr<api::Server> server_;
+};
+
+}  // namespace ream::test

@@ -1,0 +1,92 @@
+#include <signal.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <string>
+
+#include "app/crash_guard.hpp"
+#include "app/interrupt.hpp"
+#include "support/recorded_reaming.hpp"
+
+// A program with a device in somebody's hand, told by its argument how to end. What its device is told, last
+// of all, is what it printed last.
+namespace ream::test {
+namespace {
+
+/// Prints, by nothing but write(2), each force that the device is given and that it is taken away.
+class TellingDevice final : public device::HapticDevice {
+ public:
+  explicit TellingDevice(std::unique_ptr<device::HapticDevice> inner, int end_at = -1,
+                         void (*end)() = nullptr)
+      : inner_(std::move(inner)), end_(end), end_at_(end_at) {}
+  const device::DeviceTraits& traits() const noexcept override { return inner_->traits(); }
+  void open() override {
+    inner_->open();
+    say("open\n");
+  }
+  void close() noexcept override {
+    inner_->close();
+    say("closed\n");
+  }
+  device::DeviceStatus read(device::DeviceInput& input) noexcept override {
+    if (tick_++ == end_at_) end_();
+    return inner_->read(input);
+  }
+  device::DeviceStatus write(const device::DeviceOutput& output) noexcept override {
+    say(output.force_n.norm() > 0.0 ? "force\n" : "no force\n");
+    return inner_->write(output);
+  }
+  void take_force_away() noexcept override { say("taken away\n"); }
+
+ private:
+  static void say(const char* words) noexcept {
+    if (::write(STDOUT_FILENO, words, std::strlen(words)) < 0) ::_exit(3);
+  }
+  std::unique_ptr<device::HapticDevice> inner_;
+  void (*end_)();
+  int end_at_, tick_ = 0;
+};
+
+volatile int zero = 0;
+volatile int* volatile nowhere = nullptr;
+
+const std::map<std::string, void (*)()> ends{
+    {"segv", [] { *nowhere = 1; }},
+    {"abort", [] { std::abort(); }},
+    {"fpe", [] { zero = 1 / zero; }},
+    {"ill", [] { ::raise(SIGILL); }},
+    {"bus", [] { ::kill(::getpid(), SIGBUS); }},
+    {"throw", [] { throw std::runtime_error("an exception that nobody catches"); }},
+    {"unwatched", [] { *nowhere = 2; }},
+    {"signal", [] {}},
+};
+
+int run(const std::string& how) {
+  app::catch_interrupts();
+  if (how != "unwatched") app::take_force_away_on_crash();
+  const RecordedReaming reaming;
+  app::RigParts parts =
+      app::asked_for(reaming.request(RecordedReaming::push("ideal", 600.0)), reaming.data());
+  const int end_at = how == "signal" ? -1 : 700;
+  parts.device = std::make_unique<TellingDevice>(std::move(parts.device), end_at, ends.at(how));
+  app::Rig rig(std::move(parts));
+  const std::vector<uint8_t> start = rig.bone_case.bone.coverage;
+  try {
+    app::run_headless(rig, start, reaming.folder().path(), true);
+  } catch (const Error& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 1;
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace ream::test
+
+int main(int argc, char** argv) {
+  const std::string how = argc == 2 ? argv[1] : "";
+  return ream::test::ends.contains(how) ? ream::test::run(how) : 2;
+}
