@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 
+#include "core/hash.hpp"
 #include "record/recording.hpp"
 #include "record/tick_flags.hpp"
 #include "support/fake_device_client.hpp"
@@ -40,7 +41,9 @@ class Presser {
   Felt press() {
     std::this_thread::sleep_for(1ms);
     const Felt felt = say();
-    if (felt.link == wire::LinkState::lost) EXPECT_EQ(felt.force(), 0.0);
+    if (felt.link == wire::LinkState::lost) {
+      EXPECT_EQ(felt.force(), 0.0);
+    }
     return felt;
   }
   std::string bytes_of(uint32_t sequence) const {
@@ -152,7 +155,9 @@ class DeviceFault : public testing::TestWithParam<std::tuple<const char*, size_t
         const double allowed = std::max(0.0, 1.0 - static_cast<double>(stale - 1) / fading_ticks);
         EXPECT_LE(force_n(tick), allowed * (at_break_n + shaking_n))
             << "tick " << tick.tick << ", stale for " << stale;
-        if (stale > fading_ticks) EXPECT_EQ(force_n(tick), 0.0) << "tick " << tick.tick;
+        if (stale > fading_ticks) {
+          EXPECT_EQ(force_n(tick), 0.0) << "tick " << tick.tick;
+        }
       } else {
         stale = 0;
       }
@@ -201,8 +206,8 @@ class DeviceFault : public testing::TestWithParam<std::tuple<const char*, size_t
     });
     const bool went_on = !stood_still(id);
     if (went_on) {
-      fault.told(server.get(id).at("device"));
       server.post("/" + id + "/stop");
+      fault.told(server.get(id).at("device"));
     }
     const Felt after = presser.press();
     EXPECT_EQ(after.force(), 0.0);

@@ -1,6 +1,7 @@
 // Sessions that somebody's device takes part in, over the real server.
 #include <gtest/gtest.h>
 
+#include "core/hash.hpp"
 #include "record/recording.hpp"
 #include "support/fake_device_client.hpp"
 #include "support/live_server.hpp"
@@ -42,7 +43,7 @@ TEST_F(DeviceSessions, ABrowserReamsAndComesOut) {
   push(client, 60.0f, "thrust", [](const Felt& felt) { return felt.thrust_n > 50.0 && felt.engaged; });
   push(client, 60.0f, "depth", [&](const Felt&) { return depth_mm(id) > 0.3; });
   EXPECT_EQ(server.get(id).at("state"), "running");
-  push(client, -20.0f, "a way out", [](const Felt& felt) { return !felt.engaged && felt.force() == 0.0; });
+  push(client, -20.0f, "a way out", [](const Felt& felt) { return !felt.engaged && felt.thrust_n == 0.0; });
   LiveServer::until("a round trip", [&] { return server.get(id).at("device").at("rtt_ms").is_number(); });
   EXPECT_EQ(server.get(id).at("device").at("state"), "fresh");
   server.post("/" + id + "/stop");

@@ -8,6 +8,7 @@
 #include "api/server.hpp"
 #include "app/data_folder.hpp"
 #include "app/reaming_session.hpp"
+#include "core/error.hpp"
 #include "support/raw_http.hpp"
 #include "support/recorded_reaming.hpp"
 

@@ -49,7 +49,7 @@ SessionRecord running() {
   record.status.loop.lateness_us.p999_us = 70.0;
   record.status.loop.missed = 12;
   record.status.loop.realtime = true;
-  record.status.device = {"network", "fading", 3.5, 1000, 3, 2, 1};
+  record.status.device = {"network", "touch", "fading", 3.5, 1000, 3, 2, 1};
   return record;
 }
 
