@@ -5,6 +5,8 @@ export default defineConfig({
   testDir: '../tests/e2e',
   outputDir: 'test-results',
   timeout: 180_000,
+  // What is waited for comes late on a busy machine.
+  expect: { timeout: 20_000 },
   workers: 1,
   reporter: [['list']],
   use: {

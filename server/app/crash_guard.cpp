@@ -14,11 +14,15 @@ static_assert(std::atomic<device::HapticDevice*>::is_always_lock_free);
 
 constexpr std::array crashes{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
-/// Whoever crashed, its usual action is back already (SA_RESETHAND), and raising takes it: a signal that was
-/// sent from outside would not come again by itself.
+/// A signal that was sent from outside would not come again by itself, so it is raised once more, for its
+/// usual action. That is put back by hand: OpenCL's PoCL has a handler of its own for SIGFPE, which calls
+/// this one.
 void on_crash(int signal) {
   for (auto& place : watched)
     if (device::HapticDevice* device = place.load(std::memory_order_acquire)) device->take_force_away();
+  struct sigaction usual {};
+  usual.sa_handler = SIG_DFL;
+  ::sigaction(signal, &usual, nullptr);
   ::raise(signal);
 }
 

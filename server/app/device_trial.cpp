@@ -10,6 +10,7 @@
 #include "core/clock.hpp"
 #include "sim/loop_guard.hpp"
 #include "sim/pose_watchdog.hpp"
+#include "sim/realtime.hpp"
 #include "sim/tick_clock.hpp"
 
 namespace ream::app {
@@ -159,6 +160,7 @@ std::string rounded(double value, int digits) {
 DeviceTrial try_out(device::HapticDevice& device, const TrialTimes& times, sim::Realtime realtime) {
   const CrashWatch crash_watch(device);
   const OpenDevice open(device);
+  sim::ask_for_realtime(realtime, -1);
   // Histograms are too large for a stack that others use, too.
   const auto trial = std::make_unique<Trial>(device, times);
   return trial->run(realtime != sim::Realtime::off);

@@ -34,8 +34,9 @@ struct DeviceTrial {
 
 /// Tries out a device (world frame, see MappedDevice), on the calling thread: no force for a while, then a
 /// gentle wall that holds against the hand 10 mm below where the handle was (world: towards the feet), then
-/// the force falls to nothing. Never more than 1 N or a tenth of what the device can do. The device is left
-/// without force and closed, on whatever way out. Errors: those of open().
+/// the force falls to nothing. Never more than 1 N or a tenth of what the device can do. The calling thread
+/// is given real-time priority as `realtime` says and where it is granted. The device is left without force
+/// and closed, on whatever way out. Errors: those of open().
 DeviceTrial try_out(device::HapticDevice& device, const TrialTimes& times, sim::Realtime realtime);
 
 /// What to make of it, one line each; the first says whether the device can be used.

@@ -2,6 +2,7 @@
 
 #include <thread>
 
+#include "core/clock.hpp"
 #include "device/profiles.hpp"
 #include "support/test_bone.hpp"
 

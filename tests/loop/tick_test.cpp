@@ -67,9 +67,9 @@ struct Watched {
 /// Runs it on a thread of its own with every trap armed; `fail` may spoil the backend beforehand.
 Watched watch(const Case& c, const std::function<void(SmallRun&)>& fail = nullptr,
               const std::function<void(int, device::DeviceInput&)>& during_read = nullptr) {
-  Traps::prepare();
   SmallRun run = run_of(c);
   if (fail) fail(run);
+  Traps::prepare();  // by now the libraries are there
   voxel::BrickRing bricks(c.brick_ring);
   voxel::BrickSender sender(run.bone.grid, bricks);
   run.state.brick_sender = &sender;

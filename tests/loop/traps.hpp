@@ -29,6 +29,7 @@ struct Caught {
 /// disarm() on the same thread stops. Errors: std::runtime_error when the kernel refuses filters.
 class Traps {
  public:
+  /// Forgets what was caught, and looks which libraries there are.
   static void prepare();
   static void arm() noexcept;
   static void disarm() noexcept;

@@ -36,6 +36,7 @@ export const words = {
   } satisfies Record<SessionState, string>,
 
   practiceHint: 'You have the reamer.',
+  deviceHint: 'The hand on the haptic device is reaming.',
 
   stateUnknown: (state: string) => `What the session is doing is not known; when last heard of it was ${state}.`,
 
@@ -163,7 +164,7 @@ export const words = {
   holdHint: 'Hold to push',
   push: 'Push',
   pushMeter: (now: string, level: string) => `${now} of ${level} newtons`,
-  pushLevel: 'Hardest',
+  pushLevel: 'Full push',
   leanUp: 'Lean up',
   leanFront: 'Lean forward',
   degrees: (degrees: string) => `${degrees}°`,

@@ -1,6 +1,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -9,6 +10,7 @@
 
 #include "app/crash_guard.hpp"
 #include "app/interrupt.hpp"
+#include "core/error.hpp"
 #include "support/recorded_reaming.hpp"
 
 // A program with a device in somebody's hand, told by its argument how to end. What its device is told, last
@@ -16,7 +18,7 @@
 namespace ream::test {
 namespace {
 
-/// Prints, by nothing but write(2), each force that the device is given and that it is taken away.
+/// Prints, by nothing but write(2), each force that the device is given, until it is taken away for good.
 class TellingDevice final : public device::HapticDevice {
  public:
   explicit TellingDevice(std::unique_ptr<device::HapticDevice> inner, int end_at = -1,
@@ -36,10 +38,12 @@ class TellingDevice final : public device::HapticDevice {
     return inner_->read(input);
   }
   device::DeviceStatus write(const device::DeviceOutput& output) noexcept override {
-    say(output.force_n.norm() > 0.0 ? "force\n" : "no force\n");
+    if (!taken_away_) say(output.force_n.norm() > 0.0 ? "force\n" : "no force\n");
     return inner_->write(output);
   }
-  void take_force_away() noexcept override { say("taken away\n"); }
+  void take_force_away() noexcept override {
+    if (!taken_away_.exchange(true)) say("taken away\n");
+  }
 
  private:
   static void say(const char* words) noexcept {
@@ -48,15 +52,15 @@ class TellingDevice final : public device::HapticDevice {
   std::unique_ptr<device::HapticDevice> inner_;
   void (*end_)();
   int end_at_, tick_ = 0;
+  std::atomic<bool> taken_away_{false};
 };
 
-volatile int zero = 0;
 volatile int* volatile nowhere = nullptr;
 
 const std::map<std::string, void (*)()> ends{
     {"segv", [] { *nowhere = 1; }},
     {"abort", [] { std::abort(); }},
-    {"fpe", [] { zero = 1 / zero; }},
+    {"fpe", [] { ::raise(SIGFPE); }},  // a division by zero is passed over by PoCL's handler
     {"ill", [] { ::raise(SIGILL); }},
     {"bus", [] { ::kill(::getpid(), SIGBUS); }},
     {"throw", [] { throw std::runtime_error("an exception that nobody catches"); }},

@@ -117,7 +117,7 @@ TEST(HapticLoop, AllRealTimeIsThereOrTheLoopDoesNotStart) {
   LoopRun r;
   sim::HapticLoop loop(r.run.model, r.run.state, r.device, r.reports,
                        {true, sim::Realtime::require, no_such_cpu});
-  expect_error(ErrorKind::unavailable, [&] { loop.start(); });
+  expect_error(ErrorKind::unavailable, "CPU " + std::to_string(no_such_cpu), [&] { loop.start(); });
   EXPECT_FALSE(r.device.is_open);
   EXPECT_EQ(r.device.reads, 0);
 }

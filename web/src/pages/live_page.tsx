@@ -32,7 +32,9 @@ export function LivePage({ store, watcher, scene, practice, practiceStore }: Liv
       <Header store={store} />
       <Picture store={store} practice={practiceStore} scene={scene} />
       {store.replaying.value && <PlaybackBar store={store} watcher={watcher} />}
-      {practiceStore.steering.value && <PracticeBar practice={practiceStore} />}
+      {practiceStore.steering.value && (
+        <PracticeBar practice={practiceStore} toPicture={() => scene.canvas.focus({ preventScroll: true })} />
+      )}
       <aside class={store.upToDate.value ? 'side' : 'side stale'}>
         {store.replaying.value ? (
           <ReplayPanel store={store} watcher={watcher} />

@@ -6,11 +6,13 @@ interface HoldButton {
   id: string;
   /** Called with true while it is held by pointer or key, and with false when that ends in whatever way. */
   onHold: (held: boolean) => void;
+  /** The pointer has gone up; not called for keys. */
+  onPointerDone: () => void;
   children: ComponentChildren;
 }
 
 /** A button that acts only while it is held. */
-export function HoldButton({ class: look, id, onHold, children }: HoldButton) {
+export function HoldButton({ class: look, id, onHold, onPointerDone, children }: HoldButton) {
   useEffect(() => () => onHold(false), []);
   const release = () => onHold(false);
   const isPress = (event: KeyboardEvent) => event.key === ' ' || event.key === 'Enter';
@@ -22,7 +24,10 @@ export function HoldButton({ class: look, id, onHold, children }: HoldButton) {
       onPointerDown={(event) => {
         if (event.button === 0) onHold(true);
       }}
-      onPointerUp={release}
+      onPointerUp={() => {
+        release();
+        onPointerDone();
+      }}
       onPointerCancel={release}
       onPointerLeave={release}
       onBlur={release}

@@ -6,7 +6,7 @@ import { fixed } from './format';
 import { HoldButton } from './hold_button';
 
 /** What the hand does, and buttons for all of it: for a person without keys, and to see what the keys did. */
-export function PracticeBar({ practice }: { practice: PracticeStore }) {
+export function PracticeBar({ practice, toPicture }: { practice: PracticeStore; toPicture: () => void }) {
   const { hand } = practice;
   return (
     <section class="practice" aria-label={words.practice} data-testid="practice-bar">
@@ -16,9 +16,10 @@ export function PracticeBar({ practice }: { practice: PracticeStore }) {
           class={hand.spindleOn.value ? 'hand-button spindle-on' : 'hand-button'}
           data-testid="spindle"
           aria-pressed={hand.spindleOn.value}
-          onClick={() => {
+          onClick={(event) => {
             hand.takeHold();
             hand.toggleSpindle();
+            afterClick(event, toPicture);
           }}
         >
           {words.spindleButton(hand.spindleOn.value)}
@@ -26,6 +27,7 @@ export function PracticeBar({ practice }: { practice: PracticeStore }) {
         <HoldButton
           class="hand-button"
           id="push"
+          onPointerDone={toPicture}
           onHold={(held) => {
             if (held) hand.takeHold();
             hand.push('button', held ? 1 : 0);
@@ -36,6 +38,7 @@ export function PracticeBar({ practice }: { practice: PracticeStore }) {
         <HoldButton
           class="hand-button"
           id="withdraw"
+          onPointerDone={toPicture}
           onHold={(held) => {
             if (held) hand.takeHold();
             hand.withdraw('button', held ? 1 : 0);
@@ -48,7 +51,10 @@ export function PracticeBar({ practice }: { practice: PracticeStore }) {
           class="hand-button"
           data-testid="pause"
           aria-pressed={hand.paused.value}
-          onClick={() => hand.togglePause()}
+          onClick={(event) => {
+            hand.togglePause();
+            afterClick(event, toPicture);
+          }}
         >
           {words.pauseButton(hand.paused.value)}
         </button>
@@ -61,6 +67,11 @@ export function PracticeBar({ practice }: { practice: PracticeStore }) {
       <Lean practice={practice} />
     </section>
   );
+}
+
+/** After a click with the mouse the keys go to the picture again, where space pushes; after one with a key they stay. */
+function afterClick(event: MouseEvent, toPicture: () => void): void {
+  if (event.detail > 0) toPicture();
 }
 
 /** The push as it is wished and the thrust that comes of it (a mark), and below how hard a full push is; one scale. */
@@ -139,9 +150,9 @@ function HandState({ practice }: { practice: PracticeStore }) {
   const slow = feedback !== null && feedback.link !== 'fresh';
   const look = link === 'holding' ? (slow ? 'silent' : 'live') : link === 'lost' ? 'lost' : 'silent';
   return (
-    <p class={`hand-link link-${look}`} role="status" data-testid="hand-link" data-link={link} title={words.handLink}>
+    <p class={`hand-link link-${look}`} data-testid="hand-link" data-link={link} title={words.handLink}>
       <span class="link-dot" aria-hidden="true" />
-      <span>
+      <span role="status">
         {handWords(practice)}
         {practice.gamepad.value && ` · ${words.gamepadFound}`}
       </span>

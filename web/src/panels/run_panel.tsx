@@ -108,7 +108,7 @@ function hint(store: Store, practiceStore: PracticeStore, state: keyof typeof wo
   if (state !== 'running') return words.stateHint[state];
   if (practiceStore.sessionId.value !== null) return words.practiceHint;
   const details = store.details.value;
-  return details?.id === store.sessionId.value && details?.device?.name === 'browser'
-    ? words.takeOverHint
-    : words.stateHint.running;
+  const device = details?.id === store.sessionId.value ? details?.device?.name : undefined;
+  if (device === 'browser') return words.takeOverHint;
+  return device === undefined || device === 'script' ? words.stateHint.running : words.deviceHint;
 }

@@ -104,7 +104,7 @@ export class Api {
     return (await this.call<{ sessions: Session[] }>('GET', 'sessions')).sessions;
   }
   createDemo(): Promise<Session> {
-    return this.call('POST', 'sessions', { case: 'demo', script: 'demo' });
+    return this.call('POST', 'sessions', { case: 'demo', script: 'demo', device: 'script' });
   }
   /** A demo that waits for a hand in a browser. */
   createPractice(): Promise<Session> {

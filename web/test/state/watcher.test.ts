@@ -41,6 +41,10 @@ class FakeApi {
     const found = this.list.find((s) => s.id === id);
     return found === undefined ? Promise.reject(new ApiError(`no session '${id}'`, 404)) : this.answer({ ...found });
   };
+  createPractice = async () => {
+    const session = await this.createDemo();
+    return { ...session, device: { name: 'browser', state: null, rtt_ms: null } };
+  };
   start = (id: string) => this.change(id, 'running');
   stop = (id: string) => this.change(id, 'stopped');
   metrics = () => this.answer({ axial_thrust_mean_n: 12 } as Metrics);
@@ -108,6 +112,22 @@ describe('Watcher', () => {
     expect(api.list.map((s) => [s.id, s.state])).toEqual([['s1', 'running']]);
     expect(socket.opened).toHaveLength(1);
     expect(store.active.value).toBe(true);
+  });
+
+  it('makes a session for a hand in the browser, starts it and watches it, whatever was watched before', async () => {
+    watcher.start();
+    await settle();
+    serve('s1', '1');
+    expect(await watcher.practise()).toBe('s2');
+    await settle();
+    expect(api.list.map((s) => [s.id, s.state])).toEqual([
+      ['s2', 'running'],
+      ['s1', 'created'],
+    ]);
+    expect(socket.opened.at(-1)).toBe('ws://s2');
+    api.down = true;
+    expect(await watcher.practise()).toBeNull();
+    expect(store.problem.value).toBe('no answer');
   });
 
   it('makes a new session for another demo after one has finished', async () => {

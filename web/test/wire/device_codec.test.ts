@@ -13,7 +13,9 @@ const golden = (name: string) => new Uint8Array(file(`${name}.bin`));
 function read<T>(bytes: Uint8Array, type: DeviceBody, body: T): T {
   const message = DeviceMessage.getRootAsDeviceMessage(new ByteBuffer(bytes));
   expect(message.bodyType()).toBe(type);
-  return message.body(body as never) as T;
+  const found: unknown = message.body(body);
+  if (found === null) throw new Error('a message lacks its body');
+  return found as T;
 }
 
 /** All that a Steering says. */
