@@ -381,22 +381,6 @@ void ReamingSession::note_health() {
                                                                   : api::SessionState::running;
 }
 
-/// With the mutex held.
-void ReamingSession::note_device() {
-  api::DeviceLinkStatus& device = status_.device;
-  device.state = device::to_text(device_state_);
-  if (!rig_.link) return;
-  const device::RemoteLink& link = *rig_.link;
-  const int64_t rtt_us = link.rtt_us;
-  device.rtt_ms = rtt_us < 0 ? std::nullopt : std::optional(1.0e-3 * static_cast<double>(rtt_us));
-  device.received = link.received;
-  device.missing = link.missing;
-  device.late = link.late;
-  device.refused = link.refused;
-  port_->tell(sample_.state == stream::SessionState::paused ? device::RemoteSessionState::paused
-                                                            : device::RemoteSessionState::running);
-}
-
 void ReamingSession::publish_state(api::SessionState state) {
   sample_.state = wire_state(state);
   if (port_) port_->tell(static_cast<device::RemoteSessionState>(sample_.state));
