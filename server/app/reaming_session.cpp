@@ -23,8 +23,6 @@ namespace {
 constexpr auto follower_period = std::chrono::milliseconds(10);
 /// A session that rests tells its viewers so this often, so that a silent link is a broken one.
 constexpr int64_t heartbeat_ns = 500'000'000;
-/// A loop that stands still for longer than this will not come back: its session ends without it.
-constexpr int64_t longest_standstill_ns = 1'000'000'000;
 
 RunRequest run_request(const SessionHouse& house, const api::SessionRequest& request) {
   RunRequest run;
@@ -366,41 +364,6 @@ void ReamingSession::take_report(const record::TickReport& r) {
   batcher_.add(sample_);
 }
 
-void ReamingSession::note_events(const record::TickReport& report) {
-  for (const record::ops::Event& event : files_->newest_events()) {
-    log::info("session " + id_ + ", tick " + std::to_string(event.tick) + ": " + event.words);
-    if (event.kind == "device_lost") keep_black_box(recent_);
-  }
-  device_state_ = report.link;
-  if (files_->events().device_is_lost() == device_is_lost_) return;
-  device_is_lost_ = !device_is_lost_;
-  tell_fault(files_->events().device_words());
-}
-
-/// The loop's thread is dead, stuck or very late; the guard has left the device without force. A late one
-/// ends by itself when it is back.
-void ReamingSession::note_standstill() {
-  const std::string words = end_words(sim::LoopEnd::stood_still);
-  const int64_t now_ns = steady_ns();
-  if (standstill_told_ns_ == 0) {
-    standstill_told_ns_ = now_ns;
-    log::error("session " + id_ + ": " + words);
-    keep_black_box(recent_);
-    tell_fault(words);
-    batcher_.add(sample_);
-    batcher_.flush();
-  }
-  if (now_ns - standstill_told_ns_ > longest_standstill_ns) throw Error(ErrorKind::unavailable, words);
-}
-
-/// To REST, and to viewers from the next sample on; empty: there is none any more.
-void ReamingSession::tell_fault(const std::string& words) {
-  sample_.fault.fill('\0');
-  std::memcpy(sample_.fault.data(), words.data(), std::min(words.size(), sample_.fault.size() - 1));
-  const std::lock_guard lock(mutex_);
-  status_.fault = words;
-}
-
 void ReamingSession::note_health() {
   const score::Metrics metrics = files_->metrics();
   const sim::LoopHealth health = loop_.health();
@@ -425,22 +388,6 @@ void ReamingSession::note_health() {
   if (status_.state == api::SessionState::running || status_.state == api::SessionState::paused)
     status_.state = sample_.state == stream::SessionState::paused ? api::SessionState::paused
                                                                   : api::SessionState::running;
-}
-
-/// With the mutex held.
-void ReamingSession::note_device() {
-  api::DeviceLinkStatus& device = status_.device;
-  device.state = device::to_text(device_state_);
-  if (!rig_.link) return;
-  const device::RemoteLink& link = *rig_.link;
-  const int64_t rtt_us = link.rtt_us;
-  device.rtt_ms = rtt_us < 0 ? std::nullopt : std::optional(1.0e-3 * static_cast<double>(rtt_us));
-  device.received = link.received;
-  device.missing = link.missing;
-  device.late = link.late;
-  device.refused = link.refused;
-  port_->tell(sample_.state == stream::SessionState::paused ? device::RemoteSessionState::paused
-                                                            : device::RemoteSessionState::running);
 }
 
 void ReamingSession::publish_state(api::SessionState state) {

@@ -2,7 +2,6 @@
 #include <nlohmann/json.hpp>
 
 #include "api/session_folder.hpp"
-#include "app/black_box_files.hpp"
 #include "app/reaming_session.hpp"
 #include "app/session_recovery.hpp"
 #include "core/clock.hpp"
@@ -30,22 +29,6 @@ void ReamingSession::finish() {
   note_health();
   const auto results = files_->finish(health, told_of(state, fault));
   close(state, fault, results.metrics);
-}
-
-std::string ReamingSession::end_words(sim::LoopEnd end) const {
-  if (end != sim::LoopEnd::stood_still) return to_words(end);
-  return "The haptic loop stopped for " + std::to_string(loop_.stood_still_ms()) +
-         " ms; force off. Start a new session, on a computer with less to do.";
-}
-
-/// The last seconds of the loop, beside the recording, at any fault.
-void ReamingSession::keep_black_box(const sim::BlackBox& box) const {
-  try {
-    const std::filesystem::path path = write_black_box(box, folder_, sample_.tick);
-    log::info("session " + id_ + ": the last seconds are in " + path.string());
-  } catch (const std::exception& e) {
-    log::error("session " + id_ + ": its black box could not be written: " + e.what());
-  }
 }
 
 /// Remarks that were accepted but that the recording did not get, as it had failed; in the order of
