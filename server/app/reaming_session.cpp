@@ -38,26 +38,6 @@ RunRequest run_request(const SessionHouse& house, const api::SessionRequest& req
   return run;
 }
 
-stream::SessionState wire_state(api::SessionState state) {
-  switch (state) {
-    case api::SessionState::created:
-      return stream::SessionState::created;
-    case api::SessionState::running:
-      return stream::SessionState::running;
-    case api::SessionState::paused:
-      return stream::SessionState::paused;
-    case api::SessionState::finished:
-      return stream::SessionState::finished;
-    case api::SessionState::stopped:
-      return stream::SessionState::stopped;
-    case api::SessionState::fault:
-      return stream::SessionState::fault;
-    case api::SessionState::interrupted:
-      return stream::SessionState::interrupted;
-  }
-  return stream::SessionState::fault;
-}
-
 api::LoopStatus loop_status(const sim::LoopHealth& health) {
   return {health.tick_us, health.lateness_us,   health.read_us,         health.step_us,     health.write_us,
           health.missed,  health.realtime.fifo, health.realtime.locked, health.realtime.cpu};

@@ -39,4 +39,24 @@ void fill_in(const record::TickReport& r, stream::TelemetrySample& sample) {
   sample.cortical_share = static_cast<float>(r.share[static_cast<size_t>(voxel::BoneClass::cortical)]);
 }
 
+stream::SessionState wire_state(api::SessionState state) {
+  switch (state) {
+    case api::SessionState::created:
+      return stream::SessionState::created;
+    case api::SessionState::running:
+      return stream::SessionState::running;
+    case api::SessionState::paused:
+      return stream::SessionState::paused;
+    case api::SessionState::finished:
+      return stream::SessionState::finished;
+    case api::SessionState::stopped:
+      return stream::SessionState::stopped;
+    case api::SessionState::fault:
+      return stream::SessionState::fault;
+    case api::SessionState::interrupted:
+      return stream::SessionState::interrupted;
+  }
+  return stream::SessionState::fault;
+}
+
 }  // namespace ream::app

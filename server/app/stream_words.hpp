@@ -1,8 +1,10 @@
 #pragma once
+#include "api/running_session.hpp"
 #include "case/case.hpp"
 #include "record/tick_report.hpp"
 #include "shell/tool.hpp"
 #include "stream/messages.hpp"
+#include "stream/telemetry.hpp"
 
 namespace ream::app {
 
@@ -11,5 +13,8 @@ stream::HelloInfo hello_of(const case_::Case& c, const case_::Plan& plan, const 
 
 /// What viewers are told of one tick. Where the bone is, is left out where it has not moved.
 void fill_in(const record::TickReport& report, stream::TelemetrySample& sample);
+
+/// The state's number on the wire.
+stream::SessionState wire_state(api::SessionState state);
 
 }  // namespace ream::app
