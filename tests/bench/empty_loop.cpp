@@ -11,8 +11,8 @@ namespace {
 
 class IdleDevice final : public device::HapticDevice {
  public:
-  IdleDevice(const Pose& world_from_handle, int64_t ticks)
-      : traits_(device::device_profile("ideal")), ticks_left_(ticks) {
+  IdleDevice(const Pose& world_from_handle, int64_t ticks, double busy_us)
+      : traits_(device::device_profile("ideal")), ticks_left_(ticks), busy_us_(busy_us) {
     rests_.world_from_handle = world_from_handle;
     rests_.paused = true;
   }
@@ -22,6 +22,8 @@ class IdleDevice final : public device::HapticDevice {
   device::DeviceStatus read(device::DeviceInput& input) noexcept override {
     if (ticks_left_-- <= 0) return device::DeviceStatus::finished;
     input = rests_;
+    for (const auto start = SteadyClock::now(); elapsed_us(start) < busy_us_;) {
+    }
     return device::DeviceStatus::ok;
   }
   device::DeviceStatus write(const device::DeviceOutput&) noexcept override {
@@ -32,17 +34,18 @@ class IdleDevice final : public device::HapticDevice {
   device::DeviceTraits traits_;
   device::DeviceInput rests_;
   int64_t ticks_left_;
+  double busy_us_;
 };
 
 }  // namespace
 
-sim::LoopHealth run_empty_loop(double seconds, sim::Realtime realtime, int cpu) {
+sim::LoopHealth run_empty_loop(double seconds, sim::Realtime realtime, int cpu, double busy_us) {
   constexpr double surface_mm = 2.0;
   voxel::BoneModel bone = test::slab({16, 16, 16}, 0.5, surface_mm, 0.5);
   const case_::Plan plan = test::slab_plan(bone, surface_mm);
   const sim::Model model = sim::make_model(plan, bone, shell::make_tool("sphere 2,1"), sim::Settings{});
   sim::State state(model, bone);
-  IdleDevice device(model.world_from_plan, static_cast<int64_t>(seconds / tick_s));
+  IdleDevice device(model.world_from_plan, static_cast<int64_t>(seconds / tick_s), busy_us);
   SpscRing<record::TickReport> reports(1024);
   sim::HapticLoop loop(model, state, device, reports, {true, realtime, cpu});
   loop.start();
