@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -38,6 +39,8 @@ struct DeviceTraits {
   std::string profile = "ideal";     ///< name in device/profiles.hpp
   StaleLimits stale;
   bool simulated = false;  ///< nobody's hand is in it: a loop that stands still harms no one
+  /// A device that has been told nothing for so long lets go by itself; infinite: it never does.
+  double force_expires_ms = std::numeric_limits<double>::infinity();
 };
 
 struct DeviceInput {

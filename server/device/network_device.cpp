@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "device/device_socket.hpp"
 #include "device/profiles.hpp"
 
 namespace ream::device {
@@ -29,6 +30,7 @@ NetworkDevice::NetworkDevice(const std::string& profile, std::shared_ptr<RemoteL
                 "a device over the network takes a force and gives a pose; profile '" + profile +
                     "' is the other way about, choose an impedance device such as 'touch'");
   traits_.name = "network";
+  traits_.force_expires_ms = static_cast<double>(output_too_old_ns) / ns_per_ms;
 }
 
 void NetworkDevice::open() {

@@ -81,6 +81,7 @@ HapticLoop::HapticLoop(const Model& model, State& state, device::HapticDevice& d
       device_(device),
       reports_(reports),
       options_(options),
+      force_expires_ms_(device.traits().force_expires_ms),
       watchdog_(device.traits().stale) {
   if (options.wall_clock)
     guard_.emplace(device, LoopGuard::limit_for(device.traits()), options.realtime != Realtime::off);
@@ -175,9 +176,17 @@ LoopEnd HapticLoop::one_tick(device::DeviceInput& input, double lateness_us) noe
   return compute_and_write(input, timing);
 }
 
+/// Whether the device has let go by itself, as it has been told nothing for too long.
+bool HapticLoop::force_expired() const noexcept {
+  const double silent_ms = static_cast<double>(steady_ns() - written_ns_) * 1e-6;
+  return options_.wall_clock && written_ns_ > 0 && silent_ms > force_expires_ms_;
+}
+
 LoopEnd HapticLoop::compute_and_write(const device::DeviceInput& input, TickTiming& timing) noexcept {
   device::DeviceInput trusted = input;
   const device::LinkState link = watchdog_.judge(state_.tick, trusted);
+  // From nothing, the force may only rise as it does at the start.
+  trusted.paused |= let_go_ || force_expired();
   TickReport report;
   const auto start = SteadyClock::now();
   const StepStatus status = step(model_, state_, trusted, report);
@@ -185,7 +194,11 @@ LoopEnd HapticLoop::compute_and_write(const device::DeviceInput& input, TickTimi
   const auto stepped = SteadyClock::now();
   timing.step_us = microseconds(stepped - start);
   device::DeviceStatus written = device::DeviceStatus::ok;
-  if (status == StepStatus::ok) written = device_.write(output_of(report));
+  device::DeviceOutput output = output_of(report);
+  let_go_ = force_expired() && !report.paused;
+  if (let_go_) output.force_n = output.torque_n_mm = output.vibration_n = Vec3::Zero();
+  if (status == StepStatus::ok) written = device_.write(output);
+  written_ns_ = steady_ns();
   timing.write_us = elapsed_us(stepped);
   report.timing = timing;
   black_box_.remember(report);

@@ -92,6 +92,7 @@ class HapticLoop {
   std::string refusal() const;
   void loop() noexcept;
   LoopEnd one_tick(device::DeviceInput& input, double lateness_us) noexcept;
+  bool force_expired() const noexcept;
   LoopEnd compute_and_write(const device::DeviceInput& input, TickTiming& timing) noexcept;
   void count(const TickTiming& timing) noexcept;
   bool push(const TickReport& report) noexcept;
@@ -109,6 +110,9 @@ class HapticLoop {
   LoopHealth last_seen_;
   TimingHistogram tick_us_, lateness_us_, read_us_, step_us_, write_us_;
   LoopHealth health_;  ///< the loop's own
+  const double force_expires_ms_;
+  int64_t written_ns_ = 0;  ///< when the device was last told a force; 0: never
+  bool let_go_ = false;     ///< by the device itself, in the last tick
   BlackBox black_box_;
   PoseWatchdog watchdog_;
   std::optional<LoopGuard> guard_;  ///< of a wall-clock loop

@@ -13,11 +13,12 @@ namespace ream::sim {
 /// is dead or stuck: the guard takes the force away from its device, once and for good, and says so.
 class LoopGuard {
  public:
-  /// After this long a device that somebody holds must not render an old force any more; of a simulated one
-  /// only a loop that does not come back is worth a word.
-  static constexpr std::chrono::milliseconds held_limit{50}, simulated_limit{2000};
+  /// After this long a device that somebody holds must not render an old force any more; of one that nobody
+  /// holds, or that lets go by itself before, only a loop that does not come back is worth a word.
+  static constexpr std::chrono::milliseconds held_limit{50}, harmless_limit{2000};
   static std::chrono::milliseconds limit_for(const device::DeviceTraits& traits) {
-    return traits.simulated ? simulated_limit : held_limit;
+    const bool lets_go = traits.force_expires_ms < static_cast<double>(held_limit.count());
+    return traits.simulated || lets_go ? harmless_limit : held_limit;
   }
 
   /// Watches from the first beat on. `device` outlives the guard. `realtime`: with a real-time priority above

@@ -90,7 +90,8 @@ TEST_F(Serve, BadRequestsAreProblems) {
   until("it is ready", [&] { return http_request(port_, "GET", "/readyz").status == 200; });
   for (const auto& [status, body] : std::vector<std::pair<int, std::string>>{
            {400, "{"},
-           {422, R"({"case": "demo"})"},
+           {422, R"({"script": "demo"})"},
+           {422, R"({"case": "demo", "device": "spoon"})"},
            {422, R"({"case": "demo", "script": "demo", "colour": "red"})"},
            {404, R"({"case": "nobody", "script": "demo"})"},
            {404, R"({"case": "demo", "script": "nothing"})"}}) {

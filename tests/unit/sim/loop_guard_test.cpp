@@ -119,11 +119,14 @@ TEST(LoopGuard, ADeadLoopLosesItsForceOnceAndForGood) {
   EXPECT_EQ(device.taken_away, 1);
 }
 
-TEST(LoopGuard, OneThatNobodyHoldsIsGivenMoreTime) {
+TEST(LoopGuard, OneThatNobodyHoldsOrThatLetsGoByItselfIsGivenMoreTime) {
   device::DeviceTraits traits;
   EXPECT_EQ(sim::LoopGuard::limit_for(traits), 50ms);
   traits.simulated = true;
-  EXPECT_EQ(sim::LoopGuard::limit_for(traits), sim::LoopGuard::simulated_limit);
+  EXPECT_EQ(sim::LoopGuard::limit_for(traits), sim::LoopGuard::harmless_limit);
+  traits.simulated = false;
+  traits.force_expires_ms = 20.0;
+  EXPECT_EQ(sim::LoopGuard::limit_for(traits), sim::LoopGuard::harmless_limit);
 }
 
 }  // namespace
