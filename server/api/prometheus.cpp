@@ -4,8 +4,12 @@
 #include <functional>
 #include <sstream>
 
+#include "device/link_state.hpp"
+
 namespace ream::api {
 namespace {
+
+using device::LinkState;
 
 constexpr double s_per_us = 1e-6;
 
@@ -85,8 +89,10 @@ void devices(const Records& records, Page& page) {
   const std::string state = "ream_device_state";
   page.head(state, "gauge", "1 for the state that the session's device is in.");
   for (const SessionRecord& record : records)
-    for (const char* word : {"fresh", "held", "fading", "lost"})
+    for (const LinkState one : {LinkState::fresh, LinkState::held, LinkState::fading, LinkState::lost}) {
+      const std::string word = to_text(one);
       page.sample(state, label_of(record) + ",state=\"" + word + "\"", record.status.device.state == word);
+    }
   const std::string messages = "ream_device_messages_total";
   page.head(messages, "counter", "Messages of devices that connect over a network.");
   for (const SessionRecord& record : records) {

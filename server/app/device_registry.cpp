@@ -47,34 +47,41 @@ std::unique_ptr<device::HapticDevice> mapped(const DeviceWish& wish,
 }
 
 DeviceKind network() {
-  return {"network", "touch",
+  static const std::string usual = "touch";
+  return {"network", usual,
           [] {
-            return offer_of("network", "A haptic device whose own computer connects over the network",
-                            "touch");
+            return offer_of("network", "A haptic device whose own computer connects over the network", usual);
           },
           [](const DeviceWish& wish) {
             auto link = std::make_shared<device::RemoteLink>();
             return MadeDevice{
-                mapped(wish, std::make_unique<device::NetworkDevice>(profile_of(wish, "touch"), link)), link};
+                mapped(wish, std::make_unique<device::NetworkDevice>(profile_of(wish, usual), link)), link};
           }};
 }
 
 DeviceKind browser() {
-  return {"browser", "ideal",
+  static const std::string usual = "ideal";
+  return {"browser", usual,
           [] {
             return offer_of("browser", "Mouse, touch screen, keys or gamepad, in the page of the session",
-                            "ideal");
+                            usual);
           },
           [](const DeviceWish& wish) {
             auto link = std::make_shared<device::RemoteLink>();
-            return MadeDevice{
-                device::make_steered_hand_device(profile_of(wish, "ideal"), wish.world_from_plan,
-                                                 wish.script->force_scale, link),
-                link};
+            return MadeDevice{device::make_steered_hand_device(profile_of(wish, usual), wish.world_from_plan,
+                                                               wish.script->force_scale, link),
+                              link};
           }};
 }
 
-const DeviceKind& kind_of(const std::string& name) {
+}  // namespace
+
+const std::vector<DeviceKind>& device_kinds() {
+  static const std::vector<DeviceKind> kinds{scripted(), network(), browser()};
+  return kinds;
+}
+
+const DeviceKind& device_kind(const std::string& name) {
   const std::vector<DeviceKind>& kinds = device_kinds();
   const auto kind =
       std::find_if(kinds.begin(), kinds.end(), [&](const DeviceKind& k) { return k.name == name; });
@@ -85,15 +92,8 @@ const DeviceKind& kind_of(const std::string& name) {
               "no device '" + name + "'; there are " + names + " (`ream devices` tells more)");
 }
 
-}  // namespace
-
-const std::vector<DeviceKind>& device_kinds() {
-  static const std::vector<DeviceKind> kinds{scripted(), network(), browser()};
-  return kinds;
-}
-
 void settle_for_device(const std::string& device, const std::string& profile, device::Script& script) {
-  const DeviceKind& kind = kind_of(device);
+  const DeviceKind& kind = device_kind(device);
   if (kind.usual_profile.empty()) {
     if (!profile.empty())
       throw Error(ErrorKind::invalid_input,
@@ -104,6 +104,6 @@ void settle_for_device(const std::string& device, const std::string& profile, de
   device::fit_to_remote(resolved, script);
 }
 
-MadeDevice make_device(const DeviceWish& wish) { return kind_of(wish.name).make(wish); }
+MadeDevice make_device(const DeviceWish& wish) { return device_kind(wish.name).make(wish); }
 
 }  // namespace ream::app

@@ -47,13 +47,16 @@ struct DeviceKind {
 /// Every kind, in the order in which people are shown them.
 const std::vector<DeviceKind>& device_kinds();
 
+/// Error invalid_input, listing the names, for an unknown one.
+const DeviceKind& device_kind(const std::string& name);
+
 /// Puts into a script what a session with this device leaves to it: whose limits the hand feels through, and
 /// with a script that leaves it open the force scale. `profile`: asked for, or empty for the usual one.
 /// Errors: invalid_input for an unknown device or profile, and for a profile beside a script that says its
 /// own.
 void settle_for_device(const std::string& device, const std::string& profile, device::Script& script);
 
-/// Errors: invalid_input, listing the names, for an unknown one; those of the kind.
+/// Errors: those of device_kind and of the kind.
 MadeDevice make_device(const DeviceWish& wish);
 
 }  // namespace ream::app

@@ -8,6 +8,7 @@
 #include "app/crash_guard.hpp"
 #include "app/interrupt.hpp"
 #include "core/clock.hpp"
+#include "device/device_guard.hpp"
 #include "sim/loop_guard.hpp"
 #include "sim/pose_watchdog.hpp"
 #include "sim/realtime.hpp"
@@ -25,21 +26,6 @@ constexpr double most_force_n = 1.0, share_of_force = 0.1;
 constexpr double farthest_mm = 2000.0;
 constexpr double least_motion_mm = 1.0;
 constexpr double few_poses_hz = 200.0;
-
-/// Takes force off the device and closes it, whatever happened.
-class OpenDevice {
- public:
-  explicit OpenDevice(device::HapticDevice& device) : device_(device) { device.open(); }
-  ~OpenDevice() {
-    device_.write({});
-    device_.close();
-  }
-  OpenDevice(const OpenDevice&) = delete;
-  OpenDevice& operator=(const OpenDevice&) = delete;
-
- private:
-  device::HapticDevice& device_;
-};
 
 class Trial {
  public:
@@ -159,7 +145,8 @@ std::string rounded(double value, int digits) {
 
 DeviceTrial try_out(device::HapticDevice& device, const TrialTimes& times, sim::Realtime realtime) {
   const CrashWatch crash_watch(device);
-  const OpenDevice open(device);
+  device.open();
+  const device::DeviceGuard device_guard(device);
   sim::ask_for_realtime(realtime, -1);
   // Histograms are too large for a stack that others use, too.
   const auto trial = std::make_unique<Trial>(device, times);

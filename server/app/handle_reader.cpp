@@ -14,19 +14,13 @@ HandleReader::HandleReader(device::HapticDevice& device, const device::DeviceSet
               .transpose() /
           setup.scale) {
   device.open();
-  try {
-    thread_ = std::thread([this] { read(); });
-  } catch (...) {
-    device.close();
-    throw;
-  }
+  guard_.emplace(device);
+  thread_ = std::thread([this] { read(); });
 }
 
 HandleReader::~HandleReader() {
   leaving_ = true;
   thread_.join();
-  device_.write({});
-  device_.close();
 }
 
 void HandleReader::read() noexcept {

@@ -1,9 +1,11 @@
 #pragma once
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "core/latest_slot.hpp"
+#include "device/device_guard.hpp"
 #include "device/device_setup.hpp"
 #include "device/haptic_device.hpp"
 
@@ -36,6 +38,7 @@ class HandleReader {
   LatestSlot<Place> newest_;
   Place last_;
   std::atomic<bool> answers_{false}, leaving_{false};
+  std::optional<device::DeviceGuard> guard_;
   std::thread thread_;
 };
 

@@ -372,7 +372,7 @@ void ReamingSession::note_health() {
 
 void ReamingSession::publish_state(api::SessionState state) {
   sample_.state = wire_state(state);
-  if (port_) port_->tell(static_cast<device::RemoteSessionState>(sample_.state));
+  tell_port();
   if (!api::is_live(state)) sample_.spindle_on = false;
   tell_fault(status().fault);
   batcher_.add(sample_);

@@ -83,6 +83,7 @@ class ReamingSession final : public api::RunningSession {
   stream::HelloInfo hello() const;
   std::shared_ptr<device::DevicePort> port_of_device() const;
   void note_device();
+  void tell_port();
 
   const SessionHouse house_;
   const api::SessionRequest request_;

@@ -27,8 +27,12 @@ void ReamingSession::note_device() {
   device.missing = link.missing;
   device.late = link.late;
   device.refused = link.refused;
-  port_->tell(sample_.state == stream::SessionState::paused ? device::RemoteSessionState::paused
-                                                            : device::RemoteSessionState::running);
+  tell_port();
+}
+
+/// Both enums are those of the wire.
+void ReamingSession::tell_port() {
+  if (port_) port_->tell(static_cast<device::RemoteSessionState>(sample_.state));
 }
 
 void ReamingSession::note_events(const record::TickReport& report) {

@@ -21,8 +21,6 @@ enum class DeviceClose : uint16_t {
 inline constexpr int refusals_allowed = 20;
 /// A sequence that goes ahead by more than this is no sequence but a damaged message.
 inline constexpr uint32_t largest_sequence_gap = 100'000;
-/// A force older than this is not passed on.
-inline constexpr int64_t output_too_old_ns = 20'000'000;
 
 /// Which of the two kinds of input a device takes.
 enum class RemoteKind { handle, steering };

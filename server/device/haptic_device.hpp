@@ -65,7 +65,7 @@ struct DeviceOutput {
   // What a device may show beside what it renders.
   uint32_t tick = 0;
   LinkState link = LinkState::lost;  ///< how far what it said was trusted
-  bool paused = false, engaged = false;
+  bool engaged = false;
   double thrust_n = 0.0;  ///< simulated
   double vibration_g = 0.0;
 };

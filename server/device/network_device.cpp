@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "device/device_socket.hpp"
 #include "device/profiles.hpp"
 
 namespace ream::device {

@@ -39,7 +39,6 @@ void RemoteEnd::write(const DeviceOutput& output) noexcept {
   remote.connection = answered_;
   remote.tick = output.tick;
   remote.link = output.link;
-  remote.paused = output.paused;
   remote.engaged = output.engaged;
   remote.force_n = plain(output.force_n);
   remote.torque_n_mm = plain(output.torque_n_mm);

@@ -24,13 +24,16 @@ struct RemoteInput {
   bool spindle_on = false, paused = false, clutch = false, deadman = true;
 };
 
+/// A force older than this is not passed on to a client.
+inline constexpr int64_t output_too_old_ns = 20'000'000;
+
 /// What goes back to it.
 struct RemoteOutput {
-  int64_t written_ns = 0;   ///< steady_ns() of the tick; one that is too old is not passed on
+  int64_t written_ns = 0;   ///< steady_ns() of the tick; see output_too_old_ns
   uint64_t connection = 0;  ///< whose input it answers to; the force is for nobody else
   uint32_t tick = 0;
   LinkState link = LinkState::lost;
-  bool paused = false, engaged = false;
+  bool engaged = false;
   std::array<double, 3> force_n{}, torque_n_mm{};
   double thrust_n = 0.0, vibration_g = 0.0;
 };

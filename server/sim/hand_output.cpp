@@ -56,7 +56,6 @@ device::DeviceOutput output_of(const record::TickReport& report) noexcept {
                               report.world_from_tool};
   output.tick = report.tick;
   output.link = report.link;
-  output.paused = report.paused;
   output.engaged = report.engaged;
   output.thrust_n = report.thrust_n;
   output.vibration_g = report.vibration_g;

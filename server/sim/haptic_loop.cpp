@@ -4,6 +4,7 @@
 
 #include "core/clock.hpp"
 #include "core/error.hpp"
+#include "device/device_guard.hpp"
 #include "sim/tick_clock.hpp"
 
 namespace ream::sim {
@@ -12,25 +13,6 @@ namespace {
 constexpr uint32_t publish_every_ticks = 500;
 constexpr uint32_t summaries = 5;
 constexpr std::chrono::milliseconds look_for_end{1};
-
-/// Leaves the device without force and closed, whatever happens in between.
-class DeviceGuard {
- public:
-  explicit DeviceGuard(device::HapticDevice& device) : device_(device) {}
-  ~DeviceGuard() {
-    device_.write({});
-    device_.close();
-  }
-  DeviceGuard(const DeviceGuard&) = delete;
-  DeviceGuard& operator=(const DeviceGuard&) = delete;
-
- private:
-  device::HapticDevice& device_;
-};
-
-double microseconds(SteadyClock::duration duration) {
-  return std::chrono::duration<double, std::micro>(duration).count();
-}
 
 LoopEnd end_of(StepStatus status) {
   switch (status) {
@@ -142,7 +124,7 @@ LoopHealth HapticLoop::health() noexcept {
 void HapticLoop::loop() noexcept {
   LoopEnd end = LoopEnd::running;
   {
-    const DeviceGuard guard(device_);
+    const device::DeviceGuard guard(device_);
     TickClock clock;
     device::DeviceInput input;
     while (end == LoopEnd::running) {

@@ -12,7 +12,8 @@ namespace {
 
 constexpr int warm_ticks = 50, most_ticks = 1000;
 constexpr double enough_us = 200'000.0;
-/// Share of the points that bone holds when a cap is pressed on: about the most that is seen in reaming.
+/// Share of the points that are to be engaged; a tool that never has so many is rehearsed as deep as it goes.
+/// Engineering choice.
 constexpr double pressed_share = 0.1;
 
 double thread_us() {

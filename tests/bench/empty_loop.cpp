@@ -4,21 +4,20 @@
 
 #include "core/clock.hpp"
 #include "device/profiles.hpp"
+#include "support/still_device.hpp"
 #include "support/test_bone.hpp"
 
 namespace ream::bench {
 namespace {
 
-class IdleDevice final : public device::HapticDevice {
+class IdleDevice final : public test::StillDevice {
  public:
   IdleDevice(const Pose& world_from_handle, int64_t ticks, double busy_us)
-      : traits_(device::device_profile("ideal")), ticks_left_(ticks), busy_us_(busy_us) {
+      : ticks_left_(ticks), busy_us_(busy_us) {
+    device_traits = device::device_profile("ideal");
     rests_.world_from_handle = world_from_handle;
     rests_.paused = true;
   }
-  const device::DeviceTraits& traits() const noexcept override { return traits_; }
-  void open() override {}
-  void close() noexcept override {}
   device::DeviceStatus read(device::DeviceInput& input) noexcept override {
     if (ticks_left_-- <= 0) return device::DeviceStatus::finished;
     input = rests_;
@@ -26,12 +25,8 @@ class IdleDevice final : public device::HapticDevice {
     }
     return device::DeviceStatus::ok;
   }
-  device::DeviceStatus write(const device::DeviceOutput&) noexcept override {
-    return device::DeviceStatus::ok;
-  }
 
  private:
-  device::DeviceTraits traits_;
   device::DeviceInput rests_;
   int64_t ticks_left_;
   double busy_us_;

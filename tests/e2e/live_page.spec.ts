@@ -2,32 +2,14 @@
 // comes back.
 import { expect, type Page, test } from '@playwright/test';
 
-import type { DebugReadout } from '../../web/src/debug_readout';
 import { compare, picture } from './pixels';
-import { ServerProcess } from './server_process';
+import { drawn, readout, serverForEachTest, untilLive } from './server_for_each_test';
 
-let server: ServerProcess;
-let problems: string[];
+const here = serverForEachTest();
 
-test.beforeEach(async ({ page }) => {
-  problems = [];
-  page.on('pageerror', (error) => problems.push(error.message));
-  server = new ServerProcess();
-  await server.start();
-});
-test.afterEach(async () => {
-  await server.dispose();
-  expect(problems).toEqual([]);
-});
-
-const readout = (page: Page): Promise<DebugReadout> => page.evaluate(() => window.__ream);
-const untilLive = (page: Page) => page.waitForFunction(() => window.__ream.live, null, { timeout: 60_000 });
-/** Waits until what was last changed has been drawn. */
-const drawn = (page: Page) =>
-  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 
 async function openReady(page: Page): Promise<void> {
-  await page.goto(server.url);
+  await page.goto(here.server.url);
   await untilLive(page);
   await expect(page.getByTestId('link-state')).toHaveText('Live');
   await expect(page.getByTestId('session-state')).toHaveAttribute('data-state', 'created');
@@ -84,7 +66,7 @@ test('says that the link is lost, and recovers by itself when the server is back
   await page.waitForFunction(() => (window.__ream.lastTick ?? 0) > 1000);
   const before = await readout(page);
 
-  await server.kill();
+  await here.server.kill();
   const notice = page.getByTestId('link-notice');
   await expect(notice).toContainText('The link to the simulator is lost', { timeout: 3000 });
   await expect(notice).toContainText('It is not live');
@@ -95,7 +77,7 @@ test('says that the link is lost, and recovers by itself when the server is back
   await page.waitForTimeout(2000);
   await expect(notice).toContainText('Trying again');
 
-  await server.start();
+  await here.server.start();
   await untilLive(page);
   await expect(notice).toBeHidden();
   await expect(page.getByTestId('picture')).toHaveAttribute('data-stale', 'false');
@@ -112,7 +94,7 @@ test('a second viewer joins a running session and sees the same', async ({ page,
   await page.getByTestId('run-demo').click();
   await page.waitForFunction(() => (window.__ream.lastTick ?? 0) > 500);
   const second = await context.newPage();
-  await second.goto(server.url);
+  await second.goto(here.server.url);
   await untilLive(second);
   const [a, b] = [await readout(page), await readout(second)];
   expect(b.sessionId).toBe(a.sessionId);

@@ -2,36 +2,20 @@
 // hand goes away.
 import { expect, type Page, test } from '@playwright/test';
 
-import type { DebugReadout } from '../../web/src/debug_readout';
 import { CuttableProxy } from './cuttable_proxy';
-import { ServerProcess } from './server_process';
+import { readout, serverForEachTest, untilLive } from './server_for_each_test';
 
-let server: ServerProcess;
-let problems: string[];
+const here = serverForEachTest();
 
-const watchForErrors = (page: Page) => page.on('pageerror', (error) => problems.push(error.message));
-
-test.beforeEach(async ({ page }) => {
-  problems = [];
-  watchForErrors(page);
-  server = new ServerProcess();
-  await server.start();
-});
-test.afterEach(async () => {
-  await server.dispose();
-  expect(problems).toEqual([]);
-});
-
-const readout = (page: Page): Promise<DebugReadout> => page.evaluate(() => window.__ream);
 const figure = async (page: Page, id: string) => Number(await page.getByTestId(id).textContent());
 const untilHolding = (page: Page) =>
   page.waitForFunction(() => window.__ream.deviceLink === 'holding', null, { timeout: 60_000 });
 const state = (page: Page) => page.getByTestId('session-state');
 const notice = (page: Page) => page.getByTestId('practice-notice');
 
-async function open(page: Page, url = server.url): Promise<void> {
+async function open(page: Page, url = here.server.url): Promise<void> {
   await page.goto(url);
-  await page.waitForFunction(() => window.__ream.live, null, { timeout: 60_000 });
+  await untilLive(page);
 }
 
 /** Clicks with the mouse as a hand does: goes there, presses, releases. */
@@ -156,7 +140,7 @@ test('a page that is left lets go of the reamer', async ({ page }) => {
 test('says that the link of the hand is slow or lost, and takes the reamer back when it is there again', async ({
   page,
 }) => {
-  const proxy = new CuttableProxy(server.url);
+  const proxy = new CuttableProxy(here.server.url);
   await proxy.start();
   try {
     await open(page, proxy.url);
@@ -205,7 +189,7 @@ test('another page watches, and takes over when it is asked to; a page loaded an
   expect((await readout(page)).sessionId).toBe(steered);
 
   const second = await context.newPage();
-  watchForErrors(second);
+  here.watchForErrors(second);
   await open(second);
   expect((await readout(second)).sessionId).toBe(steered);
   expect((await readout(second)).deviceLink).toBeNull();

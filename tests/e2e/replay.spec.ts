@@ -1,33 +1,16 @@
 // A recorded session seen again through the page: opened from the list, moved about in, and never taken for live.
 import { expect, type Page, test } from '@playwright/test';
 
-import type { DebugReadout } from '../../web/src/debug_readout';
 import { compare, picture } from './pixels';
-import { ServerProcess } from './server_process';
+import { drawn, readout, serverForEachTest, untilLive } from './server_for_each_test';
 
-let server: ServerProcess;
-let problems: string[];
+const here = serverForEachTest();
 
-test.beforeEach(async ({ page }) => {
-  problems = [];
-  page.on('pageerror', (error) => problems.push(error.message));
-  server = new ServerProcess();
-  await server.start();
-});
-test.afterEach(async () => {
-  await server.dispose();
-  expect(problems).toEqual([]);
-});
-
-const readout = (page: Page): Promise<DebugReadout> => page.evaluate(() => window.__ream);
-/** Waits until what was last changed has been drawn. */
-const drawn = (page: Page) =>
-  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 
 /** Reams for some seconds of the demo, stops, and gives the session's id. */
 async function recordDemo(page: Page, ticks: number): Promise<string> {
-  await page.goto(server.url);
-  await page.waitForFunction(() => window.__ream.live, null, { timeout: 60_000 });
+  await page.goto(here.server.url);
+  await untilLive(page);
   await page.getByTestId('run-demo').click();
   await page.waitForFunction((until) => (window.__ream.lastTick ?? 0) > until, ticks, { timeout: 90_000 });
   await page.getByTestId('stop').click();

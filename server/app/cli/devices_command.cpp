@@ -27,15 +27,6 @@ struct Options {
   uint16_t port = 0;
 };
 
-const DeviceKind& kind_of(const std::string& name) {
-  std::string names;
-  for (const DeviceKind& kind : device_kinds()) {
-    if (kind.name == name) return kind;
-    names += (names.empty() ? "" : ", ") + kind.name;
-  }
-  throw Error(ErrorKind::invalid_input, "no device '" + name + "'; there are " + names);
-}
-
 void list_devices(const GlobalOptions& global) {
   nlohmann::json rows = nlohmann::json::array();
   for (const DeviceKind& kind : device_kinds()) {
@@ -107,7 +98,7 @@ void print_trial(const DeviceTrial& trial) {
 }
 
 void test_device(const Options& options, const GlobalOptions& global) {
-  const DeviceOffer offer = kind_of(options.test).offer();
+  const DeviceOffer offer = device_kind(options.test).offer();
   refuse_browser(options.test, "tried out");
   if (!offer.usable)
     throw Error(ErrorKind::unavailable, "the device '" + offer.name + "' is not usable: " + offer.reason);
@@ -148,7 +139,7 @@ device::DeviceSetup shown_setup(const Options& options, const device::DeviceSetu
 }
 
 void set_up_device(const Options& options, const GlobalOptions& global) {
-  kind_of(options.setup);
+  device_kind(options.setup);
   refuse_browser(options.setup, "steered");
   if (options.setup == "script")
     throw Error(ErrorKind::invalid_input, "the device 'script' has no set-up; its script says where it is");

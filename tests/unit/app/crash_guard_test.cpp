@@ -7,6 +7,7 @@
 
 #include "core/file.hpp"
 #include "support/child_process.hpp"
+#include "support/still_device.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ream::test {
@@ -68,19 +69,8 @@ TEST_F(CrashGuard, ASignalToEndLeavesNoForceAndTheDeviceClosed) {
   }
 }
 
-struct Nothing final : device::HapticDevice {
-  const device::DeviceTraits& traits() const noexcept override { return device_traits; }
-  void open() override {}
-  void close() noexcept override {}
-  device::DeviceStatus read(device::DeviceInput&) noexcept override { return device::DeviceStatus::ok; }
-  device::DeviceStatus write(const device::DeviceOutput&) noexcept override {
-    return device::DeviceStatus::ok;
-  }
-  device::DeviceTraits device_traits;
-};
-
 TEST(CrashWatch, HasPlacesForSixtyFourAndGivesThemBack) {
-  Nothing device;
+  StillDevice device;
   for (int round = 0; round < 3; ++round) {
     std::vector<std::unique_ptr<app::CrashWatch>> watches;
     for (int i = 0; i < 64; ++i) {

@@ -7,6 +7,7 @@
 
 #include "sim/haptic_loop.hpp"
 #include "support/small_run.hpp"
+#include "support/still_device.hpp"
 
 namespace ream::test {
 namespace {
@@ -81,16 +82,8 @@ TEST(LoopGuard, TakesTheForceFromALoopThatIsStuckInItsDriver) {
   EXPECT_FALSE(to_words(sim::LoopEnd::stood_still).empty());
 }
 
-struct CountingDevice final : device::HapticDevice {
-  const device::DeviceTraits& traits() const noexcept override { return device_traits; }
-  void open() override {}
-  void close() noexcept override {}
-  device::DeviceStatus read(device::DeviceInput&) noexcept override { return device::DeviceStatus::ok; }
-  device::DeviceStatus write(const device::DeviceOutput&) noexcept override {
-    return device::DeviceStatus::ok;
-  }
+struct CountingDevice final : StillDevice {
   void take_force_away() noexcept override { ++taken_away; }
-  device::DeviceTraits device_traits;
   std::atomic<int> taken_away{0};
 };
 

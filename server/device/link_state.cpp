@@ -1,4 +1,4 @@
-#include "device/remote_link.hpp"
+#include "device/link_state.hpp"
 
 namespace ream::device {
 

@@ -1,0 +1,38 @@
+// What the tests of the page share: a server of their own, and pages in which nothing may go wrong unseen.
+import { expect, type Page, test } from '@playwright/test';
+
+import type { DebugReadout } from '../../web/src/debug_readout';
+import { ServerProcess } from './server_process';
+
+class Surroundings {
+  /** Of the test that runs. */
+  server!: ServerProcess;
+  problems: string[] = [];
+
+  /** An error in this page fails the test; the test's first page is watched already. */
+  watchForErrors(page: Page): void {
+    page.on('pageerror', (error) => this.problems.push(error.message));
+  }
+}
+
+/** To be called once in a file of tests. */
+export function serverForEachTest(): Surroundings {
+  const here = new Surroundings();
+  test.beforeEach(async ({ page }) => {
+    here.problems = [];
+    here.watchForErrors(page);
+    here.server = new ServerProcess();
+    await here.server.start();
+  });
+  test.afterEach(async () => {
+    await here.server.dispose();
+    expect(here.problems).toEqual([]);
+  });
+  return here;
+}
+
+export const readout = (page: Page): Promise<DebugReadout> => page.evaluate(() => window.__ream);
+export const untilLive = (page: Page) => page.waitForFunction(() => window.__ream.live, null, { timeout: 60_000 });
+/** Waits until what was last changed has been drawn. */
+export const drawn = (page: Page) =>
+  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
