@@ -14,6 +14,10 @@ constexpr uint32_t publish_every_ticks = 500;
 constexpr uint32_t summaries = 5;
 constexpr std::chrono::milliseconds look_for_end{1};
 
+double microseconds(SteadyClock::duration duration) {
+  return std::chrono::duration<double, std::micro>(duration).count();
+}
+
 LoopEnd end_of(StepStatus status) {
   switch (status) {
     case StepStatus::ok:

@@ -7,7 +7,6 @@ import { drawn, readout, serverForEachTest, untilLive } from './server_for_each_
 
 const here = serverForEachTest();
 
-
 async function openReady(page: Page): Promise<void> {
   await page.goto(here.server.url);
   await untilLive(page);

@@ -6,7 +6,6 @@ import { drawn, readout, serverForEachTest, untilLive } from './server_for_each_
 
 const here = serverForEachTest();
 
-
 /** Reams for some seconds of the demo, stops, and gives the session's id. */
 async function recordDemo(page: Page, ticks: number): Promise<string> {
   await page.goto(here.server.url);

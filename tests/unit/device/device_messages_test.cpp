@@ -85,8 +85,7 @@ TEST(DeviceMessages, TheGoldenAnswersSayWhatOursSay) {
   feedback.stamp_us = 1234567890123;
   feedback.state = RemoteSessionState::running;
   feedback.rtt_ms = 1.5;
-  feedback.output = {1,    1,    61234, LinkState::fading, true, true, {0.5, -1.25, 2}, {10, -20, 30.5},
-                     52.5, -0.75};
+  feedback.output = {1, 1, 61234, LinkState::fading, true, {0.5, -1.25, 2}, {10, -20, 30.5}, 52.5, -0.75};
   const net::SharedBytes our_feedback = feedback_message(feedback);
   const wire::Feedback* told = test::read_device_message(*our_feedback)->body_as_Feedback();
   const wire::Feedback* reference = test::read_device_message(feedback_bytes)->body_as_Feedback();
