@@ -13,6 +13,7 @@ enum class ErrorKind {
   conflict,       ///< the thing is not in a state that allows this
   unavailable,    ///< a resource (port, device, OpenCL) cannot be had now
   io,             ///< reading or writing failed
+  cancelled,      ///< somebody asked for the work to end before it was done
 };
 
 /// The one exception family. The message is one line that names the thing, the place and what to do.

@@ -16,6 +16,8 @@ int http_status(ErrorKind kind) {
       return 404;
     case ErrorKind::conflict:
       return 409;
+    case ErrorKind::cancelled:
+      return 409;
     case ErrorKind::unavailable:
       return 503;
     case ErrorKind::io:
