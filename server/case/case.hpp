@@ -95,6 +95,11 @@ void cut_pilot_hole(voxel::BoneModel& bone, const Plan& plan);
 /// empty when the ray misses the bone.
 std::optional<Vec3> surface_along(const voxel::BoneModel& bone, const Vec3& point_mm, const Vec3& direction);
 
+/// How far bone reaches along the direction from an entry on its surface, mm: to the far cortex, or to the end
+/// of the grid. Empty when no bone lies within 2 mm of the entry on that line.
+std::optional<double> bone_depth_along(const voxel::BoneModel& bone, const Vec3& entry_mm,
+                                       const Vec3& direction);
+
 std::string to_text(GuideKind guide);
 /// Error invalid_input for other words than none, nipple and pin.
 GuideKind guide_from_text(const std::string& text);

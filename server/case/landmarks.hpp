@@ -13,6 +13,8 @@ namespace ream::case_ {
 struct HumeralHead {
   Vec3 centre_mm = Vec3::Zero();
   double radius_mm = 24.0;
+
+  bool operator==(const HumeralHead&) const = default;
 };
 
 /// Points of the scapula that version, inclination and the plan are measured from. World frame (LPS mm); any
@@ -30,11 +32,9 @@ struct Landmarks {
   bool operator==(const Landmarks&) const = default;
 };
 
-bool operator==(const HumeralHead& a, const HumeralHead& b);
-
 /// landmarks.json (proto/landmarks.schema.json); any subset of the keys. `place` names the file in errors.
 /// Error invalid_input names place and key (unknown keys, numbers that are not finite or beyond 100 m, a head
-/// of 5 mm or less or 60 mm or more, another count of biconcavity points than 3, unknown Walch class).
+/// radius outside 5 to 60 mm, another count of biconcavity points than 3, unknown Walch class).
 Landmarks landmarks_from_json(const nlohmann::json& value, const std::string& place);
 nlohmann::json to_json(const Landmarks& landmarks);
 

@@ -23,18 +23,19 @@ struct Biconcavity {
 ///
 /// Friedman 2D: version in the axial plane (LPS x, y: every point is projected along z): angle between the
 /// line of the anterior and posterior rim and the perpendicular to the axis from the trigonum to the middle of
-/// that line. Inclination in the upright plane through that axis (the oblique coronal image, spanned by the
-/// axis' axial direction and LPS z) with the superior and inferior rim. Both are (angle at the middle of the
-/// rim line from the trigonum to the posterior, or inferior, rim) - 90 degrees. Unchanged by moving and scaling
+/// that line. Inclination in the upright plane (the oblique coronal image) through the axis from the trigonum
+/// to the middle of the superior-inferior rim line, spanned by LPS z. Both are (angle at the middle of the rim
+/// line from the trigonum to the posterior, or inferior, rim) - 90 degrees. Unchanged by moving and scaling
 /// and by turning about z only: how the patient lay in the scanner decides too, as in Friedman's slices.
 struct Measures {
   std::optional<double> version_3d_rad, inclination_3d_rad;
   std::optional<double> version_friedman_rad, inclination_friedman_rad;
-  /// Share of the humeral head's diameter posterior of the scapular plane: 50 + 50 d / r, where d is how far
-  /// its centre lies posterior of the plane; 0 to 100, 50 is centred (scapulohumeral index, Walch 1999).
+  /// Share of the humeral head's diameter that lies posterior of the scapular plane: 50 + 50 d / r, where d is
+  /// how far its centre lies posterior of that plane; 0 to 100, 50 is centred. This is the index a / D of Walch
+  /// and the one of science 2.1's classes; it grows with retroversion even of a head centred on its face.
   std::optional<double> subluxation_percent;
-  /// The same against the plane through the glenoid centre across the anterior-posterior rim line
-  /// (glenohumeral index).
+  /// The same against the plane through the glenoid centre across the anterior-posterior rim line: how far
+  /// the head has left its face.
   std::optional<double> subluxation_glenoid_percent;
   std::optional<Biconcavity> biconcavity;
   std::vector<std::string> missing;  ///< landmarks that empty measures need, by their keys in landmarks.json

@@ -35,13 +35,25 @@ const std::vector<LibraryReamer>& built_in_reamers();
 std::vector<LibraryReamer> reamers_of(const std::filesystem::path& data_folder,
                                       std::vector<std::string>* warnings = nullptr);
 
-/// The built-in reamer of that name; null when there is none.
+/// The built-in reamer of that name; null when there is none. Their names and words never change: recordings
+/// name them.
 const LibraryReamer* find_reamer(const std::string& name);
 
-/// The one of that name among those of the data folder. Error not_found lists the names that exist.
+/// Names of the built-in ones, for messages: "thesis, convex-30, ...".
+std::string built_in_names();
+
+/// The one of that name, built in or of the data folder. Errors: not_found lists the names that exist; those
+/// of make_tool and of the note beside a mesh.
 LibraryReamer reamer_named(const std::string& name, const std::filesystem::path& data_folder);
 
-/// The built-in one whose radius is nearest to an implant's.
+/// What can be said of anything that make_tool takes: of a mesh with the note beside it; nameless for words that
+/// are in no library. Errors: those of make_tool and of the note.
+LibraryReamer described_reamer(const std::string& asked_for);
+
+/// The axis in the note (NAME.json) beside a mesh file; empty without a note or axis. Error invalid_input.
+std::optional<ToolAxis> axis_noted_for(const std::filesystem::path& mesh);
+
+/// The built-in convex one with a nipple whose radius is nearest to that of an implant's back.
 const LibraryReamer& reamer_for_implant(double implant_radius_mm);
 
 }  // namespace ream::shell
