@@ -66,8 +66,10 @@ void fill_voids(Mask& mask, const Vec3i& dims) {
   std::vector<size_t> border;
   for (size_t i = 0; i < mask.size(); ++i) {
     const size_t u = i % steps.nx, v = (i / steps.nx) % steps.ny, w = i / (steps.nx * steps.ny);
-    const bool edge =
-        u == 0 || v == 0 || w == 0 || u + 1 == steps.nx || v + 1 == steps.ny || w + 1 == steps.nz;
+    const auto at_end = [](size_t place, size_t count) {
+      return count > 1 && (place == 0 || place + 1 == count);
+    };
+    const bool edge = at_end(u, steps.nx) || at_end(v, steps.ny) || at_end(w, steps.nz);
     if (edge && mask[i] == 0) border.push_back(i);
   }
   flood(mask, steps, std::move(border), 0, 2);

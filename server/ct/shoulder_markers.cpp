@@ -100,7 +100,7 @@ std::optional<HumeralHead> find_head(const HuVolume& volume, double threshold_hu
 }
 
 Aabb shoulder_box_mm(const HumeralHead& head, case_::Side side) {
-  constexpr double medial_mm = 165.0, lateral_mm = 60.0, front_mm = 95.0, behind_mm = 120.0, up_mm = 90.0,
+  constexpr double medial_mm = 165.0, lateral_mm = 60.0, front_mm = 95.0, behind_mm = 165.0, up_mm = 90.0,
                    down_mm = 200.0;
   const Vec3& c = head.centre_mm;
   const double m = medial_x(side);
