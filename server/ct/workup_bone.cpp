@@ -5,7 +5,6 @@
 #include "case/measures.hpp"
 #include "core/error.hpp"
 #include "ct/build_case.hpp"
-#include "ct/cartilage.hpp"
 #include "ct/voxel_window.hpp"
 
 namespace ream::ct {
@@ -72,6 +71,15 @@ void check_size(const VoxelWindow& window, int upsample) {
                                               "the region around the glenoid");
 }
 
+/// About the glenoid: the joint to the lateral side, the vault to the medial one, and the rim with room for a
+/// reamer of 44 mm.
+Aabb glenoid_roi_mm(const Vec3& centre, case_::Side side) {
+  constexpr double lateral_mm = 18.0, medial_mm = 42.0, across_mm = 34.0;
+  const double low = side == case_::Side::right ? lateral_mm : medial_mm;
+  const double high = side == case_::Side::right ? medial_mm : lateral_mm;
+  return {centre - Vec3(low, across_mm, across_mm), centre + Vec3(high, across_mm, across_mm)};
+}
+
 Aabb roi_for(const Workup& workup, const case_::Landmarks& landmarks, const BuildSettings& settings) {
   const BonePart& scapula = scapula_part(workup);
   if (!settings.around_glenoid) return {scapula.low_mm, scapula.high_mm};
@@ -127,9 +135,6 @@ case_::Case build_from(Workup& workup, const std::vector<int16_t>& hu, const std
       throw Error(ErrorKind::conflict, "case '" + workup.id +
                                            "' needs the glenoid centre and the four rim points before "
                                            "cartilage can be laid on its face");
-    CartilageSettings cartilage;
-    cartilage.thickness_mm = settings.cartilage_mm;
-    add_cartilage(result.bone, *result.glenoid, cartilage);
   }
   workup.built = BuildRecord{settings, roi, result.bone.filled_voxels(), workup.segmentation()->revision};
   return result;
