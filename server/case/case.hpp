@@ -28,6 +28,13 @@ struct Plan {
   std::string reamer = "ellipse 18.25,9";  ///< profile text or path of a mesh, see shell/tool.hpp
   std::optional<PilotHole> pilot_hole = PilotHole{};
   GuideKind guide = GuideKind::none;  ///< nipple needs a pilot hole
+  std::optional<double> implant_radius_mm = {};  ///< of the component's back
+  std::string implant_size = {};                 ///< as its maker names it; "": not chosen
+  /// What was aimed at (3D, science 2.1), kept so that scoring can compare; axis_direction decides.
+  std::optional<double> target_version_rad = {}, target_inclination_rad = {};
+  /// Taken in spite of a correction that reaming alone should not make (plan_assessment.hpp), and why.
+  bool override_correction = false;
+  std::string override_reason = {};
 };
 
 /// Glenoid coordinate system, world frame, each a unit vector; side-aware (see DESIGN 3 and science 2.1).
@@ -87,6 +94,11 @@ void cut_pilot_hole(voxel::BoneModel& bone, const Plan& plan);
 /// First bone surface met when moving along the plan's direction through `point` (coverage crosses 127.5);
 /// empty when the ray misses the bone.
 std::optional<Vec3> surface_along(const voxel::BoneModel& bone, const Vec3& point_mm, const Vec3& direction);
+
+/// How far bone reaches along the direction from an entry on its surface, mm: to the far cortex, or to the end
+/// of the grid. Empty when no bone lies within 2 mm of the entry on that line.
+std::optional<double> bone_depth_along(const voxel::BoneModel& bone, const Vec3& entry_mm,
+                                       const Vec3& direction);
 
 std::string to_text(GuideKind guide);
 /// Error invalid_input for other words than none, nipple and pin.
