@@ -21,6 +21,7 @@ Error unreadable(const std::filesystem::path& file, const char* why) {
 
 void DicomPixels::decode(const DicomSlice& slice) {
   file_.clear();
+  bytes_ = {};
   gdcm::ImageReader reader;
   reader.SetFileName(slice.file.c_str());
   if (!reader.Read()) throw unreadable(slice.file, "they are damaged or packed in an unknown way");
@@ -34,6 +35,10 @@ void DicomPixels::decode(const DicomSlice& slice) {
   is_signed_ = format.GetPixelRepresentation() == 1;
   const bool whole = bytes_a_value_ == 1 || bytes_a_value_ == 2 || bytes_a_value_ == 4;
   if (!whole) throw unreadable(slice.file, "they are not of 8, 16 or 32 bits");
+  // The library takes pixels that are not there for zeros.
+  const gdcm::ByteValue* plain = image.GetDataElement().GetByteValue();
+  if (plain != nullptr && plain->GetLength() < image.GetBufferLength())
+    throw unreadable(slice.file, "there are fewer pixels than the header says");
   bytes_.assign(image.GetBufferLength(), 0);
   if (bytes_.size() < slice.pixels() * static_cast<size_t>(bytes_a_value_) || !image.GetBuffer(bytes_.data()))
     throw unreadable(slice.file, "they are damaged or cut short");

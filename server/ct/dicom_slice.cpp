@@ -15,9 +15,9 @@ namespace ream::ct {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int max_side = 8192;             // the largest clinical matrix is 2048
-constexpr uint64_t room_bytes = 64 << 20;  // a small packed file may still be one plain picture
-constexpr uint64_t max_packing = 1000;     // beyond any coder on a real picture
+constexpr int max_side = 8192;            // the largest clinical matrix is 2048
+constexpr uint64_t room_bytes = 8 << 20;  // a small packed file may still be one plain picture
+constexpr uint64_t max_packing = 1000;    // beyond any coder on a real picture
 constexpr double perpendicular_tolerance = 1e-3;
 
 std::string bytes_of(const gdcm::DataSet& set, uint16_t group, uint16_t element) {

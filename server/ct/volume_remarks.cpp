@@ -10,7 +10,7 @@ namespace {
 
 constexpr int sampled_rows = 512;
 constexpr int64_t smoother_factor = 4;
-constexpr int64_t suspicious_step = 1000;  // mean step between neighbours, of which no CT comes near
+constexpr int64_t suspicious_step = 100;  // mean step between neighbours, of which no CT comes near
 
 }  // namespace
 
