@@ -1,5 +1,7 @@
 #include "ct/bone_filters.hpp"
 
+#include <itkBlackTopHatImageFilter.h>
+#include <itkFlatStructuringElement.h>
 #include <itkImportImageFilter.h>
 #include <itkSignedMaurerDistanceMapImageFilter.h>
 
@@ -10,11 +12,14 @@ namespace ream::ct {
 namespace {
 
 using MaskImage = itk::Image<uint8_t, 3>;
+using HuImage = itk::Image<int16_t, 3>;
 using DistanceImage = itk::Image<float, 3>;
 
 /// An image over the caller's memory.
-MaskImage::Pointer image_over(const Mask& mask, const Vec3i& dims, const Vec3& spacing_mm) {
-  auto import = itk::ImportImageFilter<uint8_t, 3>::New();
+template <typename T>
+typename itk::Image<T, 3>::Pointer image_over(const std::vector<T>& values, const Vec3i& dims,
+                                              const Vec3& spacing_mm) {
+  auto import = itk::ImportImageFilter<T, 3>::New();
   itk::ImageRegion<3> region;
   double spacing[3];
   for (unsigned axis = 0; axis < 3; ++axis) {
@@ -23,7 +28,7 @@ MaskImage::Pointer image_over(const Mask& mask, const Vec3i& dims, const Vec3& s
   }
   import->SetRegion(region);
   import->SetSpacing(spacing);
-  import->SetImportPointer(const_cast<uint8_t*>(mask.data()), mask.size(), false);
+  import->SetImportPointer(const_cast<T*>(values.data()), values.size(), false);
   import->Update();
   return import->GetOutput();
 }
@@ -88,6 +93,21 @@ Mask closed_by_ball(const Mask& mask, const Vec3i& dims, const Vec3& spacing_mm,
         if (distance[in_wide] > reach) closed[here] = 1;
       }
   return closed;
+}
+
+std::vector<int16_t> valley_depth_hu(const std::vector<int16_t>& hu, const Vec3i& dims, const Vec3& spacing_mm,
+                                     double radius_mm) {
+  using Ball = itk::FlatStructuringElement<3>;
+  Ball::RadiusType radius;
+  for (unsigned axis = 0; axis < 3; ++axis)
+    radius[axis] = static_cast<itk::SizeValueType>(std::max(1.0, std::floor(radius_mm / spacing_mm[axis] + 0.5)));
+  auto top_hat = itk::BlackTopHatImageFilter<HuImage, HuImage, Ball>::New();
+  top_hat->SetInput(image_over(hu, dims, spacing_mm));
+  top_hat->SetKernel(Ball::Ball(radius));
+  top_hat->SetSafeBorder(true);
+  top_hat->Update();
+  const int16_t* first = top_hat->GetOutput()->GetBufferPointer();
+  return {first, first + hu.size()};
 }
 
 }  // namespace ream::ct

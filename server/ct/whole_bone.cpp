@@ -56,26 +56,6 @@ void add_pieces(Mask& bone, const Mask& free_dense, const Vec3i& dims, const Vec
   }
 }
 
-/// Fills what is enclosed within slices across at least two of the three voxel axes: marrow whose wall has a
-/// pore somewhere, which is no closed void in space.
-void fill_marrow(Mask& bone, const Vec3i& dims) {
-  Mask closed_across(bone.size());
-  for (int axis = 0; axis < 3; ++axis)
-    for (int slice = 0; slice < dims[axis]; ++slice) {
-      VoxelWindow window{Vec3i::Zero(), dims};
-      window.low[axis] = slice;
-      window.dims[axis] = 1;
-      Mask plane = cut_out(bone, dims, window);
-      const Mask before = plane;
-      fill_voids(plane, window.dims);
-      Mask sums = cut_out(closed_across, dims, window);
-      for (size_t i = 0; i < plane.size(); ++i) sums[i] = static_cast<uint8_t>(sums[i] + (plane[i] && !before[i]));
-      put_back(closed_across, dims, window, sums);
-    }
-  for (size_t i = 0; i < bone.size(); ++i)
-    if (closed_across[i] >= 2) bone[i] = 1;
-}
-
 }  // namespace
 
 void make_whole(std::vector<uint8_t>& labels, const HuVolume& volume, BoneLabel label,
