@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "ct/voxel_window.hpp"
+
 namespace ream::ct {
 namespace {
 
@@ -39,23 +41,6 @@ Mask inverted(const Mask& mask) {
   return result;
 }
 
-/// With `border` empty voxels on every side.
-Mask widened(const Mask& mask, const Vec3i& dims, const Vec3i& border, const Vec3i& wide) {
-  Mask result(static_cast<size_t>(wide.x()) * static_cast<size_t>(wide.y()) * static_cast<size_t>(wide.z()));
-  const auto nx = static_cast<size_t>(dims.x()), ny = static_cast<size_t>(dims.y());
-  for (int w = 0; w < dims.z(); ++w)
-    for (int v = 0; v < dims.y(); ++v) {
-      const size_t from = nx * (static_cast<size_t>(v) + ny * static_cast<size_t>(w));
-      const size_t to = static_cast<size_t>(border.x()) +
-                        static_cast<size_t>(wide.x()) *
-                            (static_cast<size_t>(v + border.y()) +
-                             static_cast<size_t>(wide.y()) * static_cast<size_t>(w + border.z()));
-      std::copy_n(mask.begin() + static_cast<std::ptrdiff_t>(from), nx,
-                  result.begin() + static_cast<std::ptrdiff_t>(to));
-    }
-  return result;
-}
-
 }  // namespace
 
 std::vector<float> distance_to_set_mm(const Mask& mask, const Vec3i& dims, const Vec3& spacing_mm) {
@@ -75,23 +60,18 @@ std::vector<float> distance_to_set_mm(const Mask& mask, const Vec3i& dims, const
 
 Mask closed_by_ball(const Mask& mask, const Vec3i& dims, const Vec3& spacing_mm, double radius_mm) {
   const Vec3i border = (radius_mm / spacing_mm.array()).ceil().cast<int>().matrix() + Vec3i::Ones();
-  const Vec3i wide = dims + 2 * border;
+  const VoxelWindow all{Vec3i::Zero(), dims}, wide{-border, dims + 2 * border};
   const auto reach = static_cast<float>(radius_mm);
-  Mask dilated = widened(mask, dims, border, wide);
-  std::vector<float> distance = distance_to_set_mm(dilated, wide, spacing_mm);
+  Mask dilated(static_cast<size_t>(wide.dims.x()) * static_cast<size_t>(wide.dims.y()) *
+               static_cast<size_t>(wide.dims.z()));
+  copy_common(mask, all, dilated, wide);
+  std::vector<float> distance = distance_to_set_mm(dilated, wide.dims, spacing_mm);
   for (size_t i = 0; i < dilated.size(); ++i) dilated[i] = distance[i] <= reach;
-  distance = distance_to_set_mm(inverted(dilated), wide, spacing_mm);
-  Mask closed = mask;
-  size_t here = 0;
-  for (int w = 0; w < dims.z(); ++w)
-    for (int v = 0; v < dims.y(); ++v)
-      for (int u = 0; u < dims.x(); ++u, ++here) {
-        const size_t in_wide = static_cast<size_t>(u + border.x()) +
-                               static_cast<size_t>(wide.x()) *
-                                   (static_cast<size_t>(v + border.y()) +
-                                    static_cast<size_t>(wide.y()) * static_cast<size_t>(w + border.z()));
-        if (distance[in_wide] > reach) closed[here] = 1;
-      }
+  distance = distance_to_set_mm(inverted(dilated), wide.dims, spacing_mm);
+  for (size_t i = 0; i < dilated.size(); ++i) dilated[i] = distance[i] > reach;
+  Mask closed(mask.size());
+  copy_common(dilated, wide, closed, all);
+  for (size_t i = 0; i < mask.size(); ++i) closed[i] = closed[i] || mask[i];
   return closed;
 }
 

@@ -57,19 +57,6 @@ Mask border_of(const std::vector<uint8_t>& labels, const Vec3i& dims) {
   return border;
 }
 
-VoxelWindow window_around(const Mask& mask, const HuVolume& volume, double margin_mm) {
-  Vec3i low = volume.dims, high = -Vec3i::Ones();
-  size_t i = 0;
-  for (int w = 0; w < volume.dims.z(); ++w)
-    for (int v = 0; v < volume.dims.y(); ++v)
-      for (int u = 0; u < volume.dims.x(); ++u, ++i)
-        if (mask[i]) low = low.cwiseMin(Vec3i(u, v, w)), high = high.cwiseMax(Vec3i(u, v, w));
-  const Vec3i margin = (margin_mm / volume.spacing_mm.array()).ceil().cast<int>().matrix();
-  low = (low - margin).cwiseMax(0);
-  high = (high + margin).cwiseMin((volume.dims.array() - 1).matrix());
-  return {low, high - low + Vec3i::Ones()};
-}
-
 /// One window's voxels and the graph over those that may change sides.
 struct Cut {
   std::vector<uint8_t> labels, markers;
@@ -144,7 +131,8 @@ void cut_at_necks(std::vector<uint8_t>& labels, const std::vector<uint8_t>& mark
                   double threshold_hu, double reach_mm) {
   const Mask border = border_of(labels, volume.dims);
   if (count_set(border) == 0) return;
-  const VoxelWindow window = window_around(border, volume, reach_mm + volume.spacing_mm.maxCoeff());
+  const VoxelWindow window = widened(window_of_set(border, volume.dims), volume.dims, volume.spacing_mm,
+                                     reach_mm + volume.spacing_mm.maxCoeff());
   Cut cut;
   cut.labels = cut_out(labels, volume.dims, window);
   cut.markers = cut_out(markers, volume.dims, window);

@@ -189,6 +189,8 @@ Segmentation segment_shoulder(const HuVolume& given, const SegmentationSettings&
       labels_of_region(worked_on, settings, result.threshold_hu, head, part_of(progress, 0.2, 0.85));
   result.labels.resize(volume.voxel_count());
   put_back(result.labels, volume.dims, window, labels);
+  result.head = head;
+  if (head) result.glenoid_mm = glenoid_facing(*head, settings.side, worked_on, labels);
   progress(0.85, "labelling other bones");
   label_the_rest(result.labels, volume, result.threshold_hu);
   result.parts = measure_parts(volume, result.labels);
