@@ -21,7 +21,7 @@ struct Reamer {
 Reamer reamer_asked_for(const std::string& words, const std::optional<shell::ToolAxis>& axis);
 
 /// The path of the user's mesh of that name in the data folder's reamers; anything that make_tool takes stays as
-/// it is. Error not_found lists the names that exist, for a single word that is nothing of all that.
+/// it is. Error usage lists the names that exist, for a single word that is nothing of all that.
 std::string reamer_in_library(const std::string& asked_for, const std::filesystem::path& data);
 
 /// The tool once more: from the words, or from the bytes of the mesh file, which must not refer to other
