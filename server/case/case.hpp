@@ -43,11 +43,15 @@ struct GlenoidFrame {
   Vec3 lateral = Vec3::UnitX(), superior = Vec3::UnitZ(), anterior = -Vec3::UnitY();
 };
 
-/// How HU became density; each number is kept with the case.
+/// How HU became density (science 2.5); each law and number is kept with the case. Defaults are those of an
+/// example phantom and of Schileo 2008.
 struct Calibration {
-  double intercept_mg_cc = 1.3152,
-         slope_mg_cc_per_hu = 0.6944;  ///< HU -> rho_QCT (science 2.5, example phantom)
-  double threshold_hu = 200.0;         ///< segmentation threshold that was used
+  double intercept_mg_cc = 1.3152, slope_mg_cc_per_hu = 0.6944;  ///< rho_QCT = intercept + slope HU
+  double threshold_hu = 200.0;                                   ///< segmentation threshold that was used
+  std::string scanner = {};  ///< scanner or phantom that the first two were found with; "": none, the example
+  std::string ash_law = "Schileo 2008";  ///< name of rho_ash = intercept + slope rho_QCT, g/cc
+  double ash_intercept_g_cc = 0.079, ash_slope = 0.877;
+  double ash_per_apparent = 0.598;  ///< rho_ash / apparent density (Schileo 2008)
 };
 
 struct Case {

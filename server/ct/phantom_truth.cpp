@@ -11,9 +11,9 @@ namespace {
 const Vec3 spine_root(-105.0, 0.0, 0.0), inferior_angle(-88.0, -108.0, 0.0);
 
 // The neoglenoid: where the ridge lies behind the middle of the face, how long its chord is as a share of the
-// glenoid's width, and how far it is turned into retroversion (18 degrees) against the paleoglenoid.
+// glenoid's width, and how far it is turned into retroversion (26 degrees) against the paleoglenoid.
 constexpr double ridge_behind_middle_mm = 1.0, chord_per_width = 0.48;
-constexpr double turned_cos = 0.95105651629515357, turned_sin = 0.30901699437494742;
+constexpr double turned_cos = 0.89879404629916699, turned_sin = 0.43837114678907742;
 constexpr double neoglenoid_radius_excess_mm = 2.0;  // over that of head and joint space
 
 // Osteophytes: a bead of this radius around the lower rim, so much wider than the rim and raised over it.

@@ -178,7 +178,7 @@ LibraryReamer reamer_named(const std::string& name, const fs::path& data_folder)
     if (mesh.stem() == name) return listed_mesh(mesh);
     names += ", " + mesh.stem().string();
   }
-  throw Error(ErrorKind::not_found, "there is no reamer '" + name + "'; there are " + names);
+  throw Error(ErrorKind::usage, "there is no reamer '" + name + "'; there are " + names);
 }
 
 LibraryReamer described_reamer(const std::string& asked_for) {

@@ -42,7 +42,7 @@ const LibraryReamer* find_reamer(const std::string& name);
 /// Names of the built-in ones, for messages: "thesis, convex-30, ...".
 std::string built_in_names();
 
-/// The one of that name, built in or of the data folder. Errors: not_found lists the names that exist; those
+/// The one of that name, built in or of the data folder. Errors: usage lists the names that exist; those
 /// of make_tool and of the note beside a mesh.
 LibraryReamer reamer_named(const std::string& name, const std::filesystem::path& data_folder);
 
