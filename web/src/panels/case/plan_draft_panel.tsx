@@ -64,7 +64,7 @@ export function PlanDraftPanel({ keeper, draft }: { keeper: CaseKeeper; draft: P
 }
 
 function AssessmentFigures({ assessment }: { assessment: Assessment }) {
-  const { correction_deg, version_after_deg, inclination_after_deg, warnings } = assessment;
+  const { correction_deg, version_after_deg, inclination_after_deg, vault_depth_mm, warnings } = assessment;
   return (
     <>
       <dl class="figures-list">
@@ -76,6 +76,12 @@ function AssessmentFigures({ assessment }: { assessment: Assessment }) {
         <dd>
           {versionWords(version_after_deg)}, {inclinationWords(inclination_after_deg)}
         </dd>
+        {typeof vault_depth_mm === 'number' && (
+          <>
+            <dt>{caseWords.vaultDepth}</dt>
+            <dd>{caseWords.fixed(fixed(vault_depth_mm, 1), caseWords.mm)}</dd>
+          </>
+        )}
       </dl>
       {warnings.map((warning) => (
         <Remark kind="warn" key={warning} testId="plan-warning">
