@@ -11,15 +11,17 @@
 #include "case/plan_assessment.hpp"
 #include "case/plan_proposal.hpp"
 #include "ct/workup.hpp"
+#include "net/message.hpp"
 
 namespace ream::api {
 
+/// Reads a CT out of a file that was uploaded (a zip is unpacked); `series_uid` empty: the largest series.
+using CtReader = std::function<ct::HuVolume(const std::filesystem::path& file, const std::string& series_uid,
+                                            const Progress& progress)>;
+
 /// What the workshop needs from outside this room.
 struct CaseTools {
-  /// Reads a CT out of a file that was uploaded (a zip is unpacked); `series_uid` empty: the largest series.
-  std::function<ct::HuVolume(const std::filesystem::path& file, const std::string& series_uid,
-                             const Progress& progress)>
-      read_ct;
+  CtReader read_ct;
   /// How many sessions, live or ended, belong to a case.
   std::function<size_t(const std::string& case_id)> sessions_of;
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 #include "api/new_id.hpp"
 #include "core/log.hpp"

@@ -2,28 +2,10 @@
 
 #include <algorithm>
 
+#include "ct/face_neighbours.hpp"
+
 namespace ream::ct {
 namespace {
-
-struct Steps {
-  size_t nx, ny, nz;
-  explicit Steps(const Vec3i& dims)
-      : nx(static_cast<size_t>(dims.x())),
-        ny(static_cast<size_t>(dims.y())),
-        nz(static_cast<size_t>(dims.z())) {}
-};
-
-/// Visits the up to six face neighbours of voxel `i`.
-template <typename Visit>
-void each_face_neighbour(const Steps& s, size_t i, Visit&& visit) {
-  const size_t u = i % s.nx, v = (i / s.nx) % s.ny, w = i / (s.nx * s.ny);
-  if (u > 0) visit(i - 1);
-  if (u + 1 < s.nx) visit(i + 1);
-  if (v > 0) visit(i - s.nx);
-  if (v + 1 < s.ny) visit(i + s.nx);
-  if (w > 0) visit(i - s.nx * s.ny);
-  if (w + 1 < s.nz) visit(i + s.nx * s.ny);
-}
 
 /// Turns every voxel of value `from` that is face-connected to the pending ones into `to`; returns how many.
 size_t flood(Mask& mask, const Steps& steps, std::vector<size_t> pending, uint8_t from, uint8_t to) {
@@ -84,8 +66,10 @@ void fill_voids(Mask& mask, const Vec3i& dims) {
   std::vector<size_t> border;
   for (size_t i = 0; i < mask.size(); ++i) {
     const size_t u = i % steps.nx, v = (i / steps.nx) % steps.ny, w = i / (steps.nx * steps.ny);
-    const bool edge =
-        u == 0 || v == 0 || w == 0 || u + 1 == steps.nx || v + 1 == steps.ny || w + 1 == steps.nz;
+    const auto at_end = [](size_t place, size_t count) {
+      return count > 1 && (place == 0 || place + 1 == count);
+    };
+    const bool edge = at_end(u, steps.nx) || at_end(v, steps.ny) || at_end(w, steps.nz);
     if (edge && mask[i] == 0) border.push_back(i);
   }
   flood(mask, steps, std::move(border), 0, 2);

@@ -19,7 +19,8 @@ Mask grown_from(const Mask& mask, const Vec3i& dims, const Vec3i& seed);
 /// The 6-connected part with the most voxels; on a tie the one with the lowest index.
 Mask largest_part(const Mask& mask, const Vec3i& dims);
 
-/// Sets the voids that no face-connected path of unset voxels joins to the border of the volume.
+/// Sets the voids that no face-connected path of unset voxels joins to the border of the volume. Across an
+/// axis of one voxel there is no border: a single slice is filled in its plane.
 void fill_voids(Mask& mask, const Vec3i& dims);
 
 /// The set voxel nearest to `world_mm`, within `reach_mm`; empty when there is none.

@@ -1,6 +1,6 @@
 #pragma once
 #include <cstdint>
-#include <span>
+#include <vector>
 
 #include "case/landmarks.hpp"
 #include "core/progress.hpp"
@@ -10,7 +10,8 @@ namespace ream::ct {
 
 /// The segmented scapula at the CT's own resolution with sub-voxel surface, in a grid about its bounding box.
 /// Throws Error conflict when the segmentation holds no scapula.
-voxel::BoneModel scapula_of(const Workup& workup, std::span<const int16_t> hu, std::span<const uint8_t> labels);
+voxel::BoneModel scapula_of(const Workup& workup, const std::vector<int16_t>& hu,
+                            const std::vector<uint8_t>& labels);
 
 /// The case that comes out: scapula cropped, upsampled and, where asked, covered with cartilage; with the
 /// glenoid frame and the ROI that was taken in `workup.built`. Errors: conflict without a segmentation, or
