@@ -189,7 +189,7 @@ export class SliceView {
       takeHold: (at) => this.takeHold(at),
       moveHeld: (at) => this.held !== null && this.moveHeld(this.held, at),
       letGo: () => (this.held = null),
-      click: (at) => this.withVoxel(at, (voxel, frame) => this.keeper.placeArmed(frame.worldFromVoxel(voxel))),
+      click: (at) => this.click(at),
       crossHairTo: (at) => this.withVoxel(at, (voxel, frame) => (store.crossHair.value = frame.clampVoxel(voxel))),
       placing: () => store.armed.value !== null && ['segment', 'landmarks'].includes(store.openStep.value ?? ''),
       pan: (rightPx, downPx) => this.pan(rightPx, downPx),
@@ -214,8 +214,13 @@ export class SliceView {
     const mark = overlay === null ? null : markAt(at, overlay);
     if (mark === null || !this.marks.draggable(mark)) return false;
     this.held = mark;
-    if (mark.of.kind !== 'entry') this.keeper.store.armed.value = mark.of;
     return true;
+  }
+
+  /** Places what is to be placed, even close to a mark; where nothing is, a click on a mark chooses it. */
+  private click(at: PicturePoint): void {
+    if (this.held !== null && !this.keeper.placesNew()) this.keeper.chooseMark(this.held.of);
+    else this.withVoxel(at, (voxel, frame) => this.keeper.placeArmed(frame.worldFromVoxel(voxel)));
   }
 
   /** Along the plane's axis the point stays where it is. */
@@ -223,6 +228,7 @@ export class SliceView {
     const overlay = this.overlay();
     if (overlay === null) return;
     const { frame, layout } = overlay;
+    this.keeper.chooseMark(held.of);
     const voxel = frame.clampVoxel(layout.toVoxel(at, frame.voxelFromWorld(held.point)));
     this.marks.move(held, frame.worldFromVoxel(voxel));
   }

@@ -22,7 +22,7 @@ export function LandmarksStep({ keeper }: { keeper: CaseKeeper }) {
   const { low, high } = headRadiusLimitsMm;
   return (
     <>
-      <p class="soft">{chosen === null ? caseWords.landmarksHint : caseWords.landmarkHints[chosen]}</p>
+      <p class="soft landmark-hint">{chosen === null ? caseWords.landmarksHint : caseWords.landmarkHints[chosen]}</p>
       <ol class="pick-list landmarks">
         {landmarkNames
           .filter((name) => !isOptional(name))

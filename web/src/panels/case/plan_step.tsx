@@ -10,7 +10,7 @@ import { PlanDraftPanel } from './plan_draft_panel';
 
 /** What is wished of the plan (null: left to the server); the wishes last as long as the page is open. */
 export class PlanWishesStore {
-  readonly versionDeg = signal<number | null>(0);
+  readonly versionDeg = signal<number | null>(-0);
   /** Null: as it is, within 10 degrees. */
   readonly inclinationDeg = signal<number | null>(null);
   readonly depthMm = signal(2);

@@ -14,7 +14,7 @@ import type {
   Triple,
 } from '../../wire/case_types';
 import { ApiError } from '../../wire/rest';
-import { CaseStore } from './case_store';
+import { type Armed, CaseStore } from './case_store';
 import { nextStep, stepStates } from './case_steps';
 import { followJob, isUnderWay, pause } from './job_watch';
 import { LandmarkKeeper } from './landmark_keeper';
@@ -151,6 +151,21 @@ export class CaseKeeper {
     }
     this.place(armed.name, point);
     this.armNext(armed.name);
+  }
+
+  /** Whether the next click places something that is not placed yet. */
+  placesNew(): boolean {
+    const armed = this.store.armed.value;
+    if (armed === null) return false;
+    if (armed.kind === 'seed') return this.store.settings.value?.seeds[armed.name] === undefined;
+    return pointOf(this.landmarks.landmarks.value, armed.name) === null;
+  }
+
+  /** A mark was taken into the hand: it is what the next click would place. */
+  chooseMark(of: NonNullable<Armed> | { kind: 'entry' }): void {
+    const armed = this.store.armed.value;
+    if (of.kind === 'entry' || (armed?.kind === of.kind && armed.name === of.name)) return;
+    this.store.armed.value = of;
   }
 
   place(name: LandmarkName, point: Triple | null): void {
