@@ -64,18 +64,19 @@ export class VolumeFrame {
     return [this.dims[0] / 2, this.dims[1] / 2, this.dims[2] / 2];
   }
 
-  /** Corners of the slice at a place, around its edge, world frame. */
-  sliceCorners(axis: VoxelAxis, place: Triple): Triple[] {
+  /** Corners of the slice at a place, around the edge of what of it lies in a box of voxels; world frame. */
+  sliceCorners(axis: VoxelAxis, place: Triple, low: Triple, high: Triple): Triple[] {
     const [a, b] = voxelAxes.filter((other) => other !== axis).map(numberOf) as [0 | 1 | 2, 0 | 1 | 2];
-    return [
-      [0, 0],
-      [1, 0],
-      [1, 1],
-      [0, 1],
-    ].map(([atA = 0, atB = 0]) => {
+    const ends = [
+      [low[a], low[b]],
+      [high[a], low[b]],
+      [high[a], high[b]],
+      [low[a], high[b]],
+    ] as const;
+    return ends.map(([atA, atB]) => {
       const corner: Triple = [...place];
-      corner[a] = atA * this.dims[a];
-      corner[b] = atB * this.dims[b];
+      corner[a] = atA;
+      corner[b] = atB;
       return this.worldFromVoxel(corner);
     });
   }

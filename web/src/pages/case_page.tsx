@@ -30,16 +30,16 @@ export function CasePage({ keeper, startReaming }: Parts) {
     return (
       <div class="page case-page-opening">
         <CaseHeader title={null} details={null} />
-        <main class="case-note" role={problem === null ? 'status' : 'alert'} data-testid="case-note">
+        <main class="case-note" data-testid="case-note">
           {problem === null ? (
-            caseWords.loadingCase
+            <p role="status">{caseWords.loadingCase}</p>
           ) : (
-            <>
-              <strong>{caseWords.caseFailed}.</strong> {problem}
+            <p role="alert">
+              <strong>{caseWords.caseFailed}.</strong> {problem}{' '}
               <button type="button" class="plain-button" onClick={() => void keeper.open()}>
                 {caseWords.tryAgain}
               </button>
-            </>
+            </p>
           )}
         </main>
       </div>

@@ -14,6 +14,7 @@ const readAgainMs = 5000;
 /** All cases, and the making of a new one. */
 export function CasesPage({ keeper }: { keeper: CasesKeeper }) {
   useEffect(() => {
+    keeper.listFresh.value = false;
     void keeper.readCases();
     const timer = setInterval(() => void keeper.readCases(), readAgainMs);
     return () => clearInterval(timer);
@@ -33,7 +34,7 @@ export function CasesPage({ keeper }: { keeper: CasesKeeper }) {
         {cases === null && problem === null && <p class="soft">{caseWords.loadingCases}</p>}
         {cases?.length === 0 && <p class="soft">{caseWords.noCases}</p>}
         {cases !== null && cases.length > 0 && (
-          <table data-testid="cases" class={problem === null ? '' : 'stale'}>
+          <table data-testid="cases" class={problem === null && keeper.listFresh.value ? '' : 'stale'}>
             <thead>
               <tr>
                 <th scope="col">{caseWords.caseColumn}</th>

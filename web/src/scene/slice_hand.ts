@@ -2,11 +2,11 @@ import type { PicturePoint } from '../ct/slice_layout';
 
 /** What pointer, wheel and keys do in a slice; places are in px of the picture. */
 export interface SliceDeeds {
-  /** A mark is under the place and may be dragged; it is the one that is moved. */
+  /** Whether a mark that may be dragged is under the place; if so it is the one that is moved from here on. */
   takeHold(at: PicturePoint): boolean;
   moveHeld(at: PicturePoint): void;
   letGo(): void;
-  /** Press and release in one place; whether something was placed, or the cross-hair is to go there. */
+  /** Press and release in one place, where something is held or to be placed. */
   click(at: PicturePoint): void;
   crossHairTo(at: PicturePoint): void;
   /** Whether a press is first of all a click that places something. */
@@ -24,7 +24,7 @@ const notchPx = 50;
 const wheelPxPerSlice = 30;
 const huPerPx = 4;
 
-type Drag = 'crossHair' | 'held' | 'pan' | 'window' | 'maybeClick';
+type Drag = 'crossHair' | 'held' | 'pan' | 'window' | 'clickOrCrossHair' | 'clickOrHeld';
 
 /** One or two fingers, a mouse and its wheel on one slice. */
 export class SliceHand {
@@ -65,8 +65,8 @@ export class SliceHand {
     if (event.button === 1 || (event.button === 0 && event.shiftKey)) this.drag = 'pan';
     else if (event.button === 2) this.drag = 'window';
     else if (event.button !== 0) this.drag = null;
-    else if (this.deeds.takeHold(at)) this.drag = 'held';
-    else if (this.deeds.placing()) this.drag = 'maybeClick';
+    else if (this.deeds.takeHold(at)) this.drag = 'clickOrHeld';
+    else if (this.deeds.placing()) this.drag = 'clickOrCrossHair';
     else {
       this.drag = 'crossHair';
       this.deeds.crossHairTo(at);
@@ -85,7 +85,8 @@ export class SliceHand {
     this.fingers.set(event.pointerId, at);
     if (this.fingers.size > 1) return;
     const far = Math.hypot(at.x - this.start.x, at.y - this.start.y) > clickWithinPx;
-    if (this.drag === 'maybeClick' && far) this.drag = 'crossHair';
+    if (this.drag === 'clickOrCrossHair' && far) this.drag = 'crossHair';
+    if (this.drag === 'clickOrHeld' && far) this.drag = 'held';
     if (this.drag === 'crossHair') this.deeds.crossHairTo(at);
     if (this.drag === 'held') this.deeds.moveHeld(at);
     if (this.drag === 'pan') this.deeds.pan(at.x - before.x, at.y - before.y);
@@ -94,13 +95,14 @@ export class SliceHand {
 
   private onUp(event: PointerEvent): void {
     this.fingers.delete(event.pointerId);
-    if (this.drag === 'maybeClick' && event.type === 'pointerup') this.deeds.click(this.at(event));
+    const isClick = this.drag === 'clickOrCrossHair' || this.drag === 'clickOrHeld';
+    if (isClick && event.type === 'pointerup') this.deeds.click(this.at(event));
     this.letGo();
     this.drag = null;
   }
 
   private letGo(): void {
-    if (this.drag === 'held') this.deeds.letGo();
+    if (this.drag === 'held' || this.drag === 'clickOrHeld') this.deeds.letGo();
   }
 
   private pinch(moved: number, before: PicturePoint, now: PicturePoint): void {

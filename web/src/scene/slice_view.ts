@@ -32,6 +32,8 @@ export class SliceView {
   private readonly look = signal<SliceLook | null>(null);
   private readonly size = signal({ width: 0, height: 0 });
   private lookedAtRevision: number | null = null;
+  /** The look is that of the whole slice, also when the view's size changes. */
+  private fitted = true;
   private held: PointMark | null = null;
   private drawRequested = false;
   private readonly stops: (() => void)[] = [];
@@ -66,7 +68,9 @@ export class SliceView {
   fit(): void {
     const { frame, plane } = this.geometry();
     const { width, height } = this.size.value;
-    if (frame !== null && plane !== null && width > 0) this.look.value = fittingLook(frame, plane, width, height);
+    if (frame === null || plane === null || width === 0) return;
+    this.fitted = true;
+    this.look.value = fittingLook(frame, plane, width, height);
   }
 
   scroll(slices: number): void {
@@ -119,13 +123,14 @@ export class SliceView {
     return this.keeper.store.planes.value?.[this.name] ?? null;
   }
 
-  /** A CT that is seen for the first time fills the view. */
+  /** A CT that is seen for the first time fills the view, and goes on filling it until it is zoomed or moved. */
   private fitNewCt(): void {
     const revision = this.keeper.store.details.value?.ct?.revision ?? null;
-    if (this.size.value.width === 0 || revision === null || revision === this.lookedAtRevision) return;
+    if (this.size.value.width === 0 || revision === null) return;
+    const isNew = revision !== this.lookedAtRevision;
     this.lookedAtRevision = revision;
-    this.picture.forget();
-    this.fit();
+    if (isNew) this.picture.forget();
+    if (isNew || this.fitted) this.fit();
   }
 
   private invalidate(): void {
@@ -189,7 +194,7 @@ export class SliceView {
       takeHold: (at) => this.takeHold(at),
       moveHeld: (at) => this.held !== null && this.moveHeld(this.held, at),
       letGo: () => (this.held = null),
-      click: (at) => this.withVoxel(at, (voxel, frame) => this.keeper.placeArmed(frame.worldFromVoxel(voxel))),
+      click: (at) => this.click(at),
       crossHairTo: (at) => this.withVoxel(at, (voxel, frame) => (store.crossHair.value = frame.clampVoxel(voxel))),
       placing: () => store.armed.value !== null && ['segment', 'landmarks'].includes(store.openStep.value ?? ''),
       pan: (rightPx, downPx) => this.pan(rightPx, downPx),
@@ -214,8 +219,13 @@ export class SliceView {
     const mark = overlay === null ? null : markAt(at, overlay);
     if (mark === null || !this.marks.draggable(mark)) return false;
     this.held = mark;
-    if (mark.of.kind !== 'entry') this.keeper.store.armed.value = mark.of;
     return true;
+  }
+
+  /** Places what is to be placed, even close to a mark; where nothing is, a click on a mark chooses it. */
+  private click(at: PicturePoint): void {
+    if (this.held !== null && !this.keeper.placesNew()) this.keeper.chooseMark(this.held.of);
+    else this.withVoxel(at, (voxel, frame) => this.keeper.placeArmed(frame.worldFromVoxel(voxel)));
   }
 
   /** Along the plane's axis the point stays where it is. */
@@ -223,6 +233,7 @@ export class SliceView {
     const overlay = this.overlay();
     if (overlay === null) return;
     const { frame, layout } = overlay;
+    this.keeper.chooseMark(held.of);
     const voxel = frame.clampVoxel(layout.toVoxel(at, frame.voxelFromWorld(held.point)));
     this.marks.move(held, frame.worldFromVoxel(voxel));
   }
@@ -233,13 +244,18 @@ export class SliceView {
   }
 
   private pan(rightPx: number, downPx: number): void {
-    const layout = this.overlay()?.layout;
-    if (layout !== undefined) this.look.value = layout.movedBy(rightPx, downPx);
+    this.lookWith((layout) => layout.movedBy(rightPx, downPx));
   }
 
   private zoom(at: PicturePoint, factor: number): void {
+    this.lookWith((layout) => layout.zoomedAt(at, factor));
+  }
+
+  private lookWith(change: (layout: SliceLayout) => SliceLook): void {
     const layout = this.overlay()?.layout;
-    if (layout !== undefined) this.look.value = layout.zoomedAt(at, factor);
+    if (layout === undefined) return;
+    this.fitted = false;
+    this.look.value = change(layout);
   }
 
   private zoomAtCrossHair(factor: number): void {

@@ -18,7 +18,7 @@ import {
 } from 'three';
 
 import { planeNames } from '../ct/orientation';
-import { add, subtract } from '../ct/volume_frame';
+import { add, subtract, type VolumeFrame } from '../ct/volume_frame';
 import type { CaseKeeper } from '../state/case/case_keeper';
 import type { PlanMark, PointMark, ViewMarks } from '../state/case/view_marks';
 import type { Triple } from '../wire/case_types';
@@ -33,6 +33,8 @@ const pixelRatioMax = 2;
 const clickWithinPx = 4;
 const crossHairArmMm = 8;
 const pointRadiusMm = 1.4;
+/** The slices' outlines are this much larger than the bone. */
+const planeMarginMm = 8;
 
 /** A placed point as it is on the picture, for its label. */
 export interface PointLabel {
@@ -173,6 +175,7 @@ export class SurfaceView {
       this.scene.add(this.bone);
       if (first) this.look('side');
     }
+    this.showCrossHair();
     this.invalidate();
   }
 
@@ -190,13 +193,26 @@ export class SurfaceView {
         const ends = [-crossHairArmMm, crossHairArmMm].map((mm) => new Vector3(...add(middle, direction, mm)));
         this.crossHair.add(onTop(new Line(new BufferGeometry().setFromPoints(ends), lineMaterial('#d6336c'))));
       }
+      const { low, high } = this.voxelBox(frame.value);
       for (const name of planeNames) {
-        const corners = frame.value.sliceCorners(planes.value[name].axis, crossHair.value);
+        const corners = frame.value.sliceCorners(planes.value[name].axis, crossHair.value, low, high);
         const outline = new BufferGeometry().setFromPoints(corners.map((corner) => new Vector3(...corner)));
         this.crossHair.add(new LineLoop(outline, lineMaterial(planeColours[name])));
       }
     }
     this.invalidate();
+  }
+
+  /** What of the CT is around the bone, voxels. */
+  private voxelBox(frame: VolumeFrame): { low: Triple; high: Triple } {
+    if (this.surface === null) return { low: [0, 0, 0], high: frame.dims };
+    const a = frame.voxelFromWorld(add(this.surface.low, [1, 1, 1], -planeMarginMm));
+    const b = frame.voxelFromWorld(add(this.surface.high, [1, 1, 1], planeMarginMm));
+    const within = (pick: typeof Math.min) =>
+      [0, 1, 2].map((i) =>
+        Math.min(Math.max(pick(a[i] ?? 0, b[i] ?? 0), 0), frame.dims[i] ?? 0),
+      ) as Triple;
+    return { low: within(Math.min), high: within(Math.max) };
   }
 
   private showPoints(marks: readonly PointMark[]): void {
@@ -231,7 +247,6 @@ export class SurfaceView {
         start = { x: event.clientX, y: event.clientY };
         this.held = this.markUnder(event);
         if (this.held === null) return;
-        if (this.held.of.kind !== 'entry') this.keeper.store.armed.value = this.held.of;
         // The point is moved, not the view.
         this.rig.setGuided(true);
         this.canvas.setPointerCapture(event.pointerId);
@@ -239,17 +254,21 @@ export class SurfaceView {
       { capture: true },
     );
     this.canvas.addEventListener('pointermove', (event) => {
-      if (this.held === null) return;
+      if (this.held === null || start === null || isNear(event, start)) return;
       const point = this.pick(event);
-      if (point !== null) this.marks.move(this.held, point);
+      if (point === null) return;
+      this.keeper.chooseMark(this.held.of);
+      this.marks.move(this.held, point);
     });
     this.canvas.addEventListener('pointerup', (event) => {
       const held = this.held;
       this.held = null;
       this.rig.setGuided(false);
-      const still = start !== null && Math.hypot(event.clientX - start.x, event.clientY - start.y) <= clickWithinPx;
+      const still = start !== null && isNear(event, start);
       start = null;
-      if (held === null && still && event.button === 0) this.click(event);
+      if (!still || event.button !== 0) return;
+      if (held !== null && !this.keeper.placesNew()) this.keeper.chooseMark(held.of);
+      else this.click(event);
     });
     this.canvas.addEventListener('pointercancel', () => {
       this.held = null;
@@ -316,6 +335,9 @@ export class SurfaceView {
     this.draw();
   }
 }
+
+const isNear = (event: MouseEvent, { x, y }: { x: number; y: number }) =>
+  Math.hypot(event.clientX - x, event.clientY - y) <= clickWithinPx;
 
 const lineMaterial = (color: string) => new LineBasicMaterial({ color });
 

@@ -39,6 +39,9 @@ export interface SegmentationSettings {
   fill_holes: boolean;
 }
 
+/** As the server keeps them: what was left to it is absent. */
+export type KeptSettings = Partial<SegmentationSettings>;
+
 export interface Part {
   label: number;
   name: string;
@@ -52,7 +55,9 @@ export interface Part {
 export interface Segmentation {
   revision: number;
   can_undo: boolean;
-  settings: SegmentationSettings;
+  settings: KeptSettings;
+  /** That was used. */
+  threshold_hu?: number;
   parts: Part[];
   warnings: string[];
 }
@@ -64,8 +69,7 @@ export type PointName =
   | 'anterior_rim_mm'
   | 'posterior_rim_mm'
   | 'trigonum_mm'
-  | 'inferior_angle_mm'
-  | 'biconcavity_mm';
+  | 'inferior_angle_mm';
 
 export const walchClasses = ['A1', 'A2', 'B1', 'B2', 'B3', 'C1', 'C2', 'D'] as const;
 export type WalchClass = (typeof walchClasses)[number];
@@ -75,8 +79,13 @@ export interface HumeralHead {
   radius_mm: number;
 }
 
-/** What has been placed; absent is what has not. */
-export type Landmarks = Partial<Record<PointName, Triple>> & { humeral_head?: HumeralHead; walch?: WalchClass };
+/** landmarks.json: what has been placed; absent is what has not. */
+export type Landmarks = Partial<Record<PointName, Triple>> & {
+  humeral_head?: HumeralHead;
+  /** Anterior edge of the paleoglenoid, ridge, posterior edge of the neoglenoid; all three or none. */
+  biconcavity_mm?: Triple[];
+  walch?: WalchClass;
+};
 
 export interface NormalRange {
   mean: number;
@@ -90,15 +99,19 @@ export interface Measures {
   inclination_3d_deg: number | null;
   version_friedman_deg: number | null;
   inclination_friedman_deg: number | null;
+  /** Of the head's diameter behind the scapular plane. */
   subluxation_percent: number | null;
-  biconcavity: Record<string, unknown> | null;
+  /** Behind the plane square to the glenoid's face. */
+  subluxation_glenoid_percent?: number | null;
+  /** Versions of a biconcave face and the angle between its hollows, degrees, by their keys. */
+  biconcavity: Record<string, number> | null;
   normal: {
     version_deg?: NormalRange;
     inclination_deg?: NormalRange;
     subluxation_percent?: NormalRange;
   };
   missing: string[];
-  words: { version?: string; inclination?: string };
+  words: { version?: string | null; inclination?: string | null };
 }
 
 export type Guide = 'none' | 'nipple' | 'pin';
@@ -110,8 +123,8 @@ export interface Plan {
   axis_direction: Triple;
   depth_mm: number;
   reamer: string;
-  pilot_diameter_mm?: number;
-  pilot_depth_mm?: number;
+  pilot_diameter_mm?: number | null;
+  pilot_depth_mm?: number | null;
   guide?: Guide;
   implant_radius_mm?: number;
   [key: string]: unknown;
@@ -121,6 +134,8 @@ export interface Assessment {
   correction_deg: number | null;
   version_after_deg: number | null;
   inclination_after_deg: number | null;
+  /** Bone along the axis, from the entry to the far cortex. */
+  vault_depth_mm?: number | null;
   warnings: string[];
   needs_override: boolean;
 }

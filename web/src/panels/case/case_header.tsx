@@ -24,7 +24,7 @@ export function CaseHeader({ title, details }: { title: string | null; details: 
       )}
       {details?.ct && (
         <p class="soft case-ct">
-          {caseWords.dims(details.ct.dims)} · {caseWords.spacing(details.ct.spacing_mm)}
+          {caseWords.radiological} · {caseWords.dims(details.ct.dims)} · {caseWords.spacing(details.ct.spacing_mm)}
         </p>
       )}
     </header>

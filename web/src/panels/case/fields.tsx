@@ -48,11 +48,14 @@ interface NumberParts {
   high: number;
   step: number;
   testId: string;
+  /** That are shown of the value. */
+  decimals?: number;
   onChange(value: number): void;
 }
 
-/** A number with its unit; what is no number, or out of range, is not taken. */
-export function NumberBox({ label, unit, value, low, high, step, testId, onChange }: NumberParts) {
+/** A number with its unit; what is no number is not taken, what is out of range is brought into it. */
+export function NumberBox({ label, unit, value, low, high, step, testId, decimals = 3, onChange }: NumberParts) {
+  const text = (number: number) => String(Number(number.toFixed(decimals)));
   return (
     <span class="number-box">
       <input
@@ -60,15 +63,15 @@ export function NumberBox({ label, unit, value, low, high, step, testId, onChang
         aria-label={label}
         data-testid={testId}
         {...{ min: low, max: high, step }}
-        value={String(Number(value.toFixed(3)))}
+        value={text(value)}
         onChange={(event) => {
           const number = event.currentTarget.valueAsNumber;
           const taken = Number.isFinite(number) ? Math.min(Math.max(number, low), high) : value;
-          event.currentTarget.value = String(Number(taken.toFixed(3)));
+          event.currentTarget.value = text(taken);
           if (taken !== value) onChange(taken);
         }}
       />
-      <span class="unit">{unit}</span>
+      {unit !== '' && <span class="unit">{unit}</span>}
     </span>
   );
 }

@@ -1,7 +1,9 @@
 import { caseWords } from '../../case_words';
 import type { CaseKeeper } from '../../state/case/case_keeper';
 import {
+  biconcavityNames,
   headRadiusLimitsMm,
+  isOptional,
   landmarkNames,
   type LandmarkName,
   pointOf,
@@ -20,11 +22,13 @@ export function LandmarksStep({ keeper }: { keeper: CaseKeeper }) {
   const { low, high } = headRadiusLimitsMm;
   return (
     <>
-      <p class="soft">{chosen === null ? caseWords.landmarksHint : caseWords.landmarkHints[chosen]}</p>
+      <p class="soft landmark-hint">{chosen === null ? caseWords.landmarksHint : caseWords.landmarkHints[chosen]}</p>
       <ol class="pick-list landmarks">
-        {landmarkNames.map((name, i) => (
-          <LandmarkRow key={name} {...{ keeper, name, number: i + 1, chosen: name === chosen }} />
-        ))}
+        {landmarkNames
+          .filter((name) => !isOptional(name))
+          .map((name) => (
+            <LandmarkRow key={name} {...{ keeper, name, chosen: name === chosen }} />
+          ))}
       </ol>
       {head !== undefined && (
         <SliderField
@@ -46,20 +50,38 @@ export function LandmarksStep({ keeper }: { keeper: CaseKeeper }) {
           if (walch !== (before ?? '')) keeper.landmarks.change(walch === '' ? others : { ...others, walch });
         }}
       />
+      <Biconcavity keeper={keeper} chosen={chosen} />
       <SaveLine keeper={keeper} state={keeper.landmarks.save.value} />
       <MeasuresPanel keeper={keeper.landmarks} />
     </>
   );
 }
 
+/** The points of a biconcave face, open where the class says so or one is placed. */
+function Biconcavity({ keeper, chosen }: { keeper: CaseKeeper; chosen: LandmarkName | null }) {
+  const landmarks = keeper.landmarks.landmarks.value;
+  const named = landmarks.walch === 'B2' || landmarks.walch === 'C2';
+  const begun = biconcavityNames.some((name) => name === chosen || pointOf(landmarks, name) !== null);
+  return (
+    <details class="seeds" open={named || begun} data-testid="biconcavity">
+      <summary>{caseWords.biconcavity}</summary>
+      <p class="soft">{caseWords.biconcavityHint}</p>
+      <ol class="pick-list landmarks">
+        {biconcavityNames.map((name) => (
+          <LandmarkRow key={name} {...{ keeper, name, chosen: name === chosen }} />
+        ))}
+      </ol>
+    </details>
+  );
+}
+
 interface RowParts {
   keeper: CaseKeeper;
   name: LandmarkName;
-  number: number;
   chosen: boolean;
 }
 
-function LandmarkRow({ keeper, name, number, chosen }: RowParts) {
+function LandmarkRow({ keeper, name, chosen }: RowParts) {
   const isPlaced = pointOf(keeper.landmarks.landmarks.value, name) !== null;
   const title = caseWords.landmarkNames[name];
   return (
@@ -73,7 +95,7 @@ function LandmarkRow({ keeper, name, number, chosen }: RowParts) {
         title={caseWords.landmarkHints[name]}
         onClick={() => (chosen ? (keeper.store.armed.value = null) : keeper.choose(name))}
       >
-        <kbd>{number}</kbd>
+        <kbd>{landmarkNames.indexOf(name) + 1}</kbd>
         {title}
         <span class={isPlaced ? 'pick-state good' : 'pick-state soft'}>
           {isPlaced ? '✓' : ''}

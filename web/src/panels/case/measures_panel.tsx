@@ -47,12 +47,26 @@ function Figures({ measures }: { measures: Measures }) {
         />
       </Block>
       <Block title={caseWords.subluxation} normal={normalText(normal.subluxation_percent, percentWords)}>
-        <Row name={caseWords.subluxationHint} value={percentWords(measures.subluxation_percent)} testId="subluxation" />
+        <Row
+          name={caseWords.againstScapula}
+          value={percentWords(measures.subluxation_percent)}
+          testId="subluxation"
+        />
+        <Row
+          name={caseWords.againstFace}
+          value={percentWords(measures.subluxation_glenoid_percent)}
+          testId="subluxation-glenoid"
+        />
       </Block>
       {measures.biconcavity !== null && (
         <Block title={caseWords.biconcavity} normal={null}>
           {Object.entries(measures.biconcavity).map(([name, value]) => (
-            <Row key={name} name={plainName(name)} value={plainValue(name, value)} testId={`biconcavity-${name}`} />
+            <Row
+              key={name}
+              name={caseWords.biconcavityFigures[name] ?? name}
+              value={biconcavityWords(name, value)}
+              testId={`biconcavity-${name}`}
+            />
           ))}
         </Block>
       )}
@@ -90,15 +104,8 @@ function normalText(range: NormalRange | undefined, inWords: (value: number) => 
 }
 
 function nameOf(key: string): string {
-  const plain = key === 'humeral_head_mm' ? 'humeral_head' : key;
-  return caseWords.landmarkNames[plain as LandmarkName] ?? key;
+  return key === 'biconcavity_mm' ? caseWords.biconcavity : (caseWords.landmarkNames[key as LandmarkName] ?? key);
 }
 
-/** Figures that this page has no words for are shown by their key. */
-const plainName = (key: string) => key.replace(/_(deg|mm|percent)$/, '').replaceAll('_', ' ');
-
-function plainValue(key: string, value: unknown): string {
-  if (typeof value !== 'number') return String(value);
-  if (key.endsWith('_deg')) return caseWords.fixed(fixed(value, 1), '°');
-  return caseWords.fixed(fixed(value, 1), key.endsWith('_mm') ? caseWords.mm : key.endsWith('_percent') ? '%' : '');
-}
+const biconcavityWords = (name: string, degrees: number): string =>
+  name === 'between_deg' ? caseWords.fixed(fixed(degrees, 1), '°') : versionWords(degrees);

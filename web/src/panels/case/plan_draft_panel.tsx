@@ -21,17 +21,17 @@ export function PlanDraftPanel({ keeper, draft }: { keeper: CaseKeeper; draft: P
       </p>
       <PointField
         label={caseWords.entry}
-        unit={caseWords.mm}
         value={plan.entry_mm}
         step={0.5}
+        decimals={1}
         testId="entry"
         onChange={(entry_mm) => change({ entry_mm })}
       />
       <PointField
         label={caseWords.axis}
-        unit=""
         value={plan.axis_direction}
         step={0.01}
+        decimals={3}
         testId="axis"
         onChange={(direction) => {
           const size = length(direction);
@@ -64,7 +64,7 @@ export function PlanDraftPanel({ keeper, draft }: { keeper: CaseKeeper; draft: P
 }
 
 function AssessmentFigures({ assessment }: { assessment: Assessment }) {
-  const { correction_deg, version_after_deg, inclination_after_deg, warnings } = assessment;
+  const { correction_deg, version_after_deg, inclination_after_deg, vault_depth_mm, warnings } = assessment;
   return (
     <>
       <dl class="figures-list">
@@ -76,6 +76,12 @@ function AssessmentFigures({ assessment }: { assessment: Assessment }) {
         <dd>
           {versionWords(version_after_deg)}, {inclinationWords(inclination_after_deg)}
         </dd>
+        {typeof vault_depth_mm === 'number' && (
+          <>
+            <dt>{caseWords.vaultDepth}</dt>
+            <dd>{caseWords.fixed(fixed(vault_depth_mm, 1), caseWords.mm)}</dd>
+          </>
+        )}
       </dl>
       {warnings.map((warning) => (
         <Remark kind="warn" key={warning} testId="plan-warning">
@@ -119,15 +125,15 @@ function Override({ keeper, words, kept }: { keeper: CaseKeeper; words: string |
 
 interface PointParts {
   label: string;
-  unit: string;
   value: Triple;
   step: number;
+  decimals: number;
   testId: string;
   onChange(value: Triple): void;
 }
 
 /** Three numbers of LPS. */
-function PointField({ label, unit, value, step, testId, onChange }: PointParts) {
+function PointField({ label, value, step, decimals, testId, onChange }: PointParts) {
   return (
     <div class="field">
       <span class="field-name">{label}</span>
@@ -136,7 +142,7 @@ function PointField({ label, unit, value, step, testId, onChange }: PointParts) 
           <label key={name}>
             <span class="soft">{name}</span>
             <NumberBox
-              {...{ label: `${label}, ${name}`, unit, value: value[i] ?? 0, low: -5000, high: 5000, step }}
+              {...{ label: `${label}, ${name}`, unit: '', value: value[i] ?? 0, low: -5000, high: 5000, step, decimals }}
               testId={`${testId}-${i}`}
               onChange={(number) => {
                 const changed: Triple = [...value];

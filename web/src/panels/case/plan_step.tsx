@@ -1,41 +1,40 @@
 import { signal } from '@preact/signals';
-import { useMemo } from 'preact/hooks';
 
 import { caseWords } from '../../case_words';
 import type { CaseKeeper } from '../../state/case/case_keeper';
 import { neededNames, pointOf } from '../../state/case/landmark_names';
 import type { Guide, PlanWishes, Reamer } from '../../wire/case_types';
 import { fixed } from '../format';
-import { NumberField, Remark, SelectField, CheckField } from './fields';
+import { CheckField, NumberBox, NumberField, Remark, SelectField } from './fields';
 import { PlanDraftPanel } from './plan_draft_panel';
 
-/** What is wished of the plan; the wishes last as long as the page is open. */
+/** What is wished of the plan (null: left to the server); the wishes last as long as the page is open. */
 export class PlanWishesStore {
-  readonly versionDeg = signal(0);
-  readonly inclinationDeg = signal(0);
+  readonly versionDeg = signal<number | null>(-0);
+  /** Null: as it is, within 10 degrees. */
+  readonly inclinationDeg = signal<number | null>(null);
   readonly depthMm = signal(2);
-  /** Null: as the server suggests. */
+  /** Null: as the reamer. */
   readonly implantRadiusMm = signal<number | null>(null);
-  /** As a plan names it; null: as the server suggests. */
+  /** A name in the library; null: the one that fits the implant. */
   readonly reamer = signal<string | null>(null);
-  readonly pilot = signal(true);
-  readonly pilotDiameterMm = signal(6.2);
-  readonly pilotDepthMm = signal(12);
-  readonly guide = signal<Guide>('none');
+  /** Null: as the reamer needs it. */
+  readonly pilot = signal<{ diameterMm: number; depthMm: number } | null>(null);
+  readonly guide = signal<Guide | null>(null);
 
   wishes(): PlanWishes {
-    const pilot = this.pilot.value
-      ? { pilot_diameter_mm: this.pilotDiameterMm.value, pilot_depth_mm: this.pilotDepthMm.value }
-      : {};
-    return {
+    const pilot = this.pilot.value;
+    const all = {
       version_deg: this.versionDeg.value,
       inclination_deg: this.inclinationDeg.value,
       depth_mm: this.depthMm.value,
+      implant_radius_mm: this.implantRadiusMm.value,
+      reamer: this.reamer.value,
       guide: this.guide.value,
-      ...(this.implantRadiusMm.value === null ? {} : { implant_radius_mm: this.implantRadiusMm.value }),
-      ...(this.reamer.value === null ? {} : { reamer: this.reamer.value }),
-      ...pilot,
+      pilot_diameter_mm: pilot?.diameterMm ?? null,
+      pilot_depth_mm: pilot?.depthMm ?? null,
     };
+    return Object.fromEntries(Object.entries(all).filter(([, value]) => value !== null)) as PlanWishes;
   }
 }
 
@@ -70,6 +69,7 @@ export function PlanStep({ keeper, wishes }: { keeper: CaseKeeper; wishes: PlanW
 
 function WishFields({ wishes, reamers }: { wishes: PlanWishesStore; reamers: readonly Reamer[] }) {
   const mm = caseWords.mm;
+  const pilot = wishes.pilot.value;
   return (
     <>
       <SignedAngle
@@ -85,6 +85,7 @@ function WishFields({ wishes, reamers }: { wishes: PlanWishesStore; reamers: rea
         value={wishes.inclinationDeg.value}
         positive={caseWords.superiorWord}
         negative={caseWords.inferiorWord}
+        unset={caseWords.inclinationKept}
         testId="wanted-inclination"
         onChange={(degrees) => (wishes.inclinationDeg.value = degrees)}
       />
@@ -93,39 +94,50 @@ function WishFields({ wishes, reamers }: { wishes: PlanWishesStore; reamers: rea
         testId="wanted-depth"
         onChange={(value) => (wishes.depthMm.value = value)}
       />
-      <ReamerField wishes={wishes} reamers={reamers} />
-      <SelectField<Guide>
+      <GivenNumber
+        label={caseWords.implantRadius}
+        value={wishes.implantRadiusMm.value}
+        {...{ low: 20, high: 60, usual: 32, testId: 'implant-radius' }}
+        onChange={(value) => (wishes.implantRadiusMm.value = value)}
+      />
+      <SelectField
+        label={caseWords.reamer}
+        value={wishes.reamer.value ?? ''}
+        options={[['', caseWords.reamerDefault], ...reamers.map((one) => [one.name, reamerText(one)] as const)]}
+        testId="reamer"
+        onChange={(name) => (wishes.reamer.value = name === '' ? null : name)}
+      />
+      <SelectField<Guide | ''>
         label={caseWords.guide}
-        value={wishes.guide.value}
-        options={(['none', 'nipple', 'pin'] as const).map((guide) => [guide, caseWords.guides[guide]] as const)}
+        value={wishes.guide.value ?? ''}
+        options={[
+          ['', caseWords.byReamer],
+          ...(['none', 'nipple', 'pin'] as const).map((guide) => [guide, caseWords.guides[guide]] as const),
+        ]}
         testId="guide"
-        onChange={(guide) => {
-          wishes.guide.value = guide;
-          if (guide === 'nipple') wishes.pilot.value = true;
-        }}
+        onChange={(guide) => (wishes.guide.value = guide === '' ? null : guide)}
       />
-      <CheckField
+      <SelectField<'' | 'given'>
         label={caseWords.pilotHole}
-        checked={wishes.pilot.value}
+        value={pilot === null ? '' : 'given'}
+        options={[
+          ['', caseWords.byReamer],
+          ['given', caseWords.pilotGiven],
+        ]}
         testId="pilot"
-        onChange={(pilot) => {
-          wishes.pilot.value = pilot;
-          if (!pilot && wishes.guide.value === 'nipple') wishes.guide.value = 'none';
-        }}
+        onChange={(given) => (wishes.pilot.value = given === '' ? null : { diameterMm: 6.2, depthMm: 12 })}
       />
-      {wishes.pilot.value && (
+      {pilot !== null && (
         <>
           <NumberField
-            {...{ label: caseWords.pilotDiameter, unit: mm, value: wishes.pilotDiameterMm.value, low: 1, high: 12 }}
-            step={0.1}
+            {...{ label: caseWords.pilotDiameter, unit: mm, value: pilot.diameterMm, low: 1, high: 12, step: 0.1 }}
             testId="pilot-diameter"
-            onChange={(value) => (wishes.pilotDiameterMm.value = value)}
+            onChange={(diameterMm) => (wishes.pilot.value = { ...pilot, diameterMm })}
           />
           <NumberField
-            {...{ label: caseWords.pilotDepth, unit: mm, value: wishes.pilotDepthMm.value, low: 1, high: 40 }}
-            step={0.5}
+            {...{ label: caseWords.pilotDepth, unit: mm, value: pilot.depthMm, low: 1, high: 40, step: 0.5 }}
             testId="pilot-depth"
-            onChange={(value) => (wishes.pilotDepthMm.value = value)}
+            onChange={(depthMm) => (wishes.pilot.value = { ...pilot, depthMm })}
           />
         </>
       )}
@@ -133,39 +145,34 @@ function WishFields({ wishes, reamers }: { wishes: PlanWishesStore; reamers: rea
   );
 }
 
-/** The reamer by name, or left to the server, which fits it to the implant's radius. */
-function ReamerField({ wishes, reamers }: { wishes: PlanWishesStore; reamers: readonly Reamer[] }) {
-  const options = useMemo(
-    () => [
-      ['', caseWords.reamerDefault] as const,
-      ...reamers.map((reamer) => [reamer.name, reamerText(reamer)] as const),
-    ],
-    [reamers],
-  );
-  const suggestedRadiusMm = 32;
+interface GivenParts {
+  label: string;
+  value: number | null;
+  low: number;
+  high: number;
+  /** With which it begins once it is given. */
+  usual: number;
+  testId: string;
+  onChange(value: number | null): void;
+}
+
+/** A length that may be left open. */
+function GivenNumber({ label, value, low, high, usual, testId, onChange }: GivenParts) {
+  const isGiven = value !== null;
   return (
-    <>
-      <SelectField
-        label={caseWords.reamer}
-        value={wishes.reamer.value ?? ''}
-        options={options}
-        testId="reamer"
-        onChange={(name) => (wishes.reamer.value = name === '' ? null : name)}
-      />
+    <div class="field field-row">
       <CheckField
-        label={caseWords.implantRadius}
-        checked={wishes.implantRadiusMm.value !== null}
-        testId="implant-radius-given"
-        onChange={(given) => (wishes.implantRadiusMm.value = given ? suggestedRadiusMm : null)}
+        label={label}
+        checked={isGiven}
+        testId={`${testId}-given`}
+        onChange={(given) => onChange(given ? usual : null)}
       />
-      {wishes.implantRadiusMm.value !== null && (
-        <NumberField
-          {...{ label: caseWords.implantRadius, unit: caseWords.mm, value: wishes.implantRadiusMm.value }}
-          {...{ low: 20, high: 60, step: 0.5, testId: 'implant-radius' }}
-          onChange={(value) => (wishes.implantRadiusMm.value = value)}
-        />
+      {isGiven ? (
+        <NumberBox {...{ label, unit: caseWords.mm, value, low, high, step: 0.5, testId }} onChange={onChange} />
+      ) : (
+        <span class="soft">{caseWords.byReamer}</span>
       )}
-    </>
+    </div>
   );
 }
 
@@ -178,38 +185,49 @@ function reamerText({ name, diameter_mm, radius_mm }: Reamer): string {
 
 interface AngleParts {
   label: string;
-  /** Degrees. */
-  value: number;
+  /** Degrees; null: not given. */
+  value: number | null;
   positive: string;
   negative: string;
+  /** Words for not giving it; absent: it must be given. */
+  unset?: string;
   testId: string;
-  onChange(degrees: number): void;
+  onChange(degrees: number | null): void;
 }
 
 /** An angle by its size and the word for its direction, so that no sign has to be known. */
-function SignedAngle({ label, value, positive, negative, testId, onChange }: AngleParts) {
-  const towardsNegative = value < 0 || Object.is(value, -0);
+function SignedAngle({ label, value, positive, negative, unset, testId, onChange }: AngleParts) {
+  const towardsNegative = value !== null && (value < 0 || Object.is(value, -0));
+  const size = Math.abs(value ?? 0);
+  const way = value === null ? '' : towardsNegative ? negative : positive;
   return (
     <div class="field field-row">
       <span class="field-name">{label}</span>
       <span class="number-box">
-        <input
-          type="number"
-          aria-label={label}
-          data-testid={testId}
-          {...{ min: 0, max: 45, step: 0.5, value: String(Math.abs(value)) }}
-          onChange={(event) => {
-            const size = Math.min(Math.abs(event.currentTarget.valueAsNumber), 45);
-            if (Number.isFinite(size)) onChange(towardsNegative ? -size : size);
-          }}
-        />
-        <span class="unit">°</span>
+        {value !== null && (
+          <>
+            <input
+              type="number"
+              aria-label={label}
+              data-testid={testId}
+              {...{ min: 0, max: 40, step: 0.5, value: String(size) }}
+              onChange={(event) => {
+                const typed = Math.min(Math.abs(event.currentTarget.valueAsNumber), 40);
+                if (Number.isFinite(typed)) onChange(towardsNegative ? -typed : typed);
+              }}
+            />
+            <span class="unit">°</span>
+          </>
+        )}
         <select
           aria-label={label}
           data-testid={`${testId}-way`}
-          value={towardsNegative ? negative : positive}
-          onChange={(event) => onChange(event.currentTarget.value === negative ? -Math.abs(value) : Math.abs(value))}
+          value={way}
+          onChange={({ currentTarget: { value: chosen } }) =>
+            onChange(chosen === '' ? null : chosen === negative ? -size : size)
+          }
         >
+          {unset !== undefined && <option value="">{unset}</option>}
           <option value={negative}>{negative}</option>
           <option value={positive}>{positive}</option>
         </select>

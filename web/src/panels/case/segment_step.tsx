@@ -1,6 +1,6 @@
 import { caseWords } from '../../case_words';
 import { cssColour } from '../../ct/palette';
-import type { CaseKeeper } from '../../state/case/case_keeper';
+import { type CaseKeeper, settingsOf } from '../../state/case/case_keeper';
 import { isUnderWay } from '../../state/case/job_watch';
 import { seedNames } from '../../state/case/view_marks';
 import type { CtDescription, SeedName, Segmentation, SegmentationSettings } from '../../wire/case_types';
@@ -60,7 +60,7 @@ export function SegmentStep({ keeper }: { keeper: CaseKeeper }) {
           {caseWords.undo}
         </button>
       </div>
-      {found !== null && !sameSettings(found.settings, settings) && (
+      {found !== null && !sameSettings(settingsOf(ct, found), settings) && (
         <Remark kind="warn" testId="settings-changed">
           {caseWords.settingsChanged}
         </Remark>
@@ -173,12 +173,12 @@ function PartList({ keeper, found }: { keeper: CaseKeeper; found: Segmentation }
   );
 }
 
-export function sameSettings(a: SegmentationSettings, b: SegmentationSettings): boolean {
+function sameSettings(a: SegmentationSettings, b: SegmentationSettings): boolean {
   return (
     Math.abs(a.threshold_hu - b.threshold_hu) < 0.5 &&
     Math.abs(a.sigma_mm - b.sigma_mm) < 1e-6 &&
     a.separate === b.separate &&
     a.fill_holes === b.fill_holes &&
-    seedNames.every((name) => (a.seeds?.[name] ?? []).join() === (b.seeds?.[name] ?? []).join())
+    seedNames.every((name) => (a.seeds[name] ?? []).join() === (b.seeds[name] ?? []).join())
   );
 }

@@ -47,7 +47,7 @@ export function StepsPanel({ keeper, startReaming }: Parts) {
           </button>
         </div>
       )}
-      {job !== null && (
+      {job !== null && job.state !== 'done' && (
         <JobProgress
           job={job}
           silent={store.jobSilent.value}

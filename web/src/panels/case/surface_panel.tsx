@@ -52,7 +52,7 @@ export function SurfacePanel({ view, store, enlarged }: Parts) {
       </ViewHead>
       <div class="view-canvas stage" ref={place} data-testid="surface" data-state={state.kind}>
         {view?.labels.value.map(({ x, y, text, active }) => (
-          <span key={text} class={active ? 'point-label active' : 'point-label'} style={{ left: x, top: y }} aria-hidden="true">
+          <span key={text} class={active ? 'point-label active' : 'point-label'} style={{ left: `${x}px`, top: `${y}px` }} aria-hidden="true">
             {text}
           </span>
         ))}

@@ -8,7 +8,7 @@ const presets: readonly (readonly [string, string, WindowLevel])[] = [
   ['soft', caseWords.windowSoft, windowPresets.soft],
 ];
 
-/** Brightness of the slices and what lies over them; and how they are to be read. */
+/** Brightness of the slices and what lies over them. */
 export function WindowBar({ store }: { store: CaseStore }) {
   const { widthHu, levelHu } = store.window.value;
   const { widthMin, widthMax, levelMin, levelMax } = windowLimits;
@@ -52,7 +52,6 @@ export function WindowBar({ store }: { store: CaseStore }) {
           onChange={(shown) => (store.previewShown.value = shown)}
         />
       )}
-      <p class="soft convention">{caseWords.radiological}</p>
     </div>
   );
 }

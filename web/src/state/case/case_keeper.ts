@@ -2,13 +2,23 @@ import { batch } from '@preact/signals';
 
 import { SliceCache } from '../../ct/slice_cache';
 import type { CaseApi } from '../../wire/case_api';
-import type { BuildWishes, CaseDetails, Job, Plan, PlanWishes, SegmentationSettings, Triple } from '../../wire/case_types';
+import type {
+  BuildWishes,
+  CaseDetails,
+  CtDescription,
+  Job,
+  Plan,
+  PlanWishes,
+  Segmentation,
+  SegmentationSettings,
+  Triple,
+} from '../../wire/case_types';
 import { ApiError } from '../../wire/rest';
-import { CaseStore } from './case_store';
+import { type Armed, CaseStore } from './case_store';
 import { nextStep, stepStates } from './case_steps';
 import { followJob, isUnderWay, pause } from './job_watch';
 import { LandmarkKeeper } from './landmark_keeper';
-import { isOptional, landmarkNames, type LandmarkName, nextMissing, pointOf, withPoint } from './landmark_names';
+import { landmarkNames, type LandmarkName, nextMissing, placedFrom, pointOf, withPoint } from './landmark_names';
 
 /** Opens one case and carries out what the user asks for on its page. */
 export class CaseKeeper {
@@ -37,7 +47,7 @@ export class CaseKeeper {
         this.take(details);
         store.draft.value = details.plan === null ? null : { plan: details.plan, assessment: null, kept: true };
         store.openStep.value = nextStep(
-          stepStates({ details, landmarks: details.landmarks ?? {}, planBeforeLandmarks: false }),
+          stepStates({ details, landmarks: placedFrom(details.landmarks), planBeforeLandmarks: false }),
         );
       });
       this.landmarks.take(details.landmarks);
@@ -73,7 +83,7 @@ export class CaseKeeper {
     return this.carryOut(async () => {
       const details = await this.api.undoSegmentation(this.caseId);
       this.take(details);
-      this.store.settings.value = details.segmentation?.settings ?? this.store.settings.value;
+      if (details.ct !== null) this.store.settings.value = settingsOf(details.ct, details.segmentation);
     });
   }
   build(wishes: BuildWishes): Promise<void> {
@@ -110,7 +120,9 @@ export class CaseKeeper {
     return this.carryOut(async () => {
       const draft = this.store.draft.value;
       if (draft === null) return;
-      const asked: Plan = override === null ? draft.plan : { ...draft.plan, override: true, override_reason: override };
+      const overriding = override === null ? {} : { override: true, override_reason: override };
+      const asked: Plan = { ...draft.plan, ...overriding };
+      for (const [key, value] of Object.entries(asked)) if (value === null) delete asked[key];
       try {
         const { plan, assessment } = await this.api.putPlan(this.caseId, asked);
         batch(() => {
@@ -141,6 +153,21 @@ export class CaseKeeper {
     this.armNext(armed.name);
   }
 
+  /** Whether the next click places something that is not placed yet. */
+  placesNew(): boolean {
+    const armed = this.store.armed.value;
+    if (armed === null) return false;
+    if (armed.kind === 'seed') return this.store.settings.value?.seeds[armed.name] === undefined;
+    return pointOf(this.landmarks.landmarks.value, armed.name) === null;
+  }
+
+  /** A mark was taken into the hand: it is what the next click would place. */
+  chooseMark(of: NonNullable<Armed> | { kind: 'entry' }): void {
+    const armed = this.store.armed.value;
+    if (of.kind === 'entry' || (armed?.kind === of.kind && armed.name === of.name)) return;
+    this.store.armed.value = of;
+  }
+
   place(name: LandmarkName, point: Triple | null): void {
     this.landmarks.change(withPoint(this.landmarks.landmarks.value, name, point));
     if (this.store.details.value?.plan !== null) this.store.planBeforeLandmarks.value = true;
@@ -161,7 +188,7 @@ export class CaseKeeper {
 
   /** What is missing first is what the next click in the landmarks' step places. */
   armFirstMissing(): void {
-    if (this.store.openStep.value === 'landmarks') this.armNext('biconcavity_mm');
+    if (this.store.openStep.value === 'landmarks') this.armNext(null);
   }
 
   lookAt(point: Triple): void {
@@ -169,9 +196,9 @@ export class CaseKeeper {
     if (frame !== null) this.store.crossHair.value = frame.clampVoxel(frame.voxelFromWorld(point));
   }
 
-  private armNext(after: LandmarkName): void {
+  private armNext(after: LandmarkName | null): void {
     const name = nextMissing(this.landmarks.landmarks.value, after);
-    this.store.armed.value = name === null || isOptional(name) ? null : { kind: 'landmark', name };
+    this.store.armed.value = name === null ? null : { kind: 'landmark', name };
   }
 
   private async follow(first: Job): Promise<void> {
@@ -204,13 +231,7 @@ export class CaseKeeper {
         const frame = store.frame.value;
         if (frame !== null) store.crossHair.value = frame.middle();
       }
-      store.settings.value ??= details.segmentation?.settings ?? {
-        threshold_hu: details.ct.suggested_threshold_hu,
-        sigma_mm: 0,
-        separate: true,
-        seeds: {},
-        fill_holes: true,
-      };
+      store.settings.value ??= settingsOf(details.ct, details.segmentation);
     });
   }
 
@@ -226,6 +247,13 @@ export class CaseKeeper {
       store.busy.value = false;
     }
   }
+}
+
+/** With which the bones were found, or what is suggested before. */
+export function settingsOf(ct: CtDescription, found: Segmentation | null): SegmentationSettings {
+  const { settings = {} } = found ?? {};
+  const threshold_hu = settings.threshold_hu ?? found?.threshold_hu ?? Math.round(ct.suggested_threshold_hu);
+  return { sigma_mm: 0, separate: true, seeds: {}, fill_holes: true, ...settings, threshold_hu };
 }
 
 export const wordsOf = (error: unknown): string => (error instanceof Error ? error.message : String(error));

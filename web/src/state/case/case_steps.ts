@@ -1,5 +1,5 @@
-import type { CaseDetails, Landmarks } from '../../wire/case_types';
-import { neededNames, pointOf } from './landmark_names';
+import type { CaseDetails } from '../../wire/case_types';
+import { neededNames, type PlacedLandmarks, pointOf } from './landmark_names';
 
 export const stepNames = ['segment', 'landmarks', 'plan', 'build', 'ream'] as const;
 export type StepName = (typeof stepNames)[number];
@@ -8,7 +8,7 @@ export type StepState = 'done' | 'todo' | 'outdated' | 'blocked';
 
 export interface StepFacts {
   details: Pick<CaseDetails, 'ct' | 'segmentation' | 'plan' | 'built' | 'stage'>;
-  landmarks: Landmarks;
+  landmarks: PlacedLandmarks;
   /** Landmarks were changed after the plan was kept. */
   planBeforeLandmarks: boolean;
 }

@@ -2,7 +2,7 @@ import { batch, computed, signal } from '@preact/signals';
 
 import type { CaseApi } from '../../wire/case_api';
 import type { CaseDetails, Landmarks, Measures } from '../../wire/case_types';
-import { sameLandmarks } from './landmark_names';
+import { landmarksOf, placedFrom, type PlacedLandmarks, sameLandmarks } from './landmark_names';
 
 const saveAfterMs = 350;
 
@@ -23,14 +23,14 @@ export type LandmarkApi = Pick<CaseApi, 'case' | 'putLandmarks' | 'measures' | '
 
 /** The landmarks of one case: changed here at once, saved shortly after, and measured by the server once saved. */
 export class LandmarkKeeper {
-  readonly landmarks = signal<Landmarks>({});
+  readonly landmarks = signal<PlacedLandmarks>({});
   readonly save = signal<SaveState>({ kind: 'saved' });
   readonly measures = signal<Measures | null>(null);
   /** Why there are no measures, where the server refused. */
   readonly measuresProblem = signal<string | null>(null);
   /** Whether the measures are of the landmarks as they are shown. */
   readonly measured = computed(() => this.save.value.kind === 'saved' && this.measuredOf.value === this.landmarks.value);
-  private readonly measuredOf = signal<Landmarks | null>(null);
+  private readonly measuredOf = signal<PlacedLandmarks | null>(null);
 
   /** As the server last told them to this page. */
   private known: Landmarks = {};
@@ -50,13 +50,13 @@ export class LandmarkKeeper {
     clearTimeout(this.timer);
     this.known = landmarks ?? {};
     batch(() => {
-      this.landmarks.value = this.known;
+      this.landmarks.value = placedFrom(this.known);
       this.save.value = { kind: 'saved' };
     });
     void this.measure();
   }
 
-  change(landmarks: Landmarks): void {
+  change(landmarks: PlacedLandmarks): void {
     this.landmarks.value = landmarks;
     if (this.save.value.kind === 'conflict') return;
     this.save.value = { kind: 'unsaved' };
@@ -88,7 +88,7 @@ export class LandmarkKeeper {
         this.save.value = { kind: 'conflict', theirs: now.landmarks ?? {} };
         return;
       }
-      const saved = await this.api.putLandmarks(this.caseId, sent);
+      const saved = await this.api.putLandmarks(this.caseId, landmarksOf(sent));
       this.known = saved.landmarks ?? {};
       this.onSaved(saved);
       this.save.value = this.landmarks.value === sent ? { kind: 'saved' } : { kind: 'unsaved' };
@@ -125,6 +125,6 @@ export class LandmarkKeeper {
     this.ended = true;
     clearTimeout(this.timer);
     const { kind } = this.save.value;
-    if (kind !== 'saved' && kind !== 'conflict') this.api.putLandmarksOnLeaving(this.caseId, this.landmarks.value);
+    if (kind !== 'saved' && kind !== 'conflict') this.api.putLandmarksOnLeaving(this.caseId, landmarksOf(this.landmarks.value));
   }
 }

@@ -26,6 +26,8 @@ export interface NewCaseWishes {
 /** All cases, and the making of a new one from a file; lives as long as the page is open. */
 export class CasesKeeper {
   readonly cases = signal<readonly CaseSummary[] | null>(null);
+  /** Whether the list was read since the page of cases was opened. */
+  readonly listFresh = signal(false);
   readonly listProblem = signal<string | null>(null);
   readonly file = signal<UploadSource | null>(null);
   /** Never guessed: the user says which shoulder it is. */
@@ -46,6 +48,7 @@ export class CasesKeeper {
       const cases = await this.api.cases();
       batch(() => {
         this.cases.value = cases;
+        this.listFresh.value = true;
         this.listProblem.value = null;
       });
     } catch (error) {
