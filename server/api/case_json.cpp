@@ -84,7 +84,7 @@ json built_json(const ct::Workup& workup) {
   const Vec3 &low = built.roi_mm.min, &high = built.roi_mm.max;
   value["roi_mm"] = {low.x(), low.y(), low.z(), high.x(), high.y(), high.z()};
   value["bone_voxels"] = built.bone_voxels;
-  value["density_range_g_cc"] = {0.0, voxel::max_density_code * voxel::density_step_g_cc};
+  value["density_range_g_cc"] = built.density_range_g_cc;
   value["segmentation_revision"] = built.segmentation_revision;
   return value;
 }

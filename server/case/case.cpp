@@ -177,6 +177,15 @@ Case load_case(const fs::path& folder) {
   return c;
 }
 
+Case load_case(const fs::path& folder, const voxel::SharedBytes& density) {
+  Case c = load_case_description(folder);
+  const size_t voxels = c.bone.grid.voxel_count();
+  if (density.size() != voxels) return load_case(folder);
+  c.bone.density = density;
+  c.bone.coverage = voxel::bricks_from_rows(c.bone.grid, read_compressed(folder / "coverage.zst", voxels));
+  return c;
+}
+
 CaseSummary load_case_summary(const fs::path& folder) {
   const Case c = load_case_description(folder);
   return {c.id, c.name, c.side, c.bone.grid.dims, c.bone.grid.spacing_mm, c.plan.has_value()};

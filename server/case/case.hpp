@@ -79,6 +79,8 @@ struct CaseSummary {
 /// coverage.zst (raw bytes in grid order, zstd). Saving is atomic: the folder appears whole or not at all.
 /// Errors: not_found, invalid_input (names file and key), io.
 Case load_case(const std::filesystem::path& folder);
+/// The same with a density that is known already, of the size that case.json says.
+Case load_case(const std::filesystem::path& folder, const voxel::SharedBytes& density);
 /// Everything but the voxels: bone has its grid, density and coverage stay empty.
 Case load_case_description(const std::filesystem::path& folder);
 CaseSummary load_case_summary(const std::filesystem::path& folder);

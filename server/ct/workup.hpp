@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -28,8 +29,9 @@ struct BuildSettings {
 
 struct BuildRecord {
   BuildSettings settings;
-  Aabb roi_mm;  ///< LPS
+  Aabb roi_mm;  ///< the bone's grid, LPS
   uint64_t bone_voxels = 0;
+  std::array<double, 2> density_range_g_cc{};  ///< least and greatest of the bone
   int segmentation_revision = 0;
 };
 

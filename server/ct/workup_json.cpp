@@ -92,6 +92,7 @@ json to_json(const BuildRecord& record) {
   value["low_mm"] = list(record.roi_mm.min);
   value["high_mm"] = list(record.roi_mm.max);
   value["bone_voxels"] = record.bone_voxels;
+  value["density_range_g_cc"] = record.density_range_g_cc;
   value["segmentation_revision"] = record.segmentation_revision;
   return value;
 }
@@ -106,6 +107,8 @@ BuildRecord built_from(const json& value, JsonReader reader) {
   record.settings = build_settings_from_json(settings, reader.place());
   record.roi_mm = {vec3(reader.numbers("low_mm", 3)), vec3(reader.numbers("high_mm", 3))};
   record.bone_voxels = reader.unsigned_integer("bone_voxels");
+  const auto densities = reader.numbers("density_range_g_cc", 2);
+  record.density_range_g_cc = {densities[0], densities[1]};
   record.segmentation_revision = static_cast<int>(reader.integer("segmentation_revision", 1, INT32_MAX));
   reader.finish();
   return record;
