@@ -1,8 +1,11 @@
 #include <gdcmImageReader.h>
+#include <gdcmSequenceOfFragments.h>
 #include <gdcmTrace.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <string_view>
 
 #include "core/error.hpp"
 #include "ct/dicom_slice.hpp"
@@ -15,6 +18,21 @@ constexpr double tissue_low_hu = -200.0, tissue_high_hu = 1500.0;
 
 Error unreadable(const std::filesystem::path& file, const char* why) {
   return {ErrorKind::invalid_input, file.string() + ": the pixels cannot be read, " + why};
+}
+
+/// JPEG, JPEG-LS and JPEG 2000 streams end with the marker FFD9; without it the library fills up with what it
+/// likes.
+bool ends_with_marker(const gdcm::Image& image) {
+  const gdcm::TransferSyntax& syntax = image.GetTransferSyntax();
+  const gdcm::SequenceOfFragments* fragments = image.GetDataElement().GetSequenceOfFragments();
+  if (fragments == nullptr || syntax == gdcm::TransferSyntax::RLELossless) return true;
+  if (fragments->GetNumberOfFragments() == 0) return false;
+  const gdcm::ByteValue* last = fragments->GetFragment(fragments->GetNumberOfFragments() - 1).GetByteValue();
+  if (last == nullptr) return false;
+  const std::string_view bytes(last->GetPointer(), last->GetLength());
+  constexpr size_t longest_filling = 64;
+  return bytes.substr(bytes.size() - std::min(bytes.size(), longest_filling)).find("\xff\xd9") !=
+         std::string_view::npos;
 }
 
 }  // namespace
@@ -39,6 +57,7 @@ void DicomPixels::decode(const DicomSlice& slice) {
   const gdcm::ByteValue* plain = image.GetDataElement().GetByteValue();
   if (plain != nullptr && plain->GetLength() < image.GetBufferLength())
     throw unreadable(slice.file, "there are fewer pixels than the header says");
+  if (!ends_with_marker(image)) throw unreadable(slice.file, "their packed stream is cut short");
   bytes_.assign(image.GetBufferLength(), 0);
   if (bytes_.size() < slice.pixels() * static_cast<size_t>(bytes_a_value_) || !image.GetBuffer(bytes_.data()))
     throw unreadable(slice.file, "they are damaged or cut short");

@@ -10,6 +10,7 @@
 #include "ct/dicom_completeness.hpp"
 #include "ct/file_completeness.hpp"
 #include "ct/itk_volume.hpp"
+#include "ct/nrrd_order.hpp"
 #include "ct/text_rows.hpp"
 #include "ct/volume_claims.hpp"
 #include "ct/volume_remarks.hpp"
@@ -70,8 +71,9 @@ HuVolume read_volume_file(const fs::path& path) {
   HuVolume volume;
   volume.warnings = check_claims(path);
   itk::Object::GlobalWarningDisplayOff();
+  const OrderedNrrd readable(path);
   try {
-    io->SetFileName(place);
+    io->SetFileName(readable.path().string());
     io->ReadImageInformation();
     check_dimensions(*io, place);
     check_complete(path, static_cast<uint64_t>(io->GetImageSizeInBytes()));

@@ -5,6 +5,7 @@
 #include "case/measures.hpp"
 #include "core/error.hpp"
 #include "ct/build_case.hpp"
+#include "ct/cartilage.hpp"
 
 namespace ream::ct {
 namespace {
@@ -68,6 +69,12 @@ std::optional<case_::GlenoidFrame> frame_of(const case_::Landmarks& landmarks, c
   return case_::glenoid_frame(landmarks, side);
 }
 
+CartilageSettings cartilage_of(const BuildSettings& settings) {
+  CartilageSettings cartilage;
+  cartilage.thickness_mm = settings.cartilage_mm;
+  return cartilage;
+}
+
 }  // namespace
 
 voxel::BoneModel scapula_of(const Workup& workup, const std::vector<int16_t>& hu,
@@ -99,7 +106,7 @@ case_::Case build_from(Workup& workup, const std::vector<int16_t>& hu, const std
   result.bone = bone_from_mask(volume_of(workup, hu), scapula_mask(workup, labels),
                                BoneSettings{roi, settings.upsample, result.calibration}, progress);
   if (settings.cartilage_mm > 0.0)
-    add_cartilage(result.bone, *result.glenoid, CartilageSettings{settings.cartilage_mm});
+    add_cartilage(result.bone, *result.glenoid, cartilage_of(settings));
   workup.built =
       BuildRecord{settings, box_of(result.bone.grid), result.bone.filled_voxels(),
                   density_range_g_cc(result.bone), workup.segmentation()->revision};
