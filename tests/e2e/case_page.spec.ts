@@ -36,7 +36,8 @@ test.beforeAll(() => {
   folder = mkdtempSync(join(tmpdir(), 'ream-phantom-'));
   const options = ['--version-deg', String(versionDeg), '--inclination-deg', String(inclinationDeg)];
   execFileSync(program, ['phantom', '--out', join(folder, 'ct'), '--spacing-mm', '1', '--side', 'right', ...options]);
-  truth = JSON.parse(readFileSync(join(folder, 'ct', 'landmarks.json'), 'utf8')) as Truth;
+  const facts = JSON.parse(readFileSync(join(folder, 'ct', 'ground_truth.json'), 'utf8')) as { landmarks: Truth };
+  truth = facts.landmarks;
   const names = readdirSync(join(folder, 'ct'), { recursive: true, withFileTypes: true });
   const slices = names.filter((entry) => entry.isFile() && entry.name.endsWith('.dcm'));
   expect(slices.length).toBeGreaterThan(50);
