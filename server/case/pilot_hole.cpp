@@ -47,7 +47,7 @@ struct LineInBone {
     if (!clip_line(bone.grid.bounds_mm().grown(step), point, along, enter, leave)) enter = 0.0, leave = -1.0;
   }
 
-  bool inside(double s) const { return coverage_at(bone, point + s * along) >= 127.5; }
+  bool inside(double s) const { return voxel::coverage_at(bone, point + s * along) >= 127.5; }
 
   /// Where the line first is inside (or outside) the bone between two places: the last point before the change
   /// is narrowed down by halving.
@@ -103,7 +103,6 @@ void cut_pilot_hole(voxel::BoneModel& bone, const Plan& plan) {
 }
 
 std::optional<Vec3> surface_along(const voxel::BoneModel& bone, const Vec3& point_mm, const Vec3& direction) {
-<<<<<<< HEAD
   const LineInBone line(bone, point_mm, direction);
   const auto first = line.first_change(line.enter, line.leave, true);
   if (!first) return std::nullopt;
@@ -117,31 +116,6 @@ std::optional<double> bone_depth_along(const voxel::BoneModel& bone, const Vec3&
                                        std::min(line.leave, entry_slack_mm), true);
   if (!first) return std::nullopt;
   return line.first_change(*first + line.step, line.leave, false).value_or(line.leave);
-=======
-  if (!(direction.norm() > 1e-12))
-    throw Error(ErrorKind::invalid_input, "the axis direction must not be zero");
-  const Pose grid_from_world = bone.grid.world_from_grid.inverse();
-  const Vec3 point = grid_from_world.point(point_mm);
-  const Vec3 along = grid_from_world.direction(direction).normalized();
-  double enter = 0.0, leave = 0.0;
-  const double step = 0.25 * bone.grid.min_spacing_mm();
-  if (!clip_line(bone.grid.bounds_mm().grown(step), point, along, enter, leave)) return std::nullopt;
-  const auto inside = [&](double s) { return voxel::coverage_at(bone, point + s * along) >= 127.5; };
-  double outside = enter;
-  for (double s = enter; s <= leave; s += step) {
-    if (!inside(s)) {
-      outside = s;
-      continue;
-    }
-    double within = s;
-    for (int halving = 0; halving < 30; ++halving) {
-      const double middle = 0.5 * (outside + within);
-      (inside(middle) ? within : outside) = middle;
-    }
-    return bone.grid.world_from_grid.point(point + within * along);
-  }
-  return std::nullopt;
->>>>>>> segment
 }
 
 }  // namespace ream::case_
