@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/case_shelf.hpp"
 #include "app/cli/case_path.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
@@ -72,7 +73,8 @@ nlohmann::json mount_json(const sim::Model& model) {
 
 case_::Case find_case(const std::string& name, const fs::path& data) {
   if (name == "demo") return ct::load_or_make_demo_case(data);
-  return case_::load_case(case_path(name, data));
+  static CaseShelf shelf;
+  return shelf.load(case_path(name, data));
 }
 
 device::Script find_script(const RunRequest& request) {

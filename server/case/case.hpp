@@ -79,10 +79,15 @@ struct CaseSummary {
 /// coverage.zst (raw bytes in grid order, zstd). Saving is atomic: the folder appears whole or not at all.
 /// Errors: not_found, invalid_input (names file and key), io.
 Case load_case(const std::filesystem::path& folder);
+/// The same with a density that is known already, of the size that case.json says.
+Case load_case(const std::filesystem::path& folder, const voxel::SharedBytes& density);
 /// Everything but the voxels: bone has its grid, density and coverage stay empty.
 Case load_case_description(const std::filesystem::path& folder);
 CaseSummary load_case_summary(const std::filesystem::path& folder);
 void save_case(const Case& c, const std::filesystem::path& folder, bool replace = false);
+/// A new bone (and case.json) for the folder of a case; all else in it stays. The folder changes as a whole or
+/// not at all.
+void save_bone(const Case& c, const std::filesystem::path& folder);
 
 /// Of what reaming decides by: grid, threshold, density and coverage. Equal cases have equal hashes on every
 /// machine. Of a case as it was loaded, its pilot hole not cut. Takes about 2 ns a voxel.

@@ -44,15 +44,19 @@ class Walker {
   bool number(uint32_t& value, int bytes) {
     std::array<unsigned char, 4> raw{};
     if (!read(raw.data(), static_cast<uint64_t>(bytes))) return false;
+    if (big_endian_) std::reverse(raw.begin(), raw.begin() + bytes);
     value = raw[0] | (uint32_t{raw[1]} << 8) | (uint32_t{raw[2]} << 16) | (uint32_t{raw[3]} << 24);
     return true;
   }
   bool element(Element& e, bool implicit);
   /// Reads the file meta group; false when it is cut short.
   bool meta_group(std::string& syntax);
+  /// Old files begin with the data set itself; true when this one does, telling whether it is implicit.
+  bool bare_data_set(bool& implicit);
 
   std::ifstream in_;
   uint64_t size_ = 0, position_ = 0;
+  bool big_endian_ = false;
 };
 
 bool Walker::element(Element& e, bool implicit) {
@@ -92,16 +96,39 @@ bool Walker::meta_group(std::string& syntax) {
   return false;
 }
 
+bool Walker::bare_data_set(bool& implicit) {
+  position_ = 0;
+  in_.clear();
+  in_.seekg(0);
+  std::array<unsigned char, 8> start{};
+  if (!read(start.data(), start.size())) return false;
+  // Group 0008 comes first; its first elements are 0000, 0001, 0005, 0008, 0016 and 0018.
+  constexpr std::array<unsigned char, 6> first_elements = {0x00, 0x01, 0x05, 0x08, 0x16, 0x18};
+  if (start[0] != 0x08 || start[1] != 0 || start[3] != 0 ||
+      std::find(first_elements.begin(), first_elements.end(), start[2]) == first_elements.end())
+    return false;
+  const auto capital = [](unsigned char c) { return c >= 'A' && c <= 'Z'; };
+  implicit = !(capital(start[4]) && capital(start[5]));
+  position_ = 0;
+  in_.seekg(0);
+  return true;
+}
+
 DicomState Walker::walk() {
   std::array<char, 4> marker{};
-  if (!skip(preamble_bytes) || !read(marker.data(), 4) || std::string_view(marker.data(), 4) != "DICM")
+  bool implicit = false;
+  if (skip(preamble_bytes) && read(marker.data(), 4) && std::string_view(marker.data(), 4) == "DICM") {
+    std::string syntax;
+    if (!meta_group(syntax)) return DicomState::cut_short;
+    if (syntax == "1.2.840.10008.1.2.1.99") return DicomState::whole;
+    big_endian_ = syntax == "1.2.840.10008.1.2.2";
+    implicit = syntax == "1.2.840.10008.1.2";
+  } else if (!bare_data_set(implicit)) {
     return DicomState::not_dicom;
-  std::string syntax;
-  if (!meta_group(syntax)) return DicomState::cut_short;
-  if (syntax == "1.2.840.10008.1.2.1.99" || syntax == "1.2.840.10008.1.2.2") return DicomState::whole;
+  }
 
   // One entry per open sequence of undefined length; true where its content is in implicit encoding.
-  std::vector<bool> open{syntax == "1.2.840.10008.1.2"};
+  std::vector<bool> open{implicit};
   bool in_pixels = false;
   while (position_ < size_) {
     Element e;

@@ -6,6 +6,7 @@
 #include "app/cli/case_path.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/numbers.hpp"
+#include "app/ct_source.hpp"
 #include "app/data_folder.hpp"
 #include "app/session_bundle.hpp"
 #include "core/error.hpp"
@@ -84,7 +85,9 @@ void import_case(const Options& options, const GlobalOptions& global) {
   if (!options.replace && std::filesystem::exists(out / "case.json"))
     throw Error(ErrorKind::conflict,
                 out.string() + " is a case already; choose another name or give --replace");
-  case_::Case made = ct::import_ct(options.path, ct::case_id_from(out), import);
+  const CtSource source(options.path);
+  case_::Case made = source.read(
+      [&](const std::filesystem::path& ct) { return ct::import_ct(ct, ct::case_id_from(out), import); });
   if (!options.name.empty()) made.name = options.name;
   case_::save_case(made, out, options.replace);
   report(made, out, global.json);
@@ -99,8 +102,8 @@ void add_import_command(CLI::App& app, GlobalOptions& global) {
       app.add_subcommand("import", "Make a case out of a CT, or take in a session from another machine");
   command
       ->add_option("PATH", options->path,
-                   "Folder of DICOM slices, a NRRD, NIfTI or MetaImage file, or a session's bundle (.zip of "
-                   "ream export)")
+                   "Folder of DICOM slices, a NRRD, NIfTI or MetaImage file, text rows x y z gray, a zip "
+                   "archive of one of these, or a session's bundle (.zip of ream export)")
       ->required();
   command->add_option("--out", options->out, "Name of the new case, or a folder; not for a session's bundle");
   command->add_option("--name", options->name, "Name for people");

@@ -165,6 +165,14 @@ TEST(PhantomTypes, OsteophytesAddBoneOutsideTheNativeRimOnly) {
   EXPECT_LT(hu_at(a1.volume, *native.inferior_rim_mm - 2.5 * up + 1.0 * out), 100);
 }
 
+TEST(PhantomTypes, OsteophytesBelongToTheBone) {
+  const auto bone_mm3 = [](PhantomType type) {
+    const auto bone = make_phantom_case("phantom", coarse(type), 1).bone;
+    return static_cast<double>(bone.filled_voxels()) * bone.grid.voxel_volume_mm3();
+  };
+  EXPECT_GT(bone_mm3(PhantomType::osteophytes) - bone_mm3(PhantomType::a1), 150.0);
+}
+
 TEST(PhantomTypes, OsteoporosisIsLightAndThinInTheSameShape) {
   const PhantomParams params = coarse(PhantomType::osteoporotic);
   const auto poor = true_density_g_cc(params), healthy = true_density_g_cc(coarse(PhantomType::a1));
