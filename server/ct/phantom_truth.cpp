@@ -16,8 +16,9 @@ constexpr double ridge_behind_middle_mm = 1.0, chord_per_width = 0.48;
 constexpr double turned_cos = 0.89879404629916699, turned_sin = 0.43837114678907742;
 constexpr double neoglenoid_radius_excess_mm = 2.0;  // over that of head and joint space
 
-// Osteophytes: a bead of this radius around the lower rim, so much wider than the rim and raised over it.
-constexpr double bead_radius_mm = 2.2, bead_widening = 1.07, bead_raised_mm = 0.4;
+// Osteophytes: a bead of this radius around the lower rim, so much wider than the rim and raised over the face
+// continued to it.
+constexpr double bead_radius_mm = 2.2, bead_widening = 1.12, bead_raised_mm = -1.0;
 constexpr int bead_parts = 10;
 
 /// Depth of a sphere of that radius at a distance from its deepest point, measured across.

@@ -139,6 +139,15 @@ TEST(PlanAssessment, CorrectionIsTheAngleBetweenFaceAndAxis) {
   }
 }
 
+TEST(PlanAssessment, AMirroredShoulderIsJudgedTheSameToTheLastBit) {
+  const auto judged = [](Side side) {
+    const Landmarks l = test::shoulder_landmarks({.side = side, .version_deg = -13.3, .inclination_deg = 8.1});
+    const Plan plan = propose_plan(aimed_at(-1.7, 2.9), l, side, {});
+    return to_json(assess_plan(plan, l, side)).dump();
+  };
+  EXPECT_EQ(judged(Side::left), judged(Side::right));
+}
+
 TEST(PlanAssessment, FifteenDegreesNeedAnOverrideAndTenAreNotYetWarnedOf) {
   const Landmarks l = test::shoulder_landmarks({.version_deg = -15, .inclination_deg = 0});
   Plan plan = propose_plan(aimed_at(0, 0), l, Side::right, {});
