@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "net/problem.hpp"
@@ -43,8 +47,9 @@ TEST_F(UploadStoreTest, PiecesMakeTheFile) {
 TEST_F(UploadStoreTest, NamesArePlainFileNamesOfCts) {
   for (const char* good : {"a.zip", "Series 3.ZIP", "a.nii.gz", "a.NRRD", "a.mha", "rows.txt", "a.dcm"})
     EXPECT_NO_THROW(store.remove(store.create(good, 1).id)) << good;
-  for (const std::string bad :
-       {"", ".zip", "../a.zip", "a/b.zip", "a\\b.zip", "a.exe", "zip", "a\n.zip", std::string(300, 'a') + ".zip"})
+  const std::vector<std::string> refused = {"",      ".zip", "../a.zip", "a/b.zip", "a\\b.zip",
+                                            "a.exe", "zip",  "a\n.zip", std::string(300, 'a') + ".zip"};
+  for (const std::string& bad : refused)
     EXPECT_THROW(store.create(bad, 1), net::RequestError) << bad;
 }
 

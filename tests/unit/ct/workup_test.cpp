@@ -12,6 +12,7 @@
 #include "ct/slice.hpp"
 #include "ct/workup_bone.hpp"
 #include "ct/workup_json.hpp"
+#include "support/json_schema.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ream::ct {
@@ -52,6 +53,16 @@ TEST_F(WorkupTest, ComesBackAsItWasSaved) {
   EXPECT_EQ(load_labels(at, read, 1).size(), read.volume.voxel_count());
   EXPECT_EQ(read.volume.world_from_volume.translation_mm,
             coarse_phantom().volume.world_from_volume.translation_mm);
+}
+
+TEST_F(WorkupTest, IsAsItsSchemaSays) {
+  Workup workup = made();
+  segment(workup, 220.0);
+  const auto hu = load_hu(at, workup);
+  build_from(workup, hu, load_labels(at, workup, 1), coarse_phantom().truth.landmarks, {}, no_progress);
+  const nlohmann::json schema = read_json_file(std::string(REAM_SOURCE_DIR) + "/proto/ct.schema.json");
+  const test::SchemaChecker checker{schema};
+  for (const std::string& fault : checker.faults(schema, to_json(workup))) ADD_FAILURE() << fault;
 }
 
 TEST_F(WorkupTest, UndoGoesBackStepByStepAndRevisionsAreNeverUsedTwice) {

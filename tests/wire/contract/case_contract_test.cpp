@@ -22,9 +22,9 @@ class CaseContractTest : public ContractTest {
  protected:
   CaseContractTest() {
     options.data_folder = folder.path();
-    options.read_ct = [](const std::filesystem::path& file, const std::string& uid,
+    options.read_ct = [](const std::filesystem::path& path, const std::string& uid,
                          const Progress& progress) {
-      return ct::read_ct(file, {uid, false}, progress);
+      return ct::read_ct(path, {uid, false}, progress);
     };
     ct::PhantomParams params;
     params.spacing_mm = Vec3::Constant(2.0);
@@ -38,9 +38,9 @@ class CaseContractTest : public ContractTest {
     EXPECT_EQ(reply.status, 201) << reply.body;
     return json::parse(reply.body).at("id");
   }
-  HttpReply put_piece(const std::string& id, size_t offset, const std::string& piece) {
+  HttpReply put_piece(const std::string& id, size_t offset, const std::string& bytes) {
     return http_request(server->port(), "PUT", uploads + "/" + id + "?offset=" + std::to_string(offset),
-                        piece, octets);
+                        bytes, octets);
   }
   std::string whole_upload() {
     const std::string id = begin_upload();
