@@ -2,28 +2,11 @@
 
 #include <algorithm>
 
+#include "ct/face_neighbours.hpp"
+#include "ct/voxel_window.hpp"
+
 namespace ream::ct {
 namespace {
-
-struct Steps {
-  size_t nx, ny, nz;
-  explicit Steps(const Vec3i& dims)
-      : nx(static_cast<size_t>(dims.x())),
-        ny(static_cast<size_t>(dims.y())),
-        nz(static_cast<size_t>(dims.z())) {}
-};
-
-/// Visits the up to six face neighbours of voxel `i`.
-template <typename Visit>
-void each_face_neighbour(const Steps& s, size_t i, Visit&& visit) {
-  const size_t u = i % s.nx, v = (i / s.nx) % s.ny, w = i / (s.nx * s.ny);
-  if (u > 0) visit(i - 1);
-  if (u + 1 < s.nx) visit(i + 1);
-  if (v > 0) visit(i - s.nx);
-  if (v + 1 < s.ny) visit(i + s.nx);
-  if (w > 0) visit(i - s.nx * s.ny);
-  if (w + 1 < s.nz) visit(i + s.nx * s.ny);
-}
 
 /// Turns every voxel of value `from` that is face-connected to the pending ones into `to`; returns how many.
 size_t flood(Mask& mask, const Steps& steps, std::vector<size_t> pending, uint8_t from, uint8_t to) {
@@ -84,12 +67,32 @@ void fill_voids(Mask& mask, const Vec3i& dims) {
   std::vector<size_t> border;
   for (size_t i = 0; i < mask.size(); ++i) {
     const size_t u = i % steps.nx, v = (i / steps.nx) % steps.ny, w = i / (steps.nx * steps.ny);
-    const bool edge =
-        u == 0 || v == 0 || w == 0 || u + 1 == steps.nx || v + 1 == steps.ny || w + 1 == steps.nz;
+    const auto at_end = [](size_t place, size_t count) {
+      return count > 1 && (place == 0 || place + 1 == count);
+    };
+    const bool edge = at_end(u, steps.nx) || at_end(v, steps.ny) || at_end(w, steps.nz);
     if (edge && mask[i] == 0) border.push_back(i);
   }
   flood(mask, steps, std::move(border), 0, 2);
   for (uint8_t& m : mask) m = m != 2;
+}
+
+void fill_marrow(Mask& bone, const Vec3i& dims, int least_axes) {
+  Mask closed_across(bone.size());
+  for (int axis = 0; axis < 3; ++axis)
+    for (int slice = 0; slice < dims[axis]; ++slice) {
+      VoxelWindow window{Vec3i::Zero(), dims};
+      window.low[axis] = slice;
+      window.dims[axis] = 1;
+      Mask plane = cut_out(bone, dims, window);
+      const Mask before = plane;
+      fill_voids(plane, window.dims);
+      Mask sums = cut_out(closed_across, dims, window);
+      for (size_t i = 0; i < plane.size(); ++i) sums[i] = static_cast<uint8_t>(sums[i] + (plane[i] && !before[i]));
+      put_back(closed_across, dims, window, sums);
+    }
+  for (size_t i = 0; i < bone.size(); ++i)
+    if (closed_across[i] >= least_axes) bone[i] = 1;
 }
 
 std::optional<Vec3i> nearest_set(const Mask& mask, const HuVolume& volume, const Vec3& world_mm,

@@ -19,8 +19,13 @@ Mask grown_from(const Mask& mask, const Vec3i& dims, const Vec3i& seed);
 /// The 6-connected part with the most voxels; on a tie the one with the lowest index.
 Mask largest_part(const Mask& mask, const Vec3i& dims);
 
-/// Sets the voids that no face-connected path of unset voxels joins to the border of the volume.
+/// Sets the voids that no face-connected path of unset voxels joins to the border of the volume. Across an
+/// axis of one voxel there is no border: a single slice is filled in its plane.
 void fill_voids(Mask& mask, const Vec3i& dims);
+
+/// Fills what is enclosed within slices across at least `least_axes` of the three voxel axes: marrow whose wall has a
+/// pore somewhere, which is no closed void in space.
+void fill_marrow(Mask& mask, const Vec3i& dims, int least_axes = 2);
 
 /// The set voxel nearest to `world_mm`, within `reach_mm`; empty when there is none.
 std::optional<Vec3i> nearest_set(const Mask& mask, const HuVolume& volume, const Vec3& world_mm,

@@ -74,6 +74,7 @@ void require_known_keywords(const json& schema) {
                                               "const",
                                               "enum",
                                               "required",
+                                              "dependentRequired",
                                               "properties",
                                               "additionalProperties",
                                               "items",
@@ -166,6 +167,11 @@ void SchemaChecker::check_object(const json& schema, const json& value, const st
                                  std::vector<std::string>& faults) const {
   for (const json& key : schema.value("required", json::array()))
     if (!value.contains(key.get<std::string>())) faults.push_back(at + ": lacks " + key.get<std::string>());
+  const json dependent = schema.value("dependentRequired", json::object());
+  for (const auto& [key, others] : dependent.items())
+    for (const json& other : others)
+      if (value.contains(key) && !value.contains(other.get<std::string>()))
+        faults.push_back(at + ": lacks " + other.get<std::string>() + ", which " + key + " needs");
   const json properties = schema.value("properties", json::object());
   for (const auto& [key, member] : value.items()) {
     if (properties.contains(key))
