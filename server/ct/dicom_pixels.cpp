@@ -7,10 +7,10 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <string_view>
 
 #include "core/error.hpp"
 #include "ct/dicom_slice.hpp"
+#include "ct/packed_frame.hpp"
 
 namespace ream::ct {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 /// Padding among the values of tissue cannot be told from tissue (some writers state 0 for everything).
 constexpr double tissue_low_hu = -200.0, tissue_high_hu = 1500.0;
 
-Error unreadable(const std::filesystem::path& file, const char* why) {
+Error unreadable(const std::filesystem::path& file, const std::string& why) {
   return {ErrorKind::invalid_input, file.string() + ": the pixels cannot be read, " + why};
 }
 
@@ -30,12 +30,20 @@ std::string bytes_at(std::ifstream& in, const DicomFile::Piece& piece, const std
   return bytes;
 }
 
-/// JPEG, JPEG-LS and JPEG 2000 streams end with the marker FFD9; without it the library fills up with what it
-/// likes.
-bool ends_with_marker(std::string_view bytes) {
-  constexpr size_t longest_filling = 64;
-  return bytes.substr(bytes.size() - std::min(bytes.size(), longest_filling)).find("\xff\xd9") !=
-         std::string_view::npos;
+/// The packed pictures, one for each frame; a single frame may come in many fragments.
+std::vector<std::string> packed_frames(const DicomSlice& slice, const DicomFile& file) {
+  std::ifstream in(slice.file, std::ios::binary);
+  std::vector<std::string> frames;
+  for (size_t i = 1; i < file.pixels.size(); ++i) {
+    std::string bytes = bytes_at(in, file.pixels[i], slice.file);
+    if (slice.frames == 1 && !frames.empty())
+      frames[0] += bytes;
+    else
+      frames.push_back(std::move(bytes));
+  }
+  if (frames.size() != static_cast<size_t>(slice.frames))
+    throw unreadable(slice.file, "there are not as many frames as the header says");
+  return frames;
 }
 
 /// The value numbered `i` of stored ones.
@@ -76,15 +84,14 @@ void DicomPixels::unpack(const DicomSlice& slice, const DicomFile& file) {
   const gdcm::TransferSyntax syntax(gdcm::TransferSyntax::GetTSType(file.transfer_syntax.c_str()));
   if (syntax == gdcm::TransferSyntax::TS_END || !syntax.IsEncapsulated())
     throw unreadable(slice.file, "they are packed in an unknown way");
-  std::ifstream in(slice.file, std::ios::binary);
   gdcm::SmartPointer<gdcm::SequenceOfFragments> fragments = new gdcm::SequenceOfFragments;
-  for (size_t i = 1; i < file.pixels.size(); ++i) {
-    const std::string bytes = bytes_at(in, file.pixels[i], slice.file);
-    if (i + 1 == file.pixels.size() && syntax != gdcm::TransferSyntax::RLELossless &&
-        !ends_with_marker(bytes))
-      throw unreadable(slice.file, "their packed stream is cut short");
+  for (const std::string& frame : packed_frames(slice, file)) {
+    const std::string problem =
+        packed_frame_problem(frame, slice.columns, slice.rows, slice.bits_allocated / 8,
+                             syntax == gdcm::TransferSyntax::RLELossless);
+    if (!problem.empty()) throw unreadable(slice.file, problem);
     gdcm::Fragment fragment;
-    fragment.SetByteValue(bytes.data(), static_cast<uint32_t>(bytes.size()));
+    fragment.SetByteValue(frame.data(), static_cast<uint32_t>(frame.size()));
     fragments->AddFragment(fragment);
   }
   gdcm::DataElement pixels(gdcm::Tag(0x7fe0, 0x0010), 0, gdcm::VR::OB);
