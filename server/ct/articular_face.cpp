@@ -95,7 +95,8 @@ void measure_rim(ArticularFace& face) {
   const int n = face.half_cells + 1;
   for (int a = -n; a <= n; ++a)
     for (int s = -n; s <= n; ++s)
-      if (!is_face(s, a) && (is_face(s - 1, a) || is_face(s + 1, a) || is_face(s, a - 1) || is_face(s, a + 1)))
+      if (!is_face(s, a) &&
+          (is_face(s - 1, a) || is_face(s + 1, a) || is_face(s, a - 1) || is_face(s, a + 1)))
         rim.emplace_back(s, a);
   face.from_rim_mm.assign(face.height_mm.size(), 0.0);
   for (int a = -face.half_cells; a <= face.half_cells; ++a)
@@ -123,9 +124,8 @@ ArticularFace articular_face(const voxel::BoneModel& bone, const case_::GlenoidF
   std::vector<double> heights(cells);
   for (int a = -face.half_cells; a <= face.half_cells; ++a)
     for (int s = -face.half_cells; s <= face.half_cells; ++s)
-      heights[face.index(s, a)] =
-          height_at(bone, centre + face.step_mm * (s * superior + a * anterior), lateral,
-                    0.5 * bone.grid.min_spacing_mm());
+      heights[face.index(s, a)] = height_at(bone, centre + face.step_mm * (s * superior + a * anterior),
+                                            lateral, 0.5 * bone.grid.min_spacing_mm());
   face.height_mm.resize(cells);
   face.cosine.resize(cells);
   for (int a = -face.half_cells; a <= face.half_cells; ++a)

@@ -47,7 +47,8 @@ TEST(BoneFromMask, SurfaceIsClosedWhereverTheRegionCuts) {
   std::uniform_real_distribution<double> off(-12.0, 12.0), half(6.0, 16.0);
   for (int i = 0; i < 6; ++i) {
     BoneSettings settings;
-    const Vec3 middle = shoulder().truth.glenoid.centre_mm + Vec3(8.0 + off(random), off(random), off(random));
+    const Vec3 middle =
+        shoulder().truth.glenoid.centre_mm + Vec3(8.0 + off(random), off(random), off(random));
     const Vec3 reach(half(random), half(random), half(random));
     settings.roi_mm = Aabb{middle - reach, middle + reach};
     settings.upsample = 1 + i % 3;
@@ -96,8 +97,7 @@ TEST(BoneFromMask, GlenoidRegionIsOfTheSizeSaidAndReachesMedially) {
 
 TEST(BoneFromMask, StatesItsDensityRange) {
   BoneSettings settings;
-  const voxel::BoneModel bone =
-      bone_from_mask(shoulder().volume, shoulder().scapula, settings, no_progress);
+  const voxel::BoneModel bone = bone_from_mask(shoulder().volume, shoulder().scapula, settings, no_progress);
   const auto range = density_range_g_cc(bone);
   for (size_t i = 0; i < bone.coverage.size(); ++i) {
     if (bone.coverage[i] < 128) continue;

@@ -121,10 +121,12 @@ TEST(Cartilage, RefusesWhatCannotBe) {
   case_::Case c = bare(case_::Side::right);
   CartilageSettings settings;
   settings.thickness_mm = 7.0;
-  test::expect_error(ErrorKind::invalid_input, "thickness", [&] { add_cartilage(c.bone, *c.glenoid, settings); });
+  test::expect_error(ErrorKind::invalid_input, "thickness",
+                     [&] { add_cartilage(c.bone, *c.glenoid, settings); });
   case_::GlenoidFrame elsewhere = *c.glenoid;
   elsewhere.centre_mm += Vec3(500, 0, 0);
-  test::expect_error(ErrorKind::invalid_input, "no articular face", [&] { add_cartilage(c.bone, elsewhere, {}); });
+  test::expect_error(ErrorKind::invalid_input, "no articular face",
+                     [&] { add_cartilage(c.bone, elsewhere, {}); });
 }
 
 }  // namespace

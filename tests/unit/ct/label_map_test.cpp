@@ -39,7 +39,8 @@ TEST(LabelMap, ValuesOfTheUsersChoosing) {
   values.scapula = 7, values.humerus = 9, values.clavicle = 8;
   EXPECT_EQ(segmentation_from_labels(volume, map, values).labels, (std::vector<uint8_t>{0, 1, 4, 2}));
   values.scapula = 5;
-  test::expect_error(ErrorKind::invalid_input, "value 5", [&] { segmentation_from_labels(volume, map, values); });
+  test::expect_error(ErrorKind::invalid_input, "value 5",
+                     [&] { segmentation_from_labels(volume, map, values); });
 }
 
 TEST(LabelMap, OtherFilesAreRefused) {

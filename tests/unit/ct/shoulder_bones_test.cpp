@@ -100,8 +100,8 @@ TEST(ShoulderBones, SeedsReplaceWhatIsFound) {
   Phantom phantom = make_phantom(params);
   const case_::GlenoidFrame& glenoid = phantom.truth.glenoid;
   // Only the glenoid and a slice of the head: no sphere to be found.
-  const HuVolume part = cropped(phantom.volume, {glenoid.centre_mm - Vec3(12, 18, 18),
-                                                 glenoid.centre_mm + Vec3(30, 18, 18)});
+  const HuVolume part =
+      cropped(phantom.volume, {glenoid.centre_mm - Vec3(12, 18, 18), glenoid.centre_mm + Vec3(30, 18, 18)});
   SegmentationSettings settings = of_side(case_::Side::right);
   const Segmentation unaided = segment_shoulder(part, settings);
   ASSERT_EQ(unaided.warnings.size(), 1u);
