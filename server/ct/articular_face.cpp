@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "ct/segment.hpp"
 #include "ct/world_text.hpp"
 #include "voxel/coverage_at.hpp"
 
@@ -60,9 +61,9 @@ bool keep_sheet(ArticularFace& face, double reach_mm) {
   const auto on_face = [&](int s, int a) {
     return std::hypot(s, a) * face.step_mm <= reach_mm && face.cosine[face.index(s, a)] >= least_cosine;
   };
-  std::vector<bool> kept(face.height_mm.size());
+  Mask kept(face.height_mm.size());
   std::vector<std::pair<int, int>> pending;
-  if (on_face(0, 0)) pending.emplace_back(0, 0), kept[face.index(0, 0)] = true;
+  if (on_face(0, 0)) pending.emplace_back(0, 0), kept[face.index(0, 0)] = 1;
   for (size_t k = 0; k < pending.size(); ++k) {
     const auto [s, a] = pending[k];
     for (const auto& [ds, da] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
@@ -71,12 +72,16 @@ bool keep_sheet(ArticularFace& face, double reach_mm) {
       const size_t n = face.index(ns, na);
       const double rise = std::abs(face.height_mm[n] - face.height_mm[face.index(s, a)]);
       if (kept[n] || rise > greatest_rise * face.step_mm) continue;
-      kept[n] = true;
+      kept[n] = 1;
       pending.emplace_back(ns, na);
     }
   }
-  for (size_t i = 0; i < kept.size(); ++i)
+  // Pits within the face are part of it.
+  fill_voids(kept, {face.across(), face.across(), 1});
+  for (size_t i = 0; i < kept.size(); ++i) {
     if (!kept[i]) face.height_mm[i] = nowhere;
+    face.cosine[i] = std::max(face.cosine[i], least_cosine);
+  }
   return !pending.empty();
 }
 
@@ -90,7 +95,8 @@ void measure_rim(ArticularFace& face) {
   const int n = face.half_cells + 1;
   for (int a = -n; a <= n; ++a)
     for (int s = -n; s <= n; ++s)
-      if (!is_face(s, a) && (is_face(s - 1, a) || is_face(s + 1, a) || is_face(s, a - 1) || is_face(s, a + 1)))
+      if (!is_face(s, a) &&
+          (is_face(s - 1, a) || is_face(s + 1, a) || is_face(s, a - 1) || is_face(s, a + 1)))
         rim.emplace_back(s, a);
   face.from_rim_mm.assign(face.height_mm.size(), 0.0);
   for (int a = -face.half_cells; a <= face.half_cells; ++a)
@@ -118,9 +124,8 @@ ArticularFace articular_face(const voxel::BoneModel& bone, const case_::GlenoidF
   std::vector<double> heights(cells);
   for (int a = -face.half_cells; a <= face.half_cells; ++a)
     for (int s = -face.half_cells; s <= face.half_cells; ++s)
-      heights[face.index(s, a)] =
-          height_at(bone, centre + face.step_mm * (s * superior + a * anterior), lateral,
-                    0.5 * bone.grid.min_spacing_mm());
+      heights[face.index(s, a)] = height_at(bone, centre + face.step_mm * (s * superior + a * anterior),
+                                            lateral, 0.5 * bone.grid.min_spacing_mm());
   face.height_mm.resize(cells);
   face.cosine.resize(cells);
   for (int a = -face.half_cells; a <= face.half_cells; ++a)

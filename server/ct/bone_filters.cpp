@@ -75,12 +75,13 @@ Mask closed_by_ball(const Mask& mask, const Vec3i& dims, const Vec3& spacing_mm,
   return closed;
 }
 
-std::vector<int16_t> valley_depth_hu(const std::vector<int16_t>& hu, const Vec3i& dims, const Vec3& spacing_mm,
-                                     double radius_mm) {
+std::vector<int16_t> valley_depth_hu(const std::vector<int16_t>& hu, const Vec3i& dims,
+                                     const Vec3& spacing_mm, double radius_mm) {
   using Ball = itk::FlatStructuringElement<3>;
   Ball::RadiusType radius;
   for (unsigned axis = 0; axis < 3; ++axis)
-    radius[axis] = static_cast<itk::SizeValueType>(std::max(1.0, std::floor(radius_mm / spacing_mm[axis] + 0.5)));
+    radius[axis] =
+        static_cast<itk::SizeValueType>(std::max(1.0, std::floor(radius_mm / spacing_mm[axis] + 0.5)));
   auto top_hat = itk::BlackTopHatImageFilter<HuImage, HuImage, Ball>::New();
   top_hat->SetInput(image_over(hu, dims, spacing_mm));
   top_hat->SetKernel(Ball::Ball(radius));

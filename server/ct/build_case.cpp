@@ -168,8 +168,7 @@ voxel::BoneModel bone_from_mask(const HuVolume& volume, Mask mask, const Segment
   if (count_set(mask) == 0) throw Error(ErrorKind::invalid_input, "the segmentation holds no bone");
   check_factor(options.upsample);
   fill_voids(mask, volume.dims);
-  return upsampled(volume, resolve_surface(volume, mask), options.upsample, options.calibration,
-                   no_progress);
+  return upsampled(volume, resolve_surface(volume, mask), options.upsample, options.calibration, no_progress);
 }
 
 voxel::BoneModel bone_from_mask(const HuVolume& volume, const Mask& mask, const BoneSettings& settings,

@@ -6,9 +6,9 @@ namespace ream::ct {
 /// A layer of cartilage that CT does not show. Means of 1.9 to 2.2 mm are reported for glenoids, more below
 /// and less in the middle (science 2.4).
 struct CartilageSettings {
-  double thickness_mm = 2.0;   ///< along the face's normal, 0 (none) to 6
-  double rim_taper_mm = 1.5;   ///< it thins to nothing over this width at the rim, 0 to 10
-  double reach_mm = 24.0;      ///< nothing farther than this from the glenoid's centre, along the face
+  double thickness_mm = 2.0;  ///< along the face's normal, 0 (none) to 6
+  double rim_taper_mm = 1.5;  ///< it thins to nothing over this width at the rim, 0 to 10
+  double reach_mm = 24.0;     ///< nothing farther than this from the glenoid's centre, along the face
 };
 
 /// Lays cartilage on the articular face: what is met first, within 10 mm of the centre, on going medially

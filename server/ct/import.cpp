@@ -57,8 +57,7 @@ case_::GlenoidFrame glenoid_frame(const Vec3& centre_mm, const Segmentation& seg
 void make_from_labels(HuVolume& volume, const ImportOptions& options, case_::Case& result,
                       const Progress& progress) {
   if (options.roi_mm) cropped(volume, *options.roi_mm);  // refuses a region outside before the long work
-  const Segmentation segmentation =
-      labelled(volume, options, result.side, part_of(progress, 0.3, 0.7));
+  const Segmentation segmentation = labelled(volume, options, result.side, part_of(progress, 0.3, 0.7));
   result.calibration.threshold_hu = segmentation.threshold_hu;
   result.warnings.insert(result.warnings.end(), segmentation.warnings.begin(), segmentation.warnings.end());
   if (options.labels_out) write_label_map(volume, segmentation.labels, *options.labels_out);
@@ -75,8 +74,8 @@ void make_from_labels(HuVolume& volume, const ImportOptions& options, case_::Cas
   progress(0.95, "laying cartilage");
   CartilageSettings cartilage;
   cartilage.thickness_mm = options.cartilage_mm;
-  add_cartilage(result.bone,
-                glenoid_frame(glenoid_centre(options, segmentation), segmentation, result.side), cartilage);
+  add_cartilage(result.bone, glenoid_frame(glenoid_centre(options, segmentation), segmentation, result.side),
+                cartilage);
 }
 
 void make_from_growing(HuVolume& volume, const ImportOptions& options, case_::Case& result) {

@@ -18,7 +18,7 @@ struct ImportOptions {
   /// Without it and without a label map, what grows from segmentation.grow_from_mm or the largest part.
   std::optional<SegmentationSettings> shoulder;
   SegmentationOptions segmentation;
-  double cartilage_mm = 0.0;  ///< thickness of synthetic cartilage on the face
+  double cartilage_mm = 0.0;                        ///< thickness of synthetic cartilage on the face
   std::optional<std::filesystem::path> labels_out;  ///< label map to be written beside the case
 };
 

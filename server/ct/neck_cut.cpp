@@ -89,7 +89,8 @@ Graph graph_of(const Cut& cut, const Vec3i& dims, const Vec3& spacing_mm, double
       const double face_mm2 = step == 1          ? spacing_mm.y() * spacing_mm.z()
                               : step == steps.nx ? spacing_mm.x() * spacing_mm.z()
                                                  : spacing_mm.x() * spacing_mm.y();
-      const int32_t cost = cost_of_cut(std::min(cut.hu[i], cut.hu[n]), std::max(cut.valley_hu[i], cut.valley_hu[n]), threshold_hu, face_mm2);
+      const int32_t cost = cost_of_cut(std::min(cut.hu[i], cut.hu[n]),
+                                       std::max(cut.valley_hu[i], cut.valley_hu[n]), threshold_hu, face_mm2);
       if (cut.node[n] > node)
         join(graph, node, cut.node[n], cost, cost);
       else if (cut.node[n] == 0)

@@ -88,7 +88,8 @@ void fill_marrow(Mask& bone, const Vec3i& dims, int least_axes) {
       const Mask before = plane;
       fill_voids(plane, window.dims);
       Mask sums = cut_out(closed_across, dims, window);
-      for (size_t i = 0; i < plane.size(); ++i) sums[i] = static_cast<uint8_t>(sums[i] + (plane[i] && !before[i]));
+      for (size_t i = 0; i < plane.size(); ++i)
+        sums[i] = static_cast<uint8_t>(sums[i] + (plane[i] && !before[i]));
       put_back(closed_across, dims, window, sums);
     }
   for (size_t i = 0; i < bone.size(); ++i)

@@ -23,8 +23,8 @@ Mask largest_part(const Mask& mask, const Vec3i& dims);
 /// axis of one voxel there is no border: a single slice is filled in its plane.
 void fill_voids(Mask& mask, const Vec3i& dims);
 
-/// Fills what is enclosed within slices across at least `least_axes` of the three voxel axes: marrow whose wall has a
-/// pore somewhere, which is no closed void in space.
+/// Fills what is enclosed within slices across at least `least_axes` of the three voxel axes: marrow whose
+/// wall has a pore somewhere, which is no closed void in space.
 void fill_marrow(Mask& mask, const Vec3i& dims, int least_axes = 2);
 
 /// The set voxel nearest to `world_mm`, within `reach_mm`; empty when there is none.

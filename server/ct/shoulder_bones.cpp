@@ -96,8 +96,7 @@ std::vector<uint8_t> labels_of_region(const HuVolume& region, const Segmentation
                                       double threshold_hu, const std::optional<HumeralHead>& head,
                                       const Progress& progress) {
   progress(0.0, "marking bones");
-  std::vector<uint8_t> labels =
-      shoulder_markers(region, threshold_hu, head, settings.side, settings.seeds);
+  std::vector<uint8_t> labels = shoulder_markers(region, threshold_hu, head, settings.side, settings.seeds);
   const Seeds& seeds = settings.seeds;
   if (!head && !seeds.scapula_mm) {
     const Mask scapula = largest_part(above_threshold(region, threshold_hu), region.dims);
@@ -110,8 +109,7 @@ std::vector<uint8_t> labels_of_region(const HuVolume& region, const Segmentation
     flood_by_hu(region, threshold_hu, labels);
     progress(0.3, "parting joints");
     cut_at_necks(labels, markers, region, threshold_hu, neck_reach_mm);
-  } else
-{
+  } else {
     spread_unseparated(region, threshold_hu, labels);
   }
   tell_clavicle(labels, region, head);
@@ -120,7 +118,8 @@ std::vector<uint8_t> labels_of_region(const HuVolume& region, const Segmentation
   WholeBoneSettings whole;
   whole.threshold_hu = threshold_hu;
   const SoftTissue soft = soft_tissue_of(region);
-  whole.thin_bone_hu = std::min(threshold_hu, std::max(0.55 * threshold_hu, soft.hu + 3.0 * soft.deviation_hu));
+  whole.thin_bone_hu =
+      std::min(threshold_hu, std::max(0.55 * threshold_hu, soft.hu + 3.0 * soft.deviation_hu));
   make_whole(labels, region, BoneLabel::scapula, whole);
   progress(0.8, "filling the humerus");
   make_whole(labels, region, BoneLabel::humerus, whole);

@@ -7,6 +7,7 @@
 #include "core/progress.hpp"
 #include "ct/humeral_head.hpp"
 #include "ct/segment.hpp"
+#include "ct/threshold_suggestion.hpp"
 
 namespace ream::ct {
 

@@ -48,8 +48,7 @@ void make_whole(std::vector<uint8_t>& labels, const HuVolume& volume, BoneLabel 
   const std::vector<uint8_t> around = cut_out(labels, volume.dims, window);
   const std::vector<int16_t> hu = cut_out(volume.hu, volume.dims, window);
   Mask bone = mask_of(around, label), free_dense(around.size());
-  for (size_t i = 0; i < around.size(); ++i)
-    free_dense[i] = around[i] == 0 && hu[i] >= settings.threshold_hu;
+  for (size_t i = 0; i < around.size(); ++i) free_dense[i] = around[i] == 0 && hu[i] >= settings.threshold_hu;
   add_pieces(bone, free_dense, window.dims, volume.spacing_mm, settings.closing_mm);
   const Mask closed = closed_by_ball(bone, window.dims, volume.spacing_mm, settings.closing_mm);
   for (size_t i = 0; i < bone.size(); ++i)
