@@ -37,7 +37,8 @@ int hu_at(const HuVolume& volume, const Vec3& world) {
 }
 
 size_t voxels_over(const HuVolume& volume, int hu) {
-  return static_cast<size_t>(std::count_if(volume.hu.begin(), volume.hu.end(), [&](int h) { return h >= hu; }));
+  return static_cast<size_t>(
+      std::count_if(volume.hu.begin(), volume.hu.end(), [&](int h) { return h >= hu; }));
 }
 
 uint64_t hash_of(const PhantomParams& params) {
@@ -162,8 +163,9 @@ TEST(PhantomTypes, B2IsBiconcaveRetrovertedAndScleroticBehind) {
   EXPECT_NEAR(density(behind), 1.1, 1e-9);
   EXPECT_EQ(density(ahead), healthy(ahead));
   EXPECT_EQ(b2.truth.landmarks.walch, "B2");
-  EXPECT_GT((b2.truth.humeral_head_centre_mm - b2.truth.glenoid.centre_mm).y(),
-            (make_phantom(coarse(PhantomType::a1)).truth.humeral_head_centre_mm - b2.truth.glenoid.centre_mm).y());
+  EXPECT_GT(
+      (b2.truth.humeral_head_centre_mm - b2.truth.glenoid.centre_mm).y(),
+      (make_phantom(coarse(PhantomType::a1)).truth.humeral_head_centre_mm - b2.truth.glenoid.centre_mm).y());
 }
 
 TEST(PhantomTypes, OsteophytesAddBoneOutsideTheNativeRimOnly) {
