@@ -51,7 +51,8 @@ OrderedNrrd::OrderedNrrd(const fs::path& path) : path_(path) {
     for (const std::string key : {"data file:", "datafile:"})
       if (line.starts_with(key)) {
         const size_t name = line.find_first_not_of(' ', key.size());
-        line = "data file: " + (fs::absolute(path).parent_path() / line.substr(std::min(name, line.size()))).string();
+        line = "data file: " +
+               (fs::absolute(path).parent_path() / line.substr(std::min(name, line.size()))).string();
         elsewhere = true;
       }
   std::stable_partition(lines.begin() + 1, lines.end(), [](const std::string& line) {

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "ct/dicom_completeness.hpp"
+#include "ct/dicom_file.hpp"
 #include "ct/file_completeness.hpp"
 #include "ct/itk_volume.hpp"
 #include "ct/nrrd_order.hpp"

@@ -17,6 +17,8 @@ struct SegmentationRecord {
   SegmentationSettings settings;
   double threshold_hu = 0.0;  ///< that was used: the settings', or the suggested one
   std::vector<BonePart> parts;
+  std::optional<HumeralHead> head;  ///< as it was found
+  std::optional<Vec3> glenoid_mm;   ///< about the middle of the face, to begin with
   std::vector<std::string> warnings;
 };
 

@@ -15,13 +15,6 @@ Error no_scapula(const Workup& workup) {
           "case '" + workup.id + "' has no segmented scapula; segment it again with a seed in the scapula"};
 }
 
-const BonePart& scapula_part(const Workup& workup) {
-  if (const SegmentationRecord* record = workup.segmentation())
-    for (const BonePart& part : record->parts)
-      if (part.label == BoneLabel::scapula) return part;
-  throw no_scapula(workup);
-}
-
 Mask scapula_mask(const Workup& workup, const std::vector<uint8_t>& labels) {
   Mask mask = mask_of(labels, BoneLabel::scapula);
   if (count_set(mask) == 0) throw no_scapula(workup);

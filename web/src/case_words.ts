@@ -97,7 +97,16 @@ export const caseWords = {
   enlarge: (view: string) => `Enlarge ${view}`,
   reduce: 'Show all four views',
   radiological: 'Radiological view: the patient’s right is on the left',
-  position: (right: string, front: string, up: string, hu: string) => `L ${right}  P ${front}  S ${up} mm · ${hu} HU`,
+  place: (point: readonly number[], hu: number | null) => {
+    const letters = [
+      ['R', 'L'],
+      ['A', 'P'],
+      ['I', 'S'],
+    ] as const;
+    const text = point.map((mm, i) => `${letters[i]?.[mm < 0 ? 0 : 1] ?? ''} ${Math.abs(mm).toFixed(1)}`);
+    return `${text.join('  ')} mm${hu === null ? '' : `  ·  ${hu} HU`}`;
+  },
+  wholeCt: 'Whole CT',
   windowGroup: 'Brightness',
   windowBone: 'Bone',
   windowSoft: 'Soft tissue',
@@ -125,7 +134,8 @@ export const caseWords = {
     string
   >,
 
-  segmentHint: 'Yellow is what the threshold takes for bone. Raise it until joint spaces open, lower it until thin bone closes.',
+  segmentHint:
+    'Yellow is what the threshold takes for bone. Raise it until joint spaces open, lower it until thin bone closes.',
   threshold: 'Threshold',
   suggested: (hu: string) => `Suggested: ${hu} HU`,
   useSuggested: 'Use it',
@@ -146,6 +156,9 @@ export const caseWords = {
   partNames: ['', 'Scapula', 'Humerus', 'Clavicle', 'Other bone'] as readonly string[],
   volume: (cm3: string) => `${cm3} cm³`,
   goToPart: (name: string) => `Show ${name}`,
+  otherSide: 'The other shoulder',
+  otherSideHint: 'Where the CT shows both shoulders, a second case can be made of it without another upload.',
+  copyOtherSide: (side: Side) => `Make a case of the ${side} shoulder`,
   settingsChanged: 'Settings were changed since the parts were found.',
 
   landmarksHint: 'Choose a landmark, then click its place in a slice or on the surface. Drag a placed one to move it.',
@@ -231,7 +244,8 @@ export const caseWords = {
   noInclination: '0.0° inclination',
   unknown: '–',
 
-  planHint: 'Say how the face is to lie after reaming. The proposed axis goes through the glenoid centre; drag the entry in a slice to move it.',
+  planHint:
+    'Say how the face is to lie after reaming. The proposed axis goes through the glenoid centre; drag the entry in a slice to move it.',
   wantedVersion: 'Version wanted',
   wantedInclination: 'Inclination wanted',
   retroversionWord: 'retroversion',

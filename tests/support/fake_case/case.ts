@@ -47,7 +47,10 @@ export class FakeCase {
 
   summary(): object {
     const stage = this.built !== null ? 'built' : this.found.length > 0 ? 'segmented' : 'ct';
-    const made = this.built === null ? { dims: null, spacing_mm: null } : { dims: [160, 160, 133], spacing_mm: [0.25, 0.25, 0.375] };
+    const made =
+      this.built === null
+        ? { dims: null, spacing_mm: null }
+        : { dims: [160, 160, 133], spacing_mm: [0.25, 0.25, 0.375] };
     return { id: this.id, name: this.name, side: this.side, stage, ...made, planned: this.plan !== null };
   }
 
@@ -58,7 +61,14 @@ export class FakeCase {
       warnings: ['2 slices that belong to no series were left out'],
       ct: {
         ...{ dims, spacing_mm: spacingMm, hu_min: -1020, hu_max: 820, source: 'made up', revision: 1 },
-        world_from_volume: { rotation: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], translation_mm: originMm },
+        world_from_volume: {
+          rotation: [
+            [1, 0, 0],
+            [0, 1, 0],
+            [0, 0, 1],
+          ],
+          translation_mm: originMm,
+        },
         suggested_threshold_hu: 226,
       },
       segmentation: found

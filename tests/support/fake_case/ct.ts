@@ -103,7 +103,15 @@ export function partsOf(labels: Uint8Array): object[] {
       }
     });
     const volume_mm3 = voxels * spacingMm[0] * spacingMm[1] * spacingMm[2];
-    return { label, name: names[label], voxels, volume_mm3, centre_mm: sum.map((s) => s / voxels), low_mm: low, high_mm: high };
+    return {
+      label,
+      name: names[label],
+      voxels,
+      volume_mm3,
+      centre_mm: sum.map((s) => s / voxels),
+      low_mm: low,
+      high_mm: high,
+    };
   });
 }
 
@@ -130,7 +138,20 @@ export function surfacePly(labels: Uint8Array): Buffer {
 
 function pushFace(vertices: number[], voxel: Point, axis: 0 | 1 | 2, sign: -1 | 1): void {
   const [a, b] = [(axis + 1) % 3, (axis + 2) % 3] as [0 | 1 | 2, 0 | 1 | 2];
-  const around = sign === 1 ? [[0, 0], [1, 0], [1, 1], [0, 1]] : [[0, 0], [0, 1], [1, 1], [1, 0]];
+  const around =
+    sign === 1
+      ? [
+          [0, 0],
+          [1, 0],
+          [1, 1],
+          [0, 1],
+        ]
+      : [
+          [0, 0],
+          [0, 1],
+          [1, 1],
+          [1, 0],
+        ];
   for (const [da = 0, db = 0] of around) {
     const corner: Point = [...voxel];
     corner[axis] += sign === 1 ? 1 : 0;

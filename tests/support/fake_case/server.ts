@@ -64,7 +64,7 @@ export class FakeWorkshop {
   private async call(request: IncomingMessage, path: string[], query: URLSearchParams): Promise<Answer> {
     const bytes = await readAll(request);
     const isJson = request.headers['content-type'] === 'application/json';
-    const body = (isJson && bytes.length > 0 ? JSON.parse(bytes.toString()) : {});
+    const body = isJson && bytes.length > 0 ? JSON.parse(bytes.toString()) : {};
     const [room, id = ''] = path;
     const method = request.method ?? 'GET';
     if (room === 'uploads') return this.upload(method, id, body, bytes, Number(query.get('offset')));
@@ -135,7 +135,10 @@ export class FakeWorkshop {
         return { status: 200, bytes, type: 'application/ply' };
       }
       case 'POST segmentation':
-        return ok(this.begin('segmentation', one.id, () => one.segment(body)), 202);
+        return ok(
+          this.begin('segmentation', one.id, () => one.segment(body)),
+          202,
+        );
       case 'POST segmentation/undo':
         one.undo();
         return ok(one.describe());
@@ -154,7 +157,10 @@ export class FakeWorkshop {
         return ok({ plan: body, assessment });
       }
       case 'POST build':
-        return ok(this.begin('build', one.id, () => one.build(body as never)), 202);
+        return ok(
+          this.begin('build', one.id, () => one.build(body as never)),
+          202,
+        );
       default:
         throw new Refusal(405, `${call} is not known`);
     }
@@ -169,7 +175,15 @@ export class FakeWorkshop {
   /** A job that takes a moment and then does its deed. */
   private begin(kind: string, case_id: string, deed: () => void): FakeJob {
     const first = steps[0] ?? '';
-    const job: FakeJob = { id: `j${++this.made}`, kind, case_id, state: 'running', share: 0, step: first, problem: null };
+    const job: FakeJob = {
+      id: `j${++this.made}`,
+      kind,
+      case_id,
+      state: 'running',
+      share: 0,
+      step: first,
+      problem: null,
+    };
     this.jobs.unshift(job);
     const timer = setInterval(() => {
       if (job.state !== 'running') return clearInterval(timer);

@@ -55,8 +55,12 @@ std::string bytes_of(const std::filesystem::path& file) {
 
 /// The numbers of a decimal string in an explicit little-endian DICOM file, found by its bytes.
 std::vector<double> numbers_at(const std::string& bytes, uint16_t group, uint16_t element) {
-  const char key[6] = {static_cast<char>(group & 0xff),   static_cast<char>(group >> 8),
-                       static_cast<char>(element & 0xff), static_cast<char>(element >> 8), 'D', 'S'};
+  const char key[6] = {static_cast<char>(group & 0xff),
+                       static_cast<char>(group >> 8),
+                       static_cast<char>(element & 0xff),
+                       static_cast<char>(element >> 8),
+                       'D',
+                       'S'};
   const size_t at = bytes.find(std::string(key, 6));
   if (at == std::string::npos) return {};
   const size_t length = static_cast<unsigned char>(bytes[at + 6]);
@@ -126,7 +130,8 @@ TEST(SharedCt, NiftiFilesLieWhereTheirHeadersSay) {
     std::memcpy(&sform, header.data() + 254, 2);
     ASSERT_GT(sform, 0);
     EXPECT_EQ(volume.dims, Vec3i(dims[1], dims[2], dims[3]));
-    for (const Vec3i& o : {Vec3i(0, 0, 0), Vec3i(dims[1] - 1, 0, 0), Vec3i(0, dims[2] - 1, 0), Vec3i(3, 5, dims[3] - 1)}) {
+    for (const Vec3i& o :
+         {Vec3i(0, 0, 0), Vec3i(dims[1] - 1, 0, 0), Vec3i(0, dims[2] - 1, 0), Vec3i(3, 5, dims[3] - 1)}) {
       Vec3 ras;
       for (size_t row = 0; row < 3; ++row)
         ras[static_cast<int>(row)] = number(280 + 16 * row) * o.x() + number(284 + 16 * row) * o.y() +

@@ -14,7 +14,8 @@
 namespace ream::ct {
 namespace {
 
-/// The mean of `n` slices as one, from slice `first` on: what a scanner measures with slices n times as thick.
+/// The mean of `n` slices as one, from slice `first` on: what a scanner measures with slices n times as
+/// thick.
 HuVolume thickened(const HuVolume& fine, int n, int first) {
   HuVolume thick = fine;
   thick.world_from_volume.translation_mm.z() += first * fine.spacing_mm.z();
@@ -33,11 +34,13 @@ HuVolume thickened(const HuVolume& fine, int n, int first) {
 
 /// HU between voxel centres, trilinear.
 double hu_at(const HuVolume& volume, const Vec3& world) {
-  const Vec3 p = (volume.world_from_volume.inverse().point(world).array() / volume.spacing_mm.array() - 0.5).matrix();
+  const Vec3 p =
+      (volume.world_from_volume.inverse().point(world).array() / volume.spacing_mm.array() - 0.5).matrix();
   const Vec3i o = p.array().floor().cast<int>().matrix();
   double sum = 0.0;
   for (int k = 0; k < 8; ++k) {
-    const Vec3i corner = (o + Vec3i(k & 1, (k >> 1) & 1, k >> 2)).cwiseMax(0).cwiseMin(volume.dims - Vec3i::Ones());
+    const Vec3i corner =
+        (o + Vec3i(k & 1, (k >> 1) & 1, k >> 2)).cwiseMax(0).cwiseMin(volume.dims - Vec3i::Ones());
     double weight = 1.0;
     for (int axis = 0; axis < 3; ++axis) {
       const double share = p[axis] - o[axis];
@@ -49,15 +52,17 @@ double hu_at(const HuVolume& volume, const Vec3& world) {
 }
 
 struct Cost {
-  double version_deg = 0.0, inclination_deg = 0.0, depth_mm = 0.0;  ///< 19 of 20 places are met within that depth
-  double lost_percent = 0.0;                                        ///< of the places, where no face is met
+  double version_deg = 0.0, inclination_deg = 0.0,
+         depth_mm = 0.0;      ///< 19 of 20 places are met within that depth
+  double lost_percent = 0.0;  ///< of the places, where no face is met
 };
 
 /// The articular face met along its axis at the threshold: plane through it, compared with the plane through
 /// the true sphere at the same places.
 Cost cost_of(const HuVolume& volume, const GroundTruth& truth, double threshold_hu) {
   const Vec3 lateral = truth.glenoid.lateral, centre = truth.glenoid.centre_mm;
-  const Vec3 superior = (Vec3::UnitZ() - lateral.z() * lateral).normalized(), across = superior.cross(lateral);
+  const Vec3 superior = (Vec3::UnitZ() - lateral.z() * lateral).normalized(),
+             across = superior.cross(lateral);
   Eigen::MatrixXd places(0, 3);
   Eigen::VectorXd found(0), exact(0);
   std::vector<double> depths;
@@ -130,8 +135,8 @@ Cost worst(int slices_as_one) {
 
 /// The figures of remark_thickness: none is exceeded, none exaggerates by half.
 void expect_said(const Cost& c, double inclination_deg, double depth_mm, double lost_percent) {
-  std::cout << "version " << c.version_deg << " deg, inclination " << c.inclination_deg << " deg, depth " << c.depth_mm
-            << " mm, lost " << c.lost_percent << " %\n";
+  std::cout << "version " << c.version_deg << " deg, inclination " << c.inclination_deg << " deg, depth "
+            << c.depth_mm << " mm, lost " << c.lost_percent << " %\n";
   EXPECT_LE(c.version_deg, 0.6);
   EXPECT_LE(c.inclination_deg, inclination_deg);
   EXPECT_GE(c.inclination_deg, inclination_deg / 1.5);

@@ -145,9 +145,10 @@ TEST(VolumeAxes, NrrdFieldsInAnotherOrder) {
   const TemporaryFolder folder;
   const auto hu = told(dims);
   const std::string voxels(reinterpret_cast<const char*>(hu.data()), 2 * hu.size());
-  const std::string first = "NRRD0004\ntype: short\ndimension: 3\nsizes: 4 3 5\nspace directions: (0.5,0,0) (0,0.75,0) "
-                            "(0,0,1.5)\nspace origin: (-30,12,400)\nspace: left-posterior-superior\nendian: little\n"
-                            "encoding: raw\n";
+  const std::string first =
+      "NRRD0004\ntype: short\ndimension: 3\nsizes: 4 3 5\nspace directions: (0.5,0,0) (0,0.75,0) "
+      "(0,0,1.5)\nspace origin: (-30,12,400)\nspace: left-posterior-superior\nendian: little\n"
+      "encoding: raw\n";
   const auto inside = folder.write("ct.nrrd", first + "\n" + voxels);
   expect_places(read_ct(inside), dims, origin, Mat3(spacing.asDiagonal()));
   folder.write("voxels.raw", voxels);

@@ -14,12 +14,27 @@ export interface PicturePoint {
   y: number;
 }
 
-/** The whole slice, as large as it fits. */
-export function fittingLook(frame: VolumeFrame, plane: SlicePlane, widthPx: number, heightPx: number): SliceLook {
-  const across = (side: SlicePlane['right']) =>
-    frame.dims[numberOf(side.axis)] * frame.spacingMm[numberOf(side.axis)];
+/** A box of the CT, voxels. */
+export interface VoxelBox {
+  low: Triple;
+  high: Triple;
+}
+
+/** A box (the whole CT where none is given), as large as it fits the picture. */
+export function fittingLook(
+  frame: VolumeFrame,
+  plane: SlicePlane,
+  widthPx: number,
+  heightPx: number,
+  box: VoxelBox = { low: [0, 0, 0], high: frame.dims },
+): SliceLook {
+  const across = ({ axis }: SlicePlane['right']) => {
+    const i = numberOf(axis);
+    return Math.max(box.high[i] - box.low[i], 1) * frame.spacingMm[i];
+  };
   const pxPerMm = Math.min(widthPx / across(plane.right), heightPx / across(plane.down));
-  return { centre: frame.middle(), pxPerMm };
+  const middle = (i: 0 | 1 | 2) => (box.low[i] + box.high[i]) / 2;
+  return { centre: [middle(0), middle(1), middle(2)], pxPerMm };
 }
 
 /** Where the places of one slice are in a picture of a size; pixels from its upper left corner. */

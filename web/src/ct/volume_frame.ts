@@ -60,6 +60,21 @@ export class VolumeFrame {
     return Math.min(Math.max(Math.floor(place[i]), 0), this.dims[i] - 1);
   }
 
+  /** Voxels around a box of the world, within the CT. */
+  voxelBox(lowMm: Triple, highMm: Triple, marginMm: number): { low: Triple; high: Triple } {
+    const low: Triple = [...this.dims];
+    const high: Triple = [0, 0, 0];
+    for (let corner = 0; corner < 8; ++corner) {
+      const at = [0, 1, 2].map((i) => ((corner >> i) & 1 ? (highMm[i] ?? 0) + marginMm : (lowMm[i] ?? 0) - marginMm));
+      const voxel = this.voxelFromWorld(at as Triple);
+      for (const i of [0, 1, 2] as const) {
+        low[i] = Math.max(Math.min(low[i], voxel[i]), 0);
+        high[i] = Math.min(Math.max(high[i], voxel[i]), this.dims[i]);
+      }
+    }
+    return { low, high };
+  }
+
   middle(): Triple {
     return [this.dims[0] / 2, this.dims[1] / 2, this.dims[2] / 2];
   }

@@ -59,7 +59,7 @@ export function CasePage({ keeper, startReaming }: Parts) {
           <SurfacePanel view={views.surface} store={store} enlarged={enlarged} />
         )}
       </main>
-      {details.ct !== null && <WindowBar store={store} />}
+      {details.ct !== null && <WindowBar keeper={keeper} />}
       <StepsPanel keeper={keeper} startReaming={startReaming} />
     </div>
   );

@@ -29,7 +29,10 @@ export function planMeshes(plan: PlanMark): Group {
   );
   axis.renderOrder = 1;
   const look = { color: planColour, transparent: true, opacity: plan.kept ? 0.35 : 0.2, side: DoubleSide };
-  const reamer = new Mesh(revolved(plan.outline, plan.depthMm), new MeshStandardMaterial({ ...look, depthWrite: false }));
+  const reamer = new Mesh(
+    revolved(plan.outline, plan.depthMm),
+    new MeshStandardMaterial({ ...look, depthWrite: false }),
+  );
   group.add(axis, reamer);
   return group;
 }
@@ -44,7 +47,12 @@ function revolved(outline: Outline, depthMm: number): BufferGeometry {
       positions.push(Math.cos(angle) * offAxisMm, Math.sin(angle) * offAxisMm, depthMm - behindMm);
       if (ring === 0) continue;
       const next = (side + 1) % sides;
-      const [a, b, c, d] = [(ring - 1) * sides + side, (ring - 1) * sides + next, ring * sides + side, ring * sides + next];
+      const [a, b, c, d] = [
+        (ring - 1) * sides + side,
+        (ring - 1) * sides + next,
+        ring * sides + side,
+        ring * sides + next,
+      ];
       indices.push(a, c, b, b, c, d);
     }
   });

@@ -43,7 +43,10 @@ export function markAt(at: PicturePoint, { frame, layout, crossHair, points }: O
   return near[0]?.mark ?? null;
 }
 
-function drawCrossHair(onto: CanvasRenderingContext2D, { layout, crossHair, crossHairColours, ...size }: OverlayWanted) {
+function drawCrossHair(
+  onto: CanvasRenderingContext2D,
+  { layout, crossHair, crossHairColours, ...size }: OverlayWanted,
+) {
   const { x, y } = layout.toPicture(crossHair);
   onto.lineWidth = 1;
   onto.globalAlpha = 0.85;

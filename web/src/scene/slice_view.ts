@@ -2,9 +2,10 @@ import { effect, signal } from '@preact/signals';
 
 import type { PlaneName, SlicePlane } from '../ct/orientation';
 import { fittingLook, type PicturePoint, SliceLayout, type SliceLook } from '../ct/slice_layout';
-import { numberOf, type VolumeFrame } from '../ct/volume_frame';
+import { numberOf, type VolumeFrame, voxelAxes } from '../ct/volume_frame';
 import { limitWindow } from '../ct/window_level';
 import type { CaseKeeper } from '../state/case/case_keeper';
+import type { Framed } from '../state/case/case_store';
 import type { PointMark, ViewMarks } from '../state/case/view_marks';
 import type { Triple } from '../wire/case_types';
 import { SliceHand } from './slice_hand';
@@ -25,15 +26,14 @@ export class SliceView {
   /** The picture is of another slice than the wanted one, or why there is none. */
   readonly pending = signal(false);
   readonly problem = signal<string | null>(null);
-  readonly hoverMm = signal<Triple | null>(null);
 
   private readonly context = this.canvas.getContext('2d');
   private readonly picture: SlicePicture;
   private readonly look = signal<SliceLook | null>(null);
   private readonly size = signal({ width: 0, height: 0 });
   private lookedAtRevision: number | null = null;
-  /** The look is that of the whole slice, also when the view's size changes. */
-  private fitted = true;
+  /** What fits the view, also when its size changes, until it is zoomed or moved. */
+  private fitted: Framed | null = null;
   private held: PointMark | null = null;
   private drawRequested = false;
   private readonly stops: (() => void)[] = [];
@@ -52,7 +52,7 @@ export class SliceView {
     resizes.observe(this.canvas);
     this.stops.push(
       () => resizes.disconnect(),
-      effect(() => this.fitNewCt()),
+      effect(() => this.frameNew()),
       effect(() => {
         this.watched();
         this.invalidate();
@@ -65,12 +65,12 @@ export class SliceView {
     this.drawRequested = true;
   }
 
-  fit(): void {
+  fit(framed: Framed): void {
     const { frame, plane } = this.geometry();
     const { width, height } = this.size.value;
     if (frame === null || plane === null || width === 0) return;
-    this.fitted = true;
-    this.look.value = fittingLook(frame, plane, width, height);
+    this.fitted = framed;
+    this.look.value = fittingLook(frame, plane, width, height, framed.box ?? undefined);
   }
 
   scroll(slices: number): void {
@@ -100,7 +100,7 @@ export class SliceView {
       '+': () => this.zoomAtCrossHair(zoomStep),
       '=': () => this.zoomAtCrossHair(zoomStep),
       '-': () => this.zoomAtCrossHair(1 / zoomStep),
-      Home: () => this.fit(),
+      Home: () => this.fit({ box: null }),
     };
     const deed = deeds[event.key];
     deed?.();
@@ -123,15 +123,19 @@ export class SliceView {
     return this.keeper.store.planes.value?.[this.name] ?? null;
   }
 
-  /** A CT that is seen for the first time fills the view, and goes on filling it until it is zoomed or moved. */
-  private fitNewCt(): void {
+  /** A new CT, or what is to be framed anew, fills the view. */
+  private frameNew(): void {
     const revision = this.keeper.store.details.value?.ct?.revision ?? null;
+    const framed = this.keeper.store.framed.value;
     if (this.size.value.width === 0 || revision === null) return;
-    const isNew = revision !== this.lookedAtRevision;
+    if (revision !== this.lookedAtRevision) this.picture.forget();
+    const isNew = revision !== this.lookedAtRevision || framed !== this.framedLast;
     this.lookedAtRevision = revision;
-    if (isNew) this.picture.forget();
-    if (isNew || this.fitted) this.fit();
+    this.framedLast = framed;
+    if (isNew) this.fit(framed);
+    else if (this.fitted !== null) this.fit(this.fitted);
   }
+  private framedLast: Framed | null = null;
 
   private invalidate(): void {
     if (this.drawRequested) return;
@@ -185,7 +189,19 @@ export class SliceView {
     drawOverlay(context, overlay);
     this.place.value = { index, count: overlay.frame.dims[numberOf(plane.axis)] };
     this.pending.value = !arrived;
+    if (this.name === 'axial') store.crossHairHu.value = arrived ? this.huAtCrossHair(overlay) : null;
     this.problem.value = this.picture.problem;
+  }
+
+  private huAtCrossHair({ frame, crossHair }: OverlayWanted): number | null {
+    const { planes, details } = this.keeper.store;
+    const axis = planes.value?.[this.name].axis;
+    const revision = details.value?.ct?.revision;
+    if (axis === undefined || revision === undefined) return null;
+    const bytes = this.keeper.slices.peek({ of: 'hu', revision, axis, index: frame.sliceAt(axis, crossHair) });
+    const [first = 'u', second = 'v'] = voxelAxes.filter((other) => other !== axis);
+    const at = frame.sliceAt(first, crossHair) + frame.dims[numberOf(first)] * frame.sliceAt(second, crossHair);
+    return bytes === null ? null : (new Int16Array(bytes)[at] ?? null);
   }
 
   private listen(): void {
@@ -254,7 +270,7 @@ export class SliceView {
   private lookWith(change: (layout: SliceLayout) => SliceLook): void {
     const layout = this.overlay()?.layout;
     if (layout === undefined) return;
-    this.fitted = false;
+    this.fitted = null;
     this.look.value = change(layout);
   }
 

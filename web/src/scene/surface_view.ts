@@ -18,7 +18,7 @@ import {
 } from 'three';
 
 import { planeNames } from '../ct/orientation';
-import { add, subtract, type VolumeFrame } from '../ct/volume_frame';
+import { add, subtract } from '../ct/volume_frame';
 import type { CaseKeeper } from '../state/case/case_keeper';
 import type { PlanMark, PointMark, ViewMarks } from '../state/case/view_marks';
 import type { Triple } from '../wire/case_types';
@@ -59,6 +59,8 @@ export class SurfaceView {
   private readonly boneMaterial = new MeshStandardMaterial({ color: 0xf2e8d5, roughness: 0.72, metalness: 0 });
   private bone: Mesh | null = null;
   private surface: Surface | null = null;
+  /** Of which state of the case the surface was asked for. */
+  private loadedOf = '';
   private readonly crossHair = new Group();
   private readonly points = new Group();
   private plan: Group | null = null;
@@ -135,7 +137,7 @@ export class SurfaceView {
   /** Loads the surface whenever the server has another one. */
   private followSurface(): void {
     const details = this.keeper.store.details.value;
-    const of = `${details?.segmentation?.revision ?? ''}/${details?.built?.segmentation_revision ?? ''}/${details?.stage ?? ''}/${details?.built?.upsample ?? ''}/${details?.built?.cartilage_mm ?? ''}`;
+    const of = [details?.stage, details?.segmentation?.revision, details?.built?.segmentation_revision].join();
     if (details === null || of === this.loadedOf) return;
     this.loadedOf = of;
     if (details.stage === 'ct') {
@@ -143,7 +145,6 @@ export class SurfaceView {
       this.keeper.store.surface.value = { kind: 'none' };
     } else void this.load();
   }
-  private loadedOf = '';
 
   private async load(): Promise<void> {
     const { store } = this.keeper;
@@ -193,7 +194,11 @@ export class SurfaceView {
         const ends = [-crossHairArmMm, crossHairArmMm].map((mm) => new Vector3(...add(middle, direction, mm)));
         this.crossHair.add(onTop(new Line(new BufferGeometry().setFromPoints(ends), lineMaterial('#d6336c'))));
       }
-      const { low, high } = this.voxelBox(frame.value);
+      const { surface } = this;
+      const { low, high } =
+        surface === null
+          ? { low: [0, 0, 0] as Triple, high: frame.value.dims }
+          : frame.value.voxelBox(surface.low, surface.high, planeMarginMm);
       for (const name of planeNames) {
         const corners = frame.value.sliceCorners(planes.value[name].axis, crossHair.value, low, high);
         const outline = new BufferGeometry().setFromPoints(corners.map((corner) => new Vector3(...corner)));
@@ -201,18 +206,6 @@ export class SurfaceView {
       }
     }
     this.invalidate();
-  }
-
-  /** What of the CT is around the bone, voxels. */
-  private voxelBox(frame: VolumeFrame): { low: Triple; high: Triple } {
-    if (this.surface === null) return { low: [0, 0, 0], high: frame.dims };
-    const a = frame.voxelFromWorld(add(this.surface.low, [1, 1, 1], -planeMarginMm));
-    const b = frame.voxelFromWorld(add(this.surface.high, [1, 1, 1], planeMarginMm));
-    const within = (pick: typeof Math.min) =>
-      [0, 1, 2].map((i) =>
-        Math.min(Math.max(pick(a[i] ?? 0, b[i] ?? 0), 0), frame.dims[i] ?? 0),
-      ) as Triple;
-    return { low: within(Math.min), high: within(Math.max) };
   }
 
   private showPoints(marks: readonly PointMark[]): void {

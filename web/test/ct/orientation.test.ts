@@ -20,7 +20,11 @@ describe('directionLetters', () => {
   });
 
   it('names a second direction only where it leans far towards it', () => {
-    const at = (degrees: number): Triple => [Math.cos((degrees * Math.PI) / 180), 0, Math.sin((degrees * Math.PI) / 180)];
+    const at = (degrees: number): Triple => [
+      Math.cos((degrees * Math.PI) / 180),
+      0,
+      Math.sin((degrees * Math.PI) / 180),
+    ];
     expect(directionLetters(at(20))).toBe('L');
     expect(directionLetters(at(30))).toBe('LS');
     expect(directionLetters(at(60))).toBe('SL');

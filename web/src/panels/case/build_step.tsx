@@ -56,9 +56,7 @@ export function BuildStep({ keeper }: { keeper: CaseKeeper }) {
           onClick={() =>
             void keeper.landmarks
               .saveNow()
-              .then(() =>
-                keeper.build({ upsample: upsample.value, roi: roi.value, cartilage_mm: cartilageMm.value }),
-              )
+              .then(() => keeper.build({ upsample: upsample.value, roi: roi.value, cartilage_mm: cartilageMm.value }))
           }
         >
           {built === null ? caseWords.runBuild : caseWords.runBuildAgain}

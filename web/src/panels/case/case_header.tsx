@@ -12,7 +12,11 @@ export function CaseHeader({ title, details }: { title: string | null; details: 
         <a href={addressOfRoute({ kind: 'live' })} data-testid="to-live">
           {caseWords.live}
         </a>
-        <a href={addressOfRoute({ kind: 'cases' })} data-testid="to-cases" aria-current={title === null && details === null ? 'page' : undefined}>
+        <a
+          href={addressOfRoute({ kind: 'cases' })}
+          data-testid="to-cases"
+          aria-current={title === null && details === null ? 'page' : undefined}
+        >
           {caseWords.allCases}
         </a>
       </nav>

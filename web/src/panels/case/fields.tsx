@@ -32,8 +32,13 @@ export function SliderField({ label, unit, value, low, high, step, testId, mark,
           {...{ value, min: low, max: high, step }}
           onInput={(event) => take(event.currentTarget.value)}
         />
+        {/* The thumb is 16 px wide and its middle stays within the track. */}
         {markAt !== null && markAt >= 0 && markAt <= 100 && (
-          <span class="slider-mark" style={{ left: `${markAt}%` }} aria-hidden="true" />
+          <span
+            class="slider-mark"
+            style={{ left: `calc(8px + (100% - 16px) * ${markAt / 100})` }}
+            aria-hidden="true"
+          />
         )}
       </div>
     </div>
@@ -141,7 +146,15 @@ export function SelectField<T extends string>({ label, value, options, testId, o
 }
 
 /** A short remark; the look says how serious it is. */
-export function Remark({ kind, testId, children }: { kind: 'soft' | 'warn' | 'bad'; testId?: string; children: ComponentChildren }) {
+export function Remark({
+  kind,
+  testId,
+  children,
+}: {
+  kind: 'soft' | 'warn' | 'bad';
+  testId?: string;
+  children: ComponentChildren;
+}) {
   return (
     <p class={`remark remark-${kind}`} role={kind === 'bad' ? 'alert' : undefined} data-testid={testId}>
       {children}

@@ -16,7 +16,12 @@ export function JobProgress({ job, silent, onCancel, onDismiss }: Parts) {
   const failed = job.state === 'failed';
   const why = job.problem?.detail ?? job.problem?.title ?? '';
   return (
-    <div class={failed ? 'job job-failed' : 'job'} role={failed ? 'alert' : 'status'} data-testid="job" data-state={job.state}>
+    <div
+      class={failed ? 'job job-failed' : 'job'}
+      role={failed ? 'alert' : 'status'}
+      data-testid="job"
+      data-state={job.state}
+    >
       <p>
         <strong>{caseWords.jobKinds[job.kind]}.</strong> {caseWords.jobState(job)}
         {failed && `: ${why}`}

@@ -122,7 +122,12 @@ function LandmarkRow({ keeper, name, chosen }: RowParts) {
 function SaveLine({ keeper, state }: { keeper: CaseKeeper; state: SaveState }) {
   const { landmarks } = keeper;
   return (
-    <div class={`save save-${state.kind}`} role={isBad(state) ? 'alert' : 'status'} data-testid="save" data-state={state.kind}>
+    <div
+      class={`save save-${state.kind}`}
+      role={isBad(state) ? 'alert' : 'status'}
+      data-testid="save"
+      data-state={state.kind}
+    >
       {state.kind === 'saved' && caseWords.saved}
       {state.kind === 'saving' && caseWords.saving}
       {state.kind === 'unsaved' && caseWords.unsaved}

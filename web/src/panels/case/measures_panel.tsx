@@ -36,7 +36,11 @@ function Figures({ measures }: { measures: Measures }) {
     <dl>
       <Block title={caseWords.version} normal={normalText(normal.version_deg, versionWords)}>
         <Row name={caseWords.method3d} value={versionWords(measures.version_3d_deg)} testId="version-3d" />
-        <Row name={caseWords.methodFriedman} value={versionWords(measures.version_friedman_deg)} testId="version-friedman" />
+        <Row
+          name={caseWords.methodFriedman}
+          value={versionWords(measures.version_friedman_deg)}
+          testId="version-friedman"
+        />
       </Block>
       <Block title={caseWords.inclination} normal={normalText(normal.inclination_deg, inclinationWords)}>
         <Row name={caseWords.method3d} value={inclinationWords(measures.inclination_3d_deg)} testId="inclination-3d" />
@@ -47,11 +51,7 @@ function Figures({ measures }: { measures: Measures }) {
         />
       </Block>
       <Block title={caseWords.subluxation} normal={normalText(normal.subluxation_percent, percentWords)}>
-        <Row
-          name={caseWords.againstScapula}
-          value={percentWords(measures.subluxation_percent)}
-          testId="subluxation"
-        />
+        <Row name={caseWords.againstScapula} value={percentWords(measures.subluxation_percent)} testId="subluxation" />
         <Row
           name={caseWords.againstFace}
           value={percentWords(measures.subluxation_glenoid_percent)}
@@ -74,7 +74,15 @@ function Figures({ measures }: { measures: Measures }) {
   );
 }
 
-function Block({ title, normal, children }: { title: string; normal: string | null; children: preact.ComponentChildren }) {
+function Block({
+  title,
+  normal,
+  children,
+}: {
+  title: string;
+  normal: string | null;
+  children: preact.ComponentChildren;
+}) {
   return (
     <>
       <dt class="measure-title">{title}</dt>

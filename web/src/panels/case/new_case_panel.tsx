@@ -24,7 +24,12 @@ export function NewCasePanel({ keeper }: { keeper: CasesKeeper }) {
       <fieldset class="side-choice" disabled={underWay}>
         <legend>{caseWords.whichSide}</legend>
         {(['right', 'left'] as const).map((option) => (
-          <SideOption key={option} side={option} chosen={side === option} onChoose={() => (keeper.side.value = option)} />
+          <SideOption
+            key={option}
+            side={option}
+            chosen={side === option}
+            onChoose={() => (keeper.side.value = option)}
+          />
         ))}
       </fieldset>
       <label class="field">

@@ -142,7 +142,15 @@ function PointField({ label, value, step, decimals, testId, onChange }: PointPar
           <label key={name}>
             <span class="soft">{name}</span>
             <NumberBox
-              {...{ label: `${label}, ${name}`, unit: '', value: value[i] ?? 0, low: -5000, high: 5000, step, decimals }}
+              {...{
+                label: `${label}, ${name}`,
+                unit: '',
+                value: value[i] ?? 0,
+                low: -5000,
+                high: 5000,
+                step,
+                decimals,
+              }}
               testId={`${testId}-${i}`}
               onChange={(number) => {
                 const changed: Triple = [...value];

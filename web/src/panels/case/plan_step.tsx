@@ -1,4 +1,5 @@
 import { signal } from '@preact/signals';
+import { useState } from 'preact/hooks';
 
 import { caseWords } from '../../case_words';
 import type { CaseKeeper } from '../../state/case/case_keeper';
@@ -10,7 +11,7 @@ import { PlanDraftPanel } from './plan_draft_panel';
 
 /** What is wished of the plan (null: left to the server); the wishes last as long as the page is open. */
 export class PlanWishesStore {
-  readonly versionDeg = signal<number | null>(-0);
+  readonly versionDeg = signal<number | null>(0);
   /** Null: as it is, within 10 degrees. */
   readonly inclinationDeg = signal<number | null>(null);
   readonly depthMm = signal(2);
@@ -59,9 +60,7 @@ export function PlanStep({ keeper, wishes }: { keeper: CaseKeeper; wishes: PlanW
           {draft === null ? caseWords.propose : caseWords.proposeAgain}
         </button>
       </div>
-      {store.planBeforeLandmarks.value && draft?.kept === true && (
-        <Remark kind="warn">{caseWords.planOutdated}</Remark>
-      )}
+      {store.planBeforeLandmarks.value && draft?.kept === true && <Remark kind="warn">{caseWords.planOutdated}</Remark>}
       {draft !== null && <PlanDraftPanel keeper={keeper} draft={draft} />}
     </>
   );
@@ -197,7 +196,9 @@ interface AngleParts {
 
 /** An angle by its size and the word for its direction, so that no sign has to be known. */
 function SignedAngle({ label, value, positive, negative, unset, testId, onChange }: AngleParts) {
-  const towardsNegative = value !== null && (value < 0 || Object.is(value, -0));
+  // Of an angle of zero the direction is what was chosen last.
+  const [negativeAtZero, setNegativeAtZero] = useState(true);
+  const towardsNegative = value !== null && (value < 0 || (value === 0 && negativeAtZero));
   const size = Math.abs(value ?? 0);
   const way = value === null ? '' : towardsNegative ? negative : positive;
   return (
@@ -223,9 +224,10 @@ function SignedAngle({ label, value, positive, negative, unset, testId, onChange
           aria-label={label}
           data-testid={`${testId}-way`}
           value={way}
-          onChange={({ currentTarget: { value: chosen } }) =>
-            onChange(chosen === '' ? null : chosen === negative ? -size : size)
-          }
+          onChange={({ currentTarget: { value: chosen } }) => {
+            setNegativeAtZero(chosen === negative);
+            onChange(chosen === '' ? null : chosen === negative ? -size : size);
+          }}
         >
           {unset !== undefined && <option value="">{unset}</option>}
           <option value={negative}>{negative}</option>

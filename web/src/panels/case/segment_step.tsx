@@ -2,6 +2,7 @@ import { caseWords } from '../../case_words';
 import { cssColour } from '../../ct/palette';
 import { type CaseKeeper, settingsOf } from '../../state/case/case_keeper';
 import { isUnderWay } from '../../state/case/job_watch';
+import { addressOfRoute } from '../../state/route';
 import { seedNames } from '../../state/case/view_marks';
 import type { CtDescription, SeedName, Segmentation, SegmentationSettings } from '../../wire/case_types';
 import { fixed } from '../format';
@@ -66,8 +67,26 @@ export function SegmentStep({ keeper }: { keeper: CaseKeeper }) {
         </Remark>
       )}
       {found !== null && <PartList keeper={keeper} found={found} />}
+      <details class="seeds">
+        <summary>{caseWords.otherSide}</summary>
+        <p class="soft">{caseWords.otherSideHint}</p>
+        <button
+          type="button"
+          class="plain-button"
+          data-testid="copy-other-side"
+          disabled={blocked}
+          onClick={() => void openOtherSide(keeper)}
+        >
+          {caseWords.copyOtherSide(details?.side === 'left' ? 'right' : 'left')}
+        </button>
+      </details>
     </>
   );
+}
+
+async function openOtherSide(keeper: CaseKeeper): Promise<void> {
+  const id = await keeper.copyForOtherSide();
+  if (id !== null) window.location.hash = addressOfRoute({ kind: 'case', id });
 }
 
 function ThresholdField({ ct, value, onChange }: { ct: CtDescription; value: number; onChange(hu: number): void }) {
@@ -154,7 +173,10 @@ function PartList({ keeper, found }: { keeper: CaseKeeper; found: Segmentation }
                 class="pick"
                 data-testid={`part-${part.label}`}
                 aria-label={caseWords.goToPart(name)}
-                onClick={() => keeper.lookAt(part.centre_mm)}
+                onClick={() => {
+                  keeper.lookAt(part.centre_mm);
+                  keeper.framePart(part);
+                }}
               >
                 <span class="swatch" style={{ background: cssColour(part.label) }} aria-hidden="true" />
                 {name}

@@ -35,7 +35,12 @@ export function SlicePanel({ name, view, store, enlarged }: Parts) {
     <section class={late ? 'view late' : 'view'} aria-label={title} style={{ '--plane': planeColours[name] }}>
       <ViewHead id={name} title={title} enlarged={enlarged}>
         {at !== null && (
-          <span class="view-place" data-testid={`place-${name}`} data-index={at.index} data-pending={view.pending.value}>
+          <span
+            class="view-place"
+            data-testid={`place-${name}`}
+            data-index={at.index}
+            data-pending={view.pending.value}
+          >
             {caseWords.sliceOf(at.index, at.count)}
           </span>
         )}

@@ -58,7 +58,12 @@ export function StepsPanel({ keeper, startReaming }: Parts) {
       {stepNames.map((name, i) => {
         const open = store.openStep.value === name;
         return (
-          <section key={name} class={open ? 'step open' : 'step'} data-testid={`step-${name}`} data-state={states[name]}>
+          <section
+            key={name}
+            class={open ? 'step open' : 'step'}
+            data-testid={`step-${name}`}
+            data-state={states[name]}
+          >
             <h2>
               <button type="button" aria-expanded={open} onClick={() => openStep(keeper, open ? null : name)}>
                 <span class="step-number" aria-hidden="true">

@@ -32,6 +32,7 @@ export function SurfacePanel({ view, store, enlarged }: Parts) {
     return () => canvas.remove();
   }, [view]);
   const state = store.surface.value;
+  const at = store.crossHairMm.value;
   const note = view === null ? caseWords.surfaceNoWebGl : noteOf(state);
   return (
     <section class="view" aria-label={caseWords.surface}>
@@ -52,10 +53,20 @@ export function SurfacePanel({ view, store, enlarged }: Parts) {
       </ViewHead>
       <div class="view-canvas stage" ref={place} data-testid="surface" data-state={state.kind}>
         {view?.labels.value.map(({ x, y, text, active }) => (
-          <span key={text} class={active ? 'point-label active' : 'point-label'} style={{ left: `${x}px`, top: `${y}px` }} aria-hidden="true">
+          <span
+            key={text}
+            class={active ? 'point-label active' : 'point-label'}
+            style={{ left: `${x}px`, top: `${y}px` }}
+            aria-hidden="true"
+          >
             {text}
           </span>
         ))}
+        {at !== null && (
+          <p class="cross-hair-place" data-testid="cross-hair-place">
+            {caseWords.place(at, store.crossHairHu.value)}
+          </p>
+        )}
         {note !== null && (
           <p class="view-note" role="status">
             {note}

@@ -1,6 +1,6 @@
 import { caseWords } from '../../case_words';
 import { type WindowLevel, windowLimits, windowPresets } from '../../ct/window_level';
-import type { CaseStore } from '../../state/case/case_store';
+import type { CaseKeeper } from '../../state/case/case_keeper';
 import { CheckField } from './fields';
 
 const presets: readonly (readonly [string, string, WindowLevel])[] = [
@@ -9,7 +9,9 @@ const presets: readonly (readonly [string, string, WindowLevel])[] = [
 ];
 
 /** Brightness of the slices and what lies over them. */
-export function WindowBar({ store }: { store: CaseStore }) {
+export function WindowBar({ keeper }: { keeper: CaseKeeper }) {
+  const { store } = keeper;
+  const scapula = store.details.value?.segmentation?.parts.find(({ label }) => label === 1);
   const { widthHu, levelHu } = store.window.value;
   const { widthMin, widthMax, levelMin, levelMax } = windowLimits;
   return (
@@ -52,6 +54,16 @@ export function WindowBar({ store }: { store: CaseStore }) {
           onChange={(shown) => (store.previewShown.value = shown)}
         />
       )}
+      <div class="window-group framing">
+        {scapula !== undefined && (
+          <button type="button" class="chip" data-testid="frame-scapula" onClick={() => keeper.framePart(scapula)}>
+            {caseWords.partNames[1]}
+          </button>
+        )}
+        <button type="button" class="chip" data-testid="frame-ct" onClick={() => keeper.framePart(null)}>
+          {caseWords.wholeCt}
+        </button>
+      </div>
     </div>
   );
 }

@@ -7,6 +7,7 @@ import type {
   CaseDetails,
   CtDescription,
   Job,
+  Part,
   Plan,
   PlanWishes,
   Segmentation,
@@ -19,6 +20,9 @@ import { nextStep, stepStates } from './case_steps';
 import { followJob, isUnderWay, pause } from './job_watch';
 import { LandmarkKeeper } from './landmark_keeper';
 import { landmarkNames, type LandmarkName, nextMissing, placedFrom, pointOf, withPoint } from './landmark_names';
+
+/** Around a part that the slices show whole. */
+const partMarginMm = 12;
 
 /** Opens one case and carries out what the user asks for on its page. */
 export class CaseKeeper {
@@ -52,6 +56,7 @@ export class CaseKeeper {
       });
       this.landmarks.take(details.landmarks);
       this.armFirstMissing();
+      this.frameScapula();
       if (details.plan !== null) this.lookAt(details.plan.entry_mm);
       const [reamers, jobs] = await Promise.all([
         this.api.reamers().catch(() => []),
@@ -77,7 +82,7 @@ export class CaseKeeper {
   }
 
   segment(settings: SegmentationSettings): Promise<void> {
-    return this.carryOut(async () => this.follow(await this.api.segment(this.caseId, settings)));
+    return this.carryOut(async () => void (await this.follow(await this.api.segment(this.caseId, settings))));
   }
   undoSegmentation(): Promise<void> {
     return this.carryOut(async () => {
@@ -87,7 +92,7 @@ export class CaseKeeper {
     });
   }
   build(wishes: BuildWishes): Promise<void> {
-    return this.carryOut(async () => this.follow(await this.api.build(this.caseId, wishes)));
+    return this.carryOut(async () => void (await this.follow(await this.api.build(this.caseId, wishes))));
   }
   cancelJob(): Promise<void> {
     return this.carryOut(async () => {
@@ -196,12 +201,38 @@ export class CaseKeeper {
     if (frame !== null) this.store.crossHair.value = frame.clampVoxel(frame.voxelFromWorld(point));
   }
 
+  /** The slices show a part of the bones, or (null) the whole CT. */
+  framePart(part: Part | null): void {
+    const frame = this.store.frame.value;
+    if (frame === null) return;
+    const box = part === null ? null : frame.voxelBox(part.low_mm, part.high_mm, partMarginMm);
+    this.store.framed.value = { box };
+  }
+
+  /** A case of the same CT for the other shoulder; its id once it is there. */
+  async copyForOtherSide(): Promise<string | null> {
+    let made: string | null = null;
+    await this.carryOut(async () => {
+      const side = this.store.details.value?.side === 'left' ? 'right' : 'left';
+      const job = await this.follow(await this.api.copyCase(this.caseId, side));
+      if (job?.state === 'done') made = job.case_id;
+    });
+    return made;
+  }
+
+  private frameScapula(): void {
+    const scapula = this.store.details.value?.segmentation?.parts.find(({ label }) => label === 1);
+    if (scapula === undefined) return;
+    this.framePart(scapula);
+    this.lookAt(scapula.centre_mm);
+  }
+
   private armNext(after: LandmarkName | null): void {
     const name = nextMissing(this.landmarks.landmarks.value, after);
     this.store.armed.value = name === null ? null : { kind: 'landmark', name };
   }
 
-  private async follow(first: Job): Promise<void> {
+  private async follow(first: Job): Promise<Job | null> {
     const { store } = this;
     const ended = await followJob(
       first,
@@ -213,11 +244,13 @@ export class CaseKeeper {
       },
       this.ended.signal,
     );
-    if (ended === null) return;
-    if (ended.state === 'done') {
+    if (ended?.state === 'done') {
+      const isFirst = store.details.value?.segmentation === null;
       this.take(await this.api.case(this.caseId));
       store.job.value = null;
+      if (isFirst && ended.kind === 'segmentation') this.frameScapula();
     }
+    return ended;
   }
 
   private take(details: CaseDetails): void {

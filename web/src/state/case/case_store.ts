@@ -1,9 +1,19 @@
 import { computed, signal } from '@preact/signals';
 
 import { slicePlanes } from '../../ct/orientation';
+import type { VoxelBox } from '../../ct/slice_layout';
 import { VolumeFrame } from '../../ct/volume_frame';
 import { type WindowLevel, windowPresets } from '../../ct/window_level';
-import type { Assessment, CaseDetails, Job, Plan, Reamer, SeedName, SegmentationSettings, Triple } from '../../wire/case_types';
+import type {
+  Assessment,
+  CaseDetails,
+  Job,
+  Plan,
+  Reamer,
+  SeedName,
+  SegmentationSettings,
+  Triple,
+} from '../../wire/case_types';
 import type { StepName } from './case_steps';
 import type { LandmarkName } from './landmark_names';
 
@@ -18,7 +28,12 @@ export interface PlanDraft {
   kept: boolean;
 }
 
-export type SurfaceState = { kind: 'none' } | { kind: 'loading' } | { kind: 'shown' } | { kind: 'failed'; words: string };
+export interface Framed {
+  box: VoxelBox | null;
+}
+
+export type SurfaceState =
+  { kind: 'none' } | { kind: 'loading' } | { kind: 'shown' } | { kind: 'failed'; words: string };
 
 /** What the Case page knows of its case. Written by the keeper and by what the user's hand does to the views. */
 export class CaseStore {
@@ -38,6 +53,10 @@ export class CaseStore {
 
   /** In voxels, see VolumeFrame. */
   readonly crossHair = signal<Triple>([0, 0, 0]);
+  /** HU at the cross-hair; null while its slice is on its way. */
+  readonly crossHairHu = signal<number | null>(null);
+  /** What the slices were last made to show whole; null: the whole CT. A new object shows it anew. */
+  readonly framed = signal<Framed>({ box: null });
   readonly window = signal<WindowLevel>(windowPresets.bone);
   readonly labelsShown = signal(true);
   readonly previewShown = signal(true);

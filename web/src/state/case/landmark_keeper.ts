@@ -29,7 +29,9 @@ export class LandmarkKeeper {
   /** Why there are no measures, where the server refused. */
   readonly measuresProblem = signal<string | null>(null);
   /** Whether the measures are of the landmarks as they are shown. */
-  readonly measured = computed(() => this.save.value.kind === 'saved' && this.measuredOf.value === this.landmarks.value);
+  readonly measured = computed(
+    () => this.save.value.kind === 'saved' && this.measuredOf.value === this.landmarks.value,
+  );
   private readonly measuredOf = signal<PlacedLandmarks | null>(null);
 
   /** As the server last told them to this page. */
@@ -125,6 +127,7 @@ export class LandmarkKeeper {
     this.ended = true;
     clearTimeout(this.timer);
     const { kind } = this.save.value;
-    if (kind !== 'saved' && kind !== 'conflict') this.api.putLandmarksOnLeaving(this.caseId, landmarksOf(this.landmarks.value));
+    if (kind !== 'saved' && kind !== 'conflict')
+      this.api.putLandmarksOnLeaving(this.caseId, landmarksOf(this.landmarks.value));
   }
 }

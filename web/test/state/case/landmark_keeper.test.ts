@@ -124,7 +124,13 @@ describe('landmarks', () => {
     placed = withPoint(placed, 'biconcavity_1', [1, 0, 0]);
     expect(landmarksOf(placed)).toEqual({});
     placed = withPoint(placed, 'biconcavity_2', [2, 0, 0]);
-    const points = { biconcavity_mm: [[0, 0, 0], [1, 0, 0], [2, 0, 0]] };
+    const points = {
+      biconcavity_mm: [
+        [0, 0, 0],
+        [1, 0, 0],
+        [2, 0, 0],
+      ],
+    };
     expect(landmarksOf(placed)).toEqual(points);
     expect(landmarksOf(placedFrom(points as Landmarks))).toEqual(points);
   });
