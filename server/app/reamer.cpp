@@ -49,9 +49,8 @@ Reamer reamer_asked_for(const std::string& words, const std::optional<shell::Too
 
 std::string reamer_in_library(const std::string& asked_for, const fs::path& data) {
   std::error_code failed;
-  const bool bare_name =
-      !asked_for.empty() && asked_for.find_first_of(" ./\\") == std::string::npos &&
-      !shell::is_parametric(asked_for) && !fs::is_regular_file(asked_for, failed);
+  const bool bare_name = !asked_for.empty() && asked_for.find_first_of(" ./\\") == std::string::npos &&
+                         !shell::is_parametric(asked_for) && !fs::is_regular_file(asked_for, failed);
   return bare_name ? shell::reamer_named(asked_for, data).words : asked_for;
 }
 

@@ -20,8 +20,8 @@ struct Reamer {
 /// not_found, io; invalid_input for a note that cannot be used.
 Reamer reamer_asked_for(const std::string& words, const std::optional<shell::ToolAxis>& axis);
 
-/// The path of the user's mesh of that name in the data folder's reamers; anything that make_tool takes stays as
-/// it is. Error usage lists the names that exist, for a single word that is nothing of all that.
+/// The path of the user's mesh of that name in the data folder's reamers; anything that make_tool takes stays
+/// as it is. Error usage lists the names that exist, for a single word that is nothing of all that.
 std::string reamer_in_library(const std::string& asked_for, const std::filesystem::path& data);
 
 /// The tool once more: from the words, or from the bytes of the mesh file, which must not refer to other

@@ -100,8 +100,8 @@ RigParts asked_for(const RunRequest& request, const fs::path& data) {
   parts.bone_case = find_case(request.case_name, data);
   const case_::Plan& plan = plan_of(parts.bone_case);
   parts.case_hash = case_::case_hash(parts.bone_case);
-  parts.reamer = reamer_asked_for(
-      reamer_in_library(request.tool.empty() ? plan.reamer : request.tool, data), request.tool_axis);
+  parts.reamer = reamer_asked_for(reamer_in_library(request.tool.empty() ? plan.reamer : request.tool, data),
+                                  request.tool_axis);
   parts.tool = shell::make_tool(parts.reamer.words, parts.reamer.axis);
   MadeDevice made = make_device({request.device, request.device_profile, &parts.script,
                                  sim::world_from_plan(plan), request.random_seed, data});

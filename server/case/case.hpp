@@ -27,7 +27,7 @@ struct Plan {
   double depth_mm = 2.0;                ///< planned reaming depth past first contact of the cutting surface
   std::string reamer = "ellipse 18.25,9";  ///< profile text or path of a mesh, see shell/tool.hpp
   std::optional<PilotHole> pilot_hole = PilotHole{};
-  GuideKind guide = GuideKind::none;  ///< nipple needs a pilot hole
+  GuideKind guide = GuideKind::none;             ///< nipple needs a pilot hole
   std::optional<double> implant_radius_mm = {};  ///< of the component's back
   std::string implant_size = {};                 ///< as its maker names it; "": not chosen
   /// What was aimed at (3D, science 2.1), kept so that scoring can compare; axis_direction decides.
@@ -85,8 +85,8 @@ Case load_case(const std::filesystem::path& folder, const voxel::SharedBytes& de
 Case load_case_description(const std::filesystem::path& folder);
 CaseSummary load_case_summary(const std::filesystem::path& folder);
 void save_case(const Case& c, const std::filesystem::path& folder, bool replace = false);
-/// A new bone (and case.json) for the folder of a case; all else in it stays. The folder changes as a whole or
-/// not at all.
+/// A new bone (and case.json) for the folder of a case; all else in it stays. The folder changes as a whole
+/// or not at all.
 void save_bone(const Case& c, const std::filesystem::path& folder);
 
 /// Of what reaming decides by: grid, threshold, density and coverage. Equal cases have equal hashes on every
@@ -104,8 +104,8 @@ void cut_pilot_hole(voxel::BoneModel& bone, const Plan& plan);
 /// empty when the ray misses the bone.
 std::optional<Vec3> surface_along(const voxel::BoneModel& bone, const Vec3& point_mm, const Vec3& direction);
 
-/// How far bone reaches along the direction from an entry on its surface, mm: to the far cortex, or to the end
-/// of the grid. Empty when no bone lies within 2 mm of the entry on that line.
+/// How far bone reaches along the direction from an entry on its surface, mm: to the far cortex, or to the
+/// end of the grid. Empty when no bone lies within 2 mm of the entry on that line.
 std::optional<double> bone_depth_along(const voxel::BoneModel& bone, const Vec3& entry_mm,
                                        const Vec3& direction);
 

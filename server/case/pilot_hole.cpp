@@ -49,8 +49,8 @@ struct LineInBone {
 
   bool inside(double s) const { return voxel::coverage_at(bone, point + s * along) >= 127.5; }
 
-  /// Where the line first is inside (or outside) the bone between two places: the last point before the change
-  /// is narrowed down by halving.
+  /// Where the line first is inside (or outside) the bone between two places: the last point before the
+  /// change is narrowed down by halving.
   std::optional<double> first_change(double from, double to, bool to_inside) const {
     double before = from;
     for (double s = from; s <= to; s += step) {
@@ -112,8 +112,8 @@ std::optional<Vec3> surface_along(const voxel::BoneModel& bone, const Vec3& poin
 std::optional<double> bone_depth_along(const voxel::BoneModel& bone, const Vec3& entry_mm,
                                        const Vec3& direction) {
   const LineInBone line(bone, entry_mm, direction);
-  const auto first = line.first_change(std::max(line.enter, -entry_slack_mm),
-                                       std::min(line.leave, entry_slack_mm), true);
+  const auto first =
+      line.first_change(std::max(line.enter, -entry_slack_mm), std::min(line.leave, entry_slack_mm), true);
   if (!first) return std::nullopt;
   return line.first_change(*first + line.step, line.leave, false).value_or(line.leave);
 }

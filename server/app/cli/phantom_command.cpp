@@ -68,7 +68,9 @@ void phantom(const Options& options, const GlobalOptions& global) {
 void add_phantom_command(CLI::App& app, GlobalOptions& global) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("phantom", "Make a shoulder CT whose truth is known exactly");
-  command->add_option("--out", options->out, "Folder for the CT, ground_truth.json and landmarks.json; must be new or empty")
+  command
+      ->add_option("--out", options->out,
+                   "Folder for the CT, ground_truth.json and landmarks.json; must be new or empty")
       ->required();
   command->add_option("--version-deg", options->version_deg, "Glenoid version, retroversion negative")
       ->capture_default_str();

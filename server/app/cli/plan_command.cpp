@@ -41,9 +41,10 @@ struct Patient {
 
 case_::Plan through_face(const case_::Case& c) {
   if (!c.glenoid)
-    throw Error(ErrorKind::usage, "case '" + c.id +
-                                      "' has no plan, no landmarks and no glenoid frame yet; give --landmarks "
-                                      "FILE or --axis X,Y,Z,DX,DY,DZ");
+    throw Error(ErrorKind::usage,
+                "case '" + c.id +
+                    "' has no plan, no landmarks and no glenoid frame yet; give --landmarks "
+                    "FILE or --axis X,Y,Z,DX,DY,DZ");
   case_::Plan plan;
   plan.entry_mm = c.glenoid->centre_mm;
   plan.axis_direction = -c.glenoid->lateral;
@@ -54,8 +55,9 @@ case_::Plan proposed(const Options& options, const Patient& patient) {
   const case_::Case& c = patient.bone_case;
   if (!patient.landmarks)
     throw Error(ErrorKind::usage,
-                "case '" + c.id + "' has no landmarks, which version and inclination are measured from; give "
-                                  "--landmarks FILE");
+                "case '" + c.id +
+                    "' has no landmarks, which version and inclination are measured from; give "
+                    "--landmarks FILE");
   case_::PlanTargets targets;
   if (options.version_deg) targets.version_rad = radians_from_degrees(*options.version_deg);
   if (options.inclination_deg) targets.inclination_rad = radians_from_degrees(*options.inclination_deg);
@@ -107,8 +109,8 @@ void set_pilot(case_::Plan& plan, const Options& options) {
   plan.pilot_hole = hole;
 }
 
-/// As the plan names it. Error usage or not_found for what is neither a form of tool, nor in the library, nor a
-/// file; a mesh may still need an axis, which `simulate` takes.
+/// As the plan names it. Error usage or not_found for what is neither a form of tool, nor in the library, nor
+/// a file; a mesh may still need an axis, which `simulate` takes.
 std::string checked_reamer(const std::string& asked_for, const std::filesystem::path& data) {
   if (asked_for.empty()) return asked_for;
   const std::string reamer = reamer_in_library(asked_for, data);
@@ -178,8 +180,8 @@ void plan_case(Options options, const GlobalOptions& global) {
 }
 
 void add_axis_options(CLI::App& command, Options& options) {
-  auto* axis = command.add_option("--axis", options.axis,
-                                  "X,Y,Z,DX,DY,DZ: a point of the axis and its direction into the bone, LPS mm");
+  auto* axis = command.add_option(
+      "--axis", options.axis, "X,Y,Z,DX,DY,DZ: a point of the axis and its direction into the bone, LPS mm");
   command.add_option("--landmarks", options.landmarks,
                      "landmarks.json (proto/landmarks.schema.json); kept with the case");
   command

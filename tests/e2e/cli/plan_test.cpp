@@ -39,10 +39,11 @@ TEST_F(Planning, ByVersionAndInclinationOfTheLandmarks) {
   EXPECT_EQ(plan.at("reamer"), "convex-45");
   EXPECT_EQ(plan.at("version_deg"), -8.0);
   const json& assessment = plan.at("assessment");
-  EXPECT_NEAR(assessment.at("version_before_deg").get<double>(), truth_.at("version_deg").get<double>(), 1e-6);
+  EXPECT_NEAR(assessment.at("version_before_deg").get<double>(), truth_.at("version_deg").get<double>(),
+              1e-6);
   EXPECT_NEAR(assessment.at("version_after_deg").get<double>(), -8.0, 1e-6);
-  EXPECT_NEAR(assessment.at("correction_deg").get<double>(),
-              -8.0 - truth_.at("version_deg").get<double>(), 0.2);
+  EXPECT_NEAR(assessment.at("correction_deg").get<double>(), -8.0 - truth_.at("version_deg").get<double>(),
+              0.2);
   EXPECT_EQ(assessment.at("needs_override"), false);
   EXPECT_FALSE(plan.at("measures").at("biconcavity").is_null());
   EXPECT_EQ(json_of("data/cases/b2/landmarks.json"), json_of("ct/landmarks.json")) << "kept with the case";

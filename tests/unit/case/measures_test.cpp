@@ -89,7 +89,8 @@ TEST(Measures, FriedmanAgreesWithAnotherComputationInItsPlanes) {
 
 TEST(Measures, FriedmanIsThe3dAngleWhereTheOtherOneIsZero) {
   for (const double degrees_in : {-20.0, -3.0, 0.0, 11.0}) {
-    const Measures version = measure(test::shoulder_landmarks({.version_deg = degrees_in, .inclination_deg = 0}), Side::right);
+    const Measures version =
+        measure(test::shoulder_landmarks({.version_deg = degrees_in, .inclination_deg = 0}), Side::right);
     EXPECT_NEAR(degrees(version.version_friedman_rad), degrees_in, tiny_deg);
     const Measures inclination =
         measure(test::shoulder_landmarks({.version_deg = 0, .inclination_deg = degrees_in}), Side::right);
@@ -159,7 +160,8 @@ TEST(Measures, ABiconcaveGlenoidIsMeasuredByItsIntermediateLine) {
   // front edge straight before it, the back edge 20 degrees medial of straight behind it.
   const Vec3 ridge = *l.glenoid_centre_mm;
   const double turned = radians_from_degrees(20.0);
-  l.biconcavity_mm = {ridge - Vec3(0, 12, 0), ridge, ridge + 12.0 * Vec3(std::sin(turned), std::cos(turned), 0)};
+  l.biconcavity_mm = {ridge - Vec3(0, 12, 0), ridge,
+                      ridge + 12.0 * Vec3(std::sin(turned), std::cos(turned), 0)};
   const Measures m = measure(l, Side::right);
   ASSERT_TRUE(m.biconcavity);
   EXPECT_NEAR(degrees(m.biconcavity->paleo_version_rad), 0.0, tiny_deg);
@@ -193,8 +195,9 @@ TEST(Measures, WhatIsMissingIsNamedAndTheRestMeasured) {
                           "inclination_friedman_deg", "subluxation_percent", "biconcavity"})
     EXPECT_TRUE(value.at(key).is_null()) << key;
   EXPECT_EQ(value.at("normal").at("version_deg").at("mean"), -1.23);
-  test::expect_error(ErrorKind::invalid_input, "trigonum_mm",
-                     [] { landmarks_from_json({{"trigonum_mm", {1, 2}}}, "l"); });
+  test::expect_error(ErrorKind::invalid_input, "trigonum_mm", [] {
+    landmarks_from_json({{"trigonum_mm", {1, 2}}}, "l");
+  });
   test::expect_error(ErrorKind::invalid_input, "posterior_rim_mm", [&] {
     Landmarks fewer = all;
     fewer.posterior_rim_mm.reset();

@@ -119,8 +119,8 @@ TEST(PlanTargets, AreReadStrictly) {
   EXPECT_FALSE(plan_targets_from_json(json::object(), "body").version_rad);
   for (const json& bad : {json{{"version_deg", 41}}, json{{"version_deg", "3"}}, json{{"pilot_depth_mm", 3}},
                           json{{"guide", "rail"}}, json{{"speed", 1}}, json{{"depth_mm", -1}}})
-    test::expect_error(ErrorKind::invalid_input, bad.begin().key() == "pilot_depth_mm" ? "pilot_diameter_mm"
-                                                                                       : bad.begin().key(),
+    test::expect_error(ErrorKind::invalid_input,
+                       bad.begin().key() == "pilot_depth_mm" ? "pilot_diameter_mm" : bad.begin().key(),
                        [&] { plan_targets_from_json(bad, "body"); });
 }
 
@@ -141,7 +141,8 @@ TEST(PlanAssessment, CorrectionIsTheAngleBetweenFaceAndAxis) {
 
 TEST(PlanAssessment, AMirroredShoulderIsJudgedTheSameToTheLastBit) {
   const auto judged = [](Side side) {
-    const Landmarks l = test::shoulder_landmarks({.side = side, .version_deg = -13.3, .inclination_deg = 8.1});
+    const Landmarks l =
+        test::shoulder_landmarks({.side = side, .version_deg = -13.3, .inclination_deg = 8.1});
     const Plan plan = propose_plan(aimed_at(-1.7, 2.9), l, side, {});
     return to_json(assess_plan(plan, l, side)).dump();
   };

@@ -19,10 +19,10 @@ json schema(const std::string& name) {
 }
 
 json plan_with_everything() {
-  return {{"entry_mm", {1.5, 2, 3}},    {"axis_direction", {0, 0, 1}}, {"depth_mm", 2},
-          {"reamer", "convex-40"},      {"pilot_diameter_mm", 6.2},    {"pilot_depth_mm", 12},
-          {"guide", "nipple"},          {"implant_radius_mm", 40},     {"implant_size", "M40"},
-          {"version_deg", -3.3},        {"inclination_deg", 10},       {"override", true},
+  return {{"entry_mm", {1.5, 2, 3}},     {"axis_direction", {0, 0, 1}}, {"depth_mm", 2},
+          {"reamer", "convex-40"},       {"pilot_diameter_mm", 6.2},    {"pilot_depth_mm", 12},
+          {"guide", "nipple"},           {"implant_radius_mm", 40},     {"implant_size", "M40"},
+          {"version_deg", -3.3},         {"inclination_deg", 10},       {"override", true},
           {"override_reason", "a study"}};
 }
 
@@ -48,7 +48,8 @@ TEST(PlanSchema, AnglesOfAPlanKeepTheirDigits) {
 
 TEST(PlanSchema, AnOldPlanKeepsItsBytes) {
   const std::string old =
-      "{\n  \"axis_direction\": [\n    0.0,\n    0.6,\n    0.8\n  ],\n  \"depth_mm\": 1.0,\n  \"entry_mm\": [\n"
+      "{\n  \"axis_direction\": [\n    0.0,\n    0.6,\n    0.8\n  ],\n  \"depth_mm\": 1.0,\n  \"entry_mm\": "
+      "[\n"
       "    -150.0,\n    -10.0,\n    20.0\n  ],\n  \"pilot_depth_mm\": 12.0,\n  \"pilot_diameter_mm\": 6.2,\n"
       "  \"reamer\": \"ellipse 18.25,9\"\n}";
   EXPECT_EQ(to_json(plan_from_json(json::parse(old), "p")).dump(2), old);
@@ -57,9 +58,11 @@ TEST(PlanSchema, AnOldPlanKeepsItsBytes) {
 TEST(PlanSchema, SchemaAndReaderRefuseTheSame) {
   const json rules = schema("plan"), good = plan_with_everything();
   const std::vector<std::pair<std::string, json>> wrong{
-      {"implant_radius_mm", 0},  {"implant_radius_mm", 101}, {"implant_radius_mm", "40"}, {"implant_size", 3},
-      {"version_deg", 61},       {"version_deg", "-3"},      {"inclination_deg", -61},    {"override", "yes"},
-      {"override_reason", 1},    {"speed", 3}};
+      {"implant_radius_mm", 0},    {"implant_radius_mm", 101},
+      {"implant_radius_mm", "40"}, {"implant_size", 3},
+      {"version_deg", 61},         {"version_deg", "-3"},
+      {"inclination_deg", -61},    {"override", "yes"},
+      {"override_reason", 1},      {"speed", 3}};
   for (const auto& [key, value] : wrong) {
     json bad = good;
     bad[key] = value;
@@ -90,9 +93,9 @@ TEST(CalibrationJson, OldFilesReadAsTodayAndNewKeysAreKept) {
   for (const json& good : {old, own})
     EXPECT_EQ(test::SchemaChecker(rules).faults(part, good), std::vector<std::string>{});
   const std::vector<std::pair<std::string, json>> wrong{
-      {"slope_mg_cc_per_hu", 0}, {"ash_slope", -1},           {"ash_per_apparent", 0},
-      {"ash_per_apparent", 1.1}, {"ash_intercept_g_cc", 11},  {"ash_law", 3},
-      {"scanner", nullptr},      {"intercept_mg_cc", 1e7},    {"colour", 1}};
+      {"slope_mg_cc_per_hu", 0}, {"ash_slope", -1},          {"ash_per_apparent", 0},
+      {"ash_per_apparent", 1.1}, {"ash_intercept_g_cc", 11}, {"ash_law", 3},
+      {"scanner", nullptr},      {"intercept_mg_cc", 1e7},   {"colour", 1}};
   for (const auto& [key, value] : wrong) {
     json bad = own;
     bad[key] = value;

@@ -165,8 +165,8 @@ TEST(MeasuredPhantoms, AMirroredCaseHasIdenticalFigures) {
   }
 }
 
-/// What density truly is at a place where it is even: within 8 % the same at all 26 neighbours two voxels away
-/// (spongy bone changes slowly, borders between tissues by far more). 0 elsewhere.
+/// What density truly is at a place where it is even: within 8 % the same at all 26 neighbours two voxels
+/// away (spongy bone changes slowly, borders between tissues by far more). 0 elsewhere.
 double even_density(const std::function<double(const Vec3&)>& truth, const Vec3& world, double reach_mm) {
   const double here = truth(world);
   for (int i = 0; here > 0.0 && i < 27; ++i) {
@@ -220,8 +220,7 @@ TEST(PhantomDensity, WithinTwoPercentThroughTheImport) {
     options.side = params.side;
     options.segmentation.threshold_hu = 100.0;
     const Phantom phantom = make_phantom(params);
-    options.segmentation.grow_from_mm =
-        phantom.truth.glenoid.centre_mm - 5.0 * phantom.truth.glenoid.lateral;
+    options.segmentation.grow_from_mm = phantom.truth.glenoid.centre_mm - 5.0 * phantom.truth.glenoid.lateral;
     const auto file = folder.path() / "ct.nrrd";
     write_volume_file(phantom.volume, file);
     const DensityErrors errors = density_errors(import_ct(file, "phantom", options), params);

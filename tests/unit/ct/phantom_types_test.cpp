@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
 
@@ -33,7 +37,8 @@ int hu_at(const HuVolume& volume, const Vec3& world) {
 }
 
 size_t voxels_over(const HuVolume& volume, int hu) {
-  return static_cast<size_t>(std::count_if(volume.hu.begin(), volume.hu.end(), [&](int h) { return h >= hu; }));
+  return static_cast<size_t>(
+      std::count_if(volume.hu.begin(), volume.hu.end(), [&](int h) { return h >= hu; }));
 }
 
 uint64_t hash_of(const PhantomParams& params) {
@@ -77,6 +82,25 @@ TEST(PhantomTypes, LeftIsTheMirrorImageOfRightVoxelForVoxel) {
     EXPECT_EQ(different, 0u);
     EXPECT_EQ(right.truth.landmarks.superior_rim_mm->x(), -left.truth.landmarks.superior_rim_mm->x());
     EXPECT_EQ(right.truth.landmarks.walch, left.truth.landmarks.walch);
+  }
+}
+
+TEST(PhantomTypes, CasesOfBothSidesHaveTheSameBoneAndDensities) {
+  using Counts = std::array<std::array<size_t, 256>, 256>;  // by coverage and density code
+  const auto counts_of = [](PhantomParams params, case_::Side side) {
+    params.side = side;
+    const auto bone = make_phantom_case("phantom", params, 2).bone;
+    auto counts = std::make_unique<Counts>();
+    for (size_t i = 0; i < bone.coverage.size(); ++i)
+      if (bone.coverage[i] > 0) ++(*counts)[bone.coverage[i]][bone.density[i]];
+    return counts;
+  };
+  for (const PhantomType type : {PhantomType::a1, PhantomType::b2}) {
+    PhantomParams params = coarse(type);
+    params.noise_hu = 15.0;
+    // Whole bricks: a case is padded at one end, where bone that the field cuts off would be met differently.
+    params.field_mm = {{-16.8, -25.6, -28.8}, {28.0, 28.8, 28.8}};
+    EXPECT_TRUE(*counts_of(params, case_::Side::right) == *counts_of(params, case_::Side::left));
   }
 }
 
@@ -139,8 +163,9 @@ TEST(PhantomTypes, B2IsBiconcaveRetrovertedAndScleroticBehind) {
   EXPECT_NEAR(density(behind), 1.1, 1e-9);
   EXPECT_EQ(density(ahead), healthy(ahead));
   EXPECT_EQ(b2.truth.landmarks.walch, "B2");
-  EXPECT_GT((b2.truth.humeral_head_centre_mm - b2.truth.glenoid.centre_mm).y(),
-            (make_phantom(coarse(PhantomType::a1)).truth.humeral_head_centre_mm - b2.truth.glenoid.centre_mm).y());
+  EXPECT_GT(
+      (b2.truth.humeral_head_centre_mm - b2.truth.glenoid.centre_mm).y(),
+      (make_phantom(coarse(PhantomType::a1)).truth.humeral_head_centre_mm - b2.truth.glenoid.centre_mm).y());
 }
 
 TEST(PhantomTypes, OsteophytesAddBoneOutsideTheNativeRimOnly) {
