@@ -284,7 +284,7 @@ export class SurfaceView {
     const { origin, direction } = this.rig.rayAt(event.clientX, event.clientY);
     const hit = new Raycaster(origin, direction).intersectObject(this.bone, false)[0];
     this.lastPickMs = performance.now() - before;
-    return hit === undefined ? null : (hit.point.toArray() as Triple);
+    return hit === undefined ? null : hit.point.toArray();
   }
 
   private markUnder(event: MouseEvent): PointMark | null {
