@@ -20,6 +20,19 @@ const fillShare = 0.28;
 const edgeShare = 0.9;
 const previewShare = 0.45;
 
+/** Pixels of a colour over each of the 256 greys; red is the lowest byte, as machines of today (little endian) have it. */
+function overGreys([red, green, blue]: readonly [number, number, number], share: number): Uint32Array {
+  return Uint32Array.from({ length: 256 }, (_, grey) => {
+    const mix = (colour: number) => (grey + (colour - grey) * share) | 0;
+    return 0xff000000 | (mix(blue) << 16) | (mix(green) << 8) | mix(red);
+  });
+}
+
+const plain = overGreys([0, 0, 0], 0);
+const areas = partColours.map((colour) => overGreys(colour, fillShare));
+const edges = partColours.map((colour) => overGreys(colour, edgeShare));
+const tinted = overGreys(previewColour, previewShare);
+
 /** Draws a slice into RGBA pixels: grey values, over them the parts (edges stronger than areas) or the preview. */
 export function paintSlice(slice: SlicePixels, options: PaintOptions, out: Uint8ClampedArray<ArrayBuffer>): void {
   const { hu, columns } = slice;
@@ -31,20 +44,10 @@ export function paintSlice(slice: SlicePixels, options: PaintOptions, out: Uint8
     const value = hu[i] as number;
     const grey = brightness[value + 32768] as number;
     const label = labels === null ? 0 : (labels[i] as number);
-    if (label !== 0 && labels !== null) {
-      pixels[i] = mixed(grey, partColours[label] ?? previewColour, isEdge(labels, i, columns) ? edgeShare : fillShare);
-    } else if (value >= preview) {
-      pixels[i] = mixed(grey, previewColour, previewShare);
-    } else {
-      pixels[i] = 0xff000000 | (grey << 16) | (grey << 8) | grey;
-    }
+    let colours = value >= preview ? tinted : plain;
+    if (label !== 0 && labels !== null) colours = (isEdge(labels, i, columns) ? edges : areas)[label] ?? tinted;
+    pixels[i] = colours[grey] as number;
   }
-}
-
-/** Red is the lowest byte, as browsers of today's machines (little endian) have it. */
-function mixed(grey: number, [red, green, blue]: readonly [number, number, number], share: number): number {
-  const mix = (colour: number) => (grey + (colour - grey) * share) | 0;
-  return 0xff000000 | (mix(blue) << 16) | (mix(green) << 8) | mix(red);
 }
 
 function isEdge(labels: Uint8Array, i: number, columns: number): boolean {

@@ -19,7 +19,7 @@ const cases = new CasesKeeper(api, window.localStorage, (caseId) => {
 interface Parts {
   route: Route;
   /** Makes a session on the case and shows it; throws an Error with words. */
-  startReaming(caseId: string): Promise<void>;
+  startReaming: (caseId: string) => Promise<void>;
 }
 
 /** The pages of the cases, loaded when one of them is first opened. */

@@ -127,7 +127,7 @@ export class SlicePicture {
     const fitting = labels?.length === hu.length ? labels : null;
     const { brightness } = this;
     const options = { brightness, previewFromHu: wanted.previewFromHu, showLabels: fitting !== null };
-    paintSlice({ columns, rows, hu, labels: fitting }, options, this.pixels.data as Uint8ClampedArray<ArrayBuffer>);
+    paintSlice({ columns, rows, hu, labels: fitting }, options, this.pixels.data);
     this.context?.putImageData(this.pixels, 0, 0);
   }
 }

@@ -32,6 +32,8 @@ import { planeColours } from './slice_view';
 const pixelRatioMax = 2;
 const clickWithinPx = 4;
 const crossHairArmMm = 8;
+const restsAfterMs = 60;
+const drawAtLeastEveryMs = 400;
 const pointRadiusMm = 1.4;
 /** The slices' outlines are this much larger than the bone. */
 const planeMarginMm = 8;
@@ -66,6 +68,8 @@ export class SurfaceView {
   private plan: Group | null = null;
   private held: PointMark | null = null;
   private drawRequested = false;
+  private drawnAtMs = 0;
+  private soonTimer: ReturnType<typeof setTimeout> | undefined;
   private readonly stops: (() => void)[] = [];
 
   /** Throws where the browser offers no WebGL. */
@@ -98,6 +102,7 @@ export class SurfaceView {
 
   dispose(): void {
     for (const stop of this.stops) stop();
+    clearTimeout(this.soonTimer);
     this.loader.dispose();
     this.bone?.geometry.dispose();
     this.renderer.dispose();
@@ -205,7 +210,7 @@ export class SurfaceView {
         this.crossHair.add(new LineLoop(outline, lineMaterial(planeColours[name])));
       }
     }
-    this.invalidate();
+    this.invalidateSoon();
   }
 
   private showPoints(marks: readonly PointMark[]): void {
@@ -284,7 +289,7 @@ export class SurfaceView {
     const { origin, direction } = this.rig.rayAt(event.clientX, event.clientY);
     const hit = new Raycaster(origin, direction).intersectObject(this.bone, false)[0];
     this.lastPickMs = performance.now() - before;
-    return hit === undefined ? null : (hit.point.toArray() as Triple);
+    return hit === undefined ? null : hit.point.toArray();
   }
 
   private markUnder(event: MouseEvent): PointMark | null {
@@ -296,7 +301,16 @@ export class SurfaceView {
     return mark !== undefined && this.marks.draggable(mark) ? mark : null;
   }
 
+  /** Once the cross-hair rests, or now and then while it moves: slices go before the surface. */
+  private invalidateSoon(): void {
+    clearTimeout(this.soonTimer);
+    const now = performance.now();
+    if (now - this.drawnAtMs > drawAtLeastEveryMs) this.invalidate();
+    else this.soonTimer = setTimeout(() => this.invalidate(), restsAfterMs);
+  }
+
   private invalidate(): void {
+    clearTimeout(this.soonTimer);
     if (this.drawRequested) return;
     this.drawRequested = true;
     requestAnimationFrame(() => {
@@ -310,6 +324,7 @@ export class SurfaceView {
     camera.updateMatrixWorld();
     this.lights.follow(camera);
     this.renderer.render(this.scene, camera);
+    this.drawnAtMs = performance.now();
     const { clientWidth, clientHeight } = this.canvas;
     this.labels.value = this.marks.points.value.map(({ point, text, active }) => {
       const onScreen = new Vector3(...point).project(camera);

@@ -11,7 +11,7 @@ function ply(lines: string[], index = 2): ArrayBuffer {
   face.writeUInt8(3, 0);
   [0, 1, index].forEach((corner, i) => face.writeInt32LE(corner, 1 + i * 4));
   const whole = Buffer.concat([head, corners, face]);
-  return whole.buffer.slice(whole.byteOffset, whole.byteOffset + whole.length) as ArrayBuffer;
+  return whole.buffer.slice(whole.byteOffset, whole.byteOffset + whole.length);
 }
 const good = [
   'format binary_little_endian 1.0',

@@ -10,7 +10,7 @@ interface SliderParts {
   testId: string;
   /** A value that is marked on the scale. */
   mark?: number | null;
-  onChange(value: number): void;
+  onChange: (value: number) => void;
 }
 
 /** A slider with a number beside it; both say the same and both can be changed. */
@@ -55,7 +55,7 @@ interface NumberParts {
   testId: string;
   /** That are shown of the value. */
   decimals?: number;
-  onChange(value: number): void;
+  onChange: (value: number) => void;
 }
 
 /** A number with its unit; what is no number is not taken, what is out of range is brought into it. */
@@ -95,7 +95,7 @@ interface CheckParts {
   hint?: string;
   checked: boolean;
   testId: string;
-  onChange(checked: boolean): void;
+  onChange: (checked: boolean) => void;
 }
 
 export function CheckField({ label, hint, checked, testId, onChange }: CheckParts) {
@@ -117,7 +117,7 @@ interface SelectParts<T extends string> {
   value: T;
   options: readonly (readonly [T, string])[];
   testId: string;
-  onChange(value: T): void;
+  onChange: (value: T) => void;
 }
 
 export function SelectField<T extends string>({ label, value, options, testId, onChange }: SelectParts<T>) {

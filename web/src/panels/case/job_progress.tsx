@@ -6,8 +6,8 @@ interface Parts {
   job: Job;
   /** The server does not answer. */
   silent: boolean;
-  onCancel(): void;
-  onDismiss(): void;
+  onCancel: () => void;
+  onDismiss: () => void;
 }
 
 /** How far long work is, in words and as a bar; why it ended, where it did not end well. */

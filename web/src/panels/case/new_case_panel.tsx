@@ -76,7 +76,7 @@ export function NewCasePanel({ keeper }: { keeper: CasesKeeper }) {
   );
 }
 
-function SideOption({ side, chosen, onChoose }: { side: Side; chosen: boolean; onChoose(): void }) {
+function SideOption({ side, chosen, onChoose }: { side: Side; chosen: boolean; onChoose: () => void }) {
   return (
     <label class={chosen ? 'side-option chosen' : 'side-option'}>
       <input type="radio" name="side" data-testid={`side-${side}`} checked={chosen} onChange={onChoose} />

@@ -129,7 +129,7 @@ interface PointParts {
   step: number;
   decimals: number;
   testId: string;
-  onChange(value: Triple): void;
+  onChange: (value: Triple) => void;
 }
 
 /** Three numbers of LPS. */

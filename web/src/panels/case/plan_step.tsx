@@ -35,7 +35,7 @@ export class PlanWishesStore {
       pilot_diameter_mm: pilot?.diameterMm ?? null,
       pilot_depth_mm: pilot?.depthMm ?? null,
     };
-    return Object.fromEntries(Object.entries(all).filter(([, value]) => value !== null)) as PlanWishes;
+    return Object.fromEntries(Object.entries(all).filter(([, value]) => value !== null));
   }
 }
 
@@ -152,7 +152,7 @@ interface GivenParts {
   /** With which it begins once it is given. */
   usual: number;
   testId: string;
-  onChange(value: number | null): void;
+  onChange: (value: number | null) => void;
 }
 
 /** A length that may be left open. */
@@ -191,7 +191,7 @@ interface AngleParts {
   /** Words for not giving it; absent: it must be given. */
   unset?: string;
   testId: string;
-  onChange(degrees: number | null): void;
+  onChange: (degrees: number | null) => void;
 }
 
 /** An angle by its size and the word for its direction, so that no sign has to be known. */

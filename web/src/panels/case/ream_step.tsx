@@ -8,7 +8,7 @@ import { Remark } from './fields';
 interface Parts {
   keeper: CaseKeeper;
   states: Record<StepName, StepState>;
-  startReaming(caseId: string): Promise<void>;
+  startReaming: (caseId: string) => Promise<void>;
 }
 
 /** Opens the simulator on this case, with the reamer in the user's hand. */

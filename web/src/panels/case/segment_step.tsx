@@ -89,7 +89,7 @@ async function openOtherSide(keeper: CaseKeeper): Promise<void> {
   if (id !== null) window.location.hash = addressOfRoute({ kind: 'case', id });
 }
 
-function ThresholdField({ ct, value, onChange }: { ct: CtDescription; value: number; onChange(hu: number): void }) {
+function ThresholdField({ ct, value, onChange }: { ct: CtDescription; value: number; onChange: (hu: number) => void }) {
   const suggested = Math.round(ct.suggested_threshold_hu);
   const low = Math.max(Math.ceil(ct.hu_min), -200);
   const high = Math.max(Math.min(Math.floor(ct.hu_max), 1200), low + 1);

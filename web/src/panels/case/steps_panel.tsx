@@ -13,7 +13,7 @@ import { SegmentStep } from './segment_step';
 
 interface Parts {
   keeper: CaseKeeper;
-  startReaming(caseId: string): Promise<void>;
+  startReaming: (caseId: string) => Promise<void>;
 }
 
 /** The steps from a CT to a reamed bone, one of them open. */

@@ -74,7 +74,7 @@ interface SliderParts {
   low: number;
   high: number;
   testId: string;
-  onChange(value: number): void;
+  onChange: (value: number) => void;
 }
 
 function WindowSlider({ label, value, low, high, testId, onChange }: SliderParts) {

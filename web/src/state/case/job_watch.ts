@@ -9,10 +9,10 @@ export const isUnderWay = (job: Job | null): boolean => job?.state === 'waiting'
 
 export interface JobDuties {
   api: Pick<CaseApi, 'job'>;
-  onJob(job: Job): void;
+  onJob: (job: Job) => void;
   /** Whether the server does not answer; what was last told may be old. */
-  onSilence(silent: boolean): void;
-  pause(ms: number): Promise<void>;
+  onSilence: (silent: boolean) => void;
+  pause: (ms: number) => Promise<void>;
 }
 
 /** Follows a job until it ends, through breaks of the link; the ended job, or null when `signal` ended the watch. */

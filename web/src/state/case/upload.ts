@@ -20,10 +20,10 @@ export interface UploadDuties {
   api: UploadApi;
   /** Remembers which upload is of which file, so that a page loaded anew goes on where it was. */
   remembered: Pick<Storage, 'getItem' | 'setItem' | 'removeItem'>;
-  onProgress(received: number, bytes: number): void;
+  onProgress: (received: number, bytes: number) => void;
   /** The link is broken and is tried again. */
-  onWaiting(waiting: boolean): void;
-  pause(ms: number): Promise<void>;
+  onWaiting: (waiting: boolean) => void;
+  pause: (ms: number) => Promise<void>;
 }
 
 const nameOf = (file: UploadSource) => `ream.upload.${file.name}.${file.size}.${file.lastModified}`;

@@ -107,7 +107,7 @@ describe('uploadFile', () => {
   });
 
   it('begins anew when the server has forgotten the upload', async () => {
-    await duties.remembered.setItem('ream.upload.shoulder.zip.2621440.5', 'gone');
+    duties.remembered.setItem('ream.upload.shoulder.zip.2621440.5', 'gone');
     const upload = await uploadFile(file, duties, never);
     expect(upload.id).toBe('u1');
   });
