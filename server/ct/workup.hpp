@@ -27,6 +27,7 @@ struct BuildSettings {
   int upsample = 4;            ///< parts of a CT voxel per axis, 1 to 16
   bool around_glenoid = true;  ///< else the whole CT
   double cartilage_mm = 0.0;   ///< thickness of synthetic cartilage; 0: none
+  case_::Calibration calibration;  ///< its threshold is the segmentation's
 };
 
 struct BuildRecord {

@@ -27,8 +27,8 @@ HuVolume volume_of(const Workup& workup, const std::vector<int16_t>& hu) {
   return volume;
 }
 
-case_::Calibration calibration_of(const Workup& workup) {
-  case_::Calibration calibration;
+case_::Calibration calibration_of(const Workup& workup, const BuildSettings& settings) {
+  case_::Calibration calibration = settings.calibration;
   calibration.threshold_hu = workup.segmentation()->threshold_hu;
   return calibration;
 }
@@ -74,7 +74,7 @@ voxel::BoneModel scapula_of(const Workup& workup, const std::vector<int16_t>& hu
                             const std::vector<uint8_t>& labels) {
   if (!workup.segmentation()) throw no_scapula(workup);
   return bone_from_mask(volume_of(workup, hu), scapula_mask(workup, labels),
-                        BoneSettings{std::nullopt, 1, calibration_of(workup)}, no_progress);
+                        BoneSettings{std::nullopt, 1, calibration_of(workup, {})}, no_progress);
 }
 
 case_::Case build_from(Workup& workup, const std::vector<int16_t>& hu, const std::vector<uint8_t>& labels,
@@ -95,7 +95,7 @@ case_::Case build_from(Workup& workup, const std::vector<int16_t>& hu, const std
   result.warnings = workup.volume.warnings;
   const auto& said = workup.segmentation()->warnings;
   result.warnings.insert(result.warnings.end(), said.begin(), said.end());
-  result.calibration = calibration_of(workup);
+  result.calibration = calibration_of(workup, settings);
   result.bone = bone_from_mask(volume_of(workup, hu), scapula_mask(workup, labels),
                                BoneSettings{roi, settings.upsample, result.calibration}, progress);
   if (settings.cartilage_mm > 0.0)

@@ -3,6 +3,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "case/calibration.hpp"
 #include "core/error.hpp"
 #include "core/json_reader.hpp"
 #include "geometry/pose_json.hpp"
@@ -94,13 +95,22 @@ SegmentationRecord record_from(JsonReader reader) {
   return record;
 }
 
-BuildSettings build_from(JsonReader reader) {
+BuildSettings build_from(const json& value, const std::string& place) {
+  JsonReader reader(value, place);
   BuildSettings settings;
   settings.upsample = static_cast<int>(reader.integer_or("upsample", settings.upsample, 1, 16));
   const std::string roi = reader.text_or("roi", "glenoid");
   if (roi != "glenoid" && roi != "whole") reader.refuse("roi", "must be glenoid or whole");
   settings.around_glenoid = roi == "glenoid";
   settings.cartilage_mm = reader.number_or("cartilage_mm", 0.0, 0.0, max_cartilage_mm);
+  if (reader.has("calibration")) {
+    if (!value.at("calibration").is_object()) reader.refuse("calibration", "must be an object");
+    json laws = value.at("calibration");
+    if (laws.contains("threshold_hu"))
+      reader.refuse("calibration", "takes no threshold_hu: the segmentation's is used");
+    laws["threshold_hu"] = 0.0;
+    settings.calibration = case_::calibration_from_json(laws, reader.place() + ".calibration");
+  }
   reader.finish();
   return settings;
 }
@@ -118,7 +128,7 @@ json to_json(const BuildRecord& record) {
 BuildRecord built_from(const json& value, JsonReader reader) {
   BuildRecord record;
   json settings;
-  for (const char* key : {"upsample", "roi", "cartilage_mm"}) {
+  for (const char* key : {"upsample", "roi", "cartilage_mm", "calibration"}) {
     if (!reader.has(key)) reader.refuse(key, "is missing");
     settings[key] = value.at(key);
   }
@@ -177,13 +187,16 @@ SegmentationSettings segmentation_settings_from_json(const json& value, const st
 }
 
 json to_json(const BuildSettings& settings) {
+  json laws = case_::to_json(settings.calibration);
+  laws.erase("threshold_hu");
   return {{"upsample", settings.upsample},
           {"roi", settings.around_glenoid ? "glenoid" : "whole"},
-          {"cartilage_mm", settings.cartilage_mm}};
+          {"cartilage_mm", settings.cartilage_mm},
+          {"calibration", std::move(laws)}};
 }
 
 BuildSettings build_settings_from_json(const json& value, const std::string& place) {
-  return build_from(JsonReader(value, place));
+  return build_from(value, place);
 }
 
 json to_json(const Workup& workup) {

@@ -183,7 +183,7 @@ class CaseContractTest : public ContractTest {
     refused_bodies("POST", pattern, made + "/build", "{}", R"({"upsample": 17})");
     expect_post(pattern, cases + "/nowhere/build", 404, "{}");
     expect_post(pattern, cases + "/planned/build", 409, "{}");
-    const HttpReply reply = post(made + "/build", R"({"upsample": 2})");
+    const HttpReply reply = post(made + "/build", R"({"upsample": 2, "calibration": {"intercept_mg_cc": 5, "slope_mg_cc_per_hu": 0.7, "scanner": "A"}})");
     expect_as_described("POST", pattern, 202, reply);
     const json job = ended(reply);
     ASSERT_EQ(job.at("state"), "done") << job;
