@@ -45,7 +45,7 @@ class PhantomShape {
   double osteophytes_value(const Vec3& world_mm) const;
 
   void carve_neoglenoid();
-  /// Point of the articular surface over (superior, anterior) in the face, offset from the worn centre.
+  /// World point of the articular surface so far superior and anterior, along the face, of its worn centre.
   Vec3 on_face(double superior_mm, double anterior_mm) const;
   /// How far the face reaches to its rim, mm: up (+1) or down (-1) from its middle, and to the front (+1) or
   /// the back (-1) at its widest level.
