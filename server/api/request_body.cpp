@@ -33,18 +33,21 @@ bool is_name(const std::string& text) {
          text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos;
 }
 
-RequestBody::RequestBody(const net::Request& request) {
+nlohmann::json json_object_in(const net::Request& request) {
   const std::string_view type = request.header("content-type");
   if (type.substr(0, type.find(';')) != "application/json")
     throw net::RequestError(415, "the request body must be sent as application/json");
   try {
-    value_ = nlohmann::json::parse(request.body);
+    return nlohmann::json::parse(request.body);
   } catch (const nlohmann::json::parse_error& error) {
     throw net::RequestError(400,
                             "the request body is not JSON: it fails at byte " + std::to_string(error.byte));
   } catch (const nlohmann::json::out_of_range&) {
     throw net::RequestError(400, "the request body holds a number too large for any use");
   }
+}
+
+RequestBody::RequestBody(const net::Request& request) : value_(json_object_in(request)) {
   if (!value_.is_object())
     throw net::RequestError(422, "the request body must be a JSON object", {{"#", "must be an object"}});
 }

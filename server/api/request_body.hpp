@@ -53,6 +53,10 @@ class RequestBody {
   std::vector<net::FieldError> errors_;
 };
 
+/// The JSON value of a body, for readers that files and requests share.
+/// Throws RequestError: 415 when it is not sent as JSON, 400 when it is not JSON.
+nlohmann::json json_object_in(const net::Request& request);
+
 /// Whether `text` is an id as cases and scripts have: [a-z0-9-], 1 to 64 long.
 bool is_name(const std::string& text);
 

@@ -1,13 +1,17 @@
 #include "api/server.hpp"
 
+#include <algorithm>
 #include <contract.hpp>
 #include <nlohmann/json.hpp>
 
 #include "api/annotation_resource.hpp"
 #include "api/case_resource.hpp"
+#include "api/case_work_resource.hpp"
+#include "api/job_resource.hpp"
 #include "api/prometheus.hpp"
 #include "api/replay_resource.hpp"
 #include "api/session_resource.hpp"
+#include "api/upload_resource.hpp"
 #include "net/static_files.hpp"
 
 namespace ream::api {
@@ -36,13 +40,32 @@ void add_contract_route(net::Router& router) {
   });
 }
 
+CaseTools tools_of(const ServerOptions& options, const SessionService& sessions) {
+  return {options.read_ct, [&sessions](const std::string& case_id) {
+            const auto all = sessions.list();
+            return static_cast<size_t>(std::count_if(all.begin(), all.end(), [&](const SessionRecord& record) {
+              return record.request.case_id == case_id;
+            }));
+          }};
+}
+
+void add_all_case_routes(net::Router& router, const ServerOptions& options, CaseWorkshop& workshop,
+                         UploadStore& uploads) {
+  add_case_routes(router, options.cases_folder);
+  add_case_work_routes(router, workshop, uploads);
+  add_case_volume_routes(router, workshop);
+  add_case_plan_routes(router, workshop, options.data_folder);
+  add_upload_routes(router, uploads);
+  add_job_routes(router, workshop.jobs());
+}
+
 net::Router router_of(const ServerOptions& options, SessionService& sessions, ReplayService& replays,
-                      const Readiness& readiness) {
+                      CaseWorkshop& workshop, UploadStore& uploads, const Readiness& readiness) {
   net::Router router;
   add_health_routes(router, readiness);
   add_metrics_route(router, sessions);
   add_contract_route(router);
-  add_case_routes(router, options.cases_folder);
+  add_all_case_routes(router, options, workshop, uploads);
   add_session_routes(router, sessions, replays, readiness, options.usual_device);
   add_annotation_routes(router, sessions);
   add_replay_routes(router, sessions, replays, readiness);
@@ -57,7 +80,9 @@ net::Router router_of(const ServerOptions& options, SessionService& sessions, Re
 Server::Server(ServerOptions options)
     : sessions_(std::move(options.make_session), options.sessions, options.sessions_folder),
       replays_(std::move(options.make_replay), options.replays),
-      router_(router_of(options, sessions_, replays_, readiness_)),
+      uploads_(options.data_folder.empty() ? std::filesystem::path() : options.data_folder / "uploads"),
+      workshop_(options.cases_folder, tools_of(options, sessions_)),
+      router_(router_of(options, sessions_, replays_, workshop_, uploads_, readiness_)),
       listener_(router_, options.listen),
       readiness_(std::move(options.prepare)) {}
 
@@ -84,6 +109,7 @@ void Server::request_stop() {
 
 void Server::stop() {
   listener_.stop();
+  workshop_.jobs().shut_down();
   replays_.shut_down();
   sessions_.shut_down();
 }

@@ -1,14 +1,13 @@
 #include "app/session_bundle.hpp"
 #include "app/black_box_files.hpp"
 
-#include <stdlib.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "app/cli/case_path.hpp"
 #include "app/data_folder.hpp"
+#include "app/passing_folder.hpp"
 #include "app/recorded_session.hpp"
 #include "app/rig.hpp"
 #include "core/error.hpp"
@@ -56,23 +55,6 @@ void add_files(const fs::path& folder, const std::set<std::string>& names, const
   for (const std::string& name : names)
     if (fs::is_regular_file(folder / name, failed)) entries.push_back({folder / name, under + "/" + name});
 }
-
-/// A new folder beside others that goes with its contents when it is no longer needed.
-struct PassingFolder {
-  explicit PassingFolder(const fs::path& beside) {
-    std::string name = beside.string() + ".XXXXXX";
-    if (::mkdtemp(name.data()) == nullptr)
-      throw Error(ErrorKind::io, "cannot make a folder beside " + beside.string());
-    path = name;
-  }
-  ~PassingFolder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  PassingFolder(const PassingFolder&) = delete;
-  PassingFolder& operator=(const PassingFolder&) = delete;
-  fs::path path;
-};
 
 nlohmann::json read_bundle_json(const fs::path& folder, const fs::path& zip) {
   const nlohmann::json bundle = read_json_file(folder / "bundle.json");

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "case/calibration.hpp"
 #include "case/plan.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -45,10 +46,7 @@ json to_json(const Case& c) {
                  {{"rotation", rotation_rows(grid.world_from_grid.rotation)},
                   {"translation_mm", list(grid.world_from_grid.translation_mm)}}},
                 {"cortical_threshold_g_cc", c.bone.cortical_threshold_g_cc},
-                {"calibration",
-                 {{"intercept_mg_cc", c.calibration.intercept_mg_cc},
-                  {"slope_mg_cc_per_hu", c.calibration.slope_mg_cc_per_hu},
-                  {"threshold_hu", c.calibration.threshold_hu}}},
+                {"calibration", to_json(c.calibration)},
                 {"warnings", c.warnings}};
   if (c.glenoid)
     value["glenoid"] = {{"centre_mm", list(c.glenoid->centre_mm)},
@@ -144,6 +142,9 @@ void write_compressed(const fs::path& file, const std::vector<uint8_t>& data) {
 
 Case load_case_description(const fs::path& folder) {
   const fs::path file = folder / "case.json";
+  if (fs::is_regular_file(folder / "ct" / "ct.json") && !fs::is_regular_file(file))
+    throw Error(ErrorKind::conflict, "case '" + folder.filename().string() +
+                                         "' holds only a CT so far; build its bone first, on its page");
   if (!fs::is_regular_file(file))
     throw Error(ErrorKind::not_found, folder.string() + " is not a case: it has no case.json");
   const json value = read_json_file(file);
@@ -158,11 +159,8 @@ Case load_case_description(const fs::path& folder) {
   c.side = side_from_text(side);
   c.bone.grid = read_grid(reader, value);
   c.bone.cortical_threshold_g_cc = reader.number("cortical_threshold_g_cc", 0.0, 3.0);
-  JsonReader calibration = reader.object("calibration");
-  c.calibration.intercept_mg_cc = calibration.number("intercept_mg_cc");
-  c.calibration.slope_mg_cc_per_hu = calibration.number("slope_mg_cc_per_hu");
-  c.calibration.threshold_hu = calibration.number("threshold_hu");
-  calibration.finish();
+  if (!reader.has("calibration")) reader.refuse("calibration", "is missing");
+  c.calibration = calibration_from_json(value.at("calibration"), reader.place() + ".calibration");
   if (reader.has("glenoid")) c.glenoid = read_glenoid(reader.object("glenoid"));
   c.warnings = reader.texts_or_none("warnings");
   reader.finish();
@@ -179,12 +177,23 @@ Case load_case(const fs::path& folder) {
   return c;
 }
 
+Case load_case(const fs::path& folder, const voxel::SharedBytes& density) {
+  Case c = load_case_description(folder);
+  const size_t voxels = c.bone.grid.voxel_count();
+  if (density.size() != voxels) return load_case(folder);
+  c.bone.density = density;
+  c.bone.coverage = voxel::bricks_from_rows(c.bone.grid, read_compressed(folder / "coverage.zst", voxels));
+  return c;
+}
+
 CaseSummary load_case_summary(const fs::path& folder) {
   const Case c = load_case_description(folder);
   return {c.id, c.name, c.side, c.bone.grid.dims, c.bone.grid.spacing_mm, c.plan.has_value()};
 }
 
-void save_case(const Case& c, const fs::path& folder, bool replace) {
+namespace {
+
+void check(const Case& c) {
   if (!valid_id(c.id))
     throw Error(ErrorKind::invalid_input, "case id '" + c.id + "' may hold only a-z, 0-9 and -");
   voxel::validate(c.bone.grid);
@@ -193,11 +202,37 @@ void save_case(const Case& c, const fs::path& folder, bool replace) {
     throw Error(ErrorKind::invalid_input,
                 "case '" + c.id + "' does not have one density and coverage per voxel");
   if (c.plan) validate(*c.plan, "plan of case '" + c.id + "'");
+}
+
+void write_bone(const Case& c, const fs::path& folder) {
+  write_compressed(folder / "density.zst", voxel::rows_from_bricks(c.bone.grid, c.bone.density));
+  write_compressed(folder / "coverage.zst", voxel::rows_from_bricks(c.bone.grid, c.bone.coverage));
+  write_file_atomically(folder / "case.json", to_json(c).dump(2) + "\n");
+}
+
+/// The files of a case folder, its CT's included, under a second name.
+void link_files(const fs::path& from, const fs::path& to) {
+  std::error_code failed;
+  fs::copy(from, to, fs::copy_options::recursive | fs::copy_options::create_hard_links, failed);
+  if (failed) fs::copy(from, to, fs::copy_options::recursive | fs::copy_options::overwrite_existing, failed);
+  if (failed) throw Error(ErrorKind::io, "cannot copy " + from.string() + ": " + failed.message());
+}
+
+}  // namespace
+
+void save_case(const Case& c, const fs::path& folder, bool replace) {
+  check(c);
   FolderInProgress target(folder, replace);
-  write_compressed(target.path() / "density.zst", voxel::rows_from_bricks(c.bone.grid, c.bone.density));
-  write_compressed(target.path() / "coverage.zst", voxel::rows_from_bricks(c.bone.grid, c.bone.coverage));
   if (c.plan) write_file_atomically(target.path() / "plan.json", to_json(*c.plan).dump(2) + "\n");
-  write_file_atomically(target.path() / "case.json", to_json(c).dump(2) + "\n");
+  write_bone(c, target.path());
+  target.commit();
+}
+
+void save_bone(const Case& c, const fs::path& folder) {
+  check(c);
+  FolderInProgress target(folder, true);
+  link_files(folder, target.path());
+  write_bone(c, target.path());
   target.commit();
 }
 

@@ -10,6 +10,7 @@ namespace {
 
 /// The hole starts this far before the entry, so that no lip of bone is left over it on a concave face.
 constexpr double clearance_mm = 3.0;
+constexpr double entry_slack_mm = 2.0;  // bone this far from an entry still belongs to it
 
 /// What a voxel keeps at this signed distance (mm, negative inside the hole): 0 deep inside, 255 well
 /// outside, 127.5 on the border, linear over one voxel.
@@ -33,6 +34,44 @@ bool clip_line(const Aabb& box, const Vec3& point, const Vec3& direction, double
   }
   return enter < leave;
 }
+
+/// A line through a bone, grid frame; places on it are mm from `point`.
+struct LineInBone {
+  LineInBone(const voxel::BoneModel& of, const Vec3& point_mm, const Vec3& direction) : bone(of) {
+    if (!(direction.norm() > 1e-12))
+      throw Error(ErrorKind::invalid_input, "the axis direction must not be zero");
+    const Pose grid_from_world = bone.grid.world_from_grid.inverse();
+    point = grid_from_world.point(point_mm);
+    along = grid_from_world.direction(direction).normalized();
+    step = 0.25 * bone.grid.min_spacing_mm();
+    if (!clip_line(bone.grid.bounds_mm().grown(step), point, along, enter, leave)) enter = 0.0, leave = -1.0;
+  }
+
+  bool inside(double s) const { return voxel::coverage_at(bone, point + s * along) >= 127.5; }
+
+  /// Where the line first is inside (or outside) the bone between two places: the last point before the
+  /// change is narrowed down by halving.
+  std::optional<double> first_change(double from, double to, bool to_inside) const {
+    double before = from;
+    for (double s = from; s <= to; s += step) {
+      if (inside(s) != to_inside) {
+        before = s;
+        continue;
+      }
+      double after = s;
+      for (int halving = 0; halving < 30; ++halving) {
+        const double middle = 0.5 * (before + after);
+        (inside(middle) == to_inside ? after : before) = middle;
+      }
+      return after;
+    }
+    return std::nullopt;
+  }
+
+  const voxel::BoneModel& bone;
+  Vec3 point, along;
+  double step = 1.0, enter = 0.0, leave = -1.0;
+};
 
 }  // namespace
 
@@ -64,29 +103,19 @@ void cut_pilot_hole(voxel::BoneModel& bone, const Plan& plan) {
 }
 
 std::optional<Vec3> surface_along(const voxel::BoneModel& bone, const Vec3& point_mm, const Vec3& direction) {
-  if (!(direction.norm() > 1e-12))
-    throw Error(ErrorKind::invalid_input, "the axis direction must not be zero");
-  const Pose grid_from_world = bone.grid.world_from_grid.inverse();
-  const Vec3 point = grid_from_world.point(point_mm);
-  const Vec3 along = grid_from_world.direction(direction).normalized();
-  double enter = 0.0, leave = 0.0;
-  const double step = 0.25 * bone.grid.min_spacing_mm();
-  if (!clip_line(bone.grid.bounds_mm().grown(step), point, along, enter, leave)) return std::nullopt;
-  const auto inside = [&](double s) { return voxel::coverage_at(bone, point + s * along) >= 127.5; };
-  double outside = enter;
-  for (double s = enter; s <= leave; s += step) {
-    if (!inside(s)) {
-      outside = s;
-      continue;
-    }
-    double within = s;
-    for (int halving = 0; halving < 30; ++halving) {
-      const double middle = 0.5 * (outside + within);
-      (inside(middle) ? within : outside) = middle;
-    }
-    return bone.grid.world_from_grid.point(point + within * along);
-  }
-  return std::nullopt;
+  const LineInBone line(bone, point_mm, direction);
+  const auto first = line.first_change(line.enter, line.leave, true);
+  if (!first) return std::nullopt;
+  return bone.grid.world_from_grid.point(line.point + *first * line.along);
+}
+
+std::optional<double> bone_depth_along(const voxel::BoneModel& bone, const Vec3& entry_mm,
+                                       const Vec3& direction) {
+  const LineInBone line(bone, entry_mm, direction);
+  const auto first =
+      line.first_change(std::max(line.enter, -entry_slack_mm), std::min(line.leave, entry_slack_mm), true);
+  if (!first) return std::nullopt;
+  return line.first_change(*first + line.step, line.leave, false).value_or(line.leave);
 }
 
 }  // namespace ream::case_

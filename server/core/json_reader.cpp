@@ -105,6 +105,19 @@ std::vector<double> JsonReader::numbers(const std::string& key, size_t count) {
   return result;
 }
 
+std::vector<double> JsonReader::number_rows(const std::string& key, size_t rows, size_t columns) {
+  const auto& value = at(key);
+  const std::string rule =
+      "must be " + std::to_string(rows) + " lists of " + std::to_string(columns) + " numbers";
+  if (!value.is_array() || value.size() != rows) refuse(key, rule);
+  std::vector<double> result;
+  for (const auto& row : value) {
+    if (!row.is_array() || row.size() != columns) refuse(key, rule);
+    for (const auto& entry : row) result.push_back(checked(key, entry, -1e300, 1e300));
+  }
+  return result;
+}
+
 std::vector<std::string> JsonReader::texts_or_none(const std::string& key) {
   std::vector<std::string> result;
   if (!has(key)) return result;

@@ -32,6 +32,8 @@ class JsonReader {
   std::string text_or(const std::string& key, const std::string& fallback);
   /// An array of exactly `count` finite numbers.
   std::vector<double> numbers(const std::string& key, size_t count);
+  /// An array of `rows` arrays of `columns` finite numbers each; row after row.
+  std::vector<double> number_rows(const std::string& key, size_t rows, size_t columns);
   std::vector<std::string> texts_or_none(const std::string& key);
 
   JsonReader object(const std::string& key);

@@ -82,7 +82,7 @@ size_t add_cartilage(voxel::BoneModel& bone, const case_::GlenoidFrame& glenoid,
         if (!was_bone && above_mm < -voxel_mm) continue;
         bone.coverage[i] = layer;
         if (was_bone) continue;
-        bone.density[i] = voxel::cartilage_code;
+        bone.density.writable()[i] = voxel::cartilage_code;
         cartilage += layer >= 128;
       }
   return cartilage;

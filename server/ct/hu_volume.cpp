@@ -96,6 +96,7 @@ HuVolume cropped(const HuVolume& volume, const Aabb& roi_mm) {
       volume.world_from_volume.point((low.cast<double>().array() * volume.spacing_mm.array()).matrix());
   result.source = volume.source;
   result.warnings = volume.warnings;
+  result.patient = volume.patient;
   result.hu.reserve(result.voxel_count());
   for (int w = low.z(); w < high.z(); ++w)
     for (int v = low.y(); v < high.y(); ++v) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,11 @@ namespace ream::ct {
 /// Lowest HU kept: what scanners write outside their field of view (-2000, -3024) is air to us.
 inline constexpr int16_t min_hu = -1024;
 
+/// Whose CT it is, as the scanner's files say. Kept only when asked for (ReadOptions::keep_names).
+struct PatientNames {
+  std::string name, id;
+};
+
 /// A CT in memory, HU, x fastest. Voxel (u,v,w) fills [(u,v,w), (u,v,w)+1] * spacing of the volume frame,
 /// whose origin is the minimum corner (half a voxel before the first voxel's centre). World is LPS mm.
 struct HuVolume {
@@ -19,7 +25,8 @@ struct HuVolume {
   Pose world_from_volume;
   std::vector<int16_t> hu;
   std::string source;                 ///< for people, without patient names
-  std::vector<std::string> warnings;  ///< what was odd while reading
+  std::vector<std::string> warnings;  ///< what was odd or repaired while reading; no names of files or people
+  std::optional<PatientNames> patient;
 
   size_t voxel_count() const {
     return static_cast<size_t>(dims.x()) * static_cast<size_t>(dims.y()) * static_cast<size_t>(dims.z());

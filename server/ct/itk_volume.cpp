@@ -11,10 +11,23 @@ namespace {
 
 constexpr double axis_tolerance = 1e-3;
 
+/// Numbers that no scanner gives: not finite, huge, or so small that only swapped bytes make them.
+bool absurd(double v) {
+  const double size = std::abs(v);
+  return !(size < 1e9) || (size > 0.0 && size < 1e-30);
+}
+
 template <typename T>
-std::vector<int16_t> clamped(const std::vector<char>& bytes, size_t count) {
+std::vector<int16_t> clamped(const std::vector<char>& bytes, size_t count, const std::string& place) {
   const T* values = reinterpret_cast<const T*>(bytes.data());
   std::vector<int16_t> result(count);
+  if constexpr (std::is_floating_point_v<T>) {
+    const auto wrong =
+        std::count_if(values, values + count, [](T v) { return absurd(static_cast<double>(v)); });
+    if (static_cast<size_t>(wrong) > count / 20)
+      throw Error(ErrorKind::invalid_input, place + ": " + std::to_string(wrong) +
+                                                " voxels are no sensible numbers; its bytes may be swapped");
+  }
   for (size_t i = 0; i < count; ++i) {
     const double v = std::floor(static_cast<double>(values[i]) + 0.5);
     // NaN fails both comparisons and becomes air.
@@ -23,32 +36,31 @@ std::vector<int16_t> clamped(const std::vector<char>& bytes, size_t count) {
   return result;
 }
 
-std::vector<int16_t> converted(itk::IOComponentEnum type, const std::vector<char>& bytes, size_t count) {
+std::vector<int16_t> converted(itk::IOComponentEnum type, const std::vector<char>& bytes, size_t count,
+                               const std::string& place) {
   switch (type) {
     case itk::IOComponentEnum::UCHAR:
-      return clamped<unsigned char>(bytes, count);
+      return clamped<unsigned char>(bytes, count, place);
     case itk::IOComponentEnum::CHAR:
-      return clamped<signed char>(bytes, count);
+      return clamped<signed char>(bytes, count, place);
     case itk::IOComponentEnum::USHORT:
-      return clamped<unsigned short>(bytes, count);
-    case itk::IOComponentEnum::SHORT:
-      return clamped<short>(bytes, count);
+      return clamped<unsigned short>(bytes, count, place);
     case itk::IOComponentEnum::UINT:
-      return clamped<unsigned int>(bytes, count);
+      return clamped<unsigned int>(bytes, count, place);
     case itk::IOComponentEnum::INT:
-      return clamped<int>(bytes, count);
+      return clamped<int>(bytes, count, place);
     case itk::IOComponentEnum::ULONG:
-      return clamped<unsigned long>(bytes, count);
+      return clamped<unsigned long>(bytes, count, place);
     case itk::IOComponentEnum::LONG:
-      return clamped<long>(bytes, count);
+      return clamped<long>(bytes, count, place);
     case itk::IOComponentEnum::ULONGLONG:
-      return clamped<unsigned long long>(bytes, count);
+      return clamped<unsigned long long>(bytes, count, place);
     case itk::IOComponentEnum::LONGLONG:
-      return clamped<long long>(bytes, count);
+      return clamped<long long>(bytes, count, place);
     case itk::IOComponentEnum::FLOAT:
-      return clamped<float>(bytes, count);
+      return clamped<float>(bytes, count, place);
     case itk::IOComponentEnum::DOUBLE:
-      return clamped<double>(bytes, count);
+      return clamped<double>(bytes, count, place);
     default:
       return {};
   }
@@ -88,9 +100,14 @@ std::vector<int16_t> read_values(itk::ImageIOBase& io, const std::string& place)
   if (io.GetNumberOfComponents() != 1)
     throw Error(ErrorKind::invalid_input, place + " has more than one value per voxel; a CT has one");
   io.SetIORegion(region);
+  if (io.GetComponentType() == itk::IOComponentEnum::SHORT) {
+    std::vector<int16_t> values(count);
+    io.Read(values.data());
+    return values;
+  }
   std::vector<char> bytes(static_cast<size_t>(io.GetImageSizeInBytes()));
   io.Read(bytes.data());
-  auto values = converted(io.GetComponentType(), bytes, count);
+  auto values = converted(io.GetComponentType(), bytes, count, place);
   if (values.size() != count)
     throw Error(ErrorKind::invalid_input, place + " holds voxels of an unknown type");
   return values;

@@ -16,7 +16,21 @@ namespace {
 
 constexpr double soft_tissue_hu = 50.0;
 constexpr double cortical_g_cc = 1.5;
+constexpr double sclerotic_g_cc = 1.1, sclerotic_mm = 4.0;  // under a neoglenoid's plate
+
+/// What osteoporosis leaves: of the spongy bone, of the compact bone's density and of its thickness.
+constexpr double porotic_spongy = 0.65, porotic_compact = 0.85, porotic_thickness = 0.7;
 constexpr double max_field_voxels = 6.0e8;
+
+struct TypeName {
+  PhantomType type;
+  const char* text;
+};
+constexpr TypeName type_names[] = {{PhantomType::a1, "A1"},
+                                   {PhantomType::a2, "A2"},
+                                   {PhantomType::b2, "B2"},
+                                   {PhantomType::osteophytes, "osteophytes"},
+                                   {PhantomType::osteoporotic, "osteoporotic"}};
 
 void check(const PhantomParams& p) {
   const auto within = [](const char* what, double value, double low, double high) {
@@ -55,6 +69,30 @@ double cancellous_g_cc(double posterior_mm, double depth_mm) {
   return std::clamp(0.56 + 0.010 * posterior_mm - 0.004 * std::max(0.0, depth_mm), 0.40, 0.70);
 }
 
+bool is_porotic(const PhantomParams& p) { return p.type == PhantomType::osteoporotic; }
+
+/// With what osteoporosis leaves of plate and shell.
+PhantomParams with_its_thickness(PhantomParams p) {
+  if (!is_porotic(p)) return p;
+  p.plate_mm *= porotic_thickness;
+  p.shell_mm *= porotic_thickness;
+  return p;
+}
+
+double compact_g_cc(const PhantomParams& p) {
+  return is_porotic(p) ? porotic_compact * cortical_g_cc : cortical_g_cc;
+}
+
+/// Density of what is not compact at a point of a right shoulder.
+double spongy_g_cc(const PhantomShape& shape, const PhantomParams& p, const Vec3& world, double depth_mm) {
+  const double healthy = cancellous_g_cc(shape.posterior_mm(world), depth_mm);
+  if (is_porotic(p)) return porotic_spongy * healthy;
+  const bool sclerotic = p.type == PhantomType::b2 &&
+                         shape.depth_under_neoglenoid_mm(world) < p.plate_mm + sclerotic_mm &&
+                         shape.depth_under_neoglenoid_mm(world) == depth_mm;
+  return sclerotic ? sclerotic_g_cc : healthy;
+}
+
 /// HU without noise at a point of a right shoulder.
 double tissue_hu(const PhantomShape& shape, const PhantomParams& p, const Vec3& world, double voxel_mm) {
   const double head = shape.humerus_mm(world), scapula = shape.scapula_mm(world);
@@ -66,8 +104,8 @@ double tissue_hu(const PhantomShape& shape, const PhantomParams& p, const Vec3& 
   const double plate =
       scapula < head && depth < p.plate_mm + voxel_mm ? inside_share(depth - p.plate_mm, voxel_mm) : 0.0;
   const double compact = std::max(shell, plate);
-  const double spongy = cancellous_g_cc(shape.posterior_mm(world), depth);
-  const double density = compact * cortical_g_cc + (1.0 - compact) * spongy;
+  const double spongy = spongy_g_cc(shape, p, world, depth);
+  const double density = compact * compact_g_cc(p) + (1.0 - compact) * spongy;
   return filled * hu_of_apparent_density(density, p.calibration) + (1.0 - filled) * soft_tissue_hu;
 }
 
@@ -78,13 +116,33 @@ void mirror(GroundTruth& truth) {
                   &truth.glenoid.anterior, &truth.articular_sphere_centre_mm, &truth.spine_root_mm,
                   &truth.inferior_angle_mm, &truth.humeral_head_centre_mm})
     *v = mirrored(*v);
+  case_::Landmarks& l = truth.landmarks;
+  for (auto* point : {&l.glenoid_centre_mm, &l.superior_rim_mm, &l.inferior_rim_mm, &l.anterior_rim_mm,
+                      &l.posterior_rim_mm, &l.trigonum_mm, &l.inferior_angle_mm})
+    *point = mirrored(**point);
+  l.humeral_head->centre_mm = mirrored(l.humeral_head->centre_mm);
+  for (Vec3& point : l.biconcavity_mm) point = mirrored(point);
 }
 
 }  // namespace
 
+std::string to_text(PhantomType type) {
+  for (const TypeName& named : type_names)
+    if (named.type == type) return named.text;
+  return "A1";
+}
+
+PhantomType phantom_type_from_text(const std::string& text) {
+  for (const TypeName& named : type_names)
+    if (named.text == text) return named.type;
+  throw Error(ErrorKind::invalid_input,
+              "phantom type '" + text + "' must be A1, A2, B2, osteophytes or osteoporotic");
+}
+
 Phantom make_phantom(const PhantomParams& params) {
   check(params);
-  const PhantomShape shape(params);
+  const PhantomParams sized = with_its_thickness(params);
+  const PhantomShape shape(sized);
   Phantom phantom{{}, shape.truth()};
   const bool left = params.side == case_::Side::left;
   HuVolume& volume = phantom.volume;
@@ -104,7 +162,7 @@ Phantom make_phantom(const PhantomParams& params) {
   for (int w = 0; w < volume.dims.z(); ++w)
     for (int v = 0; v < volume.dims.y(); ++v)
       for (int u = 0; u < volume.dims.x(); ++u) {
-        const double exact = tissue_hu(shape, params, volume.world_of_centre({u, v, w}), voxel_mm) +
+        const double exact = tissue_hu(shape, sized, volume.world_of_centre({u, v, w}), voxel_mm) +
                              params.noise_hu * noise(params.random_seed, volume.index(u, v, w));
         const int column = left ? volume.dims.x() - 1 - u : u;
         volume.hu[volume.index(column, v, w)] =
@@ -118,42 +176,44 @@ Phantom make_phantom(const PhantomParams& params) {
   return phantom;
 }
 
-nlohmann::json to_json(const GroundTruth& t) {
-  const auto list = [](const Vec3& v) { return nlohmann::json{v.x(), v.y(), v.z()}; };
-  return {{"side", case_::to_text(t.side)},
-          {"version_deg", degrees_from_radians(t.version_rad)},
-          {"inclination_deg", degrees_from_radians(t.inclination_rad)},
-          {"glenoid",
-           {{"centre_mm", list(t.glenoid.centre_mm)},
-            {"lateral", list(t.glenoid.lateral)},
-            {"superior", list(t.glenoid.superior)},
-            {"anterior", list(t.glenoid.anterior)}}},
-          {"articular_sphere_centre_mm", list(t.articular_sphere_centre_mm)},
-          {"articular_radius_mm", t.articular_radius_mm},
-          {"glenoid_height_mm", t.glenoid_height_mm},
-          {"glenoid_width_mm", t.glenoid_width_mm},
-          {"plate_mm", t.plate_mm},
-          {"spine_root_mm", list(t.spine_root_mm)},
-          {"inferior_angle_mm", list(t.inferior_angle_mm)},
-          {"humeral_head_centre_mm", list(t.humeral_head_centre_mm)},
-          {"humeral_head_radius_mm", t.humeral_head_radius_mm}};
+std::function<double(const Vec3&)> true_density_g_cc(const PhantomParams& params) {
+  check(params);
+  const PhantomParams p = with_its_thickness(params);
+  return [p, shape = PhantomShape(p)](const Vec3& world_mm) {
+    const Vec3 world = p.side == case_::Side::left ? mirrored(world_mm) : world_mm;
+    const double scapula = shape.scapula_mm(world), depth = shape.depth_under_face_mm(world);
+    if (scapula > 0.0) return 0.0;
+    if (scapula > -p.shell_mm || depth < p.plate_mm) return compact_g_cc(p);
+    return spongy_g_cc(shape, p, world, depth);
+  };
 }
 
-FaceAngles face_angles(const Vec3& face_normal, const Vec3& glenoid_centre_mm, const Vec3& spine_root_mm,
-                       const Vec3& inferior_angle_mm) {
-  const Vec3 x = (glenoid_centre_mm - spine_root_mm).normalized();
-  Vec3 posterior = (spine_root_mm - glenoid_centre_mm).cross(inferior_angle_mm - glenoid_centre_mm);
-  if (!(posterior.norm() > 1e-9))
-    throw Error(ErrorKind::invalid_input, "spine root, inferior angle and glenoid centre lie on one line");
-  posterior.normalize();
-  if (posterior.y() < 0.0) posterior = -posterior;
-  const Vec3 superior_either = posterior.cross(x);
-  const Vec3 superior = superior_either.dot(glenoid_centre_mm - inferior_angle_mm) < 0.0
-                            ? Vec3(-superior_either)
-                            : superior_either;
-  const double lateral_part = face_normal.dot(x);
-  return {-std::atan2(face_normal.dot(posterior), lateral_part),
-          std::atan2(face_normal.dot(superior), lateral_part)};
+nlohmann::json to_json(const GroundTruth& t) {
+  const auto list = [](const Vec3& v) { return nlohmann::json{v.x(), v.y(), v.z()}; };
+  nlohmann::json value = {{"side", case_::to_text(t.side)},
+                          {"type", to_text(t.type)},
+                          {"version_deg", degrees_from_radians(t.version_rad)},
+                          {"inclination_deg", degrees_from_radians(t.inclination_rad)},
+                          {"glenoid",
+                           {{"centre_mm", list(t.glenoid.centre_mm)},
+                            {"lateral", list(t.glenoid.lateral)},
+                            {"superior", list(t.glenoid.superior)},
+                            {"anterior", list(t.glenoid.anterior)}}},
+                          {"articular_sphere_centre_mm", list(t.articular_sphere_centre_mm)},
+                          {"articular_radius_mm", t.articular_radius_mm},
+                          {"glenoid_height_mm", t.glenoid_height_mm},
+                          {"glenoid_width_mm", t.glenoid_width_mm},
+                          {"plate_mm", t.plate_mm},
+                          {"spine_root_mm", list(t.spine_root_mm)},
+                          {"inferior_angle_mm", list(t.inferior_angle_mm)},
+                          {"humeral_head_centre_mm", list(t.humeral_head_centre_mm)},
+                          {"humeral_head_radius_mm", t.humeral_head_radius_mm},
+                          {"landmarks", case_::to_json(t.landmarks)}};
+  for (const auto& [key, version] :
+       {std::pair{"premorbid_version_deg", t.premorbid_version_rad},
+        std::pair{"paleo_version_deg", t.paleo_version_rad}, std::pair{"neo_version_deg", t.neo_version_rad}})
+    if (version) value[key] = degrees_from_radians(*version);
+  return value;
 }
 
 }  // namespace ream::ct

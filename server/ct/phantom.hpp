@@ -1,16 +1,35 @@
 #pragma once
-#include <filesystem>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
 
 #include "case/case.hpp"
+#include "case/landmarks.hpp"
 #include "ct/hu_volume.hpp"
 
 namespace ream::ct {
+
+/// Kinds of glenoid (Walch where they are in his classes; science 2.1, 2.4):
+/// - a1: little worn, concentric;
+/// - a2: worn in the centre: the face lies 4 mm medial and is nearly as curved as the head;
+/// - b2: biconcave. The anterior half is what is left of the face that was asked for, the posterior half a
+///   neoglenoid turned 26 degrees further into retroversion, with a sclerotic zone of 4 mm under it and the
+///   head subluxated into it;
+/// - osteophytes: as a1, with osteophytes outside the lower half of the native rim;
+/// - osteoporotic: as a1, with about two thirds of the densities and thinner plate and shell; a threshold of
+///   100 HU keeps its spongy bone.
+enum class PhantomType { a1, a2, b2, osteophytes, osteoporotic };
+
+/// "A1", "A2", "B2", "osteophytes", "osteoporotic". Error invalid_input for another word.
+std::string to_text(PhantomType type);
+PhantomType phantom_type_from_text(const std::string& text);
 
 /// A parametric shoulder. Lengths mm, angles rad (retroversion negative, superior inclination positive;
 /// science 2.1). Typical values from science 2.4.
 struct PhantomParams {
   case_::Side side = case_::Side::right;
+  PhantomType type = PhantomType::a1;
   double version_rad = -0.0349;     ///< 2 degrees of retroversion
   double inclination_rad = 0.0733;  ///< 4.2 degrees superior
   double glenoid_radius_mm = 35.0;  ///< of the bony articular surface; 25 to 60
@@ -31,13 +50,19 @@ struct PhantomParams {
 /// What is exactly true of the phantom; world frame (LPS mm).
 struct GroundTruth {
   case_::Side side = case_::Side::right;
+  PhantomType type = PhantomType::a1;
+  /// Of the native face (3D, science 2.1); of a biconcave one along its intermediate line.
   double version_rad = 0, inclination_rad = 0;
+  /// Of a biconcave glenoid: as it was asked for, before the wear; along the paleoglenoid's chord (anterior
+  /// rim to ridge); along the neoglenoid's.
+  std::optional<double> premorbid_version_rad, paleo_version_rad, neo_version_rad;
   case_::GlenoidFrame glenoid;  ///< centre on the articular surface; lateral is the face normal
   Vec3 articular_sphere_centre_mm = Vec3::Zero();
   double articular_radius_mm = 0, glenoid_height_mm = 0, glenoid_width_mm = 0, plate_mm = 0;
   Vec3 spine_root_mm = Vec3::Zero(), inferior_angle_mm = Vec3::Zero();  ///< landmarks TS and AI
   Vec3 humeral_head_centre_mm = Vec3::Zero();
   double humeral_head_radius_mm = 0;
+  case_::Landmarks landmarks;  ///< all of them where they belong, on native bone
 };
 
 struct Phantom {
@@ -49,15 +74,11 @@ struct Phantom {
 /// the same voxels; a left phantom is the mirror image of the right one in x = 0, voxel for voxel.
 Phantom make_phantom(const PhantomParams& params);
 
+/// Apparent density at points of the world, g/cc, before voxels, noise and partial volume; 0 outside the
+/// scapula. The phantom's densities are exact but within a voxel of a border between tissues.
+std::function<double(const Vec3& world_mm)> true_density_g_cc(const PhantomParams& params);
+
 /// ground_truth.json; angles in degrees, lengths in mm.
 nlohmann::json to_json(const GroundTruth& truth);
-
-/// Version and inclination (rad; science 2.1) of a face normal (lateral) given the landmarks. The side
-/// decides nothing but where posterior is: LPS +y.
-struct FaceAngles {
-  double version_rad = 0, inclination_rad = 0;
-};
-FaceAngles face_angles(const Vec3& face_normal, const Vec3& glenoid_centre_mm, const Vec3& spine_root_mm,
-                       const Vec3& inferior_angle_mm);
 
 }  // namespace ream::ct

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/units.hpp"
+#include "ct/phantom_distance.hpp"
 
 namespace ream::ct {
 namespace {
@@ -12,34 +13,20 @@ namespace {
 // Where the glenoid lies in the world of a right shoulder, LPS mm.
 const Vec3 glenoid_centre_mm(-150.0, -10.0, 20.0);
 
-// Landmarks in the scapular frame, mm.
-const Vec3 spine_root(-105.0, 0.0, 0.0), inferior_angle(-88.0, -108.0, 0.0);
 constexpr double medial_end_mm = 103.0;
 
-// The widest level lies below the middle by this share of the height (0.64 L from the superior pole).
-constexpr double widest_below_middle = 0.14;
 constexpr double rim_rounding_mm = 0.8, joint_rounding_mm = 3.0;
-constexpr double head_radius_mm = 24.0, shaft_radius_mm = 12.0;
+constexpr double head_radius_mm = PhantomShape::head_radius_mm, shaft_radius_mm = 12.0;
+
+// Central wear: how far the face lies medial, and by how much its radius exceeds that of head and joint
+// space.
+constexpr double central_wear_mm = 4.0, worn_radius_excess_mm = 1.0;
 
 /// sin and cos of the platform's library can differ in the last bit; rounded far below any voxel they do not.
 double settled(double v) { return std::floor(v * 1099511627776.0 + 0.5) / 1099511627776.0; }
 double sine(double a) { return settled(std::sin(a)); }
 double cosine(double a) { return settled(std::cos(a)); }
 double tangent(double a) { return settled(std::tan(a)); }
-
-/// Polynomial maximum and minimum that round the edge between two surfaces over `width`.
-double rounded_max(double a, double b, double width) {
-  const double h = std::max(width - std::abs(a - b), 0.0) / width;
-  return std::max(a, b) + 0.25 * h * h * width;
-}
-double rounded_min(double a, double b, double width) { return -rounded_max(-a, -b, width); }
-
-/// Distance to the segment a-b with a radius that goes linearly from ra to rb.
-double capsule(const Vec3& p, const Vec3& a, const Vec3& b, double ra, double rb) {
-  const Vec3 ab = b - a;
-  const double t = std::clamp((p - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
-  return (p - a - t * ab).norm() - (ra + t * (rb - ra));
-}
 
 double triangle_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, bc = c - b, ca = a - c, normal = ab.cross(-ca);
@@ -77,12 +64,18 @@ PhantomShape::PhantomShape(const PhantomParams& params) : params_(params), centr
   face_anterior_ = across.dot(posterior_) < 0.0 ? across : Vec3(-across);
   medial_in_face_ =
       -Vec3(lateral_.dot(face_superior_), lateral_.dot(face_anterior_), lateral_.dot(face_normal_));
-  sphere_centre_ = centre_ + params.glenoid_radius_mm * face_normal_;
-  head_centre_ = centre_ + (params.joint_space_mm + head_radius_mm) * face_normal_;
+  const bool worn = params.type == PhantomType::a2;
+  worn_centre_ = worn ? Vec3(centre_ - central_wear_mm * lateral_) : centre_;
+  face_radius_mm_ =
+      worn ? head_radius_mm + params.joint_space_mm + worn_radius_excess_mm : params.glenoid_radius_mm;
+  sphere_centre_ = worn_centre_ + face_radius_mm_ * face_normal_;
+  head_centre_ = worn_centre_ + (params.joint_space_mm + head_radius_mm) * face_normal_;
+  if (params.type == PhantomType::b2) carve_neoglenoid();
 }
 
 double PhantomShape::depth_under_face_mm(const Vec3& world_mm) const {
-  return (world_mm - sphere_centre_).norm() - params_.glenoid_radius_mm;
+  const double depth = (world_mm - sphere_centre_).norm() - face_radius_mm_;
+  return neoglenoid_ ? std::min(depth, depth_under_neoglenoid_mm(world_mm)) : depth;
 }
 
 double PhantomShape::posterior_mm(const Vec3& world_mm) const {
@@ -108,9 +101,11 @@ double PhantomShape::body_value(const Vec3& offset) const {
   static constexpr double upper_share[] = {1.0, 0.85, 1.2, 1.6};
   const double height = params_.glenoid_height_mm;
   const double half_width = 0.5 * params_.glenoid_width_mm * eased(depth_at, thickness_share, depth);
-  const double lower = (0.5 - widest_below_middle) * height * eased(lower_at, lower_share, depth);
-  const double upper = (0.5 + widest_below_middle) * height * eased(lower_at, upper_share, depth);
-  const double from_widest = s + widest_below_middle * height;
+  const double lower =
+      (0.5 - PhantomShape::widest_below_middle) * height * eased(lower_at, lower_share, depth);
+  const double upper =
+      (0.5 + PhantomShape::widest_below_middle) * height * eased(lower_at, upper_share, depth);
+  const double from_widest = s + PhantomShape::widest_below_middle * height;
   const double along = from_widest / (from_widest < 0.0 ? lower : upper), across = t / half_width;
   const double section = (std::sqrt(along * along + across * across) - 1.0) * half_width;
   return rounded_max(section, depth - medial_end_mm, joint_rounding_mm);
@@ -137,6 +132,8 @@ double PhantomShape::scapula_value(const Vec3& world_mm) const {
   const double above = offset.dot(face_normal_);
   double d = rounded_max(body_value(offset), -depth_under_face_mm(world_mm), rim_rounding_mm);
   d = std::max(d, above - 0.5 * params_.glenoid_radius_mm);
+  if (params_.type == PhantomType::osteophytes)
+    d = rounded_min(d, osteophytes_value(world_mm), rim_rounding_mm);
   return rounded_min(d, processes_value(in_scapula), joint_rounding_mm);
 }
 
@@ -158,26 +155,6 @@ double PhantomShape::humerus_mm(const Vec3& world_mm) const {
   const Vec3 shaft_top = head_centre_ + 10.0 * lateral_;
   const Vec3 shaft_end = shaft_top + Vec3(0.0, 0.0, -300.0) + 20.0 * lateral_;
   return rounded_min(head, capsule(world_mm, shaft_top, shaft_end, shaft_radius_mm, shaft_radius_mm), 6.0);
-}
-
-GroundTruth PhantomShape::truth() const {
-  const auto world = [&](const Vec3& p) -> Vec3 {
-    return centre_ + p.x() * lateral_ + p.y() * superior_ + p.z() * posterior_;
-  };
-  GroundTruth truth;
-  truth.version_rad = params_.version_rad;
-  truth.inclination_rad = params_.inclination_rad;
-  truth.glenoid = {centre_, face_normal_, face_superior_, face_anterior_};
-  truth.articular_sphere_centre_mm = sphere_centre_;
-  truth.articular_radius_mm = params_.glenoid_radius_mm;
-  truth.glenoid_height_mm = params_.glenoid_height_mm;
-  truth.glenoid_width_mm = params_.glenoid_width_mm;
-  truth.plate_mm = params_.plate_mm;
-  truth.spine_root_mm = world(spine_root);
-  truth.inferior_angle_mm = world(inferior_angle);
-  truth.humeral_head_centre_mm = head_centre_;
-  truth.humeral_head_radius_mm = head_radius_mm;
-  return truth;
 }
 
 }  // namespace ream::ct

@@ -130,7 +130,7 @@ TriangleMesh load_mesh(const std::filesystem::path& path) {
   return mesh;
 }
 
-void write_ply(const std::filesystem::path& path, const TriangleMesh& mesh) {
+std::string ply_of(const TriangleMesh& mesh) {
   const bool with_normals = mesh.normals.size() == mesh.vertices_mm.size() && !mesh.normals.empty();
   std::string out = "ply\nformat binary_little_endian 1.0\ncomment millimetres\nelement vertex " +
                     std::to_string(mesh.vertices_mm.size()) +
@@ -147,7 +147,11 @@ void write_ply(const std::filesystem::path& path, const TriangleMesh& mesh) {
     out.push_back(3);
     append(out, t.data(), 3);
   }
-  write_file_atomically(path, out);
+  return out;
+}
+
+void write_ply(const std::filesystem::path& path, const TriangleMesh& mesh) {
+  write_file_atomically(path, ply_of(mesh));
 }
 
 }  // namespace ream

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <string>
 
 #include "geometry/triangle_mesh.hpp"
 
@@ -11,7 +12,10 @@ namespace ream {
 /// are dropped. PLY is read by geometry/ply, not by assimp.
 TriangleMesh load_mesh(const std::filesystem::path& path);
 
-/// Binary little-endian PLY with float positions and, where present, normals; written atomically.
+/// The bytes of a binary little-endian PLY file with float positions and, where present, normals.
+std::string ply_of(const TriangleMesh& mesh);
+
+/// Writes such a file atomically. Throws Error io.
 void write_ply(const std::filesystem::path& path, const TriangleMesh& mesh);
 
 }  // namespace ream

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "shell/reamer_library.hpp"
 
 namespace ream::shell {
 namespace {
@@ -81,7 +82,8 @@ void read_part(const std::string& description, const std::string& keyword, const
 }
 
 Shape read_shape(const std::string& description) {
-  const std::vector<std::string> words = split_words(description == "thesis" ? thesis_tool : description);
+  const LibraryReamer* named = find_reamer(description);
+  const std::vector<std::string> words = split_words(named ? named->words : description);
   Shape shape;
   size_t next_allowed = 0;  // body, nipple, back: each at most once and in this order
   for (size_t i = 0; i < words.size(); i += 2) {
@@ -128,7 +130,7 @@ void add_cap(ToolProfile& profile, const Shape& shape) {
 
 bool is_parametric(const std::string& description) {
   const std::vector<std::string> words = split_words(description);
-  return !words.empty() && (words[0] == "sphere" || words[0] == "ellipse" || description == "thesis");
+  return !words.empty() && (words[0] == "sphere" || words[0] == "ellipse" || find_reamer(description));
 }
 
 ToolProfile parametric_profile(const std::string& description) {

@@ -7,6 +7,7 @@
 #include "geometry/mesh_io.hpp"
 #include "shell/meridian.hpp"
 #include "shell/parametric_profile.hpp"
+#include "shell/reamer_library.hpp"
 #include "shell/revolution_axis.hpp"
 #include "shell/tool_profile_from_mesh.hpp"
 
@@ -67,7 +68,8 @@ Tool make_tool(const std::string& description, const std::optional<ToolAxis>& ax
             Pose{}};
   }
   if (!names_a_mesh(description))
-    throw Error(ErrorKind::usage, "tool \"" + description + "\" is not known; " + tool_forms);
+    throw Error(ErrorKind::usage, "tool \"" + description + "\" is not known; " + tool_forms +
+                                      "; reamers: " + built_in_names());
   return mesh_tool(description, axis);
 }
 

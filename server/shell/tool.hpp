@@ -54,7 +54,7 @@ inline constexpr const char* thesis_tool = "ellipse 16,8 nipple 3,8 back 1.25";
 /// - "ellipse a,b": cutting cap with semi-axes a across and b along the axis (thesis, appendix A);
 /// - each optionally followed by " nipple r,h" (radius, height above the apex) and " back H" (height of the
 ///   cylinder behind the cap, by default 4);
-/// - "thesis".
+/// - the name of a built-in reamer (reamer_library.hpp), such as "thesis".
 ///
 /// Anything else is the path of a mesh, which needs an axis, or one is estimated from its symmetry of
 /// revolution. Errors: usage for unknown words or impossible numbers; invalid_input for a mesh whose axis

@@ -4,6 +4,7 @@
 #include <unistd.h>
 #include <zip.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <memory>
 
@@ -77,29 +78,71 @@ bool sync_file(const fs::path& path) {
   return synced;
 }
 
+Error unusable(const fs::path& zip, const std::string& name, const std::string& why) {
+  std::string shown = name.substr(0, 100);
+  for (char& c : shown)
+    if (static_cast<unsigned char>(c) < 0x20) c = '?';
+  return {ErrorKind::invalid_input, zip.string() + ": '" + shown + "' in it " + why};
+}
+
+/// Looks at all that the archive says of itself; returns the names.
+std::vector<std::string> checked_names(zip_t* archive, const fs::path& zip, const UnpackLimits& limits) {
+  const auto count = static_cast<uint64_t>(zip_get_num_entries(archive, 0));
+  if (count > limits.entries)
+    throw Error(ErrorKind::invalid_input, zip.string() + " holds " + std::to_string(count) +
+                                              " files, more than may be unpacked (" +
+                                              std::to_string(limits.entries) + ")");
+  std::vector<std::string> names;
+  uint64_t total = 0;
+  for (zip_uint64_t i = 0; i < count; ++i) {
+    const char* given = zip_get_name(archive, i, 0);
+    names.emplace_back(given == nullptr ? "" : given);
+    const std::string& name = names.back();
+    if (!stays_inside(name))
+      throw unusable(zip, name, "has a name that leads out of the archive, and may not be unpacked");
+    zip_uint8_t system = 0;
+    zip_uint32_t attributes = 0;
+    zip_file_get_external_attributes(archive, i, 0, &system, &attributes);
+    constexpr zip_uint32_t type_mask = 0170000, link_type = 0120000;
+    if (system == ZIP_OPSYS_UNIX && ((attributes >> 16) & type_mask) == link_type)
+      throw unusable(zip, name, "is a link, and may not be unpacked");
+    zip_stat_t stated;
+    zip_stat_init(&stated);
+    if (zip_stat_index(archive, i, 0, &stated) != 0) throw unusable(zip, name, "cannot be read");
+    if ((stated.valid & ZIP_STAT_ENCRYPTION_METHOD) != 0 && stated.encryption_method != ZIP_EM_NONE)
+      throw unusable(zip, name, "is encrypted; make the archive without a password");
+    const uint64_t size = (stated.valid & ZIP_STAT_SIZE) != 0 ? stated.size : 0;
+    if (size > limits.bytes - total)
+      throw unusable(zip, name,
+                     "is larger than may be unpacked (" + std::to_string(limits.bytes >> 20) + " MB in all)");
+    total += size;
+  }
+  return names;
+}
+
 /// Copies at most `limit` bytes out and returns how many there were.
-uint64_t unpack_entry(zip_t* archive, zip_uint64_t index, const std::string& name, const fs::path& to,
-                      uint64_t limit) {
-  const auto damaged = [&](const std::string& how) {
-    return Error(ErrorKind::invalid_input, "the archive's " + name + " " + how);
-  };
+uint64_t unpack_entry(zip_t* archive, zip_uint64_t index, const std::string& name, const fs::path& zip,
+                      const fs::path& to, uint64_t limit, bool durable) {
   std::unique_ptr<zip_file_t, CloseEntry> entry(zip_fopen_index(archive, index, 0));
-  if (!entry) throw damaged(std::string("cannot be read: ") + zip_strerror(archive));
-  fs::create_directories(to.parent_path());
-  std::unique_ptr<std::FILE, CloseFile> file(std::fopen(to.c_str(), "wb"));
+  if (!entry) throw unusable(zip, name, std::string("cannot be read: ") + zip_strerror(archive));
+  std::error_code failed;
+  fs::create_directories(to.parent_path(), failed);
+  std::unique_ptr<std::FILE, CloseFile> file(failed ? nullptr : std::fopen(to.c_str(), "wbx"));
+  if (!file && (errno == EEXIST || errno == EISDIR || errno == ENOTDIR))
+    throw unusable(zip, name, "has the name of another one");
   if (!file) throw Error(ErrorKind::io, "cannot write " + to.string());
   std::vector<char> piece(piece_bytes);
   uint64_t total = 0;
   for (;;) {
     const zip_int64_t got = zip_fread(entry.get(), piece.data(), piece.size());
-    if (got < 0) throw damaged("is damaged");
+    if (got < 0) throw unusable(zip, name, "is damaged");
     if (got == 0) break;
     total += static_cast<uint64_t>(got);
-    if (total > limit) throw damaged("is larger than may be unpacked");
+    if (total > limit) throw unusable(zip, name, "is larger than may be unpacked");
     if (std::fwrite(piece.data(), 1, static_cast<size_t>(got), file.get()) != static_cast<size_t>(got))
       throw Error(ErrorKind::io, "cannot write " + to.string());
   }
-  if (std::fflush(file.get()) != 0 || ::fsync(fileno(file.get())) != 0)
+  if (std::fflush(file.get()) != 0 || (durable && ::fsync(fileno(file.get())) != 0))
     throw Error(ErrorKind::io, "cannot write " + to.string());
   return total;
 }
@@ -133,21 +176,15 @@ std::vector<std::string> zip_names(const fs::path& path) {
   return names;
 }
 
-void unpack_zip(const fs::path& path, const fs::path& folder, const UnpackLimits& limits) {
+void unpack_zip(const fs::path& path, const fs::path& folder, const UnpackLimits& limits,
+                const Progress& progress) {
   const auto archive = open_to_read(path);
-  const auto count = static_cast<uint64_t>(zip_get_num_entries(archive.get(), 0));
-  if (count > limits.entries)
-    throw Error(ErrorKind::invalid_input,
-                path.string() + " holds " + std::to_string(count) + " files, more than may be unpacked");
+  const auto names = checked_names(archive.get(), path, limits);
   uint64_t room = limits.bytes;
-  for (zip_uint64_t i = 0; i < count; ++i) {
-    const char* given = zip_get_name(archive.get(), i, 0);
-    const std::string name = given == nullptr ? "" : given;
-    if (!stays_inside(name))
-      throw Error(ErrorKind::invalid_input,
-                  path.string() + " holds a file named '" + name + "', which may not be unpacked");
-    if (name.back() == '/') continue;
-    room -= unpack_entry(archive.get(), i, name, folder / name, room);
+  for (size_t i = 0; i < names.size(); ++i) {
+    progress(static_cast<double>(i) / static_cast<double>(names.size()), "unpacking");
+    if (names[i].back() == '/') continue;
+    room -= unpack_entry(archive.get(), i, names[i], path, folder / names[i], room, limits.durable);
   }
 }
 

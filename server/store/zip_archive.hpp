@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/progress.hpp"
+
 namespace ream::store {
 
 /// A file and the name it has in an archive (with '/').
@@ -20,13 +22,16 @@ void write_zip(const std::filesystem::path& path, const std::vector<ArchiveEntry
 struct UnpackLimits {
   uint64_t entries = 1000;
   uint64_t bytes = uint64_t{16} << 30;
+  bool durable = true;  ///< every file survives a loss of power once unpacked; not needed for passing ones
 };
 
 /// Names of an archive's files. Error not_found, invalid_input when it is no zip archive.
 std::vector<std::string> zip_names(const std::filesystem::path& path);
 /// Unpacks every file into `folder`, which exists. Checksums are checked. Error invalid_input naming the
-/// entry: damaged, a name that would leave the folder, a link, or beyond the limits; io.
+/// archive and the entry: damaged, encrypted, a name that would leave the folder, a link, or beyond the
+/// limits (the sizes that the archive states are looked at before anything is unpacked); io; cancelled by
+/// `progress`.
 void unpack_zip(const std::filesystem::path& path, const std::filesystem::path& folder,
-                const UnpackLimits& limits = {});
+                const UnpackLimits& limits = {}, const Progress& progress = no_progress);
 
 }  // namespace ream::store

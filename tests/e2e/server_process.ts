@@ -5,7 +5,7 @@ import { join, resolve } from 'node:path';
 import { createInterface } from 'node:readline';
 
 /** The program under test: REAM_BIN, else build/ream; tests/support/fake_stream_server.mjs speaks the same. */
-const program = resolve(process.env.REAM_BIN ?? join(process.cwd(), '../build/ream'));
+export const program = resolve(process.env.REAM_BIN ?? join(process.cwd(), '../build/ream'));
 
 /** A `ream serve` of its own, with a data folder of its own. */
 export class ServerProcess {

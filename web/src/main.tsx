@@ -1,17 +1,18 @@
 import 'uplot/dist/uPlot.min.css';
 import './style.css';
 
-import { effect } from '@preact/signals';
+import { effect, type Signal, signal } from '@preact/signals';
 import { render } from 'preact';
 
 import { publishDebugReadout } from './debug_readout';
-import { LivePage } from './pages/live_page';
+import { App } from './pages/app';
 import { BoneScene } from './scene/scene';
 import { Practice } from './state/practice';
 import { PracticeStore } from './state/practice_store';
 import { browserWindow, letGoWhenLeft } from './state/practice_window';
 import { isActive } from './state/choose_session';
 import { addressOfReplay, replayInAddress } from './state/replay_address';
+import { followRoute, type Route, routeInAddress } from './state/route';
 import { Store } from './state/store';
 import { Watcher } from './state/watcher';
 import { Api } from './wire/api';
@@ -40,12 +41,17 @@ function main(root: HTMLElement): void {
   effect(() => scene.setToolShown(store.reamerShown.value));
   effect(() => scene.setAim(practiceStore.plan.value, practiceStore.hand.place.value));
   publishDebugReadout(store, practiceStore, scene);
-  render(
-    <LivePage store={store} watcher={watcher} scene={scene} practice={practice} practiceStore={practiceStore} />,
-    root,
-  );
-  followReplayAddress(store, watcher);
-  void goOnSteering(api, store, practice).finally(() => watcher.start());
+  const route = signal(routeInAddress(window.location.hash));
+  render(<App route={route} live={{ store, watcher, scene, practice, practiceStore }} />, root);
+  followReplayAddress(store, watcher, route);
+  followRoute(route);
+  const atFirst = route.value.kind === 'live' ? goOnSteering(api, store, practice) : Promise.resolve();
+  void atFirst.finally(() => {
+    effect(() => {
+      if (route.value.kind === 'live') watcher.start();
+      else if (practiceStore.sessionId.peek() !== null) practice.leave();
+    });
+  });
 }
 
 /** A page that was loaded anew takes its session back into the hand. */
@@ -58,15 +64,18 @@ async function goOnSteering(api: Api, store: Store, practice: Practice): Promise
   practice.steer(id);
 }
 
-/** The address names the replay that is watched, and the other way round. */
-function followReplayAddress(store: Store, watcher: Watcher): void {
+/** The address of the live page names the replay that is watched, and the other way round. */
+function followReplayAddress(store: Store, watcher: Watcher, route: Signal<Route>): void {
   const named = replayInAddress(window.location.hash);
   if (named !== null) store.replayId.value = named;
   effect(() => {
+    const replayId = store.replayId.value;
+    if (route.value.kind !== 'live') return;
     const { pathname, search } = window.location;
-    window.history.replaceState(null, '', pathname + search + addressOfReplay(store.replayId.value));
+    window.history.replaceState(null, '', pathname + search + addressOfReplay(replayId));
   });
   window.addEventListener('hashchange', () => {
+    if (routeInAddress(window.location.hash).kind !== 'live') return;
     const replayId = replayInAddress(window.location.hash);
     if (replayId === null) watcher.leaveReplay();
     else watcher.watchReplay(replayId);

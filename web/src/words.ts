@@ -1,9 +1,12 @@
-/** Every text of the page, in one place. */
+/** Every text of the page but those of the cases, which come with their pages: case_words.ts. */
 import type { SessionState } from './wire/messages';
 
 export const words = {
   product: 'ream',
   tagline: 'Glenoid reaming',
+  cases: 'Cases',
+  openingCases: 'Opening the cases…',
+  casesNotLoaded: 'This part of the page could not be loaded. Reload the page.',
 
   practise: 'Practise',
   practising: 'Practising…',

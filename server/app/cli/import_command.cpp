@@ -10,6 +10,7 @@
 #include "app/cli/case_path.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/numbers.hpp"
+#include "app/ct_source.hpp"
 #include "app/data_folder.hpp"
 #include "app/interrupt.hpp"
 #include "app/session_bundle.hpp"
@@ -81,7 +82,10 @@ class TerminalProgress {
 case_::Case imported(const Options& options, const std::filesystem::path& out) {
   const ct::ImportOptions import = parsed(options);
   const TerminalProgress progress;
-  return ct::import_ct(options.path, ct::case_id_from(out), import, std::cref(progress));
+  const CtSource source(options.path);
+  return source.read([&](const std::filesystem::path& ct) {
+    return ct::import_ct(ct, ct::case_id_from(out), import, std::cref(progress));
+  });
 }
 
 void report(const case_::Case& c, const std::filesystem::path& out, bool json) {
@@ -143,8 +147,8 @@ void add_import_command(CLI::App& app, GlobalOptions& global) {
       app.add_subcommand("import", "Make a case out of a CT, or take in a session from another machine");
   command
       ->add_option("PATH", options->path,
-                   "Folder of DICOM slices, a NRRD, NIfTI or MetaImage file, or a session's bundle (.zip of "
-                   "ream export)")
+                   "Folder of DICOM slices, a NRRD, NIfTI or MetaImage file, text rows x y z gray, a zip "
+                   "archive of one of these, or a session's bundle (.zip of ream export)")
       ->required();
   command->add_option("--out", options->out, "Name of the new case, or a folder; not for a session's bundle");
   command->add_option("--name", options->name, "Name for people");

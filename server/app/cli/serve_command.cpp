@@ -7,6 +7,7 @@
 
 #include "api/server.hpp"
 #include "app/cli/commands.hpp"
+#include "app/ct_source.hpp"
 #include "app/data_folder.hpp"
 #include "app/device_registry.hpp"
 #include "app/interrupt.hpp"
@@ -18,11 +19,14 @@
 #include "core/file.hpp"
 #include "core/log.hpp"
 #include "ct/phantom_case.hpp"
+#include "ct/volume_io.hpp"
 
 namespace ream::app {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double unpacking_share = 0.2;
 
 struct Options {
   std::string host = "127.0.0.1";
@@ -76,6 +80,14 @@ void serve(const Options& options, const GlobalOptions& global) {
   server_options.listen.host = options.host;
   server_options.listen.port = options.port;
   server_options.cases_folder = cases_folder(house.data);
+  server_options.data_folder = house.data;
+  server_options.read_ct = [](const fs::path& file, const std::string& series_uid,
+                                               const Progress& progress) {
+    const CtSource source(file, part_of(progress, 0.0, unpacking_share), file.parent_path());
+    return source.read([&](const fs::path& path) {
+      return ct::read_ct(path, {series_uid, false}, part_of(progress, unpacking_share, 1.0));
+    });
+  };
   server_options.web_folder = web_folder(options.web);
   server_options.sessions_folder = sessions_folder(house.data);
   server_options.make_session.make = [house](const api::SessionRequest& request) {

@@ -6,6 +6,7 @@ import { extname, join, normalize } from 'node:path';
 import { WebSocketServer } from 'ws';
 
 import { SessionState } from '../../../web/src/wire/generated/stream_generated';
+import { FakeWorkshop } from '../fake_case/server';
 import { FakeSession } from './session';
 
 const types: Record<string, string> = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css' };
@@ -14,7 +15,9 @@ const types: Record<string, string> = { '.html': 'text/html', '.js': 'text/javas
 export async function serve(port: number, webFolder: string): Promise<string> {
   const sessions: FakeSession[] = [];
   const epoch = BigInt(Date.now());
+  const workshop = new FakeWorkshop();
   const server = createServer((request, response) => {
+    if (workshop.answer(request, response)) return;
     if (!answerApi(request, response, sessions, epoch)) answerFile(request, response, webFolder);
   });
   const sockets = new WebSocketServer({ noServer: true });
@@ -53,7 +56,8 @@ function answerApi(
   if (call === 'POST all') {
     void readBody(request).then((body) => {
       const id = `fake${epoch % 100000n}n${sessions.length}`;
-      const created = new FakeSession(id, 26, epoch, (body as { device?: string }).device ?? 'script');
+      const { device = 'script', case: caseId = 'demo' } = body as { device?: string; case?: string };
+      const created = new FakeSession(id, 26, epoch, device, caseId);
       sessions.push(created);
       json(response, 201, created.describe());
     });

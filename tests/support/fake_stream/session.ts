@@ -33,6 +33,7 @@ export class FakeSession {
     readonly forceScale: number,
     private readonly serverEpoch: bigint,
     private readonly device: string,
+    private readonly caseId = 'demo',
   ) {
     this.hand = device === 'browser' ? new FakeHand(id) : null;
     intact ??= wholeBone();
@@ -47,7 +48,7 @@ export class FakeSession {
     return {
       id: this.id,
       kind: 'session',
-      case: 'demo',
+      case: this.caseId,
       script: 'demo',
       state: SessionState[this.state],
       created_utc: this.createdUtc,

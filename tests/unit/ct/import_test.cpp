@@ -65,14 +65,14 @@ TEST(VolumeFiles, EveryFormatGivesBackTheVolume) {
 
 TEST(VolumeFiles, LeftHandedAxesAreTurnedNotMirrored) {
   const test::TemporaryFolder folder;
-  // A 2 x 1 x 3 volume whose third axis points down: a left-handed file.
-  const fs::path file =
-      folder.write("ct.nrrd",
-                   "NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 2 1 3\n"
-                   "space directions: (1,0,0) (0,1,0) (0,0,-2)\nkinds: domain domain domain\n"
-                   "endian: little\nencoding: ascii\nspace origin: (10,20,30)\n\n1 2 3 4 5 6\n");
+  // A 2 x 2 x 3 volume whose third axis points down: a left-handed file.
+  const fs::path file = folder.write(
+      "ct.nrrd",
+      "NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 2 2 3\n"
+      "space directions: (1,0,0) (0,1,0) (0,0,-2)\nkinds: domain domain domain\n"
+      "endian: little\nencoding: ascii\nspace origin: (10,20,30)\n\n1 2 -1 -2 3 4 -3 -4 5 6 -5 -6\n");
   const HuVolume volume = read_ct(file);
-  EXPECT_EQ(volume.hu, (std::vector<int16_t>{5, 6, 3, 4, 1, 2}));
+  EXPECT_EQ(volume.hu, (std::vector<int16_t>{5, 6, -5, -6, 3, 4, -3, -4, 1, 2, -1, -2}));
   EXPECT_LT((volume.world_of_centre({0, 0, 2}) - Vec3(10, 20, 30)).norm(), 1e-9);
   EXPECT_LT((volume.world_of_centre({0, 0, 0}) - Vec3(10, 20, 26)).norm(), 1e-9);
   EXPECT_TRUE(volume.world_from_volume.rotation.isApprox(Mat3::Identity()));
@@ -201,8 +201,9 @@ TEST(Import, BadInputGetsOneClearLine) {
   refuses(ErrorKind::not_found, "nowhere", folder.path() / "nowhere", plain);
   fs::create_directories(folder.path() / "empty");
   refuses(ErrorKind::invalid_input, "no CT slices", folder.path() / "empty", plain);
-  refuses(ErrorKind::invalid_input, "not a volume that can be read", folder.write("notes.txt", "hello"),
+  refuses(ErrorKind::invalid_input, "not a volume that can be read", folder.write("notes.doc", "hello"),
           plain);
+  refuses(ErrorKind::invalid_input, "notes.txt line 1", folder.write("notes.txt", "hello"), plain);
   for (const char* name : {"ct.nrrd", "ct.nii.gz", "ct.nii", "ct.mha"}) {
     const fs::path file = folder.path() / "short" / name;
     fs::create_directories(file.parent_path());

@@ -23,7 +23,7 @@ const Rooms& drawn_arrows() {
       {"score", {"record", "surface", "render"}},
       {"ct", {"case"}},
       {"fe", {"case"}},
-      {"case", {"voxel"}},
+      {"case", {"voxel", "shell"}},
       {"shell", {"voxel"}},
       {"record", {"case", "device"}},
       {"surface", {"voxel"}},

@@ -26,6 +26,9 @@ export function Header({ store }: { store: Store }) {
           <span>{hello.caseName || hello.caseId}</span>
         </p>
       )}
+      <a class="to-cases" href="#/cases" data-testid="to-cases">
+        {words.cases}
+      </a>
       <p class={`link link-${look}`} role="status" data-testid="link-state" data-link={link}>
         <span class="link-dot" aria-hidden="true" />
         {look === 'replay' ? words.linkReplay : linkWords[link]}

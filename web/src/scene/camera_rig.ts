@@ -7,7 +7,7 @@ import type { Hello } from '../wire/messages';
 export type ViewName = 'plan' | 'axis' | 'side';
 
 /** Half the field seen around the glenoid, mm. */
-const fieldRadiusMm = 34;
+const glenoidFieldMm = 34;
 const keyTurnRad = 0.09;
 const keyZoom = 1.1;
 /** A drag over the height of the picture turns half around. */
@@ -22,6 +22,7 @@ export class CameraRig {
   private readonly controls: OrbitControls;
   private readonly entry = new Vector3();
   private readonly intoBone = new Vector3(-1, 0, 0);
+  private fieldRadiusMm = glenoidFieldMm;
   private guided = false;
 
   constructor(
@@ -36,9 +37,11 @@ export class CameraRig {
     surface.addEventListener('keydown', (event) => this.onKey(event));
   }
 
-  setPlan(hello: Hello): void {
-    this.entry.set(...hello.axisEntryMm);
-    this.intoBone.set(...hello.axisDirection).normalize();
+  /** What the set views are held on, and half the field that they show. */
+  setPlan(plan: Pick<Hello, 'axisEntryMm' | 'axisDirection'>, fieldRadiusMm = glenoidFieldMm): void {
+    this.entry.set(...plan.axisEntryMm);
+    this.intoBone.set(...plan.axisDirection).normalize();
+    this.fieldRadiusMm = fieldRadiusMm;
   }
 
   look(view: ViewName): void {
@@ -101,7 +104,7 @@ export class CameraRig {
   private fittingDistance(): number {
     const halfVertical = (this.camera.fov * Math.PI) / 360;
     const halfHorizontal = Math.atan(Math.tan(halfVertical) * this.camera.aspect);
-    return fieldRadiusMm / Math.sin(Math.min(halfVertical, halfHorizontal));
+    return this.fieldRadiusMm / Math.sin(Math.min(halfVertical, halfHorizontal));
   }
 
   private onKey(event: KeyboardEvent): void {

@@ -30,6 +30,7 @@ export class Watcher {
   /** A stream was asked for and has not said hello. */
   private awaitingHello = false;
   private endedWithoutHello = 0;
+  private started = false;
 
   constructor(
     private readonly store: Store,
@@ -49,7 +50,10 @@ export class Watcher {
     );
   }
 
+  /** Begins to watch, once. */
   start(): void {
+    if (this.started) return;
+    this.started = true;
     this.link.connect();
     void this.readSessions();
     setInterval(() => void this.lookForNewer(), idlePollMs);
@@ -69,10 +73,10 @@ export class Watcher {
   }
 
   /** Makes and starts a session that a hand in the browser steers, and watches it; its id, or null when that failed. */
-  async practise(): Promise<string | null> {
+  async practise(caseId = 'demo'): Promise<string | null> {
     let id: string | null = null;
     await this.carryOut(async () => {
-      const session = await this.api.start((await this.api.createPractice()).id);
+      const session = await this.api.start((await this.api.createPractice(caseId)).id);
       id = session.id;
       this.store.sessionId.value = session.id;
       this.store.sessionState.value = session.state;

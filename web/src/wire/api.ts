@@ -1,5 +1,7 @@
-import { words } from '../words';
 import type { SessionState } from './messages';
+import { requestJson } from './rest';
+
+export { ApiError } from './rest';
 
 /** A session as REST describes it. */
 export interface Session {
@@ -82,20 +84,6 @@ export interface Metrics {
   duration_s: number;
 }
 
-/** What the server, or the way to it, answered instead of what was asked for; the message is for people. */
-export class ApiError extends Error {
-  constructor(
-    message: string,
-    /** HTTP status, 0 when there was no answer. */
-    readonly status: number,
-  ) {
-    super(message);
-  }
-}
-
-// The first session of a fresh server waits until the demo case is made.
-const timeoutMs = { GET: 10000, POST: 60000 };
-
 /** Calls of the REST interface under `base` (the page's own server by default). */
 export class Api {
   constructor(private readonly base: string) {}
@@ -106,9 +94,9 @@ export class Api {
   createDemo(): Promise<Session> {
     return this.call('POST', 'sessions', { case: 'demo', script: 'demo', device: 'script' });
   }
-  /** A demo that waits for a hand in a browser. */
-  createPractice(): Promise<Session> {
-    return this.call('POST', 'sessions', { case: 'demo', device: 'browser' });
+  /** A session on a case that waits for a hand in a browser. */
+  createPractice(caseId: string): Promise<Session> {
+    return this.call('POST', 'sessions', { case: caseId, device: 'browser' });
   }
   session(id: string): Promise<Session> {
     return this.call('GET', `sessions/${encodeURIComponent(id)}`);
@@ -142,31 +130,7 @@ export class Api {
     return `${this.base.replace(/^http/, 'ws')}/api/v1/sessions/${encodeURIComponent(id)}/${what}`;
   }
 
-  private async call<T>(method: 'GET' | 'POST', path: string, body?: object): Promise<T> {
-    let response: Response;
-    try {
-      response = await fetch(`${this.base}/api/v1/${path}`, {
-        method,
-        cache: 'no-store',
-        headers: body === undefined ? {} : { 'content-type': 'application/json' },
-        body: body === undefined ? undefined : JSON.stringify(body),
-        signal: AbortSignal.timeout(timeoutMs[method]),
-      });
-    } catch {
-      throw new ApiError(words.noAnswer, 0);
-    }
-    if (!response.ok) throw await problem(response);
-    try {
-      return (await response.json()) as T;
-    } catch {
-      throw new ApiError(words.unreadableAnswer, response.status);
-    }
+  private call<T>(method: 'GET' | 'POST', path: string, body?: object): Promise<T> {
+    return requestJson(`${this.base}/api/v1/${path}`, method, { body });
   }
-}
-
-/** Words of an RFC 9457 problem, or of the bare status where the body is none. */
-async function problem(response: Response): Promise<ApiError> {
-  const body = (await response.json().catch(() => null)) as { title?: unknown; detail?: unknown } | null;
-  const said = [body?.detail, body?.title].find((text): text is string => typeof text === 'string' && text !== '');
-  return new ApiError(said ?? words.answeredWith(response.status), response.status);
 }

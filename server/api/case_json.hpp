@@ -1,0 +1,16 @@
+#pragma once
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+
+#include "case/case.hpp"
+
+namespace ream::api {
+
+/// A case in a list, and all of it, from what lies in its folder. Errors: those of reading the folder.
+nlohmann::json case_summary_json(const std::filesystem::path& folder);
+nlohmann::json case_json(const std::filesystem::path& folder);
+
+/// As plan.json, with null for what it lacks.
+nlohmann::json plan_json(const case_::Plan& plan);
+
+}  // namespace ream::api

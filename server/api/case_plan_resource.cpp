@@ -1,0 +1,97 @@
+#include <nlohmann/json.hpp>
+
+#include "api/case_json.hpp"
+#include "api/case_work_resource.hpp"
+#include "api/request_body.hpp"
+#include "case/measures.hpp"
+#include "case/plan.hpp"
+#include "core/log.hpp"
+#include "shell/parametric_profile.hpp"
+#include "shell/reamer_library.hpp"
+
+namespace ream::api {
+using nlohmann::json;
+namespace {
+
+const std::string one = "/api/v1/cases/{id}";
+const std::string place = "the request body";
+
+net::Response measures(CaseWorkshop& workshop, const net::Request& request) {
+  const std::string& id = request.parameters.at("id");
+  const case_::Side side = workshop.side_of(id);
+  return net::json_response(200, case_::to_json(case_::measure(workshop.landmarks(id), side)));
+}
+
+net::Response set_landmarks(CaseWorkshop& workshop, const net::Request& request) {
+  const std::string& id = request.parameters.at("id");
+  workshop.set_landmarks(id, case_::landmarks_from_json(json_object_in(request), place));
+  return net::json_response(200, case_json(workshop.folder_of(id)));
+}
+
+/// Over the network a reamer has a name or words; a path would open the server's files.
+void check_reamer(const std::string& reamer, const std::filesystem::path& data_folder) {
+  if (!reamer.empty() && !shell::is_parametric(reamer)) shell::reamer_named(reamer, data_folder);
+}
+
+net::Response propose(CaseWorkshop& workshop, const std::filesystem::path& data_folder,
+                      const net::Request& request) {
+  const std::string& id = request.parameters.at("id");
+  const auto targets = case_::plan_targets_from_json(json_object_in(request), place);
+  check_reamer(targets.reamer, data_folder);
+  const case_::Plan plan = workshop.propose(id, targets);
+  return net::json_response(200, {{"plan", plan_json(plan)},
+                                  {"assessment", case_::to_json(workshop.assess(id, plan))}});
+}
+
+net::Response set_plan(CaseWorkshop& workshop, const std::filesystem::path& data_folder,
+                       const net::Request& request) {
+  const std::string& id = request.parameters.at("id");
+  const case_::Plan plan = case_::plan_from_json(json_object_in(request), place);
+  check_reamer(plan.reamer, data_folder);
+  const case_::PlanAssessment assessment = workshop.set_plan(id, plan);
+  return net::json_response(200, {{"plan", plan_json(plan)}, {"assessment", case_::to_json(assessment)}});
+}
+
+json to_json(const shell::LibraryReamer& reamer) {
+  json nipple;
+  if (reamer.nipple)
+    nipple = {{"radius_mm", reamer.nipple->radius_mm}, {"height_mm", reamer.nipple->height_mm}};
+  return {{"name", reamer.name},
+          {"words", reamer.words},
+          {"diameter_mm", reamer.diameter_mm},
+          {"radius_mm", reamer.radius_mm},
+          {"nipple", std::move(nipple)},
+          {"cannulated", reamer.cannulated},
+          {"description", reamer.description}};
+}
+
+net::Response reamers(const std::filesystem::path& data_folder) {
+  std::vector<std::string> warnings;
+  json list = json::array();
+  for (const shell::LibraryReamer& reamer : shell::reamers_of(data_folder, &warnings))
+    list.push_back(to_json(reamer));
+  for (const std::string& warning : warnings) log::warn(warning);
+  return net::json_response(200, {{"reamers", std::move(list)}});
+}
+
+}  // namespace
+
+void add_case_plan_routes(net::Router& router, CaseWorkshop& workshop,
+                          const std::filesystem::path& data_folder) {
+  router.on("GET", one + "/measures",
+            [&workshop](const net::Request& request) { return measures(workshop, request); });
+  router.on("PUT", one + "/landmarks",
+            [&workshop](const net::Request& request) { return set_landmarks(workshop, request); });
+  router.on("POST", one + "/plan/proposal",
+            [&workshop, data_folder](const net::Request& request) {
+              return propose(workshop, data_folder, request);
+            });
+  router.on("PUT", one + "/plan",
+            [&workshop, data_folder](const net::Request& request) {
+              return set_plan(workshop, data_folder, request);
+            });
+  router.on("GET", "/api/v1/reamers",
+            [data_folder](const net::Request&) { return reamers(data_folder); });
+}
+
+}  // namespace ream::api

@@ -1,0 +1,61 @@
+#include <charconv>
+
+#include "api/case_work_resource.hpp"
+#include "net/problem.hpp"
+
+namespace ream::api {
+namespace {
+
+int axis_of(const std::string& word) {
+  if (word == "u") return 0;
+  if (word == "v") return 1;
+  if (word == "w") return 2;
+  throw net::RequestError(404, "slices lie across u, v or w");
+}
+
+int index_of(const std::string& text) {
+  int index = 0;
+  const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), index);
+  if (failed != std::errc() || end != text.data() + text.size())
+    throw net::RequestError(404, "slices are numbered from 0");
+  return index;
+}
+
+bool wants_labels(const net::Request& request) {
+  const auto found = request.query.find("of");
+  if (found == request.query.end() || found->second == "hu") return false;
+  if (found->second == "labels") return true;
+  throw net::RequestError(422, "?of must be hu or labels");
+}
+
+net::SharedBytes shared(net::Bytes bytes) { return std::make_shared<const net::Bytes>(std::move(bytes)); }
+
+/// A slice whose address names the revision of what it shows never changes.
+net::Response slice(CaseWorkshop& workshop, const net::Request& request) {
+  const auto& parameters = request.parameters;
+  net::Bytes bytes = workshop.slice(parameters.at("id"), axis_of(parameters.at("axis")),
+                                    index_of(parameters.at("index")), wants_labels(request));
+  net::Response response = net::bytes_response(200, "application/octet-stream", shared(std::move(bytes)));
+  response.headers.emplace_back("Cache-Control", request.query.contains("revision")
+                                                     ? "private, max-age=86400, immutable"
+                                                     : "no-store");
+  return response;
+}
+
+net::Response mesh(CaseWorkshop& workshop, const net::Request& request) {
+  net::Response response =
+      net::bytes_response(200, "application/ply", net::share(workshop.mesh(request.parameters.at("id"))));
+  response.headers.emplace_back("Cache-Control", "no-store");
+  return response;
+}
+
+}  // namespace
+
+void add_case_volume_routes(net::Router& router, CaseWorkshop& workshop) {
+  router.on("GET", "/api/v1/cases/{id}/volume/slices/{axis}/{index}",
+            [&workshop](const net::Request& request) { return slice(workshop, request); });
+  router.on("GET", "/api/v1/cases/{id}/mesh",
+            [&workshop](const net::Request& request) { return mesh(workshop, request); });
+}
+
+}  // namespace ream::api

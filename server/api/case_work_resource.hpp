@@ -1,0 +1,18 @@
+#pragma once
+#include "api/case_workshop.hpp"
+#include "net/router.hpp"
+
+namespace ream::api {
+
+/// Making cases: POST /api/v1/cases and what is done to one: segmentation, undo, build, delete. Workshop and
+/// uploads must outlive the router.
+void add_case_work_routes(net::Router& router, CaseWorkshop& workshop, UploadStore& uploads);
+
+/// Looking at a case's CT and surface: slices and mesh.
+void add_case_volume_routes(net::Router& router, CaseWorkshop& workshop);
+
+/// Landmarks, measures, plan, and the library of reamers of `data_folder`.
+void add_case_plan_routes(net::Router& router, CaseWorkshop& workshop,
+                          const std::filesystem::path& data_folder);
+
+}  // namespace ream::api

@@ -1,0 +1,80 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <string>
+
+#include "api/ct_shelf.hpp"
+#include "api/job_service.hpp"
+#include "api/upload_store.hpp"
+#include "case/landmarks.hpp"
+#include "case/plan_assessment.hpp"
+#include "case/plan_proposal.hpp"
+#include "ct/workup.hpp"
+#include "net/message.hpp"
+
+namespace ream::api {
+
+/// Reads a CT out of a file that was uploaded (a zip is unpacked); `series_uid` empty: the largest series.
+using CtReader = std::function<ct::HuVolume(const std::filesystem::path& file, const std::string& series_uid,
+                                            const Progress& progress)>;
+
+/// What the workshop needs from outside this room.
+struct CaseTools {
+  CtReader read_ct;
+  /// How many sessions, live or ended, belong to a case.
+  std::function<size_t(const std::string& case_id)> sessions_of;
+};
+
+/// A case that is to be made of an upload.
+struct NewCase {
+  std::string upload_id, id, name, series_uid;  ///< id empty: made of the file's name
+  case_::Side side = case_::Side::right;
+};
+
+/// What is done with cases between upload and session: import, segmentation, landmarks, plan, build, each kept
+/// in the case's folder. Thread-safe. Unknown cases throw Error not_found, steps that miss an earlier one
+/// conflict.
+class CaseWorkshop {
+ public:
+  CaseWorkshop(std::filesystem::path cases_folder, CaseTools tools);
+
+  std::filesystem::path folder_of(const std::string& id) const;
+  ct::Workup workup(const std::string& id) const;
+
+  JobRecord import(const NewCase& wanted, UploadStore& uploads);
+  JobRecord copy(const std::string& from, case_::Side side);
+  JobRecord segment(const std::string& id, ct::SegmentationSettings settings);
+  JobRecord build(const std::string& id, const ct::BuildSettings& settings);
+  void undo_segmentation(const std::string& id);
+  /// Error conflict while there is work on it or sessions belong to it.
+  void remove(const std::string& id);
+
+  case_::Side side_of(const std::string& id) const;
+  case_::Landmarks landmarks(const std::string& id) const;
+  void set_landmarks(const std::string& id, const case_::Landmarks& landmarks);
+  case_::Plan propose(const std::string& id, const case_::PlanTargets& targets);
+  case_::PlanAssessment assess(const std::string& id, const case_::Plan& plan);
+  /// Error conflict with the reason when the plan needs an override.
+  case_::PlanAssessment set_plan(const std::string& id, const case_::Plan& plan);
+
+  /// One slice (0 u, 1 v, 2 w) as 16-bit HU or as labels, little endian. Error not_found outside the volume.
+  net::Bytes slice(const std::string& id, int axis, int index, bool of_labels);
+  /// The surface of the case, LPS mm, binary PLY.
+  std::string mesh(const std::string& id);
+
+  JobService& jobs() { return jobs_; }
+
+ private:
+  std::string unused_id(const std::string& wanted) const;
+  void require_no_sessions(const std::string& id, const std::string& what) const;
+  CtShelf::Bone surface_of(const std::string& id);
+
+  const std::filesystem::path cases_folder_;
+  const CaseTools tools_;
+  CtShelf shelf_;
+  std::mutex changing_;  ///< one writer of a case's small files at a time
+  JobService jobs_;      ///< last: its work uses all of the above
+};
+
+}  // namespace ream::api

@@ -1,0 +1,15 @@
+#pragma once
+#include <nlohmann/json_fwd.hpp>
+
+#include "api/job_service.hpp"
+#include "net/router.hpp"
+
+namespace ream::api {
+
+/// /api/v1/jobs. The service must outlive the router.
+void add_job_routes(net::Router& router, JobService& jobs);
+
+/// 202 with the job and where to ask about it.
+net::Response accepted(const JobRecord& job);
+
+}  // namespace ream::api

@@ -1,0 +1,155 @@
+#include "case/plan_assessment.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "case/measures.hpp"
+#include "case/scapular_frame.hpp"
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "shell/reamer_library.hpp"
+
+namespace ream::case_ {
+using nlohmann::json;
+namespace {
+
+// Retroversion that remains: within 7 degrees of neutral is what good planning achieves, from 15 on the
+// component loosens (science 2.2).
+constexpr double retroversion_noted_deg = 7.0, retroversion_bad_deg = 15.0;
+constexpr double angle_slack_deg = 1e-9;
+
+std::string one_decimal(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f", value);
+  return text;
+}
+
+/// Native face, lateral: from the rim landmarks, else from the glenoid frame.
+std::optional<Vec3> native_face(const Landmarks& l, Side side, const GlenoidFrame* glenoid) {
+  const bool rim = l.superior_rim_mm && l.inferior_rim_mm && l.glenoid_centre_mm &&
+                   (l.biconcavity_mm.size() == 3 || (l.anterior_rim_mm && l.posterior_rim_mm));
+  if (rim) return glenoid_frame(l, side).lateral;
+  if (glenoid) return glenoid->lateral;
+  return std::nullopt;
+}
+
+void judge_angles(const Plan& plan, PlanAssessment& a) {
+  if (a.correction_rad) {
+    const double degrees = degrees_from_radians(*a.correction_rad);
+    const bool too_much = degrees >= refused_correction_deg - angle_slack_deg;
+    a.needs_override = too_much && !plan.override_correction;
+    if (too_much)
+      a.warnings.push_back("the plan corrects " + one_decimal(degrees) +
+                           "\u00b0 by reaming alone; from 15\u00b0 pegged components perforate the vault "
+                           "(Clavert 2007)");
+    else if (degrees > warned_correction_deg + angle_slack_deg)
+      a.warnings.push_back("the plan corrects " + one_decimal(degrees) +
+                           "\u00b0 by reaming alone; eccentric reaming is used for 5\u00b0 to 10\u00b0");
+  }
+  if (!a.version_after_rad) return;
+  const double retroversion = -degrees_from_radians(*a.version_after_rad);
+  if (retroversion > retroversion_bad_deg + angle_slack_deg)
+    a.warnings.push_back(one_decimal(retroversion) +
+                         "\u00b0 retroversion would remain; over 15\u00b0 the component is likely to loosen "
+                         "(Ho 2013)");
+  else if (retroversion > retroversion_noted_deg + angle_slack_deg)
+    a.warnings.push_back(
+        one_decimal(retroversion) +
+        "\u00b0 retroversion would remain; within 7\u00b0 of neutral is what planning achieves");
+}
+
+void judge_pilot_hole(const Plan& plan, const voxel::BoneModel& bone, PlanAssessment& a) {
+  a.vault_depth_mm = bone_depth_along(bone, plan.entry_mm, plan.axis_direction);
+  if (!a.vault_depth_mm) {
+    a.warnings.push_back("the entry does not lie on the bone");
+    return;
+  }
+  if (plan.pilot_hole && plan.pilot_hole->depth_mm >= *a.vault_depth_mm)
+    a.warnings.push_back("the pilot hole of " + one_decimal(plan.pilot_hole->depth_mm) +
+                         " mm goes through the far cortex, which lies " + one_decimal(*a.vault_depth_mm) +
+                         " mm below the entry");
+}
+
+void judge_reamer(const Plan& plan, const Landmarks& l, PlanAssessment& a) {
+  shell::LibraryReamer reamer;
+  try {
+    reamer = shell::described_reamer(plan.reamer);
+  } catch (const Error& e) {
+    a.warnings.push_back(std::string("the reamer cannot be judged: ") + e.what());
+    return;
+  }
+  const auto words = [&](const char* relation, double size_mm, const char* what, const char* effect) {
+    return "the reamer's diameter of " + one_decimal(reamer.diameter_mm) + " mm is " + relation +
+           " than the glenoid is " + what + " (" + one_decimal(size_mm) + " mm): " + effect;
+  };
+  if (l.superior_rim_mm && l.inferior_rim_mm) {
+    const double height = (*l.superior_rim_mm - *l.inferior_rim_mm).norm();
+    if (reamer.diameter_mm > height)
+      a.warnings.push_back(words("larger", height, "high", "it reaches beyond the rim all around"));
+  }
+  if (l.anterior_rim_mm && l.posterior_rim_mm) {
+    const double width = (*l.anterior_rim_mm - *l.posterior_rim_mm).norm();
+    if (reamer.diameter_mm < width)
+      a.warnings.push_back(words("smaller", width, "wide", "it leaves a ledge in front and behind"));
+  }
+  if (reamer.cannulated && plan.guide != GuideKind::pin)
+    a.warnings.push_back("the reamer is cannulated; guide it by a pin");
+}
+
+json degrees_or_null(const std::optional<double>& rad) {
+  return rad ? json(degrees_from_radians(*rad)) : json(nullptr);
+}
+
+}  // namespace
+
+PlanAssessment assess_plan(const Plan& plan, const Landmarks& landmarks, Side side,
+                           const voxel::BoneModel* bone, const GlenoidFrame* glenoid) {
+  PlanAssessment a;
+  const Measures measures = measure(landmarks, side);
+  const Vec3 planned_face = -plan.axis_direction;
+  if (const auto native = native_face(landmarks, side, glenoid))
+    a.correction_rad = std::atan2(native->cross(planned_face).norm(), native->dot(planned_face));
+  a.version_before_rad = measures.version_3d_rad;
+  a.inclination_before_rad = measures.inclination_3d_rad;
+  if (landmarks.glenoid_centre_mm && landmarks.trigonum_mm && landmarks.inferior_angle_mm) {
+    const FaceAngles after = face_angles(planned_face, *landmarks.glenoid_centre_mm, *landmarks.trigonum_mm,
+                                         *landmarks.inferior_angle_mm);
+    a.version_after_rad = after.version_rad;
+    a.inclination_after_rad = after.inclination_rad;
+  }
+  judge_angles(plan, a);
+  if (bone) judge_pilot_hole(plan, *bone, a);
+  judge_reamer(plan, landmarks, a);
+  return a;
+}
+
+std::string why_refused(const PlanAssessment& a) {
+  return "the plan corrects " + one_decimal(degrees_from_radians(a.correction_rad.value_or(0.0))) +
+         "\u00b0 by reaming alone, which is refused from 15\u00b0 (pegged components perforate the vault, "
+         "Clavert 2007); aim nearer to the native face" +
+         (a.version_before_rad ? " (" + version_in_words(*a.version_before_rad) + ")" : "") +
+         ", or override with a reason";
+}
+
+json to_json(const PlanAssessment& a) {
+  const auto words = [](const std::optional<double>& rad, std::string (*in_words)(double)) {
+    return rad ? json(in_words(*rad)) : json(nullptr);
+  };
+  return {{"correction_deg", degrees_or_null(a.correction_rad)},
+          {"version_before_deg", degrees_or_null(a.version_before_rad)},
+          {"inclination_before_deg", degrees_or_null(a.inclination_before_rad)},
+          {"version_after_deg", degrees_or_null(a.version_after_rad)},
+          {"inclination_after_deg", degrees_or_null(a.inclination_after_rad)},
+          {"vault_depth_mm", a.vault_depth_mm ? json(*a.vault_depth_mm) : json(nullptr)},
+          {"warnings", a.warnings},
+          {"needs_override", a.needs_override},
+          {"words",
+           {{"version_before", words(a.version_before_rad, version_in_words)},
+            {"version_after", words(a.version_after_rad, version_in_words)},
+            {"inclination_before", words(a.inclination_before_rad, inclination_in_words)},
+            {"inclination_after", words(a.inclination_after_rad, inclination_in_words)}}}};
+}
+
+}  // namespace ream::case_

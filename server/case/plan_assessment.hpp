@@ -1,0 +1,38 @@
+#pragma once
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "case/case.hpp"
+#include "case/landmarks.hpp"
+
+namespace ream::case_ {
+
+/// Beyond this, reaming alone corrects badly; from the second on, components perforate the vault (Clavert
+/// 2007: at 15 degrees and more 5 of 5 pegged components; science 2.2).
+inline constexpr double warned_correction_deg = 10.0, refused_correction_deg = 15.0;
+
+/// What a plan would do to a glenoid. Angles rad; empty where the landmarks for them are missing.
+struct PlanAssessment {
+  std::optional<double> correction_rad;  ///< between the native face normal and the planned axis
+  std::optional<double> version_before_rad, inclination_before_rad;  ///< 3D (science 2.1)
+  std::optional<double> version_after_rad, inclination_after_rad;    ///< of a face across the axis
+  std::optional<double> vault_depth_mm;  ///< along the axis from the entry to the far cortex; needs the bone
+  std::vector<std::string> warnings;     ///< one line each
+  bool needs_override = false;           ///< 15 degrees or more, and the plan does not override
+};
+
+/// `bone` (before any hole is cut) and `glenoid` may be null; without rim landmarks the glenoid frame's face
+/// stands for the native one. Never refuses a plan that validate() takes: callers that change a plan ask
+/// needs_override. Error invalid_input for landmarks that contradict each other.
+PlanAssessment assess_plan(const Plan& plan, const Landmarks& landmarks, Side side,
+                           const voxel::BoneModel* bone = nullptr, const GlenoidFrame* glenoid = nullptr);
+
+/// One line for people that says how much is asked and what to do; for needs_override.
+std::string why_refused(const PlanAssessment& assessment);
+
+/// Angles in degrees, empty ones null.
+nlohmann::json to_json(const PlanAssessment& assessment);
+
+}  // namespace ream::case_

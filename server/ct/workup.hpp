@@ -1,0 +1,90 @@
+#pragma once
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "case/case.hpp"
+#include "ct/hu_volume.hpp"
+#include "ct/shoulder_bones.hpp"
+
+namespace ream::ct {
+
+/// A segmentation that was made of a CT, without its labels.
+struct SegmentationRecord {
+  int revision = 0;  ///< 1 for the first of a case; never used twice
+  SegmentationSettings settings;
+  double threshold_hu = 0.0;  ///< that was used: the settings', or the suggested one
+  std::vector<BonePart> parts;
+  std::optional<HumeralHead> head;  ///< as it was found
+  std::optional<Vec3> glenoid_mm;   ///< about the middle of the face, to begin with
+  std::vector<std::string> warnings;
+};
+
+/// What of the CT becomes the bone of a case, and how fine.
+struct BuildSettings {
+  int upsample = 4;            ///< parts of a CT voxel per axis, 1 to 16
+  bool around_glenoid = true;  ///< else the whole CT
+  double cartilage_mm = 0.0;   ///< thickness of synthetic cartilage; 0: none
+};
+
+struct BuildRecord {
+  BuildSettings settings;
+  Aabb roi_mm;  ///< the bone's grid, LPS
+  uint64_t bone_voxels = 0;
+  std::array<double, 2> density_range_g_cc{};  ///< least and greatest of the bone
+  int segmentation_revision = 0;
+};
+
+/// A CT on its way to a case: the folder ct/ of a case folder holds hu.zst (16-bit HU, x fastest),
+/// labels-REVISION.zst (one byte a voxel, BoneLabel) and ct.json (proto/ct.schema.json), which is written last
+/// and names what counts.
+struct Workup {
+  std::string id;    ///< of the case
+  std::string name;  ///< for people
+  case_::Side side = case_::Side::right;
+  HuVolume volume;  ///< its `hu` is empty: read it with load_hu
+  int hu_min = 0, hu_max = 0;
+  double suggested_threshold_hu = 0.0;
+  std::vector<SegmentationRecord> segmentations;  ///< newest last, at most kept_segmentations
+  int last_revision = 0;                          ///< given to a segmentation so far
+  std::optional<BuildRecord> built;
+
+  /// The one that counts; null before the first.
+  const SegmentationRecord* segmentation() const {
+    return segmentations.empty() ? nullptr : &segmentations.back();
+  }
+};
+
+/// How many steps back undo can go, and one.
+inline constexpr size_t kept_segmentations = 8;
+
+bool has_workup(const std::filesystem::path& case_folder);
+
+/// Errors: not_found without a ct/ct.json; invalid_input naming file and key; io.
+Workup load_workup(const std::filesystem::path& case_folder);
+std::vector<int16_t> load_hu(const std::filesystem::path& case_folder, const Workup& workup);
+std::vector<uint8_t> load_labels(const std::filesystem::path& case_folder, const Workup& workup,
+                                 int revision);
+
+/// A new case folder that holds nothing but the CT; it appears whole or not at all. Range and suggested
+/// threshold are found here. Errors: conflict when the folder exists; io.
+Workup create_workup(const std::filesystem::path& case_folder, const std::string& id, const std::string& name,
+                     case_::Side side, const HuVolume& volume);
+
+/// A new case folder with the same CT, by hard links where the file system has them, and nothing else.
+Workup copy_workup(const std::filesystem::path& from, const std::filesystem::path& to, const std::string& id,
+                   const std::string& name, case_::Side side);
+
+/// Makes it the segmentation that counts; the oldest beyond kept_segmentations goes.
+void add_segmentation(const std::filesystem::path& case_folder, Workup& workup,
+                      const SegmentationSettings& settings, const Segmentation& made);
+
+/// Goes back to the one before. Error conflict when there is none.
+void undo_segmentation(const std::filesystem::path& case_folder, Workup& workup);
+
+/// Only ct.json, atomically.
+void save_workup(const std::filesystem::path& case_folder, const Workup& workup);
+
+}  // namespace ream::ct

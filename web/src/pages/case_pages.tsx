@@ -1,0 +1,43 @@
+import '../case.css';
+
+import { useEffect, useMemo } from 'preact/hooks';
+
+import { CaseKeeper } from '../state/case/case_keeper';
+import { CasesKeeper } from '../state/case/new_case';
+import { addressOfRoute, type Route } from '../state/route';
+import { CaseApi } from '../wire/case_api';
+import { CasePage } from './case_page';
+import { CasesPage } from './cases_page';
+
+const api = new CaseApi(window.location.origin);
+/** Lives as long as the page, so that an upload goes on while a case is looked at. */
+const cases = new CasesKeeper(api, window.localStorage, (caseId) => {
+  if (window.location.hash === addressOfRoute({ kind: 'cases' }))
+    window.location.hash = addressOfRoute({ kind: 'case', id: caseId });
+});
+
+interface Parts {
+  route: Route;
+  /** Makes a session on the case and shows it; throws an Error with words. */
+  startReaming: (caseId: string) => Promise<void>;
+}
+
+/** The pages of the cases, loaded when one of them is first opened. */
+export function CasePages({ route, startReaming }: Parts) {
+  if (route.kind === 'case') return <OneCase key={route.id} id={route.id} startReaming={startReaming} />;
+  return <CasesPage keeper={cases} />;
+}
+
+function OneCase({ id, startReaming }: { id: string; startReaming: Parts['startReaming'] }) {
+  const keeper = useMemo(() => new CaseKeeper(api, id), [id]);
+  useEffect(() => {
+    void keeper.open();
+    const leave = () => keeper.landmarks.leave();
+    window.addEventListener('pagehide', leave);
+    return () => {
+      window.removeEventListener('pagehide', leave);
+      keeper.leave();
+    };
+  }, [keeper]);
+  return <CasePage keeper={keeper} startReaming={startReaming} />;
+}

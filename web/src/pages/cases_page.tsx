@@ -1,0 +1,126 @@
+import { useSignal } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
+
+import { caseWords } from '../case_words';
+import { CaseHeader } from '../panels/case/case_header';
+import { Remark } from '../panels/case/fields';
+import { NewCasePanel } from '../panels/case/new_case_panel';
+import type { CasesKeeper } from '../state/case/new_case';
+import { addressOfRoute } from '../state/route';
+import type { CaseSummary } from '../wire/case_types';
+
+const readAgainMs = 5000;
+
+/** All cases, and the making of a new one. */
+export function CasesPage({ keeper }: { keeper: CasesKeeper }) {
+  useEffect(() => {
+    keeper.listFresh.value = false;
+    void keeper.readCases();
+    const timer = setInterval(() => void keeper.readCases(), readAgainMs);
+    return () => clearInterval(timer);
+  }, [keeper]);
+  const cases = keeper.cases.value;
+  const problem = keeper.listProblem.value;
+  return (
+    <div class="page cases-page">
+      <CaseHeader title={null} details={null} />
+      <main class="case-list">
+        <h2>{caseWords.cases}</h2>
+        {problem !== null && (
+          <Remark kind="bad">
+            {caseWords.listFailed}: {problem}
+          </Remark>
+        )}
+        {cases === null && problem === null && <p class="soft">{caseWords.loadingCases}</p>}
+        {cases?.length === 0 && <p class="soft">{caseWords.noCases}</p>}
+        {cases !== null && cases.length > 0 && (
+          <table data-testid="cases" class={problem === null && keeper.listFresh.value ? '' : 'stale'}>
+            <thead>
+              <tr>
+                <th scope="col">{caseWords.caseColumn}</th>
+                <th scope="col">{caseWords.sideColumn}</th>
+                <th scope="col">{caseWords.stageColumn}</th>
+                <th scope="col">{caseWords.voxelsColumn}</th>
+                <th />
+              </tr>
+            </thead>
+            <tbody>
+              {cases.map((one) => (
+                <CaseRow key={one.id} one={one} keeper={keeper} />
+              ))}
+            </tbody>
+          </table>
+        )}
+      </main>
+      <NewCasePanel keeper={keeper} />
+    </div>
+  );
+}
+
+function CaseRow({ one, keeper }: { one: CaseSummary; keeper: CasesKeeper }) {
+  const asking = useSignal(false);
+  const name = one.name || one.id;
+  const ready = one.stage === 'built' && one.planned;
+  return (
+    <tr data-testid={`case-${one.id}`} data-stage={one.stage}>
+      <td>
+        <a class="case-name" href={addressOfRoute({ kind: 'case', id: one.id })} data-testid={`open-${one.id}`}>
+          {name}
+        </a>
+        {name !== one.id && <span class="soft case-id">{one.id}</span>}
+      </td>
+      <td>{caseWords.sideShort[one.side]}</td>
+      <td>
+        <span class={ready ? 'stage-chip stage-ready' : 'stage-chip'}>
+          {one.stage === 'built' && !one.planned ? caseWords.stageNoPlan : caseWords.stages[one.stage]}
+        </span>
+      </td>
+      <td>
+        {one.dims === null ? <span class="soft">{caseWords.notBuilt}</span> : caseWords.dims(one.dims)}
+        {one.spacing_mm !== null && <span class="soft case-id">{caseWords.spacing(one.spacing_mm)}</span>}
+      </td>
+      <td class="row-deeds">
+        {asking.value ? (
+          <span class="really" role="alert">
+            {caseWords.removeReally(name)}
+            <button
+              type="button"
+              class="warn-button"
+              data-testid={`really-remove-${one.id}`}
+              onClick={() => {
+                asking.value = false;
+                void keeper.remove(one.id);
+              }}
+            >
+              {caseWords.removeYes}
+            </button>
+            <button type="button" class="plain-button" onClick={() => (asking.value = false)}>
+              {caseWords.keep}
+            </button>
+          </span>
+        ) : (
+          <>
+            <a
+              class="plain-button"
+              href={addressOfRoute({ kind: 'case', id: one.id })}
+              aria-label={caseWords.openCase(name)}
+            >
+              {caseWords.open}
+            </a>
+            {one.id !== 'demo' && (
+              <button
+                type="button"
+                class="plain-button"
+                data-testid={`remove-${one.id}`}
+                aria-label={caseWords.removeCase(name)}
+                onClick={() => (asking.value = true)}
+              >
+                {caseWords.remove}
+              </button>
+            )}
+          </>
+        )}
+      </td>
+    </tr>
+  );
+}

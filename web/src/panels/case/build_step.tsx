@@ -1,0 +1,83 @@
+import { useSignal } from '@preact/signals';
+
+import { caseWords } from '../../case_words';
+import type { CaseKeeper } from '../../state/case/case_keeper';
+import { isUnderWay } from '../../state/case/job_watch';
+import type { BuildWishes, BuiltBone } from '../../wire/case_types';
+import { fixed } from '../format';
+import { Remark, SelectField, SliderField } from './fields';
+
+const finest = 8;
+
+/** How fine and how much, cartilage, and building the bone that is reamed. */
+export function BuildStep({ keeper }: { keeper: CaseKeeper }) {
+  const { store } = keeper;
+  const details = store.details.value;
+  const built = details?.built ?? null;
+  const upsample = useSignal(built?.upsample ?? 4);
+  const roi = useSignal<BuildWishes['roi']>('glenoid');
+  const cartilageMm = useSignal(built?.cartilage_mm ?? 0);
+  const found = details?.segmentation ?? null;
+  const hasCentre = keeper.landmarks.landmarks.value.glenoid_centre_mm !== undefined;
+  const lacksCentre = !hasCentre && (roi.value === 'glenoid' || cartilageMm.value > 0);
+  const blocked = found === null || lacksCentre || store.busy.value || isUnderWay(store.job.value);
+  return (
+    <>
+      <p class="soft">{found === null ? caseWords.buildNeeds : caseWords.buildHint}</p>
+      <SelectField
+        label={caseWords.upsample}
+        value={String(upsample.value)}
+        options={Array.from({ length: finest }, (_, i) => [String(i + 1), caseWords.upsampleTimes(i + 1)] as const)}
+        testId="upsample"
+        onChange={(times) => (upsample.value = Number(times))}
+      />
+      <SelectField<BuildWishes['roi']>
+        label={caseWords.roi}
+        value={roi.value}
+        options={[
+          ['glenoid', caseWords.roiGlenoid],
+          ['whole', caseWords.roiWhole],
+        ]}
+        testId="roi"
+        onChange={(chosen) => (roi.value = chosen)}
+      />
+      <SliderField
+        {...{ label: caseWords.cartilage, unit: caseWords.mm, value: cartilageMm.value, low: 0, high: 5, step: 0.5 }}
+        testId="cartilage"
+        onChange={(thickness) => (cartilageMm.value = thickness)}
+      />
+      {lacksCentre && found !== null && <Remark kind="warn">{caseWords.buildNeedsCentre}</Remark>}
+      <div class="buttons">
+        <button
+          type="button"
+          class="main-button"
+          data-testid="run-build"
+          disabled={blocked}
+          onClick={() =>
+            void keeper.landmarks
+              .saveNow()
+              .then(() => keeper.build({ upsample: upsample.value, roi: roi.value, cartilage_mm: cartilageMm.value }))
+          }
+        >
+          {built === null ? caseWords.runBuild : caseWords.runBuildAgain}
+        </button>
+      </div>
+      {built !== null && <Built built={built} outdated={built.segmentation_revision !== found?.revision} />}
+    </>
+  );
+}
+
+function Built({ built, outdated }: { built: BuiltBone; outdated: boolean }) {
+  const [low, high] = built.density_range_g_cc;
+  return (
+    <section data-testid="built">
+      {outdated && <Remark kind="warn">{caseWords.builtOutdated}</Remark>}
+      <h3>{caseWords.built}</h3>
+      <ul class="facts">
+        <li>{caseWords.builtVoxels(fixed(built.bone_voxels / 1e6, 2))}</li>
+        <li>{caseWords.builtUpsample(built.upsample)}</li>
+        <li>{caseWords.builtDensity(fixed(low, 2), fixed(high, 2))}</li>
+      </ul>
+    </section>
+  );
+}

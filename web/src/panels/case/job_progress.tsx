@@ -1,0 +1,52 @@
+import { caseWords } from '../../case_words';
+import { isUnderWay } from '../../state/case/job_watch';
+import type { Job } from '../../wire/case_types';
+
+interface Parts {
+  job: Job;
+  /** The server does not answer. */
+  silent: boolean;
+  onCancel: () => void;
+  onDismiss: () => void;
+}
+
+/** How far long work is, in words and as a bar; why it ended, where it did not end well. */
+export function JobProgress({ job, silent, onCancel, onDismiss }: Parts) {
+  const underWay = isUnderWay(job);
+  const failed = job.state === 'failed';
+  const why = job.problem?.detail ?? job.problem?.title ?? '';
+  return (
+    <div
+      class={failed ? 'job job-failed' : 'job'}
+      role={failed ? 'alert' : 'status'}
+      data-testid="job"
+      data-state={job.state}
+    >
+      <p>
+        <strong>{caseWords.jobKinds[job.kind]}.</strong> {caseWords.jobState(job)}
+        {failed && `: ${why}`}
+      </p>
+      {underWay && <ProgressBar share={job.share} label={caseWords.jobKinds[job.kind]} stale={silent} />}
+      {underWay && silent && <p class="warn-text">{caseWords.jobSilent}</p>}
+      <button type="button" class="plain-button" data-testid="cancel-job" onClick={underWay ? onCancel : onDismiss}>
+        {underWay ? caseWords.cancel : caseWords.dismiss}
+      </button>
+    </div>
+  );
+}
+
+export function ProgressBar({ share, label, stale }: { share: number; label: string; stale: boolean }) {
+  return (
+    <div
+      class={stale ? 'progress stale' : 'progress'}
+      role="progressbar"
+      aria-label={label}
+      aria-valuemin={0}
+      aria-valuemax={100}
+      aria-valuenow={Math.floor(share * 100)}
+    >
+      <div style={{ width: `${share * 100}%` }} />
+      <span>{caseWords.percent(share)}</span>
+    </div>
+  );
+}

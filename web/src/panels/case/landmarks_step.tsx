@@ -1,0 +1,157 @@
+import { caseWords } from '../../case_words';
+import type { CaseKeeper } from '../../state/case/case_keeper';
+import {
+  biconcavityNames,
+  headRadiusLimitsMm,
+  isOptional,
+  landmarkNames,
+  type LandmarkName,
+  pointOf,
+} from '../../state/case/landmark_names';
+import type { SaveState } from '../../state/case/landmark_keeper';
+import { type WalchClass, walchClasses } from '../../wire/case_types';
+import { SelectField, SliderField } from './fields';
+import { MeasuresPanel } from './measures_panel';
+
+/** The landmarks to be placed, the head's radius, the Walch class, and what is measured from them. */
+export function LandmarksStep({ keeper }: { keeper: CaseKeeper }) {
+  const armed = keeper.store.armed.value;
+  const landmarks = keeper.landmarks.landmarks.value;
+  const head = landmarks.humeral_head;
+  const chosen = armed?.kind === 'landmark' ? armed.name : null;
+  const { low, high } = headRadiusLimitsMm;
+  return (
+    <>
+      <p class="soft landmark-hint">{chosen === null ? caseWords.landmarksHint : caseWords.landmarkHints[chosen]}</p>
+      <ol class="pick-list landmarks">
+        {landmarkNames
+          .filter((name) => !isOptional(name))
+          .map((name) => (
+            <LandmarkRow key={name} {...{ keeper, name, chosen: name === chosen }} />
+          ))}
+      </ol>
+      {head !== undefined && (
+        <SliderField
+          {...{ label: caseWords.headRadius, unit: caseWords.mm, value: head.radius_mm, low, high, step: 0.5 }}
+          testId="head-radius"
+          onChange={(radius_mm) => keeper.landmarks.change({ ...landmarks, humeral_head: { ...head, radius_mm } })}
+        />
+      )}
+      <SelectField<WalchClass | ''>
+        label={caseWords.walch}
+        value={landmarks.walch ?? ''}
+        options={[
+          ['', caseWords.walchNone] as const,
+          ...walchClasses.map((name) => [name, `${name}: ${caseWords.walchHints[name]}`] as const),
+        ]}
+        testId="walch"
+        onChange={(walch) => {
+          const { walch: before, ...others } = landmarks;
+          if (walch !== (before ?? '')) keeper.landmarks.change(walch === '' ? others : { ...others, walch });
+        }}
+      />
+      <Biconcavity keeper={keeper} chosen={chosen} />
+      <SaveLine keeper={keeper} state={keeper.landmarks.save.value} />
+      <MeasuresPanel keeper={keeper.landmarks} />
+    </>
+  );
+}
+
+/** The points of a biconcave face, open where the class says so or one is placed. */
+function Biconcavity({ keeper, chosen }: { keeper: CaseKeeper; chosen: LandmarkName | null }) {
+  const landmarks = keeper.landmarks.landmarks.value;
+  const named = landmarks.walch === 'B2' || landmarks.walch === 'C2';
+  const begun = biconcavityNames.some((name) => name === chosen || pointOf(landmarks, name) !== null);
+  return (
+    <details class="seeds" open={named || begun} data-testid="biconcavity">
+      <summary>{caseWords.biconcavity}</summary>
+      <p class="soft">{caseWords.biconcavityHint}</p>
+      <ol class="pick-list landmarks">
+        {biconcavityNames.map((name) => (
+          <LandmarkRow key={name} {...{ keeper, name, chosen: name === chosen }} />
+        ))}
+      </ol>
+    </details>
+  );
+}
+
+interface RowParts {
+  keeper: CaseKeeper;
+  name: LandmarkName;
+  chosen: boolean;
+}
+
+function LandmarkRow({ keeper, name, chosen }: RowParts) {
+  const isPlaced = pointOf(keeper.landmarks.landmarks.value, name) !== null;
+  const title = caseWords.landmarkNames[name];
+  return (
+    <li>
+      <button
+        type="button"
+        class="pick"
+        data-testid={`landmark-${name}`}
+        data-placed={isPlaced}
+        aria-pressed={chosen}
+        title={caseWords.landmarkHints[name]}
+        onClick={() => (chosen ? (keeper.store.armed.value = null) : keeper.choose(name))}
+      >
+        <kbd>{landmarkNames.indexOf(name) + 1}</kbd>
+        {title}
+        <span class={isPlaced ? 'pick-state good' : 'pick-state soft'}>
+          {isPlaced ? '✓' : ''}
+          <span class="visually-hidden">{isPlaced ? caseWords.placed : caseWords.notPlaced}</span>
+        </span>
+      </button>
+      {isPlaced && (
+        <button
+          type="button"
+          class="remove"
+          data-testid={`remove-${name}`}
+          aria-label={caseWords.removeLandmark(title)}
+          title={caseWords.removeLandmark(title)}
+          onClick={() => keeper.place(name, null)}
+        >
+          ×
+        </button>
+      )}
+    </li>
+  );
+}
+
+/** Whether the server has what is shown. */
+function SaveLine({ keeper, state }: { keeper: CaseKeeper; state: SaveState }) {
+  const { landmarks } = keeper;
+  return (
+    <div
+      class={`save save-${state.kind}`}
+      role={isBad(state) ? 'alert' : 'status'}
+      data-testid="save"
+      data-state={state.kind}
+    >
+      {state.kind === 'saved' && caseWords.saved}
+      {state.kind === 'saving' && caseWords.saving}
+      {state.kind === 'unsaved' && caseWords.unsaved}
+      {state.kind === 'failed' && (
+        <>
+          {caseWords.saveFailed(state.words)}
+          <button type="button" class="plain-button" data-testid="save-again" onClick={() => void landmarks.saveNow()}>
+            {caseWords.saveAgain}
+          </button>
+        </>
+      )}
+      {state.kind === 'conflict' && (
+        <>
+          {caseWords.conflict}
+          <button type="button" class="plain-button" data-testid="keep-mine" onClick={() => void landmarks.keepMine()}>
+            {caseWords.keepMine}
+          </button>
+          <button type="button" class="plain-button" data-testid="take-theirs" onClick={() => landmarks.takeTheirs()}>
+            {caseWords.takeTheirs}
+          </button>
+        </>
+      )}
+    </div>
+  );
+}
+
+const isBad = (state: SaveState) => state.kind === 'failed' || state.kind === 'conflict';

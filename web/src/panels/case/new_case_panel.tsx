@@ -1,0 +1,173 @@
+import { useSignal } from '@preact/signals';
+
+import { caseWords } from '../../case_words';
+import type { CasesKeeper, NewCaseState } from '../../state/case/new_case';
+import type { Side } from '../../wire/case_types';
+import { fixed } from '../format';
+import { Remark } from './fields';
+import { JobProgress, ProgressBar } from './job_progress';
+
+const accepted = '.zip,.nrrd,.nii,.nii.gz,.gz,.mha,.txt,.dcm';
+const megabytes = (bytes: number) => fixed(bytes / 1e6, 1);
+
+/** A CT's file, whose shoulder it is, and how far its upload and reading are. */
+export function NewCasePanel({ keeper }: { keeper: CasesKeeper }) {
+  const state = keeper.state.value;
+  const underWay = state.kind === 'uploading' || state.kind === 'importing';
+  const file = keeper.file.value;
+  const side = keeper.side.value;
+  return (
+    <aside class="new-case" aria-label={caseWords.newCase}>
+      <h2>{caseWords.newCase}</h2>
+      <FilePlace keeper={keeper} disabled={underWay} />
+      <p class="soft">{caseWords.newCaseHint}</p>
+      <fieldset class="side-choice" disabled={underWay}>
+        <legend>{caseWords.whichSide}</legend>
+        {(['right', 'left'] as const).map((option) => (
+          <SideOption
+            key={option}
+            side={option}
+            chosen={side === option}
+            onChoose={() => (keeper.side.value = option)}
+          />
+        ))}
+      </fieldset>
+      <label class="field">
+        {caseWords.caseName}
+        <input
+          type="text"
+          maxLength={80}
+          placeholder={caseWords.caseNameHint}
+          data-testid="case-name"
+          disabled={underWay}
+          value={keeper.wishes.value.name}
+          onInput={(event) => (keeper.wishes.value = { ...keeper.wishes.value, name: event.currentTarget.value })}
+        />
+      </label>
+      <details class="more" open={keeper.wishes.value.seriesUid !== ''}>
+        <summary>{caseWords.moreChoices}</summary>
+        <label class="field">
+          {caseWords.seriesUid}
+          <input
+            type="text"
+            data-testid="series-uid"
+            disabled={underWay}
+            value={keeper.wishes.value.seriesUid}
+            onInput={(event) =>
+              (keeper.wishes.value = { ...keeper.wishes.value, seriesUid: event.currentTarget.value })
+            }
+          />
+        </label>
+      </details>
+      <Progress keeper={keeper} state={state} />
+      {!underWay && (
+        <button
+          type="button"
+          class="main-button"
+          data-testid="make-case"
+          disabled={file === null || side === null}
+          onClick={() => void keeper.make()}
+        >
+          {state.kind === 'failed' && state.during === 'upload' ? caseWords.goOn : caseWords.make}
+        </button>
+      )}
+      {!underWay && file !== null && side === null && <p class="soft">{caseWords.sideMustBeChosen}</p>}
+    </aside>
+  );
+}
+
+function SideOption({ side, chosen, onChoose }: { side: Side; chosen: boolean; onChoose: () => void }) {
+  return (
+    <label class={chosen ? 'side-option chosen' : 'side-option'}>
+      <input type="radio" name="side" data-testid={`side-${side}`} checked={chosen} onChange={onChoose} />
+      {caseWords.sides[side]}
+    </label>
+  );
+}
+
+/** Where a file is dropped, or chosen. */
+function FilePlace({ keeper, disabled }: { keeper: CasesKeeper; disabled: boolean }) {
+  const over = useSignal(false);
+  const file = keeper.file.value;
+  const take = (files: FileList | null | undefined) => {
+    const first = files?.[0];
+    if (first !== undefined && !disabled) keeper.choose(first);
+  };
+  return (
+    <div
+      class={over.value ? 'drop over' : 'drop'}
+      data-testid="drop"
+      onDragOver={(event) => {
+        event.preventDefault();
+        over.value = !disabled;
+      }}
+      onDragLeave={() => (over.value = false)}
+      onDrop={(event) => {
+        event.preventDefault();
+        over.value = false;
+        take(event.dataTransfer?.files);
+      }}
+    >
+      {file === null ? (
+        <p>
+          <strong>{caseWords.drop}</strong> <span class="soft">{caseWords.dropOr}</span>
+        </p>
+      ) : (
+        <p data-testid="file-chosen">{caseWords.fileChosen(file.name, megabytes(file.size))}</p>
+      )}
+      <label class={disabled ? 'plain-button disabled' : 'plain-button'}>
+        {file === null ? caseWords.chooseFile : caseWords.chooseOther}
+        <input
+          type="file"
+          class="visually-hidden"
+          data-testid="file"
+          accept={accepted}
+          disabled={disabled}
+          onChange={(event) => {
+            take(event.currentTarget.files);
+            event.currentTarget.value = '';
+          }}
+        />
+      </label>
+    </div>
+  );
+}
+
+function Progress({ keeper, state }: { keeper: CasesKeeper; state: NewCaseState }) {
+  switch (state.kind) {
+    case 'idle':
+      return null;
+    case 'uploading': {
+      const share = state.bytes === 0 ? 1 : state.received / state.bytes;
+      const text = caseWords.uploading(fixed(share * 100, 0), megabytes(state.received), megabytes(state.bytes));
+      return (
+        <div class="job" role="status" data-testid="upload" data-waiting={state.waiting}>
+          <p>{text}</p>
+          <ProgressBar share={share} label={text} stale={state.waiting} />
+          {state.waiting && <p class="warn-text">{caseWords.uploadWaiting}</p>}
+          <button type="button" class="plain-button" data-testid="cancel-upload" onClick={() => void keeper.cancel()}>
+            {caseWords.cancel}
+          </button>
+        </div>
+      );
+    }
+    case 'importing':
+      return (
+        <JobProgress
+          job={state.job}
+          silent={state.silent}
+          onCancel={() => void keeper.cancel()}
+          onDismiss={() => (keeper.state.value = { kind: 'idle' })}
+        />
+      );
+    case 'failed': {
+      const during = state.during === 'upload';
+      return (
+        <Remark kind="bad" testId="new-case-failed">
+          <strong>{during ? caseWords.uploadFailed : caseWords.importFailed}.</strong> {state.words}{' '}
+          {during ? caseWords.uploadFailedHint : caseWords.importFailedHint}
+        </Remark>
+      );
+    }
+  }
+}

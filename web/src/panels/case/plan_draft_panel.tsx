@@ -1,0 +1,166 @@
+import { useState } from 'preact/hooks';
+
+import { caseWords } from '../../case_words';
+import type { CaseKeeper } from '../../state/case/case_keeper';
+import type { PlanDraft } from '../../state/case/case_store';
+import { add, length } from '../../ct/volume_frame';
+import type { Assessment, Plan, Triple } from '../../wire/case_types';
+import { fixed } from '../format';
+import { inclinationWords, versionWords } from './angle_words';
+import { NumberBox, NumberField, Remark } from './fields';
+
+/** The proposed or kept plan by numbers, what it would do, and keeping it. */
+export function PlanDraftPanel({ keeper, draft }: { keeper: CaseKeeper; draft: PlanDraft }) {
+  const { plan, assessment, kept } = draft;
+  const change = (part: Partial<Plan>) => keeper.draftPlan({ ...plan, ...part });
+  const asked = keeper.store.overrideAsked.value;
+  return (
+    <section class="plan-draft" data-testid="plan-draft" data-kept={kept}>
+      <p class={kept ? 'good' : 'warn-text'} data-testid="plan-state">
+        {kept ? caseWords.planKept : caseWords.planDraft}
+      </p>
+      <PointField
+        label={caseWords.entry}
+        value={plan.entry_mm}
+        step={0.5}
+        decimals={1}
+        testId="entry"
+        onChange={(entry_mm) => change({ entry_mm })}
+      />
+      <PointField
+        label={caseWords.axis}
+        value={plan.axis_direction}
+        step={0.01}
+        decimals={3}
+        testId="axis"
+        onChange={(direction) => {
+          const size = length(direction);
+          if (size > 1e-6) change({ axis_direction: add([0, 0, 0], direction, 1 / size) });
+        }}
+      />
+      <NumberField
+        {...{ label: caseWords.depth, unit: caseWords.mm, value: plan.depth_mm, low: 0, high: 15, step: 0.5 }}
+        testId="plan-depth"
+        onChange={(depth_mm) => change({ depth_mm })}
+      />
+      {assessment !== null && <AssessmentFigures assessment={assessment} />}
+      {asked !== null || assessment?.needs_override === true ? (
+        <Override keeper={keeper} words={asked} kept={kept} />
+      ) : (
+        <div class="buttons">
+          <button
+            type="button"
+            class="main-button"
+            data-testid="keep-plan"
+            disabled={(kept && !keeper.store.planBeforeLandmarks.value) || keeper.store.busy.value}
+            onClick={() => void keeper.keepPlan(null)}
+          >
+            {caseWords.keepPlan}
+          </button>
+        </div>
+      )}
+    </section>
+  );
+}
+
+function AssessmentFigures({ assessment }: { assessment: Assessment }) {
+  const { correction_deg, version_after_deg, inclination_after_deg, vault_depth_mm, warnings } = assessment;
+  return (
+    <>
+      <dl class="figures-list">
+        <dt>{caseWords.correction}</dt>
+        <dd data-testid="correction">
+          {correction_deg === null ? caseWords.unknown : caseWords.fixed(fixed(correction_deg, 1), '°')}
+        </dd>
+        <dt>{caseWords.after}</dt>
+        <dd>
+          {versionWords(version_after_deg)}, {inclinationWords(inclination_after_deg)}
+        </dd>
+        {typeof vault_depth_mm === 'number' && (
+          <>
+            <dt>{caseWords.vaultDepth}</dt>
+            <dd>{caseWords.fixed(fixed(vault_depth_mm, 1), caseWords.mm)}</dd>
+          </>
+        )}
+      </dl>
+      {warnings.map((warning) => (
+        <Remark kind="warn" key={warning} testId="plan-warning">
+          {warning}
+        </Remark>
+      ))}
+    </>
+  );
+}
+
+/** Keeping what is refused without a reason. */
+function Override({ keeper, words, kept }: { keeper: CaseKeeper; words: string | null; kept: boolean }) {
+  const [reason, setReason] = useState('');
+  if (kept) return null;
+  return (
+    <div class="override" role="alert" data-testid="override">
+      <p>
+        <strong>{caseWords.overrideTitle}.</strong> {words}
+      </p>
+      <label>
+        {caseWords.overrideReason}
+        <textarea
+          rows={2}
+          data-testid="override-reason"
+          value={reason}
+          onInput={(event) => setReason(event.currentTarget.value)}
+        />
+      </label>
+      <button
+        type="button"
+        class="warn-button"
+        data-testid="override-keep"
+        disabled={reason.trim() === '' || keeper.store.busy.value}
+        onClick={() => void keeper.keepPlan(reason.trim())}
+      >
+        {caseWords.overrideKeep}
+      </button>
+    </div>
+  );
+}
+
+interface PointParts {
+  label: string;
+  value: Triple;
+  step: number;
+  decimals: number;
+  testId: string;
+  onChange: (value: Triple) => void;
+}
+
+/** Three numbers of LPS. */
+function PointField({ label, value, step, decimals, testId, onChange }: PointParts) {
+  return (
+    <div class="field">
+      <span class="field-name">{label}</span>
+      <div class="three-numbers">
+        {caseWords.lps.map((name, i) => (
+          <label key={name}>
+            <span class="soft">{name}</span>
+            <NumberBox
+              {...{
+                label: `${label}, ${name}`,
+                unit: '',
+                value: value[i] ?? 0,
+                low: -5000,
+                high: 5000,
+                step,
+                decimals,
+              }}
+              testId={`${testId}-${i}`}
+              onChange={(number) => {
+                const changed: Triple = [...value];
+                changed[i] = number;
+                onChange(changed);
+              }}
+            />
+          </label>
+        ))}
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,239 @@
+import { signal } from '@preact/signals';
+import { useState } from 'preact/hooks';
+
+import { caseWords } from '../../case_words';
+import type { CaseKeeper } from '../../state/case/case_keeper';
+import { neededNames, pointOf } from '../../state/case/landmark_names';
+import type { Guide, PlanWishes, Reamer } from '../../wire/case_types';
+import { fixed } from '../format';
+import { CheckField, NumberBox, NumberField, Remark, SelectField } from './fields';
+import { PlanDraftPanel } from './plan_draft_panel';
+
+/** What is wished of the plan (null: left to the server); the wishes last as long as the page is open. */
+export class PlanWishesStore {
+  readonly versionDeg = signal<number | null>(0);
+  /** Null: as it is, within 10 degrees. */
+  readonly inclinationDeg = signal<number | null>(null);
+  readonly depthMm = signal(2);
+  /** Null: as the reamer. */
+  readonly implantRadiusMm = signal<number | null>(null);
+  /** A name in the library; null: the one that fits the implant. */
+  readonly reamer = signal<string | null>(null);
+  /** Null: as the reamer needs it. */
+  readonly pilot = signal<{ diameterMm: number; depthMm: number } | null>(null);
+  readonly guide = signal<Guide | null>(null);
+
+  wishes(): PlanWishes {
+    const pilot = this.pilot.value;
+    const all = {
+      version_deg: this.versionDeg.value,
+      inclination_deg: this.inclinationDeg.value,
+      depth_mm: this.depthMm.value,
+      implant_radius_mm: this.implantRadiusMm.value,
+      reamer: this.reamer.value,
+      guide: this.guide.value,
+      pilot_diameter_mm: pilot?.diameterMm ?? null,
+      pilot_depth_mm: pilot?.depthMm ?? null,
+    };
+    return Object.fromEntries(Object.entries(all).filter(([, value]) => value !== null));
+  }
+}
+
+/** A proposal from what is wished, the plan by numbers, and keeping it. */
+export function PlanStep({ keeper, wishes }: { keeper: CaseKeeper; wishes: PlanWishesStore }) {
+  const { store } = keeper;
+  const landmarks = keeper.landmarks.landmarks.value;
+  const placed = neededNames.every((name) => pointOf(landmarks, name) !== null);
+  const draft = store.draft.value;
+  return (
+    <>
+      <p class="soft">{placed ? caseWords.planHint : caseWords.planNeeds}</p>
+      <WishFields wishes={wishes} reamers={store.reamers.value} />
+      <div class="buttons">
+        <button
+          type="button"
+          class="main-button"
+          data-testid="propose"
+          disabled={!placed || store.busy.value}
+          onClick={() => void keeper.proposePlan(wishes.wishes())}
+        >
+          {draft === null ? caseWords.propose : caseWords.proposeAgain}
+        </button>
+      </div>
+      {store.planBeforeLandmarks.value && draft?.kept === true && <Remark kind="warn">{caseWords.planOutdated}</Remark>}
+      {draft !== null && <PlanDraftPanel keeper={keeper} draft={draft} />}
+    </>
+  );
+}
+
+function WishFields({ wishes, reamers }: { wishes: PlanWishesStore; reamers: readonly Reamer[] }) {
+  const mm = caseWords.mm;
+  const pilot = wishes.pilot.value;
+  return (
+    <>
+      <SignedAngle
+        label={caseWords.wantedVersion}
+        value={wishes.versionDeg.value}
+        positive={caseWords.anteversionWord}
+        negative={caseWords.retroversionWord}
+        testId="wanted-version"
+        onChange={(degrees) => (wishes.versionDeg.value = degrees)}
+      />
+      <SignedAngle
+        label={caseWords.wantedInclination}
+        value={wishes.inclinationDeg.value}
+        positive={caseWords.superiorWord}
+        negative={caseWords.inferiorWord}
+        unset={caseWords.inclinationKept}
+        testId="wanted-inclination"
+        onChange={(degrees) => (wishes.inclinationDeg.value = degrees)}
+      />
+      <NumberField
+        {...{ label: caseWords.depth, unit: mm, value: wishes.depthMm.value, low: 0, high: 15, step: 0.5 }}
+        testId="wanted-depth"
+        onChange={(value) => (wishes.depthMm.value = value)}
+      />
+      <GivenNumber
+        label={caseWords.implantRadius}
+        value={wishes.implantRadiusMm.value}
+        {...{ low: 20, high: 60, usual: 32, testId: 'implant-radius' }}
+        onChange={(value) => (wishes.implantRadiusMm.value = value)}
+      />
+      <SelectField
+        label={caseWords.reamer}
+        value={wishes.reamer.value ?? ''}
+        options={[['', caseWords.reamerDefault], ...reamers.map((one) => [one.name, reamerText(one)] as const)]}
+        testId="reamer"
+        onChange={(name) => (wishes.reamer.value = name === '' ? null : name)}
+      />
+      <SelectField<Guide | ''>
+        label={caseWords.guide}
+        value={wishes.guide.value ?? ''}
+        options={[
+          ['', caseWords.byReamer],
+          ...(['none', 'nipple', 'pin'] as const).map((guide) => [guide, caseWords.guides[guide]] as const),
+        ]}
+        testId="guide"
+        onChange={(guide) => (wishes.guide.value = guide === '' ? null : guide)}
+      />
+      <SelectField<'' | 'given'>
+        label={caseWords.pilotHole}
+        value={pilot === null ? '' : 'given'}
+        options={[
+          ['', caseWords.byReamer],
+          ['given', caseWords.pilotGiven],
+        ]}
+        testId="pilot"
+        onChange={(given) => (wishes.pilot.value = given === '' ? null : { diameterMm: 6.2, depthMm: 12 })}
+      />
+      {pilot !== null && (
+        <>
+          <NumberField
+            {...{ label: caseWords.pilotDiameter, unit: mm, value: pilot.diameterMm, low: 1, high: 12, step: 0.1 }}
+            testId="pilot-diameter"
+            onChange={(diameterMm) => (wishes.pilot.value = { ...pilot, diameterMm })}
+          />
+          <NumberField
+            {...{ label: caseWords.pilotDepth, unit: mm, value: pilot.depthMm, low: 1, high: 40, step: 0.5 }}
+            testId="pilot-depth"
+            onChange={(depthMm) => (wishes.pilot.value = { ...pilot, depthMm })}
+          />
+        </>
+      )}
+    </>
+  );
+}
+
+interface GivenParts {
+  label: string;
+  value: number | null;
+  low: number;
+  high: number;
+  /** With which it begins once it is given. */
+  usual: number;
+  testId: string;
+  onChange: (value: number | null) => void;
+}
+
+/** A length that may be left open. */
+function GivenNumber({ label, value, low, high, usual, testId, onChange }: GivenParts) {
+  const isGiven = value !== null;
+  return (
+    <div class="field field-row">
+      <CheckField
+        label={label}
+        checked={isGiven}
+        testId={`${testId}-given`}
+        onChange={(given) => onChange(given ? usual : null)}
+      />
+      {isGiven ? (
+        <NumberBox {...{ label, unit: caseWords.mm, value, low, high, step: 0.5, testId }} onChange={onChange} />
+      ) : (
+        <span class="soft">{caseWords.byReamer}</span>
+      )}
+    </div>
+  );
+}
+
+function reamerText({ name, diameter_mm, radius_mm }: Reamer): string {
+  const diameter = fixed(diameter_mm, 1);
+  return radius_mm === null
+    ? caseWords.reamerFlat(name, diameter)
+    : caseWords.reamerText(name, diameter, fixed(radius_mm, 1));
+}
+
+interface AngleParts {
+  label: string;
+  /** Degrees; null: not given. */
+  value: number | null;
+  positive: string;
+  negative: string;
+  /** Words for not giving it; absent: it must be given. */
+  unset?: string;
+  testId: string;
+  onChange: (degrees: number | null) => void;
+}
+
+/** An angle by its size and the word for its direction, so that no sign has to be known. */
+function SignedAngle({ label, value, positive, negative, unset, testId, onChange }: AngleParts) {
+  // Of an angle of zero the direction is what was chosen last.
+  const [negativeAtZero, setNegativeAtZero] = useState(true);
+  const towardsNegative = value !== null && (value < 0 || (value === 0 && negativeAtZero));
+  const size = Math.abs(value ?? 0);
+  const way = value === null ? '' : towardsNegative ? negative : positive;
+  return (
+    <div class="field field-row">
+      <span class="field-name">{label}</span>
+      <span class="number-box">
+        {value !== null && (
+          <>
+            <input
+              type="number"
+              aria-label={label}
+              data-testid={testId}
+              {...{ min: 0, max: 40, step: 0.5, value: String(size) }}
+              onChange={(event) => {
+                const typed = Math.min(Math.abs(event.currentTarget.valueAsNumber), 40);
+                if (Number.isFinite(typed)) onChange(towardsNegative ? -typed : typed);
+              }}
+            />
+            <span class="unit">°</span>
+          </>
+        )}
+        <select
+          aria-label={label}
+          data-testid={`${testId}-way`}
+          value={way}
+          onChange={({ currentTarget: { value: chosen } }) => {
+            setNegativeAtZero(chosen === negative);
+            onChange(chosen === '' ? null : chosen === negative ? -size : size);
+          }}
+        >
+          {unset !== undefined && <option value="">{unset}</option>}
+          <option value={negative}>{negative}</option>
+          <option value={positive}>{positive}</option>
+        </select>
+      </span>
+    </div>
+  );
+}

@@ -1,0 +1,206 @@
+import { caseWords } from '../../case_words';
+import { cssColour } from '../../ct/palette';
+import { type CaseKeeper, settingsOf } from '../../state/case/case_keeper';
+import { isUnderWay } from '../../state/case/job_watch';
+import { addressOfRoute } from '../../state/route';
+import { seedNames } from '../../state/case/view_marks';
+import type { CtDescription, SeedName, Segmentation, SegmentationSettings } from '../../wire/case_types';
+import { fixed } from '../format';
+import { CheckField, Remark, SliderField } from './fields';
+
+/** Threshold, smoothing, joints and seeds; finding the bones, and what was found. */
+export function SegmentStep({ keeper }: { keeper: CaseKeeper }) {
+  const { store } = keeper;
+  const details = store.details.value;
+  const settings = store.settings.value;
+  const ct = details?.ct ?? null;
+  if (settings === null || ct === null) return <Remark kind="soft">{caseWords.noCt}</Remark>;
+  const found = details?.segmentation ?? null;
+  const blocked = store.busy.value || isUnderWay(store.job.value);
+  const change = (part: Partial<SegmentationSettings>) => (store.settings.value = { ...settings, ...part });
+  return (
+    <>
+      <p class="soft">{caseWords.segmentHint}</p>
+      <ThresholdField ct={ct} value={settings.threshold_hu} onChange={(threshold_hu) => change({ threshold_hu })} />
+      <SliderField
+        {...{ label: caseWords.smoothing, unit: caseWords.mm, value: settings.sigma_mm, low: 0, high: 2, step: 0.1 }}
+        testId="sigma"
+        onChange={(sigma_mm) => change({ sigma_mm })}
+      />
+      <CheckField
+        label={caseWords.separate}
+        hint={caseWords.separateHint}
+        checked={settings.separate}
+        testId="separate"
+        onChange={(separate) => change({ separate })}
+      />
+      <CheckField
+        label={caseWords.fillHoles}
+        checked={settings.fill_holes}
+        testId="fill-holes"
+        onChange={(fill_holes) => change({ fill_holes })}
+      />
+      <SeedList keeper={keeper} settings={settings} />
+      <div class="buttons">
+        <button
+          type="button"
+          class="main-button"
+          data-testid="run-segmentation"
+          disabled={blocked}
+          onClick={() => void keeper.segment(settings)}
+        >
+          {found === null ? caseWords.runSegment : caseWords.runSegmentAgain}
+        </button>
+        <button
+          type="button"
+          class="plain-button"
+          data-testid="undo-segmentation"
+          disabled={blocked || found?.can_undo !== true}
+          onClick={() => void keeper.undoSegmentation()}
+        >
+          {caseWords.undo}
+        </button>
+      </div>
+      {found !== null && !sameSettings(settingsOf(ct, found), settings) && (
+        <Remark kind="warn" testId="settings-changed">
+          {caseWords.settingsChanged}
+        </Remark>
+      )}
+      {found !== null && <PartList keeper={keeper} found={found} />}
+      <details class="seeds">
+        <summary>{caseWords.otherSide}</summary>
+        <p class="soft">{caseWords.otherSideHint}</p>
+        <button
+          type="button"
+          class="plain-button"
+          data-testid="copy-other-side"
+          disabled={blocked}
+          onClick={() => void openOtherSide(keeper)}
+        >
+          {caseWords.copyOtherSide(details?.side === 'left' ? 'right' : 'left')}
+        </button>
+      </details>
+    </>
+  );
+}
+
+async function openOtherSide(keeper: CaseKeeper): Promise<void> {
+  const id = await keeper.copyForOtherSide();
+  if (id !== null) window.location.hash = addressOfRoute({ kind: 'case', id });
+}
+
+function ThresholdField({ ct, value, onChange }: { ct: CtDescription; value: number; onChange: (hu: number) => void }) {
+  const suggested = Math.round(ct.suggested_threshold_hu);
+  const low = Math.max(Math.ceil(ct.hu_min), -200);
+  const high = Math.max(Math.min(Math.floor(ct.hu_max), 1200), low + 1);
+  return (
+    <>
+      <SliderField
+        {...{ label: caseWords.threshold, unit: caseWords.hu, value, low, high, step: 1, mark: suggested }}
+        testId="threshold"
+        onChange={onChange}
+      />
+      <p class="soft suggestion" data-testid="suggested">
+        {caseWords.suggested(fixed(suggested, 0))}
+        {Math.abs(value - suggested) > 0.5 && (
+          <button type="button" class="link-button" data-testid="use-suggested" onClick={() => onChange(suggested)}>
+            {caseWords.useSuggested}
+          </button>
+        )}
+      </p>
+    </>
+  );
+}
+
+function SeedList({ keeper, settings }: { keeper: CaseKeeper; settings: SegmentationSettings }) {
+  const { store } = keeper;
+  const armed = store.armed.value;
+  const remove = (name: SeedName) => {
+    const seeds = { ...settings.seeds };
+    delete seeds[name];
+    store.settings.value = { ...settings, seeds };
+  };
+  return (
+    <details class="seeds" open={Object.keys(settings.seeds).length > 0}>
+      <summary>{caseWords.seeds}</summary>
+      <p class="soft">{caseWords.seedsHint}</p>
+      <ul class="pick-list">
+        {seedNames.map((name, i) => {
+          const isArmed = armed?.kind === 'seed' && armed.name === name;
+          const seed = settings.seeds[name];
+          return (
+            <li key={name}>
+              <button
+                type="button"
+                class="pick"
+                data-testid={`seed-${name}`}
+                aria-pressed={isArmed}
+                onClick={() => (store.armed.value = isArmed ? null : { kind: 'seed', name })}
+              >
+                <span class="swatch" style={{ background: cssColour(i + 1) }} aria-hidden="true" />
+                {caseWords.seedNames[name]}
+                <span class="soft pick-state">{seed === undefined ? caseWords.seedNone : caseWords.seedSet}</span>
+              </button>
+              {seed !== undefined && (
+                <button
+                  type="button"
+                  class="remove"
+                  aria-label={caseWords.removeSeed(caseWords.seedNames[name])}
+                  onClick={() => remove(name)}
+                >
+                  ×
+                </button>
+              )}
+            </li>
+          );
+        })}
+      </ul>
+    </details>
+  );
+}
+
+function PartList({ keeper, found }: { keeper: CaseKeeper; found: Segmentation }) {
+  return (
+    <>
+      <h3>{caseWords.parts}</h3>
+      <ul class="part-list" data-testid="parts">
+        {found.parts.map((part) => {
+          const name = caseWords.partNames[part.label] ?? part.name;
+          return (
+            <li key={part.label}>
+              <button
+                type="button"
+                class="pick"
+                data-testid={`part-${part.label}`}
+                aria-label={caseWords.goToPart(name)}
+                onClick={() => {
+                  keeper.lookAt(part.centre_mm);
+                  keeper.framePart(part);
+                }}
+              >
+                <span class="swatch" style={{ background: cssColour(part.label) }} aria-hidden="true" />
+                {name}
+                <span class="pick-state">{caseWords.volume(fixed(part.volume_mm3 / 1000, 1))}</span>
+              </button>
+            </li>
+          );
+        })}
+      </ul>
+      {found.warnings.map((warning) => (
+        <Remark kind="warn" key={warning}>
+          {warning}
+        </Remark>
+      ))}
+    </>
+  );
+}
+
+function sameSettings(a: SegmentationSettings, b: SegmentationSettings): boolean {
+  return (
+    Math.abs(a.threshold_hu - b.threshold_hu) < 0.5 &&
+    Math.abs(a.sigma_mm - b.sigma_mm) < 1e-6 &&
+    a.separate === b.separate &&
+    a.fill_holes === b.fill_holes &&
+    seedNames.every((name) => (a.seeds[name] ?? []).join() === (b.seeds[name] ?? []).join())
+  );
+}

@@ -1,0 +1,113 @@
+import type { Signal } from '@preact/signals';
+import { useEffect, useRef, useState } from 'preact/hooks';
+
+import { caseWords } from '../../case_words';
+import type { PlaneName } from '../../ct/orientation';
+import { planeColours, type SliceView } from '../../scene/slice_view';
+import type { CaseStore } from '../../state/case/case_store';
+
+export type ViewId = PlaneName | 'surface';
+
+interface Parts {
+  name: PlaneName;
+  view: SliceView;
+  store: CaseStore;
+  enlarged: Signal<ViewId | null>;
+}
+
+/** One slice view with its name, place, and the letters of the patient's directions at its edges. */
+export function SlicePanel({ name, view, store, enlarged }: Parts) {
+  const place = useRef<HTMLDivElement>(null);
+  const title = caseWords.planes[name];
+  useEffect(() => {
+    const { canvas } = view;
+    canvas.setAttribute('role', 'application');
+    canvas.setAttribute('aria-label', caseWords.sliceLabel(title));
+    canvas.dataset.testid = `slice-${name}`;
+    place.current?.prepend(canvas);
+    return () => canvas.remove();
+  }, [view, name, title]);
+  const at = view.place.value;
+  const letters = store.planes.value?.[name].letters;
+  const late = useLate(view.pending.value);
+  const problem = view.problem.value;
+  return (
+    <section class={late ? 'view late' : 'view'} aria-label={title} style={{ '--plane': planeColours[name] }}>
+      <ViewHead id={name} title={title} enlarged={enlarged}>
+        {at !== null && (
+          <span
+            class="view-place"
+            data-testid={`place-${name}`}
+            data-index={at.index}
+            data-pending={view.pending.value}
+          >
+            {caseWords.sliceOf(at.index, at.count)}
+          </span>
+        )}
+      </ViewHead>
+      <div class="view-canvas" ref={place}>
+        {letters !== undefined &&
+          (['left', 'right', 'top', 'bottom'] as const).map((edge) => (
+            <span
+              key={edge}
+              class={`edge edge-${edge}`}
+              data-testid={`edge-${name}-${edge}`}
+              role="img"
+              aria-label={caseWords.edge(letters[edge])}
+            >
+              {letters[edge]}
+            </span>
+          ))}
+        {(late || problem !== null) && (
+          <p class="view-note" role="status">
+            {problem === null ? caseWords.sliceLoading : caseWords.sliceFailed(problem)}
+          </p>
+        )}
+      </div>
+    </section>
+  );
+}
+
+interface HeadParts {
+  id: ViewId;
+  title: string;
+  enlarged: Signal<ViewId | null>;
+  children?: preact.ComponentChildren;
+}
+
+export function ViewHead({ id, title, enlarged, children }: HeadParts) {
+  const large = enlarged.value === id;
+  return (
+    <header class="view-head">
+      <h2>{title}</h2>
+      {children}
+      <button
+        type="button"
+        class="enlarge"
+        data-testid={`enlarge-${id}`}
+        aria-pressed={large}
+        aria-label={large ? caseWords.reduce : caseWords.enlarge(title)}
+        title={large ? caseWords.reduce : caseWords.enlarge(title)}
+        onClick={() => (enlarged.value = large ? null : id)}
+      >
+        {large ? '⤡' : '⤢'}
+      </button>
+    </header>
+  );
+}
+
+const lateAfterMs = 250;
+
+/** Whether something has been pending long enough to be worth saying. */
+function useLate(pending: boolean): boolean {
+  const [late, setLate] = useState(false);
+  useEffect(() => {
+    if (!pending) {
+      setLate(false);
+      return;
+    }
+    const timer = setTimeout(() => setLate(true), lateAfterMs);
+    return () => clearTimeout(timer);
+  }, [pending]);
+  return late;
+}

@@ -1,0 +1,91 @@
+import type { Signal } from '@preact/signals';
+import { useEffect, useRef } from 'preact/hooks';
+
+import { caseWords } from '../../case_words';
+import type { SurfaceView } from '../../scene/surface_view';
+import type { CaseStore, SurfaceState } from '../../state/case/case_store';
+import { type ViewId, ViewHead } from './slice_panel';
+
+interface Parts {
+  /** Null where the browser has no WebGL. */
+  view: SurfaceView | null;
+  store: CaseStore;
+  enlarged: Signal<ViewId | null>;
+}
+
+const looks = [
+  ['side', caseWords.viewSide],
+  ['front', caseWords.viewFront],
+  ['glenoid', caseWords.viewGlenoid],
+] as const;
+
+/** The bone's surface with its set views, and the numbers of the placed landmarks beside them. */
+export function SurfacePanel({ view, store, enlarged }: Parts) {
+  const place = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    if (view === null) return undefined;
+    const { canvas } = view;
+    canvas.setAttribute('role', 'application');
+    canvas.setAttribute('aria-label', caseWords.surfaceLabel);
+    canvas.dataset.testid = 'surface-canvas';
+    place.current?.prepend(canvas);
+    return () => canvas.remove();
+  }, [view]);
+  const state = store.surface.value;
+  const at = store.crossHairMm.value;
+  const note = view === null ? caseWords.surfaceNoWebGl : noteOf(state);
+  return (
+    <section class="view" aria-label={caseWords.surface}>
+      <ViewHead id="surface" title={caseWords.surface} enlarged={enlarged}>
+        {view !== null &&
+          looks.map(([name, label]) => (
+            <button
+              type="button"
+              key={name}
+              class="view-look"
+              data-testid={`look-${name}`}
+              disabled={state.kind !== 'shown' || (name === 'glenoid' && view.glenoid() === null)}
+              onClick={() => view.look(name)}
+            >
+              {label}
+            </button>
+          ))}
+      </ViewHead>
+      <div class="view-canvas stage" ref={place} data-testid="surface" data-state={state.kind}>
+        {view?.labels.value.map(({ x, y, text, active }) => (
+          <span
+            key={text}
+            class={active ? 'point-label active' : 'point-label'}
+            style={{ left: `${x}px`, top: `${y}px` }}
+            aria-hidden="true"
+          >
+            {text}
+          </span>
+        ))}
+        {at !== null && (
+          <p class="cross-hair-place" data-testid="cross-hair-place">
+            {caseWords.place(at, store.crossHairHu.value)}
+          </p>
+        )}
+        {note !== null && (
+          <p class="view-note" role="status">
+            {note}
+          </p>
+        )}
+      </div>
+    </section>
+  );
+}
+
+function noteOf(state: SurfaceState): string | null {
+  switch (state.kind) {
+    case 'none':
+      return caseWords.surfaceNone;
+    case 'loading':
+      return caseWords.surfaceLoading;
+    case 'failed':
+      return caseWords.surfaceFailed(state.words);
+    case 'shown':
+      return null;
+  }
+}

@@ -1,0 +1,36 @@
+import type { CaseDetails } from '../../wire/case_types';
+import { neededNames, type PlacedLandmarks, pointOf } from './landmark_names';
+
+export const stepNames = ['segment', 'landmarks', 'plan', 'build', 'ream'] as const;
+export type StepName = (typeof stepNames)[number];
+/** blocked: another step comes first. */
+export type StepState = 'done' | 'todo' | 'outdated' | 'blocked';
+
+export interface StepFacts {
+  details: Pick<CaseDetails, 'ct' | 'segmentation' | 'plan' | 'built' | 'stage'>;
+  landmarks: PlacedLandmarks;
+  /** Landmarks were changed after the plan was kept. */
+  planBeforeLandmarks: boolean;
+}
+
+/** How far each step of the work on a case is. */
+export function stepStates({ details, landmarks, planBeforeLandmarks }: StepFacts): Record<StepName, StepState> {
+  const { ct, segmentation, plan, built } = details;
+  const placed = neededNames.every((name) => pointOf(landmarks, name) !== null);
+  const builtIsOld = built !== null && segmentation !== null && built.segmentation_revision !== segmentation.revision;
+  const isBuilt = built !== null || details.stage === 'built';
+  return {
+    segment: segmentation !== null || (ct === null && isBuilt) ? 'done' : ct === null ? 'blocked' : 'todo',
+    landmarks: placed ? 'done' : 'todo',
+    plan: plan !== null ? (planBeforeLandmarks ? 'outdated' : 'done') : placed ? 'todo' : 'blocked',
+    build: isBuilt ? (builtIsOld ? 'outdated' : 'done') : segmentation === null ? 'blocked' : 'todo',
+    ream: isBuilt && plan !== null ? 'todo' : 'blocked',
+  };
+}
+
+/** The step to go on with. */
+export function nextStep(states: Record<StepName, StepState>): StepName {
+  return (
+    stepNames.find((name) => states[name] === 'outdated') ?? stepNames.find((name) => states[name] === 'todo') ?? 'ream'
+  );
+}

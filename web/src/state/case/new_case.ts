@@ -1,0 +1,158 @@
+import { batch, signal } from '@preact/signals';
+
+import type { CaseApi } from '../../wire/case_api';
+import type { CaseSummary, Job, Side } from '../../wire/case_types';
+import { wordsOf } from './case_keeper';
+import { followJob, pause } from './job_watch';
+import { forgetUpload, uploadFile, type UploadSource } from './upload';
+
+/**
+ * - idle: a file is to be chosen, or what is missing be filled in
+ * - uploading; waiting: the link is broken and is tried again
+ * - importing: the server reads the file
+ * - failed: words say why; the upload is kept, so that the next try goes on from there
+ */
+export type NewCaseState =
+  | { kind: 'idle' }
+  | { kind: 'uploading'; received: number; bytes: number; waiting: boolean }
+  | { kind: 'importing'; job: Job; silent: boolean }
+  | { kind: 'failed'; during: 'upload' | 'import'; words: string };
+
+export interface NewCaseWishes {
+  name: string;
+  seriesUid: string;
+}
+
+/** All cases, and the making of a new one from a file; lives as long as the page is open. */
+export class CasesKeeper {
+  readonly cases = signal<readonly CaseSummary[] | null>(null);
+  /** Whether the list was read since the page of cases was opened. */
+  readonly listFresh = signal(false);
+  readonly listProblem = signal<string | null>(null);
+  readonly file = signal<UploadSource | null>(null);
+  /** Never guessed: the user says which shoulder it is. */
+  readonly side = signal<Side | null>(null);
+  readonly wishes = signal<NewCaseWishes>({ name: '', seriesUid: '' });
+  readonly state = signal<NewCaseState>({ kind: 'idle' });
+  private abort = new AbortController();
+
+  constructor(
+    private readonly api: CaseApi,
+    private readonly remembered: Pick<Storage, 'getItem' | 'setItem' | 'removeItem'>,
+    /** The new case can be worked on. */
+    private readonly onReady: (caseId: string) => void,
+  ) {}
+
+  async readCases(): Promise<void> {
+    try {
+      const cases = await this.api.cases();
+      batch(() => {
+        this.cases.value = cases;
+        this.listFresh.value = true;
+        this.listProblem.value = null;
+      });
+    } catch (error) {
+      this.listProblem.value = wordsOf(error);
+    }
+  }
+
+  choose(file: UploadSource): void {
+    this.file.value = file;
+    this.state.value = { kind: 'idle' };
+  }
+
+  async remove(id: string): Promise<void> {
+    try {
+      await this.api.remove(id);
+    } catch (error) {
+      this.listProblem.value = wordsOf(error);
+      return;
+    }
+    await this.readCases();
+  }
+
+  /** Uploads the chosen file and has it read; also goes on after a failure. */
+  async make(): Promise<void> {
+    const file = this.file.value;
+    const side = this.side.value;
+    if (file === null || side === null) return;
+    this.abort = new AbortController();
+    const { signal } = this.abort;
+    let during: 'upload' | 'import' = 'upload';
+    try {
+      const uploadId = await this.upload(file, signal);
+      during = 'import';
+      const { name, seriesUid } = this.wishes.value;
+      const first = await this.api.importCase({
+        upload_id: uploadId,
+        side,
+        ...(name.trim() === '' ? {} : { name: name.trim() }),
+        ...(seriesUid.trim() === '' ? {} : { series_uid: seriesUid.trim() }),
+      });
+      const job = await this.follow(first, signal);
+      if (job?.state === 'done') {
+        forgetUpload(file, this.remembered);
+        batch(() => {
+          this.file.value = null;
+          this.side.value = null;
+          this.wishes.value = { name: '', seriesUid: '' };
+          this.state.value = { kind: 'idle' };
+        });
+        this.onReady(job.case_id);
+      } else if (job?.state === 'failed') {
+        const words = job.problem?.detail ?? job.problem?.title ?? job.step;
+        this.state.value = { kind: 'failed', during, words };
+      } else {
+        this.state.value = { kind: 'idle' };
+      }
+      await this.readCases();
+    } catch (error) {
+      this.state.value = signal.aborted ? { kind: 'idle' } : { kind: 'failed', during, words: wordsOf(error) };
+    }
+  }
+
+  /** Ends the upload, or asks the server to end the import. */
+  async cancel(): Promise<void> {
+    const state = this.state.value;
+    if (state.kind === 'uploading') this.abort.abort();
+    if (state.kind === 'importing') await this.api.cancel(state.job.id).catch(() => undefined);
+  }
+
+  private async upload(file: UploadSource, signal: AbortSignal): Promise<string> {
+    this.state.value = { kind: 'uploading', received: 0, bytes: file.size, waiting: false };
+    const tell = (change: { received?: number; waiting?: boolean }) => {
+      const state = this.state.value;
+      if (state.kind === 'uploading') this.state.value = { ...state, ...change };
+    };
+    const upload = await uploadFile(
+      file,
+      {
+        api: this.api,
+        remembered: this.remembered,
+        onProgress: (received) => tell({ received }),
+        onWaiting: (waiting) => tell({ waiting }),
+        pause,
+      },
+      signal,
+    );
+    return upload.id;
+  }
+
+  private follow(first: Job, signal: AbortSignal): Promise<Job | null> {
+    let silent = false;
+    return followJob(
+      first,
+      {
+        api: this.api,
+        onJob: (job) => (this.state.value = { kind: 'importing', job, silent }),
+        onSilence: (now) => {
+          silent = now;
+          const state = this.state.value;
+          if (state.kind === 'importing') this.state.value = { ...state, silent };
+        },
+        pause,
+      },
+      signal,
+    );
+  }
+}

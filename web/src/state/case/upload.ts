@@ -1,0 +1,95 @@
+import type { CaseApi } from '../../wire/case_api';
+import type { Upload } from '../../wire/case_types';
+import { ApiError } from '../../wire/rest';
+
+export const pieceBytes = 1 << 20;
+/** Pauses before the tries to go on after a broken link, ms; then the upload rests until it is resumed by hand. */
+const retryPausesMs = [500, 1000, 2000, 4000, 8000];
+
+export type UploadApi = Pick<CaseApi, 'beginUpload' | 'upload' | 'sendPiece' | 'dropUpload'>;
+
+/** What an upload reads; a browser's File is one. */
+export interface UploadSource {
+  name: string;
+  size: number;
+  lastModified: number;
+  slice(from: number, to: number): { arrayBuffer(): Promise<ArrayBuffer> };
+}
+
+export interface UploadDuties {
+  api: UploadApi;
+  /** Remembers which upload is of which file, so that a page loaded anew goes on where it was. */
+  remembered: Pick<Storage, 'getItem' | 'setItem' | 'removeItem'>;
+  onProgress: (received: number, bytes: number) => void;
+  /** The link is broken and is tried again. */
+  onWaiting: (waiting: boolean) => void;
+  pause: (ms: number) => Promise<void>;
+}
+
+const nameOf = (file: UploadSource) => `ream.upload.${file.name}.${file.size}.${file.lastModified}`;
+
+/**
+ * Sends a file in pieces and gives its upload, going on where the server is after a break. Throws ApiError when the
+ * server refuses it or does not come back, and AbortError when `signal` ends it.
+ */
+export async function uploadFile(file: UploadSource, duties: UploadDuties, signal: AbortSignal): Promise<Upload> {
+  let upload = await begin(file, duties);
+  let failures = 0;
+  while (upload.received < file.size) {
+    duties.onProgress(upload.received, file.size);
+    signal.throwIfAborted();
+    try {
+      const to = Math.min(upload.received + pieceBytes, file.size);
+      const piece = new Uint8Array(await file.slice(upload.received, to).arrayBuffer());
+      upload = await duties.api.sendPiece(upload.id, upload.received, piece, signal);
+      if (failures > 0) duties.onWaiting(false);
+      failures = 0;
+    } catch (error) {
+      signal.throwIfAborted();
+      upload = await recover(error, upload, failures++, duties, signal);
+    }
+  }
+  duties.onProgress(file.size, file.size);
+  return upload;
+}
+
+/** The upload is no longer of use, because it became a case or is not wanted. */
+export function forgetUpload(file: UploadSource, remembered: UploadDuties['remembered']): void {
+  remembered.removeItem(nameOf(file));
+}
+
+async function begin(file: UploadSource, { api, remembered }: UploadDuties): Promise<Upload> {
+  const earlier = remembered.getItem(nameOf(file));
+  if (earlier !== null) {
+    const known = await api.upload(earlier).catch((error: unknown) => {
+      if (error instanceof ApiError && error.status === 404) return null;
+      throw error;
+    });
+    if (known !== null && known.bytes === file.size) return known;
+  }
+  const made = await api.beginUpload(file.name, file.size);
+  remembered.setItem(nameOf(file), made.id);
+  return made;
+}
+
+/** Where the server is, once it answers again; refusals other than a wrong offset are final. */
+async function recover(
+  error: unknown,
+  upload: Upload,
+  failures: number,
+  { api, onWaiting, pause }: UploadDuties,
+  signal: AbortSignal,
+): Promise<Upload> {
+  const passing = error instanceof ApiError && (error.status === 0 || error.status === 409 || error.status >= 500);
+  const pauseMs = retryPausesMs[failures];
+  if (!passing || pauseMs === undefined) throw error;
+  if (error.status !== 409 || failures > 0) {
+    onWaiting(true);
+    await pause(pauseMs);
+    signal.throwIfAborted();
+  }
+  return api.upload(upload.id).catch((again: unknown) => {
+    if (again instanceof ApiError && again.status === 0) return upload;
+    throw again;
+  });
+}
