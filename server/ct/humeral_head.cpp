@@ -74,7 +74,9 @@ std::optional<double> outer_surface_mm(const HuVolume& volume, const Vec3& centr
     const double within = hu_at_world(volume, centre_mm + (r - reach_mm) * direction);
     if (within < threshold_hu) continue;
     const double fall = within - hu_at_world(volume, centre_mm + (r + reach_mm) * direction);
-    if (fall > best_fall) best_fall = fall, best = r;
+    // Beyond the CT the edge's values go on, which is no surface.
+    if (fall > best_fall && volume.contains(volume.voxel_at_world(centre_mm + r * direction)))
+      best_fall = fall, best = r;
   }
   return best;
 }

@@ -32,15 +32,22 @@ void write_label_map(const HuVolume& ct, const std::vector<uint8_t>& labels,
   if (labels.size() != ct.voxel_count())
     throw Error(ErrorKind::invalid_input, "there is not one label per voxel of the CT");
   const auto io = io_for_labels(path);
+  // Beside it and with its ending, which tells the format; renamed when it is whole.
+  const std::filesystem::path unfinished = path.parent_path() / ("unfinished-" + path.filename().string());
   try {
     describe(*io, ct);
     io->SetComponentType(itk::IOComponentEnum::UCHAR);
     io->SetUseCompression(true);
-    io->SetFileName(path.string());
+    io->SetFileName(unfinished.string());
     io->WriteImageInformation();
     io->Write(labels.data());
+    std::filesystem::rename(unfinished, path);
   } catch (const itk::ExceptionObject& e) {
+    std::error_code ignored;
+    std::filesystem::remove(unfinished, ignored);
     throw Error(ErrorKind::io, "cannot write " + path.string() + ": " + short_reason(e));
+  } catch (const std::filesystem::filesystem_error& e) {
+    throw Error(ErrorKind::io, "cannot write " + path.string() + ": " + e.code().message());
   }
 }
 

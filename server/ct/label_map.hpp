@@ -6,7 +6,7 @@
 namespace ream::ct {
 
 /// Writes labels (BoneLabel) as an 8-bit NRRD (.nrrd) or NIfTI (.nii, .nii.gz) file with the CT's geometry.
-/// Not atomic: write into a folder in progress. Errors: invalid_input for another extension or labels that
+/// Appears whole or not at all. Errors: invalid_input for another extension or labels that
 /// are not one per voxel, io.
 void write_label_map(const HuVolume& ct, const std::vector<uint8_t>& labels,
                      const std::filesystem::path& path);

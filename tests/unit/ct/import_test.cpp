@@ -8,6 +8,7 @@
 #include "ct/volume_io.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
+#include "unit/ct/shoulder_phantom.hpp"
 
 namespace ream::ct {
 namespace {
@@ -138,6 +139,54 @@ TEST(Import, SaysThatTheSideWasNotGiven) {
   const case_::Case c = import_ct(folder.path() / "ct.nrrd", "c", options);
   ASSERT_EQ(c.warnings.size(), 1u);
   EXPECT_NE(c.warnings[0].find("--side"), std::string::npos);
+}
+
+TEST(Import, AShoulderIsSegmentedAndItsGlenoidKept) {
+  const test::TemporaryFolder folder;
+  const PhantomParams params = shoulder_params(case_::Side::left);
+  const Phantom left = make_phantom(params);
+  write_volume_file(left.volume, folder.path() / "ct.nrrd");
+  ImportOptions options;
+  options.side = case_::Side::left;
+  options.shoulder = SegmentationSettings{};
+  options.roi_at_glenoid = true;
+  options.segmentation.upsample = 2;
+  options.labels_out = folder.path() / "labels.nii.gz";
+  const case_::Case bare = import_ct(folder.path() / "ct.nrrd", "c", options);
+  EXPECT_TRUE(bare.warnings.empty());
+  EXPECT_EQ(bare.side, case_::Side::left);
+  EXPECT_EQ(bare.calibration.threshold_hu, suggested_threshold_hu(left.volume));
+  const Vec3 size = bare.bone.grid.bounds_mm().max;
+  EXPECT_LT(size.maxCoeff(), 80.0);
+  const case_::GlenoidFrame& glenoid = left.truth.glenoid;
+  const auto hit = case_::surface_along(bare.bone, glenoid.centre_mm, -glenoid.lateral);
+  ASSERT_TRUE(hit);
+  EXPECT_LT((*hit - glenoid.centre_mm).norm(), 0.5);
+  const HuVolume labels = read_volume_file(*options.labels_out);
+  EXPECT_EQ(labels.dims, left.volume.dims);
+  EXPECT_GT(count_both(std::vector<uint8_t>(labels.hu.begin(), labels.hu.end()), 1,
+                       true_labels(left.volume, params), 1),
+            10000u);
+
+  options.cartilage_mm = 2.0;
+  const case_::Case covered = import_ct(folder.path() / "ct.nrrd", "c", options);
+  const auto top = case_::surface_along(covered.bone, glenoid.centre_mm, -glenoid.lateral);
+  ASSERT_TRUE(top);
+  EXPECT_NEAR((*top - *hit).dot(glenoid.lateral), 2.0, 0.25);
+}
+
+TEST(Import, WhatIsKnownOfTheGlenoidIsNeeded) {
+  const test::TemporaryFolder folder;
+  write_volume_file(phantom().volume, folder.path() / "ct.nrrd");
+  ImportOptions options;
+  options.side = case_::Side::right;
+  options.shoulder = SegmentationSettings{};
+  options.shoulder->seeds.scapula_mm = options_in_the_vault().segmentation.grow_from_mm;
+  options.roi_at_glenoid = true;
+  test::expect_error(ErrorKind::invalid_input, "--glenoid",
+                     [&] { import_ct(folder.path() / "ct.nrrd", "c", options); });
+  options.glenoid_mm = phantom().truth.glenoid.centre_mm;
+  EXPECT_GT(import_ct(folder.path() / "ct.nrrd", "c", options).bone.filled_voxels(), 1000u);
 }
 
 TEST(Import, BadInputGetsOneClearLine) {

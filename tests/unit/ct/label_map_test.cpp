@@ -52,6 +52,10 @@ TEST(LabelMap, OtherFilesAreRefused) {
                      [&] { write_label_map(volume, std::vector<uint8_t>(8), folder.path() / "labels.png"); });
   test::expect_error(ErrorKind::invalid_input, "one label per voxel",
                      [&] { write_label_map(volume, {1}, folder.path() / "labels.nrrd"); });
+  for (const char* name : {"labels.nrrd", "labels.nii.gz"})
+    test::expect_error(ErrorKind::io, "nowhere", [&] {
+      write_label_map(volume, std::vector<uint8_t>(8), folder.path() / "nowhere" / name);
+    });
 }
 
 }  // namespace
