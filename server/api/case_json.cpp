@@ -69,7 +69,13 @@ json segmentation_json(const ct::Workup& workup) {
   if (!record) return nullptr;
   json parts = json::array();
   for (const ct::BonePart& part : record->parts) parts.push_back(ct::to_json(part));
+  json head, glenoid;
+  if (record->head)
+    head = {{"centre_mm", list(record->head->centre_mm)}, {"radius_mm", record->head->radius_mm}};
+  if (record->glenoid_mm) glenoid = list(*record->glenoid_mm);
   return {{"revision", record->revision},
+          {"humeral_head", std::move(head)},
+          {"glenoid_mm", std::move(glenoid)},
           {"can_undo", workup.segmentations.size() > 1},
           {"settings", ct::to_json(record->settings)},
           {"threshold_hu", record->threshold_hu},
@@ -84,7 +90,7 @@ json built_json(const ct::Workup& workup) {
   const Vec3 &low = built.roi_mm.min, &high = built.roi_mm.max;
   value["roi_mm"] = {low.x(), low.y(), low.z(), high.x(), high.y(), high.z()};
   value["bone_voxels"] = built.bone_voxels;
-  value["density_range_g_cc"] = {0.0, voxel::max_density_code * voxel::density_step_g_cc};
+  value["density_range_g_cc"] = built.density_range_g_cc;
   value["segmentation_revision"] = built.segmentation_revision;
   return value;
 }

@@ -6,6 +6,7 @@
 #include "case/measures.hpp"
 #include "case/plan.hpp"
 #include "core/log.hpp"
+#include "shell/parametric_profile.hpp"
 #include "shell/reamer_library.hpp"
 
 namespace ream::api {
@@ -27,17 +28,26 @@ net::Response set_landmarks(CaseWorkshop& workshop, const net::Request& request)
   return net::json_response(200, case_json(workshop.folder_of(id)));
 }
 
-net::Response propose(CaseWorkshop& workshop, const net::Request& request) {
+/// Over the network a reamer has a name or words; a path would open the server's files.
+void check_reamer(const std::string& reamer, const std::filesystem::path& data_folder) {
+  if (!reamer.empty() && !shell::is_parametric(reamer)) shell::reamer_named(reamer, data_folder);
+}
+
+net::Response propose(CaseWorkshop& workshop, const std::filesystem::path& data_folder,
+                      const net::Request& request) {
   const std::string& id = request.parameters.at("id");
-  const case_::Plan plan =
-      workshop.propose(id, case_::plan_targets_from_json(json_object_in(request), place));
+  const auto targets = case_::plan_targets_from_json(json_object_in(request), place);
+  check_reamer(targets.reamer, data_folder);
+  const case_::Plan plan = workshop.propose(id, targets);
   return net::json_response(200, {{"plan", plan_json(plan)},
                                   {"assessment", case_::to_json(workshop.assess(id, plan))}});
 }
 
-net::Response set_plan(CaseWorkshop& workshop, const net::Request& request) {
+net::Response set_plan(CaseWorkshop& workshop, const std::filesystem::path& data_folder,
+                       const net::Request& request) {
   const std::string& id = request.parameters.at("id");
   const case_::Plan plan = case_::plan_from_json(json_object_in(request), place);
+  check_reamer(plan.reamer, data_folder);
   const case_::PlanAssessment assessment = workshop.set_plan(id, plan);
   return net::json_response(200, {{"plan", plan_json(plan)}, {"assessment", case_::to_json(assessment)}});
 }
@@ -73,9 +83,13 @@ void add_case_plan_routes(net::Router& router, CaseWorkshop& workshop,
   router.on("PUT", one + "/landmarks",
             [&workshop](const net::Request& request) { return set_landmarks(workshop, request); });
   router.on("POST", one + "/plan/proposal",
-            [&workshop](const net::Request& request) { return propose(workshop, request); });
+            [&workshop, data_folder](const net::Request& request) {
+              return propose(workshop, data_folder, request);
+            });
   router.on("PUT", one + "/plan",
-            [&workshop](const net::Request& request) { return set_plan(workshop, request); });
+            [&workshop, data_folder](const net::Request& request) {
+              return set_plan(workshop, data_folder, request);
+            });
   router.on("GET", "/api/v1/reamers",
             [data_folder](const net::Request&) { return reamers(data_folder); });
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "ct/dicom_completeness.hpp"
+#include "ct/dicom_file.hpp"
 #include "store/zip_archive.hpp"
 
 namespace ream::app {

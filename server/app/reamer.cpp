@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "shell/parametric_profile.hpp"
+#include "shell/reamer_library.hpp"
 
 namespace ream::app {
 namespace {
@@ -43,7 +44,14 @@ class TemporaryFolder {
 Reamer reamer_asked_for(const std::string& words, const std::optional<shell::ToolAxis>& axis) {
   std::error_code failed;
   if (shell::is_parametric(words) || !fs::is_regular_file(words, failed)) return {words, std::nullopt};
-  return {words, axis, read_binary_file(words)};
+  return {words, axis ? axis : shell::axis_noted_for(words), read_binary_file(words)};
+}
+
+std::string reamer_in_library(const std::string& asked_for, const fs::path& data) {
+  std::error_code failed;
+  const bool bare_name = !asked_for.empty() && asked_for.find_first_of(" ./\\") == std::string::npos &&
+                         !shell::is_parametric(asked_for) && !fs::is_regular_file(asked_for, failed);
+  return bare_name ? shell::reamer_named(asked_for, data).words : asked_for;
 }
 
 shell::Tool tool_of(const Reamer& reamer) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,8 +16,13 @@ struct Reamer {
   std::vector<std::byte> mesh_file = {};  ///< its bytes; empty for words
 };
 
-/// Reads the mesh file, where `words` name one. Error not_found, io.
+/// Reads the mesh file, where `words` name one; without an axis, the one noted beside it is taken. Errors:
+/// not_found, io; invalid_input for a note that cannot be used.
 Reamer reamer_asked_for(const std::string& words, const std::optional<shell::ToolAxis>& axis);
+
+/// The path of the user's mesh of that name in the data folder's reamers; anything that make_tool takes stays
+/// as it is. Error usage lists the names that exist, for a single word that is nothing of all that.
+std::string reamer_in_library(const std::string& asked_for, const std::filesystem::path& data);
 
 /// The tool once more: from the words, or from the bytes of the mesh file, which must not refer to other
 /// files. Errors: those of make_tool; io.

@@ -9,6 +9,8 @@
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "record/log_sink.hpp"
+#include "shell/parametric_profile.hpp"
+#include "shell/reamer_library.hpp"
 
 namespace ream::app {
 namespace {
@@ -17,9 +19,11 @@ namespace fs = std::filesystem;
 
 /// By words only: whoever asks over the network names no files of this machine.
 Reamer reamer_of_words(const std::string& words) {
-  if (!words.starts_with("sphere ") && !words.starts_with("ellipse ") && words != "thesis")
-    throw Error(ErrorKind::invalid_input,
-                "reamer \"" + words + "\" is not known; \"sphere R\" and \"ellipse A,B\" are, in mm");
+  if (!shell::is_parametric(words))
+    throw Error(ErrorKind::invalid_input, "reamer \"" + words +
+                                              "\" is not known; \"sphere R\" and \"ellipse A,B\" are, in "
+                                              "mm, and the names " +
+                                              shell::built_in_names());
   return reamer_asked_for(words, std::nullopt);
 }
 

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/case_shelf.hpp"
 #include "app/cli/case_path.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
@@ -72,7 +73,8 @@ nlohmann::json mount_json(const sim::Model& model) {
 
 case_::Case find_case(const std::string& name, const fs::path& data) {
   if (name == "demo") return ct::load_or_make_demo_case(data);
-  return case_::load_case(case_path(name, data));
+  static CaseShelf shelf;
+  return shelf.load(case_path(name, data));
 }
 
 device::Script find_script(const RunRequest& request) {
@@ -98,8 +100,9 @@ RigParts asked_for(const RunRequest& request, const fs::path& data) {
   parts.bone_case = find_case(request.case_name, data);
   const case_::Plan& plan = plan_of(parts.bone_case);
   parts.case_hash = case_::case_hash(parts.bone_case);
-  parts.reamer = reamer_asked_for(request.tool.empty() ? plan.reamer : request.tool, request.tool_axis);
-  parts.tool = shell::make_tool(parts.reamer.words, request.tool_axis);
+  parts.reamer = reamer_asked_for(reamer_in_library(request.tool.empty() ? plan.reamer : request.tool, data),
+                                  request.tool_axis);
+  parts.tool = shell::make_tool(parts.reamer.words, parts.reamer.axis);
   MadeDevice made = make_device({request.device, request.device_profile, &parts.script,
                                  sim::world_from_plan(plan), request.random_seed, data});
   parts.device = std::move(made.device);

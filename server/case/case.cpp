@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "case/calibration.hpp"
 #include "case/plan.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -45,10 +46,7 @@ json to_json(const Case& c) {
                  {{"rotation", rotation_rows(grid.world_from_grid.rotation)},
                   {"translation_mm", list(grid.world_from_grid.translation_mm)}}},
                 {"cortical_threshold_g_cc", c.bone.cortical_threshold_g_cc},
-                {"calibration",
-                 {{"intercept_mg_cc", c.calibration.intercept_mg_cc},
-                  {"slope_mg_cc_per_hu", c.calibration.slope_mg_cc_per_hu},
-                  {"threshold_hu", c.calibration.threshold_hu}}},
+                {"calibration", to_json(c.calibration)},
                 {"warnings", c.warnings}};
   if (c.glenoid)
     value["glenoid"] = {{"centre_mm", list(c.glenoid->centre_mm)},
@@ -161,11 +159,8 @@ Case load_case_description(const fs::path& folder) {
   c.side = side_from_text(side);
   c.bone.grid = read_grid(reader, value);
   c.bone.cortical_threshold_g_cc = reader.number("cortical_threshold_g_cc", 0.0, 3.0);
-  JsonReader calibration = reader.object("calibration");
-  c.calibration.intercept_mg_cc = calibration.number("intercept_mg_cc");
-  c.calibration.slope_mg_cc_per_hu = calibration.number("slope_mg_cc_per_hu");
-  c.calibration.threshold_hu = calibration.number("threshold_hu");
-  calibration.finish();
+  if (!reader.has("calibration")) reader.refuse("calibration", "is missing");
+  c.calibration = calibration_from_json(value.at("calibration"), reader.place() + ".calibration");
   if (reader.has("glenoid")) c.glenoid = read_glenoid(reader.object("glenoid"));
   c.warnings = reader.texts_or_none("warnings");
   reader.finish();
@@ -178,6 +173,15 @@ Case load_case(const fs::path& folder) {
   Case c = load_case_description(folder);
   const size_t voxels = c.bone.grid.voxel_count();
   c.bone.density = voxel::bricks_from_rows(c.bone.grid, read_compressed(folder / "density.zst", voxels));
+  c.bone.coverage = voxel::bricks_from_rows(c.bone.grid, read_compressed(folder / "coverage.zst", voxels));
+  return c;
+}
+
+Case load_case(const fs::path& folder, const voxel::SharedBytes& density) {
+  Case c = load_case_description(folder);
+  const size_t voxels = c.bone.grid.voxel_count();
+  if (density.size() != voxels) return load_case(folder);
+  c.bone.density = density;
   c.bone.coverage = voxel::bricks_from_rows(c.bone.grid, read_compressed(folder / "coverage.zst", voxels));
   return c;
 }

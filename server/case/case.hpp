@@ -27,7 +27,7 @@ struct Plan {
   double depth_mm = 2.0;                ///< planned reaming depth past first contact of the cutting surface
   std::string reamer = "ellipse 18.25,9";  ///< profile text or path of a mesh, see shell/tool.hpp
   std::optional<PilotHole> pilot_hole = PilotHole{};
-  GuideKind guide = GuideKind::none;  ///< nipple needs a pilot hole
+  GuideKind guide = GuideKind::none;             ///< nipple needs a pilot hole
   std::optional<double> implant_radius_mm = {};  ///< of the component's back
   std::string implant_size = {};                 ///< as its maker names it; "": not chosen
   /// What was aimed at (3D, science 2.1), kept so that scoring can compare; axis_direction decides.
@@ -43,11 +43,15 @@ struct GlenoidFrame {
   Vec3 lateral = Vec3::UnitX(), superior = Vec3::UnitZ(), anterior = -Vec3::UnitY();
 };
 
-/// How HU became density; each number is kept with the case.
+/// How HU became density (science 2.5); each law and number is kept with the case. Defaults are those of an
+/// example phantom and of Schileo 2008.
 struct Calibration {
-  double intercept_mg_cc = 1.3152,
-         slope_mg_cc_per_hu = 0.6944;  ///< HU -> rho_QCT (science 2.5, example phantom)
-  double threshold_hu = 200.0;         ///< segmentation threshold that was used
+  double intercept_mg_cc = 1.3152, slope_mg_cc_per_hu = 0.6944;  ///< rho_QCT = intercept + slope HU
+  double threshold_hu = 200.0;                                   ///< segmentation threshold that was used
+  std::string scanner = {};  ///< scanner or phantom that the first two were found with; "": none, the example
+  std::string ash_law = "Schileo 2008";  ///< name of rho_ash = intercept + slope rho_QCT, g/cc
+  double ash_intercept_g_cc = 0.079, ash_slope = 0.877;
+  double ash_per_apparent = 0.598;  ///< rho_ash / apparent density (Schileo 2008)
 };
 
 struct Case {
@@ -75,12 +79,14 @@ struct CaseSummary {
 /// coverage.zst (raw bytes in grid order, zstd). Saving is atomic: the folder appears whole or not at all.
 /// Errors: not_found, invalid_input (names file and key), io.
 Case load_case(const std::filesystem::path& folder);
+/// The same with a density that is known already, of the size that case.json says.
+Case load_case(const std::filesystem::path& folder, const voxel::SharedBytes& density);
 /// Everything but the voxels: bone has its grid, density and coverage stay empty.
 Case load_case_description(const std::filesystem::path& folder);
 CaseSummary load_case_summary(const std::filesystem::path& folder);
 void save_case(const Case& c, const std::filesystem::path& folder, bool replace = false);
-/// A new bone (and case.json) for the folder of a case; all else in it stays. The folder changes as a whole or
-/// not at all.
+/// A new bone (and case.json) for the folder of a case; all else in it stays. The folder changes as a whole
+/// or not at all.
 void save_bone(const Case& c, const std::filesystem::path& folder);
 
 /// Of what reaming decides by: grid, threshold, density and coverage. Equal cases have equal hashes on every
@@ -98,8 +104,8 @@ void cut_pilot_hole(voxel::BoneModel& bone, const Plan& plan);
 /// empty when the ray misses the bone.
 std::optional<Vec3> surface_along(const voxel::BoneModel& bone, const Vec3& point_mm, const Vec3& direction);
 
-/// How far bone reaches along the direction from an entry on its surface, mm: to the far cortex, or to the end
-/// of the grid. Empty when no bone lies within 2 mm of the entry on that line.
+/// How far bone reaches along the direction from an entry on its surface, mm: to the far cortex, or to the
+/// end of the grid. Empty when no bone lies within 2 mm of the entry on that line.
 std::optional<double> bone_depth_along(const voxel::BoneModel& bone, const Vec3& entry_mm,
                                        const Vec3& direction);
 

@@ -21,14 +21,13 @@ struct NamedPoint {
   const char* key;
   std::optional<Vec3> Landmarks::*point;
 };
-constexpr std::array named_points = {
-    NamedPoint{"glenoid_centre_mm", &Landmarks::glenoid_centre_mm},
-    NamedPoint{"superior_rim_mm", &Landmarks::superior_rim_mm},
-    NamedPoint{"inferior_rim_mm", &Landmarks::inferior_rim_mm},
-    NamedPoint{"anterior_rim_mm", &Landmarks::anterior_rim_mm},
-    NamedPoint{"posterior_rim_mm", &Landmarks::posterior_rim_mm},
-    NamedPoint{"trigonum_mm", &Landmarks::trigonum_mm},
-    NamedPoint{"inferior_angle_mm", &Landmarks::inferior_angle_mm}};
+constexpr std::array named_points = {NamedPoint{"glenoid_centre_mm", &Landmarks::glenoid_centre_mm},
+                                     NamedPoint{"superior_rim_mm", &Landmarks::superior_rim_mm},
+                                     NamedPoint{"inferior_rim_mm", &Landmarks::inferior_rim_mm},
+                                     NamedPoint{"anterior_rim_mm", &Landmarks::anterior_rim_mm},
+                                     NamedPoint{"posterior_rim_mm", &Landmarks::posterior_rim_mm},
+                                     NamedPoint{"trigonum_mm", &Landmarks::trigonum_mm},
+                                     NamedPoint{"inferior_angle_mm", &Landmarks::inferior_angle_mm}};
 
 json list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -67,8 +66,8 @@ Landmarks landmarks_from_json(const json& value, const std::string& place) {
     if (reader.has(named.key)) landmarks.*named.point = read_point(reader, named.key);
   if (reader.has("humeral_head")) {
     JsonReader head = reader.object("humeral_head");
-    landmarks.humeral_head = HumeralHead{
-        read_point(head, "centre_mm"), head.number("radius_mm", min_head_radius_mm, max_head_radius_mm)};
+    landmarks.humeral_head = HumeralHead{read_point(head, "centre_mm"),
+                                         head.number("radius_mm", min_head_radius_mm, max_head_radius_mm)};
     head.finish();
   }
   landmarks.biconcavity_mm = read_biconcavity(reader, value);

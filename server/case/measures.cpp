@@ -145,8 +145,8 @@ Measures measure(const Landmarks& l, Side side) {
   const auto rim = rim_lines(l);
   const auto anterior = anterior_end(l), posterior = posterior_end(l);
   if (frame && rim) {
-    const Vec3 normal = face_normal(rim->superior - rim->inferior, rim->anterior - rim->posterior, side,
-                                    outward(l, side));
+    const Vec3 normal =
+        face_normal(rim->superior - rim->inferior, rim->anterior - rim->posterior, side, outward(l, side));
     const FaceAngles angles = frame->angles_of(normal);
     m.version_3d_rad = angles.version_rad;
     m.inclination_3d_rad = angles.inclination_rad;
@@ -157,8 +157,7 @@ Measures measure(const Landmarks& l, Side side) {
   if (l.trigonum_mm && l.superior_rim_mm && l.inferior_rim_mm)
     m.inclination_friedman_rad = friedman_inclination(l);
   if (!l.humeral_head) return m;
-  if (frame)
-    m.subluxation_percent = share_posterior(*l.humeral_head, *l.glenoid_centre_mm, frame->posterior);
+  if (frame) m.subluxation_percent = share_posterior(*l.humeral_head, *l.glenoid_centre_mm, frame->posterior);
   if (l.glenoid_centre_mm && anterior && posterior) {
     check_apart(*anterior, *posterior, "anterior and posterior rim");
     m.subluxation_glenoid_percent =

@@ -9,8 +9,9 @@
 
 namespace ream::case_ {
 
-/// A biconcave (B2) glenoid: 3D versions of its two concavities and of the intermediate line from the anterior
-/// edge of the one to the posterior edge of the other (Rouleau 2010), and the angle between both concavities.
+/// A biconcave (B2) glenoid: 3D versions of its two concavities and of the intermediate line from the
+/// anterior edge of the one to the posterior edge of the other (Rouleau 2010), and the angle between both
+/// concavities.
 struct Biconcavity {
   double paleo_version_rad = 0, neo_version_rad = 0, intermediate_version_rad = 0, between_rad = 0;
 };
@@ -18,21 +19,24 @@ struct Biconcavity {
 /// What landmarks say about a glenoid. Angles rad; retroversion negative, superior inclination positive. A
 /// measure whose landmarks are missing is empty.
 ///
-/// 3D (science 2.1): against the plane of trigonum, inferior angle and glenoid centre; see scapular_frame.hpp.
-/// Unchanged by moving or scaling all points, and by turning them as long as posterior stays LPS +y.
+/// 3D (science 2.1): against the plane of trigonum, inferior angle and glenoid centre; see
+/// scapular_frame.hpp. Unchanged by moving or scaling all points, and by turning them as long as posterior
+/// stays LPS +y.
 ///
 /// Friedman 2D: version in the axial plane (LPS x, y: every point is projected along z): angle between the
-/// line of the anterior and posterior rim and the perpendicular to the axis from the trigonum to the middle of
-/// that line. Inclination in the upright plane (the oblique coronal image) through the axis from the trigonum
-/// to the middle of the superior-inferior rim line, spanned by LPS z. Both are (angle at the middle of the rim
-/// line from the trigonum to the posterior, or inferior, rim) - 90 degrees. Unchanged by moving and scaling
-/// and by turning about z only: how the patient lay in the scanner decides too, as in Friedman's slices.
+/// line of the anterior and posterior rim and the perpendicular to the axis from the trigonum to the middle
+/// of that line. Inclination in the upright plane (the oblique coronal image) through the axis from the
+/// trigonum to the middle of the superior-inferior rim line, spanned by LPS z. Both are (angle at the middle
+/// of the rim line from the trigonum to the posterior, or inferior, rim) - 90 degrees. Unchanged by moving
+/// and scaling and by turning about z only: how the patient lay in the scanner decides too, as in Friedman's
+/// slices.
 struct Measures {
   std::optional<double> version_3d_rad, inclination_3d_rad;
   std::optional<double> version_friedman_rad, inclination_friedman_rad;
-  /// Share of the humeral head's diameter that lies posterior of the scapular plane: 50 + 50 d / r, where d is
-  /// how far its centre lies posterior of that plane; 0 to 100, 50 is centred. This is the index a / D of Walch
-  /// and the one of science 2.1's classes; it grows with retroversion even of a head centred on its face.
+  /// Share of the humeral head's diameter that lies posterior of the scapular plane: 50 + 50 d / r, where d
+  /// is how far its centre lies posterior of that plane; 0 to 100, 50 is centred. This is the index a / D of
+  /// Walch and the one of science 2.1's classes; it grows with retroversion even of a head centred on its
+  /// face.
   std::optional<double> subluxation_percent;
   /// The same against the plane through the glenoid centre across the anterior-posterior rim line: how far
   /// the head has left its face.
@@ -41,8 +45,9 @@ struct Measures {
   std::vector<std::string> missing;  ///< landmarks that empty measures need, by their keys in landmarks.json
 };
 
-/// Where a biconcavity is marked, its intermediate line stands for the anterior-posterior rim line everywhere.
-/// Error invalid_input when landmarks coincide or lie on one line, or are those of the other shoulder.
+/// Where a biconcavity is marked, its intermediate line stands for the anterior-posterior rim line
+/// everywhere. Error invalid_input when landmarks coincide or lie on one line, or are those of the other
+/// shoulder.
 Measures measure(const Landmarks& landmarks, Side side);
 
 /// Angles in degrees, empty ones null; `normal` with the values of healthy shoulders and their sources, and

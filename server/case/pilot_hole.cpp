@@ -3,6 +3,7 @@
 
 #include "case/case.hpp"
 #include "core/error.hpp"
+#include "voxel/coverage_at.hpp"
 
 namespace ream::case_ {
 namespace {
@@ -16,23 +17,6 @@ constexpr double entry_slack_mm = 2.0;  // bone this far from an entry still bel
 uint8_t kept_coverage(double distance_mm, double voxel_mm) {
   const double c = std::floor(255.0 * (0.5 + distance_mm / voxel_mm) + 0.5);
   return static_cast<uint8_t>(std::clamp(c, 0.0, 255.0));
-}
-
-/// Coverage at a point of the grid frame, trilinear between voxel centres; 0 outside the grid.
-double coverage_at(const voxel::BoneModel& bone, const Vec3& point_mm) {
-  const Vec3 position = (point_mm.array() / bone.grid.spacing_mm.array() - 0.5).matrix();
-  const Vec3 low = position.array().floor().matrix();
-  const Vec3i base = low.cast<int>();
-  const Vec3 t = position - low;
-  double sum = 0.0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3i o(base.x() + (corner & 1), base.y() + ((corner >> 1) & 1), base.z() + (corner >> 2));
-    if (!bone.grid.contains(o)) continue;
-    const double weight = ((corner & 1) ? t.x() : 1.0 - t.x()) * ((corner & 2) ? t.y() : 1.0 - t.y()) *
-                          ((corner & 4) ? t.z() : 1.0 - t.z());
-    sum += weight * bone.coverage[bone.grid.index(o)];
-  }
-  return sum;
 }
 
 /// Where the line enters and leaves the box, as parameters along `direction`; false when it misses.
@@ -63,10 +47,10 @@ struct LineInBone {
     if (!clip_line(bone.grid.bounds_mm().grown(step), point, along, enter, leave)) enter = 0.0, leave = -1.0;
   }
 
-  bool inside(double s) const { return coverage_at(bone, point + s * along) >= 127.5; }
+  bool inside(double s) const { return voxel::coverage_at(bone, point + s * along) >= 127.5; }
 
-  /// Where the line first is inside (or outside) the bone between two places: the last point before the change
-  /// is narrowed down by halving.
+  /// Where the line first is inside (or outside) the bone between two places: the last point before the
+  /// change is narrowed down by halving.
   std::optional<double> first_change(double from, double to, bool to_inside) const {
     double before = from;
     for (double s = from; s <= to; s += step) {
@@ -128,8 +112,8 @@ std::optional<Vec3> surface_along(const voxel::BoneModel& bone, const Vec3& poin
 std::optional<double> bone_depth_along(const voxel::BoneModel& bone, const Vec3& entry_mm,
                                        const Vec3& direction) {
   const LineInBone line(bone, entry_mm, direction);
-  const auto first = line.first_change(std::max(line.enter, -entry_slack_mm),
-                                       std::min(line.leave, entry_slack_mm), true);
+  const auto first =
+      line.first_change(std::max(line.enter, -entry_slack_mm), std::min(line.leave, entry_slack_mm), true);
   if (!first) return std::nullopt;
   return line.first_change(*first + line.step, line.leave, false).value_or(line.leave);
 }

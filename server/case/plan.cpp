@@ -28,9 +28,9 @@ void check_length(const std::string& place, const char* key, double value, bool 
 
 void check_target(const std::string& place, const char* key, const std::optional<double>& rad) {
   if (!rad || std::abs(degrees_from_radians(*rad)) <= max_target_deg + 1.0 / kept_per_degree) return;
-  throw Error(ErrorKind::invalid_input,
-              place + ": " + key + " must be between -" + std::to_string(static_cast<int>(max_target_deg)) +
-                  " and " + std::to_string(static_cast<int>(max_target_deg)) + " degrees");
+  throw Error(ErrorKind::invalid_input, place + ": " + key + " must be between -" +
+                                            std::to_string(static_cast<int>(max_target_deg)) + " and " +
+                                            std::to_string(static_cast<int>(max_target_deg)) + " degrees");
 }
 
 double written_degrees(double rad) {
@@ -40,8 +40,7 @@ double written_degrees(double rad) {
 void read_targets(JsonReader& reader, Plan& plan) {
   if (reader.has("implant_radius_mm")) plan.implant_radius_mm = reader.number("implant_radius_mm");
   plan.implant_size = reader.text_or("implant_size", "");
-  if (reader.has("version_deg"))
-    plan.target_version_rad = radians_from_degrees(reader.number("version_deg"));
+  if (reader.has("version_deg")) plan.target_version_rad = radians_from_degrees(reader.number("version_deg"));
   if (reader.has("inclination_deg"))
     plan.target_inclination_rad = radians_from_degrees(reader.number("inclination_deg"));
   plan.override_correction = reader.boolean_or("override", false);

@@ -55,8 +55,9 @@ void judge_angles(const Plan& plan, PlanAssessment& a) {
                          "\u00b0 retroversion would remain; over 15\u00b0 the component is likely to loosen "
                          "(Ho 2013)");
   else if (retroversion > retroversion_noted_deg + angle_slack_deg)
-    a.warnings.push_back(one_decimal(retroversion) +
-                         "\u00b0 retroversion would remain; within 7\u00b0 of neutral is what planning achieves");
+    a.warnings.push_back(
+        one_decimal(retroversion) +
+        "\u00b0 retroversion would remain; within 7\u00b0 of neutral is what planning achieves");
 }
 
 void judge_pilot_hole(const Plan& plan, const voxel::BoneModel& bone, PlanAssessment& a) {

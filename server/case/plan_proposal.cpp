@@ -95,7 +95,8 @@ Plan propose_plan(const PlanTargets& targets, const Landmarks& landmarks, Side s
   const ScapularFrame frame = frame_for_plan(landmarks);
   Plan plan;
   plan.target_version_rad = targets.version_rad.value_or(0.0);
-  plan.target_inclination_rad = targets.inclination_rad ? *targets.inclination_rad : proposed_inclination(measures);
+  plan.target_inclination_rad =
+      targets.inclination_rad ? *targets.inclination_rad : proposed_inclination(measures);
   plan.axis_direction = -frame.face_normal({*plan.target_version_rad, *plan.target_inclination_rad});
   plan.depth_mm = targets.depth_mm.value_or(plan.depth_mm);
   plan.implant_radius_mm = targets.implant_radius_mm;
@@ -108,9 +109,10 @@ Plan propose_plan(const PlanTargets& targets, const Landmarks& landmarks, Side s
   if (surface) {
     const auto entry = surface(plan.entry_mm - search_from_mm * plan.axis_direction, plan.axis_direction);
     if (!entry)
-      throw Error(ErrorKind::invalid_input,
-                  "the planned axis misses the bone: the glenoid centre and the other landmarks do not lie on "
-                  "it; place them anew");
+      throw Error(
+          ErrorKind::invalid_input,
+          "the planned axis misses the bone: the glenoid centre and the other landmarks do not lie on "
+          "it; place them anew");
     plan.entry_mm = *entry;
   }
   validate(plan, "the proposed plan");

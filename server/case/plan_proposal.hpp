@@ -30,8 +30,8 @@ using SurfaceAlong = std::function<std::optional<Vec3>(const Vec3& point_mm, con
 
 /// A plan whose axis has the wanted version and inclination (3D, science 2.1) and goes through the glenoid
 /// centre; its entry is where that axis meets the surface (the centre itself where `surface` is empty).
-/// Errors: invalid_input names landmarks that are missing or contradict each other, or an axis that misses the
-/// bone; those of make_tool for an unknown reamer.
+/// Errors: invalid_input names landmarks that are missing or contradict each other, or an axis that misses
+/// the bone; those of make_tool for an unknown reamer.
 Plan propose_plan(const PlanTargets& targets, const Landmarks& landmarks, Side side,
                   const SurfaceAlong& surface);
 

@@ -6,7 +6,8 @@ namespace ream::collide {
 
 namespace {
 
-std::vector<gpu::Buffer> in_parts(const gpu::Queue& queue, std::span<uint8_t> bytes, BoneParts parts) {
+template <typename Byte>
+std::vector<gpu::Buffer> in_parts(const gpu::Queue& queue, std::span<Byte> bytes, BoneParts parts) {
   std::vector<gpu::Buffer> buffers;
   for (int p = 0; p < parts.count; ++p) {
     const size_t from = static_cast<size_t>(p) << parts.shift;
@@ -29,8 +30,8 @@ BoneBuffers::BoneBuffers(const gpu::Device& device, voxel::BoneModel& session_bo
       queue(device),
       parts(bone_parts(bone.grid.voxel_count(), largest_buffer_bytes.value_or(device.max_buffer_bytes),
                        device.name)),
-      coverage(in_parts(queue, bone.coverage, parts)),
-      density(in_parts(queue, bone.density, parts)) {
+      coverage(in_parts(queue, std::span<uint8_t>(bone.coverage), parts)),
+      density(in_parts(queue, std::span<const uint8_t>(bone.density), parts)) {
   std::array<uint8_t, 256> codes{};
   const auto table = voxel::class_table(bone.cortical_threshold_g_cc);
   for (size_t i = 0; i < codes.size(); ++i) codes[i] = static_cast<uint8_t>(table[i]);

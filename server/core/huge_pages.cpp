@@ -13,7 +13,7 @@ constexpr int madv_collapse = 25;
 
 }  // namespace
 
-void prefer_huge_pages(void* memory, size_t bytes) noexcept {
+void prefer_huge_pages(const void* memory, size_t bytes) noexcept {
   const auto start = reinterpret_cast<uintptr_t>(memory);
   const uintptr_t first = (start + huge_page_bytes - 1) / huge_page_bytes * huge_page_bytes;
   const uintptr_t last = (start + bytes) / huge_page_bytes * huge_page_bytes;

@@ -1,20 +1,27 @@
 #include "ct/bone_filters.hpp"
 
+#include <itkBlackTopHatImageFilter.h>
+#include <itkFlatStructuringElement.h>
 #include <itkImportImageFilter.h>
 #include <itkSignedMaurerDistanceMapImageFilter.h>
 
 #include <algorithm>
 #include <limits>
 
+#include "ct/voxel_window.hpp"
+
 namespace ream::ct {
 namespace {
 
 using MaskImage = itk::Image<uint8_t, 3>;
+using HuImage = itk::Image<int16_t, 3>;
 using DistanceImage = itk::Image<float, 3>;
 
 /// An image over the caller's memory.
-MaskImage::Pointer image_over(const Mask& mask, const Vec3i& dims, const Vec3& spacing_mm) {
-  auto import = itk::ImportImageFilter<uint8_t, 3>::New();
+template <typename T>
+typename itk::Image<T, 3>::Pointer image_over(const std::vector<T>& values, const Vec3i& dims,
+                                              const Vec3& spacing_mm) {
+  auto import = itk::ImportImageFilter<T, 3>::New();
   itk::ImageRegion<3> region;
   double spacing[3];
   for (unsigned axis = 0; axis < 3; ++axis) {
@@ -23,7 +30,7 @@ MaskImage::Pointer image_over(const Mask& mask, const Vec3i& dims, const Vec3& s
   }
   import->SetRegion(region);
   import->SetSpacing(spacing);
-  import->SetImportPointer(const_cast<uint8_t*>(mask.data()), mask.size(), false);
+  import->SetImportPointer(const_cast<T*>(values.data()), values.size(), false);
   import->Update();
   return import->GetOutput();
 }
@@ -31,23 +38,6 @@ MaskImage::Pointer image_over(const Mask& mask, const Vec3i& dims, const Vec3& s
 Mask inverted(const Mask& mask) {
   Mask result(mask.size());
   std::transform(mask.begin(), mask.end(), result.begin(), [](uint8_t m) { return uint8_t{m == 0}; });
-  return result;
-}
-
-/// With `border` empty voxels on every side.
-Mask widened(const Mask& mask, const Vec3i& dims, const Vec3i& border, const Vec3i& wide) {
-  Mask result(static_cast<size_t>(wide.x()) * static_cast<size_t>(wide.y()) * static_cast<size_t>(wide.z()));
-  const auto nx = static_cast<size_t>(dims.x()), ny = static_cast<size_t>(dims.y());
-  for (int w = 0; w < dims.z(); ++w)
-    for (int v = 0; v < dims.y(); ++v) {
-      const size_t from = nx * (static_cast<size_t>(v) + ny * static_cast<size_t>(w));
-      const size_t to = static_cast<size_t>(border.x()) +
-                        static_cast<size_t>(wide.x()) *
-                            (static_cast<size_t>(v + border.y()) +
-                             static_cast<size_t>(wide.y()) * static_cast<size_t>(w + border.z()));
-      std::copy_n(mask.begin() + static_cast<std::ptrdiff_t>(from), nx,
-                  result.begin() + static_cast<std::ptrdiff_t>(to));
-    }
   return result;
 }
 
@@ -70,24 +60,35 @@ std::vector<float> distance_to_set_mm(const Mask& mask, const Vec3i& dims, const
 
 Mask closed_by_ball(const Mask& mask, const Vec3i& dims, const Vec3& spacing_mm, double radius_mm) {
   const Vec3i border = (radius_mm / spacing_mm.array()).ceil().cast<int>().matrix() + Vec3i::Ones();
-  const Vec3i wide = dims + 2 * border;
+  const VoxelWindow all{Vec3i::Zero(), dims}, wide{-border, dims + 2 * border};
   const auto reach = static_cast<float>(radius_mm);
-  Mask dilated = widened(mask, dims, border, wide);
-  std::vector<float> distance = distance_to_set_mm(dilated, wide, spacing_mm);
+  Mask dilated(static_cast<size_t>(wide.dims.x()) * static_cast<size_t>(wide.dims.y()) *
+               static_cast<size_t>(wide.dims.z()));
+  copy_common(mask, all, dilated, wide);
+  std::vector<float> distance = distance_to_set_mm(dilated, wide.dims, spacing_mm);
   for (size_t i = 0; i < dilated.size(); ++i) dilated[i] = distance[i] <= reach;
-  distance = distance_to_set_mm(inverted(dilated), wide, spacing_mm);
-  Mask closed = mask;
-  size_t here = 0;
-  for (int w = 0; w < dims.z(); ++w)
-    for (int v = 0; v < dims.y(); ++v)
-      for (int u = 0; u < dims.x(); ++u, ++here) {
-        const size_t in_wide = static_cast<size_t>(u + border.x()) +
-                               static_cast<size_t>(wide.x()) *
-                                   (static_cast<size_t>(v + border.y()) +
-                                    static_cast<size_t>(wide.y()) * static_cast<size_t>(w + border.z()));
-        if (distance[in_wide] > reach) closed[here] = 1;
-      }
+  distance = distance_to_set_mm(inverted(dilated), wide.dims, spacing_mm);
+  for (size_t i = 0; i < dilated.size(); ++i) dilated[i] = distance[i] > reach;
+  Mask closed(mask.size());
+  copy_common(dilated, wide, closed, all);
+  for (size_t i = 0; i < mask.size(); ++i) closed[i] = closed[i] || mask[i];
   return closed;
+}
+
+std::vector<int16_t> valley_depth_hu(const std::vector<int16_t>& hu, const Vec3i& dims,
+                                     const Vec3& spacing_mm, double radius_mm) {
+  using Ball = itk::FlatStructuringElement<3>;
+  Ball::RadiusType radius;
+  for (unsigned axis = 0; axis < 3; ++axis)
+    radius[axis] =
+        static_cast<itk::SizeValueType>(std::max(1.0, std::floor(radius_mm / spacing_mm[axis] + 0.5)));
+  auto top_hat = itk::BlackTopHatImageFilter<HuImage, HuImage, Ball>::New();
+  top_hat->SetInput(image_over(hu, dims, spacing_mm));
+  top_hat->SetKernel(Ball::Ball(radius));
+  top_hat->SetSafeBorder(true);
+  top_hat->Update();
+  const int16_t* first = top_hat->GetOutput()->GetBufferPointer();
+  return {first, first + hu.size()};
 }
 
 }  // namespace ream::ct

@@ -5,6 +5,8 @@
 
 #include "core/error.hpp"
 #include "ct/calibration.hpp"
+#include "ct/voxel_window.hpp"
+#include "ct/world_text.hpp"
 #include "voxel/brick_order.hpp"
 #include "voxel/upsample.hpp"
 
@@ -12,14 +14,6 @@ namespace ream::ct {
 namespace {
 
 constexpr double seed_reach_mm = 2.0;
-
-std::string text(const Vec3& p) {
-  const auto one = [](double v) {
-    std::string s = std::to_string(v);
-    return s.substr(0, s.find('.') + 2);
-  };
-  return one(p.x()) + "," + one(p.y()) + "," + one(p.z());
-}
 
 /// Calls visit(u, v, w) for the voxels of the 3x3x3 around (u,v,w) that lie in the volume, without itself.
 template <typename Visit>
@@ -93,6 +87,63 @@ std::vector<uint8_t> density_codes(const std::vector<int16_t>& hu, const case_::
   return codes;
 }
 
+void check_factor(int n) {
+  if (n < 1 || n > voxel::max_upsample_factor)
+    throw Error(ErrorKind::invalid_input, "upsampling factor " + std::to_string(n) + " must be from 1 to 16");
+}
+
+void check_size(const Vec3i& dims, int n) {
+  constexpr double max_grid_voxels = 1.5e9;  // more than 3 GB of density and coverage
+  if (dims.cast<double>().prod() * n * n * n > max_grid_voxels)
+    throw Error(ErrorKind::invalid_input, "upsampling by " + std::to_string(n) +
+                                              " makes more than 1.5e9 voxels; choose a smaller region of "
+                                              "interest or a smaller factor");
+}
+
+/// Both upsampled and padded to whole bricks.
+voxel::BoneModel upsampled(const HuVolume& volume, SurfaceVoxels surface, int n,
+                           const case_::Calibration& calibration, const Progress& progress) {
+  Vec3i to = volume.dims;
+  for (int axis = 0; axis < 3; ++axis)
+    while (to[axis] * n % voxel::brick_edge != 0) ++to[axis];
+  surface.coverage = padded(surface.coverage, volume.dims, to);
+  surface.bone_hu = padded(surface.bone_hu, volume.dims, to);
+
+  voxel::BoneModel bone;
+  bone.grid.dims = to * n;
+  bone.grid.spacing_mm = volume.spacing_mm / n;
+  bone.grid.world_from_grid = volume.world_from_volume;
+  voxel::validate(bone.grid);
+  progress(0.1, "upsampling the surface");
+  bone.coverage = voxel::bricks_from_rows(
+      bone.grid, voxel::upsample_trilinear(std::span<const uint8_t>(surface.coverage), to, n));
+  progress(0.4, "upsampling the density");
+  bone.density = voxel::bricks_from_rows(
+      bone.grid, density_codes(voxel::upsample_trilinear(std::span<const int16_t>(surface.bone_hu), to, n),
+                               calibration));
+  progress(1.0, "bone ready");
+  return bone;
+}
+
+/// The voxels that a world box touches, as far as the volume goes.
+VoxelWindow window_of_box(const HuVolume& volume, const Aabb& box_mm) {
+  const Aabb box = box_mm.transformed(volume.world_from_volume.inverse());
+  const auto voxel = [&](const Vec3& p) { return (p.array() / volume.spacing_mm.array()).eval(); };
+  const Vec3 last = volume.dims.cast<double>();
+  const Vec3i low = voxel(box.min).floor().matrix().cwiseMax(0.0).cwiseMin(last).cast<int>(),
+              high = voxel(box.max).ceil().matrix().cwiseMax(0.0).cwiseMin(last).cast<int>();
+  return {low, high - low};
+}
+
+void empty_border(std::vector<uint8_t>& coverage, const Vec3i& dims) {
+  size_t i = 0;
+  for (int w = 0; w < dims.z(); ++w)
+    for (int v = 0; v < dims.y(); ++v)
+      for (int u = 0; u < dims.x(); ++u, ++i)
+        if (u == 0 || v == 0 || w == 0 || u + 1 == dims.x() || v + 1 == dims.y() || w + 1 == dims.z())
+          coverage[i] = 0;
+}
+
 }  // namespace
 
 Mask segment(HuVolume& volume, const SegmentationOptions& options) {
@@ -108,35 +159,68 @@ Mask segment(HuVolume& volume, const SegmentationOptions& options) {
   const auto seed = nearest_set(mask, volume, *options.grow_from_mm, seed_reach_mm);
   if (!seed)
     throw Error(ErrorKind::invalid_input,
-                "no bone within 2 mm of the seed " + text(*options.grow_from_mm) +
+                "no bone within 2 mm of the seed " + text_of_point(*options.grow_from_mm) +
                     " mm; give --grow-from a point in the bone (LPS) or lower --threshold-hu");
   return grown_from(mask, volume.dims, *seed);
 }
 
 voxel::BoneModel bone_from_mask(const HuVolume& volume, Mask mask, const SegmentationOptions& options) {
   if (count_set(mask) == 0) throw Error(ErrorKind::invalid_input, "the segmentation holds no bone");
+  check_factor(options.upsample);
   fill_voids(mask, volume.dims);
-  const int n = options.upsample;
-  if (n < 1 || n > voxel::max_upsample_factor)
-    throw Error(ErrorKind::invalid_input, "upsampling factor " + std::to_string(n) + " must be from 1 to 16");
-  Vec3i to = volume.dims;
-  for (int axis = 0; axis < 3; ++axis)
-    while (to[axis] * n % voxel::brick_edge != 0) ++to[axis];
-  SurfaceVoxels surface = resolve_surface(volume, mask);
-  surface.coverage = padded(surface.coverage, volume.dims, to);
-  surface.bone_hu = padded(surface.bone_hu, volume.dims, to);
+  return upsampled(volume, resolve_surface(volume, mask), options.upsample, options.calibration, no_progress);
+}
 
-  voxel::BoneModel bone;
-  bone.grid.dims = to * n;
-  bone.grid.spacing_mm = volume.spacing_mm / n;
-  bone.grid.world_from_grid = volume.world_from_volume;
-  voxel::validate(bone.grid);
-  bone.coverage = voxel::bricks_from_rows(
-      bone.grid, voxel::upsample_trilinear(std::span<const uint8_t>(surface.coverage), to, n));
-  bone.density = voxel::bricks_from_rows(
-      bone.grid, density_codes(voxel::upsample_trilinear(std::span<const int16_t>(surface.bone_hu), to, n),
-                               options.calibration));
-  return bone;
+voxel::BoneModel bone_from_mask(const HuVolume& volume, const Mask& mask, const BoneSettings& settings,
+                                const Progress& progress) {
+  check_factor(settings.upsample);
+  progress(0.0, "cutting out the bone");
+  const VoxelWindow around = window_of_set(mask, volume.dims);
+  if (around.dims.isZero()) throw Error(ErrorKind::invalid_input, "the segmentation holds no bone");
+  Mask whole = cut_out(mask, volume.dims, around);
+  fill_voids(whole, around.dims);
+  VoxelWindow kept = around;
+  if (settings.roi_mm) kept = common(around, window_of_box(volume, *settings.roi_mm));
+  if ((kept.dims.array() <= 0).any())
+    throw Error(ErrorKind::invalid_input, "the region of interest holds no bone; move it over the glenoid");
+  check_size(kept.dims, settings.upsample);
+  // One voxel beyond the region tells what the surface is, then is emptied to close it.
+  const VoxelWindow wide{kept.low - Vec3i::Ones(), kept.dims + Vec3i::Constant(2)};
+  HuVolume part;
+  part.dims = wide.dims;
+  part.spacing_mm = volume.spacing_mm;
+  part.world_from_volume = volume.world_from_volume;
+  part.world_from_volume.translation_mm +=
+      volume.world_from_volume.direction(wide.low.cast<double>().cwiseProduct(volume.spacing_mm));
+  part.hu.assign(part.voxel_count(), static_cast<int16_t>(soft_tissue_hu));
+  Mask part_mask(part.voxel_count());
+  copy_common(volume.hu, {Vec3i::Zero(), volume.dims}, part.hu, wide);
+  copy_common(whole, around, part_mask, wide);
+  progress(0.2, "resolving the surface");
+  SurfaceVoxels surface = resolve_surface(part, part_mask);
+  empty_border(surface.coverage, part.dims);
+  if (std::none_of(surface.coverage.begin(), surface.coverage.end(), [](uint8_t c) { return c >= 128; }))
+    throw Error(ErrorKind::invalid_input, "the region of interest holds no bone; move it over the glenoid");
+  return upsampled(part, std::move(surface), settings.upsample, settings.calibration,
+                   part_of(progress, 0.4, 1.0));
+}
+
+Aabb glenoid_roi_mm(const Vec3& centre_mm, const Vec3& lateral) {
+  constexpr double medial_mm = 15.0;
+  const Vec3 half_mm(30.0, 30.0, 35.0);
+  const Vec3 middle = centre_mm - medial_mm * lateral.normalized();
+  return {middle - half_mm, middle + half_mm};
+}
+
+std::array<double, 2> density_range_g_cc(const voxel::BoneModel& bone) {
+  uint8_t least = voxel::cartilage_code, greatest = 0;
+  for (size_t i = 0; i < bone.coverage.size(); ++i) {
+    if (bone.coverage[i] < 128 || bone.density[i] == voxel::cartilage_code) continue;
+    least = std::min(least, bone.density[i]);
+    greatest = std::max(greatest, bone.density[i]);
+  }
+  if (least > greatest) return {0.0, 0.0};
+  return {voxel::density_g_cc(least), voxel::density_g_cc(greatest)};
 }
 
 }  // namespace ream::ct

@@ -1,7 +1,9 @@
 #pragma once
+#include <array>
 #include <optional>
 
 #include "case/case.hpp"
+#include "core/progress.hpp"
 #include "ct/segment.hpp"
 
 namespace ream::ct {
@@ -27,5 +29,26 @@ Mask segment(HuVolume& volume, const SegmentationOptions& options);
 /// density is that of the bone within, not of the mix; both upsampled (voxel/upsample.hpp) and padded to
 /// whole bricks.
 voxel::BoneModel bone_from_mask(const HuVolume& volume, Mask mask, const SegmentationOptions& options);
+
+/// What makes a mask over a CT a bone to ream.
+struct BoneSettings {
+  std::optional<Aabb> roi_mm;  ///< world (LPS); without it the box around the mask
+  int upsample = 1;            ///< 1 to 16 per axis
+  case_::Calibration calibration;
+};
+
+/// As above, but only the part of the mask within the region of interest, and with an empty CT voxel on every
+/// side so that the surface is closed where the region cuts the bone. Throws Error invalid_input for an empty
+/// mask, no bone within the region, a bad factor, or more than 1.5e9 voxels.
+voxel::BoneModel bone_from_mask(const HuVolume& volume, const Mask& mask, const BoneSettings& settings,
+                                const Progress& progress);
+
+/// Region of interest around a glenoid: a box along the world's axes of 60 mm across, 60 mm front to back and
+/// 70 mm high, about a point 15 mm medial of the centre (`lateral` need not be a unit vector).
+Aabb glenoid_roi_mm(const Vec3& centre_mm, const Vec3& lateral);
+
+/// Least and greatest density (g/cc) of the bone's voxels that are at least half full, cartilage left out;
+/// the bytes of any model range from 0 to 2.50 g/cc in steps of 0.01. Zeros for an empty bone.
+std::array<double, 2> density_range_g_cc(const voxel::BoneModel& bone);
 
 }  // namespace ream::ct

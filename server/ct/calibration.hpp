@@ -3,8 +3,8 @@
 
 namespace ream::ct {
 
-/// Density chain of science 2.5: rho_QCT = intercept + slope HU; rho_ash = 0.079 + 0.877 rho_QCT (Schileo
-/// 2008); apparent density = rho_ash / 0.598, all g/cc. Negative results become 0.
+/// Density chain of science 2.5 with the laws of the case: rho_QCT = intercept + slope HU; rho_ash =
+/// intercept + slope rho_QCT; apparent density = rho_ash / ratio, all g/cc. Negative results become 0.
 double apparent_density_g_cc(double hu, const case_::Calibration& calibration);
 
 /// Its inverse: the HU that a bone of that apparent density has.

@@ -1,11 +1,16 @@
-#include <gdcmImageReader.h>
+#include <gdcmFragment.h>
+#include <gdcmImage.h>
+#include <gdcmSequenceOfFragments.h>
 #include <gdcmTrace.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 
 #include "core/error.hpp"
 #include "ct/dicom_slice.hpp"
+#include "ct/packed_frame.hpp"
 
 namespace ream::ct {
 namespace {
@@ -13,61 +18,127 @@ namespace {
 /// Padding among the values of tissue cannot be told from tissue (some writers state 0 for everything).
 constexpr double tissue_low_hu = -200.0, tissue_high_hu = 1500.0;
 
-Error unreadable(const std::filesystem::path& file, const char* why) {
+Error unreadable(const std::filesystem::path& file, const std::string& why) {
   return {ErrorKind::invalid_input, file.string() + ": the pixels cannot be read, " + why};
+}
+
+std::string bytes_at(std::ifstream& in, const DicomFile::Piece& piece, const std::filesystem::path& file) {
+  std::string bytes(piece.bytes, '\0');
+  in.seekg(static_cast<std::streamoff>(piece.at));
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!in) throw unreadable(file, "the file was changed while it was read");
+  return bytes;
+}
+
+/// The packed pictures, one for each frame; a single frame may come in many fragments.
+std::vector<std::string> packed_frames(const DicomSlice& slice, const DicomFile& file) {
+  std::ifstream in(slice.file, std::ios::binary);
+  std::vector<std::string> frames;
+  for (size_t i = 1; i < file.pixels.size(); ++i) {
+    std::string bytes = bytes_at(in, file.pixels[i], slice.file);
+    if (slice.frames == 1 && !frames.empty())
+      frames[0] += bytes;
+    else
+      frames.push_back(std::move(bytes));
+  }
+  if (frames.size() != static_cast<size_t>(slice.frames))
+    throw unreadable(slice.file, "there are not as many frames as the header says");
+  return frames;
+}
+
+/// The value numbered `i` of stored ones.
+int64_t stored_value(const char* from, size_t i, int bits_allocated, bool is_signed) {
+  if (bits_allocated == 8)
+    return is_signed ? static_cast<signed char>(from[i]) : static_cast<unsigned char>(from[i]);
+  if (bits_allocated == 16) {
+    uint16_t bits = 0;
+    std::memcpy(&bits, from + 2 * i, 2);
+    return is_signed ? static_cast<int16_t>(bits) : bits;
+  }
+  uint32_t bits = 0;
+  std::memcpy(&bits, from + 4 * i, 4);
+  return is_signed ? static_cast<int64_t>(static_cast<int32_t>(bits)) : bits;
 }
 
 }  // namespace
 
-void DicomPixels::decode(const DicomSlice& slice) {
-  file_.clear();
-  gdcm::ImageReader reader;
-  reader.SetFileName(slice.file.c_str());
-  if (!reader.Read()) throw unreadable(slice.file, "they are damaged or packed in an unknown way");
-  const gdcm::Image& image = reader.GetImage();
-  const gdcm::PixelFormat& format = image.GetPixelFormat();
-  if (image.GetNumberOfDimensions() < 2 || image.GetDimension(0) != static_cast<unsigned>(slice.columns) ||
-      image.GetDimension(1) != static_cast<unsigned>(slice.rows) || format.GetSamplesPerPixel() != 1)
+std::vector<char> DicomPixels::plain(const DicomSlice& slice, const DicomFile& file) const {
+  const size_t width = static_cast<size_t>(slice.bits_allocated) / 8, bytes = slice.pixels() * width;
+  const uint64_t before = static_cast<uint64_t>(slice.frame) * bytes;
+  if (file.pixels.size() != 1 || file.pixels[0].bytes < before + bytes)
+    throw unreadable(slice.file, "there are fewer than the header says");
+  std::ifstream in(slice.file, std::ios::binary);
+  const std::string raw = bytes_at(in, {file.pixels[0].at + before, bytes}, slice.file);
+  std::vector<char> values(raw.begin(), raw.end());
+  if (file.big_endian)
+    for (size_t i = 0; i < values.size(); i += width)
+      std::reverse(values.begin() + static_cast<std::ptrdiff_t>(i),
+                   values.begin() + static_cast<std::ptrdiff_t>(i + width));
+  return values;
+}
+
+void DicomPixels::unpack(const DicomSlice& slice, const DicomFile& file) {
+  unpacked_file_.clear();
+  gdcm::Trace::WarningOff();
+  gdcm::Trace::ErrorOff();
+  const gdcm::TransferSyntax syntax(gdcm::TransferSyntax::GetTSType(file.transfer_syntax.c_str()));
+  if (syntax == gdcm::TransferSyntax::TS_END || !syntax.IsEncapsulated())
+    throw unreadable(slice.file, "they are packed in an unknown way");
+  gdcm::SmartPointer<gdcm::SequenceOfFragments> fragments = new gdcm::SequenceOfFragments;
+  for (const std::string& frame : packed_frames(slice, file)) {
+    const std::string problem =
+        packed_frame_problem(frame, slice.columns, slice.rows, slice.bits_allocated / 8,
+                             syntax == gdcm::TransferSyntax::RLELossless);
+    if (!problem.empty()) throw unreadable(slice.file, problem);
+    gdcm::Fragment fragment;
+    fragment.SetByteValue(frame.data(), static_cast<uint32_t>(frame.size()));
+    fragments->AddFragment(fragment);
+  }
+  gdcm::DataElement pixels(gdcm::Tag(0x7fe0, 0x0010), 0, gdcm::VR::OB);
+  pixels.SetValue(*fragments);
+  const auto bits = static_cast<unsigned short>(slice.bits_allocated),
+             stored = static_cast<unsigned short>(slice.bits_stored);
+  gdcm::Image image;
+  image.SetNumberOfDimensions(slice.frames > 1 ? 3 : 2);
+  image.SetDimension(0, static_cast<unsigned>(slice.columns));
+  image.SetDimension(1, static_cast<unsigned>(slice.rows));
+  if (slice.frames > 1) image.SetDimension(2, static_cast<unsigned>(slice.frames));
+  image.SetPixelFormat(
+      gdcm::PixelFormat(1, bits, stored, static_cast<unsigned short>(stored - 1), slice.is_signed));
+  image.SetPhotometricInterpretation(gdcm::PhotometricInterpretation::MONOCHROME2);
+  image.SetTransferSyntax(syntax);
+  image.SetDataElement(pixels);
+  const size_t bytes = slice.pixels() * static_cast<size_t>(slice.frames) * (bits / 8u);
+  if (image.GetBufferLength() != bytes)
     throw unreadable(slice.file, "they are not as many as the header says");
-  bytes_a_value_ = format.GetBitsAllocated() / 8;
-  bits_stored_ = format.GetBitsStored();
-  is_signed_ = format.GetPixelRepresentation() == 1;
-  const bool whole = bytes_a_value_ == 1 || bytes_a_value_ == 2 || bytes_a_value_ == 4;
-  if (!whole) throw unreadable(slice.file, "they are not of 8, 16 or 32 bits");
-  bytes_.assign(image.GetBufferLength(), 0);
-  if (bytes_.size() < slice.pixels() * static_cast<size_t>(bytes_a_value_) || !image.GetBuffer(bytes_.data()))
-    throw unreadable(slice.file, "they are damaged or cut short");
-  file_ = slice.file;
+  unpacked_.assign(bytes, 0);
+  if (!image.GetBuffer(unpacked_.data())) throw unreadable(slice.file, "their packed stream is damaged");
+  unpacked_file_ = slice.file;
 }
 
 std::vector<int16_t> DicomPixels::hu(const DicomSlice& slice) {
-  if (file_ != slice.file) decode(slice);
-  const size_t count = slice.pixels(), width = static_cast<size_t>(bytes_a_value_);
-  if (bytes_.size() < (static_cast<size_t>(slice.frame) + 1) * count * width)
-    throw unreadable(slice.file, "there are fewer frames than the header says");
-  const char* from = bytes_.data() + static_cast<size_t>(slice.frame) * count * width;
-  // Negative values narrower than their place may come without their leading ones.
-  const int64_t sign_bit = int64_t{1} << (bits_stored_ - 1);
+  const size_t count = slice.pixels();
+  std::vector<char> own;
+  const char* from = nullptr;
+  const DicomFile file = unpacked_file_ == slice.file ? DicomFile{} : parse_dicom(slice.file);
+  if (unpacked_file_ != slice.file && !file.packed) {
+    own = plain(slice, file);
+    from = own.data();
+  } else {
+    if (unpacked_file_ != slice.file) unpack(slice, file);
+    from = unpacked_.data() +
+           static_cast<size_t>(slice.frame) * count * static_cast<size_t>(slice.bits_allocated / 8);
+  }
   const double padding_hu = slice.padding ? slice.slope * *slice.padding + slice.intercept : 0.0;
   const bool padded = slice.padding && (padding_hu < tissue_low_hu || padding_hu > tissue_high_hu);
-  const int64_t pad_a = padded ? *slice.padding : 0,
-                pad_b = padded ? slice.padding_limit.value_or(*slice.padding) : 0;
-  const int64_t pad_low = std::min(pad_a, pad_b), pad_high = std::max(pad_a, pad_b);
+  const auto [pad_low, pad_high] =
+      std::minmax({padded ? *slice.padding : 0, padded ? slice.padding_limit.value_or(*slice.padding) : 0});
+  // Negative values narrower than their place may come without their leading ones.
+  const int64_t sign_bit = int64_t{1} << (slice.bits_stored - 1);
   std::vector<int16_t> hu(count);
   for (size_t i = 0; i < count; ++i) {
-    int64_t stored = 0;
-    if (width == 1) {
-      stored = is_signed_ ? static_cast<signed char>(from[i]) : static_cast<unsigned char>(from[i]);
-    } else if (width == 2) {
-      uint16_t bits = 0;
-      std::memcpy(&bits, from + 2 * i, 2);
-      stored = is_signed_ ? static_cast<int16_t>(bits) : bits;
-    } else {
-      uint32_t bits = 0;
-      std::memcpy(&bits, from + 4 * i, 4);
-      stored = is_signed_ ? static_cast<int64_t>(static_cast<int32_t>(bits)) : bits;
-    }
-    if (is_signed_ && stored >= sign_bit && stored < 2 * sign_bit) stored -= 2 * sign_bit;
+    int64_t stored = stored_value(from, i, slice.bits_allocated, slice.is_signed);
+    if (slice.is_signed && stored >= sign_bit && stored < 2 * sign_bit) stored -= 2 * sign_bit;
     const double value = std::floor(slice.slope * static_cast<double>(stored) + slice.intercept + 0.5);
     const bool outside = value < min_hu || (padded && stored >= pad_low && stored <= pad_high);
     outside_ += outside;

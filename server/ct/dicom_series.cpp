@@ -4,7 +4,6 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "ct/dicom_completeness.hpp"
 
 namespace ream::ct {
 namespace fs = std::filesystem;
@@ -31,14 +30,14 @@ std::vector<fs::path> files_below(const fs::path& path) {
   return files;
 }
 
-bool holds_an_image(const fs::path& file, int& imageless) {
-  const DicomState state = dicom_state(file);
-  const bool named_dicom = file.extension() == ".dcm" || file.extension() == ".DCM";
-  if (state == DicomState::cut_short || (state == DicomState::not_dicom && named_dicom))
+/// Whether the file holds pictures; refuses what is damaged.
+bool holds_an_image(const fs::path& path, const DicomFile& file, int& imageless) {
+  const bool named_dicom = path.extension() == ".dcm" || path.extension() == ".DCM";
+  if (file.state == DicomState::damaged || (file.state == DicomState::not_dicom && named_dicom))
     throw Error(ErrorKind::invalid_input,
-                file.string() + " is cut short or not DICOM; copy it again from its source or take it away");
-  if (state == DicomState::no_pixels) ++imageless;
-  return state == DicomState::whole;
+                path.string() + " is cut short or not DICOM; copy it again from its source or take it away");
+  if (file.state == DicomState::no_pixels) ++imageless;
+  return file.state == DicomState::whole;
 }
 
 }  // namespace
@@ -51,8 +50,9 @@ DicomScan scan_dicom(const fs::path& path, const Progress& progress) {
   int imageless = 0, localizers = 0, other = 0;
   for (size_t i = 0; i < files.size(); ++i) {
     progress(static_cast<double>(i) / static_cast<double>(files.size()), "looking for slices");
-    if (!holds_an_image(files[i], imageless)) continue;
-    for (DicomSlice& slice : describe_dicom(files[i])) {
+    const DicomFile file = parse_dicom(files[i]);
+    if (!holds_an_image(files[i], file, imageless)) continue;
+    for (DicomSlice& slice : describe_dicom(files[i], file)) {
       if (slice.modality != "CT") {
         modalities.insert(slice.modality);
         ++other;

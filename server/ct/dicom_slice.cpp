@@ -1,11 +1,8 @@
 #include "ct/dicom_slice.hpp"
 
-#include <gdcmReader.h>
-#include <gdcmSequenceOfItems.h>
-#include <gdcmTrace.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -15,16 +12,17 @@ namespace ream::ct {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int max_side = 8192;             // the largest clinical matrix is 2048
-constexpr uint64_t room_bytes = 64 << 20;  // a small packed file may still be one plain picture
-constexpr uint64_t max_packing = 1000;     // beyond any coder on a real picture
+constexpr int max_side = 8192;          // the largest clinical matrix is 2048
+constexpr double room_bytes = 8 << 20;  // a small packed file may still be one plain picture
+constexpr double max_packing = 1000.0;  // beyond any coder on a real picture
+constexpr double max_frames = 1e5;
 constexpr double perpendicular_tolerance = 1e-3;
 
-std::string bytes_of(const gdcm::DataSet& set, uint16_t group, uint16_t element) {
-  const gdcm::Tag tag(group, element);
-  if (!set.FindDataElement(tag)) return "";
-  const gdcm::ByteValue* value = set.GetDataElement(tag).GetByteValue();
-  return value == nullptr ? "" : std::string(value->GetPointer(), value->GetLength());
+constexpr uint32_t tag_of(uint16_t group, uint16_t element) { return uint32_t{group} << 16 | element; }
+
+std::string bytes_of(const DicomSet& set, uint16_t group, uint16_t element) {
+  const auto found = set.values.find(tag_of(group, element));
+  return found == set.values.end() ? "" : found->second;
 }
 
 std::string trimmed(std::string text) {
@@ -34,7 +32,7 @@ std::string trimmed(std::string text) {
   return text;
 }
 
-std::string text_of(const gdcm::DataSet& set, uint16_t group, uint16_t element) {
+std::string text_of(const DicomSet& set, uint16_t group, uint16_t element) {
   return trimmed(bytes_of(set, group, element));
 }
 
@@ -58,7 +56,7 @@ std::string readable(const std::string& text, const std::string& character_set) 
 }
 
 /// The numbers of a decimal string, NaN for what is none.
-std::vector<double> decimals(const gdcm::DataSet& set, uint16_t group, uint16_t element) {
+std::vector<double> decimals(const DicomSet& set, uint16_t group, uint16_t element) {
   const std::string text = text_of(set, group, element);
   std::vector<double> numbers;
   if (text.empty()) return numbers;
@@ -74,59 +72,48 @@ std::vector<double> decimals(const gdcm::DataSet& set, uint16_t group, uint16_t 
   return numbers;
 }
 
-std::optional<int> whole_number(const gdcm::DataSet& set, uint16_t group, uint16_t element) {
+std::optional<int> whole_number(const DicomSet& set, uint16_t group, uint16_t element) {
   const std::string bytes = bytes_of(set, group, element);
   if (bytes.size() < 2) return {};
   return static_cast<unsigned char>(bytes[0]) | static_cast<unsigned char>(bytes[1]) << 8;
 }
 
-gdcm::SmartPointer<gdcm::SequenceOfItems> items_of(const gdcm::DataSet& set, uint16_t group,
-                                                   uint16_t element) {
-  const gdcm::Tag tag(group, element);
-  if (!set.FindDataElement(tag)) return nullptr;
-  return set.GetDataElement(tag).GetValueAsSQ();
+constexpr uint32_t frames_own = 0x52009230, frames_shared = 0x52009229;
+constexpr uint32_t position_macro = 0x00209113, orientation_macro = 0x00209116, measures_macro = 0x00289110,
+                   values_macro = 0x00289145;
+
+const DicomSet* item_of(const DicomSet& set, uint32_t sequence, size_t number) {
+  const auto found = set.sequences.find(sequence);
+  return found == set.sequences.end() || number >= found->second.size() ? nullptr : &found->second[number];
 }
 
 /// Where a frame's own attributes lie in a file of many frames (DICOM PS3.3, C.7.6.16): in its functional
 /// groups, or in those that all frames share. In a file of one slice: in the data set itself.
 class Attributes {
  public:
-  Attributes(const gdcm::DataSet& file, int frame, bool grouped) : file_(file) {
-    if (!grouped) return;
-    own_ = items_of(file, 0x5200, 0x9230);
-    shared_ = items_of(file, 0x5200, 0x9229);
-    frame_ = static_cast<size_t>(frame) + 1;
-  }
+  Attributes(const DicomSet& file, int frame)
+      : places_{item_of(file, frames_own, static_cast<size_t>(frame)), item_of(file, frames_shared, 0)},
+        file_(file) {}
 
-  std::vector<double> numbers(const gdcm::Tag& macro, uint16_t group, uint16_t element) const {
-    return find<std::vector<double>>(macro,
-                                     [&](const gdcm::DataSet& set) { return decimals(set, group, element); });
+  std::vector<double> numbers(uint32_t macro, uint16_t group, uint16_t element) const {
+    return decimals(holder(macro, group, element), group, element);
   }
-  std::string text(const gdcm::Tag& macro, uint16_t group, uint16_t element) const {
-    return find<std::string>(macro, [&](const gdcm::DataSet& set) { return text_of(set, group, element); });
+  std::string text(uint32_t macro, uint16_t group, uint16_t element) const {
+    return text_of(holder(macro, group, element), group, element);
   }
 
  private:
-  template <typename Result, typename Read>
-  Result find(const gdcm::Tag& macro, Read&& read) const {
-    for (const auto& [groups, number] : {std::pair{own_, frame_}, std::pair{shared_, size_t{1}}}) {
-      if (groups == nullptr || groups->GetNumberOfItems() < number) continue;
-      const auto inner =
-          items_of(groups->GetItem(number).GetNestedDataSet(), macro.GetGroup(), macro.GetElement());
-      if (inner == nullptr || inner->GetNumberOfItems() < 1) continue;
-      Result found = read(inner->GetItem(1).GetNestedDataSet());
-      if (!found.empty()) return found;
+  const DicomSet& holder(uint32_t macro, uint16_t group, uint16_t element) const {
+    for (const DicomSet* place : places_) {
+      const DicomSet* inner = place == nullptr ? nullptr : item_of(*place, macro, 0);
+      if (inner != nullptr && inner->values.contains(tag_of(group, element))) return *inner;
     }
-    return read(file_);
+    return file_;
   }
 
-  const gdcm::DataSet& file_;
-  gdcm::SmartPointer<gdcm::SequenceOfItems> own_, shared_;
-  size_t frame_ = 1;
+  std::array<const DicomSet*, 2> places_;
+  const DicomSet& file_;
 };
-
-const gdcm::Tag position_macro(0x0020, 0x9113), orientation_macro(0x0020, 0x9116),
-    measures_macro(0x0028, 0x9110), values_macro(0x0028, 0x9145);
 
 void read_place(DicomSlice& slice, const Attributes& attributes) {
   const auto place = attributes.numbers(position_macro, 0x0020, 0x0032),
@@ -151,7 +138,7 @@ void read_place(DicomSlice& slice, const Attributes& attributes) {
     slice.unusable = "whose rows and columns are not perpendicular";
 }
 
-void read_values_rule(DicomSlice& slice, const gdcm::DataSet& set, const Attributes& attributes) {
+void read_values_rule(DicomSlice& slice, const DicomSet& set, const Attributes& attributes) {
   const auto slope = attributes.numbers(values_macro, 0x0028, 0x1053),
              intercept = attributes.numbers(values_macro, 0x0028, 0x1052);
   slice.slope = slope.empty() ? 1.0 : slope[0];
@@ -171,20 +158,16 @@ void read_values_rule(DicomSlice& slice, const gdcm::DataSet& set, const Attribu
 }
 
 /// Refuses what the file cannot hold before anybody takes memory for it.
-void check_claim(const fs::path& file, const gdcm::Reader& reader, int bits, double frames, double pixels) {
-  const double claimed = pixels * frames * bits / 8.0;
-  const bool packed = reader.GetFile().GetHeader().GetDataSetTransferSyntax().IsEncapsulated() ||
-                      reader.GetFile().GetHeader().GetDataSetTransferSyntax() ==
-                          gdcm::TransferSyntax::DeflatedExplicitVRLittleEndian;
-  const auto size = static_cast<double>(fs::file_size(file));
-  const double most =
-      packed ? static_cast<double>(room_bytes) + static_cast<double>(max_packing) * size : size;
-  if (claimed > most)
+void check_claim(const fs::path& path, const DicomFile& file, double claimed_bytes) {
+  double held = 0.0;
+  for (const auto& piece : file.pixels) held += static_cast<double>(piece.bytes);
+  const double most = file.packed ? room_bytes + max_packing * held : held;
+  if (claimed_bytes > most)
     throw Error(ErrorKind::invalid_input,
-                file.string() + " claims more pixels than it holds; it is cut short or damaged");
+                path.string() + " claims more pixels than it holds; it is cut short or damaged");
 }
 
-DicomSlice described(const fs::path& file, const gdcm::DataSet& set, int frame, bool grouped) {
+DicomSlice described(const fs::path& file, const DicomSet& set, int frame, bool grouped) {
   DicomSlice slice;
   slice.file = file;
   slice.frame = frame;
@@ -201,14 +184,16 @@ DicomSlice described(const fs::path& file, const gdcm::DataSet& set, int frame, 
                                                                   : std::lround(number[0]);
   slice.rows = whole_number(set, 0x0028, 0x0010).value_or(0);
   slice.columns = whole_number(set, 0x0028, 0x0011).value_or(0);
-  const Attributes attributes(set, frame, grouped);
+  const Attributes attributes(set, frame);
   read_place(slice, attributes);
   read_values_rule(slice, set, attributes);
-  const int bits = whole_number(set, 0x0028, 0x0100).value_or(0);
+  const int bits = slice.bits_allocated = whole_number(set, 0x0028, 0x0100).value_or(0);
+  slice.bits_stored = whole_number(set, 0x0028, 0x0101).value_or(bits);
+  slice.is_signed = whole_number(set, 0x0028, 0x0103).value_or(0) == 1;
   const std::string colours = text_of(set, 0x0028, 0x0004);
   if (whole_number(set, 0x0028, 0x0002).value_or(1) != 1 || !(colours.empty() || colours.starts_with("MONO")))
     slice.unusable = "in colour (" + readable(colours, "") + ")";
-  else if (bits != 8 && bits != 16 && bits != 32)
+  else if ((bits != 8 && bits != 16 && bits != 32) || slice.bits_stored < 1 || slice.bits_stored > bits)
     slice.unusable = "of " + std::to_string(bits) + " bits a pixel";
   else if (slice.rows < 1 || slice.columns < 1 || slice.rows > max_side || slice.columns > max_side)
     slice.unusable = "of " + std::to_string(slice.columns) + " x " + std::to_string(slice.rows) + " pixels";
@@ -217,30 +202,24 @@ DicomSlice described(const fs::path& file, const gdcm::DataSet& set, int frame, 
 
 }  // namespace
 
-std::vector<DicomSlice> describe_dicom(const fs::path& file) {
-  gdcm::Trace::WarningOff();
-  gdcm::Trace::ErrorOff();
-  gdcm::Reader reader;
-  reader.SetFileName(file.c_str());
-  if (!reader.ReadUpToTag(gdcm::Tag(0x7fe0, 0x0010)))
-    throw Error(ErrorKind::invalid_input, file.string() + " cannot be read; its DICOM header is damaged");
-  const gdcm::DataSet& set = reader.GetFile().GetDataSet();
+std::vector<DicomSlice> describe_dicom(const fs::path& path, const DicomFile& file) {
+  const DicomSet& set = file.set;
   const auto count = decimals(set, 0x0028, 0x0008);
   const double frames = count.empty() ? 1.0 : count[0];
-  if (!(frames >= 1.0 && frames <= 1e5))
-    throw Error(ErrorKind::invalid_input, file.string() + " claims an impossible number of frames");
-  const bool many = frames > 1.0, grouped = items_of(set, 0x5200, 0x9230) != nullptr;
-  std::vector<DicomSlice> slices{described(file, set, 0, grouped)};
+  const bool many = frames > 1.0, grouped = set.sequences.contains(frames_own);
+  std::vector<DicomSlice> slices{described(path, set, 0, grouped)};
   if (slices[0].modality != "CT") return slices;
-  const double bits = whole_number(set, 0x0028, 0x0100).value_or(16);
+  if (!(frames >= 1.0 && frames <= max_frames))
+    throw Error(ErrorKind::invalid_input, path.string() + " claims an impossible number of frames");
   const double samples = whole_number(set, 0x0028, 0x0002).value_or(1);
-  check_claim(file, reader, static_cast<int>(bits), frames,
-              samples * slices[0].rows * static_cast<double>(slices[0].columns));
+  check_claim(path, file,
+              slices[0].bits_allocated / 8.0 * frames * samples * slices[0].rows * slices[0].columns);
   if (many && !grouped)
     slices[0].unusable = "with many frames in one file that do not say where each lies; convert it to NRRD";
   if (many && grouped && slices[0].unusable.empty())
     for (int frame = 1; frame < static_cast<int>(frames); ++frame)
-      slices.push_back(described(file, set, frame, true));
+      slices.push_back(described(path, set, frame, true));
+  for (DicomSlice& slice : slices) slice.frames = static_cast<int>(frames);
   return slices;
 }
 

@@ -5,6 +5,7 @@
 #include <zlib.h>
 
 #include <fstream>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,7 @@ namespace ream::ct {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr uint64_t nifti_header_bytes = 348;
+constexpr uint64_t nifti_header_bytes = 352;  // with the four bytes that always follow it
 
 [[noreturn]] void cut_short(const fs::path& path) {
   throw Error(ErrorKind::invalid_input,
@@ -43,6 +44,40 @@ uint64_t unpacked_bytes(const fs::path& path, off_t start = 0) {
   return total;
 }
 
+struct EndInflate {
+  void operator()(z_stream* stream) const {
+    inflateEnd(stream);
+    delete stream;
+  }
+};
+
+/// Checks that a zlib stream from byte `start` on is whole and makes so many bytes: the reading library hands
+/// out zeros for a damaged one.
+void check_deflated(const fs::path& path, uint64_t start, uint64_t needed) {
+  std::ifstream in(path, std::ios::binary);
+  in.seekg(static_cast<std::streamoff>(start));
+  const std::unique_ptr<z_stream, EndInflate> stream(new z_stream{});
+  constexpr int any_header = 15 + 32;
+  if (inflateInit2(stream.get(), any_header) != Z_OK)
+    throw Error(ErrorKind::io, "no memory to unpack " + path.string());
+  std::vector<unsigned char> packed(1 << 18), plain(1 << 18);
+  uint64_t total = 0;
+  for (int state = Z_OK; state != Z_STREAM_END;) {
+    in.read(reinterpret_cast<char*>(packed.data()), static_cast<std::streamsize>(packed.size()));
+    stream->next_in = packed.data();
+    stream->avail_in = static_cast<unsigned>(in.gcount());
+    if (stream->avail_in == 0) cut_short(path);
+    while (stream->avail_in > 0 && state != Z_STREAM_END) {
+      stream->next_out = plain.data();
+      stream->avail_out = static_cast<unsigned>(plain.size());
+      state = inflate(stream.get(), Z_NO_FLUSH);
+      if (state != Z_OK && state != Z_STREAM_END) cut_short(path);
+      total += plain.size() - stream->avail_out;
+    }
+  }
+  if (total < needed) cut_short(path);
+}
+
 std::string value_of(const std::string& line) {
   const auto first = line.find_first_not_of(" \t", line.find('=') + 1);
   if (line.find('=') == std::string::npos || first == std::string::npos) return "";
@@ -51,18 +86,21 @@ std::string value_of(const std::string& line) {
 
 void check_meta_image(const fs::path& path, uint64_t image_bytes) {
   std::ifstream in(path, std::ios::binary);
-  uint64_t needed = image_bytes;
+  bool packed = false;
   for (std::string line; std::getline(in, line);) {
-    if (line.starts_with("CompressedDataSize")) needed = std::strtoull(value_of(line).c_str(), nullptr, 10);
+    if (line.starts_with("CompressedData ") || line.starts_with("CompressedData="))
+      packed = value_of(line).starts_with('T');
     if (!line.starts_with("ElementDataFile")) continue;
     const std::string data = value_of(line);
-    if (data.starts_with("LIST") || data.find('%') != std::string::npos) return;
     const bool inside = data == "LOCAL" || data == "Local" || data == "local";
     const fs::path holder = inside ? path : path.parent_path() / data;
     if (!fs::is_regular_file(holder))
       throw Error(ErrorKind::not_found, "no such file: " + holder.string() + ", named by " + path.string());
     const uint64_t before = inside ? static_cast<uint64_t>(in.tellg()) : 0;
-    if (fs::file_size(holder) < before + needed) cut_short(holder);
+    if (packed)
+      check_deflated(holder, before, image_bytes);
+    else if (fs::file_size(holder) < before + image_bytes)
+      cut_short(holder);
     return;
   }
 }

@@ -48,8 +48,8 @@ std::vector<Vec3> best_places(const HuVolume& coarse, const std::vector<float>& 
   const auto nx = static_cast<size_t>(coarse.dims.x()), ny = static_cast<size_t>(coarse.dims.y());
   for (size_t k = 0; k < kept && places.size() < most_candidates; ++k) {
     const size_t i = order[k];
-    const Vec3 place = coarse.world_of_centre({static_cast<int>(i % nx), static_cast<int>((i / nx) % ny),
-                                               static_cast<int>(i / (nx * ny))});
+    const Vec3 place = coarse.world_of_centre(
+        {static_cast<int>(i % nx), static_cast<int>((i / nx) % ny), static_cast<int>(i / (nx * ny))});
     const bool fresh = std::all_of(places.begin(), places.end(),
                                    [&](const Vec3& other) { return (other - place).norm() >= apart_mm; });
     if (fresh) places.push_back(place);

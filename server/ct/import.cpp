@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "ct/cartilage.hpp"
+#include "ct/label_map.hpp"
 #include "ct/volume_io.hpp"
 
 namespace ream::ct {
@@ -16,6 +18,74 @@ void check_grid_size(const HuVolume& volume, int upsample) {
     throw Error(ErrorKind::invalid_input,
                 "upsampling by " + std::to_string(upsample) +
                     " makes more than 1.5e9 voxels; choose a smaller --roi or --upsample");
+}
+
+Segmentation labelled(HuVolume& volume, const ImportOptions& options, case_::Side side,
+                      const Progress& progress) {
+  if (options.label) {
+    const HuVolume label = read_volume_file(*options.label);
+    smooth(volume, options.segmentation.sigma_mm);
+    LabelValues values;
+    values.scapula = options.label_value;
+    return segmentation_from_labels(volume, label, values);
+  }
+  SegmentationSettings settings = *options.shoulder;
+  settings.side = side;
+  return segment_shoulder(volume, settings, progress);
+}
+
+Vec3 glenoid_centre(const ImportOptions& options, const Segmentation& segmentation) {
+  if (options.glenoid_mm) return *options.glenoid_mm;
+  if (segmentation.glenoid_mm) return *segmentation.glenoid_mm;
+  throw Error(ErrorKind::invalid_input,
+              "where the glenoid is was not found; give its centre with --glenoid X,Y,Z (LPS mm)");
+}
+
+/// Lateral towards the head, or straight to the side without one; superior as near to world z as may be.
+case_::GlenoidFrame glenoid_frame(const Vec3& centre_mm, const Segmentation& segmentation, case_::Side side) {
+  const double lateral_x = side == case_::Side::right ? -1.0 : 1.0;
+  case_::GlenoidFrame frame;
+  frame.centre_mm = centre_mm;
+  frame.lateral = segmentation.head ? (segmentation.head->centre_mm - centre_mm).normalized()
+                                    : Vec3(lateral_x * 0.8, -0.6, 0.0);
+  const Vec3 across = Vec3::UnitZ().cross(frame.lateral).normalized();
+  frame.superior = frame.lateral.cross(across);
+  frame.anterior = across.y() < 0.0 ? across : Vec3(-across);
+  return frame;
+}
+
+void make_from_labels(HuVolume& volume, const ImportOptions& options, case_::Case& result,
+                      const Progress& progress) {
+  if (options.roi_mm) cropped(volume, *options.roi_mm);  // refuses a region outside before the long work
+  const Segmentation segmentation = labelled(volume, options, result.side, part_of(progress, 0.3, 0.7));
+  result.calibration.threshold_hu = segmentation.threshold_hu;
+  result.warnings.insert(result.warnings.end(), segmentation.warnings.begin(), segmentation.warnings.end());
+  if (options.labels_out) write_label_map(volume, segmentation.labels, *options.labels_out);
+  const Vec3 to_head = Vec3(result.side == case_::Side::right ? -0.8 : 0.8, -0.6, 0.0);
+  BoneSettings settings;
+  settings.upsample = options.segmentation.upsample;
+  settings.calibration = result.calibration;
+  settings.roi_mm = options.roi_mm;
+  if (options.roi_at_glenoid)
+    settings.roi_mm = glenoid_roi_mm(glenoid_centre(options, segmentation), to_head);
+  result.bone = bone_from_mask(volume, mask_of(segmentation.labels, BoneLabel::scapula), settings,
+                               part_of(progress, 0.7, 0.95));
+  if (options.cartilage_mm == 0.0) return;
+  progress(0.95, "laying cartilage");
+  CartilageSettings cartilage;
+  cartilage.thickness_mm = options.cartilage_mm;
+  add_cartilage(result.bone, glenoid_frame(glenoid_centre(options, segmentation), segmentation, result.side),
+                cartilage);
+}
+
+void make_from_growing(HuVolume& volume, const ImportOptions& options, case_::Case& result) {
+  if (options.roi_at_glenoid || options.cartilage_mm > 0.0)
+    throw Error(ErrorKind::invalid_input,
+                "a region around the glenoid and cartilage need a segmented shoulder or a label map");
+  if (options.roi_mm) volume = cropped(volume, *options.roi_mm);
+  check_grid_size(volume, options.segmentation.upsample);
+  Mask mask = segment(volume, options.segmentation);
+  result.bone = bone_from_mask(volume, std::move(mask), options.segmentation);
 }
 
 }  // namespace
@@ -41,19 +111,10 @@ Mask mask_from_label(const HuVolume& volume, const HuVolume& label, int value) {
   return mask;
 }
 
-case_::Case import_ct(const std::filesystem::path& path, const std::string& id,
-                      const ImportOptions& options) {
+case_::Case import_ct(const std::filesystem::path& path, const std::string& id, const ImportOptions& options,
+                      const Progress& progress) {
+  progress(0.0, "reading the CT");
   HuVolume volume = read_ct(path);
-  if (options.roi_mm) volume = cropped(volume, *options.roi_mm);
-  check_grid_size(volume, options.segmentation.upsample);
-  Mask mask;
-  if (options.label) {
-    const HuVolume label = read_volume_file(*options.label);
-    smooth(volume, options.segmentation.sigma_mm);
-    mask = mask_from_label(volume, label, options.label_value);
-  } else {
-    mask = segment(volume, options.segmentation);
-  }
   case_::Case result;
   result.id = id;
   result.name = id;
@@ -63,11 +124,15 @@ case_::Case import_ct(const std::filesystem::path& path, const std::string& id,
   if (!options.side) result.warnings.push_back("no --side was given; the case is marked as a right shoulder");
   result.calibration = options.segmentation.calibration;
   result.calibration.threshold_hu = options.segmentation.threshold_hu;
-  result.bone = bone_from_mask(volume, std::move(mask), options.segmentation);
+  if (options.shoulder || options.label)
+    make_from_labels(volume, options, result, progress);
+  else
+    make_from_growing(volume, options, result);
   if (result.bone.filled_voxels() == 0)
     throw Error(ErrorKind::invalid_input,
                 "the segmentation holds no bone that fills half a voxel; choose another --threshold-hu or "
                 "--upsample");
+  progress(1.0, "case ready");
   return result;
 }
 

@@ -2,21 +2,30 @@
 #include <filesystem>
 
 #include "ct/build_case.hpp"
+#include "ct/shoulder_bones.hpp"
 
 namespace ream::ct {
 
 struct ImportOptions {
-  std::optional<Aabb> roi_mm;  ///< LPS; without it the whole CT
-  std::optional<std::filesystem::path>
-      label;  ///< label map instead of threshold and growing; any geometry, nearest voxel
+  std::optional<Aabb> roi_mm;      ///< LPS; without it the whole bone
+  bool roi_at_glenoid = false;     ///< instead of roi_mm: glenoid_roi_mm about glenoid_mm
+  std::optional<Vec3> glenoid_mm;  ///< LPS; its centre, else the one found with the humeral head
+  /// Label map instead of threshold and growing; any geometry, nearest voxel.
+  std::optional<std::filesystem::path> label;
   int label_value = 1;
   std::optional<case_::Side> side;  ///< right, with a warning, when not given
+  /// Tells the bones of a shoulder apart and keeps the scapula (shoulder_bones.hpp; its side is the case's).
+  /// Without it and without a label map, what grows from segmentation.grow_from_mm or the largest part.
+  std::optional<SegmentationSettings> shoulder;
   SegmentationOptions segmentation;
+  double cartilage_mm = 0.0;                        ///< thickness of synthetic cartilage on the face
+  std::optional<std::filesystem::path> labels_out;  ///< label map to be written beside the case
 };
 
 /// A CT on disk to a case without plan. Errors: not_found, invalid_input; one line each that names what to
 /// do.
-case_::Case import_ct(const std::filesystem::path& path, const std::string& id, const ImportOptions& options);
+case_::Case import_ct(const std::filesystem::path& path, const std::string& id, const ImportOptions& options,
+                      const Progress& progress = no_progress);
 
 /// Mask of the voxels whose centre lies in a voxel of that value in the label map. Throws Error invalid_input
 /// when the map holds no such label within the CT.

@@ -191,27 +191,27 @@ std::function<double(const Vec3&)> true_density_g_cc(const PhantomParams& params
 nlohmann::json to_json(const GroundTruth& t) {
   const auto list = [](const Vec3& v) { return nlohmann::json{v.x(), v.y(), v.z()}; };
   nlohmann::json value = {{"side", case_::to_text(t.side)},
-          {"type", to_text(t.type)},
-          {"version_deg", degrees_from_radians(t.version_rad)},
-          {"inclination_deg", degrees_from_radians(t.inclination_rad)},
-          {"glenoid",
-           {{"centre_mm", list(t.glenoid.centre_mm)},
-            {"lateral", list(t.glenoid.lateral)},
-            {"superior", list(t.glenoid.superior)},
-            {"anterior", list(t.glenoid.anterior)}}},
-          {"articular_sphere_centre_mm", list(t.articular_sphere_centre_mm)},
-          {"articular_radius_mm", t.articular_radius_mm},
-          {"glenoid_height_mm", t.glenoid_height_mm},
-          {"glenoid_width_mm", t.glenoid_width_mm},
-          {"plate_mm", t.plate_mm},
-          {"spine_root_mm", list(t.spine_root_mm)},
-          {"inferior_angle_mm", list(t.inferior_angle_mm)},
-          {"humeral_head_centre_mm", list(t.humeral_head_centre_mm)},
-          {"humeral_head_radius_mm", t.humeral_head_radius_mm},
-          {"landmarks", case_::to_json(t.landmarks)}};
-  for (const auto& [key, version] : {std::pair{"premorbid_version_deg", t.premorbid_version_rad},
-                                     std::pair{"paleo_version_deg", t.paleo_version_rad},
-                                     std::pair{"neo_version_deg", t.neo_version_rad}})
+                          {"type", to_text(t.type)},
+                          {"version_deg", degrees_from_radians(t.version_rad)},
+                          {"inclination_deg", degrees_from_radians(t.inclination_rad)},
+                          {"glenoid",
+                           {{"centre_mm", list(t.glenoid.centre_mm)},
+                            {"lateral", list(t.glenoid.lateral)},
+                            {"superior", list(t.glenoid.superior)},
+                            {"anterior", list(t.glenoid.anterior)}}},
+                          {"articular_sphere_centre_mm", list(t.articular_sphere_centre_mm)},
+                          {"articular_radius_mm", t.articular_radius_mm},
+                          {"glenoid_height_mm", t.glenoid_height_mm},
+                          {"glenoid_width_mm", t.glenoid_width_mm},
+                          {"plate_mm", t.plate_mm},
+                          {"spine_root_mm", list(t.spine_root_mm)},
+                          {"inferior_angle_mm", list(t.inferior_angle_mm)},
+                          {"humeral_head_centre_mm", list(t.humeral_head_centre_mm)},
+                          {"humeral_head_radius_mm", t.humeral_head_radius_mm},
+                          {"landmarks", case_::to_json(t.landmarks)}};
+  for (const auto& [key, version] :
+       {std::pair{"premorbid_version_deg", t.premorbid_version_rad},
+        std::pair{"paleo_version_deg", t.paleo_version_rad}, std::pair{"neo_version_deg", t.neo_version_rad}})
     if (version) value[key] = degrees_from_radians(*version);
   return value;
 }

@@ -14,7 +14,7 @@ namespace ream::ct {
 /// - a1: little worn, concentric;
 /// - a2: worn in the centre: the face lies 4 mm medial and is nearly as curved as the head;
 /// - b2: biconcave. The anterior half is what is left of the face that was asked for, the posterior half a
-///   neoglenoid turned 18 degrees further into retroversion, with a sclerotic zone of 4 mm under it and the
+///   neoglenoid turned 26 degrees further into retroversion, with a sclerotic zone of 4 mm under it and the
 ///   head subluxated into it;
 /// - osteophytes: as a1, with osteophytes outside the lower half of the native rim;
 /// - osteoporotic: as a1, with about two thirds of the densities and thinner plate and shell; a threshold of

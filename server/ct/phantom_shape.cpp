@@ -18,7 +18,8 @@ constexpr double medial_end_mm = 103.0;
 constexpr double rim_rounding_mm = 0.8, joint_rounding_mm = 3.0;
 constexpr double head_radius_mm = PhantomShape::head_radius_mm, shaft_radius_mm = 12.0;
 
-// Central wear: how far the face lies medial, and by how much its radius exceeds that of head and joint space.
+// Central wear: how far the face lies medial, and by how much its radius exceeds that of head and joint
+// space.
 constexpr double central_wear_mm = 4.0, worn_radius_excess_mm = 1.0;
 
 /// sin and cos of the platform's library can differ in the last bit; rounded far below any voxel they do not.
@@ -65,7 +66,8 @@ PhantomShape::PhantomShape(const PhantomParams& params) : params_(params), centr
       -Vec3(lateral_.dot(face_superior_), lateral_.dot(face_anterior_), lateral_.dot(face_normal_));
   const bool worn = params.type == PhantomType::a2;
   worn_centre_ = worn ? Vec3(centre_ - central_wear_mm * lateral_) : centre_;
-  face_radius_mm_ = worn ? head_radius_mm + params.joint_space_mm + worn_radius_excess_mm : params.glenoid_radius_mm;
+  face_radius_mm_ =
+      worn ? head_radius_mm + params.joint_space_mm + worn_radius_excess_mm : params.glenoid_radius_mm;
   sphere_centre_ = worn_centre_ + face_radius_mm_ * face_normal_;
   head_centre_ = worn_centre_ + (params.joint_space_mm + head_radius_mm) * face_normal_;
   if (params.type == PhantomType::b2) carve_neoglenoid();
@@ -99,8 +101,10 @@ double PhantomShape::body_value(const Vec3& offset) const {
   static constexpr double upper_share[] = {1.0, 0.85, 1.2, 1.6};
   const double height = params_.glenoid_height_mm;
   const double half_width = 0.5 * params_.glenoid_width_mm * eased(depth_at, thickness_share, depth);
-  const double lower = (0.5 - PhantomShape::widest_below_middle) * height * eased(lower_at, lower_share, depth);
-  const double upper = (0.5 + PhantomShape::widest_below_middle) * height * eased(lower_at, upper_share, depth);
+  const double lower =
+      (0.5 - PhantomShape::widest_below_middle) * height * eased(lower_at, lower_share, depth);
+  const double upper =
+      (0.5 + PhantomShape::widest_below_middle) * height * eased(lower_at, upper_share, depth);
   const double from_widest = s + PhantomShape::widest_below_middle * height;
   const double along = from_widest / (from_widest < 0.0 ? lower : upper), across = t / half_width;
   const double section = (std::sqrt(along * along + across * across) - 1.0) * half_width;
@@ -128,7 +132,8 @@ double PhantomShape::scapula_value(const Vec3& world_mm) const {
   const double above = offset.dot(face_normal_);
   double d = rounded_max(body_value(offset), -depth_under_face_mm(world_mm), rim_rounding_mm);
   d = std::max(d, above - 0.5 * params_.glenoid_radius_mm);
-  if (params_.type == PhantomType::osteophytes) d = rounded_min(d, osteophytes_value(world_mm), rim_rounding_mm);
+  if (params_.type == PhantomType::osteophytes)
+    d = rounded_min(d, osteophytes_value(world_mm), rim_rounding_mm);
   return rounded_min(d, processes_value(in_scapula), joint_rounding_mm);
 }
 

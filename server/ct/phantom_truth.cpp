@@ -11,13 +11,14 @@ namespace {
 const Vec3 spine_root(-105.0, 0.0, 0.0), inferior_angle(-88.0, -108.0, 0.0);
 
 // The neoglenoid: where the ridge lies behind the middle of the face, how long its chord is as a share of the
-// glenoid's width, and how far it is turned into retroversion (18 degrees) against the paleoglenoid.
+// glenoid's width, and how far it is turned into retroversion (26 degrees) against the paleoglenoid.
 constexpr double ridge_behind_middle_mm = 1.0, chord_per_width = 0.48;
-constexpr double turned_cos = 0.95105651629515357, turned_sin = 0.30901699437494742;
+constexpr double turned_cos = 0.89879404629916699, turned_sin = 0.43837114678907742;
 constexpr double neoglenoid_radius_excess_mm = 2.0;  // over that of head and joint space
 
-// Osteophytes: a bead of this radius around the lower rim, so much wider than the rim and raised over it.
-constexpr double bead_radius_mm = 2.2, bead_widening = 1.07, bead_raised_mm = 0.4;
+// Osteophytes: a bead of this radius around the lower rim, so much wider than the rim and raised over the
+// face continued to it.
+constexpr double bead_radius_mm = 2.2, bead_widening = 1.12, bead_raised_mm = -1.0;
 constexpr int bead_parts = 10;
 
 /// Depth of a sphere of that radius at a distance from its deepest point, measured across.
@@ -69,7 +70,8 @@ double PhantomShape::osteophytes_value(const Vec3& world_mm) const {
   const auto bead = [&](int i) -> Vec3 {
     const double u = -0.8 + 1.6 * i / bead_parts;
     const double down = (1.0 - u * u) / (1.0 + u * u), across = 2.0 * u / (1.0 + u * u);
-    const double s = -widest_below_middle * height - (0.5 - widest_below_middle) * height * down * bead_widening;
+    const double s =
+        -widest_below_middle * height - (0.5 - widest_below_middle) * height * down * bead_widening;
     const double t = half_width * across * bead_widening;
     const double raised = sagitta(face_radius_mm_, std::sqrt(s * s + t * t)) + bead_raised_mm;
     return centre_ + s * face_superior_ + t * face_anterior_ + raised * face_normal_;
@@ -88,7 +90,8 @@ Vec3 PhantomShape::on_face(double superior_mm, double anterior_mm) const {
     return up - std::sqrt(std::max(0.0, radius * radius - (to_centre.squaredNorm() - up * up)));
   };
   double height = height_on(sphere_centre_, face_radius_mm_);
-  if (neoglenoid_) height = std::min(height, height_on(neoglenoid_->sphere_centre_mm, neoglenoid_->radius_mm));
+  if (neoglenoid_)
+    height = std::min(height, height_on(neoglenoid_->sphere_centre_mm, neoglenoid_->radius_mm));
   return flat + height * face_normal_;
 }
 

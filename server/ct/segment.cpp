@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "ct/face_neighbours.hpp"
+#include "ct/voxel_window.hpp"
 
 namespace ream::ct {
 namespace {
@@ -74,6 +75,25 @@ void fill_voids(Mask& mask, const Vec3i& dims) {
   }
   flood(mask, steps, std::move(border), 0, 2);
   for (uint8_t& m : mask) m = m != 2;
+}
+
+void fill_marrow(Mask& bone, const Vec3i& dims, int least_axes) {
+  Mask closed_across(bone.size());
+  for (int axis = 0; axis < 3; ++axis)
+    for (int slice = 0; slice < dims[axis]; ++slice) {
+      VoxelWindow window{Vec3i::Zero(), dims};
+      window.low[axis] = slice;
+      window.dims[axis] = 1;
+      Mask plane = cut_out(bone, dims, window);
+      const Mask before = plane;
+      fill_voids(plane, window.dims);
+      Mask sums = cut_out(closed_across, dims, window);
+      for (size_t i = 0; i < plane.size(); ++i)
+        sums[i] = static_cast<uint8_t>(sums[i] + (plane[i] && !before[i]));
+      put_back(closed_across, dims, window, sums);
+    }
+  for (size_t i = 0; i < bone.size(); ++i)
+    if (closed_across[i] >= least_axes) bone[i] = 1;
 }
 
 std::optional<Vec3i> nearest_set(const Mask& mask, const HuVolume& volume, const Vec3& world_mm,

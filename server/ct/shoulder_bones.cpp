@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "ct/bone_flood.hpp"
 #include "ct/face_neighbours.hpp"
+#include "ct/neck_cut.hpp"
 #include "ct/shoulder_markers.hpp"
 #include "ct/threshold_suggestion.hpp"
 #include "ct/voxel_window.hpp"
@@ -15,6 +16,7 @@
 namespace ream::ct {
 namespace {
 
+constexpr double neck_reach_mm = 18.0;  // a joint's width
 constexpr double thick_slice_mm = 2.5, least_other_mm3 = 50.0;
 constexpr auto code = [](BoneLabel label) { return static_cast<uint8_t>(label); };
 
@@ -94,8 +96,7 @@ std::vector<uint8_t> labels_of_region(const HuVolume& region, const Segmentation
                                       double threshold_hu, const std::optional<HumeralHead>& head,
                                       const Progress& progress) {
   progress(0.0, "marking bones");
-  std::vector<uint8_t> labels =
-      shoulder_markers(region, threshold_hu, head, settings.side, settings.seeds);
+  std::vector<uint8_t> labels = shoulder_markers(region, threshold_hu, head, settings.side, settings.seeds);
   const Seeds& seeds = settings.seeds;
   if (!head && !seeds.scapula_mm) {
     const Mask scapula = largest_part(above_threshold(region, threshold_hu), region.dims);
@@ -103,17 +104,22 @@ std::vector<uint8_t> labels_of_region(const HuVolume& region, const Segmentation
       if (scapula[i] && labels[i] == 0) labels[i] = code(BoneLabel::scapula);
   }
   progress(0.2, "parting bones");
-  if (settings.separate)
+  if (settings.separate) {
+    const std::vector<uint8_t> markers = labels;
     flood_by_hu(region, threshold_hu, labels);
-  else
+    progress(0.3, "parting joints");
+    cut_at_necks(labels, markers, region, threshold_hu, neck_reach_mm);
+  } else {
     spread_unseparated(region, threshold_hu, labels);
+  }
   tell_clavicle(labels, region, head);
   if (!settings.fill_holes) return labels;
   progress(0.5, "closing thin bone");
   WholeBoneSettings whole;
   whole.threshold_hu = threshold_hu;
   const SoftTissue soft = soft_tissue_of(region);
-  whole.thin_bone_hu = std::min(threshold_hu, std::max(0.55 * threshold_hu, soft.hu + 3.0 * soft.deviation_hu));
+  whole.thin_bone_hu =
+      std::min(threshold_hu, std::max(0.55 * threshold_hu, soft.hu + 3.0 * soft.deviation_hu));
   make_whole(labels, region, BoneLabel::scapula, whole);
   progress(0.8, "filling the humerus");
   make_whole(labels, region, BoneLabel::humerus, whole);
@@ -182,6 +188,8 @@ Segmentation segment_shoulder(const HuVolume& given, const SegmentationSettings&
       labels_of_region(worked_on, settings, result.threshold_hu, head, part_of(progress, 0.2, 0.85));
   result.labels.resize(volume.voxel_count());
   put_back(result.labels, volume.dims, window, labels);
+  result.head = head;
+  if (head) result.glenoid_mm = glenoid_facing(*head, settings.side, worked_on, labels);
   progress(0.85, "labelling other bones");
   label_the_rest(result.labels, volume, result.threshold_hu);
   result.parts = measure_parts(volume, result.labels);

@@ -5,8 +5,9 @@
 
 #include "case/case.hpp"
 #include "core/progress.hpp"
-#include "ct/hu_volume.hpp"
+#include "ct/humeral_head.hpp"
 #include "ct/segment.hpp"
+#include "ct/threshold_suggestion.hpp"
 
 namespace ream::ct {
 
@@ -42,6 +43,10 @@ struct Segmentation {
   std::vector<uint8_t> labels;  ///< BoneLabel per voxel of the CT, x fastest
   double threshold_hu = 0.0;    ///< that was used
   std::vector<BonePart> parts;  ///< those with voxels, by label
+  std::optional<HumeralHead> head;
+  /// About the middle of the scapula's face towards the head, good to some mm: to place a view or a region of
+  /// interest. Empty without a head.
+  std::optional<Vec3> glenoid_mm;
   std::vector<std::string> warnings;
 };
 

@@ -18,4 +18,9 @@ std::vector<uint8_t> shoulder_markers(const HuVolume& volume, double threshold_h
                                       const std::optional<HumeralHead>& head, case_::Side side,
                                       const Seeds& seeds);
 
+/// Mean of the scapula's voxels that face the head across the joint space, moved onto their distance from it;
+/// empty when there are none.
+std::optional<Vec3> glenoid_facing(const HumeralHead& head, case_::Side side, const HuVolume& volume,
+                                   const std::vector<uint8_t>& labels);
+
 }  // namespace ream::ct

@@ -173,11 +173,14 @@ Axis axis_of(const Places& all, char name, const Rows& rows, const std::string& 
   axis.first = places.front().at;
   axis.count = static_cast<int>(places.size());
   axis.step = (places.back().at - axis.first) / (axis.count - 1);
+  const auto refuse = [&](const Places::Place& place) {
+    return rows.wrong(place.line, std::string("its ") + name + " lies on no regular grid with the others");
+  };
   for (size_t i = 1; i < places.size(); ++i)
-    if (std::abs(places[i].at - places[i - 1].at - usual) > gap_tolerance * usual ||
-        std::abs(places[i].at - axis.first - static_cast<double>(i) * axis.step) > gap_tolerance * axis.step)
-      throw rows.wrong(places[i].line,
-                       std::string("its ") + name + " lies on no regular grid with the others");
+    if (std::abs(places[i].at - places[i - 1].at - usual) > gap_tolerance * usual) throw refuse(places[i]);
+  for (size_t i = 1; i < places.size(); ++i)
+    if (std::abs(places[i].at - axis.first - static_cast<double>(i) * axis.step) > gap_tolerance * axis.step)
+      throw refuse(places[i]);
   axis.indices = axis.first == 0.0 && axis.step == 1.0;
   return axis;
 }

@@ -29,7 +29,8 @@ struct Claims {
   std::vector<double> dims, sizes_mm;
   double bits = 0.0;  // a voxel, at least; 0: nothing to hold against the file
   bool packed = false;
-  fs::path holder;  // of the voxels
+  double before = 0.0;  // bytes before the voxels
+  fs::path holder;      // of the voxels
 };
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& why) {
@@ -57,7 +58,7 @@ void check(const Claims& claims, const fs::path& path) {
       refuse(path, "its header claims a voxel size of " + number_text(size) + " mm; it must be positive");
   const double holds =
       static_cast<double>(fs::file_size(claims.holder)) * (claims.packed ? max_packing : 1.0);
-  if (voxels * claims.bits / 8.0 > holds)
+  if (claims.before + voxels * claims.bits / 8.0 > holds)
     refuse(path, "its header claims more voxels than the file holds; it is cut short or damaged");
 }
 
@@ -131,8 +132,26 @@ double nrrd_bits(const std::string& type) {
   return 32.0;
 }
 
-Claims nrrd_claims(const fs::path& path) {
+const char* const unknown_axes =
+    "the file does not say how its axes lie in the patient; they were taken as left, posterior, superior, so "
+    "check the side";
+
+/// The library turns RAS into LPS; others it gets wrong or leaves as they are.
+void check_nrrd_space(const Header& header, const fs::path& path, std::vector<std::string>& remarks) {
+  std::string space = value_of(header, {"space"});
+  for (char& c : space)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  if (space == "left-posterior-superior" || space == "lps" || space == "right-anterior-superior" ||
+      space == "ras")
+    return;
+  if (space.starts_with("left-") || space.starts_with("right-") || space == "las")
+    refuse(path, "its space " + space + " cannot be read; save it as left-posterior-superior");
+  remarks.emplace_back(unknown_axes);
+}
+
+Claims nrrd_claims(const fs::path& path, std::vector<std::string>& remarks) {
   const Header header = header_of(path, ':', "");
+  check_nrrd_space(header, path, remarks);
   Claims claims;
   claims.dims = numbers_in(value_of(header, {"sizes"}));
   const std::string directions = value_of(header, {"spacedirections"});
@@ -208,7 +227,7 @@ class NiftiHeader {
 
 /// The library silently orthonormalizes a sheared sform, or takes the qform instead.
 void check_nifti_axes(const NiftiHeader& header, const fs::path& path) {
-  if (header.at<int16_t>(254) <= 0) return;
+  if (header.at<int16_t>(254) <= 0 || header.at<int16_t>(40) < 3) return;
   Mat3 columns;
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column)
@@ -225,8 +244,29 @@ void check_nifti_axes(const NiftiHeader& header, const fs::path& path) {
   }
 }
 
-Claims nifti_claims(const fs::path& path) {
-  const NiftiHeader header(path);
+/// Bits of a NIfTI data type of one number; 0 for others.
+double nifti_bits(int type) {
+  switch (type) {
+    case 2:
+    case 256:
+      return 8.0;
+    case 4:
+    case 512:
+      return 16.0;
+    case 8:
+    case 16:
+    case 768:
+      return 32.0;
+    case 64:
+    case 1024:
+    case 1280:
+      return 64.0;
+    default:
+      return 0.0;
+  }
+}
+
+Claims nifti_claims(const NiftiHeader& header, const fs::path& path) {
   Claims claims;
   const int dimensions = header.at<int16_t>(40);
   if (dimensions < 1 || dimensions > 7) refuse(path, "its header claims an impossible number of dimensions");
@@ -234,20 +274,33 @@ Claims nifti_claims(const fs::path& path) {
     claims.dims.push_back(header.at<int16_t>(static_cast<size_t>(40 + 2 * k)));
   for (int k = 1; k <= std::min(dimensions, 3); ++k)
     claims.sizes_mm.push_back(header.at<float>(static_cast<size_t>(76 + 4 * k)));
-  claims.bits = header.at<int16_t>(72);
+  claims.bits = nifti_bits(header.at<int16_t>(70));
+  if (claims.bits != header.at<int16_t>(72))
+    refuse(path, "its header claims voxels of a kind that is no single number, or of two sizes at once");
+  claims.before = header.at<float>(108);
+  if (!(claims.before >= 348.0 && claims.before <= 1e6))
+    refuse(path, "its header claims that the voxels begin at byte " + number_text(header.at<float>(108)));
   claims.packed = path.extension() == ".gz";
   claims.holder = path;
-  if (dimensions >= 3) check_nifti_axes(header, path);
   return claims;
 }
 
 }  // namespace
 
-void check_claims(const fs::path& path) {
+std::vector<std::string> check_claims(const fs::path& path) {
   const std::string name = path.filename().string();
-  if (name.ends_with(".nii") || name.ends_with(".nii.gz")) return check(nifti_claims(path), path);
-  if (name.ends_with(".mha") || name.ends_with(".mhd")) return check(meta_claims(path), path);
-  if (name.ends_with(".nrrd") || name.ends_with(".nhdr")) return check(nrrd_claims(path), path);
+  std::vector<std::string> remarks;
+  if (name.ends_with(".nii") || name.ends_with(".nii.gz")) {
+    const NiftiHeader header(path);
+    check(nifti_claims(header, path), path);
+    check_nifti_axes(header, path);
+    if (header.at<int16_t>(252) <= 0 && header.at<int16_t>(254) <= 0) remarks.emplace_back(unknown_axes);
+  } else if (name.ends_with(".mha") || name.ends_with(".mhd")) {
+    check(meta_claims(path), path);
+  } else {
+    check(nrrd_claims(path, remarks), path);
+  }
+  return remarks;
 }
 
 }  // namespace ream::ct

@@ -7,9 +7,10 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "ct/dicom_completeness.hpp"
+#include "ct/dicom_file.hpp"
 #include "ct/file_completeness.hpp"
 #include "ct/itk_volume.hpp"
+#include "ct/nrrd_order.hpp"
 #include "ct/text_rows.hpp"
 #include "ct/volume_claims.hpp"
 #include "ct/volume_remarks.hpp"
@@ -67,11 +68,12 @@ HuVolume read_volume_file(const fs::path& path) {
   const std::string place = path.string();
   if (!fs::exists(path)) throw Error(ErrorKind::not_found, "no such file: " + place);
   const auto io = io_for(path);
-  check_claims(path);
-  itk::Object::GlobalWarningDisplayOff();
   HuVolume volume;
+  volume.warnings = check_claims(path);
+  itk::Object::GlobalWarningDisplayOff();
+  const OrderedNrrd readable(path);
   try {
-    io->SetFileName(place);
+    io->SetFileName(readable.path().string());
     io->ReadImageInformation();
     check_dimensions(*io, place);
     check_complete(path, static_cast<uint64_t>(io->GetImageSizeInBytes()));
@@ -86,13 +88,9 @@ HuVolume read_volume_file(const fs::path& path) {
   return volume;
 }
 
-HuVolume read_ct(const fs::path& path, const ReadOptions& options, const Progress& progress) {
-  std::error_code failed;
-  if (!fs::exists(path, failed))
-    throw Error(ErrorKind::not_found, "no such file or folder: " + path.string());
-  progress(0.0, "reading slices");
-  const Kind kind = kind_of(path);
-  if (kind == Kind::dicom) return read_dicom_folder(path, options, progress);
+namespace {
+
+HuVolume read_file(const fs::path& path, Kind kind, const ReadOptions& options, const Progress& progress) {
   HuVolume volume = kind == Kind::rows ? read_text_rows(path, progress) : read_volume_file(path);
   if (volume.dims.minCoeff() < 2)
     throw Error(ErrorKind::invalid_input,
@@ -115,6 +113,24 @@ HuVolume read_ct(const fs::path& path, const ReadOptions& options, const Progres
   if (options.keep_names) volume.source += " " + path.filename().string();
   progress(1.0, "reading slices");
   return volume;
+}
+
+}  // namespace
+
+HuVolume read_ct(const fs::path& path, const ReadOptions& options, const Progress& progress) {
+  std::error_code failed;
+  if (!fs::exists(path, failed))
+    throw Error(ErrorKind::not_found, "no such file or folder: " + path.string());
+  progress(0.0, "reading slices");
+  try {
+    const Kind kind = kind_of(path);
+    return kind == Kind::dicom ? read_dicom_folder(path, options, progress)
+                               : read_file(path, kind, options, progress);
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorKind::invalid_input, path.string() + " does not fit into memory");
+  } catch (const fs::filesystem_error& e) {
+    throw Error(ErrorKind::io, "cannot read " + path.string() + ": " + e.code().message());
+  }
 }
 
 void write_volume_file(const HuVolume& volume, const fs::path& path) {

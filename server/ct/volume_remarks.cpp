@@ -10,16 +10,25 @@ namespace {
 
 constexpr int sampled_rows = 512;
 constexpr int64_t smoother_factor = 4;
-constexpr int64_t suspicious_step = 1000;  // mean step between neighbours, of which no CT comes near
+constexpr int64_t suspicious_step = 100;  // mean step between neighbours, of which no CT comes near
 
 }  // namespace
 
 void remark_thickness(HuVolume& volume, double thickness_mm) {
   const double thickest = std::max(volume.spacing_mm.maxCoeff(), thickness_mm);
   if (thickest < thick_slice_mm) return;
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", thickest);
-  volume.warnings.push_back(std::string("slices of ") + text + " mm are thick; plan on 1.25 mm or finer");
+  // Worst of 12 phantoms, as thick_slices_test.cpp measures them.
+  const bool coarse = thickest > 6.5;
+  const char* inclination = coarse ? "4.5" : "3.6";
+  const char* merged = coarse ? "half" : "a quarter";
+  char text[400];
+  std::snprintf(
+      text, sizeof text,
+      "the slices are %.3g mm thick: phantoms of %s mm had the glenoid's face up to 2 mm off in depth and "
+      "%s degrees in inclination, and up to %s of it ran together with the humerus (1 mm slices: 0.7 mm "
+      "and 0.5 degrees); version stays within 0.6 degrees; plan on slices of 1.25 mm or finer",
+      thickest, coarse ? "8" : "5", inclination, merged);
+  volume.warnings.emplace_back(text);
 }
 
 void remark_gray_values(HuVolume& volume) {

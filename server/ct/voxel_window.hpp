@@ -45,4 +45,41 @@ void put_back(std::vector<T>& values, const Vec3i& volume_dims, const VoxelWindo
   });
 }
 
+/// The box of the set voxels; dims zero when there are none.
+inline VoxelWindow window_of_set(const std::vector<uint8_t>& mask, const Vec3i& dims) {
+  Vec3i low = dims, high = -Vec3i::Ones();
+  size_t i = 0;
+  for (int w = 0; w < dims.z(); ++w)
+    for (int v = 0; v < dims.y(); ++v)
+      for (int u = 0; u < dims.x(); ++u, ++i)
+        if (mask[i] != 0) low = low.cwiseMin(Vec3i(u, v, w)), high = high.cwiseMax(Vec3i(u, v, w));
+  if (high.x() < 0) return {};
+  return {low, high - low + Vec3i::Ones()};
+}
+
+/// With `margin_mm` more on every side, as far as the volume goes.
+inline VoxelWindow widened(const VoxelWindow& window, const Vec3i& dims, const Vec3& spacing_mm,
+                           double margin_mm) {
+  const Vec3i margin = (margin_mm / spacing_mm.array()).ceil().cast<int>().matrix();
+  const Vec3i low = (window.low - margin).cwiseMax(0);
+  const Vec3i end = (window.low + window.dims + margin).cwiseMin(dims);
+  return {low, end - low};
+}
+
+/// What both hold; a side may be negative when they do not meet.
+inline VoxelWindow common(const VoxelWindow& a, const VoxelWindow& b) {
+  const Vec3i low = a.low.cwiseMax(b.low);
+  return {low, (a.low + a.dims).cwiseMin(b.low + b.dims) - low};
+}
+
+/// Copies what two windows of one volume share.
+template <typename T>
+void copy_common(const std::vector<T>& from, const VoxelWindow& from_window, std::vector<T>& to,
+                 const VoxelWindow& to_window) {
+  const VoxelWindow shared = common(from_window, to_window);
+  if ((shared.dims.array() <= 0).any()) return;
+  put_back(to, to_window.dims, {shared.low - to_window.low, shared.dims},
+           cut_out(from, from_window.dims, {shared.low - from_window.low, shared.dims}));
+}
+
 }  // namespace ream::ct

@@ -110,7 +110,7 @@ void add_segmentation(const fs::path& case_folder, Workup& workup, const Segment
                       const Segmentation& made) {
   Workup changed = workup;
   const int revision = ++changed.last_revision;
-  changed.segmentations.push_back({revision, settings, made.threshold_hu, made.parts, made.warnings});
+  changed.segmentations.push_back({revision, settings, made.threshold_hu, made.parts, made.head, made.glenoid_mm, made.warnings});
   if (changed.segmentations.size() > kept_segmentations)
     changed.segmentations.erase(changed.segmentations.begin());
   write_zstd_file(labels_of(case_folder, revision), std::as_bytes(std::span(made.labels)));

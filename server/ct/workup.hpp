@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -16,6 +17,8 @@ struct SegmentationRecord {
   SegmentationSettings settings;
   double threshold_hu = 0.0;  ///< that was used: the settings', or the suggested one
   std::vector<BonePart> parts;
+  std::optional<HumeralHead> head;  ///< as it was found
+  std::optional<Vec3> glenoid_mm;   ///< about the middle of the face, to begin with
   std::vector<std::string> warnings;
 };
 
@@ -28,8 +31,9 @@ struct BuildSettings {
 
 struct BuildRecord {
   BuildSettings settings;
-  Aabb roi_mm;  ///< LPS
+  Aabb roi_mm;  ///< the bone's grid, LPS
   uint64_t bone_voxels = 0;
+  std::array<double, 2> density_range_g_cc{};  ///< least and greatest of the bone
   int segmentation_revision = 0;
 };
 

@@ -38,14 +38,30 @@ BonePart part_from(JsonReader reader) {
   return part;
 }
 
+json to_json(const HumeralHead& head) {
+  return {{"centre_mm", list(head.centre_mm)}, {"radius_mm", head.radius_mm}, {"share", head.share}};
+}
+
 json to_json(const SegmentationRecord& record) {
   json parts = json::array();
   for (const BonePart& part : record.parts) parts.push_back(to_json(part));
-  return {{"revision", record.revision},
-          {"settings", to_json(record.settings)},
-          {"threshold_hu", record.threshold_hu},
-          {"parts", std::move(parts)},
-          {"warnings", record.warnings}};
+  json value = {{"revision", record.revision},
+                {"settings", to_json(record.settings)},
+                {"threshold_hu", record.threshold_hu},
+                {"parts", std::move(parts)},
+                {"warnings", record.warnings}};
+  if (record.head) value["head"] = to_json(*record.head);
+  if (record.glenoid_mm) value["glenoid_mm"] = list(*record.glenoid_mm);
+  return value;
+}
+
+HumeralHead head_from(JsonReader reader) {
+  HumeralHead head;
+  head.centre_mm = vec3(reader.numbers("centre_mm", 3));
+  head.radius_mm = reader.number("radius_mm", 0.0, 100.0);
+  head.share = reader.number("share", 0.0, 1.0);
+  reader.finish();
+  return head;
 }
 
 SegmentationSettings settings_from(JsonReader reader) {
@@ -71,6 +87,8 @@ SegmentationRecord record_from(JsonReader reader) {
   record.settings = settings_from(reader.object("settings"));
   record.threshold_hu = reader.number("threshold_hu");
   for (JsonReader& part : reader.objects("parts")) record.parts.push_back(part_from(std::move(part)));
+  if (reader.has("head")) record.head = head_from(reader.object("head"));
+  record.glenoid_mm = point_or_none(reader, "glenoid_mm");
   record.warnings = reader.texts_or_none("warnings");
   reader.finish();
   return record;
@@ -92,6 +110,7 @@ json to_json(const BuildRecord& record) {
   value["low_mm"] = list(record.roi_mm.min);
   value["high_mm"] = list(record.roi_mm.max);
   value["bone_voxels"] = record.bone_voxels;
+  value["density_range_g_cc"] = record.density_range_g_cc;
   value["segmentation_revision"] = record.segmentation_revision;
   return value;
 }
@@ -106,6 +125,8 @@ BuildRecord built_from(const json& value, JsonReader reader) {
   record.settings = build_settings_from_json(settings, reader.place());
   record.roi_mm = {vec3(reader.numbers("low_mm", 3)), vec3(reader.numbers("high_mm", 3))};
   record.bone_voxels = reader.unsigned_integer("bone_voxels");
+  const auto densities = reader.numbers("density_range_g_cc", 2);
+  record.density_range_g_cc = {densities[0], densities[1]};
   record.segmentation_revision = static_cast<int>(reader.integer("segmentation_revision", 1, INT32_MAX));
   reader.finish();
   return record;

@@ -19,7 +19,8 @@ LibraryReamer convex(int radius_mm, int diameter_mm, bool cannulated) {
   LibraryReamer reamer;
   const std::string radius = std::to_string(radius_mm);
   reamer.name = (cannulated ? "cannulated-" : "convex-") + radius;
-  reamer.words = "sphere " + radius + "," + std::to_string(diameter_mm / 2) + (cannulated ? "" : nipple_words);
+  reamer.words =
+      "sphere " + radius + "," + std::to_string(diameter_mm / 2) + (cannulated ? "" : nipple_words);
   reamer.diameter_mm = diameter_mm;
   reamer.radius_mm = radius_mm;
   if (!cannulated) reamer.nipple = Nipple{};
@@ -39,8 +40,9 @@ std::vector<LibraryReamer> made_built_in() {
   constexpr int sizes[][2] = {{30, 28}, {35, 30}, {40, 32}, {45, 34}, {50, 36}, {55, 36}, {60, 38}};
   for (const auto& [radius, diameter] : sizes) all.push_back(convex(radius, diameter, false));
   for (const auto& [radius, diameter] : sizes) all.push_back(convex(radius, diameter, true));
-  all.push_back({"flat-30", std::string("sphere 1000,15") + nipple_words, 30.0, 1000.0, Nipple{}, false,
-                 "Nearly flat, for a component with a flat back (compared with convex ones by Karelse 2014)"});
+  all.push_back(
+      {"flat-30", std::string("sphere 1000,15") + nipple_words, 30.0, 1000.0, Nipple{}, false,
+       "Nearly flat, for a component with a flat back (compared with convex ones by Karelse 2014)"});
   all.push_back({"baseplate-27", "sphere 60,13.5", 27.0, 60.0, std::nullopt, true,
                  "27 mm across on a guide pin, the size used for the base plate of reverse components; the "
                  "radius is our choice"});
@@ -54,7 +56,8 @@ bool is_mesh_file(const fs::path& file) {
 }
 
 bool is_reamer_name(const std::string& name) {
-  return !name.empty() && name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos;
+  return !name.empty() &&
+         name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos;
 }
 
 struct MeshNote {
@@ -178,7 +181,7 @@ LibraryReamer reamer_named(const std::string& name, const fs::path& data_folder)
     if (mesh.stem() == name) return listed_mesh(mesh);
     names += ", " + mesh.stem().string();
   }
-  throw Error(ErrorKind::not_found, "there is no reamer '" + name + "'; there are " + names);
+  throw Error(ErrorKind::usage, "there is no reamer '" + name + "'; there are " + names);
 }
 
 LibraryReamer described_reamer(const std::string& asked_for) {

@@ -42,12 +42,12 @@ const LibraryReamer* find_reamer(const std::string& name);
 /// Names of the built-in ones, for messages: "thesis, convex-30, ...".
 std::string built_in_names();
 
-/// The one of that name, built in or of the data folder. Errors: not_found lists the names that exist; those
+/// The one of that name, built in or of the data folder. Errors: usage lists the names that exist; those
 /// of make_tool and of the note beside a mesh.
 LibraryReamer reamer_named(const std::string& name, const std::filesystem::path& data_folder);
 
-/// What can be said of anything that make_tool takes: of a mesh with the note beside it; nameless for words that
-/// are in no library. Errors: those of make_tool and of the note.
+/// What can be said of anything that make_tool takes: of a mesh with the note beside it; nameless for words
+/// that are in no library. Errors: those of make_tool and of the note.
 LibraryReamer described_reamer(const std::string& asked_for);
 
 /// The axis in the note (NAME.json) beside a mesh file; empty without a note or axis. Error invalid_input.

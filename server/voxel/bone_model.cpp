@@ -49,7 +49,7 @@ BoneModel make_bone(const VoxelGrid& grid) {
   validate(grid);
   BoneModel bone;
   bone.grid = grid;
-  bone.density.resize(grid.voxel_count());
+  bone.density = std::vector<uint8_t>(grid.voxel_count());
   bone.coverage.resize(grid.voxel_count());
   return bone;
 }

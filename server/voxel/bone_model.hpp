@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "voxel/shared_bytes.hpp"
 #include "voxel/voxel_grid.hpp"
 
 namespace ream::voxel {
@@ -35,7 +36,7 @@ int32_t first_cortical_code(double cortical_threshold_g_cc);
 /// After a session has started only its haptic thread writes coverage; everybody else follows changed bricks.
 struct BoneModel {
   VoxelGrid grid;
-  std::vector<uint8_t> density;
+  SharedBytes density;  ///< copies of a bone share it
   std::vector<uint8_t> coverage;
   double cortical_threshold_g_cc = default_cortical_threshold_g_cc;
 

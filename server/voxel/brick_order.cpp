@@ -16,14 +16,14 @@ void each_run(const VoxelGrid& grid, Visit visit) {
 
 }  // namespace
 
-std::vector<uint8_t> bricks_from_rows(const VoxelGrid& grid, const std::vector<uint8_t>& rows) {
+std::vector<uint8_t> bricks_from_rows(const VoxelGrid& grid, std::span<const uint8_t> rows) {
   assert(rows.size() == grid.voxel_count());
   std::vector<uint8_t> bricks(rows.size());
   each_run(grid, [&](size_t brick, size_t row) { std::memcpy(&bricks[brick], &rows[row], brick_edge); });
   return bricks;
 }
 
-std::vector<uint8_t> rows_from_bricks(const VoxelGrid& grid, const std::vector<uint8_t>& bricks) {
+std::vector<uint8_t> rows_from_bricks(const VoxelGrid& grid, std::span<const uint8_t> bricks) {
   assert(bricks.size() == grid.voxel_count());
   std::vector<uint8_t> rows(bricks.size());
   each_run(grid, [&](size_t brick, size_t row) { std::memcpy(&rows[row], &bricks[brick], brick_edge); });

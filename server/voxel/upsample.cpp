@@ -1,8 +1,11 @@
 #include "voxel/upsample.hpp"
 
+#include <atomic>
 #include <string>
+#include <thread>
 
 #include "core/error.hpp"
+#include "core/vector_clones.hpp"
 
 namespace ream::voxel {
 namespace {
@@ -21,34 +24,84 @@ std::vector<UpsampleTap> taps(int input_count, int factor) {
   return result;
 }
 
-/// One output row is the x-interpolation of the four input rows around it, summed with their weights first.
+/// Exact division by 8 N^3 of sums below 2^31, by a multiplication: the reciprocal is at most one unit of
+/// 2^-47 too large, which shifts no quotient as 2^31 * 2^15 < 2^47.
+struct Divisor {
+  explicit Divisor(uint32_t whole) : reciprocal((uint64_t{1} << 47) / whole + 1) {}
+  uint32_t operator()(uint32_t sum) const { return static_cast<uint32_t>((sum * reciprocal) >> 47); }
+  uint64_t reciprocal;
+};
+
+/// What the rows of one call share.
+template <typename T>
+struct Volume {
+  const T* input;
+  size_t nx, ny;
+  std::vector<UpsampleTap> tx, ty, tz;
+  uint32_t half;
+  Divisor divided;
+};
+
+/// Output sample x of all between two neighbouring input samples of a row.
+template <typename T>
+REAM_VECTOR_CLONES void stretch_row(const uint32_t* row, const UpsampleTap* taps, size_t count, uint32_t half,
+                                    Divisor divided, T* out) {
+  for (size_t i = 0; i < count; ++i) {
+    const UpsampleTap& x = taps[i];
+    unbias(divided(x.low_weight * row[x.low] + x.high_weight * row[x.high] + half), out[i]);
+  }
+}
+
+/// The four input rows around an output row, summed with their weights.
+template <typename T>
+REAM_VECTOR_CLONES void sum_rows(const T* const rows[4], const uint32_t weights[4], size_t count,
+                                 uint32_t* sum) {
+  for (size_t u = 0; u < count; ++u)
+    sum[u] = weights[0] * biased(rows[0][u]) + weights[1] * biased(rows[1][u]) +
+             weights[2] * biased(rows[2][u]) + weights[3] * biased(rows[3][u]);
+}
+
+/// One output slice; one output row is the x-interpolation of the four input rows around it.
+template <typename T>
+void upsample_slice(const Volume<T>& v, const UpsampleTap& z, std::vector<uint32_t>& row, T* out) {
+  for (const UpsampleTap& y : v.ty) {
+    const auto source = [&](int at_v, int at_w) {
+      return v.input + v.nx * (static_cast<size_t>(at_v) + v.ny * static_cast<size_t>(at_w));
+    };
+    const T* const rows[4] = {source(y.low, z.low), source(y.high, z.low), source(y.low, z.high),
+                              source(y.high, z.high)};
+    const uint32_t weights[4] = {y.low_weight * z.low_weight, y.high_weight * z.low_weight,
+                                 y.low_weight * z.high_weight, y.high_weight * z.high_weight};
+    sum_rows(rows, weights, v.nx, row.data());
+    stretch_row(row.data(), v.tx.data(), v.tx.size(), v.half, v.divided, out);
+    out += v.tx.size();
+  }
+}
+
 template <typename T>
 std::vector<T> upsample(std::span<const T> input, const Vec3i& dims, int factor) {
   check_upsample(input.size(), dims, factor);
-  const auto nx = static_cast<size_t>(dims.x()), ny = static_cast<size_t>(dims.y());
-  const auto tx = taps(dims.x(), factor), ty = taps(dims.y(), factor), tz = taps(dims.z(), factor);
   const auto n = static_cast<uint32_t>(factor);
-  const uint32_t half = 4 * n * n * n, whole = 2 * half;
-  std::vector<T> output(tx.size() * ty.size() * tz.size());
-  std::vector<uint32_t> row(nx);
-  T* out = output.data();
-  for (const UpsampleTap& z : tz)
-    for (const UpsampleTap& y : ty) {
-      const auto source = [&](int v, int w) {
-        return input.data() + nx * (static_cast<size_t>(v) + ny * static_cast<size_t>(w));
-      };
-      const T *ll = source(y.low, z.low), *hl = source(y.high, z.low), *lh = source(y.low, z.high),
-              *hh = source(y.high, z.high);
-      const uint32_t wll = y.low_weight * z.low_weight, whl = y.high_weight * z.low_weight,
-                     wlh = y.low_weight * z.high_weight, whh = y.high_weight * z.high_weight;
-      for (size_t u = 0; u < nx; ++u)
-        row[u] = wll * biased(ll[u]) + whl * biased(hl[u]) + wlh * biased(lh[u]) + whh * biased(hh[u]);
-      for (const UpsampleTap& x : tx) {
-        const uint32_t sum =
-            x.low_weight * row[static_cast<size_t>(x.low)] + x.high_weight * row[static_cast<size_t>(x.high)];
-        unbias((sum + half) / whole, *out++);
-      }
-    }
+  const Volume<T> volume{input.data(),
+                         static_cast<size_t>(dims.x()),
+                         static_cast<size_t>(dims.y()),
+                         taps(dims.x(), factor),
+                         taps(dims.y(), factor),
+                         taps(dims.z(), factor),
+                         4 * n * n * n,
+                         Divisor(8 * n * n * n)};
+  const size_t slice = volume.tx.size() * volume.ty.size();
+  std::vector<T> output(slice * volume.tz.size());
+  std::atomic<size_t> next{0};
+  const auto work = [&] {
+    std::vector<uint32_t> row(volume.nx);
+    for (size_t w = next++; w < volume.tz.size(); w = next++)
+      upsample_slice(volume, volume.tz[w], row, output.data() + w * slice);
+  };
+  {
+    const std::jthread helper(work);
+    work();
+  }
   return output;
 }
 

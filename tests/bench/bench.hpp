@@ -26,6 +26,8 @@ struct Options {
   std::ostream* tables = nullptr;  ///< where a suite prints tables for people as it measures; null: nowhere
 };
 
+/// From a CT to a bone in memory.
+std::vector<Row> case_suite(const Options& options);
 std::vector<Row> collide_suite(const Options& options);
 /// Whether the haptic loop is on time in a served session.
 std::vector<Row> loop_suite(const Options& options);

@@ -51,7 +51,7 @@ void fill_brick(voxel::BoneModel& bone, uint32_t brick) {
         const double level = std::clamp(128.0 - 255.0 * distance_mm / voxel_mm, 0.0, 255.0);
         const size_t i = grid.index(at);
         bone.coverage[i] = static_cast<uint8_t>(level);
-        if (bone.coverage[i] > 0) bone.density[i] = density_at(p);
+        if (bone.coverage[i] > 0) bone.density.writable()[i] = density_at(p);
       }
 }
 

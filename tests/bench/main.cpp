@@ -15,6 +15,7 @@ const std::map<std::string, std::function<std::vector<Row>(const Options&)>> sui
     {"collide", collide_suite},
     {"loop", loop_suite},
     {"record", record_suite},
+    {"case", case_suite},
     {"surface", surface_suite},
     {"validate", validate_suite}};
 

@@ -29,7 +29,7 @@ Block block(const Vec3i& dims, double voxel_mm, const Vec3& outward, double dens
   for (size_t i = 0; i < b.bone.coverage.size(); ++i) {
     const double outside = (grid.centre_mm(grid.coordinates(i)) - entry).dot(outward) / voxel_mm;
     b.bone.coverage[i] = static_cast<uint8_t>(std::clamp(127.5 - 255.0 * outside, 0.0, 255.0));
-    b.bone.density[i] = voxel::density_code(density_g_cc);
+    b.bone.density.writable()[i] = voxel::density_code(density_g_cc);
   }
   b.plan.entry_mm = entry;
   b.plan.axis_direction = -outward;

@@ -45,7 +45,8 @@ SweptTally run(const Plunge& plunge) {
   case_::Case c = phantom(plunge.side);
   c.plan->pilot_hole.reset();
   SmallRun run(std::move(c.bone), *c.plan, plunge.tool, script_of(plunge), plunge.backend);
-  const std::vector<uint8_t> before = run.bone.coverage, density = run.bone.density;
+  const std::vector<uint8_t> before = run.bone.coverage;
+  const voxel::SharedBytes density = run.bone.density;
   const auto reports = run.run();
   EXPECT_EQ(reports.size(), 5000u);
   EXPECT_EQ(run.bone.density, density) << "density never changes";

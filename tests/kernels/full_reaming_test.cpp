@@ -47,7 +47,7 @@ Outcome ream_with(const std::string& backend, sim::RemovalLaw removal,
   // Cortical bone over cancellous, with half-covered voxels throughout the crust.
   for (size_t i = 0; i < bone.coverage.size(); ++i) {
     const int w = bone.grid.coordinates(i).z();
-    if (w >= 54) bone.density[i] = voxel::density_code(1.4);
+    if (w >= 54) bone.density.writable()[i] = voxel::density_code(1.4);
     if (w >= 58 && bone.coverage[i] == 255) bone.coverage[i] = static_cast<uint8_t>(140 + i % 100);
   }
   const case_::Plan plan = slab_plan(bone, 9.0);

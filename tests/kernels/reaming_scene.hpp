@@ -25,7 +25,7 @@ struct ReamingScene {
     for (size_t i = 0; i < bone.coverage.size(); ++i) {
       const Vec3 p = grid.centre_mm(grid.coordinates(i));
       const double top = 11.0 - 0.02 * (p - middle).head<2>().squaredNorm();
-      bone.density[i] = static_cast<uint8_t>(any_byte(random));
+      bone.density.writable()[i] = static_cast<uint8_t>(any_byte(random));
       if (p.z() < top) bone.coverage[i] = p.z() > top - 0.25 ? static_cast<uint8_t>(any_byte(random)) : 255;
     }
     tool = shell::make_tool("ellipse 8,5 nipple 2,3");

@@ -69,33 +69,20 @@ void check_length(const json& schema, const json& value, const std::string& at,
 }
 
 void require_known_keywords(const json& schema) {
-  static const std::set<std::string> known = {"$ref",
-                                              "type",
-                                              "const",
-                                              "enum",
-                                              "required",
-                                              "properties",
-                                              "additionalProperties",
-                                              "items",
-                                              "minItems",
-                                              "maxItems",
-                                              "minimum",
-                                              "maximum",
-                                              "exclusiveMinimum",
-                                              "pattern",
-                                              "minLength",
-                                              "maxLength",
-                                              "oneOf",
-                                              "allOf",
-                                              "if",
-                                              "then",
-                                              "not",
-                                              "description",
-                                              "title",
-                                              "$defs",
-                                              "$schema",
-                                              "$id",
-                                              "default"};
+  static const std::set<std::string> known = {"$ref",        "type",
+                                              "const",       "enum",
+                                              "required",    "dependentRequired",
+                                              "properties",  "additionalProperties",
+                                              "items",       "minItems",
+                                              "maxItems",    "minimum",
+                                              "maximum",     "exclusiveMinimum",
+                                              "pattern",     "minLength",
+                                              "maxLength",   "oneOf",
+                                              "allOf",       "if",
+                                              "then",        "not",
+                                              "description", "title",
+                                              "$defs",       "$schema",
+                                              "$id",         "default"};
   for (const auto& [key, value] : schema.items())
     if (!known.contains(key))
       throw std::logic_error("the checker does not know the schema keyword '" + key + "'");
@@ -166,6 +153,11 @@ void SchemaChecker::check_object(const json& schema, const json& value, const st
                                  std::vector<std::string>& faults) const {
   for (const json& key : schema.value("required", json::array()))
     if (!value.contains(key.get<std::string>())) faults.push_back(at + ": lacks " + key.get<std::string>());
+  const json dependent = schema.value("dependentRequired", json::object());
+  for (const auto& [key, others] : dependent.items())
+    for (const json& other : others)
+      if (value.contains(key) && !value.contains(other.get<std::string>()))
+        faults.push_back(at + ": lacks " + other.get<std::string>() + ", which " + key + " needs");
   const json properties = schema.value("properties", json::object());
   for (const auto& [key, member] : value.items()) {
     if (properties.contains(key))

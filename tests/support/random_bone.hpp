@@ -20,7 +20,7 @@ inline voxel::BoneModel random_bone(std::mt19937& random, const Vec3i& dims, dou
   for (size_t i = 0; i < bone.coverage.size(); ++i) {
     if (!filled(random)) continue;
     bone.coverage[i] = static_cast<uint8_t>(coverage(random));
-    bone.density[i] = static_cast<uint8_t>(density(random));
+    bone.density.writable()[i] = static_cast<uint8_t>(density(random));
   }
   return bone;
 }

@@ -1,4 +1,8 @@
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -8,6 +12,7 @@
 #include "app/cli/numbers.hpp"
 #include "app/ct_source.hpp"
 #include "app/data_folder.hpp"
+#include "app/interrupt.hpp"
 #include "app/session_bundle.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
@@ -18,9 +23,10 @@ namespace {
 
 struct Options {
   std::filesystem::path path, label;
-  std::string out, grow_from, roi, calibration, side, name;
+  std::string out, grow_from, humerus, glenoid, roi, calibration, side, name, labels_out;
   ct::ImportOptions import;
-  bool replace = false;
+  ct::SegmentationSettings shoulder;
+  bool replace = false, no_separate = false;
 };
 
 Vec3 point(const std::vector<double>& n, size_t first = 0) { return {n[first], n[first + 1], n[first + 2]}; }
@@ -29,9 +35,18 @@ ct::ImportOptions parsed(const Options& options) {
   ct::ImportOptions import = options.import;
   if (!options.label.empty()) import.label = options.label;
   if (!options.side.empty()) import.side = case_::side_from_text(options.side);
+  if (!options.labels_out.empty()) import.labels_out = options.labels_out;
+  import.shoulder = options.shoulder;
+  import.shoulder->separate = !options.no_separate;
+  import.segmentation.sigma_mm = options.shoulder.sigma_mm;
   if (!options.grow_from.empty())
-    import.segmentation.grow_from_mm = point(parse_numbers(options.grow_from, 3, "--grow-from"));
-  if (!options.roi.empty()) {
+    import.shoulder->seeds.scapula_mm = point(parse_numbers(options.grow_from, 3, "--grow-from"));
+  if (!options.humerus.empty())
+    import.shoulder->seeds.humerus_mm = point(parse_numbers(options.humerus, 3, "--humerus"));
+  if (!options.glenoid.empty()) import.glenoid_mm = point(parse_numbers(options.glenoid, 3, "--glenoid"));
+  if (options.roi == "glenoid") {
+    import.roi_at_glenoid = true;
+  } else if (!options.roi.empty()) {
     const auto n = parse_numbers(options.roi, 6, "--roi");
     import.roi_mm = Aabb{point(n).cwiseMin(point(n, 3)), point(n).cwiseMax(point(n, 3))};
   }
@@ -45,9 +60,38 @@ ct::ImportOptions parsed(const Options& options) {
   return import;
 }
 
+/// Tells a terminal how far the work is, and ends it when asked to. Leaves an empty line behind.
+class TerminalProgress {
+ public:
+  TerminalProgress() : terminal_(::isatty(STDERR_FILENO) != 0) {}
+  TerminalProgress(const TerminalProgress&) = delete;
+  TerminalProgress& operator=(const TerminalProgress&) = delete;
+  ~TerminalProgress() {
+    if (terminal_) std::cerr << start_of_empty_line;
+  }
+  void operator()(double share, std::string_view step) const {
+    throw_if_interrupted();
+    if (terminal_) std::cerr << start_of_empty_line << std::lround(100.0 * share) << " % " << step;
+  }
+
+ private:
+  static constexpr const char* start_of_empty_line = "\r\x1b[K";
+  bool terminal_;
+};
+
+case_::Case imported(const Options& options, const std::filesystem::path& out) {
+  const ct::ImportOptions import = parsed(options);
+  const TerminalProgress progress;
+  const CtSource source(options.path);
+  return source.read([&](const std::filesystem::path& ct) {
+    return ct::import_ct(ct, ct::case_id_from(out), import, std::cref(progress));
+  });
+}
+
 void report(const case_::Case& c, const std::filesystem::path& out, bool json) {
   const auto& d = c.bone.grid.dims;
   const auto& s = c.bone.grid.spacing_mm;
+  const auto density = ct::density_range_g_cc(c.bone);
   for (const auto& warning : c.warnings) log::warn(warning);
   if (json) {
     std::cout << nlohmann::json{{"case", c.id},
@@ -56,6 +100,8 @@ void report(const case_::Case& c, const std::filesystem::path& out, bool json) {
                                 {"spacing_mm", {s.x(), s.y(), s.z()}},
                                 {"bone_voxels", c.bone.filled_voxels()},
                                 {"side", case_::to_text(c.side)},
+                                {"threshold_hu", c.calibration.threshold_hu},
+                                {"density_range_g_cc", density},
                                 {"warnings", c.warnings}}
                      .dump()
               << '\n';
@@ -64,6 +110,8 @@ void report(const case_::Case& c, const std::filesystem::path& out, bool json) {
   std::cout << c.bone.filled_voxels() << " bone voxels of " << s.x() << " x " << s.y() << " x " << s.z()
             << " mm in a grid of " << d.x() << " x " << d.y() << " x " << d.z() << ", "
             << case_::to_text(c.side) << " side\n"
+            << "bone from " << c.calibration.threshold_hu << " HU on, density " << density[0] << " to "
+            << density[1] << " g/cc\n"
             << out.string() << '\n';
 }
 
@@ -80,14 +128,11 @@ void import_bundle(const Options& options, const GlobalOptions& global) {
 void import_case(const Options& options, const GlobalOptions& global) {
   if (is_session_bundle(options.path)) return import_bundle(options, global);
   if (options.out.empty()) throw Error(ErrorKind::usage, "--out is required: the name of the new case");
-  const ct::ImportOptions import = parsed(options);
   const auto out = case_path(options.out, global.data);
   if (!options.replace && std::filesystem::exists(out / "case.json"))
     throw Error(ErrorKind::conflict,
                 out.string() + " is a case already; choose another name or give --replace");
-  const CtSource source(options.path);
-  case_::Case made = source.read(
-      [&](const std::filesystem::path& ct) { return ct::import_ct(ct, ct::case_id_from(out), import); });
+  case_::Case made = imported(options, out);
   if (!options.name.empty()) made.name = options.name;
   case_::save_case(made, out, options.replace);
   report(made, out, global.json);
@@ -111,14 +156,28 @@ void add_import_command(CLI::App& app, GlobalOptions& global) {
                       "Label map that tells bone, instead of threshold and growing");
   command->add_option("--label-value", options->import.label_value, "Value of the bone in the label map")
       ->capture_default_str();
-  command->add_option("--threshold-hu", segmentation.threshold_hu, "Bone is at least this")
-      ->check(CLI::Range(-1000.0, 4000.0))
-      ->capture_default_str();
+  command
+      ->add_option("--threshold-hu", options->shoulder.threshold_hu,
+                   "Bone is at least this. Default: suggested by the histogram")
+      ->check(CLI::Range(-1000.0, 4000.0));
   command->add_option("--grow-from", options->grow_from,
-                      "X,Y,Z of a point in the bone to keep, LPS mm. Default: the largest part");
-  command->add_option("--sigma-mm", segmentation.sigma_mm, "Gaussian smoothing before everything")
+                      "X,Y,Z of a point in the scapula, LPS mm. Default: found beside the humeral head");
+  command->add_option("--humerus", options->humerus,
+                      "X,Y,Z of a point in the humeral head, LPS mm. Default: found as the best sphere");
+  command->add_flag("--no-separate", options->no_separate, "Leave bones together that touch");
+  command->add_option("--sigma-mm", options->shoulder.sigma_mm, "Gaussian smoothing before everything")
       ->capture_default_str();
-  command->add_option("--roi", options->roi, "X0,Y0,Z0,X1,Y1,Z1: box to keep, LPS mm");
+  command->add_option("--roi", options->roi,
+                      "X0,Y0,Z0,X1,Y1,Z1: box to keep, LPS mm; or glenoid: 60 x 60 x 70 mm around it");
+  command->add_option("--glenoid", options->glenoid,
+                      "X,Y,Z of the glenoid's centre, LPS mm. Default: found beside the humeral head");
+  command
+      ->add_option("--cartilage-mm", options->import.cartilage_mm,
+                   "Thickness of synthetic cartilage on the glenoid")
+      ->check(CLI::Range(0.0, 6.0))
+      ->capture_default_str();
+  command->add_option("--labels-out", options->labels_out,
+                      "Write the labels of all bones to this .nrrd, .nii or .nii.gz file");
   command->add_option("--upsample", segmentation.upsample, "Parts of a CT voxel per axis")
       ->check(CLI::Range(1, 16))
       ->capture_default_str();

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/commands.hpp"
+#include "case/landmarks.hpp"
 #include "core/file.hpp"
 #include "core/units.hpp"
 #include "ct/phantom_case.hpp"
@@ -16,7 +17,7 @@ struct Options {
   std::filesystem::path out;
   ct::PhantomParams params;
   double version_deg = -2.0, inclination_deg = 4.2, spacing_mm = 0.0;
-  std::string side = "right", format = "dicom", preset;
+  std::string side = "right", type = "A1", format = "dicom", preset;
 };
 
 void write_volume(const ct::HuVolume& volume, const Options& options, const std::filesystem::path& folder) {
@@ -37,6 +38,7 @@ void phantom(const Options& options, const GlobalOptions& global) {
     params.glenoid_width_mm = preset.glenoid_width_mm;
   }
   params.side = case_::side_from_text(options.side);
+  params.type = ct::phantom_type_from_text(options.type);
   params.version_rad = radians_from_degrees(options.version_deg);
   params.inclination_rad = radians_from_degrees(options.inclination_deg);
   if (options.spacing_mm > 0.0) params.spacing_mm = Vec3::Constant(options.spacing_mm);
@@ -44,6 +46,7 @@ void phantom(const Options& options, const GlobalOptions& global) {
   write_volume(made.volume, options, folder.path());
   const nlohmann::json truth = ct::to_json(made.truth);
   write_file_atomically(folder.path() / "ground_truth.json", truth.dump(2) + "\n");
+  case_::save_landmarks(made.truth.landmarks, folder.path());
   folder.commit();
   const Vec3i& d = made.volume.dims;
   if (global.json) {
@@ -57,7 +60,7 @@ void phantom(const Options& options, const GlobalOptions& global) {
     return;
   }
   std::cout << options.side << " shoulder, " << d.x() << " x " << d.y() << " x " << d.z()
-            << " voxels, and its ground truth in " << options.out.string() << '\n';
+            << " voxels, its ground truth and landmarks in " << options.out.string() << '\n';
 }
 
 }  // namespace
@@ -65,7 +68,9 @@ void phantom(const Options& options, const GlobalOptions& global) {
 void add_phantom_command(CLI::App& app, GlobalOptions& global) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("phantom", "Make a shoulder CT whose truth is known exactly");
-  command->add_option("--out", options->out, "Folder for the CT and ground_truth.json; must be new or empty")
+  command
+      ->add_option("--out", options->out,
+                   "Folder for the CT, ground_truth.json and landmarks.json; must be new or empty")
       ->required();
   command->add_option("--version-deg", options->version_deg, "Glenoid version, retroversion negative")
       ->capture_default_str();
@@ -78,6 +83,11 @@ void add_phantom_command(CLI::App& app, GlobalOptions& global) {
       ->check(CLI::Range(0.05, 10.0));
   command->add_option("--side", options->side, "left or right")
       ->check(CLI::IsMember({"left", "right"}))
+      ->capture_default_str();
+  command
+      ->add_option("--type", options->type,
+                   "A1, A2 (central wear), B2 (biconcave), osteophytes (at the rim) or osteoporotic")
+      ->check(CLI::IsMember({"A1", "A2", "B2", "osteophytes", "osteoporotic"}))
       ->capture_default_str();
   command->add_option("--format", options->format, "dicom, nrrd or nifti")
       ->check(CLI::IsMember({"dicom", "nrrd", "nifti"}))

@@ -7,31 +7,72 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/numbers.hpp"
 #include "app/data_folder.hpp"
+#include "app/reamer.hpp"
+#include "case/measures.hpp"
 #include "case/plan.hpp"
+#include "case/plan_assessment.hpp"
+#include "case/plan_proposal.hpp"
 #include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/log.hpp"
+#include "core/units.hpp"
 #include "ct/phantom_case.hpp"
+#include "shell/reamer_library.hpp"
 #include "shell/tool.hpp"
 
 namespace ream::app {
 namespace {
 
 struct Options {
-  std::string case_name, axis, reamer, guide;
+  std::string case_name, axis, reamer, guide, override_reason;
+  std::filesystem::path landmarks;
+  std::optional<double> version_deg, inclination_deg, implant_radius_mm;
   std::optional<double> depth_mm, pilot_diameter_mm, pilot_depth_mm;
   bool no_pilot = false;
+
+  bool by_angles() const { return version_deg || inclination_deg; }
 };
 
-/// What the plan is before this command's options: the case's own, else straight through the face of its
-/// glenoid.
-case_::Plan starting_plan(const case_::Case& c, bool axis_given) {
-  case_::Plan plan = c.plan.value_or(case_::Plan{});
-  if (c.plan || axis_given) return plan;
+/// A case with the landmarks it is planned by.
+struct Patient {
+  case_::Case bone_case;
+  std::optional<case_::Landmarks> landmarks;
+};
+
+case_::Plan through_face(const case_::Case& c) {
   if (!c.glenoid)
     throw Error(ErrorKind::usage,
-                "case '" + c.id + "' has no plan and no glenoid frame yet; give --axis X,Y,Z,DX,DY,DZ");
+                "case '" + c.id +
+                    "' has no plan, no landmarks and no glenoid frame yet; give --landmarks "
+                    "FILE or --axis X,Y,Z,DX,DY,DZ");
+  case_::Plan plan;
   plan.entry_mm = c.glenoid->centre_mm;
   plan.axis_direction = -c.glenoid->lateral;
   return plan;
+}
+
+case_::Plan proposed(const Options& options, const Patient& patient) {
+  const case_::Case& c = patient.bone_case;
+  if (!patient.landmarks)
+    throw Error(ErrorKind::usage,
+                "case '" + c.id +
+                    "' has no landmarks, which version and inclination are measured from; give "
+                    "--landmarks FILE");
+  case_::PlanTargets targets;
+  if (options.version_deg) targets.version_rad = radians_from_degrees(*options.version_deg);
+  if (options.inclination_deg) targets.inclination_rad = radians_from_degrees(*options.inclination_deg);
+  targets.depth_mm = options.depth_mm;
+  targets.implant_radius_mm = options.implant_radius_mm;
+  targets.reamer = options.reamer;
+  if (c.plan) {
+    if (!targets.depth_mm) targets.depth_mm = c.plan->depth_mm;
+    if (!targets.implant_radius_mm) targets.implant_radius_mm = c.plan->implant_radius_mm;
+    if (targets.reamer.empty() && !options.implant_radius_mm) targets.reamer = c.plan->reamer;
+    targets.implant_size = c.plan->implant_size;
+  }
+  return case_::propose_plan(targets, *patient.landmarks, c.side, [&](const Vec3& point, const Vec3& along) {
+    return case_::surface_along(c.bone, point, along);
+  });
 }
 
 void set_axis(case_::Plan& plan, const case_::Case& c, const std::string& axis) {
@@ -45,6 +86,18 @@ void set_axis(case_::Plan& plan, const case_::Case& c, const std::string& axis) 
                 "the axis " + axis + " misses the bone of case '" + c.id + "'; points are LPS mm");
   plan.entry_mm = *entry;
   plan.axis_direction = direction.normalized();
+  plan.target_version_rad.reset();
+  plan.target_inclination_rad.reset();
+}
+
+/// What the plan is before the options that only change it: by wanted angles where they are given, else the
+/// case's own, else by the landmarks, else straight through the face of the glenoid.
+case_::Plan starting_plan(const Options& options, const Patient& patient) {
+  const case_::Case& c = patient.bone_case;
+  if (options.by_angles()) return proposed(options, patient);
+  if (c.plan) return *c.plan;
+  if (!options.axis.empty()) return {};
+  return patient.landmarks ? proposed(options, patient) : through_face(c);
 }
 
 void set_pilot(case_::Plan& plan, const Options& options) {
@@ -56,35 +109,93 @@ void set_pilot(case_::Plan& plan, const Options& options) {
   plan.pilot_hole = hole;
 }
 
-/// Error usage or not_found for what is neither a form of tool nor a file; a mesh may still need an axis,
-/// which `simulate` takes.
-std::string checked_reamer(const std::string& reamer) {
+/// As the plan names it. Error usage or not_found for what is neither a form of tool, nor in the library, nor
+/// a file; a mesh may still need an axis, which `simulate` takes.
+std::string checked_reamer(const std::string& asked_for, const std::filesystem::path& data) {
+  if (asked_for.empty()) return asked_for;
+  const std::string reamer = reamer_in_library(asked_for, data);
   std::error_code failed;
   if (!std::filesystem::is_regular_file(reamer, failed)) shell::make_tool(reamer);
   return reamer;
 }
 
-void plan_case(const Options& options, const GlobalOptions& global) {
-  const auto folder = case_path(options.case_name, global.data);
-  const case_::Case c = options.case_name == "demo" ? ct::load_or_make_demo_case(data_folder(global.data))
-                                                    : case_::load_case(folder);
-  case_::Plan plan = starting_plan(c, !options.axis.empty());
-  if (!options.axis.empty()) set_axis(plan, c, options.axis);
+case_::Plan changed_plan(const Options& options, const Patient& patient) {
+  case_::Plan plan = starting_plan(options, patient);
+  if (!options.axis.empty()) set_axis(plan, patient.bone_case, options.axis);
   if (options.depth_mm) plan.depth_mm = *options.depth_mm;
-  if (!options.reamer.empty()) plan.reamer = checked_reamer(options.reamer);
+  if (options.implant_radius_mm) {
+    plan.implant_radius_mm = options.implant_radius_mm;
+    if (options.reamer.empty()) plan.reamer = shell::reamer_for_implant(*options.implant_radius_mm).name;
+  }
+  if (!options.reamer.empty()) plan.reamer = options.reamer;
   set_pilot(plan, options);
   if (!options.guide.empty()) plan.guide = case_::guide_from_text(options.guide);
-  case_::save_plan(plan, folder);
-  if (global.json) {
-    std::cout << case_::to_json(plan).dump() << '\n';
-    return;
-  }
+  plan.override_correction = plan.override_correction || !options.override_reason.empty();
+  if (!options.override_reason.empty()) plan.override_reason = options.override_reason;
+  return plan;
+}
+
+void print(const case_::Plan& plan, const case_::PlanAssessment& assessment,
+           const std::filesystem::path& folder) {
   std::cout << "entry " << plan.entry_mm.transpose() << " mm, direction " << plan.axis_direction.transpose()
             << ", depth " << plan.depth_mm << " mm, reamer " << plan.reamer;
   if (plan.pilot_hole)
     std::cout << ", pilot hole " << plan.pilot_hole->diameter_mm << " x " << plan.pilot_hole->depth_mm
               << " mm";
-  std::cout << ", guide " << case_::to_text(plan.guide) << '\n' << (folder / "plan.json").string() << '\n';
+  std::cout << ", guide " << case_::to_text(plan.guide) << '\n';
+  if (assessment.version_before_rad && assessment.version_after_rad)
+    std::cout << "before: " << case_::version_in_words(*assessment.version_before_rad) << ", "
+              << case_::inclination_in_words(*assessment.inclination_before_rad)
+              << "; after: " << case_::version_in_words(*assessment.version_after_rad) << ", "
+              << case_::inclination_in_words(*assessment.inclination_after_rad) << '\n';
+  std::cout << (folder / "plan.json").string() << '\n';
+}
+
+void plan_case(Options options, const GlobalOptions& global) {
+  const auto folder = case_path(options.case_name, global.data);
+  const auto data = data_folder(global.data);
+  options.reamer = checked_reamer(options.reamer, data);
+  Patient patient{options.case_name == "demo" ? ct::load_or_make_demo_case(data) : case_::load_case(folder),
+                  case_::load_landmarks(folder)};
+  if (!options.landmarks.empty())
+    patient.landmarks =
+        case_::landmarks_from_json(read_json_file(options.landmarks), options.landmarks.string());
+  const case_::Case& c = patient.bone_case;
+  const case_::Plan plan = changed_plan(options, patient);
+  case_::validate(plan, "plan of " + folder.string());
+  const case_::Landmarks landmarks = patient.landmarks.value_or(case_::Landmarks{});
+  const case_::PlanAssessment assessment =
+      case_::assess_plan(plan, landmarks, c.side, &c.bone, c.glenoid ? &*c.glenoid : nullptr);
+  const bool same_axis = c.plan && c.plan->axis_direction == plan.axis_direction;
+  if (assessment.needs_override && !same_axis)
+    throw Error(ErrorKind::conflict, case_::why_refused(assessment) + ": --override REASON");
+  if (!options.landmarks.empty()) case_::save_landmarks(landmarks, folder);
+  case_::save_plan(plan, folder);
+  for (const std::string& warning : assessment.warnings) log::warn(warning);
+  if (!global.json) return print(plan, assessment, folder);
+  nlohmann::json answer = case_::to_json(plan);
+  answer["assessment"] = case_::to_json(assessment);
+  answer["measures"] = case_::to_json(case_::measure(landmarks, c.side));
+  std::cout << answer.dump() << '\n';
+}
+
+void add_axis_options(CLI::App& command, Options& options) {
+  auto* axis = command.add_option(
+      "--axis", options.axis, "X,Y,Z,DX,DY,DZ: a point of the axis and its direction into the bone, LPS mm");
+  command.add_option("--landmarks", options.landmarks,
+                     "landmarks.json (proto/landmarks.schema.json); kept with the case");
+  command
+      .add_option("--version-deg", options.version_deg,
+                  "Wanted version (3D), retroversion negative; by the landmarks")
+      ->check(CLI::Range(-40.0, 40.0))
+      ->excludes(axis);
+  command
+      .add_option("--inclination-deg", options.inclination_deg,
+                  "Wanted inclination (3D), superior positive; by the landmarks")
+      ->check(CLI::Range(-40.0, 40.0))
+      ->excludes(axis);
+  command.add_option("--override", options.override_reason,
+                     "Why a correction of 15 degrees or more by reaming alone is taken all the same");
 }
 
 }  // namespace
@@ -93,10 +204,13 @@ void add_plan_command(CLI::App& app, GlobalOptions& global) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("plan", "Say where and how deep a case is to be reamed");
   command->add_option("CASE", options->case_name, "Name of a case, or its folder")->required();
-  command->add_option("--axis", options->axis,
-                      "X,Y,Z,DX,DY,DZ: a point of the axis and its direction into the bone, LPS mm");
+  add_axis_options(*command, *options);
   command->add_option("--depth-mm", options->depth_mm, "Depth past first contact of the cutting surface");
-  command->add_option("--reamer", options->reamer, "'sphere R', 'ellipse A,B' or a mesh file");
+  command->add_option("--implant-radius-mm", options->implant_radius_mm,
+                      "Radius of the component's back; picks the reamer unless --reamer does");
+  command->add_option("--reamer", options->reamer,
+                      "Name of a reamer (built in, or a mesh in the data folder's reamers), 'sphere R', "
+                      "'ellipse A,B' or a mesh file");
   auto* no_pilot = command->add_flag("--no-pilot", options->no_pilot, "No pilot hole");
   command->add_option("--pilot-diameter-mm", options->pilot_diameter_mm, "Diameter of the pilot hole")
       ->excludes(no_pilot);

@@ -22,7 +22,7 @@ TEST(CaseHash, KnowsEverythingThatReamingDecidesBy) {
   };
   expect_other("a voxel's coverage", [](Case& c) { c.bone.coverage[5] ^= 1; });
   expect_other("the last voxel's coverage", [](Case& c) { c.bone.coverage.back() ^= 1; });
-  expect_other("a voxel's density", [](Case& c) { c.bone.density[700] ^= 1; });
+  expect_other("a voxel's density", [](Case& c) { c.bone.density.writable()[700] ^= 1; });
   expect_other("the threshold", [](Case& c) { c.bone.cortical_threshold_g_cc += 1e-9; });
   expect_other("a spacing", [](Case& c) { c.bone.grid.spacing_mm.y() += 1e-9; });
   expect_other("the place", [](Case& c) { c.bone.grid.world_from_grid.translation_mm.z() = 1e-9; });

@@ -39,7 +39,7 @@ class CaseFolder : public testing::Test {
     c.bone = voxel::make_bone(grid);
     for (size_t i = 0; i < c.bone.coverage.size(); ++i) {
       c.bone.coverage[i] = static_cast<uint8_t>(mix64(i));
-      c.bone.density[i] = static_cast<uint8_t>(mix64(i + 1000000) % 251);
+      c.bone.density.writable()[i] = static_cast<uint8_t>(mix64(i + 1000000) % 251);
     }
     c.calibration = {1.5, 0.7, 180.0};
     c.glenoid = GlenoidFrame{{1, 2, 3}, Vec3::UnitX(), Vec3::UnitZ(), -Vec3::UnitY()};

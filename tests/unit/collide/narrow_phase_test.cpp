@@ -106,7 +106,7 @@ TEST(NarrowPhase, PortableAndBestInstructionsGiveTheSameBits) {
   std::mt19937 random(seed);
   Scene s("ellipse 6,3 nipple 1,2");
   std::uniform_int_distribution<int> any_byte(0, 255);
-  for (auto& code : s.bone.density) code = static_cast<uint8_t>(any_byte(random));
+  for (auto& code : s.bone.density.writable()) code = static_cast<uint8_t>(any_byte(random));
   const auto best = collide::make_narrow_phase_cpu(s.input());
   const auto portable = collide::make_narrow_phase_cpu(s.input(), collide::Instructions::portable);
   int64_t engaged = 0;

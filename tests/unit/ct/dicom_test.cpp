@@ -2,7 +2,7 @@
 
 #include <fstream>
 
-#include "ct/dicom_completeness.hpp"
+#include "ct/dicom_file.hpp"
 #include "ct/volume_io.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
+#include "case/scapular_frame.hpp"
 #include "core/units.hpp"
 #include "ct/calibration.hpp"
 #include "ct/phantom_case.hpp"
@@ -95,8 +96,8 @@ TEST_P(MeasuredBack, RadiusCentreVersionAndInclination) {
   EXPECT_NEAR(sides.norm(), truth.glenoid_width_mm, 2.0);
   Vec3 normal = poles.cross(sides).normalized();
   if (normal.dot(truth.glenoid.lateral) < 0) normal = -normal;
-  const FaceAngles angles =
-      face_angles(normal, truth.glenoid.centre_mm, truth.spine_root_mm, truth.inferior_angle_mm);
+  const case_::FaceAngles angles =
+      case_::face_angles(normal, truth.glenoid.centre_mm, truth.spine_root_mm, truth.inferior_angle_mm);
   EXPECT_NEAR(degrees_from_radians(angles.version_rad), GetParam().version_deg, 1.5);
   EXPECT_NEAR(degrees_from_radians(angles.inclination_rad), GetParam().inclination_deg, 1.5);
 }
@@ -115,8 +116,8 @@ TEST(Phantom, TruthAgreesWithTheDefinitionOfItsAngles) {
     params.version_rad = radians_from_degrees(-12.0);
     params.inclination_rad = radians_from_degrees(5.0);
     const GroundTruth t = make_phantom(params).truth;
-    const FaceAngles angles =
-        face_angles(t.glenoid.lateral, t.glenoid.centre_mm, t.spine_root_mm, t.inferior_angle_mm);
+    const case_::FaceAngles angles =
+        case_::face_angles(t.glenoid.lateral, t.glenoid.centre_mm, t.spine_root_mm, t.inferior_angle_mm);
     EXPECT_NEAR(angles.version_rad, params.version_rad, 1e-9);
     EXPECT_NEAR(angles.inclination_rad, params.inclination_rad, 1e-9);
     // Retroverted: the face looks more posterior (LPS +y) than the scapular axis does.

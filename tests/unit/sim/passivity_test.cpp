@@ -170,7 +170,7 @@ TEST(Passivity, TenThousandHandsDrawNoEnergy) {
     bench.fit(traits, traits.stiffness_max_n_mm * share, std::exp(3.3 * one(random)));
     if (n % 50 == 0 || bored) {
       bench.run.bone.coverage = bench.whole.coverage;
-      std::fill(bench.run.bone.density.begin(), bench.run.bone.density.end(),
+      std::fill(bench.run.bone.density.writable().begin(), bench.run.bone.density.writable().end(),
                 voxel::density_code(0.3 + 1.6 * one(random)));
     }
     sim::State state(bench.run.model, bench.run.bone);

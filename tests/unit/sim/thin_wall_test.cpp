@@ -30,7 +30,7 @@ voxel::BoneModel wall(const Plane& plane) {
   grid.spacing_mm = Vec3::Constant(voxel_mm);
   voxel::BoneModel bone = voxel::make_bone(grid);
   const double half_mm = 0.5 * voxel_mm * plane.normal.cwiseAbs().maxCoeff();
-  std::fill(bone.density.begin(), bone.density.end(), uint8_t{150});
+  std::fill(bone.density.writable().begin(), bone.density.writable().end(), uint8_t{150});
   for (uint32_t b = 0; b < grid.brick_count(); ++b) {
     const Vec3i first = grid.brick_coordinates(b) * voxel::brick_edge;
     if (std::abs(plane.distance_mm(grid.centre_mm(first))) > 2.0 * voxel::brick_edge * voxel_mm) continue;

@@ -71,7 +71,7 @@ TEST(CoverageHash, TellsBonesApartThatDifferInOneVoxel) {
     bone.coverage[i] ^= 1;
   }
   EXPECT_EQ(bone.coverage_hash(), before);
-  bone.density[0] ^= 1;
+  bone.density.writable()[0] ^= 1;
   EXPECT_EQ(bone.coverage_hash(), before) << "density never changes, so it is no part of it";
 }
 

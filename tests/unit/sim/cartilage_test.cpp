@@ -1,0 +1,65 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "force/coefficients.hpp"
+#include "force/vibration_kinds.hpp"
+#include "support/small_run.hpp"
+
+namespace ream::test {
+namespace {
+
+constexpr double surface_mm = 9.0, cartilage_mm = 2.0, force_n = 40.0, bone_g_cc = 1.5;
+constexpr auto cartilage = static_cast<size_t>(voxel::BoneClass::cartilage),
+               cortical = static_cast<size_t>(voxel::BoneClass::cortical);
+
+/// Compact bone under 2 mm of cartilage, pressed with a steady force.
+std::vector<record::TickReport> reamed(double duration_s, force::VibrationSource vibration) {
+  voxel::BoneModel bone = slab({96, 96, 96}, 0.15, surface_mm, bone_g_cc);
+  for (int w = 0; w < bone.grid.dims.z(); ++w)
+    for (int v = 0; v < bone.grid.dims.y(); ++v)
+      for (int u = 0; u < bone.grid.dims.x(); ++u)
+        if (bone.grid.centre_mm({u, v, w}).z() > surface_mm - cartilage_mm)
+          bone.density[bone.grid.index(u, v, w)] = voxel::cartilage_code;
+  const case_::Plan plan = slab_plan(bone, surface_mm);
+  const device::Script script = steady_push(force_n, duration_s);
+  sim::Settings settings = SmallRun::settings(script, "cpu");
+  settings.vibration.source = vibration;
+  return SmallRun(std::move(bone), plan, "sphere 8,5", script, settings).run();
+}
+
+double depth_mm(const record::TickReport& report) {
+  return surface_mm - report.world_from_tool.translation_mm.z();
+}
+
+TEST(Cartilage, IsReamedAtItsOwnFeedAndThenBoneAtIts) {
+  const auto reports = reamed(9.0, force::VibrationSource::off);
+  ASSERT_EQ(reports.size(), 9000u);
+  const double feed_mm_s = force_n / force::reference_thrust_n * force::cartilage_feed_mm_s;
+  const auto &early = reports[1500], &late = reports[4500];
+  EXPECT_NEAR((depth_mm(late) - depth_mm(early)) / 3.0, feed_mm_s, 0.02 * feed_mm_s);
+  int64_t removed = 0;
+  for (size_t i = 1500; i < 4500; ++i) {
+    ASSERT_NEAR(reports[i].share[cartilage], 1.0, 1e-12) << i;
+    ASSERT_EQ(reports[i].coverage_removed[cortical], 0) << i;
+    removed += reports[i].coverage_removed[cartilage];
+  }
+  EXPECT_GT(removed, 0);
+  // Past the layer the bone takes over, and it yields less.
+  EXPECT_GT(depth_mm(reports.back()), cartilage_mm);
+  EXPECT_GT(reports.back().share[cortical], 0.05);
+  const double last_mm_s = depth_mm(reports.back()) - depth_mm(reports[reports.size() - 1001]);
+  EXPECT_LT(last_mm_s, 0.8 * feed_mm_s);
+}
+
+TEST(Cartilage, VibratesAsCartilageDoes) {
+  const auto reports = reamed(4.5, force::VibrationSource::synthesized);
+  double sum = 0.0;
+  for (size_t i = 1500; i < 4500; ++i) sum += reports[i].vibration_g * reports[i].vibration_g;
+  const double level = force::vibration_levels[static_cast<size_t>(force::VibrationKind::cartilage)].g_rms;
+  EXPECT_NEAR(std::sqrt(sum / 3000.0), level, 0.2 * level);
+  EXPECT_LT(level, 0.5 * force::vibration_levels[static_cast<size_t>(force::VibrationKind::cortical)].g_rms);
+}
+
+}  // namespace
+}  // namespace ream::test

@@ -1,0 +1,88 @@
+#pragma once
+#include <algorithm>
+#include <set>
+
+#include "server_fixture.hpp"
+#include "support/json_schema.hpp"
+
+namespace ream::test {
+
+using nlohmann::json;
+
+/// "GET /api/v1/cases" and a status.
+using Described = std::set<std::pair<std::string, int>>;
+
+inline std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'a' && c <= 'z' ? char(c - 32) : c; });
+  return text;
+}
+
+class ContractTest : public ServerTest {
+ protected:
+  /// The reply must have a status, content type and body that the description of `pattern` states.
+  void expect_as_described(const std::string& method, const std::string& pattern, int status,
+                           const HttpReply& reply) {
+    const std::string operation = method + " " + pattern;
+    ASSERT_EQ(reply.status, status) << operation << ": " << reply.body;
+    std::string verb = method;
+    std::transform(verb.begin(), verb.end(), verb.begin(), [](char c) { return static_cast<char>(c | 32); });
+    const json& responses = contract.at("paths").at(pattern).at(verb).at("responses");
+    ASSERT_TRUE(responses.contains(std::to_string(status))) << operation << " answers " << status;
+    const json& response = checker.resolve(responses.at(std::to_string(status)));
+    if (response.contains("headers")) {
+      EXPECT_EQ(response["headers"].size(), 1u);
+      EXPECT_EQ(reply.headers.count("location"), response["headers"].count("Location")) << operation;
+    }
+    seen.insert({operation, status});
+    if (!response.contains("content")) return;
+    const json& content = response["content"];
+    ASSERT_TRUE(content.contains(reply.headers.at("content-type")))
+        << operation << " sends " << reply.headers.at("content-type");
+    const auto type = reply.headers.at("content-type");
+    const json body = type.find("json") == std::string::npos ? json(reply.body) : json::parse(reply.body);
+    for (const std::string& fault : checker.faults(content.at(type).at("schema"), body))
+      ADD_FAILURE() << operation << " " << status << ": " << fault << " in " << reply.body;
+  }
+
+  void expect_get(const std::string& pattern, const std::string& path, int status) {
+    expect_as_described("GET", pattern, status, get(path));
+  }
+  void expect_post(const std::string& pattern, const std::string& path, int status,
+                   const std::string& body = {}, const std::map<std::string, std::string>& headers = {}) {
+    expect_as_described("POST", pattern, status, http_request(server->port(), "POST", path, body, headers));
+  }
+  void expect_stream(const std::string& path, int status,
+                     const std::map<std::string, std::string>& headers = {}) {
+    const RawWebSocket viewer(server->port(), path, headers);
+    expect_as_described("GET", one + "/stream", status, viewer.handshake());
+  }
+  void expect_request(const std::string& method, const std::string& pattern, const std::string& path,
+                      int status, const std::string& body = {},
+                      const std::map<std::string, std::string>& headers = {}) {
+    expect_as_described(method, pattern, status, http_request(server->port(), method, path, body, headers));
+  }
+
+  /// Every reply that the contract describes for operations with these tags.
+  Described described(const std::set<std::string>& tags) const {
+    Described all_replies;
+    for (const auto& [path, item] : contract.at("paths").items())
+      for (const auto& [verb, operation] : item.items())
+        if (verb != "parameters" && tags.contains(operation.at("tags").at(0).get<std::string>()))
+          for (const auto& [status, response] : operation.at("responses").items())
+            all_replies.insert({upper(verb) + " " + path, std::stoi(status)});
+    return all_replies;
+  }
+  void expect_all_given(const std::set<std::string>& tags) const {
+    for (const auto& [operation, status] : described(tags))
+      EXPECT_TRUE(seen.contains({operation, status})) << operation << " " << status << " was never given";
+  }
+
+  const json contract = read_yaml(std::string(REAM_SOURCE_DIR) + "/proto/openapi.yaml");
+  const SchemaChecker checker{contract};
+  const std::string all = "/api/v1/sessions", one = "/api/v1/sessions/{id}";
+  const std::map<std::string, std::string> foreign = {{"Origin", "http://elsewhere.example"}};
+  Described seen;
+};
+
+}  // namespace ream::test
