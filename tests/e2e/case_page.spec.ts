@@ -366,10 +366,27 @@ test('a large correction is refused until a reason is given', async ({ page }) =
   expect((await details(page, id)).plan).toMatchObject({ override: true, override_reason: 'To show what goes wrong' });
 
   // By numbers, and by hand in a slice.
-  const entry = (await details(page, id)).plan?.entry_mm ?? [0, 0, 0];
-  await page.getByTestId('entry-2').fill(String(entry[2] + 2));
+  const { plan, ct } = await details(page, id);
+  if (ct === null || plan === null) throw new Error('no plan to change');
+  const [left, back, up] = plan.entry_mm;
+  await page.getByTestId('entry-2').fill(String(up + 2));
   await page.keyboard.press('Tab');
   await expect(page.getByTestId('plan-draft')).toHaveAttribute('data-kept', 'false');
+  await page.getByTestId('entry-2').fill(String(up));
+  await page.keyboard.press('Tab');
+  await page.getByTestId('frame-ct').click();
+  await drawn(page);
+  const [x, y] = await spotIn(page, 'axial', ct, plan.entry_mm);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 12, y + 16, { steps: 4 });
+  await page.mouse.up();
+  const entry = async (i: number) => Number(await page.getByTestId(`entry-${i}`).inputValue());
+  await expect.poll(() => entry(0)).toBeGreaterThan(left + 3);
+  expect(await entry(1)).toBeGreaterThan(back + 4);
+  expect(await entry(2)).toBeCloseTo(up, 0);
+  await page.getByTestId('keep-plan').click();
+  await expect(page.getByTestId('override')).toBeVisible();
 });
 
 async function spotOn(element: Locator, right: number, down: number): Promise<[number, number]> {

@@ -60,7 +60,10 @@ export class CaseApi {
     return this.call('DELETE', `jobs/${encodeURIComponent(jobId)}`);
   }
 
-  /** HU as 16-bit or labels as 8-bit numbers, rows as the CT has them. */
+  /**
+   * HU as 16-bit or labels as 8-bit numbers, rows as the CT has them. Never from the browser's cache: another case may
+   * have had the same id.
+   */
   async slice(
     id: string,
     of: 'hu' | 'labels',
@@ -70,7 +73,7 @@ export class CaseApi {
     signal: AbortSignal,
   ): Promise<ArrayBuffer> {
     const path = `${this.path(id)}/volume/slices/${axis}/${index}?of=${of}&revision=${revision}`;
-    return (await request(this.url(path), 'GET', { signal, cache: 'default' })).arrayBuffer();
+    return (await request(this.url(path), 'GET', { signal })).arrayBuffer();
   }
   meshUrl(id: string): string {
     return this.url(`${this.path(id)}/mesh`);

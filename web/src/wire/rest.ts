@@ -20,13 +20,11 @@ export interface CallOptions {
   /** Sent as JSON, or as bytes where it is an array of them. */
   body?: object | Uint8Array<ArrayBuffer>;
   signal?: AbortSignal;
-  /** By default answers are never taken from the browser's cache. */
-  cache?: RequestCache;
 }
 
 /** One call of the REST interface; throws ApiError for anything but success, and AbortError when given up. */
 export async function request(url: string, method: Method, options: CallOptions = {}): Promise<Response> {
-  const { body, signal, cache = 'no-store' } = options;
+  const { body, signal } = options;
   const bytes = body instanceof Uint8Array;
   const type = bytes ? 'application/octet-stream' : 'application/json';
   const timeout = AbortSignal.timeout(timeoutMs[method]);
@@ -34,7 +32,7 @@ export async function request(url: string, method: Method, options: CallOptions 
   try {
     response = await fetch(url, {
       method,
-      cache,
+      cache: 'no-store',
       headers: body === undefined ? {} : { 'content-type': type },
       body: body === undefined ? undefined : bytes ? body : JSON.stringify(body),
       signal: signal === undefined ? timeout : AbortSignal.any([timeout, signal]),

@@ -11,7 +11,7 @@ import { NumberBox, NumberField, Remark } from './fields';
 
 /** The proposed or kept plan by numbers, what it would do, and keeping it. */
 export function PlanDraftPanel({ keeper, draft }: { keeper: CaseKeeper; draft: PlanDraft }) {
-  const { plan, assessment, kept } = draft;
+  const { plan, assessment, isAssessed, kept } = draft;
   const change = (part: Partial<Plan>) => keeper.draftPlan({ ...plan, ...part });
   const asked = keeper.store.overrideAsked.value;
   return (
@@ -43,8 +43,10 @@ export function PlanDraftPanel({ keeper, draft }: { keeper: CaseKeeper; draft: P
         testId="plan-depth"
         onChange={(depth_mm) => change({ depth_mm })}
       />
-      {assessment !== null && <AssessmentFigures assessment={assessment} />}
-      {asked !== null || assessment?.needs_override === true ? (
+      <PlanFacts plan={plan} />
+      {assessment !== null && !isAssessed && <Remark kind="warn">{caseWords.planChanged}</Remark>}
+      {assessment !== null && <AssessmentFigures assessment={assessment} stale={!isAssessed} />}
+      {asked !== null || (isAssessed && assessment?.needs_override === true) ? (
         <Override keeper={keeper} words={asked} kept={kept} />
       ) : (
         <div class="buttons">
@@ -63,11 +65,27 @@ export function PlanDraftPanel({ keeper, draft }: { keeper: CaseKeeper; draft: P
   );
 }
 
-function AssessmentFigures({ assessment }: { assessment: Assessment }) {
+/** What of the plan is not edited here. */
+function PlanFacts({ plan }: { plan: Plan }) {
+  const { pilot_diameter_mm: diameter, pilot_depth_mm: depth } = plan;
+  const hasPilot = typeof diameter === 'number' && typeof depth === 'number';
+  return (
+    <dl class="figures-list">
+      <dt>{caseWords.reamer}</dt>
+      <dd>{plan.reamer}</dd>
+      <dt>{caseWords.guide}</dt>
+      <dd>{caseWords.guides[plan.guide ?? 'none']}</dd>
+      <dt>{caseWords.pilotHole}</dt>
+      <dd>{hasPilot ? caseWords.pilotSize(fixed(diameter, 1), fixed(depth, 1)) : caseWords.noPilot}</dd>
+    </dl>
+  );
+}
+
+function AssessmentFigures({ assessment, stale }: { assessment: Assessment; stale: boolean }) {
   const { correction_deg, version_after_deg, inclination_after_deg, vault_depth_mm, warnings } = assessment;
   return (
     <>
-      <dl class="figures-list">
+      <dl class={stale ? 'figures-list stale' : 'figures-list'}>
         <dt>{caseWords.correction}</dt>
         <dd data-testid="correction">
           {correction_deg === null ? caseWords.unknown : caseWords.fixed(fixed(correction_deg, 1), '°')}

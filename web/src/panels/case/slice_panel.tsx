@@ -71,28 +71,36 @@ export function SlicePanel({ name, view, store, enlarged }: Parts) {
 interface HeadParts {
   id: ViewId;
   title: string;
-  enlarged: Signal<ViewId | null>;
+  /** Null where there is but one view. */
+  enlarged: Signal<ViewId | null> | null;
   children?: preact.ComponentChildren;
 }
 
 export function ViewHead({ id, title, enlarged, children }: HeadParts) {
-  const large = enlarged.value === id;
   return (
     <header class="view-head">
       <h2>{title}</h2>
       {children}
-      <button
-        type="button"
-        class="enlarge"
-        data-testid={`enlarge-${id}`}
-        aria-pressed={large}
-        aria-label={large ? caseWords.reduce : caseWords.enlarge(title)}
-        title={large ? caseWords.reduce : caseWords.enlarge(title)}
-        onClick={() => (enlarged.value = large ? null : id)}
-      >
-        {large ? '⤡' : '⤢'}
-      </button>
+      {enlarged !== null && <EnlargeButton id={id} title={title} enlarged={enlarged} />}
     </header>
+  );
+}
+
+function EnlargeButton({ id, title, enlarged }: { id: ViewId; title: string; enlarged: Signal<ViewId | null> }) {
+  const large = enlarged.value === id;
+  const label = large ? caseWords.reduce : caseWords.enlarge(title);
+  return (
+    <button
+      type="button"
+      class="enlarge"
+      data-testid={`enlarge-${id}`}
+      aria-pressed={large}
+      aria-label={label}
+      title={label}
+      onClick={() => (enlarged.value = large ? null : id)}
+    >
+      {large ? '⤡' : '⤢'}
+    </button>
   );
 }
 

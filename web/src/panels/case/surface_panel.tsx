@@ -36,7 +36,7 @@ export function SurfacePanel({ view, store, enlarged }: Parts) {
   const note = view === null ? caseWords.surfaceNoWebGl : noteOf(state);
   return (
     <section class="view" aria-label={caseWords.surface}>
-      <ViewHead id="surface" title={caseWords.surface} enlarged={enlarged}>
+      <ViewHead id="surface" title={caseWords.surface} enlarged={store.details.value?.ct ? enlarged : null}>
         {view !== null &&
           looks.map(([name, label]) => (
             <button

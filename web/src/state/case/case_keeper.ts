@@ -49,7 +49,8 @@ export class CaseKeeper {
       if (this.ended.signal.aborted) return;
       batch(() => {
         this.take(details);
-        store.draft.value = details.plan === null ? null : { plan: details.plan, assessment: null, kept: true };
+        store.draft.value =
+          details.plan === null ? null : { plan: details.plan, assessment: null, isAssessed: false, kept: true };
         store.openStep.value = nextStep(
           stepStates({ details, landmarks: placedFrom(details.landmarks), planBeforeLandmarks: false }),
         );
@@ -105,17 +106,20 @@ export class CaseKeeper {
     return this.carryOut(async () => {
       await this.landmarks.saveNow();
       const { plan, assessment } = await this.api.proposePlan(this.caseId, wishes);
-      this.store.draft.value = { plan, assessment, kept: false };
+      this.store.draft.value = { plan, assessment, isAssessed: true, kept: false };
       this.store.overrideAsked.value = null;
       this.lookAt(plan.entry_mm);
     });
   }
 
-  /** The plan as it is changed by hand; nothing is sent. */
-  draftPlan(plan: Plan): void {
+  /** The plan as it is changed by hand; nothing is sent, and an override was of the plan before. */
+  draftPlan(changed: Plan): void {
     const draft = this.store.draft.value;
+    const plan = { ...changed };
+    delete plan.override;
+    delete plan.override_reason;
     batch(() => {
-      this.store.draft.value = { plan, assessment: draft?.assessment ?? null, kept: false };
+      this.store.draft.value = { plan, assessment: draft?.assessment ?? null, isAssessed: false, kept: false };
       this.store.overrideAsked.value = null;
     });
   }
@@ -131,7 +135,7 @@ export class CaseKeeper {
       try {
         const { plan, assessment } = await this.api.putPlan(this.caseId, asked);
         batch(() => {
-          this.store.draft.value = { plan, assessment, kept: true };
+          this.store.draft.value = { plan, assessment, isAssessed: true, kept: true };
           this.store.overrideAsked.value = null;
           this.store.planBeforeLandmarks.value = false;
         });

@@ -28,9 +28,10 @@ export function stepStates({ details, landmarks, planBeforeLandmarks }: StepFact
   };
 }
 
-/** The step to go on with. */
+/** The step to go on with: what is out of date, the reamer where all it needs is there, else what is to do first. */
 export function nextStep(states: Record<StepName, StepState>): StepName {
-  return (
-    stepNames.find((name) => states[name] === 'outdated') ?? stepNames.find((name) => states[name] === 'todo') ?? 'ream'
-  );
+  const outdated = stepNames.find((name) => states[name] === 'outdated');
+  if (outdated !== undefined) return outdated;
+  if (states.ream === 'todo') return 'ream';
+  return stepNames.find((name) => states[name] === 'todo') ?? 'ream';
 }

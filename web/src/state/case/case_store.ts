@@ -24,6 +24,8 @@ export type Armed = { kind: 'landmark'; name: LandmarkName } | { kind: 'seed'; n
 export interface PlanDraft {
   plan: Plan;
   assessment: Assessment | null;
+  /** The assessment is of this plan, not of one before it was changed by hand. */
+  isAssessed: boolean;
   /** The server has it as the case's plan. */
   kept: boolean;
 }

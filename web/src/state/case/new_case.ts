@@ -4,13 +4,13 @@ import type { CaseApi } from '../../wire/case_api';
 import type { CaseSummary, Job, Side } from '../../wire/case_types';
 import { wordsOf } from './case_keeper';
 import { followJob, pause } from './job_watch';
-import { forgetUpload, uploadFile, type UploadSource } from './upload';
+import { dropUpload, forgetUpload, uploadFile, type UploadSource } from './upload';
 
 /**
  * - idle: a file is to be chosen, or what is missing be filled in
  * - uploading; waiting: the link is broken and is tried again
  * - importing: the server reads the file
- * - failed: words say why; the upload is kept, so that the next try goes on from there
+ * - failed: words say why; what was uploaded is kept, so that the next try goes on from there
  */
 export type NewCaseState =
   | { kind: 'idle' }
@@ -37,8 +37,8 @@ export class CasesKeeper {
   private abort = new AbortController();
 
   constructor(
-    private readonly api: CaseApi,
-    private readonly remembered: Pick<Storage, 'getItem' | 'setItem' | 'removeItem'>,
+    readonly api: CaseApi,
+    readonly remembered: Pick<Storage, 'getItem' | 'setItem' | 'removeItem'>,
     /** The new case can be worked on. */
     private readonly onReady: (caseId: string) => void,
   ) {}
@@ -89,9 +89,10 @@ export class CasesKeeper {
         ...(name.trim() === '' ? {} : { name: name.trim() }),
         ...(seriesUid.trim() === '' ? {} : { series_uid: seriesUid.trim() }),
       });
+      // The server uses an upload once.
+      forgetUpload(file, this.remembered);
       const job = await this.follow(first, signal);
       if (job?.state === 'done') {
-        forgetUpload(file, this.remembered);
         batch(() => {
           this.file.value = null;
           this.side.value = null;
@@ -107,6 +108,7 @@ export class CasesKeeper {
       }
       await this.readCases();
     } catch (error) {
+      if (signal.aborted) await dropUpload(file, this);
       this.state.value = signal.aborted ? { kind: 'idle' } : { kind: 'failed', during, words: wordsOf(error) };
     }
   }

@@ -58,6 +58,13 @@ export function forgetUpload(file: UploadSource, remembered: UploadDuties['remem
   remembered.removeItem(nameOf(file));
 }
 
+/** What has arrived of a file is not wanted any more. */
+export async function dropUpload(file: UploadSource, { api, remembered }: Pick<UploadDuties, 'api' | 'remembered'>) {
+  const id = remembered.getItem(nameOf(file));
+  forgetUpload(file, remembered);
+  if (id !== null) await api.dropUpload(id).catch(() => undefined);
+}
+
 async function begin(file: UploadSource, { api, remembered }: UploadDuties): Promise<Upload> {
   const earlier = remembered.getItem(nameOf(file));
   if (earlier !== null) {

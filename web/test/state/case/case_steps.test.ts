@@ -43,5 +43,6 @@ describe('stepStates', () => {
   it('knows cases that were built without their CT', () => {
     const states = stepStates(facts({ ct: null, plan, stage: 'built' }));
     expect(states).toMatchObject({ segment: 'done', build: 'done', ream: 'todo' });
+    expect(nextStep(states)).toBe('ream');
   });
 });
