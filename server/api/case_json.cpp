@@ -32,7 +32,8 @@ Contents contents_of(const fs::path& folder) {
     contents.built = case_::load_case_description(folder);
     contents.plan = contents.built->plan;
   } else if (fs::exists(folder / "plan.json")) {
-    contents.plan = case_::plan_from_json(read_json_file(folder / "plan.json"), (folder / "plan.json").string());
+    contents.plan =
+        case_::plan_from_json(read_json_file(folder / "plan.json"), (folder / "plan.json").string());
   }
   return contents;
 }
@@ -42,7 +43,9 @@ json summary_of(const Contents& contents) {
   json value = {{"id", built ? built->id : workup->id},
                 {"name", built ? built->name : workup->name},
                 {"side", case_::to_text(built ? built->side : workup->side)},
-                {"stage", built ? "built" : workup->segmentation() ? "segmented" : "ct"},
+                {"stage", built                    ? "built"
+                          : workup->segmentation() ? "segmented"
+                                                   : "ct"},
                 {"dims", nullptr},
                 {"spacing_mm", nullptr},
                 {"planned", plan.has_value()}};

@@ -39,8 +39,8 @@ net::Response propose(CaseWorkshop& workshop, const std::filesystem::path& data_
   const auto targets = case_::plan_targets_from_json(json_object_in(request), place);
   check_reamer(targets.reamer, data_folder);
   const case_::Plan plan = workshop.propose(id, targets);
-  return net::json_response(200, {{"plan", plan_json(plan)},
-                                  {"assessment", case_::to_json(workshop.assess(id, plan))}});
+  return net::json_response(
+      200, {{"plan", plan_json(plan)}, {"assessment", case_::to_json(workshop.assess(id, plan))}});
 }
 
 net::Response set_plan(CaseWorkshop& workshop, const std::filesystem::path& data_folder,
@@ -82,16 +82,13 @@ void add_case_plan_routes(net::Router& router, CaseWorkshop& workshop,
             [&workshop](const net::Request& request) { return measures(workshop, request); });
   router.on("PUT", one + "/landmarks",
             [&workshop](const net::Request& request) { return set_landmarks(workshop, request); });
-  router.on("POST", one + "/plan/proposal",
-            [&workshop, data_folder](const net::Request& request) {
-              return propose(workshop, data_folder, request);
-            });
-  router.on("PUT", one + "/plan",
-            [&workshop, data_folder](const net::Request& request) {
-              return set_plan(workshop, data_folder, request);
-            });
-  router.on("GET", "/api/v1/reamers",
-            [data_folder](const net::Request&) { return reamers(data_folder); });
+  router.on("POST", one + "/plan/proposal", [&workshop, data_folder](const net::Request& request) {
+    return propose(workshop, data_folder, request);
+  });
+  router.on("PUT", one + "/plan", [&workshop, data_folder](const net::Request& request) {
+    return set_plan(workshop, data_folder, request);
+  });
+  router.on("GET", "/api/v1/reamers", [data_folder](const net::Request&) { return reamers(data_folder); });
 }
 
 }  // namespace ream::api

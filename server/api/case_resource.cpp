@@ -24,8 +24,7 @@ std::vector<fs::path> case_folders(const fs::path& folder) {
   std::vector<fs::path> list;
   std::error_code failed;
   for (const auto& entry : fs::directory_iterator(folder, failed))
-    if (is_case(folder, entry.path().filename().string()))
-      list.push_back(entry.path());
+    if (is_case(folder, entry.path().filename().string())) list.push_back(entry.path());
   std::sort(list.begin(), list.end());
   return list;
 }

@@ -36,9 +36,8 @@ net::Response slice(CaseWorkshop& workshop, const net::Request& request) {
   net::Bytes bytes = workshop.slice(parameters.at("id"), axis_of(parameters.at("axis")),
                                     index_of(parameters.at("index")), wants_labels(request));
   net::Response response = net::bytes_response(200, "application/octet-stream", shared(std::move(bytes)));
-  response.headers.emplace_back("Cache-Control", request.query.contains("revision")
-                                                     ? "private, max-age=86400, immutable"
-                                                     : "no-store");
+  response.headers.emplace_back(
+      "Cache-Control", request.query.contains("revision") ? "private, max-age=86400, immutable" : "no-store");
   return response;
 }
 

@@ -128,16 +128,15 @@ void CaseWorkshop::require_no_sessions(const std::string& id, const std::string&
 }
 
 JobRecord CaseWorkshop::build(const std::string& id, const ct::BuildSettings& settings) {
-  if (!workup(id).segmentation())
-    throw Error(ErrorKind::conflict, "case '" + id + "' is not segmented yet");
+  if (!workup(id).segmentation()) throw Error(ErrorKind::conflict, "case '" + id + "' is not segmented yet");
   require_no_sessions(id, "built anew");
   return jobs_.submit("build", id, [this, id, settings](const Progress& progress) {
     const fs::path folder = folder_of(id);
     ct::Workup workup = this->workup(id);
     const auto hu = shelf_.hu(folder, workup);
     const auto labels = shelf_.labels(folder, workup, workup.segmentation()->revision);
-    case_::Case made = ct::build_from(workup, *hu, *labels, landmarks(id), settings,
-                                      part_of(progress, 0.0, read_share));
+    case_::Case made =
+        ct::build_from(workup, *hu, *labels, landmarks(id), settings, part_of(progress, 0.0, read_share));
     progress(read_share, "writing the case");
     const std::lock_guard lock(changing_);
     case_::save_bone(made, folder);
@@ -148,8 +147,7 @@ JobRecord CaseWorkshop::build(const std::string& id, const ct::BuildSettings& se
 
 void CaseWorkshop::remove(const std::string& id) {
   const fs::path folder = folder_of(id);
-  if (jobs_.busy(id))
-    throw Error(ErrorKind::conflict, "there is work on case '" + id + "'; cancel it first");
+  if (jobs_.busy(id)) throw Error(ErrorKind::conflict, "there is work on case '" + id + "'; cancel it first");
   require_no_sessions(id, "deleted");
   const std::lock_guard lock(changing_);
   const fs::path gone = cases_folder_ / ("." + id + ".deleted");
@@ -217,8 +215,7 @@ net::Bytes CaseWorkshop::slice(const std::string& id, int axis, int index, bool 
                                           std::to_string(dims[axis] - 1) + " along that axis");
   if (!of_labels)
     return bytes_of(ct::slice_of(std::span<const int16_t>(*shelf_.hu(folder, workup)), dims, axis, index));
-  if (!workup.segmentation())
-    throw Error(ErrorKind::conflict, "case '" + id + "' is not segmented yet");
+  if (!workup.segmentation()) throw Error(ErrorKind::conflict, "case '" + id + "' is not segmented yet");
   const auto labels = shelf_.labels(folder, workup, workup.segmentation()->revision);
   return bytes_of(ct::slice_of(std::span<const uint8_t>(*labels), dims, axis, index));
 }

@@ -32,9 +32,9 @@ struct NewCase {
   case_::Side side = case_::Side::right;
 };
 
-/// What is done with cases between upload and session: import, segmentation, landmarks, plan, build, each kept
-/// in the case's folder. Thread-safe. Unknown cases throw Error not_found, steps that miss an earlier one
-/// conflict.
+/// What is done with cases between upload and session: import, segmentation, landmarks, plan, build, each
+/// kept in the case's folder. Thread-safe. Unknown cases throw Error not_found, steps that miss an earlier
+/// one conflict.
 class CaseWorkshop {
  public:
   CaseWorkshop(std::filesystem::path cases_folder, CaseTools tools);

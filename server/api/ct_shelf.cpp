@@ -41,9 +41,8 @@ CtShelf::Hu CtShelf::hu(const fs::path& case_folder, const ct::Workup& workup) {
 }
 
 CtShelf::Labels CtShelf::labels(const fs::path& case_folder, const ct::Workup& workup, int revision) {
-  return find_or_make<std::vector<uint8_t>>(workup.id, "labels " + std::to_string(revision), [&] {
-    return ct::load_labels(case_folder, workup, revision);
-  });
+  return find_or_make<std::vector<uint8_t>>(workup.id, "labels " + std::to_string(revision),
+                                            [&] { return ct::load_labels(case_folder, workup, revision); });
 }
 
 CtShelf::Bone CtShelf::bone(const fs::path& case_folder, const ct::Workup& workup) {

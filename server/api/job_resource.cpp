@@ -15,8 +15,9 @@ json to_json(const JobRecord& job) {
     const int status = net::http_status(job.problem_kind);
     problem = {{"status", status}, {"title", net::status_title(status)}, {"detail", job.problem}};
   }
-  return {{"id", job.id},       {"kind", job.kind}, {"case_id", job.case_id},         {"state", to_text(job.state)},
-          {"share", job.share}, {"step", job.step}, {"problem", std::move(problem)}};
+  return {
+      {"id", job.id},       {"kind", job.kind}, {"case_id", job.case_id},       {"state", to_text(job.state)},
+      {"share", job.share}, {"step", job.step}, {"problem", std::move(problem)}};
 }
 
 net::Response list(const JobService& jobs, const net::Request& request) {

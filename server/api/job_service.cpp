@@ -77,12 +77,13 @@ JobRecord JobService::submit(const std::string& kind, const std::string& case_id
   if (busy_locked(case_id))
     throw Error(ErrorKind::conflict,
                 "other work on case '" + case_id + "' is not done; wait for it or cancel it");
-  const auto waiting = std::count_if(jobs_.begin(), jobs_.end(),
-                                     [](const auto& job) { return is_open(job->record.state); });
+  const auto waiting =
+      std::count_if(jobs_.begin(), jobs_.end(), [](const auto& job) { return is_open(job->record.state); });
   if (waiting >= static_cast<std::ptrdiff_t>(most_waiting))
     throw Error(ErrorKind::unavailable, "too much work waits already; try again later");
   const auto job = std::make_shared<Job>();
-  job->record = {random_id(), kind, case_id, JobState::waiting, 0.0, "waiting for its turn", ErrorKind::io, {}};
+  job->record = {random_id(),   kind, case_id, JobState::waiting, 0.0, "waiting for its turn",
+                 ErrorKind::io, {}};
   job->work = std::move(work);
   jobs_.push_back(job);
   while (jobs_.size() > most_kept && !is_open(jobs_.front()->record.state)) jobs_.pop_front();
@@ -121,9 +122,8 @@ void JobService::work() {
   give_way();
   std::unique_lock lock(mutex_);
   while (true) {
-    const auto next = std::find_if(jobs_.begin(), jobs_.end(), [](const auto& job) {
-      return job->record.state == JobState::waiting;
-    });
+    const auto next = std::find_if(jobs_.begin(), jobs_.end(),
+                                   [](const auto& job) { return job->record.state == JobState::waiting; });
     if (closed_) return;
     if (next == jobs_.end()) {
       changed_.wait(lock);
@@ -160,7 +160,8 @@ void JobService::run(const std::shared_ptr<Job>& job) {
     end(*job, JobState::done, ErrorKind::io, {});
   } catch (const Error& error) {
     const bool cancelled = error.kind() == ErrorKind::cancelled;
-    end(*job, cancelled ? JobState::cancelled : JobState::failed, error.kind(), cancelled ? "" : error.what());
+    end(*job, cancelled ? JobState::cancelled : JobState::failed, error.kind(),
+        cancelled ? "" : error.what());
   } catch (const std::bad_alloc&) {
     end(*job, JobState::failed, ErrorKind::unavailable, "there is not enough memory for this work");
   } catch (const std::exception& failure) {

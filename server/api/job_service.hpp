@@ -28,7 +28,8 @@ struct JobRecord {
 };
 
 /// Does long work one after the other, on a thread that gives way to everything else (a running haptic loop
-/// above all). The newest 64 finished jobs can be asked about. Thread-safe; unknown ids throw Error not_found.
+/// above all). The newest 64 finished jobs can be asked about. Thread-safe; unknown ids throw Error
+/// not_found.
 class JobService {
  public:
   using Work = std::function<void(const Progress& progress)>;

@@ -43,9 +43,9 @@ void add_contract_route(net::Router& router) {
 CaseTools tools_of(const ServerOptions& options, const SessionService& sessions) {
   return {options.read_ct, [&sessions](const std::string& case_id) {
             const auto all = sessions.list();
-            return static_cast<size_t>(std::count_if(all.begin(), all.end(), [&](const SessionRecord& record) {
-              return record.request.case_id == case_id;
-            }));
+            return static_cast<size_t>(std::count_if(
+                all.begin(), all.end(),
+                [&](const SessionRecord& record) { return record.request.case_id == case_id; }));
           }};
 }
 

@@ -17,13 +17,13 @@ namespace ream::api {
 struct ServerOptions {
   net::ListenOptions listen;
   std::filesystem::path cases_folder;
-  std::filesystem::path data_folder;  ///< uploads, and users' reamers
+  std::filesystem::path data_folder;      ///< uploads, and users' reamers
   std::filesystem::path web_folder;       ///< the built page; served under "/"
   std::filesystem::path sessions_folder;  ///< where sessions keep their folders
   SessionMakers make_session;
   SessionLimits sessions;
   std::string usual_device = "script";  ///< of sessions that name none
-  CtReader read_ct;  ///< of uploaded files
+  CtReader read_ct;                     ///< of uploaded files
   ReplayFactory make_replay;
   ReplayLimits replays;
   std::function<void()> prepare;  ///< run once in the background; /readyz is 503 until it is done

@@ -12,8 +12,7 @@ constexpr double most_bytes = 1e15;
 constexpr size_t longest_name = 200;
 
 nlohmann::json to_json(const Upload& upload) {
-  return {
-      {"id", upload.id}, {"name", upload.name}, {"bytes", upload.bytes}, {"received", upload.received}};
+  return {{"id", upload.id}, {"name", upload.name}, {"bytes", upload.bytes}, {"received", upload.received}};
 }
 
 uint64_t offset_of(const net::Request& request) {

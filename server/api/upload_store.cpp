@@ -56,7 +56,8 @@ Upload UploadStore::create(const std::string& name, uint64_t bytes) {
     throw net::RequestError(413, "'" + name + "' is larger than a file may be, " +
                                      std::to_string(limits_.file_bytes >> 20) + " MiB");
   if (announced + bytes > limits_.all_bytes || uploads_.size() >= limits_.count)
-    throw net::RequestError(413, "too many uploads wait to be used; delete one (DELETE /api/v1/uploads/{id})");
+    throw net::RequestError(413,
+                            "too many uploads wait to be used; delete one (DELETE /api/v1/uploads/{id})");
   Upload upload{random_id(), name, bytes, 0};
   make_writable_folder(folder_ / upload.id);
   if (!std::ofstream(file_of(upload), std::ios::binary))
@@ -101,8 +102,8 @@ fs::path UploadStore::take(const std::string& id) {
   const std::lock_guard lock(mutex_);
   const Upload upload = find(id);
   if (upload.received != upload.bytes)
-    throw Error(ErrorKind::conflict, "'" + upload.name + "' is not complete: " +
-                                         std::to_string(upload.received) + " of " +
+    throw Error(ErrorKind::conflict, "'" + upload.name +
+                                         "' is not complete: " + std::to_string(upload.received) + " of " +
                                          std::to_string(upload.bytes) + " bytes have come");
   uploads_.erase(id);
   return file_of(upload);

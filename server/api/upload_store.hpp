@@ -28,8 +28,8 @@ class UploadStore {
  public:
   explicit UploadStore(std::filesystem::path folder, UploadLimits limits = {});
 
-  /// `name` must be a plain file name with an extension that a CT may have. Errors: invalid_input; RequestError
-  /// 413 beyond the limits; io.
+  /// `name` must be a plain file name with an extension that a CT may have. Errors: invalid_input;
+  /// RequestError 413 beyond the limits; io.
   Upload create(const std::string& name, uint64_t bytes);
   Upload get(const std::string& id) const;
   /// Appends a piece at `offset`. Errors: conflict when that is not where the file ends so far or when the

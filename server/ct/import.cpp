@@ -3,9 +3,12 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/file.hpp"
 #include "ct/cartilage.hpp"
 #include "ct/label_map.hpp"
 #include "ct/volume_io.hpp"
+#include "ct/workup.hpp"
+#include "ct/workup_bone.hpp"
 
 namespace ream::ct {
 namespace {
@@ -54,10 +57,10 @@ case_::GlenoidFrame glenoid_frame(const Vec3& centre_mm, const Segmentation& seg
   return frame;
 }
 
-void make_from_labels(HuVolume& volume, const ImportOptions& options, case_::Case& result,
-                      const Progress& progress) {
+Segmentation make_from_labels(HuVolume& volume, const ImportOptions& options, case_::Case& result,
+                              const Progress& progress) {
   if (options.roi_mm) cropped(volume, *options.roi_mm);  // refuses a region outside before the long work
-  const Segmentation segmentation = labelled(volume, options, result.side, part_of(progress, 0.3, 0.7));
+  Segmentation segmentation = labelled(volume, options, result.side, part_of(progress, 0.3, 0.7));
   result.calibration.threshold_hu = segmentation.threshold_hu;
   result.warnings.insert(result.warnings.end(), segmentation.warnings.begin(), segmentation.warnings.end());
   if (options.labels_out) write_label_map(volume, segmentation.labels, *options.labels_out);
@@ -70,12 +73,13 @@ void make_from_labels(HuVolume& volume, const ImportOptions& options, case_::Cas
     settings.roi_mm = glenoid_roi_mm(glenoid_centre(options, segmentation), to_head);
   result.bone = bone_from_mask(volume, mask_of(segmentation.labels, BoneLabel::scapula), settings,
                                part_of(progress, 0.7, 0.95));
-  if (options.cartilage_mm == 0.0) return;
+  if (options.cartilage_mm == 0.0) return segmentation;
   progress(0.95, "laying cartilage");
   CartilageSettings cartilage;
   cartilage.thickness_mm = options.cartilage_mm;
   add_cartilage(result.bone, glenoid_frame(glenoid_centre(options, segmentation), segmentation, result.side),
                 cartilage);
+  return segmentation;
 }
 
 void make_from_growing(HuVolume& volume, const ImportOptions& options, case_::Case& result) {
@@ -111,11 +115,12 @@ Mask mask_from_label(const HuVolume& volume, const HuVolume& label, int value) {
   return mask;
 }
 
-case_::Case import_ct(const std::filesystem::path& path, const std::string& id, const ImportOptions& options,
-                      const Progress& progress) {
-  progress(0.0, "reading the CT");
-  HuVolume volume = read_ct(path);
-  case_::Case result;
+Imported import_with_ct(const std::filesystem::path& path, const std::string& id,
+                        const ImportOptions& options, const Progress& progress) {
+  Imported imported;
+  imported.volume = read_ct(path, {}, part_of(progress, 0.0, 0.3));
+  HuVolume& volume = imported.volume;
+  case_::Case& result = imported.made;
   result.id = id;
   result.name = id;
   result.source = volume.source;
@@ -125,7 +130,7 @@ case_::Case import_ct(const std::filesystem::path& path, const std::string& id, 
   result.calibration = options.segmentation.calibration;
   result.calibration.threshold_hu = options.segmentation.threshold_hu;
   if (options.shoulder || options.label)
-    make_from_labels(volume, options, result, progress);
+    imported.segmentation = make_from_labels(volume, options, result, progress);
   else
     make_from_growing(volume, options, result);
   if (result.bone.filled_voxels() == 0)
@@ -133,7 +138,29 @@ case_::Case import_ct(const std::filesystem::path& path, const std::string& id, 
                 "the segmentation holds no bone that fills half a voxel; choose another --threshold-hu or "
                 "--upsample");
   progress(1.0, "case ready");
-  return result;
+  return imported;
+}
+
+case_::Case import_ct(const std::filesystem::path& path, const std::string& id, const ImportOptions& options,
+                      const Progress& progress) {
+  return import_with_ct(path, id, options, progress).made;
+}
+
+void save_imported(const Imported& imported, const ImportOptions& options,
+                   const std::filesystem::path& folder, bool replace) {
+  const case_::Case& made = imported.made;
+  if (!imported.segmentation) return case_::save_case(made, folder, replace);
+  FolderInProgress target(folder, replace);
+  Workup workup = write_workup(target.path(), made.id, made.name, made.side, imported.volume);
+  SegmentationSettings settings = options.shoulder.value_or(SegmentationSettings{});
+  settings.side = made.side;
+  add_segmentation(target.path(), workup, settings, *imported.segmentation);
+  const BuildSettings build{options.segmentation.upsample, options.roi_at_glenoid || options.roi_mm,
+                            options.cartilage_mm, made.calibration};
+  workup.built = build_record(made.bone, build, workup.segmentation()->revision);
+  save_workup(target.path(), workup);
+  case_::save_bone(made, target.path());
+  target.commit();
 }
 
 std::string case_id_from(const std::filesystem::path& folder) {

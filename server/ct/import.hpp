@@ -27,6 +27,19 @@ struct ImportOptions {
 case_::Case import_ct(const std::filesystem::path& path, const std::string& id, const ImportOptions& options,
                       const Progress& progress = no_progress);
 
+/// A case with the CT it was made of. Without a segmentation where bone only grew.
+struct Imported {
+  case_::Case made;
+  HuVolume volume;
+  std::optional<Segmentation> segmentation;
+};
+Imported import_with_ct(const std::filesystem::path& path, const std::string& id,
+                        const ImportOptions& options, const Progress& progress = no_progress);
+
+/// Saves case and CT in one folder (workup.hpp), whole or not at all. Errors as case_::save_case.
+void save_imported(const Imported& imported, const ImportOptions& options,
+                   const std::filesystem::path& folder, bool replace);
+
 /// Mask of the voxels whose centre lies in a voxel of that value in the label map. Throws Error invalid_input
 /// when the map holds no such label within the CT.
 Mask mask_from_label(const HuVolume& volume, const HuVolume& label, int value);

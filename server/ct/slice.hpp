@@ -7,9 +7,9 @@
 
 namespace ream::ct {
 
-/// One slice of a volume across a voxel axis (0 u, 1 v, 2 w), rows of the lower remaining axis first: across w
-/// it is nx * ny with x fastest, across v nx * nz with x fastest, across u ny * nz with y fastest. Needs an index
-/// within the dims.
+/// One slice of a volume across a voxel axis (0 u, 1 v, 2 w), rows of the lower remaining axis first: across
+/// w it is nx * ny with x fastest, across v nx * nz with x fastest, across u ny * nz with y fastest. Needs an
+/// index within the dims.
 template <typename T>
 std::vector<T> slice_of(std::span<const T> voxels, const Vec3i& dims, int axis, int index) {
   const auto nx = static_cast<size_t>(dims.x()), ny = static_cast<size_t>(dims.y()),

@@ -66,8 +66,8 @@ std::vector<uint8_t> load_labels(const fs::path& case_folder, const Workup& work
   return labels;
 }
 
-Workup create_workup(const fs::path& case_folder, const std::string& id, const std::string& name,
-                     case_::Side side, const HuVolume& volume) {
+Workup write_workup(const fs::path& folder, const std::string& id, const std::string& name, case_::Side side,
+                    const HuVolume& volume) {
   Workup workup;
   workup.id = id;
   workup.name = name;
@@ -81,10 +81,16 @@ Workup create_workup(const fs::path& case_folder, const std::string& id, const s
   workup.hu_min = *low;
   workup.hu_max = *high;
   workup.suggested_threshold_hu = suggested_threshold_hu(volume);
+  fs::create_directories(folder / "ct");
+  write_zstd_file(hu_of(folder), std::as_bytes(std::span(volume.hu)));
+  save_workup(folder, workup);
+  return workup;
+}
+
+Workup create_workup(const fs::path& case_folder, const std::string& id, const std::string& name,
+                     case_::Side side, const HuVolume& volume) {
   FolderInProgress folder(case_folder);
-  fs::create_directories(folder.path() / "ct");
-  write_zstd_file(hu_of(folder.path()), std::as_bytes(std::span(volume.hu)));
-  save_workup(folder.path(), workup);
+  Workup workup = write_workup(folder.path(), id, name, side, volume);
   folder.commit();
   return workup;
 }
@@ -110,7 +116,8 @@ void add_segmentation(const fs::path& case_folder, Workup& workup, const Segment
                       const Segmentation& made) {
   Workup changed = workup;
   const int revision = ++changed.last_revision;
-  changed.segmentations.push_back({revision, settings, made.threshold_hu, made.parts, made.head, made.glenoid_mm, made.warnings});
+  changed.segmentations.push_back(
+      {revision, settings, made.threshold_hu, made.parts, made.head, made.glenoid_mm, made.warnings});
   if (changed.segmentations.size() > kept_segmentations)
     changed.segmentations.erase(changed.segmentations.begin());
   write_zstd_file(labels_of(case_folder, revision), std::as_bytes(std::span(made.labels)));

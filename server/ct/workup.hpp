@@ -24,9 +24,9 @@ struct SegmentationRecord {
 
 /// What of the CT becomes the bone of a case, and how fine.
 struct BuildSettings {
-  int upsample = 4;            ///< parts of a CT voxel per axis, 1 to 16
-  bool around_glenoid = true;  ///< else the whole CT
-  double cartilage_mm = 0.0;   ///< thickness of synthetic cartilage; 0: none
+  int upsample = 4;                ///< parts of a CT voxel per axis, 1 to 16
+  bool around_glenoid = true;      ///< else the whole CT
+  double cartilage_mm = 0.0;       ///< thickness of synthetic cartilage; 0: none
   case_::Calibration calibration;  ///< its threshold is the segmentation's
 };
 
@@ -39,8 +39,8 @@ struct BuildRecord {
 };
 
 /// A CT on its way to a case: the folder ct/ of a case folder holds hu.zst (16-bit HU, x fastest),
-/// labels-REVISION.zst (one byte a voxel, BoneLabel) and ct.json (proto/ct.schema.json), which is written last
-/// and names what counts.
+/// labels-REVISION.zst (one byte a voxel, BoneLabel) and ct.json (proto/ct.schema.json), which is written
+/// last and names what counts.
 struct Workup {
   std::string id;    ///< of the case
   std::string name;  ///< for people
@@ -69,8 +69,12 @@ std::vector<int16_t> load_hu(const std::filesystem::path& case_folder, const Wor
 std::vector<uint8_t> load_labels(const std::filesystem::path& case_folder, const Workup& workup,
                                  int revision);
 
-/// A new case folder that holds nothing but the CT; it appears whole or not at all. Range and suggested
-/// threshold are found here. Errors: conflict when the folder exists; io.
+/// Writes the CT into a folder in progress. Range and suggested threshold are found here. Error io.
+Workup write_workup(const std::filesystem::path& folder, const std::string& id, const std::string& name,
+                    case_::Side side, const HuVolume& volume);
+
+/// A new case folder that holds nothing but the CT; it appears whole or not at all. Errors: conflict when the
+/// folder exists; io.
 Workup create_workup(const std::filesystem::path& case_folder, const std::string& id, const std::string& name,
                      case_::Side side, const HuVolume& volume);
 

@@ -98,12 +98,14 @@ case_::Case build_from(Workup& workup, const std::vector<int16_t>& hu, const std
   result.calibration = calibration_of(workup, settings);
   result.bone = bone_from_mask(volume_of(workup, hu), scapula_mask(workup, labels),
                                BoneSettings{roi, settings.upsample, result.calibration}, progress);
-  if (settings.cartilage_mm > 0.0)
-    add_cartilage(result.bone, *result.glenoid, cartilage_of(settings));
-  workup.built =
-      BuildRecord{settings, box_of(result.bone.grid), result.bone.filled_voxels(),
-                  density_range_g_cc(result.bone), workup.segmentation()->revision};
+  if (settings.cartilage_mm > 0.0) add_cartilage(result.bone, *result.glenoid, cartilage_of(settings));
+  workup.built = build_record(result.bone, settings, workup.segmentation()->revision);
   return result;
+}
+
+BuildRecord build_record(const voxel::BoneModel& bone, const BuildSettings& settings,
+                         int segmentation_revision) {
+  return {settings, box_of(bone.grid), bone.filled_voxels(), density_range_g_cc(bone), segmentation_revision};
 }
 
 }  // namespace ream::ct

@@ -21,4 +21,8 @@ case_::Case build_from(Workup& workup, const std::vector<int16_t>& hu, const std
                        const case_::Landmarks& landmarks, const BuildSettings& settings,
                        const Progress& progress);
 
+/// What ct.json says of a bone that was built.
+BuildRecord build_record(const voxel::BoneModel& bone, const BuildSettings& settings,
+                         int segmentation_revision);
+
 }  // namespace ream::ct

@@ -169,9 +169,8 @@ json to_json(const BonePart& part) {
 }
 
 json to_json(const SegmentationSettings& settings) {
-  json value = {{"sigma_mm", settings.sigma_mm},
-                {"separate", settings.separate},
-                {"fill_holes", settings.fill_holes}};
+  json value = {
+      {"sigma_mm", settings.sigma_mm}, {"separate", settings.separate}, {"fill_holes", settings.fill_holes}};
   if (settings.threshold_hu) value["threshold_hu"] = *settings.threshold_hu;
   json seeds = json::object();
   for (const auto& [key, seed] :

@@ -11,8 +11,8 @@ nlohmann::json to_json(const Workup& workup);
 /// Error invalid_input naming `place` and key.
 Workup workup_from_json(const nlohmann::json& value, const std::string& place);
 
-/// Keys threshold_hu, sigma_mm, separate, fill_holes and seeds {scapula, humerus, clavicle}, all optional. The
-/// side is the case's and no key.
+/// Keys threshold_hu, sigma_mm, separate, fill_holes and seeds {scapula, humerus, clavicle}, all optional.
+/// The side is the case's and no key.
 nlohmann::json to_json(const SegmentationSettings& settings);
 SegmentationSettings segmentation_settings_from_json(const nlohmann::json& value, const std::string& place);
 

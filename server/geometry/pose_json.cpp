@@ -21,8 +21,7 @@ nlohmann::json to_json(const Pose& pose) {
 Pose pose_from_json(JsonReader reader) {
   Pose pose;
   const auto rows = reader.number_rows("rotation", 3, 3);
-  for (size_t i = 0; i < 9; ++i)
-    pose.rotation(static_cast<int>(i / 3), static_cast<int>(i % 3)) = rows[i];
+  for (size_t i = 0; i < 9; ++i) pose.rotation(static_cast<int>(i / 3), static_cast<int>(i % 3)) = rows[i];
   const Mat3& r = pose.rotation;
   const double deviation = (r.transpose() * r - Mat3::Identity()).cwiseAbs().maxCoeff();
   if (!(deviation < rotation_tolerance) || r.row(0).cross(r.row(1)).dot(r.row(2)) < 0.0)

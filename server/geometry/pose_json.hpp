@@ -10,8 +10,8 @@ namespace ream {
 /// {"rotation": three rows, "translation_mm": [x, y, z]}, to the bit.
 nlohmann::json to_json(const Pose& pose);
 
-/// Back again. Error invalid_input naming place and key unless the rotation is orthonormal and right-handed to
-/// 1e-6 and everything is finite.
+/// Back again. Error invalid_input naming place and key unless the rotation is orthonormal and right-handed
+/// to 1e-6 and everything is finite.
 Pose pose_from_json(JsonReader reader);
 
 }  // namespace ream

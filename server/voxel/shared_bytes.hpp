@@ -8,8 +8,8 @@
 
 namespace ream::voxel {
 
-/// Bytes that copies share: a case that several sessions ream keeps its density once. Reading is as of a const
-/// vector; who writes asks for writable(), which copies first when others share.
+/// Bytes that copies share: a case that several sessions ream keeps its density once. Reading is as of a
+/// const vector; who writes asks for writable(), which copies first when others share.
 class SharedBytes {
  public:
   SharedBytes() = default;

@@ -82,14 +82,9 @@ template <typename T>
 std::vector<T> upsample(std::span<const T> input, const Vec3i& dims, int factor) {
   check_upsample(input.size(), dims, factor);
   const auto n = static_cast<uint32_t>(factor);
-  const Volume<T> volume{input.data(),
-                         static_cast<size_t>(dims.x()),
-                         static_cast<size_t>(dims.y()),
-                         taps(dims.x(), factor),
-                         taps(dims.y(), factor),
-                         taps(dims.z(), factor),
-                         4 * n * n * n,
-                         Divisor(8 * n * n * n)};
+  const Volume<T> volume{input.data(),           static_cast<size_t>(dims.x()), static_cast<size_t>(dims.y()),
+                         taps(dims.x(), factor), taps(dims.y(), factor),        taps(dims.z(), factor),
+                         4 * n * n * n,          Divisor(8 * n * n * n)};
   const size_t slice = volume.tx.size() * volume.ty.size();
   std::vector<T> output(slice * volume.tz.size());
   std::atomic<size_t> next{0};

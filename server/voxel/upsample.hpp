@@ -35,7 +35,8 @@ constexpr UpsampleTap upsample_tap(int i, int factor, int input_count) {
 ///   sum = sum over the 8 corners of weight_x * weight_y * weight_z * value     (weights of upsample_tap)
 ///   result = (sum + 4 N^3) / (8 N^3), rounded down, i.e. to nearest, halves up.
 /// 16-bit samples take part as value + 32768 (0 to 65535) and the 32768 is taken off the result.
-/// On two threads. Throws Error invalid_input for a bad factor, empty dims, or an input whose size is not dims'.
+/// On two threads. Throws Error invalid_input for a bad factor, empty dims, or an input whose size is not
+/// dims'.
 std::vector<uint8_t> upsample_trilinear(std::span<const uint8_t> input, const Vec3i& dims, int factor);
 std::vector<int16_t> upsample_trilinear(std::span<const int16_t> input, const Vec3i& dims, int factor);
 

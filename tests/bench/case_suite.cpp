@@ -45,8 +45,9 @@ Row upsample_row(const std::string& what) {
   const double seconds =
       median_s(runs, [&] { voxel::upsample_trilinear(std::span<const T>(input), dims, factor); });
   const double cells = static_cast<double>(input.size()) * factor * factor * factor;
-  return {"case", what + " upsampled by 8 to 600 x 384 x 464 (baseline: the thesis' rate)", seconds,
-          cells / thesis_cells_s, "s", goal_upsample_s};
+  return {"case",  what + " upsampled by 8 to 600 x 384 x 464 (baseline: the thesis' rate)",
+          seconds, cells / thesis_cells_s,
+          "s",     goal_upsample_s};
 }
 
 void loading_rows(std::vector<Row>& rows) {

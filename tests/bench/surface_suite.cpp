@@ -188,7 +188,8 @@ std::vector<Row> surface_suite(const Options&) {
   std::vector<Row> rows;
   add_whole(bone_case.bone, rows);
   add_seated("thesis-5-4-2 seated", measure_seated(bone_case), 0.0, rows);
-  std::fill(bone_case.bone.density.writable().begin(), bone_case.bone.density.writable().end(), cortical_code);
+  std::fill(bone_case.bone.density.writable().begin(), bone_case.bone.density.writable().end(),
+            cortical_code);
   add_seated("thesis-5-4-2 cortical", measure_seated(std::move(bone_case)), goal_bytes_s, rows);
   return rows;
 }

@@ -14,7 +14,8 @@ inline voxel::BoneModel slab(const Vec3i& dims, double spacing_mm, double surfac
   grid.dims = dims;
   grid.spacing_mm = Vec3::Constant(spacing_mm);
   voxel::BoneModel bone = voxel::make_bone(grid);
-  std::fill(bone.density.writable().begin(), bone.density.writable().end(), voxel::density_code(density_g_cc));
+  std::fill(bone.density.writable().begin(), bone.density.writable().end(),
+            voxel::density_code(density_g_cc));
   for (int w = 0; w < dims.z(); ++w) {
     const double inside = (surface_mm - (w + 0.5) * spacing_mm) / spacing_mm;
     const double level = std::clamp(128.0 + 255.0 * inside, 0.0, 255.0);

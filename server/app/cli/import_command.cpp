@@ -26,7 +26,7 @@ struct Options {
   std::string out, grow_from, humerus, glenoid, roi, calibration, side, name, labels_out;
   ct::ImportOptions import;
   ct::SegmentationSettings shoulder;
-  bool replace = false, no_separate = false;
+  bool replace = false, no_separate = false, without_ct = false;
 };
 
 Vec3 point(const std::vector<double>& n, size_t first = 0) { return {n[first], n[first + 1], n[first + 2]}; }
@@ -79,12 +79,12 @@ class TerminalProgress {
   bool terminal_;
 };
 
-case_::Case imported(const Options& options, const std::filesystem::path& out) {
-  const ct::ImportOptions import = parsed(options);
+ct::Imported imported(const Options& options, const ct::ImportOptions& import,
+                      const std::filesystem::path& out) {
   const TerminalProgress progress;
   const CtSource source(options.path);
   return source.read([&](const std::filesystem::path& ct) {
-    return ct::import_ct(ct, ct::case_id_from(out), import, std::cref(progress));
+    return ct::import_with_ct(ct, ct::case_id_from(out), import, std::cref(progress));
   });
 }
 
@@ -132,10 +132,14 @@ void import_case(const Options& options, const GlobalOptions& global) {
   if (!options.replace && std::filesystem::exists(out / "case.json"))
     throw Error(ErrorKind::conflict,
                 out.string() + " is a case already; choose another name or give --replace");
-  case_::Case made = imported(options, out);
-  if (!options.name.empty()) made.name = options.name;
-  case_::save_case(made, out, options.replace);
-  report(made, out, global.json);
+  const ct::ImportOptions import = parsed(options);
+  ct::Imported result = imported(options, import, out);
+  if (!options.name.empty()) result.made.name = options.name;
+  if (options.without_ct)
+    case_::save_case(result.made, out, options.replace);
+  else
+    ct::save_imported(result, import, out, options.replace);
+  report(result.made, out, global.json);
 }
 
 }  // namespace
@@ -184,6 +188,8 @@ void add_import_command(CLI::App& app, GlobalOptions& global) {
   command->add_option("--calibration", options->calibration,
                       "A,B: rho_QCT = A + B HU, mg/cc. Default: 1.3152,0.6944");
   command->add_option("--side", options->side, "left or right")->check(CLI::IsMember({"left", "right"}));
+  command->add_flag("--without-ct", options->without_ct,
+                    "Do not keep the CT beside the case (its page then shows no slices)");
   command->add_flag("--replace", options->replace, "Replace an existing case of that name");
   command->callback([options, &global] { import_case(*options, global); });
 }

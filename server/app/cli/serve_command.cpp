@@ -81,8 +81,7 @@ void serve(const Options& options, const GlobalOptions& global) {
   server_options.listen.port = options.port;
   server_options.cases_folder = cases_folder(house.data);
   server_options.data_folder = house.data;
-  server_options.read_ct = [](const fs::path& file, const std::string& series_uid,
-                                               const Progress& progress) {
+  server_options.read_ct = [](const fs::path& file, const std::string& series_uid, const Progress& progress) {
     const CtSource source(file, part_of(progress, 0.0, unpacking_share), file.parent_path());
     return source.read([&](const fs::path& path) {
       return ct::read_ct(path, {series_uid, false}, part_of(progress, unpacking_share, 1.0));

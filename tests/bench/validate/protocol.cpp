@@ -30,7 +30,8 @@ voxel::BoneModel layered_slab(double cortical_g_cc, double cancellous_g_cc) {
   for (int w = 0; w < bone.grid.dims.z(); ++w) {
     if (bone.grid.centre_mm({0, 0, w}).z() < slab_surface_mm - cortical_layer_mm) continue;
     for (int v = 0; v < bone.grid.dims.y(); ++v)
-      for (int u = 0; u < bone.grid.dims.x(); ++u) bone.density.writable()[bone.grid.index(u, v, w)] = cortical;
+      for (int u = 0; u < bone.grid.dims.x(); ++u)
+        bone.density.writable()[bone.grid.index(u, v, w)] = cortical;
   }
   return bone;
 }

@@ -81,8 +81,7 @@ TEST(JobService, AFailureKeepsItsReason) {
   EXPECT_EQ(ended(jobs, refused.id).state, JobState::failed);
   EXPECT_EQ(jobs.get(refused.id).problem, "x.nii is cut short");
   EXPECT_EQ(jobs.get(refused.id).problem_kind, ErrorKind::invalid_input);
-  const JobRecord starved =
-      jobs.submit("import", "a", [](const Progress&) { throw std::bad_alloc(); });
+  const JobRecord starved = jobs.submit("import", "a", [](const Progress&) { throw std::bad_alloc(); });
   EXPECT_EQ(ended(jobs, starved.id).problem, "there is not enough memory for this work");
   const JobRecord odd =
       jobs.submit("import", "a", [](const Progress&) { throw std::runtime_error("secret words"); });

@@ -35,7 +35,8 @@ TEST_F(UploadStoreTest, PiecesMakeTheFile) {
   EXPECT_EQ(begun.received, 0u);
   EXPECT_EQ(store.append(begun.id, 0, "01234").received, 5u);
   EXPECT_EQ(kind_of([&] { store.append(begun.id, 0, "01234"); }), ErrorKind::conflict);
-  EXPECT_EQ(kind_of([&] { store.append(begun.id, 5, "567890"); }), ErrorKind::conflict) << "one byte too many";
+  EXPECT_EQ(kind_of([&] { store.append(begun.id, 5, "567890"); }), ErrorKind::conflict)
+      << "one byte too many";
   EXPECT_EQ(kind_of([&] { store.take(begun.id); }), ErrorKind::conflict) << "it is not complete";
   EXPECT_EQ(store.append(begun.id, 5, "56789").received, 10u);
   const auto file = store.take(begun.id);
@@ -47,10 +48,10 @@ TEST_F(UploadStoreTest, PiecesMakeTheFile) {
 TEST_F(UploadStoreTest, NamesArePlainFileNamesOfCts) {
   for (const char* good : {"a.zip", "Series 3.ZIP", "a.nii.gz", "a.NRRD", "a.mha", "rows.txt", "a.dcm"})
     EXPECT_NO_THROW(store.remove(store.create(good, 1).id)) << good;
-  const std::vector<std::string> refused = {"",      ".zip", "../a.zip", "a/b.zip", "a\\b.zip",
-                                            "a.exe", "zip",  "a\n.zip", std::string(300, 'a') + ".zip"};
-  for (const std::string& bad : refused)
-    EXPECT_THROW(store.create(bad, 1), net::RequestError) << bad;
+  const std::vector<std::string> refused = {"",        ".zip",     "../a.zip",
+                                            "a/b.zip", "a\\b.zip", "a.exe",
+                                            "zip",     "a\n.zip",  std::string(300, 'a') + ".zip"};
+  for (const std::string& bad : refused) EXPECT_THROW(store.create(bad, 1), net::RequestError) << bad;
 }
 
 TEST_F(UploadStoreTest, LimitsHoldForOneFileAndForAll) {

@@ -122,8 +122,7 @@ TEST_F(WorkupTest, ACaseWithoutABoneSaysSo) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::conflict);
-    EXPECT_STREQ(error.what(),
-                 "case 'anna' holds only a CT so far; build its bone first, on its page");
+    EXPECT_STREQ(error.what(), "case 'anna' holds only a CT so far; build its bone first, on its page");
   }
 }
 

@@ -159,13 +159,15 @@ class CaseContractTest : public ContractTest {
     const HttpReply proposed = post(made + "/plan/proposal", R"({"version_deg": 0})");
     expect_as_described("POST", plan + "/proposal", 200, proposed);
     json wanted = json::parse(proposed.body).at("plan");
-    std::erase_if(wanted.get_ref<json::object_t&>(), [](const auto& entry) { return entry.second.is_null(); });
+    std::erase_if(wanted.get_ref<json::object_t&>(),
+                  [](const auto& entry) { return entry.second.is_null(); });
     refused_bodies("PUT", plan, made + "/plan", wanted.dump(), "{}");
     expect_request("PUT", plan, cases + "/nowhere/plan", 404, wanted.dump());
     expect_request("PUT", plan, made + "/plan", 200, wanted.dump());
     const HttpReply steep = post(made + "/plan/proposal", R"({"version_deg": -30})");
     json refused = json::parse(steep.body).at("plan");
-    std::erase_if(refused.get_ref<json::object_t&>(), [](const auto& entry) { return entry.second.is_null(); });
+    std::erase_if(refused.get_ref<json::object_t&>(),
+                  [](const auto& entry) { return entry.second.is_null(); });
     expect_request("PUT", plan, made + "/plan", 409, refused.dump());
     expect_get("/api/v1/reamers", "/api/v1/reamers", 200);
   }
@@ -183,7 +185,9 @@ class CaseContractTest : public ContractTest {
     refused_bodies("POST", pattern, made + "/build", "{}", R"({"upsample": 17})");
     expect_post(pattern, cases + "/nowhere/build", 404, "{}");
     expect_post(pattern, cases + "/planned/build", 409, "{}");
-    const HttpReply reply = post(made + "/build", R"({"upsample": 2, "calibration": {"intercept_mg_cc": 5, "slope_mg_cc_per_hu": 0.7, "scanner": "A"}})");
+    const HttpReply reply = post(
+        made + "/build",
+        R"({"upsample": 2, "calibration": {"intercept_mg_cc": 5, "slope_mg_cc_per_hu": 0.7, "scanner": "A"}})");
     expect_as_described("POST", pattern, 202, reply);
     const json job = ended(reply);
     ASSERT_EQ(job.at("state"), "done") << job;
@@ -223,8 +227,7 @@ TEST_F(CaseContractTest, TheOtherShoulderIsMadeOfTheSameCt) {
   start();
   const json first = ended(post(cases, json{{"upload_id", whole_upload()}, {"side", "right"}}.dump()));
   ASSERT_EQ(first.at("state"), "done") << first;
-  const json second =
-      ended(post(cases, json{{"copy_of", first.at("case_id")}, {"side", "left"}}.dump()));
+  const json second = ended(post(cases, json{{"copy_of", first.at("case_id")}, {"side", "left"}}.dump()));
   ASSERT_EQ(second.at("state"), "done") << second;
   const std::string of = "/volume/slices/v/5";
   const std::string a = get(cases + "/" + first.at("case_id").get<std::string>() + of).body;
