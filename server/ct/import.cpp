@@ -160,6 +160,8 @@ void save_imported(const Imported& imported, const ImportOptions& options,
   workup.built = build_record(made.bone, build, workup.segmentation()->revision);
   save_workup(target.path(), workup);
   case_::save_bone(made, target.path());
+  if (made.plan) case_::save_plan(*made.plan, target.path());
+  if (imported.landmarks) case_::save_landmarks(*imported.landmarks, target.path());
   target.commit();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 
+#include "case/landmarks.hpp"
 #include "ct/build_case.hpp"
 #include "ct/shoulder_bones.hpp"
 
@@ -32,11 +33,12 @@ struct Imported {
   case_::Case made;
   HuVolume volume;
   std::optional<Segmentation> segmentation;
+  std::optional<case_::Landmarks> landmarks = {};  ///< where they are known, as in a phantom
 };
 Imported import_with_ct(const std::filesystem::path& path, const std::string& id,
                         const ImportOptions& options, const Progress& progress = no_progress);
 
-/// Saves case and CT in one folder (workup.hpp), whole or not at all. Errors as case_::save_case.
+/// Saves case, CT, and plan and landmarks where there are any, in one folder (workup.hpp), whole or not at all. Errors as case_::save_case.
 void save_imported(const Imported& imported, const ImportOptions& options,
                    const std::filesystem::path& folder, bool replace);
 

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "ct/build_case.hpp"
+#include "ct/import.hpp"
 
 namespace ream::ct {
 namespace {
@@ -33,7 +34,19 @@ PhantomPreset phantom_preset(const std::string& name) {
   throw Error(ErrorKind::not_found, "no phantom preset '" + name + "'; there are demo and thesis-5-4-2");
 }
 
-case_::Case make_phantom_case(const std::string& id, const PhantomParams& params, int upsample) {
+namespace {
+
+Segmentation segmentation_of(const HuVolume& volume, const Mask& mask, double threshold_hu) {
+  Segmentation segmentation;
+  segmentation.labels = mask;
+  for (uint8_t& label : segmentation.labels)
+    if (label != 0) label = static_cast<uint8_t>(BoneLabel::scapula);
+  segmentation.threshold_hu = threshold_hu;
+  segmentation.parts = measure_parts(volume, segmentation.labels);
+  return segmentation;
+}
+
+Imported import_phantom(const std::string& id, const PhantomParams& params, int upsample) {
   Phantom phantom = make_phantom(params);
   const case_::GlenoidFrame& glenoid = phantom.truth.glenoid;
   SegmentationOptions options;
@@ -43,7 +56,10 @@ case_::Case make_phantom_case(const std::string& id, const PhantomParams& params
   options.grow_from_mm = glenoid.centre_mm - seed_depth_mm * glenoid.lateral;
   Mask mask = segment(phantom.volume, options);
 
-  case_::Case result;
+  Imported imported;
+  imported.segmentation = segmentation_of(phantom.volume, mask, options.threshold_hu);
+  imported.landmarks = phantom.truth.landmarks;
+  case_::Case& result = imported.made;
   result.id = id;
   result.name = "Phantom shoulder, " + case_::to_text(params.side);
   result.source = phantom.volume.source;
@@ -55,17 +71,27 @@ case_::Case make_phantom_case(const std::string& id, const PhantomParams& params
   plan.entry_mm = glenoid.centre_mm;
   plan.axis_direction = -glenoid.lateral;
   result.plan = plan;
-  return result;
+  imported.volume = std::move(phantom.volume);
+  return imported;
+}
+
+}  // namespace
+
+case_::Case make_phantom_case(const std::string& id, const PhantomParams& params, int upsample) {
+  return import_phantom(id, params, upsample).made;
 }
 
 case_::Case load_or_make_demo_case(const std::filesystem::path& data_folder) {
   const auto folder = data_folder / "cases" / "demo";
   if (std::filesystem::exists(folder / "case.json")) return case_::load_case(folder);
   const PhantomPreset preset = phantom_preset("demo");
-  case_::Case demo = make_phantom_case("demo", preset.params, preset.upsample);
-  demo.plan->depth_mm = demo_depth_mm;
-  case_::save_case(demo, folder, true);
-  return demo;
+  Imported demo = import_phantom("demo", preset.params, preset.upsample);
+  demo.made.plan->depth_mm = demo_depth_mm;
+  ImportOptions options;
+  options.segmentation.upsample = preset.upsample;
+  options.shoulder.emplace().threshold_hu = demo.segmentation->threshold_hu;
+  save_imported(demo, options, folder, true);
+  return demo.made;
 }
 
 }  // namespace ream::ct
