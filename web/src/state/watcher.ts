@@ -89,7 +89,10 @@ export class Watcher {
   async stop(): Promise<void> {
     await this.carryOut(async () => {
       const id = this.store.sessionId.value;
-      if (id !== null) this.store.sessionState.value = (await this.api.stop(id)).state;
+      if (id === null) return;
+      this.store.sessionState.value = (await this.api.stop(id)).state;
+      // The stream, where it says so later, tells nothing new then.
+      void this.readMetrics();
     });
   }
 
