@@ -1,4 +1,5 @@
 #include <charconv>
+#include <optional>
 
 #include "api/case_work_resource.hpp"
 #include "net/problem.hpp"
@@ -28,16 +29,23 @@ bool wants_labels(const net::Request& request) {
   throw net::RequestError(422, "?of must be hu or labels");
 }
 
+/// The segmentation that a client believes to look at, if it says so.
+std::optional<int> revision_of(const net::Request& request) {
+  const auto found = request.query.find("revision");
+  if (found == request.query.end()) return std::nullopt;
+  return index_of(found->second);
+}
+
 net::SharedBytes shared(net::Bytes bytes) { return std::make_shared<const net::Bytes>(std::move(bytes)); }
 
-/// A slice whose address names the revision of what it shows never changes.
+/// Kept by no cache: what an address shows changes when its case is made anew.
 net::Response slice(CaseWorkshop& workshop, const net::Request& request) {
   const auto& parameters = request.parameters;
   net::Bytes bytes = workshop.slice(parameters.at("id"), axis_of(parameters.at("axis")),
-                                    index_of(parameters.at("index")), wants_labels(request));
+                                    index_of(parameters.at("index")), wants_labels(request),
+                                    revision_of(request));
   net::Response response = net::bytes_response(200, "application/octet-stream", shared(std::move(bytes)));
-  response.headers.emplace_back(
-      "Cache-Control", request.query.contains("revision") ? "private, max-age=86400, immutable" : "no-store");
+  response.headers.emplace_back("Cache-Control", "no-store");
   return response;
 }
 

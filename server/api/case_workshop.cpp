@@ -206,7 +206,8 @@ case_::PlanAssessment CaseWorkshop::set_plan(const std::string& id, const case_:
   return assessment;
 }
 
-net::Bytes CaseWorkshop::slice(const std::string& id, int axis, int index, bool of_labels) {
+net::Bytes CaseWorkshop::slice(const std::string& id, int axis, int index, bool of_labels,
+                               std::optional<int> revision) {
   const fs::path folder = folder_of(id);
   const ct::Workup workup = this->workup(id);
   const Vec3i& dims = workup.volume.dims;
@@ -216,6 +217,8 @@ net::Bytes CaseWorkshop::slice(const std::string& id, int axis, int index, bool 
   if (!of_labels)
     return bytes_of(ct::slice_of(std::span<const int16_t>(*shelf_.hu(folder, workup)), dims, axis, index));
   if (!workup.segmentation()) throw Error(ErrorKind::conflict, "case '" + id + "' is not segmented yet");
+  if (revision && *revision != workup.segmentation()->revision)
+    throw Error(ErrorKind::conflict, "case '" + id + "' has been segmented again or undone since");
   const auto labels = shelf_.labels(folder, workup, workup.segmentation()->revision);
   return bytes_of(ct::slice_of(std::span<const uint8_t>(*labels), dims, axis, index));
 }

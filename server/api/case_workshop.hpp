@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "api/ct_shelf.hpp"
@@ -58,8 +59,10 @@ class CaseWorkshop {
   /// Error conflict with the reason when the plan needs an override.
   case_::PlanAssessment set_plan(const std::string& id, const case_::Plan& plan);
 
-  /// One slice (0 u, 1 v, 2 w) as 16-bit HU or as labels, little endian. Error not_found outside the volume.
-  net::Bytes slice(const std::string& id, int axis, int index, bool of_labels);
+  /// One slice (0 u, 1 v, 2 w) as 16-bit HU or as labels, little endian. Error not_found outside the volume;
+  /// conflict when labels are of another revision than the one asked for.
+  net::Bytes slice(const std::string& id, int axis, int index, bool of_labels,
+                   std::optional<int> revision = std::nullopt);
   /// The surface of the case, LPS mm, binary PLY.
   std::string mesh(const std::string& id);
 

@@ -23,7 +23,7 @@ size_t memory_of(const OurBone& b) {
   const collide::RemovalSchedule schedule(profile, b.bone);
   voxel::BrickRing ring(2);
   const voxel::BrickSender sender(b.bone.grid, ring);
-  return bytes(b.bone.density) + bytes(b.bone.coverage) + replica + bytes(b.distance.bricks) +
+  return b.bone.density.size() + bytes(b.bone.coverage) + replica + bytes(b.distance.bricks) +
          bytes(b.cells.words()) + schedule.bytes() + sender.bytes();
 }
 

@@ -20,7 +20,7 @@ std::vector<record::TickReport> reamed(double duration_s, force::VibrationSource
     for (int v = 0; v < bone.grid.dims.y(); ++v)
       for (int u = 0; u < bone.grid.dims.x(); ++u)
         if (bone.grid.centre_mm({u, v, w}).z() > surface_mm - cartilage_mm)
-          bone.density[bone.grid.index(u, v, w)] = voxel::cartilage_code;
+          bone.density.writable()[bone.grid.index(u, v, w)] = voxel::cartilage_code;
   const case_::Plan plan = slab_plan(bone, surface_mm);
   const device::Script script = steady_push(force_n, duration_s);
   sim::Settings settings = SmallRun::settings(script, "cpu");

@@ -138,6 +138,8 @@ class CaseContractTest : public ContractTest {
       const json job = ended(reply);
       ASSERT_EQ(job.at("state"), "done") << job;
     }
+    expect_get(one_case + slices, made + "/volume/slices/u/3?of=labels&revision=2", 200);
+    expect_get(one_case + slices, made + "/volume/slices/u/3?of=labels&revision=1", 409);
     expect_post(pattern + "/undo", made + "/segmentation/undo", 403, "", foreign);
     expect_post(pattern + "/undo", made + "/segmentation/undo", 200);
     expect_post(pattern + "/undo", made + "/segmentation/undo", 409);
