@@ -30,7 +30,12 @@ net::Response set_landmarks(CaseWorkshop& workshop, const net::Request& request)
 
 /// Over the network a reamer has a name or words; a path would open the server's files.
 void check_reamer(const std::string& reamer, const std::filesystem::path& data_folder) {
-  if (!reamer.empty() && !shell::is_parametric(reamer)) shell::reamer_named(reamer, data_folder);
+  if (reamer.empty() || shell::is_parametric(reamer)) return;
+  try {
+    shell::reamer_named(reamer, data_folder);
+  } catch (const Error& unknown) {
+    throw net::RequestError(422, unknown.what(), {{"#/reamer", "is no reamer of the library"}});
+  }
 }
 
 net::Response propose(CaseWorkshop& workshop, const std::filesystem::path& data_folder,

@@ -258,7 +258,7 @@ TEST_F(CaseContractTest, AReamerIsNamedAndNeverAPath) {
   const std::string body = R"({"entry_mm": [4, 4, 6], "axis_direction": [0, 0, -1], "depth_mm": 1,
                                "reamer": "/etc/passwd"})";
   const HttpReply reply = http_request(server->port(), "PUT", cases + "/planned/plan", body);
-  EXPECT_EQ(reply.status, 404) << reply.body;
+  EXPECT_EQ(reply.status, 422) << reply.body;
   EXPECT_EQ(reply.body.find("root"), std::string::npos);
 }
 

@@ -18,6 +18,7 @@ TEST_F(ServerTest, ListsReadableCasesAndTellsOneWhole) {
   EXPECT_EQ(list[0], (json{{"id", "planned"},
                            {"name", "A slab"},
                            {"side", "right"},
+                           {"stage", "built"},
                            {"dims", {8, 8, 8}},
                            {"spacing_mm", {0.5, 0.5, 0.5}},
                            {"planned", true}}));
