@@ -41,9 +41,9 @@ net::SharedBytes shared(net::Bytes bytes) { return std::make_shared<const net::B
 /// Kept by no cache: what an address shows changes when its case is made anew.
 net::Response slice(CaseWorkshop& workshop, const net::Request& request) {
   const auto& parameters = request.parameters;
-  net::Bytes bytes = workshop.slice(parameters.at("id"), axis_of(parameters.at("axis")),
-                                    index_of(parameters.at("index")), wants_labels(request),
-                                    revision_of(request));
+  net::Bytes bytes =
+      workshop.slice(parameters.at("id"), axis_of(parameters.at("axis")), index_of(parameters.at("index")),
+                     wants_labels(request), revision_of(request));
   net::Response response = net::bytes_response(200, "application/octet-stream", shared(std::move(bytes)));
   response.headers.emplace_back("Cache-Control", "no-store");
   return response;

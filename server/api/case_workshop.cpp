@@ -28,6 +28,20 @@ net::Bytes bytes_of(const std::vector<T>& values) {
   return {bytes.begin(), bytes.end()};
 }
 
+/// action(), whose errors name the uploaded file as its sender calls it, not by where it lies here.
+template <typename Action>
+auto naming_as_sent(const fs::path& file, Action&& action) {
+  try {
+    return action();
+  } catch (const Error& error) {
+    std::string words = error.what();
+    const std::string folder = file.parent_path().string() + "/";
+    for (size_t at = words.find(folder); at != std::string::npos; at = words.find(folder))
+      words.erase(at, folder.size());
+    throw Error(error.kind(), words);
+  }
+}
+
 /// Goes away with whatever is left of an upload.
 class TakenUpload {
  public:
@@ -82,8 +96,9 @@ JobRecord CaseWorkshop::import(const NewCase& wanted, UploadStore& uploads) {
   if (jobs_.busy(id)) throw Error(ErrorKind::conflict, "a case '" + id + "' is being made; wait for it");
   const auto taken = std::make_shared<TakenUpload>(uploads.take(wanted.upload_id));
   return jobs_.submit("import", id, [this, taken, id, name, wanted](const Progress& progress) {
-    const ct::HuVolume volume =
-        tools_.read_ct(taken->file(), wanted.series_uid, part_of(progress, 0.0, read_share));
+    const ct::HuVolume volume = naming_as_sent(taken->file(), [&] {
+      return tools_.read_ct(taken->file(), wanted.series_uid, part_of(progress, 0.0, read_share));
+    });
     progress(read_share, "writing the CT");
     ct::create_workup(cases_folder_ / id, id, name, wanted.side, volume);
   });

@@ -38,7 +38,8 @@ struct Imported {
 Imported import_with_ct(const std::filesystem::path& path, const std::string& id,
                         const ImportOptions& options, const Progress& progress = no_progress);
 
-/// Saves case, CT, and plan and landmarks where there are any, in one folder (workup.hpp), whole or not at all. Errors as case_::save_case.
+/// Saves case, CT, and plan and landmarks where there are any, in one folder (workup.hpp), whole or not at
+/// all. Errors as case_::save_case.
 void save_imported(const Imported& imported, const ImportOptions& options,
                    const std::filesystem::path& folder, bool replace);
 

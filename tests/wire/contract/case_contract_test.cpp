@@ -248,9 +248,34 @@ TEST_F(CaseContractTest, AnUnreadableFileFailsItsJobWithTheReasonAndLeavesNothin
   EXPECT_EQ(job.at("state"), "failed");
   EXPECT_EQ(job.at("problem").at("status"), 422);
   const std::string detail = job.at("problem").at("detail");
-  EXPECT_NE(detail.find("shoulder.nrrd"), std::string::npos) << detail;
+  EXPECT_EQ(detail.find("shoulder.nrrd"), 0u) << detail;
   EXPECT_EQ(get(cases + "/" + job.at("case_id").get<std::string>()).status, 404);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "uploads"));
+}
+
+TEST_F(CaseContractTest, MalformedFilesFailTheirJobsInOneLineAndTheServerLives) {
+  start();
+  const std::string whole = file;
+  const auto header = [](const std::string& sizes, const std::string& voxel) {
+    return "NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: " + sizes +
+           "\nspace directions: (" + voxel + ",0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n" +
+           "encoding: raw\nendian: little\n\n" + std::string(250, '\0');
+  };
+  for (const std::string& bad :
+       {whole.substr(0, whole.size() / 2), header("512 512 1000000000", "1"), header("-5 5 5", "1"),
+        header("5 5 5", "nan"), header("5 5 5", "0"), header("50 50 50", "1"), header("5 5 1", "1"),
+        std::string(5000, '\0'), std::string("NRRD0004\n")}) {
+    file = bad;
+    const json job = ended(post(cases, json{{"upload_id", whole_upload()}, {"side", "right"}}.dump()));
+    EXPECT_EQ(job.at("state"), "failed") << bad.substr(0, 120);
+    const std::string detail = job.at("problem").at("detail");
+    EXPECT_EQ(detail.find("shoulder.nrrd"), 0u) << detail;
+    EXPECT_EQ(detail.find('\n'), std::string::npos) << detail;
+  }
+  EXPECT_EQ(get("/healthz").status, 200);
+  file = whole;
+  EXPECT_EQ(ended(post(cases, json{{"upload_id", whole_upload()}, {"side", "right"}}.dump())).at("state"),
+            "done");
 }
 
 TEST_F(CaseContractTest, AReamerIsNamedAndNeverAPath) {
