@@ -242,7 +242,7 @@ std::string CaseWorkshop::mesh(const std::string& id) {
   const auto bone = surface_of(id);
   const bool coarse = static_cast<double>(bone->grid.voxel_count()) > most_fine_voxels;
   const TriangleMesh mesh = surface::whole_surface(bone->grid, bone->coverage.data(), 1, coarse ? 2 : 1);
-  return ply_of(mesh.transformed(bone->grid.world_from_grid));
+  return ply_of(mesh.transformed(bone->grid.world_from_grid), case_::frame_in_words(side_of(id)));
 }
 
 }  // namespace ream::api

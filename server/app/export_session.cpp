@@ -23,7 +23,8 @@ void export_surface(const record::Recording& recording, case_::Case& bone_case,
   recorded.seek(UINT32_MAX, [](const voxel::BrickImage&) {});
   recorded.write_to(bone.coverage);
   write_ply(ply,
-            surface::whole_surface(bone.grid, bone.coverage.data()).transformed(bone.grid.world_from_grid));
+            surface::whole_surface(bone.grid, bone.coverage.data()).transformed(bone.grid.world_from_grid),
+            case_::frame_in_words(bone_case.side));
 }
 
 }  // namespace ream::app

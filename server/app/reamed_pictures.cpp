@@ -58,7 +58,8 @@ void write_reamed_pictures(const Rig& rig, const std::vector<uint8_t>& before,
                            const std::filesystem::path& folder) {
   const voxel::BoneModel& bone = rig.bone_case.bone;
   const TriangleMesh surface = surface::whole_surface(bone.grid, bone.coverage.data());
-  write_ply(folder / "reamed.ply", surface.transformed(bone.grid.world_from_grid));
+  write_ply(folder / "reamed.ply", surface.transformed(bone.grid.world_from_grid),
+            case_::frame_in_words(rig.bone_case.side));
 
   const Parts parts = split(surface, bone, before);
   std::vector<render::Layer> layers(2);

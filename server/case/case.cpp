@@ -255,6 +255,8 @@ GuideKind guide_from_text(const std::string& text) {
   throw Error(ErrorKind::invalid_input, "guide '" + text + "' must be none, nipple or pin");
 }
 
+std::string frame_in_words(Side side) { return "millimetres, LPS, " + to_text(side) + " shoulder"; }
+
 std::string to_text(Side side) { return side == Side::left ? "left" : "right"; }
 
 Side side_from_text(const std::string& text) {

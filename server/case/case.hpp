@@ -113,6 +113,9 @@ std::string to_text(GuideKind guide);
 /// Error invalid_input for other words than none, nipple and pin.
 GuideKind guide_from_text(const std::string& text);
 
+/// What surfaces that are written say of themselves: "millimetres, LPS, right shoulder".
+std::string frame_in_words(Side side);
+
 std::string to_text(Side side);
 Side side_from_text(const std::string& text);
 

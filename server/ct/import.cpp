@@ -118,11 +118,12 @@ Mask mask_from_label(const HuVolume& volume, const HuVolume& label, int value) {
 Imported import_with_ct(const std::filesystem::path& path, const std::string& id,
                         const ImportOptions& options, const Progress& progress) {
   Imported imported;
-  imported.volume = read_ct(path, {}, part_of(progress, 0.0, 0.3));
+  imported.volume = read_ct(path, {options.series_uid, options.keep_names}, part_of(progress, 0.0, 0.3));
   HuVolume& volume = imported.volume;
   case_::Case& result = imported.made;
   result.id = id;
   result.name = id;
+  if (volume.patient) result.name = volume.patient->name + " (" + volume.patient->id + ")";
   result.source = volume.source;
   result.side = options.side.value_or(case_::Side::right);
   result.warnings = volume.warnings;

@@ -19,7 +19,9 @@ struct ImportOptions {
   /// Without it and without a label map, what grows from segmentation.grow_from_mm or the largest part.
   std::optional<SegmentationSettings> shoulder;
   SegmentationOptions segmentation;
-  double cartilage_mm = 0.0;                        ///< thickness of synthetic cartilage on the face
+  std::string series_uid;     ///< of several DICOM series; empty: the one of most slices
+  bool keep_names = false;    ///< the patient's name and id become the case's name
+  double cartilage_mm = 0.0;  ///< thickness of synthetic cartilage on the face
   std::optional<std::filesystem::path> labels_out;  ///< label map to be written beside the case
 };
 

@@ -130,9 +130,9 @@ TriangleMesh load_mesh(const std::filesystem::path& path) {
   return mesh;
 }
 
-std::string ply_of(const TriangleMesh& mesh) {
+std::string ply_of(const TriangleMesh& mesh, const std::string& remark) {
   const bool with_normals = mesh.normals.size() == mesh.vertices_mm.size() && !mesh.normals.empty();
-  std::string out = "ply\nformat binary_little_endian 1.0\ncomment millimetres\nelement vertex " +
+  std::string out = "ply\nformat binary_little_endian 1.0\ncomment " + remark + "\nelement vertex " +
                     std::to_string(mesh.vertices_mm.size()) +
                     "\nproperty float x\nproperty float y\nproperty float z\n";
   if (with_normals) out += "property float nx\nproperty float ny\nproperty float nz\n";
@@ -150,8 +150,8 @@ std::string ply_of(const TriangleMesh& mesh) {
   return out;
 }
 
-void write_ply(const std::filesystem::path& path, const TriangleMesh& mesh) {
-  write_file_atomically(path, ply_of(mesh));
+void write_ply(const std::filesystem::path& path, const TriangleMesh& mesh, const std::string& remark) {
+  write_file_atomically(path, ply_of(mesh, remark));
 }
 
 }  // namespace ream

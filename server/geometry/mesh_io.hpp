@@ -12,10 +12,12 @@ namespace ream {
 /// are dropped. PLY is read by geometry/ply, not by assimp.
 TriangleMesh load_mesh(const std::filesystem::path& path);
 
-/// The bytes of a binary little-endian PLY file with float positions and, where present, normals.
-std::string ply_of(const TriangleMesh& mesh);
+/// The bytes of a binary little-endian PLY file with float positions and, where present, normals. `remark`
+/// stands in its header as a comment: frame, unit and what it is, in one line.
+std::string ply_of(const TriangleMesh& mesh, const std::string& remark = "millimetres");
 
 /// Writes such a file atomically. Throws Error io.
-void write_ply(const std::filesystem::path& path, const TriangleMesh& mesh);
+void write_ply(const std::filesystem::path& path, const TriangleMesh& mesh,
+               const std::string& remark = "millimetres");
 
 }  // namespace ream

@@ -188,6 +188,10 @@ void add_import_command(CLI::App& app, GlobalOptions& global) {
   command->add_option("--calibration", options->calibration,
                       "A,B: rho_QCT = A + B HU, mg/cc. Default: 1.3152,0.6944");
   command->add_option("--side", options->side, "left or right")->check(CLI::IsMember({"left", "right"}));
+  command->add_option("--series", options->import.series_uid,
+                      "UID of the DICOM series. Default: the one of most slices");
+  command->add_flag("--keep-names", options->import.keep_names,
+                    "The patient's name and id become the case's name; else neither is kept");
   command->add_flag("--without-ct", options->without_ct,
                     "Do not keep the CT beside the case (its page then shows no slices)");
   command->add_flag("--replace", options->replace, "Replace an existing case of that name");
