@@ -1,16 +1,17 @@
 #include "case/case.hpp"
 
-#include <zstd.h>
-
 #include <Eigen/Geometry>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "case/calibration.hpp"
 #include "case/plan.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/json_reader.hpp"
+#include "core/zstd_file.hpp"
+#include "geometry/pose_json.hpp"
 #include "voxel/brick_order.hpp"
 
 namespace ream::case_ {
@@ -18,17 +19,12 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 namespace {
 
-constexpr int compression_level = 1;
 constexpr int64_t max_dim = 65528;
 constexpr double max_voxels = 4.0e9;
-constexpr double rotation_tolerance = 1e-6;
+constexpr double unit_tolerance = 1e-6;
 
 json list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 Vec3 vec3(const std::vector<double>& n) { return {n[0], n[1], n[2]}; }
-
-json rotation_rows(const Mat3& r) {
-  return {list(r.row(0).transpose()), list(r.row(1).transpose()), list(r.row(2).transpose())};
-}
 
 bool valid_id(const std::string& id) {
   return !id.empty() && id.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos;
@@ -42,9 +38,7 @@ json to_json(const Case& c) {
                 {"side", to_text(c.side)},
                 {"dims", {grid.dims.x(), grid.dims.y(), grid.dims.z()}},
                 {"spacing_mm", list(grid.spacing_mm)},
-                {"world_from_grid",
-                 {{"rotation", rotation_rows(grid.world_from_grid.rotation)},
-                  {"translation_mm", list(grid.world_from_grid.translation_mm)}}},
+                {"world_from_grid", ream::to_json(grid.world_from_grid)},
                 {"cortical_threshold_g_cc", c.bone.cortical_threshold_g_cc},
                 {"calibration", to_json(c.calibration)},
                 {"warnings", c.warnings}};
@@ -56,28 +50,7 @@ json to_json(const Case& c) {
   return value;
 }
 
-Mat3 read_rotation(JsonReader& reader, const json& value) {
-  const auto complain = [&] {
-    reader.refuse("rotation", "must be three rows of an orthonormal, right-handed matrix");
-  };
-  if (!reader.has("rotation")) reader.refuse("rotation", "is missing");
-  const json& rows = value.at("rotation");
-  if (!rows.is_array() || rows.size() != 3) complain();
-  Mat3 r;
-  for (int i = 0; i < 3; ++i) {
-    const json& row = rows[static_cast<size_t>(i)];
-    if (!row.is_array() || row.size() != 3) complain();
-    for (int j = 0; j < 3; ++j) {
-      if (!row[static_cast<size_t>(j)].is_number()) complain();
-      r(i, j) = row[static_cast<size_t>(j)].get<double>();
-    }
-  }
-  const double deviation = (r.transpose() * r - Mat3::Identity()).cwiseAbs().maxCoeff();
-  if (!(deviation < rotation_tolerance) || r.row(0).cross(r.row(1)).dot(r.row(2)) < 0.0) complain();
-  return r;
-}
-
-voxel::VoxelGrid read_grid(JsonReader& reader, const json& value) {
+voxel::VoxelGrid read_grid(JsonReader& reader) {
   voxel::VoxelGrid grid;
   const auto dims = reader.numbers("dims", 3);
   for (int axis = 0; axis < 3; ++axis) {
@@ -88,10 +61,7 @@ voxel::VoxelGrid read_grid(JsonReader& reader, const json& value) {
   }
   if (dims[0] * dims[1] * dims[2] > max_voxels) reader.refuse("dims", "is more than 4e9 voxels");
   grid.spacing_mm = vec3(reader.numbers("spacing_mm", 3));
-  JsonReader pose = reader.object("world_from_grid");
-  grid.world_from_grid.rotation = read_rotation(pose, value.at("world_from_grid"));
-  grid.world_from_grid.translation_mm = vec3(pose.numbers("translation_mm", 3));
-  pose.finish();
+  grid.world_from_grid = pose_from_json(reader.object("world_from_grid"));
   try {
     voxel::validate(grid);
   } catch (const Error& e) {
@@ -107,35 +77,21 @@ GlenoidFrame read_glenoid(JsonReader reader) {
        {std::pair{"lateral", &frame.lateral}, std::pair{"superior", &frame.superior},
         std::pair{"anterior", &frame.anterior}}) {
     *axis = vec3(reader.numbers(key, 3));
-    if (!(std::abs(axis->norm() - 1.0) < rotation_tolerance)) reader.refuse(key, "must be a unit vector");
+    if (!(std::abs(axis->norm() - 1.0) < unit_tolerance)) reader.refuse(key, "must be a unit vector");
   }
   reader.finish();
   return frame;
 }
 
-std::vector<uint8_t> read_compressed(const fs::path& file, size_t expected_size) {
-  const auto bytes = read_binary_file(file);
-  const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
-  if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN)
-    throw Error(ErrorKind::invalid_input, file.string() + " is not zstd data; import the case again");
-  if (size != expected_size)
-    throw Error(ErrorKind::invalid_input, file.string() + " holds " + std::to_string(size) +
-                                              " voxels, case.json says " + std::to_string(expected_size) +
-                                              "; import the case again");
-  std::vector<uint8_t> result(expected_size);
-  const size_t read = ZSTD_decompress(result.data(), result.size(), bytes.data(), bytes.size());
-  if (ZSTD_isError(read) || read != expected_size)
-    throw Error(ErrorKind::invalid_input, file.string() + " is damaged or cut short; import the case again");
-  return result;
+std::vector<uint8_t> read_voxels(const fs::path& file, const voxel::VoxelGrid& grid) {
+  std::vector<uint8_t> rows(grid.voxel_count());
+  read_zstd_file(file, std::as_writable_bytes(std::span(rows)), "case.json");
+  return voxel::bricks_from_rows(grid, rows);
 }
 
-void write_compressed(const fs::path& file, const std::vector<uint8_t>& data) {
-  std::vector<std::byte> packed(ZSTD_compressBound(data.size()));
-  const size_t size =
-      ZSTD_compress(packed.data(), packed.size(), data.data(), data.size(), compression_level);
-  if (ZSTD_isError(size))
-    throw Error(ErrorKind::io, "cannot compress " + file.string() + ": " + ZSTD_getErrorName(size));
-  write_file_atomically(file, std::span<const std::byte>(packed.data(), size));
+void write_voxels(const fs::path& file, const voxel::VoxelGrid& grid, std::span<const uint8_t> bricks) {
+  const std::vector<uint8_t> rows = voxel::rows_from_bricks(grid, bricks);
+  write_zstd_file(file, std::as_bytes(std::span(rows)));
 }
 
 }  // namespace
@@ -157,7 +113,7 @@ Case load_case_description(const fs::path& folder) {
   const std::string side = reader.text("side");
   if (side != "left" && side != "right") reader.refuse("side", "must be left or right");
   c.side = side_from_text(side);
-  c.bone.grid = read_grid(reader, value);
+  c.bone.grid = read_grid(reader);
   c.bone.cortical_threshold_g_cc = reader.number("cortical_threshold_g_cc", 0.0, 3.0);
   if (!reader.has("calibration")) reader.refuse("calibration", "is missing");
   c.calibration = calibration_from_json(value.at("calibration"), reader.place() + ".calibration");
@@ -171,18 +127,16 @@ Case load_case_description(const fs::path& folder) {
 
 Case load_case(const fs::path& folder) {
   Case c = load_case_description(folder);
-  const size_t voxels = c.bone.grid.voxel_count();
-  c.bone.density = voxel::bricks_from_rows(c.bone.grid, read_compressed(folder / "density.zst", voxels));
-  c.bone.coverage = voxel::bricks_from_rows(c.bone.grid, read_compressed(folder / "coverage.zst", voxels));
+  c.bone.density = read_voxels(folder / "density.zst", c.bone.grid);
+  c.bone.coverage = read_voxels(folder / "coverage.zst", c.bone.grid);
   return c;
 }
 
 Case load_case(const fs::path& folder, const voxel::SharedBytes& density) {
   Case c = load_case_description(folder);
-  const size_t voxels = c.bone.grid.voxel_count();
-  if (density.size() != voxels) return load_case(folder);
+  if (density.size() != c.bone.grid.voxel_count()) return load_case(folder);
   c.bone.density = density;
-  c.bone.coverage = voxel::bricks_from_rows(c.bone.grid, read_compressed(folder / "coverage.zst", voxels));
+  c.bone.coverage = read_voxels(folder / "coverage.zst", c.bone.grid);
   return c;
 }
 
@@ -205,8 +159,8 @@ void check(const Case& c) {
 }
 
 void write_bone(const Case& c, const fs::path& folder) {
-  write_compressed(folder / "density.zst", voxel::rows_from_bricks(c.bone.grid, c.bone.density));
-  write_compressed(folder / "coverage.zst", voxel::rows_from_bricks(c.bone.grid, c.bone.coverage));
+  write_voxels(folder / "density.zst", c.bone.grid, c.bone.density);
+  write_voxels(folder / "coverage.zst", c.bone.grid, c.bone.coverage);
   write_file_atomically(folder / "case.json", to_json(c).dump(2) + "\n");
 }
 

@@ -56,13 +56,13 @@ Workup load_workup(const fs::path& case_folder) {
 
 std::vector<int16_t> load_hu(const fs::path& case_folder, const Workup& workup) {
   std::vector<int16_t> hu(workup.volume.voxel_count());
-  read_zstd_file(hu_of(case_folder), std::as_writable_bytes(std::span(hu)));
+  read_zstd_file(hu_of(case_folder), std::as_writable_bytes(std::span(hu)), "ct.json");
   return hu;
 }
 
 std::vector<uint8_t> load_labels(const fs::path& case_folder, const Workup& workup, int revision) {
   std::vector<uint8_t> labels(workup.volume.voxel_count());
-  read_zstd_file(labels_of(case_folder, revision), std::as_writable_bytes(std::span(labels)));
+  read_zstd_file(labels_of(case_folder, revision), std::as_writable_bytes(std::span(labels)), "ct.json");
   return labels;
 }
 

@@ -195,7 +195,8 @@ class CaseContractTest : public ContractTest {
     ASSERT_EQ(job.at("state"), "done") << job;
     expect_get(one_case, made, 200);
     expect_get(one_case + "/mesh", made + "/mesh", 200);
-    EXPECT_NE(get(made + "/mesh").body.find("\ncomment millimetres, LPS, right shoulder\n"), std::string::npos);
+    EXPECT_NE(get(made + "/mesh").body.find("\ncomment millimetres, LPS, right shoulder\n"),
+              std::string::npos);
   }
 
   void deleting(const std::string& made) {
