@@ -140,11 +140,6 @@ Case load_case(const fs::path& folder, const voxel::SharedBytes& density) {
   return c;
 }
 
-CaseSummary load_case_summary(const fs::path& folder) {
-  const Case c = load_case_description(folder);
-  return {c.id, c.name, c.side, c.bone.grid.dims, c.bone.grid.spacing_mm, c.plan.has_value()};
-}
-
 namespace {
 
 void check(const Case& c) {

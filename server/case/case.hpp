@@ -66,15 +66,6 @@ struct Case {
   std::vector<std::string> warnings;
 };
 
-/// What a list of cases shows, read without the volume.
-struct CaseSummary {
-  std::string id, name;
-  Side side = Side::right;
-  Vec3i dims = Vec3i::Zero();
-  Vec3 spacing_mm = Vec3::Ones();
-  bool planned = false;
-};
-
 /// A case is a folder: case.json (proto/case.schema.json), plan.json where planned, density.zst and
 /// coverage.zst (raw bytes in grid order, zstd). Saving is atomic: the folder appears whole or not at all.
 /// Errors: not_found, invalid_input (names file and key), io.
@@ -83,7 +74,6 @@ Case load_case(const std::filesystem::path& folder);
 Case load_case(const std::filesystem::path& folder, const voxel::SharedBytes& density);
 /// Everything but the voxels: bone has its grid, density and coverage stay empty.
 Case load_case_description(const std::filesystem::path& folder);
-CaseSummary load_case_summary(const std::filesystem::path& folder);
 void save_case(const Case& c, const std::filesystem::path& folder, bool replace = false);
 /// A new bone (and case.json) for the folder of a case; all else in it stays. The folder changes as a whole
 /// or not at all.

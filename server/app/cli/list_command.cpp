@@ -4,13 +4,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "api/case_json.hpp"
 #include "api/session_archive.hpp"
 #include "app/cli/commands.hpp"
 #include "app/data_folder.hpp"
-#include "case/case.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"
+#include "ct/workup.hpp"
 
 namespace ream::app {
 namespace {
@@ -27,19 +28,16 @@ std::vector<fs::path> folders_in(const fs::path& folder) {
   return found;
 }
 
-nlohmann::json listed_case(const fs::path& folder) {
-  const case_::CaseSummary c = case_::load_case_summary(folder);
-  return {{"id", c.id},
-          {"name", c.name},
-          {"side", case_::to_text(c.side)},
-          {"planned", c.planned},
-          {"dims", {c.dims.x(), c.dims.y(), c.dims.z()}}};
+/// Anything else in the folder of cases is not ours to complain about.
+bool is_case(const fs::path& folder) {
+  std::error_code failed;
+  return fs::is_regular_file(folder / "case.json", failed) || ct::has_workup(folder);
 }
 
 nlohmann::json listed_cases(const fs::path& data) {
   nlohmann::json rows = nlohmann::json::array();
   for (const fs::path& folder : folders_in(cases_folder(data))) try {
-      rows.push_back(listed_case(folder));
+      if (is_case(folder)) rows.push_back(api::case_summary_json(folder));
     } catch (const Error& e) {
       log::warn(e.what());
     }
@@ -64,8 +62,10 @@ nlohmann::json listed_sessions(const fs::path& data) {
 
 void print_case(const nlohmann::json& row) {
   std::cout << row.at("id").get<std::string>() << '\t' << row.value("name", "") << '\t'
-            << row.value("side", "") << '\t' << (row.at("planned").get<bool>() ? "planned" : "no plan")
-            << '\n';
+            << row.value("side", "") << '\t' << (row.at("planned").get<bool>() ? "planned" : "no plan");
+  if (const std::string stage = row.at("stage"); stage != "built")
+    std::cout << '\t' << (stage == "ct" ? "CT only" : "segmented") << ", not built yet";
+  std::cout << '\n';
 }
 
 void print_session(const nlohmann::json& row) {

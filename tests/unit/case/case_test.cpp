@@ -91,10 +91,11 @@ TEST_F(CaseFolder, RoundTripKeepsEveryBit) {
   EXPECT_EQ(r.plan->reamer, c.plan->reamer);
   EXPECT_EQ(r.plan->pilot_hole->depth_mm, 9.0);
   EXPECT_EQ(r.warnings, c.warnings);
-  const CaseSummary s = load_case_summary(root_ / "c");
-  EXPECT_EQ(s.id, c.id);
-  EXPECT_EQ(s.dims, c.bone.grid.dims);
-  EXPECT_TRUE(s.planned);
+  const Case described = load_case_description(root_ / "c");
+  EXPECT_EQ(described.id, c.id);
+  EXPECT_EQ(described.bone.grid.dims, c.bone.grid.dims);
+  EXPECT_TRUE(described.plan.has_value());
+  EXPECT_TRUE(described.bone.coverage.empty());
 }
 
 TEST_F(CaseFolder, NamesWhatIsWrong) {
