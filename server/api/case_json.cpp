@@ -100,6 +100,11 @@ json built_json(const ct::Workup& workup) {
 
 }  // namespace
 
+bool is_case_folder(const fs::path& folder) {
+  std::error_code failed;
+  return fs::is_regular_file(folder / "case.json", failed) || ct::has_workup(folder);
+}
+
 json plan_json(const case_::Plan& plan) {
   json value = case_::to_json(plan);
   for (const char* key : {"pilot_diameter_mm", "pilot_depth_mm"})

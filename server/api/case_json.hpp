@@ -6,6 +6,9 @@
 
 namespace ream::api {
 
+/// Whether a folder holds a case, built or still only a CT.
+bool is_case_folder(const std::filesystem::path& folder);
+
 /// A case in a list, and all of it, from what lies in its folder. Errors: those of reading the folder.
 nlohmann::json case_summary_json(const std::filesystem::path& folder);
 nlohmann::json case_json(const std::filesystem::path& folder);

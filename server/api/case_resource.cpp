@@ -7,7 +7,6 @@
 #include "api/request_body.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
-#include "ct/workup.hpp"
 
 namespace ream::api {
 namespace fs = std::filesystem;
@@ -15,9 +14,7 @@ using nlohmann::json;
 namespace {
 
 bool is_case(const fs::path& folder, const std::string& id) {
-  std::error_code failed;
-  return is_name(id) &&
-         (fs::is_regular_file(folder / id / "case.json", failed) || ct::has_workup(folder / id));
+  return is_name(id) && is_case_folder(folder / id);
 }
 
 std::vector<fs::path> case_folders(const fs::path& folder) {

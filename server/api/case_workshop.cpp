@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "api/case_json.hpp"
 #include "api/request_body.hpp"
 #include "case/plan.hpp"
 #include "core/error.hpp"
@@ -64,9 +65,8 @@ CaseWorkshop::CaseWorkshop(fs::path cases_folder, CaseTools tools)
     : cases_folder_(std::move(cases_folder)), tools_(std::move(tools)) {}
 
 fs::path CaseWorkshop::folder_of(const std::string& id) const {
-  std::error_code failed;
   const fs::path folder = cases_folder_ / id;
-  if (!is_name(id) || !(fs::is_regular_file(folder / "case.json", failed) || ct::has_workup(folder)))
+  if (!is_name(id) || !is_case_folder(folder))
     throw Error(ErrorKind::not_found, "no case '" + id + "'; GET /api/v1/cases lists them");
   return folder;
 }

@@ -284,7 +284,7 @@ test('cross-hair and landmarks follow pointer and keys, and are kept on the serv
   const before = await places(page);
   await page.mouse.click(...(await spotOn(surface, 0.53, 0.36)));
   await expect(page.getByTestId('landmark-glenoid_centre_mm')).toHaveAttribute('data-placed', 'true');
-  expect(await places(page)).not.toEqual(before);
+  await expect.poll(() => places(page)).not.toEqual(before);
 
   await expect(page.getByTestId('save')).toHaveAttribute('data-state', 'saved');
   await expect(page.getByTestId('missing')).toContainText('Superior rim');

@@ -11,7 +11,6 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"
-#include "ct/workup.hpp"
 
 namespace ream::app {
 namespace {
@@ -28,16 +27,10 @@ std::vector<fs::path> folders_in(const fs::path& folder) {
   return found;
 }
 
-/// Anything else in the folder of cases is not ours to complain about.
-bool is_case(const fs::path& folder) {
-  std::error_code failed;
-  return fs::is_regular_file(folder / "case.json", failed) || ct::has_workup(folder);
-}
-
 nlohmann::json listed_cases(const fs::path& data) {
   nlohmann::json rows = nlohmann::json::array();
   for (const fs::path& folder : folders_in(cases_folder(data))) try {
-      if (is_case(folder)) rows.push_back(api::case_summary_json(folder));
+      if (api::is_case_folder(folder)) rows.push_back(api::case_summary_json(folder));
     } catch (const Error& e) {
       log::warn(e.what());
     }
