@@ -62,6 +62,7 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
     if (!engine_.connections.add(shared_from_this())) return;
     error_code ignored;
     socket_.set_option(tcp::no_delay(true), ignored);
+    peer_ = socket_.remote_endpoint(ignored).address().to_string();
     asio::post(socket_.get_executor(), [self = shared_from_this(), refuse] {
       if (refuse)
         self->fail(503, "too many connections to this server; close some and try again");
@@ -101,6 +102,7 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
     keep_alive_ = head.keep_alive();
     try {
       request_ = request_of(head);
+      request_.peer = peer_;
     } catch (const RequestError& error) {
       fail(error.status(), error.what());
       return;
@@ -254,6 +256,7 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
   beast::flat_buffer buffer_;
   std::optional<Parser> parser_;
   Request request_;
+  std::string peer_;
   SharedBytes body_;
   std::optional<Outgoing> outgoing_;
   std::optional<http::serializer<false, Outgoing::body_type, Outgoing::fields_type>> serializer_;

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "net/caller.hpp"
+
 namespace ream::net {
 
 using Bytes = std::vector<std::byte>;
@@ -24,6 +26,9 @@ struct Request {
   std::map<std::string, std::string> headers;     ///< names in lower case; repeated ones joined by ", "
   std::map<std::string, std::string> parameters;  ///< what the {names} of the route's pattern matched
   std::string body;
+  std::string peer;        ///< numeric address of who is connected, without the port
+  bool encrypted = false;  ///< came over TLS
+  Caller caller;           ///< set by the router's gate
 
   /// Value of a header, empty when absent. `name` in lower case.
   std::string_view header(const std::string& name) const;

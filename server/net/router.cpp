@@ -60,6 +60,12 @@ void Router::on_websocket(const std::string& pattern, WebSocketHandler handler) 
 
 void Router::otherwise(Handler handler) { otherwise_ = std::move(handler); }
 
+void Router::guard(Gate gate) { gate_ = std::move(gate); }
+
+void Router::ask_gate(Request& request, const std::string& pattern) const {
+  if (gate_) gate_(request, pattern);
+}
+
 Response Router::dispatch(Request& request) const {
   const std::vector<std::string> path = segments_of(request.path);
   const std::string method = request.method == "HEAD" ? "GET" : request.method;
@@ -68,6 +74,7 @@ Response Router::dispatch(Request& request) const {
     if (!matches(entry.segments, path)) continue;
     if (entry.method == method) {
       take_parameters(entry.segments, path, request);
+      ask_gate(request, entry.pattern);
       return entry.handler(request);
     }
     allowed.insert(entry.method);
@@ -76,6 +83,7 @@ Response Router::dispatch(Request& request) const {
   if (!allowed.empty()) return method_not_allowed(request, allowed);
   if (!otherwise_) throw Error(ErrorKind::not_found, "nothing is served at " + request.path);
   if (method != "GET") return method_not_allowed(request, {"GET", "HEAD"});
+  ask_gate(request, {});
   return otherwise_(request);
 }
 
@@ -93,6 +101,7 @@ Router::Opened Router::open(Request request) const {
     for (const Entry& entry : entries_) {
       if (!entry.websocket_handler || !matches(entry.segments, path)) continue;
       take_parameters(entry.segments, path, request);
+      ask_gate(request, entry.pattern);
       return {entry.websocket_handler(request), {}};
     }
     throw Error(ErrorKind::not_found, "no WebSocket is served at " + request.path);

@@ -14,6 +14,10 @@ using Handler = std::function<Response(const Request&)>;
 /// Opens the session of a WebSocket; throws when there is nothing to open.
 using WebSocketHandler = std::function<std::unique_ptr<WebSocketSession>(const Request&)>;
 
+/// Decides, before a handler is called, whether this request may pass: sets Request::caller, or throws
+/// (RequestError 401, 403, 429). `pattern` is that of the route; empty for static files.
+using Gate = std::function<void(Request& request, const std::string& pattern)>;
+
 /// Which handler answers which method and path. Filled once, then only read (from any thread).
 /// A pattern is a path whose {name} segments match any one non-empty segment.
 class Router {
@@ -34,6 +38,9 @@ class Router {
   /// Answers GET and HEAD of paths that match no pattern (static files).
   void otherwise(Handler handler);
 
+  /// Asked before every handler, WebSockets and static files included. Without one everything may pass.
+  void guard(Gate gate);
+
   /// Never throws: failures become problem+json; 404 for an unknown path, 405 with Allow for a wrong method.
   Response respond(Request request) const;
   Opened open(Request request) const;
@@ -49,9 +56,11 @@ class Router {
     WebSocketHandler websocket_handler;
   };
   Response dispatch(Request& request) const;
+  void ask_gate(Request& request, const std::string& pattern) const;
 
   std::vector<Entry> entries_;
   Handler otherwise_;
+  Gate gate_;
 };
 
 }  // namespace ream::net

@@ -74,6 +74,26 @@ TEST_F(RouterTest, WebSocketPathAskedPlainlyWantsUpgrade) {
   EXPECT_EQ(router.open(request_for("GET", "/things")).refusal.status, 404);
 }
 
+TEST_F(RouterTest, GateIsAskedBeforeEveryHandlerAndMayRefuse) {
+  std::vector<std::string> asked;
+  router.otherwise([](const Request& request) {
+    EXPECT_EQ(request.caller.name, "Ada");
+    return named(200);
+  });
+  router.guard([&](Request& request, const std::string& pattern) {
+    asked.push_back(pattern);
+    if (request.method == "POST") throw RequestError(403, "not for you");
+    request.caller.name = "Ada";
+  });
+  EXPECT_EQ(router.respond(request_for("GET", "/things")).status, 200);
+  EXPECT_EQ(router.respond(request_for("POST", "/things")).status, 403);
+  EXPECT_EQ(router.respond(request_for("GET", "/page.css")).status, 200);
+  EXPECT_EQ(router.open(request_for("GET", "/things/7/stream")).refusal.status, 404);
+  EXPECT_EQ(asked, (std::vector<std::string>{"/things", "/things", "", "/things/{id}/stream"}));
+  router.guard([](Request&, const std::string&) { throw RequestError(403, "nobody"); });
+  EXPECT_EQ(router.open(request_for("GET", "/things/7/stream")).refusal.status, 403);
+}
+
 TEST_F(RouterTest, OtherwiseAnswersReadsOnly) {
   router.otherwise([](const Request&) { return named(304); });
   EXPECT_EQ(router.respond(request_for("GET", "/nowhere")).status, 304);
