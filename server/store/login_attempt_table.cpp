@@ -17,20 +17,27 @@ std::map<std::string, LoginFailures> LoginAttemptTable::failures(const std::vect
   });
 }
 
-void LoginAttemptTable::note_failure(const std::vector<std::string>& keys, int64_t now_ms,
+void LoginAttemptTable::note_failure(const std::vector<Count>& counts, int64_t now_ms,
                                      int64_t forget_before_ms) {
   const long long now = now_ms, oldest = forget_before_ms;
   database_.run([&](Sql& sql) {
     sql << "DELETE FROM login_failures WHERE last_ms < :oldest", use(oldest);
-    for (const std::string& key : keys)
+    for (const Count& count : counts) {
+      const long long restart = count.restart_before_ms;
       sql << "INSERT INTO login_failures (key, failures, last_ms) VALUES (:key, 1, :now) ON CONFLICT (key) "
-             "DO UPDATE SET failures = login_failures.failures + 1, last_ms = excluded.last_ms",
-          use(key), use(now);
+             "DO UPDATE SET failures = CASE WHEN login_failures.last_ms < :restart THEN 1 "
+             "ELSE login_failures.failures + 1 END, last_ms = excluded.last_ms",
+          use(count.key), use(now), use(restart);
+    }
   });
 }
 
-void LoginAttemptTable::forget_failures(const std::string& key) {
-  database_.run([&](Sql& sql) { sql << "DELETE FROM login_failures WHERE key = :key", use(key); });
+void LoginAttemptTable::forget_failures(const std::string& beginning) {
+  const auto length = static_cast<long long>(beginning.size());
+  database_.run([&](Sql& sql) {
+    sql << "DELETE FROM login_failures WHERE SUBSTR(key, 1, :length) = :beginning", use(length),
+        use(beginning);
+  });
 }
 
 bool LoginAttemptTable::knows_place(const std::string& key, int64_t since_ms) const {

@@ -21,9 +21,14 @@ class LoginAttemptTable {
 
   /// Keys without failures are left out.
   std::map<std::string, LoginFailures> failures(const std::vector<std::string>& keys) const;
-  /// One more under each key. What is older than `forget_before_ms` counts no more, and is removed.
-  void note_failure(const std::vector<std::string>& keys, int64_t now_ms, int64_t forget_before_ms);
-  void forget_failures(const std::string& key);
+  struct Count {
+    std::string key;
+    int64_t restart_before_ms = 0;  ///< failures that ended earlier count no more
+  };
+  /// One more of each. Rows older than `forget_before_ms` are removed.
+  void note_failure(const std::vector<Count>& counts, int64_t now_ms, int64_t forget_before_ms);
+  /// Under all keys that begin so.
+  void forget_failures(const std::string& beginning);
 
   bool knows_place(const std::string& key, int64_t since_ms) const;
   void note_place(const std::string& key, int64_t now_ms, int64_t forget_before_ms);
