@@ -3,6 +3,8 @@
 #include <random>
 #include <string_view>
 
+#include "core/utc.hpp"
+
 namespace ream::api {
 namespace {
 
@@ -11,11 +13,7 @@ constexpr size_t id_length = 8;
 }  // namespace
 
 std::string utc_text(std::time_t time) {
-  std::tm parts{};
-  gmtime_r(&time, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
+  return ream::utc_text(std::chrono::system_clock::from_time_t(time));
 }
 
 std::string utc_now() { return utc_text(std::time(nullptr)); }
