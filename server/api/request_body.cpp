@@ -8,25 +8,23 @@ namespace {
 
 constexpr size_t longest_name = 64;
 
-/// A JSON pointer as a URI fragment (RFC 6901): '~' and '/' of a key are escaped.
+std::string plain_number(double value) {
+  const std::string text = nlohmann::json(value).dump();
+  return text.size() > 2 && text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
+}
+
+}  // namespace
+
 std::string pointer_to(const std::string& key) {
   std::string pointer = "#/";
   for (const char c : key) pointer += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
   return pointer;
 }
 
-std::string plain_number(double value) {
-  const std::string text = nlohmann::json(value).dump();
-  return text.size() > 2 && text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
-}
-
-/// Of UTF-8: bytes that begin one.
 size_t characters(const std::string& text) {
   return static_cast<size_t>(std::count_if(
       text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
-
-}  // namespace
 
 bool is_name(const std::string& text) {
   return !text.empty() && text.size() <= longest_name &&
