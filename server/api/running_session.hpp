@@ -30,6 +30,15 @@ struct SessionRequest {
   std::string device = "script";      ///< name in the registry of devices: script, network, browser, ...
   std::string device_profile = {};    ///< what it can render; empty: the script's
   std::string created_utc = {};       ///< "2025-03-01T12:00:00Z", given by the server
+  std::string trainee_id = {};        ///< user who trains; empty without users
+  std::string trainee = {};           ///< the same for people
+  std::string study = {};             ///< id of the study that it belongs to; empty: none
+  std::string participant = {};       ///< code under which the study knows the trainee
+  std::string title = {};             ///< what people call it; may be empty
+  std::string reset_of = {};          ///< session that this one is another attempt of; empty: none
+  int attempt = 1;                    ///< 2 after the first reset, and so on
+  std::string followed_by = {};       ///< session that went on from intact bone; empty: none
+  bool keep = false;                  ///< never deleted by the rules of retention
 };
 
 /// Health of the haptic loop since the session began.
