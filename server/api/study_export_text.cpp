@@ -8,7 +8,7 @@ bool looks_like_formula(const std::string& text) {
   return !text.empty() && std::string("=+-@\t\r").find(text.front()) != std::string::npos;
 }
 
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
   const std::string safe = looks_like_formula(text) ? "'" + text : text;
   if (safe.find_first_of(",\"\r\n") == std::string::npos) return safe;
   std::string field = "\"";
@@ -18,12 +18,12 @@ std::string quoted(const std::string& text) {
 
 std::string cell_text(const json& cell) {
   if (cell.is_discarded() || cell.is_null()) return {};
-  if (cell.is_string()) return quoted(cell.get<std::string>());
+  if (cell.is_string()) return in_quotes(cell.get<std::string>());
   if (cell.is_boolean()) return cell.get<bool>() ? "1" : "0";
   if (!cell.is_array()) return cell.dump();
   std::string joined;
   for (const json& part : cell) joined += (joined.empty() ? "" : ";") + part.get<std::string>();
-  return quoted(joined);
+  return in_quotes(joined);
 }
 
 json codebook_of(const ExportTable& table) {
@@ -40,7 +40,7 @@ json codebook_of(const ExportTable& table) {
 std::string csv_of(const ExportTable& table) {
   std::string text;
   for (size_t i = 0; i < table.columns.size(); ++i)
-    text += (i > 0 ? "," : "") + quoted(table.columns[i].name);
+    text += (i > 0 ? "," : "") + in_quotes(table.columns[i].name);
   text += "\r\n";
   for (const auto& row : table.rows) {
     for (size_t i = 0; i < row.size(); ++i) text += (i > 0 ? "," : "") + cell_text(row[i]);

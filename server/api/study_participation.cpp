@@ -16,12 +16,21 @@ Error unknown_participant(const std::string& id, const std::string& code) {
   return {ErrorKind::not_found, "no participant '" + code + "' in study '" + id + "'"};
 }
 
+bool is_operator(const net::Caller& caller) { return role_bit(caller.role) == operators; }
+
+/// Without all that tells participants apart.
+Participant only_code(const Participant& participant) { return {participant.code, "", 0, std::nullopt}; }
+
 }  // namespace
 
-std::vector<Participant> StudyService::participants(const std::string& id) const {
-  known(id);
+std::vector<Participant> StudyService::participants(const net::Caller& caller, const std::string& id) const {
+  const bool hidden = known(id).open && !is_operator(caller);
+  const std::string own = code_of(caller, id);
   std::vector<Participant> list;
-  for (const store::ParticipantRow& row : table_.participants(id)) list.push_back(participant_of(row));
+  for (const store::ParticipantRow& row : table_.participants(id)) {
+    const Participant participant = participant_of(row);
+    list.push_back(hidden && participant.code != own ? only_code(participant) : participant);
+  }
   return list;
 }
 
@@ -32,12 +41,14 @@ std::string StudyService::code_of(const net::Caller& caller, const std::string& 
 Participant StudyService::participant(const net::Caller& caller, const std::string& id,
                                       const std::string& code) const {
   const auto row = table_.participant(id, code);
-  if (!row || (!is_staff(caller) && code_of(caller, id) != code)) throw unknown_participant(id, code);
-  return participant_of(*row);
+  const bool own = code_of(caller, id) == code;
+  if (!row || (!is_staff(caller) && !own)) throw unknown_participant(id, code);
+  if (own || is_operator(caller) || !known(id).open) return participant_of(*row);
+  return only_code(participant_of(*row));
 }
 
 std::vector<store::PersonRow> StudyService::persons(const net::Caller& caller, const std::string& id) const {
-  if (known(id).blinded() && role_bit(caller.role) != operators)
+  if (known(id).blinded() && !is_operator(caller))
     throw net::RequestError(403, "who takes part in study '" + id + "' is hidden until it is unblinded");
   return table_.persons(id);
 }
@@ -63,8 +74,24 @@ void StudyService::withdraw(const std::string& id, const std::string& code) {
   table_.remove_participant(id, code);
 }
 
-StudyExport StudyService::export_all(const std::string& id) const {
-  return export_of(known(id), participants(id), surroundings_.attempts(id));
+StudyExport StudyService::everything(const Study& study) const {
+  std::vector<Participant> all;
+  for (const store::ParticipantRow& row : table_.participants(study.id)) all.push_back(participant_of(row));
+  return export_of(study, all, surroundings_.attempts(study.id));
+}
+
+StudyExport StudyService::export_all(const net::Caller& caller, const std::string& id) const {
+  const Study study = known(id);
+  if (study.open && !is_operator(caller))
+    throw Error(ErrorKind::conflict, "study '" + id +
+                                         "' is open; close it first, for who scores must not know who is how "
+                                         "experienced");
+  return everything(study);
+}
+
+json StudyService::codebook(const std::string& id) const {
+  const Study study = known(id);
+  return codebook_of(study, everything(study));
 }
 
 void StudyService::admit(const net::Caller& caller, SessionRequest& wanted) const {
@@ -73,9 +100,11 @@ void StudyService::admit(const net::Caller& caller, SessionRequest& wanted) cons
   const Study study = open_one(id);
   if (!is_staff(caller) || wanted.participant.empty()) {
     const std::string own = code_of(caller, id);
-    if (!wanted.participant.empty() && wanted.participant != own) throw unknown_participant(id, wanted.participant);
+    if (!wanted.participant.empty() && wanted.participant != own)
+      throw unknown_participant(id, wanted.participant);
     if (own.empty())
-      throw Error(ErrorKind::conflict, "you do not take part in study '" + id + "'; say which participant trains");
+      throw Error(ErrorKind::conflict,
+                  "you do not take part in study '" + id + "'; say which participant trains");
     wanted.participant = own;
   }
   participant(caller, id, wanted.participant);
@@ -93,7 +122,7 @@ void StudyService::admit(const net::Caller& caller, SessionRequest& wanted) cons
 
 Blinding StudyService::blinding(const net::Caller& caller) const {
   std::set<std::string> unblinded;
-  if (role_bit(caller.role) != operators)
+  if (!is_operator(caller))
     for (const store::StudyRow& row : table_.list())
       if (!row.unblinded_utc.empty()) unblinded.insert(row.id);
   return {caller, std::move(unblinded)};

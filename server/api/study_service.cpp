@@ -22,7 +22,6 @@ Error unknown_study(const std::string& id) {
   return {ErrorKind::not_found, "no study '" + id + "'; GET /api/v1/studies lists them"};
 }
 
-
 }  // namespace
 
 StudyService::StudyService(store::Database& database, StudySurroundings surroundings)
@@ -105,7 +104,8 @@ Study StudyService::reopen(const std::string& id) {
   Study study = known(id);
   if (study.open) throw Error(ErrorKind::conflict, "study '" + id + "' is open");
   if (!study.blinded())
-    throw Error(ErrorKind::conflict, "study '" + id + "' is unblinded; what is added to it now would not be blind");
+    throw Error(ErrorKind::conflict,
+                "study '" + id + "' is unblinded; what is added to it now would not be blind");
   study.open = true;
   study.closed_utc.clear();
   table_.replace(row_of(study));
@@ -142,8 +142,8 @@ Participant StudyService::add_participant(const Study& study, const NewParticipa
     } catch (const Error& failure) {
       if (failure.kind() != ErrorKind::conflict || draw == most_draws) throw;
       if (person && !table_.code_of(study.id, person->user_id).empty())
-        throw Error(ErrorKind::conflict,
-                    (person->name.empty() ? "this person" : person->name) + " takes part in the study already");
+        throw Error(ErrorKind::conflict, (person->name.empty() ? "this person" : person->name) +
+                                             " takes part in the study already");
     }
   }
 }
@@ -153,7 +153,8 @@ Participant StudyService::enrol(const net::Caller& caller, const std::string& id
   const Study study = open_one(id);
   if (wanted.user_id.empty() && wanted.name.empty()) return add_participant(study, wanted, std::nullopt);
   if (!is_operator(caller))
-    throw net::RequestError(403, "only operators may say who a participant is; give the person the join code");
+    throw net::RequestError(403,
+                            "only operators may say who a participant is; give the person the join code");
   store::PersonRow person{"", wanted.user_id, wanted.name};
   if (!wanted.user_id.empty()) {
     const auto name = surroundings_.name_of_user(wanted.user_id);
@@ -164,11 +165,11 @@ Participant StudyService::enrol(const net::Caller& caller, const std::string& id
 }
 
 std::pair<std::string, Participant> StudyService::join(const net::Caller& caller,
-                                                       const std::string& join_code,
                                                        const NewParticipant& about) {
   if (caller.user_id.empty())
-    throw Error(ErrorKind::conflict, "only somebody with an account can join a study; others are enrolled by code");
-  const auto row = table_.find_by_join_code(join_code);
+    throw Error(ErrorKind::conflict,
+                "only somebody with an account can join a study; others are enrolled by code");
+  const auto row = table_.find_by_join_code(about.join_code);
   if (!row) throw Error(ErrorKind::not_found, "no study has this join code");
   const Study study = open_one(row->id);
   const store::PersonRow person{"", caller.user_id, caller.name};

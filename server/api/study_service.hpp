@@ -23,8 +23,9 @@ struct StudyWishes {
 struct NewParticipant {
   std::string experience;
   int64_t procedures_done = 0;
-  std::string user_id;  ///< of somebody with an account
-  std::string name;     ///< for operators, of somebody without
+  std::string user_id;    ///< of somebody with an account
+  std::string name;       ///< for operators, of somebody without
+  std::string join_code;  ///< of who enrols themself
 };
 
 /// What studies ask of the rest of the server.
@@ -60,12 +61,13 @@ class StudyService {
   /// Only operators may say who it is; others enrol a person by giving them the join code.
   Participant enrol(const net::Caller& caller, const std::string& id, const NewParticipant& wanted);
   /// The caller takes part in the open study with this join code; its id and the participant.
-  std::pair<std::string, Participant> join(const net::Caller& caller, const std::string& join_code,
-                                           const NewParticipant& about);
-  /// By code.
-  std::vector<Participant> participants(const std::string& id) const;
-  std::map<std::string, int64_t> counts() const { return table_.counts(); }
-  /// Trainees have themselves only.
+  std::pair<std::string, Participant> join(const net::Caller& caller, const NewParticipant& about);
+  /// By code. While a study is open only operators learn what else is known of a participant than the code,
+  /// so that who scores does not know who is how experienced.
+  std::vector<Participant> participants(const net::Caller& caller, const std::string& id) const;
+  /// How many take part.
+  int64_t count(const std::string& id) const { return table_.count(id); }
+  /// Trainees have themselves only; of others only the code is told as in the list.
   Participant participant(const net::Caller& caller, const std::string& id, const std::string& code) const;
   /// Who takes part, for operators; for others once it is unblinded.
   std::vector<store::PersonRow> persons(const net::Caller& caller, const std::string& id) const;
@@ -78,7 +80,10 @@ class StudyService {
   /// Forgets a participant: person, answers, and their rows in exports.
   void withdraw(const std::string& id, const std::string& code);
 
-  StudyExport export_all(const std::string& id) const;
+  /// For operators; for others once the study is closed.
+  StudyExport export_all(const net::Caller& caller, const std::string& id) const;
+  /// What the columns of the export mean.
+  nlohmann::json codebook(const std::string& id) const;
 
   /// Makes a wanted session one of the study that it names: checks that it may be, fills in the participant
   /// and the study's settings. `wanted.participant` empty: the caller.
@@ -89,6 +94,7 @@ class StudyService {
  private:
   Study known(const std::string& id) const;
   Study open_one(const std::string& id) const;
+  StudyExport everything(const Study& study) const;
   Participant add_participant(const Study& study, const NewParticipant& wanted,
                               const std::optional<store::PersonRow>& person);
   void require_settings(const StudySettings& settings) const;

@@ -158,16 +158,11 @@ std::vector<ParticipantRow> StudyTable::participants(const std::string& study) c
   });
 }
 
-std::map<std::string, int64_t> StudyTable::counts() const {
-  return database_.read([](Sql& sql) {
-    std::map<std::string, int64_t> found;
-    std::string study;
+int64_t StudyTable::count(const std::string& study) const {
+  return database_.read([&](Sql& sql) {
     long long count = 0;
-    soci::statement rows = (sql.prepare << "SELECT study, COUNT(*) FROM study_participants GROUP BY study",
-                            into(study), into(count));
-    rows.execute();
-    while (rows.fetch()) found[study] = count;
-    return found;
+    sql << "SELECT COUNT(*) FROM study_participants WHERE study = :study", use(study), into(count);
+    return count;
   });
 }
 

@@ -62,8 +62,7 @@ class StudyTable {
   std::optional<ParticipantRow> participant(const std::string& study, const std::string& code) const;
   /// By code, so that the order says nothing about who came first.
   std::vector<ParticipantRow> participants(const std::string& study) const;
-  /// Participants of every study that has any.
-  std::map<std::string, int64_t> counts() const;
+  int64_t count(const std::string& study) const;
 
   /// By code; participants whose person is not known are left out.
   std::vector<PersonRow> persons(const std::string& study) const;
