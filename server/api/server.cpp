@@ -42,10 +42,10 @@ void add_contract_route(net::Router& router) {
 
 CaseTools tools_of(const ServerOptions& options, const SessionService& sessions) {
   return {options.read_ct, [&sessions](const std::string& case_id) {
-            const auto all = sessions.list();
-            return static_cast<size_t>(std::count_if(
-                all.begin(), all.end(),
-                [&](const SessionRecord& record) { return record.request.case_id == case_id; }));
+            store::SessionQuery query;
+            query.case_id = case_id;
+            query.limit = 0;
+            return sessions.list(query).total;
           }};
 }
 
@@ -78,7 +78,7 @@ net::Router router_of(const ServerOptions& options, SessionService& sessions, Re
 }  // namespace
 
 Server::Server(ServerOptions options)
-    : sessions_(std::move(options.make_session), options.sessions, options.sessions_folder),
+    : sessions_(std::move(options.make_session), options.sessions, options.sessions_folder, options.database),
       replays_(std::move(options.make_replay), options.replays),
       uploads_(options.data_folder.empty() ? std::filesystem::path() : options.data_folder / "uploads"),
       workshop_(options.cases_folder, tools_of(options, sessions_)),

@@ -11,6 +11,7 @@
 #include "api/annotation.hpp"
 #include "api/running_session.hpp"
 #include "api/session_archive.hpp"
+#include "api/session_register.hpp"
 
 namespace ream::api {
 
@@ -29,8 +30,10 @@ struct SessionMakers {
 /// Error not_found.
 class SessionService {
  public:
-  /// `sessions_folder`: where sessions keep their folders; empty: nowhere.
-  SessionService(SessionMakers makers, SessionLimits limits, const std::filesystem::path& sessions_folder);
+  /// `sessions_folder`: where sessions keep their folders; empty: nowhere. `database`: has the index of
+  /// sessions; null: lists are made from the folders.
+  SessionService(SessionMakers makers, SessionLimits limits, const std::filesystem::path& sessions_folder,
+                 std::shared_ptr<store::Database> database = nullptr);
   ~SessionService();
   SessionService(const SessionService&) = delete;
   SessionService& operator=(const SessionService&) = delete;
@@ -39,8 +42,8 @@ class SessionService {
   SessionRecord create(SessionRequest wanted);
   /// Those of this server that are still held in memory, oldest first.
   std::vector<SessionRecord> held() const;
-  /// Newest first: those of this server, then what else lies in the data folder.
-  std::vector<SessionRecord> list() const;
+  /// Of all in the data folder, as SessionRegister::list().
+  SessionPage list(const store::SessionQuery& query) const;
   SessionRecord get(const std::string& id) const;
   /// Error conflict unless created.
   SessionRecord start(const std::string& id);
@@ -80,6 +83,7 @@ class SessionService {
   const SessionMakers makers_;
   const SessionLimits limits_;
   const SessionArchive archive_;
+  const std::unique_ptr<SessionRegister> register_;
   std::mutex annotating_;  ///< one remark behind an end at a time; locked before mutex_
   mutable std::mutex mutex_;
   std::vector<std::shared_ptr<Entry>> entries_;  ///< oldest first
