@@ -279,8 +279,9 @@ TYPED_TEST(SessionIndexUpkeepTest, IsMadeAnewWhenAsked) {
 }
 
 TYPED_TEST(SessionIndexUpkeepTest, ListsManyAtTheFirstStart) {
-  for (int i = 0; i < 450; ++i)
-    this->sessions.put("s" + std::to_string(i), "2025-03-01T12:00:00Z", "finished");
+  const std::string text =
+      R"({"case": "demo", "script": "demo", "created_utc": "2025-03-01T12:00:00Z", "state": "finished"})";
+  for (int i = 0; i < 450; ++i) this->sessions.folder.write("s" + std::to_string(i) + "/session.json", text);
   const SessionPage page = this->page();
   EXPECT_EQ(page.total, 450u);
   EXPECT_EQ(page.sessions.size(), 50u);
