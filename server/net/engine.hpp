@@ -49,12 +49,14 @@ struct Engine {
       : router(routes),
         limits(most),
         workers(worker_threads, most.waiting_requests),
+        file_readers(1, most.connections),
         io(static_cast<int>(io_threads)) {}
 
   const Router& router;
   const Limits limits;
   ConnectionRegistry connections;
   WorkerPool workers;
+  WorkerPool file_readers;  ///< one piece at a time for every connection
   boost::asio::io_context io;
 };
 

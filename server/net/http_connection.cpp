@@ -1,14 +1,20 @@
 #include <algorithm>
+#include <array>
 #include <boost/asio/post.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http.hpp>
 #include <cctype>
 #include <optional>
+#include <utility>
 
+#include "core/error.hpp"
+#include "core/log.hpp"
 #include "net/connections.hpp"
+#include "net/file_body.hpp"
 #include "net/guard.hpp"
 #include "net/problem.hpp"
+#include "net/response_head.hpp"
 #include "net/watchdog.hpp"
 
 namespace ream::net {
@@ -20,7 +26,6 @@ using boost::system::error_code;
 namespace {
 
 using Parser = http::request_parser<http::string_body>;
-using Outgoing = http::response<http::span_body<const char>>;
 
 std::string text(beast::string_view view) { return {view.data(), view.size()}; }
 
@@ -191,41 +196,74 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
 
   void write(Response response) {
     reading_ = false;
-    const size_t size = response.body ? response.body->size() : 0;
-    body_ = std::move(response.body);
-    outgoing_.emplace();
-    outgoing_->version(11);
-    outgoing_->result(static_cast<unsigned>(response.status));
-    outgoing_->reason(status_title(response.status));
-    for (const auto& [name, value] : security_headers()) outgoing_->set(name, value);
-    for (const auto& [name, value] : response.headers) outgoing_->set(name, value);
-    if (!response.content_type.empty()) outgoing_->set(http::field::content_type, response.content_type);
     keep_alive_ = keep_alive_ && !ending_;
-    outgoing_->keep_alive(keep_alive_);
-    if (response.status != 204 && response.status != 304) outgoing_->content_length(size);
-    if (body_ && !head_only_) outgoing_->body() = {reinterpret_cast<const char*>(body_->data()), size};
-    head_only_ = false;
-    serializer_.emplace(*outgoing_);
+    head_ = response_head(response, security_headers(), keep_alive_);
+    const bool with_body = !std::exchange(head_only_, false);
+    body_ = with_body ? std::move(response.body) : nullptr;
+    file_ = with_body ? std::move(response.file) : std::nullopt;
+    leaving_ = {asio::buffer(head_), body_ ? asio::buffer(*body_) : asio::const_buffer()};
     write_some();
   }
 
   void write_some() {
-    watchdog_.arm(engine_.limits.write, shared_from_this());
-    http::async_write_some(socket_, *serializer_, [self = shared_from_this()](error_code failed, size_t) {
-      if (failed)
-        self->watchdog_.close();
-      else if (!self->serializer_->is_done())
-        self->write_some();
+    if (asio::buffer_size(leaving_) == 0) {
+      if (file_ && file_->bytes > 0)
+        fetch_piece();
       else
-        self->on_written();
+        on_written();
+      return;
+    }
+    watchdog_.arm(engine_.limits.write, shared_from_this());
+    socket_.async_write_some(leaving_, [self = shared_from_this()](error_code failed, size_t written) {
+      if (failed) {
+        self->watchdog_.close();
+        return;
+      }
+      for (asio::const_buffer& buffer : self->leaving_) {
+        const size_t of_this = std::min(written, buffer.size());
+        buffer += of_this;
+        written -= of_this;
+      }
+      self->write_some();
     });
+  }
+
+  /// The disk may take its time: a thread of its own waits for it.
+  void fetch_piece() {
+    watchdog_.disarm();
+    const bool taken = engine_.file_readers.submit([self = shared_from_this()] {
+      const bool whole = self->read_piece();
+      asio::post(self->socket_.get_executor(), [self, whole] {
+        self->leaving_ = {asio::buffer(self->piece_), asio::const_buffer()};
+        if (whole)
+          self->write_some();
+        else
+          self->watchdog_.close();
+      });
+    });
+    if (!taken) watchdog_.close();
+  }
+
+  /// False when the file is not what it was: what was promised cannot be sent any more.
+  bool read_piece() {
+    piece_.resize(std::min<uint64_t>(file_->bytes, engine_.limits.file_piece_bytes));
+    try {
+      if (file_->file->read(file_->offset, piece_) < piece_.size())
+        throw Error(ErrorKind::io, "a file became shorter while it was sent");
+    } catch (const Error& failure) {
+      log::error(failure.what());
+      return false;
+    }
+    file_->offset += piece_.size();
+    file_->bytes -= piece_.size();
+    return true;
   }
 
   void on_written() {
     watchdog_.disarm();
-    serializer_.reset();
-    outgoing_.reset();
     body_.reset();
+    file_.reset();
+    piece_ = {};
     if (keep_alive_ && !ending_) {
       read_head();
       return;
@@ -257,9 +295,11 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
   std::optional<Parser> parser_;
   Request request_;
   std::string peer_;
+  std::string head_;
   SharedBytes body_;
-  std::optional<Outgoing> outgoing_;
-  std::optional<http::serializer<false, Outgoing::body_type, Outgoing::fields_type>> serializer_;
+  std::optional<FileStretch> file_;  ///< what of it has not been read yet
+  Bytes piece_;
+  std::array<asio::const_buffer, 2> leaving_;  ///< of head_ and body_, or of piece_
   bool keep_alive_ = true;
   bool head_only_ = false;
   bool reading_ = false;

@@ -133,6 +133,7 @@ void Listener::stop() {
   if (!parts_->threads.empty() && !engine.connections.wait_until_empty(engine.limits.stop))
     log::warn("connections were cut that did not end in time");
   engine.workers.stop();
+  engine.file_readers.stop();
   engine.io.stop();
   for (std::thread& thread : parts_->threads) thread.join();
   boost::system::error_code ignored;

@@ -56,7 +56,7 @@ class WebSocketConnection final : public Connection,
     }));
     stream_.read_message_max(engine_.limits.websocket_message_bytes);
     stream_.auto_fragment(false);
-    stream_.binary(true);
+    stream_.text(session_->sends_text());
     stream_.async_accept(handshake_of(request), [self = shared_from_this()](error_code failed) {
       if (!failed) self->on_accepted();
     });

@@ -61,7 +61,7 @@ class RawWebSocket {
   void send_close(uint16_t code);
 
   struct Message {
-    int opcode = 0;  ///< 2 binary, 8 close, 9 ping
+    int opcode = 0;  ///< 1 text, 2 binary, 8 close, 9 ping
     std::string payload;
     std::optional<uint16_t> close_code() const;
   };

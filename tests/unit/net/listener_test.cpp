@@ -6,8 +6,11 @@
 #include <future>
 #include <thread>
 
+#include "core/file.hpp"
+#include "net/file_body.hpp"
 #include "net/problem.hpp"
 #include "support/raw_http.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace ream::net {
 namespace {
@@ -33,6 +36,9 @@ class ListenerTest : public testing::Test {
       return bytes_response(200, "text/plain", share("late"));
     });
     router.on("GET", "/fails", [](const Request&) -> Response { throw std::runtime_error("bang"); });
+    router.on("GET", "/file", [this](const Request& request) {
+      return file_response(request, {file, "application/octet-stream", "a file"});
+    });
     options.port = 0;
     options.limits.body_bytes = 1000;
     options.limits.header_bytes = 2000;
@@ -44,6 +50,8 @@ class ListenerTest : public testing::Test {
     return listener->port();
   }
 
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "file.bin";
   Router router;
   ListenOptions options;
   const SharedBytes large = std::make_shared<const Bytes>(64u << 20);
@@ -171,6 +179,66 @@ TEST_F(ListenerTest, SlowReaderIsCutAndDoesNotHoldOthersUp) {
 
 TEST_F(ListenerTest, LargeReplyArrivesWhole) {
   EXPECT_EQ(http_request(start(), "GET", "/large").body.size(), large->size());
+}
+
+/// Bytes that differ wherever they are taken from.
+std::string numbered(size_t bytes) {
+  std::string text;
+  for (uint32_t i = 0; text.size() < bytes; ++i) text += std::to_string(i) + ",";
+  text.resize(bytes);
+  return text;
+}
+
+TEST_F(ListenerTest, FileIsSentInPiecesAndInParts) {
+  const std::string whole = numbered(1'000'003);
+  write_file_atomically(file, whole);
+  options.limits.file_piece_bytes = 4096;
+  const uint16_t port = start();
+  const HttpReply all = http_request(port, "GET", "/file");
+  EXPECT_EQ(all.status, 200);
+  EXPECT_EQ(all.body, whole);
+  EXPECT_EQ(all.headers.at("accept-ranges"), "bytes");
+  const HttpReply part = http_request(port, "GET", "/file", "", {{"Range", "bytes=500000-"}});
+  EXPECT_EQ(part.status, 206);
+  EXPECT_EQ(part.headers.at("content-range"), "bytes 500000-1000002/1000003");
+  EXPECT_EQ(part.body, whole.substr(500000));
+  const HttpReply head = http_request(port, "HEAD", "/file");
+  EXPECT_EQ(head.headers.at("content-length"), "1000003");
+  EXPECT_EQ(head.body, "");
+}
+
+TEST_F(ListenerTest, FileDoesNotEndTheConnection) {
+  write_file_atomically(file, numbered(300'000));
+  RawSocket socket(start());
+  socket.send(get_line("/file") + "HEAD /file HTTP/1.1\r\nHost: localhost\r\n\r\n" + get_line("/hello"));
+  EXPECT_EQ(receive_reply(socket).body, numbered(300'000));
+  EXPECT_EQ(receive_reply(socket, false).headers.at("content-length"), "300000");
+  EXPECT_EQ(receive_reply(socket).body, "hello");
+}
+
+TEST_F(ListenerTest, EmptyFileIsAnEmptyBody) {
+  write_file_atomically(file, std::string_view());
+  EXPECT_EQ(http_request(start(), "GET", "/file").headers.at("content-length"), "0");
+}
+
+TEST_F(ListenerTest, FileThatShrinksOnTheWayCutsTheReply) {
+  write_file_atomically(file, numbered(64u << 20));
+  RawSocket slow(start(), 4096);
+  slow.send(get_line("/file"));
+  slow.receive_until("\r\n\r\n");
+  std::filesystem::resize_file(file, 100);
+  EXPECT_LT(slow.receive_all().size(), 64u << 20);
+  EXPECT_EQ(http_request(listener->port(), "GET", "/hello").status, 200);
+}
+
+TEST_F(ListenerTest, StopWhileAFileIsSentEnds) {
+  options.limits.stop = 200ms;
+  write_file_atomically(file, numbered(64u << 20));
+  RawSocket slow(start(), 4096);
+  slow.send(get_line("/file"));
+  slow.receive_until("\r\n\r\n");
+  listener->stop();
+  EXPECT_LT(slow.receive_all().size(), 64u << 20);
 }
 
 TEST_F(ListenerTest, IdleConnectionIsClosed) {

@@ -24,6 +24,7 @@ struct Desk {
   std::deque<SharedBytes> outgoing;
   std::function<void()> wake;
   std::optional<Farewell> farewell;
+  bool text = false;
   int opened = 0, closed = 0, asked = 0;
 
   void put(SharedBytes message) {
@@ -52,6 +53,7 @@ class DeskSession final : public WebSocketSession {
     ++desk_->opened;
     desk_->changed.notify_all();
   }
+  bool sends_text() const override { return desk_->text; }
   std::optional<SharedBytes> next() override {
     const std::lock_guard lock(desk_->mutex);
     ++desk_->asked;
@@ -121,6 +123,15 @@ TEST_F(WebSocketTest, MessagesGoBothWaysWholeAndInOrder) {
   EXPECT_EQ(message.payload, big);
   EXPECT_EQ(client.receive().payload, "after");
   EXPECT_EQ(client.receive().payload, "echo hi");
+}
+
+TEST_F(WebSocketTest, ASessionMaySendText) {
+  desk->text = true;
+  desk->put(share("{\"number\": 1}"));
+  RawWebSocket client(start(), "/stream/1");
+  const auto message = client.receive();
+  EXPECT_EQ(message.opcode, 1);
+  EXPECT_EQ(message.payload, "{\"number\": 1}");
 }
 
 TEST_F(WebSocketTest, RefusalsAreProblemsBeforeTheUpgrade) {

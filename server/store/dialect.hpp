@@ -1,0 +1,28 @@
+#pragma once
+#include <chrono>
+#include <string>
+
+#include "store/database.hpp"
+#include "store/database_url.hpp"
+
+/// What the two stores do differently. Internal to this room.
+namespace ream::store {
+
+bool on_postgresql(Sql& sql);
+
+/// A migration's statement in the words of this store.
+std::string in_dialect(Sql& sql, std::string statement);
+
+/// Until the end of the transaction no other process migrates.
+void lock_for_migration(Sql& sql);
+
+/// Opens a connection and sets it up. Throws what SOCI throws, or Error io when SQLite's file cannot be made.
+std::unique_ptr<Sql> open_connection(const DatabaseUrl& url, const DatabaseLimits& limits);
+
+void begin_writing(Sql& sql);
+void begin_reading(Sql& sql);
+
+/// Whether the other end has gone, so that this connection is of no more use.
+bool connection_lost(Sql& sql) noexcept;
+
+}  // namespace ream::store
