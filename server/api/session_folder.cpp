@@ -6,6 +6,7 @@
 
 #include "api/new_id.hpp"
 #include "api/request_body.hpp"
+#include "api/session_labels.hpp"
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -75,6 +76,7 @@ FolderRecord record_of(const json& session, const json& timing, const fs::path& 
   // A script's own says itself.
   if (record.request.device != "script") record.request.device_profile = session.value("device_profile", "");
   record.request.created_utc = session.value("created_utc", "");
+  read_labels(session, record.request);
   SessionStatus& status = record.status;
   status.state = state_of(session, folder);
   found.lasting = !is_live(status.state);
