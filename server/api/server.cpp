@@ -62,6 +62,7 @@ void add_all_case_routes(net::Router& router, const ServerOptions& options, Case
 net::Router router_of(const ServerOptions& options, SessionService& sessions, ReplayService& replays,
                       CaseWorkshop& workshop, UploadStore& uploads, const Readiness& readiness) {
   net::Router router;
+  router.pace_callers(options.listen.limits.requests_per_caller);
   add_health_routes(router, readiness);
   add_metrics_route(router, sessions);
   add_contract_route(router);
