@@ -62,6 +62,8 @@ void Router::otherwise(Handler handler) { otherwise_ = std::move(handler); }
 
 void Router::guard(Gate gate) { gate_ = std::move(gate); }
 
+void Router::wrap_websockets(WebSocketWrapper wrapper) { wrapper_ = std::move(wrapper); }
+
 void Router::ask_gate(Request& request, const std::string& pattern) const {
   if (gate_) gate_(request, pattern);
 }
@@ -102,7 +104,8 @@ Router::Opened Router::open(Request request) const {
       if (!entry.websocket_handler || !matches(entry.segments, path)) continue;
       take_parameters(entry.segments, path, request);
       ask_gate(request, entry.pattern);
-      return {entry.websocket_handler(request), {}};
+      auto session = entry.websocket_handler(request);
+      return {wrapper_ ? wrapper_(request, std::move(session)) : std::move(session), {}};
     }
     throw Error(ErrorKind::not_found, "no WebSocket is served at " + request.path);
   } catch (const std::exception& failure) {

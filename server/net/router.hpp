@@ -18,6 +18,10 @@ using WebSocketHandler = std::function<std::unique_ptr<WebSocketSession>(const R
 /// (RequestError 401, 403, 429). `pattern` is that of the route; empty for static files.
 using Gate = std::function<void(Request& request, const std::string& pattern)>;
 
+/// May put something around the session of a WebSocket that is about to open.
+using WebSocketWrapper =
+    std::function<std::unique_ptr<WebSocketSession>(const Request&, std::unique_ptr<WebSocketSession>)>;
+
 /// Which handler answers which method and path. Filled once, then only read (from any thread).
 /// A pattern is a path whose {name} segments match any one non-empty segment.
 class Router {
@@ -40,6 +44,8 @@ class Router {
 
   /// Asked before every handler, WebSockets and static files included. Without one everything may pass.
   void guard(Gate gate);
+  /// Put around every WebSocket, after its handler has opened it.
+  void wrap_websockets(WebSocketWrapper wrapper);
 
   /// Never throws: failures become problem+json; 404 for an unknown path, 405 with Allow for a wrong method.
   Response respond(Request request) const;
@@ -61,6 +67,7 @@ class Router {
   std::vector<Entry> entries_;
   Handler otherwise_;
   Gate gate_;
+  WebSocketWrapper wrapper_;
 };
 
 }  // namespace ream::net
