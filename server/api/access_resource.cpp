@@ -18,7 +18,7 @@ Audit audit_in(access::Gatehouse* gatehouse) {
 
 access::Gatehouse& gatehouse_of(const AccessTools& tools) {
   if (!tools.gatehouse)
-    throw Error(ErrorKind::conflict, "this server runs without a database, and has no users");
+    throw Error(ErrorKind::unavailable, "this server runs without a database, and has no users");
   return *tools.gatehouse;
 }
 
@@ -28,6 +28,11 @@ net::Response patiently(const std::function<net::Response()>& handler) {
   } catch (const access::TooMany& busy) {
     throw net::RequestError(429, busy.what(), {}, {{"Retry-After", std::to_string(busy.retry_after_s())}});
   }
+}
+
+access::Gatehouse& gatehouse_with(const AccessTools& tools, const std::string& what) {
+  if (!tools.gatehouse) throw Error(ErrorKind::not_found, "no " + what + " of that id");
+  return *tools.gatehouse;
 }
 
 const std::string& id_in(const net::Request& request, const std::string& what) {

@@ -30,8 +30,10 @@ void add_audit_routes(net::Router& router, const AccessTools& tools);
 /// Keeps changes in the gatehouse's audit log.
 Audit audit_in(access::Gatehouse* gatehouse);
 
-/// The gatehouse; Error conflict for a server that never has users.
+/// The gatehouse. Error unavailable for a server without a database.
 access::Gatehouse& gatehouse_of(const AccessTools& tools);
+/// The same to find one user, token or link in (`what`). Error not_found for a server without a database.
+access::Gatehouse& gatehouse_with(const AccessTools& tools, const std::string& what);
 
 /// Runs a handler; what is asked too often becomes 429 with Retry-After.
 net::Response patiently(const std::function<net::Response()>& handler);

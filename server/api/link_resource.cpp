@@ -54,7 +54,7 @@ net::Response add(const AccessTools& tools, const net::Request& request) {
 }
 
 net::Response revoke(const AccessTools& tools, const net::Request& request) {
-  access::Gatehouse& gatehouse = gatehouse_of(tools);
+  access::Gatehouse& gatehouse = gatehouse_with(tools, "link");
   const std::string& id = id_in(request, "link");
   const auto row = gatehouse.credentials.find(id, CredentialKind::link);
   const std::string maker = maker_for(request.caller);

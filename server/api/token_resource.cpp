@@ -74,7 +74,7 @@ net::Response add(const AccessTools& tools, const net::Request& request) {
 }
 
 net::Response revoke(const AccessTools& tools, const net::Request& request) {
-  access::Gatehouse& gatehouse = gatehouse_of(tools);
+  access::Gatehouse& gatehouse = gatehouse_with(tools, "token");
   const std::string& id = id_in(request, "token");
   const auto row = gatehouse.credentials.find(id, CredentialKind::token);
   const bool own = row && !row->user_id.empty() && row->user_id == request.caller.user_id;

@@ -74,14 +74,14 @@ net::Response change(const AccessTools& tools, const net::Request& request) {
   wanted.enabled = body.flag_or_none("enabled");
   wanted.password = password_in(body);
   body.finish();
-  access::Gatehouse& gatehouse = gatehouse_of(tools);
+  access::Gatehouse& gatehouse = gatehouse_with(tools, "user");
   const access::User user = gatehouse.users.change(id_in(request, "user"), wanted);
   audit_in (&gatehouse)(request, "user.change", user.id, user.name + ": " + words_of(wanted));
   return net::json_response(200, to_json(user));
 }
 
 net::Response remove(const AccessTools& tools, const net::Request& request) {
-  access::Gatehouse& gatehouse = gatehouse_of(tools);
+  access::Gatehouse& gatehouse = gatehouse_with(tools, "user");
   const access::User user = gatehouse.users.get(id_in(request, "user"));
   gatehouse.users.remove(user.id);
   audit_in (&gatehouse)(request, "user.remove", user.id, user.name);
@@ -89,9 +89,8 @@ net::Response remove(const AccessTools& tools, const net::Request& request) {
 }
 
 net::Response get(const AccessTools& tools, const net::Request& request) {
-  const std::string& id = id_in(request, "user");
-  if (!tools.gatehouse) throw Error(ErrorKind::not_found, "no user '" + id + "'");
-  return net::json_response(200, to_json(tools.gatehouse->users.get(id)));
+  access::Gatehouse& gatehouse = gatehouse_with(tools, "user");
+  return net::json_response(200, to_json(gatehouse.users.get(id_in(request, "user"))));
 }
 
 }  // namespace
