@@ -64,6 +64,8 @@ void Router::guard(Gate gate) { gate_ = std::move(gate); }
 
 void Router::pace_callers(Rate rate) { callers_ = std::make_shared<RateLimiter>(rate); }
 
+void Router::wrap_websockets(WebSocketWrapper wrapper) { wrapper_ = std::move(wrapper); }
+
 std::optional<Response> Router::ask_gate(Request& request, const std::string& pattern) const {
   if (gate_) gate_(request, pattern);
   const Caller& caller = request.caller;
@@ -110,7 +112,8 @@ Router::Opened Router::open(Request request) const {
       if (!entry.websocket_handler || !matches(entry.segments, path)) continue;
       take_parameters(entry.segments, path, request);
       if (auto refusal = ask_gate(request, entry.pattern)) return {nullptr, *refusal};
-      return {entry.websocket_handler(request), {}};
+      auto session = entry.websocket_handler(request);
+      return {wrapper_ ? wrapper_(request, std::move(session)) : std::move(session), {}};
     }
     throw Error(ErrorKind::not_found, "no WebSocket is served at " + request.path);
   } catch (const std::exception& failure) {

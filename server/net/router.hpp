@@ -20,6 +20,10 @@ using WebSocketHandler = std::function<std::unique_ptr<WebSocketSession>(const R
 /// (RequestError 401, 403, 429). `pattern` is that of the route; empty for static files.
 using Gate = std::function<void(Request& request, const std::string& pattern)>;
 
+/// May put something around the session of a WebSocket that is about to open.
+using WebSocketWrapper =
+    std::function<std::unique_ptr<WebSocketSession>(const Request&, std::unique_ptr<WebSocketSession>)>;
+
 /// Which handler answers which method and path. Filled once, then only read (from any thread).
 /// A pattern is a path whose {name} segments match any one non-empty segment.
 class Router {
@@ -42,6 +46,8 @@ class Router {
 
   /// Asked before every handler, WebSockets and static files included. Without one everything may pass.
   void guard(Gate gate);
+  /// Put around every WebSocket, after its handler has opened it.
+  void wrap_websockets(WebSocketWrapper wrapper);
 
   /// From here on 429 for a caller, known to the gate by user or credential, whose requests come faster.
   void pace_callers(Rate rate);
@@ -68,6 +74,7 @@ class Router {
   Handler otherwise_;
   Gate gate_;
   std::shared_ptr<RateLimiter> callers_;
+  WebSocketWrapper wrapper_;
 };
 
 }  // namespace ream::net
