@@ -3,6 +3,8 @@
 #include <random>
 #include <string_view>
 
+#include "core/utc.hpp"
+
 namespace ream::api {
 namespace {
 
@@ -19,11 +21,7 @@ std::string random_text(std::string_view letters, size_t length) {
 }  // namespace
 
 std::string utc_text(std::time_t time) {
-  std::tm parts{};
-  gmtime_r(&time, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
+  return ream::utc_text(std::chrono::system_clock::from_time_t(time));
 }
 
 std::string utc_now() { return utc_text(std::time(nullptr)); }

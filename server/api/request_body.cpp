@@ -69,6 +69,12 @@ std::string RequestBody::name_or(const std::string& key, const std::string& othe
   return find(key) ? name(key) : otherwise;
 }
 
+std::optional<std::string> RequestBody::name_or_none(const std::string& key) {
+  const nlohmann::json* value = find(key);
+  if (!value) return std::nullopt;
+  return *value == "" ? std::string() : name(key);
+}
+
 std::string RequestBody::text_that(const std::string& key,
                                    const std::function<bool(const std::string&)>& fits,
                                    const std::string& rule) {
@@ -96,6 +102,11 @@ std::string RequestBody::words(const std::string& key, size_t least, size_t most
   return text_that(
       key, [&](const std::string& text) { return characters(text) >= least && characters(text) <= most; },
       "must be " + std::to_string(least) + " to " + std::to_string(most) + " characters long");
+}
+
+std::optional<std::string> RequestBody::words_or_none(const std::string& key, size_t most) {
+  if (!find(key)) return std::nullopt;
+  return words(key, 0, most);
 }
 
 std::optional<Vec3> RequestBody::point_or_none(const std::string& key, double most) {

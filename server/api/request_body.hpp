@@ -23,11 +23,15 @@ class RequestBody {
   std::string name(const std::string& key);
   /// The same; `otherwise` when absent.
   std::string name_or(const std::string& key, const std::string& otherwise);
+  /// The same, or an empty text; none when absent.
+  std::optional<std::string> name_or_none(const std::string& key);
   /// A finite number above `above` and at most `most`; none when absent.
   std::optional<double> number_or_none(const std::string& key, double above, double most);
   /// Text for people of `least` to `most` characters. Empty when absent and `least` is 0, or when there is
   /// something wrong with it.
   std::string words(const std::string& key, size_t least, size_t most);
+  /// The same of any length up to `most`; none when absent.
+  std::optional<std::string> words_or_none(const std::string& key, size_t most);
   /// Three finite numbers, none larger than `most` either way; none when absent or null.
   std::optional<Vec3> point_or_none(const std::string& key, double most);
   /// A finite number from `least` to `most`, both included; none when absent.

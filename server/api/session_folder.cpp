@@ -6,6 +6,7 @@
 
 #include "api/new_id.hpp"
 #include "api/request_body.hpp"
+#include "api/session_labels.hpp"
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -74,6 +75,7 @@ FolderRecord record_of(const json& session, const fs::path& folder) {
   // A script's own says itself.
   if (record.request.device != "script") record.request.device_profile = session.value("device_profile", "");
   record.request.created_utc = session.value("created_utc", "");
+  read_labels(session, record.request);
   if (record.request.created_utc.empty()) record.request.created_utc = changed_utc(session_json(folder));
   SessionStatus& status = record.status;
   status.state = state_of(session, folder);

@@ -11,6 +11,7 @@
 #include "api/annotation.hpp"
 #include "api/running_session.hpp"
 #include "api/session_archive.hpp"
+#include "api/session_labels.hpp"
 
 namespace ream::api {
 
@@ -42,10 +43,19 @@ class SessionService {
   /// Newest first: those of this server, then what else lies in the data folder.
   std::vector<SessionRecord> list() const;
   SessionRecord get(const std::string& id) const;
-  /// Error conflict unless created.
+  /// Starts one that was created, or goes on with one that was paused by pause(). Error conflict otherwise.
   SessionRecord start(const std::string& id);
+  /// Takes the force away until start(). Error conflict unless it runs, or is paused by its device.
+  SessionRecord pause(const std::string& id);
   /// Error conflict when it has ended already.
   SessionRecord stop(const std::string& id);
+  /// Another attempt from intact bone: ends the session, if it has not, and makes a new one with the same
+  /// settings and labels, which runs if the old one did. Those who watch the old one are told where it goes
+  /// on. Errors: conflict when that was done before, or the session lives in another process; those of
+  /// create(), after which the old one is as it was.
+  SessionRecord reset(const std::string& id);
+  /// Errors: those of relabel_folder().
+  SessionRecord change(const std::string& id, const SessionChange& change);
   /// Goes on with one that was interrupted or stopped, under the same id, and starts it. `reamer`: empty for
   /// the same as before. Errors: conflict in any other state or when another process has it; those of
   /// create() and start().
@@ -68,11 +78,16 @@ class SessionService {
 
  private:
   struct Entry;
+  class Attendance;
   std::shared_ptr<Entry> find_or_none(const std::string& id) const;
   std::shared_ptr<Entry> find(const std::string& id) const;
   SessionRecord archived(const std::string& id) const;
   std::shared_ptr<Entry> made_again(const SessionRecord& before, const std::string& reamer);
-  void reserve_place();
+  std::shared_ptr<Entry> made_anew(SessionRequest wanted, size_t leaving);
+  SessionRequest next_attempt(const SessionRecord& before) const;
+  SessionRecord begin_anew(const SessionRecord& before);
+  void relabel(const std::string& id, const SessionRequest& labels);
+  void reserve_place(size_t leaving = 0);
   std::string unused_id() const;
   std::optional<Annotation> annotate_live(const std::string& id, const NewAnnotation& note);
   std::vector<std::shared_ptr<Entry>> take_surplus();
@@ -81,9 +96,10 @@ class SessionService {
   const SessionLimits limits_;
   const SessionArchive archive_;
   std::mutex annotating_;  ///< one remark behind an end at a time; locked before mutex_
+  std::mutex labelling_;   ///< one change of labels at a time; locked before mutex_
   mutable std::mutex mutex_;
   std::vector<std::shared_ptr<Entry>> entries_;  ///< oldest first
-  std::set<std::string> being_resumed_;
+  std::set<std::string> being_resumed_, being_reset_;
   size_t being_made_ = 0;
   bool closed_ = false;
 };

@@ -27,6 +27,18 @@ class FakeSession final : public api::RunningSession {
     if (request_.script == "no-start") throw Error(ErrorKind::unavailable, "no haptic device is connected");
     set(api::SessionState::running);
   }
+  void pause() override { hold(true); }
+  void go_on() override { hold(false); }
+  bool relabel(const api::SessionRequest& request) override {
+    const std::lock_guard lock(mutex_);
+    if (!api::is_live(status_.state)) return false;
+    labels_ = request;
+    return true;
+  }
+  api::SessionRequest labels() const {
+    const std::lock_guard lock(mutex_);
+    return labels_;
+  }
   void stop() override {
     set(api::SessionState::stopped);
     ++stops();
@@ -69,6 +81,7 @@ class FakeSession final : public api::RunningSession {
   void set(api::SessionState state, const std::string& fault = {}) {
     const std::lock_guard lock(mutex_);
     status_.state = state;
+    status_.held &= api::is_live(state);
     status_.fault = fault;
   }
   const api::SessionRequest& request() const { return request_; }
@@ -83,7 +96,13 @@ class FakeSession final : public api::RunningSession {
   }
 
  private:
-  api::SessionRequest request_;
+  void hold(bool held) {
+    set(held ? api::SessionState::paused : api::SessionState::running);
+    const std::lock_guard lock(mutex_);
+    status_.held = held;
+  }
+
+  api::SessionRequest request_, labels_;
   mutable std::mutex mutex_;
   api::SessionStatus status_;
   std::vector<api::Annotation> annotations_;
