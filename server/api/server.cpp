@@ -7,11 +7,13 @@
 #include "api/annotation_resource.hpp"
 #include "api/case_resource.hpp"
 #include "api/case_work_resource.hpp"
+#include "api/event_resource.hpp"
 #include "api/job_resource.hpp"
 #include "api/prometheus.hpp"
 #include "api/replay_resource.hpp"
 #include "api/session_resource.hpp"
 #include "api/upload_resource.hpp"
+#include "core/error.hpp"
 #include "net/static_files.hpp"
 
 namespace ream::api {
@@ -59,9 +61,22 @@ void add_all_case_routes(net::Router& router, const ServerOptions& options, Case
   add_job_routes(router, workshop.jobs());
 }
 
+/// Of a session, or of the one that a replay shows.
+std::optional<SessionRequest> session_of(const SessionService& sessions, const ReplayService& replays,
+                                         const std::string& id) {
+  try {
+    return sessions.get(replays.has(id) ? replays.get(id).request.replay_of : id).request;
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
 net::Router router_of(const ServerOptions& options, SessionService& sessions, ReplayService& replays,
-                      CaseWorkshop& workshop, UploadStore& uploads, const Readiness& readiness) {
+                      CaseWorkshop& workshop, UploadStore& uploads, const Readiness& readiness,
+                      RequestFrame& frame, const std::shared_ptr<ChangeFeed>& feed) {
   net::Router router;
+  frame.put_around(router);
+  add_event_routes(router, feed);
   add_health_routes(router, readiness);
   add_metrics_route(router, sessions);
   add_contract_route(router);
@@ -78,13 +93,19 @@ net::Router router_of(const ServerOptions& options, SessionService& sessions, Re
 }  // namespace
 
 Server::Server(ServerOptions options)
-    : sessions_(std::move(options.make_session), options.sessions, options.sessions_folder),
+    : feed_(std::make_shared<ChangeFeed>(may_know)),
+      contract_(std::string(embedded::contract::find("openapi.yaml"))),
+      idempotency_(options.database),
+      sessions_(std::move(options.make_session), options.sessions, options.sessions_folder),
       replays_(std::move(options.make_replay), options.replays),
       uploads_(options.data_folder.empty() ? std::filesystem::path() : options.data_folder / "uploads"),
       workshop_(options.cases_folder, tools_of(options, sessions_)),
-      router_(router_of(options, sessions_, replays_, workshop_, uploads_, readiness_)),
+      frame_(contract_, idempotency_, *feed_,
+             [this](const std::string& id) { return session_of(sessions_, replays_, id); }),
+      router_(router_of(options, sessions_, replays_, workshop_, uploads_, readiness_, frame_, feed_)),
       listener_(router_, options.listen),
-      readiness_(std::move(options.prepare)) {}
+      readiness_(std::move(options.prepare)),
+      watch_(sessions_, *feed_) {}
 
 Server::~Server() { stop(); }
 
@@ -109,6 +130,7 @@ void Server::request_stop() {
 
 void Server::stop() {
   listener_.stop();
+  watch_.stop();
   workshop_.jobs().shut_down();
   replays_.shut_down();
   sessions_.shut_down();

@@ -9,7 +9,9 @@
 #include "api/case_workshop.hpp"
 #include "api/readiness.hpp"
 #include "api/replay_service.hpp"
+#include "api/request_frame.hpp"
 #include "api/session_service.hpp"
+#include "api/session_watch.hpp"
 #include "net/listener.hpp"
 
 namespace ream::api {
@@ -17,9 +19,10 @@ namespace ream::api {
 struct ServerOptions {
   net::ListenOptions listen;
   std::filesystem::path cases_folder;
-  std::filesystem::path data_folder;      ///< uploads, and users' reamers
-  std::filesystem::path web_folder;       ///< the built page; served under "/"
-  std::filesystem::path sessions_folder;  ///< where sessions keep their folders
+  std::filesystem::path data_folder;          ///< uploads, and users' reamers
+  std::filesystem::path web_folder;           ///< the built page; served under "/"
+  std::filesystem::path sessions_folder;      ///< where sessions keep their folders
+  std::shared_ptr<store::Database> database;  ///< index of sessions, answers to repeat; null: none
   SessionMakers make_session;
   SessionLimits sessions;
   std::string usual_device = "script";  ///< of sessions that name none
@@ -56,13 +59,18 @@ class Server {
  private:
   // Order matters: nothing is prepared before the port is ours. stop() has ended the listener before any of
   // these goes.
+  const std::shared_ptr<ChangeFeed> feed_;
+  const Contract contract_;
+  Idempotency idempotency_;
   SessionService sessions_;
   ReplayService replays_;
   UploadStore uploads_;
   CaseWorkshop workshop_;
+  RequestFrame frame_;
   net::Router router_;
   net::Listener listener_;
   Readiness readiness_;
+  SessionWatch watch_;
   std::mutex mutex_;
   std::condition_variable changed_;
   bool stop_wanted_ = false;

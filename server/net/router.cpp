@@ -62,6 +62,10 @@ void Router::otherwise(Handler handler) { otherwise_ = std::move(handler); }
 
 void Router::guard(Gate gate) { gate_ = std::move(gate); }
 
+void Router::check(Check check) { check_ = std::move(check); }
+
+void Router::around(Around around) { around_ = std::move(around); }
+
 void Router::ask_gate(Request& request, const std::string& pattern) const {
   if (gate_) gate_(request, pattern);
 }
@@ -75,7 +79,8 @@ Response Router::dispatch(Request& request) const {
     if (entry.method == method) {
       take_parameters(entry.segments, path, request);
       ask_gate(request, entry.pattern);
-      return entry.handler(request);
+      if (check_) check_(request, entry.pattern);
+      return around_ ? around_(request, entry.pattern, entry.handler) : entry.handler(request);
     }
     allowed.insert(entry.method);
     if (entry.method == "GET") allowed.insert("HEAD");
@@ -102,6 +107,7 @@ Router::Opened Router::open(Request request) const {
       if (!entry.websocket_handler || !matches(entry.segments, path)) continue;
       take_parameters(entry.segments, path, request);
       ask_gate(request, entry.pattern);
+      if (check_) check_(request, entry.pattern);
       return {entry.websocket_handler(request), {}};
     }
     throw Error(ErrorKind::not_found, "no WebSocket is served at " + request.path);
