@@ -43,10 +43,10 @@ void add_contract_route(net::Router& router) {
 
 CaseTools tools_of(const ServerOptions& options, const SessionService& sessions) {
   return {options.read_ct, [&sessions](const std::string& case_id) {
-            const auto all = sessions.list();
-            return static_cast<size_t>(std::count_if(
-                all.begin(), all.end(),
-                [&](const SessionRecord& record) { return record.request.case_id == case_id; }));
+            store::SessionQuery query;
+            query.case_id = case_id;
+            query.limit = 0;
+            return sessions.list(query).total;
           }};
 }
 
@@ -81,6 +81,7 @@ std::optional<SessionRequest> Server::session_of(const std::string& id) const {
 
 net::Router Server::routes_of(const ServerOptions& options) {
   net::Router router;
+  router.pace_callers(options.listen.limits.requests_per_caller);
   add_health_routes(router, readiness_);
   add_metrics_route(router, sessions_);
   add_contract_route(router);
@@ -106,7 +107,7 @@ Server::Server(ServerOptions options)
     : database_(options.database),
       gatehouse_(database_ ? std::make_unique<access::Gatehouse>(*database_, options.gatehouse) : nullptr),
       stream_watch_(gatehouse_ ? std::make_unique<StreamWatch>(gatehouse_->credentials) : nullptr),
-      sessions_(std::move(options.make_session), options.sessions, options.sessions_folder),
+      sessions_(std::move(options.make_session), options.sessions, options.sessions_folder, options.database),
       replays_(std::move(options.make_replay), options.replays),
       uploads_(options.data_folder.empty() ? std::filesystem::path() : options.data_folder / "uploads"),
       workshop_(options.cases_folder, tools_of(options, sessions_)),

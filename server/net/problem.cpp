@@ -1,5 +1,7 @@
 #include "net/problem.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/log.hpp"
@@ -58,6 +60,8 @@ std::string status_title(int status) {
       return "Precondition Failed";
     case 413:
       return "Content Too Large";
+    case 414:
+      return "URI Too Long";
     case 415:
       return "Unsupported Media Type";
     case 416:
@@ -90,6 +94,12 @@ Response problem(int status, const std::string& detail, const std::vector<FieldE
     body["errors"].push_back({{"pointer", error.pointer}, {"detail", error.detail}});
   Response response = json_response(status, body);
   response.content_type = "application/problem+json";
+  return response;
+}
+
+Response too_many_requests(const std::string& detail, double wait_s) {
+  Response response = problem(429, detail);
+  response.headers.emplace_back("Retry-After", std::to_string(std::max(1L, std::lround(std::ceil(wait_s)))));
   return response;
 }
 

@@ -46,6 +46,9 @@ std::string status_title(int status);
 /// detail}].
 Response problem(int status, const std::string& detail, const std::vector<FieldError>& errors = {});
 
+/// 429 with Retry-After. `wait_s`: until there is room again, rounded up to whole seconds.
+Response too_many_requests(const std::string& detail, double wait_s);
+
 /// Problem of an exception that left a handler. What is not an Error becomes a plain 500; its words go to the
 /// log only.
 Response problem_of(const std::exception& failure);

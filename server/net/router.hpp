@@ -1,10 +1,12 @@
 #pragma once
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "net/message.hpp"
+#include "net/rate_limiter.hpp"
 #include "net/websocket.hpp"
 
 namespace ream::net {
@@ -47,6 +49,9 @@ class Router {
   /// Put around every WebSocket, after its handler has opened it.
   void wrap_websockets(WebSocketWrapper wrapper);
 
+  /// From here on 429 for a caller, known to the gate by user or credential, whose requests come faster.
+  void pace_callers(Rate rate);
+
   /// Never throws: failures become problem+json; 404 for an unknown path, 405 with Allow for a wrong method.
   Response respond(Request request) const;
   Opened open(Request request) const;
@@ -62,11 +67,13 @@ class Router {
     WebSocketHandler websocket_handler;
   };
   Response dispatch(Request& request) const;
-  void ask_gate(Request& request, const std::string& pattern) const;
+  /// The reply that refuses the request, if it is refused; or throws.
+  std::optional<Response> ask_gate(Request& request, const std::string& pattern) const;
 
   std::vector<Entry> entries_;
   Handler otherwise_;
   Gate gate_;
+  std::shared_ptr<RateLimiter> callers_;
   WebSocketWrapper wrapper_;
 };
 
