@@ -320,7 +320,6 @@ void ReamingSession::take(bool ended) {
 void ReamingSession::take_report(const record::TickReport& r) {
   fill_in(r, sample_);
   sample_.state = r.paused ? stream::SessionState::paused : stream::SessionState::running;
-  held_ = r.held;
   batcher_.add(sample_);
 }
 

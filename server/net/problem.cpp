@@ -104,8 +104,12 @@ Response too_many_requests(const std::string& detail, double wait_s) {
 }
 
 Response problem_of(const std::exception& failure) {
-  if (const auto* request_error = dynamic_cast<const RequestError*>(&failure))
-    return problem(request_error->status(), request_error->what(), request_error->errors());
+  if (const auto* request_error = dynamic_cast<const RequestError*>(&failure)) {
+    Response response = problem(request_error->status(), request_error->what(), request_error->errors());
+    const Headers& headers = request_error->headers();
+    response.headers.insert(response.headers.end(), headers.begin(), headers.end());
+    return response;
+  }
   if (const auto* error = dynamic_cast<const Error*>(&failure)) {
     if (error->kind() == ErrorKind::io) log::error(error->what());
     return problem(http_status(error->kind()), error->what());

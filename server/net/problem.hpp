@@ -13,17 +13,26 @@ struct FieldError {
   std::string pointer, detail;
 };
 
-/// An Error whose HTTP status is more precise than its kind, with the places in the request at fault.
+using Headers = std::vector<std::pair<std::string, std::string>>;
+
+/// An Error whose HTTP status is more precise than its kind, with the places in the request at fault and what
+/// headers its reply has (Retry-After, say).
 class RequestError : public Error {
  public:
-  RequestError(int status, const std::string& detail, std::vector<FieldError> errors = {})
-      : Error(ErrorKind::invalid_input, detail), status_(status), errors_(std::move(errors)) {}
+  RequestError(int status, const std::string& detail, std::vector<FieldError> errors = {},
+               Headers headers = {})
+      : Error(ErrorKind::invalid_input, detail),
+        status_(status),
+        errors_(std::move(errors)),
+        headers_(std::move(headers)) {}
   int status() const { return status_; }
   const std::vector<FieldError>& errors() const { return errors_; }
+  const Headers& headers() const { return headers_; }
 
  private:
   int status_;
   std::vector<FieldError> errors_;
+  Headers headers_;
 };
 
 /// The one mapping of ErrorKind to an HTTP status: usage 400, invalid_input 422, not_found 404, conflict 409,

@@ -2,6 +2,7 @@
 #include <atomic>
 #include <chrono>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -148,6 +149,7 @@ class FakeFactory {
     return [this](const api::SessionRequest& request) -> std::unique_ptr<api::RunningSession> {
       if (request.case_id == "missing") throw Error(ErrorKind::not_found, "no case 'missing'");
       if (request.case_id == "unplanned") throw Error(ErrorKind::conflict, "case 'unplanned' has no plan");
+      if (refuse) refuse();
       auto session = std::make_unique<FakeSession>(request);
       const std::lock_guard lock(mutex_);
       made_.push_back(session.get());
@@ -166,6 +168,8 @@ class FakeFactory {
     const std::lock_guard lock(mutex_);
     return *made_.at(index);
   }
+
+  std::function<void()> refuse;  ///< called before each is made
 
  private:
   std::mutex mutex_;
