@@ -65,6 +65,7 @@ void SessionService::relabel(const std::string& id, const SessionRequest& labels
   if (!written && (!entry || std::filesystem::exists(session_json(archive_.folder_of(id)), failed)))
     relabel_folder(archive_.folder_of(id), labels);
   if (entry) entry->label(labels);
+  register_->changed(id);
 }
 
 SessionRequest SessionService::next_attempt(const SessionRecord& before) const {
@@ -184,6 +185,7 @@ SessionRecord SessionService::resume(const std::string& id, const std::string& r
     entries_.erase(place);
   }
   entries_.push_back(entry);
+  register_->changed(id);
   return entry->record();
 }
 

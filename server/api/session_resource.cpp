@@ -104,7 +104,9 @@ net::Response create(SessionService& service, const Readiness& readiness, const 
 
 net::Response list(const SessionService& service, const ReplayService& replays) {
   json sessions = json::array();
-  for (const SessionRecord& record : service.list()) sessions.push_back(to_json(record));
+  store::SessionQuery query;
+  query.limit = SIZE_MAX;
+  for (const SessionRecord& record : service.list(query).sessions) sessions.push_back(to_json(record));
   json open_replays = json::array();
   for (const ReplayRecord& record : replays.list()) open_replays.push_back(to_json(record));
   return net::json_response(200, {{"sessions", std::move(sessions)}, {"replays", std::move(open_replays)}});

@@ -12,8 +12,12 @@
 namespace ream::api {
 
 SessionService::SessionService(SessionMakers makers, SessionLimits limits,
-                               const std::filesystem::path& sessions_folder)
-    : makers_(std::move(makers)), limits_(limits), archive_(sessions_folder) {}
+                               const std::filesystem::path& sessions_folder,
+                               std::shared_ptr<store::Database> database)
+    : makers_(std::move(makers)),
+      limits_(limits),
+      archive_(sessions_folder),
+      register_(std::make_unique<SessionRegister>(archive_, std::move(database))) {}
 
 SessionService::~SessionService() { shut_down(); }
 
@@ -116,17 +120,8 @@ std::vector<SessionRecord> SessionService::held() const {
   return records;
 }
 
-std::vector<SessionRecord> SessionService::list() const {
-  std::vector<SessionRecord> records = held();
-  std::reverse(records.begin(), records.end());
-  std::set<std::string> here;
-  for (const SessionRecord& record : records) here.insert(record.request.id);
-  for (SessionRecord& record : archive_.list())
-    if (!here.contains(record.request.id)) records.push_back(std::move(record));
-  std::stable_sort(records.begin(), records.end(), [](const auto& a, const auto& b) {
-    return a.request.created_utc > b.request.created_utc;
-  });
-  return records;
+SessionPage SessionService::list(const store::SessionQuery& query) const {
+  return register_->list(query, held());
 }
 
 SessionRecord SessionService::get(const std::string& id) const {

@@ -12,6 +12,7 @@
 #include "api/running_session.hpp"
 #include "api/session_archive.hpp"
 #include "api/session_labels.hpp"
+#include "api/session_register.hpp"
 
 namespace ream::api {
 
@@ -30,8 +31,10 @@ struct SessionMakers {
 /// Error not_found.
 class SessionService {
  public:
-  /// `sessions_folder`: where sessions keep their folders; empty: nowhere.
-  SessionService(SessionMakers makers, SessionLimits limits, const std::filesystem::path& sessions_folder);
+  /// `sessions_folder`: where sessions keep their folders; empty: nowhere. `database`: has the index of
+  /// sessions; null: lists are made from the folders.
+  SessionService(SessionMakers makers, SessionLimits limits, const std::filesystem::path& sessions_folder,
+                 std::shared_ptr<store::Database> database = nullptr);
   ~SessionService();
   SessionService(const SessionService&) = delete;
   SessionService& operator=(const SessionService&) = delete;
@@ -40,8 +43,8 @@ class SessionService {
   SessionRecord create(SessionRequest wanted);
   /// Those of this server that are still held in memory, oldest first.
   std::vector<SessionRecord> held() const;
-  /// Newest first: those of this server, then what else lies in the data folder.
-  std::vector<SessionRecord> list() const;
+  /// Of all in the data folder, as SessionRegister::list().
+  SessionPage list(const store::SessionQuery& query) const;
   SessionRecord get(const std::string& id) const;
   /// Starts one that was created, or goes on with one that was paused by pause(). Error conflict otherwise.
   SessionRecord start(const std::string& id);
@@ -95,6 +98,7 @@ class SessionService {
   const SessionMakers makers_;
   const SessionLimits limits_;
   const SessionArchive archive_;
+  const std::unique_ptr<SessionRegister> register_;
   std::mutex annotating_;  ///< one remark behind an end at a time; locked before mutex_
   std::mutex labelling_;   ///< one change of labels at a time; locked before mutex_
   mutable std::mutex mutex_;

@@ -154,8 +154,11 @@ void SessionIndex::remove(const std::vector<std::string>& ids) {
   });
 }
 
-void SessionIndex::clear() {
-  database_.run([](Sql& sql) { sql << "DELETE FROM sessions"; });
+void SessionIndex::replace_all(const std::vector<SessionRow>& rows) {
+  database_.run([&](Sql& sql) {
+    sql << "DELETE FROM sessions";
+    for (const SessionRow& row : rows) put_row(sql, row);
+  });
 }
 
 std::optional<SessionRow> SessionIndex::get(const std::string& id) const {
@@ -174,24 +177,16 @@ std::optional<SessionRow> SessionIndex::get(const std::string& id) const {
   });
 }
 
-std::map<std::string, int64_t> SessionIndex::stamps() const {
+std::map<std::string, SessionIndex::Mark> SessionIndex::marks() const {
   return database_.read([](Sql& sql) {
-    std::map<std::string, int64_t> found;
+    std::map<std::string, Mark> found;
     std::string id;
-    int64_t stamp = 0;
-    OpenStatement(sql, "SELECT id, stamp FROM sessions").into(id).into(stamp).each([&] {
-      found[id] = stamp;
-    });
-    return found;
-  });
-}
-
-std::vector<std::string> SessionIndex::unsettled() const {
-  return database_.read([](Sql& sql) {
-    std::vector<std::string> found;
-    std::string id;
-    OpenStatement(sql, "SELECT id FROM sessions WHERE lasting = 0").into(id).each([&] {
-      found.push_back(id);
+    Mark mark;
+    int lasting = 0;
+    OpenStatement statement(sql, "SELECT id, stamp, lasting FROM sessions");
+    statement.into(id).into(mark.stamp).into(lasting).each([&] {
+      mark.lasting = lasting != 0;
+      found[id] = mark;
     });
     return found;
   });

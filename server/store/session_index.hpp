@@ -20,13 +20,16 @@ class SessionIndex {
   void put(const std::vector<SessionRow>& rows);
   /// Unknown ids are no error.
   void remove(const std::vector<std::string>& ids);
-  void clear();
+  /// Nothing but these rows from now on.
+  void replace_all(const std::vector<SessionRow>& rows);
 
   std::optional<SessionRow> get(const std::string& id) const;
-  /// Stamps of all sessions by id.
-  std::map<std::string, int64_t> stamps() const;
-  /// Ids of those that were left live.
-  std::vector<std::string> unsettled() const;
+  struct Mark {
+    int64_t stamp = 0;
+    bool lasting = true;
+  };
+  /// Of all sessions by id.
+  std::map<std::string, Mark> marks() const;
 
   struct Found {
     std::vector<SessionRow> rows;  ///< at most `limit` + 1: one more tells that there is another page

@@ -49,7 +49,10 @@ TYPED_TEST(SessionIndexTest, ReplacesAndRemoves) {
   index.put({changed});
   EXPECT_EQ(index.get("a"), changed);
   index.remove({"b", "unknown"});
-  EXPECT_EQ(index.stamps(), (std::map<std::string, int64_t>{{"a", -5}}));
+  const auto marks = index.marks();
+  ASSERT_EQ(marks.size(), 1u);
+  EXPECT_EQ(marks.at("a").stamp, -5);
+  EXPECT_FALSE(marks.at("a").lasting);
 }
 
 TYPED_TEST(SessionIndexTest, RefusesTextThatNoDatabaseHolds) {
@@ -63,18 +66,19 @@ TYPED_TEST(SessionIndexTest, RefusesTextThatNoDatabaseHolds) {
     query.study = text;
     test::expect_error(ErrorKind::invalid_input, "UTF-8", [&] { index.find(query); });
   }
-  EXPECT_TRUE(index.stamps().empty());
+  EXPECT_TRUE(index.marks().empty());
 }
 
-TYPED_TEST(SessionIndexTest, KnowsWhichWereLeftLive) {
+TYPED_TEST(SessionIndexTest, IsMadeAnewAsAWhole) {
   SessionIndex index(this->database());
-  SessionRow ended = row("b");
-  ended.lasting = true;
-  index.put({row("a"), ended});
-  EXPECT_EQ(index.unsettled(), std::vector<std::string>{"a"});
-  index.clear();
-  EXPECT_TRUE(index.stamps().empty());
+  index.put({row("a"), row("b")});
+  SessionRow bad = row("d");
+  bad.title = "\xff";
+  test::expect_error(ErrorKind::invalid_input, "UTF-8", [&] { index.replace_all({row("c"), bad}); });
+  EXPECT_EQ(index.marks().size(), 2u);
+  index.replace_all({row("c")});
   EXPECT_EQ(index.get("a"), std::nullopt);
+  EXPECT_EQ(index.get("c"), row("c"));
 }
 
 /// Few different values, so that filters let some pass and sorting meets equals.

@@ -18,6 +18,12 @@ inline std::string upper(std::string text) {
   return text;
 }
 
+inline std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  return text;
+}
+
 class ContractTest : public ServerTest {
  protected:
   /// The reply must have a status, content type and body that the description of `pattern` states.
@@ -25,15 +31,14 @@ class ContractTest : public ServerTest {
                            const HttpReply& reply) {
     const std::string operation = method + " " + pattern;
     ASSERT_EQ(reply.status, status) << operation << ": " << reply.body;
-    std::string verb = method;
-    std::transform(verb.begin(), verb.end(), verb.begin(), [](char c) { return static_cast<char>(c | 32); });
-    const json& responses = contract.at("paths").at(pattern).at(verb).at("responses");
+    const json& responses = contract.at("paths").at(pattern).at(lower(method)).at("responses");
     ASSERT_TRUE(responses.contains(std::to_string(status))) << operation << " answers " << status;
     const json& response = checker.resolve(responses.at(std::to_string(status)));
-    if (response.contains("headers")) {
-      EXPECT_EQ(response["headers"].size(), 1u);
-      EXPECT_EQ(reply.headers.count("location"), response["headers"].count("Location")) << operation;
-    }
+    const json headers = response.value("headers", json::object());
+    for (const auto& [name, header] : headers.items())
+      EXPECT_TRUE(reply.headers.contains(lower(name))) << operation << " has no " << name;
+    for (const char* name : {"Location", "Set-Cookie", "WWW-Authenticate", "Retry-After"})
+      EXPECT_EQ(reply.headers.count(lower(name)), headers.count(name)) << operation << " " << name;
     seen.insert({operation, status});
     if (!response.contains("content")) return;
     const json& content = response["content"];
