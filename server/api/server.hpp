@@ -15,6 +15,7 @@
 #include "api/session_service.hpp"
 #include "api/session_watch.hpp"
 #include "api/stream_watch.hpp"
+#include "api/study_service.hpp"
 #include "net/listener.hpp"
 
 namespace ream::api {
@@ -25,7 +26,6 @@ struct ServerOptions {
   std::filesystem::path data_folder;          ///< uploads, and users' reamers
   std::filesystem::path web_folder;           ///< the built page; served under "/"
   std::filesystem::path sessions_folder;      ///< where sessions keep their folders
-  std::shared_ptr<store::Database> database;  ///< index of sessions, answers to repeat; null: none
   SessionMakers make_session;
   SessionLimits sessions;
   std::string usual_device = "script";  ///< of sessions that name none
@@ -79,6 +79,7 @@ class Server {
   const std::unique_ptr<access::Gatehouse> gatehouse_;
   const std::unique_ptr<StreamWatch> stream_watch_;  ///< null without a database
   SessionService sessions_;
+  const std::unique_ptr<StudyService> studies_;  ///< null without a database
   ReplayService replays_;
   UploadStore uploads_;
   CaseWorkshop workshop_;
