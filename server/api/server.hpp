@@ -22,10 +22,9 @@ namespace ream::api {
 struct ServerOptions {
   net::ListenOptions listen;
   std::filesystem::path cases_folder;
-  std::filesystem::path data_folder;          ///< uploads, and users' reamers
-  std::filesystem::path web_folder;           ///< the built page; served under "/"
-  std::filesystem::path sessions_folder;      ///< where sessions keep their folders
-  std::shared_ptr<store::Database> database;  ///< index of sessions, answers to repeat; null: none
+  std::filesystem::path data_folder;      ///< uploads, and users' reamers
+  std::filesystem::path web_folder;       ///< the built page; served under "/"
+  std::filesystem::path sessions_folder;  ///< where sessions keep their folders
   SessionMakers make_session;
   SessionLimits sessions;
   std::string usual_device = "script";  ///< of sessions that name none
