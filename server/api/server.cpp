@@ -8,11 +8,13 @@
 #include "api/annotation_resource.hpp"
 #include "api/case_resource.hpp"
 #include "api/case_work_resource.hpp"
+#include "api/event_resource.hpp"
 #include "api/job_resource.hpp"
 #include "api/prometheus.hpp"
 #include "api/replay_resource.hpp"
 #include "api/session_resource.hpp"
 #include "api/upload_resource.hpp"
+#include "core/error.hpp"
 #include "net/static_files.hpp"
 
 namespace ream::api {
@@ -82,6 +84,8 @@ std::optional<SessionRequest> Server::session_of(const std::string& id) const {
 net::Router Server::routes_of(const ServerOptions& options) {
   net::Router router;
   router.pace_callers(options.listen.limits.requests_per_caller);
+  frame_.put_around(router);
+  add_event_routes(router, feed_);
   add_health_routes(router, readiness_);
   add_metrics_route(router, sessions_);
   add_contract_route(router);
@@ -105,6 +109,9 @@ net::Router Server::routes_of(const ServerOptions& options) {
 
 Server::Server(ServerOptions options)
     : database_(options.database),
+      feed_(std::make_shared<ChangeFeed>(may_know)),
+      contract_(std::string(embedded::contract::find("openapi.yaml"))),
+      idempotency_(options.database),
       gatehouse_(database_ ? std::make_unique<access::Gatehouse>(*database_, options.gatehouse) : nullptr),
       stream_watch_(gatehouse_ ? std::make_unique<StreamWatch>(gatehouse_->credentials) : nullptr),
       sessions_(std::move(options.make_session), options.sessions, options.sessions_folder, options.database),
@@ -112,9 +119,11 @@ Server::Server(ServerOptions options)
       uploads_(options.data_folder.empty() ? std::filesystem::path() : options.data_folder / "uploads"),
       workshop_(options.cases_folder, tools_of(options, sessions_)),
       gate_(gatehouse_.get(), [this](const std::string& id) { return session_of(id); }),
+      frame_(contract_, idempotency_, *feed_, [this](const std::string& id) { return session_of(id); }),
       router_(routes_of(options)),
       listener_(router_, options.listen),
-      readiness_(std::move(options.prepare)) {}
+      readiness_(std::move(options.prepare)),
+      watch_(sessions_, *feed_) {}
 
 Server::~Server() { stop(); }
 
@@ -139,6 +148,7 @@ void Server::request_stop() {
 
 void Server::stop() {
   listener_.stop();
+  watch_.stop();
   workshop_.jobs().shut_down();
   replays_.shut_down();
   sessions_.shut_down();

@@ -11,7 +11,9 @@
 #include "api/gate.hpp"
 #include "api/readiness.hpp"
 #include "api/replay_service.hpp"
+#include "api/request_frame.hpp"
 #include "api/session_service.hpp"
+#include "api/session_watch.hpp"
 #include "api/stream_watch.hpp"
 #include "net/listener.hpp"
 
@@ -20,9 +22,10 @@ namespace ream::api {
 struct ServerOptions {
   net::ListenOptions listen;
   std::filesystem::path cases_folder;
-  std::filesystem::path data_folder;      ///< uploads, and users' reamers
-  std::filesystem::path web_folder;       ///< the built page; served under "/"
-  std::filesystem::path sessions_folder;  ///< where sessions keep their folders
+  std::filesystem::path data_folder;          ///< uploads, and users' reamers
+  std::filesystem::path web_folder;           ///< the built page; served under "/"
+  std::filesystem::path sessions_folder;      ///< where sessions keep their folders
+  std::shared_ptr<store::Database> database;  ///< index of sessions, answers to repeat; null: none
   SessionMakers make_session;
   SessionLimits sessions;
   std::string usual_device = "script";  ///< of sessions that name none
@@ -70,6 +73,9 @@ class Server {
   // Order matters: nothing is prepared before the port is ours. stop() has ended the listener before any of
   // these goes.
   const std::shared_ptr<store::Database> database_;
+  const std::shared_ptr<ChangeFeed> feed_;
+  const Contract contract_;
+  Idempotency idempotency_;
   const std::unique_ptr<access::Gatehouse> gatehouse_;
   const std::unique_ptr<StreamWatch> stream_watch_;  ///< null without a database
   SessionService sessions_;
@@ -77,9 +83,11 @@ class Server {
   UploadStore uploads_;
   CaseWorkshop workshop_;
   const Gate gate_;
+  RequestFrame frame_;
   net::Router router_;
   net::Listener listener_;
   Readiness readiness_;
+  SessionWatch watch_;
   std::mutex mutex_;
   std::condition_variable changed_;
   bool stop_wanted_ = false;

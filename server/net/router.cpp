@@ -66,6 +66,10 @@ void Router::pace_callers(Rate rate) { callers_ = std::make_shared<RateLimiter>(
 
 void Router::wrap_websockets(WebSocketWrapper wrapper) { wrapper_ = std::move(wrapper); }
 
+void Router::check(Check check) { check_ = std::move(check); }
+
+void Router::around(Around around) { around_ = std::move(around); }
+
 std::optional<Response> Router::ask_gate(Request& request, const std::string& pattern) const {
   if (gate_) gate_(request, pattern);
   const Caller& caller = request.caller;
@@ -85,7 +89,8 @@ Response Router::dispatch(Request& request) const {
     if (entry.method == method) {
       take_parameters(entry.segments, path, request);
       if (auto refusal = ask_gate(request, entry.pattern)) return *refusal;
-      return entry.handler(request);
+      if (check_) check_(request, entry.pattern);
+      return around_ ? around_(request, entry.pattern, entry.handler) : entry.handler(request);
     }
     allowed.insert(entry.method);
     if (entry.method == "GET") allowed.insert("HEAD");
@@ -112,6 +117,7 @@ Router::Opened Router::open(Request request) const {
       if (!entry.websocket_handler || !matches(entry.segments, path)) continue;
       take_parameters(entry.segments, path, request);
       if (auto refusal = ask_gate(request, entry.pattern)) return {nullptr, *refusal};
+      if (check_) check_(request, entry.pattern);
       auto session = entry.websocket_handler(request);
       return {wrapper_ ? wrapper_(request, std::move(session)) : std::move(session), {}};
     }

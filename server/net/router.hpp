@@ -23,6 +23,12 @@ using Gate = std::function<void(Request& request, const std::string& pattern)>;
 /// May put something around the session of a WebSocket that is about to open.
 using WebSocketWrapper =
     std::function<std::unique_ptr<WebSocketSession>(const Request&, std::unique_ptr<WebSocketSession>)>;
+/// Looks at a request that may pass; throws when it makes no sense to the route with that pattern.
+using Check = std::function<void(const Request& request, const std::string& pattern)>;
+
+/// Called in place of every handler but that of static files, which it calls as `next` or answers for.
+using Around =
+    std::function<Response(const Request& request, const std::string& pattern, const Handler& next)>;
 
 /// Which handler answers which method and path. Filled once, then only read (from any thread).
 /// A pattern is a path whose {name} segments match any one non-empty segment.
@@ -52,6 +58,11 @@ class Router {
   /// From here on 429 for a caller, known to the gate by user or credential, whose requests come faster.
   void pace_callers(Rate rate);
 
+  /// Called after the gate and before every handler of a route, WebSockets included; throws to refuse.
+  void check(Check check);
+  /// Put around every handler of a route; not around WebSockets and static files.
+  void around(Around around);
+
   /// Never throws: failures become problem+json; 404 for an unknown path, 405 with Allow for a wrong method.
   Response respond(Request request) const;
   Opened open(Request request) const;
@@ -75,6 +86,8 @@ class Router {
   Gate gate_;
   std::shared_ptr<RateLimiter> callers_;
   WebSocketWrapper wrapper_;
+  Check check_;
+  Around around_;
 };
 
 }  // namespace ream::net
