@@ -31,8 +31,9 @@ net::Response annotate(SessionService& service, const net::Request& request) {
   body.finish();
   const std::string& id = request.parameters.at("id");
   // The remark goes into the recording, which others read: who takes part in a study signs by code.
-  if (const SessionRequest session = service.get(id).request;
-      !session.participant.empty() && request.caller.user_id == session.trainee_id)
+  if (const SessionRequest session = service.get(id).request; !session.participant.empty() &&
+                                                              !request.caller.user_id.empty() &&
+                                                              request.caller.user_id == session.trainee_id)
     note.author = session.participant;
   return net::json_response(201, to_json(service.annotate(id, note)));
 }
