@@ -25,8 +25,9 @@ TEST(Target, SplitsPathAndQueryAndDecodesBoth) {
 
 TEST(Target, RefusesWhatWouldBeAmbiguous) {
   for (const char* text : {"", "cases", "http://localhost/x", "*", "/a%2fb", "/a%2Fb", "/a%5Cb", "/a\\b",
-                           "/a%00b", "/%", "/%4", "/%zz", "/a?x=%q1"})
+                           "/a%00b", "/a%0ab", "/a\x01", "/a%7F", "/%", "/%4", "/%zz", "/a?x=%q1"})
     EXPECT_THROW(target(text), RequestError) << text;
+  EXPECT_THROW(target(std::string_view("/a\0b", 4)), RequestError);
 }
 
 TEST(Problem, CarriesKindAsStatusAndPlaces) {
