@@ -22,18 +22,17 @@ namespace ream::api {
 struct ServerOptions {
   net::ListenOptions listen;
   std::filesystem::path cases_folder;
-  std::filesystem::path data_folder;          ///< uploads, and users' reamers
-  std::filesystem::path web_folder;           ///< the built page; served under "/"
-  std::filesystem::path sessions_folder;      ///< where sessions keep their folders
-  std::shared_ptr<store::Database> database;  ///< index of sessions, answers to repeat; null: none
+  std::filesystem::path data_folder;      ///< uploads, and users' reamers
+  std::filesystem::path web_folder;       ///< the built page; served under "/"
+  std::filesystem::path sessions_folder;  ///< where sessions keep their folders
   SessionMakers make_session;
   SessionLimits sessions;
   std::string usual_device = "script";  ///< of sessions that name none
   CtReader read_ct;                     ///< of uploaded files
   ReplayFactory make_replay;
   ReplayLimits replays;
-  /// Has users and what they did, and the index of sessions. Without one everybody may do everything and
-  /// lists come from the folders.
+  /// Has users and what they did, the index of sessions, and answers to requests that are repeated. Without
+  /// one everybody may do everything, lists come from the folders, and answers are kept in memory.
   std::shared_ptr<store::Database> database;
   access::GatehouseOptions gatehouse;
   std::function<void()> prepare;  ///< run once in the background; /readyz is 503 until it is done
