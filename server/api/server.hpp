@@ -31,8 +31,8 @@ struct ServerOptions {
   CtReader read_ct;                     ///< of uploaded files
   ReplayFactory make_replay;
   ReplayLimits replays;
-  /// Has users and what they did, the index of sessions, and answers to requests that are repeated. Without
-  /// one everybody may do everything, lists come from the folders, and answers are kept in memory.
+  /// Has users and what they did, the index of sessions, and answers to repeat. Null: everybody may do
+  /// everything, and lists come from the folders.
   std::shared_ptr<store::Database> database;
   access::GatehouseOptions gatehouse;
   std::function<void()> prepare;  ///< run once in the background; /readyz is 503 until it is done
