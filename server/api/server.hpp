@@ -6,10 +6,15 @@
 #include <mutex>
 #include <string>
 
+#include "access/gatehouse.hpp"
 #include "api/case_workshop.hpp"
+#include "api/gate.hpp"
 #include "api/readiness.hpp"
 #include "api/replay_service.hpp"
+#include "api/request_frame.hpp"
 #include "api/session_service.hpp"
+#include "api/session_watch.hpp"
+#include "api/stream_watch.hpp"
 #include "net/listener.hpp"
 
 namespace ream::api {
@@ -17,16 +22,19 @@ namespace ream::api {
 struct ServerOptions {
   net::ListenOptions listen;
   std::filesystem::path cases_folder;
-  std::filesystem::path data_folder;          ///< uploads, and users' reamers
-  std::filesystem::path web_folder;           ///< the built page; served under "/"
-  std::filesystem::path sessions_folder;      ///< where sessions keep their folders
-  std::shared_ptr<store::Database> database;  ///< has the index of sessions; null: none
+  std::filesystem::path data_folder;      ///< uploads, and users' reamers
+  std::filesystem::path web_folder;       ///< the built page; served under "/"
+  std::filesystem::path sessions_folder;  ///< where sessions keep their folders
   SessionMakers make_session;
   SessionLimits sessions;
   std::string usual_device = "script";  ///< of sessions that name none
   CtReader read_ct;                     ///< of uploaded files
   ReplayFactory make_replay;
   ReplayLimits replays;
+  /// Has users and what they did, the index of sessions, and answers to repeat. Null: everybody may do
+  /// everything, and lists come from the folders.
+  std::shared_ptr<store::Database> database;
+  access::GatehouseOptions gatehouse;
   std::function<void()> prepare;  ///< run once in the background; /readyz is 503 until it is done
 };
 
@@ -51,19 +59,34 @@ class Server {
   /// Ends connections, then sessions. May be called twice.
   void stop();
 
+  /// Users, credentials and the audit log; null without a database.
+  access::Gatehouse* gatehouse() const { return gatehouse_.get(); }
+
   /// Method and pattern of everything served, the page left out.
   std::vector<net::Router::Route> routes() const { return router_.routes(); }
 
  private:
+  net::Router routes_of(const ServerOptions& options);
+  std::optional<SessionRequest> session_of(const std::string& id) const;
+
   // Order matters: nothing is prepared before the port is ours. stop() has ended the listener before any of
   // these goes.
+  const std::shared_ptr<store::Database> database_;
+  const std::shared_ptr<ChangeFeed> feed_;
+  const Contract contract_;
+  Idempotency idempotency_;
+  const std::unique_ptr<access::Gatehouse> gatehouse_;
+  const std::unique_ptr<StreamWatch> stream_watch_;  ///< null without a database
   SessionService sessions_;
   ReplayService replays_;
   UploadStore uploads_;
   CaseWorkshop workshop_;
+  const Gate gate_;
+  RequestFrame frame_;
   net::Router router_;
   net::Listener listener_;
   Readiness readiness_;
+  SessionWatch watch_;
   std::mutex mutex_;
   std::condition_variable changed_;
   bool stop_wanted_ = false;

@@ -62,8 +62,8 @@ Response json_response(int status, const nlohmann::json& body);
 Response bytes_response(int status, std::string content_type, SharedBytes body);
 
 /// Splits and decodes the target of a request line ("/a/b?c=d") into path and query.
-/// Throws RequestError 400 on broken percent-encoding, encoded '/', '\' or NUL, or a target that is not a
-/// path.
+/// Throws RequestError 400 on broken percent-encoding, encoded '/', '\' or control characters, or a target
+/// that is not a path.
 void set_target(Request& request, std::string_view target);
 
 }  // namespace ream::net

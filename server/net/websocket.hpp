@@ -37,7 +37,7 @@ class WebSocketSession {
   /// Asked for whenever next() has nothing: closes the connection in words.
   virtual std::optional<Farewell> farewell() { return std::nullopt; }
 
-  /// One whole message of the peer.
+  /// One whole message of the peer, aligned as new memory is.
   virtual void on_message(std::span<const std::byte> message) = 0;
 
   /// Last call, whoever ended the connection.

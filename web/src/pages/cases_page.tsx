@@ -3,7 +3,7 @@ import { useEffect } from 'preact/hooks';
 
 import { caseWords } from '../case_words';
 import { CaseHeader } from '../panels/case/case_header';
-import { Remark } from '../panels/case/fields';
+import { Remark } from '../panels/fields';
 import { NewCasePanel } from '../panels/case/new_case_panel';
 import type { CasesKeeper } from '../state/case/new_case';
 import { addressOfRoute } from '../state/route';
@@ -23,7 +23,7 @@ export function CasesPage({ keeper }: { keeper: CasesKeeper }) {
   const problem = keeper.listProblem.value;
   return (
     <div class="page cases-page">
-      <CaseHeader title={null} details={null} />
+      <CaseHeader details={null} />
       <main class="case-list">
         <h2>{caseWords.cases}</h2>
         {problem !== null && (

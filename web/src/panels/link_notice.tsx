@@ -7,10 +7,10 @@ import { words } from '../words';
 import { clock } from './format';
 
 /** Over the picture, in words, whenever it is not live. */
-export function LinkNotice({ store }: { store: Store }) {
+export function LinkNotice({ store, mayReam }: { store: Store; mayReam: boolean }) {
   const link = store.link.value;
   const nowMs = useNow(link.kind === 'lost');
-  const [title, text] = notice(store, link, nowMs);
+  const [title, text] = notice(store, link, nowMs, mayReam);
   if (title === '') return null;
   return (
     <div class={`notice notice-${link.kind}`} role="status" data-testid="link-notice">
@@ -20,13 +20,15 @@ export function LinkNotice({ store }: { store: Store }) {
   );
 }
 
-function notice(store: Store, link: LinkState, nowMs: number): [title: string, text: string] {
+function notice(store: Store, link: LinkState, nowMs: number, mayReam: boolean): [title: string, text: string] {
   switch (link.kind) {
     case 'live':
       if (store.pictureComplete.value) return ['', ''];
       return [store.metWithLoss.value ? words.catchingUp : words.loading, ''];
     case 'connecting':
       return [words.preparing, ''];
+    case 'nothing':
+      return [words.nothingTitle, mayReam ? words.nothingToMake : words.nothingToWatch];
     case 'silent':
       return [words.silentTitle, `${picture(store)} ${words.waiting}`];
     case 'lost':

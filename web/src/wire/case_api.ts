@@ -15,7 +15,7 @@ import type {
   Upload,
   VoxelAxis,
 } from './case_types';
-import { type CallOptions, type Method, request, requestJson } from './rest';
+import { type CallOptions, credentials, type Method, request, requestJson } from './rest';
 
 /** Calls of the REST interface that make cases of CTs; `base` is the server's origin. */
 export class CaseApi {
@@ -108,7 +108,7 @@ export class CaseApi {
     void fetch(this.url(`${this.path(id)}/landmarks`), {
       method: 'PUT',
       keepalive: true,
-      headers: { 'content-type': 'application/json' },
+      headers: { 'content-type': 'application/json', ...credentials.headers() },
       body: JSON.stringify(landmarks),
     }).catch(() => undefined);
   }

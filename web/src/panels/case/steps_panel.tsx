@@ -4,7 +4,7 @@ import { caseWords } from '../../case_words';
 import type { CaseKeeper } from '../../state/case/case_keeper';
 import { type StepName, stepNames, stepStates } from '../../state/case/case_steps';
 import { BuildStep } from './build_step';
-import { Remark } from './fields';
+import { Remark } from '../fields';
 import { JobProgress } from './job_progress';
 import { LandmarksStep } from './landmarks_step';
 import { PlanStep, PlanWishesStore } from './plan_step';
