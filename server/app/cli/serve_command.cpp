@@ -11,12 +11,14 @@
 #include "app/data_folder.hpp"
 #include "app/device_registry.hpp"
 #include "app/interrupt.hpp"
+#include "app/open_database.hpp"
 #include "app/reaming_session.hpp"
 #include "app/replay_session.hpp"
 #include "app/session_recovery.hpp"
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/file_lock.hpp"
 #include "core/log.hpp"
 #include "ct/phantom_case.hpp"
 #include "ct/volume_io.hpp"
@@ -72,6 +74,8 @@ void serve(const Options& options, const GlobalOptions& global) {
                                                  .count());
   house.backend = options.backend;
   house.realtime = realtime_from_text(options.realtime);
+  auto database = open_database(global.db, house.data);
+  const auto serving = FileLock::attempt(serving_lock(house.data));
   make_writable_folder(sessions_folder(house.data));
   for (const std::string& line : recover_sessions(house.data)) log::warn(line);
   catch_interrupts();
@@ -89,6 +93,7 @@ void serve(const Options& options, const GlobalOptions& global) {
   };
   server_options.web_folder = web_folder(options.web);
   server_options.sessions_folder = sessions_folder(house.data);
+  server_options.database = std::move(database);
   server_options.make_session.make = [house](const api::SessionRequest& request) {
     return std::make_unique<ReamingSession>(house, request);
   };
