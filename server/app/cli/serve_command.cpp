@@ -21,6 +21,7 @@
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/file_lock.hpp"
 #include "core/log.hpp"
 #include "ct/phantom_case.hpp"
 #include "ct/volume_io.hpp"
@@ -102,6 +103,7 @@ void serve(const Options& options, const GlobalOptions& global) {
   api::ServerOptions server_options;
   server_options.listen = listen_options(options.address, access::Gatehouse(*database).users.any());
   server_options.database = std::move(database);
+  const auto serving = FileLock::attempt(serving_lock(house.data));
   make_writable_folder(sessions_folder(house.data));
   for (const std::string& line : recover_sessions(house.data)) log::warn(line);
   catch_interrupts();
