@@ -77,7 +77,8 @@ std::vector<Right> session_rows() {
           {"POST", one + "/playback", Door::roles, known},
           {"GET", one + "/metrics", Door::roles, known},
           {"GET", one + "/stream", Door::roles, known},
-          {"GET", one + "/device", Door::roles, reamers}};
+          {"GET", one + "/device", Door::roles, reamers},
+          {"GET", "/api/v1/events", Door::roles, known}};
 }
 
 std::vector<Right> study_rows() {

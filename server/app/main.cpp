@@ -32,6 +32,7 @@ void add_commands(CLI::App& app, ream::app::GlobalOptions& global) {
   add_list_command(app, global);
   add_replay_command(app, global);
   add_devices_command(app, global);
+  add_user_command(app, global);
   add_backup_command(app, global);
   add_restore_command(app, global);
   add_bench_command(app, global);
