@@ -15,6 +15,7 @@
 #include "api/session_service.hpp"
 #include "api/session_watch.hpp"
 #include "api/stream_watch.hpp"
+#include "api/study_service.hpp"
 #include "net/listener.hpp"
 
 namespace ream::api {
@@ -78,6 +79,7 @@ class Server {
   const std::unique_ptr<access::Gatehouse> gatehouse_;
   const std::unique_ptr<StreamWatch> stream_watch_;  ///< null without a database
   SessionService sessions_;
+  const std::unique_ptr<StudyService> studies_;  ///< null without a database
   ReplayService replays_;
   UploadStore uploads_;
   CaseWorkshop workshop_;

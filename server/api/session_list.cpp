@@ -68,6 +68,8 @@ SessionPage page_for(const net::Caller& caller, const SessionService& sessions, 
     if (!query.trainee_id.empty() && query.trainee_id != caller.user_id) return {};
     query.trainee_id = caller.user_id;
   }
+  // What is found by a person would tell who is behind a code.
+  if (role == instructors) query.outside_studies = !query.trainee_id.empty();
   return sessions.list(query);
 }
 
@@ -84,11 +86,15 @@ json visible_replays(const net::Caller& caller, const SessionService& sessions,
 
 }  // namespace
 
-net::Response list_sessions(const SessionService& sessions, const ReplayService& replays,
-                            const net::Request& request) {
-  const SessionPage page = page_for(request.caller, sessions, query_of(request));
+net::Response list_sessions(const SessionService& sessions, const StudyService* studies,
+                            const ReplayService& replays, const net::Request& request) {
+  SessionPage page = page_for(request.caller, sessions, query_of(request));
+  const Blinding blinding = studies ? studies->blinding(request.caller) : Blinding(request.caller, {});
   json records = json::array();
-  for (const SessionRecord& record : page.sessions) records.push_back(to_json(record));
+  for (SessionRecord& record : page.sessions) {
+    record.request = blinding.seen(std::move(record.request));
+    records.push_back(to_json(record));
+  }
   json whole = {{"sessions", std::move(records)},
                 {"next", page.next.empty() ? json(nullptr) : json(page.next)},
                 {"total", page.total},

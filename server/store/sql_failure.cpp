@@ -20,7 +20,7 @@ std::string words_of(const soci::soci_error& error) {
 
 Error away(const std::string& database, const std::string& why) {
   return {ErrorKind::unavailable, "the database at " + database + " does not answer (" + why +
-                                      "); once it does, all goes on by itself"};
+                                      "); see that it runs; what needs it then works again by itself"};
 }
 
 Error busy(const std::string& database, const std::string& why) {

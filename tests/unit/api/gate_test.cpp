@@ -144,8 +144,8 @@ TEST_F(GateTest, TheAuthorizationHeaderIsReadAsRfc6750HasIt) {
     EXPECT_EQ(refusal(asked, users), 0) << good.substr(0, 9);
   }
   for (const std::string& bad :
-       {token, "Bearer", "Bearer ", "Bearer" + token, "Bearer " + token + ", Bearer " + token,
-        "Token " + token, "Bearer " + token + token}) {
+       {token, std::string("Bearer"), std::string("Bearer "), "Bearer" + token,
+        "Bearer " + token + ", Bearer " + token, "Token " + token, "Bearer " + token + token}) {
     net::Request asked = request("GET");
     asked.headers["authorization"] = bad;
     EXPECT_EQ(refusal(asked, users), 401) << bad.substr(0, 9);

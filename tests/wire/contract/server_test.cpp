@@ -84,8 +84,7 @@ TEST_F(ServerTest, ListsAreFilteredAndGoOnPageByPage) {
   const auto ids = [&](const std::string& query) {
     std::string found;
     const json page = json::parse(get(sessions + "?" + query).body);
-    for (const json& session : page.at("sessions"))
-      found += session.at("id").get<std::string>().substr(3);
+    for (const json& session : page.at("sessions")) found += session.at("id").get<std::string>().substr(3);
     return found;
   };
   EXPECT_EQ(ids(""), "6543210");
