@@ -85,6 +85,7 @@ Conditions filters_of(const SessionQuery& query, const std::vector<std::string>&
                                       {"created_utc >= ", &query.created_from},
                                       {"created_utc < ", &query.created_before}})
     conditions.add_if_given(column + conditions.next_name(), *value);
+  if (query.outside_studies) conditions.add("study = ''");
   for (const std::string& word : searched_words(query))
     conditions.add("search LIKE " + conditions.next_name() + " ESCAPE '\\'", pattern_of(word));
   return conditions;
