@@ -14,19 +14,25 @@ struct Rule {
 };
 
 /// Sessions tell of their own states (SessionWatch), jobs of theirs and of what they make.
-constexpr std::array rules{Rule{"PATCH", "/api/v1/sessions/{id}", "session", "changed"},
-                           Rule{"POST", "/api/v1/sessions/{id}/annotations", "session", "annotated"},
-                           Rule{"POST", "/api/v1/sessions/{id}/replay", "replay", "created"},
-                           Rule{"DELETE", "/api/v1/cases/{id}", "case", "deleted"},
-                           Rule{"PUT", "/api/v1/cases/{id}/landmarks", "case", "changed"},
-                           Rule{"PUT", "/api/v1/cases/{id}/plan", "case", "changed"},
-                           Rule{"POST", "/api/v1/cases/{id}/segmentation/undo", "case", "changed"},
-                           Rule{"POST", "/api/v1/users", "user", "created"},
-                           Rule{"PATCH", "/api/v1/users/{id}", "user", "changed"},
-                           Rule{"DELETE", "/api/v1/users/{id}", "user", "deleted"},
-                           Rule{"POST", "/api/v1/studies", "study", "created"},
-                           Rule{"PATCH", "/api/v1/studies/{id}", "study", "changed"},
-                           Rule{"DELETE", "/api/v1/studies/{id}", "study", "deleted"}};
+constexpr std::array rules{
+    Rule{"PATCH", "/api/v1/sessions/{id}", "session", "changed"},
+    Rule{"POST", "/api/v1/sessions/{id}/annotations", "session", "annotated"},
+    Rule{"POST", "/api/v1/sessions/{id}/replay", "replay", "created"},
+    Rule{"DELETE", "/api/v1/cases/{id}", "case", "deleted"},
+    Rule{"PUT", "/api/v1/cases/{id}/landmarks", "case", "changed"},
+    Rule{"PUT", "/api/v1/cases/{id}/plan", "case", "changed"},
+    Rule{"POST", "/api/v1/cases/{id}/segmentation/undo", "case", "changed"},
+    Rule{"POST", "/api/v1/users", "user", "created"},
+    Rule{"PATCH", "/api/v1/users/{id}", "user", "changed"},
+    Rule{"DELETE", "/api/v1/users/{id}", "user", "deleted"},
+    Rule{"POST", "/api/v1/studies", "study", "created"},
+    Rule{"PUT", "/api/v1/studies/{id}", "study", "changed"},
+    Rule{"POST", "/api/v1/studies/{id}/close", "study", "changed"},
+    Rule{"POST", "/api/v1/studies/{id}/reopen", "study", "changed"},
+    Rule{"POST", "/api/v1/studies/{id}/unblind", "study", "changed"},
+    Rule{"DELETE", "/api/v1/studies/{id}/participants/{code}", "study", "changed"},
+    Rule{"PUT", "/api/v1/studies/{id}/participants/{code}/answers", "study", "changed"},
+    Rule{"DELETE", "/api/v1/studies/{id}", "study", "deleted"}};
 
 }  // namespace
 

@@ -13,6 +13,8 @@
 #include "api/prometheus.hpp"
 #include "api/replay_resource.hpp"
 #include "api/session_resource.hpp"
+#include "api/study_resource.hpp"
+#include "api/study_surroundings.hpp"
 #include "api/upload_resource.hpp"
 #include "core/error.hpp"
 #include "net/static_files.hpp"
@@ -92,9 +94,10 @@ net::Router Server::routes_of(const ServerOptions& options) {
   add_all_access_routes(router,
                         {gate_, gatehouse_.get(), [this](const std::string& id) { sessions_.get(id); }});
   add_all_case_routes(router, options, workshop_, uploads_);
-  add_session_routes(router, sessions_, replays_, readiness_, options.usual_device);
+  add_session_routes(router, sessions_, replays_, readiness_, options.usual_device, studies_.get());
   add_annotation_routes(router, sessions_);
   add_replay_routes(router, sessions_, replays_, readiness_);
+  add_study_routes(router, studies_.get(), audit_in(gatehouse_.get()));
   router.otherwise([files = net::StaticFiles(options.web_folder)](const net::Request& request) {
     return files.respond(request);
   });
@@ -115,6 +118,9 @@ Server::Server(ServerOptions options)
       gatehouse_(database_ ? std::make_unique<access::Gatehouse>(*database_, options.gatehouse) : nullptr),
       stream_watch_(gatehouse_ ? std::make_unique<StreamWatch>(gatehouse_->credentials) : nullptr),
       sessions_(std::move(options.make_session), options.sessions, options.sessions_folder, options.database),
+      studies_(database_ ? std::make_unique<StudyService>(
+                               *database_, study_surroundings(options.cases_folder, sessions_, *gatehouse_))
+                         : nullptr),
       replays_(std::move(options.make_replay), options.replays),
       uploads_(options.data_folder.empty() ? std::filesystem::path() : options.data_folder / "uploads"),
       workshop_(options.cases_folder, tools_of(options, sessions_)),

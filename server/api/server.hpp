@@ -15,6 +15,7 @@
 #include "api/session_service.hpp"
 #include "api/session_watch.hpp"
 #include "api/stream_watch.hpp"
+#include "api/study_service.hpp"
 #include "net/listener.hpp"
 
 namespace ream::api {
@@ -22,18 +23,17 @@ namespace ream::api {
 struct ServerOptions {
   net::ListenOptions listen;
   std::filesystem::path cases_folder;
-  std::filesystem::path data_folder;          ///< uploads, and users' reamers
-  std::filesystem::path web_folder;           ///< the built page; served under "/"
-  std::filesystem::path sessions_folder;      ///< where sessions keep their folders
-  std::shared_ptr<store::Database> database;  ///< index of sessions, answers to repeat; null: none
+  std::filesystem::path data_folder;      ///< uploads, and users' reamers
+  std::filesystem::path web_folder;       ///< the built page; served under "/"
+  std::filesystem::path sessions_folder;  ///< where sessions keep their folders
   SessionMakers make_session;
   SessionLimits sessions;
   std::string usual_device = "script";  ///< of sessions that name none
   CtReader read_ct;                     ///< of uploaded files
   ReplayFactory make_replay;
   ReplayLimits replays;
-  /// Has users and what they did, and the index of sessions. Without one everybody may do everything and
-  /// lists come from the folders.
+  /// Has users and what they did, the index of sessions, and answers to repeat. Null: everybody may do
+  /// everything, and lists come from the folders.
   std::shared_ptr<store::Database> database;
   access::GatehouseOptions gatehouse;
   std::function<void()> prepare;  ///< run once in the background; /readyz is 503 until it is done
@@ -79,6 +79,7 @@ class Server {
   const std::unique_ptr<access::Gatehouse> gatehouse_;
   const std::unique_ptr<StreamWatch> stream_watch_;  ///< null without a database
   SessionService sessions_;
+  const std::unique_ptr<StudyService> studies_;  ///< null without a database
   ReplayService replays_;
   UploadStore uploads_;
   CaseWorkshop workshop_;

@@ -22,7 +22,9 @@ store::SessionRow row_of(const SessionRecord& record) {
   row.created_utc = without_nul(record.request.created_utc);
   row.duration_s = record.status.duration_s;
   row.trainee_id = without_nul(record.request.trainee_id);
-  row.trainee = without_nul(record.request.trainee);
+  // Lists are sorted and searched by it, also by those for whom the person is hidden.
+  row.trainee =
+      without_nul(record.request.study.empty() ? record.request.trainee : record.request.participant);
   row.study = without_nul(record.request.study);
   row.participant = without_nul(record.request.participant);
   row.title = without_nul(record.request.title);

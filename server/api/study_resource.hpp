@@ -5,8 +5,8 @@
 
 namespace ream::api {
 
-/// studies and what belongs to them. What changes who may know what, and every look at who is who, is told to
-/// `audit`.
-void add_study_routes(net::Router& router, StudyService& service, const Audit& audit);
+/// /api/v1/studies and all below it. What changes who may know what, and every look at who is who, is told to
+/// `audit`. `service` null: Error unavailable for everything.
+void add_study_routes(net::Router& router, StudyService* service, const Audit& audit);
 
 }  // namespace ream::api

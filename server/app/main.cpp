@@ -14,6 +14,10 @@ void add_commands(CLI::App& app, ream::app::GlobalOptions& global) {
   using namespace ream::app;
   app.set_version_flag("--version", version_text());
   app.add_option("--data", global.data, "Data folder. Default: REAM_DATA, else ~/.local/share/ream");
+  app.add_option(
+      "--db", global.db,
+      "Database: sqlite:FILE or postgresql://user@host:port/name. Default: REAM_DB, else ream.db in "
+      "the data folder");
   app.add_flag("--json", global.json, "Machine-readable output on stdout");
   app.fallthrough();
   app.require_subcommand(1);
@@ -28,6 +32,9 @@ void add_commands(CLI::App& app, ream::app::GlobalOptions& global) {
   add_list_command(app, global);
   add_replay_command(app, global);
   add_devices_command(app, global);
+  add_user_command(app, global);
+  add_backup_command(app, global);
+  add_restore_command(app, global);
   add_bench_command(app, global);
 }
 

@@ -39,6 +39,10 @@ void make_private_file(const std::filesystem::path& file) {
     throw Error(ErrorKind::io, "cannot open the database " + file.string() + ": " + std::strerror(why));
 }
 
+const PGconn* connection_of(Sql& sql) {
+  return static_cast<const soci::postgresql_session_backend*>(sql.get_backend())->conn_;
+}
+
 std::unique_ptr<Sql> open_sqlite(const DatabaseUrl& url, const DatabaseLimits& limits) {
   make_private_file(url.file);
   auto sql = std::make_unique<Sql>(soci::sqlite3, "dbname=\"" + url.file.string() + "\"");
@@ -80,6 +84,35 @@ std::unique_ptr<Sql> open_connection(const DatabaseUrl& url, const DatabaseLimit
   return url.postgresql ? open_postgresql(url, limits) : open_sqlite(url, limits);
 }
 
+std::vector<Column> columns_of(Sql& sql, const std::string& table) {
+  OpenStatement statement(
+      sql, on_postgresql(sql)
+               ? "SELECT column_name, data_type FROM information_schema.columns WHERE table_schema = "
+                 "current_schema() AND table_name = :name ORDER BY ordinal_position"
+               : "SELECT name, lower(type) FROM pragma_table_info(:name)");
+  std::vector<Column> columns;
+  std::string name, type;
+  statement.with(table).into(name).into(type).each([&] {
+    const bool whole = type.find("int") != std::string::npos,
+               number = type.find("double") != std::string::npos;
+    columns.push_back({name, whole    ? Column::Kind::whole
+                             : number ? Column::Kind::number
+                                      : Column::Kind::text});
+  });
+  return columns;
+}
+
+void go_on_numbering(Sql& sql, const std::string& table) {
+  if (!on_postgresql(sql)) return;  // SQLite does so by itself
+  std::string column;
+  sql << "SELECT column_name FROM information_schema.columns WHERE table_schema = current_schema() AND "
+         "table_name = :name AND is_identity = 'YES'",
+      use(table), into(column);
+  if (sql.got_data())
+    sql << "SELECT setval(pg_get_serial_sequence('" + table + "', '" + column + "'), coalesce(max(" + column +
+               "), 0) + 1, false) FROM " + table;
+}
+
 void begin_writing(Sql& sql) {
   if (on_postgresql(sql))
     sql << "BEGIN ISOLATION LEVEL SERIALIZABLE";
@@ -94,10 +127,14 @@ void begin_reading(Sql& sql) {
     sql << "BEGIN";
 }
 
+void lift_time_limit(Sql& sql) {
+  if (on_postgresql(sql)) sql << "SET LOCAL statement_timeout = 0";
+}
+
+int socket_of(Sql& sql) noexcept { return on_postgresql(sql) ? ::PQsocket(connection_of(sql)) : -1; }
+
 bool connection_lost(Sql& sql) noexcept {
-  if (!on_postgresql(sql)) return false;
-  const auto* backend = static_cast<const soci::postgresql_session_backend*>(sql.get_backend());
-  return ::PQstatus(backend->conn_) != CONNECTION_OK;
+  return on_postgresql(sql) && ::PQstatus(connection_of(sql)) != CONNECTION_OK;
 }
 
 }  // namespace ream::store

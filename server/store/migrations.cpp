@@ -56,6 +56,19 @@ const std::vector<Migration>& migrations() {
   return all;
 }
 
+std::vector<std::string> table_names() {
+  constexpr std::string_view making = "CREATE TABLE ";
+  std::vector<std::string> names;
+  for (const Migration& step : migrations()) {
+    const std::string& text = step.statements;
+    for (size_t at = text.find(making); at != std::string::npos; at = text.find(making, at)) {
+      at += making.size();
+      names.push_back(text.substr(at, text.find_first_of(" (\n", at) - at));
+    }
+  }
+  return names;
+}
+
 void migrate(Sql& sql) {
   lock_for_migration(sql);
   std::set<int> before = done(sql);

@@ -18,6 +18,9 @@ struct Migration {
 /// All of this build, by number.
 const std::vector<Migration>& migrations();
 
+/// Names of the tables that they make, each behind those that it refers to.
+std::vector<std::string> table_names();
+
 /// Runs those that are missing, inside the caller's transaction. Error conflict when the database knows steps
 /// that this build does not.
 void migrate(Sql& sql);

@@ -53,10 +53,21 @@ class OpenStatement {
     made_, use(value);
     return *this;
   }
-  /// Columns come into these variables at each fetch().
+  /// Columns come into these variables, row by row.
   template <typename T>
   OpenStatement& into(T& value) {
     made_, soci::into(value);
+    return *this;
+  }
+  /// With room for NULL.
+  template <typename T>
+  OpenStatement& with(const T& value, soci::indicator& indicator) {
+    made_, soci::use(value, indicator, no_name);
+    return *this;
+  }
+  template <typename T>
+  OpenStatement& into(T& value, soci::indicator& indicator) {
+    made_, soci::into(value, indicator);
     return *this;
   }
   /// Calls `row` after each row has come.
@@ -66,6 +77,8 @@ class OpenStatement {
     statement.execute();
     while (statement.fetch()) row();
   }
+  /// To be executed again and again, with what the variables of with() hold each time.
+  soci::statement prepared() { return soci::statement(made_); }
 
  private:
   soci::details::prepare_temp_type made_;

@@ -47,6 +47,9 @@ TEST(Problem, CarriesKindAsStatusAndPlaces) {
                                   {"status", 400},
                                   {"detail", "bad"},
                                   {"errors", {{{"pointer", "#/a"}, {"detail", "must be a number"}}}}}));
+  const Response later = problem_of(RequestError(429, "later", {}, {{"Retry-After", "7"}}));
+  EXPECT_EQ(later.status, 429);
+  EXPECT_EQ(later.header("Retry-After"), "7");
 }
 
 TEST(Problem, InnerWordsOfAnUnknownFailureStayInTheLog) {

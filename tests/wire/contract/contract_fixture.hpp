@@ -50,8 +50,33 @@ class ContractTest : public ServerTest {
       ADD_FAILURE() << operation << " " << status << ": " << fault << " in " << reply.body;
   }
 
+  /// Every reply that can be had has an entity tag; asked again with it, there is nothing new or another tag.
   void expect_get(const std::string& pattern, const std::string& path, int status) {
-    expect_as_described("GET", pattern, status, get(path));
+    const HttpReply reply = get(path);
+    expect_as_described("GET", pattern, status, reply);
+    if (status != 200) return;
+    ASSERT_TRUE(reply.headers.contains("etag")) << path;
+    const std::string tag = reply.headers.at("etag");
+    const HttpReply again = http_request(server->port(), "GET", path, {}, {{"If-None-Match", tag}});
+    if (again.status != 304) {
+      EXPECT_EQ(again.status, 200) << path;
+      EXPECT_NE(again.headers.at("etag"), tag) << path;
+    }
+  }
+  /// Sent twice under one key it is answered once more, but made once; under that key nothing else is.
+  HttpReply expect_repeatable(const std::string& pattern, const std::string& path, int status,
+                              const std::string& body = {}) {
+    const std::map<std::string, std::string> key = {{"Idempotency-Key", "key-" + std::to_string(keys++)}};
+    const HttpReply first = http_request(server->port(), "POST", path, body, key),
+                    again = http_request(server->port(), "POST", path, body, key);
+    expect_as_described("POST", pattern, status, first);
+    expect_as_described("POST", pattern, status, again);
+    EXPECT_EQ(first.body, again.body) << pattern;
+    EXPECT_TRUE(again.headers.contains("idempotency-replayed")) << pattern;
+    expect_post(pattern, path + (path.find('?') == std::string::npos ? "?" : "&") + "other=1", 422, body,
+                key);
+    expect_post(pattern, path, 400, body, {{"Idempotency-Key", "two words"}});
+    return first;
   }
   void expect_post(const std::string& pattern, const std::string& path, int status,
                    const std::string& body = {}, const std::map<std::string, std::string>& headers = {}) {
@@ -78,9 +103,12 @@ class ContractTest : public ServerTest {
             all_replies.insert({upper(verb) + " " + path, std::stoi(status)});
     return all_replies;
   }
-  void expect_all_given(const std::set<std::string>& tags) const {
-    for (const auto& [operation, status] : described(tags))
+  /// `elsewhere`: replies that another test gives.
+  void expect_all_given(const std::set<std::string>& tags, const Described& elsewhere = {}) const {
+    for (const auto& [operation, status] : described(tags)) {
+      if (elsewhere.contains({operation, status})) continue;
       EXPECT_TRUE(seen.contains({operation, status})) << operation << " " << status << " was never given";
+    }
   }
 
   const json contract = read_yaml(std::string(REAM_SOURCE_DIR) + "/proto/openapi.yaml");
@@ -88,6 +116,7 @@ class ContractTest : public ServerTest {
   const std::string all = "/api/v1/sessions", one = "/api/v1/sessions/{id}";
   const std::map<std::string, std::string> foreign = {{"Origin", "http://elsewhere.example"}};
   Described seen;
+  int keys = 0;
 };
 
 }  // namespace ream::test

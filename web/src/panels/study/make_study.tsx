@@ -9,8 +9,6 @@ import type { StudyApi } from '../../wire/study_api';
 import type { NewStudy } from '../../wire/study_types';
 import { Remark } from '../fields';
 
-type Asking = 'ours' | 'none' | 'file';
-
 /** The form for another study. */
 export function MakeStudy({ api, onMade }: { api: StudyApi; onMade: (studyId: string) => void }) {
   const cases = useMemo(() => new Remote(() => new CaseApi(window.location.origin).cases()), []);
