@@ -62,7 +62,7 @@ TEST_F(DeviceSoak, OfTwoThatFightOneIsHeardAtATimeAndBothAreTold) {
 
 TEST_F(DeviceSoak, ASenderThatDoesNotWaitIsAnsweredTogether) {
   FakeDeviceClient client(server.port(), id);
-  constexpr uint32_t messages = 20000;
+  constexpr uint32_t messages = 15000;  // fewer than what one connection may send at once
   std::thread sender([&] {
     for (uint32_t i = 0; i < messages; ++i) {
       SteeringWords words;
