@@ -37,7 +37,8 @@ std::vector<Right> access_rows() {
 std::vector<Right> case_rows() {
   const std::string uploads = "/api/v1/uploads", upload = uploads + "/{id}";
   const std::string jobs = "/api/v1/jobs", cases = "/api/v1/cases", one = cases + "/{id}";
-  return {{"POST", uploads, Door::roles, staff},
+  return {{"GET", uploads, Door::roles, staff},
+          {"POST", uploads, Door::roles, staff},
           {"GET", upload, Door::roles, staff},
           {"PUT", upload, Door::roles, staff},
           {"DELETE", upload, Door::roles, staff},

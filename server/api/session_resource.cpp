@@ -4,6 +4,8 @@
 
 #include "api/replay_resource.hpp"
 #include "api/request_body.hpp"
+#include "api/session_json.hpp"
+#include "api/session_list.hpp"
 #include "core/error.hpp"
 
 namespace ream::api {
@@ -14,58 +16,6 @@ constexpr double largest_force_scale = 1000.0;
 constexpr size_t longest_reamer = 100, longest_profile = 64;
 constexpr size_t longest_trainee = 100, longest_participant = 64, longest_title = 200;
 const std::string base = "/api/v1/sessions";
-
-json to_json(const TimingSummary& times) {
-  return {{"mean_us", times.mean_us},
-          {"p50_us", times.p50_us},
-          {"p99_us", times.p99_us},
-          {"p999_us", times.p999_us},
-          {"max_us", times.max_us}};
-}
-
-json to_json(const LoopStatus& loop) {
-  json told = to_json(loop.tick_us);
-  told.update({{"missed", loop.missed},
-               {"lateness", to_json(loop.lateness_us)},
-               {"read", to_json(loop.read_us)},
-               {"step", to_json(loop.step_us)},
-               {"write", to_json(loop.write_us)},
-               {"realtime", loop.realtime},
-               {"memory_locked", loop.locked},
-               {"cpu", loop.cpu < 0 ? json(nullptr) : json(loop.cpu)}});
-  return told;
-}
-
-json to_json(const DeviceLinkStatus& device) {
-  return {{"name", device.name},
-          {"profile", device.profile},
-          {"state", device.state.empty() ? json(nullptr) : json(device.state)},
-          {"rtt_ms", device.rtt_ms ? json(*device.rtt_ms) : json(nullptr)},
-          {"received", device.received},
-          {"missing", device.missing},
-          {"late", device.late},
-          {"refused", device.refused}};
-}
-
-json to_json(const SessionRecord& record) {
-  const SessionStatus& status = record.status;
-  json told = labels_json(record.request);
-  told.update({{"id", record.request.id},
-               {"kind", "session"},
-               {"case", record.request.case_id},
-               {"script", record.request.script},
-               {"state", to_text(status.state)},
-               {"held", status.held},
-               {"created_utc", record.request.created_utc},
-               {"tick", status.tick},
-               {"duration_s", status.duration_s},
-               {"force_scale", status.force_scale},
-               {"fault", status.fault.empty() ? json(nullptr) : json(status.fault)},
-               {"streamable", record.streamable},
-               {"loop", to_json(status.loop)},
-               {"device", to_json(status.device)}});
-  return told;
-}
 
 /// A trainee trains for nobody else.
 void name_trainee(const net::Caller& caller, SessionRequest& wanted) {
@@ -129,21 +79,6 @@ net::Response create(SessionService& service, const StudyService* studies, const
   return created(studies, request, service.create(std::move(wanted)));
 }
 
-net::Response list(const SessionService& service, const StudyService* studies, const ReplayService& replays,
-                   const net::Request& request) {
-  json sessions = json::array();
-  store::SessionQuery query;
-  query.limit = SIZE_MAX;
-  const Blinding blinding = studies ? studies->blinding(request.caller) : Blinding(request.caller, {});
-  for (SessionRecord& record : service.list(query).sessions) {
-    record.request = blinding.seen(std::move(record.request));
-    sessions.push_back(to_json(record));
-  }
-  json open_replays = json::array();
-  for (const ReplayRecord& record : replays.list()) open_replays.push_back(to_json(record));
-  return net::json_response(200, {{"sessions", std::move(sessions)}, {"replays", std::move(open_replays)}});
-}
-
 const std::string& id_of(const net::Request& request) { return request.parameters.at("id"); }
 
 net::Response resume(SessionService& service, const StudyService* studies, const Readiness& readiness,
@@ -187,8 +122,9 @@ int stride_of(const net::Request& request) {
 void add_session_routes(net::Router& router, SessionService& service, ReplayService& replays,
                         const Readiness& readiness, const std::string& usual_device,
                         const StudyService* studies) {
-  router.on("GET", base,
-            [&, studies](const net::Request& request) { return list(service, studies, replays, request); });
+  router.on("GET", base, [&, studies](const net::Request& request) {
+    return list_sessions(service, studies, replays, request);
+  });
   router.on("POST", base, [&, studies, usual_device](const net::Request& request) {
     return create(service, studies, readiness, usual_device, request);
   });

@@ -85,6 +85,7 @@ Conditions filters_of(const SessionQuery& query, const std::vector<std::string>&
                                       {"created_utc >= ", &query.created_from},
                                       {"created_utc < ", &query.created_before}})
     conditions.add_if_given(column + conditions.next_name(), *value);
+  if (query.outside_studies) conditions.add("study = ''");
   for (const std::string& word : searched_words(query))
     conditions.add("search LIKE " + conditions.next_name() + " ESCAPE '\\'", pattern_of(word));
   return conditions;
@@ -155,7 +156,7 @@ void SessionIndex::remove(const std::vector<std::string>& ids) {
 }
 
 void SessionIndex::replace_all(const std::vector<SessionRow>& rows) {
-  database_.run([&](Sql& sql) {
+  database_.run_at_length([&](Sql& sql) {
     sql << "DELETE FROM sessions";
     for (const SessionRow& row : rows) put_row(sql, row);
   });

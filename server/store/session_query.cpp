@@ -96,6 +96,7 @@ bool matches(const SessionQuery& query, const SessionRow& row) {
   if (!is_or_any(query.case_id, row.case_id) || !is_or_any(query.trainee_id, row.trainee_id) ||
       !is_or_any(query.study, row.study) || !is_or_any(query.participant, row.participant))
     return false;
+  if (query.outside_studies && !row.study.empty()) return false;
   if (row.created_utc < query.created_from) return false;
   if (!query.created_before.empty() && row.created_utc >= query.created_before) return false;
   const std::string text = searched_text(row);

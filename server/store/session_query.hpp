@@ -34,6 +34,7 @@ struct SessionQuery {
   std::vector<std::string> states;           ///< any of these
   std::string case_id, trainee_id;           ///< exactly
   std::string study, participant;            ///< exactly
+  bool outside_studies = false;              ///< of no study only
   std::string created_from, created_before;  ///< UTC as created_utc, or the beginning of one ("2026-01")
   std::string text;  ///< words that id, case, script, names or title hold, in any case
   SessionOrder order = SessionOrder::created;

@@ -108,6 +108,7 @@ class RandomSessions {
     made.trainee_id = one_of({"", "", "u1"});
     made.study = one_of({"", "", "pilot"});
     made.participant = one_of({"", "", "", "P-01"});
+    made.outside_studies = pick(5) == 0;
     made.created_from = one_of({"", "", "2026-02", "2026-02-01T00:00:00Z"});
     made.created_before = one_of({"", "", "2026-02-01T00:00:01Z"});
     made.text = one_of({"", "", "SECOND", "\xc3\xb6ZG", "%", "_", "\\", "'", "s1", "demo try"});

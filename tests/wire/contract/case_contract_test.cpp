@@ -67,6 +67,8 @@ class CaseContractTest : public ContractTest {
     expect_post(uploads, uploads, 413, R"({"name": "a.zip", "bytes": 1e14})");
     expect_post(uploads, uploads, 415, good, {{"Content-Type", "text/plain"}});
     expect_post(uploads, uploads, 422, R"({"name": "a.exe", "bytes": 3})");
+    expect_get(uploads, uploads + "?limit=1&sort=-bytes", 200);
+    expect_get(uploads, uploads + "?limit=0", 422);
     const std::string id = begin_upload(), at = uploads + "/" + id;
     expect_get(piece, at, 200);
     expect_get(piece, uploads + "/nothing", 404);
@@ -111,6 +113,8 @@ class CaseContractTest : public ContractTest {
     expect_request("DELETE", jobs, at, 202);
     expect_request("DELETE", jobs, "/api/v1/jobs/nothing", 404);
     expect_get(cases, cases, 200);
+    expect_get(cases, cases + "?limit=1&sort=-name", 200);
+    expect_get(cases, cases + "?cursor=abc", 422);
     const std::string made = cases + "/" + job.at("case_id").get<std::string>();
     expect_get(one_case, made, 200);
     expect_get(one_case, cases + "/planned", 200);

@@ -229,7 +229,11 @@ TEST_F(ServerContractTest, EveryDescribedReplyIsGivenAsDescribed) {
   life_of_a_session();
   too_many();
 
-  expect_all_given({"health", "sessions"});
+  expect_get(all, all + "?sort=age", 422);
+  expect_get(all, all + "?limit=2&state=stopped", 200);
+
+  // While the database is away: SessionRegisterTest.
+  expect_all_given({"health", "sessions"}, {{"GET " + all, 503}});
 }
 
 TEST_F(ServerContractTest, TakesExactlyTheBodiesThatTheSchemaTakes) {

@@ -48,6 +48,7 @@ export class Identity {
     for (;;) {
       try {
         let visitor = await this.ask();
+        this.problem.value = null;
         const needed = visitor.login_needed && (visitor.role === null || visitor.role === 'viewer');
         if (linkSecret !== null && needed) visitor = await this.enterByLink(linkSecret, visitor);
         return this.take(visitor);

@@ -71,7 +71,6 @@ export class Watcher {
     clearInterval(this.pollTimer);
     this.pollTimer = undefined;
     this.link.stop();
-    this.onLink({ kind: 'connecting' });
     this.store.pictureComplete.value = false;
   }
 

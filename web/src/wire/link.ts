@@ -54,10 +54,12 @@ export class Link {
     void this.tryOnce(++this.attempt);
   }
 
+  /** Ends the stream; nothing counts as live until `connect`. */
   stop(): void {
     this.stopTimers();
     ++this.attempt;
     this.duties.socket.close();
+    this.set({ kind: 'connecting' });
   }
 
   /** Whether the session is one that sends all the time (running), so that silence means trouble. */
