@@ -1,0 +1,9 @@
+#include "wire/access/personas.hpp"
+
+namespace ream::test {
+namespace {
+
+TEST(Placeholder, Builds) {}
+
+}  // namespace
+}  // namespace ream::test
