@@ -10,6 +10,8 @@ namespace ream::test {
 /// What one request is about: made anew for each, so that none leaves traces for the next.
 struct Scene {
   std::string session;  ///< of the trainee "tom"
+  std::string replay;   ///< of that session
+  std::string user;     ///< a trainee
 };
 
 /// Somebody who asks.
@@ -68,11 +70,26 @@ class PersonaTest : public AccessTest {
   }
 
   std::vector<Persona> personas();
-  Scene new_scene() {
-    const HttpReply reply =
-        request("POST", all, token_of(tom_id), R"({"case": "planned", "script": "demo"})");
-    EXPECT_EQ(reply.status, 201) << reply.body;
-    return {json::parse(reply.body).at("id")};
+  /// What requests of that pattern can be about.
+  Scene scene_for(const std::string& pattern) {
+    Scene scene;
+    const Sent tom = token_of(tom_id);
+    const auto made = [&](const std::string& path, const std::string& body) -> std::string {
+      const HttpReply reply = request("POST", path, tom, body);
+      EXPECT_EQ(reply.status, 201) << reply.body;
+      return json::parse(reply.body).at("id");
+    };
+    if (pattern.starts_with(one)) scene.session = made(all, R"({"case": "planned", "script": "demo"})");
+    if (pattern.ends_with("/playback")) {
+      EXPECT_EQ(request("POST", all + "/" + scene.session + "/stop", tom).status, 200);
+      scene.replay = made(all + "/" + scene.session + "/replay", "");
+    }
+    if (pattern.starts_with("/api/v1/users/{id}")) {
+      scene.user = access::random_id();
+      store::UserTable(*options.database, "operator")
+          .add({scene.user, scene.user, "Somebody", "trainee", "2026-01-31T12:00:00Z", "", true});
+    }
+    return scene;
   }
 
   /// The pattern with things that exist, as far as there are any.
@@ -81,8 +98,9 @@ class PersonaTest : public AccessTest {
   static std::string wrong_path_of(const std::string& pattern);
   /// A body and its type, by the operation's description.
   static std::string body_of(const json& operation, bool right_input, Sent& sent);
-  static bool is_one_of(const std::string& path,
-                        const std::map<std::string, std::set<std::string>>& patterns);
+  using MethodsOf = std::map<std::string, std::set<std::string>>;  ///< by pattern
+  /// All methods that a path answers to, by every pattern that it matches.
+  static std::set<std::string> methods_at(const std::string& path, const MethodsOf& patterns);
 
   std::string operator_id, instructor_id, tom_id, tess_id, disabled_id;
 };
@@ -141,9 +159,10 @@ inline std::string PersonaTest::path_of(const std::string& pattern, const Scene&
     if (const size_t at = path.find(parameter); at != std::string::npos)
       path.replace(at, parameter.size(), value);
   };
-  fill("{id}", pattern.starts_with(one)                    ? scene.session
+  fill("{id}", !scene.replay.empty()                       ? scene.replay
+               : !scene.session.empty()                    ? scene.session
+               : !scene.user.empty()                       ? scene.user
                : pattern.starts_with("/api/v1/cases/{id}") ? "unplanned"
-               : pattern.starts_with("/api/v1/users/{id}") ? tess_id
                                                            : "nothing");
   fill("{axis}", "u");
   fill("{index}", "0");
@@ -168,8 +187,7 @@ inline std::string PersonaTest::body_of(const json& operation, bool right_input,
   return right_input ? "{}" : "{\"broken\": ";
 }
 
-inline bool PersonaTest::is_one_of(const std::string& path,
-                                   const std::map<std::string, std::set<std::string>>& patterns) {
+inline std::set<std::string> PersonaTest::methods_at(const std::string& path, const MethodsOf& patterns) {
   const auto segments = [](const std::string& text) {
     std::vector<std::string> parts;
     for (size_t begin = 1; begin <= text.size();) {
@@ -179,14 +197,18 @@ inline bool PersonaTest::is_one_of(const std::string& path,
     }
     return parts;
   };
+  const auto fits = [](const std::string& part, const std::string& given) {
+    return part.starts_with("{") ? !given.empty() : part == given;
+  };
   const auto asked = segments(path);
-  return std::any_of(patterns.begin(), patterns.end(), [&](const auto& known) {
-    const auto parts = segments(known.first);
-    return parts.size() == asked.size() &&
-           std::equal(parts.begin(), parts.end(), asked.begin(), [](const auto& part, const auto& given) {
-             return part.starts_with("{") ? !given.empty() : part == given;
-           });
-  });
+  std::set<std::string> methods;
+  for (const auto& [pattern, of_pattern] : patterns) {
+    const auto parts = segments(pattern);
+    if (parts.size() == asked.size() && std::equal(parts.begin(), parts.end(), asked.begin(), fits))
+      methods.insert(of_pattern.begin(), of_pattern.end());
+  }
+  if (methods.contains("GET")) methods.insert("HEAD");
+  return methods;
 }
 
 }  // namespace ream::test
