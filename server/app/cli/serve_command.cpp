@@ -25,6 +25,7 @@
 #include "core/log.hpp"
 #include "ct/phantom_case.hpp"
 #include "ct/volume_io.hpp"
+#include "store/database_url.hpp"
 
 namespace ream::app {
 namespace {
@@ -68,6 +69,14 @@ std::vector<std::string> device_names() {
   return names;
 }
 
+/// Makes nothing where there is no database yet.
+bool has_users(const std::string& db, const fs::path& data) {
+  const store::DatabaseUrl url = store::parse_database_url(database_url(db, data));
+  std::error_code failed;
+  if (!url.postgresql && !fs::exists(url.file, failed)) return false;
+  return access::Gatehouse(*open_database(db, data)).users.any();
+}
+
 /// An expiring link for people who only watch; empty while everybody may do everything.
 std::string viewer_link(access::Gatehouse& gatehouse, const std::string& url) {
   if (!gatehouse.users.any()) return {};
@@ -99,10 +108,9 @@ void serve(const Options& options, const GlobalOptions& global) {
                                                  .count());
   house.backend = options.backend;
   house.realtime = realtime_from_text(options.realtime);
-  auto database = open_database(global.db, house.data);
   api::ServerOptions server_options;
-  server_options.listen = listen_options(options.address, access::Gatehouse(*database).users.any());
-  server_options.database = std::move(database);
+  server_options.listen = listen_options(options.address, has_users(global.db, house.data));
+  server_options.database = open_database(global.db, house.data);
   const auto serving = FileLock::attempt(serving_lock(house.data));
   make_writable_folder(sessions_folder(house.data));
   for (const std::string& line : recover_sessions(house.data)) log::warn(line);

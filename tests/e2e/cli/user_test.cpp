@@ -58,7 +58,7 @@ TEST_F(UserCommand, BadInputIsOneLine) {
   refused(1, "at least 10 characters", {"user", "add", "anna"}, "short\n");
   refused(1, "a user's name", {"user", "add", "two words"}, password);
   refused(2, "--role", {"user", "add", "anna", "--role", "king"}, password);
-  refused(2, "password", {"user", "add", "anna", "--password", "correct horse battery staple"});
+  refused(2, "password", {"user", "add", "anna", "--password", "given for all to read"});
   refused(2, "--help", {"user"});
   add("anna");
   refused(1, "'anna' already", {"user", "add", "anna"}, password);

@@ -1,6 +1,6 @@
 #pragma once
-#include "contract_fixture.hpp"
 #include "support/hand_clock.hpp"
+#include "wire/contract/contract_fixture.hpp"
 
 namespace ream::test {
 
