@@ -47,7 +47,7 @@ export function SessionsPage({ live }: { live: LivePageParts }) {
           <div class="desk-head">
             <h2 id="sessions-title">{sessionWords.sessions}</h2>
             {page !== null && (
-              <span class="soft" role="status" data-testid="session-count">
+              <span class="soft desk-count" role="status" data-testid="session-count">
                 {sessionWords.count(page.total)}
               </span>
             )}

@@ -258,6 +258,7 @@ export class Watcher {
       chooseSession(sessions, this.watched(), this.unstreamable) ??
       (this.policy.makesSession() ? await this.api.createDemo() : undefined);
     if (session === undefined) {
+      await this.api.ready();
       this.store.sessionId.value = null;
       this.store.sessionState.value = null;
       return null;

@@ -10,6 +10,7 @@ import { FakeSocket } from '../wire/fake_socket';
 class FakeApi {
   list: Session[] = [];
   down = false;
+  prepared = true;
   private made = 0;
 
   private answer<T>(value: T): Promise<T> {
@@ -21,6 +22,7 @@ class FakeApi {
     session.state = state;
     return this.answer({ ...session });
   }
+  ready = () => (this.prepared ? this.answer(undefined) : Promise.reject(new ApiError('still preparing', 503)));
   sessions = () => this.answer(this.list.map((s) => ({ ...s })));
   createDemo = () => {
     const session: Session = {
@@ -284,8 +286,12 @@ describe('Watcher', () => {
       { begin: () => undefined, apply: () => undefined, setTool: () => undefined },
       { makesSession: () => false },
     );
+    api.prepared = false;
     viewer.start();
     await settle();
+    expect(store.link.value).toMatchObject({ kind: 'lost', reason: 'still preparing' });
+    api.prepared = true;
+    await vi.advanceTimersByTimeAsync(300);
     expect(api.list).toEqual([]);
     expect(store.link.value.kind).toBe('nothing');
     expect(store.live.value).toBe(false);
