@@ -23,12 +23,6 @@ namespace fs = std::filesystem;
 
 constexpr double unpacked_share = 0.8;
 
-void require_backup(const fs::path& file) {
-  const auto names = store::zip_names(file);
-  if (std::find(names.begin(), names.end(), "backup.json") == names.end())
-    throw Error(ErrorKind::invalid_input, file.string() + " is no backup of ream: it holds no backup.json");
-}
-
 /// Everything unpacked so far survives a loss of power from here on.
 void sync_all(const fs::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_CLOEXEC);
@@ -156,14 +150,20 @@ RestoreReport report_of(const BackupManifest& manifest, const fs::path& data, co
 
 }  // namespace
 
+void require_backup(const fs::path& file) {
+  const auto names = store::zip_names(file);
+  if (std::find(names.begin(), names.end(), "backup.json") == names.end())
+    throw Error(ErrorKind::invalid_input, file.string() + " is no backup of ream: it holds no backup.json");
+}
+
 RestoreReport restore_backup(store::Database& database, const fs::path& data, const fs::path& file,
                              bool force, const Progress& progress) {
   require_backup(file);
+  const Present present = look(database, data);
+  if (!force) require_empty(present, database.name(), data);
   const auto alone = FileLock::attempt(serving_lock(data));
   if (!alone)
     throw Error(ErrorKind::conflict, "a server runs on " + data.string() + "; stop it, then restore");
-  const Present present = look(database, data);
-  if (!force) require_empty(present, database.name(), data);
 
   const PassingFolder passing(data / ".restore");
   constexpr uint64_t any = INT64_MAX;

@@ -15,6 +15,9 @@ struct RestoreReport {
   std::filesystem::path aside;  ///< where what was there before lies now; empty: nothing was
 };
 
+/// Errors not_found and invalid_input for what is no backup at first sight.
+void require_backup(const std::filesystem::path& file);
+
 /// Puts a backup's folders into the data folder and its rows into the database. Both must be empty, or with
 /// `force` what they hold is moved aside: folders as they are, rows as table files. All or nothing. Errors:
 /// not_found, invalid_input for what is no whole backup; conflict when something is there, or a server runs

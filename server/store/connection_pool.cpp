@@ -1,5 +1,7 @@
 #include "store/connection_pool.hpp"
 
+#include <algorithm>
+
 #include "store/dialect.hpp"
 #include "store/sql_failure.hpp"
 
@@ -13,7 +15,9 @@ ConnectionPool::Lease::~Lease() { pool_.give_back(std::move(sql_)); }
 void ConnectionPool::Lease::drop() { sql_.reset(); }
 
 ConnectionPool::ConnectionPool(DatabaseUrl url, DatabaseLimits limits)
-    : url_(std::move(url)), limits_(limits) {}
+    : url_(std::move(url)),
+      limits_(limits),
+      deadlines_(url_.postgresql ? std::make_unique<Deadlines>() : nullptr) {}
 
 ConnectionPool::~ConnectionPool() = default;
 
@@ -39,22 +43,39 @@ std::unique_ptr<ConnectionPool::Lease> ConnectionPool::take() {
 }
 
 std::unique_ptr<Sql> ConnectionPool::open() {
+  const auto began = SteadyClock::now();
   {
     const std::lock_guard lock(mutex_);
-    if (last_failure_ && SteadyClock::now() < next_attempt_) throw *last_failure_;
+    if (last_failure_ && (attempting_ || began < next_attempt_)) throw *last_failure_;
+    attempting_ = true;
   }
   try {
     auto sql = open_connection(url_, limits_);
     const std::lock_guard lock(mutex_);
+    attempting_ = false;
     last_failure_.reset();
     return sql;
   } catch (const soci::soci_error& error) {
     const Error failure = failure_of(error, true, url_.shown).error;
-    const std::lock_guard lock(mutex_);
-    last_failure_ = failure;
-    next_attempt_ = SteadyClock::now() + limits_.pause;
+    note_failure(failure, began);
     throw failure;
+  } catch (const Error& failure) {
+    note_failure(failure, began);
+    throw;
   }
+}
+
+/// One that took long to fail is not soon tried again.
+void ConnectionPool::note_failure(const Error& failure, SteadyClock::time_point began) {
+  const auto now = SteadyClock::now();
+  const std::lock_guard lock(mutex_);
+  attempting_ = false;
+  last_failure_ = failure;
+  next_attempt_ = now + std::max<SteadyClock::duration>(limits_.pause, now - began);
+}
+
+void ConnectionPool::watch(Sql& sql, std::optional<Deadlines::Watch>& watch) {
+  if (deadlines_) watch.emplace(*deadlines_, socket_of(sql), SteadyClock::now() + limits_.transaction);
 }
 
 void ConnectionPool::give_back(std::unique_ptr<Sql> sql) {

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "store/database.hpp"
 #include "store/database_url.hpp"
+#include "store/deadlines.hpp"
 
 namespace ream::store {
 
@@ -43,10 +44,14 @@ class ConnectionPool {
   /// After a loss: the others are lost as well.
   void drop_idle();
 
+  /// A transaction begins on this connection: from the limit on its server is taken to hang.
+  void watch(Sql& sql, std::optional<Deadlines::Watch>& watch);
+
   const DatabaseUrl& url() const { return url_; }
 
  private:
   std::unique_ptr<Sql> open();
+  void note_failure(const Error& failure, SteadyClock::time_point began);
   void give_back(std::unique_ptr<Sql> sql);
 
   const DatabaseUrl url_;
@@ -56,7 +61,9 @@ class ConnectionPool {
   std::vector<std::unique_ptr<Sql>> idle_;
   size_t in_use_ = 0;
   std::optional<Error> last_failure_;  ///< to reach it
+  bool attempting_ = false;            ///< to reach it again; one at a time
   SteadyClock::time_point next_attempt_{};
+  std::unique_ptr<Deadlines> deadlines_;  ///< of a server; null for a file
 };
 
 }  // namespace ream::store

@@ -1,5 +1,6 @@
 #include "store/database.hpp"
 
+#include <optional>
 #include <random>
 #include <stdexcept>
 #include <thread>
@@ -61,19 +62,28 @@ class Database::Connections {
   bool attempt(Access access, const std::function<void(Sql&)>& action, bool last);
 
  private:
+  void begin(Sql& sql, Access access) const;
   void roll_back(ConnectionPool::Lease& lease) noexcept;
 
   ConnectionPool pool_;
 };
 
+void Database::Connections::begin(Sql& sql, Access access) const {
+  if (access == Access::write || access == Access::long_write)
+    begin_writing(sql);
+  else
+    begin_reading(sql);
+  if (access == Access::long_write || access == Access::long_read) lift_time_limit(sql);
+}
+
 bool Database::Connections::attempt(Access access, const std::function<void(Sql&)>& action, bool last) {
   const auto lease = pool_.take();
+  const bool at_length = access == Access::long_read || access == Access::long_write;
+  std::optional<Deadlines::Watch> watch;
   bool committing = false;
   try {
-    if (access == Access::write)
-      begin_writing(lease->sql());
-    else
-      begin_reading(lease->sql());
+    if (!at_length) pool_.watch(lease->sql(), watch);
+    begin(lease->sql(), access);
     act(lease->sql(), action);
     committing = true;
     lease->sql() << "COMMIT";
@@ -81,6 +91,7 @@ bool Database::Connections::attempt(Access access, const std::function<void(Sql&
   } catch (const soci::soci_error& error) {
     const SqlFailure failure = failure_of(error, connection_lost(lease->sql()), url().shown);
     if (!failure.lost) roll_back(*lease);
+    watch.reset();
     if (failure.lost) {
       lease->drop();
       pool_.drop_idle();
@@ -105,7 +116,7 @@ void Database::Connections::roll_back(ConnectionPool::Lease& lease) noexcept {
 
 Database::Database(const std::string& url, DatabaseLimits limits)
     : connections_(std::make_unique<Connections>(url, limits)) {
-  run(migrate);
+  run_at_length(migrate);
 }
 
 Database::~Database() = default;

@@ -20,6 +20,8 @@ struct DatabaseLimits {
   /// How long one waits for a free connection, or for SQLite's one writer.
   std::chrono::milliseconds patience{5000};
   std::chrono::milliseconds statement{10000};  ///< longest time of one statement (PostgreSQL)
+  /// Longest time of one transaction, after which the server is taken to hang (PostgreSQL).
+  std::chrono::milliseconds transaction{15000};
   /// After it could not be reached, requests fail at once for this long before it is tried again.
   std::chrono::milliseconds pause{500};
 };
@@ -51,13 +53,22 @@ class Database {
   auto read(Action&& action) {
     return returned(Access::read, std::forward<Action>(action));
   }
+  /// The same without a limit of time, for a program that has nothing else to do.
+  template <typename Action>
+  auto run_at_length(Action&& action) {
+    return returned(Access::long_write, std::forward<Action>(action));
+  }
+  template <typename Action>
+  auto read_at_length(Action&& action) {
+    return returned(Access::long_read, std::forward<Action>(action));
+  }
 
   /// For people: "sqlite:FILE" or "postgresql://host:port/name", without user and password.
   const std::string& name() const;
   bool is_postgresql() const;
 
  private:
-  enum class Access { read, write };
+  enum class Access { read, write, long_read, long_write };
   class Connections;
   void transact(Access access, const std::function<void(Sql&)>& action);
 

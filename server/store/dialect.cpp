@@ -39,6 +39,10 @@ void make_private_file(const std::filesystem::path& file) {
     throw Error(ErrorKind::io, "cannot open the database " + file.string() + ": " + std::strerror(why));
 }
 
+const PGconn* connection_of(Sql& sql) {
+  return static_cast<const soci::postgresql_session_backend*>(sql.get_backend())->conn_;
+}
+
 std::unique_ptr<Sql> open_sqlite(const DatabaseUrl& url, const DatabaseLimits& limits) {
   make_private_file(url.file);
   auto sql = std::make_unique<Sql>(soci::sqlite3, "dbname=\"" + url.file.string() + "\"");
@@ -123,10 +127,14 @@ void begin_reading(Sql& sql) {
     sql << "BEGIN";
 }
 
+void lift_time_limit(Sql& sql) {
+  if (on_postgresql(sql)) sql << "SET LOCAL statement_timeout = 0";
+}
+
+int socket_of(Sql& sql) noexcept { return on_postgresql(sql) ? ::PQsocket(connection_of(sql)) : -1; }
+
 bool connection_lost(Sql& sql) noexcept {
-  if (!on_postgresql(sql)) return false;
-  const auto* backend = static_cast<const soci::postgresql_session_backend*>(sql.get_backend());
-  return ::PQstatus(backend->conn_) != CONNECTION_OK;
+  return on_postgresql(sql) && ::PQstatus(connection_of(sql)) != CONNECTION_OK;
 }
 
 }  // namespace ream::store

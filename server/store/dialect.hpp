@@ -35,6 +35,11 @@ void go_on_numbering(Sql& sql, const std::string& table);
 void begin_writing(Sql& sql);
 void begin_reading(Sql& sql);
 
+/// Until the end of the transaction statements may take as long as they need.
+void lift_time_limit(Sql& sql);
+
+/// -1 for a database that is no server.
+int socket_of(Sql& sql) noexcept;
 /// Whether the other end has gone, so that this connection is of no more use.
 bool connection_lost(Sql& sql) noexcept;
 

@@ -156,7 +156,7 @@ void SessionIndex::remove(const std::vector<std::string>& ids) {
 }
 
 void SessionIndex::replace_all(const std::vector<SessionRow>& rows) {
-  database_.run([&](Sql& sql) {
+  database_.run_at_length([&](Sql& sql) {
     sql << "DELETE FROM sessions";
     for (const SessionRow& row : rows) put_row(sql, row);
   });

@@ -11,7 +11,7 @@ namespace {
 /// The first line, without what libpq and SOCI put before it. Never what(), which has the values too.
 std::string words_of(const soci::soci_error& error) {
   std::string words = error.get_error_message();
-  for (const std::string_view before : {"failed: ", "FATAL:  ", "ERROR:  "})
+  for (const std::string_view before : {"failed: ", "Connection failed. ", "FATAL:  ", "ERROR:  "})
     if (const size_t at = words.rfind(before); at != std::string::npos) words.erase(0, at + before.size());
   words.erase(std::min(words.find('\n'), words.size()));
   while (!words.empty() && (words.back() == ' ' || words.back() == '.')) words.pop_back();

@@ -176,7 +176,7 @@ uint64_t TableReader::read() {
 }  // namespace
 
 std::vector<TableFile> write_table_files(Database& database, const fs::path& folder) {
-  return database.read([&](Sql& sql) {
+  return database.read_at_length([&](Sql& sql) {
     std::vector<TableFile> files;
     for (const std::string& table : table_names())
       files.push_back({table, write_table(sql, table, file_of(folder, table))});
@@ -199,7 +199,7 @@ std::vector<std::string> filled_tables(Database& database) {
 void read_table_files(Database& database, const fs::path& folder, const std::vector<TableFile>& files,
                       const std::function<void()>& before_commit, const Progress& progress) {
   std::vector<std::string> tables = table_names();
-  database.run([&](Sql& sql) {
+  database.run_at_length([&](Sql& sql) {
     for (auto table = tables.rbegin(); table != tables.rend(); ++table) sql << "DELETE FROM " + *table;
     for (const std::string& table : tables) {
       progress(static_cast<double>(&table - tables.data()) / static_cast<double>(tables.size()),

@@ -18,6 +18,7 @@ class ChildProcess {
     std::map<std::string, std::string> environment;
     std::filesystem::path folder;  ///< it runs in
     std::filesystem::path out, error;
+    std::filesystem::path in = "/dev/null";
   };
   explicit ChildProcess(const Setting& setting);
   ~ChildProcess();

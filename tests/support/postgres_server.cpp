@@ -125,10 +125,25 @@ void PostgresServer::start() {
 
 void PostgresServer::stop() {
   if (process_ < 0) return;
-  ::kill(process_, SIGCONT);
+  go_on();
   ::kill(process_, SIGQUIT);
   ::waitpid(process_, nullptr, 0);
   process_ = -1;
+}
+
+void PostgresServer::hang() {
+  const Connection connection(::PQconnectdb(url_of(port_, "postgres").c_str()), &PQfinish);
+  PGresult* const found = ::PQexec(connection.get(), "SELECT pid FROM pg_stat_activity");
+  for (int row = 0; row < ::PQntuples(found); ++row)
+    hanging_.push_back(std::stoi(::PQgetvalue(found, row, 0)));
+  ::PQclear(found);
+  hanging_.push_back(process_);
+  for (const int process : hanging_) ::kill(process, SIGSTOP);
+}
+
+void PostgresServer::go_on() {
+  for (const int process : hanging_) ::kill(process, SIGCONT);
+  hanging_.clear();
 }
 
 std::string PostgresServer::make_database() {

@@ -27,12 +27,16 @@ class PostgresServer {
   void stop();
   /// Starts it again with all that it held, on the same port.
   void start();
+  /// It keeps its connections and answers nothing, until it goes on.
+  void hang();
+  void go_on();
 
  private:
   std::filesystem::path folder_;
   uint16_t port_ = 0;
   int process_ = -1;
   int databases_ = 0;
+  std::vector<int> hanging_;  ///< its processes
 };
 
 }  // namespace ream::test

@@ -63,6 +63,7 @@ void back_up(const Options& options, const GlobalOptions& global) {
 
 void restore(const Options& options, const GlobalOptions& global) {
   const fs::path data = data_folder(global.data);
+  require_backup(options.file);
   catch_interrupts();
   const auto database = open_database(global.db, data);
   RestoreReport report;

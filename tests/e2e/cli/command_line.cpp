@@ -32,6 +32,7 @@ std::unique_ptr<ChildProcess> CommandLine::start_program(const Words& command, c
   setting.folder = folder();
   setting.out = printed_.path() / (name + ".out");
   setting.error = printed_.path() / (name + ".err");
+  setting.in = input_;
   for (const fs::path& file : {setting.out, setting.error}) write_file_atomically(file, std::string_view());
   return std::make_unique<ChildProcess>(setting);
 }
@@ -45,6 +46,13 @@ Outcome CommandLine::run(const Words& arguments) {
   outcome.exit_code = start(arguments, "run")->wait(longest_run);
   outcome.out = printed("run.out");
   outcome.error = printed("run.err");
+  return outcome;
+}
+
+Outcome CommandLine::run_with_input(const Words& arguments, const std::string& input) {
+  input_ = printed_.write("run.in", input);
+  Outcome outcome = run(arguments);
+  input_ = "/dev/null";
   return outcome;
 }
 

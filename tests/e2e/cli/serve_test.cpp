@@ -1,48 +1,13 @@
 #include <signal.h>
 
-#include <functional>
-#include <thread>
-
 #include "core/hash.hpp"
-#include "e2e/cli/command_line.hpp"
+#include "e2e/cli/serve_fixture.hpp"
 #include "record/recording.hpp"
-#include "support/raw_http.hpp"
 
 namespace ream::test {
 namespace {
 
 using nlohmann::json;
-
-class Serve : public CommandLine {
- protected:
-  void SetUp() override { write("web/index.html", "<!doctype html><title>page</title>"); }
-
-  /// Starts a server on any free port; returns when it says where it is.
-  void serve() {
-    server_ = start({"serve", "--port", "0", "--web", "web", "--json"}, "server");
-    until("the server says where it is", [&] { return printed("server.out").ends_with('\n'); });
-    const std::string url = json::parse(printed("server.out")).at("url");
-    port_ = static_cast<uint16_t>(std::stoi(url.substr(url.rfind(':') + 1)));
-  }
-
-  void until(const std::string& what, const std::function<bool()>& reached) {
-    for (int i = 0; i < 6000 && !server_->ended(); ++i) {
-      if (reached()) return;
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    throw std::runtime_error("waited in vain until " + what + "\n" + printed("server.err"));
-  }
-
-  json request(int status, const std::string& method, const std::string& target,
-               const std::string& body = {}) {
-    const HttpReply reply = http_request(port_, method, target, body);
-    EXPECT_EQ(reply.status, status) << method << ' ' << target << '\n' << reply.body;
-    return json::parse(reply.body);
-  }
-
-  std::unique_ptr<ChildProcess> server_;
-  uint16_t port_ = 0;
-};
 
 TEST_F(Serve, ToldToEndItEndsTheSessionWholeAndQuickly) {
   serve();

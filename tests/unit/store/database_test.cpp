@@ -189,5 +189,50 @@ TEST(PostgresqlDatabase, GoesOnWhenConnectionsWereLostInBetween) {
             1);
 }
 
+/// Of a query that answers what it is asked.
+int one(Database& database) {
+  return database.read([](Sql& sql) {
+    int answer = 0;
+    sql << "SELECT 1", into(answer);
+    return answer;
+  });
+}
+
+TEST(PostgresqlDatabase, DoesNotWaitForAServerThatHangs) {
+  test::PostgresServer server;
+  const std::string url = server.make_database();
+  DatabaseLimits limits;
+  limits.transaction = std::chrono::milliseconds(200);
+  limits.pause = std::chrono::milliseconds(1);
+  Database database(url + "?connect_timeout=2", limits);
+  EXPECT_EQ(one(database), 1);
+  server.hang();
+  // What hangs first is the connection that is open, then each new one.
+  for (int attempt = 0; attempt < 3; ++attempt)
+    test::expect_error(ErrorKind::unavailable, database.name() + " does not answer", [&] { one(database); });
+  server.go_on();
+  for (int answer = 0; answer != 1;) try {
+      answer = one(database);
+    } catch (const Error& away) {
+      ASSERT_EQ(away.kind(), ErrorKind::unavailable) << away.what();
+    }
+}
+
+TEST(PostgresqlDatabase, AtLengthATransactionMayTakeLongerThanTheLimits) {
+  test::PostgresServer& server = test::PostgresServer::shared();
+  DatabaseLimits limits;
+  limits.transaction = limits.statement = std::chrono::milliseconds(100);
+  Database database(server.make_database(), limits);
+  const auto sleep = [](Sql& sql) {
+    int done = 0;
+    sql << "SELECT 1 FROM pg_sleep(0.4)", into(done);
+    return done;
+  };
+  EXPECT_EQ(database.run_at_length(sleep), 1);
+  EXPECT_EQ(database.read_at_length(sleep), 1);
+  test::expect_error(ErrorKind::unavailable, database.name(), [&] { database.run(sleep); });
+  EXPECT_EQ(one(database), 1);
+}
+
 }  // namespace
 }  // namespace ream::store

@@ -38,7 +38,9 @@ class HostileTest : public testing::Test {
     EXPECT_EQ(nlohmann::json::parse(reply.body).at("state"), "running");
     const uint64_t now = ticks();
     EXPECT_NO_THROW(LiveServer::until("the session to tick on", [&] { return ticks() > now; }));
-    if (memory_is_measurable()) EXPECT_LT(most_memory_kib_ - memory_before_kib_, memory_allowed_kib);
+    if (memory_is_measurable()) {
+      EXPECT_LT(most_memory_kib_ - memory_before_kib_, memory_allowed_kib);
+    }
   }
 
   uint16_t port() const { return server_->port(); }

@@ -1,0 +1,226 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
+
+#include "api/server.hpp"
+#include "bench/bench.hpp"
+#include "core/clock.hpp"
+#include "core/error.hpp"
+#include "store/session_index.hpp"
+#include "support/postgres_server.hpp"
+#include "support/raw_http.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace ream::bench {
+namespace {
+
+using nlohmann::json;
+
+constexpr int session_count = 10'000, rounds = 40;
+constexpr size_t page_rows = 50;
+constexpr double p95_goal_ms = 50.0;
+
+/// Folders as two years of a training centre would leave them.
+void write_sessions(const test::TemporaryFolder& folder) {
+  std::mt19937 random(1);
+  const auto pick = [&](int below) { return std::uniform_int_distribution<int>(0, below - 1)(random); };
+  const char* const states[] = {"finished", "finished", "finished",   "stopped",
+                                "stopped",  "fault",    "interrupted"};
+  for (int i = 0; i < session_count; ++i) {
+    char utc[32];
+    std::snprintf(utc, sizeof utc, "202%d-%02d-%02dT%02d:%02d:%02dZ", 4 + i / 5000, 1 + i / 420 % 12,
+                  1 + i / 15 % 28, 8 + i % 10, pick(60), pick(60));
+    const int trainee = pick(80);
+    const json session = {
+        {"id", "s" + std::to_string(i)},
+        {"case", "shoulder-" + std::to_string(pick(40))},
+        {"case_name", "Phantom shoulder, right"},
+        {"script", "practice"},
+        {"device", "network"},
+        {"device_profile", "omega.6"},
+        {"created_utc", utc},
+        {"state", states[pick(7)]},
+        {"trainee_id", "u" + std::to_string(trainee)},
+        {"trainee", "Trainee number " + std::to_string(trainee)},
+        {"study", pick(4) == 0 ? "pilot" : ""},
+        {"participant", "P-" + std::to_string(trainee)},
+        {"title", pick(10) == 0 ? "Second try, other reamer" : ""},
+        {"force_scale", 26.0},
+        {"ticks", 20'000 + pick(100'000)},
+        {"fault", pick(10) == 0 ? "the device fell silent for more than half a second" : ""},
+        {"grid_dims", {208, 192, 232}},
+        {"tool", "ellipse 18.25,9"}};
+    const json times = {{"mean", 61.0}, {"p50", 58.0}, {"p99", 210.0}, {"p999", 400.0}, {"max", 900.0}};
+    folder.write(session.at("id").get<std::string>() + "/session.json", session.dump(2));
+    folder.write(session.at("id").get<std::string>() + "/timing.json",
+                 json{{"tick_us", times}, {"lateness_us", times}, {"missed", 3}, {"ticks", 20'000}}.dump(2));
+  }
+}
+
+/// One way to ask, as parameters of the REST route.
+using Question = std::vector<std::pair<std::string, std::string>>;
+
+const std::vector<Question>& lists() {
+  static const std::vector<Question> all{{},
+                                         {{"sort", "created_utc"}},
+                                         {{"sort", "-duration_s"}},
+                                         {{"sort", "trainee"}},
+                                         {{"sort", "case"}},
+                                         {{"sort", "-state"}}};
+  return all;
+}
+
+const std::vector<Question>& filters() {
+  static const std::vector<Question> all{
+      {{"state", "fault,interrupted"}},
+      {{"trainee", "u17"}},
+      {{"case", "shoulder-7"}, {"sort", "-duration_s"}},
+      {{"study", "pilot"}, {"participant", "P-3"}},
+      {{"from", "2024-06-01"}, {"to", "2024-09-01"}, {"state", "finished"}},
+      {{"q", "NUMBER 42"}},
+      {{"q", "second try"}, {"sort", "trainee"}}};
+  return all;
+}
+
+std::string value_of(const Question& question, const std::string& name) {
+  for (const auto& [key, value] : question)
+    if (key == name) return value;
+  return {};
+}
+
+store::SessionQuery query_of(const Question& question) {
+  store::SessionQuery query;
+  const std::string states = value_of(question, "state");
+  if (const size_t comma = states.find(','); !states.empty()) {
+    query.states.push_back(states.substr(0, comma));
+    if (comma != std::string::npos) query.states.push_back(states.substr(comma + 1));
+  }
+  query.trainee_id = value_of(question, "trainee");
+  query.case_id = value_of(question, "case");
+  query.study = value_of(question, "study");
+  query.participant = value_of(question, "participant");
+  query.created_from = value_of(question, "from");
+  query.created_before = value_of(question, "to");
+  query.text = value_of(question, "q");
+  if (const std::string sort = value_of(question, "sort"); !sort.empty()) {
+    query.descending = sort.front() == '-';
+    query.order = store::session_order_from(query.descending ? sort.substr(1) : sort).value();
+  }
+  query.limit = page_rows;
+  return query;
+}
+
+std::string path_of(const Question& question, const std::string& cursor) {
+  std::string path = "/api/v1/sessions?limit=" + std::to_string(page_rows);
+  for (const auto& [key, value] : question) {
+    path += "&" + key + "=";
+    for (const char c : value) path += c == ' ' ? "%20" : std::string(1, c);
+  }
+  return cursor.empty() ? path : path + "&cursor=" + cursor;
+}
+
+/// Asks for a page and returns the cursor of the next one.
+using Ask = std::function<std::string(const Question&, const std::string& cursor)>;
+
+/// The first page of each question and the one behind it, again and again; times in ms, sorted.
+std::vector<double> measure(const std::vector<Question>& questions, const Ask& ask) {
+  std::vector<double> times_ms;
+  for (int round = 0; round < rounds + 2; ++round)
+    for (const Question& question : questions) {
+      std::string cursor;
+      for (int page = 0; page < 2; ++page) {
+        const auto start = SteadyClock::now();
+        cursor = ask(question, cursor);
+        if (round >= 2) times_ms.push_back(elapsed_us(start) * 1e-3);
+        if (cursor.empty()) break;
+      }
+    }
+  std::sort(times_ms.begin(), times_ms.end());
+  return times_ms;
+}
+
+double percentile(const std::vector<double>& sorted, double fraction) {
+  return sorted[static_cast<size_t>(std::lround(fraction * static_cast<double>(sorted.size() - 1)))];
+}
+
+void add_rows(const std::string& name, const Ask& ask, std::vector<Row>& rows) {
+  for (const auto& [kind, questions] : {std::pair{"list", &lists()}, std::pair{"filter", &filters()}}) {
+    const auto times_ms = measure(*questions, ask);
+    rows.push_back({"store", name + kind + " p50", percentile(times_ms, 0.5), 0.0, "ms"});
+    rows.push_back({"store", name + kind + " p95", percentile(times_ms, 0.95), 0.0, "ms", p95_goal_ms});
+  }
+}
+
+Ask from_repository(store::Database& database) {
+  return [&database](const Question& question, const std::string& cursor) {
+    store::SessionQuery query = query_of(question);
+    query.cursor = cursor;
+    const auto found = store::SessionIndex(database).find(query);
+    if (found.rows.empty() || found.total > session_count)
+      throw Error(ErrorKind::io, "the index answers nonsense");
+    return found.rows.size() > page_rows ? store::cursor_behind(query, found.rows[page_rows - 1])
+                                         : std::string();
+  };
+}
+
+Ask from_server(uint16_t port) {
+  return [port](const Question& question, const std::string& cursor) {
+    const test::HttpReply reply = test::http_request(port, "GET", path_of(question, cursor));
+    if (reply.status != 200) throw Error(ErrorKind::io, "the server answers " + reply.body);
+    const json page = json::parse(reply.body);
+    if (page.at("sessions").empty()) throw Error(ErrorKind::io, "the server lists nothing");
+    return page.at("next").is_null() ? std::string() : page.at("next").get<std::string>();
+  };
+}
+
+/// Seconds until a fresh server tells of all sessions.
+double seconds_to_first_list(api::Server& server) {
+  const auto start = SteadyClock::now();
+  server.start();
+  for (;;) {
+    const test::HttpReply reply = test::http_request(server.port(), "GET", "/api/v1/sessions?limit=1");
+    if (reply.status == 200 && json::parse(reply.body).at("total") == session_count)
+      return elapsed_us(start) * 1e-6;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+}
+
+std::unique_ptr<api::Server> server_on(const test::TemporaryFolder& sessions,
+                                       std::shared_ptr<store::Database> database) {
+  api::ServerOptions options;
+  options.listen.port = 0;
+  options.sessions_folder = sessions.path();
+  options.database = std::move(database);
+  options.prepare = [] {};
+  return std::make_unique<api::Server>(std::move(options));
+}
+
+void measure_store(const std::string& name, const std::string& url, const test::TemporaryFolder& sessions,
+                   std::vector<Row>& rows) {
+  const auto database = std::make_shared<store::Database>(url);
+  const std::string title = std::to_string(session_count) + " sessions, " + name + ", ";
+  rows.push_back({"store", title + "first start until all are listed",
+                  seconds_to_first_list(*server_on(sessions, database)), 0.0, "s"});
+  const auto server = server_on(sessions, database);
+  rows.push_back(
+      {"store", title + "later start until all are listed", seconds_to_first_list(*server), 0.0, "s"});
+  add_rows(title + "HTTP, ", from_server(server->port()), rows);
+  add_rows(title + "repository, ", from_repository(*database), rows);
+}
+
+}  // namespace
+
+std::vector<Row> store_suite(const Options&) {
+  const test::TemporaryFolder sessions, files;
+  write_sessions(sessions);
+  std::vector<Row> rows;
+  measure_store("SQLite", "sqlite:" + (files.path() / "ream.db").string(), sessions, rows);
+  measure_store("PostgreSQL", test::PostgresServer::shared().make_database(), sessions, rows);
+  return rows;
+}
+
+}  // namespace ream::bench
