@@ -239,7 +239,9 @@ describe('Watcher', () => {
     expect(store.details.value?.held).toBe(true);
     await watcher.pause(false);
     expect(store.sessionState.value).toBe('running');
+    expect(store.live.value).toBe(true);
     expect(await watcher.reset()).toBe('s2');
+    expect(store.live.value).toBe(false);
     await settle();
     expect(api.list.map((s) => [s.id, s.state])).toEqual([
       ['s2', 'running'],
