@@ -1,6 +1,7 @@
 import { useSignal } from '@preact/signals';
 import { useEffect, useRef, useState } from 'preact/hooks';
 
+import { sentence } from '../panels/format';
 import { useIdentity } from '../panels/site_nav';
 import { words } from '../words';
 
@@ -26,7 +27,7 @@ export function LoginPage() {
         </h1>
         {problem !== null && (
           <p class="remark remark-bad" role="alert" data-testid="login-problem">
-            {problem}
+            {sentence(problem)}
           </p>
         )}
         <label for="login-name">{words.userName}</label>

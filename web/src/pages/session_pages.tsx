@@ -7,6 +7,7 @@ import { Remark } from '../panels/fields';
 import { FilterBar } from '../panels/sessions/filter_bar';
 import { SessionTable } from '../panels/sessions/session_table';
 import { sessionWords } from '../session_words';
+import { addressOfReplay } from '../state/replay_address';
 import { SessionBrowser } from '../state/sessions/session_browser';
 import { SessionListApi } from '../wire/session_list_api';
 import type { LivePageParts } from './live_page';
@@ -25,7 +26,7 @@ export function SessionsPage({ live }: { live: LivePageParts }) {
       },
       replay: async (session: { id: string }) => {
         await watcher.openReplay(session.id);
-        if (store.problem.value === null) window.location.hash = '';
+        if (store.problem.value === null) window.location.hash = addressOfReplay(store.replayId.value);
         else browser.page.problem.value = store.problem.value;
         store.problem.value = null;
       },
@@ -47,7 +48,7 @@ export function SessionsPage({ live }: { live: LivePageParts }) {
           <div class="desk-head">
             <h2 id="sessions-title">{sessionWords.sessions}</h2>
             {page !== null && (
-              <span class="soft" role="status" data-testid="session-count">
+              <span class="soft desk-count" role="status" data-testid="session-count">
                 {sessionWords.count(page.total)}
               </span>
             )}

@@ -29,6 +29,7 @@ export function StudyPage({ api, id, train }: Parts) {
     if (may.teach) void participants.read();
   }, [studies, participants, may.teach]);
   const study = studies.value.value;
+  const empty = participants.value.value?.length === 0;
   const codes = may.teach ? (participants.value.value ?? []).map((one) => one.code) : [];
   const begin = async (participant: string | null, caseId: string) => {
     const problem = await train(id, participant, caseId);
@@ -52,7 +53,7 @@ export function StudyPage({ api, id, train }: Parts) {
             </Remark>
           )}
           {study === null && studies.problem.value === null && <p class="soft">{studyWords.loading}</p>}
-          {study !== null && <About {...{ api, study, studies, mayRun: may.teach, removed }} />}
+          {study !== null && <About {...{ api, study, studies, mayRun: may.teach, empty, removed }} />}
         </section>
         {study !== null && <TrainPanel key={study.id} study={study} codes={codes} train={begin} />}
         {study !== null && may.teach && <Staff {...{ api, study, studies, participants }} />}
@@ -66,10 +67,12 @@ interface AboutParts {
   study: Study;
   studies: Remote<Study>;
   mayRun: boolean;
+  /** Nobody takes part. */
+  empty: boolean;
   removed: () => void;
 }
 
-function About({ api, study, studies, mayRun, removed }: AboutParts) {
+function About({ api, study, studies, mayRun, empty, removed }: AboutParts) {
   return (
     <>
       <div class="desk-head">
@@ -78,7 +81,7 @@ function About({ api, study, studies, mayRun, removed }: AboutParts) {
           {studyWords.states[study.state]}
         </span>
         {!study.blinded && <span class="chip chip-warn">{studyWords.unblinded}</span>}
-        {mayRun && <LifePanel {...{ api, study, studies }} onRemoved={removed} />}
+        {mayRun && <LifePanel {...{ api, study, studies, empty }} onRemoved={removed} />}
       </div>
       {study.description !== '' && <p class="study-about">{study.description}</p>}
       <p class="soft">

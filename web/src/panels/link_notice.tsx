@@ -4,7 +4,7 @@ import type { Store } from '../state/store';
 import type { LinkState } from '../wire/link';
 import { protocolRevision } from '../wire/messages';
 import { words } from '../words';
-import { clock } from './format';
+import { clock, sentence } from './format';
 
 /** Over the picture, in words, whenever it is not live. */
 export function LinkNotice({ store, mayReam }: { store: Store; mayReam: boolean }) {
@@ -32,7 +32,8 @@ function notice(store: Store, link: LinkState, nowMs: number, mayReam: boolean):
     case 'silent':
       return [words.silentTitle, `${picture(store)} ${words.waiting}`];
     case 'lost':
-      if (!store.hasPicture.value) return [words.neverTitle, `${link.reason} ${retry(link.retryAtMs, nowMs)}`];
+      if (!store.hasPicture.value)
+        return [words.neverTitle, `${sentence(link.reason)} ${retry(link.retryAtMs, nowMs)}`];
       return [words.lostTitle, `${picture(store)} ${retry(link.retryAtMs, nowMs)}`];
     case 'refused':
       return [words.refusedTitle, words.refusedText(protocolRevision, link.serverRevision)];

@@ -3,6 +3,7 @@ import { batch, computed, signal } from '@preact/signals';
 import type { LoginApi, Visitor } from '../wire/login_api';
 import { ApiError, credentials, wordsOf } from '../wire/rest';
 import { words } from '../words';
+import { sentence } from '../panels/format';
 import { mayOf } from './may';
 
 /**
@@ -74,6 +75,7 @@ export class Identity {
   async useLink(secret: string): Promise<void> {
     if (this.may.value.ream) return;
     await this.attempt(async () => this.take(await this.api.useLink(secret)));
+    if (this.problem.value !== null) this.problem.value = refusedLink(this.problem.value);
   }
 
   /** The login has ended, by whosever hand. */
@@ -117,7 +119,7 @@ export class Identity {
     } catch (error) {
       if (!(error instanceof ApiError) || error.status === 0) throw error;
       if (visitor.role !== null) return visitor;
-      this.problem.value = `${words.linkRefusedText} ${error.message}`;
+      this.problem.value = refusedLink(error.message);
       return visitor;
     }
   }
@@ -165,6 +167,10 @@ export class Identity {
       this.busy.value = false;
     }
   }
+}
+
+function refusedLink(said: string): string {
+  return `${words.linkRefusedText} ${sentence(said)}`;
 }
 
 function isSame(a: Visitor, b: Visitor): boolean {

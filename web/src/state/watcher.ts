@@ -81,7 +81,7 @@ export class Watcher {
       this.store.chosenId.value = sessionId;
       this.store.sessionId.value = sessionId;
     });
-    this.link.connect();
+    this.turn();
   }
 
   /** Starts the watched session if it waits to be started, else a new one; problems are told in the store. */
@@ -93,7 +93,7 @@ export class Watcher {
       this.store.chosenId.value = null;
       if (session.id !== this.store.hello.value?.sessionId || this.store.link.value.kind !== 'live') {
         this.store.sessionId.value = session.id;
-        this.link.connect();
+        this.turn();
       }
     });
   }
@@ -120,7 +120,7 @@ export class Watcher {
         this.store.sessionId.value = session.id;
         this.store.sessionState.value = session.state;
       });
-      this.link.connect();
+      this.turn();
     });
     return id;
   }
@@ -150,7 +150,7 @@ export class Watcher {
         this.store.sessionState.value = session.state;
         if (this.store.chosenId.value !== null) this.store.chosenId.value = session.id;
       });
-      this.link.connect();
+      this.turn();
     });
     return id;
   }
@@ -175,14 +175,14 @@ export class Watcher {
   watchReplay(replayId: string): void {
     if (replayId === this.store.replayId.value) return;
     this.store.replayId.value = replayId;
-    this.link.connect();
+    this.turn();
   }
 
   /** Back to what is live. The replay stays open for others. */
   leaveReplay(): void {
     if (this.store.replayId.value === null) return;
     this.forgetReplay();
-    this.link.connect();
+    this.turn();
   }
 
   private forgetReplay(): void {
@@ -245,6 +245,12 @@ export class Watcher {
     this.store.problem.value = error instanceof Error ? error.message : String(error);
   }
 
+  /** Leaves what is shown for what is to be watched now; until that has come, what is shown is of before. */
+  private turn(): void {
+    this.store.pictureComplete.value = false;
+    this.link.connect();
+  }
+
   private async findStream(): Promise<string | null> {
     this.awaitingHello = false;
     const replayId = this.store.replayId.value;
@@ -258,6 +264,7 @@ export class Watcher {
       chooseSession(sessions, this.watched(), this.unstreamable) ??
       (this.policy.makesSession() ? await this.api.createDemo() : undefined);
     if (session === undefined) {
+      await this.api.ready();
       this.store.sessionId.value = null;
       this.store.sessionState.value = null;
       return null;
@@ -409,6 +416,6 @@ export class Watcher {
     const sessions = await this.readSessions();
     if (this.store.active.value || this.store.replaying.value || this.store.busy.value) return;
     const chosen = chooseSession(sessions, this.watched(), this.unstreamable);
-    if (chosen !== undefined && isActive(chosen) && chosen.id !== this.store.sessionId.value) this.link.connect();
+    if (chosen !== undefined && isActive(chosen) && chosen.id !== this.store.sessionId.value) this.turn();
   }
 }

@@ -1,5 +1,5 @@
 import type { SessionState } from './messages';
-import { requestJson } from './rest';
+import { request, requestJson } from './rest';
 
 export { ApiError } from './rest';
 
@@ -112,6 +112,10 @@ export class Api {
   /** A session of a study; participant null: the user. */
   createInStudy(study: string, participant: string | null, caseId: string): Promise<Session> {
     return this.call('POST', 'sessions', { study, case: caseId, ...(participant === null ? {} : { participant }) });
+  }
+  /** Throws, in the server's words, while it still prepares for sessions. */
+  async ready(): Promise<void> {
+    await request(`${this.base}/readyz`, 'GET');
   }
   session(id: string): Promise<Session> {
     return this.call('GET', `sessions/${encodeURIComponent(id)}`);

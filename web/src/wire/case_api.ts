@@ -21,8 +21,16 @@ import { type CallOptions, credentials, type Method, request, requestJson } from
 export class CaseApi {
   constructor(private readonly base: string) {}
 
+  /** All of them, page by page. */
   async cases(): Promise<CaseSummary[]> {
-    return (await this.call<{ cases: CaseSummary[] }>('GET', 'cases')).cases;
+    const all: CaseSummary[] = [];
+    for (let cursor: string | null = ''; cursor !== null;) {
+      const after: string = cursor === '' ? '' : `&cursor=${encodeURIComponent(cursor)}`;
+      const page = await this.call<{ cases: CaseSummary[]; next?: string | null }>('GET', `cases?limit=500${after}`);
+      all.push(...page.cases);
+      cursor = page.next ?? null;
+    }
+    return all;
   }
   case(id: string): Promise<CaseDetails> {
     return this.call('GET', this.path(id));

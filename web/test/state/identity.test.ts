@@ -119,7 +119,7 @@ describe('Identity', () => {
     login.refusal = new ApiError('the link has ended', 401);
     await identity.find('secret');
     expect(identity.phase.value).toBe('unknown');
-    expect(identity.problem.value).toBe(`${words.linkRefusedText} the link has ended`);
+    expect(identity.problem.value).toBe(`${words.linkRefusedText} The link has ended.`);
   });
 
   it('lets go of who it was when the login ends, and says why', async () => {

@@ -10,6 +10,7 @@ import { FakeSocket } from '../wire/fake_socket';
 class FakeApi {
   list: Session[] = [];
   down = false;
+  prepared = true;
   private made = 0;
 
   private answer<T>(value: T): Promise<T> {
@@ -21,6 +22,7 @@ class FakeApi {
     session.state = state;
     return this.answer({ ...session });
   }
+  ready = () => (this.prepared ? this.answer(undefined) : Promise.reject(new ApiError('still preparing', 503)));
   sessions = () => this.answer(this.list.map((s) => ({ ...s })));
   createDemo = () => {
     const session: Session = {
@@ -237,7 +239,9 @@ describe('Watcher', () => {
     expect(store.details.value?.held).toBe(true);
     await watcher.pause(false);
     expect(store.sessionState.value).toBe('running');
+    expect(store.live.value).toBe(true);
     expect(await watcher.reset()).toBe('s2');
+    expect(store.live.value).toBe(false);
     await settle();
     expect(api.list.map((s) => [s.id, s.state])).toEqual([
       ['s2', 'running'],
@@ -284,8 +288,12 @@ describe('Watcher', () => {
       { begin: () => undefined, apply: () => undefined, setTool: () => undefined },
       { makesSession: () => false },
     );
+    api.prepared = false;
     viewer.start();
     await settle();
+    expect(store.link.value).toMatchObject({ kind: 'lost', reason: 'still preparing' });
+    api.prepared = true;
+    await vi.advanceTimersByTimeAsync(300);
     expect(api.list).toEqual([]);
     expect(store.link.value.kind).toBe('nothing');
     expect(store.live.value).toBe(false);

@@ -10,11 +10,13 @@ interface Parts {
   api: StudyApi;
   study: Study;
   studies: Remote<Study>;
+  /** Nobody takes part. */
+  empty: boolean;
   onRemoved: () => void;
 }
 
 /** Closing, unblinding and deleting a study, and what is taken out of it. */
-export function LifePanel({ api, study, studies, onRemoved }: Parts) {
+export function LifePanel({ api, study, studies, empty, onRemoved }: Parts) {
   const may = useIdentity().may.value;
   const busy = studies.busy.value;
   const act = (deed: () => Promise<unknown>) => void studies.act(deed);
@@ -56,7 +58,7 @@ export function LifePanel({ api, study, studies, onRemoved }: Parts) {
           onYes={() => act(() => api.unblind(study.id))}
         />
       )}
-      {may.operate && study.participants === 0 && (
+      {may.operate && empty && (
         <Really
           label={studyWords.remove}
           question={studyWords.removeReally}
@@ -78,7 +80,7 @@ const tables = [
 ] as const;
 
 /** The study's data for statistics. */
-export function ExportPanel({ api, study, studies }: Omit<Parts, 'onRemoved'>) {
+export function ExportPanel({ api, study, studies }: Pick<Parts, 'api' | 'study' | 'studies'>) {
   const may = useIdentity().may.value;
   const allowed = may.operate || study.state === 'closed';
   const save = (name: string, get: () => Promise<Blob>) =>

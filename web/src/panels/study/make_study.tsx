@@ -110,7 +110,7 @@ export function MakeStudy({ api, onMade }: { api: StudyApi; onMade: (studyId: st
             onInput={(event) => set({ description: event.currentTarget.value })}
           />
         </label>
-        <fieldset>
+        <fieldset class="wide">
           <legend>{studyWords.cases}</legend>
           {cases.value.value !== null && usable.length === 0 && <span class="soft">{studyWords.noCases}</span>}
           {usable.map((one) => (
