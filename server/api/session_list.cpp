@@ -69,7 +69,7 @@ SessionPage page_for(const net::Caller& caller, const SessionService& sessions, 
     query.trainee_id = caller.user_id;
   }
   // What is found by a person would tell who is behind a code.
-  if (role == instructors) query.outside_studies = !query.trainee_id.empty();
+  if (role != operators && role != trainees) query.outside_studies = !query.trainee_id.empty();
   return sessions.list(query);
 }
 

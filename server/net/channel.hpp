@@ -21,6 +21,10 @@ class Channel {
 
   explicit Channel(Socket socket)
       : executor_(socket.get_executor()), socket_(std::make_unique<Socket>(std::move(socket))) {}
+  /// The one left behind keeps its executor: somebody may still be about to ask it to close.
+  Channel(Channel&& other) noexcept
+      : executor_(other.executor_), socket_(std::move(other.socket_)), tls_(std::move(other.tls_)) {}
+  Channel& operator=(Channel&&) = delete;
 
   executor_type get_executor() const { return executor_; }
   Socket& next_layer() { return *socket_; }

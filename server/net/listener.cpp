@@ -138,6 +138,16 @@ struct Listener::Parts {
     }
   }
 
+  /// What still lies in the queues holds sockets, an accepted one say: their peers must not wait for ever.
+  void let_go() {
+    engine.io.restart();
+    try {
+      engine.io.poll();
+    } catch (const std::exception& failure) {
+      log::error(std::string("a connection failed at the end: ") + failure.what());
+    }
+  }
+
   Engine engine;
   /// While a handler runs, its connection has nothing pending: the I/O threads must not take that for the
   /// end.
@@ -183,6 +193,7 @@ void Listener::stop() {
   boost::system::error_code ignored;
   parts_->acceptor.close(ignored);  // the threads may have ended before they came to it
   for (const auto& connection : engine.connections.all()) connection->abandon();
+  parts_->let_go();
 }
 
 }  // namespace ream::net

@@ -1,4 +1,6 @@
-// Values of single headers: ranges, entity tags, hosts, names of downloads; and the target of a request.
+// Values of single headers: ranges, entity tags, hosts, names of downloads, cookies, tokens; and a request's
+// target.
+#include "api/login_cookie.hpp"
 #include "fuzz_input.hpp"
 #include "net/byte_range.hpp"
 #include "net/conditional.hpp"
@@ -56,6 +58,20 @@ void read_guarded(const std::string& text, size_t cut) {
           "an origin passes that is not the host");
 }
 
+void read_credentials(const std::string& text) {
+  net::Request request;
+  request.headers["cookie"] = text;
+  const access::Secret cookie = api::cookie_of(request);
+  require(text.find(cookie.reveal()) != std::string::npos, "a cookie is not what was sent");
+  request.headers["authorization"] = text;
+  try {
+    require(
+        !api::bearer_token_of(request).reveal().empty() || text.find_first_not_of(" \t") == std::string::npos,
+        "a token is empty");
+  } catch (const net::RequestError&) {
+  }
+}
+
 }  // namespace
 }  // namespace ream::fuzz
 
@@ -68,6 +84,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   read_tags(text);
   read_names(text);
   read_target(text);
+  read_credentials(text);
   read_guarded(text, std::min(cut, text.size()));
   return 0;
 }

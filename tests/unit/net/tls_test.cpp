@@ -232,6 +232,8 @@ TEST_F(TlsTest, StopEndsIdleConnections) {
   TlsSocket idle(port);
   EXPECT_EQ(http_request(idle, port, "GET", "/hello", "", {{"Connection", "keep-alive"}}).status, 200);
   RawWebSocket socket(std::make_unique<TlsSocket>(port), port, "/echo");
+  socket.send_binary("are you there");
+  EXPECT_EQ(socket.receive().payload, "are you there");
   std::thread stopping([this] { listener->stop(); });
   EXPECT_EQ(socket.receive().close_code(), 1001);
   socket.send_close(1001);

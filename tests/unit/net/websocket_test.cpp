@@ -247,6 +247,22 @@ TEST_F(WebSocketTest, StopSaysGoingAway) {
   EXPECT_EQ(desk->closed, 1);
 }
 
+TEST_F(WebSocketTest, StopMayComeWhileAConnectionBecomesAWebSocket) {
+  options.limits.linger = 1ms;
+  for (int round = 0; round < 100; ++round) {
+    const uint16_t port = start();
+    std::thread opening([port] {
+      try {
+        for (;;) RawWebSocket(port, "/stream/1");
+      } catch (const std::runtime_error&) {
+      }
+    });
+    std::this_thread::sleep_for(1ms);
+    listener->stop();
+    opening.join();
+  }
+}
+
 TEST_F(WebSocketTest, StopDoesNotWaitForAPeerThatNeverAnswers) {
   options.limits.linger = 200ms;
   options.limits.stop = 500ms;

@@ -93,7 +93,7 @@ class StudyBlindingTest : public AccessTest {
     }
     for (const Person& person : people)
       for (const std::string& query :
-           {"trainee_id=" + person.id, "q=" + person.login, std::string("sort=trainee")})
+           {"trainee=" + person.id, "q=" + person.login, std::string("sort=trainee")})
         paths.push_back(all + "?" + query);
     return paths;
   }
@@ -147,6 +147,14 @@ TEST_F(StudyBlindingTest, NobodyButOperatorsLearnsWhoAParticipantIs) {
     EXPECT_EQ(session.at("trainee"), session.at("participant"));
     EXPECT_TRUE(session.at("trainee_id").is_null());
   }
+  // A list that is asked for a person must not tell which codes are theirs.
+  for (const Person& person : people)
+    for (const std::string& query : {"trainee=" + person.id, "q=" + person.login, "q=" + person.id}) {
+      for (const Sent& who : {ines, viewer}) EXPECT_EQ(seen(all + "?" + query, who).at("total"), 0) << query;
+      EXPECT_EQ(seen(all + "?" + query, anna).at("total"), query.starts_with("trainee=") ? 2 : 0) << query;
+    }
+  EXPECT_EQ(seen(all + "?q=" + people[0].code, ines).at("total"), 2);
+  EXPECT_EQ(seen(all, people[0].token).at("total"), 2) << "everybody has their own";
   // Codes do not stand where persons stand.
   const std::string users = request("GET", "/api/v1/users", ines).body;
   for (const Person& person : people) EXPECT_EQ(users.find(person.code), std::string::npos);
