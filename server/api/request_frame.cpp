@@ -1,5 +1,6 @@
 #include "api/request_frame.hpp"
 
+#include "api/audit_rules.hpp"
 #include "api/change_rules.hpp"
 #include "core/log.hpp"
 #include "net/conditional.hpp"
@@ -7,8 +8,12 @@
 namespace ream::api {
 
 RequestFrame::RequestFrame(const Contract& contract, Idempotency& idempotency, ChangeFeed& feed,
-                           SessionFinder find_session)
-    : contract_(contract), idempotency_(idempotency), feed_(feed), find_session_(std::move(find_session)) {}
+                           SessionFinder find_session, Audit audit)
+    : contract_(contract),
+      idempotency_(idempotency),
+      feed_(feed),
+      find_session_(std::move(find_session)),
+      audit_(std::move(audit)) {}
 
 void RequestFrame::put_around(net::Router& router) {
   router.check(
@@ -23,6 +28,7 @@ net::Response RequestFrame::answer(const net::Request& request, const std::strin
   const net::Handler done = [&](const net::Request& passed) {
     net::Response response = next(passed);
     tell(passed, pattern, response);
+    audit_change(audit_, passed, pattern, response);
     return response;
   };
   if (contract_.takes_idempotency_key(request.method, pattern)) return idempotency_.answer(request, done);

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "api/audit.hpp"
 #include "api/change_feed.hpp"
 #include "api/idempotency.hpp"
 #include "api/request_contract.hpp"
@@ -11,7 +12,7 @@
 namespace ream::api {
 
 /// What stands around every route: requests are held against the contract, repeated ones get their first
-/// answer, replies have entity tags, and changes are told.
+/// answer, replies have entity tags, changes are told, and what deletes or takes out data is audited.
 class RequestFrame {
  public:
   /// What a session with that id is; none when there is none.
@@ -19,7 +20,7 @@ class RequestFrame {
 
   /// What is given outlives the frame.
   RequestFrame(const Contract& contract, Idempotency& idempotency, ChangeFeed& feed,
-               SessionFinder find_session);
+               SessionFinder find_session, Audit audit);
 
   /// The frame outlives the router.
   void put_around(net::Router& router);
@@ -32,6 +33,7 @@ class RequestFrame {
   Idempotency& idempotency_;
   ChangeFeed& feed_;
   const SessionFinder find_session_;
+  const Audit audit_;
 };
 
 }  // namespace ream::api

@@ -125,7 +125,9 @@ Server::Server(ServerOptions options)
       uploads_(options.data_folder.empty() ? std::filesystem::path() : options.data_folder / "uploads"),
       workshop_(options.cases_folder, tools_of(options, sessions_)),
       gate_(gatehouse_.get(), [this](const std::string& id) { return session_of(id); }),
-      frame_(contract_, idempotency_, *feed_, [this](const std::string& id) { return session_of(id); }),
+      frame_(
+          contract_, idempotency_, *feed_, [this](const std::string& id) { return session_of(id); },
+          audit_in(gatehouse_.get())),
       router_(routes_of(options)),
       listener_(router_, options.listen),
       readiness_(std::move(options.prepare)),

@@ -25,6 +25,7 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
+  pid_t id() const { return id_; }
   void send_signal(int number) const;
   bool ended();
   /// Its exit code, or 128 + the signal that ended it. Throws when it takes longer.

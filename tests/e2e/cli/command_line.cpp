@@ -29,6 +29,7 @@ std::unique_ptr<ChildProcess> CommandLine::start_program(const Words& command, c
                          {"PATH", "/usr/bin:/bin"},
                          // Graphics and OpenCL libraries keep memory of their own until the end.
                          {"ASAN_OPTIONS", "detect_leaks=0"}};
+  setting.environment.insert(environment_.begin(), environment_.end());
   setting.folder = folder();
   setting.out = printed_.path() / (name + ".out");
   setting.error = printed_.path() / (name + ".err");

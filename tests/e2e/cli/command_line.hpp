@@ -48,7 +48,8 @@ class CommandLine : public testing::Test {
   std::vector<std::string> tree() const;
 
   TemporaryFolder folder_, printed_;
-  std::filesystem::path input_ = "/dev/null";  ///< stdin of what is started
+  std::filesystem::path input_ = "/dev/null";       ///< stdin of what is started
+  std::map<std::string, std::string> environment_;  ///< more of it
 };
 
 }  // namespace ream::test

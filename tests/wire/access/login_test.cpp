@@ -298,5 +298,17 @@ TEST_F(LoginTest, TheAuditLogTellsWhatHasHappenedNewestFirst) {
   EXPECT_EQ(entries.dump().find("wrong-field"), std::string::npos);
 }
 
+TEST_F(LoginTest, DeletedDataIsInTheAuditLog) {
+  const Sent olga = page_of("olga");
+  const std::string session = session_of_tom();
+  EXPECT_EQ(request("DELETE", "/api/v1/cases/planned", olga).status, 409) << "refused: not in the log";
+  EXPECT_EQ(request("DELETE", "/api/v1/cases/unplanned", olga).status, 204);
+  const json entries = json::parse(request("GET", "/api/v1/audit?limit=2", olga).body).at("entries");
+  EXPECT_EQ(entries[0].at("action"), "case.delete");
+  EXPECT_EQ(entries[0].at("object"), "unplanned");
+  EXPECT_EQ(entries[0].at("user_id"), operator_id);
+  EXPECT_EQ(entries[1].at("action"), "login");
+}
+
 }  // namespace
 }  // namespace ream::test
