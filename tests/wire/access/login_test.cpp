@@ -1,5 +1,7 @@
 #include <thread>
 
+#include "support/test_certificate.hpp"
+#include "support/tls_socket.hpp"
 #include "wire/access/personas.hpp"
 
 namespace ream::test {
@@ -43,6 +45,21 @@ TEST_F(LoginTest, GivesAPageACookieThatItsScriptsCannotRead) {
   EXPECT_EQ(who.at("user").at("id"), tom_id);
   EXPECT_EQ(reply.body.find("ream_"), std::string::npos) << "the secret is in the cookie only";
   EXPECT_EQ(reply.headers.at("cache-control"), "no-store");
+}
+
+TEST_F(LoginTest, OverTlsItsCookieNeverLeavesTls) {
+  net::TlsOptions files{folder.path() / "chain.pem", folder.path() / "key.pem"};
+  make_certificate(files.certificate_chain, files.key);
+  options.listen.tls = files;
+  start();
+  TlsSocket socket(server->port());
+  const std::string body = R"({"name": "tom", "password": "password of tom"})";
+  socket.send(
+      "POST /api/v1/login HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\nContent-Length: " +
+      std::to_string(body.size()) + "\r\n\r\n" + body);
+  const HttpReply reply = receive_reply(socket);
+  EXPECT_EQ(reply.status, 200) << reply.body;
+  EXPECT_TRUE(reply.headers.at("set-cookie").ends_with("; Secure"));
 }
 
 TEST_F(LoginTest, LastsUntilTheLogout) {
