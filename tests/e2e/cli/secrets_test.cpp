@@ -136,8 +136,11 @@ TEST_F(Secrets, AreNowhereAfterAWholeRun) {
   note_arguments(server_->id());
   while (ask("POST", "/api/v1/login", {}, json{{"name", "anna"}, {"password", wrong}}.dump()).status == 401) {
   }
-  expect_none_in("a database in use",
-                 contents_of(folder() / "data/ream.db") + contents_of(folder() / "data/ream.db-wal"));
+  const std::string in_use =
+      contents_of(folder() / "data/ream.db") + contents_of(folder() / "data/ream.db-wal");
+  expect_none_in("a database in use", in_use);
+  EXPECT_NE(in_use.find("second robot"), std::string::npos) << "it is searched where things are kept";
+  EXPECT_NE(said_aloud_.find("name or password is wrong"), std::string::npos);
   server_->send_signal(SIGTERM);
   EXPECT_EQ(server_->wait(std::chrono::seconds(30)), 0) << printed("server.err");
   expect_none_in("what was said", said_aloud_);
