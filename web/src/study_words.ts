@@ -121,6 +121,7 @@ export const studyWords = {
   sending: 'Sending…',
   sent: 'Thank you. Your answers are kept; you may change them until the study is closed.',
   noQuestions: 'This study asks nothing.',
+  theirAnswers: 'These are somebody’s own answers; they are changed by that person only.',
   asCode: (code: string) => `You answer as ${code}.`,
   backToStudy: 'Back to the study',
 };

@@ -24,9 +24,14 @@ export function QuestionnairePage({ api, studyId, code }: Parts) {
       new Remote(async () => {
         const [study, participant] = await Promise.all([api.study(studyId), api.participant(studyId, code)]);
         const { questionnaire } = study;
-        if (!questionnaire) return { study, sheet: null };
+        const theirs = participant.has_account && study.participant !== code;
+        if (!questionnaire) return { study, sheet: null, theirs };
         const key = `ream.answers.${studyId}.${code}`;
-        return { study, sheet: new AnswerSheet(questionnaire, window.sessionStorage, key, participant.answers) };
+        return {
+          study,
+          theirs,
+          sheet: new AnswerSheet(questionnaire, window.sessionStorage, key, participant.answers),
+        };
       }),
     [api, studyId, code],
   );
@@ -47,11 +52,12 @@ export function QuestionnairePage({ api, studyId, code }: Parts) {
           {loaded === null && sheet.problem.value === null && <p class="soft">{studyWords.loading}</p>}
           {loaded?.sheet === null && <p>{studyWords.noQuestions}</p>}
           {loaded?.study.state === 'closed' && <Remark kind="warn">{studyWords.closedHint}</Remark>}
+          {loaded?.theirs && <Remark kind="warn">{studyWords.theirAnswers}</Remark>}
           {loaded?.sheet && (
             <Sheet
               sheet={loaded.sheet}
               code={code}
-              closed={loaded.study.state === 'closed'}
+              readOnly={loaded.theirs || loaded.study.state === 'closed'}
               send={(kept) => api.answer(studyId, code, kept.answers.value)}
             />
           )}
@@ -64,11 +70,11 @@ export function QuestionnairePage({ api, studyId, code }: Parts) {
 interface SheetParts {
   sheet: AnswerSheet;
   code: string;
-  closed: boolean;
+  readOnly: boolean;
   send: (sheet: AnswerSheet) => Promise<unknown>;
 }
 
-function Sheet({ sheet, code, closed, send }: SheetParts) {
+function Sheet({ sheet, code, readOnly, send }: SheetParts) {
   const busy = useSignal(false);
   const said = useSignal<{ kind: 'soft' | 'bad'; text: string } | null>(null);
   const { questionnaire } = sheet;
@@ -98,7 +104,7 @@ function Sheet({ sheet, code, closed, send }: SheetParts) {
       <p class="soft">
         {questionnaire.introduction} {studyWords.asCode(code)}
       </p>
-      <fieldset class="questions" disabled={closed}>
+      <fieldset class="questions" disabled={readOnly}>
         {sectionsOf(questionnaire).map(({ section, items }, i) => (
           <section key={i} aria-labelledby={section === '' ? undefined : `section-${i}`}>
             {section !== '' && <h3 id={`section-${i}`}>{section}</h3>}

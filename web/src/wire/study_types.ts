@@ -83,6 +83,8 @@ export interface Participant {
   experience: Experience | null;
   procedures_done: number | null;
   answers: Answers | null;
+  /** Logs in, and answers themself. */
+  has_account: boolean;
 }
 
 export interface NewParticipant {

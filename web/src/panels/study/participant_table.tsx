@@ -119,7 +119,7 @@ function Row({
         )}
       </td>
       <td class="deeds">
-        {study.questionnaire && study.state === 'open' && (
+        {study.questionnaire && (one.answers !== null || (!one.has_account && study.state === 'open')) && (
           <a
             class="plain-button"
             href={addressOfRoute({ kind: 'questionnaire', id: study.id, participant: one.code })}
