@@ -39,9 +39,9 @@ SqlFailure sqlite_failure(const soci::sqlite3_soci_error& error, const std::stri
   const std::string words = words_of(error);
   constexpr int without_detail = 0xff;
   switch (error.result() & without_detail) {
-    case SQLITE_BUSY:
+    case SQLITE_BUSY:  // it has been waited for as long as the limits say
     case SQLITE_LOCKED:
-      return {false, true, busy(database, words)};
+      return {false, false, busy(database, words)};
     case SQLITE_CONSTRAINT:
       return {false, false, taken(words)};
     case SQLITE_CORRUPT:

@@ -123,6 +123,20 @@ TYPED_TEST(DatabaseTest, AReaderSeesOneState) {
   EXPECT_EQ(this->coins_in(1), 11);
 }
 
+TYPED_TEST(DatabaseTest, SaysThatItIsBusyWhenNoConnectionGetsFree) {
+  DatabaseLimits limits;
+  limits.connections = 1;
+  limits.patience = std::chrono::milliseconds(20);
+  Database narrow(this->url(), limits);
+  narrow.read([&](Sql&) {
+    std::thread([&] {
+      test::expect_error(ErrorKind::unavailable, narrow.name() + " is busy",
+                         [&] { narrow.read([](Sql&) {}); });
+    }).join();
+  });
+  EXPECT_NO_THROW(narrow.read([](Sql&) {}));
+}
+
 TYPED_TEST(DatabaseTest, RefusesATransactionInsideAnother) {
   EXPECT_THROW(this->database().run([this](Sql&) { this->coins_in(1); }), std::logic_error);
 }
@@ -137,6 +151,22 @@ TEST(SqliteDatabase, IsPrivateAndWritesAhead) {
     ASSERT_EQ(::stat((file.string() + end).c_str(), &about), 0) << end;
     EXPECT_EQ(about.st_mode & 0777, 0600) << end;
   }
+}
+
+TEST(SqliteDatabase, WaitsForTheOneWriterOnlySoLong) {
+  const test::OnSqlite store;
+  Database first(store.url);
+  DatabaseLimits limits;
+  limits.patience = std::chrono::milliseconds(20);
+  Database second(store.url, limits);
+  first.run([&](Sql&) {
+    std::thread([&] {
+      test::expect_error(ErrorKind::unavailable, second.name() + " is busy",
+                         [&] { second.run([](Sql&) {}); });
+      EXPECT_NO_THROW(second.read([](Sql&) {}));
+    }).join();
+  });
+  EXPECT_NO_THROW(second.run([](Sql&) {}));
 }
 
 TEST(SqliteDatabase, SaysThatAFileIsDamaged) {
