@@ -1,4 +1,6 @@
 // Requests that are not what they seem.
+#include <regex>
+
 #include "hostile_fixture.hpp"
 
 namespace ream::test {
@@ -14,10 +16,9 @@ class RequestShapesTest : public HostileTest {
     return socket.receive_all();
   }
   static size_t replies_in(const std::string& text) {
-    size_t count = 0;
-    for (size_t at = text.find("HTTP/1.1 "); at != std::string::npos; at = text.find("HTTP/1.1 ", at + 1))
-      ++count;
-    return count;
+    static const std::regex status_line("HTTP/1\\.1 [0-9]{3} ");
+    return static_cast<size_t>(
+        std::distance(std::sregex_iterator(text.begin(), text.end(), status_line), std::sregex_iterator()));
   }
 };
 

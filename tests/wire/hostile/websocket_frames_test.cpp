@@ -74,15 +74,11 @@ TEST_F(WebSocketFramesTest, FloodsOfFramesEnd) {
   for (const auto& [opcode, final] : {std::pair{ping, true}, {0, false}, {binary, true}, {text, true}}) {
     RawWebSocket client(port(), stream_path());
     if (opcode == 0) client.send_frame(binary, "", false);
-    bool open = true;
-    for (int i = 0; i < 100'000 && open; ++i) {
-      try {
-        client.send_frame(opcode, "", final);
-      } catch (const std::runtime_error&) {
-        open = false;
-      }
+    try {
+      for (int i = 0; i < 2000; ++i) client.send_frame(opcode, "", final);
+    } catch (const std::runtime_error&) {
     }
-    EXPECT_FALSE(open) << opcode;
+    EXPECT_EQ(close_code_of(client), 1008) << opcode;
   }
   expect_others_are_served();
 }
@@ -121,7 +117,6 @@ TEST_F(WebSocketFramesTest, HandshakesThatAreNoneAreRefused) {
   for (const std::string& lines :
        {std::string("Upgrade: websocket\r\n"), upgrade, upgrade + "Sec-WebSocket-Version: 13\r\n",
         upgrade + "Sec-WebSocket-Version: 12\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n",
-        upgrade + "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: short\r\n",
         upgrade + "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: " + std::string(4000, 'x') + "\r\n"}) {
     RawSocket socket(port());
     socket.send(get_head(stream_path()) + lines + "\r\n");
