@@ -86,7 +86,8 @@ TEST_F(HostileMessagesTest, ADeviceThatBehavesTakesOverFromOneThatDoesNot) {
   for (int i = 0; i < 10; ++i) bad.send_raw(noise(100));
   FakeDeviceClient good(port(), waiting());
   ASSERT_TRUE(good.welcomed());
-  EXPECT_EQ(good.say(HandleWords{}).sequence, good.sequence());
+  const Felt felt = good.say(HandleWords{});
+  EXPECT_EQ(felt.sequence, good.sequence());
   EXPECT_EQ(bad.closing().first, 4001);
 }
 
