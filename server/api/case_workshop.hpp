@@ -38,7 +38,8 @@ struct NewCase {
 /// one conflict.
 class CaseWorkshop {
  public:
-  CaseWorkshop(std::filesystem::path cases_folder, CaseTools tools);
+  /// `jobs` does the long work; it is shut down before the workshop goes.
+  CaseWorkshop(std::filesystem::path cases_folder, CaseTools tools, JobService& jobs);
 
   std::filesystem::path folder_of(const std::string& id) const;
   ct::Workup workup(const std::string& id) const;
@@ -66,8 +67,6 @@ class CaseWorkshop {
   /// The surface of the case, LPS mm, binary PLY.
   std::string mesh(const std::string& id);
 
-  JobService& jobs() { return jobs_; }
-
  private:
   std::string unused_id(const std::string& wanted) const;
   void require_no_sessions(const std::string& id, const std::string& what) const;
@@ -77,7 +76,7 @@ class CaseWorkshop {
   const CaseTools tools_;
   CtShelf shelf_;
   std::mutex changing_;  ///< one writer of a case's small files at a time
-  JobService jobs_;      ///< last: its work uses all of the above
+  JobService& jobs_;
 };
 
 }  // namespace ream::api

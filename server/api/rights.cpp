@@ -42,9 +42,10 @@ std::vector<Right> case_rows() {
           {"GET", upload, Door::roles, staff},
           {"PUT", upload, Door::roles, staff},
           {"DELETE", upload, Door::roles, staff},
-          {"GET", jobs, Door::roles, staff},
-          {"GET", jobs + "/{id}", Door::roles, staff},
-          {"DELETE", jobs + "/{id}", Door::roles, staff},
+          {"GET", jobs, Door::roles, reamers},
+          {"GET", jobs + "/{id}", Door::roles, reamers},
+          {"GET", jobs + "/{id}/result", Door::roles, reamers},
+          {"DELETE", jobs + "/{id}", Door::roles, reamers},
           {"GET", cases, Door::roles, reamers},
           {"POST", cases, Door::roles, staff},
           {"GET", one, Door::roles, reamers},
@@ -79,6 +80,12 @@ std::vector<Right> session_rows() {
           {"GET", one + "/metrics", Door::roles, known},
           {"GET", one + "/stream", Door::roles, known},
           {"GET", one + "/device", Door::roles, reamers},
+          {"GET", one + "/recording", Door::roles, reamers},
+          {"GET", one + "/session.json", Door::roles, reamers},
+          {"GET", one + "/trace", Door::roles, reamers},
+          {"GET", one + "/mesh", Door::roles, reamers},
+          {"GET", one + "/snapshot", Door::roles, reamers},
+          {"POST", one + "/exports", Door::roles, reamers},
           {"GET", "/api/v1/events", Door::roles, known}};
 }
 

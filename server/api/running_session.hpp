@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
@@ -102,6 +103,11 @@ class RunningSession {
   virtual Annotation annotate(const NewAnnotation& note) = 0;
   /// All of the recording so far.
   virtual std::vector<Annotation> annotations() const = 0;
+
+  /// Writes the surface of what remains of the bone now, as PLY in the world frame, with one sample every
+  /// `stride` (1, 2 or 4) voxels; or a picture of it, as PNG. Takes seconds of the caller's thread. Error io.
+  virtual void write_surface(const std::filesystem::path& ply, int stride) = 0;
+  virtual void write_picture(const std::filesystem::path& png) = 0;
 
   /// A viewer joins: Hello first, then the whole surface, then what changes, with one sample every `stride`
   /// (1, 2 or 4) voxels. It may outlive stop(), not the session.

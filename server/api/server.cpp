@@ -12,6 +12,7 @@
 #include "api/job_resource.hpp"
 #include "api/prometheus.hpp"
 #include "api/replay_resource.hpp"
+#include "api/session_download_resource.hpp"
 #include "api/session_resource.hpp"
 #include "api/study_resource.hpp"
 #include "api/study_surroundings.hpp"
@@ -45,6 +46,11 @@ void add_contract_route(net::Router& router) {
   });
 }
 
+/// Nowhere where there is no data folder.
+std::filesystem::path under(const std::filesystem::path& data_folder, const char* name) {
+  return data_folder.empty() ? std::filesystem::path() : data_folder / name;
+}
+
 CaseTools tools_of(const ServerOptions& options, const SessionService& sessions) {
   return {options.read_ct, [&sessions](const std::string& case_id) {
             store::SessionQuery query;
@@ -69,7 +75,6 @@ void add_all_case_routes(net::Router& router, const ServerOptions& options, Case
   add_case_volume_routes(router, workshop);
   add_case_plan_routes(router, workshop, options.data_folder);
   add_upload_routes(router, uploads);
-  add_job_routes(router, workshop.jobs());
 }
 
 }  // namespace
@@ -81,6 +86,13 @@ std::optional<SessionRequest> Server::session_of(const std::string& id) const {
     if (unknown.kind() != ErrorKind::not_found) throw;
     return std::nullopt;
   }
+}
+
+/// What it works on is worth reading again when it is done.
+void Server::tell(const JobRecord& job) {
+  feed_->tell({"job", job.id, to_text(job.state), job.order.session});
+  if (job.state != JobState::done) return;
+  if (!job.order.case_id.empty()) feed_->tell({"case", job.order.case_id, "changed"});
 }
 
 net::Router Server::routes_of(const ServerOptions& options) {
@@ -96,6 +108,9 @@ net::Router Server::routes_of(const ServerOptions& options) {
   add_all_case_routes(router, options, workshop_, uploads_);
   add_session_routes(router, sessions_, replays_, readiness_, options.usual_device, studies_.get());
   add_annotation_routes(router, sessions_);
+  add_download_routes(router, {sessions_, studies_.get(), jobs_, export_formats_, quiet_,
+                               under(options.data_folder, "passing")});
+  add_job_routes(router, jobs_);
   add_replay_routes(router, sessions_, replays_, readiness_);
   add_study_routes(router, studies_.get(), audit_in(gatehouse_.get()));
   router.otherwise([files = net::StaticFiles(options.web_folder)](const net::Request& request) {
@@ -115,6 +130,9 @@ Server::Server(ServerOptions options)
       feed_(std::make_shared<ChangeFeed>(may_know)),
       contract_(std::string(embedded::contract::find("openapi.yaml"))),
       idempotency_(options.database),
+      export_formats_(std::move(options.export_formats)),
+      jobs_({under(options.data_folder, "jobs"), std::chrono::hours(24), 256,
+             [this](const JobRecord& job) { tell(job); }}),
       gatehouse_(database_ ? std::make_unique<access::Gatehouse>(*database_, options.gatehouse) : nullptr),
       stream_watch_(gatehouse_ ? std::make_unique<StreamWatch>(gatehouse_->credentials) : nullptr),
       sessions_(std::move(options.make_session), options.sessions, options.sessions_folder, options.database),
@@ -122,8 +140,8 @@ Server::Server(ServerOptions options)
                                *database_, study_surroundings(options.cases_folder, sessions_, *gatehouse_))
                          : nullptr),
       replays_(std::move(options.make_replay), options.replays),
-      uploads_(options.data_folder.empty() ? std::filesystem::path() : options.data_folder / "uploads"),
-      workshop_(options.cases_folder, tools_of(options, sessions_)),
+      uploads_(under(options.data_folder, "uploads")),
+      workshop_(options.cases_folder, tools_of(options, sessions_), jobs_),
       gate_(gatehouse_.get(), [this](const std::string& id) { return session_of(id); }),
       frame_(contract_, idempotency_, *feed_, [this](const std::string& id) { return session_of(id); }),
       router_(routes_of(options)),
@@ -155,7 +173,7 @@ void Server::request_stop() {
 void Server::stop() {
   listener_.stop();
   watch_.stop();
-  workshop_.jobs().shut_down();
+  jobs_.shut_down();
   replays_.shut_down();
   sessions_.shut_down();
 }

@@ -8,7 +8,10 @@
 
 #include "access/gatehouse.hpp"
 #include "api/case_workshop.hpp"
+#include "api/export_formats.hpp"
 #include "api/gate.hpp"
+#include "api/job_service.hpp"
+#include "api/quiet_work.hpp"
 #include "api/readiness.hpp"
 #include "api/replay_service.hpp"
 #include "api/request_frame.hpp"
@@ -30,6 +33,7 @@ struct ServerOptions {
   SessionLimits sessions;
   std::string usual_device = "script";  ///< of sessions that name none
   CtReader read_ct;                     ///< of uploaded files
+  ExportFormats export_formats;         ///< of sessions
   ReplayFactory make_replay;
   ReplayLimits replays;
   /// Has users and what they did, the index of sessions, and answers to repeat. Null: everybody may do
@@ -68,6 +72,7 @@ class Server {
 
  private:
   net::Router routes_of(const ServerOptions& options);
+  void tell(const JobRecord& job);
   std::optional<SessionRequest> session_of(const std::string& id) const;
 
   // Order matters: nothing is prepared before the port is ours. stop() has ended the listener before any of
@@ -76,6 +81,9 @@ class Server {
   const std::shared_ptr<ChangeFeed> feed_;
   const Contract contract_;
   Idempotency idempotency_;
+  const ExportFormats export_formats_;
+  JobService jobs_;
+  QuietWork quiet_;
   const std::unique_ptr<access::Gatehouse> gatehouse_;
   const std::unique_ptr<StreamWatch> stream_watch_;  ///< null without a database
   SessionService sessions_;

@@ -167,6 +167,20 @@ std::vector<Annotation> SessionService::annotations(const std::string& id) const
   return recorded_annotations(archive_.folder_of(id));
 }
 
+std::filesystem::path SessionService::folder_of(const std::string& id) const {
+  if (!find_or_none(id)) archived(id);
+  return archive_.folder_of(id);
+}
+
+void SessionService::write_surface(const std::string& id, const std::filesystem::path& ply,
+                                   int stride) const {
+  find(id)->running->write_surface(ply, stride);
+}
+
+void SessionService::write_picture(const std::string& id, const std::filesystem::path& png) const {
+  find(id)->running->write_picture(png);
+}
+
 std::unique_ptr<net::WebSocketSession> SessionService::subscribe(const std::string& id, int stride) const {
   auto entry = find(id);
   auto inner = entry->running->subscribe(stride);

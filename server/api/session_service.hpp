@@ -68,6 +68,12 @@ class SessionService {
   /// and while it is being resumed.
   Annotation annotate(const std::string& id, const NewAnnotation& note);
   std::vector<Annotation> annotations(const std::string& id) const;
+  /// Where its files lie; there are none before its start.
+  std::filesystem::path folder_of(const std::string& id) const;
+  /// Of a live one, as RunningSession::write_surface and write_picture. Error conflict when it is only in its
+  /// folder.
+  void write_surface(const std::string& id, const std::filesystem::path& ply, int stride) const;
+  void write_picture(const std::string& id, const std::filesystem::path& png) const;
   /// The session lives on as long as somebody watches it. `stride` as RunningSession::subscribe. Error
   /// conflict when it is only in its folder.
   std::unique_ptr<net::WebSocketSession> subscribe(const std::string& id, int stride) const;

@@ -156,6 +156,9 @@ void ReamingSession::open_files() {
     files = from_ ? std::make_unique<SessionFiles>(rig_, folder_, coverage, *from_, changed_tool_)
                   : std::make_unique<SessionFiles>(rig_, folder_, coverage, SessionFiles::Trace::left_out);
     write_running(*files);
+    std::error_code ignored;
+    for (const char* result : {"reamed.ply", "snapshot.png"})
+      std::filesystem::remove(folder_ / result, ignored);
   } catch (const std::exception&) {
     files.reset();
     if (from_) from_->cut_to_its_end();
@@ -251,6 +254,7 @@ void ReamingSession::follow() {
       if (leaving_) return;
     }
     follow_once();
+    copy_coverage_if_wanted();
     publisher_.poll(steady_ns());
     const int64_t now_ns = steady_ns();
     const api::SessionState state = status().state;

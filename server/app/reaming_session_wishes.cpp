@@ -2,8 +2,10 @@
 
 #include "api/annotation_op.hpp"
 #include "api/viewer_stream.hpp"
+#include "app/reamed_pictures.hpp"
 #include "app/reaming_session.hpp"
 #include "core/error.hpp"
+#include "geometry/mesh_io.hpp"
 
 namespace ream::app {
 namespace {
@@ -30,6 +32,46 @@ bool ReamingSession::relabel(const api::SessionRequest& request) {
   labels_ = request;
   relabelled_ = true;
   return true;
+}
+
+/// The replica is the follower's, so the follower copies it.
+void ReamingSession::copy_coverage_if_wanted() {
+  const std::lock_guard lock(mutex_);
+  if (wanted_coverage_ == nullptr) return;
+  *wanted_coverage_ = publisher_.replica().coverage();
+  wanted_coverage_ = nullptr;
+  changed_.notify_all();
+}
+
+std::vector<uint8_t> ReamingSession::coverage_now() {
+  std::vector<uint8_t> coverage;
+  const std::lock_guard one_at_a_time(copying_);
+  std::unique_lock lock(mutex_);
+  wanted_coverage_ = &coverage;
+  if (changed_.wait_for(lock, longest_wait, [this] { return wanted_coverage_ == nullptr; })) return coverage;
+  wanted_coverage_ = nullptr;
+  throw Error(ErrorKind::unavailable, "session '" + id_ + "' does not answer; try again");
+}
+
+/// The haptic thread writes the session's own bone, so the case is loaded once more.
+case_::Case ReamingSession::intact_case() const {
+  case_::Case intact = find_case(request_.case_id, house_.data);
+  intact.plan = rig_.model.plan;
+  case_::cut_pilot_hole(intact.bone, *intact.plan);
+  return intact;
+}
+
+void ReamingSession::write_surface(const std::filesystem::path& ply, int stride) {
+  case_::Case reamed = intact_case();
+  reamed.bone.coverage = coverage_now();
+  write_ply(ply, reamed_surface(reamed, stride), case_::frame_in_words(reamed.side));
+}
+
+void ReamingSession::write_picture(const std::filesystem::path& png) {
+  case_::Case reamed = intact_case();
+  std::vector<uint8_t> before = coverage_now();
+  before.swap(reamed.bone.coverage);
+  app::write_picture(reamed, before, png);
 }
 
 api::Annotation ReamingSession::annotate(const api::NewAnnotation& note) {

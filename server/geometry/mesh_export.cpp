@@ -65,6 +65,11 @@ const std::vector<std::string>& mesh_file_endings() {
   return endings;
 }
 
+bool is_mesh_file_ending(const std::string& ending) {
+  const auto& endings = mesh_file_endings();
+  return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, const std::string& remark) {
   const std::string ending = path.extension();
   if (ending == ".ply") return write_ply(path, mesh, remark);

@@ -9,6 +9,7 @@ namespace ream {
 
 /// Endings of the files that write_mesh() can write, with their dots.
 const std::vector<std::string>& mesh_file_endings();
+bool is_mesh_file_ending(const std::string& ending);
 
 /// Writes a mesh atomically in the form that the ending of `path` says: .ply (binary, with `remark` in its
 /// header), .stl (binary) or .glb (glTF 2; unlike the others in metres, as that form has it). Errors:

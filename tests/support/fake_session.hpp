@@ -2,6 +2,7 @@
 #include <atomic>
 #include <chrono>
 #include <deque>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -75,6 +76,12 @@ class FakeSession final : public api::RunningSession {
   std::vector<api::Annotation> annotations() const override {
     const std::lock_guard lock(mutex_);
     return annotations_;
+  }
+  void write_surface(const std::filesystem::path& ply, int stride) override {
+    std::ofstream(ply) << "ply of " << request_.id << " at " << stride;
+  }
+  void write_picture(const std::filesystem::path& png) override {
+    std::ofstream(png) << "png of " << request_.id;
   }
   std::unique_ptr<net::WebSocketSession> subscribe(int stride) override;
   std::unique_ptr<net::WebSocketSession> connect_device() override;

@@ -12,6 +12,7 @@
 #include "app/ct_source.hpp"
 #include "app/data_folder.hpp"
 #include "app/device_registry.hpp"
+#include "app/export_session.hpp"
 #include "app/interrupt.hpp"
 #include "app/open_database.hpp"
 #include "app/reaming_session.hpp"
@@ -125,6 +126,7 @@ void serve(const Options& options, const GlobalOptions& global) {
                                                const std::string& reamer) {
     return std::make_unique<ReamingSession>(house, request, reamer);
   };
+  server_options.export_formats = export_formats(house.data);
   server_options.usual_device = options.device;
   server_options.make_replay = [house](const api::ReplayRequest& request) {
     return std::make_unique<ReplaySession>(house, request);

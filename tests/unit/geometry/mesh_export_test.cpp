@@ -30,7 +30,8 @@ TEST(WriteMesh, RefusesOtherEndingsAndPlaces) {
   const TriangleMesh box = test::box_mesh(Vec3f(1.0f, 1.0f, 1.0f));
   test::expect_error(ErrorKind::invalid_input, ".ply, .stl or .glb",
                      [&] { write_mesh(folder.path() / "box.obj", box, ""); });
-  test::expect_error(ErrorKind::io, "nowhere", [&] { write_mesh(folder.path() / "nowhere/box.stl", box, ""); });
+  test::expect_error(ErrorKind::io, "nowhere",
+                     [&] { write_mesh(folder.path() / "nowhere/box.stl", box, ""); });
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 

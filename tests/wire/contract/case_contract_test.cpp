@@ -107,6 +107,8 @@ class CaseContractTest : public ContractTest {
     EXPECT_EQ(job.at("state"), "done") << job;
     const std::string at = "/api/v1/jobs/" + job.at("id").get<std::string>();
     expect_get("/api/v1/jobs", "/api/v1/jobs", 200);
+    expect_get("/api/v1/jobs", "/api/v1/jobs?limit=1&kind=import&state=done", 200);
+    expect_get("/api/v1/jobs", "/api/v1/jobs?state=lost", 422);
     expect_get(jobs, at, 200);
     expect_get(jobs, "/api/v1/jobs/nothing", 404);
     expect_request("DELETE", jobs, at, 403, "", foreign);
