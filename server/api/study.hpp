@@ -38,6 +38,7 @@ struct Participant {
   std::string experience;  ///< of experience_levels
   int64_t procedures_done = 0;
   std::optional<nlohmann::json> answers;  ///< by item id; none yet
+  bool has_account = false;               ///< logs in, and so answers without help
 };
 
 }  // namespace ream::api

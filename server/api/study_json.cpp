@@ -43,7 +43,8 @@ json to_json(const Participant& participant) {
   return {{"code", participant.code},
           {"experience", text_or_null(participant.experience)},
           {"procedures_done", known ? json(participant.procedures_done) : json(nullptr)},
-          {"answers", participant.answers.value_or(json(nullptr))}};
+          {"answers", participant.answers.value_or(json(nullptr))},
+          {"has_account", participant.has_account}};
 }
 
 json to_json(const store::PersonRow& person) {

@@ -19,16 +19,22 @@ Error unknown_participant(const std::string& id, const std::string& code) {
 bool is_operator(const net::Caller& caller) { return role_bit(caller.role) == operators; }
 
 /// Without all that tells participants apart.
-Participant only_code(const Participant& participant) { return {participant.code, "", 0, std::nullopt}; }
+Participant only_code(const Participant& participant) {
+  return {participant.code, "", 0, std::nullopt, participant.has_account};
+}
 
 }  // namespace
 
 std::vector<Participant> StudyService::participants(const net::Caller& caller, const std::string& id) const {
   const bool hidden = known(id).open && !is_operator(caller);
   const std::string own = code_of(caller, id);
+  std::set<std::string> with_account;
+  for (const store::PersonRow& person : table_.persons(id))
+    if (!person.user_id.empty()) with_account.insert(person.code);
   std::vector<Participant> list;
   for (const store::ParticipantRow& row : table_.participants(id)) {
-    const Participant participant = participant_of(row);
+    Participant participant = participant_of(row);
+    participant.has_account = with_account.contains(participant.code);
     list.push_back(hidden && participant.code != own ? only_code(participant) : participant);
   }
   return list;
@@ -43,8 +49,10 @@ Participant StudyService::participant(const net::Caller& caller, const std::stri
   const auto row = table_.participant(id, code);
   const bool own = code_of(caller, id) == code;
   if (!row || (!is_staff(caller) && !own)) throw unknown_participant(id, code);
-  if (own || is_operator(caller) || !known(id).open) return participant_of(*row);
-  return only_code(participant_of(*row));
+  Participant found = participant_of(*row);
+  const auto person = table_.person(id, code);
+  found.has_account = person && !person->user_id.empty();
+  return own || is_operator(caller) || !known(id).open ? found : only_code(found);
 }
 
 std::vector<store::PersonRow> StudyService::persons(const net::Caller& caller, const std::string& id) const {
@@ -56,9 +64,7 @@ std::vector<store::PersonRow> StudyService::persons(const net::Caller& caller, c
 Participant StudyService::answer(const net::Caller& caller, const std::string& id, const std::string& code,
                                  const json& answers) {
   Participant about = participant(caller, id, code);
-  const bool own = code_of(caller, id) == code;
-  const auto person = table_.person(id, code);
-  if (!own && person && !person->user_id.empty())
+  if (about.has_account && code_of(caller, id) != code)
     throw net::RequestError(403, "participant '" + code + "' has an account and answers there");
   const Study study = open_one(id);
   if (!study.questionnaire) throw Error(ErrorKind::conflict, "study '" + id + "' asks nothing");

@@ -45,7 +45,7 @@ store::ParticipantRow row_of(const std::string& study_id, const Participant& par
 }
 
 Participant participant_of(const store::ParticipantRow& row) {
-  Participant participant{row.code, row.experience, row.procedures_done, std::nullopt};
+  Participant participant{row.code, row.experience, row.procedures_done, std::nullopt, false};
   if (!row.answers.empty()) participant.answers = json::parse(row.answers);
   return participant;
 }

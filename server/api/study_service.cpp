@@ -131,7 +131,8 @@ void StudyService::remove(const std::string& id) {
 
 Participant StudyService::add_participant(const Study& study, const NewParticipant& wanted,
                                           const std::optional<store::PersonRow>& person) {
-  Participant participant{"", wanted.experience, wanted.procedures_done, std::nullopt};
+  Participant participant{"", wanted.experience, wanted.procedures_done, std::nullopt,
+                          person && !person->user_id.empty()};
   for (int draw = 1;; ++draw) {
     participant.code = random_participant_code();
     std::optional<store::PersonRow> linked = person;

@@ -28,7 +28,7 @@ std::vector<Participant> participants() {
   return {{"K7-F3M", "novice", 0, json{{"force", nullptr}, {"tools", {"saw", "drill"}}, {"remarks", "=1+1"}}},
           {"B2-C4D", "expert", 250,
            json{{"force", 4}, {"hand", "left"}, {"tools", {"saw"}}, {"remarks", "good, \"real\"\nfeel"}}},
-          {"Z9-XYZ", "novice", 3, std::nullopt}};
+          {"Z9-XYZ", "novice", 3, std::nullopt, false}};
 }
 
 StudyAttempt attempt(const std::string& code, const std::string& utc, const std::string& state,

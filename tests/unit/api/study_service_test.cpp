@@ -144,9 +144,11 @@ TEST_F(StudyServiceTest, WhoScoresKnowsTheCodeOnly) {
   const std::string id = made(), code = join(ada, id, "expert");
   service_.answer(ada, id, code, answers());
   const Participant seen = service_.participant(instructor, id, code);
-  EXPECT_EQ(
-      to_json(seen),
-      (json{{"code", code}, {"experience", nullptr}, {"procedures_done", nullptr}, {"answers", nullptr}}));
+  EXPECT_EQ(to_json(seen), (json{{"code", code},
+                                 {"experience", nullptr},
+                                 {"procedures_done", nullptr},
+                                 {"answers", nullptr},
+                                 {"has_account", true}}));
   EXPECT_EQ(to_json(service_.participants(instructor, id)[0]), to_json(seen));
   EXPECT_EQ(service_.participant(the_operator, id, code).experience, "expert");
   EXPECT_EQ(service_.participant(ada, id, code).answers, answers());
