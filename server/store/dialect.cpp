@@ -29,14 +29,16 @@ void replace_words(std::string& text, const std::string& word, const std::string
   }
 }
 
-/// The database holds what nobody else on this machine may read.
+/// The database holds what nobody else on this machine may read. A file that is there is not opened: closing
+/// it would take away the locks that SQLite holds on it in this process.
 void make_private_file(const std::filesystem::path& file) {
-  const int made = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, S_IRUSR | S_IWUSR);
-  const bool kept = made >= 0 && ::fchmod(made, S_IRUSR | S_IWUSR) == 0;
-  const int why = errno;
-  if (made >= 0) ::close(made);
-  if (!kept)
-    throw Error(ErrorKind::io, "cannot open the database " + file.string() + ": " + std::strerror(why));
+  const int made = ::open(file.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
+  if (made >= 0) {
+    ::close(made);
+    return;
+  }
+  if (errno == EEXIST && ::chmod(file.c_str(), S_IRUSR | S_IWUSR) == 0) return;
+  throw Error(ErrorKind::io, "cannot open the database " + file.string() + ": " + std::strerror(errno));
 }
 
 const PGconn* connection_of(Sql& sql) {

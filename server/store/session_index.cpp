@@ -12,24 +12,62 @@ namespace {
 constexpr std::array<const char*, 5> order_columns{"created_utc", "duration_s", "case_id", "trainee",
                                                    "state"};
 
-void put_row(Sql& sql, const SessionRow& row) {
-  const int lasting = row.lasting ? 1 : 0;
-  const std::string search = searched_text(row);
-  sql << "INSERT INTO sessions (id, case_id, script, state, created_utc, duration_s, trainee_id, trainee, "
-         "study, participant, title, search, stamp, lasting) VALUES (:id, :case_id, :script, :state, "
-         ":created_utc, :duration_s, :trainee_id, :trainee, :study, :participant, :title, :search, :stamp, "
-         ":lasting) "
-         "ON CONFLICT (id) DO UPDATE SET case_id = excluded.case_id, script = excluded.script, "
-         "state = excluded.state, created_utc = excluded.created_utc, duration_s = excluded.duration_s, "
-         "trainee_id = excluded.trainee_id, trainee = excluded.trainee, study = excluded.study, "
-         "participant = excluded.participant, title = excluded.title, search = excluded.search, "
-         "stamp = excluded.stamp, lasting = excluded.lasting",
-      use(row.id), use(row.case_id), use(row.script), use(row.state), use(row.created_utc),
-      use(row.duration_s), use(row.trainee_id), use(row.trainee), use(row.study), use(row.participant),
-      use(row.title), use(search), use(row.stamp), use(lasting);
-  sql << "INSERT INTO session_records (id, record) VALUES (:id, :record) "
-         "ON CONFLICT (id) DO UPDATE SET record = excluded.record",
-      use(row.id), use(row.record);
+/// Puts row after row by statements that are prepared once.
+class RowWriter {
+ public:
+  explicit RowWriter(Sql& sql) : session_(session_statement(sql)), record_(record_statement(sql)) {}
+
+  void write(const SessionRow& row) {
+    row_ = row;
+    search_ = searched_text(row);
+    lasting_ = row.lasting ? 1 : 0;
+    for (std::string* text : texts()) *text = storable(*text);
+    session_.execute(true);
+    record_.execute(true);
+  }
+
+ private:
+  /// In the order of their parameters, and the record.
+  std::vector<std::string*> texts() {
+    return {&row_.id,      &row_.case_id, &row_.script,      &row_.state, &row_.created_utc, &row_.trainee_id,
+            &row_.trainee, &row_.study,   &row_.participant, &row_.title, &search_,          &row_.record};
+  }
+  soci::statement session_statement(Sql& sql);
+  soci::statement record_statement(Sql& sql);
+
+  SessionRow row_;
+  std::string search_;
+  int lasting_ = 0;
+  soci::statement session_, record_;
+};
+
+soci::statement RowWriter::session_statement(Sql& sql) {
+  OpenStatement statement(
+      sql,
+      "INSERT INTO sessions (id, case_id, script, state, created_utc, trainee_id, trainee, study, "
+      "participant, "
+      "title, search, duration_s, stamp, lasting) VALUES (:id, :case_id, :script, :state, :created_utc, "
+      ":trainee_id, :trainee, :study, :participant, :title, :search, :duration_s, :stamp, :lasting) "
+      "ON CONFLICT (id) DO UPDATE SET case_id = excluded.case_id, script = excluded.script, "
+      "state = excluded.state, created_utc = excluded.created_utc, duration_s = excluded.duration_s, "
+      "trainee_id = excluded.trainee_id, trainee = excluded.trainee, study = excluded.study, "
+      "participant = excluded.participant, title = excluded.title, search = excluded.search, "
+      "stamp = excluded.stamp, lasting = excluded.lasting");
+  for (const std::string* text : texts())
+    if (text != &row_.record) statement.with(*text);
+  return statement.with(row_.duration_s).with(row_.stamp).with(lasting_).prepared();
+}
+
+soci::statement RowWriter::record_statement(Sql& sql) {
+  OpenStatement statement(sql,
+                          "INSERT INTO session_records (id, record) VALUES (:id, :record) "
+                          "ON CONFLICT (id) DO UPDATE SET record = excluded.record");
+  return statement.with(row_.id).with(row_.record).prepared();
+}
+
+void put_rows(Sql& sql, const std::vector<SessionRow>& rows) {
+  RowWriter writer(sql);
+  for (const SessionRow& row : rows) writer.write(row);
 }
 
 /// A WHERE clause that grows, with the values of its parameters in order.
@@ -144,12 +182,11 @@ std::vector<SessionRow> page(Sql& sql, const SessionQuery& query, Conditions con
 }  // namespace
 
 void SessionIndex::put(const std::vector<SessionRow>& rows) {
-  database_.run([&](Sql& sql) {
-    for (const SessionRow& row : rows) put_row(sql, row);
-  });
+  if (!rows.empty()) database_.run([&](Sql& sql) { put_rows(sql, rows); });
 }
 
 void SessionIndex::remove(const std::vector<std::string>& ids) {
+  if (ids.empty()) return;
   database_.run([&](Sql& sql) {
     for (const std::string& id : ids) sql << "DELETE FROM sessions WHERE id = :id", use(id);
   });
@@ -158,7 +195,7 @@ void SessionIndex::remove(const std::vector<std::string>& ids) {
 void SessionIndex::replace_all(const std::vector<SessionRow>& rows) {
   database_.run_at_length([&](Sql& sql) {
     sql << "DELETE FROM sessions";
-    for (const SessionRow& row : rows) put_row(sql, row);
+    put_rows(sql, rows);
   });
 }
 

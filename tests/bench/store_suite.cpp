@@ -123,8 +123,12 @@ std::string path_of(const Question& question, const std::string& cursor) {
   return cursor.empty() ? path : path + "&cursor=" + cursor;
 }
 
-/// Asks for a page and returns the cursor of the next one.
-using Ask = std::function<std::string(const Question&, const std::string& cursor)>;
+/// A page: how long it took to come, and the cursor of the next one.
+struct Answer {
+  double ms = 0.0;
+  std::string next;
+};
+using Ask = std::function<Answer(const Question&, const std::string& cursor)>;
 
 /// The first page of each question and the one behind it, again and again; times in ms, sorted.
 std::vector<double> measure(const std::vector<Question>& questions, const Ask& ask) {
@@ -133,9 +137,9 @@ std::vector<double> measure(const std::vector<Question>& questions, const Ask& a
     for (const Question& question : questions) {
       std::string cursor;
       for (int page = 0; page < 2; ++page) {
-        const auto start = SteadyClock::now();
-        cursor = ask(question, cursor);
-        if (round >= 2) times_ms.push_back(elapsed_us(start) * 1e-3);
+        Answer answer = ask(question, cursor);
+        cursor = std::move(answer.next);
+        if (round >= 2) times_ms.push_back(answer.ms);
         if (cursor.empty()) break;
       }
     }
@@ -159,21 +163,25 @@ Ask from_repository(store::Database& database) {
   return [&database](const Question& question, const std::string& cursor) {
     store::SessionQuery query = query_of(question);
     query.cursor = cursor;
+    const auto start = SteadyClock::now();
     const auto found = store::SessionIndex(database).find(query);
+    const double ms = elapsed_us(start) * 1e-3;
     if (found.rows.empty() || found.total > session_count)
       throw Error(ErrorKind::io, "the index answers nonsense");
-    return found.rows.size() > page_rows ? store::cursor_behind(query, found.rows[page_rows - 1])
-                                         : std::string();
+    return Answer{ms, found.rows.size() > page_rows ? store::cursor_behind(query, found.rows[page_rows - 1])
+                                                    : std::string()};
   };
 }
 
 Ask from_server(uint16_t port) {
   return [port](const Question& question, const std::string& cursor) {
+    const auto start = SteadyClock::now();
     const test::HttpReply reply = test::http_request(port, "GET", path_of(question, cursor));
+    const double ms = elapsed_us(start) * 1e-3;
     if (reply.status != 200) throw Error(ErrorKind::io, "the server answers " + reply.body);
     const json page = json::parse(reply.body);
     if (page.at("sessions").empty()) throw Error(ErrorKind::io, "the server lists nothing");
-    return page.at("next").is_null() ? std::string() : page.at("next").get<std::string>();
+    return Answer{ms, page.at("next").is_null() ? std::string() : page.at("next").get<std::string>()};
   };
 }
 

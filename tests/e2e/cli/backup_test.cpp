@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <random>
 #include <thread>
 
 #include "case/case.hpp"
@@ -124,7 +125,8 @@ TEST_F(Backup, WhatCannotBeUsedIsNamed) {
 
 TEST_F(Backup, AFullDiskLeavesNothing) {
   std::string noise;
-  for (uint32_t i = 0; i < 100'000; ++i) noise += static_cast<char>(i * 2654435761u >> 24);
+  std::mt19937 random(1);
+  for (int i = 0; i < 100'000; ++i) noise += static_cast<char>(random());
   write("data/reamers/noise.bin", noise);
   succeed({"backup", "good.zip"});
   const auto before = tree();
