@@ -27,8 +27,8 @@ constexpr Metric metrics[] = {
      "How far the tool's apex went along the planned axis from first contact while removing.", no_limits,
      Evidence::tested, "exact but for where contact begins", only_reported},
     {"depth_max_mm", "Greatest depth", "mm",
-     "Greatest depth of removed bone and cartilage along the planned axis over the face, the pilot hole left "
-     "out.",
+     "Greatest depth of removed bone and cartilage along the planned axis over the face, where bone is left "
+     "under it and without the pilot hole.",
      "Frich 1998: plate of 1.9 mm; limits stand with medialization", Evidence::judgement, half_voxel,
      only_reported},
     {"depth_mean_mm", "Mean depth", "mm",
@@ -43,8 +43,9 @@ constexpr Metric metrics[] = {
      Evidence::judgement, "counted on a lattice of 0.25 mm", only_reported},
     {"seating_percent", "Seating", "%",
      "Share of the implant's back that lies within 0.5 mm of the reamed face. The back is a sphere of the "
-     "implant's radius (without one, the reamer's own shape) as wide as the reamer, trimmed to the native "
-     "face and without the pilot hole; pressed along the achieved axis until 1 % of it would have to sink "
+     "implant's radius (without one, the reamer's own shape), half a millimetre narrower all around than the "
+     "reamer, trimmed to the native face and without the pilot hole; pressed along the achieved axis until 1 "
+     "% of it would have to sink "
      "in.",
      "Lazarus 2002 (share supported by bone); 0.5 mm, 80 % and 90 % are ours", Evidence::judgement,
      "within 1 point of the truth in 100 seeded reamings; limits are engineering judgement",

@@ -98,7 +98,7 @@ std::optional<double> SurfaceFinder::out_of_bone(const Vec3& point_mm, const Vec
   const double voxel_mm = 2.0 * step_mm_;
   for (double s = from_mm + reach_mm_; s <= to_mm; s += voxel_mm) {
     if (voxel_at(line, s) > surface_level) continue;
-    const double bone = std::max(from_mm, s - voxel_mm), air = s + voxel_mm;
+    const double bone = std::max(from_mm, s - 2.0 * voxel_mm), air = s + voxel_mm;
     const bool between = at(line, bone) >= surface_level && at(line, air) < surface_level;
     return between ? level_between(line, air, bone) : s;
   }

@@ -10,6 +10,11 @@ namespace {
 /// places of a voxel surface lie up to a tenth of a voxel beside the truth. Steps are kept.
 constexpr double averaged_over_mm = 0.6, step_slope = 0.5;
 
+/// How far the component reaches: not quite to the wall that the reamer leaves around it.
+double outline_mm(const NativeGlenoid& native) {
+  return std::max(0.5 * native.reamer().outer_mm(), native.reamer().outer_mm() - Component::clearance_mm);
+}
+
 CuttingMeridian back_of(const NativeGlenoid& native) {
   const double outer_mm = native.reamer().outer_mm();
   const auto& plan = native.task().plan;
@@ -42,13 +47,15 @@ struct Component::Spot {
 };
 
 Component::Component(const NativeGlenoid& native, const AchievedFace& face, const CutLine& line)
-    : line_(line), back_(back_of(native)) {
+    : line_(line),
+      outline_mm_(std::min(outline_mm(native), back_of(native).outer_mm())),
+      back_(back_of(native)) {
   const RayLattice& rays = native.rays();
   for (size_t ray = 0; ray < rays.size(); ++ray) {
     if (!native.face()[ray]) continue;
     const bool any = face.surface_mm[ray] != no_surface_mm;
     const Vec3 point(rays.x_mm(ray), rays.y_mm(ray), any ? face.surface_mm[ray] : native.surface_mm()[ray]);
-    if ((point - line_.apex_mm).cross(line_.direction).norm() <= back_.outer_mm()) footprint_.push_back(ray);
+    if ((point - line_.apex_mm).cross(line_.direction).norm() <= outline_mm_) footprint_.push_back(ray);
   }
   std::vector<Spot> spots = spots_over(native, face);
   std::vector<double> behind_mm(rays.size(), no_surface_mm);

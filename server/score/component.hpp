@@ -22,12 +22,13 @@ struct AchievedFace {
 AchievedFace achieved_face(const NativeGlenoid& native, const CoverageView& left);
 
 /// An implant as a surgeon would seat it: its back is a sphere of the planned implant's radius, or without
-/// one the reamer's own shape; as wide as the reamer, about the achieved axis; pressed along that axis onto
-/// what is left of the face until 1 % of the area above the face would have to sink in (bone gives way a
-/// little). It is trimmed to the native face, as components are chosen not to overhang, and the pilot hole is
-/// left out.
+/// one the reamer's own shape; half a millimetre less wide all around than the reamer, about the achieved
+/// axis; pressed along that axis onto what is left of the face until 1 % of the area above the face would
+/// have to sink in (bone gives way a little). It is trimmed to the native face, as components are chosen not
+/// to overhang, and the pilot hole is left out.
 class Component {
  public:
+  static constexpr double clearance_mm = 0.5;    ///< to the wall around what was reamed
   static constexpr double contact_mm = 0.5;      ///< a gap up to this supports
   static constexpr double sinking_share = 0.01;  ///< of the area
 
@@ -52,6 +53,7 @@ class Component {
   void seat(std::vector<Spot>& spots);
 
   CutLine line_;
+  double outline_mm_;  ///< radius
   CuttingMeridian back_;
   std::vector<size_t> footprint_;
   bool seated_ = false;

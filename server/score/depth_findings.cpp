@@ -5,23 +5,39 @@
 #include "score/surface_findings.hpp"
 
 namespace ream::score {
+namespace {
+
+struct Greatest {
+  double removed_mm = 0.0, past_subchondral_mm = 0.0;
+
+  void take(double removed, double past_subchondral) {
+    removed_mm = std::max(removed_mm, removed);
+    past_subchondral_mm = std::max(past_subchondral_mm, past_subchondral);
+  }
+};
+
+}  // namespace
 
 void say_depths(const NativeGlenoid& native, const AchievedFace& face, Findings& findings) {
   const RayLattice& rays = native.rays();
-  double greatest = 0.0, sum = 0.0, past_subchondral = 0.0;
+  // Rays at the edge of a vault that narrows leave the bone sideways; how deep the reamer went is seen where
+  // bone is left under it.
+  Greatest over_bone, anywhere;
+  double sum = 0.0;
   size_t count = 0;
   for (size_t ray = 0; ray < rays.size(); ++ray) {
     const double removed = face.removed_mm[ray];
     if (removed < reamed_mm) continue;
     ++count;
     sum += removed;
-    greatest = std::max(greatest, removed);
-    past_subchondral =
-        std::max(past_subchondral, native.surface_mm()[ray] + removed - native.subchondral_mm()[ray]);
+    const double past_subchondral = native.surface_mm()[ray] + removed - native.subchondral_mm()[ray];
+    anywhere.take(removed, past_subchondral);
+    if (face.surface_mm[ray] != no_surface_mm) over_bone.take(removed, past_subchondral);
   }
+  const Greatest& greatest = over_bone.removed_mm > 0.0 ? over_bone : anywhere;
   findings.say("footprint_area_mm2", static_cast<double>(count) * rays.cell_area_mm2());
-  findings.say("depth_max_mm", greatest);
-  findings.say("medialization_mm", past_subchondral);
+  findings.say("depth_max_mm", greatest.removed_mm);
+  findings.say("medialization_mm", greatest.past_subchondral_mm);
   findings.say("depth_mean_mm", count > 0 ? sum / static_cast<double>(count) : 0.0);
 }
 

@@ -10,11 +10,19 @@ constexpr size_t least_points = 12;
 constexpr double largest_radius_mm = 500.0, smallest_radius_mm = 0.1;
 constexpr int most_steps = 50;
 constexpr double settled_mm = 1e-9;
+constexpr double flat = 1e-10;  // of the greatest spread, squared
 
 Vec3 mean_of(std::span<const Vec3> points) {
   Vec3 sum = Vec3::Zero();
   for (const Vec3& p : points) sum += p;
   return sum / static_cast<double>(points.size());
+}
+
+/// Axes of the points' spread about their mean, the shortest first.
+Eigen::SelfAdjointEigenSolver<Mat3> spread_of(std::span<const Vec3> points, const Vec3& mean) {
+  Mat3 spread = Mat3::Zero();
+  for (const Vec3& p : points) spread += (p - mean) * (p - mean).transpose();
+  return Eigen::SelfAdjointEigenSolver<Mat3>(spread);
 }
 
 /// |p|^2 = 2 c p + (r^2 - c^2) by least squares; about the mean for the sake of rounding.
@@ -61,7 +69,10 @@ std::optional<FittedSphere> fit_sphere(std::span<const Vec3> points) {
   const auto usable = [](const FittedSphere& s) {
     return s.centre_mm.allFinite() && s.radius_mm > smallest_radius_mm && s.radius_mm <= largest_radius_mm;
   };
-  FittedSphere sphere = algebraic(points, mean_of(points));
+  const Vec3 mean = mean_of(points);
+  const auto axes = spread_of(points, mean);
+  if (!(axes.eigenvalues()[0] > flat * axes.eigenvalues()[2])) return std::nullopt;
+  FittedSphere sphere = algebraic(points, mean);
   if (!usable(sphere)) return std::nullopt;
   refine(points, sphere);
   if (!usable(sphere)) return std::nullopt;
@@ -74,9 +85,7 @@ std::optional<FittedSphere> fit_sphere(std::span<const Vec3> points) {
 std::optional<FittedPlane> fit_plane(std::span<const Vec3> points) {
   if (points.size() < 3) return std::nullopt;
   const Vec3 mean = mean_of(points);
-  Mat3 spread = Mat3::Zero();
-  for (const Vec3& p : points) spread += (p - mean) * (p - mean).transpose();
-  const Eigen::SelfAdjointEigenSolver<Mat3> axes(spread);
+  const auto axes = spread_of(points, mean);
   if (axes.info() != Eigen::Success || !(axes.eigenvalues()[1] > 1e-6 * axes.eigenvalues()[2]))
     return std::nullopt;
   return FittedPlane{mean, axes.eigenvectors().col(0)};

@@ -27,6 +27,9 @@ inline RandomReaming random_reaming(unsigned seed, double voxel_mm) {
   shoulder.height_mm = between(30.0, 36.0);
   shoulder.width_mm = between(22.0, 27.0);
   r.glenoid.radius_mm = between(30.0, 42.0);
+  // Bone that a robot gets through without hurry in simulated seconds.
+  r.glenoid.compact_g_cc = 1.2;
+  r.glenoid.spongy_g_cc = 0.8;
 
   const AnalyticGlenoid::Frame face = r.glenoid.frame();
   const double tilt = radians_from_degrees(between(0.0, 6.0)), way = between(0.0, 2.0 * pi);
@@ -54,13 +57,13 @@ inline RandomReaming random_reaming(unsigned seed, double voxel_mm) {
   const double off = guided ? 0.0 : 1.0;
   r.script = {{"device", "robot"},
               {"duration_s", 60.0},
-              {"specimen_factor", 10.0},
+              {"specimen_factor", 6.0},
               {"vibration", {{"source", "off"}}},
               {"robot",
                {{"start_mm", {off * between(-1.5, 1.5), off * between(-1.5, 1.5), -5.0}},
                 {"tilt_deg", {off * between(-5.0, 5.0), off * between(-5.0, 5.0), 0.0}},
                 {"approach_mm_s", 10.0},
-                {"force_n", 60.0},
+                {"force_n", 50.0},
                 {"ramp_s", 0.3},
                 {"depth_mm", r.plan.depth_mm + off * between(-0.2, 0.2)}}}};
   return r;

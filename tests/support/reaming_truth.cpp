@@ -246,10 +246,10 @@ void along_the_plan(const PlannedReaming& planned, const Reamed& reamed, const L
     if (line.removed >= reamed_mm) {
       truth.footprint_mm2 += area;
       sum += line.removed * area;
-      truth.depth_max_mm = std::max(truth.depth_max_mm, line.removed);
+      if (line.after != nothing) truth.depth_max_mm = std::max(truth.depth_max_mm, line.removed);
     }
     const double at = line.after != nothing ? line.after : line.face;
-    if (away_from(achieved, line.point + at * line.direction) > planned.reamer.outer_mm) continue;
+    if (away_from(achieved, line.point + at * line.direction) > planned.reamer.component_mm()) continue;
     const double plate = reamed.plate_depth(line.point, line.direction) - line.face;
     whole += area;
     if (line.removed <= 0.5 * plate) preserved += area;
@@ -266,7 +266,7 @@ double seating_percent(const PlannedReaming& planned, const Reamed& reamed, cons
   };
   std::vector<std::pair<double, double>> gaps;  // bone beyond the back, cosine of its slope
   size_t whole = 0;
-  for (Line& line : lattice(achieved.point, achieved.direction, planned.reamer.outer_mm)) {
+  for (Line& line : lattice(achieved.point, achieved.direction, planned.reamer.component_mm())) {
     reamed.look_along(line);
     if (!counts(planned, line)) continue;
     ++whole;

@@ -12,6 +12,7 @@ namespace ream::test {
 struct ReamerShape {
   double across_mm = 30.0, along_mm = 30.0, outer_mm = 10.0, nipple_mm = 0.0;
 
+  double component_mm() const { return outer_mm - 0.5; }  ///< radius of what is seated in what it reamed
   double behind_mm(double radius_mm) const;
   std::string words() const;  ///< as make_tool takes them, with an 8 mm nipple where there is one
 };
