@@ -1,6 +1,7 @@
 // Scores against the truth: seeded reamings of glenoids, run headless, measured by the product in voxels and
 // by support/reaming_truth in formulas.
 #include <gtest/gtest.h>
+#include <random>
 
 #include "app/headless_run.hpp"
 #include "case/landmarks.hpp"
@@ -55,29 +56,37 @@ Scored run(const RandomReaming& reaming, const TemporaryFolder& folder) {
     const auto& profile = rig.model.tool.profile;
     const shell::SweptProfile table = shell::swept_profile(profile, 3.0);
     double sums[6] = {}, tabled = 0, real = 0;
-    const Vec3 apex = poses.back().translation_mm, axis = poses.back().rotation.col(2);
-    for (size_t i = 0; i < start.size(); ++i) {
-      if (start[i] == 0) continue;
-      const Vec3 p = grid.centre_mm(grid.coordinates(i));
-      const Vec3 o = p - apex;
-      const double z = o.dot(axis), r = (o - z * axis).norm();
-      if (r > 15 || z > 1.0) continue;
-      double least_t = 1e9;
-      for (size_t k = 0; k < inv.size(); k += 1) {
-        const Vec3 q = inv[k].point(p);
-        if (q.z() < -8 || q.z() > 1) continue;
-        const double d = table.at(float(q.x() * q.x() + q.y() * q.y()), float(q.z()));
-        least_t = std::min(least_t, d);
+    const GlenoidFormulas formulas(reaming.glenoid);
+    std::mt19937 rnd(1);
+    std::uniform_real_distribution<double> u(-1, 1);
+    const auto& pr = reaming.reamer;
+    long in_native = 0, cut = 0, hole = 0, N = 1500000;
+    double covsum = 0;
+    for (long n = 0; n < N; ++n) {
+      const Vec3 q(13 * u(rnd), 13 * u(rnd), -3.0 + 3.5 * u(rnd));
+      const Vec3 g = poses[deep].point(q);
+      const Vec3 w = grid.world_from_grid.point(g);
+      const bool solid = formulas.solid(w);
+      in_native += solid;
+      const Vec3i o = grid.voxel_at(g);
+      if (grid.contains(o)) { covsum += start[grid.index(o)] / 255.0; }
+      bool inside = false;
+      for (size_t k = deep + 1; k-- > 0 && !inside; ) {
+        const Vec3 t = inv[k].point(g);
+        const double r = std::hypot(t.x(), t.y());
+        inside = r < pr.outer_mm && t.z() < -pr.behind_mm(r) && t.z() > -pr.behind_mm(pr.outer_mm) - 0.5;
+        if (k > 10) k -= 5;
       }
-      const double kt = std::min<double>(start[i], std::clamp(127.5 + 255 * least_t / voxel_mm, 0.0, 255.0));
-      tabled += start[i] - kt;
-      real += start[i] - rig.bone_case.bone.coverage[i];
-      const double diff = rig.bone_case.bone.coverage[i] - kt;
-      int where = least_t > 3*voxel_mm ? 0 : r > reaming.reamer.outer_mm - 0.4 ? 1 : 2;
-      sums[where] += diff;
+      const Vec3 off = w - reaming.plan.entry_mm;
+      const double along = off.dot(reaming.plan.axis_direction);
+      const bool in_hole = reaming.plan.pilot_hole && (off - along * reaming.plan.axis_direction).norm() < 0.5 * reaming.plan.pilot_hole->diameter_mm;
+      hole += in_hole && solid && inside;
+      cut += solid && inside && !in_hole;
     }
+    const double V = 26.0 * 26.0 * 7.0 / N;
+    printf("MC native %f (coverage, hole gone %f) cut %f  in hole %f +- %f\n", in_native * V, covsum * V, cut * V, hole * V, std::sqrt(double(cut)) * V);
     const double f = grid.voxel_volume_mm3() / 255;
-    printf("REAL %f TABLED %f wall %f floor %f far %f\n", real * f, tabled * f, sums[1] * f, sums[2] * f, sums[0] * f);
+    printf("REAL %f TABLED %f wall %f floor %f far %f all %f filtered %f\n", real * f, tabled * f, sums[1] * f, sums[2] * f, sums[0] * f, sums[4] * f, sums[5] * f);
   }
   return {result.metrics, reaming_truth(reaming, out / "trace.csv")};
 }
