@@ -61,7 +61,7 @@ void ReamingSession::end_without_force(const std::string& words) {
   nlohmann::json metrics = this->metrics();
   try {
     files_->abandon(api::to_text(state), words);
-    close_session_folder(folder_, state, words);
+    close_session_folder(folder_, house_.data, state, words);
     append_missing_remarks();
     metrics = read_json_file(api::metrics_json(folder_));
   } catch (const std::exception& e) {
