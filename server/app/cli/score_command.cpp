@@ -8,7 +8,7 @@
 #include "app/recorded_session.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
-#include "score/rubric.hpp"
+#include "score/rubric_score.hpp"
 
 namespace ream::app {
 namespace {
@@ -23,7 +23,7 @@ nlohmann::json scored(const std::string& name, const std::optional<score::Rubric
   const record::Recording recording(recording_path(name, data), record::Recording::Trust::checked);
   if (const std::string& damage = recording.log().damage(); !damage.empty()) log::warn(damage);
   nlohmann::json json = {{"session", name}, {"metrics", rescored_json(recording)}};
-  if (rubric) json["score"] = score::to_json(*rubric, score::apply_rubric(*rubric, json["metrics"]));
+  if (rubric) json["score"] = score::score_json(*rubric, score::apply_rubric(*rubric, json["metrics"]));
   return json;
 }
 
