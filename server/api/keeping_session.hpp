@@ -6,7 +6,7 @@
 namespace ream::api {
 
 /// A viewer's or device's connection, which keeps the session that it belongs to.
-class KeepingSession final : public net::WebSocketSession {
+class KeepingSession : public net::WebSocketSession {
  public:
   KeepingSession(std::shared_ptr<void> kept, std::unique_ptr<net::WebSocketSession> inner)
       : kept_(std::move(kept)), inner_(std::move(inner)) {}

@@ -8,6 +8,10 @@ namespace ream::api {
 /// typed.
 std::string random_id();
 
+/// The code of a study's participant, "K7-F3M": drawn at random, without vowels and what is easily taken for
+/// another.
+std::string random_participant_code();
+
 /// A moment as "2025-03-01T12:00:00Z".
 std::string utc_text(std::time_t time);
 /// The present one.

@@ -77,12 +77,34 @@ std::vector<Right> session_rows() {
           {"GET", one + "/device", Door::roles, reamers}};
 }
 
+std::vector<Right> study_rows() {
+  const std::string studies = "/api/v1/studies", one = studies + "/{id}";
+  const std::string participants = one + "/participants", participant = participants + "/{code}";
+  return {{"GET", studies, Door::roles, reamers},
+          {"POST", studies, Door::roles, staff},
+          {"POST", studies + "/join", Door::roles, reamers},
+          {"GET", one, Door::roles, reamers},
+          {"PUT", one, Door::roles, staff},
+          {"DELETE", one, Door::roles, operators},
+          {"POST", one + "/close", Door::roles, staff},
+          {"POST", one + "/reopen", Door::roles, staff},
+          {"POST", one + "/unblind", Door::roles, operators},
+          {"GET", participants, Door::roles, staff},
+          {"POST", participants, Door::roles, staff},
+          {"GET", participant, Door::roles, reamers},
+          {"DELETE", participant, Door::roles, operators},
+          {"PUT", participant + "/answers", Door::roles, reamers},
+          {"GET", one + "/persons", Door::roles, staff},
+          {"GET", one + "/codebook", Door::roles, staff},
+          {"GET", one + "/export", Door::roles, staff}};
+}
+
 }  // namespace
 
 const std::vector<Right>& rights() {
   static const std::vector<Right> all = [] {
     std::vector<Right> rows;
-    for (const auto& part : {open_rows(), access_rows(), case_rows(), session_rows()})
+    for (const auto& part : {open_rows(), access_rows(), case_rows(), session_rows(), study_rows()})
       rows.insert(rows.end(), part.begin(), part.end());
     return rows;
   }();

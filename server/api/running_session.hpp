@@ -68,6 +68,7 @@ struct SessionStatus {
   /// Words for people: why state is fault or interrupted, or what keeps a live session from going on now (its
   /// device is lost); else empty.
   std::string fault;
+  bool held = false;  ///< paused by pause(), whatever its device says
   LoopStatus loop;
   DeviceLinkStatus device;
 };
@@ -81,10 +82,18 @@ class RunningSession {
 
   /// Only in state created; the service has checked. Throws Error when it cannot start.
   virtual void start() = 0;
+  /// Takes the force away as the device's own pause button does, from a tick on that is recorded with it, and
+  /// returns when that tick has been. Only while it runs or is paused by its device; the service has checked.
+  virtual void pause() = 0;
+  /// Goes on after pause(), where the device lets it. Only while it is held.
+  virtual void go_on() = 0;
   /// Ends it and waits for the loop (zero force on the way out). Harmless when it has ended already.
   virtual void stop() = 0;
 
   virtual SessionStatus status() const = 0;
+  /// Its labels are now those of `request`; false when it has ended or was never started, so that nothing of
+  /// it writes them down any more.
+  virtual bool relabel(const SessionRequest& request) = 0;
   /// The keys of metrics.json; grid_hash is null until the end.
   virtual nlohmann::json metrics() const = 0;
 

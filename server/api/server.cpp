@@ -4,6 +4,7 @@
 #include <contract.hpp>
 #include <nlohmann/json.hpp>
 
+#include "api/access_resource.hpp"
 #include "api/annotation_resource.hpp"
 #include "api/case_resource.hpp"
 #include "api/case_work_resource.hpp"
@@ -42,11 +43,19 @@ void add_contract_route(net::Router& router) {
 
 CaseTools tools_of(const ServerOptions& options, const SessionService& sessions) {
   return {options.read_ct, [&sessions](const std::string& case_id) {
-            const auto all = sessions.list();
-            return static_cast<size_t>(std::count_if(
-                all.begin(), all.end(),
-                [&](const SessionRecord& record) { return record.request.case_id == case_id; }));
+            store::SessionQuery query;
+            query.case_id = case_id;
+            query.limit = 0;
+            return sessions.list(query).total;
           }};
+}
+
+void add_all_access_routes(net::Router& router, const AccessTools& tools) {
+  add_login_routes(router, tools);
+  add_user_routes(router, tools);
+  add_token_routes(router, tools);
+  add_link_routes(router, tools);
+  add_audit_routes(router, tools);
 }
 
 void add_all_case_routes(net::Router& router, const ServerOptions& options, CaseWorkshop& workshop,
@@ -59,30 +68,51 @@ void add_all_case_routes(net::Router& router, const ServerOptions& options, Case
   add_job_routes(router, workshop.jobs());
 }
 
-net::Router router_of(const ServerOptions& options, SessionService& sessions, ReplayService& replays,
-                      CaseWorkshop& workshop, UploadStore& uploads, const Readiness& readiness) {
+}  // namespace
+
+std::optional<SessionRequest> Server::session_of(const std::string& id) const {
+  try {
+    return sessions_.get(replays_.has(id) ? replays_.get(id).request.replay_of : id).request;
+  } catch (const Error& unknown) {
+    if (unknown.kind() != ErrorKind::not_found) throw;
+    return std::nullopt;
+  }
+}
+
+net::Router Server::routes_of(const ServerOptions& options) {
   net::Router router;
-  add_health_routes(router, readiness);
-  add_metrics_route(router, sessions);
+  router.pace_callers(options.listen.limits.requests_per_caller);
+  add_health_routes(router, readiness_);
+  add_metrics_route(router, sessions_);
   add_contract_route(router);
-  add_all_case_routes(router, options, workshop, uploads);
-  add_session_routes(router, sessions, replays, readiness, options.usual_device);
-  add_annotation_routes(router, sessions);
-  add_replay_routes(router, sessions, replays, readiness);
+  add_all_access_routes(router,
+                        {gate_, gatehouse_.get(), [this](const std::string& id) { sessions_.get(id); }});
+  add_all_case_routes(router, options, workshop_, uploads_);
+  add_session_routes(router, sessions_, replays_, readiness_, options.usual_device);
+  add_annotation_routes(router, sessions_);
+  add_replay_routes(router, sessions_, replays_, readiness_);
   router.otherwise([files = net::StaticFiles(options.web_folder)](const net::Request& request) {
     return files.respond(request);
   });
+  router.guard([this](net::Request& request, const std::string& pattern) { gate_.admit(request, pattern); });
+  if (stream_watch_)
+    router.wrap_websockets(
+        [this](const net::Request& request, std::unique_ptr<net::WebSocketSession> session) {
+          return stream_watch_->watched(request, std::move(session));
+        });
   return router;
 }
 
-}  // namespace
-
 Server::Server(ServerOptions options)
-    : sessions_(std::move(options.make_session), options.sessions, options.sessions_folder),
+    : database_(options.database),
+      gatehouse_(database_ ? std::make_unique<access::Gatehouse>(*database_, options.gatehouse) : nullptr),
+      stream_watch_(gatehouse_ ? std::make_unique<StreamWatch>(gatehouse_->credentials) : nullptr),
+      sessions_(std::move(options.make_session), options.sessions, options.sessions_folder, options.database),
       replays_(std::move(options.make_replay), options.replays),
       uploads_(options.data_folder.empty() ? std::filesystem::path() : options.data_folder / "uploads"),
       workshop_(options.cases_folder, tools_of(options, sessions_)),
-      router_(router_of(options, sessions_, replays_, workshop_, uploads_, readiness_)),
+      gate_(gatehouse_.get(), [this](const std::string& id) { return session_of(id); }),
+      router_(routes_of(options)),
       listener_(router_, options.listen),
       readiness_(std::move(options.prepare)) {}
 

@@ -6,10 +6,13 @@
 #include <mutex>
 #include <string>
 
+#include "access/gatehouse.hpp"
 #include "api/case_workshop.hpp"
+#include "api/gate.hpp"
 #include "api/readiness.hpp"
 #include "api/replay_service.hpp"
 #include "api/session_service.hpp"
+#include "api/stream_watch.hpp"
 #include "net/listener.hpp"
 
 namespace ream::api {
@@ -26,6 +29,10 @@ struct ServerOptions {
   CtReader read_ct;                     ///< of uploaded files
   ReplayFactory make_replay;
   ReplayLimits replays;
+  /// Has users and what they did, and the index of sessions. Without one everybody may do everything and
+  /// lists come from the folders.
+  std::shared_ptr<store::Database> database;
+  access::GatehouseOptions gatehouse;
   std::function<void()> prepare;  ///< run once in the background; /readyz is 503 until it is done
 };
 
@@ -50,16 +57,26 @@ class Server {
   /// Ends connections, then sessions. May be called twice.
   void stop();
 
+  /// Users, credentials and the audit log; null without a database.
+  access::Gatehouse* gatehouse() const { return gatehouse_.get(); }
+
   /// Method and pattern of everything served, the page left out.
   std::vector<net::Router::Route> routes() const { return router_.routes(); }
 
  private:
+  net::Router routes_of(const ServerOptions& options);
+  std::optional<SessionRequest> session_of(const std::string& id) const;
+
   // Order matters: nothing is prepared before the port is ours. stop() has ended the listener before any of
   // these goes.
+  const std::shared_ptr<store::Database> database_;
+  const std::unique_ptr<access::Gatehouse> gatehouse_;
+  const std::unique_ptr<StreamWatch> stream_watch_;  ///< null without a database
   SessionService sessions_;
   ReplayService replays_;
   UploadStore uploads_;
   CaseWorkshop workshop_;
+  const Gate gate_;
   net::Router router_;
   net::Listener listener_;
   Readiness readiness_;

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double largest_force_scale = 1000.0;
 constexpr size_t longest_reamer = 100, longest_profile = 64;
+constexpr size_t longest_trainee = 100, longest_participant = 64, longest_title = 200;
 const std::string base = "/api/v1/sessions";
 
 json to_json(const TimingSummary& times) {
@@ -48,19 +49,39 @@ json to_json(const DeviceLinkStatus& device) {
 
 json to_json(const SessionRecord& record) {
   const SessionStatus& status = record.status;
-  return {{"id", record.request.id},
-          {"kind", "session"},
-          {"case", record.request.case_id},
-          {"script", record.request.script},
-          {"state", to_text(status.state)},
-          {"created_utc", record.request.created_utc},
-          {"tick", status.tick},
-          {"duration_s", status.duration_s},
-          {"force_scale", status.force_scale},
-          {"fault", status.fault.empty() ? json(nullptr) : json(status.fault)},
-          {"streamable", record.streamable},
-          {"loop", to_json(status.loop)},
-          {"device", to_json(status.device)}};
+  json told = labels_json(record.request);
+  told.update({{"id", record.request.id},
+               {"kind", "session"},
+               {"case", record.request.case_id},
+               {"script", record.request.script},
+               {"state", to_text(status.state)},
+               {"held", status.held},
+               {"created_utc", record.request.created_utc},
+               {"tick", status.tick},
+               {"duration_s", status.duration_s},
+               {"force_scale", status.force_scale},
+               {"fault", status.fault.empty() ? json(nullptr) : json(status.fault)},
+               {"streamable", record.streamable},
+               {"loop", to_json(status.loop)},
+               {"device", to_json(status.device)}});
+  return told;
+}
+
+/// A trainee trains for nobody else.
+void name_trainee(const net::Caller& caller, RequestBody& body, SessionRequest& wanted) {
+  wanted.trainee_id = body.name_or("trainee_id", "");
+  wanted.trainee = body.words("trainee", 0, longest_trainee);
+  if (caller.role != "trainee") return;
+  if (!wanted.trainee_id.empty() && wanted.trainee_id != caller.user_id)
+    throw net::RequestError(403, "a trainee's sessions are their own; leave trainee_id out");
+  wanted.trainee_id = caller.user_id;
+  wanted.trainee = caller.name;
+}
+
+net::Response created(const SessionRecord& record) {
+  net::Response response = net::json_response(201, to_json(record));
+  response.headers.emplace_back("Location", base + "/" + record.request.id);
+  return response;
 }
 
 net::Response create(SessionService& service, const Readiness& readiness, const std::string& usual_device,
@@ -72,17 +93,20 @@ net::Response create(SessionService& service, const Readiness& readiness, const 
   wanted.script = body.name_or("script", wanted.device == "script" ? "demo" : "practice");
   wanted.device_profile = body.words("device_profile", 0, longest_profile);
   wanted.force_scale = body.number_or_none("force_scale", 0.0, largest_force_scale);
+  name_trainee(request.caller, body, wanted);
+  wanted.study = body.name_or("study", "");
+  wanted.participant = body.words("participant", 0, longest_participant);
+  wanted.title = body.words("title", 0, longest_title);
   body.finish();
   readiness.require_prepared();
-  const SessionRecord record = service.create(std::move(wanted));
-  net::Response response = net::json_response(201, to_json(record));
-  response.headers.emplace_back("Location", base + "/" + record.request.id);
-  return response;
+  return created(service.create(std::move(wanted)));
 }
 
 net::Response list(const SessionService& service, const ReplayService& replays) {
   json sessions = json::array();
-  for (const SessionRecord& record : service.list()) sessions.push_back(to_json(record));
+  store::SessionQuery query;
+  query.limit = SIZE_MAX;
+  for (const SessionRecord& record : service.list(query).sessions) sessions.push_back(to_json(record));
   json open_replays = json::array();
   for (const ReplayRecord& record : replays.list()) open_replays.push_back(to_json(record));
   return net::json_response(200, {{"sessions", std::move(sessions)}, {"replays", std::move(open_replays)}});
@@ -99,6 +123,19 @@ net::Response resume(SessionService& service, const Readiness& readiness, const 
   }
   readiness.require_prepared();
   return net::json_response(200, to_json(service.resume(id_of(request), reamer)));
+}
+
+net::Response change(SessionService& service, const net::Request& request) {
+  RequestBody body(request);
+  SessionChange wanted;
+  wanted.title = body.words_or_none("title", longest_title);
+  wanted.keep = body.flag_or_none("keep");
+  wanted.trainee_id = body.name_or_none("trainee_id");
+  wanted.trainee = body.words_or_none("trainee", longest_trainee);
+  body.finish();
+  if (request.caller.role == "trainee" && (wanted.keep || wanted.trainee_id || wanted.trainee))
+    throw net::RequestError(403, "a trainee may change the title only");
+  return net::json_response(200, to_json(service.change(id_of(request), wanted)));
 }
 
 /// For slow links: the surface with one sample every 2 or 4 voxels.
@@ -121,6 +158,15 @@ void add_session_routes(net::Router& router, SessionService& service, ReplayServ
   router.on("GET", base + "/{id}", [&](const net::Request& request) {
     const std::string& id = id_of(request);
     return net::json_response(200, replays.has(id) ? to_json(replays.get(id)) : to_json(service.get(id)));
+  });
+  router.on("PATCH", base + "/{id}",
+            [&service](const net::Request& request) { return change(service, request); });
+  router.on("POST", base + "/{id}/pause", [&service](const net::Request& request) {
+    return net::json_response(200, to_json(service.pause(id_of(request))));
+  });
+  router.on("POST", base + "/{id}/reset", [&](const net::Request& request) {
+    readiness.require_prepared();
+    return created(service.reset(id_of(request)));
   });
   router.on("POST", base + "/{id}/start", [&service](const net::Request& request) {
     return net::json_response(200, to_json(service.start(id_of(request))));

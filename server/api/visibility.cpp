@@ -19,9 +19,12 @@ bool may_see(const net::Caller& caller, const SessionRequest& session) {
   }
 }
 
+void refuse_unseen(const std::string& id) {
+  throw Error(ErrorKind::not_found, "no session '" + id + "'; GET /api/v1/sessions lists them");
+}
+
 void require_may_see(const net::Caller& caller, const SessionRequest& session) {
-  if (!may_see(caller, session))
-    throw Error(ErrorKind::not_found, "no session '" + session.id + "'; GET /api/v1/sessions lists them");
+  if (!may_see(caller, session)) refuse_unseen(session.id);
 }
 
 }  // namespace ream::api

@@ -8,7 +8,9 @@ namespace ream::api {
 /// of the one their link is for or, when it is for none in particular, of all.
 bool may_see(const net::Caller& caller, const SessionRequest& session);
 
-/// Error not_found, in the words of a session that does not exist, unless the caller may see it.
+/// Error not_found, in the words of a session that does not exist.
+[[noreturn]] void refuse_unseen(const std::string& id);
+/// The same unless the caller may see it.
 void require_may_see(const net::Caller& caller, const SessionRequest& session);
 
 }  // namespace ream::api

@@ -41,7 +41,10 @@ class ReamingSession final : public api::RunningSession {
   ~ReamingSession() override;
 
   void start() override;
+  void pause() override;
+  void go_on() override;
   void stop() override;
+  bool relabel(const api::SessionRequest& request) override;
   api::SessionStatus status() const override;
   nlohmann::json metrics() const override;
   api::Annotation annotate(const api::NewAnnotation& note) override;
@@ -62,6 +65,8 @@ class ReamingSession final : public api::RunningSession {
   ReamingSession(const SessionHouse& house, const api::SessionRequest& request, Beginning beginning);
 
   void open_files();
+  void write_running(const SessionFiles& files) const;
+  void hold(bool held);
   nlohmann::json told_of(api::SessionState state, const std::string& fault) const;
   void follow_to_the_end();
   void follow();
@@ -105,6 +110,7 @@ class ReamingSession final : public api::RunningSession {
   stream::TelemetrySample sample_;  ///< the newest, follower only
   bool failover_told_ = false;      ///< follower only
   bool device_is_lost_ = false;     ///< follower only
+  bool held_ = false;               ///< in the newest tick, follower only
   sim::BlackBox recent_;  ///< the last seconds as the follower has them, for faults that do not end it
   device::LinkState device_state_ = device::LinkState::lost;  ///< follower only
   int64_t standstill_told_ns_ = 0;  ///< follower only; 0: the loop has not stood still
@@ -112,6 +118,8 @@ class ReamingSession final : public api::RunningSession {
   mutable std::mutex mutex_;  ///< guards what follows
   std::condition_variable changed_;
   api::SessionStatus status_;
+  api::SessionRequest labels_;  ///< the request with its labels as they are now
+  bool relabelled_ = false;     ///< for the follower to write down
   nlohmann::json metrics_;
   std::unique_ptr<SessionFiles> files_;               ///< set by start(), used by the follower
   std::vector<record::ops::Annotation> remarks_;      ///< for the follower to record

@@ -15,11 +15,11 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = boost::beast::http;
 namespace websocket = boost::beast::websocket;
-using asio::ip::tcp;
 using boost::system::error_code;
 namespace {
 
-constexpr size_t longest_reason = 123;  ///< bytes, RFC 6455, 5.5
+constexpr size_t longest_reason = 123;     ///< bytes, RFC 6455, 5.5
+constexpr double bytes_per_unit = 1024.0;  ///< of Limits::websocket_messages
 
 /// The handshake must be read before this connection exists, so it is rebuilt from what the router saw.
 http::request<http::empty_body> handshake_of(const Request& request) {
@@ -31,11 +31,13 @@ http::request<http::empty_body> handshake_of(const Request& request) {
 class WebSocketConnection final : public Connection,
                                   public std::enable_shared_from_this<WebSocketConnection> {
  public:
-  WebSocketConnection(Engine& engine, tcp::socket socket, std::unique_ptr<WebSocketSession> session)
-      : engine_(engine),
+  WebSocketConnection(Engine& engine, Channel channel, Ends ends, std::unique_ptr<WebSocketSession> session)
+      : Connection(std::move(ends.peer_key)),
+        engine_(engine),
         session_(std::move(session)),
-        stream_(std::move(socket)),
+        stream_(std::move(channel)),
         watchdog_(stream_.next_layer()),
+        messages_(engine.limits.websocket_messages, TokenBucket::Clock::now()),
         line_(std::make_shared<WakeLine>()) {}
 
   ~WebSocketConnection() override {
@@ -51,9 +53,17 @@ class WebSocketConnection final : public Connection,
     timeouts.idle_timeout = engine_.limits.idle;
     timeouts.keep_alive_pings = true;
     stream_.set_option(timeouts);
-    stream_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
-      for (const auto& [name, value] : security_headers()) response.set(name, value);
+    const bool encrypted = stream_.next_layer().encrypted();
+    stream_.set_option(websocket::stream_base::decorator([encrypted](websocket::response_type& response) {
+      for (const auto& [name, value] : security_headers(encrypted)) response.set(name, value);
     }));
+    stream_.control_callback([self = weak_from_this()](websocket::frame_type, beast::string_view words) {
+      // It is called in the middle of a read: what follows from it must wait.
+      const auto alive = self.lock();
+      if (alive)
+        asio::post(alive->stream_.get_executor(),
+                   [alive, bytes = words.size()] { alive->take_from_rate(bytes); });
+    });
     stream_.read_message_max(engine_.limits.websocket_message_bytes);
     stream_.auto_fragment(false);
     stream_.text(session_->sends_text());
@@ -135,19 +145,34 @@ class WebSocketConnection final : public Connection,
   }
 
   void read() {
-    stream_.async_read(incoming_, [self = shared_from_this()](error_code failed, size_t) {
-      if (failed) {
+    stream_.async_read_some(incoming_, 0, [self = shared_from_this()](error_code failed, size_t bytes) {
+      if (failed)
         self->finish();
-        return;
-      }
-      const auto data = self->incoming_.data();
-      self->guarded([&] {
-        if (!self->finished_ && !self->closing_)
-          self->session_->on_message({static_cast<const std::byte*>(data.data()), data.size()});
-      });
-      self->incoming_.consume(self->incoming_.size());
-      self->read();
+      else
+        self->on_piece(bytes);
     });
+  }
+
+  /// Every piece counts, not only whole messages: endless fragments are no way around the rate.
+  void on_piece(size_t bytes) {
+    if (!take_from_rate(bytes)) return;
+    if (stream_.is_message_done()) {
+      const auto data = incoming_.data();
+      guarded([&] {
+        if (!finished_ && !closing_)
+          session_->on_message({static_cast<const std::byte*>(data.data()), data.size()});
+      });
+      incoming_.consume(incoming_.size());
+    }
+    read();
+  }
+
+  /// False when the peer has said too much.
+  bool take_from_rate(size_t bytes) {
+    const double cost = 1.0 + static_cast<double>(bytes) / bytes_per_unit;
+    if (messages_.take(cost, TokenBucket::Clock::now()) <= 0.0) return true;
+    close({websocket::close_code::policy_error, "too many messages"});
+    return false;
   }
 
   template <typename Call>
@@ -176,7 +201,6 @@ class WebSocketConnection final : public Connection,
     if (finished_) return;
     finished_ = true;
     let_go();
-    watchdog_.disarm();
     watchdog_.close();
   }
 
@@ -193,8 +217,9 @@ class WebSocketConnection final : public Connection,
 
   Engine& engine_;
   std::unique_ptr<WebSocketSession> session_;
-  websocket::stream<tcp::socket> stream_;
+  websocket::stream<Channel> stream_;
   Watchdog watchdog_;
+  TokenBucket messages_;
   beast::flat_buffer incoming_;
   SharedBytes outgoing_;
   std::shared_ptr<WakeLine> line_;
@@ -207,9 +232,10 @@ class WebSocketConnection final : public Connection,
 
 }  // namespace
 
-void start_websocket(Engine& engine, tcp::socket socket, Request request,
+void start_websocket(Engine& engine, Channel channel, Ends ends, Request request,
                      std::unique_ptr<WebSocketSession> session) {
-  std::make_shared<WebSocketConnection>(engine, std::move(socket), std::move(session))->start(request);
+  std::make_shared<WebSocketConnection>(engine, std::move(channel), std::move(ends), std::move(session))
+      ->start(request);
 }
 
 }  // namespace ream::net

@@ -50,6 +50,8 @@ void main() {
     surface = pow(own_colour.rgb, vec3(2.2));
     bool stripe = mod(gl_FragCoord.x + gl_FragCoord.y, 18.0) < 5.0;
     if (own_colour.a > 0.5 && stripe) surface *= 0.25;
+    light = mix(vec3(0.95), light, 0.4);
+    shine = 0.0;
   }
   gl_FragColor = vec4(srgb(surface * light + vec3(0.06 * shine)), opacity);
 }

@@ -17,7 +17,8 @@ struct Layer {
   Pose world_from_mesh;
   Vec3f colour{0.91f, 0.86f, 0.76f};                   ///< linear RGB, 0 to 1
   float opacity = 1.0f;                                ///< below 1: drawn after the opaque layers
-  const std::vector<VertexColour>* colours = nullptr;  ///< one a vertex, in place of colour
+  /// One a vertex, in place of colour; lit evenly, so that they stay what they are.
+  const std::vector<VertexColour>* colours = nullptr;
 };
 
 /// Perspective camera.

@@ -48,6 +48,12 @@ int8_t deviation_code(double mm) {
   return static_cast<int8_t>(std::clamp(steps, -127.0, 127.0));
 }
 
+std::vector<uint8_t> cut_vertices(std::span<const Vec3f> vertices_mm, const BoneStates& bone) {
+  std::vector<uint8_t> cut(vertices_mm.size());
+  for (size_t i = 0; i < cut.size(); ++i) cut[i] = origin_of(bone, vertices_mm[i]) == Origin::cut ? 1 : 0;
+  return cut;
+}
+
 std::vector<int8_t> deviation_from_plan(std::span<const Vec3f> vertices_mm, const BoneStates& bone,
                                         const PlacedFront& planned, const TriangleTree& native_surface) {
   std::vector<int8_t> codes(vertices_mm.size(), deviation_unknown);

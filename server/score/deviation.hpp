@@ -32,6 +32,9 @@ struct PlacedFront {
   Pose front_from_grid;
 };
 
+/// 1 for every vertex that removal has made, else 0; vertices as below.
+std::vector<uint8_t> cut_vertices(std::span<const Vec3f> vertices_mm, const BoneStates& bone);
+
 /// How far the surface that is left lies beyond the planned one, vertex by vertex: positive where it is too
 /// deep, negative where bone stands that should be gone. The planned surface is the native one less what the
 /// reamer sweeps as planned. Unknown where nothing was removed and nothing should be, and in the pilot hole.

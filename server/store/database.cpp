@@ -36,6 +36,18 @@ class Inside {
   Inside& operator=(const Inside&) = delete;
 };
 
+/// An unstorable text is the cause of what fails after it.
+void act(Sql& sql, const std::function<void(Sql&)>& action) {
+  forget_unstorable();
+  try {
+    action(sql);
+  } catch (const soci::soci_error&) {
+    refuse_unstorable();
+    throw;
+  }
+  refuse_unstorable();
+}
+
 }  // namespace
 
 /// One pool, and how a transaction goes on it.
@@ -62,7 +74,7 @@ bool Database::Connections::attempt(Access access, const std::function<void(Sql&
       begin_writing(lease->sql());
     else
       begin_reading(lease->sql());
-    action(lease->sql());
+    act(lease->sql(), action);
     committing = true;
     lease->sql() << "COMMIT";
     return true;

@@ -6,27 +6,12 @@
 #include <vector>
 
 #include "store/database.hpp"
+#include "store/session_query.hpp"
 
 namespace ream::store {
 
-/// A session in the index: what lists filter and sort by, and all that a list shows of it.
-struct SessionRow {
-  std::string id;
-  std::string case_id, script;
-  std::string state;        ///< the word of session.json
-  std::string created_utc;  ///< "2026-01-31T12:00:00Z"
-  double duration_s = 0.0;
-  std::string trainee_id, trainee;  ///< user's id and name to show; empty without users
-  std::string study, participant;   ///< empty outside studies
-  std::string record;               ///< for the owner of the index: what the folder says, any text
-  int64_t stamp = 0;                ///< of the folder's files when it was read; another stamp: read it again
-  bool lasting = true;              ///< false: may change its state without a new stamp (it was left live)
-
-  bool operator==(const SessionRow&) const = default;
-};
-
 /// Sessions of a data folder in the database, to be found quickly. Holds nothing that the folders do not
-/// hold. Thread-safe; errors are those of Database.
+/// hold. Thread-safe; errors are those of Database, and invalid_input for texts that no database holds.
 class SessionIndex {
  public:
   explicit SessionIndex(Database& database) : database_(database) {}
@@ -35,9 +20,23 @@ class SessionIndex {
   void put(const std::vector<SessionRow>& rows);
   /// Unknown ids are no error.
   void remove(const std::vector<std::string>& ids);
+  /// Nothing but these rows from now on.
+  void replace_all(const std::vector<SessionRow>& rows);
+
   std::optional<SessionRow> get(const std::string& id) const;
-  /// Stamps of all sessions by id.
-  std::map<std::string, int64_t> stamps() const;
+  struct Mark {
+    int64_t stamp = 0;
+    bool lasting = true;
+  };
+  /// Of all sessions by id.
+  std::map<std::string, Mark> marks() const;
+
+  struct Found {
+    std::vector<SessionRow> rows;  ///< at most `limit` + 1: one more tells that there is another page
+    size_t total = 0;              ///< that the filters let pass, on all pages
+  };
+  /// In the query's order, without the sessions named in `except`. Error invalid_input for a bad cursor.
+  Found find(const SessionQuery& query, const std::vector<std::string>& except = {}) const;
 
  private:
   Database& database_;

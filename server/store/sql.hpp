@@ -1,6 +1,9 @@
 #pragma once
 #include <soci/soci.h>
 
+#include <string>
+#include <type_traits>
+
 #include "store/database.hpp"
 
 /// What repositories need of SOCI. Included by sources of this room only.
@@ -14,12 +17,58 @@
 ///     return sql.got_data() ? std::optional(user) : std::nullopt;
 ///   });
 ///
-/// SQL is what both stores understand ("ON CONFLICT (id) DO UPDATE SET name = excluded.name" is). A value
-/// given to use() lives until the statement has run. Columns are NOT NULL, for into() of a NULL throws. Whole
-/// numbers are read into long long; SOCI knows no bool and no uint64_t.
+/// SQL is what both stores understand ("ON CONFLICT (id) DO UPDATE SET name = excluded.name" is). Columns are
+/// NOT NULL, for into() of a NULL throws. Whole numbers are read into long long or int64_t; SOCI knows no
+/// bool.
 namespace ream::store {
 
 using soci::into;
-using soci::use;
+
+/// The text itself. One that PostgreSQL cannot hold as it is (a NUL, bytes that are no UTF-8) becomes empty,
+/// and the transaction fails at its end with Error invalid_input: SOCI bears no exception inside a statement.
+const std::string& storable(const std::string& text);
+/// Throws that error if this thread gave such a text since forget_unstorable().
+void refuse_unstorable();
+void forget_unstorable();
+
+inline const std::string no_name;  ///< what SOCI keeps for a parameter lives longer than a default argument
+
+/// A parameter, by place. `value` lives until the statement has run.
+template <typename T>
+auto use(const T& value) {
+  if constexpr (std::is_same_v<T, std::string>)
+    return soci::use(storable(value), no_name);
+  else
+    return soci::use(value, no_name);
+}
+template <typename T>
+void use(const T&&) = delete;
+
+/// A statement with as many parameters as it turns out to need.
+class OpenStatement {
+ public:
+  OpenStatement(Sql& sql, const std::string& text) : made_(sql.prepare << text) {}
+  template <typename T>
+  OpenStatement& with(const T& value) {
+    made_, use(value);
+    return *this;
+  }
+  /// Columns come into these variables at each fetch().
+  template <typename T>
+  OpenStatement& into(T& value) {
+    made_, soci::into(value);
+    return *this;
+  }
+  /// Calls `row` after each row has come.
+  template <typename Row>
+  void each(Row&& row) {
+    soci::statement statement(made_);
+    statement.execute();
+    while (statement.fetch()) row();
+  }
+
+ private:
+  soci::details::prepare_temp_type made_;
+};
 
 }  // namespace ream::store

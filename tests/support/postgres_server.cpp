@@ -111,11 +111,10 @@ PostgresServer& PostgresServer::shared() {
 }
 
 void PostgresServer::start() {
-  process_ =
-      start_program({program("postgres"), "-D", folder_ / "data", "-p", std::to_string(port_), "-h",
-                     "127.0.0.1", "-k", folder_, "-c", "fsync=off", "-c", "full_page_writes=off", "-c",
-                     "synchronous_commit=off", "-c", "max_connections=50", "-c", "shared_buffers=32MB"},
-                    folder_ / "log");
+  process_ = start_program({program("postgres"), "-D", folder_ / "data", "-p", std::to_string(port_), "-h",
+                            "127.0.0.1", "-k", folder_, "-c", "fsync=off", "-c", "full_page_writes=off", "-c",
+                            "max_connections=50", "-c", "shared_buffers=32MB"},
+                           folder_ / "log");
   const auto latest = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (::PQping(url_of(port_, "postgres").c_str()) != PQPING_OK) {
     if (::waitpid(process_, nullptr, WNOHANG) != 0 || std::chrono::steady_clock::now() > latest)

@@ -51,6 +51,7 @@ const std::vector<Library>& single_room_libraries() {
   static const std::vector<Library> libraries{
       {"OpenCL", std::regex("(CL|OpenCL)/.*"), "gpu"},
       {"Beast and Asio", std::regex("boost/(beast|asio)(/|\\.).*"), "net"},
+      {"OpenSSL", std::regex("openssl/.*"), "net"},
       {"ITK", std::regex("(itk|vnl/|gdcm).*"), "ct"},
       {"assimp", std::regex("assimp/.*"), "geometry"},
       {"SOCI", std::regex("soci/.*"), "store"},

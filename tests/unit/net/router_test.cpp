@@ -94,6 +94,28 @@ TEST_F(RouterTest, GateIsAskedBeforeEveryHandlerAndMayRefuse) {
   EXPECT_EQ(router.open(request_for("GET", "/things/7/stream")).refusal.status, 403);
 }
 
+TEST_F(RouterTest, ACallerIsPacedByUserOrCredentialAndNobodyElse) {
+  router.pace_callers({0.001, 2.0});
+  router.guard([](Request& request, const std::string&) {
+    request.caller.user_id = request.query["user"];
+    request.caller.credential = request.query["credential"];
+  });
+  const auto ask = [&](const std::string& user, const std::string& credential) {
+    Request request = request_for("GET", "/things");
+    request.query = {{"user", user}, {"credential", credential}};
+    return router.respond(request);
+  };
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(ask("ada", "token-" + std::to_string(i)).status, 200);
+  EXPECT_EQ(ask("ada", "token-3").status, 429);
+  EXPECT_FALSE(ask("ada", "token-3").header("Retry-After").empty());
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(ask("", "link-1").status, 200);
+  EXPECT_EQ(ask("", "link-1").status, 429);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(ask("", "").status, 200);
+  Request watch = request_for("GET", "/things/1/stream");
+  watch.query["user"] = "ada";
+  EXPECT_EQ(router.open(watch).refusal.status, 429);
+}
+
 TEST_F(RouterTest, OtherwiseAnswersReadsOnly) {
   router.otherwise([](const Request&) { return named(304); });
   EXPECT_EQ(router.respond(request_for("GET", "/nowhere")).status, 304);

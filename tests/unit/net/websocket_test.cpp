@@ -193,6 +193,30 @@ TEST_F(WebSocketTest, OversizedMessageEndsTheConnection) {
   EXPECT_TRUE(desk->wait_closed());
 }
 
+TEST_F(WebSocketTest, WhoSendsTooMuchIsClosedWith1008) {
+  options.limits.websocket_messages = {0.001, 10.0};
+  RawWebSocket client(start(), "/stream/1");
+  for (int i = 0; i < 12; ++i) client.send_binary("x");
+  std::optional<uint16_t> code;
+  while (!(code = client.receive().close_code())) {
+  }
+  EXPECT_EQ(code, 1008);
+  EXPECT_TRUE(desk->wait_closed());
+}
+
+TEST_F(WebSocketTest, PingsAndEmptyFragmentsCountAsWell) {
+  options.limits.websocket_messages = {0.001, 10.0};
+  for (const int opcode : {9, 0}) {
+    RawWebSocket client(start(), "/stream/1");
+    if (opcode == 0) client.send_frame(2, "begin", false);
+    for (int i = 0; i < 12; ++i) client.send_frame(opcode, "", opcode == 9);
+    std::optional<uint16_t> code;
+    while (!(code = client.receive().close_code())) {
+    }
+    EXPECT_EQ(code, 1008) << opcode;
+  }
+}
+
 TEST_F(WebSocketTest, SlowViewerIsCutAndOthersAreServedMeanwhile) {
   options.limits.write = 300ms;
   const uint16_t port = start();

@@ -34,7 +34,7 @@ TYPED_TEST(MigrationsTest, RunAStepThatCameLater) {
     sql << "DROP TABLE sessions";
     sql << "DELETE FROM migrations WHERE number = 1";
   });
-  EXPECT_TRUE(SessionIndex(*this->open_again()).stamps().empty());
+  EXPECT_TRUE(SessionIndex(*this->open_again()).marks().empty());
 }
 
 TYPED_TEST(MigrationsTest, LeaveNothingOfAStepThatFails) {
@@ -46,7 +46,7 @@ TYPED_TEST(MigrationsTest, LeaveNothingOfAStepThatFails) {
   });
   EXPECT_THROW(this->open_again(), Error);
   this->database().run([](Sql& sql) { sql << "DROP TABLE session_records"; });
-  EXPECT_TRUE(SessionIndex(*this->open_again()).stamps().empty());
+  EXPECT_TRUE(SessionIndex(*this->open_again()).marks().empty());
 }
 
 TYPED_TEST(MigrationsTest, RefuseADatabaseOfANewerBuild) {

@@ -30,6 +30,7 @@ class ServerContractTest : public ContractTest {
     expect_post(one + "/start", path + "/start", 200);
     expect_post(one + "/start", path + "/start", 409);
     expect_post(one + "/start", all + "/nobody/start", 404);
+    pausing(path);
     expect_post(one + "/stop", path + "/stop", 403, "", foreign);
     expect_post(one + "/stop", path + "/stop", 200);
     expect_post(one + "/stop", path + "/stop", 409);
@@ -37,9 +38,11 @@ class ServerContractTest : public ContractTest {
     expect_get(one + "/metrics", path + "/metrics", 200);
     resume(path);
     annotations(path);
+    changing(path);
+    resetting();
     const std::string stuck = create("no-start");
     expect_post(one + "/start", all + "/" + stuck + "/start", 503);
-    factory.made(3).set(api::SessionState::fault, "the device fell silent");
+    factory.made(5).set(api::SessionState::fault, "the device fell silent");
     expect_get(one, all + "/" + stuck, 200);
     expect_stream(path + "/stream", 101);
     expect_stream(path + "/stream?stride=4", 101);
@@ -50,6 +53,49 @@ class ServerContractTest : public ContractTest {
     expect_get(one + "/stream", path + "/stream", 426);
     device(path);
     replays_of(id);
+  }
+
+  void pausing(const std::string& path) {
+    const std::string pattern = one + "/pause";
+    expect_post(pattern, path + "/pause", 403, "", foreign);
+    expect_post(pattern, all + "/nobody/pause", 404);
+    expect_post(pattern, path + "/pause", 200);
+    EXPECT_EQ(json::parse(get(path).body).at("held"), true);
+    expect_post(pattern, path + "/pause", 409);
+    expect_post(one + "/start", path + "/start", 200);
+    EXPECT_EQ(json::parse(get(path).body).at("state"), "running");
+  }
+
+  void changing(const std::string& path) {
+    const std::string good =
+        R"({"title": "first try", "keep": true, "trainee": "Anna", "trainee_id": "anna"})";
+    expect_request("PATCH", one, path, 200, good);
+    expect_request("PATCH", one, path, 400, "{");
+    expect_request("PATCH", one, path, 403, good, foreign);
+    expect_request("PATCH", one, all + "/nobody", 404, good);
+    expect_request("PATCH", one, path, 413, std::string(options.listen.limits.body_bytes + 1, ' '));
+    expect_request("PATCH", one, path, 415, good, {{"Content-Type", "text/plain"}});
+    expect_request("PATCH", one, path, 422, R"({"titel": "first try"})");
+    const auto lock = FileLock::attempt(api::lock_file(options.sessions_folder / "earlier"));
+    expect_request("PATCH", one, all + "/earlier", 409, good);
+    EXPECT_EQ(json::parse(get(path).body).at("title"), "first try");
+  }
+
+  void resetting() {
+    const std::string pattern = one + "/reset", first = all + "/" + create();
+    expect_post(pattern, first + "/reset", 403, "", foreign);
+    expect_post(pattern, all + "/nobody/reset", 404);
+    expect_post(one + "/start", first + "/start", 200);
+    const HttpReply reply = post(first + "/reset");
+    expect_as_described("POST", pattern, 201, reply);
+    const json next = json::parse(reply.body), old = json::parse(get(first).body);
+    EXPECT_EQ(next.at("reset_of"), old.at("id"));
+    EXPECT_EQ(next.at("attempt"), 2);
+    EXPECT_EQ(next.at("state"), "running");
+    EXPECT_EQ(old.at("followed_by"), next.at("id"));
+    EXPECT_EQ(old.at("state"), "stopped");
+    expect_post(pattern, first + "/reset", 409);
+    expect_post(one + "/stop", all + "/" + next.at("id").get<std::string>() + "/stop", 200);
   }
 
   void expect_device(const std::string& path, int status,
@@ -143,6 +189,13 @@ class ServerContractTest : public ContractTest {
     while (post(all, R"({"case": "planned", "script": "demo"})").status == 201) {
     }
     expect_post(all, all, 503, R"({"case": "planned", "script": "demo"})");
+    const HttpReply filled = get(all);
+    const json sessions = json::parse(filled.body).at("sessions");
+    const auto ended = std::find_if(sessions.begin(), sessions.end(), [](const json& session) {
+      return session.at("state") == "stopped" && session.at("followed_by").is_null();
+    });
+    ASSERT_NE(ended, sessions.end());
+    expect_post(one + "/reset", all + "/" + ended->at("id").get<std::string>() + "/reset", 503);
   }
 };
 
