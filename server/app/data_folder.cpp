@@ -16,5 +16,6 @@ std::filesystem::path data_folder(const std::filesystem::path& chosen) {
 
 std::filesystem::path cases_folder(const std::filesystem::path& data) { return data / "cases"; }
 std::filesystem::path sessions_folder(const std::filesystem::path& data) { return data / "sessions"; }
+std::filesystem::path rubrics_folder(const std::filesystem::path& data) { return data / "rubrics"; }
 
 }  // namespace ream::app

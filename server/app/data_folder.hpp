@@ -9,5 +9,6 @@ std::filesystem::path data_folder(const std::filesystem::path& chosen);
 
 std::filesystem::path cases_folder(const std::filesystem::path& data);
 std::filesystem::path sessions_folder(const std::filesystem::path& data);
+std::filesystem::path rubrics_folder(const std::filesystem::path& data);
 
 }  // namespace ream::app

@@ -7,6 +7,9 @@
 
 namespace ream::app {
 
+/// The plan of a recording. Error invalid_input.
+case_::Plan recorded_plan(const record::Recording& recording);
+
 /// The case that a recording began with, under the recording's plan instead of the case's present one; its
 /// pilot hole is not cut yet. `case_name` as in RunRequest, or empty for the case that the header names.
 /// Errors: not_found, conflict when it is not the same case any more, invalid_input for the plan.

@@ -15,8 +15,8 @@ struct VertexColour {
 struct Layer {
   const TriangleMesh* mesh = nullptr;
   Pose world_from_mesh;
-  Vec3f colour{0.91f, 0.86f, 0.76f};                   ///< linear RGB, 0 to 1
-  float opacity = 1.0f;                                ///< below 1: drawn after the opaque layers
+  Vec3f colour{0.91f, 0.86f, 0.76f};  ///< linear RGB, 0 to 1
+  float opacity = 1.0f;               ///< below 1: drawn after the opaque layers
   /// One a vertex, in place of colour; lit evenly, so that they stay what they are.
   const std::vector<VertexColour>* colours = nullptr;
 };

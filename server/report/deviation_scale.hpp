@@ -8,8 +8,9 @@
 
 namespace ream::report {
 
-/// One class of deviations: up to so much of a mm, coloured and hatched the same. Purple to orange over white is
-/// told apart by all kinds of colour blindness (ColorBrewer PuOr); what is hatched is told apart without colour.
+/// One class of deviations: up to so much of a mm, coloured and hatched the same. Purple to orange over white
+/// is told apart by all kinds of colour blindness (ColorBrewer PuOr); what is hatched is told apart without
+/// colour.
 struct DeviationClass {
   double up_to_mm = 0.0;  ///< including it; the last one has no end
   render::VertexColour colour;

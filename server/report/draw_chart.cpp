@@ -8,7 +8,7 @@
 namespace ream::report {
 namespace {
 
-constexpr double left_margin = 34.0, right_margin = 6.0, top_margin = 12.0, bottom_margin = 26.0;
+constexpr double left_margin = 34.0, right_margin = 62.0, top_margin = 12.0, bottom_margin = 26.0;
 constexpr double bar_height = 4.0, label_size = 7.0;
 constexpr Ink band_ink{0.90, 0.93, 0.96}, curve_ink{0.12, 0.30, 0.48}, area_ink{0.62, 0.74, 0.85};
 constexpr Ink moment_ink{0.55, 0.25, 0.05};
@@ -24,7 +24,9 @@ class Scale {
         bottom_(at.y + height - bottom_margin - (chart.stretches_name.empty() ? 0.0 : bar_height + 3.0)) {}
 
   double x(double value) const { return left_ + share(value, chart_.x_min, chart_.x_max) * (right_ - left_); }
-  double y(double value) const { return bottom_ - share(value, chart_.y_min, chart_.y_max) * (bottom_ - top_); }
+  double y(double value) const {
+    return bottom_ - share(value, chart_.y_min, chart_.y_max) * (bottom_ - top_);
+  }
   double left() const { return left_; }
   double right() const { return right_; }
   double top() const { return top_; }
@@ -40,15 +42,17 @@ class Scale {
 };
 
 void draw_grid(const Chart& chart, Canvas& canvas, const Scale& scale, double paper_bottom) {
-  const double steps_y = (scale.bottom() - scale.top()) / 24.0;
+  const double steps_y = (scale.bottom() - scale.top()) / 17.0;
   const auto ys = round_numbers(chart.y_min, chart.y_max, std::max(2, static_cast<int>(steps_y)));
   for (const double value : ys) {
-    canvas.straight({scale.left(), scale.y(value)}, {scale.right(), scale.y(value)}, {0.4, grey(0.86), false});
+    canvas.straight({scale.left(), scale.y(value)}, {scale.right(), scale.y(value)},
+                    {0.4, grey(0.86), false});
     canvas.text({scale.left() - 4.0, scale.y(value) + 2.5}, shortest(value),
                 {label_size, grey(0.25), Anchor::right, false, false});
   }
   for (const double value : round_numbers(chart.x_min, chart.x_max, 8, chart.whole_x)) {
-    canvas.straight({scale.x(value), scale.bottom()}, {scale.x(value), scale.bottom() + 2.5}, {0.6, grey(0.4), false});
+    canvas.straight({scale.x(value), scale.bottom()}, {scale.x(value), scale.bottom() + 2.5},
+                    {0.6, grey(0.4), false});
     canvas.text({scale.x(value), paper_bottom - bottom_margin + 10.0}, shortest(value),
                 {label_size, grey(0.25), Anchor::middle, false, false});
   }
@@ -66,18 +70,20 @@ void draw_ranges(const Chart& chart, Canvas& canvas, const Scale& scale) {
   for (const TargetRange& range : chart.ranges) {
     canvas.fill_box({scale.left(), scale.y(range.high)}, {scale.right(), scale.y(range.low)}, band_ink);
     for (const double edge : {range.low, range.high})
-      canvas.straight({scale.left(), scale.y(edge)}, {scale.right(), scale.y(edge)}, {0.5, grey(0.55), false});
+      canvas.straight({scale.left(), scale.y(edge)}, {scale.right(), scale.y(edge)},
+                      {0.5, grey(0.55), false});
   }
 }
 
 void draw_limits(const Chart& chart, Canvas& canvas, const Scale& scale) {
   for (const TargetRange& range : chart.ranges)
-    canvas.text({scale.right() - 2.0, scale.y(range.high) + 7.5}, range.words,
-                {label_size, grey(0.3), Anchor::right, false, false});
+    canvas.text({scale.right() + 4.0, scale.y(0.5 * (range.low + range.high)) + 2.5}, range.words,
+                {label_size, grey(0.3), Anchor::left, false, false});
   for (const Level& level : chart.levels) {
-    canvas.straight({scale.left(), scale.y(level.y)}, {scale.right(), scale.y(level.y)}, {0.7, grey(0.3), true});
-    canvas.text({scale.right() - 2.0, scale.y(level.y) - 2.5}, level.words,
-                {label_size, grey(0.3), Anchor::right, false, false});
+    canvas.straight({scale.left(), scale.y(level.y)}, {scale.right(), scale.y(level.y)},
+                    {0.7, grey(0.3), true});
+    canvas.text({scale.right() + 4.0, scale.y(level.y) + 2.5}, level.words,
+                {label_size, grey(0.3), Anchor::left, false, false});
   }
 }
 
@@ -98,7 +104,8 @@ void draw_curve(const Curve& curve, Canvas& canvas, const Scale& scale) {
     }
     canvas.line(high, {is_area ? 0.6 : 1.0, curve_ink, false});
     if (!curve.dots) continue;
-    for (const Place& dot : high) canvas.fill_box({dot.x - 1.8, dot.y - 1.8}, {dot.x + 1.8, dot.y + 1.8}, curve_ink);
+    for (const Place& dot : high)
+      canvas.fill_box({dot.x - 1.8, dot.y - 1.8}, {dot.x + 1.8, dot.y + 1.8}, curve_ink);
   }
 }
 
@@ -117,7 +124,8 @@ void draw_stretches(const Chart& chart, Canvas& canvas, const Scale& scale) {
   canvas.text({scale.left() - 4.0, top + bar_height}, chart.stretches_name,
               {label_size - 1.0, grey(0.25), Anchor::right, false, false});
   for (const Stretch& stretch : chart.stretches)
-    canvas.fill_box({scale.x(stretch.from), top}, {std::max(scale.x(stretch.to), scale.x(stretch.from) + 0.4), top + bar_height},
+    canvas.fill_box({scale.x(stretch.from), top},
+                    {std::max(scale.x(stretch.to), scale.x(stretch.from) + 0.4), top + bar_height},
                     grey(0.35));
 }
 

@@ -26,7 +26,8 @@ std::string text_element(const std::string& tag, const std::string& text, const 
 
 std::string facts(const std::vector<Fact>& list, const std::string& classes = "facts") {
   std::string rows;
-  for (const Fact& fact : list) rows += element("div", text_element("dt", fact.name) + text_element("dd", fact.value));
+  for (const Fact& fact : list)
+    rows += element("div", text_element("dt", fact.name) + text_element("dd", fact.value));
   return list.empty() ? "" : element("dl", rows, classes);
 }
 
@@ -37,10 +38,13 @@ std::string result_class(const std::optional<score::Outcome>& outcome) {
 std::string head(const Report& report) {
   std::string reasons;
   for (const std::string& reason : report.reasons) reasons += text_element("li", reason);
-  const std::string titles = text_element("h1", report.title) + text_element("p", report.subtitle, "subtitle");
+  const std::string titles =
+      text_element("h1", report.title) + text_element("p", report.subtitle, "subtitle");
   const std::string result = text_element("p", report.verdict, "verdict") +
-                             text_element("p", report.points, "score") + text_element("p", report.judged_by, "by");
-  return element("header", element("div", titles) + element("div", result, "result " + result_class(report.outcome))) +
+                             text_element("p", report.points, "score") +
+                             text_element("p", report.judged_by, "by");
+  return element("header",
+                 element("div", titles) + element("div", result, "result " + result_class(report.outcome))) +
          (reasons.empty() ? "" : element("ul", reasons, "reasons")) + facts(report.facts);
 }
 
@@ -48,13 +52,15 @@ std::string figure(const Picture& picture) {
   std::string labels;
   for (const PictureLabel& label : picture.labels) {
     std::array<char, 80> style{};
-    std::snprintf(style.data(), style.size(), "span style=\"left:%.1f%%;top:%.1f%%\"", 100.0 * label.x, 100.0 * label.y);
+    std::snprintf(style.data(), style.size(), "span style=\"left:%.1f%%;top:%.1f%%\"", 100.0 * label.x,
+                  100.0 * label.y);
     labels += element(style.data(), escaped(label.words));
   }
   const std::string image = "<img alt=\"" + escaped(picture.title + ". " + picture.caption) +
                             "\" src=\"data:image/png;base64," + base64(render::png_of(picture.image)) + "\">";
-  return element("figure", element("div", image + labels, "frame") +
-                               element("figcaption", text_element("b", picture.title) + escaped(picture.caption)));
+  return element("figure",
+                 element("div", image + labels, "frame") +
+                     element("figcaption", text_element("b", picture.title) + escaped(picture.caption)));
 }
 
 std::string legend() {
@@ -63,9 +69,10 @@ std::string legend() {
     std::array<char, 160> style{};
     const auto [red, green, blue, hatch] = each.colour;
     if (hatch)
-      std::snprintf(style.data(), style.size(),
-                    "i style=\"background:repeating-linear-gradient(-45deg,rgb(%d %d %d) 0 4px,#333 4px 6px)\"", red,
-                    green, blue);
+      std::snprintf(
+          style.data(), style.size(),
+          "i style=\"background:repeating-linear-gradient(-45deg,rgb(%d %d %d) 0 4px,#333 4px 6px)\"", red,
+          green, blue);
     else
       std::snprintf(style.data(), style.size(), "i style=\"background:rgb(%d %d %d)\"", red, green, blue);
     entries += element("li", element(style.data(), "") + escaped(each.words));
@@ -95,9 +102,10 @@ std::string mark_cell(const MetricLine& line) {
 std::string table(const MetricTable& table) {
   std::string rows;
   for (const MetricLine& line : table.lines)
-    rows += element("tr", element("td", escaped(line.name) + "<sup> " + std::to_string(line.source) + "</sup>") +
-                              cell(line.planned) + cell(line.value) + cell(line.pass) + cell(line.warn) +
-                              mark_cell(line) + cell(line.points));
+    rows +=
+        element("tr", element("td", escaped(line.name) + "<sup> " + std::to_string(line.source) + "</sup>") +
+                          cell(line.planned) + cell(line.value) + cell(line.pass) + cell(line.warn) +
+                          mark_cell(line) + cell(line.points));
   const std::string heads =
       "<tr><th>Metric</th><th>Planned</th><th>Achieved</th><th>Passes</th><th>Warns</th><th>Result</th>"
       "<th>Points \u00d7 weight</th></tr>";
@@ -161,12 +169,13 @@ std::string html_of(const Report& report) {
   const std::string style(embedded::report_style::find("report.css"));
   return "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
+         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
+         "'unsafe-inline'; "
          "img-src data:\">\n" +
          text_element("title", report.title + " \u2013 " + report.subtitle) + "<style>\n" + style +
          "</style>\n</head>\n<body>\n" +
-         element("main", head(report) + pictures(report) + metrics(report) + course(report) + learning(report) +
-                             notes(report)) +
+         element("main", head(report) + pictures(report) + metrics(report) + course(report) +
+                             learning(report) + notes(report)) +
          "</body>\n</html>\n";
 }
 

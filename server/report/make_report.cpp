@@ -16,6 +16,14 @@ std::string verdict_of(const std::optional<Outcome>& outcome) {
   return *outcome == Outcome::pass ? "Passed" : "Not passed";
 }
 
+/// Points that rest on little say so.
+std::string points_in_words(const score::Score& score) {
+  if (!score.points) return "";
+  const std::string points = decimal(std::floor(*score.points), 0) + " of 100 points";
+  if (score.said_percent >= 99.95) return points;
+  return points + ", on " + decimal(std::floor(score.said_percent), 0) + "\u00a0% of the rubric";
+}
+
 void add(std::vector<Fact>& facts, const std::string& name, const std::string& value) {
   if (!value.empty()) facts.push_back({name, value});
 }
@@ -32,8 +40,9 @@ std::vector<Fact> facts_of(const Material& m) {
   add(facts, "Reamer", s.reamer);
   add(facts, "Guide", s.guide);
   add(facts, "Held by", s.device + (s.device_profile.empty() ? "" : ", felt through " + s.device_profile));
-  add(facts, "Force scale", s.force_scale == 1.0 ? "1: the hand feels simulated newtons"
-                                                 : shortest(s.force_scale) + " simulated N for 1 N at the hand");
+  add(facts, "Force scale",
+      s.force_scale == 1.0 ? "1: the hand feels simulated newtons"
+                           : shortest(s.force_scale) + " simulated N for 1 N at the hand");
   add(facts, "Theatre mode", s.theatre ? "on" : "off");
   if (!s.state.empty() && s.state != "finished")
     add(facts, "Ended", s.state + (s.fault.empty() ? "" : ": " + s.fault));
@@ -58,8 +67,8 @@ std::string learning_words(const score::LearningCurve& curve) {
   if (curve.points.empty()) return "";
   if (curve.points.size() == 1) return "This is the trainee's first session.";
   const auto percent = [](double share) { return shortest(100.0 * share) + "\u00a0%"; };
-  std::string words = "After " + std::to_string(curve.points.size()) + " sessions: " +
-                      std::string(score::to_text(curve.standing())) + ". ";
+  std::string words = "After " + std::to_string(curve.points.size()) +
+                      " sessions: " + std::string(score::to_text(curve.standing())) + ". ";
   if (curve.standing() != score::Standing::proficient)
     words += "Passing the next " + std::to_string(curve.passes_to_go()) + " would show proficiency. ";
   return words + "CUSUM tests whether failures are as rare as " + percent(curve.parameters.acceptable_rate) +
@@ -77,12 +86,13 @@ void put_benchmark(const Material& m, Report& report) {
     const std::string name = metric ? std::string(metric->name) : result.line->metric;
     reached += result.reached ? 1 : 0;
     const std::string value = result.value ? with_unit(*result.value, unit) : "not said";
-    report.benchmark.push_back({name, value + (result.reached ? ", reached (" : ", not reached (") +
-                                          (result.line->better == score::Better::less ? "at most " : "at least ") +
-                                          with_unit(result.line->mean, unit) + ")"});
+    report.benchmark.push_back(
+        {name, value + (result.reached ? ", reached (" : ", not reached (") +
+                   (result.line->better == score::Better::less ? "at most " : "at least ") +
+                   with_unit(result.line->mean, unit) + ")"});
   }
-  report.benchmark_words = "Benchmark \u201c" + m.benchmark->name + "\u201d: " + std::to_string(reached) + " of " +
-                           std::to_string(report.benchmark.size()) + " reached.";
+  report.benchmark_words = "Benchmark \u201c" + m.benchmark->name + "\u201d: " + std::to_string(reached) +
+                           " of " + std::to_string(report.benchmark.size()) + " reached.";
 }
 
 }  // namespace
@@ -90,12 +100,12 @@ void put_benchmark(const Material& m, Report& report) {
 Report make_report(const Material& m) {
   Report report;
   report.title = "Glenoid reaming";
-  report.subtitle = m.session.case_name + (m.session.side.empty() ? "" : ", " + m.session.side + " shoulder");
+  report.subtitle = m.session.case_name;
   report.created_utc = m.session.created_utc;
   report.facts = facts_of(m);
   report.outcome = m.score.outcome;
   report.verdict = verdict_of(m.score.outcome);
-  if (m.score.points) report.points = decimal(std::floor(*m.score.points), 0) + " of 100 points";
+  report.points = points_in_words(m.score);
   report.judged_by = "Rubric \u201c" + m.rubric.name + "\u201d, version " + std::to_string(m.rubric.version) +
                      "; theatre mode " + (m.session.theatre ? "on" : "off");
   report.reasons = m.score.reasons;

@@ -36,9 +36,9 @@ struct Remark {
 /// Everything that a report is made of.
 struct Material {
   SessionFacts session;
-  std::string plan_words;      ///< reamer, depth, hole and implant of the plan, for people
+  std::string plan_words;  ///< reamer, depth, hole and implant of the plan, for people
   double planned_depth_mm = 0.0;
-  nlohmann::json metrics;      ///< as metrics.json
+  nlohmann::json metrics;  ///< as metrics.json
   score::Rubric rubric;
   score::Score score;
   std::optional<score::Benchmark> benchmark;

@@ -90,7 +90,8 @@ std::string words_of(score::Evidence evidence) {
 
 int footnote(const score::Metric& metric, std::vector<std::string>& sources) {
   std::string words(metric.source);
-  words += " (" + words_of(metric.evidence) + ")";
+  const std::string evidence = words_of(metric.evidence);
+  if (words != evidence) words += " (" + evidence + ")";
   auto found = std::find(sources.begin(), sources.end(), words);
   if (found == sources.end()) found = sources.insert(sources.end(), words);
   return static_cast<int>(found - sources.begin()) + 1;
@@ -129,8 +130,9 @@ std::vector<MetricTable> metric_tables(const Material& material, std::vector<std
     std::span<const score::Metric> metrics;
   };
   std::vector<MetricTable> tables;
-  for (const Group& group : {Group{"Alignment", score::alignment_metrics()}, Group{"Bone", score::bone_metrics()},
-                             Group{"Handling", score::handling_metrics()}}) {
+  for (const Group& group :
+       {Group{"Alignment", score::alignment_metrics()}, Group{"Bone", score::bone_metrics()},
+        Group{"Handling", score::handling_metrics()}}) {
     MetricTable table{group.title, {}};
     for (const score::Metric& metric : group.metrics)
       if (!planned_ones.contains(metric.key)) table.lines.push_back(line_of(metric, material, sources));
@@ -143,11 +145,13 @@ std::vector<Fact> unsaid_metrics(const nlohmann::json& metrics) {
   std::vector<Fact> facts;
   for (const score::Metric& metric : score::metric_catalogue()) {
     if (number_of(metrics, metric.key)) continue;
-    const auto reasons = metrics.find("unsaid");
-    const bool known = reasons != metrics.end() && reasons->is_object();
-    facts.push_back({std::string(metric.name),
-                     known ? reasons->value(std::string(metric.key), "the session does not say it")
-                           : "the session does not say it"});
+    const std::string reason = score::why_unsaid(metrics, std::string(metric.key));
+    const auto same =
+        std::find_if(facts.begin(), facts.end(), [&](const Fact& f) { return f.value == reason; });
+    if (same == facts.end())
+      facts.push_back({std::string(metric.name), reason});
+    else
+      same->name += "; " + std::string(metric.name);
   }
   return facts;
 }

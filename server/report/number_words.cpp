@@ -20,7 +20,7 @@ std::string with_true_minus(std::string text) {
 int decimals_of(std::string_view unit) {
   if (unit == "mm") return 2;
   if (unit == "mm2" || unit == "mm3" || unit == "%") return 0;
-  if (unit == "" ) return 2;
+  if (unit == "") return 2;
   return 1;
 }
 
@@ -64,15 +64,16 @@ std::string duration_in_words(double seconds) {
 }
 
 std::string date_in_words(const std::string& utc) {
-  constexpr std::array<const char*, 12> months = {"January", "February", "March",     "April",   "May",      "June",
-                                                  "July",    "August",   "September", "October", "November", "December"};
+  constexpr std::array<const char*, 12> months = {"January",   "February", "March",    "April",
+                                                  "May",       "June",     "July",     "August",
+                                                  "September", "October",  "November", "December"};
   int year = 0, month = 0, day = 0, hour = 0, minute = 0;
-  if (std::sscanf(utc.c_str(), "%4d-%2d-%2dT%2d:%2d", &year, &month, &day, &hour, &minute) != 5 || month < 1 ||
-      month > 12)
+  if (std::sscanf(utc.c_str(), "%4d-%2d-%2dT%2d:%2d", &year, &month, &day, &hour, &minute) != 5 ||
+      month < 1 || month > 12)
     return utc;
   std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%d %s %d, %02d:%02d UTC", day, months[static_cast<size_t>(month - 1)], year,
-                hour, minute);
+  std::snprintf(text.data(), text.size(), "%d %s %d, %02d:%02d UTC", day,
+                months[static_cast<size_t>(month - 1)], year, hour, minute);
   return text.data();
 }
 

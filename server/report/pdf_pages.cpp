@@ -35,7 +35,8 @@ void PdfPages::foot_line() {
   sheet_.straight({margin, y}, {PdfSheet::page_width - margin, y}, hair);
   std::string who = report_.title + " \u2013 " + report_.subtitle;
   for (const Fact& fact : report_.facts)
-    if (fact.name == "Trainee" || fact.name == "Participant" || fact.name == "Date") who += " \u2013 " + fact.value;
+    if (fact.name == "Trainee" || fact.name == "Participant" || fact.name == "Date")
+      who += " \u2013 " + fact.value;
   sheet_.paragraph(margin, y + 5.0, text_width - 90.0, who, {7.0, grey(0.4), false, Anchor::left});
   sheet_.paragraph(PdfSheet::page_width - margin - 90.0, y + 5.0, 90.0,
                    "Page " + std::to_string(page_) + " of " + std::to_string(of_pages_),
@@ -77,8 +78,12 @@ double PdfPages::result_box(double left, double top, double width) {
   double y = top + 9.0;
   y += sheet_.paragraph(left + 10.0, y, inner, report_.verdict, {16.0, grey(0.05), true, Anchor::left});
   if (!report_.points.empty())
-    y += sheet_.paragraph(left + 10.0, y + 1.0, inner, report_.points, {11.0, grey(0.1), false, Anchor::left}) + 1.0;
-  y += sheet_.paragraph(left + 10.0, y + 3.0, inner, report_.judged_by, {7.5, grey(0.35), false, Anchor::left}) + 3.0;
+    y += sheet_.paragraph(left + 10.0, y + 1.0, inner, report_.points,
+                          {11.0, grey(0.1), false, Anchor::left}) +
+         1.0;
+  y += sheet_.paragraph(left + 10.0, y + 3.0, inner, report_.judged_by,
+                        {7.5, grey(0.35), false, Anchor::left}) +
+       3.0;
   const bool decided = report_.outcome == score::Outcome::pass || report_.outcome == score::Outcome::fail;
   sheet_.box(left, top, width, y + 8.0 - top, {decided ? 1.4 : 0.9, grey(0.1), !decided});
   return y + 8.0 - top;
@@ -89,7 +94,8 @@ void PdfPages::head() {
   const double top = y_, left_width = text_width - box_width - 20.0;
   const double box = result_box(PdfSheet::page_width - margin - box_width, top, box_width);
   y_ += sheet_.paragraph(margin, y_, left_width, report_.title, {22.0, grey(0.05), true, Anchor::left}) + 2.0;
-  y_ += sheet_.paragraph(margin, y_, left_width, report_.subtitle, {11.0, grey(0.35), false, Anchor::left}) + 6.0;
+  y_ += sheet_.paragraph(margin, y_, left_width, report_.subtitle, {11.0, grey(0.35), false, Anchor::left}) +
+        6.0;
   for (const std::string& reason : report_.reasons) {
     sheet_.paragraph(margin, y_, 10.0, "\u2022", body);
     y_ += sheet_.paragraph(margin + 10.0, y_, left_width - 10.0, reason, body) + 2.0;
@@ -127,7 +133,8 @@ void PdfPages::picture(const Picture& picture, double left, double width) {
     sheet_.fill_box({x - half, y - 5.0}, {x + half, y + 4.5}, grey(0.98));
     sheet_.text({x, y + 2.2}, label.words, {7.0, grey(0.2), Anchor::middle, false, false});
   }
-  const double title = sheet_.paragraph(left, y_ + height + 4.0, width, picture.title, {8.5, grey(0.1), true, Anchor::left});
+  const double title =
+      sheet_.paragraph(left, y_ + height + 4.0, width, picture.title, {8.5, grey(0.1), true, Anchor::left});
   sheet_.paragraph(left, y_ + height + 4.0 + title, width, picture.caption, small);
 }
 
@@ -145,9 +152,11 @@ void PdfPages::pictures() {
     else
       need(height);
     picture(left, margin, width);
-    if (i + 1 < report_.pictures.size()) picture(report_.pictures[i + 1], margin + width + picture_gap, width);
+    if (i + 1 < report_.pictures.size())
+      picture(report_.pictures[i + 1], margin + width + picture_gap, width);
     y_ += height;
-    const bool last_map = left.is_map && (i + 2 >= report_.pictures.size() || !report_.pictures[i + 2].is_map);
+    const bool last_map =
+        left.is_map && (i + 2 >= report_.pictures.size() || !report_.pictures[i + 2].is_map);
     if (last_map) legend();
   }
 }
@@ -205,7 +214,8 @@ void PdfPages::learning() {
     need(chart_height);
     const double width = 0.5 * (text_width - picture_gap);
     for (size_t i = 0; i < report_.learning_charts.size(); ++i)
-      chart(report_.learning_charts[i], margin + static_cast<double>(i) * (width + picture_gap), width, chart_height);
+      chart(report_.learning_charts[i], margin + static_cast<double>(i) * (width + picture_gap), width,
+            chart_height);
     y_ += chart_height + 4.0;
   }
   if (report_.benchmark.empty()) return;

@@ -66,7 +66,9 @@ PdfSheet::PdfSheet(const std::string& title, const std::string& created_utc)
   begin();
 }
 
-PdfSheet::PdfSheet() : surface_(cairo_recording_surface_create(CAIRO_CONTENT_COLOR_ALPHA, nullptr)) { begin(); }
+PdfSheet::PdfSheet() : surface_(cairo_recording_surface_create(CAIRO_CONTENT_COLOR_ALPHA, nullptr)) {
+  begin();
+}
 
 PdfSheet::~PdfSheet() = default;
 
@@ -89,13 +91,15 @@ std::string PdfSheet::bytes() {
   const cairo_status_t finished = cairo_surface_status(surface_.get());
   for (const cairo_status_t status : {drawn, finished})
     if (status != CAIRO_STATUS_SUCCESS)
-      throw Error(ErrorKind::unavailable, std::string("report: the PDF cannot be drawn: ") + cairo_status_to_string(status));
+      throw Error(ErrorKind::unavailable,
+                  std::string("report: the PDF cannot be drawn: ") + cairo_status_to_string(status));
   return std::move(bytes_);
 }
 
 void PdfSheet::set_ink(const Ink& ink) { cairo_set_source_rgb(context_.get(), ink.red, ink.green, ink.blue); }
 
-double PdfSheet::paragraph(double left, double top, double width, const std::string& words, const Type& type) {
+double PdfSheet::paragraph(double left, double top, double width, const std::string& words,
+                           const Type& type) {
   const Layout layout = paragraph_of(context_.get(), width, words, type);
   set_ink(type.ink);
   cairo_move_to(context_.get(), left, top);
@@ -119,7 +123,8 @@ void PdfSheet::image(const render::Image& image, double left, double top, double
   const auto stride = static_cast<size_t>(cairo_image_surface_get_stride(picture.get()));
   const size_t row_bytes = 4 * static_cast<size_t>(image.width);
   for (size_t y = 0; rows != nullptr && y < static_cast<size_t>(image.height); ++y)
-    std::copy_n(reinterpret_cast<const unsigned char*>(pixels.data()) + y * row_bytes, row_bytes, rows + y * stride);
+    std::copy_n(reinterpret_cast<const unsigned char*>(pixels.data()) + y * row_bytes, row_bytes,
+                rows + y * stride);
   cairo_surface_mark_dirty(picture.get());
   cairo_save(context_.get());
   cairo_translate(context_.get(), left, top);
@@ -130,8 +135,8 @@ void PdfSheet::image(const render::Image& image, double left, double top, double
 }
 
 void PdfSheet::box(double left, double top, double width, double height, const Stroke& stroke) {
-  const Place corners[] = {{left, top}, {left + width, top}, {left + width, top + height}, {left, top + height},
-                           {left, top}};
+  const Place corners[] = {
+      {left, top}, {left + width, top}, {left + width, top + height}, {left, top + height}, {left, top}};
   line(corners, stroke);
 }
 
@@ -170,7 +175,9 @@ void PdfSheet::text(const Place& at, const std::string& words, const Lettering& 
   const Layout layout = layout_of(context_.get(), words, lettering.size, lettering.bold);
   int width = 0;
   pango_layout_get_size(layout.get(), &width, nullptr);
-  const double share = lettering.anchor == Anchor::left ? 0.0 : lettering.anchor == Anchor::middle ? 0.5 : 1.0;
+  const double share = lettering.anchor == Anchor::left     ? 0.0
+                       : lettering.anchor == Anchor::middle ? 0.5
+                                                            : 1.0;
   cairo_save(context_.get());
   cairo_translate(context_.get(), at.x, at.y);
   if (lettering.upwards) cairo_rotate(context_.get(), -0.5 * M_PI);

@@ -35,7 +35,7 @@ void PdfPages::metrics() {
   for (const MetricTable& each : report_.tables) table(each);
   if (report_.unsaid.empty()) return;
   small_heading("What cannot be said", 20.0);
-  facts(report_.unsaid, 1, 130.0);
+  facts(report_.unsaid, 1, 250.0);
 }
 
 void PdfPages::table(const MetricTable& table) {
@@ -62,12 +62,14 @@ void PdfPages::table_line(const MetricLine& line) {
                                             line.warn, result_in_words(line), line.points};
   const bool emphasized = line.mark == Mark::fail || line.mark == Mark::warn;
   const auto type = [&](size_t column) {
-    return Type{text_size, line.mark == Mark::unsaid ? grey(0.4) : grey(0.12), column == 5 && emphasized, Anchor::left};
+    return Type{text_size, line.mark == Mark::unsaid ? grey(0.4) : grey(0.12), column == 5 && emphasized,
+                Anchor::left};
   };
   const double note_width = 12.0;
   double height = 0.0;
   for (size_t i = 0; i < cells.size(); ++i)
-    height = std::max(height, sheet_.height_of(columns[i].width - (i == 0 ? note_width : 4.0), cells[i], type(i)));
+    height =
+        std::max(height, sheet_.height_of(columns[i].width - (i == 0 ? note_width : 4.0), cells[i], type(i)));
   if (y_ + height + 4.0 > PdfSheet::page_height - foot) {
     need(height + 4.0);
     table_heads();

@@ -33,15 +33,15 @@ struct Report {
   std::string title, subtitle;
   std::vector<Fact> facts;
   std::optional<score::Outcome> outcome;
-  std::string verdict;       ///< "Passed", "Not passed", "Not decided", "Not judged"
-  std::string points;        ///< "82 of 100 points"; empty without any
-  std::string judged_by;     ///< the rubric, and theatre mode
+  std::string verdict;    ///< "Passed", "Not passed", "Not decided", "Not judged"
+  std::string points;     ///< "82 of 100 points"; empty without any
+  std::string judged_by;  ///< the rubric, and theatre mode
   std::vector<std::string> reasons;
   std::vector<Picture> pictures;
   std::string why_no_pictures;
-  bool has_maps = false;     ///< a legend of deviations is needed
+  bool has_maps = false;  ///< a legend of deviations is needed
   std::vector<MetricTable> tables;
-  std::vector<Fact> unsaid;  ///< metric and reason
+  std::vector<Fact> unsaid;  ///< metrics and their reason
   std::vector<Chart> charts;
   std::string why_no_charts;
   std::vector<Remark> remarks;

@@ -73,8 +73,8 @@ Chart thrust_chart(const TraceSummary& trace, const std::vector<Remark>& remarks
   }));
   const double peak_n = highest(chart.curves.front());
   chart.y_max = std::max(115.0, 1.08 * peak_n);
-  chart.ranges.push_back({thrust_from_n, thrust_to_n, "35 to 78 N to work in"});
-  chart.levels.push_back({thrust_peak_n, "104 N at most"});
+  chart.ranges.push_back({thrust_from_n, thrust_to_n, "aim: 35 to 78 N"});
+  chart.levels.push_back({thrust_peak_n, "limit: 104 N"});
   const TimeAxis time(trace.duration_s());
   chart.stretches_name = "contact";
   for (size_t i = 0; i < trace.bins().size(); ++i) {
@@ -86,13 +86,14 @@ Chart thrust_chart(const TraceSummary& trace, const std::vector<Remark>& remarks
     else
       chart.stretches.push_back({from, to});
   }
-  chart.in_words = "Thrust over " + duration_in_words(trace.duration_s()) + ", at most " + decimal(peak_n, 0) + " N";
+  chart.in_words =
+      "Thrust over " + duration_in_words(trace.duration_s()) + ", at most " + decimal(peak_n, 0) + " N";
   return chart;
 }
 
 Chart feed_chart(const TraceSummary& trace, const std::vector<Remark>& remarks) {
   Chart chart = timed_chart(trace, remarks);
-  chart.title = "Feed";
+  chart.title = "Feed while cutting";
   chart.y_name = "mm/s";
   chart.curves.push_back(curve_of(trace, [](const TraceBin& bin) -> std::optional<CurvePoint> {
     return CurvePoint{0.0, std::max(0.0, bin.feed_low_mm_s), std::max(0.0, bin.feed_high_mm_s)};
@@ -114,7 +115,7 @@ Chart depth_chart(const TraceSummary& trace, double planned_depth_mm, const std:
   chart.y_max = std::max({1.0, 1.15 * deepest, 1.25 * planned_depth_mm});
   chart.y_min = std::max(1.1 * lowest(chart.curves.front()), -0.5 * chart.y_max);
   if (planned_depth_mm > 0.0)
-    chart.levels.push_back({planned_depth_mm, with_unit(planned_depth_mm, "mm") + " planned"});
+    chart.levels.push_back({planned_depth_mm, "plan: " + with_unit(planned_depth_mm, "mm")});
   chart.in_words = "Depth over time, at most " + with_unit(deepest, "mm");
   return chart;
 }
@@ -123,10 +124,12 @@ Chart depth_chart(const TraceSummary& trace, double planned_depth_mm, const std:
 
 std::vector<Chart> session_charts(const TraceSummary& trace, double planned_depth_mm,
                                   const std::vector<Remark>& remarks) {
-  return {thrust_chart(trace, remarks), feed_chart(trace, remarks), depth_chart(trace, planned_depth_mm, remarks)};
+  return {thrust_chart(trace, remarks), feed_chart(trace, remarks),
+          depth_chart(trace, planned_depth_mm, remarks)};
 }
 
-std::vector<Chart> learning_charts(const score::LearningCurve& curve, const std::optional<double>& pass_points) {
+std::vector<Chart> learning_charts(const score::LearningCurve& curve,
+                                   const std::optional<double>& pass_points) {
   if (curve.points.size() < 2) return {};
   const score::CusumLimits limits = score::cusum_limits(curve.parameters);
   Chart sums, points;
@@ -147,8 +150,7 @@ std::vector<Chart> learning_charts(const score::LearningCurve& curve, const std:
     const double x = static_cast<double>(i) + 1.0;
     const score::LearningPoint& point = curve.points[i];
     if (point.cusum) {
-      const bool begins = sum.parts.empty() || sum.parts.back().empty();
-      if (begins) sum.parts.emplace_back();
+      if (sum.parts.empty()) sum.parts.emplace_back();
       sum.parts.back().push_back({x, point.cusum->sum, point.cusum->sum});
       if (point.cusum->decided != score::Standing::going_on) sum.parts.emplace_back();
     }
@@ -162,8 +164,8 @@ std::vector<Chart> learning_charts(const score::LearningCurve& curve, const std:
   sums.y_max = 1.25 * std::max(limits.not_proficient_at, highest(sum));
   sums.curves.push_back(std::move(sum));
   points.curves.push_back(std::move(each));
-  sums.in_words = "CUSUM over " + std::to_string(curve.points.size()) + " sessions: " +
-                  std::string(score::to_text(curve.standing()));
+  sums.in_words = "CUSUM over " + std::to_string(curve.points.size()) +
+                  " sessions: " + std::string(score::to_text(curve.standing()));
   points.in_words = "Points over " + std::to_string(curve.points.size()) + " sessions";
   return {points, sums};
 }

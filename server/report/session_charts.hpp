@@ -15,6 +15,7 @@ std::vector<Chart> session_charts(const TraceSummary& trace, double planned_dept
                                   const std::vector<Remark>& remarks);
 
 /// CUSUM and points over a trainee's sessions; empty for fewer than two.
-std::vector<Chart> learning_charts(const score::LearningCurve& curve, const std::optional<double>& pass_points);
+std::vector<Chart> learning_charts(const score::LearningCurve& curve,
+                                   const std::optional<double>& pass_points);
 
 }  // namespace ream::report

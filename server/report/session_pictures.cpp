@@ -14,8 +14,8 @@ constexpr double aspect = static_cast<double>(width) / height;
 constexpr double distance_mm = 420.0;
 constexpr double face_half_height_mm = 25.0, axis_half_height_mm = 30.0, oblique_half_height_mm = 32.0;
 constexpr double rod_radius_mm = 0.7, rod_outside_mm = 34.0, rod_inside_mm = 18.0, dash_mm = 3.0;
-constexpr Vec3f planned_ink{0.02f, 0.02f, 0.02f}, achieved_ink{0.72f, 0.10f, 0.02f};
-constexpr Vec3f cut_ink{0.80f, 0.42f, 0.34f};
+const Vec3f planned_ink{0.02f, 0.02f, 0.02f}, achieved_ink{0.72f, 0.10f, 0.02f};
+const Vec3f cut_ink{0.80f, 0.42f, 0.34f};
 
 /// Directions in which pictures are taken, world, unit, square to each other.
 struct Directions {
@@ -35,7 +35,8 @@ Directions directions_of(const ReamedBone& bone) {
   return d;
 }
 
-render::Camera camera_from(const Vec3& target_mm, const Vec3& towards_eye, const Vec3& up, double half_height_mm) {
+render::Camera camera_from(const Vec3& target_mm, const Vec3& towards_eye, const Vec3& up,
+                           double half_height_mm) {
   render::Camera camera;
   camera.target_mm = target_mm;
   camera.eye_mm = target_mm + distance_mm * towards_eye.normalized();
@@ -79,7 +80,8 @@ Picture before(const ReamedBone& bone, const Directions& d) {
   Picture picture = oblique(bone, {layer_of(bone.before, bone)}, d);
   picture.title = "Before";
   picture.caption = "The glenoid as it was given to the trainee.";
-  if (bone.plan.pilot_hole) picture.caption = "The glenoid as it was given to the trainee, its pilot hole drilled.";
+  if (bone.plan.pilot_hole)
+    picture.caption = "The glenoid as it was given to the trainee, its pilot hole drilled.";
   return picture;
 }
 
@@ -179,7 +181,8 @@ std::vector<Picture> session_pictures(const ReamedBone& bone) {
   if (!bone.from_plan.empty()) {
     pictures.push_back(face_map(bone, bone.from_plan, d));
     pictures.back().title = "Achieved against planned surface";
-    pictures.back().caption = "Proud: bone stands that the plan removes. Beyond (hatched): cut deeper than planned.";
+    pictures.back().caption =
+        "Proud: bone stands that the plan removes. Beyond (hatched): cut deeper than planned.";
   }
   if (!bone.from_implant.empty()) {
     pictures.push_back(face_map(bone, bone.from_implant, d));

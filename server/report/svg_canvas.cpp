@@ -31,12 +31,18 @@ std::string points(std::span<const Place> path) {
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
-    if (c == '&') result += "&amp;";
-    else if (c == '<') result += "&lt;";
-    else if (c == '>') result += "&gt;";
-    else if (c == '"') result += "&quot;";
-    else if (c == '\'') result += "&#39;";
-    else result += c;
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else if (c == '"')
+      result += "&quot;";
+    else if (c == '\'')
+      result += "&#39;";
+    else
+      result += c;
   }
   return result;
 }
@@ -55,10 +61,10 @@ void SvgCanvas::text(const Place& at, const std::string& words, const Lettering&
   constexpr std::array<const char*, 3> anchors = {"start", "middle", "end"};
   const std::string x = number(at.x), y = number(at.y);
   elements_ += "<text x=\"" + x + "\" y=\"" + y + "\" font-size=\"" + number(lettering.size) + "\" fill=\"" +
-               colour(lettering.ink) + "\" text-anchor=\"" + anchors[static_cast<size_t>(lettering.anchor)] + "\"" +
-               (lettering.bold ? " font-weight=\"600\"" : "") +
-               (lettering.upwards ? " transform=\"rotate(-90 " + x + " " + y + ")\"" : "") + ">" + escaped(words) +
-               "</text>\n";
+               colour(lettering.ink) + "\" text-anchor=\"" + anchors[static_cast<size_t>(lettering.anchor)] +
+               "\"" + (lettering.bold ? " font-weight=\"600\"" : "") +
+               (lettering.upwards ? " transform=\"rotate(-90 " + x + " " + y + ")\"" : "") + ">" +
+               escaped(words) + "</text>\n";
 }
 
 std::string SvgCanvas::svg(double width, double height, const std::string& in_words) const {

@@ -18,7 +18,7 @@ void TraceSummary::add(const record::TickReport& r) {
   --left_in_bin_;
   ++ticks_;
   TraceBin& bin = bins_.back();
-  const double thrust_n = r.engaged ? r.thrust_n : 0.0, feed_mm_s = r.engaged ? r.feed_rate_mm_s : 0.0;
+  const double thrust_n = r.engaged ? r.thrust_n : 0.0, feed_mm_s = r.cutting ? r.feed_rate_mm_s : 0.0;
   bin.thrust_low_n = first ? thrust_n : std::min(bin.thrust_low_n, thrust_n);
   bin.thrust_high_n = first ? thrust_n : std::max(bin.thrust_high_n, thrust_n);
   bin.feed_low_mm_s = first ? feed_mm_s : std::min(bin.feed_low_mm_s, feed_mm_s);

@@ -10,8 +10,8 @@ namespace ream::report {
 
 /// What happened in one of equal parts of a session.
 struct TraceBin {
-  double thrust_low_n = 0.0, thrust_high_n = 0.0;  ///< simulated
-  double feed_low_mm_s = 0.0, feed_high_mm_s = 0.0;
+  double thrust_low_n = 0.0, thrust_high_n = 0.0;    ///< simulated
+  double feed_low_mm_s = 0.0, feed_high_mm_s = 0.0;  ///< while cutting
   std::optional<double> depth_mm;  ///< of the tool's apex past first contact while it touches, greatest
   bool touched = false;
 };

@@ -38,18 +38,14 @@ std::string name_of(const std::string& metric) {
 std::string in_words(double points) { return json(std::floor(points * 10.0) / 10.0).dump(); }
 
 CriterionScore scored(const Rubric& rubric, const Criterion& criterion, const json& metrics) {
-  const auto found = metrics.find(criterion.metric);
-  if (found == metrics.end() || !(found->is_number() || found->is_null()))
-    throw Error(ErrorKind::invalid_input, "rubric '" + rubric.name + "': there is no metric '" +
-                                              criterion.metric + "' with a number; metrics.json names them");
   CriterionScore result;
   result.criterion = criterion;
-  if (found->is_null()) {
-    const auto reasons = metrics.find("unsaid");
-    result.unsaid = reasons != metrics.end() && reasons->is_object()
-                        ? reasons->value(criterion.metric, "the session does not say it")
-                        : "the session does not say it";
-    return result;
+  const auto found = metrics.find(criterion.metric);
+  if (found == metrics.end() || !found->is_number()) {
+    result.unsaid = why_unsaid(metrics, criterion.metric);
+    if (!result.unsaid.empty()) return result;
+    throw Error(ErrorKind::invalid_input, "rubric '" + rubric.name + "': there is no metric '" +
+                                              criterion.metric + "' with a number; metrics.json names them");
   }
   result.value = found->get<double>();
   result.points = points_of(criterion, *result.value);
@@ -100,6 +96,17 @@ std::optional<Outcome> outcome_of(const Rubric& rubric, Score& score) {
 }
 
 }  // namespace
+
+std::string why_unsaid(const json& metrics, const std::string& metric) {
+  const auto found = metrics.find(metric);
+  if (found == metrics.end())
+    return find_metric(metric) ? "it was not measured when these metrics were made; score the session anew"
+                               : "";
+  if (!found->is_null()) return "";
+  const auto reasons = metrics.find("unsaid");
+  const bool known = reasons != metrics.end() && reasons->is_object();
+  return known ? reasons->value(metric, "the session does not say it") : "the session does not say it";
+}
 
 double points_of(const Criterion& criterion, double value) {
   return criterion.ramp ? points_by(*criterion.ramp, value) : points_by(criterion.judged_by(), value);

@@ -34,6 +34,9 @@ struct Score {
 /// `metrics` as metrics.json has them. Error invalid_input when the rubric names a metric that there is not.
 Score apply_rubric(const Rubric& rubric, const nlohmann::json& metrics);
 
+/// Why a metric has no number; empty for one that nobody knows.
+std::string why_unsaid(const nlohmann::json& metrics, const std::string& metric);
+
 /// Points of a value, 0 to 100.
 double points_of(const Criterion& criterion, double value);
 

@@ -16,8 +16,8 @@ LearningPoint session(std::optional<Outcome> outcome) {
 }
 
 TEST(LearningCurve, CountsOnlySessionsThatWereDecided) {
-  const LearningCurve curve = learning_curve(
-      {}, {session(Outcome::pass), session(Outcome::undecided), session(std::nullopt), session(Outcome::fail)});
+  const LearningCurve curve = learning_curve({}, {session(Outcome::pass), session(Outcome::undecided),
+                                                  session(std::nullopt), session(Outcome::fail)});
   const CusumLimits limits = cusum_limits({});
   EXPECT_DOUBLE_EQ(curve.points[0].cusum->sum, limits.success_step);
   EXPECT_FALSE(curve.points[1].cusum);
@@ -37,7 +37,8 @@ TEST(LearningCurve, TellsHowManyPassesAreToGo) {
 }
 
 TEST(LearningCurve, IsToldAsJson) {
-  const nlohmann::json told = learning_json(learning_curve({}, {session(Outcome::pass), session(Outcome::undecided)}));
+  const nlohmann::json told =
+      learning_json(learning_curve({}, {session(Outcome::pass), session(Outcome::undecided)}));
   EXPECT_EQ(told["standing"], "going on");
   EXPECT_EQ(told["sessions"].size(), 2u);
   EXPECT_TRUE(told["sessions"][1]["cusum"].is_null());

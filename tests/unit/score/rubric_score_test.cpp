@@ -112,5 +112,12 @@ TEST(RubricScore, TooLittleSaidIsNotDecided) {
   EXPECT_TRUE(score_json(r, none).at("points").is_null());
 }
 
+TEST(RubricScore, OldMetricsDoNotSayWhatIsMeasuredSince) {
+  const json since = json::array({{{"metric", "version_error_deg"}}});
+  const Score score = apply_rubric(rubric(since), {{"duration_s", 3.0}});
+  EXPECT_FALSE(score.criteria[0].value);
+  EXPECT_NE(score.criteria[0].unsaid.find("score the session anew"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace ream::score

@@ -1,0 +1,73 @@
+#include "app/export_session.hpp"
+#include "app/recorded_session.hpp"
+#include "app/session_bundle.hpp"
+#include "app/session_report.hpp"
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/log.hpp"
+#include "report/html.hpp"
+#include "report/pdf.hpp"
+
+namespace ream::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A recording that may be damaged towards its end, which is said.
+record::Recording opened(const ExportRequest& request) {
+  record::Recording recording(request.recording, record::Recording::Trust::checked);
+  if (const std::string& damage = recording.log().damage(); !damage.empty()) log::warn(damage);
+  return recording;
+}
+
+void write_trace(const ExportRequest& request, const fs::path& out, const Progress&) {
+  export_trace(opened(request), out);
+}
+
+void write_surface(const ExportRequest& request, const fs::path& out, const Progress&) {
+  const record::Recording recording = opened(request);
+  case_::Case bone_case = case_of(recording, request.case_name, request.data);
+  export_surface(recording, bone_case, out);
+}
+
+void write_bundle(const ExportRequest& request, const fs::path& out, const Progress&) {
+  write_session_bundle(request.recording, request.case_name, request.data, out);
+}
+
+report::Report report_of(const ExportRequest& request, const Progress& progress) {
+  return session_report(
+      {request.recording, request.case_name, request.data, request.rubric, request.benchmark, true},
+      progress);
+}
+
+void write_html(const ExportRequest& request, const fs::path& out, const Progress& progress) {
+  write_file_atomically(out, report::html_of(report_of(request, progress)));
+}
+
+void write_pdf(const ExportRequest& request, const fs::path& out, const Progress& progress) {
+  write_file_atomically(out, report::pdf_of(report_of(request, progress)));
+}
+
+}  // namespace
+
+const std::vector<ExportFormat>& export_formats() {
+  static const std::vector<ExportFormat> formats = {
+      {".pdf", "report for printing", "application/pdf", write_pdf},
+      {".html", "report as a page", "text/html; charset=utf-8", write_html},
+      {".csv", "one row a tick", "text/csv; charset=utf-8", write_trace},
+      {".ply", "the reamed surface", "model/ply", write_surface},
+      {".zip", "session and case, for ream import on another machine", "application/zip", write_bundle},
+  };
+  return formats;
+}
+
+const ExportFormat& export_format_of(const fs::path& out) {
+  std::string endings;
+  for (const ExportFormat& format : export_formats()) {
+    if (out.extension() == format.extension) return format;
+    endings += (endings.empty() ? "" : ", ") + format.extension + " (" + format.words + ")";
+  }
+  throw Error(ErrorKind::usage, "--out " + out.string() + " must end in one of " + endings);
+}
+
+}  // namespace ream::app
