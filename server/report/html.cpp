@@ -108,9 +108,10 @@ std::string table(const MetricTable& table) {
                           mark_cell(line) + cell(line.points));
   const std::string heads =
       "<tr><th>Metric</th><th>Planned</th><th>Achieved</th><th>Passes</th><th>Warns</th><th>Result</th>"
-      "<th>Points \u00d7 weight</th></tr>";
+      "<th>Points</th></tr>";
   return text_element("h3", table.title) +
-         element("div", element("table", element("thead", heads) + element("tbody", rows)), "scroll");
+         element("div", element("table", element("thead", heads) + element("tbody", rows), "metrics"),
+                 "scroll");
 }
 
 std::string metrics(const Report& report) {
@@ -138,8 +139,10 @@ std::string course(const Report& report) {
                                 element("td", escaped(remark.words)) + cell(remark.author));
     }
     content += text_element("h3", "Remarks") +
-               element("table", "<thead><tr><th>No.</th><th>At</th><th>Remark</th><th>By</th></tr></thead>" +
-                                    element("tbody", rows));
+               element("table",
+                       "<thead><tr><th>No.</th><th>At</th><th>Remark</th><th>By</th></tr></thead>" +
+                           element("tbody", rows),
+                       "remarks");
   }
   return element("section", content, "charts");
 }

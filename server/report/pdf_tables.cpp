@@ -81,9 +81,9 @@ void PdfPages::table_line(const MetricLine& line) {
   }
   sheet_.paragraph(margin + columns[0].width - note_width, y_, note_width - 3.0, std::to_string(line.source),
                    {5.6, grey(0.45), false, Anchor::left});
-  y_ += height + 1.5;
+  y_ += height + 1.0;
   sheet_.straight({margin, y_}, {PdfSheet::page_width - margin, y_}, hair);
-  y_ += 2.0;
+  y_ += 1.5;
 }
 
 }  // namespace ream::report
