@@ -1,5 +1,5 @@
 #include "app/export_session.hpp"
-#include "app/recorded_session.hpp"
+#include "app/export_surfaces.hpp"
 #include "app/session_bundle.hpp"
 #include "app/session_report.hpp"
 #include "core/error.hpp"
@@ -22,12 +22,6 @@ record::Recording opened(const ExportRequest& request) {
 
 void write_trace(const ExportRequest& request, const fs::path& out, const Progress&) {
   export_trace(opened(request), out);
-}
-
-void write_surface(const ExportRequest& request, const fs::path& out, const Progress&) {
-  const record::Recording recording = opened(request);
-  case_::Case bone_case = case_of(recording, request.case_name, request.data);
-  export_surface(recording, bone_case, out);
 }
 
 void write_bundle(const ExportRequest& request, const fs::path& out, const Progress&) {
@@ -55,7 +49,10 @@ const std::vector<ExportFormat>& export_formats() {
       {".pdf", "report for printing", "application/pdf", write_pdf},
       {".html", "report as a page", "text/html; charset=utf-8", write_html},
       {".csv", "one row a tick", "text/csv; charset=utf-8", write_trace},
-      {".ply", "the reamed surface", "model/ply", write_surface},
+      {".ply", "reamed bone and implant, coloured by deviation", "model/ply", write_coloured_ply},
+      {".glb", "the same as glTF", "model/gltf-binary", write_glb},
+      {".stl", "reamed bone; the implant beside it", "model/stl", write_stl},
+      {".json", "deviations vertex by vertex; bytes beside it", "application/json", write_deviations},
       {".zip", "session and case, for ream import on another machine", "application/zip", write_bundle},
   };
   return formats;

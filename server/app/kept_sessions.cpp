@@ -52,6 +52,17 @@ std::string trainee_of(const nlohmann::json& session) {
   return "";
 }
 
+score::LearningPoint learning_point(const std::string& id, const nlohmann::json& session,
+                                    const score::Score& score) {
+  score::LearningPoint point;
+  point.session = id;
+  point.created_utc = session.value("created_utc", "");
+  point.theatre = session.value("theatre", false);
+  point.points = score.points;
+  point.outcome = score.outcome;
+  return point;
+}
+
 score::LearningCurve learning_of(const std::vector<KeptSession>& sessions, const score::Rubric& rubric,
                                  const score::CusumParameters& parameters) {
   std::vector<score::LearningPoint> points;
@@ -59,13 +70,7 @@ score::LearningCurve learning_of(const std::vector<KeptSession>& sessions, const
     std::error_code failed;
     if (!std::filesystem::exists(api::metrics_json(session.folder), failed)) continue;
     const score::Score score = score::apply_rubric(rubric, read_json_file(api::metrics_json(session.folder)));
-    score::LearningPoint point;
-    point.session = session.id;
-    point.created_utc = session.session.value("created_utc", "");
-    point.theatre = session.session.value("theatre", false);
-    point.points = score.points;
-    point.outcome = score.outcome;
-    points.push_back(std::move(point));
+    points.push_back(learning_point(session.id, session.session, score));
   }
   return score::learning_curve(parameters, std::move(points));
 }

@@ -27,6 +27,10 @@ std::vector<KeptSession> sessions_of_trainee(const std::vector<KeptSession>& ses
 /// The word by which a session's trainee is known best: user id, else code, else name; empty for nobody.
 std::string trainee_of(const nlohmann::json& session);
 
+/// `session`: its session.json. Its cusum stays empty.
+score::LearningPoint learning_point(const std::string& id, const nlohmann::json& session,
+                                    const score::Score& score);
+
 /// Sessions as their metrics.json has them, judged by one rubric. A session without metrics.json is left out.
 score::LearningCurve learning_of(const std::vector<KeptSession>& sessions, const score::Rubric& rubric,
                                  const score::CusumParameters& parameters);

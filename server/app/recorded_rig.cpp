@@ -27,11 +27,6 @@ std::string place_of(const record::Recording& recording, const char* what) {
 
 }  // namespace
 
-case_::Plan recorded_plan(const record::Recording& recording) {
-  const std::string place = place_of(recording, "recorded plan");
-  return case_::plan_from_json(parsed(recording.header().plan, place), place);
-}
-
 case_::Case recorded_case(const record::Recording& recording, const std::string& case_name,
                           const fs::path& data) {
   const record::ops::Header& header = recording.header();
@@ -52,6 +47,20 @@ case_::Case recorded_case(const record::Recording& recording, const std::string&
                                          "); say where the old one is with --case");
   found.plan = recorded_plan(recording);
   return found;
+}
+
+case_::Plan recorded_plan(const record::Recording& recording) {
+  const std::string place = place_of(recording, "recorded plan");
+  return case_::plan_from_json(parsed(recording.header().plan, place), place);
+}
+
+case_::Anatomy recorded_anatomy(const record::Recording& recording, const case_::Case& native,
+                                const std::string& case_name, const fs::path& data) {
+  const record::ops::Header& header = recording.header();
+  if (header.anatomy.empty())
+    return find_anatomy(native, case_name.empty() ? header.case_id : case_name, data);
+  const std::string place = place_of(recording, "recorded anatomy");
+  return case_::anatomy_from_json(parsed(header.anatomy, place), place);
 }
 
 sim::Settings recorded_settings(const record::Recording& recording, const std::string& backend) {

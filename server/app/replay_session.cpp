@@ -11,6 +11,7 @@
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "score/session_metrics.hpp"
 #include "sim/settings_json.hpp"
 
 namespace ream::app {
@@ -119,8 +120,10 @@ nlohmann::json ReplaySession::metrics() const {
     ticks = playhead_.position_ticks();
     if (bone_ticks_ == ticks) grid_hash = bone_hash_;
   }
-  return score::metrics_json(timeline_.wait_for(ticks, metrics_patience).metrics(),
-                             recording_.header().force_scale, grid_hash ? &*grid_hash : nullptr);
+  return score::session_metrics_json(
+      timeline_.wait_for(ticks, metrics_patience),
+      score::bone_unsaid("a moment of a replay is not measured; the session's own metrics have it"),
+      recording_.header().force_scale, grid_hash ? &*grid_hash : nullptr);
 }
 
 void ReplaySession::change(const api::PlaybackChange& change) {

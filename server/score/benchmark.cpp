@@ -27,9 +27,9 @@ struct Said {
   double value = 0.0;
 };
 
-std::vector<Said> all_said(const std::vector<SessionMetrics>& sessions, const std::string& metric) {
+std::vector<Said> all_said(const std::vector<MeasuredSession>& sessions, const std::string& metric) {
   std::vector<Said> result;
-  for (const SessionMetrics& session : sessions)
+  for (const MeasuredSession& session : sessions)
     if (const auto found = session.metrics.find(metric); found != session.metrics.end() && found->is_number())
       result.push_back({session.session, found->get<double>()});
   return result;
@@ -92,12 +92,12 @@ std::optional<Better> aim_of(const Metric& metric) {
   return std::nullopt;
 }
 
-Benchmark make_benchmark(const std::string& name, const std::vector<SessionMetrics>& experts) {
+Benchmark make_benchmark(const std::string& name, const std::vector<MeasuredSession>& experts) {
   if (experts.empty())
     throw Error(ErrorKind::invalid_input, "benchmark '" + name + "': no expert's session is given");
   Benchmark benchmark;
   benchmark.name = name;
-  for (const SessionMetrics& session : experts) benchmark.sessions.push_back(session.session);
+  for (const MeasuredSession& session : experts) benchmark.sessions.push_back(session.session);
   for (const Metric& metric : metric_catalogue()) {
     const std::optional<Better> aim = aim_of(metric);
     if (!aim) continue;

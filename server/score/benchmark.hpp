@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "score/measured_session.hpp"
 #include "score/metric_catalogue.hpp"
-#include "score/session_metrics.hpp"
 
 namespace ream::score {
 
@@ -37,7 +37,7 @@ std::optional<Better> aim_of(const Metric& metric);
 
 /// Over all metrics that have an aim and that an expert's session says. Error invalid_input when there is no
 /// session.
-Benchmark make_benchmark(const std::string& name, const std::vector<SessionMetrics>& experts);
+Benchmark make_benchmark(const std::string& name, const std::vector<MeasuredSession>& experts);
 
 /// Error not_found, invalid_input (names file and key).
 Benchmark load_benchmark(const std::filesystem::path& path);

@@ -7,7 +7,7 @@
 
 namespace ream::score {
 
-void write_deviation(const std::filesystem::path& folder, const std::string& mesh_file, size_t vertices,
+void write_deviation(const std::filesystem::path& json_path, const std::string& mesh_file, size_t vertices,
                      const DeviationFields& fields) {
   struct Field {
     const char *name, *words;
@@ -25,15 +25,17 @@ void write_deviation(const std::filesystem::path& folder, const std::string& mes
     const auto* first = reinterpret_cast<const std::byte*>(field.codes.data());
     bytes.insert(bytes.end(), first, first + vertices);
   }
-  write_file_atomically(folder / "deviation.bin", bytes);
+  std::filesystem::path bin_path = json_path;
+  bin_path.replace_extension(".bin");
+  write_file_atomically(bin_path, bytes);
   const nlohmann::json description = {{"mesh", mesh_file},
-                                      {"file", "deviation.bin"},
+                                      {"file", bin_path.filename().string()},
                                       {"vertices", vertices},
                                       {"step_mm", deviation_step_mm},
                                       {"range_mm", deviation_range_mm},
                                       {"unknown", deviation_unknown},
                                       {"fields", listed}};
-  write_file_atomically(folder / "deviation.json", description.dump(2) + "\n");
+  write_file_atomically(json_path, description.dump(2) + "\n");
 }
 
 }  // namespace ream::score

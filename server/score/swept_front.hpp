@@ -13,6 +13,8 @@ class SweptFront {
 
   /// Signed distance of a point of the tool frame, mm, negative inside.
   double distance_mm(const Vec3& tool_mm) const;
+  /// Its meridian, closed at the back.
+  const shell::ToolProfile& profile() const { return meridian_.profile(); }
   double outer_mm() const { return meridian_.profile().max_radius_mm(); }
 
  private:

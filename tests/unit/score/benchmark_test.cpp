@@ -12,8 +12,8 @@ namespace {
 using nlohmann::json;
 using test::expect_error;
 
-std::vector<SessionMetrics> experts(const char* metric, const std::vector<double>& values) {
-  std::vector<SessionMetrics> sessions;
+std::vector<MeasuredSession> experts(const char* metric, const std::vector<double>& values) {
+  std::vector<MeasuredSession> sessions;
   for (size_t i = 0; i < values.size(); ++i)
     sessions.push_back({"expert-" + std::to_string(i + 1), {{metric, values[i]}}});
   return sessions;

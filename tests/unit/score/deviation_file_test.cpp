@@ -17,7 +17,7 @@ using nlohmann::json;
 TEST(DeviationFile, HoldsEachFieldWhereItSays) {
   const test::TemporaryFolder folder;
   const DeviationFields fields{{0, 5, -128, 127}, {-1, -2, -3, -4}};
-  write_deviation(folder.path(), "reamed.ply", 4, fields);
+  write_deviation(folder.path() / "deviation.json", "reamed.ply", 4, fields);
   const json told = read_json_file(folder.path() / "deviation.json");
   const json schema = read_json_file(std::string(REAM_SOURCE_DIR) + "/proto/deviation.schema.json");
   EXPECT_EQ(test::SchemaChecker(schema).faults(schema, told), std::vector<std::string>{});
@@ -32,7 +32,7 @@ TEST(DeviationFile, HoldsEachFieldWhereItSays) {
 
 TEST(DeviationFile, LeavesOutWhatThereIsNothingToCompareWith) {
   const test::TemporaryFolder folder;
-  write_deviation(folder.path(), "reamed.ply", 2, {{1, 2}, {}});
+  write_deviation(folder.path() / "deviation.json", "reamed.ply", 2, {{1, 2}, {}});
   const json told = read_json_file(folder.path() / "deviation.json");
   ASSERT_EQ(told["fields"].size(), 1u);
   EXPECT_EQ(told["fields"][0]["name"], "plan");

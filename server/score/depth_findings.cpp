@@ -1,0 +1,57 @@
+#include <algorithm>
+#include <cmath>
+
+#include "score/reamed_rays.hpp"
+#include "score/surface_findings.hpp"
+
+namespace ream::score {
+
+void say_depths(const NativeGlenoid& native, const AchievedFace& face, Findings& findings) {
+  const RayLattice& rays = native.rays();
+  double greatest = 0.0, sum = 0.0, past_subchondral = 0.0;
+  size_t count = 0;
+  for (size_t ray = 0; ray < rays.size(); ++ray) {
+    const double removed = face.removed_mm[ray];
+    if (removed < reamed_mm) continue;
+    ++count;
+    sum += removed;
+    greatest = std::max(greatest, removed);
+    past_subchondral =
+        std::max(past_subchondral, native.surface_mm()[ray] + removed - native.subchondral_mm()[ray]);
+  }
+  findings.say("footprint_area_mm2", static_cast<double>(count) * rays.cell_area_mm2());
+  findings.say("depth_max_mm", greatest);
+  findings.say("medialization_mm", past_subchondral);
+  findings.say("depth_mean_mm", count > 0 ? sum / static_cast<double>(count) : 0.0);
+}
+
+void say_congruity(const NativeGlenoid& native, const AchievedFace& face, Findings& findings) {
+  std::vector<Vec3> points;
+  for (size_t ray = 0; ray < native.rays().size(); ++ray)
+    if (is_amid_reamed(native.rays(), face, ray))
+      points.emplace_back(native.rays().x_mm(ray), native.rays().y_mm(ray), face.surface_mm[ray]);
+  const auto sphere = fit_sphere(points);
+  const char* too_little = "what was reamed is too small or too flat to fit a sphere to";
+  for (const char* key : {"congruity_mm", "fitted_radius_mm"}) findings.leave(key, too_little);
+  if (!sphere) return;
+  findings.say("congruity_mm", sphere->mean_deviation_mm);
+  findings.say("fitted_radius_mm", sphere->radius_mm);
+}
+
+void say_plate(const NativeGlenoid& native, const AchievedFace& face, const Component& component,
+               Findings& findings) {
+  const char* nothing = "the component has no native face under it";
+  const SubchondralPlate& plate = native.plate();
+  if (component.footprint().empty()) return findings.leave("plate_preserved_percent", nothing);
+  size_t preserved = 0;
+  for (const size_t ray : component.footprint()) {
+    const double top = native.subchondral_mm()[ray];
+    const double whole = std::min(plate.thickness_mm[ray], native.exit_mm()[ray] - top);
+    const double left = top + whole - std::max(top, native.surface_mm()[ray] + face.removed_mm[ray]);
+    preserved += left >= 0.5 * whole;
+  }
+  findings.say("plate_preserved_percent",
+               100.0 * static_cast<double>(preserved) / static_cast<double>(component.footprint().size()));
+}
+
+}  // namespace ream::score
