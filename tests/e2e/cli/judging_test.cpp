@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "core/file.hpp"
 #include "e2e/cli/command_line.hpp"
 

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <regex>
+#include <sstream>
 
 #include "core/file.hpp"
 #include "e2e/cli/command_line.hpp"
@@ -23,7 +25,7 @@ class SessionReport : public CommandLine {
     Words command = {"/usr/bin/" + program};
     command.insert(command.end(), arguments.begin(), arguments.end());
     const auto process = start_program(command, program);
-    EXPECT_EQ(process->wait(), 0) << program;
+    EXPECT_EQ(process->wait(std::chrono::seconds(60)), 0) << program;
     return printed(program + ".out");
   }
 
