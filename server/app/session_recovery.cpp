@@ -10,6 +10,7 @@
 #include "api/session_folder.hpp"
 #include "app/data_folder.hpp"
 #include "app/rescoring.hpp"
+#include "app/score_document.hpp"
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -132,6 +133,7 @@ std::string close_session_folder(const fs::path& folder, const fs::path& data, a
   }
   if (metrics) metrics->commit();
   session.commit();
+  if (metrics) keep_score(folder, data);
   remove_temporaries(folder);
   return closing->words;
 }

@@ -58,18 +58,6 @@ std::optional<Vec3> entry_of(const NativeGlenoid& native, const Vec3& point, con
   return point + s * direction;
 }
 
-/// How far the reamer goes along the planned axis until it first touches the untouched face.
-std::optional<double> first_contact_mm(const NativeGlenoid& native) {
-  double first = no_surface_mm;
-  for (size_t ray = 0; ray < native.rays().size(); ++ray) {
-    if (!native.face()[ray]) continue;
-    const double radius = std::hypot(native.rays().x_mm(ray), native.rays().y_mm(ray));
-    if (radius > native.reamer().outer_mm()) continue;
-    first = std::min(first, native.surface_mm()[ray] + native.reamer().behind_mm(radius));
-  }
-  return first == no_surface_mm ? std::nullopt : std::optional(first);
-}
-
 void say_angles(const Task& task, const Vec3& world_axis, Findings& f) {
   const auto frame = scapular_frame_of(task);
   if (!frame) {
@@ -111,6 +99,17 @@ void say_places(const NativeGlenoid& native, const CutLine& line, Findings& f) {
 }
 
 }  // namespace
+
+std::optional<double> first_contact_mm(const NativeGlenoid& native) {
+  double first = no_surface_mm;
+  for (size_t ray = 0; ray < native.rays().size(); ++ray) {
+    if (!native.face()[ray]) continue;
+    const double radius = std::hypot(native.rays().x_mm(ray), native.rays().y_mm(ray));
+    if (radius > native.reamer().outer_mm()) continue;
+    first = std::min(first, native.surface_mm()[ray] + native.reamer().behind_mm(radius));
+  }
+  return first == no_surface_mm ? std::nullopt : std::optional(first);
+}
 
 void say_plan(const Task& task, Findings& f) {
   const auto frame = scapular_frame_of(task);

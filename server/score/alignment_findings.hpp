@@ -4,6 +4,10 @@
 
 namespace ream::score {
 
+/// How deep the reamer's apex is along the planned axis when it first touches the untouched face; empty when
+/// it does not.
+std::optional<double> first_contact_mm(const NativeGlenoid& native);
+
 /// What is asked of the session before it begins: angles of the plan, and how much reaming alone is to
 /// correct.
 void say_plan(const Task& task, Findings& findings);

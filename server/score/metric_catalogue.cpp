@@ -4,30 +4,11 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "score/band_json.hpp"
 #include "score/metric_groups.hpp"
 
 namespace ream::score {
-namespace {
-
 using nlohmann::json;
-
-std::string_view to_text(Better better) {
-  constexpr std::string_view texts[] = {"report only", "less", "more", "between"};
-  return texts[static_cast<size_t>(better)];
-}
-
-json band_json(const Band& band) {
-  json value = {{"better", to_text(band.better)}};
-  if (band.better == Better::report_only) return value;
-  value["pass"] = band.pass;
-  if (band.better == Better::between)
-    value["low"] = band.low;
-  else
-    value["warn"] = band.warn;
-  return value;
-}
-
-}  // namespace
 
 std::span<const Metric> metric_catalogue() {
   static const std::vector<Metric> all = [] {

@@ -11,6 +11,14 @@ constexpr const char* bone_keys[] = {"depth_max_mm",           "depth_mean_mm", 
                                      "vault_distance_keel_mm", "vault_distance_tool_mm",  "vault_breach_mm",
                                      "version_rim_deg",        "inclination_rim_deg"};
 
+bool has_face(const NativeGlenoid& native) {
+  for (const uint8_t face : native.face())
+    if (face) return true;
+  return false;
+}
+
+}  // namespace
+
 CutLine in_lattice(const RayLattice& rays, const CutLine& plan_line, const Pose& world_from_plan) {
   CutLine line;
   line.apex_mm = rays.in_lattice(world_from_plan.point(plan_line.apex_mm));
@@ -19,14 +27,6 @@ CutLine in_lattice(const RayLattice& rays, const CutLine& plan_line, const Pose&
   line.deepest_mm = rays.in_lattice(world_from_plan.point(plan_line.deepest_apex_mm())).z();
   return line;
 }
-
-bool has_face(const NativeGlenoid& native) {
-  for (const uint8_t face : native.face())
-    if (face) return true;
-  return false;
-}
-
-}  // namespace
 
 void leave_bone(const std::string& reason, Findings& findings) {
   for (const char* key : bone_keys) findings.leave(key, reason);

@@ -24,6 +24,9 @@ std::optional<Vec3> rim_normal(const NativeGlenoid& native, const AchievedFace& 
 /// Reason for everything that needs bone to be measured.
 void leave_bone(const std::string& reason, Findings& findings);
 
+/// The achieved axis in the frame of the lattice; `world_from_plan`: the frame of `plan_line`.
+CutLine in_lattice(const RayLattice& rays, const CutLine& plan_line, const Pose& world_from_plan);
+
 /// Everything that bone and achieved axis say. `plan_line`: CutAxis::line(), empty when nothing was cut;
 /// `world_from_plan`: its frame. `left`: what remains, with the bone at rest.
 Findings surface_findings(const NativeGlenoid& native, const CoverageView& left,

@@ -7,10 +7,6 @@
 #include "app/data_folder.hpp"
 #include "app/export_session.hpp"
 #include "app/recorded_session.hpp"
-#include "app/session_bundle.hpp"
-#include "core/error.hpp"
-#include "core/log.hpp"
-#include "geometry/mesh_export.hpp"
 
 namespace ream::app {
 namespace {
@@ -18,37 +14,27 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string session, case_name;
+  std::string session, case_name, rubric = "standard", benchmark;
   fs::path out;
 };
 
 void export_session(const Options& options, const GlobalOptions& global) {
+  const ExportFormat& format = export_format_of(options.out);
   const fs::path data = data_folder(global.data);
-  const fs::path file = recording_path(options.session, data);
-  const std::string kind = options.out.extension();
-  if (kind != ".csv" && kind != ".png" && kind != ".zip" && !is_mesh_file_ending(kind))
-    throw Error(ErrorKind::usage, "--out " + options.out.string() +
-                                      " must end in .csv (force trace), .ply, .stl or .glb (reamed surface), "
-                                      ".png (picture) or .zip (bundle)");
-  if (kind == ".zip") {
-    write_session_bundle(file, options.case_name, data, options.out);
-  } else {
-    const record::Recording recording(file, record::Recording::Trust::checked);
-    if (const std::string& damage = recording.log().damage(); !damage.empty()) log::warn(damage);
-    if (kind == ".csv") {
-      export_trace(recording, options.out);
-    } else {
-      case_::Case bone_case = case_of(recording, options.case_name, data);
-      if (kind == ".png")
-        export_picture(recording, bone_case, options.out);
-      else
-        export_surface(recording, bone_case, options.out);
-    }
-  }
+  format.write(
+      {recording_path(options.session, data), options.case_name, data, options.rubric, options.benchmark},
+      options.out, no_progress);
   if (global.json)
     std::cout << nlohmann::json{{"out", options.out.string()}}.dump() << '\n';
   else
     std::cout << options.out.string() << '\n';
+}
+
+std::string words_of_formats() {
+  std::string words;
+  for (const ExportFormat& format : export_formats())
+    words += (words.empty() ? "FILE" : "; FILE") + format.extension + ": " + format.words;
+  return words;
 }
 
 }  // namespace
@@ -60,14 +46,12 @@ void add_export_command(CLI::App& app, GlobalOptions& global) {
       ->add_option("SESSION", options->session,
                    "Id of the data folder, a folder with recording.ream, or such a file")
       ->required();
-  command
-      ->add_option(
-          "--out", options->out,
-          "FILE.csv: one row a tick; FILE.ply, .stl or .glb: the reamed surface; FILE.png: a picture of "
-          "it; FILE.zip: session and case, for ream import on another machine")
-      ->required();
+  command->add_option("--out", options->out, words_of_formats())->required();
   command->add_option("--case", options->case_name,
                       "Case folder, where the recording's case is not in the data folder");
+  command->add_option("--rubric", options->rubric, "Of reports: a rubric's id, id@version, or its file");
+  command->add_option("--benchmark", options->benchmark,
+                      "Of reports: file of ream benchmark to compare with");
   command->callback([options, &global] { export_session(*options, global); });
 }
 

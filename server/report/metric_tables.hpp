@@ -1,0 +1,15 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "report/report.hpp"
+
+namespace ream::report {
+
+/// Three tables of all metrics (alignment, bone, handling); appends each source that is named to `sources`.
+std::vector<MetricTable> metric_tables(const Material& material, std::vector<std::string>& sources);
+
+/// Reasons why metrics are not said, in the order of the catalogue; `name`: of all metrics with that reason.
+std::vector<Fact> unsaid_metrics(const nlohmann::json& metrics);
+
+}  // namespace ream::report

@@ -1,0 +1,21 @@
+#pragma once
+#include <vector>
+
+#include "report/chart.hpp"
+#include "report/material.hpp"
+
+namespace ream::report {
+
+/// Range of thrust to work in: from below the thesis' 52 N to 1.5 times it (science 2.2), and what no moment
+/// should pass.
+inline constexpr double thrust_from_n = 35.0, thrust_to_n = 78.0, thrust_peak_n = 104.0;
+
+/// Thrust, feed and depth over time; remarks are numbered from 1.
+std::vector<Chart> session_charts(const TraceSummary& trace, double planned_depth_mm,
+                                  const std::vector<Remark>& remarks);
+
+/// CUSUM and points over a trainee's sessions; empty for fewer than two.
+std::vector<Chart> learning_charts(const score::LearningCurve& curve,
+                                   const std::optional<double>& pass_points);
+
+}  // namespace ream::report
