@@ -19,10 +19,10 @@ struct TracePart {
 
 /// What is to be exported.
 struct ExportOrder {
-  SessionRequest session;             ///< with the labels that whoever asked may know
-  TracePart part = {};                ///< of tables
-  std::string rubric = "standard";    ///< of reports: "id" or "id@version"
-  std::string benchmark = {};         ///< of reports: id; empty: none
+  SessionRequest session;           ///< with the labels that whoever asked may know
+  TracePart part = {};              ///< of tables
+  std::string rubric = "standard";  ///< of reports: "id" or "id@version"
+  std::string benchmark = {};       ///< of reports: id; empty: none
 };
 
 /// A form in which a session can be had as a file.

@@ -113,8 +113,8 @@ net::Response kept_or_made(const DownloadTools& tools, const net::Request& reque
   const ExportFormat& format = tools.formats.find(format_name);
   std::error_code failed;
   if (fs::is_regular_file(folder / name, failed))
-    return net::file_response(request,
-                              {folder / name, format.media_type, record.request.id + "." + format.file_ending()});
+    return net::file_response(
+        request, {folder / name, format.media_type, record.request.id + "." + format.file_ending()});
   const ExportOrder order{record.request};
   const auto write = format.write;
   return accepted(ordered(tools, kind, record, [=](const fs::path& place, const Progress& progress) {
@@ -126,7 +126,8 @@ int stride_of(const net::Request& request) { return static_cast<int>(number_or(r
 
 net::Response mesh(const DownloadTools& tools, const net::Request& request) {
   const SessionRecord record = seen(tools, request);
-  if (!is_live(record.status.state)) return kept_or_made(tools, request, record, "mesh", "surface", "reamed.ply");
+  if (!is_live(record.status.state))
+    return kept_or_made(tools, request, record, "mesh", "surface", "reamed.ply");
   return made_now(tools, request, "ply", "application/ply", [&](const fs::path& out) {
     tools.sessions.write_surface(id_of(request), out, stride_of(request));
   });

@@ -81,7 +81,8 @@ case_::Case left_case(const ExportRequest& request, std::vector<uint8_t>& before
 void write_stl_bone(const ExportRequest& request, const fs::path& out, const Progress& progress) {
   std::vector<uint8_t> before;
   const case_::Case left = left_case(request, before, progress);
-  write_file_atomically(out, stl_of(reamed_surface(left), "reamed bone, " + case_::frame_in_words(left.side)));
+  write_file_atomically(out,
+                        stl_of(reamed_surface(left), "reamed bone, " + case_::frame_in_words(left.side)));
 }
 
 void write_stl_implant(const ExportRequest& request, const fs::path& out, const Progress& progress) {

@@ -59,12 +59,13 @@ constexpr Metric metrics[] = {
      "holds the error of depth, too", at_most(2.0, 4.0)},
     {"depth_error_mm", "Depth error", "mm", "Absolute difference of reaming depth and planned depth.",
      "engineering judgement", Evidence::judgement, "as exact as first contact", only_reported},
-    {"pilot_entry_distance_mm", "Pilot entry", "mm",
+    {"pilot_entry_distance_mm", "Distance to pilot entry", "mm",
      "Distance of the places where the achieved axis and that of the pilot hole meet the untouched surface. "
      "The hole is the planned one, which is in the bone before the session.",
      malposition, Evidence::published, entry_checked, at_most(2.0, 4.0)},
-    {"pilot_angle_deg", "Pilot angle", "deg", "Angle between the achieved axis and that of the pilot hole.",
-     malposition, Evidence::published, angle_checked, at_most(5.0, 10.0)},
+    {"pilot_angle_deg", "Angle to pilot hole", "deg",
+     "Angle between the achieved axis and that of the pilot hole.", malposition, Evidence::published,
+     angle_checked, at_most(5.0, 10.0)},
     {"plan_correction_deg", "Correction planned", "deg",
      "Angle between the native face and one across the planned axis: what reaming alone is asked to correct.",
      "Clavert 2007: from 15 degrees on 5 of 5 pegged components perforate; eccentric reaming is used for 5 "

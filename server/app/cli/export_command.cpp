@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/commands.hpp"
+#include "app/cli/terminal_progress.hpp"
 #include "app/data_folder.hpp"
 #include "app/export_session.hpp"
-#include "app/cli/terminal_progress.hpp"
 #include "app/recorded_session.hpp"
 #include "core/error.hpp"
 #include "score/rubric_shelf.hpp"
@@ -36,8 +36,8 @@ ExportRequest request_of(const Options& options, const fs::path& data) {
 void export_session(const Options& options, const GlobalOptions& global) {
   const ExportFormat& format = export_format_of(options.format, options.out);
   if (format.kind != ExportKind::report && !(options.rubric.empty() && options.benchmark.empty()))
-    throw Error(ErrorKind::usage, "--rubric and --benchmark are for reports, and " + options.out.string() +
-                                      " will be none");
+    throw Error(ErrorKind::usage,
+                "--rubric and --benchmark are for reports, and " + options.out.string() + " will be none");
   catch_interrupts();
   const TerminalProgress progress;
   format.write(request_of(options, data_folder(global.data)), options.out, std::cref(progress));

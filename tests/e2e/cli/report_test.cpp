@@ -44,8 +44,8 @@ TEST_F(SessionReport, IsPrintableWithItsLettersAndPageNumbers) {
   succeed({"export", "run", "--out", "report.pdf"});
   const std::string file = (folder() / "report.pdf").string();
   const std::string text = poppler("pdftotext", {"-layout", file, "-"});
-  for (const char* words : {"Glenoid reaming", "Zo\u00eb \u00d6zt\u00fcrk", "Page 1 of ", "Version achieved", "retroversion",
-                            "theatre mode off", "Provenance", "\u2264"})
+  for (const char* words : {"Glenoid reaming", "Zo\u00eb \u00d6zt\u00fcrk", "Page 1 of ", "Version achieved",
+                            "retroversion", "theatre mode off", "Provenance", "\u2264"})
     EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
   const std::string fonts = poppler("pdffonts", {file});
   EXPECT_NE(fonts.find("yes"), std::string::npos);
@@ -100,7 +100,8 @@ TEST_F(SessionReport, WithoutItsCaseSaysWhatItCannotShow) {
   fs::create_directories(folder() / "data/cases");
   succeed({"export", "run", "--out", "there.html", "--case", (folder() / "elsewhere").string()});
   EXPECT_NE(text_of("there.html").find("data:image/png"), std::string::npos);
-  // The demo case is made again; its bone is the same, so that this works too. A case that is not there does not.
+  // The demo case is made again; its bone is the same, so that this works too. A case that is not there does
+  // not.
   json session = json_of("run/session.json");
   refuse(1, "nowhere", {"export", "run", "--out", "no.ply", "--case", (folder() / "nowhere").string()});
   succeed({"export", "run", "--out", "report.html", "--case", (folder() / "nowhere").string()});

@@ -9,7 +9,8 @@ namespace {
 
 using nlohmann::json;
 
-/// Sessions of which little can be said: score and report say what cannot be, and hold no number that is none.
+/// Sessions of which little can be said: score and report say what cannot be, and hold no number that is
+/// none.
 class Scoring : public CommandLine {
  protected:
   /// A block of bone, 12 x 12 x 6 mm, of which nobody knows what it is: no landmarks, planned by an axis.
@@ -22,8 +23,7 @@ class Scoring : public CommandLine {
     for (int z = 0; z < depth_voxels; ++z)
       for (int y = 0; y < n; ++y)
         for (int x = 0; x < n; ++x) {
-          const bool inside =
-              x >= rim && x < n - rim && y >= rim && y < n - rim && z >= top && z < bottom;
+          const bool inside = x >= rim && x < n - rim && y >= rim && y < n - rim && z >= top && z < bottom;
           const int16_t hu = inside ? 700 : -1000;
           char bytes[2];
           std::memcpy(bytes, &hu, 2);
@@ -36,13 +36,12 @@ class Scoring : public CommandLine {
 
   /// A hand that pushes, through easily cut bone.
   void simulate(const std::string& case_name, double duration_s, double force_n, double start_mm) {
-    const json script = {{"device", "hand"},
-                         {"duration_s", duration_s},
-                         {"stiffness_n_mm", 100},
-                         {"specimen_factor", 10},
-                         {"hand",
-                          {{"start_mm", {0, 0, start_mm}},
-                           {"force_profile", {{{"t_s", 0}, {"force_n", force_n}}}}}}};
+    const json script = {
+        {"device", "hand"},
+        {"duration_s", duration_s},
+        {"stiffness_n_mm", 100},
+        {"specimen_factor", 10},
+        {"hand", {{"start_mm", {0, 0, start_mm}}, {"force_profile", {{{"t_s", 0}, {"force_n", force_n}}}}}}};
     write("push.json", script.dump());
     succeed({"simulate", "--case", case_name, "--script", "push.json", "--out", "run", "--backend", "cpu"});
   }
@@ -74,7 +73,8 @@ TEST_F(Scoring, OfWhatNeverTouchedBone) {
   const json told = expect_sound();
   EXPECT_EQ(told.at("score").at("outcome"), "undecided");
   EXPECT_EQ(told.at("metrics").at("removed_volume_mm3"), 0.0);
-  for (const char* metric : {"version_achieved_deg", "seating_percent", "medialization_mm", "vault_breach_mm"})
+  for (const char* metric :
+       {"version_achieved_deg", "seating_percent", "medialization_mm", "vault_breach_mm"})
     EXPECT_EQ(reason(told, metric), "no bone was removed") << metric;
   EXPECT_TRUE(told.at("metrics").at("version_planned_deg").is_number());
   EXPECT_NE(text_of("report.html").find("Not decided"), std::string::npos);
