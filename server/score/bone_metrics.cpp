@@ -51,7 +51,9 @@ constexpr Metric metrics[] = {
      "within 1 point of the truth in 100 seeded reamings; limits are engineering judgement",
      at_least(90.0, 80.0)},
     {"congruity_mm", "Congruity", "mm",
-     "Mean distance of the reamed surface from the sphere that fits it best.",
+     "Mean distance of the reamed surface from the sphere that fits it best; not said where less than a "
+     "tenth "
+     "of it still has bone.",
      "siftdesk: power reamer 0.08 mm (0.07 to 0.19), by hand 0.11", Evidence::published, limits_ours,
      at_most(0.2, 0.5)},
     {"fitted_radius_mm", "Radius of the reamed surface", "mm", "Radius of the sphere that fits it best.",

@@ -7,6 +7,9 @@
 namespace ream::score {
 namespace {
 
+/// Of what was reamed, so much must still have bone for its shape to be spoken of.
+constexpr double least_share_left = 0.1;
+
 struct Greatest {
   double removed_mm = 0.0, past_subchondral_mm = 0.0;
 
@@ -43,10 +46,15 @@ void say_depths(const NativeGlenoid& native, const AchievedFace& face, Findings&
 
 void say_congruity(const NativeGlenoid& native, const AchievedFace& face, Findings& findings) {
   std::vector<Vec3> points;
-  for (size_t ray = 0; ray < native.rays().size(); ++ray)
+  size_t reamed = 0;
+  for (size_t ray = 0; ray < native.rays().size(); ++ray) {
+    reamed += face.removed_mm[ray] >= reamed_mm;
     if (is_amid_reamed(native.rays(), face, ray))
       points.emplace_back(native.rays().x_mm(ray), native.rays().y_mm(ray), face.surface_mm[ray]);
-  const auto sphere = fit_sphere(points);
+  }
+  // Slivers at the edge of what is gone would fit a sphere all too well.
+  const bool enough = static_cast<double>(points.size()) >= least_share_left * static_cast<double>(reamed);
+  const auto sphere = enough ? fit_sphere(points) : std::nullopt;
   const char* too_little = "what was reamed is too small or too flat to fit a sphere to";
   for (const char* key : {"congruity_mm", "fitted_radius_mm"}) findings.leave(key, too_little);
   if (!sphere) return;

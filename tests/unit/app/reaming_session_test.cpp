@@ -298,6 +298,18 @@ TEST_F(ReamingSessionTest, LeavesItsScoreWithTheRubricOfTheDataFolderAndTheatreM
   EXPECT_EQ(score.at("metrics"), service.metrics(id));
 }
 
+TEST_F(ReamingSessionTest, StoppedAtOnceIsScoredByWhatItSays) {
+  const std::string id = service.create(wanted()).request.id;
+  service.start(id);
+  service.stop(id);
+  const nlohmann::json score = read_json_file(folder(id) / "score.json");
+  EXPECT_EQ(score.at("score").at("outcome"), "undecided");
+  for (const auto& [key, value] : score.at("metrics").items())
+    if (value.is_null()) {
+      EXPECT_FALSE(score.at("metrics").at("unsaid").value(key, "").empty()) << key;
+    }
+}
+
 TEST_F(ReamingSessionTest, LabelsAreWrittenDownWhileItRunsAndAtTheEnd) {
   const std::string id = service.create(wanted()).request.id;
   service.change(id, {"before", {}, {}, {}});
