@@ -43,7 +43,8 @@ void add_rescoring(const std::string& what, const std::vector<std::string>& name
   const auto begun = SteadyClock::now();
   const std::vector<app::Rescored> all = app::rescore(names, {}, data, calls.progress());
   const double ms = elapsed_us(begun) * 1e-3;
-  const auto unscored = std::count_if(all.begin(), all.end(), [](const auto& one) { return !one.error.empty(); });
+  const auto unscored =
+      std::count_if(all.begin(), all.end(), [](const auto& one) { return !one.error.empty(); });
   rows.push_back({"score", what, ms, 0.0, "ms", goal_ms});
   rows.push_back({"score", what + ", longest wait until it could be cancelled", calls.longest_ms(), 0.0, "ms",
                   cancel_goal_ms});
@@ -67,7 +68,8 @@ std::vector<Row> score_suite(const Options&) {
   rows.push_back({"score", name + "depth", one.depth_mm, 0.0, "mm", 0.0});
   rows.push_back({"score", name + "live score, share of a core", 100.0 * one.live_cpu_s / one.duration_s, 0.0,
                   "%", live_goal_percent});
-  rows.push_back({"score", name + "live score, one measurement of the bone", one.measurement_ms, 0.0, "ms", 0.0});
+  rows.push_back(
+      {"score", name + "live score, one measurement of the bone", one.measurement_ms, 0.0, "ms", 0.0});
   rows.push_back({"score", name + "live score, measurements of the bone a second",
                   one.measurements / one.duration_s, 0.0, "1/s", 1.0, Goal::at_least});
   rows.push_back({"score", name + "untouched bone, before the first tick", one.native_ms, 0.0, "ms", 0.0});

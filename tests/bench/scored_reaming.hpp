@@ -8,7 +8,8 @@ namespace ream::bench {
 struct ScoredReaming {
   double duration_s = 0.0;  ///< of the session
   double depth_mm = 0.0, removed_mm3 = 0.0;
-  double live_cpu_s = 0.0;  ///< metrics of every tick, of the bone, and as JSON, as a server keeps them up to date
+  double live_cpu_s =
+      0.0;  ///< metrics of every tick, of the bone, and as JSON, as a server keeps them up to date
   double measurement_ms = 0.0;  ///< of the bone, one while it goes on; the mean
   int measurements = 0;
   double native_ms = 0.0;  ///< measuring the untouched bone before the first tick

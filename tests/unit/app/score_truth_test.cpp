@@ -48,8 +48,8 @@ Scored run(const RandomReaming& reaming, const TemporaryFolder& folder) {
 struct Figure {
   const char* key;
   double ReamingTruth::*truth;
-  double tolerance;      ///< in the figure's unit, or
-  double relative = 0.0; ///< as a share of the truth
+  double tolerance;       ///< in the figure's unit, or
+  double relative = 0.0;  ///< as a share of the truth
 };
 
 constexpr Figure figures[] = {
