@@ -19,9 +19,9 @@ namespace ream::bench {
 namespace {
 
 constexpr const char* case_name = "thesis-5-4-2";
-constexpr double press_n = 52.0, peck_every_s = 5.0, shell_spacing_mm = 0.1;
+constexpr double press_n = 35.0, peck_every_s = 5.0, shell_spacing_mm = 0.1;
 /// Feed of a specimen so hard that ten minutes stay in the vault.
-constexpr double hard = 0.02;
+constexpr double hard = 0.1;
 /// How often a server looks at what has come.
 constexpr uint32_t ticks_a_look = 10;
 constexpr int bricks_a_tick = 8192;
