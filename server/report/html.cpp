@@ -161,7 +161,9 @@ std::string learning(const Report& report) {
 std::string notes(const Report& report) {
   std::string entries;
   for (const std::string& source : report.sources) entries += text_element("li", source);
-  return element("section", text_element("h2", "Sources of definitions and limits") +
+  return element("section",
+                 text_element("h2", "What the metrics mean") + facts(report.meanings, "facts meanings")) +
+         element("section", text_element("h2", "Sources of definitions and limits") +
                                 element("ol", entries, "sources") + text_element("h2", "Provenance") +
                                 facts(report.provenance));
 }

@@ -25,7 +25,7 @@ constexpr Metric metrics[] = {
      scapular_plane, Evidence::judgement, angle_checked, only_reported},
     {"version_error_deg", "Version error", "deg", "Absolute difference of version achieved and planned.",
      malposition, Evidence::published, angle_checked, at_most(5.0, 10.0)},
-    {"retroversion_achieved_deg", "Retroversion left", "deg",
+    {"retroversion_achieved_deg", "Retroversion remaining", "deg",
      "Retroversion of the achieved face, positive; version achieved with the other sign.",
      "PMC4857532: within 7 degrees of neutral is achieved; Ho 2013: osteolysis from 15 degrees on",
      Evidence::published, "the lower limit is published, the upper common knowledge", at_most(7.0, 15.0)},

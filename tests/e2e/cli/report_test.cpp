@@ -112,13 +112,17 @@ TEST_F(SessionReport, WithoutItsCaseSaysWhatItCannotShow) {
 
 TEST_F(SessionReport, SurfacesGoToOtherProgramsInTheirUnits) {
   simulate(short_script());
-  for (const char* name : {"again.stl", "again.glb", "again.ply", "deviation.json"}) succeed({"export", "run", "--out", name});
+  for (const char* name : {"again.stl", "again.glb", "again.ply", "deviation.json"})
+    succeed({"export", "run", "--out", name});
+  succeed({"export", "run", "--out", "implant.stl", "--format", "implant"});
+  succeed({"export", "run", "--out", "surface.ply", "--format", "surface"});
+  EXPECT_EQ(text_of("surface.ply"), text_of("run/reamed.ply"));
   const TriangleMesh reamed = load_mesh(folder() / "run/reamed.ply");
   const TriangleMesh stl = load_mesh(folder() / "again.stl");
   EXPECT_EQ(stl.triangles.size(), reamed.triangles.size());
   EXPECT_NEAR(stl.volume_mm3(), reamed.volume_mm3(), 1e-4 * reamed.volume_mm3());
   EXPECT_TRUE(text_of("again.stl").starts_with("reamed bone, millimetres, LPS, right shoulder"));
-  const TriangleMesh implant = load_mesh(folder() / "again-implant.stl");
+  const TriangleMesh implant = load_mesh(folder() / "implant.stl");
   EXPECT_LT((implant.bounds().centre() - reamed.bounds().centre()).norm(), 60.0);
   const TriangleMesh both = load_mesh(folder() / "again.ply");
   EXPECT_EQ(both.triangles.size(), reamed.triangles.size() + implant.triangles.size());
@@ -135,6 +139,8 @@ TEST_F(SessionReport, SurfacesGoToOtherProgramsInTheirUnits) {
 TEST_F(SessionReport, OtherEndingsAreRefusedWithThoseThereAre) {
   simulate(short_script());
   refuse(2, ".pdf (report for printing)", {"export", "run", "--out", "report.docx"});
+  refuse(2, "implant, surface", {"export", "run", "--out", "a.stl", "--format", "bone"});
+  refuse(2, "for reports", {"export", "run", "--out", "a.csv", "--rubric", "standard"});
 }
 
 }  // namespace
