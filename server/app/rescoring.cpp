@@ -47,10 +47,14 @@ void Rescorer::measure_start(const record::Recording& recording) {
   start.said = said;
   start.world_from_plan = sim::world_from_plan(*case_->plan);
   start.glenoid = measured_glenoid(*case_, anatomy, tool_of(recorded_reamer(recording, last)));
+  start_ = std::move(start);
+}
+
+void Rescorer::cut_start() {
+  if (!start_->coverage.empty()) return;
   voxel::BoneModel bone = case_->bone;
   case_::cut_pilot_hole(bone, *case_->plan);
-  start.coverage = std::move(bone.coverage);
-  start_ = std::move(start);
+  start_->coverage = std::move(bone.coverage);
 }
 
 score::Findings Rescorer::bone_findings(const record::Recording& recording,
@@ -78,6 +82,7 @@ nlohmann::json Rescorer::metrics(const record::Recording& recording, const Progr
   };
   attempt(0.7, "loading the case", [&] { load_case(recording); });
   attempt(0.8, "measuring the untouched bone", [&] { measure_start(recording); });
+  attempt(0.85, "cutting the pilot hole", [&] { cut_start(); });
   attempt(0.9, "measuring the bone", [&] { of_bone = bone_findings(recording, ticks); });
   if (!reason.empty()) of_bone = score::bone_unsaid(reason);
   progress(1.0, "measured");

@@ -34,11 +34,12 @@ class Rescorer {
     std::string said;  ///< by the recordings, of plan, anatomy and reamer
     Pose world_from_plan;
     std::shared_ptr<const score::NativeGlenoid> glenoid;
-    std::vector<uint8_t> coverage;  ///< its pilot hole cut
+    std::vector<uint8_t> coverage;  ///< its pilot hole cut; empty until it is needed
   };
 
   void load_case(const record::Recording& recording);
   void measure_start(const record::Recording& recording);
+  void cut_start();
   score::Findings bone_findings(const record::Recording& recording,
                                 const score::MetricsAccumulator& ticks) const;
 

@@ -9,14 +9,14 @@
 namespace ream::score {
 
 /// What the bone says while a session goes on, measured three times a second on rays 1 mm apart (the final
-/// score's are 0.25 mm apart). Takes less than 2 % of a core: after a measurement it rests for 50 times as
+/// score's are 0.25 mm apart). Takes less than 1 % of a core: after a measurement it rests for 100 times as
 /// long as that took. Used by one thread.
 class LiveScore {
  public:
   static constexpr int stride = 4;
   static constexpr int64_t period_ns = 333'000'000;
-  static constexpr int64_t rest_for_work = 50;
-  /// How often it is enough to write down metrics for whoever asks (a tenth of a second).
+  static constexpr int64_t rest_for_work = 100;
+  /// How often it is enough to write metrics down for whoever asks: ten times a second.
   static constexpr int64_t told_every_ns = 100'000'000;
 
   LiveScore(const NativeGlenoid& native, const Pose& world_from_plan)
