@@ -106,7 +106,7 @@ struct Line {
   double beyond_wall_mm = 0.0;  ///< of the place where it meets the face
   double face = nothing;        ///< the untouched face; nothing where the line misses it
   double gone = 0.0;            ///< length of bone that is gone
-  double removed = 0.0;         ///< of it, from the face on: where a wall leans over what is gone, nothing
+  double removed = 0.0;         ///< the same with what is left of a wall that leans over it
   double after = nothing;       ///< the face that is left; nothing where no bone is left of what was there
 };
 
@@ -135,14 +135,17 @@ class Reamed {
     line.beyond_wall_mm = glenoid_.beyond_wall_mm(at(sphere));
     if (line.beyond_wall_mm < 0.0) line.face = sphere;
     line.after = line.face;
-    for (const Interval& swept : swept_along(line, sphere)) {
-      const bool in_bone = line.face != nothing && glenoid_.solid(at(swept.to));
-      const double length = in_bone ? swept.to - swept.from : crossed_bone(line, swept);
-      line.gone += length;
-      if (swept.from > sphere) continue;
-      line.removed = length;
-      line.after = in_bone ? swept.to : nothing;
-    }
+    const std::vector<Interval> swept = swept_along(line, sphere);
+    if (swept.empty()) return;
+    Interval all{sphere, sphere};
+    for (const Interval& one : swept) all.to = std::max(all.to, one.to);
+    const bool on_bone = line.face != nothing && glenoid_.solid(at(all.to));
+    const auto bone_in = [&](const Interval& stretch) {
+      return on_bone ? stretch.to - stretch.from : crossed_bone(line, stretch);
+    };
+    for (const Interval& one : swept) line.gone += bone_in(one);
+    line.removed = bone_in(all);
+    line.after = on_bone ? all.to : nothing;
   }
 
   /// Depth along a line at which it comes to the sphere of the face, and to the plate's underside.
