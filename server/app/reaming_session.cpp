@@ -331,8 +331,9 @@ void ReamingSession::take_report(const record::TickReport& r) {
 
 void ReamingSession::note_health() {
   const score::Metrics metrics = files_->metrics().metrics();
+  const int64_t now_ns = steady_ns();
   live_score_.update(files_->metrics(), {rig_.bone_case.bone.grid, publisher_.replica().coverage().data()},
-                     steady_ns());
+                     now_ns);
   const sim::LoopHealth health = loop_.health();
   sample_.depth_mm = static_cast<float>(metrics.reaming_depth_mm);
   sample_.removed_volume_mm3 = static_cast<float>(metrics.removed_volume_mm3);
@@ -347,8 +348,11 @@ void ReamingSession::note_health() {
   }
   place_->measured(health.tick_us.p99_us, health.tick, health.missed);
   const std::lock_guard lock(mutex_);
-  metrics_ =
-      score::session_metrics_json(files_->metrics(), live_score_.findings(), status_.force_scale, nullptr);
+  if (now_ns >= metrics_due_ns_) {
+    metrics_due_ns_ = now_ns + score::LiveScore::told_every_ns;
+    metrics_ =
+        score::session_metrics_json(files_->metrics(), live_score_.findings(), status_.force_scale, nullptr);
+  }
   status_.tick = sample_.tick + 1;
   status_.duration_s = metrics.duration_s;
   status_.loop = loop_status(health);

@@ -113,6 +113,7 @@ class ReamingSession final : public api::RunningSession {
   std::shared_ptr<stream::LocalFanout> fanout_;
   stream::MeshPublisher publisher_;
   score::LiveScore live_score_;  ///< follower only
+  int64_t metrics_due_ns_ = 0;   ///< when metrics_ are written down next; follower only
   stream::TelemetryBatcher batcher_;
   stream::TelemetrySample sample_;  ///< the newest, follower only
   bool failover_told_ = false;      ///< follower only

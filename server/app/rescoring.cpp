@@ -25,43 +25,66 @@ uint64_t final_grid_hash(const record::Recording& recording) {
 
 }  // namespace
 
-/// A copy for each session, as reaming changes it; copies share their density.
-case_::Case Rescorer::native_case(const record::Recording& recording) {
+void Rescorer::load_case(const record::Recording& recording) {
   const record::ops::Header& header = recording.header();
-  if (!case_ || case_hash_ != header.case_hash || case_->id != header.case_id) {
-    case_.reset();
-    case_ = recorded_case(recording, case_name_, data_);
-    case_hash_ = header.case_hash;
-  }
-  case_::Case native = *case_;
-  native.plan = recorded_plan(recording);
-  return native;
+  if (case_ && case_hash_ == header.case_hash && case_->id == header.case_id) return;
+  start_.reset();
+  case_.reset();
+  case_ = recorded_case(recording, case_name_, data_);
+  case_hash_ = header.case_hash;
+}
+
+void Rescorer::measure_start(const record::Recording& recording) {
+  const record::ops::Header& header = recording.header();
+  const record::ops::Segment& last = recording.segments().back();
+  const std::string said =
+      nlohmann::json{header.plan, header.anatomy, last.tool, last.tool_axis, last.tool_file}.dump();
+  if (start_ && start_->said == said) return;
+  start_.reset();
+  case_->plan = recorded_plan(recording);
+  const case_::Anatomy anatomy = recorded_anatomy(recording, *case_, case_name_, data_);
+  Start start;
+  start.said = said;
+  start.world_from_plan = sim::world_from_plan(*case_->plan);
+  start.glenoid = measured_glenoid(*case_, anatomy, tool_of(recorded_reamer(recording, last)));
+  start_ = std::move(start);
+}
+
+void Rescorer::cut_start() {
+  if (!start_->coverage.empty()) return;
+  voxel::BoneModel bone = case_->bone;
+  case_::cut_pilot_hole(bone, *case_->plan);
+  start_->coverage = std::move(bone.coverage);
 }
 
 score::Findings Rescorer::bone_findings(const record::Recording& recording,
-                                        const score::MetricsAccumulator& ticks) {
-  case_::Case bone_case = native_case(recording);
-  const case_::Anatomy anatomy = recorded_anatomy(recording, bone_case, case_name_, data_);
-  const shell::Tool reamer = tool_of(recorded_reamer(recording, recording.segments().back()));
-  const auto native = measured_glenoid(bone_case, anatomy, reamer);
-  case_::cut_pilot_hole(bone_case.bone, *bone_case.plan);
-  std::vector<uint8_t> left = bone_case.bone.coverage;
-  record::RecordedBone bone(recording, bone_case.bone.grid, bone_case.bone.coverage);
+                                        const score::MetricsAccumulator& ticks) const {
+  const voxel::VoxelGrid& grid = case_->bone.grid;
+  std::vector<uint8_t> left = start_->coverage;
+  record::RecordedBone bone(recording, grid, start_->coverage);
   bone.seek(recording.tick_count(), [](const voxel::BrickImage&) {});
   bone.write_to(left);
-  return score::surface_findings(*native, {bone_case.bone.grid, left.data()}, ticks.cut_line(),
-                                 sim::world_from_plan(*bone_case.plan), ticks.metrics().reaming_depth_mm);
+  return score::surface_findings(*start_->glenoid, {grid, left.data()}, ticks.cut_line(),
+                                 start_->world_from_plan, ticks.metrics().reaming_depth_mm);
 }
 
 nlohmann::json Rescorer::metrics(const record::Recording& recording, const Progress& progress) {
-  const score::MetricsAccumulator ticks = accumulated(recording, part_of(progress, 0.0, 0.8));
-  progress(0.8, "measuring the bone");
+  const score::MetricsAccumulator ticks = accumulated(recording, part_of(progress, 0.0, 0.7));
   score::Findings of_bone;
-  try {
-    of_bone = bone_findings(recording, ticks);
-  } catch (const Error& e) {
-    of_bone = score::bone_unsaid(e.what());
-  }
+  std::string reason;  // why the bone cannot be measured
+  const auto attempt = [&](double share, std::string_view words, const auto& work) {
+    progress(share, words);
+    try {
+      if (reason.empty()) work();
+    } catch (const Error& e) {
+      reason = e.what();
+    }
+  };
+  attempt(0.7, "loading the case", [&] { load_case(recording); });
+  attempt(0.8, "measuring the untouched bone", [&] { measure_start(recording); });
+  attempt(0.85, "cutting the pilot hole", [&] { cut_start(); });
+  attempt(0.9, "measuring the bone", [&] { of_bone = bone_findings(recording, ticks); });
+  if (!reason.empty()) of_bone = score::bone_unsaid(reason);
   progress(1.0, "measured");
   const uint64_t grid_hash = final_grid_hash(recording);
   return score::session_metrics_json(ticks, of_bone, recording.header().force_scale, &grid_hash);
@@ -74,7 +97,12 @@ std::vector<Rescored> rescore(std::span<const std::string> names, const std::str
   const double step = names.empty() ? 0.0 : 1.0 / static_cast<double>(names.size());
   for (const std::string& name : names) {
     const double begun = static_cast<double>(all.size()) * step;
-    const Progress of_this = [&](double share, std::string_view) { progress(begun + share * step, name); };
+    bool ended = false;  // by the progress: about everything, not about this session
+    const Progress of_this = [&](double share, std::string_view) {
+      ended = true;
+      progress(begun + share * step, name);
+      ended = false;
+    };
     of_this(0.0, {});
     Rescored one{name, nullptr, {}, {}};
     try {
@@ -82,9 +110,7 @@ std::vector<Rescored> rescore(std::span<const std::string> names, const std::str
       if (const std::string& damage = recording.log().damage(); !damage.empty()) log::warn(damage);
       one.metrics = rescorer.metrics(recording, of_this);
     } catch (const Error& e) {
-      // What the progress throws ends everything; what the recording does is about this session.
-      of_this(1.0, {});
-      if (e.kind() == ErrorKind::cancelled) throw;
+      if (ended) throw;
       one.error = e.what();
       one.kind = e.kind();
     }

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -11,11 +12,12 @@
 #include "core/progress.hpp"
 #include "record/recording.hpp"
 #include "score/metrics.hpp"
+#include "score/native_glenoid.hpp"
 
 namespace ream::app {
 
-/// Computes metrics.json anew from recordings. Keeps the case of the last one, as many sessions are of one.
-/// Used by one thread.
+/// Computes metrics.json anew from recordings. Keeps the case of the last one and what was measured of its
+/// untouched bone, as many sessions are of one. Used by one thread.
 class Rescorer {
  public:
   /// `case_name`: where the cases are, as for find_case(); empty: under the names that the recordings give.
@@ -27,13 +29,25 @@ class Rescorer {
   nlohmann::json metrics(const record::Recording& recording, const Progress& progress = no_progress);
 
  private:
-  score::Findings bone_findings(const record::Recording& recording, const score::MetricsAccumulator& ticks);
-  case_::Case native_case(const record::Recording& recording);
+  /// A case under a plan, with a reamer: all that sessions have in common that are scored alike.
+  struct Start {
+    std::string said;  ///< by the recordings, of plan, anatomy and reamer
+    Pose world_from_plan;
+    std::shared_ptr<const score::NativeGlenoid> glenoid;
+    std::vector<uint8_t> coverage;  ///< its pilot hole cut; empty until it is needed
+  };
+
+  void load_case(const record::Recording& recording);
+  void measure_start(const record::Recording& recording);
+  void cut_start();
+  score::Findings bone_findings(const record::Recording& recording,
+                                const score::MetricsAccumulator& ticks) const;
 
   const std::filesystem::path data_;
   const std::string case_name_;
   std::optional<case_::Case> case_;  ///< of the last recording, its pilot hole not cut
   uint64_t case_hash_ = 0;
+  std::optional<Start> start_;  ///< of case_
 };
 
 /// One of many sessions.

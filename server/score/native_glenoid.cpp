@@ -34,7 +34,11 @@ NativeGlenoid::NativeGlenoid(Task task, const voxel::BoneModel& native)
       reamer_(task_.reamer),
       rays_(lattice_for(task_, reamer_.outer_mm() + beyond_reamer_mm, spacing_mm)) {
   find_depths(native);
-  face_ = without_edge(connected_to_middle());
+  face_ = connected_to_middle();
+  // Nearer to the wall than a voxel, what is interpolated of the face is rounded off.
+  const double edge_mm = std::max(spacing_mm, native.grid.spacing_mm.maxCoeff());
+  for (double left_out_mm = 0.0; left_out_mm < edge_mm; left_out_mm += spacing_mm)
+    face_ = without_edge(face_);
   find_outer_cortex(native);
   leave_out_pilot_hole(native.grid.spacing_mm.maxCoeff());
   plate_ = find_plate(native, rays_, subchondral_mm_, face_);

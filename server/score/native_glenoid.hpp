@@ -37,7 +37,8 @@ class NativeGlenoid {
   const std::vector<double>& subchondral_mm() const { return subchondral_mm_; }
   const std::vector<double>& exit_mm() const { return exit_mm_; }
   /// 1: the ray meets the face, which is what is connected to its middle without a slope of over 60 degrees
-  /// against the rays, without its outermost quarter millimetre, and does not run into the pilot hole.
+  /// against the rays, without its outermost quarter millimetre (of coarser bone, as many quarters as make a
+  /// voxel), and does not run into the pilot hole.
   const std::vector<uint8_t>& face() const { return face_; }
   const SubchondralPlate& plate() const { return plate_; }
   const OuterCortex& outer_cortex() const { return *outer_cortex_; }

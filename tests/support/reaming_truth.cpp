@@ -105,8 +105,8 @@ struct Line {
   double x = 0.0, y = 0.0;      ///< place in its lattice
   double beyond_wall_mm = 0.0;  ///< of the place where it meets the face
   double face = nothing;        ///< the untouched face; nothing where the line misses it
-  double cut = -nothing;        ///< how deep the reamer reached
-  double removed = 0.0;         ///< length of bone gone
+  double gone = 0.0;            ///< length of bone that is gone
+  double removed = 0.0;         ///< the same with what is left of a wall that leans over it
   double after = nothing;       ///< the face that is left; nothing where no bone is left of what was there
 };
 
@@ -129,26 +129,23 @@ class Reamed {
 
   /// Everything about a line; `direction` into the bone, `point` at about the depth of the face.
   void look_along(Line& line) const {
-    for (const TracedPose& pose : poses_) {
-      const Interval in = within(planned_.reamer, pose.rotation.transpose() * (line.point - pose.apex_mm),
-                                 pose.rotation.transpose() * line.direction);
-      if (!in.empty()) line.cut = std::max(line.cut, in.to);
-    }
     const double sphere = face_depth(line.point, line.direction);
     if (sphere == nothing) return;
     const auto at = [&](double s) -> Vec3 { return line.point + s * line.direction; };
     line.beyond_wall_mm = glenoid_.beyond_wall_mm(at(sphere));
     if (line.beyond_wall_mm < 0.0) line.face = sphere;
-    if (line.cut <= sphere) {
-      line.after = line.face;
-      return;
-    }
-    if (line.face != nothing && glenoid_.solid(at(line.cut))) {
-      line.removed = line.cut - sphere;
-      line.after = line.cut;
-      return;
-    }
-    add_crossed_bone(line, sphere);
+    line.after = line.face;
+    const std::vector<Interval> swept = swept_along(line, sphere);
+    if (swept.empty()) return;
+    Interval all{sphere, sphere};
+    for (const Interval& one : swept) all.to = std::max(all.to, one.to);
+    const bool on_bone = line.face != nothing && glenoid_.solid(at(all.to));
+    const auto bone_in = [&](const Interval& stretch) {
+      return on_bone ? stretch.to - stretch.from : crossed_bone(line, stretch);
+    };
+    for (const Interval& one : swept) line.gone += bone_in(one);
+    line.removed = bone_in(all);
+    line.after = on_bone ? all.to : nothing;
   }
 
   /// Depth along a line at which it comes to the sphere of the face, and to the plate's underside.
@@ -160,8 +157,30 @@ class Reamed {
   }
 
  private:
-  /// Near the wall: length of bone between the sphere and the deepest cut.
-  void add_crossed_bone(Line& line, double sphere) const {
+  /// What the reamer swept of a line from a depth on: stretches that do not touch, in any order.
+  std::vector<Interval> swept_along(const Line& line, double from) const {
+    std::vector<Interval> swept;
+    for (const TracedPose& pose : poses_) {
+      Interval in = within(planned_.reamer, pose.rotation.transpose() * (line.point - pose.apex_mm),
+                           pose.rotation.transpose() * line.direction);
+      in.from = std::max(in.from, from);
+      if (in.empty()) continue;
+      for (size_t i = 0; i < swept.size();) {
+        if (swept[i].from > in.to || swept[i].to < in.from) {
+          ++i;
+          continue;
+        }
+        in = {std::min(in.from, swept[i].from), std::max(in.to, swept[i].to)};
+        swept[i] = swept.back();
+        swept.pop_back();
+      }
+      swept.push_back(in);
+    }
+    return swept;
+  }
+
+  /// Near the wall: length of bone within a stretch.
+  double crossed_bone(const Line& line, const Interval& stretch) const {
     constexpr double stride = 0.05;
     const auto solid = [&](double s) { return glenoid_.solid(line.point + s * line.direction); };
     const auto edge = [&](double outside, double inside) {
@@ -171,15 +190,17 @@ class Reamed {
       }
       return 0.5 * (outside + inside);
     };
+    double length = 0.0;
     bool inside = false;
-    double entered = sphere;
-    for (double s = sphere + 1e-9; s < line.cut; s += stride) {
+    double entered = stretch.from;
+    for (double s = stretch.from + 1e-9; s < stretch.to; s += stride) {
       const bool now = solid(s);
-      if (now && !inside) entered = s < sphere + stride ? sphere : edge(s - stride, s);
-      if (!now && inside) line.removed += edge(s, s - stride) - entered;
+      if (now && !inside) entered = s < stretch.from + stride ? stretch.from : edge(s - stride, s);
+      if (!now && inside) length += edge(s, s - stride) - entered;
       inside = now;
     }
-    if (inside) line.removed += (solid(line.cut) ? line.cut : edge(line.cut, line.cut - stride)) - entered;
+    if (inside) length += (solid(stretch.to) ? stretch.to : edge(stretch.to, stretch.to - stride)) - entered;
+    return length;
   }
 
   PlannedReaming planned_;
@@ -241,7 +262,7 @@ void along_the_plan(const PlannedReaming& planned, const Reamed& reamed, const L
   for (Line& line : lines) {
     const bool in_hole =
         planned.plan.pilot_hole && std::hypot(line.x, line.y) < 0.5 * planned.plan.pilot_hole->diameter_mm;
-    if (!in_hole) truth.volume_mm3 += line.removed * area;
+    if (!in_hole) truth.volume_mm3 += line.gone * area;
     if (!counts(planned, line)) continue;
     if (line.removed >= reamed_mm) {
       truth.footprint_mm2 += area;

@@ -5,6 +5,7 @@
 #include "core/file.hpp"
 #include "support/expect_error.hpp"
 #include "support/json_schema.hpp"
+#include "support/places.hpp"
 
 namespace ream::score {
 namespace {
@@ -97,7 +98,7 @@ TEST(Benchmark, IsWrittenAsItIsRead) {
   const json written = benchmark_json(b);
   EXPECT_EQ(benchmark_json(benchmark_from_json(written, "b")), written);
   EXPECT_EQ(benchmark_hash(benchmark_from_json(written, "b")), benchmark_hash(b));
-  const json schema = read_json_file(std::string(REAM_SOURCE_DIR) + "/proto/benchmark.schema.json");
+  const json schema = read_json_file(test::source_folder() + "/proto/benchmark.schema.json");
   EXPECT_EQ(test::SchemaChecker(schema).faults(schema, written), std::vector<std::string>{});
   json bad = written;
   bad["metrics"][0]["better"] = "between";

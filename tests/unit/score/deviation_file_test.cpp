@@ -7,6 +7,7 @@
 #include "core/file.hpp"
 #include "score/deviation.hpp"
 #include "support/json_schema.hpp"
+#include "support/places.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ream::score {
@@ -19,7 +20,7 @@ TEST(DeviationFile, HoldsEachFieldWhereItSays) {
   const DeviationFields fields{{0, 5, -128, 127}, {-1, -2, -3, -4}};
   write_deviation(folder.path() / "deviation.json", "reamed.ply", 4, fields);
   const json told = read_json_file(folder.path() / "deviation.json");
-  const json schema = read_json_file(std::string(REAM_SOURCE_DIR) + "/proto/deviation.schema.json");
+  const json schema = read_json_file(test::source_folder() + "/proto/deviation.schema.json");
   EXPECT_EQ(test::SchemaChecker(schema).faults(schema, told), std::vector<std::string>{});
   EXPECT_EQ(told["mesh"], "reamed.ply");
   EXPECT_EQ(told["step_mm"], 0.03125);

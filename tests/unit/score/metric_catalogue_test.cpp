@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/file.hpp"
+#include "support/places.hpp"
 
 namespace ream::score {
 namespace {
@@ -51,7 +52,7 @@ TEST(MetricCatalogue, BandsJudgeTheirLimitsAsScienceHasThem) {
 
 TEST(MetricCatalogue, IsDescribedByTheSchemaOfMetricsJson) {
   const nlohmann::json schema =
-      read_json_file(std::filesystem::path(REAM_SOURCE_DIR) / "proto/metrics.schema.json");
+      read_json_file(std::filesystem::path(test::source_folder()) / "proto/metrics.schema.json");
   const nlohmann::json& described = schema.at("properties");
   for (const Metric& m : metric_catalogue()) EXPECT_TRUE(described.contains(std::string(m.key))) << m.key;
   for (const auto& [key, value] : described.items()) {

@@ -9,6 +9,7 @@
 #include "score/rubric_score.hpp"
 #include "support/expect_error.hpp"
 #include "support/json_schema.hpp"
+#include "support/places.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ream::score {
@@ -71,7 +72,7 @@ TEST_F(RubricTest, IsWrittenAsItIsRead) {
                          {"band", {{"better", "between"}, {"low", 1.0}, {"pass", 3.0}}}},
                         {{"metric", "version_error_deg"}, {"weight", 1.0}}}}};
   EXPECT_EQ(rubric_json(load_rubric(file(whole))), whole);
-  const json schema = read_json_file(std::string(REAM_SOURCE_DIR) + "/proto/rubric.schema.json");
+  const json schema = read_json_file(test::source_folder() + "/proto/rubric.schema.json");
   EXPECT_EQ(test::SchemaChecker(schema).faults(schema, whole), std::vector<std::string>{});
 }
 
@@ -89,7 +90,7 @@ TEST_F(RubricTest, HashTellsRubricsApart) {
 
 TEST(StandardRubric, JudgesByMetricsOfTheCatalogue) {
   const Rubric& standard = standard_rubric();
-  const json schema = read_json_file(std::string(REAM_SOURCE_DIR) + "/proto/rubric.schema.json");
+  const json schema = read_json_file(test::source_folder() + "/proto/rubric.schema.json");
   EXPECT_EQ(test::SchemaChecker(schema).faults(schema, rubric_json(standard)), std::vector<std::string>{});
   for (const Criterion& c : standard.criteria) EXPECT_NE(find_metric(c.metric), nullptr) << c.metric;
   EXPECT_TRUE(std::any_of(standard.criteria.begin(), standard.criteria.end(),
