@@ -13,6 +13,9 @@
 namespace ream::score {
 namespace {
 
+/// Metrics are rounded to 1e-6 of their unit (score/findings.hpp); nearer to the mean is at the mean.
+constexpr double half_rounding = 5e-7;
+
 using nlohmann::json;
 
 /// Aims of metrics that are reported without limits.
@@ -143,7 +146,8 @@ std::vector<BenchmarkResult> compare_with(const Benchmark& benchmark, const json
     if (const auto found = metrics.find(line.metric); found != metrics.end() && found->is_number()) {
       const double value = found->get<double>();
       result.value = value;
-      result.reached = line.better == Better::less ? value <= line.mean : value >= line.mean;
+      result.reached = line.better == Better::less ? value <= line.mean + half_rounding
+                                                   : value >= line.mean - half_rounding;
     }
     results.push_back(result);
   }

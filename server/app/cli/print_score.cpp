@@ -4,6 +4,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "report/metric_tables.hpp"
 #include "report/number_words.hpp"
 #include "score/metric_catalogue.hpp"
 
@@ -46,14 +47,11 @@ void print_metrics(const json& metrics, const json& score) {
   }
 }
 
-void print_unsaid(const json& unsaid) {
-  if (unsaid.empty()) return;
-  std::cout << "  not said:\n";
-  for (const auto& [key, reason] : unsaid.items()) {
-    const score::Metric* metric = score::find_metric(key);
-    std::cout << "    " << std::left << std::setw(name_width - 2) << (metric ? metric->name : key)
-              << reason.get<std::string>() << '\n';
-  }
+void print_unsaid(const json& metrics) {
+  const std::vector<report::Fact> unsaid = report::unsaid_metrics(metrics);
+  if (!unsaid.empty()) std::cout << "  not said:\n";
+  for (const report::Fact& fact : unsaid)
+    std::cout << "    " << fact.value << ":\n      " << fact.name << '\n';
 }
 
 }  // namespace
@@ -66,7 +64,7 @@ void print_score(const std::string& session, const json& document) {
             << (document.at("theatre") == true ? "on" : "off") << ")\n";
   for (const json& reason : score.at("reasons")) std::cout << "  " << reason.get<std::string>() << '\n';
   print_metrics(document.at("metrics"), score);
-  print_unsaid(document.at("metrics").value("unsaid", json::object()));
+  print_unsaid(document.at("metrics"));
   if (const json& benchmark = document.at("benchmark"); !benchmark.is_null())
     std::cout << "  benchmark " << benchmark.at("benchmark").get<std::string>() << ": "
               << benchmark.at("reached") << " of " << benchmark.at("of") << " reached\n";

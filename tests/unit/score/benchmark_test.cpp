@@ -93,6 +93,14 @@ TEST(Benchmark, IsReachedAtTheMeanOrBetter) {
   EXPECT_EQ(told["of"], 3);
 }
 
+TEST(Benchmark, IsReachedByExpertsWhoAreAllAlike) {
+  for (const double value : {0.1, 0.7, 1.988425, 0.017968, 33.333333})
+    for (const char* metric : {"duration_s", "seating_percent"}) {
+      const Benchmark b = make_benchmark("alike", experts(metric, {value, value, value}));
+      EXPECT_TRUE(compare_with(b, {{metric, value}})[0].reached) << metric << " " << value;
+    }
+}
+
 TEST(Benchmark, IsWrittenAsItIsRead) {
   const Benchmark b = make_benchmark("ours", experts("seating_percent", {90, 91, 92, 90, 90, 90, 20}));
   const json written = benchmark_json(b);
