@@ -72,7 +72,11 @@ std::vector<int> RubricShelf::versions(const std::string& id) const {
     for (const auto& entry : fs::directory_iterator(folder_ / id, failed))
       if (entry.path().extension() == ".json")
         if (const auto number = number_of(entry.path().stem())) found.insert(*number);
-  if (found.empty()) throw Error(ErrorKind::not_found, "no rubric '" + id + "' in " + folder_.string());
+  if (found.empty()) {
+    std::string names;
+    for (const std::string& name : ids()) names += (names.empty() ? "" : ", ") + name;
+    throw Error(ErrorKind::not_found, "no rubric '" + id + "'; there are " + names);
+  }
   return {found.begin(), found.end()};
 }
 
