@@ -19,6 +19,11 @@ std::string text_of(const net::Request& request, const std::string& name) {
   return given == request.query.end() ? std::string() : given->second;
 }
 
+std::optional<double> number_of(const net::Request& request, const std::string& name) {
+  const std::string given = text_of(request, name);
+  return given.empty() ? std::nullopt : std::optional(json::parse(given).get<double>());
+}
+
 std::vector<std::string> parts_of(const std::string& list) {
   std::vector<std::string> parts;
   for (size_t begin = 0; begin < list.size();) {
@@ -45,6 +50,9 @@ store::SessionQuery query_of(const net::Request& request) {
   query.participant = text_of(request, "participant");
   query.created_from = beginning_of(request, "from");
   query.created_before = beginning_of(request, "to");
+  query.outcomes = parts_of(text_of(request, "outcome"));
+  query.points_from = number_of(request, "points_from");
+  query.points_to = number_of(request, "points_to");
   query.text = text_of(request, "q");
   query.cursor = text_of(request, "cursor");
   query.limit = limit_of(request);

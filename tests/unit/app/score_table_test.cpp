@@ -1,4 +1,4 @@
-#include "app/score_table.hpp"
+#include "api/score_table.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +12,8 @@ namespace ream::app {
 namespace {
 
 using nlohmann::json;
+using api::score_codebook;
+using api::score_table;
 
 json some_metrics() {
   json metrics = {{"force_scale", 26.0}, {"unsaid", json::object()}};
