@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -8,11 +9,11 @@
 
 namespace ream::api {
 
-/// What a session is judged by. The benchmark outlives it.
+/// What a session is judged by.
 struct Judge {
   score::Rubric rubric;
   std::string rubric_id;  ///< on the shelf of the data folder; empty: on none
-  const score::Benchmark* benchmark = nullptr;
+  std::shared_ptr<const score::Benchmark> benchmark = nullptr;  ///< null: none
 };
 
 /// score.json (proto/score.schema.json): what a session is worth by a rubric, with the rubric itself, so that

@@ -41,7 +41,33 @@ std::string beginning_of(const net::Request& request, const std::string& name) {
   return moment;
 }
 
-store::SessionQuery query_of(const net::Request& request) {
+/// Of one that a viewer's link is for.
+SessionPage only(const SessionService& sessions, const store::SessionQuery& query, const std::string& id) {
+  SessionPage page;
+  try {
+    SessionRecord record = sessions.get(id);
+    if (query.cursor.empty() && matches(query, row_of(record))) page.sessions.push_back(std::move(record));
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::not_found) throw;
+  }
+  page.total = page.sessions.size();
+  return page;
+}
+
+json visible_replays(const net::Caller& caller, const SessionService& sessions,
+                     const ReplayService& replays) {
+  json visible = json::array();
+  for (const ReplayRecord& record : replays.list()) try {
+      if (may_see(caller, sessions.get(record.request.replay_of).request)) visible.push_back(to_json(record));
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::not_found) throw;
+    }
+  return visible;
+}
+
+}  // namespace
+
+store::SessionQuery session_query(const net::Request& request) {
   store::SessionQuery query;
   query.states = parts_of(text_of(request, "state"));
   query.case_id = text_of(request, "case");
@@ -63,20 +89,8 @@ store::SessionQuery query_of(const net::Request& request) {
   return query;
 }
 
-/// Of one that a viewer's link is for.
-SessionPage only(const SessionService& sessions, const store::SessionQuery& query, const std::string& id) {
-  SessionPage page;
-  try {
-    SessionRecord record = sessions.get(id);
-    if (query.cursor.empty() && matches(query, row_of(record))) page.sessions.push_back(std::move(record));
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::not_found) throw;
-  }
-  page.total = page.sessions.size();
-  return page;
-}
-
-SessionPage page_for(const net::Caller& caller, const SessionService& sessions, store::SessionQuery query) {
+SessionPage sessions_for(const net::Caller& caller, const SessionService& sessions,
+                         store::SessionQuery query) {
   const Roles role = role_bit(caller.role);
   if (role == viewers && !caller.only_session.empty()) return only(sessions, query, caller.only_session);
   if (role == trainees) {
@@ -88,22 +102,9 @@ SessionPage page_for(const net::Caller& caller, const SessionService& sessions, 
   return sessions.list(query);
 }
 
-json visible_replays(const net::Caller& caller, const SessionService& sessions,
-                     const ReplayService& replays) {
-  json visible = json::array();
-  for (const ReplayRecord& record : replays.list()) try {
-      if (may_see(caller, sessions.get(record.request.replay_of).request)) visible.push_back(to_json(record));
-    } catch (const Error& error) {
-      if (error.kind() != ErrorKind::not_found) throw;
-    }
-  return visible;
-}
-
-}  // namespace
-
 net::Response list_sessions(const SessionService& sessions, const StudyService* studies,
                             const ReplayService& replays, const net::Request& request) {
-  SessionPage page = page_for(request.caller, sessions, query_of(request));
+  SessionPage page = sessions_for(request.caller, sessions, session_query(request));
   const Blinding blinding = blinding_for(studies, request.caller);
   json records = json::array();
   for (SessionRecord& record : page.sessions) {

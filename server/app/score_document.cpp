@@ -12,7 +12,8 @@ namespace ream::app {
 
 nlohmann::json score_document(const nlohmann::json& session, const nlohmann::json& metrics,
                               const score::Rubric& rubric, const score::Benchmark* benchmark) {
-  return api::score_document(version_text(), session, metrics, {rubric, "", benchmark});
+  auto experts = benchmark ? std::make_shared<const score::Benchmark>(*benchmark) : nullptr;
+  return api::score_document(version_text(), session, metrics, {rubric, "", std::move(experts)});
 }
 
 void write_score(const std::filesystem::path& folder, const nlohmann::json& document) {
