@@ -22,12 +22,11 @@ net::Response field(const std::string& id, const fs::path& folder, const std::st
   const auto found =
       std::find_if(fields.begin(), fields.end(), [&](const json& each) { return each.at("name") == to; });
   if (found == fields.end())
-    throw Error(ErrorKind::not_found, "session '" + id + "' has nothing to compare its surface with: " +
-                                          (to == "plan" ? "nothing was removed, or there is no plan"
-                                                        : "no implant can be seated"));
+    throw Error(ErrorKind::not_found,
+                "session '" + id + "' has nothing to compare its surface with: " +
+                    (to == "plan" ? "nothing was removed, or there is no plan" : "no implant can be seated"));
   const auto offset = found->at("offset").get<size_t>(), count = description.at("vertices").get<size_t>();
-  const std::vector<std::byte> bytes =
-      read_binary_file(folder / description.at("file").get<std::string>());
+  const std::vector<std::byte> bytes = read_binary_file(folder / description.at("file").get<std::string>());
   if (offset + count > bytes.size())
     throw Error(ErrorKind::io, "session '" + id + "': its deviations are shorter than their description");
   auto part = std::make_shared<const net::Bytes>(bytes.begin() + static_cast<std::ptrdiff_t>(offset),
@@ -52,13 +51,12 @@ net::Response deviation(const ScoreTools& tools, const net::Request& request) {
     return field(id, folder, request.query.at("to"));
   if (!fs::is_regular_file(recording_file(folder), failed))
     throw Error(ErrorKind::not_found, "session '" + id + "' left no recording; it was never started");
-  if (!tools.makers.write_deviation)
-    throw Error(ErrorKind::unavailable, "this server compares no surfaces");
-  return accepted(work_in_folder(
-      tools.jobs, "deviation", record, folder,
-      [write = tools.makers.write_deviation](const fs::path& place, const Progress& progress) {
-        write(place, place / description_name, progress);
-      }));
+  if (!tools.makers.write_deviation) throw Error(ErrorKind::unavailable, "this server compares no surfaces");
+  return accepted(
+      work_in_folder(tools.jobs, "deviation", record, folder,
+                     [write = tools.makers.write_deviation](const fs::path& place, const Progress& progress) {
+                       write(place, place / description_name, progress);
+                     }));
 }
 
 }  // namespace

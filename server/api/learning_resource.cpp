@@ -38,8 +38,9 @@ store::SessionQuery query_of(const net::Request& request) {
       throw net::RequestError(404, "no sessions of '" + query.trainee_id +
                                        "' that you may see; a trainee sees their own learning only");
   } else if (query.trainee_id.empty() == query.participant.empty()) {
-    throw net::RequestError(422, "say whose learning: either 'trainee', a user's id, or 'participant', a "
-                                 "code of a study");
+    throw net::RequestError(422,
+                            "say whose learning: either 'trainee', a user's id, or 'participant', a "
+                            "code of a study");
   }
   query.descending = false;
   query.limit = SIZE_MAX;
@@ -58,9 +59,11 @@ std::vector<Attempt> attempts_of(const ScoreTools& tools, const net::Request& re
     Attempt attempt;
     attempt.metrics = read_json_file(metrics_json(folder));
     const score::Score score = score::apply_rubric(rubric, attempt.metrics);
-    attempt.point = {id,           record.request.created_utc,
+    attempt.point = {id,
+                     record.request.created_utc,
                      read_json_file(session_json(folder)).value("theatre", false),
-                     score.points, score.outcome,
+                     score.points,
+                     score.outcome,
                      std::nullopt};
     attempts.push_back(std::move(attempt));
   }

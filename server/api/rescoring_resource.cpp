@@ -54,8 +54,8 @@ json rescored(const Rescoring& all, const std::string& id, const Measure& measur
   const fs::path folder = all.sessions->folder_of(id);
   const FileLock lock = lock_of_ended(folder);
   const json metrics = measure(folder, progress);
-  const json document = score_document(all.makers.scored_by, read_json_file(session_json(folder)), metrics,
-                                       all.judge);
+  const json document =
+      score_document(all.makers.scored_by, read_json_file(session_json(folder)), metrics, all.judge);
   write_results(folder, metrics, document);
   all.sessions->note_results(id);
   all.feed->tell({"session", id, "scored", std::make_shared<const SessionRequest>(record.request)});

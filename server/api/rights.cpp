@@ -139,7 +139,7 @@ std::vector<Right> score_rows() {
 const std::vector<Right>& rights() {
   static const std::vector<Right> all = [] {
     std::vector<Right> rows;
-    for (const auto& part : 
+    for (const auto& part :
          {open_rows(), access_rows(), case_rows(), session_rows(), study_rows(), score_rows()})
       rows.insert(rows.end(), part.begin(), part.end());
     return rows;

@@ -48,8 +48,7 @@ class Desk {
     body.finish();
     score::Rubric rubric = rubric_from(wanted.value_or(json()));
     const std::lock_guard one_at_a_time(editing_);
-    if (has(id))
-      throw Error(ErrorKind::conflict, "there is a rubric '" + id + "' already; PUT edits it");
+    if (has(id)) throw Error(ErrorKind::conflict, "there is a rubric '" + id + "' already; PUT edits it");
     require_place();
     const score::Rubric kept = shelf().keep(id, std::move(rubric));
     tools_.audit(request, "rubric.create", id, kept.name);
@@ -122,9 +121,8 @@ void add_rubric_routes(net::Router& router, const ScoreTools& tools) {
   const auto desk = std::make_shared<Desk>(tools);
   router.on("GET", base, [desk](const net::Request&) { return desk->list(); });
   router.on("POST", base, [desk](const net::Request& request) { return desk->create(request); });
-  router.on("GET", base + "/{id}", [desk](const net::Request& request) {
-    return desk->one(id_of(request), version_in(request));
-  });
+  router.on("GET", base + "/{id}",
+            [desk](const net::Request& request) { return desk->one(id_of(request), version_in(request)); });
   router.on("PUT", base + "/{id}", [desk](const net::Request& request) { return desk->edit(request); });
 }
 

@@ -66,8 +66,7 @@ net::Response score_anew(const ScoreTools& tools, const net::Request& request) {
   const json metrics = tools.sessions.metrics(id);
   const Judge judge = tools.shelves.judge_by(rubric, benchmark);
   const FileLock lock = lock_of_ended(folder);
-  const json document =
-      score_document(tools.makers.scored_by, session_file_of(folder), metrics, judge);
+  const json document = score_document(tools.makers.scored_by, session_file_of(folder), metrics, judge);
   write_results(folder, metrics, document);
   tools.sessions.note_results(id);
   return told(id, "kept", document);
@@ -83,8 +82,7 @@ std::vector<TableSession> table_sessions(const ScoreTools& tools, const net::Req
     const fs::path folder = tools.sessions.folder_of(record.request.id);
     std::error_code failed;
     if (!fs::exists(metrics_json(folder), failed)) continue;
-    sessions.push_back(
-        {record.request.id, session_file_of(folder), read_json_file(metrics_json(folder))});
+    sessions.push_back({record.request.id, session_file_of(folder), read_json_file(metrics_json(folder))});
   }
   return sessions;
 }

@@ -39,7 +39,8 @@ struct ScoreShelves {
   BenchmarkShelf benchmarks;
   bool writable = true;  ///< false: there is no data folder
 
-  /// "id" or "id@version"; empty: the newest standard one. Errors: not_found; invalid_input for a damaged one.
+  /// "id" or "id@version"; empty: the newest standard one. Errors: not_found; invalid_input for a damaged
+  /// one.
   Judge judge_by(const std::string& rubric, const std::string& benchmark = {}) const;
 };
 

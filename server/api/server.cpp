@@ -135,8 +135,8 @@ net::Router Server::routes_of(const ServerOptions& options) {
   add_job_routes(router, jobs_);
   add_replay_routes(router, sessions_, replays_, readiness_);
   add_study_routes(router, studies_.get(), audit_in(gatehouse_.get()));
-  add_all_score_routes(router, {sessions_, replays_, studies_.get(), jobs_, quiet_, *feed_, shelves_, scoring_,
-                                audit_in(gatehouse_.get())});
+  add_all_score_routes(router, {sessions_, replays_, studies_.get(), jobs_, quiet_, *feed_, shelves_,
+                                scoring_, audit_in(gatehouse_.get())});
   router.otherwise([files = net::StaticFiles(options.web_folder)](const net::Request& request) {
     return files.respond(request);
   });

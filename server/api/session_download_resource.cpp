@@ -102,10 +102,9 @@ net::Response kept_or_made(const DownloadTools& tools, const net::Request& reque
                               {folder / name, format.media_type, record.request.id + "." + format.name});
   const ExportOrder order{record.request, {}};
   const auto write = format.write;
-  return accepted(work_in_folder(tools.jobs, kind, record, folder,
-                                 [=](const fs::path& place, const Progress& progress) {
-                                   write(order, place / name, progress);
-                                 }));
+  return accepted(work_in_folder(
+      tools.jobs, kind, record, folder,
+      [=](const fs::path& place, const Progress& progress) { write(order, place / name, progress); }));
 }
 
 int stride_of(const net::Request& request) { return static_cast<int>(number_or(request, "stride", 1.0)); }

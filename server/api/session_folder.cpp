@@ -168,7 +168,8 @@ FolderRecord read_session_folder(const fs::path& folder) {
 FolderRecord record_from_text(const std::string& text, const fs::path& folder) {
   return checked(folder, [&] {
     const json files = json::parse(text);
-    FolderRecord found = record_of(files.at("session"), files.at("timing"), files.value("mark", json()), folder);
+    FolderRecord found =
+        record_of(files.at("session"), files.at("timing"), files.value("mark", json()), folder);
     found.text = text;
     return found;
   });

@@ -20,7 +20,7 @@ struct SessionMark {
 struct SessionRecord {
   SessionRequest request;
   SessionStatus status;
-  bool streamable = true;  ///< held in memory: its stream can be opened
+  bool streamable = true;                ///< held in memory: its stream can be opened
   std::optional<SessionMark> mark = {};  ///< by its score.json, once it has ended
 };
 

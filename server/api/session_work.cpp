@@ -6,7 +6,8 @@ namespace fs = std::filesystem;
 FileLock lock_of_ended(const fs::path& folder) {
   auto lock = FileLock::attempt(lock_file(folder));
   if (!lock)
-    throw Error(ErrorKind::conflict, "session '" + folder.filename().string() + "' is in use; try again later");
+    throw Error(ErrorKind::conflict,
+                "session '" + folder.filename().string() + "' is in use; try again later");
   return std::move(*lock);
 }
 

@@ -31,9 +31,9 @@ class RowWriter {
  private:
   /// In the order of their parameters, and the record.
   std::vector<std::string*> texts() {
-    return {&row_.id,      &row_.case_id, &row_.script,      &row_.state, &row_.created_utc, &row_.trainee_id,
-            &row_.trainee, &row_.study,   &row_.participant, &row_.title, &search_,          &row_.outcome,
-            &row_.record};
+    return {&row_.id,         &row_.case_id, &row_.script, &row_.state,       &row_.created_utc,
+            &row_.trainee_id, &row_.trainee, &row_.study,  &row_.participant, &row_.title,
+            &search_,         &row_.outcome, &row_.record};
   }
   soci::statement session_statement(Sql& sql);
   soci::statement record_statement(Sql& sql);
@@ -50,7 +50,8 @@ soci::statement RowWriter::session_statement(Sql& sql) {
       sql,
       "INSERT INTO sessions (id, case_id, script, state, created_utc, trainee_id, trainee, study, "
       "participant, "
-      "title, search, outcome, duration_s, stamp, lasting, points) VALUES (:id, :case_id, :script, :state, :created_utc, "
+      "title, search, outcome, duration_s, stamp, lasting, points) VALUES (:id, :case_id, :script, :state, "
+      ":created_utc, "
       ":trainee_id, :trainee, :study, :participant, :title, :search, :outcome, :duration_s, :stamp, "
       ":lasting, :points) "
       "ON CONFLICT (id) DO UPDATE SET case_id = excluded.case_id, script = excluded.script, "

@@ -25,7 +25,8 @@ struct SessionRow {
   bool operator==(const SessionRow&) const = default;
 };
 
-/// What a list is sorted by; equals by id, in the same direction. Those without points stand below those with 0.
+/// What a list is sorted by; equals by id, in the same direction. Those without points stand below those with
+/// 0.
 enum class SessionOrder { created, duration, case_id, trainee, state, points };
 
 /// "created_utc", "duration_s", "case", "trainee", "state" or "points"; empty for other words.
@@ -33,12 +34,12 @@ std::optional<SessionOrder> session_order_from(const std::string& word);
 
 /// Which sessions are wanted, and in which order. Empty filters let everything pass.
 struct SessionQuery {
-  std::vector<std::string> states;           ///< any of these
-  std::string case_id, trainee_id;           ///< exactly
-  std::string study, participant;            ///< exactly
-  bool outside_studies = false;              ///< of no study only
-  std::string created_from, created_before;  ///< UTC as created_utc, or the beginning of one ("2026-01")
-  std::vector<std::string> outcomes;           ///< any of these; "none" for those without
+  std::vector<std::string> states;               ///< any of these
+  std::string case_id, trainee_id;               ///< exactly
+  std::string study, participant;                ///< exactly
+  bool outside_studies = false;                  ///< of no study only
+  std::string created_from, created_before;      ///< UTC as created_utc, or the beginning of one ("2026-01")
+  std::vector<std::string> outcomes;             ///< any of these; "none" for those without
   std::optional<double> points_from, points_to;  ///< both included; sessions without points do not pass
   std::string text;  ///< words that id, case, script, names or title hold, in any case
   SessionOrder order = SessionOrder::created;

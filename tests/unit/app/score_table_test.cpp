@@ -11,9 +11,9 @@
 namespace ream::app {
 namespace {
 
-using nlohmann::json;
 using api::score_codebook;
 using api::score_table;
+using nlohmann::json;
 
 json some_metrics() {
   json metrics = {{"force_scale", 26.0}, {"unsaid", json::object()}};
