@@ -1,5 +1,7 @@
 #include "api/benchmark_shelf.hpp"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 
 #include "api/new_id.hpp"
@@ -13,7 +15,15 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 namespace {
 
-fs::path cuts_beside(const fs::path& benchmark) { return benchmark.parent_path() / "cuts.json"; }
+fs::path cuts_beside(const fs::path& benchmark) {
+  return benchmark.parent_path() / (benchmark.stem().string() + ".cuts.json");
+}
+
+std::string changed_utc(const fs::path& file) {
+  struct stat about {};
+  ::stat(file.c_str(), &about);
+  return utc_text(about.st_mtime);
+}
 
 json cuts_json(const KeptBenchmark& kept) {
   return {{"created_utc", kept.created_utc},
@@ -26,7 +36,7 @@ json cuts_json(const KeptBenchmark& kept) {
 }  // namespace
 
 fs::path BenchmarkShelf::file_of(const std::string& id) const {
-  const fs::path file = folder_ / id / "benchmark.json";
+  const fs::path file = folder_ / (id + ".json");
   std::error_code failed;
   if (folder_.empty() || !is_name(id) || !fs::is_regular_file(file, failed))
     throw Error(ErrorKind::not_found, "no benchmark '" + id + "'; GET /api/v1/benchmarks lists them");
@@ -38,6 +48,9 @@ KeptBenchmark BenchmarkShelf::get(const std::string& id) const {
   KeptBenchmark kept;
   kept.id = id;
   kept.benchmark = score::load_benchmark(file);
+  kept.created_utc = changed_utc(file);
+  std::error_code failed;
+  if (!fs::exists(cuts_beside(file), failed)) return kept;
   const json about = read_json_file(cuts_beside(file));
   try {
     kept.created_utc = about.at("created_utc").get<std::string>();
@@ -55,9 +68,8 @@ std::vector<KeptBenchmark> BenchmarkShelf::list() const {
   std::vector<KeptBenchmark> all;
   std::error_code failed;
   for (fs::directory_iterator next(folder_, failed), end; !failed && next != end; next.increment(failed)) {
-    const std::string id = next->path().filename().string();
-    std::error_code unknown;
-    if (!is_name(id) || !fs::is_regular_file(next->path() / "benchmark.json", unknown)) continue;
+    const std::string id = next->path().stem().string();
+    if (next->path().extension() != ".json" || !is_name(id)) continue;
     try {
       all.push_back(get(id));
     } catch (const Error& damage) {
@@ -72,16 +84,15 @@ std::vector<KeptBenchmark> BenchmarkShelf::list() const {
 
 KeptBenchmark BenchmarkShelf::keep(KeptBenchmark wanted) const {
   if (folder_.empty()) throw Error(ErrorKind::unavailable, "this server keeps no benchmarks");
+  make_writable_folder(folder_);
   std::error_code failed;
   do {
     wanted.id = random_id();
-  } while (fs::exists(folder_ / wanted.id, failed));
+  } while (fs::exists(folder_ / (wanted.id + ".json"), failed));
   wanted.created_utc = utc_now();
-  FolderInProgress making(folder_ / wanted.id);
-  write_file_atomically(making.path() / "cuts.json", cuts_json(wanted).dump(2) + "\n");
-  write_file_atomically(making.path() / "benchmark.json",
-                        score::benchmark_json(wanted.benchmark).dump(2) + "\n");
-  making.commit();
+  const fs::path file = folder_ / (wanted.id + ".json");
+  write_file_atomically(cuts_beside(file), cuts_json(wanted).dump(2) + "\n");
+  write_file_atomically(file, score::benchmark_json(wanted.benchmark).dump(2) + "\n");
   return wanted;
 }
 

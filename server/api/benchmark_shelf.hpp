@@ -18,8 +18,9 @@ struct KeptBenchmark {
   nlohmann::json cuts = nlohmann::json::array();  ///< as score::group_cuts_json
 };
 
-/// The benchmarks of a data folder: <folder>/<id>/benchmark.json (proto/benchmark.schema.json, as
-/// `ream score --benchmark` takes it) and, beside it, cuts.json. Never changed once made. Thread-safe.
+/// The benchmarks of a data folder: <folder>/<id>.json (proto/benchmark.schema.json, as `ream score
+/// --benchmark` takes it) and beside it <id>.cuts.json, which one that was put there by hand may lack. Never
+/// changed once made. Thread-safe.
 class BenchmarkShelf {
  public:
   /// Empty: nothing can be kept.
