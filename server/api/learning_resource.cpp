@@ -4,6 +4,7 @@
 #include "api/session_list.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "net/problem.hpp"
 #include "score/learning_curve.hpp"
 
 namespace ream::api {
@@ -35,8 +36,8 @@ store::SessionQuery query_of(const net::Request& request) {
   query.case_id = asked(request, "case");
   if (request.caller.role == "trainee") {
     if (!query.trainee_id.empty() && query.trainee_id != request.caller.user_id)
-      throw net::RequestError(404, "no sessions of '" + query.trainee_id +
-                                       "' that you may see; a trainee sees their own learning only");
+      throw Error(ErrorKind::not_found,
+                  "no such trainee that you may see; a trainee has their own learning only");
   } else if (query.trainee_id.empty() == query.participant.empty()) {
     throw net::RequestError(422,
                             "say whose learning: either 'trainee', a user's id, or 'participant', a "
