@@ -8,6 +8,7 @@
 #include "core/file.hpp"
 #include "support/expect_error.hpp"
 #include "support/json_schema.hpp"
+#include "support/places.hpp"
 #include "support/some_metrics.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -33,7 +34,7 @@ const json& metric(const json& score, const std::string& key) {
 }
 
 TEST(ScoreDocument, FitsItsSchemaWithAndWithoutARubricOfTheShelf) {
-  const json schema = read_json_file(std::string(REAM_SOURCE_DIR) + "/proto/score.schema.json");
+  const json schema = read_json_file(test::source_folder() + "/proto/score.schema.json");
   for (const char* id : {"", "simple"}) {
     const json document = score_document("ream", json::object(), test::some_metrics(1.5), {rubric(), id, nullptr});
     EXPECT_EQ(test::SchemaChecker(schema).faults(schema, document), std::vector<std::string>{});
