@@ -139,14 +139,14 @@ TYPED_TEST(SessionRegisterTest, TellsTheMarkOfAScoreThatCanBeRead) {
   store::SessionQuery query;
   query.order = store::SessionOrder::points;
   for (int start = 0; start < 2; ++start) {
-    const auto sessions = this->page(query).sessions;
-    ASSERT_EQ(sessions.size(), 4u);
-    EXPECT_EQ(sessions[0].request.id, "good");
-    ASSERT_TRUE(sessions[0].mark);
-    EXPECT_EQ(sessions[0].mark->points, 81.5);
-    EXPECT_EQ(sessions[0].mark->outcome, "pass");
-    EXPECT_EQ(sessions[0].mark->version, 3);
-    for (size_t i = 1; i < 4; ++i) EXPECT_FALSE(sessions[i].mark) << sessions[i].request.id;
+    const auto listed = this->page(query).sessions;
+    ASSERT_EQ(listed.size(), 4u);
+    EXPECT_EQ(listed[0].request.id, "good");
+    ASSERT_TRUE(listed[0].mark);
+    EXPECT_EQ(listed[0].mark->points, 81.5);
+    EXPECT_EQ(listed[0].mark->outcome, "pass");
+    EXPECT_EQ(listed[0].mark->version, 3);
+    for (size_t i = 1; i < 4; ++i) EXPECT_FALSE(listed[i].mark) << listed[i].request.id;
     this->end();
   }
   json better = good;
