@@ -23,11 +23,8 @@ std::string asked(const net::Request& request, const std::string& name) {
   return given == request.query.end() ? std::string() : given->second;
 }
 
-/// Empty before the start.
-json session_file_of(const fs::path& folder) {
-  std::error_code failed;
-  return fs::exists(session_json(folder), failed) ? read_json_file(session_json(folder)) : json::object();
-}
+/// What a score says of the session itself, which has no file before its start.
+json about(const SessionRecord& record) { return {{"theatre", record.request.theatre}}; }
 
 net::Response told(const std::string& id, const std::string& standing, const json& document) {
   json score = explained_score(document);
@@ -49,7 +46,7 @@ net::Response score(const ScoreTools& tools, const net::Request& request) {
   const Judge judge = tools.shelves.judge_by(rubric, benchmark);
   const json metrics = tools.sessions.metrics(id);
   return told(id, live ? "live" : "computed",
-              score_document(tools.makers.scored_by, session_file_of(folder), metrics, judge));
+              score_document(tools.makers.scored_by, about(record), metrics, judge));
 }
 
 net::Response score_anew(const ScoreTools& tools, const net::Request& request) {
@@ -66,7 +63,7 @@ net::Response score_anew(const ScoreTools& tools, const net::Request& request) {
   const json metrics = tools.sessions.metrics(id);
   const Judge judge = tools.shelves.judge_by(rubric, benchmark);
   const FileLock lock = lock_of_ended(folder);
-  const json document = score_document(tools.makers.scored_by, session_file_of(folder), metrics, judge);
+  const json document = score_document(tools.makers.scored_by, about(record), metrics, judge);
   write_results(folder, metrics, document);
   tools.sessions.note_results(id);
   return told(id, "kept", document);
@@ -82,7 +79,7 @@ std::vector<TableSession> table_sessions(const ScoreTools& tools, const net::Req
     const fs::path folder = tools.sessions.folder_of(record.request.id);
     std::error_code failed;
     if (!fs::exists(metrics_json(folder), failed)) continue;
-    sessions.push_back({record.request.id, session_file_of(folder), read_json_file(metrics_json(folder))});
+    sessions.push_back({record.request.id, read_json_file(session_json(folder)), read_json_file(metrics_json(folder))});
   }
   return sessions;
 }

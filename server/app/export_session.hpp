@@ -1,11 +1,14 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "case/case.hpp"
+#include "api/export_formats.hpp"
 #include "core/progress.hpp"
 #include "record/recording.hpp"
+#include "score/benchmark.hpp"
+#include "score/rubric.hpp"
 
 namespace ream::app {
 
@@ -14,30 +17,42 @@ struct ExportRequest {
   std::filesystem::path recording;  ///< recording.ream
   std::string case_name;            ///< where the case is, as for find_case(); empty: as recorded
   std::filesystem::path data;
-  std::string rubric = "standard";  ///< of reports, as score::find_rubric
-  std::string benchmark;            ///< of reports: file; empty: none
+  std::optional<score::Rubric> rubric;        ///< of reports; none: the newest standard one
+  std::optional<score::Benchmark> benchmark;  ///< of reports
+  api::TracePart part;                        ///< of tables
+  std::optional<api::SessionRequest> labels;  ///< trainee, title and so on; none: as in session.json
+};
+
+/// What more can be said of an export.
+enum class ExportKind {
+  plain,
+  table,   ///< of a part of the ticks
+  report,  ///< with a rubric and a benchmark
+  pair     ///< a second file is written beside the first
 };
 
 /// A kind of file that a session can become.
 struct ExportFormat {
+  std::string name;       ///< "pdf"
   std::string extension;  ///< ".pdf"
   std::string words;      ///< what the file is, for people
   std::string media_type;
+  ExportKind kind;
+  /// Writes it, atomically. Errors: those of the recording and its case; io; cancelled.
   void (*write)(const ExportRequest& request, const std::filesystem::path& out, const Progress& progress);
 };
 
-/// All of them.
+/// All of them. Where several have an ending in common, the first is what it means by itself.
 const std::vector<ExportFormat>& export_formats();
 
-/// By the ending of a file's name. Error usage names all that there are.
-const ExportFormat& export_format_of(const std::filesystem::path& out);
+/// By its name, or with an empty one by the ending of a file. Error usage names all that there are.
+const ExportFormat& export_format_of(const std::string& name, const std::filesystem::path& out);
 
-/// Writes one row a tick, as the trace.csv of a run is; the same bytes. Errors: invalid_input at damage, io.
-void export_trace(const record::Recording& recording, const std::filesystem::path& csv);
+/// The forms in which a server exports the sessions of a data folder: all that are one file. Whoever asks
+/// names no files of this machine: sessions, rubrics and benchmarks go by their ids.
+api::ExportFormats served_export_formats(const std::filesystem::path& data);
 
-/// Writes the surface that the session left, world frame, mm, by brick deltas; as the reamed.ply of a run.
-/// `bone_case`: of the recording, see case_of(); its coverage becomes the reamed one.
-void export_surface(const record::Recording& recording, case_::Case& bone_case,
-                    const std::filesystem::path& ply);
+/// The recording of a request, which may be damaged towards its end; that is logged.
+record::Recording recording_of(const ExportRequest& request);
 
 }  // namespace ream::app

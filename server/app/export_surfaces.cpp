@@ -1,10 +1,13 @@
 #include "app/export_surfaces.hpp"
 
 #include "app/reamed_bone.hpp"
+#include "app/reamed_pictures.hpp"
 #include "app/recorded_session.hpp"
+#include "core/error.hpp"
 #include "core/file.hpp"
-#include "core/log.hpp"
+#include "geometry/mesh_io.hpp"
 #include "geometry/scene_export.hpp"
+#include "record/recorded_bone.hpp"
 #include "report/deviation_scale.hpp"
 #include "score/deviation_file.hpp"
 
@@ -23,8 +26,7 @@ struct Surfaces {
 };
 
 Surfaces surfaces_of(const ExportRequest& request, const Progress& progress) {
-  const record::Recording recording(request.recording, record::Recording::Trust::checked);
-  if (const std::string& damage = recording.log().damage(); !damage.empty()) log::warn(damage);
+  const record::Recording recording = recording_of(request);
   const score::MetricsAccumulator ticks = accumulated(recording, part_of(progress, 0.0, 0.5));
   progress(0.5, "comparing surfaces");
   ComparedBone compared = reamed_bone(recording, ticks, request.case_name, request.data);
@@ -59,23 +61,44 @@ std::vector<SceneObject> scene_of(const Surfaces& surfaces) {
   return objects;
 }
 
-}  // namespace
-
-void write_stl(const ExportRequest& request, const fs::path& out, const Progress& progress) {
-  const Surfaces surfaces = surfaces_of(request, progress);
-  fs::path beside = out;
-  beside.replace_filename(out.stem().string() + "-implant.stl");
-  if (!surfaces.implant.triangles.empty())
-    write_file_atomically(beside, stl_of(surfaces.implant, "seated implant, " + surfaces.remark()));
-  write_file_atomically(out, stl_of(surfaces.bone, "reamed bone, " + surfaces.remark()));
+/// The recording's case, its coverage what the session left.
+case_::Case left_case(const ExportRequest& request, std::vector<uint8_t>& before, const Progress& progress) {
+  progress(0.0, "reading the case");
+  const record::Recording recording = recording_of(request);
+  case_::Case bone_case = case_of(recording, request.case_name, request.data);
+  progress(0.2, "reading the recording");
+  voxel::BoneModel& bone = bone_case.bone;
+  before = bone.coverage;
+  record::RecordedBone recorded(recording, bone.grid, bone.coverage);
+  recorded.seek(UINT32_MAX, [](const voxel::BrickImage&) {});
+  recorded.write_to(bone.coverage);
+  progress(0.5, "finding the surface");
+  return bone_case;
 }
 
-void write_coloured_ply(const ExportRequest& request, const fs::path& out, const Progress& progress) {
+}  // namespace
+
+void write_stl_bone(const ExportRequest& request, const fs::path& out, const Progress& progress) {
+  std::vector<uint8_t> before;
+  const case_::Case left = left_case(request, before, progress);
+  write_file_atomically(out,
+                        stl_of(reamed_surface(left), "reamed bone, " + case_::frame_in_words(left.side)));
+}
+
+void write_stl_implant(const ExportRequest& request, const fs::path& out, const Progress& progress) {
+  const Surfaces surfaces = surfaces_of(request, progress);
+  if (surfaces.implant.triangles.empty())
+    throw Error(ErrorKind::conflict,
+                "no implant can be seated: its plan says nothing of an implant, or no bone was reamed");
+  write_file_atomically(out, stl_of(surfaces.implant, "seated implant, " + surfaces.remark()));
+}
+
+void write_ply_scene(const ExportRequest& request, const fs::path& out, const Progress& progress) {
   const Surfaces surfaces = surfaces_of(request, progress);
   write_file_atomically(out, ply_of(scene_of(surfaces), surfaces.remark()));
 }
 
-void write_glb(const ExportRequest& request, const fs::path& out, const Progress& progress) {
+void write_glb_scene(const ExportRequest& request, const fs::path& out, const Progress& progress) {
   const Surfaces surfaces = surfaces_of(request, progress);
   write_file_atomically(out, glb_of(scene_of(surfaces), surfaces.remark()));
 }
@@ -83,6 +106,18 @@ void write_glb(const ExportRequest& request, const fs::path& out, const Progress
 void write_deviations(const ExportRequest& request, const fs::path& out, const Progress& progress) {
   const Surfaces surfaces = surfaces_of(request, progress);
   score::write_deviation(out, "reamed.ply", surfaces.bone.vertices_mm.size(), surfaces.deviation);
+}
+
+void write_surface(const ExportRequest& request, const fs::path& out, const Progress& progress) {
+  std::vector<uint8_t> before;
+  const case_::Case left = left_case(request, before, progress);
+  write_ply(out, reamed_surface(left), case_::frame_in_words(left.side));
+}
+
+void write_snapshot(const ExportRequest& request, const fs::path& out, const Progress& progress) {
+  std::vector<uint8_t> before;
+  const case_::Case left = left_case(request, before, progress);
+  write_picture(left, before, out);
 }
 
 }  // namespace ream::app

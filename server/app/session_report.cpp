@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "api/session_labels.hpp"
 #include "app/data_folder.hpp"
 #include "app/kept_sessions.hpp"
 #include "app/reamed_bone.hpp"
@@ -10,7 +11,6 @@
 #include "app/rescoring.hpp"
 #include "app/session_facts.hpp"
 #include "core/error.hpp"
-#include "core/log.hpp"
 #include "score/rubric_shelf.hpp"
 #include "sim/model.hpp"
 
@@ -36,7 +36,7 @@ Course course_of(const record::Recording& recording, const case_::Plan& plan) {
 }
 
 /// The trainee's sessions up to this one.
-score::LearningCurve learning_up_to(const nlohmann::json& session, const ReportRequest& request,
+score::LearningCurve learning_up_to(const nlohmann::json& session, const ExportRequest& request,
                                     const score::Rubric& rubric) {
   const std::string trainee = trainee_of(session), id = session.value("id", "");
   std::vector<KeptSession> theirs = sessions_of_trainee(kept_sessions(request.data), trainee);
@@ -48,11 +48,7 @@ score::LearningCurve learning_up_to(const nlohmann::json& session, const ReportR
 }
 
 void put_pictures(const record::Recording& recording, const score::MetricsAccumulator& ticks,
-                  const ReportRequest& request, report::Material& material) {
-  if (!request.with_pictures) {
-    material.why_no_pictures = "This report was made without pictures.";
-    return;
-  }
+                  const ExportRequest& request, report::Material& material) {
   try {
     material.pictures =
         report::session_pictures(reamed_bone(recording, ticks, request.case_name, request.data).bone);
@@ -64,17 +60,17 @@ void put_pictures(const record::Recording& recording, const score::MetricsAccumu
 
 }  // namespace
 
-report::Report session_report(const ReportRequest& request, const Progress& progress) {
-  const record::Recording recording(request.recording, record::Recording::Trust::checked);
-  if (const std::string& damage = recording.log().damage(); !damage.empty()) log::warn(damage);
-  const score::RubricShelf shelf(rubrics_folder(request.data));
+report::Report session_report(const ExportRequest& request, const Progress& progress) {
+  const record::Recording recording = recording_of(request);
   report::Material material;
-  material.rubric = score::find_rubric(request.rubric, shelf);
-  if (!request.benchmark.empty()) material.benchmark = score::load_benchmark(request.benchmark);
+  material.rubric =
+      request.rubric ? *request.rubric : score::RubricShelf(rubrics_folder(request.data)).get("standard");
+  material.benchmark = request.benchmark;
   material.metrics =
       Rescorer(request.data, request.case_name).metrics(recording, part_of(progress, 0.0, 0.3));
   material.score = score::apply_rubric(material.rubric, material.metrics);
-  const nlohmann::json session = description_of(recording);
+  nlohmann::json session = description_of(recording);
+  if (request.labels) api::write_labels(*request.labels, session);
   material.session = session_facts(recording, session, material.metrics);
   const case_::Plan plan = recorded_plan(recording);
   material.plan_words = plan_in_words(plan);

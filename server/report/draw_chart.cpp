@@ -121,7 +121,7 @@ void draw_moments(const Chart& chart, Canvas& canvas, const Scale& scale) {
 void draw_stretches(const Chart& chart, Canvas& canvas, const Scale& scale) {
   if (chart.stretches_name.empty()) return;
   const double top = scale.bottom() + 3.0;
-  canvas.text({scale.left() - 4.0, top + bar_height}, chart.stretches_name,
+  canvas.text({scale.left() - 4.0, scale.bottom() + 10.0}, chart.stretches_name,
               {label_size - 1.0, grey(0.25), Anchor::right, false, false});
   for (const Stretch& stretch : chart.stretches)
     canvas.fill_box({scale.x(stretch.from), top},

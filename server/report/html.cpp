@@ -1,5 +1,6 @@
 #include "report/html.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <report_style.hpp>
@@ -83,9 +84,13 @@ std::string legend() {
 std::string pictures(const Report& report) {
   std::string content = text_element("p", report.why_no_pictures);
   std::string figures;
-  for (const Picture& picture : report.pictures) figures += figure(picture);
+  const auto last_map = std::find_if(report.pictures.rbegin(), report.pictures.rend(),
+                                     [](const Picture& picture) { return picture.is_map; });
+  for (const Picture& picture : report.pictures) {
+    figures += figure(picture);
+    if (last_map != report.pictures.rend() && &picture == &*last_map) figures += legend();
+  }
   if (!figures.empty()) content += element("div", figures, "pictures");
-  if (report.has_maps) content += legend();
   return element("section", text_element("h2", "Pictures") + content);
 }
 
@@ -108,7 +113,7 @@ std::string table(const MetricTable& table) {
                           mark_cell(line) + cell(line.points));
   const std::string heads =
       "<tr><th>Metric</th><th>Planned</th><th>Achieved</th><th>Passes</th><th>Warns</th><th>Result</th>"
-      "<th>Points</th></tr>";
+      "<th>Points \u00d7 weight</th></tr>";
   return text_element("h3", table.title) +
          element("div", element("table", element("thead", heads) + element("tbody", rows), "metrics"),
                  "scroll");
@@ -161,7 +166,9 @@ std::string learning(const Report& report) {
 std::string notes(const Report& report) {
   std::string entries;
   for (const std::string& source : report.sources) entries += text_element("li", source);
-  return element("section", text_element("h2", "Sources of definitions and limits") +
+  return element("section",
+                 text_element("h2", "What the metrics mean") + facts(report.meanings, "facts meanings")) +
+         element("section", text_element("h2", "Sources of definitions and limits") +
                                 element("ol", entries, "sources") + text_element("h2", "Provenance") +
                                 facts(report.provenance));
 }

@@ -114,6 +114,7 @@ Report make_report(const Material& m) {
   for (const Picture& picture : m.pictures) report.has_maps = report.has_maps || picture.is_map;
   report.tables = metric_tables(m, report.sources);
   report.unsaid = unsaid_metrics(m.metrics);
+  report.meanings = metric_meanings(report.sources);
   if (m.trace && !m.trace->bins().empty())
     report.charts = session_charts(*m.trace, m.planned_depth_mm, m.remarks);
   else

@@ -141,6 +141,17 @@ std::vector<MetricTable> metric_tables(const Material& material, std::vector<std
   return tables;
 }
 
+std::vector<Fact> metric_meanings(std::vector<std::string>& sources) {
+  std::vector<Fact> facts;
+  for (const score::Metric& metric : score::metric_catalogue()) {
+    const std::string unit = printed_unit(metric.unit);
+    facts.push_back({std::string(metric.name) + (unit.empty() ? "" : ", " + unit),
+                     std::string(metric.definition) + " Confidence: " + std::string(metric.confidence) +
+                         ". Source " + std::to_string(footnote(metric, sources)) + "."});
+  }
+  return facts;
+}
+
 std::vector<Fact> unsaid_metrics(const nlohmann::json& metrics) {
   std::vector<Fact> facts;
   for (const score::Metric& metric : score::metric_catalogue()) {

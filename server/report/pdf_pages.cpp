@@ -224,6 +224,8 @@ void PdfPages::learning() {
 }
 
 void PdfPages::notes() {
+  heading("What the metrics mean", 30.0);
+  facts(report_.meanings, 1, 130.0);
   heading("Sources of definitions and limits", 20.0);
   for (size_t i = 0; i < report_.sources.size(); ++i) {
     const double height = sheet_.height_of(text_width - 18.0, report_.sources[i], small);

@@ -41,7 +41,8 @@ struct Report {
   std::string why_no_pictures;
   bool has_maps = false;  ///< a legend of deviations is needed
   std::vector<MetricTable> tables;
-  std::vector<Fact> unsaid;  ///< metrics and their reason
+  std::vector<Fact> unsaid;    ///< metrics and their reason
+  std::vector<Fact> meanings;  ///< metrics with unit: definition, confidence and source
   std::vector<Chart> charts;
   std::string why_no_charts;
   std::vector<Remark> remarks;

@@ -73,8 +73,9 @@ Chart thrust_chart(const TraceSummary& trace, const std::vector<Remark>& remarks
   }));
   const double peak_n = highest(chart.curves.front());
   chart.y_max = std::max(115.0, 1.08 * peak_n);
-  chart.ranges.push_back({thrust_from_n, thrust_to_n, "aim: 35 to 78 N"});
-  chart.levels.push_back({thrust_peak_n, "limit: 104 N"});
+  chart.ranges.push_back({thrust_from_n, thrust_to_n, "mean: 35 to 70 N"});
+  chart.levels.push_back({thrust_excess_n, "excess: over 78 N"});
+  chart.levels.push_back({thrust_peak_n, "peak: up to 104 N"});
   const TimeAxis time(trace.duration_s());
   chart.stretches_name = "contact";
   for (size_t i = 0; i < trace.bins().size(); ++i) {

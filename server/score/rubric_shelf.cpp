@@ -87,6 +87,20 @@ Rubric RubricShelf::get(const std::string& id, std::optional<int> version) const
   return load_rubric(file(id, wanted));
 }
 
+Rubric RubricShelf::named(const std::string& words) const {
+  const size_t at = words.find('@');
+  const std::string id = words.substr(0, at);
+  std::optional<int> version;
+  if (at != std::string::npos) {
+    version = number_of(words.substr(at + 1));
+    if (!version)
+      throw Error(ErrorKind::invalid_input,
+                  "'" + words + "': behind the @ stands the version, a whole number from 1");
+  }
+  if (!is_id(id)) throw Error(ErrorKind::not_found, "no such rubric: " + words);
+  return get(id, version);
+}
+
 Rubric RubricShelf::keep(const std::string& id, Rubric rubric) const {
   if (!is_id(id))
     throw Error(ErrorKind::invalid_input,
@@ -113,18 +127,7 @@ Rubric RubricShelf::keep(const std::string& id, Rubric rubric) const {
 
 Rubric find_rubric(const std::string& words, const RubricShelf& shelf) {
   std::error_code failed;
-  if (fs::is_regular_file(words, failed)) return load_rubric(words);
-  const size_t at = words.find('@');
-  const std::string id = words.substr(0, at);
-  std::optional<int> version;
-  if (at != std::string::npos) {
-    version = number_of(words.substr(at + 1));
-    if (!version)
-      throw Error(ErrorKind::invalid_input,
-                  "'" + words + "': behind the @ stands the version, a whole number from 1");
-  }
-  if (!is_id(id)) throw Error(ErrorKind::not_found, "no such rubric: " + words);
-  return shelf.get(id, version);
+  return fs::is_regular_file(words, failed) ? load_rubric(words) : shelf.named(words);
 }
 
 }  // namespace ream::score

@@ -1,12 +1,16 @@
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/commands.hpp"
+#include "app/cli/terminal_progress.hpp"
 #include "app/data_folder.hpp"
 #include "app/export_session.hpp"
 #include "app/recorded_session.hpp"
+#include "core/error.hpp"
+#include "score/rubric_shelf.hpp"
 
 namespace ream::app {
 namespace {
@@ -14,16 +18,29 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string session, case_name, rubric = "standard", benchmark;
+  std::string session, case_name, format, rubric, benchmark;
   fs::path out;
 };
 
+ExportRequest request_of(const Options& options, const fs::path& data) {
+  ExportRequest request;
+  request.recording = recording_path(options.session, data);
+  request.case_name = options.case_name;
+  request.data = data;
+  if (!options.rubric.empty())
+    request.rubric = score::find_rubric(options.rubric, score::RubricShelf(rubrics_folder(data)));
+  if (!options.benchmark.empty()) request.benchmark = score::load_benchmark(options.benchmark);
+  return request;
+}
+
 void export_session(const Options& options, const GlobalOptions& global) {
-  const ExportFormat& format = export_format_of(options.out);
-  const fs::path data = data_folder(global.data);
-  format.write(
-      {recording_path(options.session, data), options.case_name, data, options.rubric, options.benchmark},
-      options.out, no_progress);
+  const ExportFormat& format = export_format_of(options.format, options.out);
+  if (format.kind != ExportKind::report && !(options.rubric.empty() && options.benchmark.empty()))
+    throw Error(ErrorKind::usage,
+                "--rubric and --benchmark are for reports, and " + options.out.string() + " will be none");
+  catch_interrupts();
+  const TerminalProgress progress;
+  format.write(request_of(options, data_folder(global.data)), options.out, std::cref(progress));
   if (global.json)
     std::cout << nlohmann::json{{"out", options.out.string()}}.dump() << '\n';
   else
@@ -33,7 +50,14 @@ void export_session(const Options& options, const GlobalOptions& global) {
 std::string words_of_formats() {
   std::string words;
   for (const ExportFormat& format : export_formats())
-    words += (words.empty() ? "FILE" : "; FILE") + format.extension + ": " + format.words;
+    if (&export_format_of({}, "a" + format.extension) == &format)
+      words += (words.empty() ? "FILE" : "; FILE") + format.extension + ": " + format.words;
+  return words;
+}
+
+std::string names_of_formats() {
+  std::string words;
+  for (const ExportFormat& format : export_formats()) words += (words.empty() ? "" : ", ") + format.name;
   return words;
 }
 
@@ -47,6 +71,8 @@ void add_export_command(CLI::App& app, GlobalOptions& global) {
                    "Id of the data folder, a folder with recording.ream, or such a file")
       ->required();
   command->add_option("--out", options->out, words_of_formats())->required();
+  command->add_option("--format", options->format,
+                      "What it becomes whatever its ending: " + names_of_formats());
   command->add_option("--case", options->case_name,
                       "Case folder, where the recording's case is not in the data folder");
   command->add_option("--rubric", options->rubric, "Of reports: a rubric's id, id@version, or its file");

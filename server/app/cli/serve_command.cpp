@@ -143,7 +143,7 @@ void serve(const Options& options, const GlobalOptions& global) {
                                                const std::string& reamer) {
     return std::make_unique<ReamingSession>(house, request, reamer);
   };
-  server_options.export_formats = export_formats(house.data);
+  server_options.export_formats = served_export_formats(house.data);
   server_options.scoring = score_makers(house.data);
   server_options.usual_device = options.device;
   server_options.retention.keep_sessions_days = options.keep_sessions_days;

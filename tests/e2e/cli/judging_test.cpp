@@ -85,13 +85,15 @@ TEST_F(Judging, ManySessionsBecomeATableWithItsCodebook) {
 
 TEST_F(Judging, ATraineesSessionsAreACourseOfLearning) {
   for (int i = 1; i <= 3; ++i)
-    keep("s" + std::to_string(i), {{"trainee_id", "u-1"}, {"created_utc", "2026-01-0" + std::to_string(i) + "T00:00:00Z"}});
+    keep("s" + std::to_string(i),
+         {{"trainee_id", "u-1"}, {"created_utc", "2026-01-0" + std::to_string(i) + "T00:00:00Z"}});
   const json told = answer({"score", "--trainee", "u-1", "--rubric", rubric("easy.json", 50.0)});
   EXPECT_EQ(told.at("sessions").size(), 3u);
   EXPECT_EQ(told.at("learning").at("standing"), "going on");
   EXPECT_EQ(told.at("learning").at("passes_to_go"), 5);
   EXPECT_EQ(told.at("learning").at("sessions").at(0).at("session"), "s1");
-  const json strict = answer({"score", "--trainee", "u-1", "--rubric", "easy.json", "--alpha", "0.4", "--beta", "0.4"});
+  const json strict =
+      answer({"score", "--trainee", "u-1", "--rubric", "easy.json", "--alpha", "0.4", "--beta", "0.4"});
   EXPECT_EQ(strict.at("learning").at("standing"), "proficient") << "a coarser test needs fewer";
   refuse(1, "nobody", {"score", "--trainee", "nobody"});
   refuse(2, "one of these", {"score", "run", "--all"});
@@ -99,7 +101,8 @@ TEST_F(Judging, ATraineesSessionsAreACourseOfLearning) {
 }
 
 TEST_F(Judging, ExpertsMakeABenchmarkThatOthersAreComparedWith) {
-  const json made = answer({"benchmark", "run", "run", "--name", "house", "--out", "house.json", "--novices", "run"});
+  const json made =
+      answer({"benchmark", "run", "run", "--name", "house", "--out", "house.json", "--novices", "run"});
   EXPECT_EQ(made.at("benchmark"), json_of("house.json"));
   EXPECT_EQ(made.at("benchmark").at("name"), "house");
   EXPECT_NE(made.at("cuts").at(0).at("error").get<std::string>().find("1 novices"), std::string::npos);

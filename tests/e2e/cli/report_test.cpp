@@ -44,8 +44,8 @@ TEST_F(SessionReport, IsPrintableWithItsLettersAndPageNumbers) {
   succeed({"export", "run", "--out", "report.pdf"});
   const std::string file = (folder() / "report.pdf").string();
   const std::string text = poppler("pdftotext", {"-layout", file, "-"});
-  for (const char* words : {"Glenoid reaming", "Zo\u00eb \u00d6zt\u00fcrk", "Page 1 of ", "Version achieved", "retroversion",
-                            "theatre mode off", "Provenance", "\u2264"})
+  for (const char* words : {"Glenoid reaming", "Zo\u00eb \u00d6zt\u00fcrk", "Page 1 of ", "Version achieved",
+                            "retroversion", "theatre mode off", "Provenance", "\u2264"})
     EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
   const std::string fonts = poppler("pdffonts", {file});
   EXPECT_NE(fonts.find("yes"), std::string::npos);
@@ -100,7 +100,8 @@ TEST_F(SessionReport, WithoutItsCaseSaysWhatItCannotShow) {
   fs::create_directories(folder() / "data/cases");
   succeed({"export", "run", "--out", "there.html", "--case", (folder() / "elsewhere").string()});
   EXPECT_NE(text_of("there.html").find("data:image/png"), std::string::npos);
-  // The demo case is made again; its bone is the same, so that this works too. A case that is not there does not.
+  // The demo case is made again; its bone is the same, so that this works too. A case that is not there does
+  // not.
   json session = json_of("run/session.json");
   refuse(1, "nowhere", {"export", "run", "--out", "no.ply", "--case", (folder() / "nowhere").string()});
   succeed({"export", "run", "--out", "report.html", "--case", (folder() / "nowhere").string()});
@@ -112,13 +113,17 @@ TEST_F(SessionReport, WithoutItsCaseSaysWhatItCannotShow) {
 
 TEST_F(SessionReport, SurfacesGoToOtherProgramsInTheirUnits) {
   simulate(short_script());
-  for (const char* name : {"again.stl", "again.glb", "again.ply", "deviation.json"}) succeed({"export", "run", "--out", name});
+  for (const char* name : {"again.stl", "again.glb", "again.ply", "deviation.json"})
+    succeed({"export", "run", "--out", name});
+  succeed({"export", "run", "--out", "implant.stl", "--format", "implant"});
+  succeed({"export", "run", "--out", "surface.ply", "--format", "surface"});
+  EXPECT_EQ(text_of("surface.ply"), text_of("run/reamed.ply"));
   const TriangleMesh reamed = load_mesh(folder() / "run/reamed.ply");
   const TriangleMesh stl = load_mesh(folder() / "again.stl");
   EXPECT_EQ(stl.triangles.size(), reamed.triangles.size());
   EXPECT_NEAR(stl.volume_mm3(), reamed.volume_mm3(), 1e-4 * reamed.volume_mm3());
   EXPECT_TRUE(text_of("again.stl").starts_with("reamed bone, millimetres, LPS, right shoulder"));
-  const TriangleMesh implant = load_mesh(folder() / "again-implant.stl");
+  const TriangleMesh implant = load_mesh(folder() / "implant.stl");
   EXPECT_LT((implant.bounds().centre() - reamed.bounds().centre()).norm(), 60.0);
   const TriangleMesh both = load_mesh(folder() / "again.ply");
   EXPECT_EQ(both.triangles.size(), reamed.triangles.size() + implant.triangles.size());
@@ -135,6 +140,8 @@ TEST_F(SessionReport, SurfacesGoToOtherProgramsInTheirUnits) {
 TEST_F(SessionReport, OtherEndingsAreRefusedWithThoseThereAre) {
   simulate(short_script());
   refuse(2, ".pdf (report for printing)", {"export", "run", "--out", "report.docx"});
+  refuse(2, "implant, surface", {"export", "run", "--out", "a.stl", "--format", "bone"});
+  refuse(2, "for reports", {"export", "run", "--out", "a.csv", "--rubric", "standard"});
 }
 
 }  // namespace

@@ -6,10 +6,10 @@
 #include "app/headless_run.hpp"
 #include "case/landmarks.hpp"
 #include "core/file.hpp"
+#include "record/recording.hpp"
+#include "shell/swept_profile.hpp"
 #include "support/random_reaming.hpp"
 #include "support/temporary_folder.hpp"
-#include "shell/swept_profile.hpp"
-#include "record/recording.hpp"
 
 namespace ream::test {
 namespace {
@@ -69,9 +69,11 @@ Scored run(const RandomReaming& reaming, const TemporaryFolder& folder) {
       const bool solid = formulas.solid(w);
       in_native += solid;
       const Vec3i o = grid.voxel_at(g);
-      if (grid.contains(o)) { covsum += start[grid.index(o)] / 255.0; }
+      if (grid.contains(o)) {
+        covsum += start[grid.index(o)] / 255.0;
+      }
       bool inside = false;
-      for (size_t k = deep + 1; k-- > 0 && !inside; ) {
+      for (size_t k = deep + 1; k-- > 0 && !inside;) {
         const Vec3 t = inv[k].point(g);
         const double r = std::hypot(t.x(), t.y());
         inside = r < pr.outer_mm && t.z() < -pr.behind_mm(r) && t.z() > -pr.behind_mm(pr.outer_mm) - 0.5;
@@ -79,14 +81,17 @@ Scored run(const RandomReaming& reaming, const TemporaryFolder& folder) {
       }
       const Vec3 off = w - reaming.plan.entry_mm;
       const double along = off.dot(reaming.plan.axis_direction);
-      const bool in_hole = reaming.plan.pilot_hole && (off - along * reaming.plan.axis_direction).norm() < 0.5 * reaming.plan.pilot_hole->diameter_mm;
+      const bool in_hole = reaming.plan.pilot_hole && (off - along * reaming.plan.axis_direction).norm() <
+                                                          0.5 * reaming.plan.pilot_hole->diameter_mm;
       hole += in_hole && solid && inside;
       cut += solid && inside && !in_hole;
     }
     const double V = 26.0 * 26.0 * 7.0 / N;
-    printf("MC native %f (coverage, hole gone %f) cut %f  in hole %f +- %f\n", in_native * V, covsum * V, cut * V, hole * V, std::sqrt(double(cut)) * V);
+    printf("MC native %f (coverage, hole gone %f) cut %f  in hole %f +- %f\n", in_native * V, covsum * V,
+           cut * V, hole * V, std::sqrt(double(cut)) * V);
     const double f = grid.voxel_volume_mm3() / 255;
-    printf("REAL %f TABLED %f wall %f floor %f far %f all %f filtered %f\n", real * f, tabled * f, sums[1] * f, sums[2] * f, sums[0] * f, sums[4] * f, sums[5] * f);
+    printf("REAL %f TABLED %f wall %f floor %f far %f all %f filtered %f\n", real * f, tabled * f,
+           sums[1] * f, sums[2] * f, sums[0] * f, sums[4] * f, sums[5] * f);
   }
   return {result.metrics, reaming_truth(reaming, out / "trace.csv")};
 }
@@ -108,15 +113,16 @@ TEST_P(ScoreTruth, IsWhatIsSaid) {
   EXPECT_NEAR(said("removed_volume_mm3"), truth.volume_mm3, 0.005 * truth.volume_mm3);
   EXPECT_NEAR(said("seating_percent"), truth.seating_percent, 1.0);
   EXPECT_NEAR(said("plate_preserved_percent"), truth.plate_percent, 2.0);
-    printf("TELL %3u %-32s v %7.3f %7.3f  e %6.3f %6.3f  dmax %6.3f %6.3f dmean %6.3f %6.3f  vol %8.2f "
-                "%8.2f %+6.2f%%  seat %6.2f %6.2f  plate %6.2f %6.2f  rim %7.3f %7.3f %7.3f %7.3f area %7.2f %7.2f\n",
-                GetParam(), reaming.plan.reamer.substr(0, 30).c_str(), said("version_achieved_deg"),
-                truth.version_deg, said("entry_error_mm"), truth.entry_error_mm, said("depth_max_mm"),
-                truth.depth_max_mm, said("depth_mean_mm"), truth.depth_mean_mm, said("removed_volume_mm3"),
-                truth.volume_mm3, 100.0 * (said("removed_volume_mm3") / truth.volume_mm3 - 1.0),
-                said("seating_percent"), truth.seating_percent, said("plate_preserved_percent"),
-                truth.plate_percent, said("version_rim_deg"), truth.rim_version_deg,
-                said("inclination_rim_deg"), truth.rim_inclination_deg, said("footprint_area_mm2"), truth.footprint_mm2);
+  printf(
+      "TELL %3u %-32s v %7.3f %7.3f  e %6.3f %6.3f  dmax %6.3f %6.3f dmean %6.3f %6.3f  vol %8.2f "
+      "%8.2f %+6.2f%%  seat %6.2f %6.2f  plate %6.2f %6.2f  rim %7.3f %7.3f %7.3f %7.3f area %7.2f %7.2f\n",
+      GetParam(), reaming.plan.reamer.substr(0, 30).c_str(), said("version_achieved_deg"), truth.version_deg,
+      said("entry_error_mm"), truth.entry_error_mm, said("depth_max_mm"), truth.depth_max_mm,
+      said("depth_mean_mm"), truth.depth_mean_mm, said("removed_volume_mm3"), truth.volume_mm3,
+      100.0 * (said("removed_volume_mm3") / truth.volume_mm3 - 1.0), said("seating_percent"),
+      truth.seating_percent, said("plate_preserved_percent"), truth.plate_percent, said("version_rim_deg"),
+      truth.rim_version_deg, said("inclination_rim_deg"), truth.rim_inclination_deg,
+      said("footprint_area_mm2"), truth.footprint_mm2);
   EXPECT_NEAR(said("version_rim_deg"), truth.rim_version_deg, 0.5);
   EXPECT_NEAR(said("inclination_rim_deg"), truth.rim_inclination_deg, 0.5);
 }

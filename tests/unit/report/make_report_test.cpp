@@ -48,6 +48,16 @@ TEST(MakeReport, EveryMetricIsThereOnceWithItsSource) {
     }
   EXPECT_EQ(lines, score::metric_catalogue().size() - 2)
       << "planned version and inclination stand beside others";
+  ASSERT_EQ(report.meanings.size(), score::metric_catalogue().size());
+  for (size_t i = 0; i < report.meanings.size(); ++i) {
+    const score::Metric& metric = score::metric_catalogue()[i];
+    const std::string& words = report.meanings[i].value;
+    EXPECT_TRUE(report.meanings[i].name.starts_with(metric.name));
+    EXPECT_NE(words.find(metric.definition), std::string::npos) << words;
+    EXPECT_NE(words.find(metric.confidence), std::string::npos) << words;
+    EXPECT_NE(words.find("Source "), std::string::npos) << words;
+  }
+  EXPECT_EQ(report.meanings[2].name, "Version error, \u00b0");
 }
 
 TEST(MakeReport, SaysWhoWhatAndUnderWhichConditions) {

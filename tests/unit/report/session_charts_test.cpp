@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "score/metric_catalogue.hpp"
+#include "score/metrics.hpp"
+
 namespace ream::report {
 namespace {
 
@@ -19,8 +22,11 @@ TraceSummary trace_of(uint32_t ticks, double thrust_n) {
 TEST(SessionCharts, ThrustStandsBeforeItsRangeWithTheTimesOfContact) {
   const auto charts = session_charts(trace_of(40'000, 60.0), 2.0, {{10.0, "look", "me"}});
   ASSERT_EQ(charts.size(), 3u);
-  EXPECT_EQ(charts[0].ranges.at(0).low, 35.0);
-  EXPECT_EQ(charts[0].ranges.at(0).high, 78.0);
+  const score::Band& mean = score::find_metric("axial_thrust_mean_n")->band;
+  EXPECT_EQ(charts[0].ranges.at(0).low, mean.low);
+  EXPECT_EQ(charts[0].ranges.at(0).high, mean.pass);
+  EXPECT_EQ(charts[0].levels.at(0).y, score::excess_from_n);
+  EXPECT_EQ(charts[0].levels.at(1).y, score::find_metric("axial_thrust_peak_n")->band.pass);
   EXPECT_EQ(charts[0].x_name, "time, s");
   ASSERT_EQ(charts[0].stretches.size(), 1u);
   EXPECT_NEAR(charts[0].stretches[0].from, 10.0, 0.1);

@@ -61,7 +61,10 @@ TEST_F(ScoresTest, AreKeptWithTheRubricAsItWas) {
 
 TEST_F(ScoresTest, OfARunningSessionAreThoseSoFar) {
   start();
-  const std::string path = all + "/" + create();
+  const HttpReply made = post(all, R"({"case": "planned", "script": "demo", "theatre": true})");
+  ASSERT_EQ(made.status, 201) << made.body;
+  const std::string path = all + "/" + json::parse(made.body).at("id").get<std::string>();
+  EXPECT_EQ(told(path + "/score").at("theatre"), true) << "before the start, too";
   ASSERT_EQ(post(path + "/start").status, 200);
   const json score = told(path + "/score");
   EXPECT_EQ(score.at("standing"), "live");
