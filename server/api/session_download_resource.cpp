@@ -7,9 +7,9 @@
 #include "api/passing_file.hpp"
 #include "api/request_body.hpp"
 #include "api/session_labels.hpp"
+#include "api/session_work.hpp"
 #include "core/clock.hpp"
 #include "core/file.hpp"
-#include "core/file_lock.hpp"
 #include "net/file_body.hpp"
 
 namespace ream::api {
@@ -90,20 +90,6 @@ net::Response trace(const DownloadTools& tools, const net::Request& request) {
                   [&](const fs::path& out) { format.write(order, out, no_progress); });
 }
 
-/// Long work on a session that has ended, whose folder nobody else changes meanwhile.
-JobRecord ordered(const DownloadTools& tools, const std::string& kind, const SessionRecord& record,
-                  const std::function<void(const fs::path& folder, const Progress&)>& work) {
-  const std::string& id = record.request.id;
-  if (const auto open = tools.jobs.open_on_session(kind, id)) return *open;
-  const fs::path folder = tools.sessions.folder_of(id);
-  JobOrder order{kind, {}, id, std::make_shared<const SessionRequest>(record.request)};
-  return tools.jobs.submit(order, [folder, id, work](const Progress& progress) {
-    const auto lock = FileLock::attempt(lock_file(folder));
-    if (!lock) throw Error(ErrorKind::conflict, "session '" + id + "' is in use");
-    work(folder, progress);
-  });
-}
-
 /// What every ended session can have in its folder: given where it is there, else made by a job.
 net::Response kept_or_made(const DownloadTools& tools, const net::Request& request,
                            const SessionRecord& record, const char* kind, const char* format_name,
@@ -117,9 +103,9 @@ net::Response kept_or_made(const DownloadTools& tools, const net::Request& reque
         request, {folder / name, format.media_type, record.request.id + "." + format.file_ending()});
   const ExportOrder order{record.request};
   const auto write = format.write;
-  return accepted(ordered(tools, kind, record, [=](const fs::path& place, const Progress& progress) {
-    write(order, place / name, progress);
-  }));
+  return accepted(work_in_folder(
+      tools.jobs, kind, record, folder,
+      [=](const fs::path& place, const Progress& progress) { write(order, place / name, progress); }));
 }
 
 int stride_of(const net::Request& request) { return static_cast<int>(number_or(request, "stride", 1.0)); }

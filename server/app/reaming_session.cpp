@@ -159,7 +159,7 @@ void ReamingSession::open_files() {
                   : std::make_unique<SessionFiles>(rig_, folder_, coverage, SessionFiles::Trace::left_out);
     write_running(*files);
     std::error_code ignored;
-    for (const char* result : {"reamed.ply", "snapshot.png"})
+    for (const char* result : {"reamed.ply", "snapshot.png", "deviation.json", "deviation.bin"})
       std::filesystem::remove(folder_ / result, ignored);
   } catch (const std::exception&) {
     files.reset();

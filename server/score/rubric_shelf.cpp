@@ -105,7 +105,7 @@ Rubric RubricShelf::named(const std::string& words) const {
   return get(id, version);
 }
 
-Rubric RubricShelf::keep(const std::string& id, Rubric rubric) {
+Rubric RubricShelf::keep(const std::string& id, Rubric rubric) const {
   if (!is_id(id))
     throw Error(ErrorKind::invalid_input,
                 "a rubric's id is 1 to 64 of a-z, 0-9 and '-', and '" + id + "' is not");

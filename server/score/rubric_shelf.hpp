@@ -26,7 +26,7 @@ class RubricShelf {
   /// Keeps a rubric as the next version of `id`, whatever version it says; one that says the same as the
   /// newest is that one. Returns it as it is kept. Errors: invalid_input for an id other than [a-z0-9-]{1,64}
   /// and for a rubric that could not be read again, conflict when others kept one at the same moment, io.
-  Rubric keep(const std::string& id, Rubric rubric);
+  Rubric keep(const std::string& id, Rubric rubric) const;
 
  private:
   std::filesystem::path file(const std::string& id, int version) const;

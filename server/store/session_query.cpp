@@ -9,7 +9,8 @@
 namespace ream::store {
 namespace {
 
-constexpr std::array<const char*, 5> order_words{"created_utc", "duration_s", "case", "trainee", "state"};
+constexpr std::array<const char*, 6> order_words{"created_utc", "duration_s", "case",
+                                                 "trainee",     "state",      "points"};
 constexpr char digits[] = "0123456789abcdef";
 
 std::string number_text(double number) {
@@ -29,14 +30,16 @@ std::string key_of(SessionOrder order, const SessionRow& row) {
       return row.trainee;
     case SessionOrder::state:
       return row.state;
+    case SessionOrder::points:
+      return number_text(row.points.value_or(without_points));
   }
   return {};
 }
 
 /// Less than zero: `a` comes first in ascending order.
 int compare(SessionOrder order, const SessionPlace& a, const SessionPlace& b) {
-  if (order == SessionOrder::duration) {
-    const double first = duration_of(a), second = duration_of(b);
+  if (by_number(order)) {
+    const double first = number_of(a), second = number_of(b);
     if (first != second) return first < second ? -1 : 1;
   } else if (const int keys = a.key.compare(b.key); keys != 0) {
     return keys;
@@ -76,9 +79,23 @@ bool is_or_any(const std::string& wanted, const std::string& value) {
   return wanted.empty() || wanted == value;
 }
 
+bool is_among(const std::vector<std::string>& wanted, const std::string& value) {
+  return wanted.empty() || std::find(wanted.begin(), wanted.end(), value) != wanted.end();
+}
+
+bool has_wanted_points(const SessionQuery& query, const SessionRow& row) {
+  if (!query.points_from && !query.points_to) return true;
+  return row.points && *row.points >= query.points_from.value_or(*row.points) &&
+         *row.points <= query.points_to.value_or(*row.points);
+}
+
 }  // namespace
 
-double duration_of(const SessionPlace& place) {
+bool by_number(SessionOrder order) {
+  return order == SessionOrder::duration || order == SessionOrder::points;
+}
+
+double number_of(const SessionPlace& place) {
   double number = 0.0;
   std::from_chars(place.key.data(), place.key.data() + place.key.size(), number);
   return number;
@@ -91,8 +108,9 @@ std::optional<SessionOrder> session_order_from(const std::string& word) {
 }
 
 bool matches(const SessionQuery& query, const SessionRow& row) {
-  const auto& states = query.states;
-  if (!states.empty() && std::find(states.begin(), states.end(), row.state) == states.end()) return false;
+  if (!is_among(query.states, row.state) || !has_wanted_points(query, row) ||
+      !is_among(query.outcomes, row.outcome.empty() ? "none" : row.outcome))
+    return false;
   if (!is_or_any(query.case_id, row.case_id) || !is_or_any(query.trainee_id, row.trainee_id) ||
       !is_or_any(query.study, row.study) || !is_or_any(query.participant, row.participant))
     return false;

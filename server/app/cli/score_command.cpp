@@ -3,6 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "api/score_table.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/print_score.hpp"
 #include "app/cli/terminal_progress.hpp"
@@ -12,7 +13,6 @@
 #include "app/recorded_session.hpp"
 #include "app/rescoring.hpp"
 #include "app/score_document.hpp"
-#include "app/score_table.hpp"
 #include "app/session_facts.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -40,7 +40,7 @@ struct Judge {
 
 /// A session that could be scored.
 struct Judged {
-  TableSession table;
+  api::TableSession table;
   nlohmann::json document;
 };
 
@@ -83,12 +83,12 @@ Judged judged(const Rescored& one, const Options& options, const Judge& judge, c
 }
 
 void write_table(const std::vector<Judged>& all, const score::Rubric& rubric, const fs::path& csv) {
-  std::vector<TableSession> sessions;
+  std::vector<api::TableSession> sessions;
   for (const Judged& one : all) sessions.push_back(one.table);
-  const api::ExportTable table = score_table(sessions, rubric);
+  const api::ExportTable table = api::score_table(sessions, rubric);
   fs::path codebook = csv;
   codebook.replace_filename(csv.stem().string() + "-codebook.csv");
-  write_file_atomically(codebook, api::csv_of(score_codebook(table)));
+  write_file_atomically(codebook, api::csv_of(api::score_codebook(table)));
   write_file_atomically(csv, api::csv_of(table));
 }
 

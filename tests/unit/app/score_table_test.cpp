@@ -1,4 +1,4 @@
-#include "app/score_table.hpp"
+#include "api/score_table.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +11,8 @@
 namespace ream::app {
 namespace {
 
+using api::score_codebook;
+using api::score_table;
 using nlohmann::json;
 
 json some_metrics() {

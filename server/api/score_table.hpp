@@ -6,7 +6,7 @@
 #include "api/study_export.hpp"
 #include "score/rubric_score.hpp"
 
-namespace ream::app {
+namespace ream::api {
 
 /// A session for statistics: its session.json (or what its recording says of it) and its metrics.json.
 struct TableSession {
@@ -17,9 +17,9 @@ struct TableSession {
 /// One row a session: who (a code where there is one, never a name), when, with what; result and points by
 /// the rubric; then every metric of the catalogue, its unit at the end of its name. What is not said is an
 /// empty cell.
-api::ExportTable score_table(const std::vector<TableSession>& sessions, const score::Rubric& rubric);
+ExportTable score_table(const std::vector<TableSession>& sessions, const score::Rubric& rubric);
 
 /// What the columns of such a table mean, one row each: name, unit, words, source, evidence, limits.
-api::ExportTable score_codebook(const api::ExportTable& table);
+ExportTable score_codebook(const ExportTable& table);
 
-}  // namespace ream::app
+}  // namespace ream::api

@@ -1,14 +1,14 @@
-#include "app/score_table.hpp"
+#include "api/score_table.hpp"
 
 #include "score/band_json.hpp"
 
-namespace ream::app {
+namespace ream::api {
 namespace {
 
 using nlohmann::json;
 
 /// Columns before those of the metrics, in the order of session_cells().
-std::vector<api::ExportColumn> session_columns() {
+std::vector<ExportColumn> session_columns() {
   return {{"session", "", "Id of the session"},
           {"trainee", "", "Code of the participant, else id of the user who trained"},
           {"created_utc", "", "When the session was made"},
@@ -63,8 +63,8 @@ std::string limits_in_words(const score::Metric& metric) {
 
 }  // namespace
 
-api::ExportTable score_table(const std::vector<TableSession>& sessions, const score::Rubric& rubric) {
-  api::ExportTable table;
+ExportTable score_table(const std::vector<TableSession>& sessions, const score::Rubric& rubric) {
+  ExportTable table;
   table.name = "sessions";
   table.columns = session_columns();
   for (const score::Metric& metric : score::metric_catalogue())
@@ -79,12 +79,12 @@ api::ExportTable score_table(const std::vector<TableSession>& sessions, const sc
   return table;
 }
 
-api::ExportTable score_codebook(const api::ExportTable& table) {
-  api::ExportTable book;
+ExportTable score_codebook(const ExportTable& table) {
+  ExportTable book;
   book.name = "codebook";
   book.columns = {{"column", "", "Name"},   {"unit", "", "Unit"},         {"words", "", "What it is"},
                   {"source", "", "Source"}, {"evidence", "", "Evidence"}, {"limits", "", "Limits"}};
-  for (const api::ExportColumn& column : table.columns) {
+  for (const ExportColumn& column : table.columns) {
     const score::Metric* metric = score::find_metric(column.name);
     book.rows.push_back({column.name, column.unit.empty() ? json() : json(column.unit), column.words,
                          metric ? json(metric->source) : json(),
@@ -94,4 +94,4 @@ api::ExportTable score_codebook(const api::ExportTable& table) {
   return book;
 }
 
-}  // namespace ream::app
+}  // namespace ream::api
