@@ -19,6 +19,19 @@ struct Greatest {
   }
 };
 
+/// Whether a ray and all four beside it meet what is left of the face: along the edge that a cut leaves where
+/// it comes out through the wall, the surface is rounded off.
+bool is_over_bone(const NativeGlenoid& native, const AchievedFace& face, size_t ray) {
+  const auto meets = [&](int i) {
+    return i >= 0 && native.face()[static_cast<size_t>(i)] &&
+           face.surface_mm[static_cast<size_t>(i)] != no_surface_mm;
+  };
+  const RayLattice& rays = native.rays();
+  return meets(static_cast<int>(ray)) && meets(rays.neighbour(ray, 1, 0)) &&
+         meets(rays.neighbour(ray, -1, 0)) && meets(rays.neighbour(ray, 0, 1)) &&
+         meets(rays.neighbour(ray, 0, -1));
+}
+
 }  // namespace
 
 void say_depths(const NativeGlenoid& native, const AchievedFace& face, Findings& findings) {
@@ -35,7 +48,7 @@ void say_depths(const NativeGlenoid& native, const AchievedFace& face, Findings&
     sum += removed;
     const double past_subchondral = native.surface_mm()[ray] + removed - native.subchondral_mm()[ray];
     anywhere.take(removed, past_subchondral);
-    if (face.surface_mm[ray] != no_surface_mm) over_bone.take(removed, past_subchondral);
+    if (is_over_bone(native, face, ray)) over_bone.take(removed, past_subchondral);
   }
   const Greatest& greatest = over_bone.removed_mm > 0.0 ? over_bone : anywhere;
   findings.say("footprint_area_mm2", static_cast<double>(count) * rays.cell_area_mm2());

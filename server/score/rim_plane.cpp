@@ -16,14 +16,15 @@ bool is_reamed(const AchievedFace& face, size_t ray) {
 
 /// The achieved face a little inside the outermost place where reamed_mm is gone; empty when there is none.
 /// At that place itself the wall that a reamer leaves around it may be as well top as bottom.
-std::optional<Vec3> rim_point(const RayLattice& rays, const AchievedFace& face, const Vec3& middle,
-                              double angle) {
+/// `reamed_depth_mm`: of every ray, nothing where no bone is left under it.
+std::optional<Vec3> rim_point(const RayLattice& rays, const AchievedFace& face,
+                              const std::vector<double>& reamed_depth_mm, const Vec3& middle, double angle) {
   const double step = 0.5 * rays.spacing_mm();
   const double dx = std::cos(angle), dy = std::sin(angle);
   std::optional<double> last;
   double before = 0.0, edge = 0.0;
   for (double r = 0.0; r <= 2.0 * rays.reach_mm(); r += step) {
-    const double removed = rays.between(face.removed_mm, middle.x() + r * dx, middle.y() + r * dy);
+    const double removed = rays.between(reamed_depth_mm, middle.x() + r * dx, middle.y() + r * dy);
     if (removed == no_surface_mm) break;
     if (removed >= reamed_mm) {
       last = r;
@@ -65,9 +66,13 @@ std::optional<Vec3> rim_normal(const NativeGlenoid& native, const AchievedFace& 
   }
   if (count == 0) return std::nullopt;
   middle /= count;
+  std::vector<double> reamed_depth_mm(rays.size(), 0.0);
+  for (size_t ray = 0; ray < rays.size(); ++ray)
+    if (face.surface_mm[ray] != no_surface_mm) reamed_depth_mm[ray] = face.removed_mm[ray];
   std::vector<Vec3> rim;
   for (int i = 0; i < directions; ++i)
-    if (const auto point = rim_point(rays, face, middle, 2.0 * pi * i / directions)) rim.push_back(*point);
+    if (const auto point = rim_point(rays, face, reamed_depth_mm, middle, 2.0 * pi * i / directions))
+      rim.push_back(*point);
   const auto plane = fit_plane(rim);
   if (!plane || rim.size() < directions / 2) return std::nullopt;
   const Vec3 normal = rays.world_direction(plane->normal);

@@ -17,11 +17,12 @@ using nlohmann::json;
 /// A case and three sessions on it, of which the last took another reamer.
 class RescoringTest : public testing::Test {
  protected:
-  RescoringTest() {
+  static void SetUpTestSuite() {
+    folder_.emplace();
     const test::AnalyticGlenoid glenoid;
     case_::Case c;
     c.id = c.name = "glenoid";
-    c.bone = test::bone_of(glenoid, 0.6);
+    c.bone = test::bone_of(glenoid, 0.8);
     case_::Plan plan;
     plan.entry_mm = glenoid.frame().centre;
     plan.axis_direction = -glenoid.frame().n;
@@ -34,9 +35,11 @@ class RescoringTest : public testing::Test {
     ream("three", "sphere 26,8");
   }
 
-  const std::filesystem::path& data() const { return folder_.path(); }
+  static void TearDownTestSuite() { folder_.reset(); }
 
-  void ream(const std::string& id, const std::string& tool) {
+  static const std::filesystem::path& data() { return folder_->path(); }
+
+  static void ream(const std::string& id, const std::string& tool) {
     const json script = {{"device", "hand"},
                          {"duration_s", 1.0},
                          {"stiffness_n_mm", 100.0},
@@ -58,17 +61,14 @@ class RescoringTest : public testing::Test {
     run_headless(rig, start, folder, false);
   }
 
-  std::vector<Rescored> rescored(const Progress& progress) const {
-    const std::vector<std::string> names{"one", "three", "two", "no such session", "one"};
-    return rescore(names, {}, data(), progress);
-  }
-
  private:
-  test::TemporaryFolder folder_;
+  inline static std::optional<test::TemporaryFolder> folder_;
 };
 
+const std::vector<std::string> all_names{"one", "three", "two", "no such session", "one"};
+
 TEST_F(RescoringTest, GivesWhatEachSessionGaveWhenItEnded) {
-  const std::vector<Rescored> all = rescored(no_progress);
+  const std::vector<Rescored> all = rescore(all_names, {}, data(), no_progress);
   ASSERT_EQ(all.size(), 5u);
   for (const Rescored& one : all) {
     if (one.name == "no such session") {
@@ -86,7 +86,7 @@ TEST_F(RescoringTest, GivesWhatEachSessionGaveWhenItEnded) {
 TEST_F(RescoringTest, ReportsProgress) {
   double before = 0.0;
   std::vector<std::string> named;
-  rescored([&](double share, std::string_view name) {
+  rescore(all_names, {}, data(), [&](double share, std::string_view name) {
     EXPECT_GE(share, before);
     EXPECT_LE(share, 1.0 + 1e-12);
     before = share;
@@ -97,13 +97,14 @@ TEST_F(RescoringTest, ReportsProgress) {
 }
 
 TEST_F(RescoringTest, EndsWhereverItIsCancelled) {
+  const std::vector<std::string> names{"one", "three"};
   int calls = 0;
-  rescored([&](double, std::string_view) { ++calls; });
+  rescore(names, {}, data(), [&](double, std::string_view) { ++calls; });
   for (const ErrorKind kind : {ErrorKind::cancelled, ErrorKind::io})
     for (int last = 1; last <= calls; ++last) {
       int call = 0;
       try {
-        rescored([&](double, std::string_view) {
+        rescore(names, {}, data(), [&](double, std::string_view) {
           if (++call == last) throw Error(kind, "enough");
         });
         ADD_FAILURE() << "went on after call " << last;
