@@ -23,6 +23,13 @@ uint64_t final_grid_hash(const record::Recording& recording) {
   return checkpoint ? checkpoint->grid_hash : recording.header().start_grid_hash;
 }
 
+/// Why the bone cannot be measured, for everybody who sees the score; places on this machine go to the log.
+std::string reason_for_all(const Error& failure) {
+  if (failure.kind() == ErrorKind::conflict) return failure.what();
+  log::warn(failure.what());
+  return "the case of this session is not there, or cannot be read";
+}
+
 }  // namespace
 
 void Rescorer::load_case(const record::Recording& recording) {
@@ -77,7 +84,7 @@ nlohmann::json Rescorer::metrics(const record::Recording& recording, const Progr
     try {
       if (reason.empty()) work();
     } catch (const Error& e) {
-      reason = e.what();
+      reason = reason_for_all(e);
     }
   };
   attempt(0.7, "loading the case", [&] { load_case(recording); });

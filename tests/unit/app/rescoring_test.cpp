@@ -83,6 +83,19 @@ TEST_F(RescoringTest, GivesWhatEachSessionGaveWhenItEnded) {
   EXPECT_NE(all[0].metrics, all[1].metrics);
 }
 
+TEST_F(RescoringTest, ACaseThatIsGoneIsSaidWithoutPlacesOfThisMachine) {
+  const test::TemporaryFolder other;
+  std::filesystem::create_directories(sessions_folder(other.path()));
+  std::filesystem::copy(sessions_folder(data()) / "one", sessions_folder(other.path()) / "one");
+  const std::vector<Rescored> all = rescore(std::vector<std::string>{"one"}, {}, other.path(), no_progress);
+  EXPECT_EQ(all.at(0).error, "");
+  const json& metrics = all.at(0).metrics;
+  EXPECT_TRUE(metrics.at("seating_percent").is_null());
+  const std::string reason = metrics.at("unsaid").at("seating_percent");
+  EXPECT_NE(reason.find("case"), std::string::npos) << reason;
+  EXPECT_EQ(reason.find('/'), std::string::npos) << reason;
+}
+
 TEST_F(RescoringTest, ReportsProgress) {
   double before = 0.0;
   std::vector<std::string> named;
