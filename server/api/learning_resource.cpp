@@ -60,8 +60,8 @@ std::vector<Attempt> attempts_of(const ScoreTools& tools, const net::Request& re
     Attempt attempt;
     attempt.metrics = read_json_file(metrics_json(folder));
     const score::Score score = score::apply_rubric(rubric, attempt.metrics);
-    attempt.point = {id,           record.request.created_utc, record.request.theatre,
-                     score.points, score.outcome,              std::nullopt};
+    attempt.point = {
+        id, record.request.created_utc, record.request.theatre, score.points, score.outcome, std::nullopt};
     attempts.push_back(std::move(attempt));
   }
   return attempts;

@@ -79,7 +79,8 @@ std::vector<TableSession> table_sessions(const ScoreTools& tools, const net::Req
     const fs::path folder = tools.sessions.folder_of(record.request.id);
     std::error_code failed;
     if (!fs::exists(metrics_json(folder), failed)) continue;
-    sessions.push_back({record.request.id, read_json_file(session_json(folder)), read_json_file(metrics_json(folder))});
+    sessions.push_back(
+        {record.request.id, read_json_file(session_json(folder)), read_json_file(metrics_json(folder))});
   }
   return sessions;
 }

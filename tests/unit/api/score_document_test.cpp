@@ -36,7 +36,8 @@ const json& metric(const json& score, const std::string& key) {
 TEST(ScoreDocument, FitsItsSchemaWithAndWithoutARubricOfTheShelf) {
   const json schema = read_json_file(test::source_folder() + "/proto/score.schema.json");
   for (const char* id : {"", "simple"}) {
-    const json document = score_document("ream", json::object(), test::some_metrics(1.5), {rubric(), id, nullptr});
+    const json document =
+        score_document("ream", json::object(), test::some_metrics(1.5), {rubric(), id, nullptr});
     EXPECT_EQ(test::SchemaChecker(schema).faults(schema, document), std::vector<std::string>{});
     EXPECT_EQ(document.at("rubric_id").is_null(), *id == 0);
     EXPECT_EQ(document.at("theatre"), false);
@@ -79,9 +80,8 @@ TEST(WriteResults, LosesNothingThatWasSaidBefore) {
   json poorer = good;
   poorer["contact_time_s"] = nullptr;
   poorer["unsaid"]["contact_time_s"] = "the case is gone";
-  test::expect_error(ErrorKind::conflict, "contact_time_s", [&] {
-    write_results(folder.path(), poorer, document(poorer));
-  });
+  test::expect_error(ErrorKind::conflict, "contact_time_s",
+                     [&] { write_results(folder.path(), poorer, document(poorer)); });
   EXPECT_EQ(read_json_file(metrics_json(folder.path())), good);
   EXPECT_EQ(read_json_file(score_json(folder.path())), document(good));
   json richer = good;

@@ -7,6 +7,7 @@
 #include "app/score_document.hpp"
 #include "core/file.hpp"
 #include "support/json_schema.hpp"
+#include "support/places.hpp"
 
 namespace ream::app {
 namespace {
@@ -59,7 +60,7 @@ TEST(ScoreTable, ItsCodebookExplainsEveryColumn) {
 }
 
 TEST(ScoreDocument, FitsItsSchemaAndHoldsTheRubric) {
-  const json schema = read_json_file(std::string(REAM_SOURCE_DIR) + "/proto/score.schema.json");
+  const json schema = read_json_file(test::source_folder() + "/proto/score.schema.json");
   score::Benchmark benchmark{"ours", {}, {{"duration_s", score::Better::less, 20.0, 1.0, 3, {}}}};
   for (const score::Benchmark* compared :
        {static_cast<const score::Benchmark*>(nullptr), static_cast<const score::Benchmark*>(&benchmark)}) {

@@ -168,28 +168,30 @@ TEST_F(ScoreContractTest, TakesExactlyTheRubricsThatTheSchemaTakes) {
   start();
   const json& schema = contract.at("components").at("schemas").at("Rubric");
   int next = 0;
-  for (const char* text :
-       {R"({"name": "A", "version": 1, "criteria": [{"metric": "sparc", "none": -5, "full": -2}]})",
-        R"({"name": "A", "version": 1, "criteria": [{"metric": "passes", "band": {"better": "less", "pass": 3, "warn": 5}}]})",
-        R"({"name": "", "version": 1, "criteria": [{"metric": "sparc", "none": -5, "full": -2}]})",
-        R"({"name": "A", "criteria": [{"metric": "sparc", "none": -5, "full": -2}]})",
-        R"({"name": "A", "version": 0, "criteria": [{"metric": "sparc", "none": -5, "full": -2}]})",
-        R"({"name": "A", "version": 1, "criteria": []})", R"({"name": "A", "version": 1})",
-        R"({"name": "A", "version": 1, "pass_points": 101, "criteria": [{"metric": "version_error_deg"}]})",
-        R"({"name": "A", "version": 1, "pass_points": 70, "criteria": [{"metric": "version_error_deg", "weight": -1}]})",
-        R"({"name": "A", "version": 1, "mark": 70, "criteria": [{"metric": "version_error_deg"}]})",
-        R"({"name": "A", "version": 1, "criteria": [{"metric": "version_error_deg", "critical": true}]})"}) {
+  for (
+      const char* text :
+      {R"({"name": "A", "version": 1, "criteria": [{"metric": "sparc", "none": -5, "full": -2}]})",
+       R"({"name": "A", "version": 1, "criteria": [{"metric": "passes", "band": {"better": "less", "pass": 3, "warn": 5}}]})",
+       R"({"name": "", "version": 1, "criteria": [{"metric": "sparc", "none": -5, "full": -2}]})",
+       R"({"name": "A", "criteria": [{"metric": "sparc", "none": -5, "full": -2}]})",
+       R"({"name": "A", "version": 0, "criteria": [{"metric": "sparc", "none": -5, "full": -2}]})",
+       R"({"name": "A", "version": 1, "criteria": []})", R"({"name": "A", "version": 1})",
+       R"({"name": "A", "version": 1, "pass_points": 101, "criteria": [{"metric": "version_error_deg"}]})",
+       R"({"name": "A", "version": 1, "pass_points": 70, "criteria": [{"metric": "version_error_deg", "weight": -1}]})",
+       R"({"name": "A", "version": 1, "mark": 70, "criteria": [{"metric": "version_error_deg"}]})",
+       R"({"name": "A", "version": 1, "criteria": [{"metric": "version_error_deg", "critical": true}]})"}) {
     const json wanted = {{"id", "r" + std::to_string(next++)}, {"rubric", json::parse(text)}};
     const bool fits = checker.faults(schema, wanted.at("rubric")).empty();
     const HttpReply reply = post(rubrics, wanted.dump());
     EXPECT_EQ(reply.status, fits ? 201 : 422) << text << reply.body;
     EXPECT_TRUE(fits || !json::parse(reply.body).at("detail").get<std::string>().empty()) << text;
   }
-  for (const char* text :
-       {R"({"name": "A", "version": 1, "criteria": [{"metric": "sparc"}]})",
-        R"({"name": "A", "version": 1, "criteria": [{"metric": "sparc", "none": 1, "full": 1}]})",
-        R"({"name": "A", "version": 1, "criteria": [{"metric": "elegance", "none": 0, "full": 1}]})",
-        R"({"name": "A", "version": 1, "criteria": [{"metric": "version_error_deg"}, {"metric": "version_error_deg"}]})"}) {
+  for (
+      const char* text :
+      {R"({"name": "A", "version": 1, "criteria": [{"metric": "sparc"}]})",
+       R"({"name": "A", "version": 1, "criteria": [{"metric": "sparc", "none": 1, "full": 1}]})",
+       R"({"name": "A", "version": 1, "criteria": [{"metric": "elegance", "none": 0, "full": 1}]})",
+       R"({"name": "A", "version": 1, "criteria": [{"metric": "version_error_deg"}, {"metric": "version_error_deg"}]})"}) {
     const json wanted = {{"id", "r" + std::to_string(next++)}, {"rubric", json::parse(text)}};
     EXPECT_EQ(post(rubrics, wanted.dump()).status, 422) << "fits the schema, but makes no sense: " << text;
   }

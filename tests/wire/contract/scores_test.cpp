@@ -183,8 +183,8 @@ TEST_F(ScoresTest, OfExpertsAndNovicesGiveAMark) {
   EXPECT_NEAR(points.at("cut").get<double>(), 55.0, 1e-9) << "half way between groups of equal spread";
   EXPECT_EQ(points.at("experts_failing"), 0);
   EXPECT_EQ(made.at("rubric"), "simple@1");
-  const auto file = score::load_benchmark(folder.path() / "benchmarks" /
-                                          (made.at("id").get<std::string>() + ".json"));
+  const auto file =
+      score::load_benchmark(folder.path() / "benchmarks" / (made.at("id").get<std::string>() + ".json"));
   EXPECT_EQ(file.name, "Ours") << "as ream score --benchmark takes it";
 }
 

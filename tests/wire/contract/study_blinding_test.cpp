@@ -72,8 +72,9 @@ class StudyBlindingTest : public AccessTest {
 
   /// What a session leaves in its folder, which names the person.
   void leave_results(const std::string& id, const Person& person) {
-    const json session = {{"case", "planned"},        {"script", "practice"},     {"state", "stopped"},
-                          {"trainee_id", person.id},  {"trainee", person.name},   {"study", study_id},
+    const json session = {{"case", "planned"},          {"script", "practice"},
+                          {"state", "stopped"},         {"trainee_id", person.id},
+                          {"trainee", person.name},     {"study", study_id},
                           {"participant", person.code}, {"created_utc", "2026-01-31T12:00:00Z"}};
     folder.write("sessions/" + id + "/session.json", session.dump());
     folder.write("sessions/" + id + "/metrics.json", some_metrics(10.0).dump());
