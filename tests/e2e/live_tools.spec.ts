@@ -8,6 +8,11 @@ const here = serverForEachTest();
 
 const canvas = (page: Page) => page.getByTestId('bone-canvas');
 
+/** The bone alone: what stands over the picture changes with the tools, too. */
+const overlaysHidden = '.picture > :not(.canvas-place) { visibility: hidden !important; }';
+const bone = async (page: Page): Promise<string> =>
+  (await canvas(page).screenshot({ animations: 'disabled', style: overlaysHidden })).toString('base64');
+
 async function open(page: Page): Promise<void> {
   await page.goto(here.server.url);
   await untilLive(page);

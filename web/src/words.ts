@@ -1,6 +1,18 @@
 /** Every text of the page but those of the cases, which come with their pages: case_words.ts. */
 import type { SessionState } from './wire/messages';
 
+const markKinds: Record<string, string> = {
+  annotation: 'Remark',
+  resume: 'Resumed',
+  reamer: 'Reamer changed',
+  damaged: 'Recording damaged',
+  'spindle-on': 'Spindle on',
+  'spindle-off': 'Spindle off',
+  contact: 'Pressed on bone',
+  withdrawn: 'Let go',
+  excess: 'Thrust over 78 N',
+};
+
 export const words = {
   product: 'ream',
   tagline: 'Glenoid reaming',
@@ -82,6 +94,8 @@ export const words = {
   stateUnknown: (state: string) => `What the session is doing is not known; when last heard of it was ${state}.`,
 
   replay: 'Replay',
+  review: 'Review',
+  reviewSession: (id: string) => `Review session ${id}`,
   replayBadge: 'Replay – not live',
   linkReplay: 'Replay',
   backToLive: 'Back to live',
@@ -103,16 +117,7 @@ export const words = {
   momentOf: (position: string, duration: string) => `${position} of ${duration}`,
   speed: 'Speed',
   replayed: 'replay',
-  mark: (kind: string) =>
-    kind === 'annotation'
-      ? 'Remark'
-      : kind === 'resume'
-        ? 'Resumed'
-        : kind === 'reamer'
-          ? 'Reamer changed'
-          : kind === 'damaged'
-            ? 'Recording damaged'
-            : kind.charAt(0).toUpperCase() + kind.slice(1),
+  mark: (kind: string) => markKinds[kind] ?? kind.charAt(0).toUpperCase() + kind.slice(1),
 
   linkConnecting: 'Connecting',
   linkLive: 'Live',

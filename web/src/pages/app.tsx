@@ -11,6 +11,7 @@ import { LoginPage } from './login_page';
 
 const casePages = later(() => import('./case_pages'));
 const sessionPages = later(() => import('./session_pages'));
+const reviewPage = later(() => import('./review_page'));
 const studyPages = later(() => import('./study_pages'));
 const accessPages = later(() => import('./access_pages'));
 
@@ -63,6 +64,8 @@ function Page({ route, live, identity }: { route: Route; live: LivePageParts; id
     case 'sessions':
       if (!may.ream) return <NotForYou />;
       return sessionPages.show(({ SessionsPage }) => <SessionsPage live={live} />);
+    case 'review':
+      return reviewPage.show(({ ReviewPage }) => <ReviewPage route={route} />);
     case 'studies':
     case 'study':
     case 'questionnaire':

@@ -55,7 +55,7 @@ export function LivePage(parts: LivePageParts) {
         {slicesOpen.value &&
           slices.show(({ LiveSlicesPanel }) => <LiveSlicesPanel store={store} liveCase={liveCase} />)}
       </Picture>
-      {store.replaying.value && <PlaybackBar store={store} watcher={watcher} />}
+      {store.replaying.value && <PlaybackBar store={store} player={watcher} />}
       {practiceStore.steering.value && (
         <PracticeBar practice={practiceStore} toPicture={() => scene.canvas.focus({ preventScroll: true })} />
       )}

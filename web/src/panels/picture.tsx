@@ -2,7 +2,6 @@ import type { ComponentChildren } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 
 import type { BoneScene } from '../scene/scene';
-import type { ViewName } from '../scene/camera_rig';
 import type { Alarms } from '../state/alarms';
 import type { PracticeStore } from '../state/practice_store';
 import type { Store } from '../state/store';
@@ -12,14 +11,8 @@ import { AlarmList } from './alarm_list';
 import { Guide } from './guide';
 import { LinkNotice } from './link_notice';
 import { PracticeNotice } from './practice_notice';
-import { SceneTools } from './scene_tools';
 import { useIdentity } from './site_nav';
-
-const views: readonly (readonly [ViewName, string])[] = [
-  ['plan', words.viewPlan],
-  ['axis', words.viewAxis],
-  ['side', words.viewSide],
-];
+import { ViewTools } from './view_tools';
 
 interface Parts {
   store: Store;
@@ -69,37 +62,7 @@ export function Picture({ store, practice, scene, view, alarms, bare, children }
       )}
       {!view.theatre.value && <AlarmList alarms={alarms} />}
       {children}
-      {bare !== true && <ViewTools store={store} scene={scene} view={view} />}
+      {bare !== true && <ViewTools scene={scene} view={view} reamerShown={store.reamerShown} />}
     </main>
-  );
-}
-
-function ViewTools({ store, scene, view }: Pick<Parts, 'store' | 'scene' | 'view'>) {
-  return (
-    <div class="views" role="group" aria-label={words.view}>
-      {views.map(([name, label]) => (
-        <button
-          type="button"
-          key={name}
-          data-testid={`view-${name}`}
-          onClick={() => {
-            view.change({ camera: 'own' });
-            scene.look(name);
-          }}
-        >
-          {label}
-        </button>
-      ))}
-      <SceneTools view={view} />
-      <label>
-        <input
-          type="checkbox"
-          data-testid="show-reamer"
-          checked={store.reamerShown.value}
-          onChange={(event) => (store.reamerShown.value = event.currentTarget.checked)}
-        />
-        {words.showReamer}
-      </label>
-    </div>
   );
 }

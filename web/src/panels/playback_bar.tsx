@@ -1,5 +1,7 @@
+import type { ComponentChildren } from 'preact';
+
+import type { Player } from '../state/player';
 import type { Store } from '../state/store';
-import type { Watcher } from '../state/watcher';
 import type { Mark } from '../wire/api';
 import { words } from '../words';
 import { minutes } from './format';
@@ -9,11 +11,20 @@ const speeds = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
 const sliderStepS = 0.001;
 const keyStepS = 1;
 
+interface Parts {
+  store: Store;
+  player: Player;
+  /** In place of the recording's own. */
+  marks?: readonly Mark[];
+  /** Above the slider, as long as it. */
+  children?: ComponentChildren;
+}
+
 /** Where the replay stands, and the ways to another moment. */
-export function PlaybackBar({ store, watcher }: { store: Store; watcher: Watcher }) {
+export function PlaybackBar({ store, player, marks = store.marks.value, children }: Parts) {
   const playback = store.playback.value;
   const durationS = (store.hello.value?.durationTicks ?? 0) / 1000;
-  const positionS = watcher.scrubber.wantedS.value ?? (playback?.positionTicks ?? 0) / 1000;
+  const positionS = player.scrubber.wantedS.value ?? (playback?.positionTicks ?? 0) / 1000;
   const playing = playback?.playing ?? false;
   const usable = playback !== null && store.link.value.kind === 'live';
   return (
@@ -24,11 +35,12 @@ export function PlaybackBar({ store, watcher }: { store: Store; watcher: Watcher
         data-testid="play"
         data-playing={playing}
         disabled={!usable}
-        onClick={() => void watcher.play({ playing: !playing })}
+        onClick={() => void player.play({ playing: !playing })}
       >
         {playing ? words.rest : words.play}
       </button>
       <div class="timeline">
+        {children}
         <input
           type="range"
           data-testid="seek"
@@ -43,13 +55,13 @@ export function PlaybackBar({ store, watcher }: { store: Store; watcher: Watcher
             const steps = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[event.key];
             if (steps === undefined) return;
             event.preventDefault();
-            watcher.scrubber.seek(Math.min(Math.max(positionS + steps * keyStepS, 0), durationS));
+            player.scrubber.seek(Math.min(Math.max(positionS + steps * keyStepS, 0), durationS));
           }}
-          onInput={(event) => watcher.scrubber.seek(Math.min(event.currentTarget.valueAsNumber, durationS))}
+          onInput={(event) => player.scrubber.seek(Math.min(event.currentTarget.valueAsNumber, durationS))}
         />
         <div class="marks">
-          {store.marks.value.map((mark, i) => (
-            <MarkButton key={i} mark={mark} durationS={durationS} watcher={watcher} />
+          {marks.map((mark, i) => (
+            <MarkButton key={i} mark={mark} durationS={durationS} player={player} />
           ))}
         </div>
       </div>
@@ -61,7 +73,7 @@ export function PlaybackBar({ store, watcher }: { store: Store; watcher: Watcher
         <select
           data-testid="speed"
           disabled={!usable}
-          onChange={(event) => void watcher.play({ speed: Number(event.currentTarget.value) })}
+          onChange={(event) => void player.play({ speed: Number(event.currentTarget.value) })}
         >
           {speeds.map((speed) => (
             <option key={speed} value={speed} selected={Math.abs(speed - (playback?.speed ?? 1)) < 1e-6}>
@@ -74,18 +86,18 @@ export function PlaybackBar({ store, watcher }: { store: Store; watcher: Watcher
   );
 }
 
-function MarkButton({ mark, durationS, watcher }: { mark: Mark; durationS: number; watcher: Watcher }) {
+function MarkButton({ mark, durationS, player }: { mark: Mark; durationS: number; player: Player }) {
   const at = durationS > 0 ? Math.min(mark.at_s / durationS, 1) : 0;
   const title = `${minutes(mark.at_s)} ${words.mark(mark.kind)}${mark.words === '' ? '' : `: ${mark.words}`}`;
   return (
     <button
       type="button"
-      class={mark.kind === 'annotation' ? 'mark mark-annotation' : 'mark'}
+      class={`mark mark-${mark.kind}`}
       data-testid="mark"
       style={{ left: `${(at * 100).toFixed(3)}%` }}
       title={title}
       aria-label={title}
-      onClick={() => watcher.scrubber.seek(Math.min(mark.at_s, durationS))}
+      onClick={() => player.scrubber.seek(Math.min(mark.at_s, durationS))}
     />
   );
 }

@@ -1,3 +1,4 @@
+import { addressOfRoute } from '../state/route';
 import type { Store } from '../state/store';
 import type { Watcher } from '../state/watcher';
 import { words } from '../words';
@@ -21,6 +22,11 @@ export function ReplayPanel({ store, watcher }: { store: Store; watcher: Watcher
         >
           {words.backToLive}
         </button>
+        {of !== '' && (
+          <a class="to-review" data-testid="to-review" href={addressOfRoute({ kind: 'review', id: of, beside: null })}>
+            {words.review}
+          </a>
+        )}
       </div>
       <p class="session-state" data-testid="session-state" data-state={store.sessionState.value} aria-live="polite">
         <strong>{words.replayOf(of)}.</strong>{' '}

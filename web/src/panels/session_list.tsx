@@ -32,7 +32,18 @@ export function SessionList({ store, watcher }: { store: Store; watcher: Watcher
 function Row({ session, store, watcher }: RowParts) {
   return (
     <li data-testid={`session-${session.id}`} data-state={session.state}>
-      <span class="session-when">{dayAndTime(session.created_utc)}</span>
+      {canBeReplayed(session) ? (
+        <a
+          class="session-when"
+          data-testid={`review-${session.id}`}
+          title={words.reviewSession(session.id)}
+          href={addressOfRoute({ kind: 'review', id: session.id, beside: null })}
+        >
+          {dayAndTime(session.created_utc)}
+        </a>
+      ) : (
+        <span class="session-when">{dayAndTime(session.created_utc)}</span>
+      )}
       <span>
         {session.trainee || session.case} <span class="soft">{minutes(session.duration_s)}</span>
       </span>

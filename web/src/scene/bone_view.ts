@@ -7,6 +7,7 @@ import {
   Matrix4,
   Mesh,
   type MeshStandardMaterial,
+  type Object3D,
   type Plane,
   Quaternion,
   Sphere,
@@ -97,6 +98,13 @@ class BonePicture {
   }
 }
 
+/** What is seen in place of the streamed bone, in the frame of the bone at rest. */
+export interface InsteadOfBone {
+  readonly object: Object3D;
+  /** As BoneView has it. */
+  setLook(opacity: number, cuts: Plane[]): void;
+}
+
 /**
  * The bone. A new connection's picture is put together unseen and takes the old one's place when it is whole, so that
  * pictures of two sessions or two moments are never mixed; a first picture is seen as it grows.
@@ -106,6 +114,7 @@ export class BoneView {
   private readonly material = boneMaterial();
   private shown: BonePicture | null = null;
   private incoming: BonePicture | null = null;
+  private instead: InsteadOfBone | null = null;
 
   begin(hello: Hello): void {
     this.incoming?.dispose();
@@ -126,6 +135,22 @@ export class BoneView {
   /** How much of it is seen: opacity 0 to 1; what lies on the negative side of any plane (world frame) is left out. */
   setLook(opacity: number, cuts: Plane[]): void {
     lookOfBone(this.material, opacity, cuts);
+    this.instead?.setLook(opacity, cuts);
+  }
+
+  /** Shows something else in the bone's place; null: the bone again. */
+  showInstead(other: InsteadOfBone | null): void {
+    this.instead?.object.removeFromParent();
+    this.instead = other;
+    if (other !== null) this.group.add(other.object);
+    if (this.shown !== null) this.shown.group.visible = other === null;
+  }
+
+  dispose(): void {
+    this.showInstead(null);
+    this.shown?.dispose();
+    this.incoming?.dispose();
+    this.material.dispose();
   }
 
   apply(mesh: MeshDelta): void {
@@ -143,6 +168,7 @@ export class BoneView {
     this.shown?.dispose();
     this.shown = picture;
     this.incoming = null;
+    picture.group.visible = this.instead === null;
     this.group.add(picture.group);
   }
 }

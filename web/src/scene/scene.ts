@@ -1,4 +1,13 @@
-import { MeshBasicMaterial, NeutralToneMapping, type Plane, Quaternion, Scene, Vector3, WebGLRenderer } from 'three';
+import {
+  Group,
+  MeshBasicMaterial,
+  NeutralToneMapping,
+  type Plane,
+  Quaternion,
+  Scene,
+  Vector3,
+  WebGLRenderer,
+} from 'three';
 
 import type { ScreenAxes } from '../practice/gamepad_hand';
 import { type Beside, PlanFrame, type Ray } from '../practice/plan_frame';
@@ -6,10 +15,11 @@ import type { SteeredView } from '../practice/pointer_hand';
 import { plainView, type ViewChoices } from '../state/view_settings';
 import type { Hello, MeshDelta, Pose, ToolMesh } from '../wire/messages';
 import { AimView } from './aim_view';
-import { BoneView } from './bone_view';
+import { BoneView, type InsteadOfBone } from './bone_view';
 import { CameraRig, type ViewName } from './camera_rig';
 import { planeThroughAxis, sectionPlanes } from './cut_planes';
 import { OperatingLights } from './lights';
+import type { Eye } from './shared_eye';
 import { SurgeonCamera } from './surgeon_camera';
 import { ToolView } from './tool_view';
 
@@ -21,6 +31,8 @@ const longestStepS = 0.1;
 /** The three-dimensional picture. Draws only when something changed. */
 export class BoneScene implements SteeredView {
   readonly canvas = document.createElement('canvas');
+  /** What others draw beside the bone, in the frame of the bone at rest; seen wherever the reamer is. */
+  readonly extras = new Group();
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly bone = new BoneView();
@@ -57,7 +69,7 @@ export class BoneScene implements SteeredView {
     );
     this.surgeon = new SurgeonCamera(this.rig);
     this.lights = new OperatingLights(this.scene);
-    this.scene.add(this.bone.group, this.tool.group, this.aim.group);
+    this.scene.add(this.bone.group, this.tool.group, this.aim.group, this.extras);
     new ResizeObserver(() => this.resize()).observe(this.canvas);
   }
 
@@ -69,6 +81,35 @@ export class BoneScene implements SteeredView {
   }
   get triangleCount(): number {
     return this.renderer.info.render.triangles;
+  }
+  /** Null before the first hello. */
+  get planFrame(): PlanFrame | null {
+    return this.plan;
+  }
+  /** All that is seen of the bone; what lies on the negative side of any of `cuts` (world frame) is not. */
+  get seenBone(): { group: Group; cuts: Plane[] } {
+    return { group: this.bone.group, cuts: this.cuts() };
+  }
+
+  dispose(): void {
+    this.bone.dispose();
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
+  }
+
+  /** Something else in the bone's place; null: the bone again. */
+  showInstead(other: InsteadOfBone | null): void {
+    this.bone.showInstead(other);
+    this.invalidate();
+  }
+
+  /** From where the picture is seen. */
+  eye(): Eye {
+    return { ...this.rig.eyePose(this.rig.screenDirections().up), distanceMm: this.rig.distanceMm };
+  }
+  setEye(eye: Eye): void {
+    this.rig.setEyePose(eye, eye.distanceMm);
+    this.invalidate();
   }
 
   /** A new connection's picture begins. The view stays as the viewer left it unless the case is another. */
@@ -106,6 +147,8 @@ export class BoneScene implements SteeredView {
   /** Tool and bone come with the same message, so that they are drawn as they were at one moment. */
   setBonePose(worldFromBoneRest: Pose | null): void {
     this.bone.setPose(worldFromBoneRest);
+    this.extras.position.copy(this.bone.group.position);
+    this.extras.quaternion.copy(this.bone.group.quaternion);
     this.invalidate();
   }
 
@@ -155,7 +198,7 @@ export class BoneScene implements SteeredView {
   }
 
   /** What nobody sees is not drawn; resize() draws it when it is shown again. */
-  private invalidate(): void {
+  invalidate(): void {
     if (this.drawRequested || !this.canvas.isConnected) return;
     this.drawRequested = true;
     requestAnimationFrame(() => {
@@ -198,6 +241,7 @@ export class BoneScene implements SteeredView {
     for (const [bone, others, material] of passes) {
       this.bone.group.visible = bone;
       this.tool.group.visible = others && toolShown;
+      this.extras.visible = others;
       this.aim.group.visible = others && aimShown;
       scene.overrideMaterial = material;
       renderer.render(scene, this.rig.camera);
@@ -206,6 +250,7 @@ export class BoneScene implements SteeredView {
     this.bone.group.visible = true;
     this.tool.group.visible = toolShown;
     this.aim.group.visible = aimShown;
+    this.extras.visible = true;
     renderer.autoClear = true;
   }
 

@@ -5,6 +5,8 @@ export type Route =
   | { kind: 'live' }
   | { kind: 'trainee' }
   | { kind: 'sessions' }
+  /** One session that has ended, or two beside each other. */
+  | { kind: 'review'; id: string; beside: string | null }
   | { kind: 'cases' }
   | { kind: 'case'; id: string }
   | { kind: 'studies' }
@@ -16,6 +18,9 @@ export type Route =
 const places = ['trainee', 'sessions', 'cases', 'studies', 'users', 'account'] as const;
 
 export function routeInAddress(hash: string): Route {
+  const [reviewed, reviewId = '', beside = null] =
+    /^#\/review\/([0-9a-z]{4,32})(?:\/([0-9a-z]{4,32}))?\/?(?:\?.*)?$/.exec(hash) ?? [];
+  if (reviewed !== undefined) return { kind: 'review', id: reviewId, beside };
   const [found, place = '', id, participant] =
     /^#\/([a-z]+)(?:\/([a-z0-9-]{1,64})(?:\/answers\/([2-9A-Z]{2}-[2-9A-Z]{3}))?)?\/?(?:\?.*)?$/.exec(hash) ?? [];
   if (found === undefined) return { kind: 'live' };
@@ -30,6 +35,8 @@ export function addressOfRoute(route: Route): string {
   switch (route.kind) {
     case 'live':
       return '#';
+    case 'review':
+      return `#/review/${route.id}${route.beside === null ? '' : `/${route.beside}`}`;
     case 'case':
       return `#/cases/${route.id}`;
     case 'study':

@@ -13,11 +13,13 @@ interface Parts {
   api: AccessApi;
   /** That the link is for; null: all sessions. With one, the user chooses between it and all. */
   session: string | null;
+  /** The link leads to the session's review. */
+  review?: boolean;
   onMade: () => void;
 }
 
 /** The form for a viewer link, and the link once it is made. */
-export function MakeLink({ api, session, onMade }: Parts) {
+export function MakeLink({ api, session, review, onMade }: Parts) {
   const name = useSignal('');
   const days = useSignal(usualDays);
   const all = useSignal(session === null);
@@ -31,7 +33,7 @@ export function MakeLink({ api, session, onMade }: Parts) {
     try {
       const only = all.value ? null : session;
       const made = await api.addLink(name.value.trim(), only, utcInDays(days.value));
-      address.value = addressOfLink(window.location.origin, made.secret);
+      address.value = addressOfLink(window.location.origin, made.secret, review === true ? session : null);
       onMade();
     } catch (error) {
       problem.value = wordsOf(error);

@@ -6,12 +6,19 @@ import { MakeLink } from './make_link';
 
 const api = new AccessApi(window.location.origin);
 
+interface Parts {
+  session: string;
+  /** The link leads to the session's review. */
+  review?: boolean;
+  onClose: () => void;
+}
+
 /** Lets somebody watch a session without an account. */
-export function SharePanel({ session, onClose }: { session: string; onClose: () => void }) {
+export function SharePanel({ session, review, onClose }: Parts) {
   return (
     <section class="share" aria-label={accessWords.share} data-testid="share-panel">
       <p class="soft">{accessWords.shareHint}</p>
-      <MakeLink api={api} session={session} onMade={() => undefined} />
+      <MakeLink api={api} session={session} review={review === true} onMade={() => undefined} />
       <button type="button" class="plain-button" onClick={onClose}>
         {accessWords.close}
       </button>

@@ -2,6 +2,7 @@ import { useSignal } from '@preact/signals';
 
 import { sessionWords } from '../../session_words';
 import { canBeReplayed, isActive } from '../../state/choose_session';
+import { addressOfRoute } from '../../state/route';
 import type { SessionBrowser } from '../../state/sessions/session_browser';
 import type { Session } from '../../wire/api';
 import { words } from '../../words';
@@ -48,6 +49,16 @@ export function SessionRow({ session, browser, watch, replay }: Parts) {
           >
             {sessionWords.watch}
           </button>
+        )}
+        {canBeReplayed(session) && (
+          <a
+            class="plain-button"
+            data-testid={`review-${session.id}`}
+            aria-label={words.reviewSession(session.id)}
+            href={addressOfRoute({ kind: 'review', id: session.id, beside: null })}
+          >
+            {words.review}
+          </a>
         )}
         {canBeReplayed(session) && (
           <button

@@ -1,0 +1,72 @@
+import '../review.css';
+
+import { useEffect, useMemo } from 'preact/hooks';
+
+import { DeskHeader } from '../panels/desk_header';
+import { useLiveKeys } from '../panels/live_keys';
+import { ComparePanel } from '../panels/review/compare_panel';
+import { FactsPanel } from '../panels/review/facts_panel';
+import { FilesPanel } from '../panels/review/files_panel';
+import { KeysPanel } from '../panels/review/keys_panel';
+import { MapPanel } from '../panels/review/map_panel';
+import { MeasurePanel } from '../panels/review/measure_panel';
+import { ReviewPane } from '../panels/review/review_pane';
+import { ReviewTools } from '../panels/review/review_tools';
+import { ScorePanel } from '../panels/review/score_panel';
+import { useIdentity } from '../panels/site_nav';
+import type { Route } from '../state/route';
+import { ReviewDesk } from './review_desk';
+
+/** One session after its end, or two beside each other. */
+export function ReviewPage({ route }: { route: Route & { kind: 'review' } }) {
+  const identity = useIdentity();
+  const may = identity.may.value;
+  const desk = useMemo(() => new ReviewDesk(window.location.origin, may), [may]);
+  useEffect(() => () => desk.dispose(), [desk]);
+  useEffect(() => {
+    desk.show(route.beside === null ? [route.id] : [route.id, route.beside]);
+  }, [desk, route.id, route.beside]);
+  const person = identity.userId.value ?? 'anyone';
+  useEffect(() => desk.settings.view.keepFor(`${person}.review`, window.localStorage), [desk, person]);
+  useLiveKeys(useMemo(() => keysOf(desk), [desk]));
+  const panes = desk.panes.value;
+  return (
+    <div class={`page review-page review-of-${panes.length}`}>
+      <DeskHeader here="review" />
+      <main class="review-main">
+        <div class="review-panes">
+          {panes.map((pane, i) => (
+            <ReviewPane key={pane.session.id + String(i)} pane={pane} place={i} desk={desk} />
+          ))}
+        </div>
+        <ReviewTools desk={desk} />
+      </main>
+      <aside class="side review-side">
+        <FactsPanel panes={panes} />
+        <MapPanel desk={desk} />
+        <MeasurePanel desk={desk} />
+        <ScorePanel panes={panes} />
+        {panes.map(({ session }, i) => (
+          <FilesPanel key={session.id + String(i)} session={session} review={desk.review} />
+        ))}
+        <ComparePanel panes={panes} />
+        <KeysPanel />
+      </aside>
+    </div>
+  );
+}
+
+function keysOf(desk: ReviewDesk): Record<string, () => void> {
+  const { settings } = desk;
+  const session = () => desk.panes.peek()[settings.active.peek()]?.session;
+  return {
+    k: () => session()?.togglePlay(),
+    ',': () => session()?.seekEvent(false),
+    '.': () => session()?.seekEvent(true),
+    b: () => session()?.toggleBefore(),
+    d: () => session()?.nextMap(),
+    e: () => (settings.measuring.value = !settings.measuring.peek()),
+    t: () => (settings.slicesOpen.value = !settings.slicesOpen.peek()),
+    q: () => (settings.active.value = desk.panes.peek().length - 1 - settings.active.peek()),
+  };
+}

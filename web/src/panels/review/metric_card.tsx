@@ -1,0 +1,69 @@
+import { useLayoutEffect, useRef } from 'preact/hooks';
+
+import { reviewWords } from '../../review_words';
+import { bandWords, number, unitOf, valueWords } from '../../state/review/score_words';
+import type { Score } from '../../wire/score_types';
+import { sentence } from '../format';
+
+/** The metric that is pointed at or focused, and where its row is in the window. */
+export interface Pointed {
+  metric: string;
+  beside: DOMRect;
+}
+
+const gapPx = 10;
+
+/** What stands behind a metric: definition, unit, limits, source, confidence. */
+export function MetricCard({ pointed, scores }: { pointed: Pointed; scores: readonly (Score | null)[] }) {
+  const card = useRef<HTMLDivElement>(null);
+  useLayoutEffect(() => {
+    const element = card.current;
+    if (element !== null) place(element, pointed.beside);
+  }, [pointed]);
+  const found = scores.map((score) => score?.metrics.find(({ metric }) => metric === pointed.metric) ?? null);
+  const metric = found.find((one) => one !== null);
+  if (metric === undefined || metric === null) return null;
+  const unsaid = found.find((one) => one?.unsaid)?.unsaid ?? null;
+  const rows: [string, string][] = [
+    [reviewWords.definition, sentence(metric.definition)],
+    [reviewWords.unit, unitOf(metric.unit) || reviewWords.noUnit],
+    [reviewWords.band, sentence(bandWords(metric.band, metric.unit))],
+    [reviewWords.source, sentence(metric.source)],
+    [reviewWords.confidence, sentence(`${reviewWords.evidence[metric.evidence]}: ${metric.confidence}`)],
+  ];
+  if (metric.weight !== null)
+    rows.push([
+      reviewWords.weight,
+      reviewWords.weightOf(number(metric.weight), metric.points === null ? '–' : number(metric.points)),
+    ]);
+  if (unsaid !== null) rows.push([reviewWords.whyUnsaid, sentence(unsaid)]);
+  return (
+    <div class="metric-card" id="metric-card" role="tooltip" ref={card} data-testid="metric-card">
+      <p class="metric-title">
+        {metric.name}: {found.map((one) => (one === null ? '–' : valueWords(one))).join(' / ')}
+      </p>
+      <dl>
+        {rows.map(([name, text]) => (
+          <div key={name}>
+            <dt>{name}</dt>
+            <dd>{text}</dd>
+          </div>
+        ))}
+      </dl>
+    </div>
+  );
+}
+
+/** Left of its row where there is room, else below or above it. */
+function place(card: HTMLElement, beside: DOMRect): void {
+  const { offsetWidth: width, offsetHeight: height } = card;
+  const left = beside.left - width - gapPx;
+  const fits = left >= gapPx;
+  const top = fits
+    ? beside.top
+    : beside.bottom + height + gapPx > innerHeight
+      ? beside.top - height - 4
+      : beside.bottom + 4;
+  card.style.left = `${Math.max(fits ? left : Math.min(beside.left, innerWidth - width - gapPx), gapPx)}px`;
+  card.style.top = `${Math.max(Math.min(top, innerHeight - height - gapPx), gapPx)}px`;
+}

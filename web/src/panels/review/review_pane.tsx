@@ -1,0 +1,132 @@
+import { useEffect, useRef } from 'preact/hooks';
+
+import type { Pane, ReviewDesk } from '../../pages/review_desk';
+import { reviewWords } from '../../review_words';
+import { addressOfRoute } from '../../state/route';
+import type { ReviewSession } from '../../state/review/review_session';
+import { words } from '../../words';
+import { fixed } from '../format';
+import { later } from '../later';
+import { LinkNotice } from '../link_notice';
+import { PlaybackBar } from '../playback_bar';
+import { EventList } from './event_list';
+import { MomentBar } from './moment_bar';
+import { ThrustChart } from './thrust_chart';
+
+const slices = later(() => import('../live_slices'));
+
+interface Parts {
+  pane: Pane;
+  place: number;
+  desk: ReviewDesk;
+}
+
+/** One session: its picture, its timeline, and what of both is chosen. */
+export function ReviewPane({ pane, place, desk }: Parts) {
+  const { session } = pane;
+  const { settings } = desk;
+  const several = desk.panes.value.length > 1;
+  const active = several && settings.active.value === place;
+  const take = () => (settings.active.value = place);
+  return (
+    <section
+      class={active ? 'review-pane pane-active' : 'review-pane'}
+      aria-label={several ? reviewWords.pane(place + 1, session.id) : reviewWords.session(session.id)}
+      data-testid={`pane-${place}`}
+      data-session={session.id}
+      data-position={session.store.playback.value?.positionTicks ?? ''}
+      onPointerDownCapture={take}
+      onFocusCapture={take}
+    >
+      <MomentBar session={session} place={place} several={several} desk={desk} />
+      <PanePicture pane={pane} desk={desk} />
+      <PlaybackBar store={session.store} player={session.player} marks={session.marks.value}>
+        <ThrustChart session={session} />
+      </PlaybackBar>
+      <div class="pane-foot">
+        <p class="moment-says" data-testid="moment-says">
+          {momentWords(session)}
+        </p>
+        <EventList session={session} />
+      </div>
+    </section>
+  );
+}
+
+function momentWords({ store }: ReviewSession): string {
+  const now = store.upToDate.value ? store.telemetry.value : null;
+  const thrust = now?.thrustN.at(-1);
+  return reviewWords.momentSays(fixed(now?.depthMm, 2), fixed(thrust, 1), fixed(now?.removedVolumeMm3, 0));
+}
+
+function PanePicture({ pane, desk }: { pane: Pane; desk: ReviewDesk }) {
+  const { session, view, liveCase } = pane;
+  const { store } = session;
+  const place = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    const { canvas } = view.scene;
+    canvas.tabIndex = 0;
+    canvas.dataset.testid = 'bone-canvas';
+    canvas.setAttribute('role', 'img');
+    canvas.setAttribute('aria-label', words.sceneLabel);
+    place.current?.prepend(canvas);
+    return () => canvas.remove();
+  }, [view]);
+  const measuring = desk.settings.measuring.value;
+  const trouble = session.trouble.value;
+  const stale = store.hasPicture.value && !store.upToDate.value;
+  const map = session.map.state.value;
+  const shown = session.mapShown.value;
+  return (
+    <div
+      class={['picture review-picture', stale ? 'stale' : '', measuring ? 'measuring' : ''].join(' ')}
+      data-testid="review-picture"
+      data-stale={stale}
+      data-map={shown?.name ?? 'none'}
+    >
+      <div class="canvas-place" ref={place} />
+      {measuring && <span class="aim-cross" aria-hidden="true" />}
+      {trouble === null ? <LinkNotice store={store} mayReam={false} /> : <TroubleNotice session={session} />}
+      {map.kind === 'making' && (
+        <p class="picture-note" role="status" data-testid="map-making">
+          {reviewWords.mapMaking(fixed(map.share * 100, 0))}
+        </p>
+      )}
+      {map.kind === 'problem' && (
+        <p class="picture-note note-bad" role="alert" data-testid="map-problem">
+          {map.words}
+        </p>
+      )}
+      {map.kind === 'ready' && shown === null && (
+        <p class="picture-note" role="status" data-testid="map-at-end">
+          {reviewWords.mapAtEnd}{' '}
+          <button type="button" class="link-button" onClick={() => session.showAfter()}>
+            {reviewWords.after}
+          </button>
+        </p>
+      )}
+      {desk.settings.slicesOpen.value &&
+        slices.show(({ LiveSlicesPanel }) => <LiveSlicesPanel store={store} liveCase={liveCase} />)}
+    </div>
+  );
+}
+
+function TroubleNotice({ session }: { session: ReviewSession }) {
+  const trouble = session.trouble.value;
+  if (trouble === null) return null;
+  const away = trouble.kind === 'live';
+  return (
+    <div class="notice notice-lost" role="alert" data-testid="trouble" data-kind={trouble.kind}>
+      <p class="notice-title">{trouble.title}</p>
+      <p>{trouble.text}</p>
+      <p class="notice-deeds">
+        <button type="button" class="plain-button" onClick={() => session.tryAgain()}>
+          {reviewWords.tryAgain}
+        </button>
+        <a href={addressOfRoute(away ? { kind: 'live' } : { kind: 'sessions' })}>
+          {away ? reviewWords.toLive : reviewWords.toSessions}
+        </a>
+      </p>
+    </div>
+  );
+}

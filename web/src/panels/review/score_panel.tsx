@@ -1,0 +1,213 @@
+import { useSignal } from '@preact/signals';
+import { useMemo } from 'preact/hooks';
+
+import type { Pane } from '../../pages/review_desk';
+import { reviewWords } from '../../review_words';
+import { groupedMetrics, number, valueWords } from '../../state/review/score_words';
+import type { Score, ScoredMetric, Verdict } from '../../wire/score_types';
+import { fixed, sentence } from '../format';
+import { MetricCard, type Pointed } from './metric_card';
+
+/** What the sessions are worth: the mark, and every metric with what stands behind it. */
+export function ScorePanel({ panes }: { panes: readonly Pane[] }) {
+  const pointed = useSignal<Pointed | null>(null);
+  const scores = panes.map(({ session }) => session.score.value.value);
+  const first = scores.find((score) => score !== null);
+  return (
+    <section class="review-panel score-panel" aria-labelledby="score-title" data-testid="score">
+      <h2 id="score-title">{reviewWords.score}</h2>
+      {panes.map(({ session }, i) => (
+        <Mark
+          key={session.id + String(i)}
+          score={scores[i] ?? null}
+          problem={session.score.problem.value}
+          place={i}
+          several={panes.length > 1}
+        />
+      ))}
+      {first !== undefined && <Metrics scores={scores} first={first} pointed={pointed} />}
+      {pointed.value !== null && <MetricCard pointed={pointed.value} scores={scores} />}
+    </section>
+  );
+}
+
+interface MarkParts {
+  score: Score | null;
+  problem: string | null;
+  place: number;
+  several: boolean;
+}
+
+function Mark({ score, problem, place, several }: MarkParts) {
+  if (score === null)
+    return (
+      <p class="soft" role="status" data-testid={`no-score-${place}`}>
+        {several && <span class="pane-number">{place + 1}</span>}
+        {problem === null ? reviewWords.scoreLoading : reviewWords.noScore(sentence(problem))}
+      </p>
+    );
+  const { points, outcome, rubric, reasons, theatre, said_percent: said } = score;
+  return (
+    <div class="mark-of" data-testid={`mark-${place}`}>
+      <p class="overall">
+        {several && <span class="pane-number">{place + 1}</span>}
+        <span class="visually-hidden">{reviewWords.overall}: </span>
+        <strong>{points === null ? reviewWords.noPoints : reviewWords.points(fixed(points, 1))}</strong>
+        <span class={`outcome outcome-${outcome ?? 'none'}`}>
+          <span aria-hidden="true">{outcome === null ? '' : { pass: '● ', fail: '⬣ ', undecided: '▲ ' }[outcome]}</span>
+          {outcome === null ? reviewWords.noOutcome : reviewWords.outcome[outcome]}
+        </span>
+        {theatre && (
+          <span class="role-chip" title={reviewWords.theatreHint}>
+            {reviewWords.theatre}
+          </span>
+        )}
+      </p>
+      <p class="soft">
+        {reviewWords.rubric(rubric.rubric.name, rubric.version, rubric.rubric.pass_points)}.{' '}
+        {said < 100 && reviewWords.saidPercent(fixed(said, 0))}
+      </p>
+      {reasons.length > 0 && (
+        <ul class="reasons">
+          {reasons.map((reason) => (
+            <li key={reason}>{sentence(reason)}</li>
+          ))}
+        </ul>
+      )}
+    </div>
+  );
+}
+
+interface MetricsParts {
+  scores: readonly (Score | null)[];
+  first: Score;
+  pointed: { value: Pointed | null };
+}
+
+function Metrics({ scores, first, pointed }: MetricsParts) {
+  const { counting, measured, unsaid } = useMemo(() => groupedMetrics(first), [first]);
+  const parts = { scores, pointed };
+  return (
+    <>
+      <MetricTable {...parts} title={reviewWords.countsForMark} metrics={counting} counting />
+      <details>
+        <summary data-testid="measured-too">{reviewWords.measuredToo(measured.length)}</summary>
+        <MetricTable {...parts} title={reviewWords.measuredToo(measured.length)} metrics={measured} />
+      </details>
+      {unsaid.length > 0 && (
+        <details>
+          <summary data-testid="unsaid">{reviewWords.unsaid(unsaid.length)}</summary>
+          <dl class="unsaid-list">
+            {unsaid.map((metric) => (
+              <div key={metric.metric}>
+                <dt>{metric.name}</dt>
+                <dd>{sentence(metric.unsaid ?? '')}</dd>
+              </div>
+            ))}
+          </dl>
+        </details>
+      )}
+    </>
+  );
+}
+
+interface TableParts {
+  scores: readonly (Score | null)[];
+  pointed: { value: Pointed | null };
+  title: string;
+  metrics: readonly ScoredMetric[];
+  counting?: boolean;
+}
+
+function MetricTable({ scores, pointed, title, metrics, counting }: TableParts) {
+  const several = scores.length > 1;
+  return (
+    <table class="metrics">
+      <caption class={counting === true ? '' : 'visually-hidden'}>{title}</caption>
+      <thead>
+        <tr>
+          <th scope="col">{reviewWords.metricColumn}</th>
+          {scores.map((_, i) => (
+            <th key={i} scope="col" class="number">
+              {several ? <span class="pane-number">{i + 1}</span> : reviewWords.valueColumn}
+            </th>
+          ))}
+          {counting === true && !several && (
+            <th scope="col" class="number">
+              {reviewWords.pointsColumn}
+            </th>
+          )}
+        </tr>
+      </thead>
+      <tbody>
+        {metrics.map((metric) => (
+          <MetricRow
+            key={metric.metric}
+            metric={metric}
+            {...{ scores, pointed }}
+            points={counting === true && !several}
+          />
+        ))}
+      </tbody>
+    </table>
+  );
+}
+
+interface RowParts {
+  metric: ScoredMetric;
+  scores: readonly (Score | null)[];
+  pointed: { value: Pointed | null };
+  points: boolean;
+}
+
+/** One metric; pointed at or focused, it explains itself. */
+function MetricRow({ metric, scores, pointed, points }: RowParts) {
+  const key = metric.metric;
+  const point = (event: { currentTarget: HTMLElement }) =>
+    (pointed.value = { metric: key, beside: event.currentTarget.getBoundingClientRect() });
+  const leave = () => {
+    if (pointed.value?.metric === key) pointed.value = null;
+  };
+  const each = scores.map((score) => score?.metrics.find((one) => one.metric === key) ?? null);
+  return (
+    <tr data-testid={`metric-${key}`} onMouseEnter={point} onMouseLeave={leave}>
+      <th scope="row">
+        <button
+          type="button"
+          class="metric-name"
+          aria-describedby={pointed.value?.metric === key ? 'metric-card' : undefined}
+          onFocus={(event) => point({ currentTarget: event.currentTarget.closest('tr') ?? event.currentTarget })}
+          onBlur={leave}
+          onKeyDown={(event) => {
+            if (event.key === 'Escape') leave();
+          }}
+        >
+          {metric.name}
+          {metric.critical && (
+            <span class="critical" title={reviewWords.critical}>
+              {' '}
+              !<span class="visually-hidden"> {reviewWords.critical}</span>
+            </span>
+          )}
+        </button>
+      </th>
+      {each.map((one, i) => (
+        <td key={i} class="number">
+          {one === null ? '' : valueWords(one)}
+          {one !== null && <VerdictSign verdict={one.verdict} />}
+        </td>
+      ))}
+      {points && <td class="number">{metric.points === null ? '–' : number(metric.points)}</td>}
+    </tr>
+  );
+}
+
+function VerdictSign({ verdict }: { verdict: Verdict }) {
+  if (verdict === null) return <span class="verdict" />;
+  return (
+    <span class={`verdict verdict-${verdict}`} title={reviewWords.verdict[verdict]}>
+      <span aria-hidden="true">{{ pass: '●', warn: '▲', fail: '⬣' }[verdict]}</span>
+      <span class="visually-hidden">{reviewWords.verdict[verdict]}</span>
+    </span>
+  );
+}

@@ -1,0 +1,52 @@
+import type { Signal } from '@preact/signals';
+import type { ComponentChildren } from 'preact';
+
+import type { ViewName } from '../scene/camera_rig';
+import type { ViewSettings } from '../state/view_settings';
+import { words } from '../words';
+import { SceneTools } from './scene_tools';
+
+const views: readonly (readonly [ViewName, string])[] = [
+  ['plan', words.viewPlan],
+  ['axis', words.viewAxis],
+  ['side', words.viewSide],
+];
+
+interface Parts {
+  scene: { look(view: ViewName): void };
+  view: ViewSettings;
+  reamerShown: Signal<boolean>;
+  children?: ComponentChildren;
+}
+
+/** From where the picture is seen and what it shows. */
+export function ViewTools({ scene, view, reamerShown, children }: Parts) {
+  return (
+    <div class="views" role="group" aria-label={words.view}>
+      {views.map(([name, label]) => (
+        <button
+          type="button"
+          key={name}
+          data-testid={`view-${name}`}
+          onClick={() => {
+            view.change({ camera: 'own' });
+            scene.look(name);
+          }}
+        >
+          {label}
+        </button>
+      ))}
+      <SceneTools view={view} />
+      {children}
+      <label>
+        <input
+          type="checkbox"
+          data-testid="show-reamer"
+          checked={reamerShown.value}
+          onChange={(event) => (reamerShown.value = event.currentTarget.checked)}
+        />
+        {words.showReamer}
+      </label>
+    </div>
+  );
+}

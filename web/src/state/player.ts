@@ -1,0 +1,10 @@
+import type { PlaybackChange } from '../wire/api';
+import type { Scrubber } from './scrubber';
+
+/** What plays a recording. */
+export interface Player {
+  /** Goes to moments of it. */
+  readonly scrubber: Scrubber;
+  /** Plays, rests or changes the speed; problems are told elsewhere. */
+  play(change: PlaybackChange): Promise<void>;
+}

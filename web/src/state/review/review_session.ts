@@ -1,0 +1,190 @@
+import { computed, effect, signal } from '@preact/signals';
+
+import type { Api, Session } from '../../wire/api';
+import { ApiError, wordsOf } from '../../wire/rest';
+import type { MapName, ReviewApi } from '../../wire/review_api';
+import type { StreamSocket } from '../../wire/stream_socket';
+import type { SortedSurface } from '../../wire/surface_worker';
+import { Remote } from '../remote';
+import { Store } from '../store';
+import type { Triple } from '../../wire/messages';
+import { withPlace } from './measuring';
+import { type Picture, ReplayPlayer } from './replay_player';
+import { readTrace, type SessionTrace, traceStride } from './session_trace';
+import { SurfaceMap } from './surface_map';
+import { eventsOfTrace, isEnd, mergedMarks, neighbouringMark } from './timeline';
+import { type Trouble, troubleWithSession } from './trouble';
+
+/** A deleted session is noticed after this time. */
+const lookAgainMs = 10_000;
+
+/** A place of the bone that was pointed at, in the CT's frame, and how far the surface lies off there; null: no map. */
+export interface MeasuredPlace {
+  at: Triple;
+  deviationMm: number | null;
+}
+
+export interface ReviewSources {
+  api: Pick<Api, 'openReplay' | 'replay' | 'changePlayback' | 'streamUrl'>;
+  review: Pick<ReviewApi, 'session' | 'score' | 'trace' | 'deviation' | 'annotate'>;
+  socket: StreamSocket;
+  surface(id: string, onProgress: (share: number) => void, signal: AbortSignal): Promise<SortedSurface>;
+  /** A viewer link has no trace. */
+  mayReadTrace: boolean;
+}
+
+/** One session that is looked at after its end: its recording, score, forces, maps, and what was measured on it. */
+export class ReviewSession {
+  readonly store = new Store();
+  readonly player: ReplayPlayer;
+  readonly score: Remote<Awaited<ReturnType<ReviewApi['score']>>>;
+  readonly map: SurfaceMap;
+  readonly details = signal<Session | null>(null);
+  readonly trace = signal<SessionTrace | null>(null);
+  readonly traceProblem = signal<string | null>(null);
+  readonly places = signal<readonly MeasuredPlace[]>([]);
+  /** Nothing was at the place that was pointed at last. */
+  readonly missed = signal(false);
+  private readonly gone = signal<ApiError | null>(null);
+  private readonly timer: ReturnType<typeof setInterval>;
+  private readonly stopFollowing: () => void;
+  private disposed = false;
+
+  readonly durationS = computed(() => {
+    const recorded = (this.store.hello.value?.durationTicks ?? 0) / 1000;
+    return recorded > 0 ? recorded : (this.details.value?.duration_s ?? 0);
+  });
+  readonly positionS = computed(
+    () => this.player.scrubber.wantedS.value ?? (this.store.playback.value?.positionTicks ?? 0) / 1000,
+  );
+  readonly atEnd = computed(() => {
+    const { hello, playback } = this.store;
+    return playback.value !== null && isEnd(playback.value.positionTicks, hello.value?.durationTicks ?? 0);
+  });
+  readonly atStart = computed(() => this.store.playback.value?.positionTicks === 0);
+  readonly marks = computed(() => {
+    const trace = this.trace.value;
+    return mergedMarks(this.store.marks.value, trace === null ? [] : eventsOfTrace(trace));
+  });
+  readonly trouble = computed<Trouble | null>(() => {
+    const refused = this.gone.value ?? this.player.refused.value;
+    return refused === null ? null : troubleWithSession(refused);
+  });
+  /** The map that is seen now: it is of the end. */
+  readonly mapShown = computed(() => {
+    const state = this.map.state.value;
+    return state.kind === 'ready' && this.atEnd.value ? state : null;
+  });
+
+  constructor(
+    readonly id: string,
+    private readonly sources: ReviewSources,
+    picture: Picture,
+  ) {
+    this.player = new ReplayPlayer(id, this.store, sources.api, sources.socket, picture);
+    this.score = new Remote(() => sources.review.score(id));
+    this.map = new SurfaceMap({
+      surface: (onProgress, abort) => sources.surface(id, onProgress, abort),
+      deviation: (to, onProgress, abort) => sources.review.deviation(id, to, onProgress, abort),
+    });
+    this.timer = setInterval(() => void this.readDetails(), lookAgainMs);
+    // What came while the server did not answer is asked for again when it does.
+    this.stopFollowing = effect(() => {
+      if (this.store.link.value.kind !== 'live') return;
+      if (this.score.value.peek() === null) void this.score.read();
+      if (this.trace.peek() === null) void this.readTrace();
+    });
+  }
+
+  start(): void {
+    this.player.start();
+    void this.readDetails();
+    void this.score.read();
+  }
+
+  /** After something could not be had. */
+  tryAgain(): void {
+    this.gone.value = null;
+    this.start();
+  }
+
+  dispose(): void {
+    this.disposed = true;
+    clearInterval(this.timer);
+    this.stopFollowing();
+    this.player.stop();
+    this.map.dispose();
+  }
+
+  seek(positionS: number): void {
+    this.player.scrubber.seek(Math.min(Math.max(positionS, 0), this.durationS.peek()));
+  }
+  showBefore(): void {
+    void this.player.play({ playing: false });
+    this.seek(0);
+  }
+  showAfter(): void {
+    void this.player.play({ playing: false });
+    this.seek(this.durationS.peek());
+  }
+  toggleBefore(): void {
+    if (this.atStart.peek()) this.showAfter();
+    else this.showBefore();
+  }
+  togglePlay(): void {
+    void this.player.play({ playing: this.store.playback.peek()?.playing !== true });
+  }
+  seekEvent(forwards: boolean): void {
+    const mark = neighbouringMark(this.marks.peek(), this.positionS.peek(), forwards);
+    if (mark !== null) this.seek(mark.at_s);
+  }
+
+  /** A map is of the end, where it leads. */
+  chooseMap(name: MapName | null): void {
+    if (name !== null && !this.atEnd.peek()) this.showAfter();
+    void this.map.choose(name);
+  }
+  nextMap(): void {
+    const { name } = this.map;
+    this.chooseMap(name === null ? 'plan' : name === 'plan' ? 'implant' : null);
+  }
+
+  measureAt(place: MeasuredPlace | null): void {
+    this.missed.value = place === null;
+    if (place !== null) this.places.value = withPlace(this.places.peek(), place);
+  }
+
+  /** Keeps a remark on the present moment; throws ApiError. */
+  async annotate(words: string): Promise<void> {
+    const atS = this.positionS.peek();
+    await this.sources.review.annotate(this.id, words, atS);
+    // A replay that is open may have been read before the remark was made.
+    const mark = { at_s: atS, kind: 'annotation', words };
+    this.store.marks.value = mergedMarks(this.store.marks.peek(), [mark]);
+  }
+
+  private async readDetails(): Promise<void> {
+    try {
+      const details = await this.sources.review.session(this.id);
+      if (this.disposed) return;
+      this.details.value = details;
+      if (this.gone.peek() !== null) this.tryAgain();
+      if (this.trace.peek() === null) void this.readTrace();
+    } catch (error) {
+      if (this.disposed || !(error instanceof ApiError) || error.status !== 404 || this.gone.peek() !== null) return;
+      this.gone.value = error;
+      this.player.stop();
+    }
+  }
+
+  private async readTrace(): Promise<void> {
+    const ticks = this.details.peek()?.tick ?? 0;
+    if (!this.sources.mayReadTrace || ticks === 0) return;
+    try {
+      this.trace.value = readTrace(await this.sources.review.trace(this.id, traceStride(ticks)));
+      this.traceProblem.value = null;
+    } catch (error) {
+      this.traceProblem.value = wordsOf(error);
+    }
+  }
+}
