@@ -66,7 +66,7 @@ export const reviewWords = {
   addRemark: 'Keep remark',
 
   surface: 'Surface',
-  mapName: { none: 'Bone', plan: 'Against plan', implant: 'Against implant' } as Record<MapName | 'none', string>,
+  mapName: { none: 'Bone', plan: 'To plan', implant: 'To implant' } as Record<MapName | 'none', string>,
   mapHint: {
     none: 'The bone as it was at the moment',
     plan: 'How far the reamed surface lies from what was planned',
@@ -80,7 +80,7 @@ export const reviewWords = {
   mapMaking: (percent: string) => `The map is being made: ${percent} %`,
   mapAtEnd: 'The map is of the bone as the session left it; at other moments there is none.',
   scale: 'Scale',
-  scaleName: { fine: 'Fine (0.1 mm)', report: 'As in the report (0.25 mm)', coarse: 'Coarse (0.5 mm)' },
+  scaleName: { fine: 'Fine (0.1 mm)', report: 'Report’s (0.25 mm)', coarse: 'Coarse (0.5 mm)' },
   classWithin: (mm: string) => `within ${mm} mm`,
   classBetween: (from: string, to: string, side: 'proud' | 'even' | 'beyond') => `${from} to ${to} mm ${side}`,
   classOver: (mm: string, side: 'proud' | 'even' | 'beyond') => `over ${mm} mm ${side}`,
@@ -168,6 +168,18 @@ export const reviewWords = {
     mm2: 'mm²',
     mm3: 'mm³',
     'N s': 'N·s',
+  } as Record<string, string>,
+
+  unitNames: {
+    deg: 'degrees (°)',
+    mm: 'millimetres (mm)',
+    mm2: 'square millimetres (mm²)',
+    mm3: 'cubic millimetres (mm³)',
+    s: 'seconds (s)',
+    N: 'newtons (N)',
+    'N s': 'newton seconds (N·s)',
+    'N/mm': 'newtons a millimetre (N/mm)',
+    '%': 'per cent (%)',
   } as Record<string, string>,
 
   files: 'Report and files',

@@ -43,8 +43,8 @@ export function ReviewPage({ route }: { route: Route & { kind: 'review' } }) {
       </main>
       <aside class="side review-side">
         <FactsPanel panes={panes} />
-        <MapPanel desk={desk} />
         <MeasurePanel desk={desk} />
+        <MapPanel desk={desk} />
         <ScorePanel panes={panes} />
         {panes.map(({ session }, i) => (
           <FilesPanel key={session.id + String(i)} session={session} review={desk.review} />

@@ -5,8 +5,8 @@ import type { Triple } from '../wire/messages';
 const ink = '#10161a';
 const paper = '#ffd84d';
 /** Of the picture's height, whatever the distance. */
-const markSize = 0.034;
-const texturePx = 64;
+const markSize = 0.06;
+const texturePx = 128;
 
 /** Numbered marks at measured places and the line between two; seen through bone. In the frame of the places. */
 export class MeasureMarks {
@@ -53,23 +53,23 @@ function numbered(text: string): CanvasTexture {
   if (onto !== null) {
     const middle = texturePx / 2;
     for (const [colour, width] of [
-      [ink, 9],
-      [paper, 5],
+      [ink, 13],
+      [paper, 7],
     ] as const) {
       onto.strokeStyle = colour;
       onto.lineWidth = width;
       onto.beginPath();
-      onto.arc(middle, middle, 12, 0, Math.PI * 2);
+      onto.arc(middle, middle, 16, 0, Math.PI * 2);
       onto.stroke();
     }
-    onto.font = 'bold 26px system-ui, sans-serif';
+    onto.font = 'bold 44px system-ui, sans-serif';
     onto.textAlign = 'center';
     onto.textBaseline = 'middle';
-    onto.lineWidth = 6;
+    onto.lineWidth = 10;
     onto.strokeStyle = ink;
-    onto.strokeText(text, 52, 14);
+    onto.strokeText(text, 98, 30);
     onto.fillStyle = paper;
-    onto.fillText(text, 52, 14);
+    onto.fillText(text, 98, 30);
   }
   return new CanvasTexture(canvas);
 }

@@ -42,7 +42,8 @@ export class ReviewView {
     this.stops.push(
       effect(() => scene.setToolPose(store.telemetry.value?.worldFromTool ?? null)),
       effect(() => scene.setBonePose(store.telemetry.value?.worldFromBoneRest ?? null)),
-      effect(() => scene.setToolShown(settings.reamerShown.value)),
+      // Its glass would change the colours of a map.
+      effect(() => scene.setToolShown(settings.reamerShown.value && session.mapShown.value === null)),
       effect(() => {
         const choices = settings.view.shown.value;
         scene.setView(leads() ? choices : { ...choices, camera: 'own' }, false);

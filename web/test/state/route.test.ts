@@ -30,4 +30,14 @@ describe('route', () => {
     for (const hash of ['#/constructor', '#/users/x', '#/cases/a/answers/K7-F3M', '#/studies/s1/answers/k7-f3m'])
       expect(routeInAddress(hash)).toEqual({ kind: 'live' });
   });
+
+  it('names the review of one session or of two, there and back', () => {
+    expect(routeInAddress('#/review/ab12cd')).toEqual({ kind: 'review', id: 'ab12cd', beside: null });
+    expect(routeInAddress('#/review/ab12cd/')).toEqual({ kind: 'review', id: 'ab12cd', beside: null });
+    expect(routeInAddress('#/review/ab12cd/ef34gh')).toEqual({ kind: 'review', id: 'ab12cd', beside: 'ef34gh' });
+    for (const hash of ['#/review/ab12cd', '#/review/ab12cd/ef34gh'])
+      expect(addressOfRoute(routeInAddress(hash))).toBe(hash);
+    for (const hash of ['#/review', '#/review/', '#/review/AB', '#/review/ab12cd/ef34gh/ij56', '#/review/../ab12'])
+      expect(routeInAddress(hash)).toEqual({ kind: 'live' });
+  });
 });

@@ -28,7 +28,7 @@ export function EventList({ session }: { session: ReviewSession }) {
           disabled={!usable}
           onClick={() => session.seekEvent(forwards)}
         >
-          {forwards ? '⏭' : '⏮'}
+          {forwards ? '›' : '‹'}
         </button>
       ))}
       <details class="event-list">

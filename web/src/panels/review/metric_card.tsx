@@ -1,7 +1,7 @@
 import { useLayoutEffect, useRef } from 'preact/hooks';
 
 import { reviewWords } from '../../review_words';
-import { bandWords, number, unitOf, valueWords } from '../../state/review/score_words';
+import { bandWords, number, unitName, valueWords } from '../../state/review/score_words';
 import type { Score } from '../../wire/score_types';
 import { sentence } from '../format';
 
@@ -26,7 +26,7 @@ export function MetricCard({ pointed, scores }: { pointed: Pointed; scores: read
   const unsaid = found.find((one) => one?.unsaid)?.unsaid ?? null;
   const rows: [string, string][] = [
     [reviewWords.definition, sentence(metric.definition)],
-    [reviewWords.unit, unitOf(metric.unit) || reviewWords.noUnit],
+    [reviewWords.unit, metric.unit === null ? reviewWords.noUnit : unitName(metric.unit)],
     [reviewWords.band, sentence(bandWords(metric.band, metric.unit))],
     [reviewWords.source, sentence(metric.source)],
     [reviewWords.confidence, sentence(`${reviewWords.evidence[metric.evidence]}: ${metric.confidence}`)],

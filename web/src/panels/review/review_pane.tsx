@@ -9,6 +9,7 @@ import { fixed } from '../format';
 import { later } from '../later';
 import { LinkNotice } from '../link_notice';
 import { PlaybackBar } from '../playback_bar';
+import { ProblemBanner } from '../problem_banner';
 import { EventList } from './event_list';
 import { MomentBar } from './moment_bar';
 import { ThrustChart } from './thrust_chart';
@@ -38,18 +39,41 @@ export function ReviewPane({ pane, place, desk }: Parts) {
       onPointerDownCapture={take}
       onFocusCapture={take}
     >
-      <MomentBar session={session} place={place} several={several} desk={desk} />
+      <div class="pane-head">
+        {several && <PaneTitle place={place} desk={desk} />}
+        <MomentBar session={session} />
+        <EventList session={session} />
+      </div>
       <PanePicture pane={pane} desk={desk} />
       <PlaybackBar store={session.store} player={session.player} marks={session.marks.value}>
         <ThrustChart session={session} />
       </PlaybackBar>
-      <div class="pane-foot">
-        <p class="moment-says" data-testid="moment-says">
-          {momentWords(session)}
-        </p>
-        <EventList session={session} />
-      </div>
     </section>
+  );
+}
+
+/** Which of two it is, and the way to the other alone. */
+function PaneTitle({ place, desk }: { place: number; desk: ReviewDesk }) {
+  const panes = desk.panes.value;
+  const session = panes[place]?.session;
+  const other = panes[1 - place]?.session.id;
+  if (session === undefined || other === undefined) return null;
+  const details = session.details.value;
+  return (
+    <p class="pane-title">
+      <span class="pane-number">{place + 1}</span>
+      <span class="pane-name">
+        {details?.title ? words.titled(details.title) : details?.trainee || details?.participant || session.id}
+      </span>
+      <a
+        class="close-pane"
+        data-testid={`close-${place}`}
+        aria-label={reviewWords.closePane(session.id)}
+        href={addressOfRoute({ kind: 'review', id: other, beside: null })}
+      >
+        {reviewWords.close}
+      </a>
+    </p>
   );
 }
 
@@ -86,7 +110,16 @@ function PanePicture({ pane, desk }: { pane: Pane; desk: ReviewDesk }) {
     >
       <div class="canvas-place" ref={place} />
       {measuring && <span class="aim-cross" aria-hidden="true" />}
+      <p class="chip moment-says" data-testid="moment-says">
+        {momentWords(session)}
+      </p>
       {trouble === null ? <LinkNotice store={store} mayReam={false} /> : <TroubleNotice session={session} />}
+      {store.recordingWarning.value !== null && (
+        <p class="picture-note note-top" role="status" data-testid="recording-warning">
+          {words.recordingDamaged(store.recordingWarning.value)}
+        </p>
+      )}
+      <ProblemBanner store={store} />
       {map.kind === 'making' && (
         <p class="picture-note" role="status" data-testid="map-making">
           {reviewWords.mapMaking(fixed(map.share * 100, 0))}

@@ -49,6 +49,7 @@ export class ReviewSession {
   private readonly timer: ReturnType<typeof setInterval>;
   private readonly stopFollowing: () => void;
   private disposed = false;
+  private traceUnderWay = false;
 
   readonly durationS = computed(() => {
     const recorded = (this.store.hello.value?.durationTicks ?? 0) / 1000;
@@ -91,8 +92,8 @@ export class ReviewSession {
     // What came while the server did not answer is asked for again when it does.
     this.stopFollowing = effect(() => {
       if (this.store.link.value.kind !== 'live') return;
-      if (this.score.value.peek() === null) void this.score.read();
-      if (this.trace.peek() === null) void this.readTrace();
+      if (this.score.problem.peek() !== null) void this.score.read();
+      if (this.traceProblem.peek() !== null) void this.readTrace();
     });
   }
 
@@ -179,12 +180,15 @@ export class ReviewSession {
 
   private async readTrace(): Promise<void> {
     const ticks = this.details.peek()?.tick ?? 0;
-    if (!this.sources.mayReadTrace || ticks === 0) return;
+    if (!this.sources.mayReadTrace || ticks === 0 || this.traceUnderWay) return;
+    this.traceUnderWay = true;
     try {
       this.trace.value = readTrace(await this.sources.review.trace(this.id, traceStride(ticks)));
       this.traceProblem.value = null;
     } catch (error) {
       this.traceProblem.value = wordsOf(error);
+    } finally {
+      this.traceUnderWay = false;
     }
   }
 }

@@ -8,6 +8,9 @@ export function unitOf(unit: string | null): string {
   return reviewWords.units[unit] ?? unit;
 }
 
+/** The same as a word. */
+export const unitName = (unit: string): string => reviewWords.unitNames[unit] ?? unit;
+
 /** Enough decimals to tell values apart, and no more than are meant. */
 export function number(value: number): string {
   const size = Math.abs(value);
