@@ -103,8 +103,7 @@ export const reviewWords = {
     other: (said: string) => `The map could not be made: ${said} Choose it again to try once more.`,
     mismatch: 'The map does not fit the surface. Choose it again.',
   },
-  deviationHere: (mm: string, side: string, to: string) => `${mm} mm ${side} (${to})`,
-  toThe: { plan: 'plan', implant: 'implant' } as Record<MapName, string>,
+  deviationHere: (mm: string, side: 'proud' | 'even' | 'beyond') => (side === 'even' ? `${mm} mm` : `${mm} mm ${side}`),
 
   measure: 'Measure',
   measureHint:
@@ -119,7 +118,10 @@ export const reviewWords = {
   deeper: 'Second deeper by',
   across: 'Across the axis',
   millimetres: (mm: string) => `${mm} mm`,
-  mapAt: (number: number) => `Map at ${number}`,
+  mapAt: {
+    plan: (number: number) => `Off the plan at ${number}`,
+    implant: (number: number) => `Off the implant at ${number}`,
+  },
 
   score: 'Score',
   overall: 'Overall mark',

@@ -16,6 +16,7 @@ export interface Pane {
   session: ReviewSession;
   view: ReviewView;
   liveCase: LiveCase;
+  close(): void;
 }
 
 /** The sessions that are reviewed beside each other, as long as their page is open. */
@@ -41,10 +42,7 @@ export class ReviewDesk {
       const found = left.findIndex(({ session }) => session.id === id);
       return (found < 0 ? undefined : left.splice(found, 1)[0]) ?? this.open(id);
     });
-    for (const { session, view } of left) {
-      session.dispose();
-      view.dispose();
-    }
+    for (const pane of left) pane.close();
     this.panes.value = panes;
     this.settings.active.value = Math.min(this.settings.active.peek(), Math.max(ids.length - 1, 0));
   }
@@ -56,10 +54,11 @@ export class ReviewDesk {
   private open(id: string): Pane {
     const view = new ReviewView(this.settings, this.camera);
     const { review } = this;
+    const socket = new WorkerStreamSocket();
     const sources = {
       api: new Api(this.origin),
       review,
-      socket: new WorkerStreamSocket(),
+      socket,
       surface: (of: string, onProgress: (share: number) => void, abort: AbortSignal) =>
         loadSurface({ url: review.meshUrl(of), jobs: review.jobsUrl() }, onProgress, abort),
       mayReadTrace: this.may.ream,
@@ -67,6 +66,12 @@ export class ReviewDesk {
     const session = new ReviewSession(id, sources, view.scene);
     view.follow(session, () => this.panes.value[0]?.view === view);
     session.start();
-    return { session, view, liveCase: new LiveCase(session.store, () => this.may.readCases, this.origin) };
+    const liveCase = new LiveCase(session.store, () => this.may.readCases, this.origin);
+    const close = () => {
+      session.dispose();
+      view.dispose();
+      socket.dispose();
+    };
+    return { session, view, liveCase, close };
   }
 }

@@ -113,7 +113,7 @@ export class ReviewView {
     if (found === null) return session.measureAt(null);
     const map = session.mapShown.peek();
     const byte = map?.deviation.bytes[found.corner];
-    const deviation = map === null || byte === undefined ? null : deviationMm(byte, map.deviation.code);
-    session.measureAt({ at: found.place, deviationMm: deviation });
+    const mm = map === null || byte === undefined ? null : deviationMm(byte, map.deviation.code);
+    session.measureAt({ at: found.place, deviation: map === null || mm === null ? null : { mm, to: map.name } });
   }
 }

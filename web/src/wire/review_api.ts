@@ -43,6 +43,9 @@ export class ReviewApi {
   async trace(id: string, stride: number): Promise<string> {
     return (await request(this.url(id, `/trace?stride=${stride}`), 'GET')).text();
   }
+  async annotations(id: string): Promise<Annotation[]> {
+    return (await requestJson<{ annotations: Annotation[] }>(this.url(id, '/annotations'), 'GET')).annotations;
+  }
   annotate(id: string, words: string, atS: number): Promise<Annotation> {
     return requestJson(this.url(id, '/annotations'), 'POST', { body: { words, at_s: atS } });
   }

@@ -42,6 +42,12 @@ export class WorkerStreamSocket implements StreamSocket {
     this.send({ kind: 'close' });
   }
 
+  /** Nothing is opened any more. */
+  dispose(): void {
+    this.handlers = null;
+    this.worker.terminate();
+  }
+
   private send(request: WorkerRequest): void {
     this.worker.postMessage(request);
   }

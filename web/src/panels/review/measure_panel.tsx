@@ -36,7 +36,7 @@ function Measures({ pane, number, measuring }: { pane: Pane; number: number | nu
       : places.length === 1
         ? reviewWords.measureSecond
         : '';
-  const rows = hello === null ? [] : rowsOf(places, new PlanFrame(hello), session.map.name);
+  const rows = hello === null ? [] : rowsOf(places, new PlanFrame(hello));
   return (
     <div class="measures" data-testid="measures" aria-live="polite">
       {number !== null && <span class="pane-number">{number}</span>}
@@ -67,7 +67,7 @@ function Measures({ pane, number, measuring }: { pane: Pane; number: number | nu
 
 type Row = readonly [name: string, value: string, hint?: string];
 
-function rowsOf(places: readonly MeasuredPlace[], plan: PlanFrame, map: 'plan' | 'implant' | null): Row[] {
+function rowsOf(places: readonly MeasuredPlace[], plan: PlanFrame): Row[] {
   const mm = (value: number) => reviewWords.millimetres(fixed(value, 2));
   const [first, second] = places;
   const rows: Row[] = [];
@@ -76,12 +76,12 @@ function rowsOf(places: readonly MeasuredPlace[], plan: PlanFrame, map: 'plan' |
     rows.push([reviewWords.distance, mm(distanceMm)]);
     rows.push([reviewWords.deeper, mm(alongMm), reviewWords.depthHint], [reviewWords.across, mm(acrossMm)]);
   }
-  places.forEach(({ at, deviationMm }, i) => {
+  places.forEach(({ at, deviation }, i) => {
     rows.push([reviewWords.depthOf(i + 1), mm(depthMm(at, plan)), reviewWords.depthHint]);
-    if (deviationMm === null || map === null) return;
-    const side = deviationMm < 0 ? 'proud' : 'beyond';
-    const off = fixed(Math.abs(deviationMm), 2);
-    rows.push([reviewWords.mapAt(i + 1), reviewWords.deviationHere(off, side, reviewWords.toThe[map])]);
+    if (deviation === null) return;
+    const off = fixed(Math.abs(deviation.mm), 2);
+    const side = deviation.mm === 0 ? 'even' : deviation.mm < 0 ? 'proud' : 'beyond';
+    rows.push([reviewWords.mapAt[deviation.to](i + 1), reviewWords.deviationHere(off, side)]);
   });
   return rows;
 }

@@ -1,6 +1,6 @@
 import { computed, effect, signal } from '@preact/signals';
 
-import type { Api, Session } from '../../wire/api';
+import type { Api, Mark, Session } from '../../wire/api';
 import { ApiError, wordsOf } from '../../wire/rest';
 import type { MapName, ReviewApi } from '../../wire/review_api';
 import type { StreamSocket } from '../../wire/stream_socket';
@@ -18,15 +18,16 @@ import { type Trouble, troubleWithSession } from './trouble';
 /** A deleted session is noticed after this time. */
 const lookAgainMs = 10_000;
 
-/** A place of the bone that was pointed at, in the CT's frame, and how far the surface lies off there; null: no map. */
+/** A place of the bone that was pointed at, in the CT's frame. */
 export interface MeasuredPlace {
   at: Triple;
-  deviationMm: number | null;
+  /** How far the surface lies off there by the map that was seen; null: there was none, or nothing to compare. */
+  deviation: { mm: number; to: MapName } | null;
 }
 
 export interface ReviewSources {
   api: Pick<Api, 'openReplay' | 'replay' | 'changePlayback' | 'streamUrl'>;
-  review: Pick<ReviewApi, 'session' | 'score' | 'trace' | 'deviation' | 'annotate'>;
+  review: Pick<ReviewApi, 'session' | 'score' | 'trace' | 'deviation' | 'annotations' | 'annotate'>;
   socket: StreamSocket;
   surface(id: string, onProgress: (share: number) => void, signal: AbortSignal): Promise<SortedSurface>;
   /** A viewer link has no trace. */
@@ -45,6 +46,8 @@ export class ReviewSession {
   readonly places = signal<readonly MeasuredPlace[]>([]);
   /** Nothing was at the place that was pointed at last. */
   readonly missed = signal(false);
+  /** Null until they are read; a replay knows those that were there when it was opened. */
+  private readonly remarks = signal<readonly Mark[] | null>(null);
   private readonly gone = signal<ApiError | null>(null);
   private readonly timer: ReturnType<typeof setInterval>;
   private readonly stopFollowing: () => void;
@@ -64,8 +67,9 @@ export class ReviewSession {
   });
   readonly atStart = computed(() => this.store.playback.value?.positionTicks === 0);
   readonly marks = computed(() => {
-    const trace = this.trace.value;
-    return mergedMarks(this.store.marks.value, trace === null ? [] : eventsOfTrace(trace));
+    const [trace, remarks] = [this.trace.value, this.remarks.value];
+    const recorded = this.store.marks.value.filter(({ kind }) => remarks === null || kind !== 'annotation');
+    return mergedMarks([...recorded, ...(remarks ?? [])], trace === null ? [] : eventsOfTrace(trace));
   });
   readonly trouble = computed<Trouble | null>(() => {
     const refused = this.gone.value ?? this.player.refused.value;
@@ -101,6 +105,7 @@ export class ReviewSession {
     this.player.start();
     void this.readDetails();
     void this.score.read();
+    void this.readRemarks();
   }
 
   /** After something could not be had. */
@@ -159,9 +164,14 @@ export class ReviewSession {
   async annotate(words: string): Promise<void> {
     const atS = this.positionS.peek();
     await this.sources.review.annotate(this.id, words, atS);
-    // A replay that is open may have been read before the remark was made.
-    const mark = { at_s: atS, kind: 'annotation', words };
-    this.store.marks.value = mergedMarks(this.store.marks.peek(), [mark]);
+    await this.readRemarks();
+  }
+
+  /** Without them those are shown that the replay knows. */
+  private async readRemarks(): Promise<void> {
+    const found = await this.sources.review.annotations(this.id).catch(() => null);
+    if (found === null || this.disposed) return;
+    this.remarks.value = found.map(({ at_s, words }) => ({ at_s, kind: 'annotation', words }));
   }
 
   private async readDetails(): Promise<void> {

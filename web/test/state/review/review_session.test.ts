@@ -15,6 +15,7 @@ function begin(change: Partial<ReviewSources['review']> = {}) {
   const socket = new FakeSocket();
   const changes: PlaybackChange[] = [];
   const asked: string[] = [];
+  const remarks = [{ at_s: 5, words: 'here' }];
   const replay = {
     id: 'r1',
     replay_of: 'abcd',
@@ -44,7 +45,12 @@ function begin(change: Partial<ReviewSources['review']> = {}) {
         asked.push(to);
         return Promise.resolve({ bytes: new Int8Array(corners), code });
       },
-      annotate: (_, words, atS) => Promise.resolve({ words, at_s: atS }),
+      annotations: () => Promise.resolve(remarks),
+      annotate: (_, words, atS) => {
+        const made = { words, at_s: atS };
+        remarks.push(made);
+        return Promise.resolve(made);
+      },
       ...change,
     },
     socket,
@@ -185,7 +191,13 @@ describe('session under review', () => {
     const { session, socket } = await opened();
     standsAt(socket, 2500);
     await session.annotate('too much force');
-    expect(session.marks.value).toContainEqual({ at_s: 2.5, kind: 'annotation', words: 'too much force' });
+    const kept = { at_s: 2.5, kind: 'annotation', words: 'too much force' };
+    expect(session.marks.value).toContainEqual(kept);
+    // The replay was opened before and does not know of it.
+    session.togglePlay();
+    await settle();
+    expect(session.marks.value).toContainEqual(kept);
+    expect(session.marks.value.filter(({ words }) => words === 'here')).toHaveLength(1);
     session.dispose();
   });
 
