@@ -52,6 +52,9 @@ async function review(page: Page, ...ids: string[]): Promise<void> {
   }
 }
 
+/** Pictures are drawn and compared slowly on a busy machine. */
+const patiently = { timeout: 90_000 };
+
 /** Pixels of the bone's picture that another look changes; what stands over it is left out. */
 async function bone(of: Locator): Promise<string> {
   const style = '.picture > :not(.canvas-place) { visibility: hidden !important; } * { outline: none !important; }';
@@ -64,7 +67,7 @@ async function changed(page: Page, of: Locator, before: string): Promise<number>
 }
 
 test('a session is gone through, mapped, measured, judged and taken home', async ({ page }, info) => {
-  test.setTimeout(300_000);
+  test.setTimeout(540_000);
   const [id = ''] = await recorded(page, 15_000);
   // From the list.
   await page.getByTestId(`review-${id}`).click();
@@ -91,7 +94,7 @@ test('a session is gone through, mapped, measured, judged and taken home', async
   await page.keyboard.press('b');
   const after = page.getByTestId('after');
   await expect(after).toHaveAttribute('aria-pressed', 'true');
-  await expect.poll(() => changed(page, pane(page), before)).toBeGreaterThan(40);
+  await expect.poll(() => changed(page, pane(page), before), patiently).toBeGreaterThan(40);
   await expect(page.getByTestId('mark').and(page.getByTitle('Here it begins'))).toHaveCount(1);
   await page.screenshot({ path: info.outputPath('after.png') });
 
@@ -99,7 +102,7 @@ test('a session is gone through, mapped, measured, judged and taken home', async
   const bare = await bone(pane(page));
   await page.getByTestId('map-plan').click();
   await expect(shown(pane(page))).toHaveAttribute('data-map', 'plan', { timeout: 60_000 });
-  await expect.poll(() => changed(page, pane(page), bare)).toBeGreaterThan(5000);
+  await expect.poll(() => changed(page, pane(page), bare), patiently).toBeGreaterThan(5000);
   const legend = page.getByTestId('legend');
   await expect(legend).toContainText('0.25 to 0.5 mm beyond');
   await expect(legend).toContainText('nothing to compare');
@@ -108,7 +111,7 @@ test('a session is gone through, mapped, measured, judged and taken home', async
   const report = await bone(pane(page));
   await page.getByTestId('map-scale').selectOption('coarse');
   await expect(legend).toContainText('within 0.5 mm');
-  await expect.poll(() => changed(page, pane(page), report)).toBeGreaterThan(500);
+  await expect.poll(() => changed(page, pane(page), report), patiently).toBeGreaterThan(500);
   await page.getByTestId('before').click();
   await expect(page.getByTestId('map-at-end')).toBeVisible();
   await expect(shown(pane(page))).toHaveAttribute('data-map', 'none');
@@ -184,7 +187,7 @@ test('a session is gone through, mapped, measured, judged and taken home', async
 });
 
 test('two sessions are seen side by side with one camera, each at its own moment', async ({ page }, info) => {
-  test.setTimeout(300_000);
+  test.setTimeout(540_000);
   const [long = '', short = ''] = await recorded(page, 15_000, 6000);
   await review(page, long);
   await page.getByTestId('show-reamer').uncheck();
@@ -193,15 +196,16 @@ test('two sessions are seen side by side with one camera, each at its own moment
   await expect(pane(page, 1)).toHaveAttribute('data-position', '0', { timeout: 60_000 });
   await expect(page.getByTestId('theatre-chip')).toHaveCount(1);
   const [first, second] = [pane(page, 0), pane(page, 1)];
+  const differ = async () => (await compare(page, await bone(first), await bone(second))).changed;
   await drawn(page);
-  await expect.poll(async () => (await compare(page, await bone(first), await bone(second))).changed).toBeLessThan(60);
+  await expect.poll(differ, patiently).toBeLessThan(60);
 
   // Turned on one, turned on both.
   const turnedFrom = await bone(first);
   await second.getByTestId('bone-canvas').focus();
   for (let i = 0; i < 4; ++i) await page.keyboard.press('ArrowLeft');
-  await expect.poll(() => changed(page, first, turnedFrom)).toBeGreaterThan(2000);
-  await expect.poll(async () => (await compare(page, await bone(first), await bone(second))).changed).toBeLessThan(60);
+  await expect.poll(() => changed(page, first, turnedFrom), patiently).toBeGreaterThan(2000);
+  await expect.poll(differ, patiently).toBeLessThan(60);
 
   // Each at its own moment; keys are for the one in use.
   await page.keyboard.press('b');
@@ -211,9 +215,7 @@ test('two sessions are seen side by side with one camera, each at its own moment
   await second.getByTestId('map-plan').click();
   for (const of of [first, second]) await expect(shown(of)).toHaveAttribute('data-map', 'plan', { timeout: 90_000 });
   await page.getByTestId('view-axis').click();
-  await expect
-    .poll(async () => (await compare(page, await bone(first), await bone(second))).changed)
-    .toBeGreaterThan(1000);
+  await expect.poll(differ, patiently).toBeGreaterThan(1000);
   await expect(page.getByTestId('mark-1')).toContainText('Theatre');
   await page.screenshot({ path: info.outputPath('side-by-side.png') });
 
@@ -231,7 +233,7 @@ test('says what is wrong and what to do: links that end, a server that is gone, 
   page,
   browser,
 }, info) => {
-  test.setTimeout(300_000);
+  test.setTimeout(540_000);
   const [id = ''] = await recorded(page, 5000);
   await review(page, id);
 
