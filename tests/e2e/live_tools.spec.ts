@@ -1,17 +1,14 @@
 // What the live page can show of the bone: cut-away, see-through, sections and the surgeon's eye, by mouse and by keys.
 import { expect, type Page, test } from '@playwright/test';
 
-import { compare } from './pixels';
+import { compare, pictureOfBone } from './pixels';
 import { drawn, serverForEachTest, untilLive } from './server_for_each_test';
 
 const here = serverForEachTest();
 
 const canvas = (page: Page) => page.getByTestId('bone-canvas');
 
-/** The bone alone: what stands over the picture changes with the tools, too. */
-const overlaysHidden = '.picture > :not(.canvas-place) { visibility: hidden !important; }';
-const bone = async (page: Page): Promise<string> =>
-  (await canvas(page).screenshot({ animations: 'disabled', style: overlaysHidden })).toString('base64');
+const bone = (page: Page) => pictureOfBone(canvas(page));
 
 async function open(page: Page): Promise<void> {
   await page.goto(here.server.url);

@@ -5,6 +5,24 @@ export async function picture(element: Locator): Promise<string> {
   return (await element.screenshot({ animations: 'disabled' })).toString('base64');
 }
 
+/** A picture of the bone's canvas alone: without what stands over it, which changes with the tools, and outlines. */
+export async function pictureOfBone(canvas: Locator): Promise<string> {
+  const page = canvas.page();
+  // The page's own rules let no style element in.
+  await page.evaluate(() => {
+    const sheet = new CSSStyleSheet();
+    sheet.replaceSync(
+      '.picture > :not(.canvas-place) { visibility: hidden !important; } * { outline: none !important; }',
+    );
+    document.adoptedStyleSheets.push(sheet);
+  });
+  try {
+    return await picture(canvas);
+  } finally {
+    await page.evaluate(() => void document.adoptedStyleSheets.pop());
+  }
+}
+
 export interface PictureFacts {
   /** Pixels in all. */
   pixels: number;

@@ -1,7 +1,7 @@
 // Sessions that have ended, looked at: timeline, before and after, maps, measuring, score, files, links, two beside each other.
 import { type APIResponse, expect, type Locator, type Page, test } from '@playwright/test';
 
-import { compare, picture } from './pixels';
+import { compare, picture, pictureOfBone } from './pixels';
 import { drawn, logIn, serverForEachTest } from './server_for_each_test';
 import type { TestUser } from './server_process';
 
@@ -55,12 +55,8 @@ async function review(page: Page, ...ids: string[]): Promise<void> {
 /** Pictures are drawn and compared slowly on a busy machine. */
 const patiently = { timeout: 90_000 };
 
-/** Pixels of the bone's picture that another look changes; what stands over it is left out. */
-async function bone(of: Locator): Promise<string> {
-  const style = '.picture > :not(.canvas-place) { visibility: hidden !important; } * { outline: none !important; }';
-  const canvas = of.getByTestId('bone-canvas');
-  return (await canvas.screenshot({ animations: 'disabled', style })).toString('base64');
-}
+const bone = (of: Locator) => pictureOfBone(of.getByTestId('bone-canvas'));
+/** Pixels of the bone that another look changes. */
 async function changed(page: Page, of: Locator, before: string): Promise<number> {
   await drawn(page);
   return (await compare(page, await bone(of), before)).changed;
