@@ -19,7 +19,9 @@ const scales = Object.keys(scaleBoundsMm) as ScaleName[];
 export function MapPanel({ desk }: { desk: ReviewDesk }) {
   const { settings } = desk;
   const panes = desk.panes.value;
-  const wanted = panes.map(({ session }) => session.map.name).filter((name) => name !== null);
+  const wanted = panes
+    .map(({ session }) => session.map.state.value)
+    .flatMap((state) => (state.kind === 'making' || state.kind === 'ready' ? [state.name] : []));
   if (wanted.length === 0) return null;
   const scale = settings.scale.value;
   const ready = panes.map(({ session }) => readyMap(session.map.state.value, scale));
