@@ -34,7 +34,7 @@ async function recorded(page: Page, ...ticks: number[]): Promise<string[]> {
     const id = String((await call(page, 'POST', 'sessions', wanted)).id);
     await call(page, 'POST', `sessions/${id}/start`);
     await expect
-      .poll(async () => Number((await call(page, 'GET', `sessions/${id}`)).tick), { timeout: 90_000 })
+      .poll(async () => Number((await call(page, 'GET', `sessions/${id}`)).tick), { timeout: 240_000 })
       .toBeGreaterThan(until);
     await call(page, 'POST', `sessions/${id}/stop`);
     ids.push(id);
