@@ -205,11 +205,14 @@ test('two sessions are seen side by side with one camera, each at its own moment
   await page.keyboard.press('b');
   await expect(second.getByTestId('after')).toHaveAttribute('aria-pressed', 'true');
   await expect(first).toHaveAttribute('data-position', '0');
+  await page.getByTestId('view-axis').click();
+  await drawn(page);
+  const bare = [await bone(first), await bone(second)];
   await first.getByTestId('map-plan').click();
   await second.getByTestId('map-plan').click();
   for (const of of [first, second]) await expect(shown(of)).toHaveAttribute('data-map', 'plan', { timeout: 90_000 });
-  await page.getByTestId('view-axis').click();
-  await expect.poll(differ, patiently).toBeGreaterThan(1000);
+  for (const [i, of] of [first, second].entries())
+    await expect.poll(() => changed(page, of, bare[i] ?? ''), patiently).toBeGreaterThan(5000);
   await expect(page.getByTestId('mark-1')).toContainText('Theatre');
   await page.screenshot({ path: info.outputPath('side-by-side.png') });
 
