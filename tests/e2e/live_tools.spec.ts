@@ -8,6 +8,14 @@ const here = serverForEachTest();
 
 const canvas = (page: Page) => page.getByTestId('bone-canvas');
 
+/** The middle of the picture: over its edges stand strip, alarms and tools. */
+async function bone(page: Page): Promise<string> {
+  const box = await canvas(page).boundingBox();
+  if (box === null) throw new Error('no picture');
+  const clip = { x: box.x + 20, y: box.y + 130, width: box.width - 40, height: box.height - 330 };
+  return (await page.screenshot({ animations: 'disabled', clip })).toString('base64');
+}
+
 async function open(page: Page): Promise<void> {
   await page.goto(here.server.url);
   await untilLive(page);

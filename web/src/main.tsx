@@ -21,6 +21,7 @@ import { followRoute, type Route, routeInAddress, showsSession } from './state/r
 import { Sound } from './state/sound';
 import { Store } from './state/store';
 import { theatreHere } from './state/theatre';
+import { theme } from './state/theme';
 import { ViewSettings } from './state/view_settings';
 import { linkInAddress, takeLinkFromAddress } from './state/watch_link';
 import { Watcher } from './state/watcher';
@@ -185,6 +186,9 @@ function followReplayAddress(store: Store, watcher: Watcher, route: Signal<Route
   });
 }
 
+theme.begin(window.localStorage, window.matchMedia('(prefers-color-scheme: dark)'), (shown) => {
+  document.documentElement.dataset.theme = shown;
+});
 const root = document.getElementById('app');
 if (root !== null) {
   try {

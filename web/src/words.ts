@@ -4,12 +4,18 @@ import type { SessionState } from './wire/messages';
 export const words = {
   product: 'ream',
   tagline: 'Glenoid reaming',
+  dashboard: 'Overview',
   live: 'Live',
   sessionsPage: 'Sessions',
   cases: 'Cases',
   studies: 'Studies',
   users: 'Users',
   pages: 'Pages',
+  theme: {
+    system: 'Colours follow the system. Press for light.',
+    light: 'Light colours. Press for dark.',
+    dark: 'Dark colours. Press to follow the system.',
+  },
   openingPage: 'Opening…',
   pageNotLoaded: 'This part of the page could not be loaded. Reload the page.',
   notForYou: 'This page is not for your account.',

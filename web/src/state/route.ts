@@ -2,6 +2,7 @@ import type { Signal } from '@preact/signals';
 
 /** Which page is shown; the live page's own addresses (replays) are no concern of it. */
 export type Route =
+  | { kind: 'dashboard' }
   | { kind: 'live' }
   | { kind: 'trainee' }
   | { kind: 'sessions' }
@@ -16,6 +17,7 @@ export type Route =
 const places = ['trainee', 'sessions', 'cases', 'studies', 'users', 'account'] as const;
 
 export function routeInAddress(hash: string): Route {
+  if (hash === '#/') return { kind: 'dashboard' };
   const [found, place = '', id, participant] =
     /^#\/([a-z]+)(?:\/([a-z0-9-]{1,64})(?:\/answers\/([2-9A-Z]{2}-[2-9A-Z]{3}))?)?\/?(?:\?.*)?$/.exec(hash) ?? [];
   if (found === undefined) return { kind: 'live' };
@@ -28,6 +30,8 @@ export function routeInAddress(hash: string): Route {
 
 export function addressOfRoute(route: Route): string {
   switch (route.kind) {
+    case 'dashboard':
+      return '#/';
     case 'live':
       return '#';
     case 'case':
