@@ -1,6 +1,7 @@
 // What an instructor opens in the morning: who reams, who has reamed, how they come on; and what it says when the server is gone.
-import { expect, type Page, test } from '@playwright/test';
+import { expect, test } from '@playwright/test';
 
+import { post, startDemo } from './rest_as_page';
 import { logIn, serverForEachTest } from './server_for_each_test';
 import type { TestUser } from './server_process';
 
@@ -8,26 +9,6 @@ const ines: TestUser = { name: 'ines', role: 'instructor', displayName: 'Ines In
 const tom: TestUser = { name: 'tom', role: 'trainee', displayName: 'Tom Trainee' };
 const ada: TestUser = { name: 'ada', role: 'trainee', displayName: 'Ada Trainee' };
 const here = serverForEachTest([{ name: 'olga', role: 'operator', displayName: 'Olga' }, ines, tom, ada]);
-
-/** What a trainee's program would do, by the cookie of the page. */
-async function post(page: Page, path: string, body?: object): Promise<{ id: string }> {
-  return page.evaluate(
-    async ([to, data]) => {
-      const visitor = (await (await fetch('/api/v1/login')).json()) as { csrf_token: string };
-      const headers = { 'content-type': 'application/json', 'x-csrf-token': visitor.csrf_token };
-      const answer = await fetch(`/api/v1/${to}`, { method: 'POST', headers, body: data && JSON.stringify(data) });
-      if (!answer.ok) throw new Error(`${to}: ${answer.status} ${await answer.text()}`);
-      return (await answer.json()) as { id: string };
-    },
-    [path, body] as const,
-  );
-}
-
-async function startDemo(page: Page): Promise<string> {
-  const { id } = await post(page, 'sessions', { case: 'demo', script: 'demo', device: 'script' });
-  await post(page, `sessions/${id}/start`);
-  return id;
-}
 
 test('shows who reams with figures and picture, what has ended with its points, and a course of learning', async ({
   page,
@@ -47,7 +28,7 @@ test('shows who reams with figures and picture, what has ended with its points, 
   await expect(page.getByTestId('none-recent')).toBeVisible();
   await expect(page.getByTestId('no-learner')).toContainText('Nobody has trained');
 
-  const first = await startDemo(trainee);
+  const first = await startDemo(trainee, here.server.url);
   const tile = page.getByTestId(`tile-${first}`);
   await expect(tile).toContainText('Tom Trainee');
   await expect(tile).toHaveAttribute('data-state', 'running');
@@ -82,7 +63,7 @@ test('a tile opens the session live; tiles are of before as soon as news stop, a
   await page.goto(`${here.server.url}/#/`);
   await logIn(page, 'ines');
   await expect(page.getByTestId('none-live')).toBeVisible();
-  const id = await startDemo(page);
+  const id = await startDemo(page, here.server.url);
   await expect(page.getByTestId(`tile-${id}`)).toHaveAttribute('data-stale', 'false');
   await page.getByTestId(`open-${id}`).click();
   await page.waitForFunction((of) => window.__ream.live && window.__ream.sessionId === of, id, { timeout: 60_000 });

@@ -42,16 +42,21 @@ function main(root: HTMLElement): void {
     makesSession: () => !identity.hasUsers.value,
   });
   const practiceStore = new PracticeStore(store);
+  const hands = browserWindow();
   const practice = new Practice(
     practiceStore,
     store,
     new WorkerDeviceSocket(),
     scene.canvas,
     scene,
-    browserWindow(),
+    // Nobody reams what they do not see.
+    { ...hands, attended: () => hands.attended() && !scene.lost.value },
     (id) => api.deviceUrl(id),
   );
   letGoWhenLeft(practice);
+  effect(() => {
+    if (scene.lost.value && practiceStore.sessionId.peek() !== null) practice.letGo();
+  });
   effect(() => scene.setToolPose(store.telemetry.value?.worldFromTool ?? null));
   effect(() => scene.setBonePose(store.telemetry.value?.worldFromBoneRest ?? null));
   effect(() => scene.setToolShown(store.reamerShown.value));

@@ -127,6 +127,13 @@ export const words = {
   linkRefused: 'Wrong version',
   linkNothing: 'No session',
 
+  pictureLostTitle: 'The picture is lost',
+  pictureLost:
+    'The browser or the graphics card has taken it away. It is drawn again as soon as it is given back; if that takes long, reload the page.',
+  pictureLostSteering: 'You have let go of the reamer. Figures go on.',
+  reload: 'Reload the page',
+  sessionGone: (id: string) => `Session ${id}, which was shown here, has been deleted.`,
+
   preparing: 'Preparing the bone…',
   loading: 'Loading the bone…',
   lostTitle: 'The link to the simulator is lost',

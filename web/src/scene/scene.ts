@@ -1,3 +1,4 @@
+import type { ReadonlySignal } from '@preact/signals';
 import { MeshBasicMaterial, NeutralToneMapping, type Plane, Quaternion, Scene, Vector3, WebGLRenderer } from 'three';
 
 import type { ScreenAxes } from '../practice/gamepad_hand';
@@ -8,6 +9,7 @@ import type { Hello, MeshDelta, Pose, ToolMesh } from '../wire/messages';
 import { AimView } from './aim_view';
 import { BoneView } from './bone_view';
 import { CameraRig, type ViewName } from './camera_rig';
+import { watchContext } from './context_watch';
 import { planeThroughAxis, sectionPlanes } from './cut_planes';
 import { OperatingLights } from './lights';
 import { SurgeonCamera } from './surgeon_camera';
@@ -21,6 +23,8 @@ const longestStepS = 0.1;
 /** The three-dimensional picture. Draws only when something changed. */
 export class BoneScene implements SteeredView {
   readonly canvas = document.createElement('canvas');
+  /** The browser has taken the picture away; it is drawn anew when it is given back. */
+  readonly lost: ReadonlySignal<boolean>;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly bone = new BoneView();
@@ -58,6 +62,8 @@ export class BoneScene implements SteeredView {
     this.surgeon = new SurgeonCamera(this.rig);
     this.lights = new OperatingLights(this.scene);
     this.scene.add(this.bone.group, this.tool.group, this.aim.group);
+    // After the renderer's own listeners, which make what is drawn with anew.
+    this.lost = watchContext(this.canvas, () => this.resize()).lost;
     new ResizeObserver(() => this.resize()).observe(this.canvas);
   }
 
@@ -165,6 +171,7 @@ export class BoneScene implements SteeredView {
   }
 
   private draw(): void {
+    if (this.lost.value) return;
     const beganMs = performance.now();
     const { camera } = this.rig;
     const moving = this.surgeon.step(Math.min((beganMs - this.drawnAtMs) / 1000, longestStepS));
