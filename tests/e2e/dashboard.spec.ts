@@ -22,7 +22,8 @@ test('shows who reams with figures and picture, what has ended with its points, 
   await expect(trainee.getByTestId('none-live')).toBeVisible();
   await expect(trainee.getByTestId('no-course')).toContainText('You have no session');
 
-  await page.goto(`${here.server.url}/#/`);
+  // Who teaches begins with it.
+  await page.goto(here.server.url);
   await logIn(page, 'ines');
   await expect(page.getByTestId('none-live')).toContainText('Nobody reams');
   await expect(page.getByTestId('none-recent')).toBeVisible();

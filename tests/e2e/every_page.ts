@@ -9,12 +9,12 @@ export const olga: TestUser = { name: 'olga', role: 'operator', displayName: 'Ol
 export const tom: TestUser = { name: 'tom', role: 'trainee', displayName: 'Tom Trainee' };
 
 /** Whose session it is; only staff's are nobody's. */
-async function giveTo(page: Page, session: string, { name }: TestUser): Promise<void> {
+async function giveTo(page: Page, session: string, { name, displayName }: TestUser): Promise<void> {
   const { users } = (await (await page.request.get(new URL('/api/v1/users', page.url()).href)).json()) as {
     users: { id: string; name: string }[];
   };
   const trainee = users.find((user) => user.name === name)?.id;
-  await patch(page, `sessions/${session}`, { trainee_id: trainee });
+  await patch(page, `sessions/${session}`, { trainee_id: trainee, trainee: displayName });
 }
 
 /** Opens them one after the other; `look` is called with each when it is complete. */

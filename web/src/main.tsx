@@ -17,7 +17,7 @@ import { PracticeStore } from './state/practice_store';
 import { browserWindow, letGoWhenLeft } from './state/practice_window';
 import { isActive } from './state/choose_session';
 import { addressOfReplay, replayInAddress } from './state/replay_address';
-import { followRoute, type Route, routeInAddress, showsSession } from './state/route';
+import { addressOfRoute, followRoute, type Route, routeInAddress, showsSession } from './state/route';
 import { Sound } from './state/sound';
 import { Store } from './state/store';
 import { theatreHere } from './state/theatre';
@@ -55,7 +55,7 @@ function main(root: HTMLElement): void {
   );
   letGoWhenLeft(practice);
   effect(() => {
-    if (scene.lost.value && practiceStore.sessionId.peek() !== null) practice.letGo();
+    if (scene.lost.value && practiceStore.sessionId.peek() !== null) untracked(() => practice.letGo());
   });
   effect(() => scene.setToolPose(store.telemetry.value?.worldFromTool ?? null));
   effect(() => scene.setBonePose(store.telemetry.value?.worldFromBoneRest ?? null));
@@ -95,8 +95,24 @@ function main(root: HTMLElement): void {
   followReplayAddress(store, watcher, route);
   followViewerLinks(identity);
   followRoute(route);
+  beginWithOverview(identity, route);
   void identity.find(linkSecret);
   watchWhenKnown(identity, route, () => goOnSteering(api, store, practice), { watcher, practice, practiceStore });
+}
+
+/** Who teaches and logs in begins the day with the overview, unless the address names a page. */
+function beginWithOverview(identity: Identity, route: Signal<Route>): void {
+  let asked = false;
+  let begun = false;
+  effect(() => {
+    const phase = identity.phase.value;
+    if (phase === 'unknown') asked = true;
+    if (phase !== 'known' || begun) return;
+    begun = true;
+    if (!asked || !identity.may.peek().teach || window.location.hash !== '') return;
+    window.history.replaceState(null, '', addressOfRoute({ kind: 'dashboard' }));
+    route.value = { kind: 'dashboard' };
+  });
 }
 
 /** Nothing is watched and nothing steered before it is known who uses the page, and from when that has ended. */
