@@ -3,7 +3,7 @@
 import { expect, type Page, test } from '@playwright/test';
 
 import { compare, picture } from './pixels';
-import { startDemo } from './rest_as_page';
+import { post, startDemo } from './rest_as_page';
 import { drawn, logIn, readout, serverForEachTest, untilLive } from './server_for_each_test';
 import type { TestUser } from './server_process';
 
@@ -24,22 +24,24 @@ const losePicture = (page: Page) =>
   });
 const givePictureBack = (page: Page) => page.evaluate(() => (window as WithContext).given?.restoreContext());
 
-async function watchDemo(page: Page): Promise<string> {
+/** Watches a demo that was paused or stopped after a while: what rests is drawn once. */
+async function watchResting(page: Page, how: 'pause' | 'stop'): Promise<string> {
   await page.goto(`${here.server.url}/#/`);
   await logIn(page, 'olga');
   const id = await startDemo(page, here.server.url);
-  await page.getByTestId(`open-${id}`).click();
+  await expect(page.getByTestId(`tile-${id}`)).toContainText(/[1-9] N/, { timeout: 60_000 });
+  await post(page, `sessions/${id}/${how}`);
+  await page.getByTestId('to-live').click();
   await untilLive(page);
-  await page.waitForFunction(() => (window.__ream.lastTick ?? 0) > 500);
+  await expect(page.getByTestId('session-state')).toHaveAttribute('data-state', how === 'stop' ? 'stopped' : 'paused');
+  expect((await readout(page)).sessionId).toBe(id);
   return id;
 }
 
 test('a picture that the browser takes away is said to be lost, and drawn anew when it is given back', async ({
   page,
 }, info) => {
-  await watchDemo(page);
-  await page.getByTestId('stop').click();
-  await expect(page.getByTestId('session-state')).toHaveAttribute('data-state', 'stopped');
+  await watchResting(page, 'stop');
   await page.getByTestId('view-axis').click();
   await drawn(page);
   const canvas = page.getByTestId('bone-canvas');
@@ -73,8 +75,8 @@ test('who steers lets go when the picture is lost', async ({ page }) => {
   await page.keyboard.down(' ');
   await expect.poll(async () => (await readout(page)).pushN).toBeGreaterThan(5);
   await losePicture(page);
-  await expect(page.getByTestId('picture-lost')).toContainText('let go');
-  expect((await readout(page)).pushN).toBe(0);
+  await expect.poll(async () => (await readout(page)).pushN).toBe(0);
+  await expect(page.getByTestId('picture-lost')).toContainText('let go', { timeout: 60_000 });
   await expect(page.getByTestId('session-state')).toHaveAttribute('data-state', 'paused');
   await givePictureBack(page);
   await expect(page.getByTestId('practice-notice')).toContainText('You have let go');
@@ -85,9 +87,7 @@ test('a session that rests is not live when the network is cut, and is again whe
   page,
   context,
 }) => {
-  await watchDemo(page);
-  await page.getByTestId('pause-session').click();
-  await expect(page.getByTestId('session-state')).toHaveAttribute('data-state', 'paused');
+  await watchResting(page, 'pause');
   await context.setOffline(true);
   await expect(page.getByTestId('link-notice')).toContainText('It is not live');
   await expect(page.getByTestId('picture')).toHaveAttribute('data-stale', 'true');
@@ -100,9 +100,7 @@ test('a session that rests is not live when the network is cut, and is again whe
 });
 
 test('a session that is deleted is said to be so, and a login that has ended asks for another', async ({ page }) => {
-  const id = await watchDemo(page);
-  await page.getByTestId('stop').click();
-  await expect(page.getByTestId('session-state')).toHaveAttribute('data-state', 'stopped');
+  const id = await watchResting(page, 'stop');
   const deletion = () =>
     page.evaluate(async (session) => {
       const visitor = (await (await fetch('/api/v1/login')).json()) as { csrf_token: string };

@@ -446,12 +446,14 @@ export class Watcher {
   }
 
   private async readSessions(): Promise<readonly Session[]> {
+    const askedMs = Date.now();
     try {
       const sessions = await Promise.race([this.api.sessions(), noAnswerAfter(answerWithinMs)]);
       this.store.sessions.value = sessions;
       return sessions;
     } catch (error) {
-      if (!this.sendsAllTheTime() && error instanceof ApiError && error.status === 0) this.link.giveUp(error.message);
+      const silent = !this.sendsAllTheTime() && (this.store.lastMessageMs.value ?? 0) <= askedMs;
+      if (silent && error instanceof ApiError && error.status === 0) this.link.giveUp(error.message);
       return [];
     }
   }

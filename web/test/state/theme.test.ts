@@ -20,7 +20,7 @@ function begun(kept: Map<string, string>): { theme: Theme; scheme: FakeScheme; s
     getItem: (key: string) => kept.get(key) ?? null,
     setItem: (key: string, value: string) => void kept.set(key, value),
   };
-  theme.begin(storage, scheme as unknown as MediaQueryList, (one) => shown.push(one));
+  theme.begin(storage, scheme, (one) => shown.push(one));
   return { theme, scheme, shown };
 }
 
@@ -51,9 +51,7 @@ describe('Theme', () => {
       throw new Error('denied');
     };
     const shown: string[] = [];
-    theme.begin({ getItem: refuse, setItem: refuse }, new FakeScheme() as unknown as MediaQueryList, (one) =>
-      shown.push(one),
-    );
+    theme.begin({ getItem: refuse, setItem: refuse }, new FakeScheme(), (one) => shown.push(one));
     theme.choice.value = 'dark';
     expect(shown).toEqual(['light', 'dark']);
   });
