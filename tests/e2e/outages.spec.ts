@@ -8,7 +8,7 @@ import { drawn, logIn, readout, serverForEachTest, untilLive } from './server_fo
 import type { TestUser } from './server_process';
 
 const olga: TestUser = { name: 'olga', role: 'operator', displayName: 'Olga Operator' };
-const here = serverForEachTest([olga]);
+const here = serverForEachTest([olga, { name: 'oskar', role: 'operator', displayName: 'Another operator' }]);
 // A small picture is drawn quickly, also on a busy machine.
 test.use({ actionTimeout: 60_000, viewport: { width: 1000, height: 560 } });
 test.describe.configure({ timeout: 300_000 });
