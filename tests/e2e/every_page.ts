@@ -36,8 +36,10 @@ export async function goThroughEveryPage(
   const ended = await startDemo(page, url);
   await giveTo(page, ended, tom);
   const tile = page.getByTestId(`tile-${ended}`);
-  await expect(tile.getByRole('img')).toBeVisible({ timeout: 60_000 });
   await expect(tile).toContainText(/[1-9] N/, { timeout: 60_000 });
+  // What rests stays as it is for as long as it is looked at.
+  await post(page, `sessions/${ended}/pause`);
+  await expect(tile.getByRole('img')).toBeVisible({ timeout: 120_000 });
   await look('dashboard');
 
   const open = async (hash: string) => {
@@ -58,8 +60,7 @@ export async function goThroughEveryPage(
   await look('trainee');
   await page.getByTestId('leave-trainee').click();
   await untilLive(page);
-  // The demo may have ended by itself meanwhile.
-  await post(page, `sessions/${ended}/stop`).catch(() => undefined);
+  await post(page, `sessions/${ended}/stop`);
   await expect(page.getByTestId('results')).toBeVisible();
   await look('live-ended');
   await page.getByTestId('practise').click();

@@ -50,6 +50,9 @@ export interface Learner {
   participant?: string;
 }
 
+/** Pictures are drawn when nothing else needs the server's processors. */
+const pictureWithinMs = 90_000;
+
 /** Calls of the REST interface that the dashboard makes; `base` is the server's origin. */
 export class DashboardApi {
   constructor(private readonly base: string) {}
@@ -65,7 +68,8 @@ export class DashboardApi {
   }
   /** The bone as it is now. */
   async picture(id: string): Promise<Blob> {
-    const response = await request(`${this.base}/api/v1/sessions/${encodeURIComponent(id)}/snapshot`, 'GET');
+    const url = `${this.base}/api/v1/sessions/${encodeURIComponent(id)}/snapshot`;
+    const response = await request(url, 'GET', { timeoutMs: pictureWithinMs });
     if (response.status !== 200) throw new ApiError(response.statusText, response.status);
     return response.blob();
   }
