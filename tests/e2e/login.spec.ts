@@ -17,7 +17,9 @@ async function enter(page: Page, user: TestUser): Promise<void> {
   await expect(who(page)).toContainText(user.displayName);
 }
 
+/** From whatever page who logged in begins with. */
 async function runDemo(page: Page): Promise<void> {
+  await page.getByTestId('to-live').click();
   await page.getByTestId('run-demo').click();
   await page.waitForFunction(() => (window.__ream.lastTick ?? 0) > 500, null, { timeout: 60_000 });
 }

@@ -17,10 +17,11 @@ import { PracticeStore } from './state/practice_store';
 import { browserWindow, letGoWhenLeft } from './state/practice_window';
 import { isActive } from './state/choose_session';
 import { addressOfReplay, replayInAddress } from './state/replay_address';
-import { followRoute, type Route, routeInAddress, showsSession } from './state/route';
+import { addressOfRoute, followRoute, type Route, routeInAddress, showsSession } from './state/route';
 import { Sound } from './state/sound';
 import { Store } from './state/store';
 import { theatreHere } from './state/theatre';
+import { theme } from './state/theme';
 import { ViewSettings } from './state/view_settings';
 import { linkInAddress, takeLinkFromAddress } from './state/watch_link';
 import { Watcher } from './state/watcher';
@@ -41,16 +42,21 @@ function main(root: HTMLElement): void {
     makesSession: () => !identity.hasUsers.value,
   });
   const practiceStore = new PracticeStore(store);
+  const hands = browserWindow();
   const practice = new Practice(
     practiceStore,
     store,
     new WorkerDeviceSocket(),
     scene.canvas,
     scene,
-    browserWindow(),
+    // Nobody reams what they do not see.
+    { ...hands, attended: () => hands.attended() && !scene.lost.value },
     (id) => api.deviceUrl(id),
   );
   letGoWhenLeft(practice);
+  effect(() => {
+    if (scene.lost.value && practiceStore.sessionId.peek() !== null) untracked(() => practice.letGo());
+  });
   effect(() => scene.setToolPose(store.telemetry.value?.worldFromTool ?? null));
   effect(() => scene.setBonePose(store.telemetry.value?.worldFromBoneRest ?? null));
   effect(() => scene.setToolShown(store.reamerShown.value));
@@ -89,8 +95,24 @@ function main(root: HTMLElement): void {
   followReplayAddress(store, watcher, route);
   followViewerLinks(identity);
   followRoute(route);
+  beginWithOverview(identity, route);
   void identity.find(linkSecret);
   watchWhenKnown(identity, route, () => goOnSteering(api, store, practice), { watcher, practice, practiceStore });
+}
+
+/** Who teaches and logs in begins the day with the overview, unless the address names a page. */
+function beginWithOverview(identity: Identity, route: Signal<Route>): void {
+  let asked = false;
+  let begun = false;
+  effect(() => {
+    const phase = identity.phase.value;
+    if (phase === 'unknown') asked = true;
+    if (phase !== 'known' || begun) return;
+    begun = true;
+    if (!asked || !identity.may.peek().teach || window.location.hash !== '') return;
+    window.history.replaceState(null, '', addressOfRoute({ kind: 'dashboard' }));
+    route.value = { kind: 'dashboard' };
+  });
 }
 
 /** Nothing is watched and nothing steered before it is known who uses the page, and from when that has ended. */
@@ -185,6 +207,9 @@ function followReplayAddress(store: Store, watcher: Watcher, route: Signal<Route
   });
 }
 
+theme.begin(window.localStorage, window.matchMedia('(prefers-color-scheme: dark)'), (shown) => {
+  document.documentElement.dataset.theme = shown;
+});
 const root = document.getElementById('app');
 if (root !== null) {
   try {

@@ -16,12 +16,18 @@ const markKinds: Record<string, string> = {
 export const words = {
   product: 'ream',
   tagline: 'Glenoid reaming',
+  dashboard: 'Overview',
   live: 'Live',
   sessionsPage: 'Sessions',
   cases: 'Cases',
   studies: 'Studies',
   users: 'Users',
   pages: 'Pages',
+  theme: {
+    system: 'Colours follow the system. Press for light.',
+    light: 'Light colours. Press for dark.',
+    dark: 'Dark colours. Press to follow the system.',
+  },
   openingPage: 'Opening…',
   pageNotLoaded: 'This part of the page could not be loaded. Reload the page.',
   notForYou: 'This page is not for your account.',
@@ -125,6 +131,13 @@ export const words = {
   linkLost: 'Link lost',
   linkRefused: 'Wrong version',
   linkNothing: 'No session',
+
+  pictureLostTitle: 'The picture is lost',
+  pictureLost:
+    'The browser or the graphics card has taken it away. It is drawn again as soon as it is given back; if that takes long, reload the page.',
+  pictureLostSteering: 'You have let go of the reamer. Figures go on.',
+  reload: 'Reload the page',
+  sessionGone: (id: string) => `Session ${id}, which was shown here, has been deleted.`,
 
   preparing: 'Preparing the bone…',
   loading: 'Loading the bone…',

@@ -9,6 +9,7 @@ import { LivePage, type LivePageParts } from './live_page';
 import { TraineePage } from './trainee_page';
 import { LoginPage } from './login_page';
 
+const dashboardPage = later(() => import('./dashboard_page'));
 const casePages = later(() => import('./case_pages'));
 const sessionPages = later(() => import('./session_pages'));
 const reviewPage = later(() => import('./review_page'));
@@ -50,6 +51,9 @@ function Entrance({ identity, children }: { identity: Identity; children: preact
 function Page({ route, live, identity }: { route: Route; live: LivePageParts; identity: Identity }) {
   const may = identity.may.value;
   switch (route.kind) {
+    case 'dashboard':
+      if (!may.ream) return <NotForYou />;
+      return dashboardPage.show(({ DashboardPage }) => <DashboardPage live={live} />);
     case 'live':
       // Who reams in theatre sees no panels, wherever the page was opened.
       return live.view.theatre.value ? <TraineePage {...live} /> : <LivePage {...live} />;

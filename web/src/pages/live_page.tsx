@@ -72,14 +72,14 @@ export function LivePage(parts: LivePageParts) {
           />
         )}
         <ProblemBanner store={store} />
-        <SessionList store={store} watcher={watcher} />
-        {!store.replaying.value && <HealthPanel store={store} practice={practiceStore} />}
         <div class="readings">
           <ForcePlot store={store} />
           <Gauges store={store} liveCase={liveCase} />
           <Figures store={store} />
           <Results store={store} />
         </div>
+        <SessionList store={store} watcher={watcher} />
+        {!store.replaying.value && <HealthPanel store={store} practice={practiceStore} />}
       </aside>
     </div>
   );

@@ -1,6 +1,6 @@
 import type { Route } from '../state/route';
 import { words } from '../words';
-import { SiteNav, WhoAmI } from './site_nav';
+import { SiteNav, HeaderEnd } from './site_nav';
 
 /** The header of pages without a picture. */
 export function DeskHeader({ here }: { here: Route['kind'] }) {
@@ -8,7 +8,7 @@ export function DeskHeader({ here }: { here: Route['kind'] }) {
     <header class="header">
       <h1 class="product">{words.product}</h1>
       <SiteNav here={here} />
-      <WhoAmI />
+      <HeaderEnd />
     </header>
   );
 }

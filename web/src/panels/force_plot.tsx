@@ -3,6 +3,7 @@ import { useEffect, useRef } from 'preact/hooks';
 import UPlot from 'uplot';
 
 import { plotSeconds, type Store } from '../state/store';
+import { theme } from '../state/theme';
 import { words } from '../words';
 import { fixed } from './format';
 
@@ -49,7 +50,6 @@ export function ForcePlot({ store }: { store: Store }) {
 
 /** Draws the trace into `element` as it grows, and anew for another size or colour scheme, until the result is called. */
 function keepPlotted(element: HTMLElement, store: Store): () => void {
-  const scheme = window.matchMedia('(prefers-color-scheme: dark)');
   let plot = createPlot(element);
   let timer: ReturnType<typeof setTimeout> | undefined;
 
@@ -65,7 +65,12 @@ function keepPlotted(element: HTMLElement, store: Store): () => void {
   };
   const observer = new ResizeObserver(() => plot.setSize({ width: element.clientWidth, height: element.clientHeight }));
   observer.observe(element);
-  scheme.addEventListener('change', recreate);
+  let drawnIn = theme.shown.peek();
+  const stopFollowingTheme = effect(() => {
+    if (theme.shown.value === drawnIn) return;
+    drawnIn = theme.shown.value;
+    recreate();
+  });
   const stopFollowing = effect(() => {
     if (store.traceRevision.value >= 0 && timer === undefined) timer = setTimeout(redraw, redrawMs);
   });
@@ -74,7 +79,7 @@ function keepPlotted(element: HTMLElement, store: Store): () => void {
     stopFollowing();
     clearTimeout(timer);
     observer.disconnect();
-    scheme.removeEventListener('change', recreate);
+    stopFollowingTheme();
     plot.destroy();
   };
 }

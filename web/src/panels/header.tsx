@@ -1,7 +1,7 @@
 import type { Store } from '../state/store';
 import type { LinkState } from '../wire/link';
 import { words } from '../words';
-import { SiteNav, WhoAmI } from './site_nav';
+import { SiteNav, HeaderEnd } from './site_nav';
 
 const linkWords: Record<LinkState['kind'], string> = {
   connecting: words.linkConnecting,
@@ -29,7 +29,7 @@ export function Header({ store }: { store: Store }) {
           <span>{hello.caseName || hello.caseId}</span>
         </p>
       )}
-      <WhoAmI />
+      <HeaderEnd />
       <p class={`link link-${look}`} role="status" data-testid="link-state" data-link={link}>
         <span class="link-dot" aria-hidden="true" />
         {look === 'replay' ? words.linkReplay : linkWords[link]}

@@ -45,9 +45,14 @@ export function Picture({ store, practice, scene, view, alarms, bare, children }
     if (steering) canvas.focus({ preventScroll: true });
   }, [scene, steering]);
 
-  const stale = store.hasPicture.value && !store.upToDate.value;
+  const lost = scene.lost.value;
+  const stale = store.hasPicture.value && (lost || !store.upToDate.value);
   return (
-    <main class={stale ? 'picture stale' : 'picture'} data-testid="picture" data-stale={stale}>
+    <main
+      class={`picture${stale ? ' stale' : ''}${lost ? ' picture-lost' : ''}`}
+      data-testid="picture"
+      data-stale={stale}
+    >
       <div class="canvas-place" ref={place} />
       {store.replaying.value && (
         <p class="replay-badge" data-testid="replay-badge">
@@ -55,7 +60,9 @@ export function Picture({ store, practice, scene, view, alarms, bare, children }
         </p>
       )}
       {steering && bare !== true && <Guide store={store} practice={practice} />}
-      {steering && store.upToDate.value ? (
+      {lost && store.upToDate.value ? (
+        <PictureLost steering={steering} />
+      ) : steering && store.upToDate.value ? (
         <PracticeNotice store={store} practice={practice} theatre={view.theatre.value} />
       ) : (
         <LinkNotice store={store} mayReam={may.ream} />
@@ -64,5 +71,20 @@ export function Picture({ store, practice, scene, view, alarms, bare, children }
       {children}
       {bare !== true && <ViewTools scene={scene} view={view} reamerShown={store.reamerShown} />}
     </main>
+  );
+}
+
+/** Nothing that was drawn before is seen meanwhile. */
+function PictureLost({ steering }: { steering: boolean }) {
+  return (
+    <div class="notice notice-lost" role="alert" data-testid="picture-lost">
+      <p class="notice-title">{words.pictureLostTitle}</p>
+      <p>
+        {words.pictureLost} {steering && words.pictureLostSteering}
+      </p>
+      <button type="button" class="plain-button" onClick={() => window.location.reload()}>
+        {words.reload}
+      </button>
+    </div>
   );
 }

@@ -4,6 +4,7 @@ import { useContext } from 'preact/hooks';
 import type { Identity } from '../state/identity';
 import { addressOfRoute, type Route } from '../state/route';
 import { words } from '../words';
+import { ThemeButton } from './theme_button';
 
 /** Who uses the page; given once at its root. */
 export const IdentityContext = createContext<Identity | null>(null);
@@ -19,6 +20,7 @@ export function SiteNav({ here }: { here: Route['kind'] }) {
   const identity = useIdentity();
   const may = identity.may.value;
   const ways: readonly (readonly [Route, string, boolean])[] = [
+    [{ kind: 'dashboard' }, words.dashboard, may.ream],
     [{ kind: 'live' }, words.live, true],
     [{ kind: 'sessions' }, words.sessionsPage, may.ream],
     [{ kind: 'cases' }, words.cases, may.readCases],
@@ -43,8 +45,18 @@ export function SiteNav({ here }: { here: Route['kind'] }) {
   );
 }
 
+/** What stands at the end of every header. */
+export function HeaderEnd() {
+  return (
+    <div class="header-end">
+      <ThemeButton />
+      <WhoAmI />
+    </div>
+  );
+}
+
 /** Who is logged in, and the way out. Nothing on a server without users. */
-export function WhoAmI() {
+function WhoAmI() {
   const identity = useIdentity();
   const role = identity.visitor.value?.role ?? null;
   if (!identity.hasUsers.value || role === null) return null;

@@ -1,3 +1,4 @@
+import type { ReadonlySignal } from '@preact/signals';
 import {
   Group,
   MeshBasicMaterial,
@@ -17,6 +18,7 @@ import type { Hello, MeshDelta, Pose, ToolMesh } from '../wire/messages';
 import { AimView } from './aim_view';
 import { BoneView, type InsteadOfBone } from './bone_view';
 import { CameraRig, type ViewName } from './camera_rig';
+import { watchContext } from './context_watch';
 import { planeThroughAxis, sectionPlanes } from './cut_planes';
 import { OperatingLights } from './lights';
 import type { Eye } from './shared_eye';
@@ -33,6 +35,8 @@ export class BoneScene implements SteeredView {
   readonly canvas = document.createElement('canvas');
   /** What others draw beside the bone, in the frame of the bone at rest; seen wherever the reamer is. */
   readonly extras = new Group();
+  /** The browser has taken the picture away; it is drawn anew when it is given back. */
+  readonly lost: ReadonlySignal<boolean>;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly bone = new BoneView();
@@ -70,6 +74,8 @@ export class BoneScene implements SteeredView {
     this.surgeon = new SurgeonCamera(this.rig);
     this.lights = new OperatingLights(this.scene);
     this.scene.add(this.bone.group, this.tool.group, this.aim.group, this.extras);
+    // After the renderer's own listeners, which make what is drawn with anew.
+    this.lost = watchContext(this.canvas, () => this.resize()).lost;
     new ResizeObserver(() => this.resize()).observe(this.canvas);
   }
 
@@ -208,6 +214,7 @@ export class BoneScene implements SteeredView {
   }
 
   private draw(): void {
+    if (this.lost.value) return;
     const beganMs = performance.now();
     const { camera } = this.rig;
     const moving = this.surgeon.step(Math.min((beganMs - this.drawnAtMs) / 1000, longestStepS));

@@ -1,4 +1,4 @@
-import { effect, signal } from '@preact/signals';
+import { effect, type ReadonlySignal, signal } from '@preact/signals';
 import {
   BufferAttribute,
   BufferGeometry,
@@ -25,6 +25,7 @@ import type { Triple } from '../wire/case_types';
 import { MeshLoader } from '../wire/mesh_loader';
 import type { Surface } from '../wire/ply';
 import { CameraRig } from './camera_rig';
+import { type ContextWatch, watchContext } from './context_watch';
 import { OperatingLights } from './lights';
 import { planMeshes } from './plan_meshes';
 import { planeColours } from './slice_view';
@@ -53,6 +54,7 @@ export class SurfaceView {
   /** Time of the last look for the surface under a click, ms. */
   lastPickMs = 0;
 
+  private readonly context: ContextWatch;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly lights: OperatingLights;
@@ -80,6 +82,7 @@ export class SurfaceView {
     this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: true, alpha: true });
     this.renderer.toneMapping = NeutralToneMapping;
     this.renderer.toneMappingExposure = 1.05;
+    this.context = watchContext(this.canvas, () => this.resize());
     this.canvas.tabIndex = 0;
     this.listenForClicks();
     this.rig = new CameraRig(this.canvas, () => this.invalidate());
@@ -88,12 +91,18 @@ export class SurfaceView {
     const resizes = new ResizeObserver(() => this.resize());
     resizes.observe(this.canvas);
     this.stops.push(
+      () => this.context.dispose(),
       () => resizes.disconnect(),
       effect(() => this.followSurface()),
       effect(() => this.showCrossHair()),
       effect(() => this.showPoints(this.marks.points.value)),
       effect(() => this.showPlan(this.marks.plan.value)),
     );
+  }
+
+  /** The browser has taken the picture away; it is drawn anew when it is given back. */
+  get lost(): ReadonlySignal<boolean> {
+    return this.context.lost;
   }
 
   get triangleCount(): number {
@@ -320,6 +329,7 @@ export class SurfaceView {
   }
 
   private draw(): void {
+    if (this.lost.value) return;
     const { camera } = this.rig;
     camera.updateMatrixWorld();
     this.lights.follow(camera);

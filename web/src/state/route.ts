@@ -2,6 +2,7 @@ import type { Signal } from '@preact/signals';
 
 /** Which page is shown; the live page's own addresses (replays) are no concern of it. */
 export type Route =
+  | { kind: 'dashboard' }
   | { kind: 'live' }
   | { kind: 'trainee' }
   | { kind: 'sessions' }
@@ -18,6 +19,7 @@ export type Route =
 const places = ['trainee', 'sessions', 'cases', 'studies', 'users', 'account'] as const;
 
 export function routeInAddress(hash: string): Route {
+  if (hash === '#/') return { kind: 'dashboard' };
   const [reviewed, reviewId = '', beside = null] =
     /^#\/review\/([0-9a-z]{4,32})(?:\/([0-9a-z]{4,32}))?\/?(?:\?.*)?$/.exec(hash) ?? [];
   if (reviewed !== undefined) return { kind: 'review', id: reviewId, beside };
@@ -33,6 +35,8 @@ export function routeInAddress(hash: string): Route {
 
 export function addressOfRoute(route: Route): string {
   switch (route.kind) {
+    case 'dashboard':
+      return '#/';
     case 'live':
       return '#';
     case 'review':

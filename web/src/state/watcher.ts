@@ -17,6 +17,8 @@ export interface Picture {
 }
 
 const idlePollMs = 2500;
+/** A session that rests sends nothing, so that a cut connection is only noticed by questions that are not answered. */
+const answerWithinMs = 8000;
 
 /** What the watcher may do, as of now. */
 export interface WatcherPolicy {
@@ -259,8 +261,9 @@ export class Watcher {
       const stream = await this.findReplay(replayId);
       if (stream !== null) return stream;
     }
-    const sessions = await this.api.sessions();
-    this.store.sessions.value = sessions;
+    const listed = await this.api.sessions();
+    this.store.sessions.value = listed;
+    const sessions = await this.withWatched(listed);
     const session =
       chooseSession(sessions, this.watched(), this.unstreamable) ??
       (this.policy.makesSession() ? await this.api.createDemo() : undefined);
@@ -277,6 +280,30 @@ export class Watcher {
     });
     this.awaitingHello = true;
     return this.api.streamUrl(session.id);
+  }
+
+  /** The list has the newest sessions only, which the watched one may not be; where it has been deleted, it is told. */
+  private async withWatched(sessions: readonly Session[]): Promise<readonly Session[]> {
+    const { id } = this.watched();
+    if (id === null || sessions.some((session) => session.id === id)) return sessions;
+    try {
+      return [...sessions, await this.api.session(id)];
+    } catch (error) {
+      if (!(error instanceof ApiError) || error.status !== 404) throw error;
+      this.forgetDeleted(id);
+      return sessions;
+    }
+  }
+
+  /** One that nobody had started is no loss. */
+  private forgetDeleted(id: string): void {
+    const missed = this.store.sessionState.value !== 'created' && this.store.sessionState.value !== null;
+    batch(() => {
+      if (missed) this.store.problem.value = words.sessionGone(id);
+      if (this.store.chosenId.value === id) this.store.chosenId.value = null;
+      this.store.sessionId.value = null;
+      this.store.sessionState.value = null;
+    });
   }
 
   /** Null when the replay is gone; then what is live is to be watched. */
@@ -343,7 +370,13 @@ export class Watcher {
       this.store.problem.value = words.replayGone;
       return;
     }
-    this.link.expectTraffic(this.store.telemetry.value !== null && (state === 'running' || state === 'replaying'));
+    this.link.expectTraffic(this.sendsAllTheTime());
+  }
+
+  /** Whether silence of the stream means trouble. */
+  private sendsAllTheTime(): boolean {
+    const state = this.store.sessionState.value;
+    return this.store.telemetry.value !== null && (state === 'running' || state === 'replaying');
   }
 
   private onHello(hello: Hello): void {
@@ -400,14 +433,29 @@ export class Watcher {
       this.store.details.value = null;
       return;
     }
-    const details = await this.api.session(id).catch(() => null);
-    if (id === this.store.sessionId.value) this.store.details.value = details;
+    let gone = false;
+    const details = await this.api.session(id).catch((error: unknown) => {
+      gone = error instanceof ApiError && error.status === 404;
+      return null;
+    });
+    if (id !== this.store.sessionId.value) return;
+    this.store.details.value = details;
+    if (!gone) return;
+    this.forgetDeleted(id);
+    this.turn();
   }
 
   private async readSessions(): Promise<readonly Session[]> {
-    const sessions = await this.api.sessions().catch(() => null);
-    if (sessions !== null) this.store.sessions.value = sessions;
-    return sessions ?? [];
+    const askedMs = Date.now();
+    try {
+      const sessions = await Promise.race([this.api.sessions(), noAnswerAfter(answerWithinMs)]);
+      this.store.sessions.value = sessions;
+      return sessions;
+    } catch (error) {
+      const silent = !this.sendsAllTheTime() && (this.store.lastMessageMs.value ?? 0) <= askedMs;
+      if (silent && error instanceof ApiError && error.status === 0) this.link.giveUp(error.message);
+      return [];
+    }
   }
 
   /** While the watched session rests, another may have been started elsewhere, or this one. */
@@ -420,3 +468,6 @@ export class Watcher {
     if (chosen !== undefined && isActive(chosen) && chosen.id !== this.store.sessionId.value) this.turn();
   }
 }
+
+const noAnswerAfter = (ms: number) =>
+  new Promise<never>((_, reject) => setTimeout(() => reject(new ApiError(words.noAnswer, 0)), ms));

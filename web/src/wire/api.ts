@@ -20,6 +20,10 @@ export interface Session {
   streamable?: boolean;
   /** Who trains, for people: a name, or a participant's code where the name is not for this user. */
   trainee?: string | null;
+  /** The user who trains, where there are users and the name is for this one. */
+  trainee_id?: string | null;
+  /** By its kept score; null until it has ended. */
+  score?: SessionMark | null;
   /** What people call it. */
   title?: string | null;
   study?: string | null;
@@ -31,6 +35,19 @@ export interface Session {
   theatre?: boolean;
   /** Paused by the server's word, so that it goes on by that too. */
   held?: boolean;
+}
+
+/** undecided: the session says too little; null: the rubric decides nothing. */
+export type Outcome = 'pass' | 'fail' | 'undecided' | null;
+
+/** What a session is worth, in short. */
+export interface SessionMark {
+  /** 0 to 100. */
+  points: number | null;
+  outcome: Outcome;
+  /** Name of the rubric. */
+  rubric: string;
+  version: number;
 }
 
 /** Times of one kind since the session began, us. */

@@ -62,6 +62,11 @@ export class Link {
     this.set({ kind: 'connecting' });
   }
 
+  /** The connection is open, but it is known otherwise that nobody answers at its other end. */
+  giveUp(reason: string): void {
+    if (this.state.kind === 'live' || this.state.kind === 'silent') this.lose(reason);
+  }
+
   /** Whether the session is one that sends all the time (running), so that silence means trouble. */
   expectTraffic(expected: boolean): void {
     if (expected === this.trafficExpected) return;

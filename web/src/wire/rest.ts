@@ -24,6 +24,8 @@ export interface CallOptions {
   signal?: AbortSignal;
   /** More headers, such as If-Match. */
   headers?: Record<string, string>;
+  /** Where the usual time is too short for what the server has to do. */
+  timeoutMs?: number;
   /** A refusal for want of a login is an answer here, and no end of the one there is. */
   quiet?: boolean;
 }
@@ -60,7 +62,7 @@ async function send(url: string, method: Method, options: CallOptions): Promise<
   const { body, signal, headers } = options;
   const bytes = body instanceof Uint8Array;
   const type = bytes ? 'application/octet-stream' : 'application/json';
-  const timeout = AbortSignal.timeout(timeoutMs[method]);
+  const timeout = AbortSignal.timeout(options.timeoutMs ?? timeoutMs[method]);
   try {
     return await fetch(url, {
       method,

@@ -17,6 +17,7 @@ describe('route', () => {
 
   it('names the other pages, there and back', () => {
     for (const hash of [
+      '#/',
       '#/sessions',
       '#/studies',
       '#/studies/s1',

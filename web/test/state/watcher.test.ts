@@ -432,4 +432,86 @@ describe('Watcher', () => {
       expect(store.problem.value).toContain('replay has ended');
     });
   });
+
+  it('does not take a session that rests for live when the server answers no more', async () => {
+    watcher.start();
+    await settle();
+    serve('s1', '1');
+    await vi.advanceTimersByTimeAsync(1);
+    expect(store.live.value).toBe(true);
+    api.down = true;
+    await vi.advanceTimersByTimeAsync(2600);
+    expect(store.link.value).toMatchObject({ kind: 'lost', reason: 'no answer' });
+    expect(store.live.value).toBe(false);
+    api.down = false;
+    await vi.advanceTimersByTimeAsync(600);
+    serve('s1', '1');
+    expect(store.live.value).toBe(true);
+  });
+
+  it('notices a connection that is cut without a word while the session rests', async () => {
+    watcher.start();
+    await settle();
+    serve('s1', '1');
+    api.sessions = () => new Promise(() => undefined);
+    await vi.advanceTimersByTimeAsync(2600);
+    expect(store.live.value).toBe(true);
+    await vi.advanceTimersByTimeAsync(8100);
+    expect(store.link.value.kind).toBe('lost');
+  });
+
+  it('believes a stream that goes on, whatever becomes of questions', async () => {
+    watcher.start();
+    await settle();
+    serve('s1', '1');
+    await watcher.runDemo();
+    api.down = true;
+    for (let i = 0; i < 40; ++i) {
+      await vi.advanceTimersByTimeAsync(100);
+      const at = telemetry({ state: 'running', tick: i, thrustN: new Float32Array([1]) });
+      socket.handlers?.onMessage(at);
+    }
+    expect(store.live.value).toBe(true);
+  });
+
+  it('says that the watched session has been deleted, and shows another', async () => {
+    watcher.start();
+    await settle();
+    serve('s1', '1');
+    await watcher.runDemo();
+    await watcher.stop();
+    watcher.watch('s1');
+    await settle();
+    serve('s1', '1');
+    api.list = api.list.filter((session) => session.id !== 's1');
+    await vi.advanceTimersByTimeAsync(2600);
+    expect(store.problem.value).toContain('s1');
+    expect(store.problem.value).toContain('deleted');
+    expect(store.live.value).toBe(false);
+    expect(socket.opened.at(-1)).toBe('ws://s2');
+    expect(store.chosenId.value).toBeNull();
+  });
+
+  it('watches an older session that the first page of the list does not have', async () => {
+    watcher.start();
+    await settle();
+    serve('s1', '1');
+    const old = await api.createDemo();
+    const { sessions } = api;
+    api.sessions = async () => (await sessions()).filter((session) => session.id !== old.id);
+    watcher.watch(old.id);
+    await settle();
+    expect(socket.opened.at(-1)).toBe(`ws://${old.id}`);
+    expect(store.problem.value).toBeNull();
+  });
+
+  it('misses no session that nobody had started', async () => {
+    watcher.start();
+    await settle();
+    serve('s1', '1');
+    api.list = [];
+    await vi.advanceTimersByTimeAsync(2600);
+    expect(store.problem.value).toBeNull();
+    expect(socket.opened.at(-1)).toBe('ws://s2');
+  });
 });

@@ -1,7 +1,7 @@
 import { caseWords } from '../../case_words';
 import type { CaseDetails } from '../../wire/case_types';
 import { words } from '../../words';
-import { SiteNav, WhoAmI } from '../site_nav';
+import { SiteNav, HeaderEnd } from '../site_nav';
 
 /** Which case this is, and the ways to the other pages. */
 export function CaseHeader({ details }: { details: CaseDetails | null }) {
@@ -20,7 +20,7 @@ export function CaseHeader({ details }: { details: CaseDetails | null }) {
           {caseWords.radiological} · {caseWords.dims(details.ct.dims)} · {caseWords.spacing(details.ct.spacing_mm)}
         </p>
       )}
-      <WhoAmI />
+      <HeaderEnd />
     </header>
   );
 }

@@ -4,6 +4,7 @@ import { useEffect, useRef } from 'preact/hooks';
 import { caseWords } from '../../case_words';
 import type { SurfaceView } from '../../scene/surface_view';
 import type { CaseStore, SurfaceState } from '../../state/case/case_store';
+import { words } from '../../words';
 import { type ViewId, ViewHead } from './slice_panel';
 
 interface Parts {
@@ -33,7 +34,8 @@ export function SurfacePanel({ view, store, enlarged }: Parts) {
   }, [view]);
   const state = store.surface.value;
   const at = store.crossHairMm.value;
-  const note = view === null ? caseWords.surfaceNoWebGl : noteOf(state);
+  const lost = view?.lost.value ?? false;
+  const note = view === null ? caseWords.surfaceNoWebGl : lost ? words.pictureLost : noteOf(state);
   return (
     <section class="view" aria-label={caseWords.surface}>
       <ViewHead id="surface" title={caseWords.surface} enlarged={store.details.value?.ct ? enlarged : null}>
@@ -51,7 +53,12 @@ export function SurfacePanel({ view, store, enlarged }: Parts) {
             </button>
           ))}
       </ViewHead>
-      <div class="view-canvas stage" ref={place} data-testid="surface" data-state={state.kind}>
+      <div
+        class={lost ? 'view-canvas stage picture-lost' : 'view-canvas stage'}
+        ref={place}
+        data-testid="surface"
+        data-state={state.kind}
+      >
         {view?.labels.value.map(({ x, y, text, active }) => (
           <span
             key={text}

@@ -1,0 +1,96 @@
+// Every page that an operator can open, with something on it.
+import { expect, type Page } from '@playwright/test';
+
+import { patch, post, startDemo, untilReady } from './rest_as_page';
+import { logIn, untilLive } from './server_for_each_test';
+import type { TestUser } from './server_process';
+
+export const olga: TestUser = { name: 'olga', role: 'operator', displayName: 'Olga Operator' };
+export const tom: TestUser = { name: 'tom', role: 'trainee', displayName: 'Tom Trainee' };
+
+/** Whose session it is; only staff's are nobody's. */
+async function giveTo(page: Page, session: string, { name, displayName }: TestUser): Promise<void> {
+  const { users } = (await (await page.request.get(new URL('/api/v1/users', page.url()).href)).json()) as {
+    users: { id: string; name: string }[];
+  };
+  const trainee = users.find((user) => user.name === name)?.id;
+  await patch(page, `sessions/${session}`, { trainee_id: trainee, trainee: displayName });
+}
+
+/** Opens them one after the other; `look` is called with each when it is complete. */
+export async function goThroughEveryPage(
+  page: Page,
+  url: string,
+  look: (name: string) => Promise<void>,
+): Promise<void> {
+  await page.goto(`${url}/#/`);
+  await expect(page.getByTestId('login')).toBeVisible();
+  await look('login');
+  await logIn(page, olga.name);
+  await untilReady(page, url);
+  const study = await post<{ id: string; join_code: string }>(page, 'studies', {
+    name: 'Who presses?',
+    cases: ['demo'],
+  });
+  const { code } = await post<{ code: string }>(page, `studies/${study.id}/participants`, { experience: 'novice' });
+  const ended = await startDemo(page, url);
+  await giveTo(page, ended, tom);
+  const tile = page.getByTestId(`tile-${ended}`);
+  await expect(tile).toContainText(/[1-9] N/, { timeout: 60_000 });
+  // What rests stays as it is for as long as it is looked at.
+  await post(page, `sessions/${ended}/pause`);
+  await expect(tile.getByRole('img')).toBeVisible({ timeout: 120_000 });
+  await look('dashboard');
+
+  const open = async (hash: string) => {
+    await page.goto(`${url}/${hash}`);
+  };
+  await open('#');
+  await untilLive(page);
+  await look('live');
+  await page.getByTestId('sections').click();
+  await page.getByTestId('slices').click();
+  await expect(page.getByTestId('live-slices')).toBeVisible();
+  await page.waitForTimeout(1000);
+  await look('live-tools');
+  await page.getByTestId('sections').click();
+  await page.getByTestId('slices').click();
+  await page.getByTestId('to-trainee').click();
+  await expect(page.getByTestId('trainee-page')).toBeVisible();
+  await look('trainee');
+  await page.getByTestId('leave-trainee').click();
+  await untilLive(page);
+  await post(page, `sessions/${ended}/stop`);
+  await expect(page.getByTestId('results')).toBeVisible();
+  await look('live-ended');
+  await page.getByTestId('practise').click();
+  await page.waitForFunction(() => window.__ream.deviceLink === 'holding', null, { timeout: 60_000 });
+  await look('practice');
+  await page.getByTestId('stop').click();
+  await expect(page.getByTestId('practice-bar')).toBeHidden();
+
+  await open('#/');
+  await expect(page.getByTestId(`points-${ended}`)).toHaveText(/^\d+$/, { timeout: 60_000 });
+  await expect(page.getByTestId('standing')).toBeVisible();
+  await page.getByText('As a table').click();
+  await look('dashboard-learning');
+  await page.getByTestId(`recent-replay-${ended}`).click();
+  await page.waitForFunction((of) => window.__ream.replayOf === of && window.__ream.positionTicks !== null, ended);
+  await look('replay');
+  await page.getByTestId('leave-replay').click();
+  for (const [name, hash, testId] of [
+    ['sessions', '#/sessions', `row-${ended}`],
+    ['cases', '#/cases', 'cases'],
+    ['case', '#/cases/demo', 'surface'],
+    ['studies', '#/studies', 'make-study'],
+    ['study', `#/studies/${study.id}`, 'study-title'],
+    ['questionnaire', `#/studies/${study.id}/answers/${code}`, 'questionnaire'],
+    ['users', '#/users', 'user-tom'],
+    ['account', '#/account', 'change-password'],
+  ] as const) {
+    await open(hash);
+    await expect(page.getByTestId(testId).first()).toBeVisible({ timeout: 60_000 });
+    await page.waitForTimeout(500);
+    await look(name);
+  }
+}

@@ -1,0 +1,31 @@
+import { expect, type Page } from '@playwright/test';
+
+/** A call of the REST interface by the cookie of the page, as the page itself would make it; throws for a refusal. */
+export const post = <T = { id: string }>(page: Page, path: string, body?: object) => call<T>(page, 'POST', path, body);
+export const patch = <T>(page: Page, path: string, body: object) => call<T>(page, 'PATCH', path, body);
+
+async function call<T>(page: Page, method: string, path: string, body?: object): Promise<T> {
+  return (await page.evaluate(
+    async ([method, to, data]) => {
+      const visitor = (await (await fetch('/api/v1/login')).json()) as { csrf_token: string | null };
+      const headers = { 'content-type': 'application/json', 'x-csrf-token': visitor.csrf_token ?? '' };
+      const answer = await fetch(`/api/v1/${to}`, { method, headers, body: data && JSON.stringify(data) });
+      if (!answer.ok) throw new Error(`${to}: ${answer.status} ${await answer.text()}`);
+      return (await answer.json()) as unknown;
+    },
+    [method, path, body] as const,
+  )) as T;
+}
+
+/** A fresh server makes its demo case first. */
+export async function untilReady(page: Page, serverUrl: string): Promise<void> {
+  await expect.poll(async () => (await page.request.get(`${serverUrl}/readyz`)).ok(), { timeout: 120_000 }).toBe(true);
+}
+
+/** A session in which the scripted hand reams the demo; its id. */
+export async function startDemo(page: Page, serverUrl: string): Promise<string> {
+  await untilReady(page, serverUrl);
+  const { id } = await post(page, 'sessions', { case: 'demo', script: 'demo', device: 'script' });
+  await post(page, `sessions/${id}/start`);
+  return id;
+}

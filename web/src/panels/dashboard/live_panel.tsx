@@ -1,0 +1,57 @@
+import { dashboardWords } from '../../dashboard_words';
+import type { LiveBoard } from '../../state/dashboard/live_board';
+import { addressOfRoute } from '../../state/route';
+import { clock, sentence } from '../format';
+import { Remark } from '../fields';
+import { LiveTile } from './live_tile';
+
+/** What goes on now, and whether that is known. */
+export function LivePanel({ board, watch }: { board: LiveBoard; watch: (id: string) => void }) {
+  const tiles = board.tiles.value;
+  const heardMs = board.heardMs.value;
+  const stale = board.stale.value;
+  return (
+    <section class="desk-panel live-now" aria-labelledby="live-now-title">
+      <div class="desk-head">
+        <h2 id="live-now-title">{dashboardWords.liveNow}</h2>
+        {heardMs !== null && tiles.length > 0 && (
+          <span class="soft desk-count" data-testid="live-count">
+            {dashboardWords.liveCount(tiles.length)}
+          </span>
+        )}
+      </div>
+      <News board={board} />
+      {heardMs === null && board.problem.value === null && (
+        <p class="soft" role="status">
+          {dashboardWords.loading}
+        </p>
+      )}
+      {heardMs !== null && !stale && tiles.length === 0 && (
+        <p class="soft" data-testid="none-live">
+          {dashboardWords.noneLive} <a href={addressOfRoute({ kind: 'live' })}>{dashboardWords.startOne}</a>
+        </p>
+      )}
+      {tiles.length > 0 && (
+        <ul class="tiles" data-testid="tiles" data-stale={stale}>
+          {tiles.map((tile) => (
+            <LiveTile key={tile.session.id} tile={tile} old={board.isOld(tile)} watch={watch} />
+          ))}
+        </ul>
+      )}
+    </section>
+  );
+}
+
+/** In words, as soon as news stop. */
+function News({ board }: { board: LiveBoard }) {
+  const heardMs = board.heardMs.value;
+  const problem = board.problem.value;
+  if (!board.stale.value && problem === null) return null;
+  return (
+    <Remark kind="bad" testId="no-news">
+      {`${problem === null ? '' : `${sentence(problem)} `}${
+        heardMs === null ? dashboardWords.neverHeard : dashboardWords.noNews(clock(heardMs))
+      }`}
+    </Remark>
+  );
+}

@@ -1,0 +1,133 @@
+import { dashboardWords } from '../../dashboard_words';
+import type { Tile } from '../../state/dashboard/live_board';
+import { alarmsOf, type TileAlarm } from '../../state/dashboard/tile_alarms';
+import type { Session } from '../../wire/api';
+import { words } from '../../words';
+import { clock, fixed, minutes } from '../format';
+
+/** Who trains, in words that are never empty. */
+export function whoOf({ trainee, participant, device, title }: Session): string {
+  if (trainee) return trainee;
+  if (participant) return dashboardWords.byParticipant(participant);
+  if (title) return title;
+  return device?.name === 'script' ? dashboardWords.scripted : dashboardWords.unnamed;
+}
+
+/** One session under way: who, what the bone looks like, the figures that matter, and what is wrong. */
+export function LiveTile({ tile, old, watch }: { tile: Tile; old: boolean; watch: (id: string) => void }) {
+  const { session } = tile;
+  const who = whoOf(session);
+  const titleId = `tile-${session.id}`;
+  return (
+    <li
+      class={old ? 'tile stale' : 'tile'}
+      data-testid={`tile-${session.id}`}
+      data-state={session.state}
+      data-stale={old}
+    >
+      <Thumbnail tile={tile} />
+      <div class="tile-words">
+        <div class="tile-head">
+          <h3 id={titleId}>
+            <button
+              type="button"
+              class="tile-open"
+              data-testid={`open-${session.id}`}
+              aria-label={dashboardWords.watchTile(who, session.case)}
+              onClick={() => watch(session.id)}
+            >
+              {who}
+            </button>
+          </h3>
+          <span class="chip" data-testid={`state-${session.id}`}>
+            {old ? dashboardWords.notLive : words.state[session.state]}
+          </span>
+        </div>
+        <p class="soft tile-what">
+          {session.case}
+          {(session.attempt ?? 1) > 1 && `, ${dashboardWords.attempt(session.attempt ?? 1)}`}
+          {session.theatre === true && `, ${dashboardWords.theatre}`}
+        </p>
+        <Figures tile={tile} />
+        <AlarmWords alarms={old ? [] : alarmsOf(tile)} />
+      </div>
+    </li>
+  );
+}
+
+function Thumbnail({ tile: { picture, pictureMs } }: { tile: Tile }) {
+  if (picture === null || pictureMs === null)
+    return <p class="tile-picture tile-no-picture soft">{dashboardWords.pictureComes}</p>;
+  const label = dashboardWords.pictureOf(clock(pictureMs));
+  return (
+    <figure class="tile-picture">
+      <img src={picture} alt={label} width="1280" height="960" />
+      <figcaption>{clock(pictureMs)}</figcaption>
+    </figure>
+  );
+}
+
+function Figures({ tile: { session, soFar, plannedDepthMm } }: { tile: Tile }) {
+  const depth = fixed(soFar?.reaming_depth_mm, 2);
+  return (
+    <dl class="tile-figures">
+      <Pair name={dashboardWords.depth}>
+        {plannedDepthMm === null
+          ? dashboardWords.depthAlone(depth)
+          : dashboardWords.depthOf(depth, fixed(plannedDepthMm, 1))}
+      </Pair>
+      <Pair name={dashboardWords.thrust}>
+        {dashboardWords.newtons(fixed(soFar?.axial_thrust_mean_n, 0))}{' '}
+        <span class="soft">
+          {dashboardWords.peak} {dashboardWords.newtons(fixed(soFar?.axial_thrust_peak_n, 0))}
+        </span>
+      </Pair>
+      <Pair name={dashboardWords.removed}>{dashboardWords.cubicMm(fixed(soFar?.removed_volume_mm3, 0))}</Pair>
+      <Pair name={dashboardWords.time}>{minutes(soFar?.duration_s ?? session.duration_s)}</Pair>
+    </dl>
+  );
+}
+
+function Pair({ name, children }: { name: string; children: preact.ComponentChildren }) {
+  return (
+    <>
+      <dt>{name}</dt>
+      <dd>{children}</dd>
+    </>
+  );
+}
+
+/** Announced when they begin; their figures are only to be seen. */
+function AlarmWords({ alarms }: { alarms: readonly TileAlarm[] }) {
+  return (
+    <div class="tile-alarms" role="status" aria-label={dashboardWords.alarms}>
+      {alarms.map((alarm) => (
+        <p key={alarm.kind} class={`tile-alarm tile-alarm-${alarm.level}`} data-testid={`tile-alarm-${alarm.kind}`}>
+          <svg viewBox="0 0 24 24" aria-hidden="true">
+            {alarm.level === 'bad' ? (
+              <path d="M7.5 1.5h9l6 6v9l-6 6h-9l-6-6v-9zM11 6v8h2V6zm0 10v2.4h2V16z" fill-rule="evenodd" />
+            ) : (
+              <path d="M12 1.8 23 21.5H1zM11 8.5v6.5h2V8.5zm0 8.2v2.3h2v-2.3z" fill-rule="evenodd" />
+            )}
+          </svg>
+          {wordsOfAlarm(alarm)}
+        </p>
+      ))}
+    </div>
+  );
+}
+
+function wordsOfAlarm({ kind, value, said }: TileAlarm): string {
+  switch (kind) {
+    case 'fault':
+      return said ?? words.fault;
+    case 'vault':
+      return dashboardWords.alarmVault(fixed(value, 1));
+    case 'depth':
+      return dashboardWords.alarmDepth(fixed(value, 1));
+    case 'thrust':
+      return dashboardWords.alarmThrust;
+    case 'late':
+      return dashboardWords.alarmLate(fixed(value, 1));
+  }
+}

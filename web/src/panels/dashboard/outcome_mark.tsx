@@ -1,0 +1,28 @@
+import { dashboardWords } from '../../dashboard_words';
+import type { Outcome } from '../../wire/api';
+
+/** In words, with a sign that is told apart without colours. */
+export function OutcomeMark({ outcome }: { outcome: Outcome }) {
+  return (
+    <span class={`outcome outcome-${outcome ?? 'none'}`}>
+      <svg viewBox="-8 -8 16 16" width="14" height="14" aria-hidden="true">
+        <OutcomeSign outcome={outcome} />
+      </svg>
+      {dashboardWords.outcome[outcome ?? 'none']}
+    </span>
+  );
+}
+
+/** A disc for passed, a cross for failed, a ring for undecided, a dot for what was not judged; about 14 wide. */
+export function OutcomeSign({ outcome }: { outcome: Outcome }) {
+  switch (outcome) {
+    case 'pass':
+      return <circle r="6" fill="currentcolor" />;
+    case 'fail':
+      return <path d="M-5 -5 5 5M5 -5 -5 5" stroke="currentcolor" stroke-width="3" fill="none" />;
+    case 'undecided':
+      return <circle r="5" stroke="currentcolor" stroke-width="2.5" fill="none" />;
+    case null:
+      return <circle r="3" fill="currentcolor" />;
+  }
+}

@@ -1,0 +1,113 @@
+import { useSignal } from '@preact/signals';
+
+import { dashboardWords } from '../../dashboard_words';
+import { canBeReplayed } from '../../state/choose_session';
+import type { Remote } from '../../state/remote';
+import { addressOfRoute } from '../../state/route';
+import type { Session } from '../../wire/api';
+import { words } from '../../words';
+import { dayAndTime, fixed } from '../format';
+import { Remark } from '../fields';
+import { whoOf } from './live_tile';
+import { OutcomeMark } from './outcome_mark';
+
+const shownAtMost = 8;
+
+interface Parts {
+  ended: Remote<Session[]>;
+  /** Words about what went wrong, or null. */
+  replay: (id: string) => Promise<string | null>;
+}
+
+/** What has ended last, and what it was worth. */
+export function RecentPanel({ ended, replay }: Parts) {
+  const failed = useSignal<string | null>(null);
+  const sessions = ended.value.value;
+  const problem = failed.value ?? ended.problem.value;
+  return (
+    <section class="desk-panel recent" aria-labelledby="recent-title">
+      <div class="desk-head">
+        <h2 id="recent-title">{dashboardWords.recent}</h2>
+        <a class="desk-count" href={addressOfRoute({ kind: 'sessions' })}>
+          {dashboardWords.allSessions}
+        </a>
+      </div>
+      {problem !== null && (
+        <Remark kind="bad" testId="recent-problem">
+          {problem}
+        </Remark>
+      )}
+      {ended.stale.value && sessions !== null && <p class="soft">{dashboardWords.outOfDate}</p>}
+      {sessions === null && problem === null && <p class="soft">{dashboardWords.loading}</p>}
+      {sessions?.length === 0 && (
+        <p class="soft" data-testid="none-recent">
+          {dashboardWords.noneRecent}
+        </p>
+      )}
+      {sessions !== null && sessions.length > 0 && (
+        <div class="desk-scroll">
+          <table class={ended.stale.value ? 'desk-table stale' : 'desk-table'} data-testid="recent">
+            <thead>
+              <tr>
+                <th scope="col">{dashboardWords.when}</th>
+                <th scope="col">{dashboardWords.who}</th>
+                <th scope="col">{dashboardWords.case}</th>
+                <th scope="col" class="number">
+                  {dashboardWords.points}
+                </th>
+                <th scope="col">{dashboardWords.result}</th>
+                <th scope="col">
+                  <span class="visually-hidden">{dashboardWords.deeds}</span>
+                </th>
+              </tr>
+            </thead>
+            <tbody>
+              {sessions.slice(0, shownAtMost).map((session) => (
+                <Row
+                  key={session.id}
+                  session={session}
+                  replay={async () => (failed.value = await replay(session.id))}
+                />
+              ))}
+            </tbody>
+          </table>
+        </div>
+      )}
+    </section>
+  );
+}
+
+function Row({ session, replay }: { session: Session; replay: () => Promise<unknown> }) {
+  return (
+    <tr data-testid={`recent-${session.id}`}>
+      <td>{dayAndTime(session.created_utc)}</td>
+      <td>{whoOf(session)}</td>
+      <td>{session.case}</td>
+      <td class="number" data-testid={`points-${session.id}`}>
+        {fixed(session.score?.points, 0)}
+      </td>
+      <td>
+        {session.state === 'fault' || session.state === 'interrupted' ? (
+          <span class="session-fault" title={session.fault ?? undefined}>
+            {words.state[session.state]}
+          </span>
+        ) : (
+          <OutcomeMark outcome={session.score?.outcome ?? null} />
+        )}
+      </td>
+      <td class="deeds">
+        {canBeReplayed(session) && (
+          <button
+            type="button"
+            class="plain-button"
+            data-testid={`recent-replay-${session.id}`}
+            aria-label={words.replaySession(session.id)}
+            onClick={() => void replay()}
+          >
+            {dashboardWords.replay}
+          </button>
+        )}
+      </td>
+    </tr>
+  );
+}

@@ -1,0 +1,47 @@
+import { describe, expect, it } from 'vitest';
+
+import { alarmsOf, type Reading } from '../../../src/state/dashboard/tile_alarms';
+import type { Session } from '../../../src/wire/api';
+import type { SoFar } from '../../../src/wire/dashboard_api';
+
+const calm: SoFar = {
+  reaming_depth_mm: 1,
+  axial_thrust_mean_n: 50,
+  axial_thrust_peak_n: 60,
+  axial_thrust_excess_n_s: 2,
+  removed_volume_mm3: 10,
+  duration_s: 3,
+  vault_breach_mm: 0,
+};
+const session = { fault: null, tick: 10_000, loop: { missed: 5 } } as Session;
+const kinds = (reading: Partial<Reading>) =>
+  alarmsOf({ session, soFar: calm, before: calm, plannedDepthMm: 2, ...reading }).map(
+    ({ kind, level }) => `${kind} ${level}`,
+  );
+
+describe('alarmsOf', () => {
+  it('finds nothing where nothing is wrong or nothing is known', () => {
+    expect(kinds({})).toEqual([]);
+    expect(kinds({ soFar: null, before: null, plannedDepthMm: null })).toEqual([]);
+    expect(kinds({ before: null })).toEqual([]);
+  });
+
+  it('tells thrust only while its excess grows', () => {
+    expect(kinds({ soFar: { ...calm, axial_thrust_excess_n_s: 2.5 } })).toEqual(['thrust bad']);
+  });
+
+  it('tells depth past the plan, worse from a millimetre on', () => {
+    expect(kinds({ soFar: { ...calm, reaming_depth_mm: 2.4 } })).toEqual(['depth warn']);
+    expect(kinds({ soFar: { ...calm, reaming_depth_mm: 3.4 } })).toEqual(['depth bad']);
+    expect(kinds({ soFar: { ...calm, reaming_depth_mm: 3.4 }, plannedDepthMm: null })).toEqual([]);
+  });
+
+  it('tells what is bad before what is not', () => {
+    expect(
+      kinds({
+        session: { ...session, loop: { missed: 50 }, fault: 'the device is lost' },
+        soFar: { ...calm, vault_breach_mm: 0.4 },
+      }),
+    ).toEqual(['fault bad', 'vault bad', 'late warn']);
+  });
+});
