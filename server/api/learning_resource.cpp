@@ -28,31 +28,42 @@ double asked_or(const net::Request& request, const std::string& name, double oth
   return given.empty() ? otherwise : json::parse(given).get<double>();
 }
 
-/// Of one person: by user, or by the code of a study.
+/// Of one person: by user, by the code of a study, or by the name that was given where there are no users.
 store::SessionQuery query_of(const net::Request& request) {
   store::SessionQuery query;
   query.trainee_id = asked(request, "trainee");
   query.participant = asked(request, "participant");
+  query.text = asked(request, "name");
+  query.outside_studies = !query.text.empty();
   query.case_id = asked(request, "case");
   if (request.caller.role == "trainee") {
     if (!query.trainee_id.empty() && query.trainee_id != request.caller.user_id)
       throw Error(ErrorKind::not_found,
                   "no such trainee that you may see; a trainee has their own learning only");
-  } else if (query.trainee_id.empty() == query.participant.empty()) {
-    throw net::RequestError(422,
-                            "say whose learning: either 'trainee', a user's id, or 'participant', a "
-                            "code of a study");
+  } else if (int{!query.trainee_id.empty()} + int{!query.participant.empty()} + int{!query.text.empty()} !=
+             1) {
+    throw net::RequestError(
+        422,
+        "say whose learning: either 'trainee', a user's id, or 'participant', a code of a "
+        "study, or 'name', as sessions without a user have it");
   }
   query.descending = false;
   query.limit = SIZE_MAX;
   return query;
 }
 
+/// Whether it is of the person who is called so, and of no user.
+bool is_named(const SessionRecord& record, const std::string& name) {
+  return record.request.trainee_id.empty() && record.request.trainee == name;
+}
+
 std::vector<Attempt> attempts_of(const ScoreTools& tools, const net::Request& request,
                                  const score::Rubric& rubric) {
   std::vector<Attempt> attempts;
+  const std::string name = asked(request, "name");
   for (const SessionRecord& record :
        sessions_for(request.caller, tools.sessions, query_of(request)).sessions) {
+    if (!name.empty() && !is_named(record, name)) continue;
     const std::string& id = record.request.id;
     const fs::path folder = tools.sessions.folder_of(id);
     std::error_code failed;

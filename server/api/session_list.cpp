@@ -98,7 +98,7 @@ SessionPage sessions_for(const net::Caller& caller, const SessionService& sessio
     query.trainee_id = caller.user_id;
   }
   // What is found by a person would tell who is behind a code.
-  if (role != operators && role != trainees) query.outside_studies = !query.trainee_id.empty();
+  if (role != operators && role != trainees && !query.trainee_id.empty()) query.outside_studies = true;
   return sessions.list(query);
 }
 

@@ -348,7 +348,8 @@ void ReamingSession::note_health() {
   }
   place_->measured(health.tick_us.p99_us, health.tick, health.missed);
   const std::lock_guard lock(mutex_);
-  if (now_ns >= metrics_due_ns_) {
+  const bool held_or_let_go = held_ != status_.held;  // who asked for a pause sees what it left
+  if (now_ns >= metrics_due_ns_ || held_or_let_go) {
     metrics_due_ns_ = now_ns + score::LiveScore::told_every_ns;
     metrics_ =
         score::session_metrics_json(files_->metrics(), live_score_.findings(), status_.force_scale, nullptr);
@@ -360,7 +361,8 @@ void ReamingSession::note_health() {
   if (status_.state == api::SessionState::running || status_.state == api::SessionState::paused)
     status_.state = sample_.state == stream::SessionState::paused ? api::SessionState::paused
                                                                   : api::SessionState::running;
-  if (std::exchange(status_.held, held_) != held_) changed_.notify_all();
+  status_.held = held_;
+  if (held_or_let_go) changed_.notify_all();
 }
 
 void ReamingSession::publish_state(api::SessionState state) {

@@ -5,13 +5,13 @@
 #include <charconv>
 
 #include "core/error.hpp"
+#include "core/hex.hpp"
 
 namespace ream::store {
 namespace {
 
 constexpr std::array<const char*, 6> order_words{"created_utc", "duration_s", "case",
                                                  "trainee",     "state",      "points"};
-constexpr char digits[] = "0123456789abcdef";
 
 std::string number_text(double number) {
   std::array<char, 32> text;
@@ -52,27 +52,6 @@ SessionPlace place_of(SessionOrder order, const SessionRow& row) { return {key_o
 /// The order of a cursor, so that it is not used for another one.
 std::string order_mark(const SessionQuery& query) {
   return std::string(query.descending ? "-" : "+") + order_words[static_cast<size_t>(query.order)];
-}
-
-std::string hex_of(const std::string& text) {
-  std::string hex;
-  for (const char c : text) {
-    hex += digits[static_cast<unsigned char>(c) >> 4];
-    hex += digits[static_cast<unsigned char>(c) & 15];
-  }
-  return hex;
-}
-
-/// Empty for what is no hex.
-std::string text_from_hex(const std::string& hex) {
-  std::string text;
-  for (size_t i = 0; i + 1 < hex.size(); i += 2) {
-    const char* high = std::char_traits<char>::find(digits, 16, hex[i]);
-    const char* low = std::char_traits<char>::find(digits, 16, hex[i + 1]);
-    if (high == nullptr || low == nullptr) return {};
-    text += static_cast<char>((high - digits) * 16 + (low - digits));
-  }
-  return hex.size() % 2 == 0 ? text : std::string();
 }
 
 bool is_or_any(const std::string& wanted, const std::string& value) {
@@ -139,7 +118,7 @@ std::string cursor_behind(const SessionQuery& query, const SessionRow& row) {
 
 std::optional<SessionPlace> place_of_cursor(const SessionQuery& query) {
   if (query.cursor.empty()) return std::nullopt;
-  const std::string text = text_from_hex(query.cursor), mark = order_mark(query) + '\n';
+  const std::string text = bytes_from_hex(query.cursor), mark = order_mark(query) + '\n';
   const size_t end = text.find('\n', mark.size());
   if (!text.starts_with(mark) || end == std::string::npos || text.find('\0') != std::string::npos)
     throw Error(ErrorKind::invalid_input,

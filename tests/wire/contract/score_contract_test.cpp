@@ -95,7 +95,9 @@ class ScoreContractTest : public ScoreTest {
     expect_get(learning, learning + "?trainee=tina&rubric=simple&benchmark=" + benchmark, 200);
     expect_get(learning, learning + "?participant=K7-F3M", 200);
     expect_get(learning, learning, 422);
+    expect_get(learning, learning + "?name=Tina", 200);
     expect_get(learning, learning + "?trainee=tina&participant=K7-F3M", 422);
+    expect_get(learning, learning + "?trainee=tina&name=Tina", 422);
     expect_get(learning, learning + "?trainee=tina&acceptable_rate=0.5", 422);
     expect_get(learning, learning + "?trainee=tina&benchmark=nothing", 404);
   }

@@ -44,7 +44,7 @@ class ScoreTest : public ContractTest {
     json session = {{"case", "planned"},  {"script", "demo"},
                     {"state", "stopped"}, {"created_utc", "2026-01-" + date + "T12:00:00.000Z"},
                     {"ticks", 5000},      {"trainee_id", "tina"}};
-    session.update(more);
+    session.merge_patch(more);
     folder.write("sessions/" + id + "/session.json", session.dump());
     folder.write("sessions/" + id + "/metrics.json", some_metrics(size).dump());
     folder.write("sessions/" + id + "/recording.ream", "0123456789");

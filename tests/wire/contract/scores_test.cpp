@@ -167,6 +167,21 @@ TEST_F(ScoresTest, TellACourseOfLearningInOrderOfTime) {
   EXPECT_EQ(reached.at("first_proficient"), "s0");
 }
 
+TEST_F(ScoresTest, WithoutUsersTellACourseOfLearningByName) {
+  const json ann = {{"trainee", "Ann"}, {"trainee_id", nullptr}};
+  put_session("s0", 3.0, 1, ann);
+  put_session("s1", 2.0, 2, ann);
+  put_session("annie", 2.0, 3, {{"trainee", "Annie"}, {"trainee_id", nullptr}});
+  put_session("user", 2.0, 4, {{"trainee", "Ann"}});
+  put_session("study", 2.0, 5,
+              {{"trainee", "Ann"}, {"trainee_id", nullptr}, {"participant", "K7-F3M"}, {"study", "s"}});
+  start();
+  const json curve = told(learning + "?name=Ann");
+  std::string sessions;
+  for (const json& each : curve.at("sessions")) sessions += each.at("session").get<std::string>() + " ";
+  EXPECT_EQ(sessions, "s0 s1 ");
+}
+
 TEST_F(ScoresTest, OfExpertsAndNovicesGiveAMark) {
   const double novices[] = {6.0, 7.0, 8.0}, experts[] = {1.0, 2.0, 3.0};
   for (int i = 0; i < 3; ++i) {
