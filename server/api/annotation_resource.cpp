@@ -29,7 +29,13 @@ net::Response annotate(SessionService& service, const net::Request& request) {
   note.at_s = body.number_within_or_none("at_s", 0.0, longest_session_s);
   note.place_mm = body.point_or_none("place_mm", farthest_mm);
   body.finish();
-  return net::json_response(201, to_json(service.annotate(request.parameters.at("id"), note)));
+  const std::string& id = request.parameters.at("id");
+  // The remark goes into the recording, which others read: who takes part in a study signs by code.
+  if (const SessionRequest session = service.get(id).request; !session.participant.empty() &&
+                                                              !request.caller.user_id.empty() &&
+                                                              request.caller.user_id == session.trainee_id)
+    note.author = session.participant;
+  return net::json_response(201, to_json(service.annotate(id, note)));
 }
 
 net::Response list(const SessionService& service, const net::Request& request) {

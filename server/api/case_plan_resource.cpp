@@ -22,6 +22,17 @@ net::Response measures(CaseWorkshop& workshop, const net::Request& request) {
   return net::json_response(200, case_::to_json(case_::measure(workshop.landmarks(id), side)));
 }
 
+net::Response landmarks(CaseWorkshop& workshop, const net::Request& request) {
+  return net::json_response(200, case_::to_json(workshop.landmarks(request.parameters.at("id"))));
+}
+
+net::Response plan(CaseWorkshop& workshop, const net::Request& request) {
+  const std::string& id = request.parameters.at("id");
+  json plan = case_json(workshop.folder_of(id)).at("plan");
+  if (plan.is_null()) throw Error(ErrorKind::not_found, "case '" + id + "' has no plan yet; PUT one");
+  return net::json_response(200, plan);
+}
+
 net::Response set_landmarks(CaseWorkshop& workshop, const net::Request& request) {
   const std::string& id = request.parameters.at("id");
   workshop.set_landmarks(id, case_::landmarks_from_json(json_object_in(request), place));
@@ -85,6 +96,10 @@ void add_case_plan_routes(net::Router& router, CaseWorkshop& workshop,
                           const std::filesystem::path& data_folder) {
   router.on("GET", one + "/measures",
             [&workshop](const net::Request& request) { return measures(workshop, request); });
+  router.on("GET", one + "/landmarks",
+            [&workshop](const net::Request& request) { return landmarks(workshop, request); });
+  router.on("GET", one + "/plan",
+            [&workshop](const net::Request& request) { return plan(workshop, request); });
   router.on("PUT", one + "/landmarks",
             [&workshop](const net::Request& request) { return set_landmarks(workshop, request); });
   router.on("POST", one + "/plan/proposal", [&workshop, data_folder](const net::Request& request) {

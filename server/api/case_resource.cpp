@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "api/case_json.hpp"
+#include "api/json_page.hpp"
 #include "api/request_body.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
@@ -26,8 +27,8 @@ std::vector<fs::path> case_folders(const fs::path& folder) {
   return list;
 }
 
-net::Response list_cases(const fs::path& folder) {
-  json cases = json::array();
+net::Response list_cases(const fs::path& folder, const net::Request& request) {
+  std::vector<json> cases;
   for (const fs::path& path : case_folders(folder)) {
     try {
       cases.push_back(case_summary_json(path));
@@ -35,7 +36,7 @@ net::Response list_cases(const fs::path& folder) {
       log::warn(std::string("case left out of the list: ") + error.what());
     }
   }
-  return net::json_response(200, {{"cases", std::move(cases)}});
+  return page_of(request, "cases", std::move(cases), "id");
 }
 
 net::Response get_case(const fs::path& folder, const std::string& id) {
@@ -47,7 +48,8 @@ net::Response get_case(const fs::path& folder, const std::string& id) {
 }  // namespace
 
 void add_case_routes(net::Router& router, const fs::path& cases_folder) {
-  router.on("GET", "/api/v1/cases", [cases_folder](const net::Request&) { return list_cases(cases_folder); });
+  router.on("GET", "/api/v1/cases",
+            [cases_folder](const net::Request& request) { return list_cases(cases_folder, request); });
   router.on("GET", "/api/v1/cases/{id}", [cases_folder](const net::Request& request) {
     return get_case(cases_folder, request.parameters.at("id"));
   });

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "api/case_work_resource.hpp"
+#include "api/passing_file.hpp"
 #include "net/problem.hpp"
 
 namespace ream::api {
@@ -49,6 +50,16 @@ net::Response slice(CaseWorkshop& workshop, const net::Request& request) {
   return response;
 }
 
+/// Made now, sent, and gone.
+net::Response volume(CaseWorkshop& workshop, QuietWork& quiet, const std::filesystem::path& passing_folder,
+                     const net::Request& request) {
+  const std::string& id = request.parameters.at("id");
+  workshop.workup(id);
+  const PassingFile file(passing_folder, ".nrrd");
+  quiet.run([&] { workshop.write_volume(id, file.path()); });
+  return net::file_response(request, {file.path(), "application/octet-stream", id + ".nrrd"});
+}
+
 net::Response mesh(CaseWorkshop& workshop, const net::Request& request) {
   net::Response response =
       net::bytes_response(200, "application/ply", net::share(workshop.mesh(request.parameters.at("id"))));
@@ -58,7 +69,11 @@ net::Response mesh(CaseWorkshop& workshop, const net::Request& request) {
 
 }  // namespace
 
-void add_case_volume_routes(net::Router& router, CaseWorkshop& workshop) {
+void add_case_volume_routes(net::Router& router, CaseWorkshop& workshop, QuietWork& quiet,
+                            const std::filesystem::path& passing_folder) {
+  router.on("GET", "/api/v1/cases/{id}/volume", [&, passing_folder](const net::Request& request) {
+    return volume(workshop, quiet, passing_folder, request);
+  });
   router.on("GET", "/api/v1/cases/{id}/volume/slices/{axis}/{index}",
             [&workshop](const net::Request& request) { return slice(workshop, request); });
   router.on("GET", "/api/v1/cases/{id}/mesh",

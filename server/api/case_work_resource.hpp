@@ -1,5 +1,6 @@
 #pragma once
 #include "api/case_workshop.hpp"
+#include "api/quiet_work.hpp"
 #include "net/router.hpp"
 
 namespace ream::api {
@@ -8,8 +9,10 @@ namespace ream::api {
 /// uploads must outlive the router.
 void add_case_work_routes(net::Router& router, CaseWorkshop& workshop, UploadStore& uploads);
 
-/// Looking at a case's CT and surface: slices and mesh.
-void add_case_volume_routes(net::Router& router, CaseWorkshop& workshop);
+/// Looking at a case's CT and surface: slices, mesh, and the whole CT as a file, which is made by `quiet` in
+/// `passing_folder`. Both outlive the router.
+void add_case_volume_routes(net::Router& router, CaseWorkshop& workshop, QuietWork& quiet,
+                            const std::filesystem::path& passing_folder);
 
 /// Landmarks, measures, plan, and the library of reamers of `data_folder`.
 void add_case_plan_routes(net::Router& router, CaseWorkshop& workshop,

@@ -11,6 +11,7 @@
 #include "core/file.hpp"
 #include "ct/import.hpp"
 #include "ct/slice.hpp"
+#include "ct/volume_io.hpp"
 #include "ct/workup_bone.hpp"
 #include "geometry/mesh_io.hpp"
 #include "surface/whole_surface.hpp"
@@ -61,8 +62,8 @@ class TakenUpload {
 
 }  // namespace
 
-CaseWorkshop::CaseWorkshop(fs::path cases_folder, CaseTools tools)
-    : cases_folder_(std::move(cases_folder)), tools_(std::move(tools)) {}
+CaseWorkshop::CaseWorkshop(fs::path cases_folder, CaseTools tools, JobService& jobs)
+    : cases_folder_(std::move(cases_folder)), tools_(std::move(tools)), jobs_(jobs) {}
 
 fs::path CaseWorkshop::folder_of(const std::string& id) const {
   const fs::path folder = cases_folder_ / id;
@@ -95,7 +96,7 @@ JobRecord CaseWorkshop::import(const NewCase& wanted, UploadStore& uploads) {
   const std::string name = wanted.name.empty() ? stem : wanted.name;
   if (jobs_.busy(id)) throw Error(ErrorKind::conflict, "a case '" + id + "' is being made; wait for it");
   const auto taken = std::make_shared<TakenUpload>(uploads.take(wanted.upload_id));
-  return jobs_.submit("import", id, [this, taken, id, name, wanted](const Progress& progress) {
+  return jobs_.submit({"import", id}, [this, taken, id, name, wanted](const Progress& progress) {
     const ct::HuVolume volume = naming_as_sent(taken->file(), [&] {
       return tools_.read_ct(taken->file(), wanted.series_uid, part_of(progress, 0.0, read_share));
     });
@@ -107,7 +108,7 @@ JobRecord CaseWorkshop::import(const NewCase& wanted, UploadStore& uploads) {
 JobRecord CaseWorkshop::copy(const std::string& from, case_::Side side) {
   const ct::Workup source = workup(from);
   const std::string id = unused_id(from + "-" + case_::to_text(side));
-  return jobs_.submit("import", id, [this, from, id, side, source](const Progress& progress) {
+  return jobs_.submit({"import", id}, [this, from, id, side, source](const Progress& progress) {
     progress(0.0, "copying the CT");
     ct::copy_workup(folder_of(from), cases_folder_ / id, id, source.name, side);
   });
@@ -115,7 +116,7 @@ JobRecord CaseWorkshop::copy(const std::string& from, case_::Side side) {
 
 JobRecord CaseWorkshop::segment(const std::string& id, ct::SegmentationSettings settings) {
   settings.side = workup(id).side;
-  return jobs_.submit("segmentation", id, [this, id, settings](const Progress& progress) {
+  return jobs_.submit({"segmentation", id}, [this, id, settings](const Progress& progress) {
     const fs::path folder = folder_of(id);
     ct::Workup workup = this->workup(id);
     ct::HuVolume volume = workup.volume;
@@ -145,7 +146,7 @@ void CaseWorkshop::require_no_sessions(const std::string& id, const std::string&
 JobRecord CaseWorkshop::build(const std::string& id, const ct::BuildSettings& settings) {
   if (!workup(id).segmentation()) throw Error(ErrorKind::conflict, "case '" + id + "' is not segmented yet");
   require_no_sessions(id, "built anew");
-  return jobs_.submit("build", id, [this, id, settings](const Progress& progress) {
+  return jobs_.submit({"build", id}, [this, id, settings](const Progress& progress) {
     const fs::path folder = folder_of(id);
     ct::Workup workup = this->workup(id);
     const auto hu = shelf_.hu(folder, workup);
@@ -236,6 +237,14 @@ net::Bytes CaseWorkshop::slice(const std::string& id, int axis, int index, bool 
     throw Error(ErrorKind::conflict, "case '" + id + "' has been segmented again or undone since");
   const auto labels = shelf_.labels(folder, workup, workup.segmentation()->revision);
   return bytes_of(ct::slice_of(std::span<const uint8_t>(*labels), dims, axis, index));
+}
+
+void CaseWorkshop::write_volume(const std::string& id, const fs::path& file) {
+  const fs::path folder = folder_of(id);
+  const ct::Workup workup = this->workup(id);
+  ct::HuVolume volume = workup.volume;
+  volume.hu = *shelf_.hu(folder, workup);
+  ct::write_volume_file(volume, file);
 }
 
 std::string CaseWorkshop::mesh(const std::string& id) {

@@ -38,7 +38,8 @@ struct NewCase {
 /// one conflict.
 class CaseWorkshop {
  public:
-  CaseWorkshop(std::filesystem::path cases_folder, CaseTools tools);
+  /// `jobs` does the long work; it is shut down before the workshop goes.
+  CaseWorkshop(std::filesystem::path cases_folder, CaseTools tools, JobService& jobs);
 
   std::filesystem::path folder_of(const std::string& id) const;
   ct::Workup workup(const std::string& id) const;
@@ -63,10 +64,10 @@ class CaseWorkshop {
   /// conflict when labels are of another revision than the one asked for.
   net::Bytes slice(const std::string& id, int axis, int index, bool of_labels,
                    std::optional<int> revision = std::nullopt);
+  /// Writes the CT as it was imported, by the file's extension. Error conflict when the case has none.
+  void write_volume(const std::string& id, const std::filesystem::path& file);
   /// The surface of the case, LPS mm, binary PLY.
   std::string mesh(const std::string& id);
-
-  JobService& jobs() { return jobs_; }
 
  private:
   std::string unused_id(const std::string& wanted) const;
@@ -77,7 +78,7 @@ class CaseWorkshop {
   const CaseTools tools_;
   CtShelf shelf_;
   std::mutex changing_;  ///< one writer of a case's small files at a time
-  JobService jobs_;      ///< last: its work uses all of the above
+  JobService& jobs_;
 };
 
 }  // namespace ream::api

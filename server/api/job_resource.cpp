@@ -2,33 +2,81 @@
 
 #include <nlohmann/json.hpp>
 
+#include "api/json_page.hpp"
 #include "api/request_body.hpp"
+#include "api/rights.hpp"
+#include "api/visibility.hpp"
+#include "net/file_body.hpp"
 #include "net/problem.hpp"
 
 namespace ream::api {
 using nlohmann::json;
 namespace {
 
+json or_null(const std::string& text) { return text.empty() ? json(nullptr) : json(text); }
+
 json to_json(const JobRecord& job) {
-  json problem;
+  json problem, result;
   if (job.state == JobState::failed) {
     const int status = net::http_status(job.problem_kind);
     problem = {{"status", status}, {"title", net::status_title(status)}, {"detail", job.problem}};
   }
-  return {
-      {"id", job.id},       {"kind", job.kind}, {"case_id", job.case_id},       {"state", to_text(job.state)},
-      {"share", job.share}, {"step", job.step}, {"problem", std::move(problem)}};
+  if (job.result)
+    result = {{"name", job.result->path.filename().string()},
+              {"media_type", job.result->media_type},
+              {"bytes", job.result->bytes}};
+  return {{"id", job.id},
+          {"number", job.number},
+          {"kind", job.order.kind},
+          {"case_id", or_null(job.order.case_id)},
+          {"session_id", or_null(job.order.session_id)},
+          {"state", to_text(job.state)},
+          {"share", job.share},
+          {"step", job.step},
+          {"problem", std::move(problem)},
+          {"created_utc", job.created_utc},
+          {"ended_utc", or_null(job.ended_utc)},
+          {"result", std::move(result)}};
+}
+
+bool fits(const net::Request& request, const std::string& name, const std::string& value) {
+  const auto wanted = request.query.find(name);
+  return wanted == request.query.end() || wanted->second == value;
 }
 
 net::Response list(const JobService& jobs, const net::Request& request) {
-  const auto wanted = request.query.find("case_id");
-  json list = json::array();
-  for (const JobRecord& job : jobs.list(wanted == request.query.end() ? "" : wanted->second))
-    list.push_back(to_json(job));
-  return net::json_response(200, {{"jobs", std::move(list)}});
+  std::vector<json> list;
+  for (const JobRecord& job : jobs.list())
+    if (may_see(request.caller, job) && fits(request, "case_id", job.order.case_id) &&
+        fits(request, "session_id", job.order.session_id) && fits(request, "kind", job.order.kind) &&
+        fits(request, "state", to_text(job.state)))
+      list.push_back(to_json(job));
+  return page_of(request, "jobs", std::move(list), "-number");
+}
+
+/// In the words of a job that does not exist unless the caller may know of it.
+JobRecord seen(const JobService& jobs, const net::Request& request) {
+  JobRecord job = jobs.get(request.parameters.at("id"));
+  if (!may_see(request.caller, job))
+    throw Error(ErrorKind::not_found, "no job '" + job.id + "'; GET /api/v1/jobs lists them");
+  return job;
+}
+
+net::Response result(const JobService& jobs, const net::Request& request) {
+  const JobRecord job = seen(jobs, request);
+  if (is_open(job.state))
+    throw Error(ErrorKind::conflict, "job '" + job.id + "' is " + to_text(job.state) + "; wait for its end");
+  if (!job.result) throw Error(ErrorKind::not_found, "job '" + job.id + "' has no file, or has it no longer");
+  return net::file_response(request,
+                            {job.result->path, job.result->media_type, job.result->path.filename().string()});
 }
 
 }  // namespace
+
+bool may_see(const net::Caller& caller, const JobRecord& job) {
+  if ((role_bit(caller.role) & staff) != 0) return true;
+  return job.order.session && may_see(caller, *job.order.session);
+}
 
 net::Response accepted(const JobRecord& job) {
   net::Response response = net::json_response(202, to_json(job));
@@ -37,13 +85,15 @@ net::Response accepted(const JobRecord& job) {
 }
 
 void add_job_routes(net::Router& router, JobService& jobs) {
-  router.on("GET", "/api/v1/jobs", [&jobs](const net::Request& request) { return list(jobs, request); });
-  router.on("GET", "/api/v1/jobs/{id}", [&jobs](const net::Request& request) {
-    return net::json_response(200, to_json(jobs.get(request.parameters.at("id"))));
+  const std::string all = "/api/v1/jobs", one = all + "/{id}";
+  router.on("GET", all, [&jobs](const net::Request& request) { return list(jobs, request); });
+  router.on("GET", one, [&jobs](const net::Request& request) {
+    return net::json_response(200, to_json(seen(jobs, request)));
   });
-  router.on("DELETE", "/api/v1/jobs/{id}", [&jobs](const net::Request& request) {
-    return net::json_response(202, to_json(jobs.cancel(request.parameters.at("id"))));
+  router.on("DELETE", one, [&jobs](const net::Request& request) {
+    return net::json_response(202, to_json(jobs.cancel(seen(jobs, request).id)));
   });
+  router.on("GET", one + "/result", [&jobs](const net::Request& request) { return result(jobs, request); });
 }
 
 }  // namespace ream::api

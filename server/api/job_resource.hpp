@@ -12,4 +12,8 @@ void add_job_routes(net::Router& router, JobService& jobs);
 /// 202 with the job and where to ask about it.
 net::Response accepted(const JobRecord& job);
 
+/// Whether a caller may know of the work: operators and instructors of all, others of that on sessions that
+/// they may see.
+bool may_see(const net::Caller& caller, const JobRecord& job);
+
 }  // namespace ream::api

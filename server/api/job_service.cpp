@@ -1,33 +1,41 @@
 #include "api/job_service.hpp"
 
-#include <sched.h>
-
 #include <algorithm>
 #include <atomic>
 #include <utility>
 
 #include "api/new_id.hpp"
+#include "core/clock.hpp"
+#include "core/file.hpp"
+#include "core/give_way.hpp"
 #include "core/log.hpp"
 
 namespace ream::api {
+namespace fs = std::filesystem;
 namespace {
 
-constexpr size_t most_waiting = 16, most_kept = 64;
+constexpr size_t most_waiting = 16;
+/// Progress is told no more often than this.
+constexpr int64_t told_every_ns = 500'000'000;
 
-/// Work on a case never takes a processor from a haptic loop or a viewer's stream.
-void give_way() {
-  const sched_param lowest{};
-  ::sched_setscheduler(0, SCHED_BATCH, &lowest);
+void remove_quietly(const fs::path& path) {
+  std::error_code ignored;
+  fs::remove_all(path, ignored);
 }
 
-bool is_open(JobState state) { return state == JobState::waiting || state == JobState::running; }
+std::string about(const JobOrder& order) {
+  if (!order.case_id.empty()) return "the work on case '" + order.case_id + "'";
+  if (!order.session_id.empty()) return "the work on session '" + order.session_id + "'";
+  return "the work";
+}
 
 }  // namespace
 
 struct JobService::Job {
   JobRecord record;
-  Work work;
+  Task task;
   std::atomic<bool> cancel_wanted{false};
+  int64_t told_ns = 0;
 };
 
 std::string to_text(JobState state) {
@@ -46,7 +54,12 @@ std::string to_text(JobState state) {
   return "failed";
 }
 
-JobService::JobService() : thread_([this] { work(); }) {}
+bool is_open(JobState state) { return state == JobState::waiting || state == JobState::running; }
+
+JobService::JobService(JobOptions options) : options_(std::move(options)) {
+  if (!options_.folder.empty()) remove_quietly(options_.folder);
+  thread_ = std::thread([this] { work(); });
+}
 
 JobService::~JobService() { shut_down(); }
 
@@ -60,9 +73,15 @@ void JobService::shut_down() {
   if (thread_.joinable()) thread_.join();
 }
 
+fs::path JobService::folder_of(const Job& job) const { return options_.folder / job.record.id; }
+
+void JobService::tell(const JobRecord& record) const {
+  if (options_.on_change) options_.on_change(record);
+}
+
 bool JobService::busy_locked(const std::string& case_id) const {
   return std::any_of(jobs_.begin(), jobs_.end(), [&](const auto& job) {
-    return job->record.case_id == case_id && is_open(job->record.state);
+    return job->record.order.case_id == case_id && is_open(job->record.state);
   });
 }
 
@@ -71,24 +90,79 @@ bool JobService::busy(const std::string& case_id) const {
   return busy_locked(case_id);
 }
 
-JobRecord JobService::submit(const std::string& kind, const std::string& case_id, Work work) {
+std::optional<JobRecord> JobService::open_on_session(const std::string& kind,
+                                                     const std::string& session_id) const {
   const std::lock_guard lock(mutex_);
-  if (closed_) throw Error(ErrorKind::unavailable, "the server is stopping");
-  if (busy_locked(case_id))
-    throw Error(ErrorKind::conflict,
-                "other work on case '" + case_id + "' is not done; wait for it or cancel it");
-  const auto waiting =
-      std::count_if(jobs_.begin(), jobs_.end(), [](const auto& job) { return is_open(job->record.state); });
-  if (waiting >= static_cast<std::ptrdiff_t>(most_waiting))
-    throw Error(ErrorKind::unavailable, "too much work waits already; try again later");
-  const auto job = std::make_shared<Job>();
-  job->record = {random_id(),   kind, case_id, JobState::waiting, 0.0, "waiting for its turn",
-                 ErrorKind::io, {}};
-  job->work = std::move(work);
-  jobs_.push_back(job);
-  while (jobs_.size() > most_kept && !is_open(jobs_.front()->record.state)) jobs_.pop_front();
+  for (const auto& job : jobs_)
+    if (is_open(job->record.state) && job->record.order.kind == kind &&
+        job->record.order.session_id == session_id)
+      return job->record;
+  return std::nullopt;
+}
+
+/// With the mutex held.
+void JobService::forget_surplus() {
+  while (jobs_.size() > options_.most_kept && !is_open(jobs_.front()->record.state)) {
+    if (jobs_.front()->record.result) remove_quietly(folder_of(*jobs_.front()));
+    jobs_.pop_front();
+  }
+}
+
+JobRecord JobService::add(const JobOrder& order, Task task) {
+  JobRecord record;
+  {
+    const std::lock_guard lock(mutex_);
+    if (closed_) throw Error(ErrorKind::unavailable, "the server is stopping");
+    if (!order.case_id.empty() && busy_locked(order.case_id))
+      throw Error(ErrorKind::conflict,
+                  "other work on case '" + order.case_id + "' is not done; wait for it or cancel it");
+    const auto waiting =
+        std::count_if(jobs_.begin(), jobs_.end(), [](const auto& job) { return is_open(job->record.state); });
+    if (waiting >= static_cast<std::ptrdiff_t>(most_waiting))
+      throw Error(ErrorKind::unavailable, "too much work waits already; try again later");
+    const auto job = std::make_shared<Job>();
+    job->record.id = random_id();
+    job->record.number = ++submitted_;
+    job->record.order = order;
+    job->record.step = "waiting for its turn";
+    job->record.created_utc = ream::utc_text(options_.now());
+    job->task = std::move(task);
+    jobs_.push_back(job);
+    forget_surplus();
+    record = job->record;
+  }
   changed_.notify_all();
-  return job->record;
+  tell(record);
+  return record;
+}
+
+JobRecord JobService::submit(const JobOrder& order, Work work) {
+  return add(order, [work = std::move(work)](Job&, const Progress& progress) { work(progress); });
+}
+
+JobRecord JobService::submit_session(const JobOrder& order, SessionWork work) {
+  return add(order, [this, work = std::move(work)](Job& job, const Progress& progress) {
+    std::string id = work(progress);
+    const std::lock_guard lock(mutex_);
+    job.record.order.session_id = std::move(id);
+  });
+}
+
+JobRecord JobService::submit_file(const JobOrder& order, FileWork work) {
+  if (options_.folder.empty())
+    throw Error(ErrorKind::unavailable, "this server has no folder for files that work makes");
+  return add(order, [this, work = std::move(work)](Job& job, const Progress& progress) {
+    const fs::path folder = folder_of(job);
+    make_writable_folder(folder);
+    try {
+      const MadeFile made = work(folder, progress);
+      const std::lock_guard lock(mutex_);
+      job.record.result = JobResult{folder / made.name, made.media_type, fs::file_size(folder / made.name)};
+    } catch (...) {
+      remove_quietly(folder);
+      throw;
+    }
+  });
 }
 
 std::shared_ptr<JobService::Job> JobService::find(const std::string& id) const {
@@ -102,20 +176,36 @@ JobRecord JobService::get(const std::string& id) const {
   return find(id)->record;
 }
 
-std::vector<JobRecord> JobService::list(const std::string& case_id) const {
+std::vector<JobRecord> JobService::list() const {
   const std::lock_guard lock(mutex_);
   std::vector<JobRecord> records;
-  for (auto job = jobs_.rbegin(); job != jobs_.rend(); ++job)
-    if (case_id.empty() || (*job)->record.case_id == case_id) records.push_back((*job)->record);
+  for (auto job = jobs_.rbegin(); job != jobs_.rend(); ++job) records.push_back((*job)->record);
   return records;
 }
 
 JobRecord JobService::cancel(const std::string& id) {
+  JobRecord record;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto job = find(id);
+    job->cancel_wanted = true;
+    if (job->record.state != JobState::waiting) return job->record;
+    job->record.state = JobState::cancelled;
+    job->record.ended_utc = ream::utc_text(options_.now());
+    record = job->record;
+  }
+  tell(record);
+  return record;
+}
+
+void JobService::remove_old_results() {
+  const std::string oldest = ream::utc_text(options_.now() - options_.results_kept);
   const std::lock_guard lock(mutex_);
-  const auto job = find(id);
-  job->cancel_wanted = true;
-  if (job->record.state == JobState::waiting) job->record.state = JobState::cancelled;
-  return job->record;
+  for (const auto& job : jobs_)
+    if (job->record.result && job->record.ended_utc < oldest) {
+      remove_quietly(folder_of(*job));
+      job->record.result.reset();
+    }
 }
 
 void JobService::work() {
@@ -137,26 +227,44 @@ void JobService::work() {
   }
 }
 
+void JobService::note_progress(Job& job, double share, std::string_view step) {
+  const int64_t now_ns = steady_ns();
+  const bool worth_telling = now_ns - job.told_ns > told_every_ns;
+  JobRecord record;
+  {
+    const std::lock_guard lock(mutex_);
+    job.record.share = std::clamp(share, 0.0, 1.0);
+    job.record.step = step;
+    record = job.record;
+  }
+  if (!worth_telling) return;
+  job.told_ns = now_ns;
+  tell(record);
+}
+
 void JobService::end(Job& job, JobState state, ErrorKind kind, const std::string& problem) {
-  const std::lock_guard lock(mutex_);
-  job.record.state = state;
-  job.record.problem_kind = kind;
-  job.record.problem = problem;
-  if (state == JobState::done) job.record.share = 1.0;
+  JobRecord record;
+  {
+    const std::lock_guard lock(mutex_);
+    job.record.state = state;
+    job.record.problem_kind = kind;
+    job.record.problem = problem;
+    job.record.ended_utc = ream::utc_text(options_.now());
+    if (state == JobState::done) job.record.share = 1.0;
+    record = job.record;
+  }
+  tell(record);
 }
 
 void JobService::run(const std::shared_ptr<Job>& job) {
   const Progress progress = [this, job](double share, std::string_view step) {
-    if (job->cancel_wanted)
-      throw Error(ErrorKind::cancelled, "the work on case '" + job->record.case_id + "' was cancelled");
-    const std::lock_guard lock(mutex_);
-    job->record.share = std::clamp(share, 0.0, 1.0);
-    job->record.step = step;
+    if (job->cancel_wanted) throw Error(ErrorKind::cancelled, about(job->record.order) + " was cancelled");
+    note_progress(*job, share, step);
   };
   try {
     progress(0.0, "beginning");
-    const Work work = std::exchange(job->work, {});
-    work(progress);
+    const Task task = std::exchange(job->task, {});
+    task(*job, progress);
     end(*job, JobState::done, ErrorKind::io, {});
   } catch (const Error& error) {
     const bool cancelled = error.kind() == ErrorKind::cancelled;
@@ -165,7 +273,7 @@ void JobService::run(const std::shared_ptr<Job>& job) {
   } catch (const std::bad_alloc&) {
     end(*job, JobState::failed, ErrorKind::unavailable, "there is not enough memory for this work");
   } catch (const std::exception& failure) {
-    log::warn(std::string("work on case ") + job->record.case_id + " failed: " + failure.what());
+    log::warn(about(job->record.order) + " failed: " + failure.what());
     end(*job, JobState::failed, ErrorKind::io, "the work failed; the server's log says why");
   }
 }

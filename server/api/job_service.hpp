@@ -1,6 +1,6 @@
 #pragma once
+#include <chrono>
 #include <condition_variable>
-#include <cstdint>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -9,60 +9,80 @@
 #include <thread>
 #include <vector>
 
-#include "core/error.hpp"
+#include "api/job_record.hpp"
 #include "core/progress.hpp"
+#include "core/utc.hpp"
 
 namespace ream::api {
 
-enum class JobState { waiting, running, done, failed, cancelled };
-std::string to_text(JobState state);
-
-/// Long work on a case, as clients see it.
-struct JobRecord {
-  std::string id, kind, case_id;
-  JobState state = JobState::waiting;
-  double share = 0.0;  ///< how far it is, 0 to 1
-  std::string step;    ///< what it does now, for people
-  ErrorKind problem_kind = ErrorKind::io;
-  std::string problem;  ///< why it failed; else empty
+struct JobOptions {
+  /// Where files lie that work makes for its clients, each in a folder of its job's; what an earlier server
+  /// left there is removed. Empty: work makes none.
+  std::filesystem::path folder = {};
+  std::chrono::seconds results_kept = std::chrono::hours(24);
+  size_t most_kept = 256;  ///< ended jobs that can be asked about
+  /// Told of every change, from the thread that makes it; must not wait.
+  std::function<void(const JobRecord&)> on_change = {};
+  WallClock now = machine_clock();
 };
 
 /// Does long work one after the other, on a thread that gives way to everything else (a running haptic loop
-/// above all). The newest 64 finished jobs can be asked about. Thread-safe; unknown ids throw Error
-/// not_found.
+/// above all). Thread-safe; unknown ids throw Error not_found.
 class JobService {
  public:
   using Work = std::function<void(const Progress& progress)>;
+  /// Work that makes a file: in `folder`, which is empty; returns the file's name and media type.
+  struct MadeFile {
+    std::string name, media_type;
+  };
+  using FileWork = std::function<MadeFile(const std::filesystem::path& folder, const Progress& progress)>;
+  /// Work that makes a session; returns its id.
+  using SessionWork = std::function<std::string(const Progress& progress)>;
 
-  JobService();
+  explicit JobService(JobOptions options = {});
   /// Cancels what runs and waits for it.
   ~JobService();
   JobService(const JobService&) = delete;
   JobService& operator=(const JobService&) = delete;
 
   /// Error conflict while other work on that case waits or runs; unavailable when too much waits.
-  JobRecord submit(const std::string& kind, const std::string& case_id, Work work);
+  JobRecord submit(const JobOrder& order, Work work);
+  JobRecord submit_file(const JobOrder& order, FileWork work);
+  JobRecord submit_session(const JobOrder& order, SessionWork work);
+  /// Work of that kind on that session that waits or runs; none otherwise.
+  std::optional<JobRecord> open_on_session(const std::string& kind, const std::string& session_id) const;
+
   JobRecord get(const std::string& id) const;
-  /// Newest first; `case_id` empty: of all cases.
-  std::vector<JobRecord> list(const std::string& case_id) const;
+  /// Newest first.
+  std::vector<JobRecord> list() const;
   /// Asks it to end at its next step. Harmless when it has ended.
   JobRecord cancel(const std::string& id);
   /// Whether work on that case waits or runs.
   bool busy(const std::string& case_id) const;
+  /// Removes files that were kept long enough; their jobs stay.
+  void remove_old_results();
   /// Cancels everything; nothing can be submitted any more. May be called twice.
   void shut_down();
 
  private:
   struct Job;
+  using Task = std::function<void(Job& job, const Progress& progress)>;
+  JobRecord add(const JobOrder& order, Task task);
   void work();
   void run(const std::shared_ptr<Job>& job);
+  void note_progress(Job& job, double share, std::string_view step);
   void end(Job& job, JobState state, ErrorKind kind, const std::string& problem);
+  void tell(const JobRecord& record) const;
+  std::filesystem::path folder_of(const Job& job) const;
+  void forget_surplus();
   std::shared_ptr<Job> find(const std::string& id) const;
   bool busy_locked(const std::string& case_id) const;
 
+  const JobOptions options_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::shared_ptr<Job>> jobs_;  ///< oldest first
+  uint64_t submitted_ = 0;
   bool closed_ = false;
   std::thread thread_;
 };

@@ -153,6 +153,19 @@ ReplayRecord ReplayService::stop(const std::string& id) {
   return entry->record(false);
 }
 
+void ReplayService::stop_all_of(const std::string& session_id) {
+  Entries ended;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto first = std::stable_partition(entries_.begin(), entries_.end(), [&](const auto& entry) {
+      return entry->request.replay_of != session_id;
+    });
+    ended.assign(first, entries_.end());
+    entries_.erase(first, entries_.end());
+  }
+  for (const auto& entry : ended) entry->running->stop();
+}
+
 nlohmann::json ReplayService::metrics(const std::string& id) const { return find(id)->running->metrics(); }
 
 std::unique_ptr<net::WebSocketSession> ReplayService::subscribe(const std::string& id, int stride) const {

@@ -44,6 +44,8 @@ class ReplayService {
   ReplayRecord change(const std::string& id, const PlaybackChange& change);
   /// Ends it; it is then unknown.
   ReplayRecord stop(const std::string& id);
+  /// Ends all of one session.
+  void stop_all_of(const std::string& session_id);
   nlohmann::json metrics(const std::string& id) const;
   /// The replay lives on as long as somebody watches it.
   std::unique_ptr<net::WebSocketSession> subscribe(const std::string& id, int stride) const;

@@ -8,25 +8,23 @@ namespace {
 
 constexpr size_t longest_name = 64;
 
-/// A JSON pointer as a URI fragment (RFC 6901): '~' and '/' of a key are escaped.
+std::string plain_number(double value) {
+  const std::string text = nlohmann::json(value).dump();
+  return text.size() > 2 && text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
+}
+
+}  // namespace
+
 std::string pointer_to(const std::string& key) {
   std::string pointer = "#/";
   for (const char c : key) pointer += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
   return pointer;
 }
 
-std::string plain_number(double value) {
-  const std::string text = nlohmann::json(value).dump();
-  return text.size() > 2 && text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
-}
-
-/// Of UTF-8: bytes that begin one.
 size_t characters(const std::string& text) {
   return static_cast<size_t>(std::count_if(
       text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
-
-}  // namespace
 
 bool is_name(const std::string& text) {
   return !text.empty() && text.size() <= longest_name &&
@@ -71,6 +69,12 @@ std::string RequestBody::name_or(const std::string& key, const std::string& othe
   return find(key) ? name(key) : otherwise;
 }
 
+std::optional<std::string> RequestBody::name_or_none(const std::string& key) {
+  const nlohmann::json* value = find(key);
+  if (!value) return std::nullopt;
+  return *value == "" ? std::string() : name(key);
+}
+
 std::string RequestBody::text_that(const std::string& key,
                                    const std::function<bool(const std::string&)>& fits,
                                    const std::string& rule) {
@@ -98,6 +102,11 @@ std::string RequestBody::words(const std::string& key, size_t least, size_t most
   return text_that(
       key, [&](const std::string& text) { return characters(text) >= least && characters(text) <= most; },
       "must be " + std::to_string(least) + " to " + std::to_string(most) + " characters long");
+}
+
+std::optional<std::string> RequestBody::words_or_none(const std::string& key, size_t most) {
+  if (!find(key)) return std::nullopt;
+  return words(key, 0, most);
 }
 
 std::optional<Vec3> RequestBody::point_or_none(const std::string& key, double most) {
@@ -131,6 +140,45 @@ std::optional<double> RequestBody::number_that(const std::string& key,
   if (std::isfinite(number) && fits(number)) return number;
   complain(key, rule);
   return std::nullopt;
+}
+
+std::vector<std::string> RequestBody::names(const std::string& key, size_t least, size_t most) {
+  const nlohmann::json* value = find(key);
+  std::set<std::string> different;
+  std::vector<std::string> list;
+  for (const nlohmann::json& entry : value && value->is_array() ? *value : nlohmann::json::array())
+    if (entry.is_string() && is_name(entry.get<std::string>()) && different.insert(entry).second)
+      list.push_back(entry);
+  if (!value)
+    complain(key, "is missing");
+  else if (!value->is_array() || list.size() != value->size() || list.size() < least || list.size() > most)
+    complain(key, "must be a list of " + std::to_string(least) + " to " + std::to_string(most) +
+                      " different names of a-z, 0-9 and -");
+  else
+    return list;
+  return {};
+}
+
+std::string RequestBody::one_of(const std::string& key, const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
+  return text_that(
+      key, [&](const std::string& text) { return std::count(words.begin(), words.end(), text) > 0; },
+      "must be one of " + list);
+}
+
+int64_t RequestBody::count(const std::string& key, int64_t most) {
+  const nlohmann::json* value = find(key);
+  if (!value) return 0;
+  if (value->is_number_unsigned() && value->get<uint64_t>() <= static_cast<uint64_t>(most))
+    return value->get<int64_t>();
+  complain(key, "must be a whole number from 0 to " + std::to_string(most));
+  return 0;
+}
+
+std::optional<nlohmann::json> RequestBody::value_or_none(const std::string& key) {
+  const nlohmann::json* value = find(key);
+  return value ? std::optional(*value) : std::nullopt;
 }
 
 std::optional<bool> RequestBody::flag_or_none(const std::string& key) {

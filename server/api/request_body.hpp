@@ -23,15 +23,27 @@ class RequestBody {
   std::string name(const std::string& key);
   /// The same; `otherwise` when absent.
   std::string name_or(const std::string& key, const std::string& otherwise);
+  /// The same, or an empty text; none when absent.
+  std::optional<std::string> name_or_none(const std::string& key);
   /// A finite number above `above` and at most `most`; none when absent.
   std::optional<double> number_or_none(const std::string& key, double above, double most);
   /// Text for people of `least` to `most` characters. Empty when absent and `least` is 0, or when there is
   /// something wrong with it.
   std::string words(const std::string& key, size_t least, size_t most);
+  /// The same of any length up to `most`; none when absent.
+  std::optional<std::string> words_or_none(const std::string& key, size_t most);
   /// Three finite numbers, none larger than `most` either way; none when absent or null.
   std::optional<Vec3> point_or_none(const std::string& key, double most);
   /// A finite number from `least` to `most`, both included; none when absent.
   std::optional<double> number_within_or_none(const std::string& key, double least, double most);
+  /// Different names, `least` to `most` of them. Empty when there is something wrong with them.
+  std::vector<std::string> names(const std::string& key, size_t least, size_t most);
+  /// One of `words`. Empty when there is something wrong with it.
+  std::string one_of(const std::string& key, const std::vector<std::string>& words);
+  /// A whole number from 0 to `most`; 0 when absent.
+  int64_t count(const std::string& key, int64_t most);
+  /// Whatever is there; none when absent.
+  std::optional<nlohmann::json> value_or_none(const std::string& key);
   /// True or false; none when absent.
   std::optional<bool> flag_or_none(const std::string& key);
 
@@ -56,6 +68,12 @@ class RequestBody {
 /// The JSON value of a body, for readers that files and requests share.
 /// Throws RequestError: 415 when it is not sent as JSON, 400 when it is not JSON.
 nlohmann::json json_object_in(const net::Request& request);
+
+/// Of UTF-8: characters, not bytes.
+size_t characters(const std::string& text);
+
+/// The JSON pointer of a key of the body as a URI fragment (RFC 6901): '~' and '/' of the key are escaped.
+std::string pointer_to(const std::string& key);
 
 /// Whether `text` is an id as cases and scripts have: [a-z0-9-], 1 to 64 long.
 bool is_name(const std::string& text);

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
@@ -29,7 +30,16 @@ struct SessionRequest {
   std::optional<double> force_scale;  ///< simulated N per hand N; none: the script's
   std::string device = "script";      ///< name in the registry of devices: script, network, browser, ...
   std::string device_profile = {};    ///< what it can render; empty: the script's
-  std::string created_utc = {};       ///< "2025-03-01T12:00:00Z", given by the server
+  std::string created_utc = {};       ///< "2025-03-01T12:00:00.250Z", given by the server
+  std::string trainee_id = {};        ///< user who trains; empty without users
+  std::string trainee = {};           ///< the same for people
+  std::string study = {};             ///< id of the study that it belongs to; empty: none
+  std::string participant = {};       ///< code under which the study knows the trainee
+  std::string title = {};             ///< what people call it; may be empty
+  std::string reset_of = {};          ///< session that this one is another attempt of; empty: none
+  int attempt = 1;                    ///< 2 after the first reset, and so on
+  std::string followed_by = {};       ///< session that went on from intact bone; empty: none
+  bool keep = false;                  ///< never deleted by the rules of retention
 };
 
 /// Health of the haptic loop since the session began.
@@ -59,6 +69,7 @@ struct SessionStatus {
   /// Words for people: why state is fault or interrupted, or what keeps a live session from going on now (its
   /// device is lost); else empty.
   std::string fault;
+  bool held = false;  ///< paused by pause(), whatever its device says
   LoopStatus loop;
   DeviceLinkStatus device;
 };
@@ -72,10 +83,18 @@ class RunningSession {
 
   /// Only in state created; the service has checked. Throws Error when it cannot start.
   virtual void start() = 0;
+  /// Takes the force away as the device's own pause button does, from a tick on that is recorded with it, and
+  /// returns when that tick has been. Only while it runs or is paused by its device; the service has checked.
+  virtual void pause() = 0;
+  /// Goes on after pause(), where the device lets it. Only while it is held.
+  virtual void go_on() = 0;
   /// Ends it and waits for the loop (zero force on the way out). Harmless when it has ended already.
   virtual void stop() = 0;
 
   virtual SessionStatus status() const = 0;
+  /// Its labels are now those of `request`; false when it has ended or was never started, so that nothing of
+  /// it writes them down any more.
+  virtual bool relabel(const SessionRequest& request) = 0;
   /// The keys of metrics.json; grid_hash is null until the end.
   virtual nlohmann::json metrics() const = 0;
 
@@ -84,6 +103,11 @@ class RunningSession {
   virtual Annotation annotate(const NewAnnotation& note) = 0;
   /// All of the recording so far.
   virtual std::vector<Annotation> annotations() const = 0;
+
+  /// Writes the surface of what remains of the bone now, as PLY in the world frame, with one sample every
+  /// `stride` (1, 2 or 4) voxels; or a picture of it, as PNG. Takes seconds of the caller's thread. Error io.
+  virtual void write_surface(const std::filesystem::path& ply, int stride) = 0;
+  virtual void write_picture(const std::filesystem::path& png) = 0;
 
   /// A viewer joins: Hello first, then the whole surface, then what changes, with one sample every `stride`
   /// (1, 2 or 4) voxels. It may outlive stop(), not the session.

@@ -4,14 +4,21 @@
 #include <contract.hpp>
 #include <nlohmann/json.hpp>
 
+#include "api/access_resource.hpp"
 #include "api/annotation_resource.hpp"
 #include "api/case_resource.hpp"
 #include "api/case_work_resource.hpp"
+#include "api/event_resource.hpp"
 #include "api/job_resource.hpp"
 #include "api/prometheus.hpp"
 #include "api/replay_resource.hpp"
+#include "api/session_download_resource.hpp"
 #include "api/session_resource.hpp"
+#include "api/session_trash_resource.hpp"
+#include "api/study_resource.hpp"
+#include "api/study_surroundings.hpp"
 #include "api/upload_resource.hpp"
+#include "core/error.hpp"
 #include "net/static_files.hpp"
 
 namespace ream::api {
@@ -40,55 +47,130 @@ void add_contract_route(net::Router& router) {
   });
 }
 
+/// Nowhere where there is no data folder.
+std::filesystem::path under(const std::filesystem::path& data_folder, const char* name) {
+  return data_folder.empty() ? std::filesystem::path() : data_folder / name;
+}
+
 CaseTools tools_of(const ServerOptions& options, const SessionService& sessions) {
   return {options.read_ct, [&sessions](const std::string& case_id) {
-            const auto all = sessions.list();
-            return static_cast<size_t>(std::count_if(
-                all.begin(), all.end(),
-                [&](const SessionRecord& record) { return record.request.case_id == case_id; }));
+            store::SessionQuery query;
+            query.case_id = case_id;
+            query.limit = 0;
+            return sessions.list(query).total;
           }};
 }
 
-void add_all_case_routes(net::Router& router, const ServerOptions& options, CaseWorkshop& workshop,
-                         UploadStore& uploads) {
-  add_case_routes(router, options.cases_folder);
-  add_case_work_routes(router, workshop, uploads);
-  add_case_volume_routes(router, workshop);
-  add_case_plan_routes(router, workshop, options.data_folder);
-  add_upload_routes(router, uploads);
-  add_job_routes(router, workshop.jobs());
+void add_all_access_routes(net::Router& router, const AccessTools& tools) {
+  add_login_routes(router, tools);
+  add_user_routes(router, tools);
+  add_token_routes(router, tools);
+  add_link_routes(router, tools);
+  add_audit_routes(router, tools);
 }
 
-net::Router router_of(const ServerOptions& options, SessionService& sessions, ReplayService& replays,
-                      CaseWorkshop& workshop, UploadStore& uploads, const Readiness& readiness) {
-  net::Router router;
-  add_health_routes(router, readiness);
-  add_metrics_route(router, sessions);
-  add_contract_route(router);
-  add_all_case_routes(router, options, workshop, uploads);
-  add_session_routes(router, sessions, replays, readiness, options.usual_device);
-  add_annotation_routes(router, sessions);
-  add_replay_routes(router, sessions, replays, readiness);
-  router.otherwise([files = net::StaticFiles(options.web_folder)](const net::Request& request) {
-    return files.respond(request);
-  });
-  return router;
+void add_all_case_routes(net::Router& router, const ServerOptions& options, CaseWorkshop& workshop,
+                         UploadStore& uploads, QuietWork& quiet) {
+  add_case_routes(router, options.cases_folder);
+  add_case_work_routes(router, workshop, uploads);
+  add_case_volume_routes(router, workshop, quiet, under(options.data_folder, "passing"));
+  add_case_plan_routes(router, workshop, options.data_folder);
+  add_upload_routes(router, uploads);
 }
 
 }  // namespace
 
+std::optional<SessionRequest> Server::session_of(const std::string& id) const {
+  try {
+    return sessions_.get(replays_.has(id) ? replays_.get(id).request.replay_of : id).request;
+  } catch (const Error& unknown) {
+    if (unknown.kind() != ErrorKind::not_found) throw;
+    return std::nullopt;
+  }
+}
+
+/// What it works on is worth reading again when it is done.
+void Server::tell(const JobRecord& job) {
+  feed_->tell({"job", job.id, to_text(job.state), job.order.session});
+  if (job.state != JobState::done) return;
+  if (!job.order.case_id.empty()) feed_->tell({"case", job.order.case_id, "changed"});
+}
+
+RetentionTools Server::retention_tools() {
+  return {sessions_,
+          replays_,
+          jobs_,
+          *feed_,
+          [this](const std::string& study_id) { return studies_ && studies_->is_closed(study_id); },
+          [this](const std::string& action, const std::string& session_id, const std::string& detail) {
+            if (gatehouse_) gatehouse_->audit.note({"", "retention", "", "", ""}, action, session_id, detail);
+          }};
+}
+
+net::Router Server::routes_of(const ServerOptions& options) {
+  net::Router router;
+  router.pace_callers(options.listen.limits.requests_per_caller);
+  frame_.put_around(router);
+  add_event_routes(router, feed_);
+  add_health_routes(router, readiness_);
+  add_metrics_route(router, sessions_);
+  add_contract_route(router);
+  add_all_access_routes(router,
+                        {gate_, gatehouse_.get(), [this](const std::string& id) { sessions_.get(id); }});
+  add_all_case_routes(router, options, workshop_, uploads_, quiet_);
+  add_session_routes(router, sessions_, replays_, readiness_, options.usual_device, studies_.get());
+  add_trash_routes(router, {sessions_, replays_, studies_.get(), retention_, *feed_});
+  add_annotation_routes(router, sessions_);
+  add_download_routes(router, {sessions_, studies_.get(), jobs_, export_formats_, quiet_,
+                               under(options.data_folder, "passing")});
+  add_job_routes(router, jobs_);
+  add_replay_routes(router, sessions_, replays_, readiness_);
+  add_study_routes(router, studies_.get(), audit_in(gatehouse_.get()));
+  router.otherwise([files = net::StaticFiles(options.web_folder)](const net::Request& request) {
+    return files.respond(request);
+  });
+  router.guard([this](net::Request& request, const std::string& pattern) { gate_.admit(request, pattern); });
+  if (stream_watch_)
+    router.wrap_websockets(
+        [this](const net::Request& request, std::unique_ptr<net::WebSocketSession> session) {
+          return stream_watch_->watched(request, std::move(session));
+        });
+  return router;
+}
+
 Server::Server(ServerOptions options)
-    : sessions_(std::move(options.make_session), options.sessions, options.sessions_folder),
+    : database_(options.database),
+      feed_(std::make_shared<ChangeFeed>(may_know)),
+      contract_(std::string(embedded::contract::find("openapi.yaml"))),
+      idempotency_(options.database),
+      export_formats_(std::move(options.export_formats)),
+      jobs_({under(options.data_folder, "jobs"), std::chrono::hours(24), 256,
+             [this](const JobRecord& job) { tell(job); }}),
+      gatehouse_(database_ ? std::make_unique<access::Gatehouse>(*database_, options.gatehouse) : nullptr),
+      stream_watch_(gatehouse_ ? std::make_unique<StreamWatch>(gatehouse_->credentials) : nullptr),
+      sessions_(std::move(options.make_session), options.sessions, options.sessions_folder, options.database),
+      studies_(database_ ? std::make_unique<StudyService>(
+                               *database_, study_surroundings(options.cases_folder, sessions_, *gatehouse_))
+                         : nullptr),
       replays_(std::move(options.make_replay), options.replays),
-      uploads_(options.data_folder.empty() ? std::filesystem::path() : options.data_folder / "uploads"),
-      workshop_(options.cases_folder, tools_of(options, sessions_)),
-      router_(router_of(options, sessions_, replays_, workshop_, uploads_, readiness_)),
+      retention_(options.retention, retention_tools()),
+      uploads_(under(options.data_folder, "uploads")),
+      workshop_(options.cases_folder, tools_of(options, sessions_), jobs_),
+      gate_(gatehouse_.get(), [this](const std::string& id) { return session_of(id); }),
+      frame_(
+          contract_, idempotency_, *feed_, [this](const std::string& id) { return session_of(id); },
+          audit_in(gatehouse_.get())),
+      router_(routes_of(options)),
       listener_(router_, options.listen),
-      readiness_(std::move(options.prepare)) {}
+      readiness_(std::move(options.prepare)),
+      watch_(sessions_, *feed_) {}
 
 Server::~Server() { stop(); }
 
-void Server::start() { listener_.start(); }
+void Server::start() {
+  listener_.start();
+  retention_.begin();
+}
 
 void Server::run() {
   start();
@@ -109,7 +191,9 @@ void Server::request_stop() {
 
 void Server::stop() {
   listener_.stop();
-  workshop_.jobs().shut_down();
+  retention_.stop();
+  watch_.stop();
+  jobs_.shut_down();
   replays_.shut_down();
   sessions_.shut_down();
 }

@@ -6,10 +6,20 @@
 #include <mutex>
 #include <string>
 
+#include "access/gatehouse.hpp"
 #include "api/case_workshop.hpp"
+#include "api/export_formats.hpp"
+#include "api/gate.hpp"
+#include "api/job_service.hpp"
+#include "api/quiet_work.hpp"
 #include "api/readiness.hpp"
 #include "api/replay_service.hpp"
+#include "api/request_frame.hpp"
+#include "api/retention.hpp"
 #include "api/session_service.hpp"
+#include "api/session_watch.hpp"
+#include "api/stream_watch.hpp"
+#include "api/study_service.hpp"
 #include "net/listener.hpp"
 
 namespace ream::api {
@@ -24,8 +34,14 @@ struct ServerOptions {
   SessionLimits sessions;
   std::string usual_device = "script";  ///< of sessions that name none
   CtReader read_ct;                     ///< of uploaded files
+  ExportFormats export_formats;         ///< of sessions
   ReplayFactory make_replay;
   ReplayLimits replays;
+  RetentionRules retention;
+  /// Has users and what they did, the index of sessions, and answers to repeat. Null: everybody may do
+  /// everything, and lists come from the folders.
+  std::shared_ptr<store::Database> database;
+  access::GatehouseOptions gatehouse;
   std::function<void()> prepare;  ///< run once in the background; /readyz is 503 until it is done
 };
 
@@ -50,19 +66,41 @@ class Server {
   /// Ends connections, then sessions. May be called twice.
   void stop();
 
+  /// Users, credentials and the audit log; null without a database.
+  access::Gatehouse* gatehouse() const { return gatehouse_.get(); }
+
   /// Method and pattern of everything served, the page left out.
   std::vector<net::Router::Route> routes() const { return router_.routes(); }
 
  private:
+  net::Router routes_of(const ServerOptions& options);
+  void tell(const JobRecord& job);
+  RetentionTools retention_tools();
+  std::optional<SessionRequest> session_of(const std::string& id) const;
+
   // Order matters: nothing is prepared before the port is ours. stop() has ended the listener before any of
   // these goes.
+  const std::shared_ptr<store::Database> database_;
+  const std::shared_ptr<ChangeFeed> feed_;
+  const Contract contract_;
+  Idempotency idempotency_;
+  const ExportFormats export_formats_;
+  JobService jobs_;
+  QuietWork quiet_;
+  const std::unique_ptr<access::Gatehouse> gatehouse_;
+  const std::unique_ptr<StreamWatch> stream_watch_;  ///< null without a database
   SessionService sessions_;
+  const std::unique_ptr<StudyService> studies_;  ///< null without a database
   ReplayService replays_;
+  Retention retention_;
   UploadStore uploads_;
   CaseWorkshop workshop_;
+  const Gate gate_;
+  RequestFrame frame_;
   net::Router router_;
   net::Listener listener_;
   Readiness readiness_;
+  SessionWatch watch_;
   std::mutex mutex_;
   std::condition_variable changed_;
   bool stop_wanted_ = false;

@@ -1,7 +1,5 @@
 #include "api/session_archive.hpp"
 
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -13,14 +11,6 @@
 namespace ream::api {
 namespace fs = std::filesystem;
 namespace {
-
-/// Differs after session.json has been replaced: time of change in ns, mixed with the file's own number. Zero
-/// without such a file.
-int64_t stamp_of(const fs::path& folder) {
-  struct stat about {};
-  if (::stat(session_json(folder).c_str(), &about) != 0) return 0;
-  return about.st_mtim.tv_sec * 1'000'000'000 + about.st_mtim.tv_nsec + static_cast<int64_t>(about.st_ino);
-}
 
 bool newer(const SessionRecord& a, const SessionRecord& b) {
   const SessionRequest &first = a.request, &second = b.request;
@@ -34,7 +24,7 @@ SessionArchive::SessionArchive(fs::path folder) : folder_(std::move(folder)) {}
 
 SessionArchive::Known SessionArchive::look(const fs::path& folder) const {
   const std::string id = folder.filename().string();
-  const int64_t stamp = stamp_of(folder);
+  const int64_t stamp = session_stamp(folder);
   {
     const std::lock_guard lock(mutex_);
     const auto found = known_.find(id);
@@ -55,18 +45,24 @@ SessionArchive::Known SessionArchive::look(const fs::path& folder) const {
   return known;
 }
 
-std::vector<SessionRecord> SessionArchive::list() const {
-  std::vector<SessionRecord> records;
+std::vector<std::string> SessionArchive::ids() const {
+  std::vector<std::string> found;
   std::error_code failed, ignored;
   for (fs::directory_iterator next(folder_, failed), end; !failed && next != end; next.increment(failed)) {
-    const fs::directory_entry& entry = *next;
-    const std::string id = entry.path().filename().string();
-    if (!is_name(id) || !entry.is_directory(ignored)) continue;
+    std::string id = next->path().filename().string();
+    if (is_name(id) && next->is_directory(ignored)) found.push_back(std::move(id));
+  }
+  return found;
+}
+
+std::vector<SessionRecord> SessionArchive::list() const {
+  std::vector<SessionRecord> records;
+  for (const std::string& id : ids()) {
     const bool known_before = [&] {
       const std::lock_guard lock(mutex_);
       return known_.contains(id);
     }();
-    Known known = look(entry.path());
+    Known known = look(folder_of(id));
     if (known.record)
       records.push_back(std::move(*known.record));
     else if (!known.damage.empty() && !known_before)

@@ -18,6 +18,8 @@ class SessionArchive {
   /// `folder` holds one folder a session; it may be missing.
   explicit SessionArchive(std::filesystem::path folder);
 
+  /// Names of all folders that may hold one, in no order.
+  std::vector<std::string> ids() const;
   /// Newest first. Folders that are damaged are left out, and warned about once each.
   std::vector<SessionRecord> list() const;
   /// Empty when there is no such folder, or no session.json in it. Error invalid_input or io when it is
@@ -26,11 +28,12 @@ class SessionArchive {
   /// What metrics.json holds. Error not_found when there is no such session or it left none.
   nlohmann::json metrics(const std::string& id) const;
 
+  const std::filesystem::path& folder() const { return folder_; }
   std::filesystem::path folder_of(const std::string& id) const { return folder_ / id; }
 
  private:
   struct Known {
-    int64_t stamp = 0;  ///< of session.json, see stamp_of() in the source
+    int64_t stamp = 0;  ///< of session.json, see session_stamp()
     std::optional<SessionRecord> record;
     std::string damage;
   };

@@ -6,6 +6,7 @@
 
 #include "api/new_id.hpp"
 #include "api/request_body.hpp"
+#include "api/session_labels.hpp"
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -63,7 +64,8 @@ SessionState state_of(const json& session, const fs::path& folder) {
   return *state;
 }
 
-FolderRecord record_of(const json& session, const fs::path& folder) {
+/// `timing` may be null.
+FolderRecord record_of(const json& session, const json& timing, const fs::path& folder) {
   FolderRecord found;
   SessionRecord& record = found.record;
   record.streamable = false;
@@ -74,7 +76,7 @@ FolderRecord record_of(const json& session, const fs::path& folder) {
   // A script's own says itself.
   if (record.request.device != "script") record.request.device_profile = session.value("device_profile", "");
   record.request.created_utc = session.value("created_utc", "");
-  if (record.request.created_utc.empty()) record.request.created_utc = changed_utc(session_json(folder));
+  read_labels(session, record.request);
   SessionStatus& status = record.status;
   status.state = state_of(session, folder);
   found.lasting = !is_live(status.state);
@@ -84,14 +86,23 @@ FolderRecord record_of(const json& session, const fs::path& folder) {
   status.force_scale = session.value("force_scale", 1.0);
   status.fault = session.value("fault", "");
   status.tick = session.value("ticks", 0u);
-  status.duration_s = status.tick * tick_s;
-  std::error_code failed;
-  if (const fs::path timing = folder / "timing.json"; fs::exists(timing, failed)) {
-    const json times = read_json_file(timing);
-    status.loop = loop_of(times);
-    if (!session.contains("ticks")) status.duration_s = (status.tick = times.value("ticks", 0u)) * tick_s;
+  if (timing.is_object()) {
+    status.loop = loop_of(timing);
+    if (!session.contains("ticks")) status.tick = timing.value("ticks", 0u);
   }
+  status.duration_s = status.tick * tick_s;
   return found;
+}
+
+/// Runs what reads the files' JSON.
+template <typename Read>
+FolderRecord checked(const fs::path& folder, Read&& read) {
+  try {
+    return read();
+  } catch (const json::exception&) {
+    throw Error(ErrorKind::invalid_input,
+                session_json(folder).string() + " or timing.json beside it is not as sessions have them");
+  }
 }
 
 }  // namespace
@@ -102,13 +113,31 @@ fs::path recording_file(const fs::path& folder) { return folder / "recording.rea
 fs::path lock_file(const fs::path& folder) { return folder / "lock"; }
 
 FolderRecord read_session_folder(const fs::path& folder) {
-  const json session = read_json_file(session_json(folder));
-  try {
-    return record_of(session, folder);
-  } catch (const json::exception&) {
-    throw Error(ErrorKind::invalid_input,
-                session_json(folder).string() + " or timing.json beside it is not as sessions have them");
-  }
+  json session = read_json_file(session_json(folder)), timing;
+  std::error_code failed;
+  if (const fs::path file = folder / "timing.json"; fs::exists(file, failed)) timing = read_json_file(file);
+  return checked(folder, [&] {
+    if (session.value("created_utc", "").empty()) session["created_utc"] = changed_utc(session_json(folder));
+    FolderRecord found = record_of(session, timing, folder);
+    found.text = json{{"session", std::move(session)}, {"timing", std::move(timing)}}.dump();
+    return found;
+  });
+}
+
+FolderRecord record_from_text(const std::string& text, const fs::path& folder) {
+  return checked(folder, [&] {
+    const json files = json::parse(text);
+    FolderRecord found = record_of(files.at("session"), files.at("timing"), folder);
+    found.text = text;
+    return found;
+  });
+}
+
+int64_t session_stamp(const fs::path& folder) {
+  struct stat about {};
+  if (::stat(session_json(folder).c_str(), &about) != 0) return 0;
+  // The time of change alone may be the same for two files made within one tick of the file system's clock.
+  return about.st_mtim.tv_sec * 1'000'000'000 + about.st_mtim.tv_nsec + static_cast<int64_t>(about.st_ino);
 }
 
 }  // namespace ream::api

@@ -25,10 +25,17 @@ struct FolderRecord {
   /// Stays true until session.json is replaced. Else the session was left in a live state: that is its state
   /// while somebody holds its lock, and interrupted from then on.
   bool lasting = true;
+  std::string text;  ///< what the files say, for record_from_text()
 };
 
 /// What session.json and timing.json say, under the folder's name as id. Errors: not_found, invalid_input,
 /// io.
 FolderRecord read_session_folder(const std::filesystem::path& folder);
+
+/// The same from the text that was read of this folder before. Error invalid_input.
+FolderRecord record_from_text(const std::string& text, const std::filesystem::path& folder);
+
+/// Differs after session.json has been replaced. Zero without such a file.
+int64_t session_stamp(const std::filesystem::path& folder);
 
 }  // namespace ream::api

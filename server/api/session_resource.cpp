@@ -4,6 +4,8 @@
 
 #include "api/replay_resource.hpp"
 #include "api/request_body.hpp"
+#include "api/session_json.hpp"
+#include "api/session_list.hpp"
 #include "core/error.hpp"
 
 namespace ream::api {
@@ -12,85 +14,74 @@ namespace {
 
 constexpr double largest_force_scale = 1000.0;
 constexpr size_t longest_reamer = 100, longest_profile = 64;
+constexpr size_t longest_trainee = 100, longest_participant = 64, longest_title = 200;
 const std::string base = "/api/v1/sessions";
 
-json to_json(const TimingSummary& times) {
-  return {{"mean_us", times.mean_us},
-          {"p50_us", times.p50_us},
-          {"p99_us", times.p99_us},
-          {"p999_us", times.p999_us},
-          {"max_us", times.max_us}};
+/// A trainee trains for nobody else.
+void name_trainee(const net::Caller& caller, SessionRequest& wanted) {
+  if (caller.role != "trainee") return;
+  if (!wanted.trainee_id.empty() && wanted.trainee_id != caller.user_id)
+    throw net::RequestError(403, "a trainee's sessions are their own; leave trainee_id out");
+  wanted.trainee_id = caller.user_id;
+  wanted.trainee = caller.name;
 }
 
-json to_json(const LoopStatus& loop) {
-  json told = to_json(loop.tick_us);
-  told.update({{"missed", loop.missed},
-               {"lateness", to_json(loop.lateness_us)},
-               {"read", to_json(loop.read_us)},
-               {"step", to_json(loop.step_us)},
-               {"write", to_json(loop.write_us)},
-               {"realtime", loop.realtime},
-               {"memory_locked", loop.locked},
-               {"cpu", loop.cpu < 0 ? json(nullptr) : json(loop.cpu)}});
-  return told;
+/// The same as the caller may know it.
+json seen(const StudyService* studies, const net::Request& request, SessionRecord record) {
+  record.request = seen_by(request.caller, studies, std::move(record.request));
+  return to_json(record);
 }
 
-json to_json(const DeviceLinkStatus& device) {
-  return {{"name", device.name},
-          {"profile", device.profile},
-          {"state", device.state.empty() ? json(nullptr) : json(device.state)},
-          {"rtt_ms", device.rtt_ms ? json(*device.rtt_ms) : json(nullptr)},
-          {"received", device.received},
-          {"missing", device.missing},
-          {"late", device.late},
-          {"refused", device.refused}};
-}
-
-json to_json(const SessionRecord& record) {
-  const SessionStatus& status = record.status;
-  return {{"id", record.request.id},
-          {"kind", "session"},
-          {"case", record.request.case_id},
-          {"script", record.request.script},
-          {"state", to_text(status.state)},
-          {"created_utc", record.request.created_utc},
-          {"tick", status.tick},
-          {"duration_s", status.duration_s},
-          {"force_scale", status.force_scale},
-          {"fault", status.fault.empty() ? json(nullptr) : json(status.fault)},
-          {"streamable", record.streamable},
-          {"loop", to_json(status.loop)},
-          {"device", to_json(status.device)}};
-}
-
-net::Response create(SessionService& service, const Readiness& readiness, const std::string& usual_device,
-                     const net::Request& request) {
-  RequestBody body(request);
-  SessionRequest wanted;
-  wanted.case_id = body.name("case");
-  wanted.device = body.name_or("device", usual_device);
-  wanted.script = body.name_or("script", wanted.device == "script" ? "demo" : "practice");
-  wanted.device_profile = body.words("device_profile", 0, longest_profile);
-  wanted.force_scale = body.number_or_none("force_scale", 0.0, largest_force_scale);
-  body.finish();
-  readiness.require_prepared();
-  const SessionRecord record = service.create(std::move(wanted));
-  net::Response response = net::json_response(201, to_json(record));
+net::Response created(const StudyService* studies, const net::Request& request, const SessionRecord& record) {
+  net::Response response = net::json_response(201, seen(studies, request, record));
   response.headers.emplace_back("Location", base + "/" + record.request.id);
   return response;
 }
 
-net::Response list(const SessionService& service, const ReplayService& replays) {
-  json sessions = json::array();
-  for (const SessionRecord& record : service.list()) sessions.push_back(to_json(record));
-  json open_replays = json::array();
-  for (const ReplayRecord& record : replays.list()) open_replays.push_back(to_json(record));
-  return net::json_response(200, {{"sessions", std::move(sessions)}, {"replays", std::move(open_replays)}});
+/// In a study the study says how it is and who trains.
+void take_study(const StudyService* studies, const net::Request& request, SessionRequest& wanted) {
+  if (wanted.study.empty()) {
+    if (!wanted.participant.empty())
+      throw net::RequestError(422, "'participant' needs 'study'", {{"#/participant", "needs a study"}});
+    return;
+  }
+  if (!studies) throw Error(ErrorKind::not_found, "no study '" + wanted.study + "'");
+  if (!wanted.device.empty() || !wanted.script.empty() || !wanted.device_profile.empty() ||
+      wanted.force_scale || !wanted.trainee_id.empty() || !wanted.trainee.empty())
+    throw net::RequestError(422,
+                            "the study says device, script, force scale and trainee; leave them out and name "
+                            "the participant",
+                            {{"#/study", "says device, script, force scale and trainee"}});
+  studies->admit(request.caller, wanted);
+}
+
+net::Response create(SessionService& service, const StudyService* studies, const Readiness& readiness,
+                     const std::string& usual_device, const net::Request& request) {
+  RequestBody body(request);
+  SessionRequest wanted;
+  wanted.case_id = body.name("case");
+  wanted.device = body.name_or("device", "");
+  wanted.script = body.name_or("script", "");
+  wanted.device_profile = body.words("device_profile", 0, longest_profile);
+  wanted.force_scale = body.number_or_none("force_scale", 0.0, largest_force_scale);
+  wanted.trainee_id = body.name_or("trainee_id", "");
+  wanted.trainee = body.words("trainee", 0, longest_trainee);
+  wanted.study = body.name_or("study", "");
+  wanted.participant = body.words("participant", 0, longest_participant);
+  wanted.title = body.words("title", 0, longest_title);
+  body.finish();
+  readiness.require_prepared();
+  take_study(studies, request, wanted);
+  if (wanted.study.empty()) name_trainee(request.caller, wanted);
+  if (wanted.device.empty()) wanted.device = usual_device;
+  if (wanted.script.empty()) wanted.script = wanted.device == "script" ? "demo" : "practice";
+  return created(studies, request, service.create(std::move(wanted)));
 }
 
 const std::string& id_of(const net::Request& request) { return request.parameters.at("id"); }
 
-net::Response resume(SessionService& service, const Readiness& readiness, const net::Request& request) {
+net::Response resume(SessionService& service, const StudyService* studies, const Readiness& readiness,
+                     const net::Request& request) {
   std::string reamer;
   if (!request.body.empty()) {
     RequestBody body(request);
@@ -98,7 +89,22 @@ net::Response resume(SessionService& service, const Readiness& readiness, const 
     body.finish();
   }
   readiness.require_prepared();
-  return net::json_response(200, to_json(service.resume(id_of(request), reamer)));
+  return net::json_response(200, seen(studies, request, service.resume(id_of(request), reamer)));
+}
+
+net::Response change(SessionService& service, const StudyService* studies, const net::Request& request) {
+  RequestBody body(request);
+  SessionChange wanted;
+  wanted.title = body.words_or_none("title", longest_title);
+  wanted.keep = body.flag_or_none("keep");
+  wanted.trainee_id = body.name_or_none("trainee_id");
+  wanted.trainee = body.words_or_none("trainee", longest_trainee);
+  body.finish();
+  if (request.caller.role == "trainee" && (wanted.keep || wanted.trainee_id || wanted.trainee))
+    throw net::RequestError(403, "a trainee may change the title only");
+  if ((wanted.trainee_id || wanted.trainee) && !service.get(id_of(request)).request.study.empty())
+    throw Error(ErrorKind::conflict, "who trains in session '" + id_of(request) + "' is said by its study");
+  return net::json_response(200, seen(studies, request, service.change(id_of(request), wanted)));
 }
 
 /// For slow links: the surface with one sample every 2 or 4 voxels.
@@ -113,24 +119,39 @@ int stride_of(const net::Request& request) {
 }  // namespace
 
 void add_session_routes(net::Router& router, SessionService& service, ReplayService& replays,
-                        const Readiness& readiness, const std::string& usual_device) {
-  router.on("GET", base, [&](const net::Request&) { return list(service, replays); });
-  router.on("POST", base, [&, usual_device](const net::Request& request) {
-    return create(service, readiness, usual_device, request);
+                        const Readiness& readiness, const std::string& usual_device,
+                        const StudyService* studies) {
+  router.on("GET", base, [&, studies](const net::Request& request) {
+    return list_sessions(service, studies, replays, request);
   });
-  router.on("GET", base + "/{id}", [&](const net::Request& request) {
+  router.on("POST", base, [&, studies, usual_device](const net::Request& request) {
+    return create(service, studies, readiness, usual_device, request);
+  });
+  router.on("GET", base + "/{id}", [&, studies](const net::Request& request) {
     const std::string& id = id_of(request);
-    return net::json_response(200, replays.has(id) ? to_json(replays.get(id)) : to_json(service.get(id)));
+    return net::json_response(
+        200, replays.has(id) ? to_json(replays.get(id)) : seen(studies, request, service.get(id)));
   });
-  router.on("POST", base + "/{id}/start", [&service](const net::Request& request) {
-    return net::json_response(200, to_json(service.start(id_of(request))));
+  router.on("PATCH", base + "/{id}",
+            [&service, studies](const net::Request& request) { return change(service, studies, request); });
+  router.on("POST", base + "/{id}/pause", [&service, studies](const net::Request& request) {
+    return net::json_response(200, seen(studies, request, service.pause(id_of(request))));
   });
-  router.on("POST", base + "/{id}/stop", [&](const net::Request& request) {
+  router.on("POST", base + "/{id}/reset", [&, studies](const net::Request& request) {
+    readiness.require_prepared();
+    return created(studies, request, service.reset(id_of(request)));
+  });
+  router.on("POST", base + "/{id}/start", [&service, studies](const net::Request& request) {
+    return net::json_response(200, seen(studies, request, service.start(id_of(request))));
+  });
+  router.on("POST", base + "/{id}/stop", [&, studies](const net::Request& request) {
     const std::string& id = id_of(request);
-    return net::json_response(200, replays.has(id) ? to_json(replays.stop(id)) : to_json(service.stop(id)));
+    return net::json_response(
+        200, replays.has(id) ? to_json(replays.stop(id)) : seen(studies, request, service.stop(id)));
   });
-  router.on("POST", base + "/{id}/resume",
-            [&](const net::Request& request) { return resume(service, readiness, request); });
+  router.on("POST", base + "/{id}/resume", [&, studies](const net::Request& request) {
+    return resume(service, studies, readiness, request);
+  });
   router.on("GET", base + "/{id}/metrics", [&](const net::Request& request) {
     const std::string& id = id_of(request);
     return net::json_response(200, replays.has(id) ? replays.metrics(id) : service.metrics(id));

@@ -3,35 +3,31 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "api/keeping_session.hpp"
 #include "api/new_id.hpp"
 #include "api/recorded_annotations.hpp"
+#include "api/session_entry.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 
 namespace ream::api {
 
-struct SessionService::Entry {
-  SessionRequest request;
-  std::unique_ptr<RunningSession> running;
-  std::mutex changing;  ///< one start or stop at a time
-
-  SessionRecord record() const { return {request, running->status()}; }
-  bool live() const { return is_live(running->status().state); }
-};
-
 SessionService::SessionService(SessionMakers makers, SessionLimits limits,
-                               const std::filesystem::path& sessions_folder)
-    : makers_(std::move(makers)), limits_(limits), archive_(sessions_folder) {}
+                               const std::filesystem::path& sessions_folder,
+                               std::shared_ptr<store::Database> database)
+    : makers_(std::move(makers)),
+      limits_(limits),
+      archive_(sessions_folder),
+      trash_(sessions_folder),
+      register_(std::make_unique<SessionRegister>(archive_, std::move(database))) {}
 
 SessionService::~SessionService() { shut_down(); }
 
-void SessionService::reserve_place() {
+void SessionService::reserve_place(size_t leaving) {
   const std::lock_guard lock(mutex_);
   if (closed_) throw Error(ErrorKind::unavailable, "the server is stopping");
   const auto live = static_cast<size_t>(
       std::count_if(entries_.begin(), entries_.end(), [](const auto& entry) { return entry->live(); }));
-  if (live + being_made_ >= limits_.live)
+  if (live + being_made_ >= limits_.live + leaving)
     throw Error(ErrorKind::unavailable,
                 std::to_string(limits_.live) +
                     " sessions are live, as many as this server runs at once; stop one first");
@@ -41,10 +37,10 @@ void SessionService::reserve_place() {
 std::string SessionService::unused_id() const {
   for (;;) {
     const std::string id = random_id();
-    const bool taken = std::any_of(entries_.begin(), entries_.end(),
-                                   [&](const auto& entry) { return entry->request.id == id; });
+    const bool taken =
+        std::any_of(entries_.begin(), entries_.end(), [&](const auto& entry) { return entry->id() == id; });
     std::error_code failed;
-    if (!taken && !std::filesystem::exists(archive_.folder_of(id), failed)) return id;
+    if (!taken && !trash_.has(id) && !std::filesystem::exists(archive_.folder_of(id), failed)) return id;
   }
 }
 
@@ -65,16 +61,21 @@ std::vector<std::shared_ptr<SessionService::Entry>> SessionService::take_surplus
 }
 
 SessionRecord SessionService::create(SessionRequest wanted) {
-  reserve_place();
+  return made_anew(std::move(wanted), 0)->record();
+}
+
+/// `leaving`: live ones that are about to end for it.
+std::shared_ptr<SessionService::Entry> SessionService::made_anew(SessionRequest wanted, size_t leaving) {
+  reserve_place(leaving);
   auto entry = std::make_shared<Entry>();
   try {
     {
       const std::lock_guard lock(mutex_);
       wanted.id = unused_id();
     }
-    wanted.created_utc = utc_now();
-    entry->request = std::move(wanted);
-    entry->running = makers_.make(entry->request);
+    wanted.created_utc = utc_now_in_order();
+    entry->label(std::move(wanted));
+    entry->running = makers_.make(entry->request());
   } catch (...) {
     const std::lock_guard lock(mutex_);
     --being_made_;
@@ -86,13 +87,13 @@ SessionRecord SessionService::create(SessionRequest wanted) {
   if (closed_) throw Error(ErrorKind::unavailable, "the server is stopping");
   entries_.push_back(entry);
   surplus = take_surplus();
-  return entry->record();
+  return entry;
 }
 
 std::shared_ptr<SessionService::Entry> SessionService::find_or_none(const std::string& id) const {
   const std::lock_guard lock(mutex_);
   for (const auto& entry : entries_)
-    if (entry->request.id == id) return entry;
+    if (entry->id() == id) return entry;
   return nullptr;
 }
 
@@ -120,96 +121,13 @@ std::vector<SessionRecord> SessionService::held() const {
   return records;
 }
 
-std::vector<SessionRecord> SessionService::list() const {
-  std::vector<SessionRecord> records = held();
-  std::reverse(records.begin(), records.end());
-  std::set<std::string> here;
-  for (const SessionRecord& record : records) here.insert(record.request.id);
-  for (SessionRecord& record : archive_.list())
-    if (!here.contains(record.request.id)) records.push_back(std::move(record));
-  std::stable_sort(records.begin(), records.end(), [](const auto& a, const auto& b) {
-    return a.request.created_utc > b.request.created_utc;
-  });
-  return records;
+SessionPage SessionService::list(const store::SessionQuery& query) const {
+  return register_->list(query, held());
 }
 
 SessionRecord SessionService::get(const std::string& id) const {
   const auto entry = find_or_none(id);
   return entry ? entry->record() : archived(id);
-}
-
-SessionRecord SessionService::start(const std::string& id) {
-  const auto entry = find(id);
-  const std::lock_guard changing(entry->changing);
-  {
-    const std::lock_guard lock(mutex_);
-    if (closed_) throw Error(ErrorKind::unavailable, "the server is stopping");
-  }
-  const SessionState state = entry->running->status().state;
-  if (state != SessionState::created)
-    throw Error(ErrorKind::conflict,
-                "session '" + id + "' is " + to_text(state) + "; only a created session can be started");
-  entry->running->start();
-  return entry->record();
-}
-
-SessionRecord SessionService::stop(const std::string& id) {
-  const auto entry = find(id);
-  const std::lock_guard changing(entry->changing);
-  const SessionState state = entry->running->status().state;
-  if (!is_live(state))
-    throw Error(ErrorKind::conflict, "session '" + id + "' has ended already: it is " + to_text(state));
-  entry->running->stop();
-  return entry->record();
-}
-
-std::shared_ptr<SessionService::Entry> SessionService::made_again(const SessionRecord& before,
-                                                                  const std::string& reamer) {
-  auto entry = std::make_shared<Entry>();
-  entry->request = before.request;
-  entry->running = makers_.resume(before.request, reamer);
-  entry->running->start();
-  return entry;
-}
-
-SessionRecord SessionService::resume(const std::string& id, const std::string& reamer) {
-  const SessionRecord before = get(id);
-  const SessionState state = before.status.state;
-  if (state != SessionState::interrupted && state != SessionState::stopped)
-    throw Error(ErrorKind::conflict, "session '" + id + "' is " + to_text(state) +
-                                         "; only an interrupted or stopped session can go on");
-  {
-    const std::lock_guard no_remark(annotating_);
-    const std::lock_guard lock(mutex_);
-    if (!being_resumed_.insert(id).second)
-      throw Error(ErrorKind::conflict, "session '" + id + "' is being resumed already");
-  }
-  const auto done = [this, &id](bool reserved) {
-    being_resumed_.erase(id);
-    if (reserved) --being_made_;
-  };
-  std::shared_ptr<Entry> entry, old;
-  bool reserved = false;
-  try {
-    reserve_place();
-    reserved = true;
-    entry = made_again(before, reamer);
-  } catch (...) {
-    const std::lock_guard lock(mutex_);
-    done(reserved);
-    throw;
-  }
-  const std::lock_guard lock(mutex_);
-  done(true);
-  if (closed_) throw Error(ErrorKind::unavailable, "the server is stopping");
-  const auto place = std::find_if(entries_.begin(), entries_.end(),
-                                  [&](const auto& other) { return other->request.id == id; });
-  if (place != entries_.end()) {
-    old = std::move(*place);
-    entries_.erase(place);
-  }
-  entries_.push_back(entry);
-  return entry->record();
 }
 
 nlohmann::json SessionService::metrics(const std::string& id) const {
@@ -250,16 +168,30 @@ std::vector<Annotation> SessionService::annotations(const std::string& id) const
   return recorded_annotations(archive_.folder_of(id));
 }
 
+std::filesystem::path SessionService::folder_of(const std::string& id) const {
+  if (!find_or_none(id)) archived(id);
+  return archive_.folder_of(id);
+}
+
+void SessionService::write_surface(const std::string& id, const std::filesystem::path& ply,
+                                   int stride) const {
+  find(id)->running->write_surface(ply, stride);
+}
+
+void SessionService::write_picture(const std::string& id, const std::filesystem::path& png) const {
+  find(id)->running->write_picture(png);
+}
+
 std::unique_ptr<net::WebSocketSession> SessionService::subscribe(const std::string& id, int stride) const {
   auto entry = find(id);
   auto inner = entry->running->subscribe(stride);
-  return std::make_unique<KeepingSession>(std::move(entry), std::move(inner));
+  return std::make_unique<Attendance>(std::move(entry), std::move(inner));
 }
 
 std::unique_ptr<net::WebSocketSession> SessionService::connect_device(const std::string& id) const {
   auto entry = find(id);
   auto inner = entry->running->connect_device();
-  return std::make_unique<KeepingSession>(std::move(entry), std::move(inner));
+  return std::make_unique<Attendance>(std::move(entry), std::move(inner));
 }
 
 void SessionService::shut_down() {
@@ -274,7 +206,7 @@ void SessionService::shut_down() {
     try {
       if (entry->live()) entry->running->stop();
     } catch (const std::exception& failure) {
-      log::error("session " + entry->request.id + " did not stop cleanly: " + failure.what());
+      log::error("session " + entry->id() + " did not stop cleanly: " + failure.what());
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <nlohmann/json.hpp>
 
+#include "api/json_page.hpp"
 #include "api/request_body.hpp"
 
 namespace ream::api {
@@ -51,6 +52,11 @@ net::Response append(UploadStore& uploads, const net::Request& request) {
 void add_upload_routes(net::Router& router, UploadStore& uploads) {
   router.on("POST", "/api/v1/uploads",
             [&uploads](const net::Request& request) { return begin(uploads, request); });
+  router.on("GET", "/api/v1/uploads", [&uploads](const net::Request& request) {
+    std::vector<nlohmann::json> all;
+    for (const Upload& upload : uploads.list()) all.push_back(to_json(upload));
+    return page_of(request, "uploads", std::move(all), "name");
+  });
   router.on("GET", "/api/v1/uploads/{id}", [&uploads](const net::Request& request) {
     return net::json_response(200, to_json(uploads.get(request.parameters.at("id"))));
   });

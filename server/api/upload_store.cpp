@@ -71,6 +71,13 @@ Upload UploadStore::get(const std::string& id) const {
   return const_cast<UploadStore*>(this)->find(id);
 }
 
+std::vector<Upload> UploadStore::list() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<Upload> all;
+  for (const auto& [id, upload] : uploads_) all.push_back(upload);
+  return all;
+}
+
 Upload UploadStore::append(const std::string& id, uint64_t offset, std::string_view piece) {
   const std::lock_guard lock(mutex_);
   Upload& upload = find(id);

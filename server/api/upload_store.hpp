@@ -5,6 +5,7 @@
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace ream::api {
 
@@ -32,6 +33,7 @@ class UploadStore {
   /// RequestError 413 beyond the limits; io.
   Upload create(const std::string& name, uint64_t bytes);
   Upload get(const std::string& id) const;
+  std::vector<Upload> list() const;
   /// Appends a piece at `offset`. Errors: conflict when that is not where the file ends so far or when the
   /// piece goes beyond the announced size; io.
   Upload append(const std::string& id, uint64_t offset, std::string_view piece);

@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "core/error.hpp"
+#include "core/file.hpp"
 
 namespace ream::app {
 
@@ -14,7 +15,14 @@ std::filesystem::path data_folder(const std::filesystem::path& chosen) {
   throw Error(ErrorKind::usage, "no data folder: give --data DIR, or set REAM_DATA or HOME");
 }
 
+void make_data_folder(const std::filesystem::path& data) try {
+  make_writable_folder(data);
+} catch (const Error& e) {
+  throw Error(e.kind(), std::string(e.what()) + "; choose another data folder with --data");
+}
+
 std::filesystem::path cases_folder(const std::filesystem::path& data) { return data / "cases"; }
 std::filesystem::path sessions_folder(const std::filesystem::path& data) { return data / "sessions"; }
+std::filesystem::path serving_lock(const std::filesystem::path& data) { return data / "serving.lock"; }
 
 }  // namespace ream::app

@@ -7,7 +7,12 @@ namespace ream::app {
 /// Not created.
 std::filesystem::path data_folder(const std::filesystem::path& chosen);
 
+/// Creates it and proves that files can be written there. Error io.
+void make_data_folder(const std::filesystem::path& data);
+
 std::filesystem::path cases_folder(const std::filesystem::path& data);
 std::filesystem::path sessions_folder(const std::filesystem::path& data);
+/// Held (core/file_lock.hpp) while a server runs on the data folder.
+std::filesystem::path serving_lock(const std::filesystem::path& data);
 
 }  // namespace ream::app

@@ -5,6 +5,7 @@
 #include "app/cli/commands.hpp"
 #include "app/crash_guard.hpp"
 #include "app/interrupt.hpp"
+#include "app/open_database.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
 
@@ -14,6 +15,11 @@ void add_commands(CLI::App& app, ream::app::GlobalOptions& global) {
   using namespace ream::app;
   app.set_version_flag("--version", version_text());
   app.add_option("--data", global.data, "Data folder. Default: REAM_DATA, else ~/.local/share/ream");
+  app.add_option(
+         "--db", global.db,
+         "Database: sqlite:FILE or postgresql://user@host:port/name. Default: REAM_DB, else ream.db in "
+         "the data folder")
+      ->each([](const std::string& url) { ream::app::database_url(url, {}); });
   app.add_flag("--json", global.json, "Machine-readable output on stdout");
   app.fallthrough();
   app.require_subcommand(1);
@@ -28,6 +34,9 @@ void add_commands(CLI::App& app, ream::app::GlobalOptions& global) {
   add_list_command(app, global);
   add_replay_command(app, global);
   add_devices_command(app, global);
+  add_user_command(app, global);
+  add_backup_command(app, global);
+  add_restore_command(app, global);
   add_bench_command(app, global);
 }
 

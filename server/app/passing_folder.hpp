@@ -1,6 +1,8 @@
 #pragma once
 #include <stdlib.h>
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <string>
 
@@ -14,7 +16,7 @@ struct PassingFolder {
   explicit PassingFolder(const std::filesystem::path& beside) {
     std::string name = beside.string() + ".XXXXXX";
     if (::mkdtemp(name.data()) == nullptr)
-      throw Error(ErrorKind::io, "cannot make a folder beside " + beside.string());
+      throw Error(ErrorKind::io, "cannot write " + beside.string() + ": " + std::strerror(errno));
     path = name;
   }
   ~PassingFolder() {

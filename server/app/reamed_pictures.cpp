@@ -8,6 +8,7 @@ namespace {
 
 constexpr int picture_width = 1280, picture_height = 960;
 constexpr double camera_distance_mm = 105.0;
+constexpr int surface_threads = 2;
 
 /// Triangles of the surface that removal has made, and the rest.
 struct Parts {
@@ -40,6 +41,19 @@ Parts split(const TriangleMesh& surface, const voxel::BoneModel& bone, const std
   return parts;
 }
 
+void draw_picture(const case_::Case& bone_case, const TriangleMesh& surface,
+                  const std::vector<uint8_t>& before, const std::filesystem::path& png) {
+  const Parts parts = split(surface, bone_case.bone, before);
+  std::vector<render::Layer> layers(2);
+  layers[0].mesh = &parts.native;
+  layers[1].mesh = &parts.fresh;
+  layers[1].colour = Vec3f(0.80f, 0.42f, 0.34f);
+  for (auto& layer : layers) layer.world_from_mesh = bone_case.bone.grid.world_from_grid;
+  const Vec3 superior = bone_case.glenoid ? bone_case.glenoid->superior : Vec3::UnitZ();
+  const render::Camera camera = glenoid_camera(plan_of(bone_case), superior, camera_distance_mm);
+  render::write_png(png, render::draw(layers, camera, picture_width, picture_height));
+}
+
 }  // namespace
 
 render::Camera glenoid_camera(const case_::Plan& plan, const Vec3& superior, double distance_mm) {
@@ -54,22 +68,25 @@ render::Camera glenoid_camera(const case_::Plan& plan, const Vec3& superior, dou
   return camera;
 }
 
+TriangleMesh reamed_surface(const case_::Case& bone_case, int stride) {
+  const voxel::BoneModel& bone = bone_case.bone;
+  return surface::whole_surface(bone.grid, bone.coverage.data(), surface_threads, stride)
+      .transformed(bone.grid.world_from_grid);
+}
+
+void write_picture(const case_::Case& bone_case, const std::vector<uint8_t>& before,
+                   const std::filesystem::path& png) {
+  const voxel::BoneModel& bone = bone_case.bone;
+  draw_picture(bone_case, surface::whole_surface(bone.grid, bone.coverage.data()), before, png);
+}
+
 void write_reamed_pictures(const Rig& rig, const std::vector<uint8_t>& before,
                            const std::filesystem::path& folder) {
   const voxel::BoneModel& bone = rig.bone_case.bone;
   const TriangleMesh surface = surface::whole_surface(bone.grid, bone.coverage.data());
   write_ply(folder / "reamed.ply", surface.transformed(bone.grid.world_from_grid),
             case_::frame_in_words(rig.bone_case.side));
-
-  const Parts parts = split(surface, bone, before);
-  std::vector<render::Layer> layers(2);
-  layers[0].mesh = &parts.native;
-  layers[1].mesh = &parts.fresh;
-  layers[1].colour = Vec3f(0.80f, 0.42f, 0.34f);
-  for (auto& layer : layers) layer.world_from_mesh = bone.grid.world_from_grid;
-  const Vec3 superior = rig.bone_case.glenoid ? rig.bone_case.glenoid->superior : Vec3::UnitZ();
-  const render::Camera camera = glenoid_camera(rig.model.plan, superior, camera_distance_mm);
-  render::write_png(folder / "snapshot.png", render::draw(layers, camera, picture_width, picture_height));
+  draw_picture(rig.bone_case, surface, before, folder / "snapshot.png");
 }
 
 }  // namespace ream::app

@@ -6,9 +6,8 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "api/annotation_op.hpp"
 #include "api/session_folder.hpp"
-#include "api/viewer_stream.hpp"
+#include "api/session_labels.hpp"
 #include "app/data_folder.hpp"
 #include "app/stream_words.hpp"
 #include "core/clock.hpp"
@@ -89,6 +88,7 @@ ReamingSession::ReamingSession(const SessionHouse& house, const api::SessionRequ
   log::info("session " + id_ + ": contact and removal on " + backend.name +
             (backend.choice.empty() ? "" : " (" + backend.choice + ")") + ", slow ticks take " +
             std::to_string(std::lround(rehearsed_us_)) + " us");
+  labels_ = request_;
   status_.device.name = request_.device;
   status_.device.profile = rig_.device->traits().profile;
   status_.force_scale = rig_.model.settings.force_scale;
@@ -134,7 +134,15 @@ nlohmann::json ReamingSession::told_of(api::SessionState state, const std::strin
                          {"device", request_.device}};
   if (!fault.empty()) told["fault"] = fault;
   if (!api::is_live(state)) told["ticks"] = status().tick;
+  const std::lock_guard lock(mutex_);
+  api::write_labels(labels_, told);
   return told;
+}
+
+void ReamingSession::write_running(const SessionFiles& files) const {
+  nlohmann::json session = files.description();
+  session.update(told_of(api::SessionState::running, {}));
+  write_file_atomically(api::session_json(folder_), session.dump(2) + "\n");
 }
 
 /// The recording first: what session.json calls running has one. A recording that was to go on is as it was
@@ -147,9 +155,10 @@ void ReamingSession::open_files() {
   try {
     files = from_ ? std::make_unique<SessionFiles>(rig_, folder_, coverage, *from_, changed_tool_)
                   : std::make_unique<SessionFiles>(rig_, folder_, coverage, SessionFiles::Trace::left_out);
-    nlohmann::json session = files->description();
-    session.update(told_of(api::SessionState::running, {}));
-    write_file_atomically(api::session_json(folder_), session.dump(2) + "\n");
+    write_running(*files);
+    std::error_code ignored;
+    for (const char* result : {"reamed.ply", "snapshot.png"})
+      std::filesystem::remove(folder_ / result, ignored);
   } catch (const std::exception&) {
     files.reset();
     if (from_) from_->cut_to_its_end();
@@ -209,36 +218,6 @@ nlohmann::json ReamingSession::metrics() const {
   return metrics_;
 }
 
-api::Annotation ReamingSession::annotate(const api::NewAnnotation& note) {
-  std::unique_lock lock(mutex_);
-  if (closing_) changed_.wait(lock, [this] { return finished_; });
-  if (!files_ || finished_)
-    throw Error(ErrorKind::conflict,
-                "session '" + id_ + "' is " + api::to_text(status_.state) + "; a remark needs a recording");
-  remarks_.push_back(api::annotation_op(note, status_.tick));
-  annotations_.push_back(remarks_.back());
-  return api::annotation_of(remarks_.back());
-}
-
-std::vector<api::Annotation> ReamingSession::annotations() const {
-  const std::lock_guard lock(mutex_);
-  std::vector<api::Annotation> annotations;
-  for (const record::ops::Annotation& op : annotations_) annotations.push_back(api::annotation_of(op));
-  return annotations;
-}
-
-std::unique_ptr<net::WebSocketSession> ReamingSession::subscribe(int stride) {
-  return api::viewer_stream(fanout_, stride);
-}
-
-std::unique_ptr<net::WebSocketSession> ReamingSession::connect_device() {
-  if (port_) return port_->connect();
-  throw Error(ErrorKind::conflict,
-              "session '" + id_ + "' has the device '" + request_.device +
-                  "', which does not connect itself; a session with the device 'browser' "
-                  "or 'network' waits for a client");
-}
-
 std::shared_ptr<device::DevicePort> ReamingSession::port_of_device() const {
   if (!rig_.link) return nullptr;
   const device::DeviceTraits& traits = rig_.device->traits();
@@ -275,6 +254,7 @@ void ReamingSession::follow() {
       if (leaving_) return;
     }
     follow_once();
+    copy_coverage_if_wanted();
     publisher_.poll(steady_ns());
     const int64_t now_ns = steady_ns();
     const api::SessionState state = status().state;
@@ -296,14 +276,17 @@ std::string ReamingSession::start_failure() const {
 /// accepted.
 void ReamingSession::follow_once() {
   std::vector<record::ops::Annotation> remarks;
+  bool relabelled = false;
   const bool ended = loop_.ended();  // read before draining: then nothing can be missed
   {
     const std::lock_guard lock(mutex_);
     if (!files_ || finished_) return;
     closing_ = ended || !start_failure_.empty();
     remarks.swap(remarks_);
+    std::swap(relabelled, relabelled_);
   }
   try {
+    if (relabelled) write_running(*files_);
     for (const record::ops::Annotation& remark : remarks) files_->add(remark);
     take(ended);
     if (ended)
@@ -368,6 +351,7 @@ void ReamingSession::note_health() {
   if (status_.state == api::SessionState::running || status_.state == api::SessionState::paused)
     status_.state = sample_.state == stream::SessionState::paused ? api::SessionState::paused
                                                                   : api::SessionState::running;
+  if (std::exchange(status_.held, held_) != held_) changed_.notify_all();
 }
 
 void ReamingSession::publish_state(api::SessionState state) {

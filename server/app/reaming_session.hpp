@@ -41,11 +41,16 @@ class ReamingSession final : public api::RunningSession {
   ~ReamingSession() override;
 
   void start() override;
+  void pause() override;
+  void go_on() override;
   void stop() override;
+  bool relabel(const api::SessionRequest& request) override;
   api::SessionStatus status() const override;
   nlohmann::json metrics() const override;
   api::Annotation annotate(const api::NewAnnotation& note) override;
   std::vector<api::Annotation> annotations() const override;
+  void write_surface(const std::filesystem::path& ply, int stride) override;
+  void write_picture(const std::filesystem::path& png) override;
   std::unique_ptr<net::WebSocketSession> subscribe(int stride) override;
   std::unique_ptr<net::WebSocketSession> connect_device() override;
 
@@ -62,6 +67,11 @@ class ReamingSession final : public api::RunningSession {
   ReamingSession(const SessionHouse& house, const api::SessionRequest& request, Beginning beginning);
 
   void open_files();
+  void write_running(const SessionFiles& files) const;
+  void hold(bool held);
+  std::vector<uint8_t> coverage_now();
+  case_::Case intact_case() const;
+  void copy_coverage_if_wanted();
   nlohmann::json told_of(api::SessionState state, const std::string& fault) const;
   void follow_to_the_end();
   void follow();
@@ -105,6 +115,7 @@ class ReamingSession final : public api::RunningSession {
   stream::TelemetrySample sample_;  ///< the newest, follower only
   bool failover_told_ = false;      ///< follower only
   bool device_is_lost_ = false;     ///< follower only
+  bool held_ = false;               ///< in the newest tick, follower only
   sim::BlackBox recent_;  ///< the last seconds as the follower has them, for faults that do not end it
   device::LinkState device_state_ = device::LinkState::lost;  ///< follower only
   int64_t standstill_told_ns_ = 0;  ///< follower only; 0: the loop has not stood still
@@ -112,6 +123,10 @@ class ReamingSession final : public api::RunningSession {
   mutable std::mutex mutex_;  ///< guards what follows
   std::condition_variable changed_;
   api::SessionStatus status_;
+  api::SessionRequest labels_;                       ///< the request with its labels as they are now
+  bool relabelled_ = false;                          ///< for the follower to write down
+  std::vector<uint8_t>* wanted_coverage_ = nullptr;  ///< for the follower to fill; null: none is wanted
+  std::mutex copying_;                               ///< one such wish at a time; locked before mutex_
   nlohmann::json metrics_;
   std::unique_ptr<SessionFiles> files_;               ///< set by start(), used by the follower
   std::vector<record::ops::Annotation> remarks_;      ///< for the follower to record

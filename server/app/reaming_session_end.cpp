@@ -76,6 +76,7 @@ void ReamingSession::close(api::SessionState state, const std::string& fault, co
     const std::lock_guard lock(mutex_);
     status_.state = state;
     status_.fault = fault;
+    status_.held = false;
     metrics_ = metrics;
     lock_.reset();
     place_.reset();

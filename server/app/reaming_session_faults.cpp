@@ -41,6 +41,7 @@ void ReamingSession::note_events(const record::TickReport& report) {
     if (event.kind == "device_lost") keep_black_box(recent_);
   }
   device_state_ = report.link;
+  held_ = report.held;
   if (files_->events().device_is_lost() == device_is_lost_) return;
   device_is_lost_ = !device_is_lost_;
   tell_fault(files_->events().device_words());

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "api/session_labels.hpp"
 #include "app/cli/case_path.hpp"
 #include "app/data_folder.hpp"
 #include "app/passing_folder.hpp"
@@ -56,6 +57,16 @@ void add_files(const fs::path& folder, const std::set<std::string>& names, const
     if (fs::is_regular_file(folder / name, failed)) entries.push_back({folder / name, under + "/" + name});
 }
 
+/// Puts a session.json with these labels in place of the one in the folder.
+void relabel(const fs::path& folder, const api::SessionRequest& labels, const fs::path& made,
+             std::vector<store::ArchiveEntry>& entries) {
+  nlohmann::json session = read_json_file(folder / "session.json");
+  api::write_labels(labels, session);
+  write_file_atomically(made / "session.json", session.dump(2) + "\n");
+  for (store::ArchiveEntry& entry : entries)
+    if (entry.name == "session/session.json") entry.file = made / "session.json";
+}
+
 nlohmann::json read_bundle_json(const fs::path& folder, const fs::path& zip) {
   const nlohmann::json bundle = read_json_file(folder / "bundle.json");
   const auto refuse = [&](const std::string& why) {
@@ -73,7 +84,7 @@ nlohmann::json read_bundle_json(const fs::path& folder, const fs::path& zip) {
 }  // namespace
 
 void write_session_bundle(const fs::path& recording_file, const std::string& case_name, const fs::path& data,
-                          const fs::path& zip) {
+                          const fs::path& zip, const api::SessionRequest* labels, const Progress& progress) {
   const record::Recording recording(recording_file, record::Recording::Trust::checked);
   if (const std::string& damage = recording.log().damage(); !damage.empty()) log::warn(damage);
   case_of(recording, case_name, data);
@@ -86,11 +97,13 @@ void write_session_bundle(const fs::path& recording_file, const std::string& cas
   write_file_atomically(made.path / "bundle.json", bundle.dump(2) + "\n");
   std::vector<store::ArchiveEntry> entries{{made.path / "bundle.json", "bundle.json"}};
   add_files(folder, session_files, "session", entries);
+  if (labels != nullptr && fs::is_regular_file(folder / "session.json"))
+    relabel(folder, *labels, made.path, entries);
   for (const fs::path& box : black_boxes_in(folder))
     entries.push_back({box, "session/" + box.filename().string()});
   add_files(case_path(case_name.empty() ? recording.header().case_id : case_name, data), case_files, "case",
             entries);
-  store::write_zip(zip, entries);
+  store::write_zip(zip, entries, progress);
 }
 
 bool is_session_bundle(const fs::path& file) {

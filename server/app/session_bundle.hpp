@@ -2,15 +2,21 @@
 #include <filesystem>
 #include <string>
 
+#include "api/running_session.hpp"
+#include "core/progress.hpp"
+
 namespace ream::app {
 
 /// A session and its case as one file, to be looked at, rescored and proven on another machine: bundle.json,
 /// session/ (the session's folder) and case/ (the case's).
 
-/// Writes it. `recording` as recording_path() finds it, `case_name` as for case_of(). Errors: those of the
-/// recording and its case; io.
+/// Writes it. `recording` as recording_path() finds it, `case_name` as for case_of(). `labels`: what it says
+/// of trainee and title in place of session.json; null: as it is there. Errors: those of the recording and
+/// its case; io.
 void write_session_bundle(const std::filesystem::path& recording, const std::string& case_name,
-                          const std::filesystem::path& data, const std::filesystem::path& zip);
+                          const std::filesystem::path& data, const std::filesystem::path& zip,
+                          const api::SessionRequest* labels = nullptr,
+                          const Progress& progress = no_progress);
 
 /// True when the file is a zip archive with a bundle.json.
 bool is_session_bundle(const std::filesystem::path& file);

@@ -15,6 +15,11 @@ std::vector<record::ops::Event> SessionEvents::of(const record::TickReport& repo
   been_there_ |= !lost;
   lost_ = lost;
 
+  if (report.held != held_)
+    events.push_back(report.held ? record::ops::Event{report.tick, "paused", "The session was paused."}
+                                 : record::ops::Event{report.tick, "continued", "The session goes on."});
+  held_ = report.held;
+
   if (!report.paused) {
     const bool started = report.spindle_on && !spindle_on_;
     if (started && report.engaged && report.thrust_n >= loaded_thrust_n)

@@ -21,7 +21,8 @@ class SessionEvents {
   /// surgeons are taught to avoid. A reamer that only rests on bone weighs less. Engineering choice.
   static constexpr double loaded_thrust_n = 5.0;
 
-  /// Those of this tick, with their kinds: "device_lost", "device_back", "spindle_loaded".
+  /// Those of this tick, with their kinds: "device_lost", "device_back", "spindle_loaded", "paused" and
+  /// "continued" (by somebody else than the device).
   std::vector<record::ops::Event> of(const record::TickReport& report);
 
   bool device_is_lost() const { return lost_; }
@@ -29,7 +30,7 @@ class SessionEvents {
   std::string device_words() const;
 
  private:
-  bool begun_ = false, been_there_ = false, lost_ = false;
+  bool begun_ = false, been_there_ = false, lost_ = false, held_ = false;
   bool spindle_on_ = true;  ///< in the last tick that was not paused; none before the first
 };
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/replaceable.hpp"
 
 namespace ream {
 namespace fs = std::filesystem;
@@ -67,6 +68,7 @@ void sync_folder(const fs::path& folder) {
 }
 
 void write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {
+  require_replaceable(path);
   const fs::path temporary = temporary_beside(path);
   const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (fd < 0) throw Error(ErrorKind::io, "cannot write " + path.string() + ": " + reason());

@@ -87,6 +87,10 @@ class HapticDevice {
   /// Throws Error unavailable when the hardware cannot be used.
   virtual void open() = 0;
   virtual void close() noexcept = 0;
+  /// Whether the session is paused by somebody else than the hand; said before every read, from the haptic
+  /// thread. A simulated hand then rests and its script waits; of all others the loop takes the force away as
+  /// for their own pause button.
+  virtual void session_paused(bool) noexcept {}
   /// Newest input; `input` keeps its last value when the status is not ok.
   virtual DeviceStatus read(DeviceInput& input) noexcept = 0;
   virtual DeviceStatus write(const DeviceOutput& output) noexcept = 0;

@@ -40,6 +40,12 @@ void MappedDevice::open() {
   world_from_handle_ = world_from_start_;
   unsaid_ms_ = 0.0;
   rests_ = turning_ = true;
+  session_paused_ = false;
+}
+
+void MappedDevice::session_paused(bool paused) noexcept {
+  session_paused_ = paused;
+  device_->session_paused(paused);
 }
 
 Vec3 MappedDevice::mapped_mm(const Vec3& device_mm) const noexcept {
@@ -59,7 +65,8 @@ DeviceStatus MappedDevice::read(DeviceInput& input) noexcept {
   input.age_ms = told_.age_ms + unsaid_ms_;
   input.clutch = told_.clutch;
   input.deadman = told_.deadman;
-  input.paused = told_.paused || told_.clutch || !told_.deadman || input.age_ms >= traits_.stale.lost_ms;
+  input.paused = told_.paused || session_paused_ || told_.clutch || !told_.deadman ||
+                 input.age_ms >= traits_.stale.lost_ms;
   input.spindle_on = told_.spindle_on && told_.deadman;
   follow(input.paused, since_ms);
   input.world_from_handle = world_from_handle_;

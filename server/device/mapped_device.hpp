@@ -7,10 +7,10 @@
 namespace ream::device {
 
 /// A device that speaks of its own frame, made one that speaks of the world, with what hands need beside:
-/// - While the clutch is pressed, nobody holds the handle, the hand pauses or the device has stopped
-///   answering, the handle rests where it is (paused; without a hand on it, with the spindle off). From
-///   there it goes on, so it never jumps: only what the hand moves from then on counts. The same goes for a
-///   jump that no hand can make.
+/// - While the clutch is pressed, nobody holds the handle, the hand or the session pauses or the device has
+///   stopped answering, the handle rests where it is (paused; without a hand on it, with the spindle off).
+///   From there it goes on, so it never jumps: only what the hand moves from then on counts. The same goes
+///   for a jump that no hand can make.
 /// - Turns are absolute: the tool points as the handle does. After a rest it turns there no faster than
 ///   turn_rate_rad_s.
 /// - A pose that is not a number counts as nothing said: the last good one grows older.
@@ -26,6 +26,7 @@ class MappedDevice final : public HapticDevice {
   void close() noexcept override { device_->close(); }
   DeviceStatus read(DeviceInput& input) noexcept override;
   DeviceStatus write(const DeviceOutput& output) noexcept override;
+  void session_paused(bool paused) noexcept override;
   void take_force_away() noexcept override { device_->take_force_away(); }
 
   /// Faster than any hand, mm/s of the device: what moves more between two reads has not been moved by one.
@@ -48,7 +49,7 @@ class MappedDevice final : public HapticDevice {
   Vec3 offset_mm_ = Vec3::Zero();
   Vec3 last_mm_ = Vec3::Zero();  ///< device frame
   double unsaid_ms_ = 0.0;       ///< since the last good pose
-  bool rests_ = true, turning_ = true;
+  bool rests_ = true, turning_ = true, session_paused_ = false;
 };
 
 }  // namespace ream::device

@@ -38,6 +38,7 @@ class RobotDevice final : public ScriptedDevice {
   enum class Phase { approach, press, withdraw };
 
   void begin() noexcept override {
+    last_s_ = 0.0;
     handle_.begin({held_, robot_.start_mm});
     enter(Phase::approach, 0.0);
   }
@@ -49,10 +50,10 @@ class RobotDevice final : public ScriptedDevice {
     from_mm_ = along_mm();
   }
 
-  /// A pause stops the robot's clock too.
-  void wait() noexcept {
-    since_s_ += tick_s;
-    moved_s_ += tick_s;
+  /// A pause stops the robot's clock too; a pause of the session, the script's as well.
+  void wait(double t_s) noexcept {
+    since_s_ += t_s - last_s_;
+    moved_s_ += t_s - last_s_;
   }
 
   double along_mm() const noexcept {
@@ -80,7 +81,8 @@ class RobotDevice final : public ScriptedDevice {
   }
 
   bool act(double t_s, DeviceInput& input) noexcept override {
-    if (input.paused) wait();
+    if (input.paused) wait(t_s);
+    last_s_ = t_s;
     const double axial = input.paused ? 0.0 : axial_n(t_s);
     if (phase_ == Phase::withdraw && along_mm() <= 0.0) return false;
     const Vec3 axis = held_.col(2);
@@ -101,7 +103,7 @@ class RobotDevice final : public ScriptedDevice {
   Mat3 held_;
   ToldPose handle_;
   Phase phase_ = Phase::approach;
-  double since_s_ = 0.0, moved_s_ = 0.0, from_mm_ = 0.0;
+  double since_s_ = 0.0, moved_s_ = 0.0, from_mm_ = 0.0, last_s_ = 0.0;
 };
 
 }  // namespace

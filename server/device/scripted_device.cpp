@@ -15,6 +15,7 @@ ScriptedDevice::ScriptedDevice(const Script& script, const Pose& world_from_plan
 
 void ScriptedDevice::open() {
   tick_ = 0;
+  session_paused_ = false;
   begin();
 }
 
@@ -23,9 +24,9 @@ DeviceStatus ScriptedDevice::read(DeviceInput& input) noexcept {
   if (t_s >= script_.duration_s) return DeviceStatus::finished;
   const TimedButtons buttons = buttons_at(script_.buttons, t_s);
   input.spindle_on = buttons.spindle;
-  input.paused = buttons.pause;
+  input.paused = buttons.pause || session_paused_;
   if (!act(t_s, input)) return DeviceStatus::finished;
-  ++tick_;
+  if (!session_paused_) ++tick_;
   return DeviceStatus::ok;
 }
 

@@ -11,12 +11,14 @@ class ScriptedDevice : public HapticDevice {
   const DeviceTraits& traits() const noexcept override { return traits_; }
   void open() override;
   void close() noexcept override {}
+  void session_paused(bool paused) noexcept override { session_paused_ = paused; }
   DeviceStatus read(DeviceInput& input) noexcept override;
 
  protected:
   /// Puts itself at its beginning.
   virtual void begin() noexcept = 0;
-  /// Fills pose or force of the tick at `t_s`; false when the device has done what it had to.
+  /// Fills pose or force of the tick at `t_s`, which stands still while the session is paused; false when the
+  /// device has done what it had to.
   virtual bool act(double t_s, DeviceInput& input) noexcept = 0;
 
   Script script_;
@@ -25,6 +27,7 @@ class ScriptedDevice : public HapticDevice {
 
  private:
   int64_t tick_ = 0;
+  bool session_paused_ = false;
 };
 
 std::unique_ptr<HapticDevice> make_pose_device(const Script& script, const Pose& world_from_plan);

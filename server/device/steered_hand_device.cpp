@@ -70,18 +70,21 @@ class SteeredHandDevice final : public HapticDevice {
     hand_.begin();
     sideways_mm_ = lean_ = felt_.force_n = felt_.torque_n_mm = Vec3::Zero();
     push_n_ = 0.0;
+    session_paused_ = false;
   }
 
   void close() noexcept override { end_.write({}); }
 
   void take_force_away() noexcept override { end_.take_force_away(); }
 
+  void session_paused(bool paused) noexcept override { session_paused_ = paused; }
+
   DeviceStatus read(DeviceInput& input) noexcept override {
     end_.take(wish_);
     input.age_ms = end_.age_ms();
     input.spindle_on = wish_.spindle_on;
-    input.paused = wish_.paused;
-    if (wish_.paused || end_.age_ms() >= traits_.stale.lost_ms)
+    input.paused = wish_.paused || session_paused_;
+    if (input.paused || end_.age_ms() >= traits_.stale.lost_ms)
       rest();
     else
       follow();
@@ -164,6 +167,7 @@ class SteeredHandDevice final : public HapticDevice {
   HandModel hand_;
   Vec3 sideways_mm_ = Vec3::Zero(), lean_ = Vec3::Zero();
   double push_n_ = 0.0;
+  bool session_paused_ = false;
   Load felt_;  ///< of the last tick
 };
 

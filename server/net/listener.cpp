@@ -1,5 +1,6 @@
 #include "net/listener.hpp"
 
+#include <algorithm>
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -19,21 +20,32 @@ using asio::ip::tcp;
 namespace {
 
 tcp::endpoint endpoint_of(const ListenOptions& options) {
-  if (!is_loopback_host(options.host))
+  if (!options.beyond_loopback && !is_loopback_host(options.host))
     throw Error(ErrorKind::usage,
                 "--host " + options.host +
                     ": without users the server binds to this machine only; use 127.0.0.1, ::1 or "
                     "localhost");
-  const std::string address = options.host == "localhost" ? "127.0.0.1" : options.host;
   boost::system::error_code failed;
-  const auto parsed = asio::ip::make_address(address, failed);
-  return {failed ? asio::ip::make_address("127.0.0.1") : parsed, options.port};
+  const auto address =
+      asio::ip::make_address(options.host == "localhost" ? "127.0.0.1" : options.host, failed);
+  if (failed)
+    throw Error(ErrorKind::usage,
+                "--host " + options.host +
+                    " is no address; give one of this machine, or 0.0.0.0 for all of them, and "
+                    "the name people use with --public-name");
+  return {address, options.port};
 }
 
 [[noreturn]] void explain(const boost::system::error_code& failed, const ListenOptions& options) {
   const std::string place = "port " + std::to_string(options.port) + " on " + options.host;
   if (failed == asio::error::address_in_use)
     throw Error(ErrorKind::unavailable, place + " is in use; choose another with --port");
+  if (failed == boost::system::errc::address_not_available)
+    throw Error(ErrorKind::unavailable,
+                "--host " + options.host +
+                    " is no address of this machine; give one that is, or 0.0.0.0 for all of them");
+  if (failed == boost::system::errc::permission_denied)
+    throw Error(ErrorKind::unavailable, place + " needs privileges; choose another with --port");
   throw Error(ErrorKind::unavailable,
               place + " cannot be used: " + failed.message() + "; choose another with --port");
 }
@@ -48,7 +60,33 @@ void open(tcp::acceptor& acceptor, const ListenOptions& options) {
   if (failed) explain(failed, options);
 }
 
+/// An IPv4 address that came through an IPv6 socket is an IPv4 address.
+asio::ip::address plain_address(const asio::ip::address& address) {
+  if (!address.is_v6() || !address.to_v6().is_v4_mapped()) return address;
+  return asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6());
+}
+
+std::string text_of(const asio::ip::address& address) {
+  const std::string text = address.to_string();
+  return text.substr(0, text.find('%'));
+}
+
+/// Whoever has an IPv6 address has its whole /64.
+std::string key_of(const asio::ip::address& address) {
+  if (address.is_v4()) return text_of(address);
+  auto bytes = address.to_v6().to_bytes();
+  std::fill(bytes.begin() + 8, bytes.end(), uint8_t{0});
+  return asio::ip::address_v6(bytes).to_string() + "/64";
+}
+
 }  // namespace
+
+Ends ends_of(const Channel::Socket& socket) {
+  boost::system::error_code failed;
+  const auto peer = plain_address(socket.remote_endpoint(failed).address());
+  const auto local = plain_address(socket.local_endpoint(failed).address());
+  return {text_of(peer), text_of(local), key_of(peer)};
+}
 
 struct Listener::Parts {
   Parts(const Router& router, const ListenOptions& options)
@@ -57,21 +95,34 @@ struct Listener::Parts {
         acceptor(asio::make_strand(engine.io)),
         pause(acceptor.get_executor()),
         io_threads(options.io_threads) {
+    for (const std::string& name : options.public_names) engine.public_names.push_back(plain_host(name));
+    if (options.tls) engine.tls = make_tls_context(*options.tls);
     open(acceptor, options);
+    if (engine.tls && !engine.tls->warning().empty()) log::warn(engine.tls->warning());
     bound_port = acceptor.local_endpoint().port();
   }
 
   void accept() {
-    acceptor.async_accept(
-        asio::make_strand(engine.io), [this](boost::system::error_code failed, tcp::socket socket) {
-          if (!acceptor.is_open()) return;
-          if (failed) {
-            accept_later(failed);
-            return;
-          }
-          accept();
-          start_http(engine, std::move(socket), engine.connections.size() >= engine.limits.connections);
-        });
+    acceptor.async_accept(asio::make_strand(engine.io),
+                          [this](boost::system::error_code failed, tcp::socket socket) {
+                            if (!acceptor.is_open()) return;
+                            if (failed) {
+                              accept_later(failed);
+                              return;
+                            }
+                            accept();
+                            welcome(std::move(socket));
+                          });
+  }
+
+  void welcome(tcp::socket socket) {
+    using Place = ConnectionRegistry::Place;
+    Ends ends = ends_of(socket);
+    const Place place = engine.connections.make_room(ends.peer_key, engine.limits);
+    if (place == Place::overfull) return;
+    boost::system::error_code ignored;
+    socket.set_option(tcp::no_delay(true), ignored);
+    start_http(engine, std::move(socket), std::move(ends), place == Place::busy);
   }
 
   /// Out of file descriptors, say: trying again at once would only spin.
@@ -91,6 +142,16 @@ struct Listener::Parts {
       } catch (const std::exception& failure) {
         log::error(std::string("a connection failed: ") + failure.what());
       }
+    }
+  }
+
+  /// What still lies in the queues holds sockets, an accepted one say: their peers must not wait for ever.
+  void let_go() {
+    engine.io.restart();
+    try {
+      engine.io.poll();
+    } catch (const std::exception& failure) {
+      log::error(std::string("a connection failed at the end: ") + failure.what());
     }
   }
 
@@ -133,11 +194,13 @@ void Listener::stop() {
   if (!parts_->threads.empty() && !engine.connections.wait_until_empty(engine.limits.stop))
     log::warn("connections were cut that did not end in time");
   engine.workers.stop();
+  engine.file_readers.stop();
   engine.io.stop();
   for (std::thread& thread : parts_->threads) thread.join();
   boost::system::error_code ignored;
   parts_->acceptor.close(ignored);  // the threads may have ended before they came to it
   for (const auto& connection : engine.connections.all()) connection->abandon();
+  parts_->let_go();
 }
 
 }  // namespace ream::net

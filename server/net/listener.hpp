@@ -2,26 +2,38 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "net/limits.hpp"
 #include "net/router.hpp"
+#include "net/tls.hpp"
 
 namespace ream::net {
 
 struct ListenOptions {
-  std::string host = "127.0.0.1";  ///< loopback only: 127.0.0.0/8, ::1 or localhost (127.0.0.1)
-  uint16_t port = 8080;            ///< 0: any free one, see Listener::port
-  size_t io_threads = 1;           ///< sockets
-  size_t worker_threads = 4;       ///< request handlers, which may block
+  std::string host =
+      "127.0.0.1";       ///< an address of this machine, 0.0.0.0 or :: for all, or localhost (127.0.0.1)
+  uint16_t port = 8080;  ///< 0: any free one, see Listener::port
+  /// Other addresses than loopback may be bound. Whether that is safe (users, TLS) is for the caller to know.
+  bool beyond_loopback = false;
+  /// Names and addresses by which people reach this server from elsewhere, besides the address it listens on;
+  /// without scheme and port. Requests for any other host are refused.
+  std::vector<std::string> public_names;
+  std::optional<TlsOptions> tls;  ///< with it the port speaks HTTPS only
+  size_t io_threads = 1;          ///< sockets
+  size_t worker_threads = 4;      ///< request handlers, which may block
   Limits limits;
 };
 
-/// HTTP/1.1 and WebSocket server over a router. Listening begins in the constructor, answering with start().
+/// HTTP/1.1 and WebSocket server over a router, plain or with TLS. Listening begins in the constructor,
+/// answering with start().
 class Listener {
  public:
   /// `router` must outlive the listener and not change any more.
-  /// Throws Error usage for an address that is not loopback, unavailable when the port cannot be had.
+  /// Throws Error usage for an address that may not be bound or a name that is none, unavailable when the
+  /// port cannot be had; for certificate and key see make_tls_context.
   Listener(const Router& router, const ListenOptions& options);
   /// Stops.
   ~Listener();

@@ -1,5 +1,6 @@
 #include "net/message.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "net/problem.hpp"
@@ -33,13 +34,15 @@ std::string percent_decode(std::string_view text, bool plus_is_space) {
   return out;
 }
 
-/// An encoded slash would make the decoded path ambiguous; the others only serve to fool file systems.
-bool has_unwanted_character(std::string_view raw_path) {
-  std::string lower(raw_path);
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return lower.find("%2f") != std::string::npos || lower.find("%5c") != std::string::npos ||
-         lower.find("%00") != std::string::npos || lower.find('\\') != std::string::npos;
+/// An encoded slash would make the decoded path ambiguous.
+bool has_encoded_slash(std::string_view raw_path) {
+  return raw_path.find("%2f") != std::string::npos || raw_path.find("%2F") != std::string::npos;
+}
+
+/// Such characters only serve to fool file systems and logs.
+bool has_unwanted_character(std::string_view path) {
+  return std::any_of(path.begin(), path.end(),
+                     [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127 || c == '\\'; });
 }
 
 }  // namespace
@@ -80,9 +83,9 @@ void set_target(Request& request, std::string_view target) {
   if (target.empty() || target.front() != '/') throw RequestError(400, "the address must begin with '/'");
   const size_t mark = target.find('?');
   const std::string_view raw_path = target.substr(0, mark);
-  if (has_unwanted_character(raw_path))
-    throw RequestError(400, "the address holds an encoded '/', a '\\' or a NUL");
   request.path = percent_decode(raw_path, false);
+  if (has_encoded_slash(raw_path) || has_unwanted_character(request.path))
+    throw RequestError(400, "the address holds an encoded '/', a '\\' or a control character");
   if (mark == std::string_view::npos) return;
   std::string_view rest = target.substr(mark + 1);
   while (!rest.empty()) {

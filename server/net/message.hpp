@@ -1,8 +1,10 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -34,14 +36,25 @@ struct Request {
   std::string_view header(const std::string& name) const;
 };
 
+class OpenFile;
+
+/// Bytes of a file that are read from disk in pieces while they are sent; see net/file_body.hpp.
+struct FileStretch {
+  std::shared_ptr<const OpenFile> file;
+  uint64_t offset = 0, bytes = 0;
+};
+
 struct Response {
   int status = 200;
   std::string content_type;
-  SharedBytes body;  ///< null: no body
+  SharedBytes body;  ///< null: no body, or `file`
   std::vector<std::pair<std::string, std::string>> headers;
+  std::optional<FileStretch> file = std::nullopt;  ///< instead of `body`
 
   /// First value of a header set by a handler, empty when absent; exact spelling.
   std::string_view header(std::string_view name) const;
+  /// Of the body, wherever it comes from.
+  uint64_t body_bytes() const { return file ? file->bytes : body ? body->size() : 0; }
 };
 
 /// application/json that no cache keeps.
@@ -49,8 +62,8 @@ Response json_response(int status, const nlohmann::json& body);
 Response bytes_response(int status, std::string content_type, SharedBytes body);
 
 /// Splits and decodes the target of a request line ("/a/b?c=d") into path and query.
-/// Throws RequestError 400 on broken percent-encoding, encoded '/', '\' or NUL, or a target that is not a
-/// path.
+/// Throws RequestError 400 on broken percent-encoding, encoded '/', '\' or control characters, or a target
+/// that is not a path.
 void set_target(Request& request, std::string_view target);
 
 }  // namespace ream::net

@@ -1,5 +1,7 @@
 #include "net/problem.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/log.hpp"
@@ -58,6 +60,8 @@ std::string status_title(int status) {
       return "Precondition Failed";
     case 413:
       return "Content Too Large";
+    case 414:
+      return "URI Too Long";
     case 415:
       return "Unsupported Media Type";
     case 416:
@@ -93,9 +97,19 @@ Response problem(int status, const std::string& detail, const std::vector<FieldE
   return response;
 }
 
+Response too_many_requests(const std::string& detail, double wait_s) {
+  Response response = problem(429, detail);
+  response.headers.emplace_back("Retry-After", std::to_string(std::max(1L, std::lround(std::ceil(wait_s)))));
+  return response;
+}
+
 Response problem_of(const std::exception& failure) {
-  if (const auto* request_error = dynamic_cast<const RequestError*>(&failure))
-    return problem(request_error->status(), request_error->what(), request_error->errors());
+  if (const auto* request_error = dynamic_cast<const RequestError*>(&failure)) {
+    Response response = problem(request_error->status(), request_error->what(), request_error->errors());
+    const Headers& headers = request_error->headers();
+    response.headers.insert(response.headers.end(), headers.begin(), headers.end());
+    return response;
+  }
   if (const auto* error = dynamic_cast<const Error*>(&failure)) {
     if (error->kind() == ErrorKind::io) log::error(error->what());
     return problem(http_status(error->kind()), error->what());

@@ -62,8 +62,22 @@ void Router::otherwise(Handler handler) { otherwise_ = std::move(handler); }
 
 void Router::guard(Gate gate) { gate_ = std::move(gate); }
 
-void Router::ask_gate(Request& request, const std::string& pattern) const {
+void Router::pace_callers(Rate rate) { callers_ = std::make_shared<RateLimiter>(rate); }
+
+void Router::wrap_websockets(WebSocketWrapper wrapper) { wrapper_ = std::move(wrapper); }
+
+void Router::check(Check check) { check_ = std::move(check); }
+
+void Router::around(Around around) { around_ = std::move(around); }
+
+std::optional<Response> Router::ask_gate(Request& request, const std::string& pattern) const {
   if (gate_) gate_(request, pattern);
+  const Caller& caller = request.caller;
+  const std::string& key = caller.user_id.empty() ? caller.credential : caller.user_id;
+  if (!callers_ || key.empty()) return std::nullopt;
+  const double wait_s = callers_->take(key);
+  if (wait_s <= 0.0) return std::nullopt;
+  return too_many_requests("too many requests of one user; wait and send fewer", wait_s);
 }
 
 Response Router::dispatch(Request& request) const {
@@ -74,8 +88,9 @@ Response Router::dispatch(Request& request) const {
     if (!matches(entry.segments, path)) continue;
     if (entry.method == method) {
       take_parameters(entry.segments, path, request);
-      ask_gate(request, entry.pattern);
-      return entry.handler(request);
+      if (auto refusal = ask_gate(request, entry.pattern)) return *refusal;
+      if (check_) check_(request, entry.pattern);
+      return around_ ? around_(request, entry.pattern, entry.handler) : entry.handler(request);
     }
     allowed.insert(entry.method);
     if (entry.method == "GET") allowed.insert("HEAD");
@@ -83,7 +98,7 @@ Response Router::dispatch(Request& request) const {
   if (!allowed.empty()) return method_not_allowed(request, allowed);
   if (!otherwise_) throw Error(ErrorKind::not_found, "nothing is served at " + request.path);
   if (method != "GET") return method_not_allowed(request, {"GET", "HEAD"});
-  ask_gate(request, {});
+  if (auto refusal = ask_gate(request, {})) return *refusal;
   return otherwise_(request);
 }
 
@@ -101,8 +116,10 @@ Router::Opened Router::open(Request request) const {
     for (const Entry& entry : entries_) {
       if (!entry.websocket_handler || !matches(entry.segments, path)) continue;
       take_parameters(entry.segments, path, request);
-      ask_gate(request, entry.pattern);
-      return {entry.websocket_handler(request), {}};
+      if (auto refusal = ask_gate(request, entry.pattern)) return {nullptr, *refusal};
+      if (check_) check_(request, entry.pattern);
+      auto session = entry.websocket_handler(request);
+      return {wrapper_ ? wrapper_(request, std::move(session)) : std::move(session), {}};
     }
     throw Error(ErrorKind::not_found, "no WebSocket is served at " + request.path);
   } catch (const std::exception& failure) {

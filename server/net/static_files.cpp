@@ -31,6 +31,14 @@ fs::path safe_relative(const std::string& path) {
   return relative;
 }
 
+/// A page may be asked for without the ending of its file.
+fs::path file_of(const fs::path& path) {
+  std::error_code failed;
+  fs::path page = path;
+  page += ".html";
+  return !fs::exists(path, failed) && fs::is_regular_file(page, failed) ? page : path;
+}
+
 bool is_inside(const fs::path& file, const fs::path& folder) {
   const auto [folder_end, file_at] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
   return folder_end == folder.end() && file_at != file.end();
@@ -47,7 +55,7 @@ StaticFiles::StaticFiles(fs::path root) : root_(fs::weakly_canonical(root)) {}
 
 Response StaticFiles::respond(const Request& request) const {
   std::error_code failed;
-  const fs::path file = fs::weakly_canonical(root_ / safe_relative(request.path), failed);
+  const fs::path file = fs::weakly_canonical(file_of(root_ / safe_relative(request.path)), failed);
   if (failed || !is_inside(file, root_) || !fs::is_regular_file(file, failed)) refuse(request.path);
   const std::string tag = entity_tag(file, fs::file_size(file));
   const bool hashed_name = request.path.rfind("/assets/", 0) == 0;

@@ -7,8 +7,8 @@
 namespace ream::net {
 
 /// Serves the files of one folder, never anything outside it (".." and hidden names are refused, links that
-/// lead out as well). "/" is index.html. With ETag; files under /assets/ carry their hash in the name and are
-/// cached for a year, all others are asked for again.
+/// lead out as well). "/" is index.html, and "/x" is x.html where there is no x. With ETag; files under
+/// /assets/ carry their hash in the name and are cached for a year, all others are asked for again.
 class StaticFiles {
  public:
   explicit StaticFiles(std::filesystem::path root);

@@ -1,19 +1,20 @@
 #pragma once
 // Inside of net only.
-#include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <chrono>
 #include <memory>
 
+#include "net/channel.hpp"
+
 namespace ream::net {
 
-/// Closes a socket when its time is up. Belongs to one connection and runs on its strand, so a close never
+/// Closes a channel when its time is up. Belongs to one connection and runs on its strand, so a close never
 /// races with another use of the socket; everything pending on it then ends with operation_aborted.
 class Watchdog {
  public:
-  explicit Watchdog(boost::asio::ip::tcp::socket& socket) : socket_(socket), timer_(socket.get_executor()) {}
+  explicit Watchdog(Channel& channel) : channel_(channel), timer_(channel.get_executor()) {}
 
-  /// (Re)starts the time. `owner` keeps the socket alive meanwhile.
+  /// (Re)starts the time. `owner` keeps the channel alive meanwhile.
   void arm(std::chrono::milliseconds time, std::shared_ptr<void> owner) {
     timer_.expires_after(time);
     timer_.async_wait([this, owner = std::move(owner), due = timer_.expiry()](boost::system::error_code) {
@@ -28,13 +29,14 @@ class Watchdog {
     timer_.cancel();
   }
 
+  /// Closes now; there is nothing left to watch.
   void close() {
-    boost::system::error_code ignored;
-    socket_.close(ignored);
+    disarm();
+    channel_.close();
   }
 
  private:
-  boost::asio::ip::tcp::socket& socket_;
+  Channel& channel_;
   boost::asio::steady_timer timer_;
   bool armed_ = false;
 };

@@ -26,14 +26,18 @@ class WebSocketSession {
   /// from any thread, any number of times, also after the connection is gone.
   virtual void on_open(std::function<void()> wake) = 0;
 
-  /// The next binary message, or nothing for now. Asked for when the previous one has left and after each
-  /// wake, so a slow viewer pulls less often and the session decides what it may skip.
+  /// Whether what it sends is text (UTF-8, JSON say), binary otherwise. Always the same answer. What comes in
+  /// may be either.
+  virtual bool sends_text() const { return false; }
+
+  /// The next message, or nothing for now. Asked for when the previous one has left and after each wake, so a
+  /// slow viewer pulls less often and the session decides what it may skip.
   virtual std::optional<SharedBytes> next() = 0;
 
   /// Asked for whenever next() has nothing: closes the connection in words.
   virtual std::optional<Farewell> farewell() { return std::nullopt; }
 
-  /// One whole message of the peer.
+  /// One whole message of the peer, aligned as new memory is.
   virtual void on_message(std::span<const std::byte> message) = 0;
 
   /// Last call, whoever ended the connection.

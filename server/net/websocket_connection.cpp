@@ -4,9 +4,11 @@
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/websocket.hpp>
 #include <mutex>
+#include <span>
 
 #include "core/log.hpp"
 #include "net/connections.hpp"
+#include "net/frame_meter.hpp"
 #include "net/guard.hpp"
 #include "net/watchdog.hpp"
 
@@ -15,11 +17,11 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = boost::beast::http;
 namespace websocket = boost::beast::websocket;
-using asio::ip::tcp;
 using boost::system::error_code;
 namespace {
 
-constexpr size_t longest_reason = 123;  ///< bytes, RFC 6455, 5.5
+constexpr size_t longest_reason = 123;     ///< bytes, RFC 6455, 5.5
+constexpr double bytes_per_unit = 1024.0;  ///< of Limits::websocket_messages
 
 /// The handshake must be read before this connection exists, so it is rebuilt from what the router saw.
 http::request<http::empty_body> handshake_of(const Request& request) {
@@ -31,11 +33,13 @@ http::request<http::empty_body> handshake_of(const Request& request) {
 class WebSocketConnection final : public Connection,
                                   public std::enable_shared_from_this<WebSocketConnection> {
  public:
-  WebSocketConnection(Engine& engine, tcp::socket socket, std::unique_ptr<WebSocketSession> session)
-      : engine_(engine),
+  WebSocketConnection(Engine& engine, Channel channel, Ends ends, std::unique_ptr<WebSocketSession> session)
+      : Connection(std::move(ends.peer_key)),
+        engine_(engine),
         session_(std::move(session)),
-        stream_(std::move(socket)),
+        stream_(std::move(channel)),
         watchdog_(stream_.next_layer()),
+        messages_(engine.limits.websocket_messages, TokenBucket::Clock::now()),
         line_(std::make_shared<WakeLine>()) {}
 
   ~WebSocketConnection() override {
@@ -51,12 +55,14 @@ class WebSocketConnection final : public Connection,
     timeouts.idle_timeout = engine_.limits.idle;
     timeouts.keep_alive_pings = true;
     stream_.set_option(timeouts);
-    stream_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
-      for (const auto& [name, value] : security_headers()) response.set(name, value);
+    const bool encrypted = stream_.next_layer().encrypted();
+    stream_.set_option(websocket::stream_base::decorator([encrypted](websocket::response_type& response) {
+      for (const auto& [name, value] : security_headers(encrypted)) response.set(name, value);
     }));
+    stream_.next_layer().watch_received([this](std::span<const std::byte> bytes) { take_from_rate(bytes); });
     stream_.read_message_max(engine_.limits.websocket_message_bytes);
     stream_.auto_fragment(false);
-    stream_.binary(true);
+    stream_.text(session_->sends_text());
     stream_.async_accept(handshake_of(request), [self = shared_from_this()](error_code failed) {
       if (!failed) self->on_accepted();
     });
@@ -135,18 +141,32 @@ class WebSocketConnection final : public Connection,
   }
 
   void read() {
-    stream_.async_read(incoming_, [self = shared_from_this()](error_code failed, size_t) {
-      if (failed) {
+    stream_.async_read_some(incoming_, 0, [self = shared_from_this()](error_code failed, size_t) {
+      if (failed)
         self->finish();
-        return;
-      }
-      const auto data = self->incoming_.data();
-      self->guarded([&] {
-        if (!self->finished_ && !self->closing_)
-          self->session_->on_message({static_cast<const std::byte*>(data.data()), data.size()});
-      });
-      self->incoming_.consume(self->incoming_.size());
-      self->read();
+      else
+        self->on_piece();
+    });
+  }
+
+  void on_piece() {
+    if (closing_ || finished_) return;
+    if (stream_.is_message_done()) {
+      const auto data = incoming_.data();
+      guarded([&] { session_->on_message({static_cast<const std::byte*>(data.data()), data.size()}); });
+      incoming_.consume(incoming_.size());
+    }
+    read();
+  }
+
+  /// Every frame counts, those too that never become a message.
+  void take_from_rate(std::span<const std::byte> bytes) {
+    const double cost =
+        static_cast<double>(frames_.count(bytes)) + static_cast<double>(bytes.size()) / bytes_per_unit;
+    if (messages_.take(cost, TokenBucket::Clock::now()) <= 0.0) return;
+    // In the middle of a read: what follows from it must wait.
+    asio::post(stream_.get_executor(), [self = shared_from_this()] {
+      self->close({websocket::close_code::policy_error, "too many messages"});
     });
   }
 
@@ -176,7 +196,6 @@ class WebSocketConnection final : public Connection,
     if (finished_) return;
     finished_ = true;
     let_go();
-    watchdog_.disarm();
     watchdog_.close();
   }
 
@@ -193,8 +212,10 @@ class WebSocketConnection final : public Connection,
 
   Engine& engine_;
   std::unique_ptr<WebSocketSession> session_;
-  websocket::stream<tcp::socket> stream_;
+  websocket::stream<Channel> stream_;
   Watchdog watchdog_;
+  TokenBucket messages_;
+  FrameMeter frames_;
   beast::flat_buffer incoming_;
   SharedBytes outgoing_;
   std::shared_ptr<WakeLine> line_;
@@ -207,9 +228,10 @@ class WebSocketConnection final : public Connection,
 
 }  // namespace
 
-void start_websocket(Engine& engine, tcp::socket socket, Request request,
+void start_websocket(Engine& engine, Channel channel, Ends ends, Request request,
                      std::unique_ptr<WebSocketSession> session) {
-  std::make_shared<WebSocketConnection>(engine, std::move(socket), std::move(session))->start(request);
+  std::make_shared<WebSocketConnection>(engine, std::move(channel), std::move(ends), std::move(session))
+      ->start(request);
 }
 
 }  // namespace ream::net

@@ -22,7 +22,8 @@ struct TickReport {
   bool weakened = false;
   bool stale = false;  ///< a cause: the pose was too old, the force on the hand fades out
   device::LinkState link = device::LinkState::fresh;  ///< of the device; not recorded
-  bool failed_over = false;           ///< the device that computes failed in this tick; the hand felt nothing
+  bool held = false;         ///< paused by somebody else than the device, whatever it says; not recorded
+  bool failed_over = false;  ///< the device that computes failed in this tick; the hand felt nothing
   QuantisedPose world_from_handle_q;  ///< the cause: what the device said, as it was used
   QuantisedPose grid_from_tool;       ///< what was decided, as contact and removal saw it
   Pose world_from_tool, world_from_handle;

@@ -75,8 +75,12 @@ TraceCsv::~TraceCsv() {
   ::unlink(temporary_.c_str());
 }
 
-void TraceCsv::add(const TickReport& r) {
+void TraceCsv::pass(const TickReport& r) {
   for (const int64_t removed : r.coverage_removed) coverage_removed_ += removed;
+}
+
+void TraceCsv::add(const TickReport& r) {
+  pass(r);
   Row row;
   row.add(static_cast<double>(r.tick) * tick_s).add(r.world_from_handle).add(r.world_from_tool);
   row.add(static_cast<int64_t>(r.spindle_on)).add(static_cast<int64_t>(r.paused));

@@ -18,6 +18,8 @@ class TraceCsv {
   TraceCsv& operator=(const TraceCsv&) = delete;
 
   void add(const TickReport& report);
+  /// Counts what the tick removed, without a row of its own.
+  void pass(const TickReport& report);
   /// Throws Error io when anything could not be written.
   void finish();
 

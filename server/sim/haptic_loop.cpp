@@ -154,12 +154,14 @@ void HapticLoop::loop() noexcept {
 LoopEnd HapticLoop::one_tick(device::DeviceInput& input, double lateness_us) noexcept {
   TickTiming timing;
   timing.lateness_us = lateness_us;
+  const bool held = paused_.load(std::memory_order_relaxed);
   const auto start = SteadyClock::now();
+  device_.session_paused(held);
   const device::DeviceStatus read = device_.read(input);
   timing.read_us = elapsed_us(start);
   if (read == device::DeviceStatus::finished) return LoopEnd::finished;
   if (read != device::DeviceStatus::ok) return LoopEnd::device_fault;
-  return compute_and_write(input, timing);
+  return compute_and_write(input, held, timing);
 }
 
 /// Whether the device has let go by itself, as it has been told nothing for too long.
@@ -168,15 +170,17 @@ bool HapticLoop::force_expired() const noexcept {
   return options_.wall_clock && written_ns_ > 0 && silent_ms > force_expires_ms_;
 }
 
-LoopEnd HapticLoop::compute_and_write(const device::DeviceInput& input, TickTiming& timing) noexcept {
+LoopEnd HapticLoop::compute_and_write(const device::DeviceInput& input, bool held,
+                                      TickTiming& timing) noexcept {
   device::DeviceInput trusted = input;
   const device::LinkState link = watchdog_.judge(state_.tick, trusted);
   // From nothing, the force may only rise as it does at the start.
-  trusted.paused |= let_go_ || force_expired();
+  trusted.paused |= held || let_go_ || force_expired();
   TickReport report;
   const auto start = SteadyClock::now();
   const StepStatus status = step(model_, state_, trusted, report);
   report.link = link;
+  report.held = held;
   const auto stepped = SteadyClock::now();
   timing.step_us = microseconds(stepped - start);
   device::DeviceStatus written = device::DeviceStatus::ok;

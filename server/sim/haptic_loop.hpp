@@ -72,6 +72,8 @@ class HapticLoop {
   void start();
   /// Asks the loop to end; from any thread.
   void request_stop() noexcept { stop_.store(true, std::memory_order_relaxed); }
+  /// From its next tick on the session is paused as by the device's own button, or no longer; any thread.
+  void pause(bool paused) noexcept { paused_.store(paused, std::memory_order_relaxed); }
   /// Asks the loop to end and waits for it, but not for one that stands still. Safe to call twice.
   void stop() noexcept;
   /// Runs the whole loop on the calling thread instead of start().
@@ -93,7 +95,7 @@ class HapticLoop {
   void loop() noexcept;
   LoopEnd one_tick(device::DeviceInput& input, double lateness_us) noexcept;
   bool force_expired() const noexcept;
-  LoopEnd compute_and_write(const device::DeviceInput& input, TickTiming& timing) noexcept;
+  LoopEnd compute_and_write(const device::DeviceInput& input, bool held, TickTiming& timing) noexcept;
   void count(const TickTiming& timing) noexcept;
   bool push(const TickReport& report) noexcept;
   void summarise(uint32_t which) noexcept;
@@ -105,7 +107,7 @@ class HapticLoop {
   SpscRing<TickReport>& reports_;
   LoopOptions options_;
   std::thread thread_;
-  std::atomic<bool> stop_{false}, ended_{false};
+  std::atomic<bool> stop_{false}, ended_{false}, paused_{false};
   LatestSlot<LoopHealth> published_;
   LoopHealth last_seen_;
   TimingHistogram tick_us_, lateness_us_, read_us_, step_us_, write_us_;

@@ -1,11 +1,14 @@
 #include "store/zip_archive.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <zip.h>
 
 #include <cerrno>
 #include <cstdio>
+#include <cstring>
+#include <exception>
 #include <memory>
 
 #include "core/error.hpp"
@@ -16,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr size_t piece_bytes = 1u << 20;
+constexpr double progress_step = 0.002;
 
 struct Discard {
   void operator()(zip_t* archive) const { zip_discard(archive); }
@@ -25,6 +29,22 @@ struct CloseEntry {
 };
 struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+/// Told by libzip while it writes; no exception may pass through it.
+struct Packing {
+  const Progress& progress;
+  std::exception_ptr refusal;
+
+  static void tell(zip_t*, double share, void* state) noexcept {
+    auto& self = *static_cast<Packing*>(state);
+    try {
+      if (!self.refusal) self.progress(share, "packing");
+    } catch (...) {
+      self.refusal = std::current_exception();
+    }
+  }
+  static int cancelled(zip_t*, void* state) noexcept { return static_cast<Packing*>(state)->refusal ? 1 : 0; }
 };
 
 std::string words_of(int code) {
@@ -41,6 +61,8 @@ std::unique_ptr<zip_t, Discard> open_to_read(const fs::path& path) {
     throw Error(ErrorKind::not_found, "there is no file " + path.string());
   int code = 0;
   std::unique_ptr<zip_t, Discard> archive(zip_open(path.c_str(), ZIP_RDONLY | ZIP_CHECKCONS, &code));
+  if (!archive && code == ZIP_ER_OPEN)
+    throw Error(ErrorKind::io, "cannot read " + path.string() + ": " + std::strerror(errno));
   if (!archive)
     throw Error(ErrorKind::invalid_input, path.string() + " is no whole zip archive: " + words_of(code));
   return archive;
@@ -57,7 +79,7 @@ bool stays_inside(const std::string& name) {
 }
 
 void write_entry(zip_t* archive, const ArchiveEntry& entry, const fs::path& zip) {
-  zip_source_t* source = zip_source_file(archive, entry.file.c_str(), 0, -1);
+  zip_source_t* source = zip_source_file(archive, entry.file.c_str(), 0, entry.bytes);
   const zip_int64_t index =
       source == nullptr ? -1 : zip_file_add(archive, entry.name.c_str(), source, ZIP_FL_ENC_UTF_8);
   if (index < 0) {
@@ -147,16 +169,29 @@ uint64_t unpack_entry(zip_t* archive, zip_uint64_t index, const std::string& nam
   return total;
 }
 
+void keep_time(zip_t* archive, zip_uint64_t index, const fs::path& file) {
+  zip_stat_t stated;
+  zip_stat_init(&stated);
+  if (zip_stat_index(archive, index, 0, &stated) != 0 || (stated.valid & ZIP_STAT_MTIME) == 0) return;
+  const timespec times[2] = {{0, UTIME_OMIT}, {stated.mtime, 0}};
+  ::utimensat(AT_FDCWD, file.c_str(), times, 0);
+}
+
 }  // namespace
 
-void write_zip(const fs::path& path, const std::vector<ArchiveEntry>& entries) {
+void write_zip(const fs::path& path, const std::vector<ArchiveEntry>& entries, const Progress& progress) {
   const fs::path temporary = path.string() + ".tmp";
   int code = 0;
   std::unique_ptr<zip_t, Discard> archive(zip_open(temporary.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code));
   if (!archive) throw Error(ErrorKind::io, "cannot write " + path.string() + ": " + words_of(code));
   for (const ArchiveEntry& entry : entries) write_entry(archive.get(), entry, path);
-  if (zip_close(archive.get()) != 0)
+  Packing packing{progress, nullptr};
+  zip_register_progress_callback_with_state(archive.get(), progress_step, &Packing::tell, nullptr, &packing);
+  zip_register_cancel_callback_with_state(archive.get(), &Packing::cancelled, nullptr, &packing);
+  if (zip_close(archive.get()) != 0) {
+    if (packing.refusal) std::rethrow_exception(packing.refusal);
     throw Error(ErrorKind::io, "cannot write " + path.string() + ": " + zip_strerror(archive.get()));
+  }
   archive.release();  // closing has freed it
   std::error_code failed, ignored;
   const bool synced = sync_file(temporary);
@@ -185,6 +220,7 @@ void unpack_zip(const fs::path& path, const fs::path& folder, const UnpackLimits
     progress(static_cast<double>(i) / static_cast<double>(names.size()), "unpacking");
     if (names[i].back() == '/') continue;
     room -= unpack_entry(archive.get(), i, names[i], path, folder / names[i], room, limits.durable);
+    if (limits.keep_times) keep_time(archive.get(), i, folder / names[i]);
   }
 }
 

@@ -33,6 +33,10 @@ std::vector<Row> collide_suite(const Options& options);
 std::vector<Row> loop_suite(const Options& options);
 /// What recording costs, and how soon any moment of a recording opens.
 std::vector<Row> record_suite(const Options& options);
+/// Whether requests disturb the haptic loop of a served session.
+std::vector<Row> rest_suite(const Options& options);
+/// How soon many sessions are listed and filtered, on both kinds of database.
+std::vector<Row> store_suite(const Options& options);
 std::vector<Row> surface_suite(const Options& options);
 /// Force against the thesis' chapter 5.
 std::vector<Row> validate_suite(const Options& options);

@@ -12,7 +12,8 @@ namespace {
 /// As many as a tool that comes to rest gets before it is felt.
 constexpr size_t warm_up_poses = 50;
 
-/// The rank nearest below; reorders `values`.
+}  // namespace
+
 double percentile_of(std::vector<double>& values, double fraction) {
   if (values.empty()) return 0.0;
   const auto last = static_cast<double>(values.size() - 1);
@@ -20,8 +21,6 @@ double percentile_of(std::vector<double>& values, double fraction) {
   std::nth_element(values.begin(), values.begin() + rank, values.end());
   return values[static_cast<size_t>(rank)];
 }
-
-}  // namespace
 
 double Samples::percentile(double fraction) const {
   std::vector<double> all;

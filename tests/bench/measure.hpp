@@ -28,6 +28,9 @@ struct Samples {
   double mean_found() const;
 };
 
+/// The rank nearest below; reorders `values`. Zero of nothing.
+double percentile_of(std::vector<double>& values, double fraction);
+
 /// Contenders take turns round by round, so that what else the machine does falls on all of them alike. A
 /// turn starts with poses that are not timed.
 std::vector<Samples> measure_in_turns(std::span<const Contender> contenders,

@@ -1,17 +1,23 @@
 #include "bench/served_reaming.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "access/secret.hpp"
 #include "api/server.hpp"
 #include "api/session_folder.hpp"
 #include "app/data_folder.hpp"
 #include "app/reaming_session.hpp"
+#include "bench/many_sessions.hpp"
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "ct/phantom_case.hpp"
 #include "shell/tool.hpp"
+#include "store/database.hpp"
+#include "support/memory_in_use.hpp"
 #include "support/raw_http.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -22,6 +28,8 @@ namespace {
 constexpr const char* case_name = "thesis-5-4-2";
 constexpr const char* script_name = "pecking";
 constexpr double thesis_spacing_mm = 0.1;
+constexpr int office_sessions = 10'000;
+constexpr int most_refusals = 60;
 constexpr double press_n = 52.0, peck_every_s = 5.0;
 
 /// Press, lift for a look, press again; the last press lasts to the end.
@@ -48,7 +56,7 @@ json pecking(double duration_s) {
 }  // namespace
 
 struct ServedReaming::House {
-  House(sim::Realtime realtime, double turn_s) {
+  House(sim::Realtime realtime, double turn_s, Surroundings surroundings) {
     const ct::PhantomPreset preset = ct::phantom_preset(case_name);
     case_::Case bone_case = ct::make_phantom_case(case_name, preset.params, preset.upsample);
     bone_case.plan->reamer = shell::thesis_tool;
@@ -67,12 +75,33 @@ struct ServedReaming::House {
     options.make_session.make = [house](const api::SessionRequest& request) {
       return std::make_unique<app::ReamingSession>(house, request);
     };
+    if (surroundings == Surroundings::office) {
+      write_sessions(folder, office_sessions, "sessions/");
+      options.database = std::make_shared<store::Database>("sqlite:" + (folder.path() / "ream.db").string());
+    }
     server = std::make_unique<api::Server>(std::move(options));
     server->start();
+    if (surroundings == Surroundings::office) open_office();
+  }
+
+  /// From here on a token is needed. Waits until all sessions are listed.
+  void open_office() {
+    access::Gatehouse& gatehouse = *server->gatehouse();
+    const access::User chief = gatehouse.users.add(
+        {"chief", "", access::Role::operator_, access::Secret(std::string("a pass phrase of a bench"))});
+    access::NewCredential wanted;
+    wanted.user_id = chief.id;
+    wanted.name = "bench";
+    token = gatehouse.credentials.issue(access::CredentialKind::token, wanted).secret.reveal();
+    while (ask("GET", "?limit=1").at("total") != office_sessions)
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
 
   json ask(const char* method, const std::string& path, const std::string& body = {}) const {
-    const test::HttpReply reply = test::http_request(server->port(), method, "/api/v1/sessions" + path, body);
+    const test::HttpReply reply = test::http_request(
+        server->port(), method, "/api/v1/sessions" + path, body,
+        token.empty() ? std::map<std::string, std::string>{}
+                      : std::map<std::string, std::string>{{"Authorization", "Bearer " + token}});
     if (reply.status >= 300)
       throw Error(ErrorKind::unavailable, std::string(method) + " " + path + ": " + reply.body);
     return json::parse(reply.body);
@@ -80,23 +109,33 @@ struct ServedReaming::House {
 
   test::TemporaryFolder folder;
   std::unique_ptr<api::Server> server;
+  std::string token;  ///< empty where none is needed
 };
 
-ServedReaming::ServedReaming(sim::Realtime realtime, double turn_s)
-    : house_(std::make_unique<House>(realtime, turn_s)) {}
+ServedReaming::ServedReaming(sim::Realtime realtime, double turn_s, Surroundings surroundings)
+    : house_(std::make_unique<House>(realtime, turn_s, surroundings)) {}
 
 ServedReaming::~ServedReaming() = default;
 
-ServedTurn ServedReaming::run(StreamViewer& viewer) {
+ServedTurn ServedReaming::run(StreamViewer& viewer, const std::function<void(const Door&)>& beside) {
   ServedTurn turn;
   const std::string id =
       house_->ask("POST", "", json{{"case", case_name}, {"script", script_name}}.dump()).at("id");
-  viewer.watch(house_->server->port(), id);
+  const Door door(house_->server->port(), id, house_->token);
+  viewer.watch(door);
   house_->ask("POST", "/" + id + "/start");
+  if (beside) beside(door);
   uint64_t missed = 0;
   for (json told; told.is_null() || told.at("state") == "running";) {
     std::this_thread::sleep_for(std::chrono::seconds(1));
-    told = house_->ask("GET", "/" + id);
+    turn.peak_memory_mb =
+        std::max(turn.peak_memory_mb, static_cast<double>(test::memory_in_use_kib()) / 1024.0);
+    try {
+      told = house_->ask("GET", "/" + id);
+    } catch (const std::exception&) {
+      if (++turn.refusals > most_refusals) throw;
+      continue;
+    }
     const uint64_t missed_so_far = told.at("loop").at("missed");
     turn.missed_in_second.push_back(missed_so_far - missed);
     missed = missed_so_far;

@@ -1,13 +1,9 @@
 #include "bench/stream_viewer.hpp"
 
 #include <poll.h>
-#include <signal.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <cstring>
+#include <map>
 #include <stdexcept>
 
 #include "core/error.hpp"
@@ -18,16 +14,12 @@ namespace {
 
 constexpr int binary = 2, closed = 8;
 
-struct Order {
-  uint16_t port = 0;
-  std::array<char, 64> session{};
-};
 struct Answer {
   bool good = false;
   uint64_t bytes = 0;
 };
 
-/// An order without a port ends the watching.
+/// A door without a port ends the watching.
 bool has_order(int in) {
   pollfd waiting{in, POLLIN, 0};
   return ::poll(&waiting, 1, 0) > 0;
@@ -49,13 +41,14 @@ void answer(int out, const Answer& answer) {
 }
 
 /// One answer when greeted, one at the end.
-void serve_order(const Order& order, int in, int out) {
+void serve_order(const Door& door, int in, int out) {
   try {
-    test::RawWebSocket stream(order.port,
-                              "/api/v1/sessions/" + std::string(order.session.data()) + "/stream");
+    std::map<std::string, std::string> headers;
+    if (door.needs_token()) headers["Authorization"] = door.authorization();
+    test::RawWebSocket stream(door.port, door.session_path() + "/stream", headers);
     answer(out, {stream.handshake().status == 101, 0});
     const uint64_t bytes = receive_until_told(stream, in);
-    Order stop;
+    Door stop;
     if (::read(in, &stop, sizeof stop) != sizeof stop) ::_exit(0);
     answer(out, {true, bytes});
   } catch (const std::exception&) {
@@ -63,60 +56,29 @@ void serve_order(const Order& order, int in, int out) {
   }
 }
 
-[[noreturn]] void run_child(int in, int out) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  Order order;
-  while (::read(in, &order, sizeof order) == sizeof order) serve_order(order, in, out);
-  ::_exit(0);
+void serve_orders(int in, int out) {
+  Door door;
+  while (::read(in, &door, sizeof door) == sizeof door) serve_order(door, in, out);
 }
 
-Answer next_answer(int from) {
-  Answer answer;
-  if (::read(from, &answer, sizeof answer) != sizeof answer || !answer.good)
-    throw Error(ErrorKind::unavailable, "the viewer lost the session's stream");
+Answer good_answer(const SideProcess& process) {
+  const Answer answer = process.receive<Answer>();
+  if (!answer.good) throw Error(ErrorKind::unavailable, "the viewer lost the session's stream");
   return answer;
 }
 
 }  // namespace
 
-StreamViewer::StreamViewer() {
-  int orders[2], answers[2];
-  if (::pipe(orders) != 0 || ::pipe(answers) != 0)
-    throw Error(ErrorKind::unavailable, "no pipe can be made to the viewer");
-  child_ = ::fork();
-  if (child_ < 0) throw Error(ErrorKind::unavailable, "no process can be started for the viewer");
-  if (child_ == 0) {
-    ::close(orders[1]);
-    ::close(answers[0]);
-    run_child(orders[0], answers[1]);
-  }
-  ::close(orders[0]);
-  ::close(answers[1]);
-  to_child_ = orders[1];
-  from_child_ = answers[0];
-}
+StreamViewer::StreamViewer() : process_(serve_orders) {}
 
-StreamViewer::~StreamViewer() {
-  ::close(to_child_);
-  ::close(from_child_);
-  ::kill(child_, SIGKILL);
-  ::waitpid(child_, nullptr, 0);
-}
-
-void StreamViewer::watch(uint16_t port, const std::string& session) {
-  Order order;
-  order.port = port;
-  std::strncpy(order.session.data(), session.c_str(), order.session.size() - 1);
-  if (::write(to_child_, &order, sizeof order) != sizeof order)
-    throw Error(ErrorKind::unavailable, "the viewer has ended");
-  next_answer(from_child_);
+void StreamViewer::watch(const Door& door) {
+  process_.send(door);
+  good_answer(process_);
 }
 
 uint64_t StreamViewer::stop_watching() {
-  const Order stop;
-  if (::write(to_child_, &stop, sizeof stop) != sizeof stop)
-    throw Error(ErrorKind::unavailable, "the viewer has ended");
-  return next_answer(from_child_).bytes;
+  process_.send(Door{});
+  return good_answer(process_).bytes;
 }
 
 }  // namespace ream::bench

@@ -1,8 +1,8 @@
 #pragma once
-#include <sys/types.h>
-
 #include <cstdint>
-#include <string>
+
+#include "bench/door.hpp"
+#include "bench/side_process.hpp"
 
 namespace ream::bench {
 
@@ -11,18 +11,14 @@ namespace ream::bench {
 class StreamViewer {
  public:
   StreamViewer();
-  ~StreamViewer();
-  StreamViewer(const StreamViewer&) = delete;
-  StreamViewer& operator=(const StreamViewer&) = delete;
 
-  /// Joins the stream of a session of the server on that port of 127.0.0.1. Returns when it has been greeted.
-  void watch(uint16_t port, const std::string& session);
+  /// Joins the stream of a session of a server on 127.0.0.1. Returns when it has been greeted.
+  void watch(const Door& door);
   /// Bytes received since. Error unavailable when the stream broke.
   uint64_t stop_watching();
 
  private:
-  int to_child_ = -1, from_child_ = -1;
-  pid_t child_ = -1;
+  SideProcess process_;
 };
 
 }  // namespace ream::bench

@@ -5,6 +5,7 @@
 
 #include "core/units.hpp"
 #include "render/snapshot.hpp"
+#include "support/places.hpp"
 #include "support/small_run.hpp"
 #include "surface/whole_surface.hpp"
 
@@ -80,7 +81,7 @@ void draw(const TriangleMesh& surface, const Case& c, const Vec3& target_mm) {
   camera.target_mm = target_mm;
   camera.eye_mm = target_mm + 22.0 * (c.outward + 0.45 * c.outward.unitOrthogonal()).normalized();
   camera.up = c.outward.unitOrthogonal();
-  render::write_png(std::string(REAM_BINARY_DIR) + "/reamed_surface_" + c.name + ".png",
+  render::write_png(build_folder() + "/reamed_surface_" + c.name + ".png",
                     render::draw({layer}, camera, 900, 700));
 }
 

@@ -2,7 +2,7 @@
 import { expect, type Page, test } from '@playwright/test';
 
 import type { DebugReadout } from '../../web/src/debug_readout';
-import { ServerProcess } from './server_process';
+import { passwordOf, ServerProcess, type TestUser } from './server_process';
 
 class Surroundings {
   /** Of the test that runs. */
@@ -15,13 +15,14 @@ class Surroundings {
   }
 }
 
-/** To be called once in a file of tests. */
-export function serverForEachTest(): Surroundings {
+/** To be called once in a file of tests. Without users everybody may do everything. */
+export function serverForEachTest(users: readonly TestUser[] = []): Surroundings {
   const here = new Surroundings();
   test.beforeEach(async ({ page }) => {
     here.problems = [];
     here.watchForErrors(page);
     here.server = new ServerProcess();
+    for (const user of users) here.server.addUser(user);
     await here.server.start();
   });
   test.afterEach(async () => {
@@ -29,6 +30,13 @@ export function serverForEachTest(): Surroundings {
     expect(here.problems).toEqual([]);
   });
   return here;
+}
+
+/** Fills in the form that the page shows to who is not known. */
+export async function logIn(page: Page, name: string, password = passwordOf(name)): Promise<void> {
+  await page.getByTestId('login-name').fill(name);
+  await page.getByTestId('login-password').fill(password);
+  await page.getByTestId('log-in').click();
 }
 
 export const readout = (page: Page): Promise<DebugReadout> => page.evaluate(() => window.__ream);

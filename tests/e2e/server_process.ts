@@ -1,4 +1,4 @@
-import { type ChildProcess, spawn } from 'node:child_process';
+import { type ChildProcess, spawn, spawnSync } from 'node:child_process';
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
@@ -7,11 +7,34 @@ import { createInterface } from 'node:readline';
 /** The program under test: REAM_BIN, else build/ream; tests/support/fake_stream_server.mjs speaks the same. */
 export const program = resolve(process.env.REAM_BIN ?? join(process.cwd(), '../build/ream'));
 
+/** An account; everybody's password is passwordOf(name). */
+export interface TestUser {
+  name: string;
+  role: 'operator' | 'instructor' | 'trainee';
+  displayName: string;
+}
+
+export const passwordOf = (name: string) => `password of ${name}`;
+
 /** A `ream serve` of its own, with a data folder of its own. */
 export class ServerProcess {
   private child: ChildProcess | null = null;
   private readonly dataFolder = mkdtempSync(join(tmpdir(), 'ream-e2e-'));
   url = '';
+
+  /** The first user ends the time in which everybody may do everything. */
+  addUser({ name, role, displayName }: TestUser): void {
+    const words = ['user', 'add', name, '--role', role, '--display-name', displayName, '--data', this.dataFolder];
+    const { status, stderr } = spawnSync(program, words, { input: `${passwordOf(name)}\n`, encoding: 'utf8' });
+    if (status !== 0) throw new Error(`${program} user add ended with ${String(status)}: ${stderr}`);
+  }
+
+  /** What an operator does at the server's own command line. */
+  command(...words: string[]): string {
+    const { status, stdout, stderr } = spawnSync(program, [...words, '--data', this.dataFolder], { encoding: 'utf8' });
+    if (status !== 0) throw new Error(`${program} ${words.join(' ')} ended with ${String(status)}: ${stderr}`);
+    return stdout;
+  }
 
   /** Starts it, on the port it had before where there was one, and waits until it names its URL. */
   async start(): Promise<void> {

@@ -8,6 +8,7 @@
 
 #include "support/fake_device_client.hpp"
 #include "support/live_server.hpp"
+#include "support/places.hpp"
 
 namespace ream::test {
 namespace {
@@ -62,7 +63,7 @@ TEST_F(DeviceSoak, OfTwoThatFightOneIsHeardAtATimeAndBothAreTold) {
 
 TEST_F(DeviceSoak, ASenderThatDoesNotWaitIsAnsweredTogether) {
   FakeDeviceClient client(server.port(), id);
-  constexpr uint32_t messages = 20000;
+  constexpr uint32_t messages = 15000;  // fewer than what one connection may send at once
   std::thread sender([&] {
     for (uint32_t i = 0; i < messages; ++i) {
       SteeringWords words;
@@ -114,7 +115,7 @@ TEST(ExampleClient, InPythonIsAnswered) {
   const LiveServer server;
   const std::string id = server.run({{"case", "slab"}, {"device", "network"}});
   const std::string out = (server.folder(id) / "example.txt").string();
-  const std::string command = "python3 " REAM_SOURCE_DIR "/tests/support/example_device_client.py " +
+  const std::string command = "python3 " + source_folder() + "/tests/support/example_device_client.py " +
                               std::to_string(server.port()) + " " + id + " 200 > " + out + " 2>&1";
   const int failed = std::system(command.c_str());
   std::ifstream file(out);

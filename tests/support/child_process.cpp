@@ -21,7 +21,7 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
 /// Only what is allowed between fork and exec.
 [[noreturn]] void become(const ChildProcess::Setting& setting, char* const* command,
                          char* const* environment) {
-  const int in = ::open("/dev/null", O_RDONLY);
+  const int in = ::open(setting.in.c_str(), O_RDONLY | O_NOCTTY);
   const int out = ::open(setting.out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
   const int error = ::open(setting.error.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
   if (::dup2(in, 0) == 0 && ::dup2(out, 1) == 1 && ::dup2(error, 2) == 2 &&

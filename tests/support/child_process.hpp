@@ -18,12 +18,14 @@ class ChildProcess {
     std::map<std::string, std::string> environment;
     std::filesystem::path folder;  ///< it runs in
     std::filesystem::path out, error;
+    std::filesystem::path in = "/dev/null";
   };
   explicit ChildProcess(const Setting& setting);
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
+  pid_t id() const { return id_; }
   void send_signal(int number) const;
   bool ended();
   /// Its exit code, or 128 + the signal that ended it. Throws when it takes longer.

@@ -2,6 +2,8 @@
 #include <atomic>
 #include <chrono>
 #include <deque>
+#include <fstream>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -26,6 +28,18 @@ class FakeSession final : public api::RunningSession {
   void start() override {
     if (request_.script == "no-start") throw Error(ErrorKind::unavailable, "no haptic device is connected");
     set(api::SessionState::running);
+  }
+  void pause() override { hold(true); }
+  void go_on() override { hold(false); }
+  bool relabel(const api::SessionRequest& request) override {
+    const std::lock_guard lock(mutex_);
+    if (!api::is_live(status_.state)) return false;
+    labels_ = request;
+    return true;
+  }
+  api::SessionRequest labels() const {
+    const std::lock_guard lock(mutex_);
+    return labels_;
   }
   void stop() override {
     set(api::SessionState::stopped);
@@ -63,12 +77,19 @@ class FakeSession final : public api::RunningSession {
     const std::lock_guard lock(mutex_);
     return annotations_;
   }
+  void write_surface(const std::filesystem::path& ply, int stride) override {
+    std::ofstream(ply) << "ply of " << request_.id << " at " << stride;
+  }
+  void write_picture(const std::filesystem::path& png) override {
+    std::ofstream(png) << "png of " << request_.id;
+  }
   std::unique_ptr<net::WebSocketSession> subscribe(int stride) override;
   std::unique_ptr<net::WebSocketSession> connect_device() override;
 
   void set(api::SessionState state, const std::string& fault = {}) {
     const std::lock_guard lock(mutex_);
     status_.state = state;
+    status_.held &= api::is_live(state);
     status_.fault = fault;
   }
   const api::SessionRequest& request() const { return request_; }
@@ -83,7 +104,13 @@ class FakeSession final : public api::RunningSession {
   }
 
  private:
-  api::SessionRequest request_;
+  void hold(bool held) {
+    set(held ? api::SessionState::paused : api::SessionState::running);
+    const std::lock_guard lock(mutex_);
+    status_.held = held;
+  }
+
+  api::SessionRequest request_, labels_;
   mutable std::mutex mutex_;
   api::SessionStatus status_;
   std::vector<api::Annotation> annotations_;
@@ -129,6 +156,7 @@ class FakeFactory {
     return [this](const api::SessionRequest& request) -> std::unique_ptr<api::RunningSession> {
       if (request.case_id == "missing") throw Error(ErrorKind::not_found, "no case 'missing'");
       if (request.case_id == "unplanned") throw Error(ErrorKind::conflict, "case 'unplanned' has no plan");
+      if (refuse) refuse();
       auto session = std::make_unique<FakeSession>(request);
       const std::lock_guard lock(mutex_);
       made_.push_back(session.get());
@@ -147,6 +175,8 @@ class FakeFactory {
     const std::lock_guard lock(mutex_);
     return *made_.at(index);
   }
+
+  std::function<void()> refuse;  ///< called before each is made
 
  private:
   std::mutex mutex_;

@@ -1,5 +1,6 @@
 #pragma once
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -17,7 +18,7 @@ namespace ream::test {
 /// The real server on a free port, with the case `slab` and the loop on ordinary threads.
 class LiveServer {
  public:
-  LiveServer() {
+  explicit LiveServer(const std::function<void(api::ServerOptions&)>& adjust = {}) {
     const app::SessionHouse house{reaming_.data(), 1, "cpu", sim::Realtime::off};
     std::filesystem::create_directories(app::sessions_folder(house.data));
     std::filesystem::create_directories(house.data / "scripts");
@@ -36,6 +37,7 @@ class LiveServer {
       throw Error(ErrorKind::unavailable, "no replays in this test");
     };
     options.prepare = [] {};
+    if (adjust) adjust(options);
     server_ = std::make_unique<api::Server>(std::move(options));
     server_->start();
     until("the server to be ready", [this] { return http_request(port(), "GET", "/readyz").status == 200; });

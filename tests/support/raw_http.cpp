@@ -53,9 +53,15 @@ RawSocket::RawSocket(uint16_t port, int receive_buffer_bytes) : socket_(::socket
 
 RawSocket::~RawSocket() { ::close(socket_); }
 
+long RawSocket::read_some(char* into, size_t bytes) { return ::recv(socket_, into, bytes, 0); }
+
+long RawSocket::write_some(const char* from, size_t bytes) {
+  return ::send(socket_, from, bytes, MSG_NOSIGNAL);
+}
+
 bool RawSocket::try_send(const std::string& bytes) {
   for (size_t sent = 0; sent < bytes.size();) {
-    const ssize_t n = ::send(socket_, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
+    const long n = write_some(bytes.data() + sent, bytes.size() - sent);
     if (n <= 0) return false;
     sent += static_cast<size_t>(n);
   }
@@ -70,7 +76,7 @@ void RawSocket::end_sending() { ::shutdown(socket_, SHUT_WR); }
 
 bool RawSocket::fill() {
   char chunk[65536];
-  const ssize_t n = ::recv(socket_, chunk, sizeof chunk, 0);
+  const long n = read_some(chunk, sizeof chunk);
   if (n < 0 && errno != ECONNRESET) fail("receive");
   if (n <= 0) return false;
   buffer_.append(chunk, static_cast<size_t>(n));
@@ -116,6 +122,11 @@ HttpReply receive_reply(RawSocket& socket, bool has_body) {
 HttpReply http_request(uint16_t port, const std::string& method, const std::string& target,
                        const std::string& body, const std::map<std::string, std::string>& headers) {
   RawSocket socket(port);
+  return http_request(socket, port, method, target, body, headers);
+}
+
+HttpReply http_request(RawSocket& socket, uint16_t port, const std::string& method, const std::string& target,
+                       const std::string& body, const std::map<std::string, std::string>& headers) {
   std::map<std::string, std::string> all = {{"Host", "127.0.0.1:" + std::to_string(port)},
                                             {"Connection", "close"}};
   if (!body.empty() || method == "POST") all["Content-Length"] = std::to_string(body.size());
@@ -127,20 +138,24 @@ HttpReply http_request(uint16_t port, const std::string& method, const std::stri
 
 RawWebSocket::RawWebSocket(uint16_t port, const std::string& target,
                            const std::map<std::string, std::string>& headers, int receive_buffer_bytes)
-    : socket_(port, receive_buffer_bytes) {
+    : RawWebSocket(std::make_unique<RawSocket>(port, receive_buffer_bytes), port, target, headers) {}
+
+RawWebSocket::RawWebSocket(std::unique_ptr<RawSocket> socket, uint16_t port, const std::string& target,
+                           const std::map<std::string, std::string>& headers)
+    : socket_(std::move(socket)) {
   std::map<std::string, std::string> all = {{"Host", "127.0.0.1:" + std::to_string(port)},
                                             {"Upgrade", "websocket"},
                                             {"Connection", "Upgrade"},
                                             {"Sec-WebSocket-Version", "13"},
                                             {"Sec-WebSocket-Key", "dGhlIHNhbXBsZSBub25jZQ=="}};
   for (const auto& [name, value] : headers) all[name] = value;
-  socket_.send("GET " + target + " HTTP/1.1\r\n" + header_lines(all) + "\r\n");
-  handshake_ = receive_reply(socket_);
+  socket_->send("GET " + target + " HTTP/1.1\r\n" + header_lines(all) + "\r\n");
+  handshake_ = receive_reply(*socket_);
 }
 
-void RawWebSocket::send_frame(int opcode, const std::string& payload) {
+void RawWebSocket::send_frame(int opcode, const std::string& payload, bool final) {
   if (payload.size() > 65535) throw std::runtime_error("the test client sends at most 65535 bytes a message");
-  std::string frame(1, static_cast<char>(0x80 | opcode));
+  std::string frame(1, static_cast<char>((final ? 0x80 : 0) | opcode));
   if (payload.size() < 126) {
     frame += static_cast<char>(0x80 | payload.size());
   } else {
@@ -151,7 +166,7 @@ void RawWebSocket::send_frame(int opcode, const std::string& payload) {
   const char mask[4] = {0x12, 0x34, 0x56, 0x78};
   frame.append(mask, 4);
   for (size_t i = 0; i < payload.size(); ++i) frame += static_cast<char>(payload[i] ^ mask[i % 4]);
-  socket_.send(frame);
+  socket_->send(frame);
 }
 
 void RawWebSocket::send_binary(const std::string& payload) { send_frame(2, payload); }
@@ -162,17 +177,17 @@ void RawWebSocket::send_close(uint16_t code) {
 
 RawWebSocket::Message RawWebSocket::receive() {
   for (;;) {
-    const std::string head = socket_.receive(2);
+    const std::string head = socket_->receive(2);
     Message message;
     message.opcode = head[0] & 0x0f;
     uint64_t size = static_cast<unsigned char>(head[1]) & 0x7f;
     const int more = size == 126 ? 2 : size == 127 ? 8 : 0;
     if (more > 0) {
       size = 0;
-      for (const char byte : socket_.receive(static_cast<size_t>(more)))
+      for (const char byte : socket_->receive(static_cast<size_t>(more)))
         size = size << 8 | static_cast<unsigned char>(byte);
     }
-    message.payload = socket_.receive(size);
+    message.payload = socket_->receive(size);
     if (message.opcode == 9)
       send_frame(10, message.payload);
     else

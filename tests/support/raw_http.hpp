@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,7 +14,7 @@ namespace ream::test {
 class RawSocket {
  public:
   explicit RawSocket(uint16_t port, int receive_buffer_bytes = 0);
-  ~RawSocket();
+  virtual ~RawSocket();
   RawSocket(const RawSocket&) = delete;
   RawSocket& operator=(const RawSocket&) = delete;
 
@@ -28,6 +29,12 @@ class RawSocket {
   std::string receive_all();
   /// Bytes up to and including `mark`.
   std::string receive_until(const std::string& mark);
+
+ protected:
+  /// As recv and send of the system.
+  virtual long read_some(char* into, size_t bytes);
+  virtual long write_some(const char* from, size_t bytes);
+  int descriptor() const { return socket_; }
 
  private:
   bool fill();
@@ -46,6 +53,8 @@ struct HttpReply {
 HttpReply receive_reply(RawSocket& socket, bool has_body = true);
 
 /// One request on a connection of its own.
+HttpReply http_request(RawSocket& socket, uint16_t port, const std::string& method, const std::string& target,
+                       const std::string& body = {}, const std::map<std::string, std::string>& headers = {});
 HttpReply http_request(uint16_t port, const std::string& method, const std::string& target,
                        const std::string& body = {}, const std::map<std::string, std::string>& headers = {});
 
@@ -54,25 +63,28 @@ class RawWebSocket {
  public:
   RawWebSocket(uint16_t port, const std::string& target,
                const std::map<std::string, std::string>& headers = {}, int receive_buffer_bytes = 0);
+  /// Over a socket that is connected to `port`.
+  RawWebSocket(std::unique_ptr<RawSocket> socket, uint16_t port, const std::string& target,
+               const std::map<std::string, std::string>& headers = {});
 
   /// 101 when open.
   const HttpReply& handshake() const { return handshake_; }
   void send_binary(const std::string& payload);
   void send_close(uint16_t code);
+  /// One masked frame of at most 65535 bytes.
+  void send_frame(int opcode, const std::string& payload, bool final = true);
 
   struct Message {
-    int opcode = 0;  ///< 2 binary, 8 close, 9 ping
+    int opcode = 0;  ///< 1 text, 2 binary, 8 close, 9 ping
     std::string payload;
     std::optional<uint16_t> close_code() const;
   };
   /// The next frame that is not a ping.
   Message receive();
-  RawSocket& socket() { return socket_; }
+  RawSocket& socket() { return *socket_; }
 
  private:
-  void send_frame(int opcode, const std::string& payload);
-
-  RawSocket socket_;
+  std::unique_ptr<RawSocket> socket_;
   HttpReply handshake_;
 };
 

@@ -3,10 +3,13 @@
 
 #include "core/file.hpp"
 #include "core/hash.hpp"
+#include "support/places.hpp"
 
 namespace ream::test {
 
-inline nlohmann::json recording_manifest() { return read_json_file(REAM_SOURCE_DIR "/proto/recording.json"); }
+inline nlohmann::json recording_manifest() {
+  return read_json_file(source_folder() + "/proto/recording.json");
+}
 
 /// Of all that decides bytes: codes, columns, the order, names, types and revisions of fields. Words about
 /// them do not count.
@@ -24,11 +27,11 @@ inline std::string structure_hash(const nlohmann::json& manifest) {
 
 /// Revision to structure_hash() of each manifest that files have been written with.
 inline nlohmann::json recorded_structures() {
-  return read_json_file(REAM_SOURCE_DIR "/proto/golden/recording_structures.json");
+  return read_json_file(source_folder() + "/proto/golden/recording_structures.json");
 }
 
 inline std::filesystem::path golden_recording(uint32_t revision) {
-  return std::filesystem::path(REAM_SOURCE_DIR "/proto/golden") /
+  return std::filesystem::path(source_folder() + "/proto/golden") /
          ("recording-" + std::to_string(revision) + ".ream");
 }
 

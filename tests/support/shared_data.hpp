@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdlib>
 #include <filesystem>
+#include "support/places.hpp"
 
 namespace ream::test {
 
@@ -10,7 +11,7 @@ inline std::filesystem::path shared_data(const std::filesystem::path& relative) 
   const char* given = std::getenv("REAM_SHARED_DATA");
   const std::filesystem::path folder =
       given != nullptr ? std::filesystem::path(given)
-                       : std::filesystem::path(REAM_SOURCE_DIR).parent_path() / "shared" / "data";
+                       : std::filesystem::path(source_folder()).parent_path() / "shared" / "data";
   return folder / relative;
 }
 

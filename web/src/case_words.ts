@@ -6,8 +6,6 @@ import type { Guide, Job, SeedName, Side, Stage, WalchClass } from './wire/case_
 
 export const caseWords = {
   cases: 'Cases',
-  live: 'Live simulator',
-  allCases: 'All cases',
   sides: { left: 'Left shoulder', right: 'Right shoulder' } satisfies Record<Side, string>,
   sideShort: { left: 'Left', right: 'Right' } satisfies Record<Side, string>,
   stages: { ct: 'CT only', segmented: 'Bone marked', built: 'Ready to ream' } satisfies Record<Stage, string>,

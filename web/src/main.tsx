@@ -1,5 +1,6 @@
 import 'uplot/dist/uPlot.min.css';
 import './style.css';
+import './forms.css';
 
 import { effect, type Signal, signal } from '@preact/signals';
 import { render } from 'preact';
@@ -7,6 +8,7 @@ import { render } from 'preact';
 import { publishDebugReadout } from './debug_readout';
 import { App } from './pages/app';
 import { BoneScene } from './scene/scene';
+import { Identity } from './state/identity';
 import { Practice } from './state/practice';
 import { PracticeStore } from './state/practice_store';
 import { browserWindow, letGoWhenLeft } from './state/practice_window';
@@ -14,17 +16,23 @@ import { isActive } from './state/choose_session';
 import { addressOfReplay, replayInAddress } from './state/replay_address';
 import { followRoute, type Route, routeInAddress } from './state/route';
 import { Store } from './state/store';
+import { linkInAddress, takeLinkFromAddress } from './state/watch_link';
 import { Watcher } from './state/watcher';
 import { Api } from './wire/api';
 import { WorkerDeviceSocket } from './wire/device_socket';
+import { LoginApi } from './wire/login_api';
 import { WorkerStreamSocket } from './wire/stream_socket';
 import { words } from './words';
 
 function main(root: HTMLElement): void {
+  const linkSecret = takeLinkFromAddress();
+  const identity = new Identity(new LoginApi(window.location.origin), () => window.location.reload());
   const store = new Store();
   const scene = new BoneScene();
   const api = new Api(window.location.origin);
-  const watcher = new Watcher(store, api, new WorkerStreamSocket(), scene);
+  const watcher = new Watcher(store, api, new WorkerStreamSocket(), scene, {
+    makesSession: () => !identity.hasUsers.value,
+  });
   const practiceStore = new PracticeStore(store);
   const practice = new Practice(
     practiceStore,
@@ -42,15 +50,44 @@ function main(root: HTMLElement): void {
   effect(() => scene.setAim(practiceStore.plan.value, practiceStore.hand.place.value));
   publishDebugReadout(store, practiceStore, scene);
   const route = signal(routeInAddress(window.location.hash));
-  render(<App route={route} live={{ store, watcher, scene, practice, practiceStore }} />, root);
+  render(<App route={route} live={{ store, watcher, scene, practice, practiceStore }} identity={identity} />, root);
   followReplayAddress(store, watcher, route);
+  followViewerLinks(identity);
   followRoute(route);
-  const atFirst = route.value.kind === 'live' ? goOnSteering(api, store, practice) : Promise.resolve();
-  void atFirst.finally(() => {
-    effect(() => {
-      if (route.value.kind === 'live') watcher.start();
-      else if (practiceStore.sessionId.peek() !== null) practice.leave();
+  void identity.find(linkSecret);
+  watchWhenKnown(identity, route, () => goOnSteering(api, store, practice), { watcher, practice, practiceStore });
+}
+
+/** Nothing is watched and nothing steered before it is known who uses the page, and from when that has ended. */
+function watchWhenKnown(
+  identity: Identity,
+  route: Signal<Route>,
+  goOn: () => Promise<void>,
+  { watcher, practice, practiceStore }: { watcher: Watcher; practice: Practice; practiceStore: PracticeStore },
+): void {
+  let begun = false;
+  effect(() => {
+    const known = identity.phase.value === 'known';
+    const live = route.value.kind === 'live';
+    if (!known || !live) {
+      if (practiceStore.sessionId.peek() !== null) practice.leave();
+      if (!known) watcher.rest();
+      return;
+    }
+    const first = !begun && identity.may.peek().ream;
+    begun = true;
+    void (first ? goOn() : Promise.resolve()).finally(() => {
+      if (identity.phase.peek() === 'known') watcher.start();
     });
+  });
+}
+
+/** A viewer link that is opened where the page is open already. */
+function followViewerLinks(identity: Identity): void {
+  window.addEventListener('hashchange', () => {
+    if (linkInAddress(window.location.hash) === null) return;
+    const secret = takeLinkFromAddress();
+    if (secret !== null) void identity.useLink(secret);
   });
 }
 

@@ -11,6 +11,7 @@ namespace ream::app {
 struct GlobalOptions {
   bool json = false;           ///< machine-readable output on stdout
   std::filesystem::path data;  ///< --data; empty: see data_folder()
+  std::string db;              ///< --db as given; see open_database()
 };
 
 /// Each adds its sub-command; `options` must outlive `app`. The work is done in the command's callback and
@@ -26,6 +27,9 @@ void add_export_command(CLI::App& app, GlobalOptions& options);
 void add_list_command(CLI::App& app, GlobalOptions& options);
 void add_replay_command(CLI::App& app, GlobalOptions& options);
 void add_devices_command(CLI::App& app, GlobalOptions& options);
+void add_user_command(CLI::App& app, GlobalOptions& options);
+void add_backup_command(CLI::App& app, GlobalOptions& options);
+void add_restore_command(CLI::App& app, GlobalOptions& options);
 void add_bench_command(CLI::App& app, GlobalOptions& options);
 
 }  // namespace ream::app

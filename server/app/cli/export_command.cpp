@@ -10,6 +10,7 @@
 #include "app/session_bundle.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "geometry/mesh_export.hpp"
 
 namespace ream::app {
 namespace {
@@ -25,10 +26,10 @@ void export_session(const Options& options, const GlobalOptions& global) {
   const fs::path data = data_folder(global.data);
   const fs::path file = recording_path(options.session, data);
   const std::string kind = options.out.extension();
-  if (kind != ".csv" && kind != ".ply" && kind != ".zip")
-    throw Error(ErrorKind::usage,
-                "--out " + options.out.string() +
-                    " must end in .csv (force trace), .ply (reamed surface) or .zip (bundle)");
+  if (kind != ".csv" && kind != ".png" && kind != ".zip" && !is_mesh_file_ending(kind))
+    throw Error(ErrorKind::usage, "--out " + options.out.string() +
+                                      " must end in .csv (force trace), .ply, .stl or .glb (reamed surface), "
+                                      ".png (picture) or .zip (bundle)");
   if (kind == ".zip") {
     write_session_bundle(file, options.case_name, data, options.out);
   } else {
@@ -38,7 +39,10 @@ void export_session(const Options& options, const GlobalOptions& global) {
       export_trace(recording, options.out);
     } else {
       case_::Case bone_case = case_of(recording, options.case_name, data);
-      export_surface(recording, bone_case, options.out);
+      if (kind == ".png")
+        export_picture(recording, bone_case, options.out);
+      else
+        export_surface(recording, bone_case, options.out);
     }
   }
   if (global.json)
@@ -57,9 +61,10 @@ void add_export_command(CLI::App& app, GlobalOptions& global) {
                    "Id of the data folder, a folder with recording.ream, or such a file")
       ->required();
   command
-      ->add_option("--out", options->out,
-                   "FILE.csv: one row a tick; FILE.ply: the reamed surface; FILE.zip: session and case, for "
-                   "ream import on another machine")
+      ->add_option(
+          "--out", options->out,
+          "FILE.csv: one row a tick; FILE.ply, .stl or .glb: the reamed surface; FILE.png: a picture of "
+          "it; FILE.zip: session and case, for ream import on another machine")
       ->required();
   command->add_option("--case", options->case_name,
                       "Case folder, where the recording's case is not in the data folder");

@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <functional>
@@ -10,6 +8,7 @@
 #include "app/cli/case_path.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/numbers.hpp"
+#include "app/cli/terminal_progress.hpp"
 #include "app/ct_source.hpp"
 #include "app/data_folder.hpp"
 #include "app/interrupt.hpp"
@@ -59,25 +58,6 @@ ct::ImportOptions parsed(const Options& options) {
   }
   return import;
 }
-
-/// Tells a terminal how far the work is, and ends it when asked to. Leaves an empty line behind.
-class TerminalProgress {
- public:
-  TerminalProgress() : terminal_(::isatty(STDERR_FILENO) != 0) {}
-  TerminalProgress(const TerminalProgress&) = delete;
-  TerminalProgress& operator=(const TerminalProgress&) = delete;
-  ~TerminalProgress() {
-    if (terminal_) std::cerr << start_of_empty_line;
-  }
-  void operator()(double share, std::string_view step) const {
-    throw_if_interrupted();
-    if (terminal_) std::cerr << start_of_empty_line << std::lround(100.0 * share) << " % " << step;
-  }
-
- private:
-  static constexpr const char* start_of_empty_line = "\r\x1b[K";
-  bool terminal_;
-};
 
 ct::Imported imported(const Options& options, const ct::ImportOptions& import,
                       const std::filesystem::path& out) {

@@ -5,9 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include "api/case_json.hpp"
+#include "api/index_upkeep.hpp"
 #include "api/session_archive.hpp"
 #include "app/cli/commands.hpp"
 #include "app/data_folder.hpp"
+#include "app/open_database.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"
@@ -68,9 +70,21 @@ void print_session(const nlohmann::json& row) {
             << " s\n";
 }
 
-void list(const std::string& what, const GlobalOptions& global) {
+struct Options {
+  std::string what;
+  bool rebuild_index = false;
+};
+
+void list(const Options& options, const GlobalOptions& global) {
   const fs::path data = data_folder(global.data);
-  const bool cases = what == "cases";
+  const bool cases = options.what == "cases";
+  if (options.rebuild_index) {
+    if (cases)
+      throw Error(ErrorKind::usage, "only sessions have an index; give list sessions --rebuild-index");
+    const size_t count =
+        api::rebuild_index(api::SessionArchive(sessions_folder(data)), *open_database(global.db, data));
+    log::info("the index of sessions is made anew: " + std::to_string(count));
+  }
   const nlohmann::json rows = cases ? listed_cases(data) : listed_sessions(data);
   if (global.json) {
     std::cout << rows.dump() << '\n';
@@ -82,12 +96,14 @@ void list(const std::string& what, const GlobalOptions& global) {
 }  // namespace
 
 void add_list_command(CLI::App& app, GlobalOptions& global) {
-  auto what = std::make_shared<std::string>();
+  auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("list", "List what is in the data folder");
-  command->add_option("what", *what, "cases or sessions")
+  command->add_option("what", options->what, "cases or sessions")
       ->required()
       ->check(CLI::IsMember({"cases", "sessions"}));
-  command->callback([what, &global] { list(*what, global); });
+  command->add_flag("--rebuild-index", options->rebuild_index,
+                    "Make the index of sessions in the database anew from their folders first");
+  command->callback([options, &global] { list(*options, global); });
 }
 
 }  // namespace ream::app

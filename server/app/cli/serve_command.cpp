@@ -1,8 +1,11 @@
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 #include "api/server.hpp"
@@ -10,16 +13,21 @@
 #include "app/ct_source.hpp"
 #include "app/data_folder.hpp"
 #include "app/device_registry.hpp"
+#include "app/export_session.hpp"
 #include "app/interrupt.hpp"
+#include "app/open_database.hpp"
 #include "app/reaming_session.hpp"
 #include "app/replay_session.hpp"
+#include "app/server_address.hpp"
 #include "app/session_recovery.hpp"
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/file_lock.hpp"
 #include "core/log.hpp"
 #include "ct/phantom_case.hpp"
 #include "ct/volume_io.hpp"
+#include "store/database_url.hpp"
 
 namespace ream::app {
 namespace {
@@ -27,12 +35,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double unpacking_share = 0.2;
+constexpr int most_days = 36500;
 
 struct Options {
-  std::string host = "127.0.0.1";
-  uint16_t port = 8080;
+  ServerAddress address;
   fs::path web;
   std::string backend = "auto", realtime = "try", device = "script";
+  std::optional<int> keep_sessions_days;
+  int keep_deleted_days = 30;
 };
 
 /// The built page: --web, else web/ beside the program's folder, else web/dist of the source tree it was
@@ -64,6 +74,37 @@ std::vector<std::string> device_names() {
   return names;
 }
 
+/// Makes nothing where there is no database yet.
+bool has_users(const std::string& db, const fs::path& data) {
+  const store::DatabaseUrl url = store::parse_database_url(database_url(db, data));
+  std::error_code failed;
+  if (!url.postgresql && !fs::exists(url.file, failed)) return false;
+  return access::Gatehouse(*open_database(db, data)).users.any();
+}
+
+/// An expiring link for people who only watch; empty while everybody may do everything.
+std::string viewer_link(access::Gatehouse& gatehouse, const std::string& url) {
+  if (!gatehouse.users.any()) return {};
+  access::NewCredential wanted;
+  wanted.name = "the server's own, at its start";
+  const auto issued = gatehouse.credentials.issue(access::CredentialKind::link, wanted);
+  return url + "/#watch=" + issued.secret.reveal();
+}
+
+/// The viewer link goes to a person or a program that asked for it, never into a file of logs.
+void tell_address(const std::string& url, access::Gatehouse& gatehouse, bool for_programs) {
+  if (for_programs) {
+    nlohmann::json told = {{"url", url}};
+    if (const std::string link = viewer_link(gatehouse, url); !link.empty()) told["viewer_link"] = link;
+    std::cout << told.dump() << std::endl;
+    return;
+  }
+  std::cout << "ream is at " << url << "  (Ctrl-C ends it)" << std::endl;
+  if (::isatty(STDOUT_FILENO) == 0) return;
+  if (const std::string link = viewer_link(gatehouse, url); !link.empty())
+    std::cout << "to watch, for 12 hours: " << link << std::endl;
+}
+
 void serve(const Options& options, const GlobalOptions& global) {
   SessionHouse house;
   house.data = data_folder(global.data);
@@ -72,13 +113,19 @@ void serve(const Options& options, const GlobalOptions& global) {
                                                  .count());
   house.backend = options.backend;
   house.realtime = realtime_from_text(options.realtime);
+  api::ServerOptions server_options;
+  server_options.web_folder = web_folder(options.web);
+  server_options.listen = listen_options(options.address, has_users(global.db, house.data));
+  server_options.database = open_database(global.db, house.data);
+  make_data_folder(house.data);
+  const auto alone = FileLock::attempt(serving_lock(house.data));
+  if (!alone)
+    throw Error(ErrorKind::conflict, "a server runs on " + house.data.string() +
+                                         "; stop it, or choose another folder with --data");
   make_writable_folder(sessions_folder(house.data));
   for (const std::string& line : recover_sessions(house.data)) log::warn(line);
   catch_interrupts();
 
-  api::ServerOptions server_options;
-  server_options.listen.host = options.host;
-  server_options.listen.port = options.port;
   server_options.cases_folder = cases_folder(house.data);
   server_options.data_folder = house.data;
   server_options.read_ct = [](const fs::path& file, const std::string& series_uid, const Progress& progress) {
@@ -87,7 +134,6 @@ void serve(const Options& options, const GlobalOptions& global) {
       return ct::read_ct(path, {series_uid, false}, part_of(progress, unpacking_share, 1.0));
     });
   };
-  server_options.web_folder = web_folder(options.web);
   server_options.sessions_folder = sessions_folder(house.data);
   server_options.make_session.make = [house](const api::SessionRequest& request) {
     return std::make_unique<ReamingSession>(house, request);
@@ -96,7 +142,10 @@ void serve(const Options& options, const GlobalOptions& global) {
                                                const std::string& reamer) {
     return std::make_unique<ReamingSession>(house, request, reamer);
   };
+  server_options.export_formats = export_formats(house.data);
   server_options.usual_device = options.device;
+  server_options.retention.keep_sessions_days = options.keep_sessions_days;
+  server_options.retention.keep_deleted_days = options.keep_deleted_days;
   server_options.make_replay = [house](const api::ReplayRequest& request) {
     return std::make_unique<ReplaySession>(house, request);
   };
@@ -104,13 +153,7 @@ void serve(const Options& options, const GlobalOptions& global) {
   api::Server server(std::move(server_options));
   server.start();
 
-  const std::string url =
-      "http://" + (options.host.find(':') == std::string::npos ? options.host : "[" + options.host + "]") +
-      ":" + std::to_string(server.port());
-  if (global.json)
-    std::cout << nlohmann::json{{"url", url}}.dump() << std::endl;
-  else
-    std::cout << "ream is at " << url << "  (Ctrl-C ends it)" << std::endl;
+  tell_address(server_url(options.address, server.port()), *server.gatehouse(), global.json);
   while (!interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   log::info("stopping: sessions end without force, recordings are closed");
   server.stop();
@@ -120,10 +163,18 @@ void serve(const Options& options, const GlobalOptions& global) {
 
 void add_serve_command(CLI::App& app, GlobalOptions& global) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
-      "serve", "Serve the page, the API and live sessions (loopback only until there are users)");
-  command->add_option("--host", options->host, "Loopback address to listen on")->capture_default_str();
-  command->add_option("--port", options->port, "Port; 0 takes any free one")->capture_default_str();
+  ServerAddress& address = options->address;
+  CLI::App* command = app.add_subcommand("serve", "Serve the page, the API and live sessions");
+  command->add_option("--host", address.host, "Address to listen on; others than loopback need users and TLS")
+      ->capture_default_str();
+  command->add_option("--port", address.port, "Port; 0 takes any free one")->capture_default_str();
+  command->add_option("--public-name", address.public_names,
+                      "Name by which others reach this machine; several may be given");
+  command->add_option("--tls-cert", address.certificate_chain,
+                      "The server's certificate with its chain, PEM");
+  command->add_option("--tls-key", address.key, "Its key, PEM");
+  command->add_flag("--insecure", address.insecure,
+                    "Let others log in without TLS, where something else encrypts");
   command->add_option("--web", options->web, "Folder of the built page");
   command->add_option("--backend", options->backend, "auto, cpu, opencl or opencl:N")->capture_default_str();
   command->add_option("--device", options->device, "Device of sessions that name none")
@@ -131,6 +182,15 @@ void add_serve_command(CLI::App& app, GlobalOptions& global) {
       ->capture_default_str();
   command->add_option("--realtime", options->realtime, "Real-time priority of the haptic loop")
       ->check(CLI::IsMember({"require", "try", "off"}))
+      ->capture_default_str();
+  command
+      ->add_option("--keep-sessions-days", options->keep_sessions_days,
+                   "Delete sessions that are older; default: never")
+      ->check(CLI::Range(1, most_days));
+  command
+      ->add_option("--keep-deleted-days", options->keep_deleted_days,
+                   "Keep deleted sessions for so long, so that they can be restored; 0: not at all")
+      ->check(CLI::Range(0, most_days))
       ->capture_default_str();
   command->callback([options, &global] { serve(*options, global); });
 }

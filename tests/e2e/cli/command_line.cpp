@@ -1,4 +1,5 @@
 #include "e2e/cli/command_line.hpp"
+#include "support/places.hpp"
 
 #include <algorithm>
 
@@ -14,7 +15,7 @@ constexpr auto longest_run = std::chrono::seconds(240);
 }  // namespace
 
 std::unique_ptr<ChildProcess> CommandLine::start(const Words& arguments, const std::string& name) {
-  Words command = {std::string(REAM_BINARY_DIR) + "/ream"};
+  Words command = {build_folder() + "/ream"};
   command.insert(command.end(), arguments.begin(), arguments.end());
   return start_program(command, name);
 }
@@ -29,9 +30,11 @@ std::unique_ptr<ChildProcess> CommandLine::start_program(const Words& command, c
                          {"PATH", "/usr/bin:/bin"},
                          // Graphics and OpenCL libraries keep memory of their own until the end.
                          {"ASAN_OPTIONS", "detect_leaks=0"}};
+  setting.environment.insert(environment_.begin(), environment_.end());
   setting.folder = folder();
   setting.out = printed_.path() / (name + ".out");
   setting.error = printed_.path() / (name + ".err");
+  setting.in = input_;
   for (const fs::path& file : {setting.out, setting.error}) write_file_atomically(file, std::string_view());
   return std::make_unique<ChildProcess>(setting);
 }
@@ -45,6 +48,13 @@ Outcome CommandLine::run(const Words& arguments) {
   outcome.exit_code = start(arguments, "run")->wait(longest_run);
   outcome.out = printed("run.out");
   outcome.error = printed("run.err");
+  return outcome;
+}
+
+Outcome CommandLine::run_with_input(const Words& arguments, const std::string& input) {
+  input_ = printed_.write("run.in", input);
+  Outcome outcome = run(arguments);
+  input_ = "/dev/null";
   return outcome;
 }
 

@@ -20,6 +20,8 @@ class CommandLine : public testing::Test {
   using Words = std::vector<std::string>;
 
   Outcome run(const Words& arguments);
+  /// run() with that on stdin.
+  Outcome run_with_input(const Words& arguments, const std::string& input);
   /// run() that must succeed.
   Outcome succeed(const Words& arguments);
   /// run() of a --json command that must succeed: what it printed.
@@ -46,6 +48,8 @@ class CommandLine : public testing::Test {
   std::vector<std::string> tree() const;
 
   TemporaryFolder folder_, printed_;
+  std::filesystem::path input_ = "/dev/null";       ///< stdin of what is started
+  std::map<std::string, std::string> environment_;  ///< more of it
 };
 
 }  // namespace ream::test

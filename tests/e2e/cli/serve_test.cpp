@@ -1,48 +1,13 @@
 #include <signal.h>
 
-#include <functional>
-#include <thread>
-
 #include "core/hash.hpp"
-#include "e2e/cli/command_line.hpp"
+#include "e2e/cli/serve_fixture.hpp"
 #include "record/recording.hpp"
-#include "support/raw_http.hpp"
 
 namespace ream::test {
 namespace {
 
 using nlohmann::json;
-
-class Serve : public CommandLine {
- protected:
-  void SetUp() override { write("web/index.html", "<!doctype html><title>page</title>"); }
-
-  /// Starts a server on any free port; returns when it says where it is.
-  void serve() {
-    server_ = start({"serve", "--port", "0", "--web", "web", "--json"}, "server");
-    until("the server says where it is", [&] { return printed("server.out").ends_with('\n'); });
-    const std::string url = json::parse(printed("server.out")).at("url");
-    port_ = static_cast<uint16_t>(std::stoi(url.substr(url.rfind(':') + 1)));
-  }
-
-  void until(const std::string& what, const std::function<bool()>& reached) {
-    for (int i = 0; i < 6000 && !server_->ended(); ++i) {
-      if (reached()) return;
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    throw std::runtime_error("waited in vain until " + what + "\n" + printed("server.err"));
-  }
-
-  json request(int status, const std::string& method, const std::string& target,
-               const std::string& body = {}) {
-    const HttpReply reply = http_request(port_, method, target, body);
-    EXPECT_EQ(reply.status, status) << method << ' ' << target << '\n' << reply.body;
-    return json::parse(reply.body);
-  }
-
-  std::unique_ptr<ChildProcess> server_;
-  uint16_t port_ = 0;
-};
 
 TEST_F(Serve, ToldToEndItEndsTheSessionWholeAndQuickly) {
   serve();
@@ -75,7 +40,10 @@ TEST_F(Serve, APortInUseAndAddressesForOthersAreRefused) {
   serve();
   until("it is ready", [&] { return http_request(port_, "GET", "/readyz").status == 200; });
   const std::string port = std::to_string(port_);
-  refuse(1, "port " + port, {"serve", "--port", port, "--web", "web", "--json"});
+  succeed({"user", "list", "--data", "other"});
+  write("other/serving.lock", "");
+  std::filesystem::create_directories(folder() / "other/sessions");
+  refuse(1, "port " + port, {"serve", "--port", port, "--web", "web", "--json", "--data", "other"});
   refuse(2, "--host 0.0.0.0", {"serve", "--port", "0", "--host", "0.0.0.0", "--web", "web"});
   refuse(2, "--port", {"serve", "--port", "99999", "--web", "web"});
   refuse(1, "nowhere", {"serve", "--port", "0", "--web", "nowhere"});
@@ -83,6 +51,43 @@ TEST_F(Serve, APortInUseAndAddressesForOthersAreRefused) {
   EXPECT_EQ(http_request(port_, "GET", "/healthz").status, 200) << "the first server goes on";
   server_->send_signal(SIGINT);
   EXPECT_EQ(server_->wait(std::chrono::seconds(20)), 0);
+}
+
+TEST_F(Serve, ADataFolderHasOneServer) {
+  serve();
+  until("it is ready", [&] { return http_request(port_, "GET", "/readyz").status == 200; });
+  refuse(1, "a server runs on " + (folder() / "data").string(), {"serve", "--port", "0", "--web", "web"});
+  EXPECT_EQ(http_request(port_, "GET", "/healthz").status, 200) << "the first server goes on";
+  server_->send_signal(SIGKILL);
+  server_->wait(std::chrono::seconds(20));
+  serve();
+  server_->send_signal(SIGTERM);
+  EXPECT_EQ(server_->wait(std::chrono::seconds(20)), 0);
+}
+
+TEST_F(Serve, DatabasesAndFoldersThatCannotBeUsedAreNamed) {
+  std::filesystem::create_directories(folder() / "a folder");
+  write("no database.db", "hello");
+  const auto mode = std::filesystem::status(folder() / "a folder").permissions();
+  for (const Words& command : {Words{"serve", "--port", "0", "--web", "web"}, Words{"user", "list"},
+                               Words{"list", "sessions"}, Words{"backup", "a.zip"}}) {
+    const auto with = [&](const std::string& url) {
+      Words words = command;
+      words.insert(words.end(), {"--db", url});
+      return words;
+    };
+    refuse(2, "sqlite:FILE", with("ream.db"));
+    refuse(2, "sqlite:FILE", with("mysql://me@127.0.0.1/ream"));
+    refuse(2, "REAM_DB", with("postgresql://me:secret@127.0.0.1/ream"));
+    if (command.front() == "list" || command.front() == "backup") continue;
+    refuse(2, "a folder is no file", with("sqlite:a folder"));
+    refuse(1, "no database.db", with("sqlite:no database.db"));
+    refuse(1, "not/there", with("sqlite:not/there/ream.db"));
+    refuse(1, "postgresql://127.0.0.1:1/ream does not answer", with("postgresql://me@127.0.0.1:1/ream"));
+  }
+  EXPECT_EQ(std::filesystem::status(folder() / "a folder").permissions(), mode);
+  refuse(1, "--data", {"serve", "--port", "0", "--web", "web", "--data", "web/index.html/data"});
+  refuse(1, "--data", {"user", "list", "--data", "web/index.html"});
 }
 
 TEST_F(Serve, BadRequestsAreProblems) {

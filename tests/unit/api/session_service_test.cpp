@@ -47,14 +47,25 @@ TEST_F(SessionServiceTest, UnknownIdIsNotFound) {
   expect_error(ErrorKind::not_found, "nobody", [&] { service.subscribe("nobody", 1); });
 }
 
-TEST_F(SessionServiceTest, ListsNewestFirstUnderDifferentIds) {
-  std::vector<std::string> ids{create(), create(), create()};
-  std::vector<std::string> listed;
-  for (const SessionRecord& record : service.list()) listed.insert(listed.begin(), record.request.id);
+TEST_F(SessionServiceTest, ListsAllUnderDifferentIds) {
+  const std::set<std::string> ids{create(), create(), create()};
+  std::set<std::string> listed;
+  for (const SessionRecord& record : service.list({}).sessions) listed.insert(record.request.id);
   EXPECT_EQ(listed, ids);
-  EXPECT_EQ(std::set<std::string>(ids.begin(), ids.end()).size(), 3u);
+  EXPECT_EQ(ids.size(), 3u);
   for (const std::string& id : ids)
     EXPECT_EQ(id.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789"), std::string::npos) << id;
+}
+
+TEST_F(SessionServiceTest, TheirMomentsOfCreationAreInTheOrderOfCreation) {
+  std::string newest;
+  for (int i = 0; i < 200; ++i) {
+    const SessionRecord made = service.create(demo());
+    EXPECT_GT(made.request.created_utc, newest);
+    EXPECT_EQ(made.request.created_utc.size(), std::string("2025-03-01T12:00:00.250Z").size());
+    newest = made.request.created_utc;
+    service.stop(made.request.id);
+  }
 }
 
 TEST_F(SessionServiceTest, NoMoreLiveSessionsThanStated) {
@@ -127,6 +138,64 @@ TEST_F(SessionServiceTest, ManyThreadsNeverExceedTheLimit) {
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(made, 3);
   EXPECT_EQ(refused, 5);
+}
+
+TEST_F(SessionServiceTest, ResetIsAnotherAttemptThatRunsIfTheOldOneDid) {
+  SessionRequest wanted = demo();
+  wanted.trainee = "Anna";
+  wanted.keep = true;
+  const std::string first = service.create(wanted).request.id;
+  create();
+  create();  // as many as may be live: the old one makes room
+  service.start(first);
+  auto viewer = service.subscribe(first, 1);
+  EXPECT_FALSE(viewer->farewell());
+  const SessionRecord second = service.reset(first);
+  EXPECT_EQ(second.status.state, SessionState::running);
+  EXPECT_EQ(second.request.attempt, 2);
+  EXPECT_EQ(second.request.reset_of, first);
+  EXPECT_EQ(second.request.trainee, "Anna");
+  EXPECT_FALSE(second.request.keep);
+  EXPECT_EQ(service.get(first).status.state, SessionState::stopped);
+  EXPECT_EQ(service.get(first).request.followed_by, second.request.id);
+  const auto farewell = viewer->farewell();
+  ASSERT_TRUE(farewell);
+  EXPECT_EQ(farewell->code, 4001);
+  EXPECT_NE(farewell->words.find(second.request.id), std::string::npos);
+  EXPECT_FALSE(service.subscribe(first, 1)->farewell()) << "who comes later may look at what is left";
+  expect_error(ErrorKind::conflict, second.request.id, [&] { service.reset(first); });
+  service.stop(second.request.id);
+  const SessionRecord third = service.reset(second.request.id);
+  EXPECT_EQ(third.request.attempt, 3);
+  EXPECT_EQ(third.status.state, SessionState::created) << "the old one did not run";
+}
+
+TEST_F(SessionServiceTest, AResetThatCannotBeMadeLeavesTheSessionAsItWas) {
+  const std::string id = create();
+  service.start(id);
+  factory.refuse = [&] {
+    EXPECT_TRUE(service.get(id).status.held) << "the hand holds nothing meanwhile";
+    throw Error(ErrorKind::unavailable, "no memory");
+  };
+  expect_error(ErrorKind::unavailable, "no memory", [&] { service.reset(id); });
+  EXPECT_EQ(service.get(id).status.state, SessionState::running);
+  service.pause(id);
+  expect_error(ErrorKind::unavailable, "no memory", [&] { service.reset(id); });
+  EXPECT_TRUE(service.get(id).status.held);
+  factory.refuse = nullptr;
+  EXPECT_EQ(service.reset(id).status.state, SessionState::running);
+}
+
+TEST_F(SessionServiceTest, PausesOnlyWhatIsUnderWay) {
+  const std::string id = create();
+  expect_error(ErrorKind::conflict, "only a running session", [&] { service.pause(id); });
+  service.start(id);
+  factory.made(0).set(SessionState::paused);
+  expect_error(ErrorKind::conflict, "by its own device", [&] { service.start(id); });
+  EXPECT_TRUE(service.pause(id).status.held);
+  EXPECT_FALSE(service.start(id).status.held);
+  service.stop(id);
+  expect_error(ErrorKind::conflict, "is stopped", [&] { service.pause(id); });
 }
 
 }  // namespace

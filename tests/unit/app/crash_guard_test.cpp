@@ -1,4 +1,5 @@
 #include "app/crash_guard.hpp"
+#include "support/places.hpp"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -18,7 +19,7 @@ class CrashGuard : public testing::Test {
  protected:
   std::unique_ptr<ChildProcess> start(const std::string& how) {
     ChildProcess::Setting setting;
-    setting.command = {std::string(REAM_BINARY_DIR) + "/endangered_program", how};
+    setting.command = {build_folder() + "/endangered_program", how};
     setting.environment = {{"TMPDIR", folder_.path().string()}, {"HOME", folder_.path().string()}};
     setting.folder = folder_.path();
     setting.out = folder_.path() / "out";

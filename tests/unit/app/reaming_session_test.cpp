@@ -219,5 +219,84 @@ TEST_F(ReamingSessionTest, AnAbandonedHealthyRecordingKeepsItsRemarks) {
   EXPECT_EQ(recording.events().at(0).words, "why");
 }
 
+TEST_F(ReamingSessionTest, APauseIsARecordedCauseAndTheSessionIsStillProven) {
+  const std::string id = service.create(wanted()).request.id;
+  service.start(id);
+  run_for_a_while(id, 400);
+  const api::SessionStatus paused = service.pause(id).status;
+  EXPECT_EQ(paused.state, api::SessionState::paused);
+  EXPECT_TRUE(paused.held);
+  const double removed = service.metrics(id).at("removed_volume_mm3");
+  run_for_a_while(id, paused.tick + 200);
+  EXPECT_EQ(service.metrics(id).at("removed_volume_mm3").get<double>(), removed);
+  test::expect_error(ErrorKind::conflict, "is paused already", [&] { service.pause(id); });
+  const api::SessionStatus on = service.start(id).status;
+  EXPECT_EQ(on.state, api::SessionState::running);
+  EXPECT_FALSE(on.held);
+  run_for_a_while(id, on.tick + 300);
+  service.stop(id);
+
+  const fs::path path = folder(id) / "recording.ream";
+  const record::Recording recording(path);
+  std::vector<std::string> kinds;
+  for (const record::ops::Event& event : recording.events()) kinds.push_back(event.kind);
+  EXPECT_EQ(kinds, (std::vector<std::string>{"paused", "continued"}));
+  const VerifyResult verified = reaming.verify(path);
+  EXPECT_FALSE(verified.difference) << difference_words(verified.ticks, *verified.difference);
+  EXPECT_EQ(verified.ticks, recording.tick_count());
+}
+
+TEST_F(ReamingSessionTest, AnotherAttemptBeginsWithIntactBoneAndTheSameLabels) {
+  api::SessionRequest request = wanted();
+  request.trainee_id = "anna";
+  request.trainee = "Anna";
+  request.study = "pilot";
+  request.participant = "P07";
+  const std::string first = service.create(request).request.id;
+  service.start(first);
+  run_for_a_while(first, 400);
+  const api::SessionRecord second = service.reset(first);
+  EXPECT_EQ(second.status.state, api::SessionState::running);
+  EXPECT_EQ(second.request.reset_of, first);
+  EXPECT_EQ(second.request.attempt, 2);
+  EXPECT_EQ(service.get(first).status.state, api::SessionState::stopped);
+  run_for_a_while(second.request.id, 200);
+  service.stop(second.request.id);
+  const nlohmann::json before = read_json_file(folder(first) / "session.json"),
+                       after = read_json_file(folder(second.request.id) / "session.json");
+  EXPECT_EQ(before.at("followed_by"), second.request.id);
+  EXPECT_FALSE(before.contains("attempt"));
+  EXPECT_EQ(after.at("attempt"), 2);
+  EXPECT_EQ(after.at("reset_of"), first);
+  for (const char* key : {"trainee_id", "trainee", "study", "participant", "start_grid_hash", "force_scale"})
+    EXPECT_EQ(before.at(key), after.at(key)) << key;
+  for (const std::string& id : {first, second.request.id})
+    EXPECT_FALSE(reaming.verify(folder(id) / "recording.ream").difference) << id;
+}
+
+TEST_F(ReamingSessionTest, LabelsAreWrittenDownWhileItRunsAndAtTheEnd) {
+  const std::string id = service.create(wanted()).request.id;
+  service.change(id, {"before", {}, {}, {}});
+  service.start(id);
+  EXPECT_EQ(read_json_file(folder(id) / "session.json").at("title"), "before");
+  run_for_a_while(id, 100);
+  service.change(id, {"while it runs", {}, "Anna", true});
+  const uint32_t tick = service.get(id).status.tick;
+  run_for_a_while(id, tick + 200);
+  EXPECT_EQ(read_json_file(folder(id) / "session.json").at("title"), "while it runs");
+  service.change(id, {"at the end", {}, {}, {}});
+  service.stop(id);
+  nlohmann::json session = read_json_file(folder(id) / "session.json");
+  EXPECT_EQ(session.at("title"), "at the end");
+  EXPECT_EQ(session.at("trainee"), "Anna");
+  EXPECT_EQ(session.at("keep"), true);
+  EXPECT_EQ(service.change(id, {"after", {}, "", false}).request.title, "after");
+  session = read_json_file(folder(id) / "session.json");
+  EXPECT_EQ(session.at("title"), "after");
+  EXPECT_FALSE(session.contains("trainee"));
+  EXPECT_FALSE(session.contains("keep"));
+  EXPECT_EQ(session.at("state"), "stopped");
+}
+
 }  // namespace
 }  // namespace ream::app

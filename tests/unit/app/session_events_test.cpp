@@ -37,6 +37,24 @@ TEST(SessionEvents, ADeviceThatIsThereFromTheStartIsNoEvent) {
   EXPECT_EQ(told.events.device_words(), "");
 }
 
+TEST(SessionEvents, APauseByAnybodyButTheDeviceIsTold) {
+  SessionEvents events;
+  record::TickReport report;
+  const auto kinds = [&](bool paused, bool held) {
+    report.paused = paused;
+    report.held = held;
+    Kinds found;
+    for (const record::ops::Event& event : events.of(report)) found.push_back(event.kind);
+    return found;
+  };
+  EXPECT_EQ(kinds(false, false), Kinds{});
+  EXPECT_EQ(kinds(true, false), Kinds{});
+  EXPECT_EQ(kinds(true, true), Kinds{"paused"});
+  EXPECT_EQ(kinds(true, true), Kinds{});
+  EXPECT_EQ(kinds(true, false), Kinds{"continued"});
+  EXPECT_EQ(kinds(false, false), Kinds{});
+}
+
 TEST(SessionEvents, LostAndBackAreToldOnceEach) {
   Told told;
   told.tick(LinkState::fresh);

@@ -1,4 +1,5 @@
 #include "case/landmarks.hpp"
+#include "support/places.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +23,7 @@ Landmarks all_of_them() {
   return l;
 }
 
-json schema() { return read_json_file(std::string(REAM_SOURCE_DIR) + "/proto/landmarks.schema.json"); }
+json schema() { return read_json_file(test::source_folder() + "/proto/landmarks.schema.json"); }
 
 TEST(Landmarks, RoundTripKeepsEveryBitOfEverySubset) {
   const Landmarks all = all_of_them();

@@ -8,6 +8,7 @@
 #include "core/units.hpp"
 #include "support/expect_error.hpp"
 #include "support/json_schema.hpp"
+#include "support/places.hpp"
 
 namespace ream::case_ {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 using nlohmann::json;
 
 json schema(const std::string& name) {
-  return read_json_file(std::string(REAM_SOURCE_DIR) + "/proto/" + name + ".schema.json");
+  return read_json_file(test::source_folder() + "/proto/" + name + ".schema.json");
 }
 
 json plan_with_everything() {

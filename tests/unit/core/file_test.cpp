@@ -79,9 +79,16 @@ TEST(File, RefusesPlacesThatCannotBeWritten) {
   std::filesystem::create_directory(folder.path() / "taken");
   expect_error(ErrorKind::io, "taken",
                [&] { write_file_atomically(folder.path() / "taken", std::string_view("x")); });
+  ASSERT_EQ(::mkfifo((folder.path() / "pipe").c_str(), 0600), 0);
+  std::filesystem::create_symlink("/dev/null", folder.path() / "nothing");
+  for (const char* name : {"pipe", "nothing"}) {
+    expect_error(ErrorKind::io, std::string(name) + ": it is no file",
+                 [&] { write_file_atomically(folder.path() / name, std::string_view("x")); });
+    EXPECT_FALSE(std::filesystem::is_regular_file(folder.path() / name));
+  }
   expect_error(ErrorKind::io, "/proc", [&] { make_writable_folder("/proc/ream-test"); });
   expect_error(ErrorKind::io, "file", [&] { make_writable_folder(file); });
-  EXPECT_EQ(folder.entries().size(), 2u);
+  EXPECT_EQ(folder.entries().size(), 4u);
 }
 
 TEST(File, RefusesAFolderWithoutWritePermission) {

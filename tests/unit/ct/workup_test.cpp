@@ -1,4 +1,5 @@
 #include "ct/workup.hpp"
+#include "support/places.hpp"
 
 #include <gtest/gtest.h>
 
@@ -60,7 +61,7 @@ TEST_F(WorkupTest, IsAsItsSchemaSays) {
   segment(workup, 220.0);
   const auto hu = load_hu(at, workup);
   build_from(workup, hu, load_labels(at, workup, 1), coarse_phantom().truth.landmarks, {}, no_progress);
-  const nlohmann::json schema = read_json_file(std::string(REAM_SOURCE_DIR) + "/proto/ct.schema.json");
+  const nlohmann::json schema = read_json_file(test::source_folder() + "/proto/ct.schema.json");
   const test::SchemaChecker checker{schema};
   for (const std::string& fault : checker.faults(schema, to_json(workup))) ADD_FAILURE() << fault;
 }

@@ -1,4 +1,5 @@
 #include "device/device_messages.hpp"
+#include "support/places.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +20,7 @@ using test::SteeringWords;
 
 /// Made from proto/golden/*.json by `flatc -b`, so not by the code that reads it.
 std::vector<std::byte> golden(const std::string& name) {
-  return read_binary_file(std::string(REAM_SOURCE_DIR) + "/proto/golden/device_" + name + ".bin");
+  return read_binary_file(test::source_folder() + "/proto/golden/device_" + name + ".bin");
 }
 
 template <typename Kind>

@@ -1,4 +1,5 @@
 #include "device/device_setup.hpp"
+#include "support/places.hpp"
 
 #include <gtest/gtest.h>
 
@@ -124,14 +125,14 @@ TEST(DeviceSetup, AFileKeepsAllOfItAndIsAsTheSchemaSays) {
   EXPECT_EQ(found.handle_from_tool, setup.handle_from_tool);
   EXPECT_EQ(found.scale, setup.scale);
   EXPECT_EQ(found.hand, setup.hand);
-  const json schema = read_json_file(std::string(REAM_SOURCE_DIR) + "/proto/device-setup.schema.json");
+  const json schema = read_json_file(test::source_folder() + "/proto/device-setup.schema.json");
   const json written = read_json_file(device_setup_path(folder.path(), "touch"));
   EXPECT_EQ(test::SchemaChecker(schema).faults(schema, written), std::vector<std::string>{});
   EXPECT_EQ(load_device_setup(folder.path(), "other").scale, 1.0) << "without a file: as it is made";
 }
 
 TEST(DeviceSetup, SchemaAndReaderRefuseTheSame) {
-  const json schema = read_json_file(std::string(REAM_SOURCE_DIR) + "/proto/device-setup.schema.json");
+  const json schema = read_json_file(test::source_folder() + "/proto/device-setup.schema.json");
   const json good = to_json(DeviceSetup{});
   EXPECT_EQ(complaint(good), "");
   const std::vector<std::pair<std::string, json>> wrong{

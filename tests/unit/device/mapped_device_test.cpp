@@ -235,5 +235,22 @@ TEST(MappedDevice, TakesTheForceAwayFromTheDevice) {
   EXPECT_FALSE(m.memory.open);
 }
 
+TEST(MappedDevice, AHandThatMovesWhileTheSessionIsPausedMovesNoTool) {
+  Mapped m(21);
+  m.read(10);
+  const Pose before = m.read();
+  m.device->session_paused(true);
+  for (int i = 0; i < 100; ++i) {
+    m.place_mm() += m.device_mm(Vec3(0.3, 0.2, -0.4));
+    EXPECT_LT((m.read().translation_mm - before.translation_mm).norm(), 1e-9);
+    EXPECT_TRUE(m.input.paused);
+  }
+  m.device->session_paused(false);
+  EXPECT_LT((m.read().translation_mm - before.translation_mm).norm(), 1e-9);
+  EXPECT_FALSE(m.input.paused);
+  m.place_mm() += m.device_mm(Vec3(0, 0, -0.5));
+  EXPECT_NEAR((m.read().translation_mm - before.translation_mm).norm(), 0.5 * m.setup.scale, 1e-9);
+}
+
 }  // namespace
 }  // namespace ream::device

@@ -7,6 +7,7 @@
 #include "device/profiles.hpp"
 #include "device/script.hpp"
 #include "support/json_schema.hpp"
+#include "support/places.hpp"
 
 namespace ream::device {
 namespace {
@@ -26,7 +27,7 @@ std::string parser_complaint(const json& script) {
 class ScriptSchema : public testing::Test {
  protected:
   static std::vector<std::string> faults(const json& script) {
-    const json schema = read_json_file(std::string(REAM_SOURCE_DIR) + "/proto/script.schema.json");
+    const json schema = read_json_file(test::source_folder() + "/proto/script.schema.json");
     return test::SchemaChecker(schema).faults(schema, script);
   }
 };
@@ -145,7 +146,7 @@ INSTANTIATE_TEST_SUITE_P(
                           "rate_hz": 999}})"));
 
 TEST_F(ScriptSchema, KnowsEveryDeviceProfile) {
-  const json schema = read_json_file(std::string(REAM_SOURCE_DIR) + "/proto/script.schema.json");
+  const json schema = read_json_file(test::source_folder() + "/proto/script.schema.json");
   EXPECT_EQ(schema["properties"]["device_profile"]["enum"], json(device_profile_names()));
 }
 

@@ -170,5 +170,36 @@ TEST(ScriptedDevice, IsFinishedAtItsDurationAndKeepsTheLastInput) {
   EXPECT_EQ(input.world_from_handle.translation_mm, last);
 }
 
+/// Reads that it takes to the end, when the session is paused during reads 100 to 149.
+int reads_with_a_pause(HapticDevice& device, std::vector<Vec3>* places_mm = nullptr) {
+  DeviceInput input;
+  device.open();
+  int reads = 0;
+  for (;; ++reads) {
+    device.session_paused(reads >= 100 && reads < 150);
+    if (device.read(input) != DeviceStatus::ok) return reads;
+    EXPECT_EQ(input.paused, reads >= 100 && reads < 150) << reads;
+    if (places_mm != nullptr) places_mm->push_back(input.world_from_handle.translation_mm);
+    device.write({});
+  }
+}
+
+TEST(ScriptedDevice, AScriptWaitsWhileTheSessionIsPaused) {
+  Script poses;
+  poses.kind = ScriptKind::poses;
+  poses.duration_s = 0.3;
+  poses.poses = {{0.0, Vec3::Zero(), Vec3::Zero()}, {0.3, Vec3(30.0, 0.0, 0.0), Vec3::Zero()}};
+  std::vector<Vec3> way_mm;
+  const auto device = make_scripted_device(poses, Pose{});
+  EXPECT_EQ(reads_with_a_pause(*device, &way_mm), 350);
+  for (size_t i = 100; i < 150; ++i) EXPECT_EQ(way_mm[i], way_mm[100]);
+  EXPECT_NEAR((way_mm[150] - way_mm[99]).norm(), 0.1, 1e-9);
+
+  Script hand = pushing(4.0, 0.3);
+  EXPECT_EQ(reads_with_a_pause(*make_scripted_device(hand, Pose{})), 350);
+  hand.device_profile = "ideal-admittance";
+  EXPECT_EQ(reads_with_a_pause(*make_scripted_device(hand, Pose{})), 350);
+}
+
 }  // namespace
 }  // namespace ream::device

@@ -16,7 +16,7 @@ using Rooms = std::map<std::string, std::set<std::string>>;
 const Rooms& drawn_arrows() {
   static const Rooms arrows{
       {"app", {"api"}},
-      {"api", {"sim", "stream", "score", "ct", "fe", "render", "store", "net"}},
+      {"api", {"sim", "stream", "score", "ct", "fe", "render", "access", "net"}},
       {"sim", {"collide", "force", "record", "case"}},
       {"collide", {"shell"}},
       {"stream", {"surface"}},
@@ -33,6 +33,7 @@ const Rooms& drawn_arrows() {
       {"render", {"geometry"}},
       {"geometry", {"core"}},
       {"gpu", {"core"}},
+      {"access", {"store"}},
       {"store", {"core"}},
       {"net", {"core"}},
       {"core", {}},
@@ -50,9 +51,11 @@ const std::vector<Library>& single_room_libraries() {
   static const std::vector<Library> libraries{
       {"OpenCL", std::regex("(CL|OpenCL)/.*"), "gpu"},
       {"Beast and Asio", std::regex("boost/(beast|asio)(/|\\.).*"), "net"},
+      {"OpenSSL", std::regex("openssl/.*"), "net"},
       {"ITK", std::regex("(itk|vnl/|gdcm).*"), "ct"},
       {"assimp", std::regex("assimp/.*"), "geometry"},
       {"SOCI", std::regex("soci/.*"), "store"},
+      {"libsodium", std::regex("sodium(/.*|\\.h)"), "access"},
       {"OSMesa and OpenGL", std::regex("(GL|EGL|GLES[0-9]*)/.*"), "render"},
       {"libsndfile and libsamplerate", std::regex("(sndfile|samplerate)\\.h.*"), "force"},
       {"NATS", std::regex("nats(/.*|\\.h)"), "stream"},

@@ -6,8 +6,12 @@
 #include <future>
 #include <thread>
 
+#include "core/file.hpp"
+#include "net/file_body.hpp"
 #include "net/problem.hpp"
+#include "support/expect_error.hpp"
 #include "support/raw_http.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace ream::net {
 namespace {
@@ -33,6 +37,9 @@ class ListenerTest : public testing::Test {
       return bytes_response(200, "text/plain", share("late"));
     });
     router.on("GET", "/fails", [](const Request&) -> Response { throw std::runtime_error("bang"); });
+    router.on("GET", "/file", [this](const Request& request) {
+      return file_response(request, {file, "application/octet-stream", "a file"});
+    });
     options.port = 0;
     options.limits.body_bytes = 1000;
     options.limits.header_bytes = 2000;
@@ -44,6 +51,8 @@ class ListenerTest : public testing::Test {
     return listener->port();
   }
 
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "file.bin";
   Router router;
   ListenOptions options;
   const SharedBytes large = std::make_shared<const Bytes>(64u << 20);
@@ -173,8 +182,68 @@ TEST_F(ListenerTest, LargeReplyArrivesWhole) {
   EXPECT_EQ(http_request(start(), "GET", "/large").body.size(), large->size());
 }
 
+/// Bytes that differ wherever they are taken from.
+std::string numbered(size_t bytes) {
+  std::string text;
+  for (uint32_t i = 0; text.size() < bytes; ++i) text += std::to_string(i) + ",";
+  text.resize(bytes);
+  return text;
+}
+
+TEST_F(ListenerTest, FileIsSentInPiecesAndInParts) {
+  const std::string whole = numbered(1'000'003);
+  write_file_atomically(file, whole);
+  options.limits.file_piece_bytes = 4096;
+  const uint16_t port = start();
+  const HttpReply all = http_request(port, "GET", "/file");
+  EXPECT_EQ(all.status, 200);
+  EXPECT_EQ(all.body, whole);
+  EXPECT_EQ(all.headers.at("accept-ranges"), "bytes");
+  const HttpReply part = http_request(port, "GET", "/file", "", {{"Range", "bytes=500000-"}});
+  EXPECT_EQ(part.status, 206);
+  EXPECT_EQ(part.headers.at("content-range"), "bytes 500000-1000002/1000003");
+  EXPECT_EQ(part.body, whole.substr(500000));
+  const HttpReply head = http_request(port, "HEAD", "/file");
+  EXPECT_EQ(head.headers.at("content-length"), "1000003");
+  EXPECT_EQ(head.body, "");
+}
+
+TEST_F(ListenerTest, FileDoesNotEndTheConnection) {
+  write_file_atomically(file, numbered(300'000));
+  RawSocket socket(start());
+  socket.send(get_line("/file") + "HEAD /file HTTP/1.1\r\nHost: localhost\r\n\r\n" + get_line("/hello"));
+  EXPECT_EQ(receive_reply(socket).body, numbered(300'000));
+  EXPECT_EQ(receive_reply(socket, false).headers.at("content-length"), "300000");
+  EXPECT_EQ(receive_reply(socket).body, "hello");
+}
+
+TEST_F(ListenerTest, EmptyFileIsAnEmptyBody) {
+  write_file_atomically(file, std::string_view());
+  EXPECT_EQ(http_request(start(), "GET", "/file").headers.at("content-length"), "0");
+}
+
+TEST_F(ListenerTest, FileThatShrinksOnTheWayCutsTheReply) {
+  write_file_atomically(file, numbered(64u << 20));
+  RawSocket slow(start(), 4096);
+  slow.send(get_line("/file"));
+  slow.receive_until("\r\n\r\n");
+  std::filesystem::resize_file(file, 100);
+  EXPECT_LT(slow.receive_all().size(), 64u << 20);
+  EXPECT_EQ(http_request(listener->port(), "GET", "/hello").status, 200);
+}
+
+TEST_F(ListenerTest, StopWhileAFileIsSentEnds) {
+  options.limits.stop = 200ms;
+  write_file_atomically(file, numbered(64u << 20));
+  RawSocket slow(start(), 4096);
+  slow.send(get_line("/file"));
+  slow.receive_until("\r\n\r\n");
+  listener->stop();
+  EXPECT_LT(slow.receive_all().size(), 64u << 20);
+}
+
 TEST_F(ListenerTest, IdleConnectionIsClosed) {
-  options.limits.idle = 200ms;
+  options.limits.idle = options.limits.header = 200ms;
   const uint16_t port = start();
   RawSocket idle(port), halfway(port);
   halfway.send("GET /hello HTTP/1.1\r\nHost: loc");
@@ -182,16 +251,126 @@ TEST_F(ListenerTest, IdleConnectionIsClosed) {
   EXPECT_EQ(halfway.receive_all(), "");
 }
 
-TEST_F(ListenerTest, TooManyConnectionsAre503) {
+TEST_F(ListenerTest, InAFullHouseTheOldestIdleConnectionGivesWay) {
   options.limits.connections = 2;
   const uint16_t port = start();
   RawSocket one(port), two(port);
   one.send(get_line("/hello"));
-  two.send(get_line("/hello"));
   EXPECT_EQ(receive_reply(one).status, 200);
+  two.send(get_line("/hello"));
   EXPECT_EQ(receive_reply(two).status, 200);
-  RawSocket three(port);
-  EXPECT_EQ(receive_reply(three).status, 503);
+  EXPECT_EQ(http_request(port, "GET", "/hello").status, 200);
+  EXPECT_EQ(one.receive_all(), "");
+  two.send(get_line("/hello"));
+  EXPECT_EQ(receive_reply(two).status, 200);
+}
+
+TEST_F(ListenerTest, WhereAllConnectionsAreBusyTheNewcomerIsTold) {
+  options.limits.connections = 1;
+  const uint16_t port = start();
+  RawSocket busy(port);
+  busy.send(get_line("/wait"));
+  waiting.get_future().wait();
+  EXPECT_EQ(http_request(port, "GET", "/hello").status, 503);
+  release.set_value();
+  EXPECT_EQ(receive_reply(busy).body, "late");
+  EXPECT_EQ(http_request(port, "GET", "/hello").status, 200);
+}
+
+TEST_F(ListenerTest, DribbledHeaderIsCutInTime) {
+  options.limits.header = 300ms;
+  const uint16_t port = start();
+  RawSocket slow(port);
+  const std::string line = get_line("/hello");
+  size_t sent = 0;
+  while (sent < line.size() && slow.try_send(line.substr(sent, 1))) {
+    ++sent;
+    std::this_thread::sleep_for(50ms);
+  }
+  EXPECT_EQ(slow.receive_all(), "");
+}
+
+TEST_F(ListenerTest, DribbledBodyIsCutInTimeAndASteadyOneIsNot) {
+  options.limits.body = 300ms;
+  options.limits.least_bytes_per_s = 100;
+  const uint16_t port = start();
+  const std::string head = "POST /echo HTTP/1.1\r\nHost: localhost\r\nContent-Length: 400\r\n\r\n";
+  RawSocket slow(port), steady(port);
+  slow.send(head);
+  steady.send(head);
+  for (int i = 0; i < 20; ++i) {
+    slow.try_send("x");
+    steady.send(std::string(20, 'x'));
+    std::this_thread::sleep_for(50ms);
+  }
+  EXPECT_EQ(slow.receive_all(), "");
+  EXPECT_EQ(receive_reply(steady).body.size(), 400u);
+}
+
+TEST_F(ListenerTest, ReplyThatIsReadTooSlowlyIsCut) {
+  options.limits.write = 500ms;
+  options.limits.least_bytes_per_s = 100u << 20;
+  RawSocket slow(start(), 4096);
+  slow.send(get_line("/large"));
+  size_t got = 0;
+  try {
+    for (; got < large->size(); got += 4096) {
+      slow.receive(4096);
+      std::this_thread::sleep_for(1ms);
+    }
+  } catch (const std::runtime_error&) {
+  }
+  EXPECT_LT(got, large->size());
+}
+
+TEST_F(ListenerTest, TooManyRequestsOfOneAddressAre429BeforeAnyHandler) {
+  options.limits.requests_per_address = {0.001, 3.0};
+  const uint16_t port = start();
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(http_request(port, "GET", "/hello").status, 200);
+  const HttpReply refused = http_request(port, "GET", "/hello");
+  EXPECT_EQ(refused.status, 429);
+  EXPECT_GE(std::stoi(refused.headers.at("retry-after")), 1);
+  EXPECT_EQ(refused.headers.at("content-type"), "application/problem+json");
+}
+
+TEST_F(ListenerTest, BodiesTogetherAreBounded) {
+  options.limits.bodies_bytes = 1500;
+  const uint16_t port = start();
+  const std::string head = "POST /echo HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1000\r\n";
+  RawSocket first(port);
+  first.send(head + "Expect: 100-continue\r\n\r\n");
+  first.receive_until("\r\n\r\n");
+  EXPECT_EQ(http_request(port, "POST", "/echo", std::string(1000, 'x')).status, 503);
+  first.send(std::string(1000, 'x'));
+  EXPECT_EQ(receive_reply(first).status, 200);
+  EXPECT_EQ(http_request(port, "POST", "/echo", std::string(1000, 'x')).status, 200);
+}
+
+TEST_F(ListenerTest, HandlersSeeWhoAsksAndThatItIsPlain) {
+  router.on("GET", "/peer", [](const Request& request) {
+    return bytes_response(200, "text/plain",
+                          share(request.peer + (request.encrypted ? " encrypted" : " plain")));
+  });
+  EXPECT_EQ(http_request(start(), "GET", "/peer").body, "127.0.0.1 plain");
+}
+
+TEST_F(ListenerTest, BeyondLoopbackItAnswersByItsAddressAndItsPublicNames) {
+  options.beyond_loopback = true;
+  options.host = "0.0.0.0";
+  options.public_names = {"Ream.Example.org"};
+  const uint16_t port = start();
+  EXPECT_EQ(http_request(port, "GET", "/hello").status, 200);
+  EXPECT_EQ(http_request(port, "GET", "/hello", "", {{"Host", "ream.example.org:8443"}}).status, 200);
+  EXPECT_EQ(http_request(port, "GET", "/hello", "", {{"Host", "evil.example"}}).status, 421);
+}
+
+TEST_F(ListenerTest, HostMustBeAnAddress) {
+  options.beyond_loopback = true;
+  options.host = "ream.example.org";
+  test::expect_error(ErrorKind::usage, "--public-name", [&] { Listener(router, options); });
+  options.host = "127.0.0.1";
+  options.public_names = {"https://ream.example.org"};
+  test::expect_error(ErrorKind::usage, "without https://", [&] { Listener(router, options); });
 }
 
 TEST_F(ListenerTest, PortInUseNamesPortAndWayOut) {

@@ -25,8 +25,9 @@ TEST(Target, SplitsPathAndQueryAndDecodesBoth) {
 
 TEST(Target, RefusesWhatWouldBeAmbiguous) {
   for (const char* text : {"", "cases", "http://localhost/x", "*", "/a%2fb", "/a%2Fb", "/a%5Cb", "/a\\b",
-                           "/a%00b", "/%", "/%4", "/%zz", "/a?x=%q1"})
+                           "/a%00b", "/a%0ab", "/a\x01", "/a%7F", "/%", "/%4", "/%zz", "/a?x=%q1"})
     EXPECT_THROW(target(text), RequestError) << text;
+  EXPECT_THROW(target(std::string_view("/a\0b", 4)), RequestError);
 }
 
 TEST(Problem, CarriesKindAsStatusAndPlaces) {
@@ -46,6 +47,9 @@ TEST(Problem, CarriesKindAsStatusAndPlaces) {
                                   {"status", 400},
                                   {"detail", "bad"},
                                   {"errors", {{{"pointer", "#/a"}, {"detail", "must be a number"}}}}}));
+  const Response later = problem_of(RequestError(429, "later", {}, {{"Retry-After", "7"}}));
+  EXPECT_EQ(later.status, 429);
+  EXPECT_EQ(later.header("Retry-After"), "7");
 }
 
 TEST(Problem, InnerWordsOfAnUnknownFailureStayInTheLog) {

@@ -94,6 +94,61 @@ TEST_F(RouterTest, GateIsAskedBeforeEveryHandlerAndMayRefuse) {
   EXPECT_EQ(router.open(request_for("GET", "/things/7/stream")).refusal.status, 403);
 }
 
+TEST_F(RouterTest, ACallerIsPacedByUserOrCredentialAndNobodyElse) {
+  router.pace_callers({0.001, 2.0});
+  router.guard([](Request& request, const std::string&) {
+    request.caller.user_id = request.query["user"];
+    request.caller.credential = request.query["credential"];
+  });
+  const auto ask = [&](const std::string& user, const std::string& credential) {
+    Request request = request_for("GET", "/things");
+    request.query = {{"user", user}, {"credential", credential}};
+    return router.respond(request);
+  };
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(ask("ada", "token-" + std::to_string(i)).status, 200);
+  EXPECT_EQ(ask("ada", "token-3").status, 429);
+  EXPECT_FALSE(ask("ada", "token-3").header("Retry-After").empty());
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(ask("", "link-1").status, 200);
+  EXPECT_EQ(ask("", "link-1").status, 429);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(ask("", "").status, 200);
+  Request watch = request_for("GET", "/things/1/stream");
+  watch.query["user"] = "ada";
+  EXPECT_EQ(router.open(watch).refusal.status, 429);
+}
+
+/// Says nothing.
+class SilentSession final : public WebSocketSession {
+ public:
+  void on_open(std::function<void()>) override {}
+  std::optional<SharedBytes> next() override { return std::nullopt; }
+  void on_message(std::span<const std::byte>) override {}
+  void on_close() noexcept override {}
+};
+
+TEST(RouterWrapping, IsPutAroundEveryWebSocketThatOpens) {
+  Router routes;
+  routes.on_websocket("/stream", [](const Request& request) {
+    if (request.header("x-refuse") == "yes") throw RequestError(409, "not now");
+    return std::make_unique<SilentSession>();
+  });
+  routes.guard([](Request& request, const std::string&) { request.caller.name = "Ada"; });
+  int wrapped = 0;
+  routes.wrap_websockets([&](const Request& request, std::unique_ptr<WebSocketSession> session) {
+    EXPECT_EQ(request.caller.name, "Ada");
+    EXPECT_TRUE(session);
+    ++wrapped;
+    return session;
+  });
+  Request request;
+  request.method = "GET";
+  request.path = "/stream";
+  EXPECT_TRUE(routes.open(request).session);
+  EXPECT_EQ(wrapped, 1);
+  request.headers["x-refuse"] = "yes";
+  EXPECT_EQ(routes.open(request).refusal.status, 409);
+  EXPECT_EQ(wrapped, 1);
+}
+
 TEST_F(RouterTest, OtherwiseAnswersReadsOnly) {
   router.otherwise([](const Request&) { return named(304); });
   EXPECT_EQ(router.respond(request_for("GET", "/nowhere")).status, 304);

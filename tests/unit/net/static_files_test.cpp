@@ -46,6 +46,16 @@ TEST_F(StaticFilesTest, ServesWithTypeAndCaching) {
   EXPECT_EQ(script.body->size(), 5u);
 }
 
+TEST_F(StaticFilesTest, APageIsFoundWithoutItsEnding) {
+  write_file_atomically(root / "api.html", std::string_view("<html>api"));
+  write_file_atomically(folder / "outside.html", std::string_view("<html>secret"));
+  EXPECT_EQ(get("/api").content_type, "text/html; charset=utf-8");
+  EXPECT_EQ(get("/api").body->size(), 9u);
+  EXPECT_EQ(get("/api", std::string(get("/api").header("ETag"))).status, 304);
+  for (const char* path : {"/api/", "/assets", "/assets/app-1234", "/../outside", "/apis"})
+    EXPECT_THROW(get(path), Error) << path;
+}
+
 TEST_F(StaticFilesTest, KnownTagIs304UntilTheFileChanges) {
   const std::string tag(get("/index.html").header("ETag"));
   ASSERT_FALSE(tag.empty());

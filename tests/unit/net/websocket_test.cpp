@@ -24,6 +24,7 @@ struct Desk {
   std::deque<SharedBytes> outgoing;
   std::function<void()> wake;
   std::optional<Farewell> farewell;
+  bool text = false;
   int opened = 0, closed = 0, asked = 0;
 
   void put(SharedBytes message) {
@@ -52,6 +53,7 @@ class DeskSession final : public WebSocketSession {
     ++desk_->opened;
     desk_->changed.notify_all();
   }
+  bool sends_text() const override { return desk_->text; }
   std::optional<SharedBytes> next() override {
     const std::lock_guard lock(desk_->mutex);
     ++desk_->asked;
@@ -123,6 +125,15 @@ TEST_F(WebSocketTest, MessagesGoBothWaysWholeAndInOrder) {
   EXPECT_EQ(client.receive().payload, "echo hi");
 }
 
+TEST_F(WebSocketTest, ASessionMaySendText) {
+  desk->text = true;
+  desk->put(share("{\"number\": 1}"));
+  RawWebSocket client(start(), "/stream/1");
+  const auto message = client.receive();
+  EXPECT_EQ(message.opcode, 1);
+  EXPECT_EQ(message.payload, "{\"number\": 1}");
+}
+
 TEST_F(WebSocketTest, RefusalsAreProblemsBeforeTheUpgrade) {
   const uint16_t port = start();
   EXPECT_EQ(RawWebSocket(port, "/stream/2").handshake().status, 404);
@@ -182,6 +193,30 @@ TEST_F(WebSocketTest, OversizedMessageEndsTheConnection) {
   EXPECT_TRUE(desk->wait_closed());
 }
 
+TEST_F(WebSocketTest, WhoSendsTooMuchIsClosedWith1008) {
+  options.limits.websocket_messages = {0.001, 10.0};
+  RawWebSocket client(start(), "/stream/1");
+  for (int i = 0; i < 12; ++i) client.send_binary("x");
+  std::optional<uint16_t> code;
+  while (!(code = client.receive().close_code())) {
+  }
+  EXPECT_EQ(code, 1008);
+  EXPECT_TRUE(desk->wait_closed());
+}
+
+TEST_F(WebSocketTest, PingsAndEmptyFragmentsCountAsWell) {
+  options.limits.websocket_messages = {0.001, 10.0};
+  for (const int opcode : {9, 0}) {
+    RawWebSocket client(start(), "/stream/1");
+    if (opcode == 0) client.send_frame(2, "begin", false);
+    for (int i = 0; i < 12; ++i) client.send_frame(opcode, "", opcode == 9);
+    std::optional<uint16_t> code;
+    while (!(code = client.receive().close_code())) {
+    }
+    EXPECT_EQ(code, 1008) << opcode;
+  }
+}
+
 TEST_F(WebSocketTest, SlowViewerIsCutAndOthersAreServedMeanwhile) {
   options.limits.write = 300ms;
   const uint16_t port = start();
@@ -210,6 +245,22 @@ TEST_F(WebSocketTest, StopSaysGoingAway) {
   client.socket().end_sending();
   stopping.join();
   EXPECT_EQ(desk->closed, 1);
+}
+
+TEST_F(WebSocketTest, StopMayComeWhileAConnectionBecomesAWebSocket) {
+  options.limits.linger = 1ms;
+  for (int round = 0; round < 100; ++round) {
+    const uint16_t port = start();
+    std::thread opening([port] {
+      try {
+        for (;;) RawWebSocket(port, "/stream/1");
+      } catch (const std::runtime_error&) {
+      }
+    });
+    std::this_thread::sleep_for(1ms);
+    listener->stop();
+    opening.join();
+  }
 }
 
 TEST_F(WebSocketTest, StopDoesNotWaitForAPeerThatNeverAnswers) {

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "support/example_log.hpp"
+#include "support/places.hpp"
 #include "support/recording_manifest.hpp"
 
 int main() {
@@ -12,6 +13,7 @@ int main() {
   test::write_example_log(record::create_log_file(path));
   auto structures = test::recorded_structures();
   structures[std::to_string(record::ops::newest_revision)] = test::structure_hash(test::recording_manifest());
-  write_file_atomically(REAM_SOURCE_DIR "/proto/golden/recording_structures.json", structures.dump(2) + "\n");
+  write_file_atomically(test::source_folder() + "/proto/golden/recording_structures.json",
+                        structures.dump(2) + "\n");
   std::printf("%s\n", path.c_str());
 }

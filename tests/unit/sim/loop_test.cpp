@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <sstream>
 
@@ -29,6 +30,7 @@ class WatchedDevice final : public device::HapticDevice {
     is_open = false;
   }
   device::DeviceStatus read(device::DeviceInput& input) noexcept override {
+    if (on_read) on_read(reads);
     if (reads++ == fault_at) return device::DeviceStatus::fault;
     if (reads == slow_at) std::this_thread::sleep_for(std::chrono::milliseconds(60));
     const auto status = inner_->read(input);
@@ -36,6 +38,7 @@ class WatchedDevice final : public device::HapticDevice {
       input.world_from_handle.translation_mm.x() = std::numeric_limits<double>::quiet_NaN();
     return status;
   }
+  void session_paused(bool paused) noexcept override { inner_->session_paused(paused); }
   device::DeviceStatus write(const device::DeviceOutput& output) noexcept override {
     last = output;
     largest_force_n = std::max(largest_force_n, output.force_n.norm());
@@ -43,6 +46,7 @@ class WatchedDevice final : public device::HapticDevice {
   }
 
   int fault_at = -1, nan_at = -1, slow_at = -1, reads = 0;
+  std::function<void(int)> on_read;                ///< told how many reads there have been
   std::optional<device::DeviceTraits> own_traits;  ///< in place of the wrapped one's
   bool is_open = false;
   device::DeviceOutput last;
@@ -183,6 +187,34 @@ TEST(HapticLoop, AFullRecordingRingIsAFaultNotALoss) {
   EXPECT_EQ(loop.run(), sim::LoopEnd::followers_late);
   EXPECT_EQ(tiny.size(), 64u);
   EXPECT_EQ(r.device.last.force_n.norm(), 0.0);
+}
+
+TEST(HapticLoop, APauseFromOutsideIsThatOfTheButtonAndTheScriptWaits) {
+  LoopRun r;
+  sim::HapticLoop loop(r.run.model, r.run.state, r.device, r.reports, {false, sim::Realtime::off});
+  r.device.on_read = [&](int reads) {
+    if (reads == 500) loop.pause(true);  // from the next tick on
+    if (reads == 700) loop.pause(false);
+  };
+  EXPECT_EQ(loop.run(), sim::LoopEnd::finished);
+  record::TickReport report;
+  uint32_t ticks = 0, held = 0;
+  double removed_in_pause = 0.0, removed_after = 0.0;
+  while (r.reports.try_pop(report)) {
+    ++ticks;
+    EXPECT_EQ(report.held, report.tick > 500 && report.tick <= 700) << report.tick;
+    EXPECT_EQ(report.paused, report.held);
+    const auto removed = static_cast<double>(report.coverage_removed[0] + report.coverage_removed[1]);
+    if (report.tick > 720) removed_after += removed;
+    if (!report.held) continue;
+    ++held;
+    removed_in_pause += removed;
+    EXPECT_EQ(report.hand_force_n.norm(), 0.0) << report.tick;
+  }
+  EXPECT_EQ(ticks, 1200u);
+  EXPECT_EQ(held, 200u);
+  EXPECT_EQ(removed_in_pause, 0.0);
+  EXPECT_GT(removed_after, 0.0);
 }
 
 }  // namespace

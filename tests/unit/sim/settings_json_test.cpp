@@ -1,4 +1,5 @@
 #include "sim/settings_json.hpp"
+#include "support/places.hpp"
 
 #include <gtest/gtest.h>
 
@@ -113,7 +114,7 @@ TEST(SettingsJson, AMissingKeyKeepsItsDefaultAndUnknownOnesAreRefusedByName) {
 /// Settings as the first recordings that can be computed again hold them. Later builds must read them, and
 /// may say more but nothing else.
 TEST(SettingsJson, ThoseOfTheFirstRecordingsAreReadAsTheyWere) {
-  const json golden = read_json_file(REAM_SOURCE_DIR "/proto/golden/recording_settings.json");
+  const json golden = read_json_file(test::source_folder() + "/proto/golden/recording_settings.json");
   const json read = to_json(settings_from_json(golden, "golden"));
   json merged = read;
   merged.merge_patch(golden);

@@ -61,12 +61,14 @@ class CaseContractTest : public ContractTest {
 
   void uploading() {
     const std::string good = R"({"name": "a.zip", "bytes": 3})";
-    expect_post(uploads, uploads, 201, good);
+    expect_repeatable(uploads, uploads, 201, good);
     expect_post(uploads, uploads, 400, "{");
     expect_post(uploads, uploads, 403, good, foreign);
     expect_post(uploads, uploads, 413, R"({"name": "a.zip", "bytes": 1e14})");
     expect_post(uploads, uploads, 415, good, {{"Content-Type", "text/plain"}});
     expect_post(uploads, uploads, 422, R"({"name": "a.exe", "bytes": 3})");
+    expect_get(uploads, uploads + "?limit=1&sort=-bytes", 200);
+    expect_get(uploads, uploads + "?limit=0", 422);
     const std::string id = begin_upload(), at = uploads + "/" + id;
     expect_get(piece, at, 200);
     expect_get(piece, uploads + "/nothing", 404);
@@ -105,12 +107,16 @@ class CaseContractTest : public ContractTest {
     EXPECT_EQ(job.at("state"), "done") << job;
     const std::string at = "/api/v1/jobs/" + job.at("id").get<std::string>();
     expect_get("/api/v1/jobs", "/api/v1/jobs", 200);
+    expect_get("/api/v1/jobs", "/api/v1/jobs?limit=1&kind=import&state=done", 200);
+    expect_get("/api/v1/jobs", "/api/v1/jobs?state=lost", 422);
     expect_get(jobs, at, 200);
     expect_get(jobs, "/api/v1/jobs/nothing", 404);
     expect_request("DELETE", jobs, at, 403, "", foreign);
     expect_request("DELETE", jobs, at, 202);
     expect_request("DELETE", jobs, "/api/v1/jobs/nothing", 404);
     expect_get(cases, cases, 200);
+    expect_get(cases, cases + "?limit=1&sort=-name", 200);
+    expect_get(cases, cases + "?cursor=abc", 422);
     const std::string made = cases + "/" + job.at("case_id").get<std::string>();
     expect_get(one_case, made, 200);
     expect_get(one_case, cases + "/planned", 200);
@@ -124,6 +130,7 @@ class CaseContractTest : public ContractTest {
     expect_get(one_case + slices, made + "/volume/slices/w/3", 200);
     expect_get(one_case + slices, made + "/volume/slices/w/100000", 404);
     expect_get(one_case + slices, cases + "/planned/volume/slices/w/3", 409);
+    whole_volume(made);
     expect_get(one_case + slices, made + "/volume/slices/w/3?of=colours", 422);
     expect_get(one_case + "/mesh", made + "/mesh", 409);
     expect_post(one_case + "/plan/proposal", made + "/plan/proposal", 409, "{}");
@@ -147,13 +154,31 @@ class CaseContractTest : public ContractTest {
     expect_get(one_case, made, 200);
   }
 
+  /// What was imported comes out again.
+  void whole_volume(const std::string& made) {
+    expect_get(one_case + "/volume", made + "/volume", 200);
+    expect_get(one_case + "/volume", cases + "/planned/volume", 409);
+    expect_get(one_case + "/volume", cases + "/nowhere/volume", 404);
+    const std::filesystem::path copy = folder.path() / "copy.nrrd";
+    std::ofstream(copy, std::ios::binary) << get(made + "/volume").body;
+    const ct::HuVolume volume = ct::read_volume_file(copy);
+    EXPECT_EQ(volume.hu, phantom.volume.hu);
+    EXPECT_TRUE(volume.spacing_mm.isApprox(phantom.volume.spacing_mm));
+    const auto corner = [](const ct::HuVolume& of) { return of.world_of_centre(Vec3i::Zero()); };
+    EXPECT_LT((corner(volume) - corner(phantom.volume)).norm(), 1e-6);
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "passing"));
+  }
+
   void planning(const std::string& made) {
     const std::string good = case_::to_json(phantom.truth.landmarks).dump();
     const std::string landmarks = one_case + "/landmarks", plan = one_case + "/plan";
     EXPECT_EQ(ended(post(made + "/build", "{}")).at("problem").at("status"), 409);
     refused_bodies("PUT", landmarks, made + "/landmarks", good, R"({"nose_mm": [1, 2, 3]})");
     expect_request("PUT", landmarks, cases + "/nowhere/landmarks", 404, good);
+    expect_get(landmarks, made + "/landmarks", 200);
+    expect_get(landmarks, cases + "/nowhere/landmarks", 404);
     expect_request("PUT", landmarks, made + "/landmarks", 200, good);
+    EXPECT_EQ(json::parse(get(made + "/landmarks").body), json::parse(good));
     expect_get(one_case + "/measures", made + "/measures", 200);
     expect_get(one_case + "/measures", cases + "/nowhere/measures", 404);
     refused_bodies("POST", plan + "/proposal", made + "/plan/proposal", "{}", R"({"depth_mm": -1})");
@@ -164,8 +189,11 @@ class CaseContractTest : public ContractTest {
     std::erase_if(wanted.get_ref<json::object_t&>(),
                   [](const auto& entry) { return entry.second.is_null(); });
     refused_bodies("PUT", plan, made + "/plan", wanted.dump(), "{}");
+    expect_get(plan, made + "/plan", 404);
     expect_request("PUT", plan, cases + "/nowhere/plan", 404, wanted.dump());
     expect_request("PUT", plan, made + "/plan", 200, wanted.dump());
+    expect_get(plan, made + "/plan", 200);
+    EXPECT_EQ(json::parse(get(made + "/plan").body).at("entry_mm"), wanted.at("entry_mm"));
     const HttpReply steep = post(made + "/plan/proposal", R"({"version_deg": -30})");
     json refused = json::parse(steep.body).at("plan");
     std::erase_if(refused.get_ref<json::object_t&>(),
@@ -224,7 +252,10 @@ TEST_F(CaseContractTest, EveryDescribedReplyIsGivenAsDescribed) {
   building(made);
   wrong_landmarks(made);
   deleting(made);
-  expect_all_given({"uploads", "jobs", "cases"});
+  // While the first of two requests with one key is under way: IdempotencyTest.
+  // While other files are made: as of a session's trace, DownloadContractTest.
+  expect_all_given({"uploads", "jobs", "cases"},
+                   {{"POST " + uploads, 409}, {"GET " + one_case + "/volume", 503}});
 }
 
 TEST_F(CaseContractTest, TheOtherShoulderIsMadeOfTheSameCt) {

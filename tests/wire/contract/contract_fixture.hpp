@@ -4,6 +4,7 @@
 
 #include "server_fixture.hpp"
 #include "support/json_schema.hpp"
+#include "support/places.hpp"
 
 namespace ream::test {
 
@@ -18,6 +19,12 @@ inline std::string upper(std::string text) {
   return text;
 }
 
+inline std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  return text;
+}
+
 class ContractTest : public ServerTest {
  protected:
   /// The reply must have a status, content type and body that the description of `pattern` states.
@@ -25,15 +32,14 @@ class ContractTest : public ServerTest {
                            const HttpReply& reply) {
     const std::string operation = method + " " + pattern;
     ASSERT_EQ(reply.status, status) << operation << ": " << reply.body;
-    std::string verb = method;
-    std::transform(verb.begin(), verb.end(), verb.begin(), [](char c) { return static_cast<char>(c | 32); });
-    const json& responses = contract.at("paths").at(pattern).at(verb).at("responses");
+    const json& responses = contract.at("paths").at(pattern).at(lower(method)).at("responses");
     ASSERT_TRUE(responses.contains(std::to_string(status))) << operation << " answers " << status;
     const json& response = checker.resolve(responses.at(std::to_string(status)));
-    if (response.contains("headers")) {
-      EXPECT_EQ(response["headers"].size(), 1u);
-      EXPECT_EQ(reply.headers.count("location"), response["headers"].count("Location")) << operation;
-    }
+    const json headers = response.value("headers", json::object());
+    for (const auto& [name, header] : headers.items())
+      EXPECT_TRUE(reply.headers.contains(lower(name))) << operation << " has no " << name;
+    for (const char* name : {"Location", "Set-Cookie", "WWW-Authenticate", "Retry-After"})
+      EXPECT_EQ(reply.headers.count(lower(name)), headers.count(name)) << operation << " " << name;
     seen.insert({operation, status});
     if (!response.contains("content")) return;
     const json& content = response["content"];
@@ -45,8 +51,33 @@ class ContractTest : public ServerTest {
       ADD_FAILURE() << operation << " " << status << ": " << fault << " in " << reply.body;
   }
 
+  /// Every reply that can be had has an entity tag; asked again with it, there is nothing new or another tag.
   void expect_get(const std::string& pattern, const std::string& path, int status) {
-    expect_as_described("GET", pattern, status, get(path));
+    const HttpReply reply = get(path);
+    expect_as_described("GET", pattern, status, reply);
+    if (status != 200) return;
+    ASSERT_TRUE(reply.headers.contains("etag")) << path;
+    const std::string tag = reply.headers.at("etag");
+    const HttpReply again = http_request(server->port(), "GET", path, {}, {{"If-None-Match", tag}});
+    if (again.status != 304) {
+      EXPECT_EQ(again.status, 200) << path;
+      EXPECT_NE(again.headers.at("etag"), tag) << path;
+    }
+  }
+  /// Sent twice under one key it is answered once more, but made once; under that key nothing else is.
+  HttpReply expect_repeatable(const std::string& pattern, const std::string& path, int status,
+                              const std::string& body = {}) {
+    const std::map<std::string, std::string> key = {{"Idempotency-Key", "key-" + std::to_string(keys++)}};
+    const HttpReply first = http_request(server->port(), "POST", path, body, key),
+                    again = http_request(server->port(), "POST", path, body, key);
+    expect_as_described("POST", pattern, status, first);
+    expect_as_described("POST", pattern, status, again);
+    EXPECT_EQ(first.body, again.body) << pattern;
+    EXPECT_TRUE(again.headers.contains("idempotency-replayed")) << pattern;
+    expect_post(pattern, path + (path.find('?') == std::string::npos ? "?" : "&") + "other=1", 422, body,
+                key);
+    expect_post(pattern, path, 400, body, {{"Idempotency-Key", "two words"}});
+    return first;
   }
   void expect_post(const std::string& pattern, const std::string& path, int status,
                    const std::string& body = {}, const std::map<std::string, std::string>& headers = {}) {
@@ -73,16 +104,25 @@ class ContractTest : public ServerTest {
             all_replies.insert({upper(verb) + " " + path, std::stoi(status)});
     return all_replies;
   }
-  void expect_all_given(const std::set<std::string>& tags) const {
-    for (const auto& [operation, status] : described(tags))
+  /// Whether wire/access proves it, for every operation: refusals of those who may not ask.
+  static bool is_refusal(const std::string& operation, int status) {
+    return status == 401 || (status == 403 && operation.starts_with("GET "));
+  }
+  /// `elsewhere`: replies that another test gives.
+  void expect_all_given(const std::set<std::string>& tags, const Described& elsewhere = {}) const {
+    for (const auto& [operation, status] : described(tags)) {
+      if (elsewhere.contains({operation, status})) continue;
+      if (is_refusal(operation, status) && !tags.contains("access")) continue;
       EXPECT_TRUE(seen.contains({operation, status})) << operation << " " << status << " was never given";
+    }
   }
 
-  const json contract = read_yaml(std::string(REAM_SOURCE_DIR) + "/proto/openapi.yaml");
+  const json contract = read_yaml(source_folder() + "/proto/openapi.yaml");
   const SchemaChecker checker{contract};
   const std::string all = "/api/v1/sessions", one = "/api/v1/sessions/{id}";
   const std::map<std::string, std::string> foreign = {{"Origin", "http://elsewhere.example"}};
   Described seen;
+  int keys = 0;
 };
 
 }  // namespace ream::test

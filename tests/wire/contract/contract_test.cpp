@@ -1,6 +1,7 @@
 #include <future>
 
 #include "contract_fixture.hpp"
+#include "support/places.hpp"
 
 namespace ream::test {
 namespace {
@@ -10,6 +11,8 @@ class ServerContractTest : public ContractTest {
   void creation() {
     const std::string good = R"({"case": "planned", "script": "demo"})";
     expect_post(all, all, 201, good);
+    const json made = json::parse(expect_repeatable(all, all, 201, good).body);
+    expect_post(one + "/stop", all + "/" + made.at("id").get<std::string>() + "/stop", 200);
     expect_post(all, all, 400, "{");
     expect_post(all, all, 403, good, foreign);
     expect_post(all, all, 404, R"({"case": "missing", "script": "demo"})");
@@ -30,6 +33,7 @@ class ServerContractTest : public ContractTest {
     expect_post(one + "/start", path + "/start", 200);
     expect_post(one + "/start", path + "/start", 409);
     expect_post(one + "/start", all + "/nobody/start", 404);
+    pausing(path);
     expect_post(one + "/stop", path + "/stop", 403, "", foreign);
     expect_post(one + "/stop", path + "/stop", 200);
     expect_post(one + "/stop", path + "/stop", 409);
@@ -37,9 +41,11 @@ class ServerContractTest : public ContractTest {
     expect_get(one + "/metrics", path + "/metrics", 200);
     resume(path);
     annotations(path);
+    changing(path);
+    resetting();
     const std::string stuck = create("no-start");
     expect_post(one + "/start", all + "/" + stuck + "/start", 503);
-    factory.made(3).set(api::SessionState::fault, "the device fell silent");
+    factory.made(6).set(api::SessionState::fault, "the device fell silent");
     expect_get(one, all + "/" + stuck, 200);
     expect_stream(path + "/stream", 101);
     expect_stream(path + "/stream?stride=4", 101);
@@ -50,6 +56,48 @@ class ServerContractTest : public ContractTest {
     expect_get(one + "/stream", path + "/stream", 426);
     device(path);
     replays_of(id);
+  }
+
+  void pausing(const std::string& path) {
+    const std::string pattern = one + "/pause";
+    expect_post(pattern, path + "/pause", 403, "", foreign);
+    expect_post(pattern, all + "/nobody/pause", 404);
+    expect_post(pattern, path + "/pause", 200);
+    EXPECT_EQ(json::parse(get(path).body).at("held"), true);
+    expect_post(pattern, path + "/pause", 409);
+    expect_post(one + "/start", path + "/start", 200);
+    EXPECT_EQ(json::parse(get(path).body).at("state"), "running");
+  }
+
+  void changing(const std::string& path) {
+    const std::string good =
+        R"({"title": "first try", "keep": true, "trainee": "Anna", "trainee_id": "anna"})";
+    expect_request("PATCH", one, path, 200, good);
+    expect_request("PATCH", one, path, 400, "{");
+    expect_request("PATCH", one, path, 403, good, foreign);
+    expect_request("PATCH", one, all + "/nobody", 404, good);
+    expect_request("PATCH", one, path, 413, std::string(options.listen.limits.body_bytes + 1, ' '));
+    expect_request("PATCH", one, path, 415, good, {{"Content-Type", "text/plain"}});
+    expect_request("PATCH", one, path, 422, R"({"titel": "first try"})");
+    const auto lock = FileLock::attempt(api::lock_file(options.sessions_folder / "earlier"));
+    expect_request("PATCH", one, all + "/earlier", 409, good);
+    EXPECT_EQ(json::parse(get(path).body).at("title"), "first try");
+  }
+
+  void resetting() {
+    const std::string pattern = one + "/reset", first = all + "/" + create();
+    expect_post(pattern, first + "/reset", 403, "", foreign);
+    expect_post(pattern, all + "/nobody/reset", 404);
+    expect_post(one + "/start", first + "/start", 200);
+    const HttpReply reply = expect_repeatable(pattern, first + "/reset", 201);
+    const json next = json::parse(reply.body), old = json::parse(get(first).body);
+    EXPECT_EQ(next.at("reset_of"), old.at("id"));
+    EXPECT_EQ(next.at("attempt"), 2);
+    EXPECT_EQ(next.at("state"), "running");
+    EXPECT_EQ(old.at("followed_by"), next.at("id"));
+    EXPECT_EQ(old.at("state"), "stopped");
+    expect_post(pattern, first + "/reset", 409);
+    expect_post(one + "/stop", all + "/" + next.at("id").get<std::string>() + "/stop", 200);
   }
 
   void expect_device(const std::string& path, int status,
@@ -78,7 +126,7 @@ class ServerContractTest : public ContractTest {
     replays.refuse = [] { throw Error(ErrorKind::invalid_input, "recording.ream is damaged"); };
     expect_post(one + "/replay", path, 422);
     replays.refuse = [] {};
-    expect_post(one + "/replay", path, 201);
+    expect_repeatable(one + "/replay", path, 201);
     const std::string id = json::parse(get(all).body).at("replays").at(0).at("id"), open = all + "/" + id;
     expect_get(all, all, 200);
     expect_get(one, open, 200);
@@ -143,6 +191,13 @@ class ServerContractTest : public ContractTest {
     while (post(all, R"({"case": "planned", "script": "demo"})").status == 201) {
     }
     expect_post(all, all, 503, R"({"case": "planned", "script": "demo"})");
+    const HttpReply filled = get(all);
+    const json sessions = json::parse(filled.body).at("sessions");
+    const auto ended = std::find_if(sessions.begin(), sessions.end(), [](const json& session) {
+      return session.at("state") == "stopped" && session.at("followed_by").is_null();
+    });
+    ASSERT_NE(ended, sessions.end());
+    expect_post(one + "/reset", all + "/" + ended->at("id").get<std::string>() + "/reset", 503);
   }
 };
 
@@ -175,7 +230,11 @@ TEST_F(ServerContractTest, EveryDescribedReplyIsGivenAsDescribed) {
   life_of_a_session();
   too_many();
 
-  expect_all_given({"health", "sessions"});
+  expect_get(all, all + "?sort=age", 422);
+  expect_get(all, all + "?limit=2&state=stopped", 200);
+
+  // While the database is away: SessionRegisterTest.
+  expect_all_given({"health", "sessions"}, {{"GET " + all, 503}});
 }
 
 TEST_F(ServerContractTest, TakesExactlyTheBodiesThatTheSchemaTakes) {
@@ -256,7 +315,7 @@ TEST_F(ServerContractTest, TakesExactlyTheRemarksThatTheSchemaTakes) {
 
 TEST_F(ServerContractTest, TheDescriptionServedIsTheFile) {
   start();
-  std::ifstream file(std::string(REAM_SOURCE_DIR) + "/proto/openapi.yaml");
+  std::ifstream file(source_folder() + "/proto/openapi.yaml");
   const std::string text((std::istreambuf_iterator<char>(file)), {});
   EXPECT_EQ(get("/api/v1/openapi.yaml").body, text);
 }

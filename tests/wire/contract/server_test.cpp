@@ -1,6 +1,7 @@
 #include <future>
 #include <thread>
 
+#include "core/utc.hpp"
 #include "server_fixture.hpp"
 #include "support/expect_error.hpp"
 
@@ -60,11 +61,68 @@ TEST_F(ServerTest, CreatesStartsAndStops) {
 
 TEST_F(ServerTest, ListsSessionsNewestFirst) {
   start();
-  const std::string first = create(), second = create();
-  const json list = json::parse(get(sessions).body).at("sessions");
-  ASSERT_EQ(list.size(), 2u);
-  EXPECT_EQ(list[0].at("id"), second);
-  EXPECT_EQ(list[1].at("id"), first);
+  std::vector<std::string> made, listed;
+  for (size_t i = 0; i < options.sessions.live; ++i) made.insert(made.begin(), create());
+  const json list = json::parse(get(sessions).body);
+  for (const json& session : list.at("sessions")) listed.push_back(session.at("id"));
+  EXPECT_EQ(listed, made);
+}
+
+TEST_F(ServerTest, ListsAreFilteredAndGoOnPageByPage) {
+  start();
+  for (int i = 0; i < 7; ++i)
+    folder.write("sessions/old" + std::to_string(i) + "/session.json",
+                 json{{"case", i % 2 == 0 ? "planned" : "other"},
+                      {"script", "demo"},
+                      {"state", i < 5 ? "finished" : "stopped"},
+                      {"trainee", "Anna"},
+                      {"trainee_id", i < 3 ? "anna" : "ben"},
+                      {"created_utc", "2026-01-0" + std::to_string(i + 1) + "T12:00:00Z"}}
+                     .dump());
+  const auto ids = [&](const std::string& query) {
+    std::string found;
+    const json page = json::parse(get(sessions + "?" + query).body);
+    for (const json& session : page.at("sessions")) found += session.at("id").get<std::string>().substr(3);
+    return found;
+  };
+  EXPECT_EQ(ids(""), "6543210");
+  EXPECT_EQ(ids("sort=created_utc"), "0123456");
+  EXPECT_EQ(ids("state=stopped"), "65");
+  EXPECT_EQ(ids("state=stopped,running"), "65");
+  EXPECT_EQ(ids("case=planned&trainee=ben"), "64");
+  EXPECT_EQ(ids("from=2026-01-03&to=2026-01-05T12:00:00Z"), "32");
+  EXPECT_EQ(ids("q=anna%20other"), "531");
+
+  std::string found, target = sessions + "?limit=3&sort=-created_utc&case=planned";
+  for (int pages = 0; pages < 2; ++pages) {
+    const HttpReply reply = get(target);
+    const json page = json::parse(reply.body);
+    EXPECT_EQ(page.at("total"), 4);
+    for (const json& session : page.at("sessions")) found += session.at("id").get<std::string>().substr(3);
+    ASSERT_EQ(page.at("next").is_null(), pages == 1);
+    ASSERT_EQ(reply.headers.contains("link"), pages == 0);
+    if (pages == 1) break;
+    const std::string link = reply.headers.at("link");
+    ASSERT_TRUE(link.starts_with("<" + sessions + "?") && link.ends_with(">; rel=\"next\"")) << link;
+    target = link.substr(1, link.find('>') - 1);
+  }
+  EXPECT_EQ(found, "6420");
+}
+
+TEST_F(ServerTest, CasesGoOnPageByPageToo) {
+  start();
+  std::vector<std::string> found;
+  std::string cursor;
+  for (;;) {
+    const json page = json::parse(get("/api/v1/cases?limit=1&sort=-id" + cursor).body);
+    ASSERT_EQ(page.at("cases").size(), 1u);
+    EXPECT_EQ(page.at("total"), 2);
+    found.push_back(page.at("cases").at(0).at("id"));
+    if (page.at("next").is_null()) break;
+    cursor = "&cursor=" + page.at("next").get<std::string>();
+  }
+  EXPECT_EQ(found, (std::vector<std::string>{"unplanned", "planned"}));
+  EXPECT_EQ(get("/api/v1/cases?sort=id" + cursor).status, 422) << "a cursor belongs to its order";
 }
 
 TEST_F(ServerTest, BadBodiesAreExplainedAndMakeNothing) {

@@ -1,35 +1,84 @@
-import { signal, type Signal } from '@preact/signals';
-import { useEffect } from 'preact/hooks';
+import type { Signal } from '@preact/signals';
 
-import type { Route } from '../state/route';
+import { IdentityContext } from '../panels/site_nav';
+import type { Identity } from '../state/identity';
+import { addressOfRoute, type Route } from '../state/route';
 import { words } from '../words';
+import { later } from '../panels/later';
 import { LivePage, type LivePageParts } from './live_page';
+import { LoginPage } from './login_page';
 
-type CasePagesModule = typeof import('./case_pages');
+const casePages = later(() => import('./case_pages'));
+const sessionPages = later(() => import('./session_pages'));
+const studyPages = later(() => import('./study_pages'));
+const accessPages = later(() => import('./access_pages'));
 
-const casePages = signal<CasePagesModule | 'failed' | null>(null);
+interface Parts {
+  route: Signal<Route>;
+  live: LivePageParts;
+  identity: Identity;
+}
 
-/** The page that the address names. Those of the cases are loaded when they are first wanted. */
-export function App({ route, live }: { route: Signal<Route>; live: LivePageParts }) {
-  const shown = route.value;
-  const wanted = shown.kind !== 'live';
-  useEffect(() => {
-    if (!wanted || (casePages.value !== null && casePages.value !== 'failed')) return;
-    casePages.value = null;
-    import('./case_pages').then(
-      (loaded) => (casePages.value = loaded),
-      () => (casePages.value = 'failed'),
-    );
-  }, [wanted]);
-  if (shown.kind === 'live') return <LivePage {...live} />;
-  const loaded = casePages.value;
-  if (loaded === null || loaded === 'failed')
-    return (
-      <p class="page-opening" role="status">
-        {loaded === null ? words.openingCases : words.casesNotLoaded}
-      </p>
-    );
-  return <loaded.CasePages route={shown} startReaming={(caseId) => startReaming(caseId, live)} />;
+/** The page that the address names, for who may see it; else the way in. */
+export function App({ route, live, identity }: Parts) {
+  return (
+    <IdentityContext.Provider value={identity}>
+      <Entrance identity={identity}>
+        <Page route={route.value} live={live} identity={identity} />
+      </Entrance>
+    </IdentityContext.Provider>
+  );
+}
+
+function Entrance({ identity, children }: { identity: Identity; children: preact.ComponentChildren }) {
+  switch (identity.phase.value) {
+    case 'known':
+      return <>{children}</>;
+    case 'unknown':
+      return <LoginPage />;
+    case 'asking':
+      return (
+        <p class="page-opening" role="status" data-testid="asking">
+          {identity.problem.value === null ? words.askingWho : `${identity.problem.value} ${words.stillAsking}`}
+        </p>
+      );
+  }
+}
+
+function Page({ route, live, identity }: { route: Route; live: LivePageParts; identity: Identity }) {
+  const may = identity.may.value;
+  switch (route.kind) {
+    case 'live':
+      return <LivePage {...live} />;
+    case 'cases':
+    case 'case':
+      if (!may.readCases) return <NotForYou />;
+      return casePages.show(({ CasePages }) => (
+        <CasePages route={route} startReaming={(caseId) => startReaming(caseId, live)} />
+      ));
+    case 'sessions':
+      if (!may.ream) return <NotForYou />;
+      return sessionPages.show(({ SessionsPage }) => <SessionsPage live={live} />);
+    case 'studies':
+    case 'study':
+    case 'questionnaire':
+      if (!may.takePart) return <NotForYou />;
+      return studyPages.show(({ StudyPages }) => <StudyPages route={route} live={live} />);
+    case 'users':
+      if (!may.operate) return <NotForYou />;
+      return accessPages.show(({ UsersPage }) => <UsersPage />);
+    case 'account':
+      if (identity.userId.value === null) return <NotForYou />;
+      return accessPages.show(({ AccountPage }) => <AccountPage />);
+  }
+}
+
+function NotForYou() {
+  return (
+    <p class="page-opening" role="status" data-testid="not-for-you">
+      {words.notForYou} <a href={addressOfRoute({ kind: 'live' })}>{words.backToLivePage}</a>
+    </p>
+  );
 }
 
 /** Makes a session on a case, takes the reamer into the hand, and shows it; throws an Error with words when it fails. */

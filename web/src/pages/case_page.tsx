@@ -29,7 +29,7 @@ export function CasePage({ keeper, startReaming }: Parts) {
   if (problem !== null || details === null)
     return (
       <div class="page case-page-opening">
-        <CaseHeader title={null} details={null} />
+        <CaseHeader details={null} />
         <main class="case-note" data-testid="case-note">
           {problem === null ? (
             <p role="status">{caseWords.loadingCase}</p>
@@ -47,7 +47,7 @@ export function CasePage({ keeper, startReaming }: Parts) {
   const shown = (id: ViewId) => enlarged.value === null || enlarged.value === id;
   return (
     <div class="page case-page" onKeyDown={(event) => views.key(event)}>
-      <CaseHeader title={details.name} details={details} />
+      <CaseHeader details={details} />
       <main class={enlarged.value === null && details.ct !== null ? 'four-views' : 'one-view'}>
         {details.ct !== null &&
           planeNames

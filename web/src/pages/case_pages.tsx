@@ -2,6 +2,7 @@ import '../case.css';
 
 import { useEffect, useMemo } from 'preact/hooks';
 
+import { useIdentity } from '../panels/site_nav';
 import { CaseKeeper } from '../state/case/case_keeper';
 import { CasesKeeper } from '../state/case/new_case';
 import { addressOfRoute, type Route } from '../state/route';
@@ -24,12 +25,16 @@ interface Parts {
 
 /** The pages of the cases, loaded when one of them is first opened. */
 export function CasePages({ route, startReaming }: Parts) {
-  if (route.kind === 'case') return <OneCase key={route.id} id={route.id} startReaming={startReaming} />;
-  return <CasesPage keeper={cases} />;
+  const { editCases } = useIdentity().may.value;
+  if (route.kind === 'case')
+    return <OneCase key={route.id} id={route.id} mayEdit={editCases} startReaming={startReaming} />;
+  return <CasesPage keeper={cases} mayEdit={editCases} />;
 }
 
-function OneCase({ id, startReaming }: { id: string; startReaming: Parts['startReaming'] }) {
-  const keeper = useMemo(() => new CaseKeeper(api, id), [id]);
+type OneCaseParts = { id: string; mayEdit: boolean; startReaming: Parts['startReaming'] };
+
+function OneCase({ id, mayEdit, startReaming }: OneCaseParts) {
+  const keeper = useMemo(() => new CaseKeeper(api, id, mayEdit), [id, mayEdit]);
   useEffect(() => {
     void keeper.open();
     const leave = () => keeper.landmarks.leave();

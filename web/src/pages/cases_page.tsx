@@ -3,7 +3,7 @@ import { useEffect } from 'preact/hooks';
 
 import { caseWords } from '../case_words';
 import { CaseHeader } from '../panels/case/case_header';
-import { Remark } from '../panels/case/fields';
+import { Remark } from '../panels/fields';
 import { NewCasePanel } from '../panels/case/new_case_panel';
 import type { CasesKeeper } from '../state/case/new_case';
 import { addressOfRoute } from '../state/route';
@@ -12,7 +12,7 @@ import type { CaseSummary } from '../wire/case_types';
 const readAgainMs = 5000;
 
 /** All cases, and the making of a new one. */
-export function CasesPage({ keeper }: { keeper: CasesKeeper }) {
+export function CasesPage({ keeper, mayEdit }: { keeper: CasesKeeper; mayEdit: boolean }) {
   useEffect(() => {
     keeper.listFresh.value = false;
     void keeper.readCases();
@@ -22,8 +22,8 @@ export function CasesPage({ keeper }: { keeper: CasesKeeper }) {
   const cases = keeper.cases.value;
   const problem = keeper.listProblem.value;
   return (
-    <div class="page cases-page">
-      <CaseHeader title={null} details={null} />
+    <div class={mayEdit ? 'page cases-page' : 'page cases-page read-only'}>
+      <CaseHeader details={null} />
       <main class="case-list">
         <h2>{caseWords.cases}</h2>
         {problem !== null && (
@@ -46,18 +46,18 @@ export function CasesPage({ keeper }: { keeper: CasesKeeper }) {
             </thead>
             <tbody>
               {cases.map((one) => (
-                <CaseRow key={one.id} one={one} keeper={keeper} />
+                <CaseRow key={one.id} one={one} keeper={keeper} mayEdit={mayEdit} />
               ))}
             </tbody>
           </table>
         )}
       </main>
-      <NewCasePanel keeper={keeper} />
+      {mayEdit && <NewCasePanel keeper={keeper} />}
     </div>
   );
 }
 
-function CaseRow({ one, keeper }: { one: CaseSummary; keeper: CasesKeeper }) {
+function CaseRow({ one, keeper, mayEdit }: { one: CaseSummary; keeper: CasesKeeper; mayEdit: boolean }) {
   const asking = useSignal(false);
   const name = one.name || one.id;
   const ready = one.stage === 'built' && one.planned;
@@ -107,7 +107,7 @@ function CaseRow({ one, keeper }: { one: CaseSummary; keeper: CasesKeeper }) {
             >
               {caseWords.open}
             </a>
-            {one.id !== 'demo' && (
+            {mayEdit && one.id !== 'demo' && (
               <button
                 type="button"
                 class="plain-button"

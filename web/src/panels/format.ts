@@ -7,6 +7,13 @@ export function fixed(value: number | null | undefined, decimals: number): strin
   return Number(text) === 0 ? (0).toFixed(decimals) : text.replace('-', '−');
 }
 
+/** The server's words as a sentence. */
+export function sentence(said: string): string {
+  if (said === '') return '';
+  const text = said.charAt(0).toUpperCase() + said.slice(1);
+  return /[.!?…]$/.test(text) ? text : `${text}.`;
+}
+
 /** A length of time as minutes, seconds and tenths. */
 export function minutes(seconds: number): string {
   const tenths = Math.round(seconds * 10);

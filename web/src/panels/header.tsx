@@ -1,10 +1,12 @@
 import type { Store } from '../state/store';
 import type { LinkState } from '../wire/link';
 import { words } from '../words';
+import { SiteNav, WhoAmI } from './site_nav';
 
 const linkWords: Record<LinkState['kind'], string> = {
   connecting: words.linkConnecting,
   live: words.linkLive,
+  nothing: words.linkNothing,
   silent: words.linkSilent,
   lost: words.linkLost,
   refused: words.linkRefused,
@@ -20,15 +22,14 @@ export function Header({ store }: { store: Store }) {
       <h1 class="product">
         {words.product} <span class="tagline">{words.tagline}</span>
       </h1>
+      <SiteNav here="live" />
       {hello !== null && (
         <p class="case" data-testid="case">
           <strong>{words.side(hello.side)}</strong>
           <span>{hello.caseName || hello.caseId}</span>
         </p>
       )}
-      <a class="to-cases" href="#/cases" data-testid="to-cases">
-        {words.cases}
-      </a>
+      <WhoAmI />
       <p class={`link link-${look}`} role="status" data-testid="link-state" data-link={link}>
         <span class="link-dot" aria-hidden="true" />
         {look === 'replay' ? words.linkReplay : linkWords[link]}

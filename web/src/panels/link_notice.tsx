@@ -4,13 +4,13 @@ import type { Store } from '../state/store';
 import type { LinkState } from '../wire/link';
 import { protocolRevision } from '../wire/messages';
 import { words } from '../words';
-import { clock } from './format';
+import { clock, sentence } from './format';
 
 /** Over the picture, in words, whenever it is not live. */
-export function LinkNotice({ store }: { store: Store }) {
+export function LinkNotice({ store, mayReam }: { store: Store; mayReam: boolean }) {
   const link = store.link.value;
   const nowMs = useNow(link.kind === 'lost');
-  const [title, text] = notice(store, link, nowMs);
+  const [title, text] = notice(store, link, nowMs, mayReam);
   if (title === '') return null;
   return (
     <div class={`notice notice-${link.kind}`} role="status" data-testid="link-notice">
@@ -20,17 +20,20 @@ export function LinkNotice({ store }: { store: Store }) {
   );
 }
 
-function notice(store: Store, link: LinkState, nowMs: number): [title: string, text: string] {
+function notice(store: Store, link: LinkState, nowMs: number, mayReam: boolean): [title: string, text: string] {
   switch (link.kind) {
     case 'live':
       if (store.pictureComplete.value) return ['', ''];
       return [store.metWithLoss.value ? words.catchingUp : words.loading, ''];
     case 'connecting':
       return [words.preparing, ''];
+    case 'nothing':
+      return [words.nothingTitle, mayReam ? words.nothingToMake : words.nothingToWatch];
     case 'silent':
       return [words.silentTitle, `${picture(store)} ${words.waiting}`];
     case 'lost':
-      if (!store.hasPicture.value) return [words.neverTitle, `${link.reason} ${retry(link.retryAtMs, nowMs)}`];
+      if (!store.hasPicture.value)
+        return [words.neverTitle, `${sentence(link.reason)} ${retry(link.retryAtMs, nowMs)}`];
       return [words.lostTitle, `${picture(store)} ${retry(link.retryAtMs, nowMs)}`];
     case 'refused':
       return [words.refusedTitle, words.refusedText(protocolRevision, link.serverRevision)];

@@ -8,6 +8,7 @@ import { words } from '../words';
 import { Guide } from './guide';
 import { LinkNotice } from './link_notice';
 import { PracticeNotice } from './practice_notice';
+import { useIdentity } from './site_nav';
 
 const views: readonly (readonly [ViewName, string])[] = [
   ['plan', words.viewPlan],
@@ -18,6 +19,7 @@ const views: readonly (readonly [ViewName, string])[] = [
 /** The bone and the reamer, with the view's buttons; dimmed whenever it is not live. */
 export function Picture({ store, practice, scene }: { store: Store; practice: PracticeStore; scene: BoneScene }) {
   const place = useRef<HTMLDivElement>(null);
+  const may = useIdentity().may.value;
   useEffect(() => {
     const canvas = scene.canvas;
     canvas.tabIndex = 0;
@@ -47,7 +49,7 @@ export function Picture({ store, practice, scene }: { store: Store; practice: Pr
       {steering && store.upToDate.value ? (
         <PracticeNotice store={store} practice={practice} />
       ) : (
-        <LinkNotice store={store} />
+        <LinkNotice store={store} mayReam={may.ream} />
       )}
       <div class="views" role="group" aria-label={words.view}>
         {views.map(([view, label]) => (

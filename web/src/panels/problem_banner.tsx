@@ -1,5 +1,6 @@
 import type { Store } from '../state/store';
 import { words } from '../words';
+import { sentence } from './format';
 
 /** What went wrong at the user's hand, until dismissed. */
 export function ProblemBanner({ store }: { store: Store }) {
@@ -8,7 +9,7 @@ export function ProblemBanner({ store }: { store: Store }) {
   return (
     <div class="problem" role="alert" data-testid="problem">
       <p>
-        <strong>{words.problem}.</strong> {problem}
+        <strong>{words.problem}.</strong> {sentence(problem)}
       </p>
       <button type="button" onClick={() => (store.problem.value = null)}>
         {words.dismiss}

@@ -3,6 +3,9 @@ import type { PracticeStore } from '../state/practice_store';
 import type { Store } from '../state/store';
 import type { Watcher } from '../state/watcher';
 import { words } from '../words';
+import { SessionControls } from './session_controls';
+import { SessionLabels } from './session_labels';
+import { useIdentity } from './site_nav';
 
 interface Parts {
   store: Store;
@@ -13,47 +16,52 @@ interface Parts {
 
 /** The things to do, and what the session is doing. */
 export function RunPanel({ store, watcher, practice, practiceStore }: Parts) {
-  const reachable = store.link.value.kind === 'live';
+  const may = useIdentity().may.value;
+  const reachable = store.link.value.kind === 'live' || store.link.value.kind === 'nothing';
   const active = reachable && store.active.value;
   const idle = reachable && !active && !store.busy.value;
   const running = practiceStore.sessionId.value === null ? words.running : words.practising;
   return (
     <section class="run" aria-label={words.runDemo}>
-      <div class="run-buttons">
-        {!active && (
+      {may.ream && (
+        <div class="run-buttons">
+          {!active && (
+            <button
+              type="button"
+              class="run-button"
+              data-testid="practise"
+              disabled={!idle}
+              onClick={() => void practise(watcher, practice)}
+            >
+              {words.practise}
+            </button>
+          )}
           <button
             type="button"
-            class="run-button"
-            data-testid="practise"
+            class={active ? 'run-button' : 'run-button run-second'}
+            data-testid="run-demo"
             disabled={!idle}
-            onClick={() => void practise(watcher, practice)}
+            onClick={() => void watcher.runDemo()}
           >
-            {words.practise}
+            {store.busy.value ? words.starting : active ? running : words.runDemo}
           </button>
-        )}
-        <button
-          type="button"
-          class={active ? 'run-button' : 'run-button run-second'}
-          data-testid="run-demo"
-          disabled={!idle}
-          onClick={() => void watcher.runDemo()}
-        >
-          {store.busy.value ? words.starting : active ? running : words.runDemo}
-        </button>
-        {active && <TakeOver store={store} practice={practice} practiceStore={practiceStore} />}
-        {active && (
-          <button
-            type="button"
-            class="stop-button"
-            data-testid="stop"
-            disabled={store.busy.value}
-            onClick={() => void watcher.stop()}
-          >
-            {words.stop}
-          </button>
-        )}
-      </div>
+          {active && <TakeOver store={store} practice={practice} practiceStore={practiceStore} />}
+          {active && (
+            <button
+              type="button"
+              class="stop-button"
+              data-testid="stop"
+              disabled={store.busy.value}
+              onClick={() => void watcher.stop()}
+            >
+              {words.stop}
+            </button>
+          )}
+        </div>
+      )}
+      {may.ream && <SessionControls {...{ store, watcher, practice, practiceStore }} />}
       <StateLine store={store} practiceStore={practiceStore} reachable={reachable} />
+      <SessionLabels store={store} />
     </section>
   );
 }

@@ -1,17 +1,25 @@
-import { canBeReplayed } from '../state/choose_session';
+import { canBeReplayed, isActive } from '../state/choose_session';
+import { addressOfRoute } from '../state/route';
 import type { Store } from '../state/store';
 import type { Watcher } from '../state/watcher';
 import type { Session } from '../wire/api';
 import { words } from '../words';
 import { dayAndTime, minutes } from './format';
+import { useIdentity } from './site_nav';
 
 /** Earlier sessions, newest first; those that have ended can be replayed. */
 export function SessionList({ store, watcher }: { store: Store; watcher: Watcher }) {
+  const may = useIdentity().may.value;
   const sessions = store.sessions.value.filter((session) => session.state !== 'created');
   return (
     <details class="sessions" data-testid="sessions">
       <summary>{words.sessions(sessions.length)}</summary>
       {sessions.length === 0 && <p class="soft">{words.noSessions}</p>}
+      {may.ream && (
+        <a class="all-sessions" href={addressOfRoute({ kind: 'sessions' })} data-testid="all-sessions">
+          {words.allSessions}
+        </a>
+      )}
       <ul>
         {sessions.map((session) => (
           <Row key={session.id} session={session} store={store} watcher={watcher} />
@@ -21,23 +29,50 @@ export function SessionList({ store, watcher }: { store: Store; watcher: Watcher
   );
 }
 
-function Row({ session, store, watcher }: { session: Session; store: Store; watcher: Watcher }) {
+function Row({ session, store, watcher }: RowParts) {
   return (
     <li data-testid={`session-${session.id}`} data-state={session.state}>
       <span class="session-when">{dayAndTime(session.created_utc)}</span>
       <span>
-        {session.case} <span class="soft">{minutes(session.duration_s)}</span>
+        {session.trainee || session.case} <span class="soft">{minutes(session.duration_s)}</span>
       </span>
       <span class={`session-word session-${session.state}`}>{words.state[session.state]}</span>
-      <button
-        type="button"
-        data-testid={`replay-${session.id}`}
-        disabled={!canBeReplayed(session) || store.busy.value || store.hello.value?.replayOf === session.id}
-        aria-label={words.replaySession(session.id)}
-        onClick={() => void watcher.openReplay(session.id)}
-      >
-        {words.replay}
-      </button>
+      {isActive(session) ? (
+        <WatchButton session={session} store={store} watcher={watcher} />
+      ) : (
+        <ReplayButton session={session} store={store} watcher={watcher} />
+      )}
     </li>
+  );
+}
+
+type RowParts = { session: Session; store: Store; watcher: Watcher };
+
+function WatchButton({ session, store, watcher }: RowParts) {
+  const watched = store.sessionId.value === session.id;
+  return (
+    <button
+      type="button"
+      data-testid={`watch-${session.id}`}
+      disabled={watched}
+      aria-label={words.watchSession(session.id)}
+      onClick={() => watcher.watch(session.id)}
+    >
+      {watched ? words.watched : words.watch}
+    </button>
+  );
+}
+
+function ReplayButton({ session, store, watcher }: RowParts) {
+  return (
+    <button
+      type="button"
+      data-testid={`replay-${session.id}`}
+      disabled={!canBeReplayed(session) || store.busy.value || store.hello.value?.replayOf === session.id}
+      aria-label={words.replaySession(session.id)}
+      onClick={() => void watcher.openReplay(session.id)}
+    >
+      {words.replay}
+    </button>
   );
 }

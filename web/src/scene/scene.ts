@@ -118,8 +118,9 @@ export class BoneScene implements SteeredView {
     this.invalidate();
   }
 
+  /** What nobody sees is not drawn; resize() draws it when it is shown again. */
   private invalidate(): void {
-    if (this.drawRequested) return;
+    if (this.drawRequested || !this.canvas.isConnected) return;
     this.drawRequested = true;
     requestAnimationFrame(() => {
       this.drawRequested = false;

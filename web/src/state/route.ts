@@ -1,16 +1,47 @@
 import type { Signal } from '@preact/signals';
 
 /** Which page is shown; the live page's own addresses (replays) are no concern of it. */
-export type Route = { kind: 'live' } | { kind: 'cases' } | { kind: 'case'; id: string };
+export type Route =
+  | { kind: 'live' }
+  | { kind: 'sessions' }
+  | { kind: 'cases' }
+  | { kind: 'case'; id: string }
+  | { kind: 'studies' }
+  | { kind: 'study'; id: string }
+  | { kind: 'questionnaire'; id: string; participant: string }
+  | { kind: 'users' }
+  | { kind: 'account' };
+
+const places = ['sessions', 'cases', 'studies', 'users', 'account'] as const;
 
 export function routeInAddress(hash: string): Route {
-  const [found, id] = /^#\/cases(?:\/([a-z0-9-]{1,64}))?\/?$/.exec(hash) ?? [];
+  const [found, place = '', id, participant] =
+    /^#\/([a-z]+)(?:\/([a-z0-9-]{1,64})(?:\/answers\/([2-9A-Z]{2}-[2-9A-Z]{3}))?)?\/?(?:\?.*)?$/.exec(hash) ?? [];
   if (found === undefined) return { kind: 'live' };
-  return id === undefined ? { kind: 'cases' } : { kind: 'case', id };
+  const kind = places.find((known) => known === place);
+  if (id === undefined) return kind === undefined ? { kind: 'live' } : { kind };
+  if (place === 'studies')
+    return participant === undefined ? { kind: 'study', id } : { kind: 'questionnaire', id, participant };
+  return place === 'cases' && participant === undefined ? { kind: 'case', id } : { kind: 'live' };
 }
 
 export function addressOfRoute(route: Route): string {
-  return route.kind === 'live' ? '#' : route.kind === 'cases' ? '#/cases' : `#/cases/${route.id}`;
+  switch (route.kind) {
+    case 'live':
+      return '#';
+    case 'case':
+      return `#/cases/${route.id}`;
+    case 'study':
+      return `#/studies/${route.id}`;
+    case 'questionnaire':
+      return `#/studies/${route.id}/answers/${route.participant}`;
+    case 'sessions':
+    case 'cases':
+    case 'studies':
+    case 'users':
+    case 'account':
+      return `#/${route.kind}`;
+  }
 }
 
 /** Changes of the address change the page. */

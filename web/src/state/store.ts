@@ -16,6 +16,8 @@ export class Store {
   /** State of the watched session, from whichever spoke last, telemetry or REST. */
   readonly sessionState = signal<SessionState | null>(null);
   readonly sessionId = signal<string | null>(null);
+  /** The session that the user chose to watch; null: whichever is under way. */
+  readonly chosenId = signal<string | null>(null);
   /** False from the loss of a stream until the next one has sent the whole picture. */
   readonly pictureComplete = signal(false);
   /** Whether a stream was lost since the page was opened. */

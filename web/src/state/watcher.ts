@@ -5,7 +5,7 @@ import { Link, type LinkState } from '../wire/link';
 import type { Hello, MeshDelta, StreamMessage, Telemetry, ToolMesh } from '../wire/messages';
 import type { StreamSocket } from '../wire/stream_socket';
 import { words } from '../words';
-import { chooseSession, isActive } from './choose_session';
+import { chooseSession, isActive, type Watched } from './choose_session';
 import { Scrubber } from './scrubber';
 import type { Store } from './store';
 
@@ -17,6 +17,12 @@ export interface Picture {
 }
 
 const idlePollMs = 2500;
+
+/** What the watcher may do, as of now. */
+export interface WatcherPolicy {
+  /** Make a session that waits to be started where there is none, so that there is bone to see. */
+  makesSession(): boolean;
+}
 
 /**
  * Watches one session at a time: finds it, follows its stream into the store and the picture, and finds another when
@@ -30,13 +36,14 @@ export class Watcher {
   /** A stream was asked for and has not said hello. */
   private awaitingHello = false;
   private endedWithoutHello = 0;
-  private started = false;
+  private pollTimer: ReturnType<typeof setInterval> | undefined;
 
   constructor(
     private readonly store: Store,
     private readonly api: Api,
     socket: StreamSocket,
     private readonly picture: Picture,
+    private readonly policy: WatcherPolicy = { makesSession: () => true },
   ) {
     this.link = new Link({
       socket,
@@ -50,13 +57,31 @@ export class Watcher {
     );
   }
 
-  /** Begins to watch, once. */
+  /** Begins to watch, unless it does already. */
   start(): void {
-    if (this.started) return;
-    this.started = true;
+    if (this.pollTimer !== undefined) return;
     this.link.connect();
     void this.readSessions();
-    setInterval(() => void this.lookForNewer(), idlePollMs);
+    this.pollTimer = setInterval(() => void this.lookForNewer(), idlePollMs);
+  }
+
+  /** Watches nothing any more, and nothing that was seen counts as live. */
+  rest(): void {
+    if (this.pollTimer === undefined) return;
+    clearInterval(this.pollTimer);
+    this.pollTimer = undefined;
+    this.link.stop();
+    this.store.pictureComplete.value = false;
+  }
+
+  /** Watches this session, and no newer one that is started elsewhere, for as long as it can be watched. */
+  watch(sessionId: string): void {
+    batch(() => {
+      if (this.store.replayId.value !== null) this.forgetReplay();
+      this.store.chosenId.value = sessionId;
+      this.store.sessionId.value = sessionId;
+    });
+    this.turn();
   }
 
   /** Starts the watched session if it waits to be started, else a new one; problems are told in the store. */
@@ -65,22 +90,67 @@ export class Watcher {
       const waiting = this.store.sessionState.value === 'created' ? this.store.sessionId.value : null;
       const session = (waiting === null ? null : await this.startWaiting(waiting)) ?? (await this.startNew());
       this.store.sessionState.value = session.state;
+      this.store.chosenId.value = null;
       if (session.id !== this.store.hello.value?.sessionId || this.store.link.value.kind !== 'live') {
         this.store.sessionId.value = session.id;
-        this.link.connect();
+        this.turn();
       }
     });
   }
 
   /** Makes and starts a session that a hand in the browser steers, and watches it; its id, or null when that failed. */
-  async practise(caseId = 'demo'): Promise<string | null> {
+  practise(caseId = 'demo'): Promise<string | null> {
+    return this.begin(() => this.api.createPractice(caseId));
+  }
+
+  /** Makes and starts a session of a study, and watches it; null when that failed. `participant` null: the user. */
+  async train(studyId: string, participant: string | null, caseId: string): Promise<Session | null> {
+    let made: Session | null = null;
+    await this.begin(async () => (made = await this.api.createInStudy(studyId, participant, caseId)));
+    return made;
+  }
+
+  private async begin(make: () => Promise<Session>): Promise<string | null> {
     let id: string | null = null;
     await this.carryOut(async () => {
-      const session = await this.api.start((await this.api.createPractice(caseId)).id);
+      const session = await this.api.start((await make()).id);
       id = session.id;
-      this.store.sessionId.value = session.id;
+      batch(() => {
+        this.store.chosenId.value = null;
+        this.store.sessionId.value = session.id;
+        this.store.sessionState.value = session.state;
+      });
+      this.turn();
+    });
+    return id;
+  }
+
+  /** Pauses the watched session, or lets it go on. */
+  async pause(paused: boolean): Promise<void> {
+    await this.carryOut(async () => {
+      const id = this.store.sessionId.value;
+      if (id === null) return;
+      const session = await (paused ? this.api.pause(id) : this.api.start(id));
+      if (id !== this.store.sessionId.value) return;
       this.store.sessionState.value = session.state;
-      this.link.connect();
+      this.store.details.value = session;
+    });
+  }
+
+  /** Begins the watched session anew on intact bone, as another session; its id, or null when that failed. */
+  async reset(): Promise<string | null> {
+    let id: string | null = null;
+    await this.carryOut(async () => {
+      const before = this.store.sessionId.value;
+      if (before === null) return;
+      const session = await this.api.reset(before);
+      id = session.id;
+      batch(() => {
+        this.store.sessionId.value = session.id;
+        this.store.sessionState.value = session.state;
+        if (this.store.chosenId.value !== null) this.store.chosenId.value = session.id;
+      });
+      this.turn();
     });
     return id;
   }
@@ -105,20 +175,24 @@ export class Watcher {
   watchReplay(replayId: string): void {
     if (replayId === this.store.replayId.value) return;
     this.store.replayId.value = replayId;
-    this.link.connect();
+    this.turn();
   }
 
   /** Back to what is live. The replay stays open for others. */
   leaveReplay(): void {
     if (this.store.replayId.value === null) return;
+    this.forgetReplay();
+    this.turn();
+  }
+
+  private forgetReplay(): void {
     batch(() => {
       this.store.replayId.value = null;
-      this.store.sessionId.value = null;
+      this.store.sessionId.value = this.store.chosenId.value;
       this.store.playback.value = null;
       this.store.marks.value = [];
       this.store.recordingWarning.value = null;
     });
-    this.link.connect();
   }
 
   /** Plays, rests or changes the speed of the watched replay. */
@@ -171,7 +245,13 @@ export class Watcher {
     this.store.problem.value = error instanceof Error ? error.message : String(error);
   }
 
-  private async findStream(): Promise<string> {
+  /** Leaves what is shown for what is to be watched now; until that has come, what is shown is of before. */
+  private turn(): void {
+    this.store.pictureComplete.value = false;
+    this.link.connect();
+  }
+
+  private async findStream(): Promise<string | null> {
     this.awaitingHello = false;
     const replayId = this.store.replayId.value;
     if (replayId !== null) {
@@ -181,7 +261,14 @@ export class Watcher {
     const sessions = await this.api.sessions();
     this.store.sessions.value = sessions;
     const session =
-      chooseSession(sessions, this.store.sessionId.value, this.unstreamable) ?? (await this.api.createDemo());
+      chooseSession(sessions, this.watched(), this.unstreamable) ??
+      (this.policy.makesSession() ? await this.api.createDemo() : undefined);
+    if (session === undefined) {
+      await this.api.ready();
+      this.store.sessionId.value = null;
+      this.store.sessionState.value = null;
+      return null;
+    }
     batch(() => {
       if (session.id !== this.store.sessionId.value) this.endedWithoutHello = 0;
       this.store.sessionId.value = session.id;
@@ -203,15 +290,15 @@ export class Watcher {
       return this.api.streamUrl(replay.id);
     } catch (error) {
       if (!(error instanceof ApiError) || error.status !== 404) throw error;
-      batch(() => {
-        this.store.replayId.value = null;
-        this.store.sessionId.value = null;
-        this.store.playback.value = null;
-        this.store.recordingWarning.value = null;
-        this.store.problem.value = words.replayGone;
-      });
+      this.forgetReplay();
+      this.store.problem.value = words.replayGone;
       return null;
     }
+  }
+
+  private watched(): Watched {
+    const chosenId = this.store.chosenId.value;
+    return { id: chosenId ?? this.store.sessionId.value, chosen: chosenId !== null };
   }
 
   private onLink(state: LinkState): void {
@@ -328,7 +415,7 @@ export class Watcher {
     void this.readDetails();
     const sessions = await this.readSessions();
     if (this.store.active.value || this.store.replaying.value || this.store.busy.value) return;
-    const chosen = chooseSession(sessions, this.store.sessionId.value, this.unstreamable);
-    if (chosen !== undefined && isActive(chosen) && chosen.id !== this.store.sessionId.value) this.link.connect();
+    const chosen = chooseSession(sessions, this.watched(), this.unstreamable);
+    if (chosen !== undefined && isActive(chosen) && chosen.id !== this.store.sessionId.value) this.turn();
   }
 }

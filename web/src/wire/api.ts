@@ -1,5 +1,5 @@
 import type { SessionState } from './messages';
-import { requestJson } from './rest';
+import { request, requestJson } from './rest';
 
 export { ApiError } from './rest';
 
@@ -18,6 +18,17 @@ export interface Session {
   device?: DeviceHealth;
   /** False for sessions of earlier runs of the server, which are only in their folders; absent means true. */
   streamable?: boolean;
+  /** Who trains, for people: a name, or a participant's code where the name is not for this user. */
+  trainee?: string | null;
+  /** What people call it. */
+  title?: string | null;
+  study?: string | null;
+  participant?: string | null;
+  /** 2 after the first reset, and so on. */
+  attempt?: number;
+  reset_of?: string | null;
+  /** Paused by the server's word, so that it goes on by that too. */
+  held?: boolean;
 }
 
 /** Times of one kind since the session began, us. */
@@ -98,6 +109,14 @@ export class Api {
   createPractice(caseId: string): Promise<Session> {
     return this.call('POST', 'sessions', { case: caseId, device: 'browser' });
   }
+  /** A session of a study; participant null: the user. */
+  createInStudy(study: string, participant: string | null, caseId: string): Promise<Session> {
+    return this.call('POST', 'sessions', { study, case: caseId, ...(participant === null ? {} : { participant }) });
+  }
+  /** Throws, in the server's words, while it still prepares for sessions. */
+  async ready(): Promise<void> {
+    await request(`${this.base}/readyz`, 'GET');
+  }
   session(id: string): Promise<Session> {
     return this.call('GET', `sessions/${encodeURIComponent(id)}`);
   }
@@ -106,6 +125,13 @@ export class Api {
   }
   stop(id: string): Promise<Session> {
     return this.call('POST', `sessions/${encodeURIComponent(id)}/stop`);
+  }
+  pause(id: string): Promise<Session> {
+    return this.call('POST', `sessions/${encodeURIComponent(id)}/pause`);
+  }
+  /** Another session of the same kind on intact bone; the one before ends. */
+  reset(id: string): Promise<Session> {
+    return this.call('POST', `sessions/${encodeURIComponent(id)}/reset`);
   }
   openReplay(sessionId: string): Promise<Replay> {
     return this.call('POST', `sessions/${encodeURIComponent(sessionId)}/replay`);

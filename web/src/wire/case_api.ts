@@ -15,14 +15,22 @@ import type {
   Upload,
   VoxelAxis,
 } from './case_types';
-import { type CallOptions, type Method, request, requestJson } from './rest';
+import { type CallOptions, credentials, type Method, request, requestJson } from './rest';
 
 /** Calls of the REST interface that make cases of CTs; `base` is the server's origin. */
 export class CaseApi {
   constructor(private readonly base: string) {}
 
+  /** All of them, page by page. */
   async cases(): Promise<CaseSummary[]> {
-    return (await this.call<{ cases: CaseSummary[] }>('GET', 'cases')).cases;
+    const all: CaseSummary[] = [];
+    for (let cursor: string | null = ''; cursor !== null;) {
+      const after: string = cursor === '' ? '' : `&cursor=${encodeURIComponent(cursor)}`;
+      const page = await this.call<{ cases: CaseSummary[]; next?: string | null }>('GET', `cases?limit=500${after}`);
+      all.push(...page.cases);
+      cursor = page.next ?? null;
+    }
+    return all;
   }
   case(id: string): Promise<CaseDetails> {
     return this.call('GET', this.path(id));
@@ -108,7 +116,7 @@ export class CaseApi {
     void fetch(this.url(`${this.path(id)}/landmarks`), {
       method: 'PUT',
       keepalive: true,
-      headers: { 'content-type': 'application/json' },
+      headers: { 'content-type': 'application/json', ...credentials.headers() },
       body: JSON.stringify(landmarks),
     }).catch(() => undefined);
   }

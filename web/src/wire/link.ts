@@ -7,19 +7,21 @@ import type { StreamSocket } from './stream_socket';
  * - live: messages arrive as they should
  * - silent: connected, but a running session has sent nothing for a while
  * - lost: no connection; the next attempt is at retryAtMs (null: under way now)
+ * - nothing: the server answers, but there is no session to see yet; it is looked for again and again
  * - refused: the server speaks another revision; trying again would not help
  */
 export type LinkState =
   | { kind: 'connecting' }
   | { kind: 'live' }
   | { kind: 'silent'; sinceMs: number }
+  | { kind: 'nothing' }
   | { kind: 'lost'; sinceMs: number; retryAtMs: number | null; reason: string }
   | { kind: 'refused'; serverRevision: number };
 
 export interface LinkDuties {
   socket: StreamSocket;
-  /** Finds the session to watch and gives its stream's address; asked anew for each attempt. */
-  findStream(): Promise<string>;
+  /** Finds the session to watch and gives its stream's address, null where there is none; asked for each attempt. */
+  findStream(): Promise<string | null>;
   onState(state: LinkState): void;
   onMessage(message: StreamMessage): void;
 }
@@ -28,6 +30,8 @@ export interface LinkDuties {
 export const silentAfterMs = 1200;
 /** After this long the connection is given up. */
 export const lostAfterSilenceMs = 5000;
+/** Where there was no session to see, one is looked for again after this time. */
+export const lookAgainMs = 2500;
 /** A connection that has not said hello by then is given up. */
 export const helloWithinMs = 5000;
 
@@ -50,10 +54,12 @@ export class Link {
     void this.tryOnce(++this.attempt);
   }
 
+  /** Ends the stream; nothing counts as live until `connect`. */
   stop(): void {
     this.stopTimers();
     ++this.attempt;
     this.duties.socket.close();
+    this.set({ kind: 'connecting' });
   }
 
   /** Whether the session is one that sends all the time (running), so that silence means trouble. */
@@ -71,6 +77,12 @@ export class Link {
     try {
       const url = await this.duties.findStream();
       if (attempt !== this.attempt) return;
+      if (url === null) {
+        this.backoff.reset();
+        this.set({ kind: 'nothing' });
+        this.retryTimer = setTimeout(() => void this.tryOnce(attempt), lookAgainMs);
+        return;
+      }
       this.silenceTimer = setTimeout(() => this.lose('no hello from the server'), helloWithinMs);
       this.duties.socket.open(url, {
         onMessage: (message) => this.hear(message),

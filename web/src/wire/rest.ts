@@ -6,34 +6,70 @@ export class ApiError extends Error {
     message: string,
     /** HTTP status, 0 when there was no answer. */
     readonly status: number,
+    /** The server asks not to try again before, s; null when it says nothing. */
+    readonly retryAfterS: number | null = null,
   ) {
     super(message);
   }
 }
 
-export type Method = 'GET' | 'POST' | 'PUT' | 'DELETE';
+export type Method = 'GET' | 'POST' | 'PUT' | 'PATCH' | 'DELETE';
 
 // The first session of a fresh server waits until the demo case is made.
-const timeoutMs: Record<Method, number> = { GET: 10000, POST: 60000, PUT: 60000, DELETE: 10000 };
+const timeoutMs: Record<Method, number> = { GET: 10000, POST: 60000, PUT: 60000, PATCH: 20000, DELETE: 10000 };
 
 export interface CallOptions {
   /** Sent as JSON, or as bytes where it is an array of them. */
   body?: object | Uint8Array<ArrayBuffer>;
   signal?: AbortSignal;
+  /** More headers, such as If-Match. */
+  headers?: Record<string, string>;
+  /** A refusal for want of a login is an answer here, and no end of the one there is. */
+  quiet?: boolean;
 }
+
+/** Who asks, for all calls of this page. */
+class Credentials {
+  /** Proves that a change comes from this page and not from one that only has its cookie; null: none is needed. */
+  csrfToken: string | null = null;
+  /** Told that the login has ended. */
+  onRefused: (() => void) | null = null;
+  /** Asks for the token anew; true when it was another. */
+  renew: (() => Promise<boolean>) | null = null;
+
+  headers(): Record<string, string> {
+    return this.csrfToken === null ? {} : { 'x-csrf-token': this.csrfToken };
+  }
+}
+
+export const credentials = new Credentials();
 
 /** One call of the REST interface; throws ApiError for anything but success, and AbortError when given up. */
 export async function request(url: string, method: Method, options: CallOptions = {}): Promise<Response> {
-  const { body, signal } = options;
+  let response = await send(url, method, options);
+  // Another window of this browser may have logged in anew meanwhile.
+  if (response.status === 403 && method !== 'GET' && options.quiet !== true && (await credentials.renew?.()) === true)
+    response = await send(url, method, options);
+  if (response.ok) return response;
+  const failure = await problem(response);
+  if (response.status === 401 && options.quiet !== true) credentials.onRefused?.();
+  throw failure;
+}
+
+async function send(url: string, method: Method, options: CallOptions): Promise<Response> {
+  const { body, signal, headers } = options;
   const bytes = body instanceof Uint8Array;
   const type = bytes ? 'application/octet-stream' : 'application/json';
   const timeout = AbortSignal.timeout(timeoutMs[method]);
-  let response: Response;
   try {
-    response = await fetch(url, {
+    return await fetch(url, {
       method,
       cache: 'no-store',
-      headers: body === undefined ? {} : { 'content-type': type },
+      headers: {
+        ...(body === undefined ? {} : { 'content-type': type }),
+        ...(method === 'GET' ? {} : credentials.headers()),
+        ...headers,
+      },
       body: body === undefined ? undefined : bytes ? body : JSON.stringify(body),
       signal: signal === undefined ? timeout : AbortSignal.any([timeout, signal]),
     });
@@ -41,8 +77,6 @@ export async function request(url: string, method: Method, options: CallOptions 
     if (signal?.aborted === true) throw error;
     throw new ApiError(words.noAnswer, 0);
   }
-  if (!response.ok) throw await problem(response);
-  return response;
 }
 
 /** The same for an answer in JSON. */
@@ -59,5 +93,15 @@ export async function requestJson<T>(url: string, method: Method, options: CallO
 async function problem(response: Response): Promise<ApiError> {
   const body = (await response.json().catch(() => null)) as { title?: unknown; detail?: unknown } | null;
   const said = [body?.detail, body?.title].find((text): text is string => typeof text === 'string' && text !== '');
-  return new ApiError(said ?? words.answeredWith(response.status), response.status);
+  const wait = Number(response.headers.get('retry-after') ?? NaN);
+  return new ApiError(
+    said ?? words.answeredWith(response.status),
+    response.status,
+    Number.isFinite(wait) && wait > 0 ? wait : null,
+  );
+}
+
+/** Words for people of whatever was thrown. */
+export function wordsOf(error: unknown): string {
+  return error instanceof Error ? error.message : String(error);
 }

@@ -1,6 +1,14 @@
 import { describe, expect, it } from 'vitest';
 
-import { minutes } from '../../src/panels/format';
+import { minutes, sentence } from '../../src/panels/format';
+
+describe('sentence', () => {
+  it('begins with a capital and ends with a stop, once', () => {
+    expect(sentence('name or password is wrong')).toBe('Name or password is wrong.');
+    expect(sentence('Try again.')).toBe('Try again.');
+    expect(sentence('')).toBe('');
+  });
+});
 
 describe('minutes', () => {
   it('counts minutes, seconds and tenths', () => {

@@ -15,34 +15,36 @@ const session = (id: string, state: Session['state'], second: number): Session =
   fault: null,
 });
 const none = new Set<string>();
+const watching = (id: string) => ({ id, chosen: false });
+const nobody = { id: null, chosen: false };
 
 describe('chooseSession', () => {
   it('asks for a new one when there is none', () => {
-    expect(chooseSession([], 'gone', none)).toBeUndefined();
+    expect(chooseSession([], watching('gone'), none)).toBeUndefined();
   });
   it('takes the newest that runs, not the newest of all', () => {
     const all = [session('a', 'running', 1), session('b', 'running', 2), session('c', 'created', 3)];
-    expect(chooseSession(all, null, none)?.id).toBe('b');
-    expect(chooseSession(all, 'c', none)?.id).toBe('b');
+    expect(chooseSession(all, nobody, none)?.id).toBe('b');
+    expect(chooseSession(all, watching('c'), none)?.id).toBe('b');
   });
   it('leaves those of earlier runs of the server aside', () => {
     const earlier = { ...session('b', 'finished', 2), streamable: false };
-    expect(chooseSession([session('a', 'finished', 1), earlier], 'b', none)?.id).toBe('a');
-    expect(chooseSession([earlier], null, none)).toBeUndefined();
+    expect(chooseSession([session('a', 'finished', 1), earlier], watching('b'), none)?.id).toBe('a');
+    expect(chooseSession([earlier], nobody, none)).toBeUndefined();
   });
   it('stays with a watched session that runs', () => {
-    expect(chooseSession([session('a', 'paused', 1), session('b', 'running', 2)], 'a', none)?.id).toBe('a');
+    expect(chooseSession([session('a', 'paused', 1), session('b', 'running', 2)], watching('a'), none)?.id).toBe('a');
   });
   it('stays with what is watched when nothing runs', () => {
-    expect(chooseSession([session('a', 'finished', 1), session('b', 'created', 2)], 'a', none)?.id).toBe('a');
+    expect(chooseSession([session('a', 'finished', 1), session('b', 'created', 2)], watching('a'), none)?.id).toBe('a');
   });
   it('shows the newest when nothing runs, first in the list among equals', () => {
-    expect(chooseSession([session('b', 'finished', 2), session('a', 'created', 2)], null, none)?.id).toBe('b');
+    expect(chooseSession([session('b', 'finished', 2), session('a', 'created', 2)], nobody, none)?.id).toBe('b');
   });
   it('leaves aside what gave no stream', () => {
-    expect(chooseSession([session('a', 'finished', 1), session('b', 'finished', 2)], 'b', new Set(['b']))?.id).toBe(
-      'a',
-    );
+    expect(
+      chooseSession([session('a', 'finished', 1), session('b', 'finished', 2)], watching('b'), new Set(['b']))?.id,
+    ).toBe('a');
   });
 });
 

@@ -14,4 +14,20 @@ describe('route', () => {
     expect(routeInAddress('#/cases/shoulder-right-2')).toEqual({ kind: 'case', id: 'shoulder-right-2' });
     for (const hash of ['#/cases', '#/cases/a1']) expect(addressOfRoute(routeInAddress(hash))).toBe(hash);
   });
+
+  it('names the other pages, there and back', () => {
+    for (const hash of [
+      '#/sessions',
+      '#/studies',
+      '#/studies/s1',
+      '#/studies/s1/answers/K7-F3M',
+      '#/users',
+      '#/account',
+    ]) {
+      expect(routeInAddress(hash).kind).not.toBe('live');
+      expect(addressOfRoute(routeInAddress(hash))).toBe(hash);
+    }
+    for (const hash of ['#/constructor', '#/users/x', '#/cases/a/answers/K7-F3M', '#/studies/s1/answers/k7-f3m'])
+      expect(routeInAddress(hash)).toEqual({ kind: 'live' });
+  });
 });

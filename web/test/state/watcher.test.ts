@@ -10,6 +10,7 @@ import { FakeSocket } from '../wire/fake_socket';
 class FakeApi {
   list: Session[] = [];
   down = false;
+  prepared = true;
   private made = 0;
 
   private answer<T>(value: T): Promise<T> {
@@ -21,6 +22,7 @@ class FakeApi {
     session.state = state;
     return this.answer({ ...session });
   }
+  ready = () => (this.prepared ? this.answer(undefined) : Promise.reject(new ApiError('still preparing', 503)));
   sessions = () => this.answer(this.list.map((s) => ({ ...s })));
   createDemo = () => {
     const session: Session = {
@@ -46,6 +48,17 @@ class FakeApi {
     return { ...session, device: { name: 'browser', state: null, rtt_ms: null } };
   };
   start = (id: string) => this.change(id, 'running');
+  pause = async (id: string) => ({ ...(await this.change(id, 'paused')), held: true });
+  reset = async (id: string) => {
+    await this.change(id, 'stopped');
+    const session = await this.createDemo();
+    return this.change(session.id, 'running');
+  };
+  createInStudy = async (study: string, participant: string | null) => ({
+    ...(await this.createDemo()),
+    study,
+    participant: participant ?? 'K7-F3M',
+  });
   stop = (id: string) => this.change(id, 'stopped');
   metrics = () => this.answer({ axial_thrust_mean_n: 12 } as Metrics);
   replays: Replay[] = [];
@@ -214,6 +227,99 @@ describe('Watcher', () => {
     await watcher.runDemo();
     expect(store.problem.value).toBe('4 sessions are live; stop one first');
     expect(store.busy.value).toBe(false);
+  });
+
+  it('pauses and goes on, and begins anew on another session that it then watches', async () => {
+    watcher.start();
+    await settle();
+    serve('s1', '1');
+    await watcher.runDemo();
+    await watcher.pause(true);
+    expect(store.sessionState.value).toBe('paused');
+    expect(store.details.value?.held).toBe(true);
+    await watcher.pause(false);
+    expect(store.sessionState.value).toBe('running');
+    expect(store.live.value).toBe(true);
+    expect(await watcher.reset()).toBe('s2');
+    expect(store.live.value).toBe(false);
+    await settle();
+    expect(api.list.map((s) => [s.id, s.state])).toEqual([
+      ['s2', 'running'],
+      ['s1', 'stopped'],
+    ]);
+    expect(socket.opened.at(-1)).toBe('ws://s2');
+  });
+
+  it('makes a session of a study', async () => {
+    watcher.start();
+    await settle();
+    serve('s1', '1');
+    expect(await watcher.train('study', null, 'demo')).toMatchObject({
+      id: 's2',
+      study: 'study',
+      participant: 'K7-F3M',
+    });
+    expect(api.list[0]).toMatchObject({ id: 's2', state: 'running' });
+    api.down = true;
+    expect(await watcher.train('study', null, 'demo')).toBeNull();
+  });
+
+  it('stays with a session that the user chose, though another is started', async () => {
+    watcher.start();
+    await settle();
+    const mine = await api.createDemo();
+    watcher.watch(mine.id);
+    await settle();
+    expect(socket.opened.at(-1)).toBe(`ws://${mine.id}`);
+    serve(mine.id, '1');
+    const other = await api.createDemo();
+    await api.start(other.id);
+    await vi.advanceTimersByTimeAsync(6000);
+    expect(socket.opened.at(-1)).toBe(`ws://${mine.id}`);
+    await watcher.runDemo();
+    expect(store.chosenId.value).toBeNull();
+  });
+
+  it('sees nothing where it may not make a session, until there is one', async () => {
+    const viewer = new Watcher(
+      store,
+      api as unknown as Api,
+      socket,
+      { begin: () => undefined, apply: () => undefined, setTool: () => undefined },
+      { makesSession: () => false },
+    );
+    api.prepared = false;
+    viewer.start();
+    await settle();
+    expect(store.link.value).toMatchObject({ kind: 'lost', reason: 'still preparing' });
+    api.prepared = true;
+    await vi.advanceTimersByTimeAsync(300);
+    expect(api.list).toEqual([]);
+    expect(store.link.value.kind).toBe('nothing');
+    expect(store.live.value).toBe(false);
+    await api.createDemo();
+    await vi.advanceTimersByTimeAsync(2600);
+    expect(socket.opened.at(-1)).toBe('ws://s1');
+    serve('s1', '1');
+    expect(store.live.value).toBe(true);
+    viewer.rest();
+  });
+
+  it('rests when nobody may watch any more: nothing is live, nothing is asked', async () => {
+    watcher.start();
+    await settle();
+    serve('s1', '1');
+    expect(store.live.value).toBe(true);
+    watcher.rest();
+    expect(store.live.value).toBe(false);
+    expect(socket.handlers).toBeNull();
+    const opened = socket.opened.length;
+    await vi.advanceTimersByTimeAsync(10_000);
+    expect(socket.opened).toHaveLength(opened);
+    watcher.start();
+    await settle();
+    serve('s1', '1');
+    expect(store.live.value).toBe(true);
   });
 
   describe('with a recording', () => {

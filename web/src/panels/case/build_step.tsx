@@ -5,7 +5,7 @@ import type { CaseKeeper } from '../../state/case/case_keeper';
 import { isUnderWay } from '../../state/case/job_watch';
 import type { BuildWishes, BuiltBone } from '../../wire/case_types';
 import { fixed } from '../format';
-import { Remark, SelectField, SliderField } from './fields';
+import { Remark, SelectField, SliderField } from '../fields';
 
 const finest = 8;
 

@@ -1,25 +1,14 @@
 import { caseWords } from '../../case_words';
-import { addressOfRoute } from '../../state/route';
 import type { CaseDetails } from '../../wire/case_types';
 import { words } from '../../words';
+import { SiteNav, WhoAmI } from '../site_nav';
 
 /** Which case this is, and the ways to the other pages. */
-export function CaseHeader({ title, details }: { title: string | null; details: CaseDetails | null }) {
+export function CaseHeader({ details }: { details: CaseDetails | null }) {
   return (
     <header class="header">
       <h1 class="product">{words.product}</h1>
-      <nav class="ways">
-        <a href={addressOfRoute({ kind: 'live' })} data-testid="to-live">
-          {caseWords.live}
-        </a>
-        <a
-          href={addressOfRoute({ kind: 'cases' })}
-          data-testid="to-cases"
-          aria-current={title === null && details === null ? 'page' : undefined}
-        >
-          {caseWords.allCases}
-        </a>
-      </nav>
+      <SiteNav here={details === null ? 'cases' : 'case'} />
       {details !== null && (
         <p class="case" data-testid="case-title">
           <strong>{caseWords.sides[details.side]}</strong>
@@ -31,6 +20,7 @@ export function CaseHeader({ title, details }: { title: string | null; details: 
           {caseWords.radiological} · {caseWords.dims(details.ct.dims)} · {caseWords.spacing(details.ct.spacing_mm)}
         </p>
       )}
+      <WhoAmI />
     </header>
   );
 }

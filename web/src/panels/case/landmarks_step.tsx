@@ -10,7 +10,7 @@ import {
 } from '../../state/case/landmark_names';
 import type { SaveState } from '../../state/case/landmark_keeper';
 import { type WalchClass, walchClasses } from '../../wire/case_types';
-import { SelectField, SliderField } from './fields';
+import { SelectField, SliderField } from '../fields';
 import { MeasuresPanel } from './measures_panel';
 
 /** The landmarks to be placed, the head's radius, the Walch class, and what is measured from them. */

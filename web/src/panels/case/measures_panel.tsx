@@ -4,7 +4,7 @@ import type { LandmarkName } from '../../state/case/landmark_names';
 import type { Measures, NormalRange } from '../../wire/case_types';
 import { fixed } from '../format';
 import { inclinationWords, versionWords } from './angle_words';
-import { Remark } from './fields';
+import { Remark } from '../fields';
 
 /** What the server measures from the saved landmarks, beside what is normal; dimmed while it is of older ones. */
 export function MeasuresPanel({ keeper }: { keeper: LandmarkKeeper }) {

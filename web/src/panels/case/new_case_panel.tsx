@@ -4,7 +4,7 @@ import { caseWords } from '../../case_words';
 import type { CasesKeeper, NewCaseState } from '../../state/case/new_case';
 import type { Side } from '../../wire/case_types';
 import { fixed } from '../format';
-import { Remark } from './fields';
+import { Remark } from '../fields';
 import { JobProgress, ProgressBar } from './job_progress';
 
 const accepted = '.zip,.nrrd,.nii,.nii.gz,.gz,.mha,.txt,.dcm';

@@ -7,7 +7,7 @@ import { add, length } from '../../ct/volume_frame';
 import type { Assessment, Plan, Triple } from '../../wire/case_types';
 import { fixed } from '../format';
 import { inclinationWords, versionWords } from './angle_words';
-import { NumberBox, NumberField, Remark } from './fields';
+import { NumberBox, NumberField, Remark } from '../fields';
 
 /** The proposed or kept plan by numbers, what it would do, and keeping it. */
 export function PlanDraftPanel({ keeper, draft }: { keeper: CaseKeeper; draft: PlanDraft }) {

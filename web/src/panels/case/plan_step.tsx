@@ -6,7 +6,7 @@ import type { CaseKeeper } from '../../state/case/case_keeper';
 import { neededNames, pointOf } from '../../state/case/landmark_names';
 import type { Guide, PlanWishes, Reamer } from '../../wire/case_types';
 import { fixed } from '../format';
-import { CheckField, NumberBox, NumberField, Remark, SelectField } from './fields';
+import { CheckField, NumberBox, NumberField, Remark, SelectField } from '../fields';
 import { PlanDraftPanel } from './plan_draft_panel';
 
 /** What is wished of the plan (null: left to the server); the wishes last as long as the page is open. */

@@ -3,7 +3,7 @@ import { useSignal } from '@preact/signals';
 import { caseWords } from '../../case_words';
 import { type CaseKeeper, wordsOf } from '../../state/case/case_keeper';
 import type { StepName, StepState } from '../../state/case/case_steps';
-import { Remark } from './fields';
+import { Remark } from '../fields';
 
 interface Parts {
   keeper: CaseKeeper;

@@ -6,7 +6,7 @@ import { addressOfRoute } from '../../state/route';
 import { seedNames } from '../../state/case/view_marks';
 import type { CtDescription, SeedName, Segmentation, SegmentationSettings } from '../../wire/case_types';
 import { fixed } from '../format';
-import { CheckField, Remark, SliderField } from './fields';
+import { CheckField, Remark, SliderField } from '../fields';
 
 /** Threshold, smoothing, joints and seeds; finding the bones, and what was found. */
 export function SegmentStep({ keeper }: { keeper: CaseKeeper }) {

@@ -4,9 +4,10 @@ import { caseWords } from '../../case_words';
 import type { CaseKeeper } from '../../state/case/case_keeper';
 import { type StepName, stepNames, stepStates } from '../../state/case/case_steps';
 import { BuildStep } from './build_step';
-import { Remark } from './fields';
+import { Remark } from '../fields';
 import { JobProgress } from './job_progress';
 import { LandmarksStep } from './landmarks_step';
+import { MeasuresPanel } from './measures_panel';
 import { PlanStep, PlanWishesStore } from './plan_step';
 import { ReamStep } from './ream_step';
 import { SegmentStep } from './segment_step';
@@ -35,18 +36,22 @@ export function StepsPanel({ keeper, startReaming }: Parts) {
     ream: () => <ReamStep {...{ keeper, states, startReaming }} />,
   };
   const job = store.job.value;
+  if (!keeper.mayEdit)
+    return (
+      <aside class="steps">
+        <Problem keeper={keeper} />
+        <section class="step open" data-testid="step-ream">
+          <h2 class="step-title">{caseWords.steps.ream}</h2>
+          <div class="step-body">
+            {content.ream()}
+            <MeasuresPanel keeper={keeper.landmarks} />
+          </div>
+        </section>
+      </aside>
+    );
   return (
     <aside class="steps">
-      {store.problem.value !== null && (
-        <div class="problem" role="alert" data-testid="case-problem">
-          <p>
-            <strong>{caseWords.problem}.</strong> {store.problem.value}
-          </p>
-          <button type="button" onClick={() => (store.problem.value = null)}>
-            {caseWords.dismiss}
-          </button>
-        </div>
-      )}
+      <Problem keeper={keeper} />
       {job !== null && job.state !== 'done' && (
         <JobProgress
           job={job}
@@ -97,4 +102,19 @@ function openStep(keeper: CaseKeeper, name: StepName | null): void {
   const fits = store.armed.value?.kind === (name === 'segment' ? 'seed' : 'landmark');
   if (name === 'landmarks') keeper.armFirstMissing();
   else if (!fits || name !== 'segment') store.armed.value = null;
+}
+
+function Problem({ keeper }: { keeper: CaseKeeper }) {
+  const { problem } = keeper.store;
+  if (problem.value === null) return null;
+  return (
+    <div class="problem" role="alert" data-testid="case-problem">
+      <p>
+        <strong>{caseWords.problem}.</strong> {problem.value}
+      </p>
+      <button type="button" onClick={() => (problem.value = null)}>
+        {caseWords.dismiss}
+      </button>
+    </div>
+  );
 }

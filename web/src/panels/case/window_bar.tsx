@@ -1,7 +1,7 @@
 import { caseWords } from '../../case_words';
 import { type WindowLevel, windowLimits, windowPresets } from '../../ct/window_level';
 import type { CaseKeeper } from '../../state/case/case_keeper';
-import { CheckField } from './fields';
+import { CheckField } from '../fields';
 
 const presets: readonly (readonly [string, string, WindowLevel])[] = [
   ['bone', caseWords.windowBone, windowPresets.bone],

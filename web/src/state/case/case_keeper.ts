@@ -34,6 +34,8 @@ export class CaseKeeper {
   constructor(
     private readonly api: CaseApi,
     readonly caseId: string,
+    /** Else the case is only looked at, and reamed. */
+    readonly mayEdit = true,
   ) {
     this.landmarks = new LandmarkKeeper(api, caseId, (saved) => this.take(saved));
     this.slices = new SliceCache(({ of, revision, axis, index }, signal) =>
@@ -51,9 +53,9 @@ export class CaseKeeper {
         this.take(details);
         store.draft.value =
           details.plan === null ? null : { plan: details.plan, assessment: null, isAssessed: false, kept: true };
-        store.openStep.value = nextStep(
-          stepStates({ details, landmarks: placedFrom(details.landmarks), planBeforeLandmarks: false }),
-        );
+        store.openStep.value = this.mayEdit
+          ? nextStep(stepStates({ details, landmarks: placedFrom(details.landmarks), planBeforeLandmarks: false }))
+          : 'ream';
       });
       this.landmarks.take(details.landmarks);
       this.armFirstMissing();
@@ -61,7 +63,7 @@ export class CaseKeeper {
       if (details.plan !== null) this.lookAt(details.plan.entry_mm);
       const [reamers, jobs] = await Promise.all([
         this.api.reamers().catch(() => []),
-        this.api.jobs(this.caseId).catch(() => []),
+        this.mayEdit ? this.api.jobs(this.caseId).catch(() => []) : [],
       ]);
       store.reamers.value = reamers;
       const underWay = jobs.find(isUnderWay);
@@ -172,6 +174,7 @@ export class CaseKeeper {
 
   /** A mark was taken into the hand: it is what the next click would place. */
   chooseMark(of: NonNullable<Armed> | { kind: 'entry' }): void {
+    if (!this.mayEdit) return;
     const armed = this.store.armed.value;
     if (of.kind === 'entry' || (armed?.kind === of.kind && armed.name === of.name)) return;
     this.store.armed.value = of;
@@ -184,8 +187,10 @@ export class CaseKeeper {
 
   /** Chooses a landmark; the views go to it where it is placed, else the next click places it. */
   choose(name: LandmarkName): void {
-    this.store.openStep.value = 'landmarks';
-    this.store.armed.value = { kind: 'landmark', name };
+    if (this.mayEdit) {
+      this.store.openStep.value = 'landmarks';
+      this.store.armed.value = { kind: 'landmark', name };
+    }
     const point = pointOf(this.landmarks.landmarks.value, name);
     if (point !== null) this.lookAt(point);
   }

@@ -148,4 +148,17 @@ describe('CaseKeeper', () => {
     await keeper.open();
     expect(keeper.store.loadProblem.value).toContain("no case 'nowhere'");
   });
+
+  it('only looks at a case where the user may not edit it', async () => {
+    const made = await newCase();
+    made.leave();
+    const keeper = new CaseKeeper(api, made.caseId, false);
+    await keeper.open();
+    expect(keeper.store.openStep.value).toBe('ream');
+    keeper.chooseByNumber(1);
+    keeper.chooseMark({ kind: 'landmark', name: 'glenoid_centre_mm' });
+    expect(keeper.store.openStep.value).toBe('ream');
+    expect(keeper.store.armed.value).toBeNull();
+    keeper.leave();
+  });
 });

@@ -1,5 +1,7 @@
 import type { ComponentChildren } from 'preact';
 
+import { sentence } from './format';
+
 interface SliderParts {
   label: string;
   unit: string;
@@ -145,7 +147,7 @@ export function SelectField<T extends string>({ label, value, options, testId, o
   );
 }
 
-/** A short remark; the look says how serious it is. */
+/** A short remark; the look says how serious it is. What went wrong may come in the server's words. */
 export function Remark({
   kind,
   testId,
@@ -157,7 +159,7 @@ export function Remark({
 }) {
   return (
     <p class={`remark remark-${kind}`} role={kind === 'bad' ? 'alert' : undefined} data-testid={testId}>
-      {children}
+      {kind === 'bad' && typeof children === 'string' ? sentence(children) : children}
     </p>
   );
 }

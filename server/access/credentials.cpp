@@ -1,0 +1,203 @@
+#include "access/credentials.hpp"
+
+#include <algorithm>
+
+#include "access/credential_secret.hpp"
+#include "core/error.hpp"
+#include "core/log.hpp"
+
+namespace ream::access {
+namespace {
+
+using std::chrono::seconds;
+constexpr seconds between_notes{60}, kept_after_end = std::chrono::hours(24 * 30);
+constexpr size_t most_remembered = 4096;
+
+/// What somebody may do with it now; none: nothing any more.
+std::optional<Role> role_of(const store::KnownCredential& known) {
+  const store::CredentialRow& row = known.credential;
+  if (row.user_id.empty()) return role_from(row.role);
+  if (!known.user || !known.user->enabled) return std::nullopt;
+  const auto of_user = role_from(known.user->role);
+  if (!of_user) return std::nullopt;
+  if (row.kind == to_text(CredentialKind::link))
+    return *of_user >= Role::instructor ? std::optional(Role::viewer) : std::nullopt;
+  if (row.role.empty()) return of_user;
+  const auto limit = role_from(row.role);
+  return limit && may_be_limited(*of_user, *limit) ? limit : std::nullopt;
+}
+
+std::string role_column(CredentialKind kind, const NewCredential& wanted) {
+  if (kind == CredentialKind::link || !wanted.parent_id.empty()) return to_text(Role::viewer);
+  return wanted.limit ? to_text(*wanted.limit) : "";
+}
+
+}  // namespace
+
+std::string to_text(CredentialKind kind) {
+  switch (kind) {
+    case CredentialKind::token:
+      return "token";
+    case CredentialKind::cookie:
+      return "cookie";
+    case CredentialKind::link:
+      return "link";
+  }
+  return "token";
+}
+
+Credentials::Credentials(store::Database& database, WallClock now, Lifetimes lifetimes)
+    : table_(database), now_(std::move(now)), lifetimes_(lifetimes) {}
+
+std::optional<store::KnownCredential> Credentials::look_up(const std::string& id) {
+  uint64_t before = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = remembered_.find(id);
+    if (found != remembered_.end() && SteadyClock::now() - found->second.since < memory)
+      return found->second.known;
+    before = forgotten_;
+  }
+  auto known = table_.find(id);
+  const std::lock_guard lock(mutex_);
+  if (known && before == forgotten_) {
+    if (remembered_.size() >= most_remembered) remembered_.clear();
+    remembered_[id] = {*known, SteadyClock::now()};
+  }
+  return known;
+}
+
+std::optional<Identity> Credentials::judge(const store::KnownCredential& known) const {
+  const store::CredentialRow& row = known.credential;
+  const UtcMoment now = now_();
+  if (row.expires_utc <= utc_text(now)) return std::nullopt;
+  const bool is_cookie = row.kind == to_text(CredentialKind::cookie);
+  if (is_cookie && row.last_used_utc < utc_text(now - lifetimes_.cookie_idle)) return std::nullopt;
+  const auto role = role_of(known);
+  if (!role) return std::nullopt;
+  Identity identity;
+  identity.credential = row.id;
+  identity.kind = is_cookie                                   ? CredentialKind::cookie
+                  : row.kind == to_text(CredentialKind::link) ? CredentialKind::link
+                                                              : CredentialKind::token;
+  if (known.user && identity.kind != CredentialKind::link) {
+    identity.user_id = known.user->id;
+    identity.name = known.user->name;
+    identity.display_name = known.user->display_name;
+  } else {
+    identity.display_name = row.name;
+  }
+  identity.role = *role;
+  identity.only_session = row.session_id;
+  identity.expires_utc = row.expires_utc;
+  return identity;
+}
+
+void Credentials::note_use(const store::CredentialRow& row) {
+  const UtcMoment now = now_();
+  if (row.last_used_utc > utc_text(now - between_notes)) return;
+  const std::string used = utc_text(now);
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = remembered_.find(row.id);
+    if (found != remembered_.end()) found->second.known.credential.last_used_utc = used;
+  }
+  try {
+    table_.note_use(row.id, used);
+  } catch (const Error& failure) {
+    log::warn(std::string("the use of a credential could not be noted: ") + failure.what());
+  }
+}
+
+std::optional<Identity> Credentials::identify(const Secret& secret, CredentialKind kind) {
+  const std::string id = id_inside(secret);
+  if (id.empty()) return std::nullopt;
+  const auto known = look_up(id);
+  if (!known || known->credential.kind != to_text(kind) || !has_hash(secret, known->credential.hash))
+    return std::nullopt;
+  auto identity = judge(*known);
+  if (identity) note_use(known->credential);
+  return identity;
+}
+
+std::optional<Identity> Credentials::identify_again(const std::string& id) {
+  const auto known = look_up(id);
+  if (!known) return std::nullopt;
+  auto identity = judge(*known);
+  if (identity) note_use(known->credential);
+  return identity;
+}
+
+IssuedCredential Credentials::issue(CredentialKind kind, const NewCredential& wanted) {
+  const UtcMoment now = now_();
+  const seconds usual = kind == CredentialKind::token    ? lifetimes_.token
+                        : kind == CredentialKind::cookie ? lifetimes_.cookie
+                                                         : lifetimes_.link;
+  const UtcMoment ends = wanted.expires_utc.empty() ? now + usual : utc_moment(wanted.expires_utc);
+  if (ends <= now || ends > now + lifetimes_.longest)
+    throw Error(
+        ErrorKind::invalid_input,
+        "it must end in the future, within " +
+            std::to_string(std::chrono::duration_cast<std::chrono::hours>(lifetimes_.longest).count() / 24) +
+            " days");
+  CredentialSecret secret = make_credential_secret();
+  IssuedCredential issued;
+  issued.row = {secret.id,
+                to_text(kind),
+                secret.hash,
+                wanted.user_id,
+                role_column(kind, wanted),
+                wanted.name,
+                wanted.only_session,
+                wanted.parent_id,
+                utc_text(now),
+                utc_text(ends),
+                kind == CredentialKind::cookie ? utc_text(now) : std::string()};
+  issued.secret = std::move(secret.text);
+  table_.remove_expired(utc_text(now - kept_after_end));
+  table_.add(issued.row);
+  return issued;
+}
+
+std::vector<store::CredentialRow> Credentials::list(CredentialKind kind, const std::string& user_id) const {
+  auto rows = table_.list(to_text(kind), user_id);
+  const std::string now = utc_text(now_());
+  std::erase_if(rows, [&](const store::CredentialRow& row) { return row.expires_utc <= now; });
+  return rows;
+}
+
+std::optional<store::CredentialRow> Credentials::find(const std::string& id, CredentialKind kind) const {
+  auto known = table_.find(id);
+  if (!known || known->credential.kind != to_text(kind)) return std::nullopt;
+  return std::move(known->credential);
+}
+
+void Credentials::forget(const std::vector<std::string>& ids) {
+  {
+    const std::lock_guard lock(mutex_);
+    ++forgotten_;
+    for (const std::string& id : ids) remembered_.erase(id);
+  }
+  if (told_ && !ids.empty()) told_(ids);
+}
+
+void Credentials::revoke(const std::string& id) { forget(table_.remove(id)); }
+
+void Credentials::end_cookies(const std::string& user_id, const std::string& except) {
+  forget(table_.remove_of_user(user_id, to_text(CredentialKind::cookie), except));
+}
+
+void Credentials::revoke_links(const std::string& user_id) {
+  forget(table_.remove_of_user(user_id, to_text(CredentialKind::link), ""));
+}
+
+void Credentials::revoke_all(const std::string& user_id) { forget(table_.remove_of_user(user_id, "", "")); }
+
+void Credentials::renew(const std::string& user_id) {
+  std::vector<std::string> ids;
+  for (const CredentialKind kind : {CredentialKind::token, CredentialKind::cookie, CredentialKind::link})
+    for (const store::CredentialRow& row : table_.list(to_text(kind), user_id)) ids.push_back(row.id);
+  forget(ids);
+}
+
+}  // namespace ream::access

@@ -1,0 +1,45 @@
+#pragma once
+#include <chrono>
+#include <string>
+
+#include "core/utc.hpp"
+#include "store/login_attempt_table.hpp"
+
+namespace ream::access {
+
+/// How failures make somebody wait: some are free, then the wait doubles.
+struct Patience {
+  int free_failures;
+  std::chrono::seconds longest;  ///< the first wait is one second
+  std::chrono::seconds memory;   ///< so long after the last one failures are forgotten
+};
+
+/// After so many failures in a row.
+std::chrono::seconds wait_after(int failures, const Patience& patience);
+
+/// Makes guessing slow. Failures count for the name at that address, for the name, and for the address; the
+/// last two do not bind people at places where they have logged in within 90 days, so that one who guesses
+/// keeps nobody else out. Names that do not exist are treated like others. Thread-safe; errors of the
+/// database, and TooMany.
+class LoginBackoff {
+ public:
+  LoginBackoff(store::Database& database, WallClock now) : attempts_(database), now_(std::move(now)) {}
+
+  /// Error TooMany while one has to wait.
+  void require_patience(const std::string& name, const std::string& address);
+  void note_failure(const std::string& name, const std::string& address);
+  void note_success(const std::string& name, const std::string& address);
+  /// The name's failures everywhere, after an operator has given a new password.
+  void forget(const std::string& name);
+
+ private:
+  int64_t now_ms() const;
+
+  store::LoginAttemptTable attempts_;
+  const WallClock now_;
+};
+
+/// What counts as one place: the address of IPv4, the first 64 bits of IPv6.
+std::string place_of(const std::string& address);
+
+}  // namespace ream::access

@@ -1,0 +1,91 @@
+#pragma once
+#include <atomic>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "access/credentials.hpp"
+#include "access/login_backoff.hpp"
+#include "access/password_hasher.hpp"
+#include "access/role.hpp"
+#include "core/clock.hpp"
+#include "store/user_table.hpp"
+
+namespace ream::access {
+
+struct User {
+  std::string id;
+  std::string name;  ///< to log in with: [a-z0-9._@-], at most 64
+  std::string display_name;
+  Role role = Role::trainee;
+  bool enabled = true;
+  std::string created_utc;
+};
+
+struct NewUser {
+  std::string name, display_name;  ///< display_name empty: the name
+  Role role = Role::trainee;
+  Secret password;
+};
+
+/// What is to change; what is absent stays.
+struct UserChange {
+  std::optional<std::string> display_name;
+  std::optional<Role> role;
+  std::optional<bool> enabled;
+  std::optional<Secret> password;
+};
+
+/// Who may log in. There is always an operator who can, once there is anybody. Thread-safe. Errors:
+/// not_found, conflict, invalid_input, TooMany (passwords), those of the database.
+class Users {
+ public:
+  Users(store::Database& database, PasswordHasher& hasher, Credentials& credentials, LoginBackoff& backoff,
+        WallClock now);
+
+  /// Whether the server is past its open beginning. Asks the database at most once a second until then.
+  bool any();
+
+  User add(const NewUser& wanted);
+  /// A new password ends the user's cookie sessions and forgives failed logins; disabling revokes all.
+  User change(const std::string& id, const UserChange& change);
+  void remove(const std::string& id);
+
+  User get(const std::string& id) const;
+  std::optional<User> find_by_name(const std::string& name) const;
+  /// By name.
+  std::vector<User> list() const;
+
+  /// The user when name and password belong together, after as long as it takes when they do not.
+  /// `address` is where it was tried from. Errors: TooMany.
+  std::optional<User> log_in(const std::string& name, const Secret& password, const std::string& address);
+  /// One's own. False when `present` is not the password. Ends all other cookie sessions but `this_cookie`.
+  bool change_password(const std::string& id, const Secret& present, const Secret& wanted,
+                       const std::string& address, const std::string& this_cookie);
+
+ private:
+  bool is_password_of(const std::optional<store::UserRow>& row, const std::string& name,
+                      const Secret& password, const std::string& address);
+
+  void hash_anew(const store::UserRow& row, const Secret& password);
+
+  store::UserTable table_;
+  PasswordHasher& hasher_;
+  Credentials& credentials_;
+  LoginBackoff& backoff_;
+  const WallClock now_;
+  std::atomic<bool> any_{false};
+  std::mutex asking_;
+  std::optional<SteadyClock::time_point> asked_;
+};
+
+/// Names are looked for in small letters.
+std::string plain_name(const std::string& typed);
+bool is_user_name(const std::string& name);
+/// Error invalid_input, which does not repeat it.
+void require_user_name(const std::string& name);
+/// Without control characters, line ends among them.
+bool is_plain_line(const std::string& text);
+
+}  // namespace ream::access

@@ -1,0 +1,29 @@
+#include "api/audit_rules.hpp"
+
+#include <array>
+#include <string_view>
+
+namespace ream::api {
+namespace {
+
+struct Rule {
+  std::string_view method, pattern, action;
+};
+
+constexpr std::array<Rule, 5> rules = {{{"DELETE", "/api/v1/sessions/{id}", "session.delete"},
+                                        {"POST", "/api/v1/sessions/{id}/restore", "session.restore"},
+                                        {"GET", "/api/v1/sessions/{id}/recording", "session.download"},
+                                        {"POST", "/api/v1/sessions/{id}/exports", "session.export"},
+                                        {"DELETE", "/api/v1/cases/{id}", "case.delete"}}};
+
+}  // namespace
+
+void audit_change(const Audit& audit, const net::Request& request, const std::string& pattern,
+                  const net::Response& response) {
+  if (response.status < 200 || response.status >= 300) return;
+  for (const Rule& rule : rules)
+    if (request.method == rule.method && pattern == rule.pattern)
+      audit(request, std::string(rule.action), request.parameters.at("id"), "");
+}
+
+}  // namespace ream::api

@@ -1,0 +1,53 @@
+#include "api/change_rules.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace ream::api {
+namespace {
+
+struct Rule {
+  const char* method;
+  const char* pattern;
+  const char* kind;
+  const char* change;
+};
+
+/// Sessions tell of their own states (SessionWatch), jobs of theirs and of what they make.
+constexpr std::array rules{
+    Rule{"PATCH", "/api/v1/sessions/{id}", "session", "changed"},
+    Rule{"POST", "/api/v1/sessions/{id}/annotations", "session", "annotated"},
+    Rule{"POST", "/api/v1/sessions/{id}/replay", "replay", "created"},
+    Rule{"DELETE", "/api/v1/cases/{id}", "case", "deleted"},
+    Rule{"PUT", "/api/v1/cases/{id}/landmarks", "case", "changed"},
+    Rule{"PUT", "/api/v1/cases/{id}/plan", "case", "changed"},
+    Rule{"POST", "/api/v1/cases/{id}/segmentation/undo", "case", "changed"},
+    Rule{"POST", "/api/v1/users", "user", "created"},
+    Rule{"PATCH", "/api/v1/users/{id}", "user", "changed"},
+    Rule{"DELETE", "/api/v1/users/{id}", "user", "deleted"},
+    Rule{"POST", "/api/v1/studies", "study", "created"},
+    Rule{"PUT", "/api/v1/studies/{id}", "study", "changed"},
+    Rule{"POST", "/api/v1/studies/{id}/close", "study", "changed"},
+    Rule{"POST", "/api/v1/studies/{id}/reopen", "study", "changed"},
+    Rule{"POST", "/api/v1/studies/{id}/unblind", "study", "changed"},
+    Rule{"DELETE", "/api/v1/studies/{id}/participants/{code}", "study", "changed"},
+    Rule{"PUT", "/api/v1/studies/{id}/participants/{code}/answers", "study", "changed"},
+    Rule{"DELETE", "/api/v1/studies/{id}", "study", "deleted"}};
+
+}  // namespace
+
+std::optional<Change> change_made(const net::Request& request, const std::string& pattern,
+                                  const net::Response& response) {
+  if (response.status >= 300) return std::nullopt;
+  const auto rule = std::find_if(rules.begin(), rules.end(), [&](const Rule& one) {
+    return request.method == one.method && pattern == one.pattern;
+  });
+  if (rule == rules.end()) return std::nullopt;
+  const std::string_view made = response.header("Location");
+  const auto id = request.parameters.find("id");
+  if (!made.empty()) return Change{rule->kind, std::string(made.substr(made.rfind('/') + 1)), rule->change};
+  if (id == request.parameters.end()) return std::nullopt;
+  return Change{rule->kind, id->second, rule->change};
+}
+
+}  // namespace ream::api

@@ -1,0 +1,55 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "access/gatehouse.hpp"
+#include "api/rights.hpp"
+#include "api/running_session.hpp"
+#include "net/message.hpp"
+
+namespace ream::api {
+
+/// Who asks, and how that is known.
+struct Visitor {
+  net::Caller caller;
+  std::optional<access::Identity> identity;  ///< none: nobody in particular
+  std::string csrf_token;                    ///< of a cookie; else empty
+};
+
+/// Stands before every route (net::Router::guard): finds out who asks, by bearer token, else by cookie, and
+/// lets them pass as the table of rights says. Without users everybody passes, as an operator. Thread-safe.
+class Gate {
+ public:
+  /// What a session or replay with that id is; none when there is none.
+  using SessionFinder = std::function<std::optional<SessionRequest>(const std::string& id)>;
+
+  /// `gatehouse` outlives the gate; null: there are never users.
+  Gate(access::Gatehouse* gatehouse, SessionFinder find_session)
+      : gatehouse_(gatehouse), find_session_(std::move(find_session)) {}
+
+  /// Sets the caller and takes what was shown out of the request. `pattern` empty: static files.
+  /// RequestErrors: 401 who are you, 403 not you (or a change by cookie without the token against forgery);
+  /// Error not_found for a session that the caller may not see.
+  void admit(net::Request& request, const std::string& pattern) const;
+
+  /// For routes that are open: who asks, if they show anything good. RequestError 401 for a bad token; a bad
+  /// cookie is none.
+  Visitor visitor(const net::Request& request) const;
+
+  /// Whether the server lets in everybody.
+  bool is_open() const;
+
+ private:
+  void require_right(const Right& right, const Visitor& visitor, const net::Request& request) const;
+  void require_sight(const net::Request& request, const std::string& pattern) const;
+
+  access::Gatehouse* gatehouse_;
+  const SessionFinder find_session_;
+};
+
+/// RequestError 403 unless a request that changes something by its cookie shows the token against forgery,
+/// and a WebSocket comes from a page of this server.
+void require_no_forgery(const Visitor& visitor, const net::Request& request);
+
+}  // namespace ream::api

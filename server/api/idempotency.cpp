@@ -1,0 +1,124 @@
+#include "api/idempotency.hpp"
+
+#include <algorithm>
+
+#include "core/hash.hpp"
+#include "core/log.hpp"
+#include "net/problem.hpp"
+
+namespace ream::api {
+namespace {
+
+constexpr size_t longest_key = 200, most_remembered = 4096, largest_body = 256 * 1024;
+
+bool is_key(std::string_view key) {
+  return !key.empty() && key.size() <= longest_key &&
+         std::all_of(key.begin(), key.end(), [](char c) { return c > 0x20 && c < 0x7f; });
+}
+
+int64_t in_ms(UtcMoment moment) {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(moment.time_since_epoch()).count();
+}
+
+/// Tells different requests apart.
+std::string print_of(const net::Request& request) {
+  uint64_t print = hash_text(request.body, hash_text(request.path, hash_text(request.method)));
+  for (const auto& [name, value] : request.query) print = hash_text(value, hash_text(name, print));
+  return to_hex(print);
+}
+
+net::Response response_of(const store::KeptAnswer& answer) {
+  net::Response response = net::bytes_response(answer.status, answer.content_type, nullptr);
+  if (!answer.body.empty()) response.body = net::share(answer.body);
+  response.headers.emplace_back("Cache-Control", "no-store");
+  if (!answer.location.empty()) response.headers.emplace_back("Location", answer.location);
+  response.headers.emplace_back("Idempotency-Replayed", "true");
+  return response;
+}
+
+std::string text_of(const net::SharedBytes& body) {
+  return body ? std::string(reinterpret_cast<const char*>(body->data()), body->size()) : std::string();
+}
+
+}  // namespace
+
+Idempotency::Idempotency(std::shared_ptr<store::Database> database, WallClock now)
+    : database_(std::move(database)), now_(std::move(now)) {}
+
+int64_t Idempotency::oldest_ms() const { return in_ms(now_() - kept_for); }
+
+std::optional<store::KeptAnswer> Idempotency::find(const Name& name) const {
+  std::optional<store::KeptAnswer> found;
+  if (database_) {
+    found = store::IdempotencyTable(*database_).find(name.first, name.second);
+  } else {
+    const std::lock_guard lock(mutex_);
+    if (const auto kept = remembered_.find(name); kept != remembered_.end()) found = kept->second;
+  }
+  return found && found->at_ms >= oldest_ms() ? found : std::nullopt;
+}
+
+void Idempotency::keep(const Name& name, const std::string& request, const net::Response& response) {
+  if (response.status >= 300 || response.body_bytes() > largest_body) return;
+  const store::KeptAnswer answer{name.first,
+                                 name.second,
+                                 request,
+                                 response.status,
+                                 response.content_type,
+                                 std::string(response.header("Location")),
+                                 text_of(response.body),
+                                 in_ms(now_())};
+  if (database_) {
+    try {
+      store::IdempotencyTable(*database_).put(answer);
+    } catch (const Error& error) {
+      log::warn(std::string("an answer could not be kept for its repetition: ") + error.what());
+    }
+    return;
+  }
+  const std::lock_guard lock(mutex_);
+  remembered_[name] = answer;
+  if (remembered_.size() <= most_remembered) return;
+  remembered_.erase(
+      std::min_element(remembered_.begin(), remembered_.end(),
+                       [](const auto& a, const auto& b) { return a.second.at_ms < b.second.at_ms; }));
+}
+
+net::Response Idempotency::answer(const net::Request& request, const net::Handler& next) {
+  const std::string_view key = request.header(header);
+  if (!request.headers.contains(header)) return next(request);
+  if (!is_key(key))
+    throw net::RequestError(
+        400, "Idempotency-Key must be 1 to " + std::to_string(longest_key) + " visible ASCII characters");
+  const Name name(request.caller.user_id, key);
+  const std::string print = print_of(request);
+  {
+    const std::lock_guard lock(mutex_);
+    if (!under_way_.insert(name).second)
+      throw net::RequestError(409, "the first request with this Idempotency-Key is still under way");
+  }
+  struct Done {
+    Idempotency& all;
+    const Name& name;
+    ~Done() {
+      const std::lock_guard lock(all.mutex_);
+      all.under_way_.erase(name);
+    }
+  } const done{*this, name};
+  if (const auto before = find(name)) {
+    if (before->request != print)
+      throw net::RequestError(422, "this Idempotency-Key was used for another request; use a new one");
+    return response_of(*before);
+  }
+  net::Response response = next(request);
+  keep(name, print, response);
+  return response;
+}
+
+void Idempotency::forget_old() {
+  if (database_) return store::IdempotencyTable(*database_).remove_before(oldest_ms());
+  const std::lock_guard lock(mutex_);
+  std::erase_if(remembered_, [&](const auto& kept) { return kept.second.at_ms < oldest_ms(); });
+}
+
+}  // namespace ream::api

@@ -1,0 +1,65 @@
+#include "api/session_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "api/session_labels.hpp"
+
+namespace ream::api {
+using nlohmann::json;
+namespace {
+
+json to_json(const TimingSummary& times) {
+  return {{"mean_us", times.mean_us},
+          {"p50_us", times.p50_us},
+          {"p99_us", times.p99_us},
+          {"p999_us", times.p999_us},
+          {"max_us", times.max_us}};
+}
+
+json to_json(const LoopStatus& loop) {
+  json told = to_json(loop.tick_us);
+  told.update({{"missed", loop.missed},
+               {"lateness", to_json(loop.lateness_us)},
+               {"read", to_json(loop.read_us)},
+               {"step", to_json(loop.step_us)},
+               {"write", to_json(loop.write_us)},
+               {"realtime", loop.realtime},
+               {"memory_locked", loop.locked},
+               {"cpu", loop.cpu < 0 ? json(nullptr) : json(loop.cpu)}});
+  return told;
+}
+
+json to_json(const DeviceLinkStatus& device) {
+  return {{"name", device.name},
+          {"profile", device.profile},
+          {"state", device.state.empty() ? json(nullptr) : json(device.state)},
+          {"rtt_ms", device.rtt_ms ? json(*device.rtt_ms) : json(nullptr)},
+          {"received", device.received},
+          {"missing", device.missing},
+          {"late", device.late},
+          {"refused", device.refused}};
+}
+
+}  // namespace
+
+json to_json(const SessionRecord& record) {
+  const SessionStatus& status = record.status;
+  json told = labels_json(record.request);
+  told.update({{"id", record.request.id},
+               {"kind", "session"},
+               {"case", record.request.case_id},
+               {"script", record.request.script},
+               {"state", to_text(status.state)},
+               {"held", status.held},
+               {"created_utc", record.request.created_utc},
+               {"tick", status.tick},
+               {"duration_s", status.duration_s},
+               {"force_scale", status.force_scale},
+               {"fault", status.fault.empty() ? json(nullptr) : json(status.fault)},
+               {"streamable", record.streamable},
+               {"loop", to_json(status.loop)},
+               {"device", to_json(status.device)}});
+  return told;
+}
+
+}  // namespace ream::api

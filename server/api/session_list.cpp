@@ -1,0 +1,114 @@
+#include "api/session_list.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "api/json_page.hpp"
+#include "api/replay_resource.hpp"
+#include "api/rights.hpp"
+#include "api/session_json.hpp"
+#include "api/session_row.hpp"
+#include "api/visibility.hpp"
+#include "core/error.hpp"
+
+namespace ream::api {
+using nlohmann::json;
+namespace {
+
+std::string text_of(const net::Request& request, const std::string& name) {
+  const auto given = request.query.find(name);
+  return given == request.query.end() ? std::string() : given->second;
+}
+
+std::vector<std::string> parts_of(const std::string& list) {
+  std::vector<std::string> parts;
+  for (size_t begin = 0; begin < list.size();) {
+    const size_t end = std::min(list.find(',', begin), list.size());
+    parts.push_back(list.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+/// Moments that begin so are at or behind it, with parts of a second or without.
+std::string beginning_of(const net::Request& request, const std::string& name) {
+  std::string moment = text_of(request, name);
+  if (moment.ends_with('Z')) moment.pop_back();
+  return moment;
+}
+
+store::SessionQuery query_of(const net::Request& request) {
+  store::SessionQuery query;
+  query.states = parts_of(text_of(request, "state"));
+  query.case_id = text_of(request, "case");
+  query.trainee_id = text_of(request, "trainee");
+  query.study = text_of(request, "study");
+  query.participant = text_of(request, "participant");
+  query.created_from = beginning_of(request, "from");
+  query.created_before = beginning_of(request, "to");
+  query.text = text_of(request, "q");
+  query.cursor = text_of(request, "cursor");
+  query.limit = limit_of(request);
+  const std::string sort = request.query.contains("sort") ? text_of(request, "sort") : "-created_utc";
+  query.descending = sort.starts_with('-');
+  query.order = store::session_order_from(query.descending ? sort.substr(1) : sort)
+                    .value_or(store::SessionOrder::created);
+  return query;
+}
+
+/// Of one that a viewer's link is for.
+SessionPage only(const SessionService& sessions, const store::SessionQuery& query, const std::string& id) {
+  SessionPage page;
+  try {
+    SessionRecord record = sessions.get(id);
+    if (query.cursor.empty() && matches(query, row_of(record))) page.sessions.push_back(std::move(record));
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::not_found) throw;
+  }
+  page.total = page.sessions.size();
+  return page;
+}
+
+SessionPage page_for(const net::Caller& caller, const SessionService& sessions, store::SessionQuery query) {
+  const Roles role = role_bit(caller.role);
+  if (role == viewers && !caller.only_session.empty()) return only(sessions, query, caller.only_session);
+  if (role == trainees) {
+    if (!query.trainee_id.empty() && query.trainee_id != caller.user_id) return {};
+    query.trainee_id = caller.user_id;
+  }
+  // What is found by a person would tell who is behind a code.
+  if (role != operators && role != trainees) query.outside_studies = !query.trainee_id.empty();
+  return sessions.list(query);
+}
+
+json visible_replays(const net::Caller& caller, const SessionService& sessions,
+                     const ReplayService& replays) {
+  json visible = json::array();
+  for (const ReplayRecord& record : replays.list()) try {
+      if (may_see(caller, sessions.get(record.request.replay_of).request)) visible.push_back(to_json(record));
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::not_found) throw;
+    }
+  return visible;
+}
+
+}  // namespace
+
+net::Response list_sessions(const SessionService& sessions, const StudyService* studies,
+                            const ReplayService& replays, const net::Request& request) {
+  SessionPage page = page_for(request.caller, sessions, query_of(request));
+  const Blinding blinding = blinding_for(studies, request.caller);
+  json records = json::array();
+  for (SessionRecord& record : page.sessions) {
+    record.request = blinding.seen(std::move(record.request));
+    records.push_back(to_json(record));
+  }
+  json whole = {{"sessions", std::move(records)},
+                {"next", page.next.empty() ? json(nullptr) : json(page.next)},
+                {"total", page.total},
+                {"replays", visible_replays(request.caller, sessions, replays)}};
+  net::Response response = net::json_response(200, whole);
+  if (!page.next.empty()) response.headers.emplace_back("Link", next_link(request, page.next));
+  return response;
+}
+
+}  // namespace ream::api

@@ -1,0 +1,46 @@
+#include "api/session_watch.hpp"
+
+#include "core/log.hpp"
+
+namespace ream::api {
+
+SessionWatch::SessionWatch(const SessionService& sessions, ChangeFeed& feed,
+                           std::chrono::milliseconds look_every)
+    : sessions_(sessions), feed_(feed) {
+  thread_ = std::thread([this, look_every] {
+    std::unique_lock lock(mutex_);
+    while (!leaving_changed_.wait_for(lock, look_every, [this] { return leaving_; })) {
+      try {
+        look();
+      } catch (const std::exception& failure) {
+        log::warn(std::string("changes of sessions could not be told: ") + failure.what());
+      }
+    }
+  });
+}
+
+SessionWatch::~SessionWatch() { stop(); }
+
+void SessionWatch::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    leaving_ = true;
+  }
+  leaving_changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void SessionWatch::look() {
+  std::map<std::string, SessionState> now;
+  for (const SessionRecord& record : sessions_.held()) {
+    const std::string& id = record.request.id;
+    const SessionState state = record.status.state;
+    now[id] = state;
+    const auto before = known_.find(id);
+    if (before != known_.end() && before->second == state) continue;
+    feed_.tell({"session", id, to_text(state), std::make_shared<const SessionRequest>(record.request)});
+  }
+  known_ = std::move(now);
+}
+
+}  // namespace ream::api

@@ -1,0 +1,38 @@
+#pragma once
+#include <chrono>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "api/change_feed.hpp"
+#include "api/session_service.hpp"
+
+namespace ream::api {
+
+/// Looks at the sessions of this server several times a second and tells when one has come into another
+/// state, so that neither a haptic loop nor its follower ever waits for those who want to know.
+class SessionWatch {
+ public:
+  /// Both outlive it.
+  SessionWatch(const SessionService& sessions, ChangeFeed& feed,
+               std::chrono::milliseconds look_every = std::chrono::milliseconds(100));
+  ~SessionWatch();
+  SessionWatch(const SessionWatch&) = delete;
+  SessionWatch& operator=(const SessionWatch&) = delete;
+
+  void stop();
+
+ private:
+  void look();
+
+  const SessionService& sessions_;
+  ChangeFeed& feed_;
+  std::map<std::string, SessionState> known_;
+  std::mutex mutex_;
+  std::condition_variable leaving_changed_;
+  bool leaving_ = false;
+  std::thread thread_;
+};
+
+}  // namespace ream::api

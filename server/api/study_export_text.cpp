@@ -1,0 +1,76 @@
+#include "api/study_export.hpp"
+
+namespace ream::api {
+using nlohmann::json;
+namespace {
+
+bool looks_like_formula(const std::string& text) {
+  return !text.empty() && std::string("=+-@\t\r").find(text.front()) != std::string::npos;
+}
+
+std::string in_quotes(const std::string& text) {
+  const std::string safe = looks_like_formula(text) ? "'" + text : text;
+  if (safe.find_first_of(",\"\r\n") == std::string::npos) return safe;
+  std::string field = "\"";
+  for (const char c : safe) field += c == '"' ? "\"\"" : std::string(1, c);
+  return field + "\"";
+}
+
+std::string cell_text(const json& cell) {
+  if (cell.is_discarded() || cell.is_null()) return {};
+  if (cell.is_string()) return in_quotes(cell.get<std::string>());
+  if (cell.is_boolean()) return cell.get<bool>() ? "1" : "0";
+  if (!cell.is_array()) return cell.dump();
+  std::string joined;
+  for (const json& part : cell) joined += (joined.empty() ? "" : ";") + part.get<std::string>();
+  return in_quotes(joined);
+}
+
+json codebook_of(const ExportTable& table) {
+  json columns = json::array();
+  for (const ExportColumn& column : table.columns)
+    columns.push_back({{"name", column.name},
+                       {"unit", column.unit.empty() ? json(nullptr) : json(column.unit)},
+                       {"words", column.words}});
+  return columns;
+}
+
+}  // namespace
+
+std::string csv_of(const ExportTable& table) {
+  std::string text;
+  for (size_t i = 0; i < table.columns.size(); ++i)
+    text += (i > 0 ? "," : "") + in_quotes(table.columns[i].name);
+  text += "\r\n";
+  for (const auto& row : table.rows) {
+    for (size_t i = 0; i < row.size(); ++i) text += (i > 0 ? "," : "") + cell_text(row[i]);
+    text += "\r\n";
+  }
+  return text;
+}
+
+json json_of(const ExportTable& table) {
+  json rows = json::array();
+  for (const auto& row : table.rows) {
+    json object = json::object();
+    for (size_t i = 0; i < row.size(); ++i)
+      if (!row[i].is_discarded()) object[table.columns[i].name] = row[i];
+    rows.push_back(std::move(object));
+  }
+  return rows;
+}
+
+json codebook_of(const Study& study, const StudyExport& all) {
+  return {
+      {"study", study.id},
+      {"name", study.name},
+      {"questionnaire", study.questionnaire ? json(study.questionnaire->id) : json(nullptr)},
+      {"about",
+       "No names, no ids of persons or sessions, no dates. Texts are UTF-8; 1 and 0 in CSV are yes and no; "
+       "an empty cell is a value that is not known, or an answer that was not given."},
+      {"sessions", codebook_of(all.sessions)},
+      {"answers", codebook_of(all.answers)},
+      {"groups", codebook_of(all.groups)}};
+}
+
+}  // namespace ream::api

@@ -1,0 +1,90 @@
+#include "api/study_json.hpp"
+
+#include "api/request_body.hpp"
+
+namespace ream::api {
+using nlohmann::json;
+namespace {
+
+constexpr size_t longest_name = 200, longest_description = 4000, longest_profile = 64, most_cases = 50;
+constexpr int64_t most_procedures = 100'000;
+
+json text_or_null(const std::string& text) { return text.empty() ? json(nullptr) : json(text); }
+
+}  // namespace
+
+json summary_json(const ToldStudy& told) {
+  const Study& study = told.study;
+  return {{"id", study.id},
+          {"name", study.name},
+          {"description", study.description},
+          {"state", study.open ? "open" : "closed"},
+          {"blinded", study.blinded()},
+          {"created_utc", study.created_utc},
+          {"closed_utc", text_or_null(study.closed_utc)},
+          {"unblinded_utc", text_or_null(study.unblinded_utc)},
+          {"cases", study.settings.cases},
+          {"script", text_or_null(study.settings.script)},
+          {"device", text_or_null(study.settings.device)},
+          {"device_profile", text_or_null(study.settings.device_profile)},
+          {"join_code", told.to_staff ? json(study.join_code) : json(nullptr)},
+          {"participants", told.to_staff ? json(told.participants) : json(nullptr)},
+          {"participant", text_or_null(told.own_code)}};
+}
+
+json to_json(const ToldStudy& told) {
+  json all = summary_json(told);
+  all["questionnaire"] = told.study.questionnaire ? to_json(*told.study.questionnaire) : json(nullptr);
+  return all;
+}
+
+json to_json(const Participant& participant) {
+  const bool known = !participant.experience.empty();
+  return {{"code", participant.code},
+          {"experience", text_or_null(participant.experience)},
+          {"procedures_done", known ? json(participant.procedures_done) : json(nullptr)},
+          {"answers", participant.answers.value_or(json(nullptr))},
+          {"has_account", participant.has_account}};
+}
+
+json to_json(const store::PersonRow& person) {
+  return {{"code", person.code}, {"user_id", text_or_null(person.user_id)}, {"name", person.name}};
+}
+
+StudyWishes study_wishes_in(const net::Request& request) {
+  RequestBody body(request);
+  StudyWishes wishes;
+  wishes.name = body.words("name", 1, longest_name);
+  wishes.description = body.words("description", 0, longest_description);
+  wishes.settings.cases = body.names("cases", 1, most_cases);
+  wishes.settings.script = body.name_or("script", "");
+  wishes.settings.device = body.name_or("device", "");
+  wishes.settings.device_profile = body.words("device_profile", 0, longest_profile);
+  const std::optional<json> questionnaire = body.value_or_none("questionnaire");
+  body.finish();
+  if (!questionnaire)
+    wishes.questionnaire = face_validity_questionnaire();
+  else if (!questionnaire->is_null())
+    wishes.questionnaire = questionnaire_from(*questionnaire);
+  return wishes;
+}
+
+NewParticipant new_participant_in(const net::Request& request, bool person) {
+  RequestBody body(request);
+  NewParticipant wanted;
+  wanted.experience = body.one_of("experience", experience_levels);
+  wanted.procedures_done = body.count("procedures_done", most_procedures);
+  if (person) {
+    wanted.user_id = body.name_or("user_id", "");
+    wanted.name = body.words("name", 0, longest_name);
+  } else {
+    wanted.join_code = body.name("join_code");
+  }
+  body.finish();
+  if (!wanted.user_id.empty() && !wanted.name.empty())
+    throw net::RequestError(422, "'name' is for somebody without an account; leave it out beside 'user_id'",
+                            {{"#/name", "must not stand beside user_id"}});
+  return wanted;
+}
+
+}  // namespace ream::api

@@ -1,0 +1,116 @@
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/backup.hpp"
+#include "app/cli/commands.hpp"
+#include "app/cli/terminal_progress.hpp"
+#include "app/data_folder.hpp"
+#include "app/interrupt.hpp"
+#include "app/open_database.hpp"
+#include "app/restore_backup.hpp"
+#include "core/error.hpp"
+#include "core/log.hpp"
+#include "core/replaceable.hpp"
+
+namespace ream::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  fs::path file;
+  bool force = false;
+};
+
+size_t count_of(const std::map<std::string, size_t>& counts, const std::string& folder) {
+  const auto found = counts.find(folder);
+  return found == counts.end() ? 0 : found->second;
+}
+
+std::string in_words(const std::map<std::string, size_t>& counts, uint64_t rows) {
+  const auto counted = [](uint64_t count, const std::string& what) {
+    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+  };
+  return counted(count_of(counts, "sessions"), "session") + ", " +
+         counted(count_of(counts, "cases"), "case") + ", " + counted(rows, "row");
+}
+
+void back_up(const Options& options, const GlobalOptions& global) {
+  const fs::path data = data_folder(global.data);
+  std::error_code failed;
+  if (!fs::is_directory(data, failed))
+    throw Error(ErrorKind::not_found, "there is no data folder " + data.string() + " to back up; see --data");
+  require_replaceable(options.file);
+  catch_interrupts();
+  const auto database = open_database(global.db, data);
+  BackupReport report;
+  {
+    const TerminalProgress progress;
+    report = write_backup(*database, data, options.file, std::cref(progress));
+  }
+  for (const std::string& id : report.live)
+    log::warn("session " + id + " is live; it is kept as far as it had come");
+  if (global.json)
+    std::cout << nlohmann::json{{"out", options.file.string()},
+                                {"bytes", fs::file_size(options.file)},
+                                {"sessions", count_of(report.counts, "sessions")},
+                                {"cases", count_of(report.counts, "cases")},
+                                {"rows", report.rows},
+                                {"live", report.live}}
+                     .dump()
+              << '\n';
+  else
+    std::cout << options.file.string() << ": " << in_words(report.counts, report.rows) << '\n';
+}
+
+void restore(const Options& options, const GlobalOptions& global) {
+  const fs::path data = data_folder(global.data);
+  require_backup(options.file);
+  catch_interrupts();
+  const auto database = open_database(global.db, data);
+  make_data_folder(data);
+  RestoreReport report;
+  {
+    const TerminalProgress progress;
+    report = restore_backup(*database, data, options.file, options.force, std::cref(progress));
+  }
+  if (!report.aside.empty()) log::info("what was there before is in " + report.aside.string());
+  if (global.json)
+    std::cout << nlohmann::json{{"data", data.string()},
+                                {"database", database->name()},
+                                {"sessions", count_of(report.counts, "sessions")},
+                                {"cases", count_of(report.counts, "cases")},
+                                {"rows", report.rows},
+                                {"aside", report.aside.empty() ? nlohmann::json()
+                                                               : nlohmann::json(report.aside.string())}}
+                     .dump()
+              << '\n';
+  else
+    std::cout << data.string() << ": " << in_words(report.counts, report.rows) << '\n';
+}
+
+}  // namespace
+
+void add_backup_command(CLI::App& app, GlobalOptions& global) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "backup",
+      "Write sessions, cases, reamers and the database's tables into one file; a server may run meanwhile");
+  command->add_option("FILE", options->file, "Zip file to write; an old one of that name is replaced")
+      ->required();
+  command->callback([options, &global] { back_up(*options, global); });
+}
+
+void add_restore_command(CLI::App& app, GlobalOptions& global) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "restore", "Put a backup into an empty data folder and an empty database of either kind");
+  command->add_option("FILE", options->file, "What ream backup has written")->required();
+  command->add_flag("--force", options->force, "Move aside what is there, within the data folder");
+  command->callback([options, &global] { restore(*options, global); });
+}
+
+}  // namespace ream::app

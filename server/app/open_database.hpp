@@ -1,0 +1,17 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "store/database.hpp"
+
+namespace ream::app {
+
+/// URL of the database of a data folder: `chosen` (--db) if not empty, else REAM_DB, else a SQLite file in
+/// the folder. Error usage for a password on the command line, where everybody on the machine can read it.
+std::string database_url(const std::string& chosen, const std::filesystem::path& data);
+
+/// Opens it. The data folder is made if the database is there. Errors are those of store::Database, too.
+std::shared_ptr<store::Database> open_database(const std::string& chosen, const std::filesystem::path& data);
+
+}  // namespace ream::app

@@ -1,0 +1,122 @@
+#include "net/file_body.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "net/byte_range.hpp"
+#include "net/conditional.hpp"
+#include "net/problem.hpp"
+
+namespace ream::net {
+namespace {
+
+std::string tag_of(const struct stat& facts) {
+  uint64_t hash = mix64(static_cast<uint64_t>(facts.st_ino));
+  for (const auto part : {static_cast<uint64_t>(facts.st_size), static_cast<uint64_t>(facts.st_mtim.tv_sec),
+                          static_cast<uint64_t>(facts.st_mtim.tv_nsec)})
+    hash = hash_combine(hash, part);
+  return "\"" + to_hex(hash) + "\"";
+}
+
+bool is_plain_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
+         c == '.';
+}
+
+Response part_of(Response response, const ByteRange& range) {
+  const uint64_t whole = response.file->bytes;
+  response.status = 206;
+  response.file->offset = range.offset;
+  response.file->bytes = range.bytes;
+  response.headers.emplace_back("Content-Range", "bytes " + std::to_string(range.offset) + "-" +
+                                                     std::to_string(range.offset + range.bytes - 1) + "/" +
+                                                     std::to_string(whole));
+  return response;
+}
+
+Response nothing_of(uint64_t whole) {
+  Response response =
+      problem(416, "the range is outside of the file, which has " + std::to_string(whole) + " bytes");
+  response.headers.emplace_back("Content-Range", "bytes */" + std::to_string(whole));
+  return response;
+}
+
+}  // namespace
+
+OpenFile::OpenFile(const std::filesystem::path& path) : path_(path) {
+  // Without O_NONBLOCK a named pipe in place of the file would hold us.
+  descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor_ < 0 && (errno == ENOENT || errno == ENOTDIR))
+    throw Error(ErrorKind::not_found, "no such file: " + path.string());
+  struct stat facts {};
+  if (descriptor_ < 0 || ::fstat(descriptor_, &facts) != 0) {
+    const std::string reason = std::strerror(errno);
+    if (descriptor_ >= 0) ::close(descriptor_);
+    throw Error(ErrorKind::io, "cannot read " + path.string() + ": " + reason);
+  }
+  if (!S_ISREG(facts.st_mode)) {
+    ::close(descriptor_);
+    throw Error(ErrorKind::invalid_input, path.string() + " is no file");
+  }
+  bytes_ = static_cast<uint64_t>(facts.st_size);
+  tag_ = tag_of(facts);
+}
+
+OpenFile::~OpenFile() { ::close(descriptor_); }
+
+size_t OpenFile::read(uint64_t offset, std::span<std::byte> into) const {
+  size_t got = 0;
+  while (got < into.size()) {
+    const ssize_t n =
+        ::pread(descriptor_, into.data() + got, into.size() - got, static_cast<off_t>(offset + got));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) throw Error(ErrorKind::io, "cannot read " + path_.string() + ": " + std::strerror(errno));
+    if (n == 0) break;
+    got += static_cast<size_t>(n);
+  }
+  return got;
+}
+
+Response file_response(const Request& request, const FileBody& body) {
+  const auto file = std::make_shared<const OpenFile>(body.path);
+  Response response;
+  response.headers = {
+      {"ETag", file->tag()}, {"Cache-Control", "private, no-cache"}, {"Accept-Ranges", "bytes"}};
+  if (names_tag(request.header("if-none-match"), file->tag())) {
+    response.status = 304;
+    return response;
+  }
+  response.content_type = body.content_type;
+  if (!body.download_name.empty())
+    response.headers.emplace_back("Content-Disposition", attachment_named(body.download_name));
+  response.file = FileStretch{file, 0, file->bytes()};
+  const std::string_view only_if = request.header("if-range");
+  if (request.method != "GET" || (!only_if.empty() && !names_tag_strongly(only_if, file->tag())))
+    return response;
+  const ByteRange range = read_range(request.header("range"), file->bytes());
+  if (range.answer == ByteRange::Answer::unsatisfiable) return nothing_of(file->bytes());
+  return range.answer == ByteRange::Answer::part ? part_of(std::move(response), range) : response;
+}
+
+std::string attachment_named(const std::string& name) {
+  static constexpr char digits[] = "0123456789ABCDEF";
+  std::string plain, encoded;
+  for (const char c : name) {
+    plain += is_plain_letter(c) ? c : '_';
+    if (is_plain_letter(c)) {
+      encoded += c;
+    } else {
+      const auto byte = static_cast<unsigned char>(c);
+      encoded += {'%', digits[byte >> 4], digits[byte & 15]};
+    }
+  }
+  return "attachment; filename=\"" + plain + "\"; filename*=UTF-8''" + encoded;
+}
+
+}  // namespace ream::net

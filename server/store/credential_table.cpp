@@ -1,0 +1,114 @@
+#include "store/credential_table.hpp"
+
+#include "store/sql.hpp"
+
+namespace ream::store {
+namespace {
+
+/// `id` is what the statement reads each row into.
+std::vector<std::string> ids_of(soci::statement& found, const std::string& id) {
+  std::vector<std::string> ids;
+  found.execute();
+  while (found.fetch()) ids.push_back(id);
+  return ids;
+}
+
+void remove_with_children(Sql& sql, std::vector<std::string>& ids) {
+  const size_t parents = ids.size();
+  for (size_t i = 0; i < parents; ++i) {
+    std::string id;
+    soci::statement children =
+        (sql.prepare << "SELECT id FROM credentials WHERE parent_id = :id", use(ids[i]), into(id));
+    for (std::string& child : ids_of(children, id)) ids.push_back(std::move(child));
+  }
+  for (const std::string& id : ids) sql << "DELETE FROM credentials WHERE id = :id", use(id);
+}
+
+}  // namespace
+
+void CredentialTable::add(const CredentialRow& row) {
+  database_.run([&](Sql& sql) {
+    sql << "INSERT INTO credentials (id, kind, hash, user_id, role, name, session_id, parent_id, "
+           "created_utc, "
+           "expires_utc, last_used_utc) VALUES (:id, :kind, :hash, :user_id, :role, :name, :session_id, "
+           ":parent_id, :created_utc, :expires_utc, :last_used_utc)",
+        use(row.id), use(row.kind), use(row.hash), use(row.user_id), use(row.role), use(row.name),
+        use(row.session_id), use(row.parent_id), use(row.created_utc), use(row.expires_utc),
+        use(row.last_used_utc);
+  });
+}
+
+std::optional<KnownCredential> CredentialTable::find(const std::string& id) const {
+  return database_.read([&](Sql& sql) -> std::optional<KnownCredential> {
+    KnownCredential known;
+    CredentialRow& row = known.credential;
+    UserRow user;
+    int enabled = 0;
+    sql << "SELECT c.id, c.kind, c.hash, c.user_id, c.role, c.name, c.session_id, c.parent_id, "
+           "c.created_utc, "
+           "c.expires_utc, c.last_used_utc, COALESCE(u.id, ''), COALESCE(u.name, ''), "
+           "COALESCE(u.display_name, ''), COALESCE(u.role, ''), COALESCE(u.created_utc, ''), "
+           "COALESCE(u.enabled, 0) FROM credentials c LEFT JOIN users u ON u.id = c.user_id WHERE c.id = :id",
+        use(id), into(row.id), into(row.kind), into(row.hash), into(row.user_id), into(row.role),
+        into(row.name), into(row.session_id), into(row.parent_id), into(row.created_utc),
+        into(row.expires_utc), into(row.last_used_utc), into(user.id), into(user.name),
+        into(user.display_name), into(user.role), into(user.created_utc), into(enabled);
+    if (!sql.got_data()) return std::nullopt;
+    user.enabled = enabled != 0;
+    if (!user.id.empty()) known.user = std::move(user);
+    return known;
+  });
+}
+
+std::vector<CredentialRow> CredentialTable::list(const std::string& kind, const std::string& user_id) const {
+  return database_.read([&](Sql& sql) {
+    std::vector<CredentialRow> rows;
+    CredentialRow row;
+    soci::statement found =
+        (sql.prepare << "SELECT id, kind, hash, user_id, role, name, session_id, parent_id, created_utc, "
+                        "expires_utc, last_used_utc FROM credentials WHERE kind = :kind "
+                        "AND (:anybody = '' OR user_id = :user_id) ORDER BY created_utc DESC, id",
+         use(kind), use(user_id), use(user_id), into(row.id), into(row.kind), into(row.hash),
+         into(row.user_id), into(row.role), into(row.name), into(row.session_id), into(row.parent_id),
+         into(row.created_utc), into(row.expires_utc), into(row.last_used_utc));
+    found.execute();
+    while (found.fetch()) rows.push_back(row);
+    return rows;
+  });
+}
+
+void CredentialTable::note_use(const std::string& id, const std::string& utc) {
+  database_.run([&](Sql& sql) {
+    sql << "UPDATE credentials SET last_used_utc = :utc WHERE id = :id", use(utc), use(id);
+  });
+}
+
+std::vector<std::string> CredentialTable::remove(const std::string& id) {
+  return database_.run([&](Sql& sql) {
+    std::string found;
+    soci::statement one = (sql.prepare << "SELECT id FROM credentials WHERE id = :id", use(id), into(found));
+    std::vector<std::string> ids = ids_of(one, found);
+    remove_with_children(sql, ids);
+    return ids;
+  });
+}
+
+std::vector<std::string> CredentialTable::remove_of_user(const std::string& user_id, const std::string& kind,
+                                                         const std::string& except) {
+  return database_.run([&](Sql& sql) {
+    std::string found;
+    soci::statement all = (sql.prepare << "SELECT id FROM credentials WHERE user_id = :user_id "
+                                          "AND (:any = '' OR kind = :kind) AND id <> :except",
+                           use(user_id), use(kind), use(kind), use(except), into(found));
+    std::vector<std::string> ids = ids_of(all, found);
+    remove_with_children(sql, ids);
+    return ids;
+  });
+}
+
+void CredentialTable::remove_expired(const std::string& before_utc) {
+  database_.run(
+      [&](Sql& sql) { sql << "DELETE FROM credentials WHERE expires_utc < :before", use(before_utc); });
+}
+
+}  // namespace ream::store

@@ -1,0 +1,85 @@
+#include "store/migrations.hpp"
+
+#include <algorithm>
+#include <migration_files.hpp>
+#include <set>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "store/dialect.hpp"
+#include "store/sql.hpp"
+
+namespace ream::store {
+namespace {
+
+/// "001_sessions.sql" -> 1.
+int number_of(const std::string& file) { return std::stoi(file.substr(0, file.find('_'))); }
+
+std::vector<Migration> embedded_migrations() {
+  std::vector<Migration> found;
+  std::string_view names = REAM_MIGRATIONS;
+  while (!names.empty()) {
+    const size_t end = std::min(names.find(','), names.size());
+    const std::string file(names.substr(0, end));
+    found.push_back({number_of(file), file, std::string(embedded::migration_files::find(file))});
+    names.remove_prefix(std::min(end + 1, names.size()));
+  }
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
+  return found;
+}
+
+/// Those that have run; makes the table that knows it.
+std::set<int> done(Sql& sql) {
+  sql << in_dialect(sql,
+                    "CREATE TABLE IF NOT EXISTS migrations (number BIGINT PRIMARY KEY, name TEXT NOT NULL)");
+  std::set<int> numbers;
+  int number = 0;
+  soci::statement rows = (sql.prepare << "SELECT number FROM migrations", into(number));
+  rows.execute();
+  while (rows.fetch()) numbers.insert(number);
+  return numbers;
+}
+
+void run_statements(Sql& sql, const std::string& statements) {
+  constexpr std::string_view end = ";\n";
+  size_t from = 0;
+  for (size_t at = statements.find(end); at != std::string::npos; at = statements.find(end, from)) {
+    sql << in_dialect(sql, statements.substr(from, at - from));
+    from = at + end.size();
+  }
+}
+
+}  // namespace
+
+const std::vector<Migration>& migrations() {
+  static const std::vector<Migration> all = embedded_migrations();
+  return all;
+}
+
+std::vector<std::string> table_names() {
+  constexpr std::string_view making = "CREATE TABLE ";
+  std::vector<std::string> names;
+  for (const Migration& step : migrations()) {
+    const std::string& text = step.statements;
+    for (size_t at = text.find(making); at != std::string::npos; at = text.find(making, at)) {
+      at += making.size();
+      names.push_back(text.substr(at, text.find_first_of(" (\n", at) - at));
+    }
+  }
+  return names;
+}
+
+void migrate(Sql& sql) {
+  lock_for_migration(sql);
+  std::set<int> before = done(sql);
+  for (const Migration& step : migrations()) {
+    if (before.erase(step.number) > 0) continue;
+    run_statements(sql, step.statements);
+    sql << "INSERT INTO migrations (number, name) VALUES (:number, :name)", use(step.number), use(step.name);
+  }
+  if (!before.empty())
+    throw Error(ErrorKind::conflict, "a newer version of ream has changed the database's tables (step " +
+                                         std::to_string(*before.rbegin()) + "); update this one");
+}
+
+}  // namespace ream::store

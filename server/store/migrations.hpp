@@ -1,0 +1,28 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "store/database.hpp"
+
+namespace ream::store {
+
+/// One step of the tables' history: server/store/migrations/NNN_words.sql. Steps run once each, in order of
+/// their numbers, and never change once released. They are written in SQL that both stores understand, with
+/// the types TEXT (sorted by bytes on both), BIGINT and DOUBLE PRECISION, and NUMBERED_KEY for a column that
+/// numbers its rows by itself. Statements end with ';' at the end of a line.
+struct Migration {
+  int number;
+  std::string name, statements;
+};
+
+/// All of this build, by number.
+const std::vector<Migration>& migrations();
+
+/// Names of the tables that they make, each behind those that it refers to.
+std::vector<std::string> table_names();
+
+/// Runs those that are missing, inside the caller's transaction. Error conflict when the database knows steps
+/// that this build does not.
+void migrate(Sql& sql);
+
+}  // namespace ream::store

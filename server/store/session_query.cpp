@@ -1,0 +1,132 @@
+#include "store/session_query.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "core/error.hpp"
+
+namespace ream::store {
+namespace {
+
+constexpr std::array<const char*, 5> order_words{"created_utc", "duration_s", "case", "trainee", "state"};
+constexpr char digits[] = "0123456789abcdef";
+
+std::string number_text(double number) {
+  std::array<char, 32> text;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
+}
+
+std::string key_of(SessionOrder order, const SessionRow& row) {
+  switch (order) {
+    case SessionOrder::created:
+      return row.created_utc;
+    case SessionOrder::duration:
+      return number_text(row.duration_s);
+    case SessionOrder::case_id:
+      return row.case_id;
+    case SessionOrder::trainee:
+      return row.trainee;
+    case SessionOrder::state:
+      return row.state;
+  }
+  return {};
+}
+
+/// Less than zero: `a` comes first in ascending order.
+int compare(SessionOrder order, const SessionPlace& a, const SessionPlace& b) {
+  if (order == SessionOrder::duration) {
+    const double first = duration_of(a), second = duration_of(b);
+    if (first != second) return first < second ? -1 : 1;
+  } else if (const int keys = a.key.compare(b.key); keys != 0) {
+    return keys;
+  }
+  return a.id.compare(b.id);
+}
+
+SessionPlace place_of(SessionOrder order, const SessionRow& row) { return {key_of(order, row), row.id}; }
+
+/// The order of a cursor, so that it is not used for another one.
+std::string order_mark(const SessionQuery& query) {
+  return std::string(query.descending ? "-" : "+") + order_words[static_cast<size_t>(query.order)];
+}
+
+std::string hex_of(const std::string& text) {
+  std::string hex;
+  for (const char c : text) {
+    hex += digits[static_cast<unsigned char>(c) >> 4];
+    hex += digits[static_cast<unsigned char>(c) & 15];
+  }
+  return hex;
+}
+
+/// Empty for what is no hex.
+std::string text_from_hex(const std::string& hex) {
+  std::string text;
+  for (size_t i = 0; i + 1 < hex.size(); i += 2) {
+    const char* high = std::char_traits<char>::find(digits, 16, hex[i]);
+    const char* low = std::char_traits<char>::find(digits, 16, hex[i + 1]);
+    if (high == nullptr || low == nullptr) return {};
+    text += static_cast<char>((high - digits) * 16 + (low - digits));
+  }
+  return hex.size() % 2 == 0 ? text : std::string();
+}
+
+bool is_or_any(const std::string& wanted, const std::string& value) {
+  return wanted.empty() || wanted == value;
+}
+
+}  // namespace
+
+double duration_of(const SessionPlace& place) {
+  double number = 0.0;
+  std::from_chars(place.key.data(), place.key.data() + place.key.size(), number);
+  return number;
+}
+
+std::optional<SessionOrder> session_order_from(const std::string& word) {
+  const auto found = std::find(order_words.begin(), order_words.end(), word);
+  if (found == order_words.end()) return std::nullopt;
+  return static_cast<SessionOrder>(found - order_words.begin());
+}
+
+bool matches(const SessionQuery& query, const SessionRow& row) {
+  const auto& states = query.states;
+  if (!states.empty() && std::find(states.begin(), states.end(), row.state) == states.end()) return false;
+  if (!is_or_any(query.case_id, row.case_id) || !is_or_any(query.trainee_id, row.trainee_id) ||
+      !is_or_any(query.study, row.study) || !is_or_any(query.participant, row.participant))
+    return false;
+  if (query.outside_studies && !row.study.empty()) return false;
+  if (row.created_utc < query.created_from) return false;
+  if (!query.created_before.empty() && row.created_utc >= query.created_before) return false;
+  const std::string text = searched_text(row);
+  const auto words = searched_words(query);
+  return std::all_of(words.begin(), words.end(),
+                     [&](const std::string& word) { return text.find(word) != std::string::npos; });
+}
+
+bool behind(const SessionQuery& query, const SessionPlace& place, const SessionRow& row) {
+  const int order = compare(query.order, place, place_of(query.order, row));
+  return query.descending ? order > 0 : order < 0;
+}
+
+bool precedes(const SessionQuery& query, const SessionRow& a, const SessionRow& b) {
+  return behind(query, place_of(query.order, a), b);
+}
+
+std::string cursor_behind(const SessionQuery& query, const SessionRow& row) {
+  const SessionPlace place = place_of(query.order, row);
+  return hex_of(order_mark(query) + '\n' + place.id + '\n' + place.key);
+}
+
+std::optional<SessionPlace> place_of_cursor(const SessionQuery& query) {
+  if (query.cursor.empty()) return std::nullopt;
+  const std::string text = text_from_hex(query.cursor), mark = order_mark(query) + '\n';
+  const size_t end = text.find('\n', mark.size());
+  if (!text.starts_with(mark) || end == std::string::npos || text.find('\0') != std::string::npos)
+    throw Error(ErrorKind::invalid_input,
+                "cursor is none that this list has given; leave it out to begin with the first page");
+  return SessionPlace{text.substr(end + 1), text.substr(mark.size(), end - mark.size())};
+}
+
+}  // namespace ream::store

@@ -1,0 +1,87 @@
+#pragma once
+#include <soci/soci.h>
+
+#include <string>
+#include <type_traits>
+
+#include "store/database.hpp"
+
+/// What repositories need of SOCI. Included by sources of this room only.
+///
+///   database.run([&](Sql& sql) {
+///     sql << "INSERT INTO users (id, name) VALUES (:id, :name)", use(user.id), use(user.name);
+///   });
+///   database.read([&](Sql& sql) {
+///     User user;
+///     sql << "SELECT id, name FROM users WHERE id = :id", use(id), into(user.id), into(user.name);
+///     return sql.got_data() ? std::optional(user) : std::nullopt;
+///   });
+///
+/// SQL is what both stores understand ("ON CONFLICT (id) DO UPDATE SET name = excluded.name" is). Columns are
+/// NOT NULL, for into() of a NULL throws. Whole numbers are read into long long or int64_t; SOCI knows no
+/// bool.
+namespace ream::store {
+
+using soci::into;
+
+/// The text itself. One that PostgreSQL cannot hold as it is (a NUL, bytes that are no UTF-8) becomes empty,
+/// and the transaction fails at its end with Error invalid_input: SOCI bears no exception inside a statement.
+const std::string& storable(const std::string& text);
+/// Throws that error if this thread gave such a text since forget_unstorable().
+void refuse_unstorable();
+void forget_unstorable();
+
+inline const std::string no_name;  ///< what SOCI keeps for a parameter lives longer than a default argument
+
+/// A parameter, by place. `value` lives until the statement has run.
+template <typename T>
+auto use(const T& value) {
+  if constexpr (std::is_same_v<T, std::string>)
+    return soci::use(storable(value), no_name);
+  else
+    return soci::use(value, no_name);
+}
+template <typename T>
+void use(const T&&) = delete;
+
+/// A statement with as many parameters as it turns out to need.
+class OpenStatement {
+ public:
+  OpenStatement(Sql& sql, const std::string& text) : made_(sql.prepare << text) {}
+  template <typename T>
+  OpenStatement& with(const T& value) {
+    made_, use(value);
+    return *this;
+  }
+  /// Columns come into these variables, row by row.
+  template <typename T>
+  OpenStatement& into(T& value) {
+    made_, soci::into(value);
+    return *this;
+  }
+  /// With room for NULL.
+  template <typename T>
+  OpenStatement& with(const T& value, soci::indicator& indicator) {
+    made_, soci::use(value, indicator, no_name);
+    return *this;
+  }
+  template <typename T>
+  OpenStatement& into(T& value, soci::indicator& indicator) {
+    made_, soci::into(value, indicator);
+    return *this;
+  }
+  /// Calls `row` after each row has come.
+  template <typename Row>
+  void each(Row&& row) {
+    soci::statement statement(made_);
+    statement.execute();
+    while (statement.fetch()) row();
+  }
+  /// To be executed again and again, with what the variables of with() hold each time.
+  soci::statement prepared() { return soci::statement(made_); }
+
+ private:
+  soci::details::prepare_temp_type made_;
+};
+
+}  // namespace ream::store

@@ -1,0 +1,172 @@
+#include <signal.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <functional>
+#include <random>
+#include <thread>
+
+#include "case/case.hpp"
+#include "e2e/cli/command_line.hpp"
+#include "support/places.hpp"
+#include "support/postgres_server.hpp"
+#include "support/raw_http.hpp"
+#include "support/test_bone.hpp"
+
+namespace ream::test {
+namespace {
+
+using nlohmann::json;
+using namespace std::chrono_literals;
+
+/// A data folder with a small block of bone and a script that presses on it for ten minutes.
+class Backup : public CommandLine {
+ protected:
+  void SetUp() override {
+    write("web/index.html", "<!doctype html><title>page</title>");
+    case_::Case block;
+    block.id = "block";
+    block.name = "A block";
+    block.source = "made for this test";
+    block.bone = slab({72, 72, 48}, 0.5, 16.0, 1.2);
+    block.plan = slab_plan(block.bone, 16.0);
+    block.plan->reamer = "sphere 12,8";
+    case_::save_case(block, folder() / "data/cases/block");
+    write("data/scripts/press.json",
+          R"({"device": "hand", "duration_s": 600, "stiffness_n_mm": 100,
+              "hand": {"start_mm": [0, 0, -0.3], "force_profile": [{"t_s": 0, "force_n": 40}]}})");
+  }
+
+  void serve(const Words& more = {}) {
+    Words words{"serve", "--port", "0", "--web", "web", "--backend", "cpu", "--realtime", "off", "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    server_ = start(words, "server");
+    until("the server says where it is", [&] { return printed("server.out").ends_with('\n'); });
+    const std::string url = json::parse(printed("server.out")).at("url");
+    port_ = static_cast<uint16_t>(std::stoi(url.substr(url.rfind(':') + 1)));
+    until("it is ready", [&] { return http_request(port_, "GET", "/readyz").status == 200; });
+  }
+  void until(const std::string& what, const std::function<bool()>& reached) {
+    for (int i = 0; i < 6000 && !server_->ended(); ++i) {
+      if (reached()) return;
+      std::this_thread::sleep_for(10ms);
+    }
+    throw std::runtime_error("waited in vain until " + what + "\n" + printed("server.err"));
+  }
+  void end_server() {
+    server_->send_signal(SIGTERM);
+    EXPECT_EQ(server_->wait(20s), 0) << printed("server.err");
+  }
+  json request(int status, const std::string& method, const std::string& target,
+               const std::string& body = {}) {
+    const HttpReply reply = http_request(port_, method, target, body);
+    EXPECT_EQ(reply.status, status) << method << ' ' << target << '\n' << reply.body;
+    return json::parse(reply.body);
+  }
+  std::string run_session() {
+    const std::string id =
+        request(201, "POST", "/api/v1/sessions", R"({"case": "block", "script": "press"})").at("id");
+    request(200, "POST", "/api/v1/sessions/" + id + "/start");
+    until("it has reamed a while", [&] {
+      return request(200, "GET", "/api/v1/sessions/" + id + "/metrics").at("duration_s").get<double>() > 2.0;
+    });
+    return id;
+  }
+
+  std::unique_ptr<ChildProcess> server_;
+  uint16_t port_ = 0;
+};
+
+TEST_F(Backup, CarriesARunningServersSessionsIntoPostgresqlAndBack) {
+  serve();
+  const std::string ended = run_session();
+  request(200, "POST", "/api/v1/sessions/" + ended + "/stop");
+  const std::string live = run_session();
+  const json made = answer({"backup", "first.zip"});
+  EXPECT_EQ(made.at("live"), json::array({live}));
+  EXPECT_EQ(made.at("sessions"), 2);
+  EXPECT_GE(made.at("cases").get<int>(), 1);
+  EXPECT_EQ(request(200, "GET", "/api/v1/sessions/" + live).at("state"), "running");
+  end_server();
+
+  PostgresServer postgres;
+  const std::string url = postgres.make_database();
+  const json restored = answer({"restore", "first.zip", "--data", "second", "--db", url});
+  EXPECT_EQ(restored.at("sessions"), 2);
+  EXPECT_EQ(restored.at("database").get<std::string>().find("ream@"), std::string::npos);
+  serve({"--data", "second", "--db", url});
+  EXPECT_EQ(request(200, "GET", "/api/v1/sessions/" + ended).at("state"), "stopped");
+  const json kept = request(200, "GET", "/api/v1/sessions/" + live);
+  EXPECT_EQ(kept.at("state"), "interrupted");
+  EXPECT_GT(kept.at("duration_s").get<double>(), 1.0);
+  EXPECT_EQ(request(200, "GET", "/api/v1/sessions").at("sessions").size(), 2u);
+  refuse(1, "a server runs on", {"restore", "first.zip", "--force", "--data", "second", "--db", url});
+  end_server();
+  for (const std::string& id : {ended, live}) succeed({"replay", id, "--verify", "--data", "second"});
+
+  succeed({"backup", "second.zip", "--data", "second", "--db", url});
+  EXPECT_EQ(answer({"restore", "second.zip", "--data", "third"}).at("rows"), 4);
+  EXPECT_EQ(answer({"list", "sessions", "--data", "third"}),
+            answer({"list", "sessions", "--data", "second"}));
+}
+
+TEST_F(Backup, WhatCannotBeUsedIsNamed) {
+  write("text.zip", "hello");
+  succeed({"backup", "good.zip"});
+  refuse(1, "nowhere.zip", {"restore", "nowhere.zip", "--data", "other"});
+  refuse(1, "text.zip", {"restore", "text.zip", "--data", "other"});
+  refuse(1, "--force", {"restore", "good.zip"});
+  refuse(1, "cannot write missing/backup.zip: No such file or directory", {"backup", "missing/backup.zip"});
+  refuse(1, "cannot write data: it is no file", {"backup", "data"});
+  refuse(1, "cannot write text.zip/backup.zip: Not a directory", {"backup", "text.zip/backup.zip"});
+  refuse(1, "no data folder", {"backup", "a.zip", "--data", "nowhere"});
+  refuse(2, "FILE", {"backup"});
+  refuse(2, "sqlite:FILE", {"backup", "a.zip", "--db", "ream.db"});
+  refuse(2, "REAM_DB", {"backup", "a.zip", "--db", "postgresql://me:secret@127.0.0.1/ream"});
+  refuse(1, "postgresql://127.0.0.1:1/ream does not answer",
+         {"backup", "a.zip", "--db", "postgresql://me@127.0.0.1:1/ream"});
+}
+
+TEST_F(Backup, AFullDiskLeavesNothing) {
+  std::string noise;
+  std::mt19937 random(1);
+  for (int i = 0; i < 100'000; ++i) noise += static_cast<char>(random());
+  write("data/reamers/noise.bin", noise);
+  succeed({"backup", "good.zip"});
+  const auto before = tree();
+  const std::string program = build_folder() + "/ream";
+  for (const std::string& command :
+       {program + " backup other.zip", program + " restore good.zip --data data2"}) {
+    std::filesystem::create_directories(folder() / "data2");
+    std::filesystem::copy_file(folder() / "data/ream.db", folder() / "data2/ream.db",
+                               std::filesystem::copy_options::overwrite_existing);
+    EXPECT_EQ(start_program({"/bin/sh", "-c", "ulimit -f 64; exec " + command}, "full")  // 32 KiB a file
+                  ->wait(60s),
+              1);
+    const std::string words = printed("full.err");
+    EXPECT_EQ(words.rfind("ream: cannot write", 0), 0u) << words;
+    EXPECT_EQ(std::count(words.begin(), words.end(), '\n'), 1) << words;
+    std::filesystem::remove_all(folder() / "data2");
+    EXPECT_EQ(tree(), before);
+  }
+}
+
+TEST_F(Backup, ADeviceOrAPipeIsNotReplaced) {
+  std::filesystem::create_symlink("/dev/null", folder() / "nothing");
+  ASSERT_EQ(::mkfifo((folder() / "pipe").c_str(), 0600), 0);
+  for (const std::string name : {"nothing", "pipe"}) {
+    refuse(1, "cannot write " + name + ": it is no file", {"backup", name});
+    EXPECT_FALSE(std::filesystem::is_regular_file(folder() / name));
+  }
+}
+
+TEST_F(Backup, TheIndexOfSessionsIsMadeAnew) {
+  write("data/sessions/aaaa/session.json", R"({"state": "finished", "case": "block"})");
+  const json listed = answer({"list", "sessions", "--rebuild-index"});
+  ASSERT_EQ(listed.size(), 1u);
+  EXPECT_EQ(listed.at(0).at("id"), "aaaa");
+  refuse(2, "only sessions", {"list", "cases", "--rebuild-index"});
+}
+
+}  // namespace
+}  // namespace ream::test

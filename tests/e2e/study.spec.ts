@@ -1,0 +1,147 @@
+// A study from its making to its export: people take part by code, train, answer, and stay unknown to who watches.
+import { readFileSync } from 'node:fs';
+
+import { type Browser, expect, type Page, test } from '@playwright/test';
+
+import { logIn, serverForEachTest } from './server_for_each_test';
+import type { TestUser } from './server_process';
+
+const olga: TestUser = { name: 'olga', role: 'operator', displayName: 'Olga Operator' };
+const ines: TestUser = { name: 'ines', role: 'instructor', displayName: 'Ines Instructor' };
+const tom: TestUser = { name: 'tom', role: 'trainee', displayName: 'Tom Trainee' };
+
+const here = serverForEachTest([olga, ines, tom]);
+
+/** A window of somebody's own. */
+async function windowOf(browser: Browser, user: TestUser): Promise<Page> {
+  const page = await (await browser.newContext()).newPage();
+  here.watchForErrors(page);
+  await page.goto(here.server.url);
+  await logIn(page, user.name);
+  await expect(page.getByTestId('who')).toContainText(user.displayName);
+  return page;
+}
+
+/** The demo case has to be there before a study can name it. */
+async function makeStudy(page: Page): Promise<string> {
+  await expect
+    .poll(async () => (await page.request.get(`${here.server.url}/readyz`)).status(), { timeout: 60_000 })
+    .toBe(200);
+  await page.getByTestId('to-studies').click();
+  await page.getByTestId('study-name').fill('Who presses too hard?');
+  await expect(page.getByTestId('study-case-demo')).toBeChecked();
+  await page.getByTestId('make-study').click();
+  await expect(page.getByTestId('study-title')).toHaveText('Who presses too hard?');
+  return (await page.getByTestId('study-join-code').textContent()) ?? '';
+}
+
+async function join(page: Page, joinCode: string): Promise<string> {
+  await page.getByTestId('to-studies').click();
+  await page.getByTestId('join-code').fill('nonsense');
+  await page.getByTestId('experience').selectOption('novice');
+  await page.getByTestId('join').click();
+  await expect(page.getByTestId('join-problem')).toBeVisible();
+  await page.getByTestId('join-code').fill(joinCode);
+  await page.getByTestId('join').click();
+  await expect(page.getByTestId('own-code')).toBeVisible();
+  return /[2-9A-Z]{2}-[2-9A-Z]{3}/.exec((await page.getByTestId('own-code').textContent()) ?? '')?.[0] ?? '';
+}
+
+/** Takes the reamer into the hand for some seconds of session time. */
+async function train(page: Page): Promise<void> {
+  await page.getByTestId('train').click();
+  await page.waitForFunction(() => window.__ream.deviceLink === 'holding', null, { timeout: 60_000 });
+  await page.waitForFunction(() => (window.__ream.lastTick ?? 0) > 300, null, { timeout: 60_000 });
+}
+
+async function savedBy(page: Page, testId: string): Promise<string> {
+  const [download] = await Promise.all([page.waitForEvent('download'), page.getByTestId(testId).click()]);
+  return readFileSync(await download.path(), 'utf8');
+}
+
+test('a trainee takes part, trains and answers; who watches sees the code until an operator unblinds', async ({
+  browser,
+}) => {
+  const instructor = await windowOf(browser, ines);
+  const joinCode = await makeStudy(instructor);
+  const trainee = await windowOf(browser, tom);
+  const code = await join(trainee, joinCode);
+  expect(code).not.toBe('');
+
+  await train(trainee);
+  await instructor.getByTestId('all-studies').click();
+  await instructor.getByRole('link', { name: 'Who presses too hard?' }).click();
+  await expect(instructor.getByTestId(`participant-${code}`)).toContainText('hidden');
+  await instructor.getByTestId('to-live').click();
+  await expect(instructor.getByTestId('session-labels')).toContainText(code, { timeout: 60_000 });
+  expect(await instructor.locator('body').innerText()).not.toContain('Tom');
+  await trainee.getByTestId('stop').click();
+  await expect(trainee.getByTestId('session-state')).toHaveAttribute('data-state', 'stopped');
+
+  // By keys alone: what is missing is said and gone to, then every statement is answered.
+  await trainee.getByTestId('questionnaire-notice').getByRole('link').click();
+  await expect(trainee.getByTestId('questionnaire')).toBeVisible();
+  await trainee.getByTestId('send-answers').focus();
+  await trainee.keyboard.press('Enter');
+  await expect(trainee.getByTestId('missing')).toContainText('answers are missing');
+  await expect(trainee.getByTestId('bone_appearance-1')).toBeFocused();
+  const groups = await trainee
+    .getByRole('group')
+    .filter({ has: trainee.getByRole('radio') })
+    .all();
+  for (const group of groups.filter((_, i) => i >= 0)) {
+    const first = group.getByRole('radio').first();
+    await first.focus();
+    await trainee.keyboard.press('Space');
+    await trainee.keyboard.press('ArrowRight');
+  }
+  await expect(trainee.getByTestId('bone_appearance-2')).toBeChecked();
+  await trainee.getByTestId('vibration-none').check();
+  await trainee.getByTestId('remarks-text').fill('More bone, please.');
+  await trainee.getByTestId('send-answers').click();
+  await expect(trainee.getByTestId('answers-said')).toContainText('Thank you');
+  await trainee.reload();
+  await expect(trainee.getByTestId('vibration-none')).toBeChecked();
+  await expect(trainee.getByTestId('remarks-text')).toHaveValue('More bone, please.');
+
+  const operator = await windowOf(browser, olga);
+  await operator.getByTestId('to-studies').click();
+  await operator.getByRole('link', { name: 'Who presses too hard?' }).click();
+  await expect(operator.getByTestId(`participant-${code}`)).toContainText('Novice');
+  const answers = await savedBy(operator, 'export-answers');
+  expect(answers.split('\r\n')[0]).toContain('bone_appearance');
+  expect(answers).toContain(code);
+  for (const table of ['export-sessions', 'export-answers', 'export-groups', 'export-json'])
+    expect(await savedBy(operator, table)).not.toMatch(/Tom|tom/);
+  expect(await savedBy(operator, 'export-sessions')).toContain(`${code},novice,0,1,1,demo`);
+  expect(await savedBy(operator, 'export-codebook')).toContain('reaming_depth_mm');
+  await operator.getByTestId('show-persons').click();
+  await expect(operator.getByTestId(`participant-${code}`)).toContainText('Tom Trainee');
+
+  await operator.getByTestId('close-study').click();
+  await operator.getByTestId('really-close-study').click();
+  await expect(operator.getByTestId('study-state')).toHaveText('Closed');
+  await operator.getByTestId('unblind-study').click();
+  await operator.getByTestId('really-unblind-study').click();
+  await expect(operator.getByTestId('unblind-study')).toBeHidden();
+  await instructor.getByTestId('to-sessions').click();
+  await expect(instructor.getByTestId('session-table')).toContainText('Tom Trainee');
+  await trainee.reload();
+  await expect(trainee.getByTestId('send-answers')).toBeDisabled();
+});
+
+test('an instructor enrols somebody without an account and trains with their code', async ({ browser }) => {
+  const page = await windowOf(browser, ines);
+  await makeStudy(page);
+  await expect(page.getByTestId('enrol-who')).toBeHidden();
+  await page.getByTestId('experience').selectOption('expert');
+  await page.getByTestId('procedures').fill('120');
+  await page.getByTestId('enrol').click();
+  const code = /[2-9A-Z]{2}-[2-9A-Z]{3}/.exec((await page.getByTestId('enrolled').textContent()) ?? '')?.[0] ?? '';
+  await page.getByTestId('train-as').selectOption(code);
+  await train(page);
+  await expect(page.getByTestId('session-labels')).toContainText(code);
+  await page.getByTestId('stop').click();
+  await page.getByTestId('questionnaire-notice').getByRole('link').click();
+  await expect(page.getByTestId('questionnaire')).toContainText(code);
+});

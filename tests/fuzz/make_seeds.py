@@ -1,0 +1,109 @@
+"""Writes what the fuzzers begin with: make_seeds.py FOLDER makes FOLDER/<fuzzer>/<seed>.
+
+The messages are those of proto/golden, in the framing that fuzz_input.hpp takes apart.
+"""
+
+import struct
+import sys
+from pathlib import Path
+
+GOLDEN = Path(__file__).resolve().parents[2] / "proto/golden"
+HELLO, HANDLE, STEERING = (
+    (GOLDEN / f"device_{name}.bin").read_bytes() for name in ("hello", "handle", "steering")
+)
+
+
+def piece(data: bytes) -> bytes:
+    return struct.pack("<H", len(data)) + data
+
+
+def frame(opcode: int, payload: bytes, final: bool = True) -> bytes:
+    head = bytes([opcode | (0x80 if final else 0)])
+    size = len(payload)
+    head += bytes([0x80 | size]) if size < 126 else bytes([0x80 | 126]) + struct.pack(">H", size)
+    return head + bytes(4) + payload
+
+
+def http() -> list[bytes]:
+    host = "Host: localhost\r\n"
+    return [
+        text.encode()
+        for text in (
+            f"\x00GET /api/v1/sessions?limit=5&sort=-created HTTP/1.1\r\n{host}If-None-Match: \"a\"\r\n\r\n",
+            f"\x07POST /api/v1/sessions HTTP/1.1\r\n{host}Origin: http://localhost\r\nContent-Length: 2\r\n\r\n{{}}"
+            f"GET /index.html HTTP/1.1\r\n{host}Range: bytes=0-5\r\n\r\n",
+            f"\x1fPUT /api/v1/uploads/a%20b?offset=0 HTTP/1.1\r\n{host}Transfer-Encoding: chunked\r\n"
+            "Expect: 100-continue\r\n\r\n3;x=y\r\nabc\r\n0\r\nX: z\r\n\r\n",
+            f"\x03GET /api/v1/sessions/1/stream HTTP/1.1\r\n{host}Upgrade: websocket\r\nConnection: Upgrade\r\n\r\n",
+            "\x00HEAD /../secret HTTP/1.0\r\nHost: [::1]:80\r\nConnection: keep-alive\r\nCookie: ream_session=x\r\n\r\n",
+            f"\x00DELETE /api/v1/sessions/1/annotations/2 HTTP/1.1\r\n{host}Content-Length: 1\r\nContent-Length: 1\r\n\r\n",
+        )
+    ]
+
+
+def headers() -> list[bytes]:
+    return [
+        bytes([cut]) + text.encode()
+        for cut, text in (
+            (0, "bytes=0-99"),
+            (0, "bytes=-5"),
+            (0, "bytes=100-18446744073709551616"),
+            (0, 'W/"a", "b", *'),
+            (0, "/api/v1/cases/left%20one?a=1+2&b=%C3%A9"),
+            (16, "ream.example.orghttps://ream.example.org"),
+            (13, "[2001:db8::1]http://[2001:db8::1]"),
+            (0, "ream_session=abc; other=\"x\"; Bearer abc"),
+        )
+    ]
+
+
+def device_messages() -> list[bytes]:
+    def say(client: int, message: bytes) -> bytes:
+        return bytes([client]) + piece(message)
+
+    return [
+        b"\x00" + say(0, HELLO) + say(0, HANDLE) + say(1, HELLO) + say(1, HANDLE) + say(0, HANDLE),
+        b"\x01" + say(0, HELLO) + say(0, STEERING) + say(0, HELLO),
+        b"\x00" + say(0, HANDLE) + say(1, b""),
+    ]
+
+
+def websocket() -> list[bytes]:
+    talk = piece(frame(2, HELLO)) + piece(frame(2, HANDLE)) + piece(frame(9, b"ping"))
+    parts = piece(frame(2, HELLO[:40], False) + frame(9, b"") + frame(0, HELLO[40:]))
+    close = piece(frame(8, b"\x03\xe8bye"))
+    return [bytes([kind]) + body + close for kind in (0, 1) for body in (talk, parts, piece(frame(1, b"text")))]
+
+
+def json() -> list[bytes]:
+    point = "[1.5, -2, 3e1]"
+    return [
+        bytes([kind]) + text.encode()
+        for kind, text in (
+            (0, f'{{"case": "demo", "title": "x", "force_scale": 26, "place_mm": {point}, "blinded": true}}'),
+            (0, '{"unknown": 1, "case": 5, "title": "' + "é" * 20 + '", "a/b~c": [[[{}]]]}'),
+            (1, f'{{"glenoid_centre_mm": {point}, "trigonum_mm": {point}, "humeral_head": {{"centre_mm": {point},'
+                f'"radius_mm": 24}}, "biconcavity_mm": [{point}, {point}, {point}], "walch": "B2"}}'),
+            (2, f'{{"entry_mm": {point}, "axis_direction": [0, 0, 1], "depth_mm": 2, "reamer": "sphere 24",'
+                '"pilot_diameter_mm": 6.2, "pilot_depth_mm": 8}'),
+            (3, '{"device": "hand", "duration_s": 3, "hand": {"start_mm": [0, 0, -1], "force_profile":'
+                '[{"t_s": 0, "force_n": 45}]}, "buttons": [{"t_s": 1, "spindle": false}]}'),
+            (3, '{"device": "poses", "poses": [{"t_s": 0, "place_mm": [0, 0, 0]}]}'),
+        )
+    ]
+
+
+def recording() -> list[bytes]:
+    return [b"\x00" + (GOLDEN / "recording-2.ream").read_bytes()]
+
+
+def main() -> None:
+    for make in (http, headers, device_messages, websocket, json, recording):
+        folder = Path(sys.argv[1]) / make.__name__
+        folder.mkdir(parents=True, exist_ok=True)
+        for number, seed in enumerate(make(), 1):
+            (folder / f"seed-{number}").write_bytes(seed)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,78 @@
+// Bytes after the handshake on a true WebSocket connection, with the session of a device or of a viewer
+// behind it.
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <boost/asio/strand.hpp>
+
+#include "api/viewer_stream.hpp"
+#include "device/device_socket.hpp"
+#include "fuzz_input.hpp"
+#include "net/connections.hpp"
+#include "net/engine.hpp"
+#include "stream/fanout_local.hpp"
+
+namespace ream::fuzz {
+namespace {
+
+using boost::asio::ip::tcp;
+
+net::Request handshake() {
+  net::Request request;
+  request.method = "GET";
+  request.path = "/api/v1/sessions/fuzz/device";
+  request.headers = {{"host", "localhost"},
+                     {"upgrade", "websocket"},
+                     {"connection", "Upgrade"},
+                     {"sec-websocket-version", "13"},
+                     {"sec-websocket-key", "dGhlIHNhbXBsZSBub25jZQ=="}};
+  return request;
+}
+
+std::unique_ptr<net::WebSocketSession> session_of(uint8_t kind) {
+  if (kind % 2 == 0) return api::viewer_stream(std::make_shared<stream::LocalFanout>(), 1);
+  const auto port =
+      std::make_shared<device::DevicePort>(std::make_shared<device::RemoteLink>(), device::RemoteKind::handle,
+                                           device::DeviceWelcome{"fuzz", "network", 12.0, {}});
+  return port->connect();
+}
+
+/// Lets the server do all it can do now, and takes what it says.
+void let_run(net::Engine& engine, int client) {
+  char heard[4096];
+  do {
+    engine.io.restart();
+    engine.io.poll();
+  } while (::recv(client, heard, sizeof heard, MSG_DONTWAIT) > 0);
+}
+
+void talk(net::Engine& engine, Input input) {
+  int ends[2];
+  require(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends) == 0, "no sockets");
+  tcp::socket socket(boost::asio::make_strand(engine.io));
+  socket.assign(tcp::v4(), ends[0]);
+  const uint8_t kind = input.byte();
+  net::start_websocket(engine, net::Channel(std::move(socket)), {"peer", "local", "peer"}, handshake(),
+                       session_of(kind));
+  let_run(engine, ends[1]);
+  while (!input.empty()) {
+    const std::string_view piece = input.piece();
+    if (::send(ends[1], piece.data(), piece.size(), MSG_DONTWAIT | MSG_NOSIGNAL) < 0) break;
+    let_run(engine, ends[1]);
+  }
+  ::close(ends[1]);
+  engine.io.restart();
+  engine.io.poll();
+  require(engine.connections.size() == 0, "a connection outlives its peer");
+}
+
+}  // namespace
+}  // namespace ream::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using namespace ream;
+  static const net::Router router;
+  static net::Engine engine(router, net::Limits{}, 1, 1);
+  fuzz::talk(engine, fuzz::Input(data, size));
+  return 0;
+}

@@ -1,0 +1,34 @@
+// What `ream replay --verify --json` computes, in a program of just the rooms that take part in it, so that
+// it can be built with sanitizers in a short time.
+//   verify-recording FOLDER    a folder with recording.ream; the case is looked for in REAM_DATA
+#include <exception>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "app/data_folder.hpp"
+#include "app/verify_replay.hpp"
+#include "core/hash.hpp"
+
+int main(int argc, char** argv) {
+  using namespace ream;
+  if (argc != 2) {
+    std::cerr << "usage: verify-recording FOLDER\n";
+    return 2;
+  }
+  try {
+    const record::Recording recording(std::filesystem::path(argv[1]) / "recording.ream",
+                                      record::Recording::Trust::checked);
+    const app::VerifyResult found =
+        app::verify_replay(recording, app::recorded_case(recording, {}, app::data_folder({})), {});
+    nlohmann::json answer = {{"ticks", found.ticks},
+                             {"verified", !found.difference},
+                             {"session_hash", to_hex(found.session_hash)},
+                             {"grid_hash", to_hex(found.grid_hash)}};
+    if (!found.left_out.empty()) answer["left_out"] = found.left_out;
+    std::cout << answer.dump() << '\n';
+    return found.difference || !recording.log().damage().empty() ? 1 : 0;
+  } catch (const std::exception& failure) {
+    std::cerr << "verify-recording: " << failure.what() << '\n';
+    return 1;
+  }
+}

@@ -1,0 +1,129 @@
+#include "api/change_feed.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "api/change_rules.hpp"
+
+namespace ream::api {
+namespace {
+
+using nlohmann::json;
+
+net::Caller caller(const std::string& role, const std::string& user_id = "u") {
+  return {user_id, "", role, {}, {}};
+}
+
+std::shared_ptr<const SessionRequest> session_of(const std::string& trainee_id) {
+  auto request = std::make_shared<SessionRequest>();
+  request->id = "abcd2345";
+  request->trainee_id = trainee_id;
+  return request;
+}
+
+/// Everything that comes without waiting.
+std::vector<json> heard(net::WebSocketSession& listener) {
+  std::vector<json> messages;
+  while (const auto next = listener.next()) {
+    const net::Bytes& bytes = **next;
+    messages.push_back(json::parse(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size())));
+  }
+  return messages;
+}
+
+class ChangeFeedTest : public testing::Test {
+ protected:
+  const std::shared_ptr<ChangeFeed> feed = std::make_shared<ChangeFeed>(may_know, 4);
+};
+
+TEST_F(ChangeFeedTest, GreetsAndTellsInOrderAndWakesWhoListens) {
+  feed->tell({"case", "before", "changed"});
+  const auto listener = feed->listen(caller("operator"), {});
+  EXPECT_TRUE(listener->sends_text());
+  int woken = 0;
+  listener->on_open([&] { ++woken; });
+  const auto hello = heard(*listener);
+  ASSERT_EQ(hello.size(), 1u);
+  EXPECT_EQ(hello[0].at("kind"), "hello");
+  EXPECT_EQ(hello[0].at("missed"), false);
+  feed->tell({"case", "demo", "changed"});
+  feed->tell({"job", "j1", "done"});
+  EXPECT_EQ(woken, 2);
+  const auto told = heard(*listener);
+  ASSERT_EQ(told.size(), 2u);
+  EXPECT_EQ(told[0].at("id"), "demo");
+  EXPECT_EQ(told[1].at("change"), "done");
+  EXPECT_EQ(told[0].at("number").get<uint64_t>(), hello[0].at("number").get<uint64_t>() + 1);
+  EXPECT_EQ(told[1].at("number").get<uint64_t>(), hello[0].at("number").get<uint64_t>() + 2);
+  listener->on_close();
+  feed->tell({"case", "demo", "changed"});
+  EXPECT_EQ(woken, 2);
+}
+
+TEST_F(ChangeFeedTest, WhoComesBackMissesNothingOrIsToldSo) {
+  const auto first = feed->listen(caller("operator"), {});
+  const uint64_t number = heard(*first).at(0).at("number");
+  for (const char* id : {"a", "b", "c"}) feed->tell({"case", id, "changed"});
+  const auto told = heard(*feed->listen(caller("operator"), number + 1));
+  ASSERT_EQ(told.size(), 3u);
+  EXPECT_EQ(told[0].at("missed"), false);
+  EXPECT_EQ(told[1].at("id"), "b");
+  EXPECT_EQ(told[2].at("id"), "c");
+  for (const char* id : {"d", "e", "f"}) feed->tell({"case", id, "changed"});
+  const auto late = heard(*feed->listen(caller("operator"), number));
+  ASSERT_EQ(late.size(), 1u);
+  EXPECT_EQ(late[0].at("missed"), true);
+  const auto whole = heard(*feed->listen(caller("operator"), number + 2));
+  EXPECT_EQ(whole.size(), 5u) << "the oldest that is kept is the next of what was seen";
+  const auto stranger = heard(*feed->listen(caller("operator"), number + 1'000'000'000'000));
+  EXPECT_EQ(stranger.at(0).at("missed"), true) << "a number that this server has never given";
+}
+
+TEST_F(ChangeFeedTest, WhoIsTooSlowIsToldToReadAgain) {
+  const auto listener = feed->listen(caller("operator"), {});
+  heard(*listener);
+  for (int i = 0; i < 10; ++i) feed->tell({"case", std::to_string(i), "changed"});
+  const auto told = heard(*listener);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].at("kind"), "missed");
+  feed->tell({"case", "next", "changed"});
+  EXPECT_EQ(heard(*listener).at(0).at("id"), "next");
+}
+
+TEST_F(ChangeFeedTest, EverybodyHearsWhatTheyMayKnow) {
+  const auto anna = feed->listen(caller("trainee", "anna"), {}),
+             ben = feed->listen(caller("trainee", "ben"), {}),
+             teacher = feed->listen(caller("instructor"), {}),
+             watcher = feed->listen(caller("viewer", ""), {});
+  for (const auto& each : {&anna, &ben, &teacher, &watcher}) heard(**each);
+  feed->tell({"session", "abcd2345", "running", session_of("anna")});
+  feed->tell({"user", "anna", "changed"});
+  feed->tell({"case", "demo", "changed"});
+  feed->tell({"job", "j1", "done"});
+  const auto count = [](net::WebSocketSession& listener) { return heard(listener).size(); };
+  EXPECT_EQ(count(*anna), 2u);
+  EXPECT_EQ(count(*ben), 1u);
+  EXPECT_EQ(count(*teacher), 3u);
+  EXPECT_EQ(count(*watcher), 1u);
+}
+
+TEST(ChangeRules, RequestsThatChangeSomethingAreTold) {
+  net::Request request;
+  request.parameters["id"] = "demo";
+  net::Response response;
+  const auto change = [&](const char* method, const char* pattern) {
+    request.method = method;
+    return change_made(request, pattern, response);
+  };
+  EXPECT_EQ(change("PUT", "/api/v1/cases/{id}/plan")->id, "demo");
+  EXPECT_EQ(change("DELETE", "/api/v1/cases/{id}")->change, "deleted");
+  EXPECT_FALSE(change("GET", "/api/v1/cases/{id}"));
+  response.headers.emplace_back("Location", "/api/v1/sessions/rabcd2345");
+  EXPECT_EQ(change("POST", "/api/v1/sessions/{id}/replay")->id, "rabcd2345");
+  response.status = 409;
+  EXPECT_FALSE(change("PUT", "/api/v1/cases/{id}/plan"));
+}
+
+}  // namespace
+}  // namespace ream::api

@@ -1,0 +1,101 @@
+#include "api/stream_watch.hpp"
+
+#include <atomic>
+#include <thread>
+
+#include "access/gatehouse.hpp"
+#include "support/fake_session.hpp"
+#include "support/test_databases.hpp"
+
+namespace ream::api {
+namespace {
+
+using access::CredentialKind;
+
+class StreamWatchTest : public test::TestDatabase<test::OnSqlite> {
+ protected:
+  StreamWatchTest() {
+    users.add({"u1", "anna", "Anna", "operator", "2026-01-31T12:00:00Z", "hash", true});
+    users.add({"u2", "tom", "Tom", "instructor", "2026-01-31T12:00:00Z", "hash", true});
+    token = credentials.issue(CredentialKind::token, {"u2", {}, "", "", ""}).row.id;
+  }
+  std::unique_ptr<net::WebSocketSession> open(const std::string& credential) {
+    net::Request request;
+    request.caller = {"u2", "Tom", credential.empty() ? "operator" : "instructor", "", credential};
+    auto session = watch.watched(request, std::make_unique<test::FakeViewer>("s1"));
+    session->on_open([this] { ++woken; });
+    return session;
+  }
+  static bool has_ended(net::WebSocketSession& session) {
+    const auto farewell = session.farewell();
+    if (!farewell) return false;
+    EXPECT_EQ(farewell->code, StreamWatch::access_ended);
+    EXPECT_EQ(session.next(), std::nullopt) << "not a word more";
+    return true;
+  }
+  static void until_ended(net::WebSocketSession& session) {
+    for (int i = 0; i < 1000 && !has_ended(session); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_TRUE(has_ended(session));
+  }
+
+  store::UserTable users{this->database(), "operator"};
+  access::Credentials credentials{this->database()};
+  std::string token;
+  std::atomic<int> woken{0};
+  StreamWatch watch{credentials, std::chrono::milliseconds(20)};
+};
+
+TEST_F(StreamWatchTest, LetsGoodOnesTalk) {
+  const auto session = open(token);
+  EXPECT_FALSE(has_ended(*session));
+  EXPECT_TRUE(session->next());
+  const std::string text = "echo";
+  session->on_message(std::as_bytes(std::span(text.data(), text.size())));
+  EXPECT_TRUE(session->next());
+  session->on_close();
+}
+
+TEST_F(StreamWatchTest, RevocationEndsThemAtOnce) {
+  const auto session = open(token), nobodys = open("");
+  woken = 0;
+  credentials.revoke(token);
+  EXPECT_EQ(woken, 1);
+  EXPECT_TRUE(has_ended(*session));
+  const std::string text = "more force";
+  session->on_message(std::as_bytes(std::span(text.data(), text.size())));
+  EXPECT_EQ(woken, 1) << "what it still says is not heard";
+  EXPECT_FALSE(has_ended(*nobodys));
+  session->on_close();
+  nobodys->on_close();
+}
+
+TEST_F(StreamWatchTest, OneThatWasRevokedOnTheWayInIsNotLetIn) {
+  credentials.revoke(token);
+  EXPECT_TRUE(has_ended(*open(token)));
+}
+
+TEST_F(StreamWatchTest, AnotherProcessEndsThemWithinSeconds) {
+  const auto session = open(token);
+  const auto again = open_again();
+  access::Credentials other(*again);
+  other.revoke(token);
+  until_ended(*session);
+}
+
+TEST_F(StreamWatchTest, AnotherRoleEndsThem) {
+  const auto session = open(token);
+  users.change("u2", [](store::UserRow& row) { row.role = "trainee"; });
+  until_ended(*session);
+}
+
+TEST_F(StreamWatchTest, OnesThatHaveClosedAreNotWoken) {
+  const auto session = open(token);
+  session->on_close();
+  woken = 0;
+  credentials.revoke(token);
+  EXPECT_EQ(woken, 0);
+}
+
+}  // namespace
+}  // namespace ream::api

@@ -1,0 +1,221 @@
+#include "access_fixture.hpp"
+
+namespace ream::test {
+namespace {
+
+using access::Role;
+
+/// A server with a person of every role.
+class StudyContractTest : public AccessTest {
+ protected:
+  void SetUp() override {
+    start();
+    anna = token_of(add_user("anna", Role::operator_));
+    ines = token_of(add_user("ines", Role::instructor));
+    tom_id = add_user("tom", Role::trainee);
+    tom = token_of(tom_id);
+    ben = token_of(add_user("ben", Role::trainee));
+  }
+
+  /// `path`: below the studies, with the ids in it.
+  void expect(const std::string& method, const std::string& pattern, const std::string& path, int status,
+              const Sent& sent = {}, const std::string& body = {}) {
+    expect_request(method, pattern, path, status, body, sent);
+  }
+  void refused_bodies(const std::string& method, const std::string& pattern, const std::string& path,
+                      const Sent& sent, const std::string& good, const std::string& unusable) {
+    expect(method, pattern, path, 400, sent, "{");
+    expect(method, pattern, path, 401, {}, good);
+    expect(method, pattern, path, 403, with(sent, "Origin", "http://elsewhere.example"), good);
+    expect(method, pattern, path, 413, sent, std::string(options.listen.limits.body_bytes + 1, ' '));
+    expect(method, pattern, path, 415, with(sent, "Content-Type", "text/plain"), good);
+    expect(method, pattern, path, 422, sent, unusable);
+  }
+
+  json made(const Sent& sent, const std::string& path, const std::string& body) {
+    const HttpReply reply = request("POST", path, sent, body);
+    EXPECT_EQ(reply.status, 201) << reply.body;
+    return json::parse(reply.body);
+  }
+  static json all_answers() {
+    json answers = json::object();
+    for (const auto& item : api::face_validity_questionnaire().items)
+      if (item.required) answers[item.id] = 3;
+    return answers;
+  }
+
+  void making() {
+    expect("GET", studies, studies, 200, tom);
+    expect("GET", studies, studies, 401);
+    expect("GET", studies, studies, 403, viewer());
+    refused_bodies("POST", studies, studies, ines, wanted, R"({"name": "First year", "cases": []})");
+    expect("POST", studies, studies, 403, tom, wanted);
+    expect("POST", studies, studies, 404, ines, R"({"name": "First year", "cases": ["nowhere"]})");
+    expect("POST", studies, studies, 201, ines, wanted);
+    const json own = made(ines, studies, wanted);
+    id = own.at("id");
+    join_code = own.at("join_code");
+    at = studies + "/" + id;
+    expect("GET", studies, studies, 200, ines);
+    expect("GET", one_study, at, 200, ines);
+    expect("GET", one_study, at, 401);
+    expect("GET", one_study, at, 403, viewer());
+    expect("GET", one_study, at, 404, tom);
+    expect("GET", one_study, studies + "/nothing", 404, ines);
+  }
+
+  void changing() {
+    refused_bodies("PUT", one_study, at, ines, wanted, R"({"name": "First year"})");
+    expect("PUT", one_study, at, 403, tom, wanted);
+    expect("PUT", one_study, studies + "/nothing", 404, ines, wanted);
+    expect("PUT", one_study, at, 404, ines, R"({"name": "First year", "cases": ["nowhere"]})");
+    expect("PUT", one_study, at, 200, ines, wanted);
+  }
+
+  void taking_part() {
+    const std::string path = studies + "/join";
+    const std::string good = json{{"join_code", join_code}, {"experience", "novice"}}.dump();
+    refused_bodies("POST", path, path, tom, good, json{{"join_code", join_code}}.dump());
+    expect("POST", path, path, 403, viewer(), good);
+    expect("POST", path, path, 404, tom, R"({"join_code": "nothing", "experience": "expert"})");
+    const HttpReply reply = request("POST", path, tom, good);
+    expect_as_described("POST", path, 201, reply);
+    code = json::parse(reply.body).at("code");
+    expect("POST", path, path, 409, tom, good);
+    const std::string pattern = one_study + "/participants", here = at + "/participants";
+    const std::string guest = R"({"experience": "expert", "procedures_done": 120})";
+    refused_bodies("POST", pattern, here, ines, guest, R"({"experience": "master"})");
+    expect("POST", pattern, here, 403, ines, json{{"experience", "novice"}, {"user_id", tom_id}}.dump());
+    expect("POST", pattern, here, 409, anna, json{{"experience", "novice"}, {"user_id", tom_id}}.dump());
+    expect("POST", pattern, here, 422, anna, R"({"experience": "novice", "user_id": "x", "name": "X"})");
+    expect("POST", pattern, here, 404, anna, R"({"experience": "novice", "user_id": "nobody"})");
+    expect("POST", pattern, here, 201, ines, guest);
+    guest_code = made(anna, here, R"({"experience": "expert", "name": "The man from Ulm"})").at("code");
+    expect("GET", pattern, here, 200, ines);
+    expect("GET", pattern, here, 200, anna);
+    expect("GET", pattern, here, 401);
+    expect("GET", pattern, here, 403, tom);
+    expect("GET", pattern, studies + "/nothing/participants", 404, ines);
+    expect("PUT", one_study, at, 409, ines, R"({"name": "First year", "cases": ["unplanned"]})");
+    expect("GET", one_study, at, 200, tom);
+  }
+
+  void answering() {
+    const std::string pattern = participant + "/answers", here = at + "/participants/" + code + "/answers";
+    const std::string good = all_answers().dump();
+    refused_bodies("PUT", pattern, here, tom, good, R"({"vibration": 6})");
+    expect("PUT", pattern, here, 403, ines, good);
+    expect("PUT", pattern, here, 404, ben, good);
+    expect("PUT", pattern, here, 200, tom, good);
+    expect("PUT", pattern, at + "/participants/" + guest_code + "/answers", 200, ines, good);
+    const std::string person = at + "/participants/" + code;
+    for (const Sent& who : {tom, ines, anna}) expect("GET", participant, person, 200, who);
+    expect("GET", participant, person, 401);
+    expect("GET", participant, person, 403, viewer());
+    expect("GET", participant, person, 404, ben);
+  }
+
+  void exporting() {
+    const std::string pattern = one_study + "/export", here = at + "/export";
+    expect("GET", pattern, here, 200, anna);
+    expect("GET", pattern, here + "?format=csv", 200, anna);
+    expect("GET", pattern, here + "?format=csv&table=groups", 200, anna);
+    expect("GET", pattern, here, 401);
+    expect("GET", pattern, here, 403, tom);
+    expect("GET", pattern, studies + "/nothing/export", 404, anna);
+    expect("GET", pattern, here, 409, ines);
+    expect("GET", pattern, here + "?format=xls", 422, anna);
+    const std::string codebook = one_study + "/codebook";
+    expect("GET", codebook, at + "/codebook", 200, ines);
+    expect("GET", codebook, at + "/codebook", 401);
+    expect("GET", codebook, at + "/codebook", 403, tom);
+    expect("GET", codebook, studies + "/nothing/codebook", 404, ines);
+  }
+
+  void expect_step(const std::string& word, int status, const Sent& sent = {}, const std::string& of = {}) {
+    expect("POST", one_study + "/" + word, (of.empty() ? at : studies + "/" + of) + "/" + word, status, sent);
+  }
+  void ending() {
+    const std::string persons = one_study + "/persons";
+    expect("GET", persons, at + "/persons", 200, anna);
+    expect("GET", persons, at + "/persons", 401);
+    expect("GET", persons, at + "/persons", 403, ines);
+    expect("GET", persons, studies + "/nothing/persons", 404, anna);
+    for (const char* word : {"close", "reopen", "unblind"}) {
+      expect_step(word, 401);
+      expect_step(word, 403, tom);
+      expect_step(word, 404, anna, "nothing");
+    }
+    expect_step("reopen", 409, ines);
+    expect_step("unblind", 409, anna);
+    expect_step("close", 200, ines);
+    expect_step("close", 409, ines);
+    expect("PUT", participant + "/answers", at + "/participants/" + code + "/answers", 409, tom,
+           all_answers().dump());
+    expect_step("reopen", 200, ines);
+    expect_step("close", 200, ines);
+    expect_step("unblind", 403, ines);
+    expect_step("unblind", 200, anna);
+    expect("GET", persons, at + "/persons", 200, ines);
+  }
+
+  void forgetting() {
+    const std::string person = at + "/participants/" + code;
+    expect("DELETE", one_study, at, 409, anna);
+    expect("DELETE", participant, person, 401);
+    expect("DELETE", participant, person, 403, ines);
+    expect("DELETE", participant, person, 204, anna);
+    expect("DELETE", participant, person, 404, anna);
+    const std::string other = made(ines, studies, wanted).at("id");
+    expect("DELETE", one_study, studies + "/" + other, 401);
+    expect("DELETE", one_study, studies + "/" + other, 403, ines);
+    expect("DELETE", one_study, studies + "/" + other, 204, anna);
+    expect("DELETE", one_study, studies + "/" + other, 404, anna);
+  }
+
+  void without_a_database() {
+    options.database = nullptr;
+    start();
+    for (const auto& [operation, status] : described({"studies"})) {
+      if (status != 503) continue;
+      const std::string method = operation.substr(0, operation.find(' '));
+      const std::string pattern = operation.substr(operation.find(' ') + 1);
+      std::string path = pattern;
+      for (const auto& [name, value] : {std::pair("{id}", "s1"), {"{code}", "K7-F3M"}})
+        if (const size_t place = path.find(name); place != std::string::npos)
+          path.replace(place, std::string(name).size(), value);
+      const bool joins = path.ends_with("/join");
+      const std::string body = path == studies || path == studies + "/s1" ? wanted
+                               : joins                      ? R"({"join_code": "x", "experience": "novice"})"
+                               : path.ends_with("/answers") ? "{}"
+                                                            : R"({"experience": "novice"})";
+      expect(method, pattern, path, 503, {}, method == "POST" || method == "PUT" ? body : "");
+    }
+  }
+
+  Sent viewer() {
+    const auto link = issue(access::CredentialKind::link, {"", {}, "visit", "", ""});
+    return page_after(post("/api/v1/login/link", json{{"secret", link.secret.reveal()}}.dump()));
+  }
+
+  const std::string studies = "/api/v1/studies", one_study = studies + "/{id}",
+                    participant = one_study + "/participants/{code}",
+                    wanted = R"({"name": "First year", "cases": ["planned"], "device": "browser"})";
+  Sent anna, ines, tom, ben;
+  std::string tom_id, id, at, join_code, code, guest_code;
+};
+
+TEST_F(StudyContractTest, EveryDescribedReplyIsGivenAsDescribed) {
+  making();
+  changing();
+  taking_part();
+  answering();
+  exporting();
+  ending();
+  forgetting();
+  without_a_database();
+  expect_all_given({"studies"});
+}
+
+}  // namespace
+}  // namespace ream::test

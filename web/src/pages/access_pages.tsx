@@ -1,0 +1,69 @@
+import '../desk.css';
+
+import { useEffect, useMemo } from 'preact/hooks';
+
+import { accessWords } from '../access_words';
+import { AddUser } from '../panels/access/add_user';
+import { LinkPanel } from '../panels/access/link_panel';
+import { PasswordPanel } from '../panels/access/password_panel';
+import { TokenPanel } from '../panels/access/token_panel';
+import { UserTable } from '../panels/access/user_table';
+import { DeskHeader } from '../panels/desk_header';
+import { Remark } from '../panels/fields';
+import { useIdentity } from '../panels/site_nav';
+import { Remote } from '../state/remote';
+import { AccessApi } from '../wire/access_api';
+import { LoginApi } from '../wire/login_api';
+
+const api = new AccessApi(window.location.origin);
+const loginApi = new LoginApi(window.location.origin);
+
+/** Who may do what, for operators. */
+export function UsersPage() {
+  const identity = useIdentity();
+  // The first user ends the time in which everybody was an operator.
+  const users = useMemo(() => new Remote(() => api.users()), []);
+  useEffect(() => void users.read(), [users]);
+  const list = users.value.value;
+  const nameOf = (id: string) => list?.find((user) => user.id === id)?.name ?? id;
+  return (
+    <div class="page desk-page">
+      <DeskHeader here="users" />
+      <main class="desk">
+        <section class="desk-panel" aria-labelledby="users-title">
+          <h2 id="users-title">{accessWords.users}</h2>
+          {users.problem.value !== null && (
+            <Remark kind="bad" testId="users-problem">
+              {users.problem.value}
+            </Remark>
+          )}
+          {list === null && users.problem.value === null && <p class="soft">{accessWords.loading}</p>}
+          {list?.length === 0 && (
+            <Remark kind="warn">
+              {accessWords.noUsers} {accessWords.firstUser}
+            </Remark>
+          )}
+          {list !== null && list.length > 0 && <UserTable api={api} users={users} />}
+          {list !== null && <AddUser api={api} users={users} />}
+        </section>
+        {identity.hasUsers.value && <TokenPanel api={api} userId={null} nameOf={nameOf} />}
+        {identity.hasUsers.value && <LinkPanel api={api} />}
+      </main>
+    </div>
+  );
+}
+
+/** One's own password and tokens. */
+export function AccountPage() {
+  const identity = useIdentity();
+  return (
+    <div class="page desk-page">
+      <DeskHeader here="account" />
+      <main class="desk" aria-label={accessWords.account}>
+        <PasswordPanel api={loginApi} />
+        <TokenPanel api={api} userId={identity.userId.value} />
+        {identity.may.value.teach && <LinkPanel api={api} />}
+      </main>
+    </div>
+  );
+}

@@ -1,0 +1,151 @@
+import { useSignal } from '@preact/signals';
+import { useEffect, useMemo } from 'preact/hooks';
+
+import { DeskHeader } from '../panels/desk_header';
+import { Remark } from '../panels/fields';
+import { Question, questionId } from '../panels/study/question';
+import { Remote } from '../state/remote';
+import { addressOfRoute } from '../state/route';
+import { AnswerSheet, sectionsOf } from '../state/study/answer_sheet';
+import { studyWords } from '../study_words';
+import { wordsOf } from '../wire/rest';
+import type { StudyApi } from '../wire/study_api';
+
+interface Parts {
+  api: StudyApi;
+  studyId: string;
+  code: string;
+}
+
+/** What a study asks one of its participants. */
+export function QuestionnairePage({ api, studyId, code }: Parts) {
+  const sheet = useMemo(
+    () =>
+      new Remote(async () => {
+        const [study, participant] = await Promise.all([api.study(studyId), api.participant(studyId, code)]);
+        const { questionnaire } = study;
+        const theirs = participant.has_account && study.participant !== code;
+        if (!questionnaire) return { study, sheet: null, theirs };
+        const key = `ream.answers.${studyId}.${code}`;
+        return {
+          study,
+          theirs,
+          sheet: new AnswerSheet(questionnaire, window.sessionStorage, key, participant.answers),
+        };
+      }),
+    [api, studyId, code],
+  );
+  useEffect(() => void sheet.read(), [sheet]);
+  const loaded = sheet.value.value;
+  const back = addressOfRoute({ kind: 'study', id: studyId });
+  return (
+    <div class="page desk-page">
+      <DeskHeader here="questionnaire" />
+      <main class="desk">
+        <section class="desk-panel questionnaire">
+          <p>
+            <a href={back} data-testid="back-to-study">
+              ‹ {loaded?.study.name ?? studyWords.backToStudy}
+            </a>
+          </p>
+          {sheet.problem.value !== null && <Remark kind="bad">{sheet.problem.value}</Remark>}
+          {loaded === null && sheet.problem.value === null && <p class="soft">{studyWords.loading}</p>}
+          {loaded?.sheet === null && <p>{studyWords.noQuestions}</p>}
+          {loaded?.study.state === 'closed' && <Remark kind="warn">{studyWords.closedHint}</Remark>}
+          {loaded?.theirs && <Remark kind="warn">{studyWords.theirAnswers}</Remark>}
+          {loaded?.sheet && (
+            <Sheet
+              sheet={loaded.sheet}
+              code={code}
+              readOnly={loaded.theirs || loaded.study.state === 'closed'}
+              send={(kept) => api.answer(studyId, code, kept.answers.value)}
+            />
+          )}
+        </section>
+      </main>
+    </div>
+  );
+}
+
+interface SheetParts {
+  sheet: AnswerSheet;
+  code: string;
+  readOnly: boolean;
+  send: (sheet: AnswerSheet) => Promise<unknown>;
+}
+
+function Sheet({ sheet, code, readOnly, send }: SheetParts) {
+  const busy = useSignal(false);
+  const said = useSignal<{ kind: 'soft' | 'bad'; text: string } | null>(null);
+  const { questionnaire } = sheet;
+  const missing = sheet.missing.value;
+  const submit = async (event: Event) => {
+    event.preventDefault();
+    sheet.tried.value = true;
+    said.value = null;
+    if (missing.length > 0) {
+      goToFirstMissing(sheet);
+      return;
+    }
+    busy.value = true;
+    try {
+      await send(sheet);
+      sheet.sent();
+      said.value = { kind: 'soft', text: studyWords.sent };
+    } catch (error) {
+      said.value = { kind: 'bad', text: wordsOf(error) };
+    } finally {
+      busy.value = false;
+    }
+  };
+  return (
+    <form noValidate onSubmit={(event) => void submit(event)} data-testid="questionnaire" lang={questionnaire.language}>
+      <h2>{questionnaire.title}</h2>
+      <p class="soft">
+        {questionnaire.introduction} {studyWords.asCode(code)}
+      </p>
+      <fieldset class="questions" disabled={readOnly}>
+        {sectionsOf(questionnaire).map(({ section, items }, i) => (
+          <section key={i} aria-labelledby={section === '' ? undefined : `section-${i}`}>
+            {section !== '' && <h3 id={`section-${i}`}>{section}</h3>}
+            {items.map((item) => (
+              <Question key={item.id} item={item} sheet={sheet} />
+            ))}
+          </section>
+        ))}
+        <div class="questionnaire-end">
+          <p class="soft" data-testid="progress">
+            {studyWords.progress(sheet.answered.value, sheet.asked.length)}
+          </p>
+          {sheet.tried.value && missing.length > 0 && (
+            <p class="remark remark-bad" role="alert" data-testid="missing">
+              {studyWords.missing(missing.length)}{' '}
+              <button type="button" class="link-button" onClick={() => goToFirstMissing(sheet)}>
+                {studyWords.toFirstMissing}
+              </button>
+            </p>
+          )}
+          {said.value !== null && (
+            <div role="status">
+              <Remark kind={said.value.kind} testId="answers-said">
+                {said.value.text}
+              </Remark>
+            </div>
+          )}
+          <button type="submit" class="main-button" data-testid="send-answers" disabled={busy.value}>
+            {busy.value ? studyWords.sending : studyWords.send}
+          </button>
+        </div>
+      </fieldset>
+    </form>
+  );
+}
+
+function goToFirstMissing(sheet: AnswerSheet): void {
+  const first = sheet.missing.value[0];
+  if (first === undefined) return;
+  const question = document.getElementById(questionId(first));
+  const field = question?.matches('textarea') === true ? question : question?.querySelector('input');
+  question?.scrollIntoView({ block: 'center' });
+  field?.focus({ preventScroll: true });
+}

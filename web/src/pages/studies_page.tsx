@@ -1,0 +1,79 @@
+import { useEffect, useMemo } from 'preact/hooks';
+
+import { DeskHeader } from '../panels/desk_header';
+import { Remark } from '../panels/fields';
+import { dayAndTime } from '../panels/format';
+import { useIdentity } from '../panels/site_nav';
+import { JoinPanel } from '../panels/study/join_panel';
+import { MakeStudy } from '../panels/study/make_study';
+import { Remote } from '../state/remote';
+import { addressOfRoute } from '../state/route';
+import { studyWords } from '../study_words';
+import type { StudyApi } from '../wire/study_api';
+import type { Study } from '../wire/study_types';
+
+/** All studies that the user may know of, taking part in one, and making one. */
+export function StudiesPage({ api }: { api: StudyApi }) {
+  const identity = useIdentity();
+  const may = identity.may.value;
+  const studies = useMemo(() => new Remote(() => api.studies()), [api]);
+  useEffect(() => void studies.read(), [studies]);
+  const list = studies.value.value;
+  const open = (id: string) => (window.location.hash = addressOfRoute({ kind: 'study', id }));
+  return (
+    <div class="page desk-page">
+      <DeskHeader here="studies" />
+      <main class="desk">
+        <section class="desk-panel" aria-labelledby="studies-title">
+          <h2 id="studies-title">{studyWords.studies}</h2>
+          {studies.problem.value !== null && <Remark kind="bad">{studies.problem.value}</Remark>}
+          {list === null && studies.problem.value === null && <p class="soft">{studyWords.loading}</p>}
+          {list?.length === 0 && <p class="soft">{may.teach ? studyWords.none : studyWords.noneForYou}</p>}
+          {list !== null && list.length > 0 && <Table studies={list} mayRun={may.teach} />}
+        </section>
+        {identity.userId.value !== null && <JoinPanel api={api} onJoined={open} />}
+        {may.teach && <MakeStudy api={api} onMade={open} />}
+      </main>
+    </div>
+  );
+}
+
+function Table({ studies, mayRun }: { studies: readonly Study[]; mayRun: boolean }) {
+  return (
+    <div class="desk-scroll">
+      <table class="desk-table" data-testid="studies">
+        <thead>
+          <tr>
+            <th scope="col">{studyWords.nameColumn}</th>
+            <th scope="col">{studyWords.stateColumn}</th>
+            {mayRun && (
+              <th scope="col" class="number">
+                {studyWords.participantsColumn}
+              </th>
+            )}
+            <th scope="col">{studyWords.yourCodeColumn}</th>
+            <th scope="col" />
+          </tr>
+        </thead>
+        <tbody>
+          {studies.map((study) => (
+            <tr key={study.id} data-testid={`study-${study.id}`}>
+              <td>
+                <a href={addressOfRoute({ kind: 'study', id: study.id })}>{study.name}</a>
+              </td>
+              <td>
+                <span class={study.state === 'open' ? 'chip chip-good' : 'chip'}>
+                  {studyWords.states[study.state]}
+                  {!study.blinded && `, ${studyWords.unblinded.toLowerCase()}`}
+                </span>
+              </td>
+              {mayRun && <td class="number">{study.participants}</td>}
+              <td>{study.participant}</td>
+              <td class="soft">{dayAndTime(study.created_utc)}</td>
+            </tr>
+          ))}
+        </tbody>
+      </table>
+    </div>
+  );
+}

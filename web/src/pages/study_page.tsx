@@ -1,0 +1,115 @@
+import { useEffect, useMemo } from 'preact/hooks';
+
+import { DeskHeader } from '../panels/desk_header';
+import { Remark } from '../panels/fields';
+import { useIdentity } from '../panels/site_nav';
+import { EnrolPanel } from '../panels/study/enrol_panel';
+import { ExportPanel, LifePanel } from '../panels/study/life_panel';
+import { ParticipantTable } from '../panels/study/participant_table';
+import { TrainPanel } from '../panels/study/train_panel';
+import { Remote } from '../state/remote';
+import { addressOfRoute } from '../state/route';
+import { studyWords } from '../study_words';
+import type { StudyApi } from '../wire/study_api';
+import type { Participant, Study } from '../wire/study_types';
+
+interface Parts {
+  api: StudyApi;
+  id: string;
+  train: (studyId: string, participant: string | null, caseId: string) => Promise<string | null>;
+}
+
+/** One study: training in it, and for who runs it everything else. */
+export function StudyPage({ api, id, train }: Parts) {
+  const may = useIdentity().may.value;
+  const studies = useMemo(() => new Remote(() => api.study(id)), [api, id]);
+  const participants = useMemo(() => new Remote(() => api.participants(id)), [api, id]);
+  useEffect(() => {
+    void studies.read();
+    if (may.teach) void participants.read();
+  }, [studies, participants, may.teach]);
+  const study = studies.value.value;
+  const empty = participants.value.value?.length === 0;
+  const codes = may.teach ? (participants.value.value ?? []).map((one) => one.code) : [];
+  const begin = async (participant: string | null, caseId: string) => {
+    const problem = await train(id, participant, caseId);
+    if (problem !== null) studies.problem.value = problem;
+    return problem === null;
+  };
+  const removed = () => (window.location.hash = addressOfRoute({ kind: 'studies' }));
+  return (
+    <div class="page desk-page">
+      <DeskHeader here="study" />
+      <main class="desk">
+        <section class="desk-panel">
+          <p>
+            <a href={addressOfRoute({ kind: 'studies' })} data-testid="all-studies">
+              ‹ {studyWords.backToList}
+            </a>
+          </p>
+          {studies.problem.value !== null && (
+            <Remark kind="bad" testId="study-problem">
+              {studies.problem.value}
+            </Remark>
+          )}
+          {study === null && studies.problem.value === null && <p class="soft">{studyWords.loading}</p>}
+          {study !== null && <About {...{ api, study, studies, mayRun: may.teach, empty, removed }} />}
+        </section>
+        {study !== null && <TrainPanel key={study.id} study={study} codes={codes} train={begin} />}
+        {study !== null && may.teach && <Staff {...{ api, study, studies, participants }} />}
+      </main>
+    </div>
+  );
+}
+
+interface AboutParts {
+  api: StudyApi;
+  study: Study;
+  studies: Remote<Study>;
+  mayRun: boolean;
+  /** Nobody takes part. */
+  empty: boolean;
+  removed: () => void;
+}
+
+function About({ api, study, studies, mayRun, empty, removed }: AboutParts) {
+  return (
+    <>
+      <div class="desk-head">
+        <h2 data-testid="study-title">{study.name}</h2>
+        <span class={study.state === 'open' ? 'chip chip-good' : 'chip'} data-testid="study-state">
+          {studyWords.states[study.state]}
+        </span>
+        {!study.blinded && <span class="chip chip-warn">{studyWords.unblinded}</span>}
+        {mayRun && <LifePanel {...{ api, study, studies, empty }} onRemoved={removed} />}
+      </div>
+      {study.description !== '' && <p class="study-about">{study.description}</p>}
+      <p class="soft">
+        {studyWords.cases}: {study.cases.join(', ')}
+        {study.device !== null && ` · ${studyWords.device}: ${deviceWords(study.device)}`}
+        {study.questionnaire && ` · ${studyWords.questionnaire}: ${study.questionnaire.title}`}
+      </p>
+    </>
+  );
+}
+
+function deviceWords(name: string): string {
+  return studyWords.devices.find(([device]) => device === name)?.[1].toLowerCase() ?? name;
+}
+
+interface StaffParts {
+  api: StudyApi;
+  study: Study;
+  studies: Remote<Study>;
+  participants: Remote<Participant[]>;
+}
+
+function Staff({ api, study, studies, participants }: StaffParts) {
+  return (
+    <>
+      <ParticipantTable key={study.state} {...{ api, study, participants }} />
+      {study.state === 'open' && <EnrolPanel {...{ api, study, participants }} />}
+      <ExportPanel {...{ api, study, studies }} />
+    </>
+  );
+}

@@ -1,0 +1,47 @@
+import '../desk.css';
+import '../study.css';
+
+import type { Route } from '../state/route';
+import { StudyApi } from '../wire/study_api';
+import { words } from '../words';
+import type { LivePageParts } from './live_page';
+import { QuestionnairePage } from './questionnaire_page';
+import { StudiesPage } from './studies_page';
+import { StudyPage } from './study_page';
+
+const api = new StudyApi(window.location.origin);
+
+/** The pages of the studies, loaded when one of them is first opened. */
+export function StudyPages({ route, live }: { route: Route; live: LivePageParts }) {
+  if (route.kind === 'questionnaire')
+    return <QuestionnairePage key={route.participant} api={api} studyId={route.id} code={route.participant} />;
+  if (route.kind === 'study')
+    return (
+      <StudyPage
+        key={route.id}
+        api={api}
+        id={route.id}
+        train={(study, participant, caseId) => train(live, study, participant, caseId)}
+      />
+    );
+  return <StudiesPage api={api} />;
+}
+
+/** Makes a session of a study and shows it; words where that failed. */
+async function train(
+  { watcher, practice, store }: LivePageParts,
+  studyId: string,
+  participant: string | null,
+  caseId: string,
+): Promise<string | null> {
+  if (store.replayId.value !== null) watcher.leaveReplay();
+  const session = await watcher.train(studyId, participant, caseId);
+  if (session === null) {
+    const said = store.problem.value ?? words.noAnswer;
+    store.problem.value = null;
+    return said;
+  }
+  window.location.hash = '';
+  if (session.device?.name === 'browser') practice.steer(session.id);
+  return null;
+}

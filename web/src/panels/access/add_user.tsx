@@ -1,0 +1,82 @@
+import { useSignal } from '@preact/signals';
+
+import { accessWords } from '../../access_words';
+import type { Remote } from '../../state/remote';
+import { type AccessApi, type AccountRole, accountRoles, type NewUser, type User } from '../../wire/access_api';
+import { words } from '../../words';
+
+const blank = (role: AccountRole): NewUser => ({ name: '', display_name: '', role, password: '' });
+
+/** The form for another account. */
+export function AddUser({ api, users }: { api: AccessApi; users: Remote<User[]> }) {
+  const wanted = useSignal<NewUser>(blank('trainee'));
+  // Others may be added by an operator only, so there must be one first.
+  const first = users.value.value?.length === 0;
+  const role = first ? 'operator' : wanted.value.role;
+  const roles = first ? (['operator'] as const) : accountRoles;
+  const set = (change: Partial<NewUser>) => (wanted.value = { ...wanted.value, ...change });
+  const add = async (event: Event) => {
+    event.preventDefault();
+    const made = await users.act(() => api.addUser({ ...wanted.value, role, name: wanted.value.name.trim() }));
+    if (made !== null) wanted.value = blank('trainee');
+  };
+  return (
+    <form class="desk-form" aria-label={accessWords.addUser} onSubmit={(event) => void add(event)}>
+      <label>
+        {accessWords.nameColumn}
+        <input
+          type="text"
+          autocomplete="off"
+          autocapitalize="none"
+          spellcheck={false}
+          required
+          data-testid="add-name"
+          value={wanted.value.name}
+          onInput={(event) => set({ name: event.currentTarget.value })}
+        />
+      </label>
+      <label>
+        {accessWords.shownColumn}
+        <input
+          type="text"
+          autocomplete="off"
+          data-testid="add-display-name"
+          value={wanted.value.display_name}
+          onInput={(event) => set({ display_name: event.currentTarget.value })}
+        />
+      </label>
+      <label>
+        {accessWords.roleColumn}
+        <select
+          data-testid="add-role"
+          value={role}
+          onChange={(event) => set({ role: event.currentTarget.value as AccountRole })}
+        >
+          {roles.map((role) => (
+            <option key={role} value={role}>
+              {words.roles[role]}
+            </option>
+          ))}
+        </select>
+      </label>
+      <label>
+        {accessWords.password}
+        <input
+          type="password"
+          autocomplete="new-password"
+          required
+          aria-describedby="add-password-rule"
+          data-testid="add-password"
+          value={wanted.value.password}
+          onInput={(event) => set({ password: event.currentTarget.value })}
+        />
+      </label>
+      <button type="submit" class="main-button" data-testid="add-user" disabled={users.busy.value}>
+        {accessWords.add}
+      </button>
+      <p id="add-password-rule" class="soft wide">
+        {accessWords.passwordRule}
+      </p>
+    </form>
+  );
+}

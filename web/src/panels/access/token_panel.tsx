@@ -1,0 +1,119 @@
+import { useSignal } from '@preact/signals';
+import { useEffect, useMemo } from 'preact/hooks';
+
+import { accessWords } from '../../access_words';
+import { Remote } from '../../state/remote';
+import { type AccessApi, utcInDays } from '../../wire/access_api';
+import { dayAndTime } from '../format';
+import { Remark } from '../fields';
+import { Really } from '../really';
+import { SecretOnce } from '../secret_once';
+
+const usualDays = 90;
+
+interface Parts {
+  api: AccessApi;
+  /** Whose; null: everybody's, and none can be made here. */
+  userId: string | null;
+  nameOf?: (userId: string) => string;
+}
+
+/** Tokens for programs: those there are, and for oneself another. */
+export function TokenPanel({ api, userId, nameOf }: Parts) {
+  const tokens = useMemo(() => new Remote(() => api.tokens(userId)), [api, userId]);
+  useEffect(() => void tokens.read(), [tokens]);
+  const list = tokens.value.value;
+  return (
+    <section class="desk-panel" aria-labelledby="tokens-title">
+      <h2 id="tokens-title">{accessWords.tokens}</h2>
+      <p class="soft">
+        {accessWords.tokensHint} <a href="./api">{accessWords.apiPage}</a>
+      </p>
+      {tokens.problem.value !== null && <Remark kind="bad">{tokens.problem.value}</Remark>}
+      {list?.length === 0 && <p class="soft">{accessWords.noTokens}</p>}
+      {list !== null && list.length > 0 && (
+        <div class="desk-scroll">
+          <table class="desk-table" data-testid="tokens">
+            <thead>
+              <tr>
+                <th scope="col">{accessWords.tokenName}</th>
+                {nameOf !== undefined && <th scope="col">{accessWords.whoseColumn}</th>}
+                <th scope="col">{accessWords.usedColumn}</th>
+                <th scope="col">{accessWords.untilColumn}</th>
+                <th />
+              </tr>
+            </thead>
+            <tbody>
+              {list.map((token) => (
+                <tr key={token.id}>
+                  <td>{token.name}</td>
+                  {nameOf !== undefined && <td>{nameOf(token.user_id)}</td>}
+                  <td>{token.last_used_utc === null ? accessWords.never : dayAndTime(token.last_used_utc)}</td>
+                  <td>{dayAndTime(token.expires_utc)}</td>
+                  <td class="deeds">
+                    <Really
+                      label={accessWords.revoke}
+                      describe={accessWords.revokeToken(token.name)}
+                      question={`${accessWords.revokeToken(token.name)}?`}
+                      yes={accessWords.revoke}
+                      no={accessWords.keep}
+                      testId={`revoke-${token.id}`}
+                      onYes={() => void tokens.act(() => api.revokeToken(token.id))}
+                    />
+                  </td>
+                </tr>
+              ))}
+            </tbody>
+          </table>
+        </div>
+      )}
+      {userId !== null && <MakeToken api={api} tokens={tokens} />}
+    </section>
+  );
+}
+
+function MakeToken({ api, tokens }: { api: AccessApi; tokens: Remote<unknown> }) {
+  const name = useSignal('');
+  const days = useSignal(usualDays);
+  const secret = useSignal<string | null>(null);
+  const make = async (event: Event) => {
+    event.preventDefault();
+    const made = await tokens.act(() => api.addToken(name.value.trim(), utcInDays(days.value)));
+    if (made === null) return;
+    secret.value = made.secret;
+    name.value = '';
+  };
+  return (
+    <>
+      <form class="desk-form" onSubmit={(event) => void make(event)}>
+        <label>
+          {accessWords.tokenName}
+          <input
+            type="text"
+            required
+            autocomplete="off"
+            data-testid="token-name"
+            value={name.value}
+            onInput={(event) => (name.value = event.currentTarget.value)}
+          />
+        </label>
+        <label>
+          {accessWords.days}
+          <input
+            type="number"
+            min={1}
+            max={3650}
+            required
+            data-testid="token-days"
+            value={days.value}
+            onChange={(event) => (days.value = event.currentTarget.valueAsNumber)}
+          />
+        </label>
+        <button type="submit" class="main-button" data-testid="make-token" disabled={tokens.busy.value}>
+          {accessWords.makeToken}
+        </button>
+      </form>
+      {secret.value !== null && <SecretOnce label={accessWords.tokens} text={secret.value} testId="token-secret" />}
+    </>
+  );
+}

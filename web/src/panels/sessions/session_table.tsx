@@ -1,0 +1,65 @@
+import { sessionWords } from '../../session_words';
+import type { SessionBrowser } from '../../state/sessions/session_browser';
+import type { Session } from '../../wire/api';
+import type { SortKey } from '../../wire/session_list_api';
+import { SessionRow } from './session_row';
+
+const columns: readonly (readonly [SortKey | null, string])[] = [
+  ['created_utc', sessionWords.whenColumn],
+  [null, sessionWords.titleColumn],
+  ['case', sessionWords.caseColumn],
+  ['trainee', sessionWords.traineeColumn],
+  ['state', sessionWords.stateColumn],
+  ['duration_s', sessionWords.durationColumn],
+];
+
+interface Parts {
+  browser: SessionBrowser;
+  watch: (session: Session) => void;
+  replay: (session: Session) => void;
+}
+
+/** A page of sessions, sorted by the column that is pressed. */
+export function SessionTable({ browser, watch, replay }: Parts) {
+  const { sort, descending } = browser.query.value;
+  const sessions = browser.page.value.value?.sessions ?? [];
+  return (
+    <div class="desk-scroll">
+      <table class={browser.page.stale.value ? 'desk-table stale' : 'desk-table'} data-testid="session-table">
+        <thead>
+          <tr>
+            {columns.map(([key, name]) => (
+              <th
+                key={name}
+                scope="col"
+                class={key === 'duration_s' ? 'number' : ''}
+                aria-sort={key === sort ? (descending ? 'descending' : 'ascending') : undefined}
+              >
+                {key === null ? (
+                  name
+                ) : (
+                  <button
+                    type="button"
+                    class="sort-button"
+                    data-testid={`sort-${key}`}
+                    title={sessionWords.sortBy(name)}
+                    onClick={() => void browser.sortBy(key)}
+                  >
+                    {name}
+                    <span aria-hidden="true">{key === sort ? (descending ? ' ↓' : ' ↑') : ''}</span>
+                  </button>
+                )}
+              </th>
+            ))}
+            <th />
+          </tr>
+        </thead>
+        <tbody>
+          {sessions.map((session) => (
+            <SessionRow key={session.id} session={session} {...{ browser, watch, replay }} />
+          ))}
+        </tbody>
+      </table>
+    </div>
+  );
+}

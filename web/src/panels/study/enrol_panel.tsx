@@ -1,0 +1,101 @@
+import { useSignal } from '@preact/signals';
+import { useEffect, useMemo } from 'preact/hooks';
+
+import { Remote } from '../../state/remote';
+import { studyWords } from '../../study_words';
+import { AccessApi } from '../../wire/access_api';
+import type { StudyApi } from '../../wire/study_api';
+import type { NewParticipant, Participant, Study } from '../../wire/study_types';
+import { Remark } from '../fields';
+import { useIdentity } from '../site_nav';
+import { type Background, ExperienceFields } from './experience_fields';
+
+interface Parts {
+  api: StudyApi;
+  study: Study;
+  participants: Remote<Participant[]>;
+}
+
+const guest = '-';
+
+/** Enrolling somebody; only operators may say who it is. */
+export function EnrolPanel({ api, study, participants }: Parts) {
+  const identity = useIdentity();
+  const operate = identity.may.value.operate;
+  const users = useMemo(() => new Remote(() => new AccessApi(window.location.origin).users()), []);
+  useEffect(() => {
+    if (operate && identity.hasUsers.value) void users.read();
+  }, [users, operate]);
+  const background = useSignal<Background>({ experience: null, proceduresDone: 0 });
+  const who = useSignal('');
+  const name = useSignal('');
+  const made = useSignal<string | null>(null);
+  const enrol = async (event: Event) => {
+    event.preventDefault();
+    const { experience, proceduresDone } = background.value;
+    if (experience === null) return;
+    const wanted: NewParticipant = { experience, procedures_done: proceduresDone };
+    if (who.value === guest) wanted.name = name.value.trim();
+    else if (who.value !== '') wanted.user_id = who.value;
+    const participant = await participants.act(() => api.enrol(study.id, wanted));
+    if (participant === null) return;
+    made.value = participant.code;
+    who.value = '';
+    name.value = '';
+    background.value = { experience: null, proceduresDone: 0 };
+  };
+  return (
+    <section class="desk-panel" aria-labelledby="enrol-title">
+      <h2 id="enrol-title">{studyWords.enrol}</h2>
+      {study.join_code !== null && identity.hasUsers.value && (
+        <p class="soft">
+          {studyWords.enrolHint} {studyWords.joinCode}: <strong data-testid="study-join-code">{study.join_code}</strong>
+        </p>
+      )}
+      <form class="desk-form" onSubmit={(event) => void enrol(event)}>
+        {operate && (
+          <label>
+            {studyWords.enrolPerson}
+            <select
+              data-testid="enrol-who"
+              value={who.value}
+              onChange={(event) => (who.value = event.currentTarget.value)}
+            >
+              <option value="">{studyWords.enrolNobody}</option>
+              <option value={guest}>{studyWords.enrolGuest}</option>
+              {users.value.value?.map((user) => (
+                <option key={user.id} value={user.id}>
+                  {user.display_name || user.name}
+                </option>
+              ))}
+            </select>
+          </label>
+        )}
+        {who.value === guest && (
+          <label>
+            {studyWords.guestName}
+            <input
+              type="text"
+              required
+              maxLength={200}
+              data-testid="enrol-name"
+              value={name.value}
+              onInput={(event) => (name.value = event.currentTarget.value)}
+            />
+          </label>
+        )}
+        <ExperienceFields background={background} />
+        <button type="submit" class="main-button" data-testid="enrol" disabled={participants.busy.value}>
+          {studyWords.enrolButton}
+        </button>
+      </form>
+      {made.value !== null && (
+        <div role="status">
+          <Remark kind="soft" testId="enrolled">
+            {studyWords.enrolled(made.value)}
+          </Remark>
+        </div>
+      )}
+    </section>
+  );
+}

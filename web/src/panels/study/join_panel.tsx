@@ -1,0 +1,56 @@
+import { useSignal } from '@preact/signals';
+
+import { studyWords } from '../../study_words';
+import { wordsOf } from '../../wire/rest';
+import type { StudyApi } from '../../wire/study_api';
+import { Remark } from '../fields';
+import { type Background, ExperienceFields } from './experience_fields';
+
+/** Taking part in a study by its join code. */
+export function JoinPanel({ api, onJoined }: { api: StudyApi; onJoined: (studyId: string) => void }) {
+  const code = useSignal('');
+  const background = useSignal<Background>({ experience: null, proceduresDone: 0 });
+  const problem = useSignal<string | null>(null);
+  const join = async (event: Event) => {
+    event.preventDefault();
+    const { experience, proceduresDone } = background.value;
+    if (experience === null) return;
+    problem.value = null;
+    try {
+      const about = { experience, procedures_done: proceduresDone };
+      onJoined((await api.join(code.value.trim().toLowerCase(), about)).study);
+    } catch (error) {
+      problem.value = wordsOf(error);
+    }
+  };
+  return (
+    <section class="desk-panel" aria-labelledby="join-title">
+      <h2 id="join-title">{studyWords.join}</h2>
+      <p class="soft">{studyWords.joinHint}</p>
+      <form class="desk-form" onSubmit={(event) => void join(event)}>
+        <label>
+          {studyWords.joinCode}
+          <input
+            type="text"
+            required
+            autocomplete="off"
+            autocapitalize="none"
+            spellcheck={false}
+            data-testid="join-code"
+            value={code.value}
+            onInput={(event) => (code.value = event.currentTarget.value)}
+          />
+        </label>
+        <ExperienceFields background={background} />
+        <button type="submit" class="main-button" data-testid="join">
+          {studyWords.joinButton}
+        </button>
+      </form>
+      {problem.value !== null && (
+        <Remark kind="bad" testId="join-problem">
+          {problem.value}
+        </Remark>
+      )}
+    </section>
+  );
+}

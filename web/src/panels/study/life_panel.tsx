@@ -1,0 +1,117 @@
+import type { Remote } from '../../state/remote';
+import { studyWords } from '../../study_words';
+import type { StudyApi } from '../../wire/study_api';
+import type { Study } from '../../wire/study_types';
+import { saveBlob } from '../../wire/save_blob';
+import { Really } from '../really';
+import { useIdentity } from '../site_nav';
+
+interface Parts {
+  api: StudyApi;
+  study: Study;
+  studies: Remote<Study>;
+  /** Nobody takes part. */
+  empty: boolean;
+  onRemoved: () => void;
+}
+
+/** Closing, unblinding and deleting a study, and what is taken out of it. */
+export function LifePanel({ api, study, studies, empty, onRemoved }: Parts) {
+  const may = useIdentity().may.value;
+  const busy = studies.busy.value;
+  const act = (deed: () => Promise<unknown>) => void studies.act(deed);
+  const remove = async () => {
+    if ((await studies.act(() => api.remove(study.id))) !== null) onRemoved();
+  };
+  const closed = study.state === 'closed';
+  const asking = { no: studyWords.no, disabled: busy };
+  return (
+    <div class="desk-head study-deeds">
+      {!closed && (
+        <Really
+          label={studyWords.close}
+          question={studyWords.closeReally}
+          yes={studyWords.closeYes}
+          testId="close-study"
+          {...asking}
+          onYes={() => act(() => api.close(study.id))}
+        />
+      )}
+      {closed && study.blinded && (
+        <button
+          type="button"
+          class="plain-button"
+          data-testid="reopen-study"
+          disabled={busy}
+          onClick={() => act(() => api.reopen(study.id))}
+        >
+          {studyWords.reopen}
+        </button>
+      )}
+      {closed && study.blinded && may.operate && (
+        <Really
+          label={studyWords.unblind}
+          question={studyWords.unblindReally}
+          yes={studyWords.unblind}
+          testId="unblind-study"
+          {...asking}
+          onYes={() => act(() => api.unblind(study.id))}
+        />
+      )}
+      {may.operate && empty && (
+        <Really
+          label={studyWords.remove}
+          question={studyWords.removeReally}
+          yes={studyWords.remove}
+          testId="remove-study"
+          {...asking}
+          onYes={() => void remove()}
+        />
+      )}
+    </div>
+  );
+}
+
+const tables = [
+  ['sessions', studyWords.exportSessions],
+  ['answers', studyWords.exportAnswers],
+  ['groups', studyWords.exportGroups],
+  ['json', studyWords.exportAll],
+] as const;
+
+/** The study's data for statistics. */
+export function ExportPanel({ api, study, studies }: Pick<Parts, 'api' | 'study' | 'studies'>) {
+  const may = useIdentity().may.value;
+  const allowed = may.operate || study.state === 'closed';
+  const save = (name: string, get: () => Promise<Blob>) =>
+    void studies.act(async () => saveBlob(await get(), `${study.id}-${name}`));
+  return (
+    <section class="desk-panel" aria-labelledby="export-title">
+      <h2 id="export-title">{studyWords.exports}</h2>
+      <p class="soft">{allowed ? studyWords.exportHint : studyWords.exportClosed}</p>
+      <div class="desk-form">
+        {tables.map(([table, label]) => (
+          <button
+            key={table}
+            type="button"
+            class="plain-button"
+            data-testid={`export-${table}`}
+            disabled={!allowed || studies.busy.value}
+            onClick={() => save(table === 'json' ? 'export.json' : `${table}.csv`, () => api.export(study.id, table))}
+          >
+            {label}
+          </button>
+        ))}
+        <button
+          type="button"
+          class="plain-button"
+          data-testid="export-codebook"
+          disabled={studies.busy.value}
+          onClick={() => save('codebook.json', () => api.codebook(study.id))}
+        >
+          {studyWords.exportCodebook}
+        </button>
+      </div>
+    </section>
+  );
+}

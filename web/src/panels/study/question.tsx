@@ -1,0 +1,143 @@
+import type { AnswerSheet } from '../../state/study/answer_sheet';
+import { studyWords } from '../../study_words';
+import type { ChoiceItem, Item, LikertItem, TextItem } from '../../wire/study_types';
+
+interface Parts<T extends Item> {
+  item: T;
+  sheet: AnswerSheet;
+}
+
+/** One thing that is asked, as a group that keys and screen readers know: radio buttons, boxes or a text. */
+export function Question({ item, sheet }: Parts<Item>) {
+  const bad = sheet.tried.value && sheet.missing.value.includes(item);
+  const id = questionId(item);
+  if (item.kind === 'text') return <TextQuestion item={item} sheet={sheet} bad={bad} />;
+  return (
+    <fieldset
+      id={id}
+      class={bad ? 'question question-bad' : 'question'}
+      data-testid={`question-${item.id}`}
+      aria-invalid={bad}
+      aria-describedby={bad ? `${id}-fault` : undefined}
+    >
+      <legend>
+        {item.words} {!item.required && <span class="soft">({studyWords.optional})</span>}
+      </legend>
+      {item.kind === 'likert' ? (
+        <LikertAnswers item={item} sheet={sheet} />
+      ) : (
+        <ChoiceAnswers item={item} sheet={sheet} />
+      )}
+      {bad && (
+        <p id={`${id}-fault`} class="question-fault">
+          {studyWords.needed}
+        </p>
+      )}
+    </fieldset>
+  );
+}
+
+/** Of the element that a question is. */
+export function questionId(item: Item): string {
+  return `question-${item.id}`;
+}
+
+function LikertAnswers({ item, sheet }: Parts<LikertItem>) {
+  const answer = sheet.answers.value[item.id];
+  const points = Array.from({ length: item.points }, (_, i) => i + 1);
+  const label = (at: number) =>
+    at === 1
+      ? studyWords.lowest(at, item.low)
+      : at === item.points
+        ? studyWords.lowest(at, item.high)
+        : studyWords.points(at, item.points);
+  return (
+    <div class="likert">
+      <span class="likert-end" aria-hidden="true">
+        {item.low}
+      </span>
+      <span class="likert-points">
+        {points.map((at) => (
+          <label key={at}>
+            <input
+              type="radio"
+              name={item.id}
+              aria-label={label(at)}
+              data-testid={`${item.id}-${at}`}
+              checked={answer === at}
+              onChange={() => sheet.set(item.id, at)}
+            />
+            <span aria-hidden="true">{at}</span>
+          </label>
+        ))}
+      </span>
+      <span class="likert-end likert-high" aria-hidden="true">
+        {item.high}
+      </span>
+      {item.cannot_judge && (
+        <label class="likert-none">
+          <input
+            type="radio"
+            name={item.id}
+            data-testid={`${item.id}-none`}
+            checked={answer === null}
+            onChange={() => sheet.set(item.id, null)}
+          />
+          {studyWords.cannotJudge}
+        </label>
+      )}
+    </div>
+  );
+}
+
+function ChoiceAnswers({ item, sheet }: Parts<ChoiceItem>) {
+  const answer = sheet.answers.value[item.id];
+  const chosen = (id: string) => (Array.isArray(answer) ? answer.includes(id) : answer === id);
+  return (
+    <div class="choices">
+      {item.options.map((option) => (
+        <label key={option.id}>
+          <input
+            type={item.several ? 'checkbox' : 'radio'}
+            name={item.id}
+            data-testid={`${item.id}-${option.id}`}
+            checked={chosen(option.id)}
+            onChange={() => (item.several ? sheet.toggle(item.id, option.id) : sheet.set(item.id, option.id))}
+          />
+          {option.words}
+        </label>
+      ))}
+    </div>
+  );
+}
+
+function TextQuestion({ item, sheet, bad }: Parts<TextItem> & { bad: boolean }) {
+  const id = questionId(item);
+  const answer = sheet.answers.value[item.id];
+  const text = typeof answer === 'string' ? answer : '';
+  const tooLong = [...text].length > item.longest;
+  return (
+    <div class={bad ? 'question question-bad' : 'question'} data-testid={`question-${item.id}`}>
+      <label for={id}>
+        {item.words} {!item.required && <span class="soft">({studyWords.optional})</span>}
+      </label>
+      <textarea
+        id={id}
+        rows={3}
+        data-testid={`${item.id}-text`}
+        aria-invalid={bad}
+        aria-describedby={bad || tooLong ? `${id}-fault` : undefined}
+        value={text}
+        onInput={(event) => {
+          const now = event.currentTarget.value;
+          sheet.set(item.id, now === '' ? undefined : now);
+        }}
+      />
+      {(bad || tooLong) && (
+        <p id={`${id}-fault`} class="question-fault">
+          {tooLong ? studyWords.tooLong(item.longest) : studyWords.needed}
+        </p>
+      )}
+    </div>
+  );
+}

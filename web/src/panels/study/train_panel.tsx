@@ -1,0 +1,95 @@
+import { useSignal } from '@preact/signals';
+
+import { addressOfRoute } from '../../state/route';
+import { studyWords } from '../../study_words';
+import type { Study } from '../../wire/study_types';
+import { useIdentity } from '../site_nav';
+
+interface Parts {
+  study: Study;
+  /** Codes among which the user may choose; empty: only their own. */
+  codes: readonly string[];
+  /** Makes a session for a participant (null: the user) and shows it; false when that failed. */
+  train: (participant: string | null, caseId: string) => Promise<boolean>;
+}
+
+/** Beginning a session of the study, and the way to the questionnaire. */
+export function TrainPanel({ study, codes, train }: Parts) {
+  const may = useIdentity().may.value;
+  const own = study.participant;
+  const choice = useSignal(own ?? '');
+  const caseId = useSignal(study.cases[0] ?? '');
+  const busy = useSignal(false);
+  const participant = codes.includes(choice.value) ? choice.value : own;
+  const start = async (event: Event) => {
+    event.preventDefault();
+    if (participant === null) return;
+    busy.value = true;
+    if (!(await train(participant === own ? null : participant, caseId.value))) busy.value = false;
+  };
+  if (study.state === 'closed' || (own === null && codes.length === 0)) return null;
+  return (
+    <section class="desk-panel" aria-labelledby="train-title">
+      <h2 id="train-title">{own === null ? studyWords.train : studyWords.yourPart}</h2>
+      {own !== null && (
+        <p class="soft" data-testid="own-code">
+          {studyWords.yourCode(own)}
+        </p>
+      )}
+      <form class="desk-form" onSubmit={(event) => void start(event)}>
+        {may.teach && codes.length > 0 && (
+          <label>
+            {studyWords.trainsAs}
+            <select
+              required
+              data-testid="train-as"
+              value={participant ?? ''}
+              onChange={(event) => (choice.value = event.currentTarget.value)}
+            >
+              <option value="" />
+              {codes.map((code) => (
+                <option key={code} value={code}>
+                  {code}
+                </option>
+              ))}
+            </select>
+          </label>
+        )}
+        {study.cases.length > 1 && (
+          <label>
+            {studyWords.onCase}
+            <select
+              data-testid="train-on"
+              value={caseId.value}
+              onChange={(event) => (caseId.value = event.currentTarget.value)}
+            >
+              {study.cases.map((id) => (
+                <option key={id} value={id}>
+                  {id}
+                </option>
+              ))}
+            </select>
+          </label>
+        )}
+        <button
+          type="submit"
+          class="main-button"
+          title={studyWords.trainHint}
+          data-testid="train"
+          disabled={busy.value || participant === null}
+        >
+          {busy.value ? studyWords.starting : studyWords.start}
+        </button>
+        {own !== null && study.questionnaire && (
+          <a
+            class="plain-button"
+            data-testid="own-answers"
+            href={addressOfRoute({ kind: 'questionnaire', id: study.id, participant: own })}
+          >
+            {studyWords.answerNow}
+          </a>
+        )}
+      </form>
+    </section>
+  );
+}

@@ -1,0 +1,178 @@
+import { batch, computed, signal } from '@preact/signals';
+
+import type { LoginApi, Visitor } from '../wire/login_api';
+import { ApiError, credentials, wordsOf } from '../wire/rest';
+import { words } from '../words';
+import { sentence } from '../panels/format';
+import { mayOf } from './may';
+
+/**
+ * - asking: the server has not said yet who this is; `problem` says when it does not answer
+ * - unknown: somebody must log in
+ * - known: a user, a viewer by link, or anybody on a server without users
+ */
+export type IdentityPhase = 'asking' | 'unknown' | 'known';
+
+const askAgainMs = 2000;
+
+/** Who uses the page. */
+export class Identity {
+  readonly phase = signal<IdentityPhase>('asking');
+  readonly visitor = signal<Visitor | null>(null);
+  /** Words about why the page asks for a login, or why it was refused. */
+  readonly problem = signal<string | null>(null);
+  /** A request is under way. */
+  readonly busy = signal(false);
+  /** Before this time the server takes no further try, ms. */
+  readonly notBeforeMs = signal<number | null>(null);
+
+  readonly may = computed(() => mayOf(this.phase.value === 'known' ? (this.visitor.value?.role ?? null) : null));
+  /** Whether the server has users; without them nobody logs in or out. */
+  readonly hasUsers = computed(() => this.visitor.value?.login_needed === true);
+  readonly userId = computed(() => this.visitor.value?.user?.id ?? null);
+  readonly name = computed(() => this.visitor.value?.user?.display_name || this.visitor.value?.user?.name || null);
+
+  /** Who used the page before the login ended. */
+  private before: Visitor | null = null;
+
+  constructor(
+    private readonly api: LoginApi,
+    /** Somebody else uses the page from here on: what it knows is not for them. */
+    private readonly onOther: () => void,
+  ) {
+    credentials.onRefused = () => this.end(this.endedWords());
+    credentials.renew = () => this.renew();
+  }
+
+  /** Finds out who this is, by the secret of a viewer link where there is one. Ends when the server has answered. */
+  async find(linkSecret: string | null): Promise<void> {
+    for (;;) {
+      try {
+        let visitor = await this.ask();
+        this.problem.value = null;
+        const needed = visitor.login_needed && (visitor.role === null || visitor.role === 'viewer');
+        if (linkSecret !== null && needed) visitor = await this.enterByLink(linkSecret, visitor);
+        return this.take(visitor);
+      } catch (error) {
+        this.problem.value = wordsOf(error);
+        await new Promise((resolve) => setTimeout(resolve, askAgainMs));
+      }
+    }
+  }
+
+  async logIn(name: string, password: string): Promise<void> {
+    await this.attempt(async () => this.take(await this.api.logIn(name, password)));
+  }
+
+  async logOut(): Promise<void> {
+    await this.attempt(async () => {
+      await this.api.logOut();
+      this.end(words.loggedOut);
+    });
+  }
+
+  /** The secret of a viewer link that came while the page was open. */
+  async useLink(secret: string): Promise<void> {
+    if (this.may.value.ream) return;
+    await this.attempt(async () => this.take(await this.api.useLink(secret)));
+    if (this.problem.value !== null) this.problem.value = refusedLink(this.problem.value);
+  }
+
+  /** The login has ended, by whosever hand. */
+  end(reason: string): void {
+    if (this.phase.value !== 'known') return;
+    credentials.csrfToken = null;
+    batch(() => {
+      this.before = this.visitor.value;
+      this.visitor.value = null;
+      this.problem.value = reason;
+      this.phase.value = 'unknown';
+    });
+  }
+
+  private endedWords(): string {
+    if (!this.hasUsers.peek()) return words.loginNeededNow;
+    return this.visitor.peek()?.role === 'viewer' ? words.linkEnded : words.loginEnded;
+  }
+
+  /** A server of before there were users knows no logins. */
+  private async ask(): Promise<Visitor> {
+    try {
+      return await this.api.whoAmI();
+    } catch (error) {
+      if (!(error instanceof ApiError) || error.status !== 404) throw error;
+      return {
+        login_needed: false,
+        role: 'operator',
+        user: null,
+        only_session: null,
+        csrf_token: null,
+        expires_utc: null,
+      };
+    }
+  }
+
+  /** Refused, the visitor is who they were. */
+  private async enterByLink(secret: string, visitor: Visitor): Promise<Visitor> {
+    try {
+      return await this.api.useLink(secret);
+    } catch (error) {
+      if (!(error instanceof ApiError) || error.status === 0) throw error;
+      if (visitor.role !== null) return visitor;
+      this.problem.value = refusedLink(error.message);
+      return visitor;
+    }
+  }
+
+  private take(visitor: Visitor): void {
+    const known = !visitor.login_needed || visitor.role !== null;
+    const other = known && this.before !== null && !isSame(this.before, visitor);
+    credentials.csrfToken = visitor.csrf_token;
+    batch(() => {
+      this.visitor.value = visitor;
+      this.notBeforeMs.value = null;
+      if (known || this.phase.value === 'known') this.problem.value = null;
+      this.phase.value = known ? 'known' : 'unknown';
+    });
+    if (other) this.onOther();
+  }
+
+  /** True when the token was another: then the same call may succeed. */
+  private async renew(): Promise<boolean> {
+    const token = credentials.csrfToken;
+    const present = this.visitor.value;
+    const visitor = await this.api.whoAmI().catch(() => null);
+    if (visitor === null || present === null) return false;
+    if (!isSame(present, visitor)) {
+      this.before = present;
+      this.take(visitor);
+      return false;
+    }
+    credentials.csrfToken = visitor.csrf_token;
+    return visitor.csrf_token !== token;
+  }
+
+  private async attempt(action: () => Promise<void>): Promise<void> {
+    this.busy.value = true;
+    this.problem.value = null;
+    try {
+      await action();
+    } catch (error) {
+      const waitS = error instanceof ApiError ? error.retryAfterS : null;
+      batch(() => {
+        this.problem.value = wordsOf(error);
+        this.notBeforeMs.value = waitS === null ? null : Date.now() + waitS * 1000;
+      });
+    } finally {
+      this.busy.value = false;
+    }
+  }
+}
+
+function refusedLink(said: string): string {
+  return `${words.linkRefusedText} ${sentence(said)}`;
+}
+
+function isSame(a: Visitor, b: Visitor): boolean {
+  return a.role === b.role && a.user?.id === b.user?.id && a.only_session === b.only_session;
+}

@@ -1,0 +1,59 @@
+import { batch, signal } from '@preact/signals';
+
+import { wordsOf } from '../wire/rest';
+
+/** Something that the server has, as it was last read, and what is done about it; problems are told in words. */
+export class Remote<T> {
+  readonly value = signal<T | null>(null);
+  /** What went wrong last; of a deed it stays until the next one, of a reading until one succeeds. */
+  readonly problem = signal<string | null>(null);
+  /** The last reading failed: `value` is an older one. */
+  readonly stale = signal(false);
+  readonly busy = signal(false);
+  private asked = 0;
+  private deedFailed = false;
+
+  constructor(private readonly ask: () => Promise<T>) {}
+
+  /** Of two readings at once the later one counts. */
+  async read(): Promise<void> {
+    const number = ++this.asked;
+    try {
+      const value = await this.ask();
+      if (number !== this.asked) return;
+      batch(() => {
+        this.value.value = value;
+        this.stale.value = false;
+        if (!this.deedFailed) this.problem.value = null;
+      });
+    } catch (error) {
+      if (number === this.asked) {
+        this.fail(error, false);
+        this.stale.value = true;
+      }
+    }
+  }
+
+  /** Does something and reads anew; what it gives, or null when it failed. */
+  async act<Result>(action: () => Promise<Result>): Promise<Result | null> {
+    if (this.busy.value) return null;
+    this.busy.value = true;
+    this.problem.value = null;
+    this.deedFailed = false;
+    try {
+      const result = await action();
+      await this.read();
+      return result;
+    } catch (error) {
+      this.fail(error, true);
+      return null;
+    } finally {
+      this.busy.value = false;
+    }
+  }
+
+  private fail(error: unknown, deed: boolean): void {
+    this.problem.value = wordsOf(error);
+    this.deedFailed = deed;
+  }
+}

@@ -1,0 +1,32 @@
+import { vi } from 'vitest';
+
+export interface Asked {
+  method: string;
+  path: string;
+  headers: Record<string, string>;
+  body: unknown;
+}
+
+/** Answers the page's calls in place of a server, and remembers them. */
+export class FakeFetch {
+  readonly asked: Asked[] = [];
+
+  constructor(private readonly answer: (asked: Asked) => Response | Promise<Response>) {
+    vi.stubGlobal('fetch', (url: string, init: RequestInit) => {
+      const body = typeof init.body === 'string' ? (JSON.parse(init.body) as unknown) : undefined;
+      const asked = {
+        method: init.method ?? 'GET',
+        path: new URL(url).pathname + new URL(url).search,
+        headers: init.headers as Record<string, string>,
+        body,
+      };
+      this.asked.push(asked);
+      return Promise.resolve(this.answer(asked));
+    });
+  }
+}
+
+export const json = (status: number, body: object, headers: Record<string, string> = {}) =>
+  new Response(JSON.stringify(body), { status, headers: { 'content-type': 'application/json', ...headers } });
+export const problem = (status: number, detail: string, headers: Record<string, string> = {}) =>
+  json(status, { type: 'about:blank', title: 'Refused', status, detail }, headers);
