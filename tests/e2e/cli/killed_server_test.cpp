@@ -74,8 +74,8 @@ class KilledServer : public CommandLine {
   static std::string path_of(const std::string& id) { return "/api/v1/sessions/" + id; }
   std::filesystem::path folder_of(const std::string& id) const { return folder() / "data/sessions" / id; }
 
-  /// Asks for metrics as fast as it goes until the server is dead; the last duration it told, if it ever
-  /// started the session.
+  /// Asks for metrics, far below what one address may ask, until the server is dead; the last duration it
+  /// told, if it ever started the session.
   std::optional<double> watch_until_killed(const std::string& id, std::chrono::milliseconds life) {
     std::thread killer([this, life] {
       std::this_thread::sleep_for(life);
@@ -84,11 +84,13 @@ class KilledServer : public CommandLine {
     std::optional<double> seen;
     try {
       if (http_request(port_, "POST", path_of(id) + "/start").status == 200) seen = 0.0;
-      for (;;)
-        seen = std::max(seen.value_or(0.0),
-                        json::parse(http_request(port_, "GET", path_of(id) + "/metrics").body)
-                            .at("duration_s")
-                            .get<double>());
+      for (bool answered = true; answered; std::this_thread::sleep_for(2ms)) {
+        const HttpReply reply = http_request(port_, "GET", path_of(id) + "/metrics");
+        answered = reply.status == 200;
+        EXPECT_TRUE(answered) << reply.status << ' ' << reply.body;
+        if (answered)
+          seen = std::max(seen.value_or(0.0), json::parse(reply.body).at("duration_s").get<double>());
+      }
     } catch (const std::exception&) {  // it is dead
     }
     killer.join();
