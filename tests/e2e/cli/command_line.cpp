@@ -73,8 +73,13 @@ nlohmann::json CommandLine::answer(Words arguments) {
 }
 
 void CommandLine::refuse(int exit_code, const std::string& mentioned, const Words& arguments) {
-  SCOPED_TRACE("ream " + testing::PrintToString(arguments));
   const auto before = tree();
+  refuse_beside_others(exit_code, mentioned, arguments);
+  EXPECT_EQ(tree(), before) << testing::PrintToString(arguments);
+}
+
+void CommandLine::refuse_beside_others(int exit_code, const std::string& mentioned, const Words& arguments) {
+  SCOPED_TRACE("ream " + testing::PrintToString(arguments));
   const Outcome outcome = run(arguments);
   EXPECT_EQ(outcome.exit_code, exit_code) << outcome.error;
   EXPECT_EQ(outcome.error.rfind("ream: ", 0), 0u) << outcome.error;
@@ -83,7 +88,6 @@ void CommandLine::refuse(int exit_code, const std::string& mentioned, const Word
   EXPECT_NE(outcome.error.find(mentioned), std::string::npos)
       << outcome.error << "does not name " << mentioned;
   EXPECT_EQ(outcome.out, "");
-  EXPECT_EQ(tree(), before);
 }
 
 nlohmann::json CommandLine::json_of(const fs::path& relative) const {

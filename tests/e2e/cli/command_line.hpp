@@ -29,6 +29,8 @@ class CommandLine : public testing::Test {
   /// Expects that exit code, exactly one line on stderr that names `mentioned`, nothing on stdout, and no
   /// file or folder made or changed.
   void refuse(int exit_code, const std::string& mentioned, const Words& arguments);
+  /// refuse() while another program writes to the folder, so that files may change.
+  void refuse_beside_others(int exit_code, const std::string& mentioned, const Words& arguments);
 
   /// Starts a command and lets it run; what it prints goes to <name>.out and <name>.err in printed().
   std::unique_ptr<ChildProcess> start(const Words& arguments, const std::string& name);
