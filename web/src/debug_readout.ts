@@ -1,5 +1,7 @@
 import type { BoneScene } from './scene/scene';
+import type { SoundParameters } from './sound/reaming_sound';
 import type { PracticeStore } from './state/practice_store';
+import type { Sound } from './state/sound';
 import type { Store } from './state/store';
 
 /** What browser tests read as `window.__ream`; a snapshot at each reading. */
@@ -21,6 +23,8 @@ export interface DebugReadout {
   pushN: number;
   /** How far the reamer's origin is past the planned entry along the axis, mm. */
   toolDepthMm: number | null;
+  /** What was last told to the loudspeaker. */
+  sound: SoundParameters;
 }
 
 declare global {
@@ -29,7 +33,7 @@ declare global {
   }
 }
 
-export function publishDebugReadout(store: Store, practice: PracticeStore, scene: BoneScene): void {
+export function publishDebugReadout(store: Store, practice: PracticeStore, scene: BoneScene, sound: Sound): void {
   Object.defineProperty(window, '__ream', {
     get: (): DebugReadout => ({
       framesDrawn: scene.framesDrawn,
@@ -47,6 +51,7 @@ export function publishDebugReadout(store: Store, practice: PracticeStore, scene
       deviceLink: practice.sessionId.value === null ? null : practice.link.value.kind,
       pushN: practice.hand.pushN.value,
       toolDepthMm: toolDepthMm(store),
+      sound: sound.told.value,
     }),
   });
 }

@@ -2,20 +2,26 @@ import 'uplot/dist/uPlot.min.css';
 import './style.css';
 import './forms.css';
 
-import { effect, type Signal, signal } from '@preact/signals';
+import { computed, effect, type Signal, signal, untracked } from '@preact/signals';
 import { render } from 'preact';
 
 import { publishDebugReadout } from './debug_readout';
 import { App } from './pages/app';
 import { BoneScene } from './scene/scene';
+import { Alarms } from './state/alarms';
 import { Identity } from './state/identity';
+import { Latency } from './state/latency';
+import { LiveCase } from './state/live_case';
 import { Practice } from './state/practice';
 import { PracticeStore } from './state/practice_store';
 import { browserWindow, letGoWhenLeft } from './state/practice_window';
 import { isActive } from './state/choose_session';
 import { addressOfReplay, replayInAddress } from './state/replay_address';
-import { followRoute, type Route, routeInAddress } from './state/route';
+import { followRoute, type Route, routeInAddress, showsSession } from './state/route';
+import { Sound } from './state/sound';
 import { Store } from './state/store';
+import { theatreHere } from './state/theatre';
+import { ViewSettings } from './state/view_settings';
 import { linkInAddress, takeLinkFromAddress } from './state/watch_link';
 import { Watcher } from './state/watcher';
 import { Api } from './wire/api';
@@ -28,6 +34,7 @@ function main(root: HTMLElement): void {
   const linkSecret = takeLinkFromAddress();
   const identity = new Identity(new LoginApi(window.location.origin), () => window.location.reload());
   const store = new Store();
+  const route = signal(routeInAddress(window.location.hash));
   const scene = new BoneScene();
   const api = new Api(window.location.origin);
   const watcher = new Watcher(store, api, new WorkerStreamSocket(), scene, {
@@ -47,10 +54,38 @@ function main(root: HTMLElement): void {
   effect(() => scene.setToolPose(store.telemetry.value?.worldFromTool ?? null));
   effect(() => scene.setBonePose(store.telemetry.value?.worldFromBoneRest ?? null));
   effect(() => scene.setToolShown(store.reamerShown.value));
+  const liveCase = new LiveCase(store, () => identity.may.value.readCases, window.location.origin);
+  const alarms = new Alarms(store);
+  const sound = new Sound(store, practiceStore, async () => (await import('./sound/sound_output')).SoundOutput.open());
+  publishDebugReadout(store, practiceStore, scene, sound);
+  const latency = measureLatency(store, practiceStore, scene);
+  const view = new ViewSettings();
+  scene.onTaken = () => view.change({ camera: 'own' });
+  const inTheatre = theatreHere(store, practiceStore, route);
+  effect(() => void (view.theatre.value = inTheatre.value));
+  effect(() => scene.setView(view.shown.value, view.theatre.value));
+  keepViewForPerson(identity, view);
   effect(() => scene.setAim(practiceStore.plan.value, practiceStore.hand.place.value));
-  publishDebugReadout(store, practiceStore, scene);
-  const route = signal(routeInAddress(window.location.hash));
-  render(<App route={route} live={{ store, watcher, scene, practice, practiceStore }} identity={identity} />, root);
+  render(
+    <App
+      route={route}
+      live={{
+        store,
+        watcher,
+        scene,
+        view,
+        liveCase,
+        alarms,
+        sound,
+        latency,
+        theatreWanted: signal(false),
+        practice,
+        practiceStore,
+      }}
+      identity={identity}
+    />,
+    root,
+  );
   followReplayAddress(store, watcher, route);
   followViewerLinks(identity);
   followRoute(route);
@@ -68,7 +103,7 @@ function watchWhenKnown(
   let begun = false;
   effect(() => {
     const known = identity.phase.value === 'known';
-    const live = route.value.kind === 'live';
+    const live = showsSession(route.value);
     if (!known || !live) {
       if (practiceStore.sessionId.peek() !== null) practice.leave();
       if (!known) watcher.rest();
@@ -79,6 +114,37 @@ function watchWhenKnown(
     void (first ? goOn() : Promise.resolve()).finally(() => {
       if (identity.phase.peek() === 'known') watcher.start();
     });
+  });
+}
+
+/** By this computer's clock alone, ms since 1970: page and workers count from different moments. */
+const clockMs = () => performance.timeOrigin + performance.now();
+const tellLatencyMs = 500;
+
+function measureLatency(store: Store, practice: PracticeStore, scene: BoneScene): Latency {
+  const latency = new Latency();
+  const session = computed(() => store.hello.value?.sessionId);
+  session.subscribe(() => latency.forget());
+  effect(() => {
+    const feedback = practice.feedback.value;
+    if (feedback !== null && feedback.sentMs !== null) latency.taken({ sentMs: feedback.sentMs, tick: feedback.tick });
+  });
+  scene.onDrawn = () => {
+    const telemetry = store.telemetry.peek();
+    if (telemetry?.receivedMs === undefined || !store.live.peek()) return;
+    latency.drawn(telemetry.tick, telemetry.receivedMs, clockMs());
+  };
+  setInterval(() => latency.tell(clockMs()), tellLatencyMs);
+  return latency;
+}
+
+/** How somebody wants to see the bone stays with that person, on a server without users with the browser. */
+function keepViewForPerson(identity: Identity, view: ViewSettings): void {
+  let end: () => void = () => undefined;
+  effect(() => {
+    const person = identity.userId.value ?? 'anyone';
+    end();
+    end = untracked(() => view.keepFor(person, window.localStorage));
   });
 }
 

@@ -6,6 +6,7 @@ import { addressOfRoute, type Route } from '../state/route';
 import { words } from '../words';
 import { later } from '../panels/later';
 import { LivePage, type LivePageParts } from './live_page';
+import { TraineePage } from './trainee_page';
 import { LoginPage } from './login_page';
 
 const casePages = later(() => import('./case_pages'));
@@ -49,7 +50,10 @@ function Page({ route, live, identity }: { route: Route; live: LivePageParts; id
   const may = identity.may.value;
   switch (route.kind) {
     case 'live':
-      return <LivePage {...live} />;
+      // Who reams in theatre sees no panels, wherever the page was opened.
+      return live.view.theatre.value ? <TraineePage {...live} /> : <LivePage {...live} />;
+    case 'trainee':
+      return <TraineePage {...live} />;
     case 'cases':
     case 'case':
       if (!may.readCases) return <NotForYou />;

@@ -1,6 +1,9 @@
-import { DepthMeter } from '../panels/depth_meter';
 import { Figures, Results } from '../panels/figures';
+import type { Signal } from '@preact/signals';
+
 import { ForcePlot } from '../panels/force_plot';
+import { LiveStrip } from '../panels/live_strip';
+import { Gauges } from '../panels/gauges';
 import { Header } from '../panels/header';
 import { HealthPanel } from '../panels/health_panel';
 import { Picture } from '../panels/picture';
@@ -11,26 +14,41 @@ import { ReplayPanel } from '../panels/replay_panel';
 import { RunPanel } from '../panels/run_panel';
 import { SessionList } from '../panels/session_list';
 import type { BoneScene } from '../scene/scene';
+import type { Alarms } from '../state/alarms';
+import type { Latency } from '../state/latency';
+import type { LiveCase } from '../state/live_case';
 import type { Practice } from '../state/practice';
 import type { PracticeStore } from '../state/practice_store';
+import type { Sound } from '../state/sound';
 import type { Store } from '../state/store';
+import type { ViewSettings } from '../state/view_settings';
 import type { Watcher } from '../state/watcher';
 
 export interface LivePageParts {
   store: Store;
   watcher: Watcher;
   scene: BoneScene;
+  view: ViewSettings;
+  liveCase: LiveCase;
+  alarms: Alarms;
+  sound: Sound;
+  latency: Latency;
+  theatreWanted: Signal<boolean>;
   practice: Practice;
   practiceStore: PracticeStore;
 }
 
 /** One session, live or as it was recorded: picture, force, numbers, and what can be done. */
-export function LivePage({ store, watcher, scene, practice, practiceStore }: LivePageParts) {
+export function LivePage(parts: LivePageParts) {
+  const { store, watcher, scene, view, liveCase, alarms, sound, latency, practice, practiceStore, theatreWanted } =
+    parts;
   const bar = store.replaying.value ? 'page-replay' : practiceStore.steering.value ? 'page-practice' : '';
   return (
     <div class={`page ${bar}`}>
       <Header store={store} />
-      <Picture store={store} practice={practiceStore} scene={scene} />
+      <Picture store={store} practice={practiceStore} scene={scene} view={view} alarms={alarms}>
+        <LiveStrip store={store} practice={practiceStore} latency={latency} sound={sound} />
+      </Picture>
       {store.replaying.value && <PlaybackBar store={store} watcher={watcher} />}
       {practiceStore.steering.value && (
         <PracticeBar practice={practiceStore} toPicture={() => scene.canvas.focus({ preventScroll: true })} />
@@ -39,14 +57,20 @@ export function LivePage({ store, watcher, scene, practice, practiceStore }: Liv
         {store.replaying.value ? (
           <ReplayPanel store={store} watcher={watcher} />
         ) : (
-          <RunPanel store={store} watcher={watcher} practice={practice} practiceStore={practiceStore} />
+          <RunPanel
+            store={store}
+            watcher={watcher}
+            practice={practice}
+            practiceStore={practiceStore}
+            theatreWanted={theatreWanted}
+          />
         )}
         <ProblemBanner store={store} />
         <SessionList store={store} watcher={watcher} />
         {!store.replaying.value && <HealthPanel store={store} practice={practiceStore} />}
         <div class="readings">
           <ForcePlot store={store} />
-          <DepthMeter store={store} />
+          <Gauges store={store} liveCase={liveCase} />
           <Figures store={store} />
           <Results store={store} />
         </div>

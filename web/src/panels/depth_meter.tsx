@@ -1,9 +1,7 @@
+import { reachedWithinMm } from '../state/alarms';
 import type { Store } from '../state/store';
 import { words } from '../words';
 import { fixed } from './format';
-
-/** Within this of the plan the depth counts as reached, mm. */
-const reachedWithinMm = 0.05;
 
 /** Reaming depth against the plan. */
 export function DepthMeter({ store }: { store: Store }) {

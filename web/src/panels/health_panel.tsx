@@ -6,16 +6,23 @@ import { Figure } from './figures';
 import { fixed } from './format';
 
 /** A share of missed ticks above this is worth saying, percent. */
-const lateAbovePercent = 0.1;
+export const lateAbovePercent = 0.1;
 
-/** How well the haptic loop keeps its time and its device: one word, and the figures behind it. */
-export function HealthPanel({ store, practice }: { store: Store; practice: PracticeStore }) {
+/** Of the ticks of the watched session, or null while that is not known. */
+export function missedPercent(store: Store): number | null {
   const details = store.details.value;
   const session = details !== null && details.id === store.sessionId.value ? details : null;
   const telemetry = store.telemetry.value;
   const missed = telemetry?.ticksMissed ?? session?.loop?.missed ?? null;
   const ticks = telemetry?.tick ?? session?.tick ?? 0;
-  const percent = missed === null || ticks === 0 ? null : (missed / ticks) * 100;
+  return missed === null || ticks === 0 ? null : (missed / ticks) * 100;
+}
+
+/** How well the haptic loop keeps its time and its device: one word, and the figures behind it. */
+export function HealthPanel({ store, practice }: { store: Store; practice: PracticeStore }) {
+  const details = store.details.value;
+  const session = details !== null && details.id === store.sessionId.value ? details : null;
+  const percent = missedPercent(store);
   const late = percent !== null && percent > lateAbovePercent;
   const word = percent === null ? words.healthUnknown : late ? words.healthLate(fixed(percent, 1)) : words.healthOnTime;
   return (

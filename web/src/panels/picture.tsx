@@ -1,13 +1,18 @@
+import type { ComponentChildren } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 
 import type { BoneScene } from '../scene/scene';
 import type { ViewName } from '../scene/camera_rig';
+import type { Alarms } from '../state/alarms';
 import type { PracticeStore } from '../state/practice_store';
 import type { Store } from '../state/store';
+import type { ViewSettings } from '../state/view_settings';
 import { words } from '../words';
+import { AlarmList } from './alarm_list';
 import { Guide } from './guide';
 import { LinkNotice } from './link_notice';
 import { PracticeNotice } from './practice_notice';
+import { SceneTools } from './scene_tools';
 import { useIdentity } from './site_nav';
 
 const views: readonly (readonly [ViewName, string])[] = [
@@ -16,8 +21,19 @@ const views: readonly (readonly [ViewName, string])[] = [
   ['side', words.viewSide],
 ];
 
+interface Parts {
+  store: Store;
+  practice: PracticeStore;
+  scene: BoneScene;
+  view: ViewSettings;
+  alarms: Alarms;
+  /** Without the tools that change the view. */
+  bare?: boolean;
+  children?: ComponentChildren;
+}
+
 /** The bone and the reamer, with the view's buttons; dimmed whenever it is not live. */
-export function Picture({ store, practice, scene }: { store: Store; practice: PracticeStore; scene: BoneScene }) {
+export function Picture({ store, practice, scene, view, alarms, bare, children }: Parts) {
   const place = useRef<HTMLDivElement>(null);
   const may = useIdentity().may.value;
   useEffect(() => {
@@ -45,28 +61,45 @@ export function Picture({ store, practice, scene }: { store: Store; practice: Pr
           {words.replayBadge}
         </p>
       )}
-      {steering && <Guide store={store} practice={practice} />}
+      {steering && bare !== true && <Guide store={store} practice={practice} />}
       {steering && store.upToDate.value ? (
-        <PracticeNotice store={store} practice={practice} />
+        <PracticeNotice store={store} practice={practice} theatre={view.theatre.value} />
       ) : (
         <LinkNotice store={store} mayReam={may.ream} />
       )}
-      <div class="views" role="group" aria-label={words.view}>
-        {views.map(([view, label]) => (
-          <button type="button" key={view} data-testid={`view-${view}`} onClick={() => scene.look(view)}>
-            {label}
-          </button>
-        ))}
-        <label>
-          <input
-            type="checkbox"
-            data-testid="show-reamer"
-            checked={store.reamerShown.value}
-            onChange={(event) => (store.reamerShown.value = event.currentTarget.checked)}
-          />
-          {words.showReamer}
-        </label>
-      </div>
+      {!view.theatre.value && <AlarmList alarms={alarms} />}
+      {children}
+      {bare !== true && <ViewTools store={store} scene={scene} view={view} />}
     </main>
+  );
+}
+
+function ViewTools({ store, scene, view }: Pick<Parts, 'store' | 'scene' | 'view'>) {
+  return (
+    <div class="views" role="group" aria-label={words.view}>
+      {views.map(([name, label]) => (
+        <button
+          type="button"
+          key={name}
+          data-testid={`view-${name}`}
+          onClick={() => {
+            view.change({ camera: 'own' });
+            scene.look(name);
+          }}
+        >
+          {label}
+        </button>
+      ))}
+      <SceneTools view={view} />
+      <label>
+        <input
+          type="checkbox"
+          data-testid="show-reamer"
+          checked={store.reamerShown.value}
+          onChange={(event) => (store.reamerShown.value = event.currentTarget.checked)}
+        />
+        {words.showReamer}
+      </label>
+    </div>
   );
 }

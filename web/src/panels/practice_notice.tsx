@@ -5,9 +5,16 @@ import { words } from '../words';
 type Look = 'plain' | 'silent' | 'lost';
 type Notice = readonly [look: Look, title: string, text: string];
 
+interface Parts {
+  store: Store;
+  practice: PracticeStore;
+  /** In theatre nobody is told how deep it is. */
+  theatre: boolean;
+}
+
 /** Over the picture, in words, whenever the hand does not do what the person may think it does. */
-export function PracticeNotice({ store, practice }: { store: Store; practice: PracticeStore }) {
-  const notice = ofLink(practice) ?? ofHand(store, practice);
+export function PracticeNotice({ store, practice, theatre }: Parts) {
+  const notice = ofLink(practice) ?? ofHand(store, practice, theatre);
   if (notice === null) return null;
   const [look, title, text] = notice;
   return (
@@ -36,13 +43,14 @@ function ofLink(practice: PracticeStore): Notice | null {
   }
 }
 
-function ofHand(store: Store, practice: PracticeStore): Notice | null {
+function ofHand(store: Store, practice: PracticeStore, theatre: boolean): Notice | null {
   const { hand } = practice;
   if (!hand.held.value) return ['silent', words.noticeLetGo, words.noticeLetGoText];
   if (hand.paused.value) return ['plain', words.noticePaused, words.noticePausedText];
   const pushing = hand.pushN.value > 0;
   if (pushing && !hand.spindleOn.value && (practice.feedback.value?.engaged ?? false))
     return ['silent', words.noticeSpindleOff, words.noticeSpindleOffText];
+  if (theatre) return null;
   const plannedMm = store.hello.value?.plannedDepthMm ?? 0;
   if (pushing && plannedMm > 0 && (store.telemetry.value?.depthMm ?? 0) >= plannedMm)
     return ['lost', words.noticeDepth, words.noticeDepthText];

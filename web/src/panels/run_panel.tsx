@@ -1,3 +1,6 @@
+import type { Signal } from '@preact/signals';
+
+import { liveWords } from '../live_words';
 import type { Practice } from '../state/practice';
 import type { PracticeStore } from '../state/practice_store';
 import type { Store } from '../state/store';
@@ -12,10 +15,12 @@ interface Parts {
   watcher: Watcher;
   practice: Practice;
   practiceStore: PracticeStore;
+  /** Whether what is made here is made for theatre. */
+  theatreWanted: Signal<boolean>;
 }
 
 /** The things to do, and what the session is doing. */
-export function RunPanel({ store, watcher, practice, practiceStore }: Parts) {
+export function RunPanel({ store, watcher, practice, practiceStore, theatreWanted }: Parts) {
   const may = useIdentity().may.value;
   const reachable = store.link.value.kind === 'live' || store.link.value.kind === 'nothing';
   const active = reachable && store.active.value;
@@ -31,7 +36,7 @@ export function RunPanel({ store, watcher, practice, practiceStore }: Parts) {
               class="run-button"
               data-testid="practise"
               disabled={!idle}
-              onClick={() => void practise(watcher, practice)}
+              onClick={() => void practise(watcher, practice, theatreWanted.value && store.tellsTheatre.value)}
             >
               {words.practise}
             </button>
@@ -59,6 +64,7 @@ export function RunPanel({ store, watcher, practice, practiceStore }: Parts) {
           )}
         </div>
       )}
+      {may.ream && !active && store.tellsTheatre.value && <TheatreChoice wanted={theatreWanted} />}
       {may.ream && <SessionControls {...{ store, watcher, practice, practiceStore }} />}
       <StateLine store={store} practiceStore={practiceStore} reachable={reachable} />
       <SessionLabels store={store} />
@@ -66,13 +72,28 @@ export function RunPanel({ store, watcher, practice, practiceStore }: Parts) {
   );
 }
 
-async function practise(watcher: Watcher, practice: Practice): Promise<void> {
-  const sessionId = await watcher.practise();
+async function practise(watcher: Watcher, practice: Practice, theatre: boolean): Promise<void> {
+  const sessionId = await watcher.practise('demo', theatre);
   if (sessionId !== null) practice.steer(sessionId);
 }
 
+function TheatreChoice({ wanted }: { wanted: Signal<boolean> }) {
+  return (
+    <label class="theatre-choice" title={liveWords.theatreHint}>
+      <input
+        type="checkbox"
+        data-testid="theatre-mode"
+        checked={wanted.value}
+        onChange={(event) => (wanted.value = event.currentTarget.checked)}
+      />
+      {liveWords.theatreMode}
+      <span class="soft">{liveWords.theatreShort}</span>
+    </label>
+  );
+}
+
 /** For pages that watch while another one steers. */
-function TakeOver({ store, practice, practiceStore }: Omit<Parts, 'watcher'>) {
+function TakeOver({ store, practice, practiceStore }: Omit<Parts, 'watcher' | 'theatreWanted'>) {
   const id = store.sessionId.value;
   const details = store.details.value;
   if (id === null || details?.id !== id || details.device?.name !== 'browser' || practiceStore.sessionId.value === id)

@@ -23,6 +23,8 @@ export class AimView {
   readonly group = new Group();
   private readonly plan = new Group();
   private readonly aim = new Group();
+  private wanted = true;
+  private planned = false;
 
   constructor() {
     this.plan.add(
@@ -37,8 +39,15 @@ export class AimView {
     this.group.visible = false;
   }
 
+  /** Whether it may be seen at all. */
+  setWanted(wanted: boolean): void {
+    this.wanted = wanted;
+    this.group.visible = wanted && this.planned;
+  }
+
   set(plan: PlanFrame | null, place: Beside): void {
-    this.group.visible = plan !== null;
+    this.planned = plan !== null;
+    this.group.visible = this.wanted && this.planned;
     if (plan === null) return;
     // The flat shapes lie square to z and are seen from the side that z points to: away from the bone.
     const turned = new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), plan.axis.clone().negate());

@@ -6,13 +6,15 @@ import {
   InterleavedBufferAttribute,
   Matrix4,
   Mesh,
-  MeshStandardMaterial,
+  type MeshStandardMaterial,
+  type Plane,
   Quaternion,
   Sphere,
   Vector3,
 } from 'three';
 
 import type { BlockSurface, Hello, MeshDelta, Pose } from '../wire/messages';
+import { boneMaterial, lookOfBone } from './bone_material';
 
 /** Steps of a block's vertex positions in one voxel. */
 const stepsPerVoxel = 1024;
@@ -101,7 +103,7 @@ class BonePicture {
  */
 export class BoneView {
   readonly group = new Group();
-  private readonly material = new MeshStandardMaterial({ color: 0xf2e8d5, roughness: 0.72, metalness: 0 });
+  private readonly material = boneMaterial();
   private shown: BonePicture | null = null;
   private incoming: BonePicture | null = null;
 
@@ -119,6 +121,11 @@ export class BoneView {
   setPose(worldFromBoneRest: Pose | null): void {
     this.group.position.set(...(worldFromBoneRest?.translationMm ?? [0, 0, 0]));
     this.group.quaternion.set(...(worldFromBoneRest?.rotationXyzw ?? [0, 0, 0, 1]));
+  }
+
+  /** How much of it is seen: opacity 0 to 1; what lies on the negative side of any plane (world frame) is left out. */
+  setLook(opacity: number, cuts: Plane[]): void {
+    lookOfBone(this.material, opacity, cuts);
   }
 
   apply(mesh: MeshDelta): void {

@@ -3,6 +3,7 @@ import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 
 import type { Ray } from '../practice/plan_frame';
 import type { Hello } from '../wire/messages';
+import type { EyePose } from './surgeon_eye';
 
 export type ViewName = 'plan' | 'axis' | 'side';
 
@@ -14,7 +15,7 @@ const keyZoom = 1.1;
 const turnRadPerHeight = Math.PI;
 
 /** LPS: z is superior, y posterior. */
-const superior = new Vector3(0, 0, 1);
+export const superior = new Vector3(0, 0, 1);
 
 /** The camera, held on the glenoid: set views along the plan's axis, turned by hand or keys. */
 export class CameraRig {
@@ -25,15 +26,18 @@ export class CameraRig {
   private fieldRadiusMm = glenoidFieldMm;
   private guided = false;
 
+  /** `onTaken` hears that somebody begins to turn, shift or zoom the view by hand. */
   constructor(
     private readonly surface: HTMLElement,
     onMove: () => void,
+    private readonly onTaken: () => void = () => undefined,
   ) {
     this.camera.up.copy(superior);
     this.controls = new OrbitControls(this.camera, surface);
     this.controls.minDistance = 20;
     this.controls.maxDistance = 800;
     this.controls.addEventListener('change', onMove);
+    this.controls.addEventListener('start', onTaken);
     surface.addEventListener('keydown', (event) => this.onKey(event));
   }
 
@@ -89,19 +93,40 @@ export class CameraRig {
     return { right: column(0), up: column(1) };
   }
 
+  /** From where the picture is seen, with `up` upwards on it. */
+  eyePose(up: Vector3): EyePose {
+    const { target } = this.controls;
+    return { target: target.clone(), towardsEye: this.camera.position.clone().sub(target).normalize(), up };
+  }
+
+  get distanceMm(): number {
+    return this.camera.position.distanceTo(this.controls.target);
+  }
+
+  /** Seen from there until it is turned by hand, which turns upright again. */
+  setEyePose({ target, towardsEye, up }: EyePose, distanceMm: number): void {
+    this.controls.target.copy(target);
+    this.camera.position.copy(target).addScaledVector(towardsEye, distanceMm);
+    this.camera.up.copy(up);
+    this.camera.lookAt(target);
+    this.camera.up.copy(superior);
+  }
+
   turnBy(rightPx: number, downPx: number): void {
+    this.onTaken();
     const radPerPx = turnRadPerHeight / Math.max(this.surface.clientHeight, 1);
     this.turn(-rightPx * radPerPx, -downPx * radPerPx);
   }
 
   /** More than 1: away. */
   zoom(factor: number): void {
+    this.onTaken();
     this.camera.position.sub(this.controls.target).multiplyScalar(factor).add(this.controls.target);
     this.controls.update();
   }
 
   /** From here the field fits the narrower side of the picture. */
-  private fittingDistance(): number {
+  fittingDistance(): number {
     const halfVertical = (this.camera.fov * Math.PI) / 360;
     const halfHorizontal = Math.atan(Math.tan(halfVertical) * this.camera.aspect);
     return this.fieldRadiusMm / Math.sin(Math.min(halfVertical, halfHorizontal));
@@ -110,11 +135,15 @@ export class CameraRig {
   private onKey(event: KeyboardEvent): void {
     if (this.guided) return;
     const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
-    if (step !== undefined) this.turn((step[0] ?? 0) * keyTurnRad, (step[1] ?? 0) * keyTurnRad);
-    else if (event.key === '+' || event.key === '=') this.zoom(1 / keyZoom);
+    if (step !== undefined) {
+      this.onTaken();
+      this.turn((step[0] ?? 0) * keyTurnRad, (step[1] ?? 0) * keyTurnRad);
+    } else if (event.key === '+' || event.key === '=') this.zoom(1 / keyZoom);
     else if (event.key === '-') this.zoom(keyZoom);
-    else if (event.key === 'Home') this.look('plan');
-    else return;
+    else if (event.key === 'Home') {
+      this.onTaken();
+      this.look('plan');
+    } else return;
     event.preventDefault();
   }
 

@@ -1,17 +1,22 @@
-import { NeutralToneMapping, Scene, WebGLRenderer } from 'three';
+import { MeshBasicMaterial, NeutralToneMapping, type Plane, Quaternion, Scene, Vector3, WebGLRenderer } from 'three';
 
 import type { ScreenAxes } from '../practice/gamepad_hand';
-import type { Beside, PlanFrame, Ray } from '../practice/plan_frame';
+import { type Beside, PlanFrame, type Ray } from '../practice/plan_frame';
 import type { SteeredView } from '../practice/pointer_hand';
+import { plainView, type ViewChoices } from '../state/view_settings';
 import type { Hello, MeshDelta, Pose, ToolMesh } from '../wire/messages';
 import { AimView } from './aim_view';
 import { BoneView } from './bone_view';
 import { CameraRig, type ViewName } from './camera_rig';
+import { planeThroughAxis, sectionPlanes } from './cut_planes';
 import { OperatingLights } from './lights';
+import { SurgeonCamera } from './surgeon_camera';
 import { ToolView } from './tool_view';
 
 /** Beyond this the eye gains little and a tablet loses much. */
 const pixelRatioMax = 2;
+/** A picture that was not drawn for a while does not make up for it in one step. */
+const longestStepS = 0.1;
 
 /** The three-dimensional picture. Draws only when something changed. */
 export class BoneScene implements SteeredView {
@@ -23,16 +28,34 @@ export class BoneScene implements SteeredView {
   private readonly aim = new AimView();
   private readonly lights: OperatingLights;
   private readonly rig: CameraRig;
+  private readonly surgeon: SurgeonCamera;
+  /** Makes what lies behind the nearest bone unseen where the bone is seen through. */
+  private readonly depthOnly = new MeshBasicMaterial({ colorWrite: false });
+  private choices: ViewChoices = plainView;
+  private opaqueTool = false;
+  private plan: PlanFrame | null = null;
+  private toolPose: Pose | null = null;
   private framedCase: string | null = null;
   private drawRequested = false;
   private drawn = 0;
+  private drawnAtMs = 0;
+  /** Hears of every picture that was drawn. */
+  onDrawn: () => void = () => undefined;
+  /** Hears that somebody begins to turn or zoom the picture by hand. */
+  onTaken: () => void = () => undefined;
 
   /** Throws where the browser offers no WebGL. */
   constructor() {
     this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: true, alpha: true });
     this.renderer.toneMapping = NeutralToneMapping;
     this.renderer.toneMappingExposure = 1.05;
-    this.rig = new CameraRig(this.canvas, () => this.invalidate());
+    this.renderer.localClippingEnabled = true;
+    this.rig = new CameraRig(
+      this.canvas,
+      () => this.invalidate(),
+      () => this.onTaken(),
+    );
+    this.surgeon = new SurgeonCamera(this.rig);
     this.lights = new OperatingLights(this.scene);
     this.scene.add(this.bone.group, this.tool.group, this.aim.group);
     new ResizeObserver(() => this.resize()).observe(this.canvas);
@@ -53,6 +76,8 @@ export class BoneScene implements SteeredView {
     this.bone.begin(hello);
     this.tool.setMesh(hello.tool);
     this.rig.setPlan(hello);
+    this.plan = new PlanFrame(hello);
+    this.surgeon.setPlan(this.plan);
     if (this.framedCase !== hello.caseId) {
       this.framedCase = hello.caseId;
       this.rig.look('plan');
@@ -72,7 +97,9 @@ export class BoneScene implements SteeredView {
   }
 
   setToolPose(pose: Pose | null): void {
+    this.toolPose = pose;
     this.tool.setPose(pose);
+    this.surgeon.setTool(pose === null ? null : new Vector3(...pose.translationMm));
     this.invalidate();
   }
 
@@ -84,6 +111,15 @@ export class BoneScene implements SteeredView {
 
   setToolShown(shown: boolean): void {
     this.tool.setShown(shown);
+    this.invalidate();
+  }
+
+  /** What of the bone is seen and from where. In theatre the reamer hides what is behind it, and no plan is drawn. */
+  setView(choices: ViewChoices, theatre: boolean): void {
+    this.choices = choices;
+    this.opaqueTool = theatre;
+    this.aim.setWanted(!theatre);
+    this.surgeon.follow(choices.camera === 'trainee');
     this.invalidate();
   }
 
@@ -129,10 +165,64 @@ export class BoneScene implements SteeredView {
   }
 
   private draw(): void {
-    this.rig.camera.updateMatrixWorld();
-    this.lights.follow(this.rig.camera);
-    this.renderer.render(this.scene, this.rig.camera);
+    const beganMs = performance.now();
+    const { camera } = this.rig;
+    const moving = this.surgeon.step(Math.min((beganMs - this.drawnAtMs) / 1000, longestStepS));
+    this.drawnAtMs = beganMs;
+    camera.updateMatrixWorld();
+    this.lights.follow(camera);
+    const seenThrough = this.choices.seeThrough && this.choices.opacity < 1;
+    const cuts = this.cuts();
+    this.bone.setLook(seenThrough ? this.choices.opacity : 1, cuts);
+    this.tool.setOpaque(seenThrough || this.opaqueTool);
+    if (seenThrough) this.drawSeenThrough(cuts);
+    else this.renderer.render(this.scene, camera);
     ++this.drawn;
+    this.onDrawn();
+    if (moving) this.invalidate();
+  }
+
+  /** Through the nearest bone the reamer is seen, but none of the bone behind. */
+  private drawSeenThrough(cuts: Plane[]): void {
+    const { renderer, scene } = this;
+    const aimShown = this.aim.group.visible;
+    const passes: [bone: boolean, others: boolean, material: MeshBasicMaterial | null][] = [
+      [false, true, null],
+      [true, false, this.depthOnly],
+      [true, false, null],
+    ];
+    this.depthOnly.clippingPlanes = cuts.length > 0 ? cuts : null;
+    renderer.autoClear = false;
+    renderer.clear();
+    const toolShown = this.tool.group.visible;
+    for (const [bone, others, material] of passes) {
+      this.bone.group.visible = bone;
+      this.tool.group.visible = others && toolShown;
+      this.aim.group.visible = others && aimShown;
+      scene.overrideMaterial = material;
+      renderer.render(scene, this.rig.camera);
+    }
+    scene.overrideMaterial = null;
+    this.bone.group.visible = true;
+    this.tool.group.visible = toolShown;
+    this.aim.group.visible = aimShown;
+    renderer.autoClear = true;
+  }
+
+  /** The planes that cut the bone now, world frame; they move with it. */
+  private cuts(): Plane[] {
+    const { plan, toolPose, choices } = this;
+    if (plan === null) return [];
+    this.bone.group.updateMatrix();
+    const planes = sectionPlanes(choices.sections, plan).map((plane) => plane.applyMatrix4(this.bone.group.matrix));
+    if (choices.cutAway) {
+      const at = toolPose === null ? plan.entry : new Vector3(...toolPose.translationMm);
+      const axis = toolPose === null ? plan.axis : axisOf(toolPose);
+      const { camera } = this.rig;
+      const up = new Vector3().setFromMatrixColumn(camera.matrixWorld, 1);
+      planes.push(planeThroughAxis(at, axis, camera.position, up));
+    }
+    return planes;
   }
 
   private resize(): void {
@@ -144,3 +234,6 @@ export class BoneScene implements SteeredView {
     this.draw();
   }
 }
+
+/** Where the reamer's feed axis points, world frame. */
+const axisOf = (pose: Pose) => new Vector3(0, 0, 1).applyQuaternion(new Quaternion(...pose.rotationXyzw));

@@ -4,6 +4,7 @@ import { toCreasedNormals } from 'three/examples/jsm/utils/BufferGeometryUtils.j
 import type { Pose, ToolMesh } from '../wire/messages';
 
 const creaseRad = 0.6;
+const envelopeOpacity = 0.5;
 const shaftRadiusMm = 3;
 const shaftLengthMm = 45;
 
@@ -18,7 +19,7 @@ export class ToolView {
     roughness: 0.28,
     metalness: 0.1,
     transparent: true,
-    opacity: 0.5,
+    opacity: envelopeOpacity,
   });
   private readonly shaftMaterial = new MeshStandardMaterial({ color: 0xd3dade, roughness: 0.45, metalness: 0.1 });
   private posed = false;
@@ -52,6 +53,14 @@ export class ToolView {
       this.group.quaternion.set(...pose.rotationXyzw);
     }
     this.refresh();
+  }
+
+  /** Opaque where the bone is seen through, and in theatre. */
+  setOpaque(opaque: boolean): void {
+    if (this.envelopeMaterial.transparent === !opaque) return;
+    this.envelopeMaterial.transparent = !opaque;
+    this.envelopeMaterial.opacity = opaque ? 1 : envelopeOpacity;
+    this.envelopeMaterial.needsUpdate = true;
   }
 
   setShown(shown: boolean): void {

@@ -3,6 +3,7 @@ import type { Signal } from '@preact/signals';
 /** Which page is shown; the live page's own addresses (replays) are no concern of it. */
 export type Route =
   | { kind: 'live' }
+  | { kind: 'trainee' }
   | { kind: 'sessions' }
   | { kind: 'cases' }
   | { kind: 'case'; id: string }
@@ -12,7 +13,7 @@ export type Route =
   | { kind: 'users' }
   | { kind: 'account' };
 
-const places = ['sessions', 'cases', 'studies', 'users', 'account'] as const;
+const places = ['trainee', 'sessions', 'cases', 'studies', 'users', 'account'] as const;
 
 export function routeInAddress(hash: string): Route {
   const [found, place = '', id, participant] =
@@ -35,6 +36,7 @@ export function addressOfRoute(route: Route): string {
       return `#/studies/${route.id}`;
     case 'questionnaire':
       return `#/studies/${route.id}/answers/${route.participant}`;
+    case 'trainee':
     case 'sessions':
     case 'cases':
     case 'studies':
@@ -43,6 +45,9 @@ export function addressOfRoute(route: Route): string {
       return `#/${route.kind}`;
   }
 }
+
+/** Whether the page shows the bone of a session. */
+export const showsSession = (route: Route): boolean => route.kind === 'live' || route.kind === 'trainee';
 
 /** Changes of the address change the page. */
 export function followRoute(route: Signal<Route>): void {

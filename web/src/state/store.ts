@@ -38,6 +38,17 @@ export class Store {
   /** The watched session as REST last described it: health of its loop and its device. */
   readonly details = signal<Session | null>(null);
 
+  /** The watched session as far as it is known. */
+  readonly watched = computed(() => {
+    const id = this.sessionId.value;
+    const described = this.details.value;
+    return described?.id === id ? described : (this.sessions.value.find((session) => session.id === id) ?? null);
+  });
+  /** Whether the server knows of theatre mode. */
+  readonly tellsTheatre = computed(() =>
+    [this.watched.value, ...this.sessions.value].some((s) => s?.theatre !== undefined),
+  );
+
   /** All sessions that the server knows, newest first. */
   readonly sessions = signal<readonly Session[]>([]);
   /** The replay that is to be watched; null: what is live. */

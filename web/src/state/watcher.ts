@@ -99,8 +99,8 @@ export class Watcher {
   }
 
   /** Makes and starts a session that a hand in the browser steers, and watches it; its id, or null when that failed. */
-  practise(caseId = 'demo'): Promise<string | null> {
-    return this.begin(() => this.api.createPractice(caseId));
+  practise(caseId = 'demo', theatre = false): Promise<string | null> {
+    return this.begin(() => this.api.createPractice(caseId, theatre));
   }
 
   /** Makes and starts a session of a study, and watches it; null when that failed. `participant` null: the user. */
@@ -119,6 +119,7 @@ export class Watcher {
         this.store.chosenId.value = null;
         this.store.sessionId.value = session.id;
         this.store.sessionState.value = session.state;
+        this.store.details.value = session;
       });
       this.turn();
     });

@@ -27,6 +27,8 @@ export interface Session {
   /** 2 after the first reset, and so on. */
   attempt?: number;
   reset_of?: string | null;
+  /** Nothing but the bone is shown to who reams; servers of earlier versions do not tell. */
+  theatre?: boolean;
   /** Paused by the server's word, so that it goes on by that too. */
   held?: boolean;
 }
@@ -93,6 +95,8 @@ export interface Metrics {
   axial_thrust_mean_n: number;
   axial_thrust_peak_n: number;
   duration_s: number;
+  /** How far pegs would reach through the outer cortex; servers of earlier versions do not tell. */
+  vault_breach_mm?: number | null;
 }
 
 /** Calls of the REST interface under `base` (the page's own server by default). */
@@ -106,8 +110,8 @@ export class Api {
     return this.call('POST', 'sessions', { case: 'demo', script: 'demo', device: 'script' });
   }
   /** A session on a case that waits for a hand in a browser. */
-  createPractice(caseId: string): Promise<Session> {
-    return this.call('POST', 'sessions', { case: caseId, device: 'browser' });
+  createPractice(caseId: string, theatre: boolean): Promise<Session> {
+    return this.call('POST', 'sessions', { case: caseId, device: 'browser', ...(theatre ? { theatre } : {}) });
   }
   /** A session of a study; participant null: the user. */
   createInStudy(study: string, participant: string | null, caseId: string): Promise<Session> {

@@ -82,6 +82,8 @@ function decodeFeedback(f: WireFeedback): Feedback {
   return {
     sequence: f.sequence(),
     stampUs: f.stampUs(),
+    tick: f.tick(),
+    sentMs: null,
     link: poseLink(f.link()),
     thrustN: f.thrustN(),
     vibrationG: f.vibrationG(),

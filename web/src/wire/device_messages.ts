@@ -31,6 +31,10 @@ export interface Feedback {
   sequence: number;
   /** The server's clock. */
   stampUs: bigint;
+  /** Newest tick by then. */
+  tick: number;
+  /** When the wish of `sequence` was sent, ms since 1970 by this computer's clock; null where that was long ago. */
+  sentMs: number | null;
   link: PoseLink;
   thrustN: number;
   vibrationG: number;

@@ -5,6 +5,8 @@ import type { DeviceReport, Wish } from './device_messages';
 export const wishGoodForMs = 400;
 /** More than this waiting to be sent means a stuck link: what is sent later would come too late. */
 const waitingBytesMax = 2048;
+/** Of so many wishes it is known when they were sent. */
+const sentKept = 128;
 
 /** One connection's talk with the server: greets, then says the newest wish at every beat. */
 export class DeviceTalk {
@@ -14,10 +16,13 @@ export class DeviceTalk {
   private welcomed = false;
   private wish: Wish | null = null;
   private wishedMs = 0;
+  private readonly sentMs = new Float64Array(sentKept);
 
+  /** `originMs`: what nowMs counts from, ms since 1970. */
   constructor(
     private readonly socket: { send(bytes: Uint8Array<ArrayBuffer>): void; readonly bufferedAmount: number },
     private readonly nowMs: () => number,
+    private readonly originMs = 0,
   ) {}
 
   greet(): void {
@@ -28,8 +33,14 @@ export class DeviceTalk {
   hear(bytes: Uint8Array): DeviceReport {
     const report = decodeDeviceMessage(bytes);
     if (report.kind === 'welcome') this.welcomed = true;
-    if (report.kind === 'feedback') this.echo(report.feedback.stampUs);
-    return report;
+    if (report.kind !== 'feedback') return report;
+    this.echo(report.feedback.stampUs);
+    return { kind: 'feedback', feedback: { ...report.feedback, sentMs: this.sentAtMs(report.feedback.sequence) } };
+  }
+
+  private sentAtMs(sequence: number): number | null {
+    const known = sequence > 0 && sequence <= this.sequence && sequence > this.sequence - sentKept;
+    return known ? this.originMs + (this.sentMs[sequence % sentKept] ?? 0) : null;
   }
 
   private echo(stampUs: bigint): void {
@@ -52,6 +63,7 @@ export class DeviceTalk {
     const wish = now - this.wishedMs > wishGoodForMs ? letGo(this.wish) : this.wish;
     const echoAgeUs = this.echoUs === 0n ? 0 : Math.round((now - this.heardMs) * 1000);
     const sentUs = BigInt(Math.round(now * 1000));
+    this.sentMs[(this.sequence + 1) % sentKept] = now;
     this.socket.send(encodeSteering(wish, { sequence: ++this.sequence, sentUs, echoUs: this.echoUs, echoAgeUs }));
   }
 }

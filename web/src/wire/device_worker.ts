@@ -27,7 +27,7 @@ function open(connection: number, url: string): void {
   const opened = new WebSocket(url);
   socket = opened;
   opened.binaryType = 'arraybuffer';
-  const talking = new DeviceTalk(opened, () => performance.now());
+  const talking = new DeviceTalk(opened, () => performance.now(), performance.timeOrigin);
   opened.onopen = () => {
     talk = talking;
     talking.greet();

@@ -105,6 +105,8 @@ export interface Telemetry {
   worldFromBoneRest: Pose | null;
   /** Null for what is live. */
   playback: Playback | null;
+  /** When it came, ms since 1970 by this computer's clock; absent where nobody has looked at the clock. */
+  receivedMs?: number;
 }
 
 export type StreamMessage =

@@ -24,7 +24,9 @@ function open(connection: number, url: string): void {
   opened.binaryType = 'arraybuffer';
   opened.onmessage = (event: MessageEvent<ArrayBuffer>) => {
     try {
+      const receivedMs = performance.timeOrigin + performance.now();
       const message = decoder.decode(new Uint8Array(event.data));
+      if (message.kind === 'telemetry') message.telemetry.receivedMs = receivedMs;
       page.postMessage({ kind: 'message', connection, message }, transferables(message));
     } catch (error) {
       drop();

@@ -69,6 +69,8 @@ describe('device messages', () => {
       feedback: {
         sequence: 42,
         stampUs: 1234567890123n,
+        tick: 61234,
+        sentMs: null,
         link: 'fading',
         thrustN: 52.5,
         vibrationG: -0.75,

@@ -62,6 +62,26 @@ describe('DeviceTalk', () => {
     expect(newest().echoAgeUs()).toBe(12_000);
   });
 
+  it('tells when the wish that the server has taken was sent', () => {
+    const feedback = golden('device_feedback');
+    const sentMs = () => {
+      const report = talk.hear(feedback);
+      return report.kind === 'feedback' ? report.feedback : null;
+    };
+    expect(sentMs()?.sentMs).toBeNull();
+    talk = new DeviceTalk(socket, () => nowMs, 50_000);
+    talk.hear(golden('device_welcome'));
+    talk.setWish(pushing);
+    const taken = sentMs()?.sequence ?? 0;
+    for (let i = 0; i < taken + 3; ++i) {
+      nowMs = 1000 + i;
+      talk.beat();
+    }
+    expect(sentMs()?.sentMs).toBe(50_000 + 1000 + taken - 1);
+    for (let i = 0; i < 500; ++i) talk.beat();
+    expect(sentMs()?.sentMs).toBeNull();
+  });
+
   it('takes the push away without waiting for the next beat', () => {
     talk.hear(golden('device_welcome'));
     talk.setWish(pushing);

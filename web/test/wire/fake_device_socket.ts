@@ -29,6 +29,8 @@ export function feedback(change: Partial<Feedback> = {}): DeviceReport {
   const calm: Feedback = {
     sequence: 1,
     stampUs: 1n,
+    tick: 1,
+    sentMs: null,
     link: 'fresh',
     thrustN: 0,
     vibrationG: 0,

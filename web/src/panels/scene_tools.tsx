@@ -1,0 +1,196 @@
+import './scene_tools.css';
+
+import { signal } from '@preact/signals';
+import { useMemo } from 'preact/hooks';
+
+import { liveWords } from '../live_words';
+import {
+  opacityLeast,
+  sectionNames,
+  sectionReachMm,
+  type SectionName,
+  type ViewSettings,
+} from '../state/view_settings';
+import { fixed } from './format';
+import { useLiveKeys } from './live_keys';
+
+/** One press of a key that moves a section, mm. */
+const keyStepMm = 1;
+const open = signal(false);
+/** The section that the keys move. */
+const keyed = signal<SectionName>('axial');
+
+/** What the picture shows: the camera, and how the bone is seen. All of it also by keys. */
+export function SceneTools({ view }: { view: ViewSettings }) {
+  const keys = useMemo(
+    () => Object.fromEntries(Object.entries(deeds).map(([key, deed]) => [key, () => deed(view)])),
+    [view],
+  );
+  useLiveKeys(keys);
+  const { camera, cutAway, seeThrough, sections } = view.choices.value;
+  const cut = sectionNames.some((name) => sections[name].on);
+  return (
+    <>
+      <Toggle
+        id="trainee-camera"
+        letter="V"
+        on={camera === 'trainee'}
+        hint={liveWords.traineeCameraHint}
+        act={() => deeds.v?.(view)}
+      >
+        {liveWords.traineeCamera}
+      </Toggle>
+      <Toggle id="cut-away" letter="C" on={cutAway} hint={liveWords.cutAwayHint} act={() => deeds.c?.(view)}>
+        {liveWords.cutAway}
+      </Toggle>
+      <Toggle id="see-through" letter="X" on={seeThrough} hint={liveWords.seeThroughHint} act={() => deeds.x?.(view)}>
+        {liveWords.seeThrough}
+      </Toggle>
+      <button
+        type="button"
+        class={cut ? 'tool-on' : ''}
+        data-testid="sections"
+        aria-expanded={open.value}
+        aria-controls="sections-panel"
+        title={liveWords.sectionsHint}
+        onClick={() => (open.value = !open.value)}
+      >
+        {liveWords.sections}
+      </button>
+      {open.value && <SectionsPanel view={view} />}
+    </>
+  );
+}
+
+interface ToggleParts {
+  id: string;
+  letter: string;
+  on: boolean;
+  hint: string;
+  act: () => void;
+  children: string;
+}
+
+function Toggle({ id, letter, on, hint, act, children }: ToggleParts) {
+  return (
+    <button
+      type="button"
+      class={on ? 'tool-on' : ''}
+      data-testid={id}
+      aria-pressed={on}
+      aria-keyshortcuts={letter}
+      title={liveWords.key(hint, letter)}
+      onClick={act}
+    >
+      {children}
+    </button>
+  );
+}
+
+function SectionsPanel({ view }: { view: ViewSettings }) {
+  const { opacity, seeThrough } = view.choices.value;
+  const percent = fixed(opacity * 100, 0);
+  return (
+    <div
+      class="sections-panel"
+      id="sections-panel"
+      role="group"
+      aria-label={liveWords.sections}
+      data-testid="sections-panel"
+      onKeyDown={(event) => {
+        if (event.key === 'Escape') open.value = false;
+      }}
+    >
+      <label class="section-row">
+        <span>{liveWords.boneOpacity}</span>
+        <input
+          type="range"
+          data-testid="bone-opacity"
+          min={opacityLeast * 100}
+          max={100}
+          step={5}
+          value={seeThrough ? opacity * 100 : 100}
+          aria-valuetext={liveWords.opacityValue(percent)}
+          onInput={(event) => {
+            const share = event.currentTarget.valueAsNumber / 100;
+            view.change({ opacity: share, seeThrough: share < 1 });
+          }}
+        />
+        <output>{seeThrough ? percent : '100'} %</output>
+      </label>
+      {sectionNames.map((name, i) => (
+        <SectionRow key={name} view={view} name={name} letter={String(i + 1)} />
+      ))}
+    </div>
+  );
+}
+
+function SectionRow({ view, name, letter }: { view: ViewSettings; name: SectionName; letter: string }) {
+  const { on, offsetMm, flipped } = view.choices.value.sections[name];
+  const label = liveWords.section[name];
+  return (
+    <div class="section-row">
+      <label class="section-name">
+        <input
+          type="checkbox"
+          data-testid={`section-${name}`}
+          checked={on}
+          aria-keyshortcuts={letter}
+          title={liveWords.key(liveWords.sectionCuts[name](flipped), letter)}
+          onChange={(event) => {
+            keyed.value = name;
+            view.changeSection(name, { on: event.currentTarget.checked });
+          }}
+        />
+        {label}
+      </label>
+      <input
+        type="range"
+        data-testid={`section-${name}-offset`}
+        aria-label={liveWords.sectionOffset(label)}
+        aria-valuetext={liveWords.millimetres(fixed(offsetMm, 1))}
+        min={-sectionReachMm}
+        max={sectionReachMm}
+        step={0.5}
+        value={offsetMm}
+        onInput={(event) => {
+          keyed.value = name;
+          view.changeSection(name, { on: true, offsetMm: event.currentTarget.valueAsNumber });
+        }}
+      />
+      <output>{liveWords.millimetres(fixed(offsetMm, 1))}</output>
+      <button
+        type="button"
+        class="section-flip"
+        data-testid={`section-${name}-flip`}
+        aria-label={liveWords.otherSideOf(label)}
+        aria-pressed={flipped}
+        title={liveWords.sectionCuts[name](!flipped)}
+        onClick={() => view.changeSection(name, { flipped: !flipped })}
+      >
+        ⇅
+      </button>
+    </div>
+  );
+}
+
+const toggleSection = (view: ViewSettings, name: SectionName) => {
+  keyed.value = name;
+  view.changeSection(name, { on: !view.choices.value.sections[name].on });
+};
+const moveSection = (view: ViewSettings, byMm: number) => {
+  const section = view.choices.value.sections[keyed.value];
+  view.changeSection(keyed.value, { on: true, offsetMm: section.offsetMm + byMm });
+};
+
+/** By key; none of them is one of the practising hand's. */
+const deeds: Record<string, (view: ViewSettings) => void> = {
+  v: (view) => view.change({ camera: view.choices.value.camera === 'own' ? 'trainee' : 'own' }),
+  c: (view) => view.change({ cutAway: !view.choices.value.cutAway }),
+  x: (view) => view.change({ seeThrough: !view.choices.value.seeThrough }),
+  '1': (view) => toggleSection(view, 'axial'),
+  '2': (view) => toggleSection(view, 'coronal'),
+  '3': (view) => toggleSection(view, 'sagittal'),
+  '[': (view) => moveSection(view, -keyStepMm),
+  ']': (view) => moveSection(view, keyStepMm),
+};

@@ -1,0 +1,52 @@
+import { Vector3 } from 'three';
+
+import type { PlanFrame } from '../practice/plan_frame';
+import { superior, type CameraRig } from './camera_rig';
+import { arrived, gone, surgeonsEye } from './surgeon_eye';
+
+/** After this time it has gone two thirds of its way. */
+const glideS = 0.22;
+const nearEnoughMm = 0.1;
+
+/** Moves the camera to where the surgeon stands and keeps it on the reamer, and lets it be upright again afterwards. */
+export class SurgeonCamera {
+  private following = false;
+  private settled = true;
+  private plan: PlanFrame | null = null;
+  private tool: Vector3 | null = null;
+  private up = superior.clone();
+  private readonly still = window.matchMedia('(prefers-reduced-motion: reduce)');
+
+  constructor(private readonly rig: CameraRig) {}
+
+  setPlan(plan: PlanFrame): void {
+    this.plan = plan;
+    this.settled = false;
+  }
+  setTool(tip: Vector3 | null): void {
+    this.tool = tip;
+    if (this.following) this.settled = false;
+  }
+  follow(following: boolean): void {
+    if (following === this.following) return;
+    this.following = following;
+    this.settled = false;
+  }
+
+  /** Goes on for so long; whether there is more way to go. */
+  step(seconds: number): boolean {
+    const { plan, rig } = this;
+    if (plan === null) return false;
+    const share = this.still.matches ? 1 : 1 - Math.exp(-seconds / glideS);
+    const now = rig.eyePose(this.up);
+    const goal = this.following ? surgeonsEye(plan, this.tool) : { ...now, up: superior };
+    const goalMm = this.following ? rig.fittingDistance() : rig.distanceMm;
+    const reached = arrived(now, goal) && Math.abs(goalMm - rig.distanceMm) < nearEnoughMm;
+    const next = reached ? goal : gone(now, goal, share);
+    this.up = next.up;
+    const distanceMm = rig.distanceMm + (goalMm - rig.distanceMm) * (reached ? 1 : share);
+    if (this.following || !reached || !this.settled) rig.setEyePose(next, distanceMm);
+    this.settled = reached;
+    return !reached;
+  }
+}

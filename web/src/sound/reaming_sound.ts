@@ -1,0 +1,67 @@
+/** What of a session is heard. Of this moment, or nothing. */
+export interface Heard {
+  spindleOn: boolean;
+  /** Simulated, N. */
+  thrustN: number;
+  feedRateMmS: number;
+  /** Of what is engaged, 0 without contact, g/cc. */
+  densityGCc: number;
+  /** Of what is engaged, 0 to 1. */
+  corticalShare: number;
+  /** That the hand feels, g; null where it is not told, then it is that published for the bone. */
+  vibrationG: number | null;
+}
+
+/** For the synthesizer; gains 0 to 1. */
+export interface SoundParameters {
+  motorHz: number;
+  motorGain: number;
+  /** Middle of the band of the cutting noise. */
+  cuttingHz: number;
+  cuttingGain: number;
+}
+
+export const silence: SoundParameters = { motorHz: 0, motorGain: 0, cuttingHz: 0, cuttingGain: 0 };
+
+/** g rms of a reamer in bone: Faieghi's cadaver experiments, as README has them. */
+export const corticalGRms = 0.3;
+export const cancellousGRms = 0.4;
+/** The thrust at which they were measured, N. */
+const measuredAtN = 52;
+
+// How a drill sounds is judged by ear, not measured: its hum, how much a push slows it, and the bands of the bone.
+const motorHz = 190;
+const motorSlowsBy = 0.18;
+const slowestAtN = 104;
+const motorGain = 0.16;
+const cancellousHz = 620;
+const corticalHz = 1900;
+const gainPerG = 1.4;
+const cuttingGainMost = 0.75;
+/** A reamer that rests on the bone without going in rubs more quietly, full cutting from this feed on, mm/s. */
+const fullFeedMmS = 0.05;
+const rubbingShare = 0.45;
+
+/** The sound of a spinning reamer: a hum that a push slows, and a noise that is brighter in harder bone. */
+export function soundOf(heard: Heard): SoundParameters {
+  if (!heard.spindleOn) return silence;
+  const push = share(heard.thrustN / slowestAtN);
+  const cortical = share(heard.corticalShare);
+  const engaged = heard.densityGCc > 0 && heard.thrustN > 0;
+  return {
+    motorHz: motorHz * (1 - motorSlowsBy * push),
+    motorGain: motorGain * (1 + 0.5 * push),
+    cuttingHz: cancellousHz * (corticalHz / cancellousHz) ** cortical,
+    cuttingGain: engaged ? Math.min(strengthG(heard, cortical) * gainPerG, cuttingGainMost) : 0,
+  };
+}
+
+/** How strongly it shakes, g rms. */
+function strengthG({ vibrationG, thrustN, feedRateMmS }: Heard, cortical: number): number {
+  if (vibrationG !== null) return Math.abs(vibrationG);
+  const published = cancellousGRms + (corticalGRms - cancellousGRms) * cortical;
+  const cutting = rubbingShare + (1 - rubbingShare) * share(feedRateMmS / fullFeedMmS);
+  return published * share(thrustN / measuredAtN) * cutting;
+}
+
+const share = (value: number): number => (Number.isFinite(value) ? Math.min(Math.max(value, 0), 1) : 0);

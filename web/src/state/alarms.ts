@@ -1,0 +1,82 @@
+import { computed, effect, signal } from '@preact/signals';
+
+import type { Telemetry } from '../wire/messages';
+import type { Store } from './store';
+
+/** Mean thrust of the surgeons in Faieghi's cadaver experiments (thesis, chapter 5), N. */
+export const usualThrustN = 52;
+/** From 1.5 times that a push counts as excess, from twice as far too hard. */
+export const excessThrustN = 1.5 * usualThrustN;
+export const extremeThrustN = 2 * usualThrustN;
+/** Within this of the plan the depth counts as reached, mm; from the other on it is far past. */
+export const reachedWithinMm = 0.05;
+export const farPastMm = 1;
+
+const holdsTicks = 1500;
+/** Older entries of a batch are history, which a jump of a replay sends first. */
+const freshTicks = 250;
+
+export interface Alarm {
+  kind: 'thrust' | 'depth' | 'vault';
+  level: 'warn' | 'bad';
+  /** The greatest of the last moments, N or mm. */
+  value: number;
+}
+
+/** Excess thrust is told a while longer than it lasts, so that it can be read. Ticks are those of the session. */
+export class ThrustWatch {
+  private peaks: { tick: number; newtons: number }[] = [];
+
+  /** The greatest excess of the last moments, or null. */
+  take({ tick, firstTick, tickStride, thrustN }: Telemetry): number | null {
+    let newtons = 0;
+    thrustN.forEach((value, i) => {
+      if (tick - (firstTick + i * tickStride) <= freshTicks) newtons = Math.max(newtons, value);
+    });
+    this.peaks = this.peaks.filter((peak) => peak.tick <= tick && tick - peak.tick < holdsTicks);
+    if (newtons > excessThrustN) this.peaks.push({ tick, newtons });
+    return this.peaks.length === 0 ? null : Math.max(...this.peaks.map((peak) => peak.newtons));
+  }
+
+  clear(): void {
+    this.peaks = [];
+  }
+}
+
+/** Past the plan, or null. */
+export function pastPlanMm(depthMm: number, plannedMm: number): number | null {
+  const pastMm = depthMm - plannedMm;
+  return plannedMm > 0 && pastMm > reachedWithinMm ? pastMm : null;
+}
+
+/** What the person at the reamer should stop doing. Nothing while what is known is not of this moment. */
+export class Alarms {
+  private readonly thrustN = signal<number | null>(null);
+  readonly now = computed((): readonly Alarm[] => (this.store.upToDate.value ? this.all() : []));
+
+  constructor(private readonly store: Store) {
+    const watch = new ThrustWatch();
+    let session = '';
+    effect(() => {
+      const of = `${store.hello.value?.sessionId ?? ''} ${store.playback.value?.jump ?? ''}`;
+      if (of !== session) watch.clear();
+      session = of;
+      const telemetry = store.telemetry.value;
+      this.thrustN.value = telemetry === null ? null : watch.take(telemetry);
+    });
+  }
+
+  private all(): Alarm[] {
+    const found: Alarm[] = [];
+    const newtons = this.thrustN.value;
+    const moving = this.store.active.value || this.store.replaying.value;
+    if (newtons !== null && moving)
+      found.push({ kind: 'thrust', level: newtons > extremeThrustN ? 'bad' : 'warn', value: newtons });
+    const { telemetry, hello, metrics } = this.store;
+    const pastMm = pastPlanMm(telemetry.value?.depthMm ?? NaN, hello.value?.plannedDepthMm ?? 0);
+    if (pastMm !== null) found.push({ kind: 'depth', level: pastMm > farPastMm ? 'bad' : 'warn', value: pastMm });
+    const breachMm = metrics.value?.vault_breach_mm ?? 0;
+    if (breachMm > 0) found.push({ kind: 'vault', level: 'bad', value: breachMm });
+    return found;
+  }
+}

@@ -1,0 +1,94 @@
+import { describe, expect, it } from 'vitest';
+
+import { Alarms, pastPlanMm, ThrustWatch } from '../../src/state/alarms';
+import { Store } from '../../src/state/store';
+import type { Hello, Telemetry } from '../../src/wire/messages';
+import { hello, telemetry } from '../wire/fake_messages';
+
+const batch = (tick: number, thrust: number[], changes: Partial<Telemetry> = {}): Telemetry => {
+  const message = telemetry({
+    tick,
+    firstTick: tick - thrust.length + 1,
+    thrustN: Float32Array.from(thrust),
+    ...changes,
+  });
+  if (message.kind !== 'telemetry') throw new Error('no telemetry');
+  return message.telemetry;
+};
+
+function liveStore(changes: Partial<Hello> = {}): Store {
+  const store = new Store();
+  const message = hello(changes);
+  if (message.kind === 'hello') store.hello.value = message.hello;
+  store.link.value = { kind: 'live' };
+  store.pictureComplete.value = true;
+  store.sessionState.value = 'running';
+  return store;
+}
+
+describe('the alarm of excess thrust', () => {
+  it('tells the greatest of the last moments, and ends', () => {
+    const watch = new ThrustWatch();
+    expect(watch.take(batch(100, [60, 78]))).toBeNull();
+    expect(watch.take(batch(130, [60, 90, 70]))).toBe(90);
+    expect(watch.take(batch(160, [85, 60]))).toBe(90);
+    expect(watch.take(batch(1629, [50]))).toBe(90);
+    expect(watch.take(batch(1631, [50]))).toBe(85);
+    expect(watch.take(batch(1661, [50]))).toBeNull();
+  });
+
+  it('leaves history aside and forgets what lies ahead after a step back', () => {
+    const watch = new ThrustWatch();
+    expect(watch.take(batch(9000, [200, 10], { firstTick: 5000, tickStride: 4000 }))).toBeNull();
+    expect(watch.take(batch(9100, [99]))).toBe(99);
+    expect(watch.take(batch(40, [10]))).toBeNull();
+  });
+});
+
+describe('alarms', () => {
+  it('say how far past the plan, where there is one', () => {
+    expect(pastPlanMm(2.04, 2)).toBeNull();
+    expect(pastPlanMm(2.5, 2)).toBeCloseTo(0.5, 9);
+    expect(pastPlanMm(2.5, 0)).toBeNull();
+    expect(pastPlanMm(NaN, 2)).toBeNull();
+  });
+
+  it('grow from a warning to a bad one', () => {
+    const store = liveStore();
+    const alarms = new Alarms(store);
+    store.telemetry.value = batch(100, [90], { depthMm: 2.4 });
+    expect(alarms.now.value.map(({ kind, level }) => `${kind} ${level}`)).toEqual(['thrust warn', 'depth warn']);
+    store.telemetry.value = batch(130, [110], { depthMm: 3.4 });
+    expect(alarms.now.value.map(({ kind, level }) => `${kind} ${level}`)).toEqual(['thrust bad', 'depth bad']);
+  });
+
+  it('are not told of what is not of this moment, nor of the session before', () => {
+    const store = liveStore();
+    const alarms = new Alarms(store);
+    store.telemetry.value = batch(100, [90], { depthMm: 2.4 });
+    store.link.value = { kind: 'silent', sinceMs: 0 };
+    expect(alarms.now.value).toEqual([]);
+    store.link.value = { kind: 'live' };
+    expect(alarms.now.value).toHaveLength(2);
+    const next = hello({ sessionId: 'b' });
+    store.telemetry.value = null;
+    if (next.kind === 'hello') store.hello.value = next.hello;
+    store.telemetry.value = batch(120, [20]);
+    expect(alarms.now.value).toEqual([]);
+  });
+
+  it('tell of the vault what the score says, and nothing where it says nothing', () => {
+    const store = liveStore();
+    const alarms = new Alarms(store);
+    const metrics = {
+      ...{ removed_volume_mm3: 1, removed_volume_cortical_mm3: 1, removed_volume_cancellous_mm3: 0 },
+      ...{ reaming_depth_mm: 1, axial_thrust_mean_n: 1, axial_thrust_peak_n: 1, duration_s: 1 },
+    };
+    store.metrics.value = metrics;
+    expect(alarms.now.value).toEqual([]);
+    store.metrics.value = { ...metrics, vault_breach_mm: null };
+    expect(alarms.now.value).toEqual([]);
+    store.metrics.value = { ...metrics, vault_breach_mm: 0.8 };
+    expect(alarms.now.value).toEqual([{ kind: 'vault', level: 'bad', value: 0.8 }]);
+  });
+});
