@@ -1,7 +1,8 @@
 import { Figures, Results } from '../panels/figures';
-import type { Signal } from '@preact/signals';
+import { type Signal, signal } from '@preact/signals';
 
 import { ForcePlot } from '../panels/force_plot';
+import { later } from '../panels/later';
 import { LiveStrip } from '../panels/live_strip';
 import { Gauges } from '../panels/gauges';
 import { Header } from '../panels/header';
@@ -23,6 +24,9 @@ import type { Sound } from '../state/sound';
 import type { Store } from '../state/store';
 import type { ViewSettings } from '../state/view_settings';
 import type { Watcher } from '../state/watcher';
+
+const slices = later(() => import('../panels/live_slices'));
+const slicesOpen = signal(false);
 
 export interface LivePageParts {
   store: Store;
@@ -47,7 +51,9 @@ export function LivePage(parts: LivePageParts) {
     <div class={`page ${bar}`}>
       <Header store={store} />
       <Picture store={store} practice={practiceStore} scene={scene} view={view} alarms={alarms}>
-        <LiveStrip store={store} practice={practiceStore} latency={latency} sound={sound} />
+        <LiveStrip store={store} practice={practiceStore} latency={latency} sound={sound} slicesOpen={slicesOpen} />
+        {slicesOpen.value &&
+          slices.show(({ LiveSlicesPanel }) => <LiveSlicesPanel store={store} liveCase={liveCase} />)}
       </Picture>
       {store.replaying.value && <PlaybackBar store={store} watcher={watcher} />}
       {practiceStore.steering.value && (

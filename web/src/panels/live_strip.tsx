@@ -1,5 +1,8 @@
 import './live_strip.css';
 
+import type { Signal } from '@preact/signals';
+import { useMemo } from 'preact/hooks';
+
 import { liveWords } from '../live_words';
 import type { Latency } from '../state/latency';
 import type { PracticeStore } from '../state/practice_store';
@@ -9,6 +12,7 @@ import type { Store } from '../state/store';
 import { words } from '../words';
 import { fixed } from './format';
 import { lateAbovePercent, missedPercent } from './health_panel';
+import { useLiveKeys } from './live_keys';
 import { SoundButton } from './sound_button';
 
 /** What the picture should take at most, ms. */
@@ -19,10 +23,12 @@ interface Parts {
   practice: PracticeStore;
   latency: Latency;
   sound: Sound;
+  slicesOpen: Signal<boolean>;
 }
 
 /** Always in sight: how late the picture is, whether the loop keeps its time, and the scale of the force. */
-export function LiveStrip({ store, practice, latency, sound }: Parts) {
+export function LiveStrip({ store, practice, latency, sound, slicesOpen }: Parts) {
+  useLiveKeys(useMemo(() => ({ t: () => (slicesOpen.value = !slicesOpen.value) }), [slicesOpen]));
   const live = store.live.value;
   const steering = practice.steering.value;
   const delayMs = !live ? null : steering ? latency.handMs.value : latency.drawingMs.value;
@@ -54,6 +60,17 @@ export function LiveStrip({ store, practice, latency, sound }: Parts) {
         {liveWords.force} <strong>{fixed(store.hello.value?.forceScale, 0)} : 1</strong>
       </p>
       <SoundButton sound={sound} />
+      <button
+        type="button"
+        class={slicesOpen.value ? 'strip-button strip-on' : 'strip-button'}
+        data-testid="slices"
+        aria-pressed={slicesOpen.value}
+        aria-keyshortcuts="T"
+        title={liveWords.key(liveWords.slicesHint, 'T')}
+        onClick={() => (slicesOpen.value = !slicesOpen.value)}
+      >
+        {liveWords.slices}
+      </button>
       <a
         class="strip-button"
         href={addressOfRoute({ kind: 'trainee' })}

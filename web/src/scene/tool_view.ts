@@ -5,6 +5,8 @@ import type { Pose, ToolMesh } from '../wire/messages';
 
 const creaseRad = 0.6;
 const envelopeOpacity = 0.5;
+const glassColour = 0x8fb3c4;
+const steelColour = 0xb4c0c6;
 const shaftRadiusMm = 3;
 const shaftLengthMm = 45;
 
@@ -15,7 +17,7 @@ const shaftLengthMm = 45;
 export class ToolView {
   readonly group = new Group();
   private readonly envelopeMaterial = new MeshStandardMaterial({
-    color: 0x8fb3c4,
+    color: glassColour,
     roughness: 0.28,
     metalness: 0.1,
     transparent: true,
@@ -60,6 +62,7 @@ export class ToolView {
     if (this.envelopeMaterial.transparent === !opaque) return;
     this.envelopeMaterial.transparent = !opaque;
     this.envelopeMaterial.opacity = opaque ? 1 : envelopeOpacity;
+    this.envelopeMaterial.color.set(opaque ? steelColour : glassColour);
     this.envelopeMaterial.needsUpdate = true;
   }
 
