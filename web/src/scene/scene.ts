@@ -174,7 +174,7 @@ export class BoneScene implements SteeredView {
     const seenThrough = this.choices.seeThrough && this.choices.opacity < 1;
     const cuts = this.cuts();
     this.bone.setLook(seenThrough ? this.choices.opacity : 1, cuts);
-    this.tool.setOpaque(seenThrough || this.opaqueTool);
+    this.tool.setLook(this.opaqueTool ? 'steel' : seenThrough ? 'throughBone' : 'glass');
     if (seenThrough) this.drawSeenThrough(cuts);
     else this.renderer.render(this.scene, camera);
     ++this.drawn;

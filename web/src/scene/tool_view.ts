@@ -4,11 +4,12 @@ import { toCreasedNormals } from 'three/examples/jsm/utils/BufferGeometryUtils.j
 import type { Pose, ToolMesh } from '../wire/messages';
 
 const creaseRad = 0.6;
-const envelopeOpacity = 0.5;
 const glassColour = 0x8fb3c4;
 const steelColour = 0xb4c0c6;
 const shaftRadiusMm = 3;
 const shaftLengthMm = 45;
+
+export type ToolLook = 'glass' | 'throughBone' | 'steel';
 
 /**
  * The reamer where the server says it is: the cutting envelope, see-through so that the bone under it can be judged,
@@ -21,9 +22,10 @@ export class ToolView {
     roughness: 0.28,
     metalness: 0.1,
     transparent: true,
-    opacity: envelopeOpacity,
+    opacity: 0.5,
   });
   private readonly shaftMaterial = new MeshStandardMaterial({ color: 0xd3dade, roughness: 0.45, metalness: 0.1 });
+  private look: ToolLook = 'glass';
   private posed = false;
   private wanted = true;
 
@@ -57,13 +59,19 @@ export class ToolView {
     this.refresh();
   }
 
-  /** Opaque where the bone is seen through, and in theatre. */
-  setOpaque(opaque: boolean): void {
-    if (this.envelopeMaterial.transparent === !opaque) return;
-    this.envelopeMaterial.transparent = !opaque;
-    this.envelopeMaterial.opacity = opaque ? 1 : envelopeOpacity;
-    this.envelopeMaterial.color.set(opaque ? steelColour : glassColour);
-    this.envelopeMaterial.needsUpdate = true;
+  /**
+   * Glass, so that the bone under it can be judged; steel in theatre. With bone that is seen through it is drawn first and
+   * hides nothing, so that both are seen through each other.
+   */
+  setLook(look: ToolLook): void {
+    if (look === this.look) return;
+    this.look = look;
+    const { envelopeMaterial } = this;
+    envelopeMaterial.transparent = look !== 'steel';
+    envelopeMaterial.opacity = { glass: 0.5, throughBone: 0.8, steel: 1 }[look];
+    envelopeMaterial.depthWrite = look !== 'throughBone';
+    envelopeMaterial.color.set(look === 'steel' ? steelColour : glassColour);
+    envelopeMaterial.needsUpdate = true;
   }
 
   setShown(shown: boolean): void {
