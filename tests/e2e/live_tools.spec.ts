@@ -1,16 +1,12 @@
 // What the live page can show of the bone: cut-away, see-through, sections and the surgeon's eye, by mouse and by keys.
-import { expect, type Page, test } from "@playwright/test";
+import { expect, type Page, test } from '@playwright/test';
 
-import { compare, picture } from "./pixels";
-import { drawn, serverForEachTest, untilLive } from "./server_for_each_test";
+import { compare } from './pixels';
+import { drawn, serverForEachTest, untilLive } from './server_for_each_test';
 
 const here = serverForEachTest();
 
-/** Pixels that buttons and figures over the picture may change, and such as only another look at the bone does. */
-const buttonsChanged = 6000;
-const reallyChanged = 12_000;
-
-const canvas = (page: Page) => page.getByTestId("bone-canvas");
+const canvas = (page: Page) => page.getByTestId('bone-canvas');
 
 async function open(page: Page): Promise<void> {
   await page.goto(here.server.url);
@@ -20,12 +16,12 @@ async function open(page: Page): Promise<void> {
 
 /** Until two pictures that follow each other are the same. */
 async function untilStill(page: Page): Promise<void> {
-  let before = await picture(canvas(page));
+  let before = await bone(page);
   await expect
     .poll(
       async () => {
         const now = before;
-        before = await picture(canvas(page));
+        before = await bone(page);
         return (await compare(page, before, now)).changed;
       },
       { timeout: 60_000, intervals: [500] },
@@ -36,119 +32,119 @@ async function untilStill(page: Page): Promise<void> {
 /** Pixels that another look changes. */
 async function changed(page: Page, before: string): Promise<number> {
   await drawn(page);
-  return (await compare(page, await picture(canvas(page)), before)).changed;
+  return (await compare(page, await bone(page), before)).changed;
 }
 
-test("cuts the bone along the reamer and along the planes of the body, and remembers it", async ({ page }, info) => {
+test('cuts the bone along the reamer and along the planes of the body, and remembers it', async ({ page }, info) => {
   await open(page);
-  await page.getByTestId("run-demo").click();
+  await page.getByTestId('run-demo').click();
   await expect
-    .poll(async () => Number(await page.getByTestId("removed-volume").textContent()), { timeout: 90_000 })
+    .poll(async () => Number(await page.getByTestId('removed-volume').textContent()), { timeout: 90_000 })
     .toBeGreaterThan(5);
-  await page.getByTestId("stop").click();
-  await expect(page.getByTestId("session-state")).toHaveAttribute("data-state", "stopped");
+  await page.getByTestId('stop').click();
+  await expect(page.getByTestId('session-state')).toHaveAttribute('data-state', 'stopped');
   await drawn(page);
-  const whole = await picture(canvas(page));
+  const whole = await bone(page);
 
-  await page.getByTestId("cut-away").click();
-  await expect(page.getByTestId("cut-away")).toHaveAttribute("aria-pressed", "true");
+  await page.getByTestId('cut-away').click();
+  await expect(page.getByTestId('cut-away')).toHaveAttribute('aria-pressed', 'true');
   expect(await changed(page, whole)).toBeGreaterThan(3000);
-  await page.screenshot({ path: info.outputPath("cut-away.png") });
-  await page.keyboard.press("c");
-  expect(await changed(page, whole)).toBeLessThan(buttonsChanged);
+  await page.screenshot({ path: info.outputPath('cut-away.png') });
+  await page.keyboard.press('c');
+  expect(await changed(page, whole)).toBeLessThan(200);
 
-  await page.getByTestId("see-through").click();
+  await page.getByTestId('see-through').click();
   expect(await changed(page, whole)).toBeGreaterThan(3000);
-  await page.screenshot({ path: info.outputPath("see-through.png") });
-  await page.keyboard.press("x");
+  await page.screenshot({ path: info.outputPath('see-through.png') });
+  await page.keyboard.press('x');
 
-  await page.getByTestId("sections").click();
-  const offset = page.getByTestId("section-axial-offset");
-  await page.getByTestId("section-axial").check();
+  await page.getByTestId('sections').click();
+  const offset = page.getByTestId('section-axial-offset');
+  await page.getByTestId('section-axial').check();
   const cut = await changed(page, whole);
-  expect(cut).toBeGreaterThan(reallyChanged);
-  await page.screenshot({ path: info.outputPath("section.png") });
-  const atEntry = await picture(canvas(page));
+  expect(cut).toBeGreaterThan(3000);
+  await page.screenshot({ path: info.outputPath('section.png') });
+  const atEntry = await bone(page);
   await offset.focus();
-  for (let i = 0; i < 12; ++i) await page.keyboard.press("ArrowRight");
-  await expect(offset).toHaveValue("6");
+  for (let i = 0; i < 12; ++i) await page.keyboard.press('ArrowRight');
+  await expect(offset).toHaveValue('6');
   expect(await changed(page, atEntry)).toBeGreaterThan(1000);
-  await page.keyboard.press("[");
-  await expect(offset).toHaveValue("5");
-  await page.getByTestId("section-axial-flip").click();
-  await expect(page.getByTestId("section-axial-flip")).toHaveAttribute("aria-pressed", "true");
+  await page.keyboard.press('[');
+  await expect(offset).toHaveValue('5');
+  await page.getByTestId('section-axial-flip').click();
+  await expect(page.getByTestId('section-axial-flip')).toHaveAttribute('aria-pressed', 'true');
 
   await page.reload();
   await untilLive(page);
-  await page.getByTestId("sections").click();
-  await expect(page.getByTestId("section-axial")).toBeChecked();
-  await expect(page.getByTestId("section-axial-offset")).toHaveValue("5");
-  await expect(page.getByTestId("see-through")).toHaveAttribute("aria-pressed", "false");
+  await page.getByTestId('sections').click();
+  await expect(page.getByTestId('section-axial')).toBeChecked();
+  await expect(page.getByTestId('section-axial-offset')).toHaveValue('5');
+  await expect(page.getByTestId('see-through')).toHaveAttribute('aria-pressed', 'false');
 });
 
-test("glides to the surgeon’s eye and gives the view back to the hand that turns it", async ({ page }, info) => {
+test('glides to the surgeon’s eye and gives the view back to the hand that turns it', async ({ page }, info) => {
   await open(page);
-  const own = await picture(canvas(page));
-  await page.keyboard.press("v");
-  await expect(page.getByTestId("trainee-camera")).toHaveAttribute("aria-pressed", "true");
+  const own = await bone(page);
+  await page.keyboard.press('v');
+  await expect(page.getByTestId('trainee-camera')).toHaveAttribute('aria-pressed', 'true');
   await expect.poll(() => changed(page, own)).toBeGreaterThan(3000);
   await untilStill(page);
-  await page.screenshot({ path: info.outputPath("surgeon.png") });
-  const surgeon = await picture(canvas(page));
+  await page.screenshot({ path: info.outputPath('surgeon.png') });
+  const surgeon = await bone(page);
   await canvas(page).focus();
-  await page.keyboard.press("ArrowLeft");
-  await expect(page.getByTestId("trainee-camera")).toHaveAttribute("aria-pressed", "false");
+  await page.keyboard.press('ArrowLeft');
+  await expect(page.getByTestId('trainee-camera')).toHaveAttribute('aria-pressed', 'false');
   await untilStill(page);
   expect(await changed(page, surgeon)).toBeGreaterThan(1000);
-  await page.getByTestId("view-plan").click();
-  expect(await changed(page, own)).toBeLessThan(buttonsChanged);
+  await page.getByTestId('view-plan').click();
+  expect(await changed(page, own)).toBeLessThan(200);
 });
 
-test("always says how late picture and loop are, and sounds only when asked", async ({ page }, info) => {
+test('always says how late picture and loop are, and sounds only when asked', async ({ page }, info) => {
   await open(page);
-  await expect(page.getByTestId("force-scale")).toContainText(/Force \d+ : 1/);
-  await expect(page.getByTestId("latency")).toHaveText("–");
-  const sound = page.getByTestId("sound");
-  await expect(sound).toHaveAttribute("aria-pressed", "false");
+  await expect(page.getByTestId('force-scale')).toContainText(/Force \d+ : 1/);
+  await expect(page.getByTestId('latency')).toHaveText('–');
+  const sound = page.getByTestId('sound');
+  await expect(sound).toHaveAttribute('aria-pressed', 'false');
   await sound.click();
-  await expect(sound).toHaveAttribute("aria-pressed", "true");
+  await expect(sound).toHaveAttribute('aria-pressed', 'true');
   expect((await page.evaluate(() => window.__ream.sound)).motorGain).toBe(0);
-  await page.getByTestId("run-demo").click();
-  await expect.poll(async () => Number(await page.getByTestId("latency").textContent())).toBeGreaterThan(0);
-  await expect(page.getByTestId("loop-health")).toContainText(/on time|late/);
+  await page.getByTestId('run-demo').click();
+  await expect.poll(async () => Number(await page.getByTestId('latency').textContent())).toBeGreaterThan(0);
+  await expect(page.getByTestId('loop-health')).toContainText(/on time|late/);
   await expect
     .poll(async () => (await page.evaluate(() => window.__ream.sound)).cuttingGain, { timeout: 90_000 })
     .toBeGreaterThan(0);
-  await page.screenshot({ path: info.outputPath("strip.png") });
+  await page.screenshot({ path: info.outputPath('strip.png') });
 
   // Nothing is heard, and no figure stands, once nothing is heard of the server.
   await here.server.kill();
-  await expect(page.getByTestId("picture")).toHaveAttribute("data-stale", "true");
+  await expect(page.getByTestId('picture')).toHaveAttribute('data-stale', 'true');
   expect(await page.evaluate(() => window.__ream.sound)).toMatchObject({ motorGain: 0, cuttingGain: 0 });
-  await expect(page.getByTestId("latency")).toHaveText("–");
-  await page.keyboard.press("m");
-  await expect(sound).toHaveAttribute("aria-pressed", "false");
+  await expect(page.getByTestId('latency')).toHaveText('–');
+  await page.keyboard.press('m');
+  await expect(sound).toHaveAttribute('aria-pressed', 'false');
 });
 
-test("the trainee’s view is the picture alone, and steers", async ({ page }, info) => {
+test('the trainee’s view is the picture alone, and steers', async ({ page }, info) => {
   await open(page);
-  await page.getByTestId("practise").click();
-  await page.waitForFunction(() => window.__ream.deviceLink === "holding", null, { timeout: 60_000 });
+  await page.getByTestId('practise').click();
+  await page.waitForFunction(() => window.__ream.deviceLink === 'holding', null, { timeout: 60_000 });
   // Of a hand on this page it is known how long it takes to be seen.
-  await expect(page.getByTestId("live-strip")).toContainText("Hand to picture");
-  await expect.poll(async () => Number(await page.getByTestId("latency").textContent())).toBeGreaterThan(0);
-  await page.getByTestId("to-trainee").click();
-  await expect(page.getByTestId("trainee-page")).toHaveAttribute("data-theatre", "false");
-  await expect(page.getByTestId("force-plot")).toBeHidden();
+  await expect(page.getByTestId('live-strip')).toContainText('Hand to picture');
+  await expect.poll(async () => Number(await page.getByTestId('latency').textContent())).toBeGreaterThan(0);
+  await page.getByTestId('to-trainee').click();
+  await expect(page.getByTestId('trainee-page')).toHaveAttribute('data-theatre', 'false');
+  await expect(page.getByTestId('force-plot')).toBeHidden();
   const box = await canvas(page).boundingBox();
   expect(box).toMatchObject({ width: 1280, height: 720 });
-  await page.getByTestId("spindle").click();
-  await expect(page.getByTestId("spindle")).toHaveAttribute("aria-pressed", "true");
-  expect((await page.evaluate(() => window.__ream)).deviceLink).toBe("holding");
-  await page.screenshot({ path: info.outputPath("trainee.png") });
-  await page.getByTestId("leave-trainee").click();
-  await expect(page.getByTestId("practice-bar")).toBeVisible();
-  expect((await page.evaluate(() => window.__ream)).deviceLink).toBe("holding");
+  await page.getByTestId('spindle').click();
+  await expect(page.getByTestId('spindle')).toHaveAttribute('aria-pressed', 'true');
+  expect((await page.evaluate(() => window.__ream)).deviceLink).toBe('holding');
+  await page.screenshot({ path: info.outputPath('trainee.png') });
+  await page.getByTestId('leave-trainee').click();
+  await expect(page.getByTestId('practice-bar')).toBeVisible();
+  expect((await page.evaluate(() => window.__ream)).deviceLink).toBe('holding');
 });
 
 /** Makes the server tell of sessions as one does that knows theatre mode. */
@@ -157,9 +153,9 @@ async function tellTheatre(page: Page): Promise<{ asked: boolean[] }> {
   let theatre = false;
   await page.route(/\/api\/v1\/sessions(\/[0-9a-z]+)?(\/start|\/stop)?(\?.*)?$/, async (route) => {
     const request = route.request();
-    const wish = request.method() === "POST" ? (request.postDataJSON() as { theatre?: boolean } | null) : null;
+    const wish = request.method() === 'POST' ? (request.postDataJSON() as { theatre?: boolean } | null) : null;
     const { theatre: asked, ...rest } = wish ?? {};
-    if (wish !== null && request.url().endsWith("/sessions")) {
+    if (wish !== null && request.url().endsWith('/sessions')) {
       theatre = asked === true;
       heard.asked.push(theatre);
     }
@@ -173,41 +169,43 @@ async function tellTheatre(page: Page): Promise<{ asked: boolean[] }> {
   return heard;
 }
 
-test("in theatre there is nothing but the bone, an opaque reamer, sound and force", async ({ page }, info) => {
+test('in theatre there is nothing but the bone, an opaque reamer, sound and force', async ({ page }, info) => {
   const heard = await tellTheatre(page);
   await open(page);
-  await page.getByTestId("cut-away").click();
-  await page.getByTestId("theatre-mode").check();
-  await page.getByTestId("practise").click();
-  const theatre = page.getByTestId("trainee-page");
-  await expect(theatre).toHaveAttribute("data-theatre", "true");
+  await page.getByTestId('cut-away').click();
+  await page.getByTestId('theatre-mode').check();
+  await page.getByTestId('practise').click();
+  const theatre = page.getByTestId('trainee-page');
+  await expect(theatre).toHaveAttribute('data-theatre', 'true');
   expect(heard.asked.at(-1)).toBe(true);
-  await page.waitForFunction(() => window.__ream.deviceLink === "holding", null, { timeout: 60_000 });
-  for (const id of ["gauge-version", "depth", "force-plot", "alarms", "cut-away", "leave-trainee", "live-strip"])
+  await page.waitForFunction(() => window.__ream.deviceLink === 'holding', null, { timeout: 60_000 });
+  for (const id of ['gauge-version', 'depth', 'force-plot', 'alarms', 'cut-away', 'leave-trainee', 'live-strip'])
     await expect(page.getByTestId(id)).toHaveCount(0);
-  await expect(page.getByTestId("sound")).toBeVisible();
+  await expect(page.getByTestId('sound')).toBeVisible();
   await untilStill(page);
-  await page.screenshot({ path: info.outputPath("theatre.png") });
-  await page.keyboard.press("c");
-  await page.evaluate(() => (window.location.hash = ""));
-  await expect(theatre).toHaveAttribute("data-theatre", "true");
-  await page.getByTestId("end-theatre").click();
-  await expect(page.getByTestId("gauge-version")).toBeVisible();
-  await expect(page.getByTestId("cut-away")).toHaveAttribute("aria-pressed", "true");
+  await page.screenshot({ path: info.outputPath('theatre.png') });
+  await page.keyboard.press('c');
+  await page.evaluate(() => (window.location.hash = ''));
+  await expect(theatre).toHaveAttribute('data-theatre', 'true');
+  await page.getByTestId('end-theatre').click();
+  await expect(page.getByTestId('gauge-version')).toBeVisible();
+  await expect(page.getByTestId('cut-away')).toHaveAttribute('aria-pressed', 'true');
 });
 
-test("theatre mode is not offered by a server that does not know it", async ({ page }) => {
+test('theatre mode is not offered by a server that does not know it', async ({ page }) => {
   await page.route(/\/api\/v1\/sessions/, async (route) => {
     const answer = await route.fetch();
-    const text = (await answer.text()).replace(/"theatre":(true|false),?/g, "");
+    const text = (await answer.text()).replace(/"theatre":(true|false),?/g, '');
     await route.fulfill({ response: answer, body: text });
   });
   await open(page);
-  await expect(page.getByTestId("practise")).toBeEnabled();
-  await expect(page.getByTestId("theatre-mode")).toHaveCount(0);
+  await expect(page.getByTestId('practise')).toBeEnabled();
+  await expect(page.getByTestId('theatre-mode')).toHaveCount(0);
 });
 
-test('shows the CT beside the picture, with the outline of the reamer, once it is asked for', async ({ page }, info) => {
+test('shows the CT beside the picture, with the outline of the reamer, once it is asked for', async ({
+  page,
+}, info) => {
   const loaded: string[] = [];
   page.on('request', (request) => loaded.push(request.url()));
   await open(page);
