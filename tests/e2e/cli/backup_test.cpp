@@ -6,12 +6,9 @@
 #include <random>
 #include <thread>
 
-#include "case/case.hpp"
-#include "e2e/cli/command_line.hpp"
+#include "e2e/cli/serve_block_fixture.hpp"
 #include "support/places.hpp"
 #include "support/postgres_server.hpp"
-#include "support/raw_http.hpp"
-#include "support/test_bone.hpp"
 
 namespace ream::test {
 namespace {
@@ -19,62 +16,24 @@ namespace {
 using nlohmann::json;
 using namespace std::chrono_literals;
 
-/// A data folder with a small block of bone and a script that presses on it for ten minutes.
-class Backup : public CommandLine {
+class Backup : public ServeBlock {
  protected:
-  void SetUp() override {
-    write("web/index.html", "<!doctype html><title>page</title>");
-    case_::Case block;
-    block.id = "block";
-    block.name = "A block";
-    block.source = "made for this test";
-    block.bone = slab({72, 72, 48}, 0.5, 16.0, 1.2);
-    block.plan = slab_plan(block.bone, 16.0);
-    block.plan->reamer = "sphere 12,8";
-    case_::save_case(block, folder() / "data/cases/block");
-    write("data/scripts/press.json",
-          R"({"device": "hand", "duration_s": 600, "stiffness_n_mm": 100,
-              "hand": {"start_mm": [0, 0, -0.3], "force_profile": [{"t_s": 0, "force_n": 40}]}})");
-  }
-
   void serve(const Words& more = {}) {
-    Words words{"serve", "--port", "0", "--web", "web", "--backend", "cpu", "--realtime", "off", "--json"};
+    Words words{"--backend", "cpu", "--realtime", "off"};
     words.insert(words.end(), more.begin(), more.end());
-    server_ = start(words, "server");
-    until("the server says where it is", [&] { return printed("server.out").ends_with('\n'); });
-    const std::string url = json::parse(printed("server.out")).at("url");
-    port_ = static_cast<uint16_t>(std::stoi(url.substr(url.rfind(':') + 1)));
-    until("it is ready", [&] { return http_request(port_, "GET", "/readyz").status == 200; });
-  }
-  void until(const std::string& what, const std::function<bool()>& reached) {
-    for (int i = 0; i < 6000 && !server_->ended(); ++i) {
-      if (reached()) return;
-      std::this_thread::sleep_for(10ms);
-    }
-    throw std::runtime_error("waited in vain until " + what + "\n" + printed("server.err"));
+    Serve::serve(words);
+    until_ready();
   }
   void end_server() {
     server_->send_signal(SIGTERM);
     EXPECT_EQ(server_->wait(20s), 0) << printed("server.err");
   }
-  json request(int status, const std::string& method, const std::string& target,
-               const std::string& body = {}) {
-    const HttpReply reply = http_request(port_, method, target, body);
-    EXPECT_EQ(reply.status, status) << method << ' ' << target << '\n' << reply.body;
-    return json::parse(reply.body);
-  }
   std::string run_session() {
-    const std::string id =
-        request(201, "POST", "/api/v1/sessions", R"({"case": "block", "script": "press"})").at("id");
-    request(200, "POST", "/api/v1/sessions/" + id + "/start");
-    until("it has reamed a while", [&] {
-      return request(200, "GET", "/api/v1/sessions/" + id + "/metrics").at("duration_s").get<double>() > 2.0;
-    });
+    const std::string id = create();
+    request(200, "POST", path_of(id) + "/start");
+    until("it has reamed a while", [&] { return duration_s(id) > 2.0; });
     return id;
   }
-
-  std::unique_ptr<ChildProcess> server_;
-  uint16_t port_ = 0;
 };
 
 TEST_F(Backup, CarriesARunningServersSessionsIntoPostgresqlAndBack) {

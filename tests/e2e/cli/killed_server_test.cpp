@@ -8,12 +8,9 @@
 #include <random>
 #include <thread>
 
-#include "case/case.hpp"
-#include "e2e/cli/command_line.hpp"
+#include "e2e/cli/serve_block_fixture.hpp"
 #include "record/recording.hpp"
 #include "support/places.hpp"
-#include "support/raw_http.hpp"
-#include "support/test_bone.hpp"
 
 namespace ream::test {
 namespace {
@@ -23,24 +20,8 @@ using namespace std::chrono_literals;
 
 constexpr double longest_loss_s = 1.0;
 
-/// A server on a small block of bone, which it can load in no time.
-class KilledServer : public CommandLine {
+class KilledServer : public ServeBlock {
  protected:
-  void SetUp() override {
-    write("web/index.html", "<!doctype html><title>page</title>");
-    case_::Case block;
-    block.id = "block";
-    block.name = "A block";
-    block.source = "made for this test";
-    block.bone = slab({72, 72, 48}, 0.5, 16.0, 1.2);
-    block.plan = slab_plan(block.bone, 16.0);
-    block.plan->reamer = "sphere 12,8";
-    case_::save_case(block, folder() / "data/cases/block");
-    write("data/scripts/press.json",
-          R"({"device": "hand", "duration_s": 600, "stiffness_n_mm": 100,
-              "hand": {"start_mm": [0, 0, -0.3], "force_profile": [{"t_s": 0, "force_n": 40}]}})");
-  }
-
   /// `before`: words of a shell that are run in the server's process first.
   void serve(const std::string& before = {}) {
     const std::string program = build_folder() + "/ream";
@@ -48,30 +29,10 @@ class KilledServer : public CommandLine {
         {"/bin/sh", "-c",
          before + " exec " + program + " serve --port 0 --web web --backend cpu --realtime off --json"},
         "server");
-    until("the server says where it is", [&] { return printed("server.out").ends_with('\n'); });
-    const std::string url = json::parse(printed("server.out")).at("url");
-    port_ = static_cast<uint16_t>(std::stoi(url.substr(url.rfind(':') + 1)));
-    until("it is ready", [&] { return http_request(port_, "GET", "/readyz").status == 200; });
+    hear_where_it_is();
+    until_ready();
   }
 
-  void until(const std::string& what, const std::function<bool()>& reached) {
-    for (int i = 0; i < 6000 && !server_->ended(); ++i) {
-      if (reached()) return;
-      std::this_thread::sleep_for(10ms);
-    }
-    throw std::runtime_error("waited in vain until " + what + "\n" + printed("server.err"));
-  }
-
-  json request(int status, const std::string& method, const std::string& target,
-               const std::string& body = {}) {
-    const HttpReply reply = http_request(port_, method, target, body);
-    EXPECT_EQ(reply.status, status) << method << ' ' << target << '\n' << reply.body;
-    return json::parse(reply.body);
-  }
-  std::string create() {
-    return request(201, "POST", "/api/v1/sessions", R"({"case": "block", "script": "press"})").at("id");
-  }
-  static std::string path_of(const std::string& id) { return "/api/v1/sessions/" + id; }
   std::filesystem::path folder_of(const std::string& id) const { return folder() / "data/sessions" / id; }
 
   /// Asks for metrics, far below what one address may ask, until the server is dead; the last duration it
@@ -96,10 +57,6 @@ class KilledServer : public CommandLine {
     killer.join();
     EXPECT_EQ(server_->wait(10s), 128 + SIGKILL);
     return seen;
-  }
-
-  double duration_s(const std::string& id) {
-    return request(200, "GET", path_of(id) + "/metrics").at("duration_s");
   }
 
   /// Starts the session and kills the server once it has run for so long; what it told last.
@@ -138,8 +95,6 @@ class KilledServer : public CommandLine {
     for (const std::string& entry : tree()) EXPECT_EQ(entry.find(".tmp"), std::string::npos) << entry;
   }
 
-  std::unique_ptr<ChildProcess> server_;
-  uint16_t port_ = 0;
   double worst_loss_s_ = 0.0;
 };
 

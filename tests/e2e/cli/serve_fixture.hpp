@@ -19,6 +19,11 @@ class Serve : public CommandLine {
     Words command = {"serve", "--port", "0", "--web", "web", "--json"};
     command.insert(command.end(), more.begin(), more.end());
     server_ = start(command, "server");
+    hear_where_it_is();
+  }
+
+  /// Of a server that was started under that name.
+  void hear_where_it_is() {
     until("the server says where it is", [&] { return printed("server.out").ends_with('\n'); });
     said_ = nlohmann::json::parse(printed("server.out"));
     const std::string url = said_.at("url");
