@@ -4,8 +4,8 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ssl/stream.hpp>
 #include <boost/beast/core/async_base.hpp>
+#include <boost/beast/core/bind_handler.hpp>
 #include <boost/beast/core/role.hpp>
-#include <boost/beast/websocket/teardown.hpp>
 #include <functional>
 #include <memory>
 #include <span>
@@ -134,12 +134,11 @@ class Channel {
 };
 
 /// What Beast asks of a stream that it does not know: how a WebSocket's connection ends after its last word.
+/// Nothing here: the connection does it, with close_lingering.
 template <typename Handler>
-void async_teardown(boost::beast::role_type role, Channel& channel, Handler&& handler) {
-  if (channel.encrypted())
-    channel.async_end_sending(std::forward<Handler>(handler));
-  else
-    boost::beast::websocket::async_teardown(role, channel.next_layer(), std::forward<Handler>(handler));
+void async_teardown(boost::beast::role_type, Channel& channel, Handler&& handler) {
+  boost::asio::post(channel.get_executor(),
+                    boost::beast::bind_front_handler(std::forward<Handler>(handler), Channel::error_code{}));
 }
 
 }  // namespace ream::net

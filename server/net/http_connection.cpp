@@ -6,6 +6,7 @@
 
 #include "net/connections.hpp"
 #include "net/guard.hpp"
+#include "net/lingering_close.hpp"
 #include "net/problem.hpp"
 #include "net/reply_writer.hpp"
 #include "net/request_parser.hpp"
@@ -254,24 +255,7 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
     await_request();
   }
 
-  /// Closing a socket with unread input resets it and can destroy our last words on their way: read on until
-  /// the peer closes or the linger time is over.
-  void end() {
-    watchdog_.arm(engine_.limits.linger, shared_from_this());
-    channel_.async_end_sending([self = shared_from_this()](error_code) { self->drain(); });
-  }
-
-  void drain() {
-    channel_.next_layer().async_read_some(asio::buffer(arrived_),
-                                          [self = shared_from_this()](error_code failed, size_t) {
-                                            if (failed) {
-                                              self->watchdog_.disarm();
-                                              self->watchdog_.close();
-                                            } else {
-                                              self->drain();
-                                            }
-                                          });
-  }
+  void end() { close_lingering(channel_, watchdog_, engine_.limits.linger, shared_from_this()); }
 
   Engine& engine_;
   const Ends ends_;

@@ -10,6 +10,7 @@
 #include "net/connections.hpp"
 #include "net/frame_meter.hpp"
 #include "net/guard.hpp"
+#include "net/lingering_close.hpp"
 #include "net/watchdog.hpp"
 
 namespace ream::net {
@@ -131,11 +132,12 @@ class WebSocketConnection final : public Connection,
   void on_written(error_code failed) {
     writing_ = false;
     outgoing_.reset();
-    if (failed) {
-      finish();
+    if (closing_ || finished_) return;
+    if (failed) {  // a read that found the peer in the wrong is saying goodbye, or will find the socket
+                   // broken
+      let_go_within_linger();
       return;
     }
-    if (closing_) return;
     watchdog_.disarm();
     pump();
   }
@@ -143,7 +145,7 @@ class WebSocketConnection final : public Connection,
   void read() {
     stream_.async_read_some(incoming_, 0, [self = shared_from_this()](error_code failed, size_t) {
       if (failed)
-        self->finish();
+        self->end();
       else
         self->on_piece();
     });
@@ -186,14 +188,27 @@ class WebSocketConnection final : public Connection,
       finish();
       return;
     }
+    let_go_within_linger();
+    stream_.async_close(reason, [self = shared_from_this()](error_code) { self->end(); });
+  }
+
+  void let_go_within_linger() {
+    if (closing_ || finished_) return;
     closing_ = true;
     let_go();
     watchdog_.arm(engine_.limits.linger, shared_from_this());
-    stream_.async_close(reason, [self = shared_from_this()](error_code) { self->finish(); });
   }
 
-  void finish() noexcept {
+  /// After the WebSocket's last word.
+  void end() {
     if (finished_) return;
+    finished_ = true;
+    let_go();
+    close_lingering(stream_.next_layer(), watchdog_, engine_.limits.linger, shared_from_this());
+  }
+
+  /// At once.
+  void finish() noexcept {
     finished_ = true;
     let_go();
     watchdog_.close();

@@ -72,6 +72,18 @@ TEST_F(WebSocketFramesTest, MessagesBeyondTheLimitAreNotRead) {
   }
 }
 
+TEST_F(WebSocketFramesTest, AMessageBeyondTheLimitMayEndBeforeItsConnectionDoes) {
+  start();
+  RawWebSocket client(port(), stream_path());
+  client.send_frame(binary, std::string(40'000, 'x'), false);
+  client.socket().send(head_of(0x80, 70'000) + std::string(1'000, 'x'));
+  std::this_thread::sleep_for(200ms);  // the running session has more to say meanwhile
+  EXPECT_NO_THROW(client.socket().send(std::string(20'000, 'x')));
+  std::this_thread::sleep_for(50ms);
+  EXPECT_NO_THROW(client.socket().send(std::string(49'000, 'x'))) << "cut in the middle of its message";
+  EXPECT_EQ(close_code_of(client), 1009);
+}
+
 TEST_F(WebSocketFramesTest, FloodsOfFramesEnd) {
   start([](net::Limits& limits) { limits.websocket_messages = {100.0, 500.0}; });
   for (const auto& [opcode, final] : {std::pair{ping, true}, {0, false}, {binary, true}, {text, true}}) {
