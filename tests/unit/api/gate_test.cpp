@@ -177,7 +177,8 @@ TEST_F(GateTest, ChangesByCookieNeedTheTokenAgainstForgery) {
   net::Request asked = with_cookie("POST", anna);
   EXPECT_EQ(refusal(asked, sessions), 0);
   const std::string good = asked.headers["x-csrf-token"];
-  for (const std::string& wrong : {std::string(), good + "x", good.substr(1), "x" + good.substr(1)}) {
+  const std::string first = good.front() == 'x' ? "y" : "x";
+  for (const std::string& wrong : {std::string(), good + "x", good.substr(1), first + good.substr(1)}) {
     asked.headers["x-csrf-token"] = wrong;
     EXPECT_EQ(refusal(asked, sessions), 403) << wrong;
   }
