@@ -10,10 +10,11 @@ struct Rule {
   std::string_view method, pattern, action;
 };
 
-constexpr std::array<Rule, 5> rules = {{{"DELETE", "/api/v1/sessions/{id}", "session.delete"},
+constexpr std::array<Rule, 6> rules = {{{"DELETE", "/api/v1/sessions/{id}", "session.delete"},
                                         {"POST", "/api/v1/sessions/{id}/restore", "session.restore"},
                                         {"GET", "/api/v1/sessions/{id}/recording", "session.download"},
                                         {"POST", "/api/v1/sessions/{id}/exports", "session.export"},
+                                        {"POST", "/api/v1/sessions/{id}/score", "session.score"},
                                         {"DELETE", "/api/v1/cases/{id}", "case.delete"}}};
 
 }  // namespace

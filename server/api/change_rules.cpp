@@ -18,6 +18,7 @@ constexpr std::array rules{
     Rule{"PATCH", "/api/v1/sessions/{id}", "session", "changed"},
     Rule{"POST", "/api/v1/sessions/{id}/annotations", "session", "annotated"},
     Rule{"POST", "/api/v1/sessions/{id}/replay", "replay", "created"},
+    Rule{"POST", "/api/v1/sessions/{id}/score", "session", "scored"},
     Rule{"DELETE", "/api/v1/cases/{id}", "case", "deleted"},
     Rule{"PUT", "/api/v1/cases/{id}/landmarks", "case", "changed"},
     Rule{"PUT", "/api/v1/cases/{id}/plan", "case", "changed"},

@@ -1,9 +1,9 @@
 #include "api/json_page.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 #include "core/error.hpp"
+#include "core/hex.hpp"
 
 namespace ream::api {
 using nlohmann::json;
@@ -30,15 +30,6 @@ std::string or_usual(const net::Request& request, const std::string& name, const
   return given == request.query.end() ? usual : given->second;
 }
 
-std::string hex_of(const std::string& text) {
-  std::string hex;
-  for (const char c : text) {
-    hex += digits[static_cast<unsigned char>(c) >> 4];
-    hex += digits[static_cast<unsigned char>(c) & 15];
-  }
-  return hex;
-}
-
 /// What a list is sorted by: the value of a key, then the id, both the same way.
 struct Order {
   std::string key;
@@ -57,13 +48,7 @@ struct Order {
 
 /// An item that stands where the cursor does.
 json place_of(const std::string& cursor, const Order& order) {
-  std::string text;
-  for (size_t i = 0; i + 1 < cursor.size(); i += 2) {
-    int byte = 0;
-    std::from_chars(cursor.data() + i, cursor.data() + i + 2, byte, 16);
-    text += static_cast<char>(byte);
-  }
-  const json place = json::parse(text, nullptr, false);
+  const json place = json::parse(bytes_from_hex(cursor), nullptr, false);
   if (!place.is_array() || place.size() != 3 || place[0] != (order.descending ? "-" + order.key : order.key))
     throw Error(ErrorKind::invalid_input,
                 "cursor is none that this list has given; leave it out to begin with the first page");

@@ -92,6 +92,9 @@ std::vector<Right> session_rows() {
           {"GET", one + "/mesh", Door::roles, reamers},
           {"GET", one + "/snapshot", Door::roles, reamers},
           {"POST", one + "/exports", Door::roles, reamers},
+          {"GET", one + "/score", Door::roles, known},
+          {"POST", one + "/score", Door::roles, staff},
+          {"GET", one + "/deviation", Door::roles, reamers},
           {"GET", "/api/v1/events", Door::roles, known}};
 }
 
@@ -117,12 +120,27 @@ std::vector<Right> study_rows() {
           {"GET", one + "/export", Door::roles, staff}};
 }
 
+std::vector<Right> score_rows() {
+  const std::string rubrics = "/api/v1/rubrics", benchmarks = "/api/v1/benchmarks";
+  return {{"GET", rubrics, Door::roles, reamers},
+          {"POST", rubrics, Door::roles, staff},
+          {"GET", rubrics + "/{id}", Door::roles, reamers},
+          {"PUT", rubrics + "/{id}", Door::roles, staff},
+          {"GET", benchmarks, Door::roles, reamers},
+          {"POST", benchmarks, Door::roles, staff},
+          {"GET", benchmarks + "/{id}", Door::roles, reamers},
+          {"GET", "/api/v1/scores", Door::roles, reamers},
+          {"POST", "/api/v1/rescorings", Door::roles, staff},
+          {"GET", "/api/v1/learning", Door::roles, reamers}};
+}
+
 }  // namespace
 
 const std::vector<Right>& rights() {
   static const std::vector<Right> all = [] {
     std::vector<Right> rows;
-    for (const auto& part : {open_rows(), access_rows(), case_rows(), session_rows(), study_rows()})
+    for (const auto& part :
+         {open_rows(), access_rows(), case_rows(), session_rows(), study_rows(), score_rows()})
       rows.insert(rows.end(), part.begin(), part.end());
     return rows;
   }();

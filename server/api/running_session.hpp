@@ -40,6 +40,7 @@ struct SessionRequest {
   int attempt = 1;                    ///< 2 after the first reset, and so on
   std::string followed_by = {};       ///< session that went on from intact bone; empty: none
   bool keep = false;                  ///< never deleted by the rules of retention
+  bool theatre = false;               ///< nothing but the bone is shown while reaming
 };
 
 /// Health of the haptic loop since the session began.

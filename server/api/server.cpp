@@ -78,6 +78,15 @@ void add_all_case_routes(net::Router& router, const ServerOptions& options, Case
   add_upload_routes(router, uploads);
 }
 
+void add_all_score_routes(net::Router& router, const ScoreTools& tools) {
+  add_rubric_routes(router, tools);
+  add_benchmark_routes(router, tools);
+  add_score_routes(router, tools);
+  add_rescoring_routes(router, tools);
+  add_deviation_routes(router, tools);
+  add_learning_routes(router, tools);
+}
+
 }  // namespace
 
 std::optional<SessionRequest> Server::session_of(const std::string& id) const {
@@ -126,6 +135,8 @@ net::Router Server::routes_of(const ServerOptions& options) {
   add_job_routes(router, jobs_);
   add_replay_routes(router, sessions_, replays_, readiness_);
   add_study_routes(router, studies_.get(), audit_in(gatehouse_.get()));
+  add_all_score_routes(router, {sessions_, replays_, studies_.get(), jobs_, quiet_, *feed_, shelves_,
+                                scoring_, audit_in(gatehouse_.get())});
   router.otherwise([files = net::StaticFiles(options.web_folder)](const net::Request& request) {
     return files.respond(request);
   });
@@ -144,6 +155,9 @@ Server::Server(ServerOptions options)
       contract_(std::string(embedded::contract::find("openapi.yaml"))),
       idempotency_(options.database),
       export_formats_(std::move(options.export_formats)),
+      scoring_(std::move(options.scoring)),
+      shelves_({score::RubricShelf(under(options.data_folder, "rubrics")),
+                BenchmarkShelf(under(options.data_folder, "benchmarks")), !options.data_folder.empty()}),
       jobs_({under(options.data_folder, "jobs"), std::chrono::hours(24), 256,
              [this](const JobRecord& job) { tell(job); }}),
       gatehouse_(database_ ? std::make_unique<access::Gatehouse>(*database_, options.gatehouse) : nullptr),

@@ -16,6 +16,7 @@
 #include "api/replay_service.hpp"
 #include "api/request_frame.hpp"
 #include "api/retention.hpp"
+#include "api/score_tools.hpp"
 #include "api/session_service.hpp"
 #include "api/session_watch.hpp"
 #include "api/stream_watch.hpp"
@@ -35,6 +36,7 @@ struct ServerOptions {
   std::string usual_device = "script";  ///< of sessions that name none
   CtReader read_ct;                     ///< of uploaded files
   ExportFormats export_formats;         ///< of sessions
+  ScoreMakers scoring;
   ReplayFactory make_replay;
   ReplayLimits replays;
   RetentionRules retention;
@@ -85,6 +87,8 @@ class Server {
   const Contract contract_;
   Idempotency idempotency_;
   const ExportFormats export_formats_;
+  const ScoreMakers scoring_;
+  const ScoreShelves shelves_;
   JobService jobs_;
   QuietWork quiet_;
   const std::unique_ptr<access::Gatehouse> gatehouse_;

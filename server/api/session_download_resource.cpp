@@ -7,9 +7,9 @@
 #include "api/passing_file.hpp"
 #include "api/request_body.hpp"
 #include "api/session_labels.hpp"
+#include "api/session_work.hpp"
 #include "core/clock.hpp"
 #include "core/file.hpp"
-#include "core/file_lock.hpp"
 #include "net/file_body.hpp"
 
 namespace ream::api {
@@ -20,6 +20,7 @@ namespace {
 constexpr double longest_session_s = 4e6;
 constexpr int largest_stride = 1'000'000;
 constexpr double most_rows_at_once = 1e6;
+constexpr size_t longest_rubric_name = 80;
 
 const std::string& id_of(const net::Request& request) { return request.parameters.at("id"); }
 
@@ -85,22 +86,8 @@ net::Response trace(const DownloadTools& tools, const net::Request& request) {
   const ExportFormat& format = tools.formats.find("csv");
   existing(recording_file(tools.sessions.folder_of(order.session.id)), order.session.id, "recording");
   require_few_rows(order.part, record.status.duration_s);
-  return made_now(tools, request, format.name, format.media_type,
+  return made_now(tools, request, format.file_ending(), format.media_type,
                   [&](const fs::path& out) { format.write(order, out, no_progress); });
-}
-
-/// Long work on a session that has ended, whose folder nobody else changes meanwhile.
-JobRecord ordered(const DownloadTools& tools, const std::string& kind, const SessionRecord& record,
-                  const std::function<void(const fs::path& folder, const Progress&)>& work) {
-  const std::string& id = record.request.id;
-  if (const auto open = tools.jobs.open_on_session(kind, id)) return *open;
-  const fs::path folder = tools.sessions.folder_of(id);
-  JobOrder order{kind, {}, id, std::make_shared<const SessionRequest>(record.request)};
-  return tools.jobs.submit(order, [folder, id, work](const Progress& progress) {
-    const auto lock = FileLock::attempt(lock_file(folder));
-    if (!lock) throw Error(ErrorKind::conflict, "session '" + id + "' is in use");
-    work(folder, progress);
-  });
 }
 
 /// What every ended session can have in its folder: given where it is there, else made by a job.
@@ -112,20 +99,21 @@ net::Response kept_or_made(const DownloadTools& tools, const net::Request& reque
   const ExportFormat& format = tools.formats.find(format_name);
   std::error_code failed;
   if (fs::is_regular_file(folder / name, failed))
-    return net::file_response(request,
-                              {folder / name, format.media_type, record.request.id + "." + format.name});
-  const ExportOrder order{record.request, {}};
+    return net::file_response(
+        request, {folder / name, format.media_type, record.request.id + "." + format.file_ending()});
+  const ExportOrder order{record.request};
   const auto write = format.write;
-  return accepted(ordered(tools, kind, record, [=](const fs::path& place, const Progress& progress) {
-    write(order, place / name, progress);
-  }));
+  return accepted(work_in_folder(
+      tools.jobs, kind, record, folder,
+      [=](const fs::path& place, const Progress& progress) { write(order, place / name, progress); }));
 }
 
 int stride_of(const net::Request& request) { return static_cast<int>(number_or(request, "stride", 1.0)); }
 
 net::Response mesh(const DownloadTools& tools, const net::Request& request) {
   const SessionRecord record = seen(tools, request);
-  if (!is_live(record.status.state)) return kept_or_made(tools, request, record, "mesh", "ply", "reamed.ply");
+  if (!is_live(record.status.state))
+    return kept_or_made(tools, request, record, "mesh", "surface", "reamed.ply");
   return made_now(tools, request, "ply", "application/ply", [&](const fs::path& out) {
     tools.sessions.write_surface(id_of(request), out, stride_of(request));
   });
@@ -139,20 +127,33 @@ net::Response snapshot(const DownloadTools& tools, const net::Request& request) 
                   [&](const fs::path& out) { tools.sessions.write_picture(id_of(request), out); });
 }
 
-net::Response export_session(const DownloadTools& tools, const net::Request& request) {
-  RequestBody body(request);
-  const ExportFormat& format = tools.formats.find(body.name("format"));
+/// Part, rubric and benchmark, where the form has such. Throws RequestError 422.
+ExportOrder order_in(RequestBody& body, const ExportFormat& format) {
   ExportOrder order;
   const auto from_s = body.number_within_or_none("from_s", 0.0, longest_session_s);
   order.part.to_s = body.number_within_or_none("to_s", 0.0, longest_session_s);
   const auto stride = body.number_within_or_none("stride", 1.0, largest_stride);
+  const auto rubric = body.words_or_none("rubric", longest_rubric_name);
+  const auto benchmark = body.value_or_none("benchmark") ? body.name("benchmark") : std::string();
   body.finish();
   if (!format.is_table && (from_s || order.part.to_s || stride))
     throw net::RequestError(422,
                             "only a table has a part from_s, to_s, stride; '" + format.name + "' is none",
                             {{"#/format", "is no table"}});
+  if (!format.is_report && (rubric || !benchmark.empty()))
+    throw net::RequestError(422, "only a report has a rubric and a benchmark; '" + format.name + "' is none",
+                            {{"#/format", "is no report"}});
   order.part.from_s = from_s.value_or(0.0);
   order.part.stride = static_cast<int>(stride.value_or(1.0));
+  order.rubric = rubric.value_or(order.rubric);
+  order.benchmark = benchmark;
+  return order;
+}
+
+net::Response export_session(const DownloadTools& tools, const net::Request& request) {
+  RequestBody body(request);
+  const ExportFormat& format = tools.formats.find(body.name("format"));
+  ExportOrder order = order_in(body, format);
   const SessionRecord record = seen(tools, request);
   const std::string id = record.request.id;
   if (is_live(record.status.state))
@@ -160,10 +161,11 @@ net::Response export_session(const DownloadTools& tools, const net::Request& req
                                          "; it can be exported when it has ended");
   existing(recording_file(tools.sessions.folder_of(id)), id, "recording");
   order.session = record.request;
+  if (format.check) format.check(order);
   const JobOrder job{"export", {}, id, std::make_shared<const SessionRequest>(record.request)};
   return accepted(
       tools.jobs.submit_file(job, [format, order](const fs::path& folder, const Progress& progress) {
-        const std::string name = order.session.id + "." + format.name;
+        const std::string name = order.session.id + "." + format.file_ending();
         format.write(order, folder / name, progress);
         return JobService::MadeFile{name, format.media_type};
       }));

@@ -10,6 +10,7 @@
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/log.hpp"
 
 namespace ream::api {
 namespace fs = std::filesystem;
@@ -64,8 +65,35 @@ SessionState state_of(const json& session, const fs::path& folder) {
   return *state;
 }
 
-/// `timing` may be null.
-FolderRecord record_of(const json& session, const json& timing, const fs::path& folder) {
+/// Throws json::exception.
+std::optional<SessionMark> mark_from(const json& mark) {
+  if (!mark.is_object()) return std::nullopt;
+  SessionMark read;
+  if (mark.at("points").is_number()) read.points = mark.at("points").get<double>();
+  if (mark.at("outcome").is_string()) read.outcome = mark.at("outcome").get<std::string>();
+  read.rubric = mark.at("rubric").get<std::string>();
+  read.version = mark.at("version").get<int>();
+  return read;
+}
+
+/// The mark of a score.json, in the keys that record_from_text() reads; null without one.
+json mark_in(const fs::path& folder) {
+  std::error_code failed;
+  if (!fs::exists(score_json(folder), failed)) return nullptr;
+  try {
+    const json score = read_json_file(score_json(folder)).at("score");
+    json mark = json::object();
+    for (const char* key : {"points", "outcome", "rubric", "version"}) mark[key] = score.at(key);
+    mark_from(mark);
+    return mark;
+  } catch (const std::exception& damage) {
+    log::warn(folder.string() + ": its score is left out: " + damage.what());
+    return nullptr;
+  }
+}
+
+/// `timing` and `mark` may be null.
+FolderRecord record_of(const json& session, const json& timing, const json& mark, const fs::path& folder) {
   FolderRecord found;
   SessionRecord& record = found.record;
   record.streamable = false;
@@ -91,7 +119,16 @@ FolderRecord record_of(const json& session, const json& timing, const fs::path& 
     if (!session.contains("ticks")) status.tick = timing.value("ticks", 0u);
   }
   status.duration_s = status.tick * tick_s;
+  if (!is_live(status.state)) record.mark = mark_from(mark);
   return found;
+}
+
+/// Differs after the file has been replaced; zero without one. The time of change alone may be the same for
+/// two files made within one tick of the file system's clock.
+int64_t file_stamp(const fs::path& file) {
+  struct stat about {};
+  if (::stat(file.c_str(), &about) != 0) return 0;
+  return about.st_mtim.tv_sec * 1'000'000'000 + about.st_mtim.tv_nsec + static_cast<int64_t>(about.st_ino);
 }
 
 /// Runs what reads the files' JSON.
@@ -109,6 +146,7 @@ FolderRecord checked(const fs::path& folder, Read&& read) {
 
 fs::path session_json(const fs::path& folder) { return folder / "session.json"; }
 fs::path metrics_json(const fs::path& folder) { return folder / "metrics.json"; }
+fs::path score_json(const fs::path& folder) { return folder / "score.json"; }
 fs::path recording_file(const fs::path& folder) { return folder / "recording.ream"; }
 fs::path lock_file(const fs::path& folder) { return folder / "lock"; }
 
@@ -118,8 +156,11 @@ FolderRecord read_session_folder(const fs::path& folder) {
   if (const fs::path file = folder / "timing.json"; fs::exists(file, failed)) timing = read_json_file(file);
   return checked(folder, [&] {
     if (session.value("created_utc", "").empty()) session["created_utc"] = changed_utc(session_json(folder));
-    FolderRecord found = record_of(session, timing, folder);
-    found.text = json{{"session", std::move(session)}, {"timing", std::move(timing)}}.dump();
+    json mark = mark_in(folder);
+    FolderRecord found = record_of(session, timing, mark, folder);
+    found.text =
+        json{{"session", std::move(session)}, {"timing", std::move(timing)}, {"mark", std::move(mark)}}
+            .dump();
     return found;
   });
 }
@@ -127,17 +168,16 @@ FolderRecord read_session_folder(const fs::path& folder) {
 FolderRecord record_from_text(const std::string& text, const fs::path& folder) {
   return checked(folder, [&] {
     const json files = json::parse(text);
-    FolderRecord found = record_of(files.at("session"), files.at("timing"), folder);
+    FolderRecord found =
+        record_of(files.at("session"), files.at("timing"), files.value("mark", json()), folder);
     found.text = text;
     return found;
   });
 }
 
 int64_t session_stamp(const fs::path& folder) {
-  struct stat about {};
-  if (::stat(session_json(folder).c_str(), &about) != 0) return 0;
-  // The time of change alone may be the same for two files made within one tick of the file system's clock.
-  return about.st_mtim.tv_sec * 1'000'000'000 + about.st_mtim.tv_nsec + static_cast<int64_t>(about.st_ino);
+  const int64_t of_session = file_stamp(session_json(folder));
+  return of_session == 0 ? 0 : of_session + file_stamp(score_json(folder));
 }
 
 }  // namespace ream::api

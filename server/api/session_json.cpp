@@ -40,6 +40,13 @@ json to_json(const DeviceLinkStatus& device) {
           {"refused", device.refused}};
 }
 
+json to_json(const SessionMark& mark) {
+  return {{"points", mark.points ? json(*mark.points) : json(nullptr)},
+          {"outcome", mark.outcome.empty() ? json(nullptr) : json(mark.outcome)},
+          {"rubric", mark.rubric},
+          {"version", mark.version}};
+}
+
 }  // namespace
 
 json to_json(const SessionRecord& record) {
@@ -57,6 +64,7 @@ json to_json(const SessionRecord& record) {
                {"force_scale", status.force_scale},
                {"fault", status.fault.empty() ? json(nullptr) : json(status.fault)},
                {"streamable", record.streamable},
+               {"score", record.mark ? to_json(*record.mark) : json(nullptr)},
                {"loop", to_json(status.loop)},
                {"device", to_json(status.device)}});
   return told;

@@ -36,6 +36,7 @@ void read_labels(const json& session, SessionRequest& request) {
   for (const TextLabel& label : text_labels) request.*label.text = session.value(label.key, "");
   request.attempt = session.value("attempt", 1);
   request.keep = session.value("keep", false);
+  request.theatre = session.value("theatre", false);
 }
 
 void write_labels(const SessionRequest& request, json& session) {
@@ -47,10 +48,11 @@ void write_labels(const SessionRequest& request, json& session) {
   if (request.attempt > 1) session["attempt"] = request.attempt;
   session.erase("keep");
   if (request.keep) session["keep"] = true;
+  session["theatre"] = request.theatre;
 }
 
 json labels_json(const SessionRequest& request) {
-  json labels = {{"attempt", request.attempt}, {"keep", request.keep}};
+  json labels = {{"attempt", request.attempt}, {"keep", request.keep}, {"theatre", request.theatre}};
   for (const TextLabel& label : text_labels) {
     const std::string& text = request.*label.text;
     labels[label.key] = text.empty() ? json(nullptr) : json(text);

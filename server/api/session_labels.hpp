@@ -16,8 +16,9 @@ struct SessionChange {
 
 void apply(const SessionChange& change, SessionRequest& request);
 
-/// The labels of a session (who trains, for which study, what it is called, which attempt it is) from and to
-/// session.json: what is empty is left out there. Throws json::exception for values of other types.
+/// The labels of a session (who trains, for which study, what it is called, which attempt it is, theatre
+/// mode) from and to session.json: what is empty is left out there. Throws json::exception for values of
+/// other types.
 void read_labels(const nlohmann::json& session, SessionRequest& request);
 void write_labels(const SessionRequest& request, nlohmann::json& session);
 

@@ -19,6 +19,11 @@ std::string text_of(const net::Request& request, const std::string& name) {
   return given == request.query.end() ? std::string() : given->second;
 }
 
+std::optional<double> number_of(const net::Request& request, const std::string& name) {
+  const std::string given = text_of(request, name);
+  return given.empty() ? std::nullopt : std::optional(json::parse(given).get<double>());
+}
+
 std::vector<std::string> parts_of(const std::string& list) {
   std::vector<std::string> parts;
   for (size_t begin = 0; begin < list.size();) {
@@ -36,25 +41,6 @@ std::string beginning_of(const net::Request& request, const std::string& name) {
   return moment;
 }
 
-store::SessionQuery query_of(const net::Request& request) {
-  store::SessionQuery query;
-  query.states = parts_of(text_of(request, "state"));
-  query.case_id = text_of(request, "case");
-  query.trainee_id = text_of(request, "trainee");
-  query.study = text_of(request, "study");
-  query.participant = text_of(request, "participant");
-  query.created_from = beginning_of(request, "from");
-  query.created_before = beginning_of(request, "to");
-  query.text = text_of(request, "q");
-  query.cursor = text_of(request, "cursor");
-  query.limit = limit_of(request);
-  const std::string sort = request.query.contains("sort") ? text_of(request, "sort") : "-created_utc";
-  query.descending = sort.starts_with('-');
-  query.order = store::session_order_from(query.descending ? sort.substr(1) : sort)
-                    .value_or(store::SessionOrder::created);
-  return query;
-}
-
 /// Of one that a viewer's link is for.
 SessionPage only(const SessionService& sessions, const store::SessionQuery& query, const std::string& id) {
   SessionPage page;
@@ -66,18 +52,6 @@ SessionPage only(const SessionService& sessions, const store::SessionQuery& quer
   }
   page.total = page.sessions.size();
   return page;
-}
-
-SessionPage page_for(const net::Caller& caller, const SessionService& sessions, store::SessionQuery query) {
-  const Roles role = role_bit(caller.role);
-  if (role == viewers && !caller.only_session.empty()) return only(sessions, query, caller.only_session);
-  if (role == trainees) {
-    if (!query.trainee_id.empty() && query.trainee_id != caller.user_id) return {};
-    query.trainee_id = caller.user_id;
-  }
-  // What is found by a person would tell who is behind a code.
-  if (role != operators && role != trainees) query.outside_studies = !query.trainee_id.empty();
-  return sessions.list(query);
 }
 
 json visible_replays(const net::Caller& caller, const SessionService& sessions,
@@ -93,9 +67,44 @@ json visible_replays(const net::Caller& caller, const SessionService& sessions,
 
 }  // namespace
 
+store::SessionQuery session_query(const net::Request& request) {
+  store::SessionQuery query;
+  query.states = parts_of(text_of(request, "state"));
+  query.case_id = text_of(request, "case");
+  query.trainee_id = text_of(request, "trainee");
+  query.study = text_of(request, "study");
+  query.participant = text_of(request, "participant");
+  query.created_from = beginning_of(request, "from");
+  query.created_before = beginning_of(request, "to");
+  query.outcomes = parts_of(text_of(request, "outcome"));
+  query.points_from = number_of(request, "points_from");
+  query.points_to = number_of(request, "points_to");
+  query.text = text_of(request, "q");
+  query.cursor = text_of(request, "cursor");
+  query.limit = limit_of(request);
+  const std::string sort = request.query.contains("sort") ? text_of(request, "sort") : "-created_utc";
+  query.descending = sort.starts_with('-');
+  query.order = store::session_order_from(query.descending ? sort.substr(1) : sort)
+                    .value_or(store::SessionOrder::created);
+  return query;
+}
+
+SessionPage sessions_for(const net::Caller& caller, const SessionService& sessions,
+                         store::SessionQuery query) {
+  const Roles role = role_bit(caller.role);
+  if (role == viewers && !caller.only_session.empty()) return only(sessions, query, caller.only_session);
+  if (role == trainees) {
+    if (!query.trainee_id.empty() && query.trainee_id != caller.user_id) return {};
+    query.trainee_id = caller.user_id;
+  }
+  // What is found by a person would tell who is behind a code.
+  if (role != operators && role != trainees && !query.trainee_id.empty()) query.outside_studies = true;
+  return sessions.list(query);
+}
+
 net::Response list_sessions(const SessionService& sessions, const StudyService* studies,
                             const ReplayService& replays, const net::Request& request) {
-  SessionPage page = page_for(request.caller, sessions, query_of(request));
+  SessionPage page = sessions_for(request.caller, sessions, session_query(request));
   const Blinding blinding = blinding_for(studies, request.caller);
   json records = json::array();
   for (SessionRecord& record : page.sessions) {

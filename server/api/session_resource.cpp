@@ -69,6 +69,7 @@ net::Response create(SessionService& service, const StudyService* studies, const
   wanted.study = body.name_or("study", "");
   wanted.participant = body.words("participant", 0, longest_participant);
   wanted.title = body.words("title", 0, longest_title);
+  wanted.theatre = body.flag_or_none("theatre").value_or(false);
   body.finish();
   readiness.require_prepared();
   take_study(studies, request, wanted);

@@ -28,6 +28,10 @@ store::SessionRow row_of(const SessionRecord& record) {
   row.study = without_nul(record.request.study);
   row.participant = without_nul(record.request.participant);
   row.title = without_nul(record.request.title);
+  if (record.mark) {
+    row.points = record.mark->points;
+    row.outcome = without_nul(record.mark->outcome);
+  }
   return row;
 }
 

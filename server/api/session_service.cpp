@@ -121,19 +121,36 @@ std::vector<SessionRecord> SessionService::held() const {
   return records;
 }
 
+/// Of one that has ended, what is in its folder by now.
+SessionRecord SessionService::with_mark(SessionRecord held) const {
+  if (is_live(held.status.state)) return held;
+  try {
+    if (auto kept = archive_.find(held.request.id)) held.mark = std::move(kept->mark);
+  } catch (const Error&) {
+    // A folder that cannot be read keeps nobody from seeing what is in memory.
+  }
+  return held;
+}
+
 SessionPage SessionService::list(const store::SessionQuery& query) const {
-  return register_->list(query, held());
+  std::vector<SessionRecord> records = held();
+  for (SessionRecord& record : records) record = with_mark(std::move(record));
+  return register_->list(query, std::move(records));
 }
 
 SessionRecord SessionService::get(const std::string& id) const {
   const auto entry = find_or_none(id);
-  return entry ? entry->record() : archived(id);
+  return entry ? with_mark(entry->record()) : archived(id);
 }
 
 nlohmann::json SessionService::metrics(const std::string& id) const {
   const auto entry = find_or_none(id);
-  return entry ? entry->running->metrics() : archive_.metrics(id);
+  std::error_code failed;
+  const bool kept = std::filesystem::exists(metrics_json(archive_.folder_of(id)), failed);
+  return entry && (entry->live() || !kept) ? entry->running->metrics() : archive_.metrics(id);
 }
+
+void SessionService::note_results(const std::string& id) { register_->changed(id); }
 
 std::optional<Annotation> SessionService::annotate_live(const std::string& id, const NewAnnotation& note) {
   const auto entry = find_or_none(id);

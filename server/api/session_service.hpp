@@ -73,7 +73,10 @@ class SessionService {
   std::vector<DeletedSession> deleted() const;
   /// Takes a deleted one away for good.
   void erase(const std::string& id);
+  /// Of a live one as they are now, else as metrics.json has them. Error not_found when it left none.
   nlohmann::json metrics(const std::string& id) const;
+  /// What lies in the folder of one that has ended was written anew.
+  void note_results(const std::string& id);
   /// Into the running recording, or behind the end of one that has ended. Error conflict before the start
   /// and while it is being resumed.
   Annotation annotate(const std::string& id, const NewAnnotation& note);
@@ -101,6 +104,7 @@ class SessionService {
   std::shared_ptr<Entry> find_or_none(const std::string& id) const;
   std::shared_ptr<Entry> find(const std::string& id) const;
   SessionRecord archived(const std::string& id) const;
+  SessionRecord with_mark(SessionRecord held) const;
   std::shared_ptr<Entry> made_again(const SessionRecord& before, const std::string& reamer);
   std::shared_ptr<Entry> made_anew(SessionRequest wanted, size_t leaving);
   SessionRequest next_attempt(const SessionRecord& before) const;

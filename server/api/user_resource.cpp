@@ -3,6 +3,7 @@
 #include "access/password_rules.hpp"
 #include "api/access_resource.hpp"
 #include "api/request_body.hpp"
+#include "api/user_json.hpp"
 #include "core/error.hpp"
 
 namespace ream::api {
@@ -14,15 +15,6 @@ constexpr size_t longest_name = 64, longest_display_name = 100;
 const std::string path = "/api/v1/users";
 const std::vector<std::string> account_roles = {"operator", "instructor", "trainee"};
 
-json to_json(const access::User& user) {
-  return {{"id", user.id},
-          {"name", user.name},
-          {"display_name", user.display_name},
-          {"role", access::to_text(user.role)},
-          {"enabled", user.enabled},
-          {"created_utc", user.created_utc}};
-}
-
 std::optional<access::Secret> password_in(RequestBody& body) {
   auto text = body.words_or_none("password", access::longest_password_bytes);
   return text ? std::optional(access::Secret(std::move(*text))) : std::nullopt;
@@ -31,7 +23,7 @@ std::optional<access::Secret> password_in(RequestBody& body) {
 net::Response list(const AccessTools& tools) {
   json users = json::array();
   if (tools.gatehouse)
-    for (const access::User& user : tools.gatehouse->users.list()) users.push_back(to_json(user));
+    for (const access::User& user : tools.gatehouse->users.list()) users.push_back(user_json(user));
   return net::json_response(200, {{"users", std::move(users)}});
 }
 
@@ -47,7 +39,7 @@ net::Response add(const AccessTools& tools, const net::Request& request) {
   access::Gatehouse& gatehouse = gatehouse_of(tools);
   const access::User user = gatehouse.users.add(wanted);
   audit_in (&gatehouse)(request, "user.add", user.id, user.name + " as " + access::to_text(user.role));
-  net::Response response = net::json_response(201, to_json(user));
+  net::Response response = net::json_response(201, user_json(user));
   response.headers.emplace_back("Location", path + "/" + user.id);
   return response;
 }
@@ -77,7 +69,7 @@ net::Response change(const AccessTools& tools, const net::Request& request) {
   access::Gatehouse& gatehouse = gatehouse_with(tools, "user");
   const access::User user = gatehouse.users.change(id_in(request, "user"), wanted);
   audit_in (&gatehouse)(request, "user.change", user.id, user.name + ": " + words_of(wanted));
-  return net::json_response(200, to_json(user));
+  return net::json_response(200, user_json(user));
 }
 
 net::Response remove(const AccessTools& tools, const net::Request& request) {
@@ -90,7 +82,7 @@ net::Response remove(const AccessTools& tools, const net::Request& request) {
 
 net::Response get(const AccessTools& tools, const net::Request& request) {
   access::Gatehouse& gatehouse = gatehouse_with(tools, "user");
-  return net::json_response(200, to_json(gatehouse.users.get(id_in(request, "user"))));
+  return net::json_response(200, user_json(gatehouse.users.get(id_in(request, "user"))));
 }
 
 }  // namespace

@@ -24,5 +24,7 @@ void make_data_folder(const std::filesystem::path& data) try {
 std::filesystem::path cases_folder(const std::filesystem::path& data) { return data / "cases"; }
 std::filesystem::path sessions_folder(const std::filesystem::path& data) { return data / "sessions"; }
 std::filesystem::path serving_lock(const std::filesystem::path& data) { return data / "serving.lock"; }
+std::filesystem::path rubrics_folder(const std::filesystem::path& data) { return data / "rubrics"; }
+std::filesystem::path benchmarks_folder(const std::filesystem::path& data) { return data / "benchmarks"; }
 
 }  // namespace ream::app

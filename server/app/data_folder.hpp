@@ -14,5 +14,7 @@ std::filesystem::path cases_folder(const std::filesystem::path& data);
 std::filesystem::path sessions_folder(const std::filesystem::path& data);
 /// Held (core/file_lock.hpp) while a server runs on the data folder.
 std::filesystem::path serving_lock(const std::filesystem::path& data);
+std::filesystem::path rubrics_folder(const std::filesystem::path& data);
+std::filesystem::path benchmarks_folder(const std::filesystem::path& data);
 
 }  // namespace ream::app

@@ -1,28 +1,58 @@
 #pragma once
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "api/export_formats.hpp"
-#include "case/case.hpp"
+#include "core/progress.hpp"
 #include "record/recording.hpp"
+#include "score/benchmark.hpp"
+#include "score/rubric.hpp"
 
 namespace ream::app {
 
-/// Writes one row a tick, as the trace.csv of a run is; the same bytes. Of a part: the rows of every
-/// `stride`th tick from the first one in it, as they stand in the whole. Errors: invalid_input at damage, io.
-void export_trace(const record::Recording& recording, const std::filesystem::path& csv,
-                  const api::TracePart& part = {}, const Progress& progress = no_progress);
+/// What is to be exported, and what it needs beside the recording.
+struct ExportRequest {
+  std::filesystem::path recording;  ///< recording.ream
+  std::string case_name;            ///< where the case is, as for find_case(); empty: as recorded
+  std::filesystem::path data;
+  std::optional<score::Rubric> rubric;        ///< of reports; none: the newest standard one
+  std::optional<score::Benchmark> benchmark;  ///< of reports
+  api::TracePart part;                        ///< of tables
+  std::optional<api::SessionRequest> labels;  ///< trainee, title and so on; none: as in session.json
+};
 
-/// Writes the surface that the session left, world frame, by brick deltas, in the form that the ending of
-/// `path` says (geometry/mesh_export.hpp); as PLY it is the reamed.ply of a run. `bone_case`: of the
-/// recording, see case_of(); its coverage becomes the reamed one.
-void export_surface(const record::Recording& recording, case_::Case& bone_case,
-                    const std::filesystem::path& path, const Progress& progress = no_progress);
+/// What more can be said of an export.
+enum class ExportKind {
+  plain,
+  table,   ///< of a part of the ticks
+  report,  ///< with a rubric and a benchmark
+  pair     ///< a second file is written beside the first
+};
 
-/// Writes a picture of the same, as the snapshot.png of a run.
-void export_picture(const record::Recording& recording, case_::Case& bone_case,
-                    const std::filesystem::path& png, const Progress& progress = no_progress);
+/// A kind of file that a session can become.
+struct ExportFormat {
+  std::string name;       ///< "pdf"
+  std::string extension;  ///< ".pdf"
+  std::string words;      ///< what the file is, for people
+  std::string media_type;
+  ExportKind kind;
+  /// Writes it, atomically. Errors: those of the recording and its case; io; cancelled.
+  void (*write)(const ExportRequest& request, const std::filesystem::path& out, const Progress& progress);
+};
 
-/// The forms in which a server exports the sessions of a data folder.
-api::ExportFormats export_formats(const std::filesystem::path& data);
+/// All of them. Where several have an ending in common, the first is what it means by itself.
+const std::vector<ExportFormat>& export_formats();
+
+/// By its name, or with an empty one by the ending of a file. Error usage names all that there are.
+const ExportFormat& export_format_of(const std::string& name, const std::filesystem::path& out);
+
+/// The forms in which a server exports the sessions of a data folder: all that are one file. Whoever asks
+/// names no files of this machine: sessions, rubrics and benchmarks go by their ids.
+api::ExportFormats served_export_formats(const std::filesystem::path& data);
+
+/// The recording of a request, which may be damaged towards its end; that is logged.
+record::Recording recording_of(const ExportRequest& request);
 
 }  // namespace ream::app

@@ -30,6 +30,7 @@ void add_commands(CLI::App& app, ream::app::GlobalOptions& global) {
   add_plan_command(app, global);
   add_voxelize_command(app, global);
   add_score_command(app, global);
+  add_benchmark_command(app, global);
   add_export_command(app, global);
   add_list_command(app, global);
   add_replay_command(app, global);

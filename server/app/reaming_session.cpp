@@ -81,6 +81,7 @@ ReamingSession::ReamingSession(const SessionHouse& house, const api::SessionRequ
       port_(port_of_device()),
       fanout_(std::make_shared<stream::LocalFanout>()),
       publisher_(rig_.bone_case.bone, *fanout_),
+      live_score_(*rig_.native, rig_.model.world_from_plan),
       batcher_(*fanout_),
       crash_watch_(*rig_.device) {
   rig_.state.brick_sender = &rings_.sender;
@@ -92,14 +93,15 @@ ReamingSession::ReamingSession(const SessionHouse& house, const api::SessionRequ
   status_.device.name = request_.device;
   status_.device.profile = rig_.device->traits().profile;
   status_.force_scale = rig_.model.settings.force_scale;
-  score::Metrics metrics;
+  score::MetricsAccumulator metrics(rig_.bone_case.bone.grid.voxel_volume_mm3(),
+                                    rig_.model.world_from_plan.inverse());
   if (from_) {
-    metrics = from_->metrics().metrics();
+    metrics = from_->metrics();
     status_.tick = sample_.tick = from_->ticks();
     annotations_ = from_->recording().annotations();
   }
-  status_.duration_s = metrics.duration_s;
-  metrics_ = score::metrics_json(metrics, status_.force_scale, nullptr);
+  status_.duration_s = metrics.metrics().duration_s;
+  metrics_ = score::session_metrics_json(metrics, live_score_.findings(), status_.force_scale, nullptr);
   sample_.world_from_tool = sample_.world_from_handle =
       rig_.model.world_from_plan * Pose{Mat3::Identity(), rig_.script.hand.start_mm};
   fanout_->publish_hello(stream::hello_message(hello()));
@@ -157,7 +159,7 @@ void ReamingSession::open_files() {
                   : std::make_unique<SessionFiles>(rig_, folder_, coverage, SessionFiles::Trace::left_out);
     write_running(*files);
     std::error_code ignored;
-    for (const char* result : {"reamed.ply", "snapshot.png"})
+    for (const char* result : {"reamed.ply", "snapshot.png", "deviation.json", "deviation.bin"})
       std::filesystem::remove(folder_ / result, ignored);
   } catch (const std::exception&) {
     files.reset();
@@ -328,7 +330,10 @@ void ReamingSession::take_report(const record::TickReport& r) {
 }
 
 void ReamingSession::note_health() {
-  const score::Metrics metrics = files_->metrics();
+  const score::Metrics metrics = files_->metrics().metrics();
+  const int64_t now_ns = steady_ns();
+  live_score_.update(files_->metrics(), {rig_.bone_case.bone.grid, publisher_.replica().coverage().data()},
+                     now_ns);
   const sim::LoopHealth health = loop_.health();
   sample_.depth_mm = static_cast<float>(metrics.reaming_depth_mm);
   sample_.removed_volume_mm3 = static_cast<float>(metrics.removed_volume_mm3);
@@ -343,7 +348,12 @@ void ReamingSession::note_health() {
   }
   place_->measured(health.tick_us.p99_us, health.tick, health.missed);
   const std::lock_guard lock(mutex_);
-  metrics_ = score::metrics_json(metrics, status_.force_scale, nullptr);
+  const bool held_or_let_go = held_ != status_.held;  // who asked for a pause sees what it left
+  if (now_ns >= metrics_due_ns_ || held_or_let_go) {
+    metrics_due_ns_ = now_ns + score::LiveScore::told_every_ns;
+    metrics_ =
+        score::session_metrics_json(files_->metrics(), live_score_.findings(), status_.force_scale, nullptr);
+  }
   status_.tick = sample_.tick + 1;
   status_.duration_s = metrics.duration_s;
   status_.loop = loop_status(health);
@@ -351,7 +361,8 @@ void ReamingSession::note_health() {
   if (status_.state == api::SessionState::running || status_.state == api::SessionState::paused)
     status_.state = sample_.state == stream::SessionState::paused ? api::SessionState::paused
                                                                   : api::SessionState::running;
-  if (std::exchange(status_.held, held_) != held_) changed_.notify_all();
+  status_.held = held_;
+  if (held_or_let_go) changed_.notify_all();
 }
 
 void ReamingSession::publish_state(api::SessionState state) {

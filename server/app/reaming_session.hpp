@@ -12,6 +12,7 @@
 #include "app/rig.hpp"
 #include "app/session_files.hpp"
 #include "device/device_socket.hpp"
+#include "score/live_score.hpp"
 #include "sim/haptic_loop.hpp"
 #include "sim/loop_places.hpp"
 #include "stream/fanout_local.hpp"
@@ -111,6 +112,8 @@ class ReamingSession final : public api::RunningSession {
   std::shared_ptr<device::DevicePort> port_;  ///< of devices that connect over the network
   std::shared_ptr<stream::LocalFanout> fanout_;
   stream::MeshPublisher publisher_;
+  score::LiveScore live_score_;  ///< follower only
+  int64_t metrics_due_ns_ = 0;   ///< when metrics_ are written down next; follower only
   stream::TelemetryBatcher batcher_;
   stream::TelemetrySample sample_;  ///< the newest, follower only
   bool failover_told_ = false;      ///< follower only

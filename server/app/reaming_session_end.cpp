@@ -3,6 +3,7 @@
 
 #include "api/session_folder.hpp"
 #include "app/reaming_session.hpp"
+#include "app/score_document.hpp"
 #include "app/session_recovery.hpp"
 #include "core/clock.hpp"
 #include "core/error.hpp"
@@ -28,6 +29,7 @@ void ReamingSession::finish() {
   publisher_.flush(steady_ns());
   note_health();
   const auto results = files_->finish(health, told_of(state, fault));
+  keep_score(folder_, house_.data);
   close(state, fault, results.metrics);
 }
 
@@ -61,7 +63,7 @@ void ReamingSession::end_without_force(const std::string& words) {
   nlohmann::json metrics = this->metrics();
   try {
     files_->abandon(api::to_text(state), words);
-    close_session_folder(folder_, state, words);
+    close_session_folder(folder_, house_.data, state, words);
     append_missing_remarks();
     metrics = read_json_file(api::metrics_json(folder_));
   } catch (const std::exception& e) {

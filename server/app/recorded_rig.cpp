@@ -45,9 +45,22 @@ case_::Case recorded_case(const record::Recording& recording, const std::string&
     throw Error(ErrorKind::conflict, "the case '" + found.id + "' is not what was recorded (its hash is " +
                                          to_hex(hash) + ", recorded " + to_hex(header.case_hash) +
                                          "); say where the old one is with --case");
-  const std::string place = place_of(recording, "recorded plan");
-  found.plan = case_::plan_from_json(parsed(header.plan, place), place);
+  found.plan = recorded_plan(recording);
   return found;
+}
+
+case_::Plan recorded_plan(const record::Recording& recording) {
+  const std::string place = place_of(recording, "recorded plan");
+  return case_::plan_from_json(parsed(recording.header().plan, place), place);
+}
+
+case_::Anatomy recorded_anatomy(const record::Recording& recording, const case_::Case& native,
+                                const std::string& case_name, const fs::path& data) {
+  const record::ops::Header& header = recording.header();
+  if (header.anatomy.empty())
+    return find_anatomy(native, case_name.empty() ? header.case_id : case_name, data);
+  const std::string place = place_of(recording, "recorded anatomy");
+  return case_::anatomy_from_json(parsed(header.anatomy, place), place);
 }
 
 sim::Settings recorded_settings(const record::Recording& recording, const std::string& backend) {

@@ -13,6 +13,14 @@ namespace ream::app {
 case_::Case recorded_case(const record::Recording& recording, const std::string& case_name,
                           const std::filesystem::path& data);
 
+/// The plan of a recording. Error invalid_input.
+case_::Plan recorded_plan(const record::Recording& recording);
+
+/// What a recording's session is measured against; recordings of older revisions do not say it, so that it is
+/// what `native`, their case, says now. `case_name` as above. Error invalid_input.
+case_::Anatomy recorded_anatomy(const record::Recording& recording, const case_::Case& native,
+                                const std::string& case_name, const std::filesystem::path& data);
+
 /// Settings of a recording, to compute with `backend`. Error invalid_input.
 sim::Settings recorded_settings(const record::Recording& recording, const std::string& backend);
 

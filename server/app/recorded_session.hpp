@@ -1,9 +1,9 @@
 #pragma once
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "case/case.hpp"
+#include "core/progress.hpp"
 #include "record/recording.hpp"
 #include "score/metrics.hpp"
 
@@ -13,14 +13,10 @@ namespace ream::app {
 /// or such a file. Error not_found says where was looked.
 std::filesystem::path recording_path(const std::string& name, const std::filesystem::path& data);
 
-/// All ticks of a recording, added up as a live session does. Error invalid_input at damage that opening did
-/// not show.
-score::MetricsAccumulator accumulated(const record::Recording& recording);
-/// What the recording's ticks are worth now, by this build's definitions; the same as the live session's to
-/// the bit. Error invalid_input at damage that opening did not show.
-score::Metrics rescored(const record::Recording& recording);
-/// As metrics.json; grid_hash is the last checkpoint's.
-nlohmann::json rescored_json(const record::Recording& recording);
+/// All ticks of a recording, added up as a live session does: by this build's definitions the same to the
+/// bit. Error invalid_input at damage that opening did not show.
+score::MetricsAccumulator accumulated(const record::Recording& recording,
+                                      const Progress& progress = no_progress);
 
 /// The case of a recording as it was before tick 0: loaded from the data folder, compared with the
 /// recording's hash, its pilot hole cut as the recording's plan has it. `case_name`: where the case is, as

@@ -30,6 +30,7 @@ record::ops::Header header_of(const Rig& rig) {
   header.grid = record::grid_to_text(rig.bone_case.bone.grid);
   header.description = rig.description().dump();
   header.tables = table_hashes(rig.model);
+  header.anatomy = case_::to_json(rig.anatomy).dump();
   return header;
 }
 

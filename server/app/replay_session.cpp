@@ -4,13 +4,16 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "api/session_folder.hpp"
 #include "api/viewer_stream.hpp"
 #include "app/data_folder.hpp"
 #include "app/recorded_session.hpp"
 #include "app/stream_words.hpp"
 #include "core/clock.hpp"
 #include "core/error.hpp"
+#include "core/file.hpp"
 #include "core/log.hpp"
+#include "score/session_metrics.hpp"
 #include "sim/settings_json.hpp"
 
 namespace ream::app {
@@ -38,6 +41,27 @@ case_::Case bone_before(const record::Recording& recording, const std::filesyste
   return c;
 }
 
+/// What the session said of itself when it ended; null where it left none that can be read.
+nlohmann::json kept_metrics(const std::filesystem::path& session) {
+  const std::filesystem::path file = api::metrics_json(session);
+  std::error_code unknown;
+  if (!std::filesystem::exists(file, unknown)) return nullptr;
+  try {
+    return read_json_file(file);
+  } catch (const Error& e) {
+    log::warn(e.what());
+    return nullptr;
+  }
+}
+
+/// Whether both were said of the same ticks and the same bone.
+bool same_moment(const nlohmann::json& kept, const nlohmann::json& now) {
+  const auto same = [&](const char* key) {
+    return now.at(key).is_string() && kept.value(key, nlohmann::json()) == now.at(key);
+  };
+  return kept.is_object() && same("session_hash") && same("grid_hash");
+}
+
 score::MetricsAccumulator no_metrics(const case_::Case& c) {
   return {c.bone.grid.voxel_volume_mm3(), sim::world_from_plan(*c.plan).inverse()};
 }
@@ -48,6 +72,7 @@ ReplaySession::ReplaySession(const SessionHouse& house, const api::ReplayRequest
     : house_(house),
       request_(request),
       recording_(sessions_folder(house.data) / request.replay_of / "recording.ream"),
+      kept_metrics_(kept_metrics(sessions_folder(house.data) / request.replay_of)),
       bone_case_(bone_before(recording_, house.data)),
       timeline_(recording_, bone_case_.bone.grid.world_from_grid, no_metrics(bone_case_)),
       fanout_(std::make_shared<stream::LocalFanout>()),
@@ -119,8 +144,11 @@ nlohmann::json ReplaySession::metrics() const {
     ticks = playhead_.position_ticks();
     if (bone_ticks_ == ticks) grid_hash = bone_hash_;
   }
-  return score::metrics_json(timeline_.wait_for(ticks, metrics_patience).metrics(),
-                             recording_.header().force_scale, grid_hash ? &*grid_hash : nullptr);
+  nlohmann::json now =
+      score::session_metrics_json(timeline_.wait_for(ticks, metrics_patience),
+                                  score::bone_unsaid("the bone is measured at the session's end only"),
+                                  recording_.header().force_scale, grid_hash ? &*grid_hash : nullptr);
+  return same_moment(kept_metrics_, now) ? kept_metrics_ : now;
 }
 
 void ReplaySession::change(const api::PlaybackChange& change) {

@@ -37,7 +37,8 @@ class ReplaySession final : public api::RunningReplay {
   const SessionHouse house_;
   const api::ReplayRequest request_;
   const record::Recording recording_;
-  const case_::Case bone_case_;  ///< before tick 0
+  const nlohmann::json kept_metrics_;  ///< of the session, at its end; or null
+  const case_::Case bone_case_;        ///< before tick 0
   const MetricsTimeline timeline_;
   const std::shared_ptr<stream::LocalFanout> fanout_;
   ReplayPicture picture_;  ///< of the thread, as the next two

@@ -4,6 +4,7 @@
 
 #include "api/recorded_annotations.hpp"
 #include "api/session_folder.hpp"
+#include "app/measured_glenoid.hpp"
 #include "app/recorded_rig.hpp"
 #include "app/recorded_session.hpp"
 #include "core/error.hpp"
@@ -91,6 +92,9 @@ RigParts ResumePoint::parts(const RunRequest& request, const std::string& reamer
     parts.reamer = reamer_of_words(reamer);
     parts.tool = made(parts.reamer);
   }
+  const case_::Case native = recorded_case(recording_, {}, data_);
+  parts.anatomy = recorded_anatomy(recording_, native, {}, data_);
+  parts.native = measured_glenoid(native, parts.anatomy, parts.tool);
   parts.request.script_name = request.script_name;
   parts.request.random_seed = recording_.header().random_seed;
   parts.script = find_script(request);

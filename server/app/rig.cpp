@@ -4,6 +4,8 @@
 
 #include "app/case_shelf.hpp"
 #include "app/cli/case_path.hpp"
+#include "app/data_folder.hpp"
+#include "app/measured_glenoid.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
@@ -77,6 +79,10 @@ case_::Case find_case(const std::string& name, const fs::path& data) {
   return shelf.load(case_path(name, data));
 }
 
+case_::Anatomy find_anatomy(const case_::Case& c, const std::string& name, const fs::path& data) {
+  return case_::anatomy_of(c, name == "demo" ? cases_folder(data) / "demo" : case_path(name, data));
+}
+
 device::Script find_script(const RunRequest& request) {
   device::Script script = request.script_name == "demo"       ? device::demo_script()
                           : request.script_name == "practice" ? device::practice_script()
@@ -108,6 +114,8 @@ RigParts asked_for(const RunRequest& request, const fs::path& data) {
   parts.device = std::move(made.device);
   parts.link = std::move(made.link);
   parts.settings = settings_for(request, parts.script, parts.device->traits());
+  parts.anatomy = find_anatomy(parts.bone_case, request.case_name, data);
+  parts.native = measured_glenoid(parts.bone_case, parts.anatomy, parts.tool);
   return parts;
 }
 
@@ -116,6 +124,8 @@ Rig::Rig(RigParts parts)
       script(std::move(parts.script)),
       bone_case(std::move(parts.bone_case)),
       case_hash(parts.case_hash),
+      anatomy(std::move(parts.anatomy)),
+      native(std::move(parts.native)),
       reamer(std::move(parts.reamer)),
       device(std::move(parts.device)),
       link(std::move(parts.link)),

@@ -7,8 +7,9 @@
 
 #include "app/device_registry.hpp"
 #include "app/reamer.hpp"
-#include "case/case.hpp"
+#include "case/anatomy.hpp"
 #include "device/script.hpp"
+#include "score/native_glenoid.hpp"
 #include "sim/state.hpp"
 
 namespace ream::app {
@@ -35,6 +36,8 @@ struct RigParts {
   device::Script script;
   case_::Case bone_case;   ///< with a plan; its coverage is what is left when the rig begins
   uint64_t case_hash = 0;  ///< of the case as it was loaded
+  case_::Anatomy anatomy;
+  std::shared_ptr<const score::NativeGlenoid> native;  ///< may be null where nobody scores
   Reamer reamer;
   shell::Tool tool;  ///< made of it
   sim::Settings settings;
@@ -62,6 +65,8 @@ class Rig {
   device::Script script;
   case_::Case bone_case;
   const uint64_t case_hash;
+  const case_::Anatomy anatomy;
+  const std::shared_ptr<const score::NativeGlenoid> native;  ///< what is scored against; may be null
   const Reamer reamer;
   std::unique_ptr<device::HapticDevice> device;
   std::shared_ptr<device::RemoteLink> link;
@@ -80,5 +85,8 @@ device::Script find_script(const RunRequest& request);
 
 /// The case that a name means; see RunRequest::case_name.
 case_::Case find_case(const std::string& name, const std::filesystem::path& data);
+
+/// Its side, landmarks and glenoid frame as they are now. Error invalid_input for its landmarks.
+case_::Anatomy find_anatomy(const case_::Case& c, const std::string& name, const std::filesystem::path& data);
 
 }  // namespace ream::app

@@ -26,8 +26,9 @@ const std::string format = "ream session bundle";
 constexpr int revision = 1;
 
 /// What may be in a session's or case's folder and is worth taking along.
-const std::set<std::string> session_files{"session.json", "recording.ream", "metrics.json", "timing.json",
-                                          "trace.csv",    "reamed.ply",     "snapshot.png", "black-box.csv"};
+const std::set<std::string> session_files{"session.json", "recording.ream", "metrics.json",
+                                          "score.json",   "timing.json",    "trace.csv",
+                                          "reamed.ply",   "snapshot.png",   "black-box.csv"};
 const std::set<std::string> case_files{"case.json", "plan.json", "density.zst", "coverage.zst"};
 
 bool is_id(const std::string& name) {

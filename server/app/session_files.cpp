@@ -7,6 +7,8 @@
 #include "core/file.hpp"
 #include "core/hash.hpp"
 #include "core/log.hpp"
+#include "score/session_metrics.hpp"
+#include "score/surface_findings.hpp"
 
 namespace ream::app {
 namespace {
@@ -93,6 +95,13 @@ record::TickReport SessionFiles::add(const record::TickReport& report) {
   return kept;
 }
 
+score::Findings SessionFiles::bone_findings() const {
+  if (!rig_.native) return score::bone_unsaid("the bone before the session is not known");
+  const voxel::BoneModel& bone = rig_.bone_case.bone;
+  return score::surface_findings(*rig_.native, {bone.grid, bone.coverage.data()}, metrics_.cut_line(),
+                                 rig_.model.world_from_plan, metrics_.metrics().reaming_depth_mm);
+}
+
 SessionFiles::Results SessionFiles::finish(const sim::LoopHealth& health, const nlohmann::json& extra) {
   if (trace_) trace_->finish();
   note_failover(health.failed_over_tick);
@@ -101,8 +110,9 @@ SessionFiles::Results SessionFiles::finish(const sim::LoopHealth& health, const 
   recorder_->finish(extra.value("state", "finished"));
   recorder_.reset();  // others may append remarks or go on from here
   const uint64_t grid_hash = rig_.bone_case.bone.coverage_hash();
-  Results results{score::metrics_json(metrics_.metrics(), rig_.model.settings.force_scale, &grid_hash),
-                  timing_json(health)};
+  Results results{
+      score::session_metrics_json(metrics_, bone_findings(), rig_.model.settings.force_scale, &grid_hash),
+      timing_json(health)};
   write_json(folder_ / "metrics.json", results.metrics);
   write_json(folder_ / "timing.json", results.timing);
   nlohmann::json session = description_;

@@ -41,7 +41,7 @@ class SessionFiles {
   /// Those of the last report, and what they come from.
   const std::vector<record::ops::Event>& newest_events() const { return newest_events_; }
   const SessionEvents& events() const { return events_; }
-  score::Metrics metrics() const { return metrics_.metrics(); }
+  const score::MetricsAccumulator& metrics() const { return metrics_; }
   const record::Recorder& recorder() const { return *recorder_; }
 
   struct Results {
@@ -55,6 +55,8 @@ class SessionFiles {
   void abandon(const std::string& state, const std::string& words);
 
  private:
+  score::Findings bone_findings() const;
+
   const Rig& rig_;
   const std::filesystem::path folder_;
   const nlohmann::json description_;  ///< of the rig before the first tick

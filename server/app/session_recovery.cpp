@@ -9,7 +9,8 @@
 #include "api/request_body.hpp"
 #include "api/session_folder.hpp"
 #include "app/data_folder.hpp"
-#include "app/recorded_session.hpp"
+#include "app/rescoring.hpp"
+#include "app/score_document.hpp"
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -43,7 +44,7 @@ Closing without_recording(api::SessionState state, const std::string& cause, con
   return {state, cause + "; nothing of it can be used: " + why.what(), 0, {}};
 }
 
-Closing with_recording(const record::Recording& recording, api::SessionState state,
+Closing with_recording(const record::Recording& recording, const fs::path& data, api::SessionState state,
                        const std::string& cause) {
   Closing closing{state, {}, recording.tick_count(), {}};
   if (const auto& end = recording.end()) {
@@ -54,7 +55,7 @@ Closing with_recording(const record::Recording& recording, api::SessionState sta
     closing.words = cause + "; everything up to " + seconds(closing.ticks) + " is kept";
     if (!recording.log().damage().empty()) closing.words += ": " + recording.log().damage();
   }
-  closing.metrics = rescored_json(recording);
+  closing.metrics = Rescorer(data).metrics(recording);
   return closing;
 }
 
@@ -109,12 +110,13 @@ std::optional<FileLock> left_alive(const fs::path& folder) {
 
 }  // namespace
 
-std::string close_session_folder(const fs::path& folder, api::SessionState state, const std::string& cause) {
+std::string close_session_folder(const fs::path& folder, const fs::path& data, api::SessionState state,
+                                 const std::string& cause) {
   std::optional<record::Recording> recording;
   std::optional<Closing> closing;
   try {
     recording.emplace(api::recording_file(folder), record::Recording::Trust::checked);
-    closing = with_recording(*recording, state, cause);
+    closing = with_recording(*recording, data, state, cause);
   } catch (const Error& e) {
     if (e.kind() == ErrorKind::io) throw;
     recording.reset();
@@ -131,6 +133,7 @@ std::string close_session_folder(const fs::path& folder, api::SessionState state
   }
   if (metrics) metrics->commit();
   session.commit();
+  if (metrics) keep_score(folder, data);
   remove_temporaries(folder);
   return closing->words;
 }
@@ -152,7 +155,7 @@ std::vector<std::string> recover_sessions(const fs::path& data) {
     }
     if (!lock) continue;
     try {
-      const std::string words = close_session_folder(entry.path(), api::SessionState::interrupted,
+      const std::string words = close_session_folder(entry.path(), data, api::SessionState::interrupted,
                                                      "the server ended in mid-session");
       lines.push_back("session " + id + ": " + (words.empty() ? "it had ended in order" : words));
     } catch (const Error& e) {

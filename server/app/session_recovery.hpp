@@ -14,8 +14,8 @@ namespace ream::app {
 /// recording that says it was closed keeps the state it says. The caller holds the folder's lock. Returns the
 /// words of session.json. Throws Error when something cannot be read or written; everything is then as it
 /// was.
-std::string close_session_folder(const std::filesystem::path& folder, api::SessionState state,
-                                 const std::string& cause);
+std::string close_session_folder(const std::filesystem::path& folder, const std::filesystem::path& data,
+                                 api::SessionState state, const std::string& cause);
 
 /// Closes every session of the data folder that is live on paper but in no process, as interrupted. Returns a
 /// line for each, whether it could be closed or not.

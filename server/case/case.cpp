@@ -6,6 +6,7 @@
 #include <span>
 
 #include "case/calibration.hpp"
+#include "case/glenoid_json.hpp"
 #include "case/plan.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -21,7 +22,6 @@ namespace {
 
 constexpr int64_t max_dim = 65528;
 constexpr double max_voxels = 4.0e9;
-constexpr double unit_tolerance = 1e-6;
 
 json list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 Vec3 vec3(const std::vector<double>& n) { return {n[0], n[1], n[2]}; }
@@ -42,11 +42,7 @@ json to_json(const Case& c) {
                 {"cortical_threshold_g_cc", c.bone.cortical_threshold_g_cc},
                 {"calibration", to_json(c.calibration)},
                 {"warnings", c.warnings}};
-  if (c.glenoid)
-    value["glenoid"] = {{"centre_mm", list(c.glenoid->centre_mm)},
-                        {"lateral", list(c.glenoid->lateral)},
-                        {"superior", list(c.glenoid->superior)},
-                        {"anterior", list(c.glenoid->anterior)}};
+  if (c.glenoid) value["glenoid"] = to_json(*c.glenoid);
   return value;
 }
 
@@ -68,19 +64,6 @@ voxel::VoxelGrid read_grid(JsonReader& reader) {
     throw Error(e.kind(), reader.place() + ": " + e.what());
   }
   return grid;
-}
-
-GlenoidFrame read_glenoid(JsonReader reader) {
-  GlenoidFrame frame;
-  frame.centre_mm = vec3(reader.numbers("centre_mm", 3));
-  for (const auto& [key, axis] :
-       {std::pair{"lateral", &frame.lateral}, std::pair{"superior", &frame.superior},
-        std::pair{"anterior", &frame.anterior}}) {
-    *axis = vec3(reader.numbers(key, 3));
-    if (!(std::abs(axis->norm() - 1.0) < unit_tolerance)) reader.refuse(key, "must be a unit vector");
-  }
-  reader.finish();
-  return frame;
 }
 
 std::vector<uint8_t> read_voxels(const fs::path& file, const voxel::VoxelGrid& grid) {
@@ -117,7 +100,7 @@ Case load_case_description(const fs::path& folder) {
   c.bone.cortical_threshold_g_cc = reader.number("cortical_threshold_g_cc", 0.0, 3.0);
   if (!reader.has("calibration")) reader.refuse("calibration", "is missing");
   c.calibration = calibration_from_json(value.at("calibration"), reader.place() + ".calibration");
-  if (reader.has("glenoid")) c.glenoid = read_glenoid(reader.object("glenoid"));
+  if (reader.has("glenoid")) c.glenoid = glenoid_from_json(reader.object("glenoid"));
   c.warnings = reader.texts_or_none("warnings");
   reader.finish();
   const fs::path plan = folder / "plan.json";

@@ -26,15 +26,6 @@ std::string one_decimal(double value) {
   return text;
 }
 
-/// Native face, lateral: from the rim landmarks, else from the glenoid frame.
-std::optional<Vec3> native_face(const Landmarks& l, Side side, const GlenoidFrame* glenoid) {
-  const bool rim = l.superior_rim_mm && l.inferior_rim_mm && l.glenoid_centre_mm &&
-                   (l.biconcavity_mm.size() == 3 || (l.anterior_rim_mm && l.posterior_rim_mm));
-  if (rim) return glenoid_frame(l, side).lateral;
-  if (glenoid) return glenoid->lateral;
-  return std::nullopt;
-}
-
 void judge_angles(const Plan& plan, PlanAssessment& a) {
   if (a.correction_rad) {
     const double degrees = degrees_from_radians(*a.correction_rad);
@@ -103,6 +94,14 @@ json degrees_or_null(const std::optional<double>& rad) {
 }
 
 }  // namespace
+
+std::optional<Vec3> native_face(const Landmarks& l, Side side, const GlenoidFrame* glenoid) {
+  const bool rim = l.superior_rim_mm && l.inferior_rim_mm && l.glenoid_centre_mm &&
+                   (l.biconcavity_mm.size() == 3 || (l.anterior_rim_mm && l.posterior_rim_mm));
+  if (rim) return glenoid_frame(l, side).lateral;
+  if (glenoid) return glenoid->lateral;
+  return std::nullopt;
+}
 
 PlanAssessment assess_plan(const Plan& plan, const Landmarks& landmarks, Side side,
                            const voxel::BoneModel* bone, const GlenoidFrame* glenoid) {

@@ -29,6 +29,10 @@ struct PlanAssessment {
 PlanAssessment assess_plan(const Plan& plan, const Landmarks& landmarks, Side side,
                            const voxel::BoneModel* bone = nullptr, const GlenoidFrame* glenoid = nullptr);
 
+/// Normal of the native face, lateral: by the rim landmarks, else that of the glenoid frame (which may be
+/// null); empty without both. Error invalid_input for landmarks that contradict each other.
+std::optional<Vec3> native_face(const Landmarks& landmarks, Side side, const GlenoidFrame* glenoid);
+
 /// One line for people that says how much is asked and what to do; for needs_override.
 std::string why_refused(const PlanAssessment& assessment);
 

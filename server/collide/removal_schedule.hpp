@@ -10,7 +10,7 @@
 namespace ream::collide {
 
 /// Decides which bricks removal looks at in a tick. A brick at the cutting surface is looked at again after
-/// 1/32 voxel of tool motion; one whose bone is farther away, only after the tool has moved that far; an
+/// 1/64 voxel of tool motion; one whose bone is farther away, only after the tool has moved that far; an
 /// empty one never again. Runs on the host from poses and outcomes, so every device visits the same bricks.
 /// No allocation after construction; memory is a bit a brick and 16 bytes for each brick that fits around
 /// the tool.
@@ -18,7 +18,7 @@ class RemovalSchedule {
  public:
   /// Motion after which a brick is due again, in voxels (one coverage step is 1/255 voxel; creep is far
   /// below).
-  static constexpr double revisit_voxels = 1.0 / 32.0;
+  static constexpr double revisit_voxels = 1.0 / 64.0;
 
   /// Bricks cut in one tick at most; a quarter in ticks that first list the bricks near the tool, once in a
   /// voxel of motion. Where more are due (when the tool comes to bone that it has not been near, a few

@@ -196,4 +196,12 @@ std::vector<ops::Checkpoint> Recording::checkpoints() const {
   return found;
 }
 
+std::optional<ops::Checkpoint> Recording::last_checkpoint() const {
+  std::optional<ops::Checkpoint> found;
+  const Taking take{[&](const ops::Checkpoint& op) { found = op; }};
+  for (size_t i = tick_chunks_.size(); i-- > 0 && !found;)
+    ops::read(log_.read_chunk(tick_chunks_[i]), log_.revision(), take);
+  return found;
+}
+
 }  // namespace ream::record

@@ -44,6 +44,8 @@ class Recording {
   std::vector<ops::Tick> ticks(uint32_t first, uint32_t last) const;
   /// Of the chunk that holds the tick; the last chunk with ticks for ticks beyond it.
   size_t chunk_of(uint32_t tick) const;
+  /// The last one; empty without any (reads chunks from the end until it is found).
+  std::optional<ops::Checkpoint> last_checkpoint() const;
   /// All checkpoints, in order (reads the whole file).
   std::vector<ops::Checkpoint> checkpoints() const;
 

@@ -37,4 +37,13 @@ Mat4f clip_from_camera(double vertical_field_of_view_rad, double aspect, double 
   return result;
 }
 
+std::optional<std::array<double, 2>> place_in_picture(const Camera& camera, double aspect,
+                                                      const Vec3& world_mm) {
+  const Eigen::Vector4d world(world_mm.x(), world_mm.y(), world_mm.z(), 1.0);
+  const Eigen::Vector4d seen = camera_from_world(camera).cast<double>() * world;
+  if (seen.z() >= 0.0) return std::nullopt;
+  const double half_height = -seen.z() * std::tan(0.5 * camera.vertical_field_of_view_rad);
+  return std::array{0.5 + 0.5 * seen.x() / (half_height * aspect), 0.5 - 0.5 * seen.y() / half_height};
+}
+
 }  // namespace ream::render

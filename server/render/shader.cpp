@@ -5,11 +5,14 @@ namespace ream::render {
 const char* const vertex_shader = R"(#version 120
 attribute vec3 position;
 attribute vec3 normal;
+attribute vec4 vertex_colour;
 uniform mat4 camera_from_mesh;
 uniform mat4 clip_from_camera;
 varying vec3 camera_position;
 varying vec3 camera_normal;
+varying vec4 own_colour;
 void main() {
+  own_colour = vertex_colour;
   vec4 p = camera_from_mesh * vec4(position, 1.0);
   camera_position = p.xyz;
   camera_normal = mat3(camera_from_mesh) * normal;
@@ -21,8 +24,10 @@ const char* const fragment_shader = R"(#version 120
 uniform vec3 colour;
 uniform float opacity;
 uniform bool has_normals;
+uniform bool has_colours;
 varying vec3 camera_position;
 varying vec3 camera_normal;
+varying vec4 own_colour;
 
 vec3 srgb(vec3 linear) {
   vec3 c = clamp(linear, 0.0, 1.0);
@@ -40,7 +45,15 @@ void main() {
                vec3(0.85, 0.90, 1.00) * (0.16 * max(dot(n, fill), 0.0)) +
                mix(vec3(0.13, 0.12, 0.11), vec3(0.24, 0.25, 0.26), 0.5 + 0.5 * n.y);
   float shine = pow(max(dot(n, normalize(key + to_eye)), 0.0), 40.0);
-  gl_FragColor = vec4(srgb(colour * light + vec3(0.06 * shine)), opacity);
+  vec3 surface = colour;
+  if (has_colours) {
+    surface = pow(own_colour.rgb, vec3(2.2));
+    bool stripe = mod(gl_FragCoord.x + gl_FragCoord.y, 18.0) < 5.0;
+    if (own_colour.a > 0.5 && stripe) surface *= 0.25;
+    light = mix(vec3(0.95), light, 0.4);
+    shine = 0.0;
+  }
+  gl_FragColor = vec4(srgb(surface * light + vec3(0.06 * shine)), opacity);
 }
 )";
 

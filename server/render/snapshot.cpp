@@ -21,7 +21,7 @@ namespace {
 constexpr int oversampling = 2;
 constexpr int max_edge_pixels = 8192;  // 16384 in OSMesa before downsampling
 constexpr std::array<float, 3> background = {0.949f, 0.945f, 0.937f};
-constexpr GLuint position_attribute = 0, normal_attribute = 1;
+constexpr GLuint position_attribute = 0, normal_attribute = 1, colour_attribute = 2;
 
 /// An OSMesa context that is current on this thread as long as it lives.
 class Context {
@@ -53,6 +53,7 @@ GLuint linked_program() {
   glAttachShader(program, compiled(GL_FRAGMENT_SHADER, fragment_shader));
   glBindAttribLocation(program, position_attribute, "position");
   glBindAttribLocation(program, normal_attribute, "normal");
+  glBindAttribLocation(program, colour_attribute, "vertex_colour");
   glLinkProgram(program);
   GLint good = GL_FALSE;
   glGetProgramiv(program, GL_LINK_STATUS, &good);
@@ -91,20 +92,28 @@ void draw_mesh(const Layer& layer, const Mat4f& camera_from_world, GLuint progra
   if (mesh.triangles.empty()) return;
   const Mat4f camera_from_mesh = camera_from_world * matrix(layer.world_from_mesh);
   const bool has_normals = mesh.normals.size() == mesh.vertices_mm.size();
+  const bool has_colours = layer.colours && layer.colours->size() == mesh.vertices_mm.size();
   glUniformMatrix4fv(glGetUniformLocation(program, "camera_from_mesh"), 1, GL_FALSE, camera_from_mesh.data());
   glUniform3fv(glGetUniformLocation(program, "colour"), 1, layer.colour.data());
   glUniform1f(glGetUniformLocation(program, "opacity"), layer.opacity);
   glUniform1i(glGetUniformLocation(program, "has_normals"), has_normals ? 1 : 0);
+  glUniform1i(glGetUniformLocation(program, "has_colours"), has_colours ? 1 : 0);
   glEnableVertexAttribArray(position_attribute);
   glVertexAttribPointer(position_attribute, 3, GL_FLOAT, GL_FALSE, sizeof(Vec3f), mesh.vertices_mm.data());
   if (has_normals) {
     glEnableVertexAttribArray(normal_attribute);
     glVertexAttribPointer(normal_attribute, 3, GL_FLOAT, GL_FALSE, sizeof(Vec3f), mesh.normals.data());
   }
+  if (has_colours) {
+    glEnableVertexAttribArray(colour_attribute);
+    glVertexAttribPointer(colour_attribute, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(VertexColour),
+                          layer.colours->data());
+  }
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * mesh.triangles.size()), GL_UNSIGNED_INT,
                  mesh.triangles.data());
   glDisableVertexAttribArray(position_attribute);
   glDisableVertexAttribArray(normal_attribute);
+  glDisableVertexAttribArray(colour_attribute);
 }
 
 /// Depth first, then colour only where the layer is nearest to the eye: its far side does not shine through.

@@ -6,12 +6,19 @@
 
 namespace ream::render {
 
+/// sRGB; `hatch` of 255 strikes the surface with dark stripes, so that it can be told apart without colours.
+struct VertexColour {
+  uint8_t red = 255, green = 255, blue = 255, hatch = 0;
+};
+
 /// One mesh of a picture, world frame, lit from the camera; vertex normals are used where present.
 struct Layer {
   const TriangleMesh* mesh = nullptr;
   Pose world_from_mesh;
   Vec3f colour{0.91f, 0.86f, 0.76f};  ///< linear RGB, 0 to 1
   float opacity = 1.0f;               ///< below 1: drawn after the opaque layers
+  /// One a vertex, in place of colour; lit evenly, so that they stay what they are.
+  const std::vector<VertexColour>* colours = nullptr;
 };
 
 /// Perspective camera.
@@ -29,6 +36,9 @@ struct Image {
 /// Draws with OSMesa (no display needed). Throws Error unavailable when no context can be made.
 Image draw(const std::vector<Layer>& layers, const Camera& camera, int width, int height);
 
+/// The bytes of a PNG file. Error invalid_input for a picture without pixels, or with another number than its
+/// size says.
+std::vector<std::byte> png_of(const Image& image);
 /// Atomic PNG; Error io names the path.
 void write_png(const std::filesystem::path& path, const Image& image);
 

@@ -30,6 +30,14 @@ void MetricsAccumulator::add(const record::TickReport& r) {
   for (size_t k = 0; k < voxel::bone_class_count; ++k) coverage_removed_[k] += r.coverage_removed[k];
   if (touched_ && r.changed_bricks > 0) deepest_mm_ = std::max(deepest_mm_, axial_mm);
   follow_rise(r, axial_mm);
+  if (r.engaged && r.spindle_on) thrust_excess_n_s_ += std::max(0.0, r.thrust_n - excess_from_n) * tick_s;
+  const Pose bone_from_tool = r.world_from_bone_rest.inverse() * r.world_from_tool;
+  cut_axis_.add(plan_from_world_ * bone_from_tool,
+                r.coverage_removed[0] + r.coverage_removed[1] + r.coverage_removed[2]);
+  breakthrough_.add(r, axial_mm);
+  plate_stop_.add(r, axial_mm);
+  passes_.add(r);
+  path_.add(in_bone_mm, r.engaged, r.paused);
 }
 
 void MetricsAccumulator::follow_rise(const record::TickReport& r, double axial_mm) {
@@ -65,6 +73,37 @@ Metrics MetricsAccumulator::metrics() const {
   m.contact_time_s = static_cast<double>(contact_ticks_) * tick_s;
   m.session_hash = session_hash_;
   return m;
+}
+
+Findings MetricsAccumulator::handling() const {
+  Findings f;
+  f.say("axial_thrust_excess_n_s", thrust_excess_n_s_);
+  f.leave("apparent_stiffness_n_mm", "thrust has not risen from 1 N to 90 % of 52 N in one go");
+  f.say("passes", passes_.count());
+  f.say("path_in_contact_mm", path_.in_contact_mm());
+  f.say("path_out_of_contact_mm", path_.in_the_air_mm());
+  const Strokes& strokes = path_.strokes();
+  f.say("strokes", strokes.count());
+  const char* no_stroke = "the tool made no stroke";
+  f.say_or_leave("sparc", strokes.mean_sparc(), no_stroke);
+  f.say_or_leave("ldlj", strokes.mean_ldlj(), no_stroke);
+  const AdvanceUntilRelease& inside = breakthrough_.inside();
+  if (inside.advance()) {
+    f.say("breakthrough_advance_mm", inside.advance()->mm);
+    f.say("breakthrough_time_s", inside.advance()->s);
+  } else {
+    for (const char* key : {"breakthrough_advance_mm", "breakthrough_time_s"})
+      f.leave(key, inside.begun() ? "thrust has not fallen below 5 N since cancellous bone was reached"
+                                  : "no cancellous bone was pressed on");
+  }
+  if (plate_stop_.beyond().advance())
+    f.say("plate_overrun_mm", plate_stop_.beyond().advance()->mm);
+  else
+    f.leave("plate_overrun_mm", !plate_stop_.touched_cartilage() ? "no cartilage was reamed"
+                                : plate_stop_.beyond().begun()
+                                    ? "thrust has not fallen below 5 N since the plate was reached"
+                                    : "the plate under the cartilage was not reached");
+  return f;
 }
 
 nlohmann::json metrics_json(const Metrics& m, double force_scale, const uint64_t* grid_hash) {

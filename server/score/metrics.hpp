@@ -3,6 +3,11 @@
 #include <optional>
 
 #include "record/tick_report.hpp"
+#include "score/breakthrough.hpp"
+#include "score/contact_passes.hpp"
+#include "score/cut_axis.hpp"
+#include "score/findings.hpp"
+#include "score/tool_path.hpp"
 #include "voxel/bone_model.hpp"
 
 namespace ream::score {
@@ -31,6 +36,9 @@ struct Metrics {
 /// N.
 inline constexpr double stiffness_from_n = 1.0, stiffness_to_n = 0.9 * 52.0;
 
+/// Thrust beyond this is excess: 1.5 times the experiments' 52 N (science 2.2).
+inline constexpr double excess_from_n = 78.0;
+
 /// Accumulates metrics from tick reports, in order. Sums in a fixed order, so equal runs give equal bytes.
 class MetricsAccumulator {
  public:
@@ -38,6 +46,10 @@ class MetricsAccumulator {
   MetricsAccumulator(double voxel_volume_mm3, const Pose& plan_from_world);
   void add(const record::TickReport& report);
   Metrics metrics() const;
+  /// How the tool was handled: what ticks say beside those.
+  Findings handling() const;
+  /// Along which line it cut last; plan frame.
+  std::optional<CutLine> cut_line() const { return cut_axis_.line(); }
 
  private:
   void follow_rise(const record::TickReport& report, double axial_mm);
@@ -54,6 +66,12 @@ class MetricsAccumulator {
   bool risen_ = false;
   std::optional<double> apparent_stiffness_n_mm_;
   uint64_t session_hash_ = 0;
+  double thrust_excess_n_s_ = 0.0;
+  CutAxis cut_axis_;
+  Breakthrough breakthrough_;
+  PlateStop plate_stop_;
+  ContactPasses passes_;
+  ToolPath path_;
 };
 
 /// The keys of metrics.json (DESIGN 4). `grid_hash` is null when not given (a run still going on).

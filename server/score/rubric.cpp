@@ -1,78 +1,101 @@
 #include "score/rubric.hpp"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <rubrics.hpp>
+#include <set>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/hash.hpp"
 #include "core/json_reader.hpp"
+#include "score/band_json.hpp"
 
 namespace ream::score {
 namespace {
 
 using nlohmann::json;
 
-double points_of(const Criterion& c, double value) {
-  return 100.0 * std::clamp((value - c.none) / (c.full - c.none), 0.0, 1.0);
+Criterion criterion_from(JsonReader& reader) {
+  Criterion c;
+  c.metric = reader.text("metric");
+  if (reader.has("none") || reader.has("full")) {
+    c.ramp = Ramp{reader.number("none"), reader.number("full")};
+    if (c.ramp->none == c.ramp->full) reader.refuse("full", "must differ from none");
+  }
+  if (reader.has("band")) c.band = band_from_json(reader.object("band"));
+  c.weight = reader.number_or("weight", 1.0, 0.0, 1e6);
+  c.critical = reader.boolean_or("critical", false);
+  reader.finish();
+  const bool without_limits = c.judged_by().better == Better::report_only;
+  if (!c.ramp && without_limits)
+    reader.refuse("metric",
+                  "is '" + c.metric + "', which has no limits of its own; give none and full, or a band");
+  if (c.critical && without_limits)
+    reader.refuse("critical", "needs limits, and '" + c.metric + "' has none of its own; give a band");
+  return c;
 }
 
-json or_null(const std::optional<double>& number) { return number ? json(*number) : json(nullptr); }
+json criterion_json(const Criterion& c) {
+  json value = {{"metric", c.metric}, {"weight", c.weight}};
+  if (c.ramp) {
+    value["none"] = c.ramp->none;
+    value["full"] = c.ramp->full;
+  }
+  if (c.band) value["band"] = band_json(*c.band);
+  if (c.critical) value["critical"] = true;
+  return value;
+}
 
 }  // namespace
 
+Band Criterion::judged_by() const {
+  if (band) return *band;
+  const Metric* known = find_metric(metric);
+  return known ? known->band : Band{};
+}
+
 Rubric load_rubric(const std::filesystem::path& path) {
-  const json value = read_json_file(path);
-  JsonReader reader(value, path.string());
+  return rubric_from_json(read_json_file(path), path.string());
+}
+
+Rubric rubric_from_json(const json& value, const std::string& place) {
+  JsonReader reader(value, place);
   Rubric rubric;
   rubric.name = reader.text("name");
+  if (rubric.name.empty()) reader.refuse("name", "must not be empty");
   rubric.version = static_cast<int>(reader.integer("version", 1, 1'000'000));
+  rubric.remark = reader.text_or("remark", "");
+  if (reader.has("pass_points")) rubric.pass_points = reader.number("pass_points", 0.0, 100.0);
+  rubric.least_said_percent = reader.number_or("least_said_percent", 50.0, 0.0, 100.0);
+  std::set<std::string> metrics;
   for (JsonReader& entry : reader.objects("criteria")) {
-    Criterion c;
-    c.metric = entry.text("metric");
-    c.none = entry.number("none");
-    c.full = entry.number("full");
-    c.weight = entry.number_or("weight", 1.0, 0.0, 1e6);
-    entry.finish();
-    if (c.none == c.full) entry.refuse("full", "must differ from none");
-    rubric.criteria.push_back(c);
+    rubric.criteria.push_back(criterion_from(entry));
+    if (!metrics.insert(rubric.criteria.back().metric).second)
+      entry.refuse("metric", "is '" + rubric.criteria.back().metric + "' a second time");
   }
   reader.finish();
   if (rubric.criteria.empty()) reader.refuse("criteria", "must name at least one metric");
   return rubric;
 }
 
-Score apply_rubric(const Rubric& rubric, const json& metrics) {
-  Score score;
-  double sum = 0.0, weights = 0.0;
-  for (const Criterion& c : rubric.criteria) {
-    const auto found = metrics.find(c.metric);
-    if (found == metrics.end() || !(found->is_number() || found->is_null()))
-      throw Error(ErrorKind::invalid_input, "rubric '" + rubric.name + "': there is no metric '" + c.metric +
-                                                "' with a number; metrics.json names them");
-    CriterionScore scored{c.metric, std::nullopt, std::nullopt, c.weight};
-    if (found->is_number()) {
-      scored.value = found->get<double>();
-      scored.points = points_of(c, *scored.value);
-      sum += c.weight * *scored.points;
-      weights += c.weight;
-    }
-    score.criteria.push_back(scored);
-  }
-  if (weights > 0.0) score.points = sum / weights;
-  return score;
+json rubric_json(const Rubric& rubric) {
+  json criteria = json::array();
+  for (const Criterion& c : rubric.criteria) criteria.push_back(criterion_json(c));
+  json value = {{"name", rubric.name},
+                {"version", rubric.version},
+                {"least_said_percent", rubric.least_said_percent},
+                {"criteria", std::move(criteria)}};
+  if (!rubric.remark.empty()) value["remark"] = rubric.remark;
+  if (rubric.pass_points) value["pass_points"] = *rubric.pass_points;
+  return value;
 }
 
-json to_json(const Rubric& rubric, const Score& score) {
-  json criteria = json::array();
-  for (const CriterionScore& c : score.criteria)
-    criteria.push_back({{"metric", c.metric},
-                        {"value", or_null(c.value)},
-                        {"points", or_null(c.points)},
-                        {"weight", c.weight}});
-  return {{"rubric", rubric.name},
-          {"version", rubric.version},
-          {"points", or_null(score.points)},
-          {"criteria", std::move(criteria)}};
+uint64_t rubric_hash(const Rubric& rubric) { return hash_text(rubric_json(rubric).dump()); }
+
+const Rubric& standard_rubric() {
+  static const Rubric standard =
+      rubric_from_json(json::parse(embedded::rubrics::find("standard.json")), "the standard rubric");
+  return standard;
 }
 
 }  // namespace ream::score

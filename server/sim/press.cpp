@@ -25,7 +25,7 @@ Pose moved_within_a_voxel(const Model& model, const Pose& world_from_tool, const
 /// Bone is felt up to a voxel ahead of the surface that cuts, so that cutting does not clear its own contact.
 /// A tool that comes back to a place it has reamed would feel that voxel as bone and sink through it at the
 /// feed law's pace, cutting nothing. So until lips bite, and when they have gone this far without, what they
-/// meet counts as a gap that hardly resists. Bone that is cut is looked at every 1/32 voxel.
+/// meet counts as a gap that hardly resists. Bone that is cut is looked at every 1/64 voxel.
 constexpr double bites_within_voxels = 0.125;
 constexpr double gap_resistance_share = 0.01;
 

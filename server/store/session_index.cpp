@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 
 #include "store/sql.hpp"
 
@@ -9,8 +10,8 @@ namespace ream::store {
 namespace {
 
 /// In order of SessionOrder.
-constexpr std::array<const char*, 5> order_columns{"created_utc", "duration_s", "case_id", "trainee",
-                                                   "state"};
+constexpr std::array<const char*, 6> order_columns{"created_utc", "duration_s", "case_id",
+                                                   "trainee",     "state",      "points"};
 
 /// Puts row after row by statements that are prepared once.
 class RowWriter {
@@ -21,6 +22,7 @@ class RowWriter {
     row_ = row;
     search_ = searched_text(row);
     lasting_ = row.lasting ? 1 : 0;
+    points_ = row.points.value_or(without_points);
     for (std::string* text : texts()) *text = storable(*text);
     session_.execute(true);
     record_.execute(true);
@@ -29,8 +31,9 @@ class RowWriter {
  private:
   /// In the order of their parameters, and the record.
   std::vector<std::string*> texts() {
-    return {&row_.id,      &row_.case_id, &row_.script,      &row_.state, &row_.created_utc, &row_.trainee_id,
-            &row_.trainee, &row_.study,   &row_.participant, &row_.title, &search_,          &row_.record};
+    return {&row_.id,         &row_.case_id, &row_.script, &row_.state,       &row_.created_utc,
+            &row_.trainee_id, &row_.trainee, &row_.study,  &row_.participant, &row_.title,
+            &search_,         &row_.outcome, &row_.record};
   }
   soci::statement session_statement(Sql& sql);
   soci::statement record_statement(Sql& sql);
@@ -38,6 +41,7 @@ class RowWriter {
   SessionRow row_;
   std::string search_;
   int lasting_ = 0;
+  double points_ = without_points;
   soci::statement session_, record_;
 };
 
@@ -46,16 +50,19 @@ soci::statement RowWriter::session_statement(Sql& sql) {
       sql,
       "INSERT INTO sessions (id, case_id, script, state, created_utc, trainee_id, trainee, study, "
       "participant, "
-      "title, search, duration_s, stamp, lasting) VALUES (:id, :case_id, :script, :state, :created_utc, "
-      ":trainee_id, :trainee, :study, :participant, :title, :search, :duration_s, :stamp, :lasting) "
+      "title, search, outcome, duration_s, stamp, lasting, points) VALUES (:id, :case_id, :script, :state, "
+      ":created_utc, "
+      ":trainee_id, :trainee, :study, :participant, :title, :search, :outcome, :duration_s, :stamp, "
+      ":lasting, :points) "
       "ON CONFLICT (id) DO UPDATE SET case_id = excluded.case_id, script = excluded.script, "
       "state = excluded.state, created_utc = excluded.created_utc, duration_s = excluded.duration_s, "
       "trainee_id = excluded.trainee_id, trainee = excluded.trainee, study = excluded.study, "
       "participant = excluded.participant, title = excluded.title, search = excluded.search, "
-      "stamp = excluded.stamp, lasting = excluded.lasting");
+      "stamp = excluded.stamp, lasting = excluded.lasting, points = excluded.points, "
+      "outcome = excluded.outcome");
   for (const std::string* text : texts())
     if (text != &row_.record) statement.with(*text);
-  return statement.with(row_.duration_s).with(row_.stamp).with(lasting_).prepared();
+  return statement.with(row_.duration_s).with(row_.stamp).with(lasting_).with(points_).prepared();
 }
 
 soci::statement RowWriter::record_statement(Sql& sql) {
@@ -112,6 +119,21 @@ std::string pattern_of(const std::string& word) {
   return pattern + "%";
 }
 
+/// As it stands in a statement.
+std::string literal(double number) {
+  std::array<char, 32> text;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
+}
+
+void add_marks(const SessionQuery& query, Conditions& conditions) {
+  std::vector<std::string> outcomes = query.outcomes;
+  std::replace(outcomes.begin(), outcomes.end(), std::string("none"), std::string());
+  conditions.add_set("outcome", outcomes, false);
+  if (query.points_from || query.points_to) conditions.add("points >= 0");
+  if (query.points_from) conditions.add("points >= " + literal(*query.points_from));
+  if (query.points_to) conditions.add("points <= " + literal(*query.points_to));
+}
+
 Conditions filters_of(const SessionQuery& query, const std::vector<std::string>& except) {
   Conditions conditions;
   conditions.add_set("id", except, true);
@@ -123,23 +145,40 @@ Conditions filters_of(const SessionQuery& query, const std::vector<std::string>&
                                       {"created_utc >= ", &query.created_from},
                                       {"created_utc < ", &query.created_before}})
     conditions.add_if_given(column + conditions.next_name(), *value);
+  add_marks(query, conditions);
   if (query.outside_studies) conditions.add("study = ''");
   for (const std::string& word : searched_words(query))
     conditions.add("search LIKE " + conditions.next_name() + " ESCAPE '\\'", pattern_of(word));
   return conditions;
 }
 
-void read_columns(OpenStatement& statement, SessionRow& row, int& lasting) {
+/// What a row is read into where its own fields are of other types.
+struct Read {
+  SessionRow row;
+  int lasting = 0;
+  double points = without_points;
+
+  SessionRow whole() const {
+    SessionRow made = row;
+    made.lasting = lasting != 0;
+    made.points = points < 0.0 ? std::nullopt : std::optional(points);
+    return made;
+  }
+};
+
+void read_columns(OpenStatement& statement, Read& read) {
+  SessionRow& row = read.row;
   statement.into(row.id).into(row.case_id).into(row.script).into(row.state).into(row.created_utc);
   statement.into(row.duration_s).into(row.trainee_id).into(row.trainee).into(row.study);
-  statement.into(row.participant).into(row.title).into(row.stamp).into(lasting).into(row.record);
+  statement.into(row.participant).into(row.title).into(row.stamp).into(read.lasting).into(read.points);
+  statement.into(row.outcome).into(row.record);
 }
 
 /// Rows of `from`, a query that gives all columns of the table, with their records.
 std::string with_records(const std::string& from) {
   return "SELECT p.id, case_id, script, state, created_utc, duration_s, trainee_id, trainee, study, "
          "participant, "
-         "title, stamp, lasting, record FROM (" +
+         "title, stamp, lasting, points, outcome, record FROM (" +
          from + ") p JOIN session_records r ON r.id = p.id";
 }
 
@@ -163,19 +202,16 @@ std::vector<SessionRow> page(Sql& sql, const SessionQuery& query, Conditions con
       sql, with_records("SELECT * FROM sessions" + conditions.text() + order("id") + " LIMIT :rows") +
                order("p.id"));
   for (const std::string& value : conditions.values()) statement.with(value);
-  const double number = place && query.order == SessionOrder::duration ? duration_of(*place) : 0.0;
-  if (place && query.order == SessionOrder::duration) statement.with(number).with(place->id);
-  if (place && query.order != SessionOrder::duration) statement.with(place->key).with(place->id);
+  const bool numbers = by_number(query.order);
+  const double number = place && numbers ? number_of(*place) : 0.0;
+  if (place && numbers) statement.with(number).with(place->id);
+  if (place && !numbers) statement.with(place->key).with(place->id);
   const auto most = static_cast<long long>(std::min<size_t>(query.limit, INT64_MAX - 1) + 1);
   statement.with(most);
   std::vector<SessionRow> rows;
-  SessionRow row;
-  int lasting = 0;
-  read_columns(statement, row, lasting);
-  statement.each([&] {
-    row.lasting = lasting != 0;
-    rows.push_back(row);
-  });
+  Read read;
+  read_columns(statement, read);
+  statement.each([&] { rows.push_back(read.whole()); });
   return rows;
 }
 
@@ -202,15 +238,11 @@ void SessionIndex::replace_all(const std::vector<SessionRow>& rows) {
 std::optional<SessionRow> SessionIndex::get(const std::string& id) const {
   return database_.read([&](Sql& sql) {
     std::optional<SessionRow> found;
-    SessionRow row;
-    int lasting = 0;
+    Read read;
     OpenStatement statement(sql, with_records("SELECT * FROM sessions WHERE id = :id"));
     statement.with(id);
-    read_columns(statement, row, lasting);
-    statement.each([&] {
-      row.lasting = lasting != 0;
-      found = row;
-    });
+    read_columns(statement, read);
+    statement.each([&] { found = read.whole(); });
     return found;
   });
 }

@@ -5,12 +5,13 @@
 #include <charconv>
 
 #include "core/error.hpp"
+#include "core/hex.hpp"
 
 namespace ream::store {
 namespace {
 
-constexpr std::array<const char*, 5> order_words{"created_utc", "duration_s", "case", "trainee", "state"};
-constexpr char digits[] = "0123456789abcdef";
+constexpr std::array<const char*, 6> order_words{"created_utc", "duration_s", "case",
+                                                 "trainee",     "state",      "points"};
 
 std::string number_text(double number) {
   std::array<char, 32> text;
@@ -29,14 +30,16 @@ std::string key_of(SessionOrder order, const SessionRow& row) {
       return row.trainee;
     case SessionOrder::state:
       return row.state;
+    case SessionOrder::points:
+      return number_text(row.points.value_or(without_points));
   }
   return {};
 }
 
 /// Less than zero: `a` comes first in ascending order.
 int compare(SessionOrder order, const SessionPlace& a, const SessionPlace& b) {
-  if (order == SessionOrder::duration) {
-    const double first = duration_of(a), second = duration_of(b);
+  if (by_number(order)) {
+    const double first = number_of(a), second = number_of(b);
     if (first != second) return first < second ? -1 : 1;
   } else if (const int keys = a.key.compare(b.key); keys != 0) {
     return keys;
@@ -51,34 +54,27 @@ std::string order_mark(const SessionQuery& query) {
   return std::string(query.descending ? "-" : "+") + order_words[static_cast<size_t>(query.order)];
 }
 
-std::string hex_of(const std::string& text) {
-  std::string hex;
-  for (const char c : text) {
-    hex += digits[static_cast<unsigned char>(c) >> 4];
-    hex += digits[static_cast<unsigned char>(c) & 15];
-  }
-  return hex;
-}
-
-/// Empty for what is no hex.
-std::string text_from_hex(const std::string& hex) {
-  std::string text;
-  for (size_t i = 0; i + 1 < hex.size(); i += 2) {
-    const char* high = std::char_traits<char>::find(digits, 16, hex[i]);
-    const char* low = std::char_traits<char>::find(digits, 16, hex[i + 1]);
-    if (high == nullptr || low == nullptr) return {};
-    text += static_cast<char>((high - digits) * 16 + (low - digits));
-  }
-  return hex.size() % 2 == 0 ? text : std::string();
-}
-
 bool is_or_any(const std::string& wanted, const std::string& value) {
   return wanted.empty() || wanted == value;
 }
 
+bool is_among(const std::vector<std::string>& wanted, const std::string& value) {
+  return wanted.empty() || std::find(wanted.begin(), wanted.end(), value) != wanted.end();
+}
+
+bool has_wanted_points(const SessionQuery& query, const SessionRow& row) {
+  if (!query.points_from && !query.points_to) return true;
+  return row.points && *row.points >= query.points_from.value_or(*row.points) &&
+         *row.points <= query.points_to.value_or(*row.points);
+}
+
 }  // namespace
 
-double duration_of(const SessionPlace& place) {
+bool by_number(SessionOrder order) {
+  return order == SessionOrder::duration || order == SessionOrder::points;
+}
+
+double number_of(const SessionPlace& place) {
   double number = 0.0;
   std::from_chars(place.key.data(), place.key.data() + place.key.size(), number);
   return number;
@@ -91,8 +87,9 @@ std::optional<SessionOrder> session_order_from(const std::string& word) {
 }
 
 bool matches(const SessionQuery& query, const SessionRow& row) {
-  const auto& states = query.states;
-  if (!states.empty() && std::find(states.begin(), states.end(), row.state) == states.end()) return false;
+  if (!is_among(query.states, row.state) || !has_wanted_points(query, row) ||
+      !is_among(query.outcomes, row.outcome.empty() ? "none" : row.outcome))
+    return false;
   if (!is_or_any(query.case_id, row.case_id) || !is_or_any(query.trainee_id, row.trainee_id) ||
       !is_or_any(query.study, row.study) || !is_or_any(query.participant, row.participant))
     return false;
@@ -121,7 +118,7 @@ std::string cursor_behind(const SessionQuery& query, const SessionRow& row) {
 
 std::optional<SessionPlace> place_of_cursor(const SessionQuery& query) {
   if (query.cursor.empty()) return std::nullopt;
-  const std::string text = text_from_hex(query.cursor), mark = order_mark(query) + '\n';
+  const std::string text = bytes_from_hex(query.cursor), mark = order_mark(query) + '\n';
   const size_t end = text.find('\n', mark.size());
   if (!text.starts_with(mark) || end == std::string::npos || text.find('\0') != std::string::npos)
     throw Error(ErrorKind::invalid_input,

@@ -135,7 +135,7 @@ class Comparison {
     ++tally_.at_surface;
     note_extremes(was, is, distance_mm, settled_mm);
     const double low = level(distance_mm - fine_step_mm_ - tolerance_mm_) - 1.0;
-    const double high = level(settled_mm + edge_mm_ / 32.0 + tolerance_mm_) + 1.0;
+    const double high = level(settled_mm + edge_mm_ / 64.0 + tolerance_mm_) + 1.0;
     tally_.off_at_surface += is < std::min<double>(was, low) || is > std::min<double>(was, high);
   }
 
@@ -160,7 +160,7 @@ class Comparison {
   double level(double distance_mm) const {
     return std::clamp(255.0 * (0.5 + distance_mm / edge_mm_), 0.0, 255.0);
   }
-  double inside_mm() const { return edge_mm_ * (0.5 + 1.0 / 32.0) + tolerance_mm_; }
+  double inside_mm() const { return edge_mm_ * (0.5 + 1.0 / 64.0) + tolerance_mm_; }
   double outside_mm() const { return edge_mm_ * 0.5 + tolerance_mm_; }
 
   const voxel::BoneModel& bone_;

@@ -13,7 +13,7 @@ struct SweptTally {
   size_t voxels = 0;       ///< of the grid
   size_t bone_before = 0;  ///< had coverage before the first tick
   size_t must_be_gone =
-      0;  ///< centre inside the swept body by more than half a voxel, 1/32 voxel and tolerance
+      0;  ///< centre inside the swept body by more than half a voxel, 1/64 voxel and tolerance
   size_t must_be_kept = 0;  ///< centre outside by more than half a voxel and tolerance
   size_t at_surface = 0;    ///< between the two: coverage held against the distance
   size_t not_gone = 0, not_kept = 0, off_at_surface = 0;  ///< wrong
@@ -31,7 +31,7 @@ struct SweptTally {
 
 /// Compares every voxel with the body swept over the poses at which the tool cut, a
 /// pose for every 1/64 voxel of motion. Expected coverage falls from 255 half a voxel (smallest edge) outside
-/// to 0 half a voxel inside; the tool may have moved 1/32 voxel since the last look, and `tolerance_mm` is
+/// to 0 half a voxel inside; the tool may have moved 1/64 voxel since the last look, and `tolerance_mm` is
 /// allowed for the body itself. Bone must be gone where the tool went on cutting until every brick near it
 /// had its turn, and whole where it never cut. `before`: coverage after the pilot hole and before the first
 /// tick.

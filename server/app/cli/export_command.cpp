@@ -1,16 +1,16 @@
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/commands.hpp"
+#include "app/cli/terminal_progress.hpp"
 #include "app/data_folder.hpp"
 #include "app/export_session.hpp"
 #include "app/recorded_session.hpp"
-#include "app/session_bundle.hpp"
 #include "core/error.hpp"
-#include "core/log.hpp"
-#include "geometry/mesh_export.hpp"
+#include "score/rubric_shelf.hpp"
 
 namespace ream::app {
 namespace {
@@ -18,37 +18,47 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string session, case_name;
+  std::string session, case_name, format, rubric, benchmark;
   fs::path out;
 };
 
+ExportRequest request_of(const Options& options, const fs::path& data) {
+  ExportRequest request;
+  request.recording = recording_path(options.session, data);
+  request.case_name = options.case_name;
+  request.data = data;
+  if (!options.rubric.empty())
+    request.rubric = score::find_rubric(options.rubric, score::RubricShelf(rubrics_folder(data)));
+  if (!options.benchmark.empty()) request.benchmark = score::load_benchmark(options.benchmark);
+  return request;
+}
+
 void export_session(const Options& options, const GlobalOptions& global) {
-  const fs::path data = data_folder(global.data);
-  const fs::path file = recording_path(options.session, data);
-  const std::string kind = options.out.extension();
-  if (kind != ".csv" && kind != ".png" && kind != ".zip" && !is_mesh_file_ending(kind))
-    throw Error(ErrorKind::usage, "--out " + options.out.string() +
-                                      " must end in .csv (force trace), .ply, .stl or .glb (reamed surface), "
-                                      ".png (picture) or .zip (bundle)");
-  if (kind == ".zip") {
-    write_session_bundle(file, options.case_name, data, options.out);
-  } else {
-    const record::Recording recording(file, record::Recording::Trust::checked);
-    if (const std::string& damage = recording.log().damage(); !damage.empty()) log::warn(damage);
-    if (kind == ".csv") {
-      export_trace(recording, options.out);
-    } else {
-      case_::Case bone_case = case_of(recording, options.case_name, data);
-      if (kind == ".png")
-        export_picture(recording, bone_case, options.out);
-      else
-        export_surface(recording, bone_case, options.out);
-    }
-  }
+  const ExportFormat& format = export_format_of(options.format, options.out);
+  if (format.kind != ExportKind::report && !(options.rubric.empty() && options.benchmark.empty()))
+    throw Error(ErrorKind::usage,
+                "--rubric and --benchmark are for reports, and " + options.out.string() + " will be none");
+  catch_interrupts();
+  const TerminalProgress progress;
+  format.write(request_of(options, data_folder(global.data)), options.out, std::cref(progress));
   if (global.json)
     std::cout << nlohmann::json{{"out", options.out.string()}}.dump() << '\n';
   else
     std::cout << options.out.string() << '\n';
+}
+
+std::string words_of_formats() {
+  std::string words;
+  for (const ExportFormat& format : export_formats())
+    if (&export_format_of({}, "a" + format.extension) == &format)
+      words += (words.empty() ? "FILE" : "; FILE") + format.extension + ": " + format.words;
+  return words;
+}
+
+std::string names_of_formats() {
+  std::string words;
+  for (const ExportFormat& format : export_formats()) words += (words.empty() ? "" : ", ") + format.name;
+  return words;
 }
 
 }  // namespace
@@ -60,14 +70,14 @@ void add_export_command(CLI::App& app, GlobalOptions& global) {
       ->add_option("SESSION", options->session,
                    "Id of the data folder, a folder with recording.ream, or such a file")
       ->required();
-  command
-      ->add_option(
-          "--out", options->out,
-          "FILE.csv: one row a tick; FILE.ply, .stl or .glb: the reamed surface; FILE.png: a picture of "
-          "it; FILE.zip: session and case, for ream import on another machine")
-      ->required();
+  command->add_option("--out", options->out, words_of_formats())->required();
+  command->add_option("--format", options->format,
+                      "What it becomes whatever its ending: " + names_of_formats());
   command->add_option("--case", options->case_name,
                       "Case folder, where the recording's case is not in the data folder");
+  command->add_option("--rubric", options->rubric, "Of reports: a rubric's id, id@version, or its file");
+  command->add_option("--benchmark", options->benchmark,
+                      "Of reports: file of ream benchmark to compare with");
   command->callback([options, &global] { export_session(*options, global); });
 }
 

@@ -3,71 +3,178 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "api/score_table.hpp"
 #include "app/cli/commands.hpp"
+#include "app/cli/print_score.hpp"
+#include "app/cli/terminal_progress.hpp"
 #include "app/data_folder.hpp"
+#include "app/interrupt.hpp"
+#include "app/kept_sessions.hpp"
 #include "app/recorded_session.hpp"
+#include "app/rescoring.hpp"
+#include "app/score_document.hpp"
+#include "app/session_facts.hpp"
 #include "core/error.hpp"
+#include "core/file.hpp"
 #include "core/log.hpp"
-#include "score/rubric.hpp"
+#include "score/rubric_shelf.hpp"
 
 namespace ream::app {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct Options {
   std::vector<std::string> sessions;
-  std::string rubric;
+  bool all = false, save = false;
+  std::string rubric = "standard", case_name, trainee, benchmark;
+  fs::path csv;
+  score::CusumParameters cusum;
 };
 
-nlohmann::json scored(const std::string& name, const std::optional<score::Rubric>& rubric,
-                      const std::filesystem::path& data) {
-  const record::Recording recording(recording_path(name, data), record::Recording::Trust::checked);
-  if (const std::string& damage = recording.log().damage(); !damage.empty()) log::warn(damage);
-  nlohmann::json json = {{"session", name}, {"metrics", rescored_json(recording)}};
-  if (rubric) json["score"] = score::to_json(*rubric, score::apply_rubric(*rubric, json["metrics"]));
-  return json;
+/// What sessions are judged by.
+struct Judge {
+  score::Rubric rubric;
+  std::optional<score::Benchmark> benchmark;
+};
+
+/// A session that could be scored.
+struct Judged {
+  api::TableSession table;
+  nlohmann::json document;
+};
+
+Judge judge_of(const Options& options, const fs::path& data) {
+  Judge judge{score::find_rubric(options.rubric, score::RubricShelf(rubrics_folder(data))), std::nullopt};
+  if (!options.benchmark.empty()) judge.benchmark = score::load_benchmark(options.benchmark);
+  return judge;
 }
 
-void print(const nlohmann::json& json) {
-  std::cout << json.at("session").get<std::string>() << '\n';
-  const bool by_rubric = json.contains("score");
-  if (!by_rubric) {
-    for (const auto& [key, value] : json.at("metrics").items())
-      std::cout << "  " << key << "  " << value << '\n';
+std::vector<std::string> names_of(const Options& options, const fs::path& data) {
+  const int ways =
+      (options.sessions.empty() ? 0 : 1) + (options.all ? 1 : 0) + (options.trainee.empty() ? 0 : 1);
+  if (ways != 1) throw Error(ErrorKind::usage, "name sessions, or say --all, or --trainee: one of these");
+  if (options.all) return recorded_sessions(data);
+  if (options.trainee.empty()) return options.sessions;
+  std::vector<std::string> names;
+  for (const KeptSession& session : sessions_of_trainee(kept_sessions(data), options.trainee))
+    names.push_back(session.id);
+  if (names.empty())
+    throw Error(ErrorKind::not_found,
+                "no session of a trainee '" + options.trainee + "' in " + sessions_folder(data).string());
+  return names;
+}
+
+std::vector<Rescored> rescored(const Options& options, const fs::path& data) {
+  const std::vector<std::string> names = names_of(options, data);
+  catch_interrupts();
+  const TerminalProgress progress;
+  return rescore(names, options.case_name, data, std::cref(progress));
+}
+
+Judged judged(const Rescored& one, const Options& options, const Judge& judge, const fs::path& data) {
+  const fs::path recording = recording_path(one.name, data);
+  Judged result;
+  result.table = {one.name, description_of(record::Recording(recording)), one.metrics};
+  result.document = score_document(result.table.session, one.metrics, judge.rubric,
+                                   judge.benchmark ? &*judge.benchmark : nullptr);
+  if (options.save) write_score(recording.parent_path(), result.document);
+  return result;
+}
+
+void write_table(const std::vector<Judged>& all, const score::Rubric& rubric, const fs::path& csv) {
+  std::vector<api::TableSession> sessions;
+  for (const Judged& one : all) sessions.push_back(one.table);
+  const api::ExportTable table = api::score_table(sessions, rubric);
+  fs::path codebook = csv;
+  codebook.replace_filename(csv.stem().string() + "-codebook.csv");
+  write_file_atomically(codebook, api::csv_of(api::score_codebook(table)));
+  write_file_atomically(csv, api::csv_of(table));
+}
+
+nlohmann::json answer_of(const Judged& one) {
+  nlohmann::json answer = one.document;
+  answer["session"] = one.table.id;
+  return answer;
+}
+
+nlohmann::json learning_of_all(const std::vector<Judged>& all, const Judge& judge, const Options& options) {
+  std::vector<score::LearningPoint> points;
+  for (const Judged& one : all)
+    points.push_back(learning_point(one.table.id, one.table.session,
+                                    score::apply_rubric(judge.rubric, one.table.metrics)));
+  return score::learning_json(score::learning_curve(options.cusum, std::move(points)));
+}
+
+void print_all(const std::vector<Judged>& all, const nlohmann::json& failed, const nlohmann::json& learning,
+               const Options& options, bool as_json) {
+  if (!as_json) {
+    for (const Judged& one : all) print_score(one.table.id, one.document);
+    if (!learning.is_null()) print_learning(options.trainee, learning);
     return;
   }
-  const nlohmann::json& score = json.at("score");
-  std::cout << "  " << score.at("rubric").get<std::string>() << ", version " << score.at("version") << ": "
-            << (score.at("points").is_null() ? "no points, as the session says none of its metrics"
-                                             : score.at("points").dump() + " of 100 points")
-            << '\n';
-  for (const auto& c : score.at("criteria"))
-    std::cout << "    " << c.at("metric").get<std::string>() << "  " << c.at("value") << "  "
-              << (c.at("points").is_null() ? "not said" : c.at("points").dump() + " points") << '\n';
+  nlohmann::json answers = failed;
+  for (const Judged& one : all) answers.push_back(answer_of(one));
+  if (!learning.is_null())
+    std::cout << nlohmann::json{{"sessions", answers}, {"learning", learning}}.dump() << '\n';
+  else
+    std::cout << (answers.size() == 1 && !options.all ? answers.front() : answers).dump() << '\n';
 }
 
 void score_sessions(const Options& options, const GlobalOptions& global) {
-  std::optional<score::Rubric> rubric;
-  if (!options.rubric.empty()) rubric = score::load_rubric(options.rubric);
-  const std::filesystem::path data = data_folder(global.data);
-  nlohmann::json all = nlohmann::json::array();
-  for (const std::string& name : options.sessions) all.push_back(scored(name, rubric, data));
-  if (global.json)
-    std::cout << (all.size() == 1 ? all.front() : all).dump() << '\n';
-  else
-    for (const nlohmann::json& one : all) print(one);
+  const fs::path data = data_folder(global.data);
+  const Judge judge = judge_of(options, data);
+  const std::vector<Rescored> scored = rescored(options, data);
+  std::vector<Judged> all;
+  nlohmann::json failed = nlohmann::json::array();
+  for (const Rescored& one : scored) {
+    if (one.error.empty()) {
+      all.push_back(judged(one, options, judge, data));
+      continue;
+    }
+    if (scored.size() == 1) throw Error(one.kind, one.error);
+    log::error(one.name + ": " + one.error);
+    failed.push_back({{"session", one.name}, {"error", one.error}});
+  }
+  const nlohmann::json learning =
+      options.trainee.empty() ? nlohmann::json() : learning_of_all(all, judge, options);
+  if (!options.csv.empty()) write_table(all, judge.rubric, options.csv);
+  print_all(all, failed, learning, options, global.json);
+  if (!failed.empty())
+    throw Error(ErrorKind::invalid_input, std::to_string(failed.size()) + " of " +
+                                              std::to_string(scored.size()) +
+                                              " sessions could not be scored; the lines above say why");
 }
 
 }  // namespace
 
 void add_score_command(CLI::App& app, GlobalOptions& global) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("score", "Compute the metrics of recorded sessions anew");
-  command
-      ->add_option("SESSION", options->sessions,
-                   "Id of the data folder, a folder with recording.ream, or such a file; one or more")
-      ->required();
-  command->add_option("--rubric", options->rubric,
-                      "Turn the metrics into points by this file (proto/rubric.schema.json)");
+  CLI::App* command =
+      app.add_subcommand("score", "Compute the metrics of recorded sessions anew and judge them");
+  command->add_option("SESSION", options->sessions,
+                      "Id of the data folder, a folder with recording.ream, or such a file; one or more");
+  command->add_flag("--all", options->all, "All sessions of the data folder");
+  command->add_option(
+      "--trainee", options->trainee,
+      "All sessions of a trainee (user id, code or name), and the course of learning (CUSUM)");
+  command->add_option("--case", options->case_name,
+                      "Where the case is, if not under the name that the recording gives");
+  command->add_option(
+      "--rubric", options->rubric,
+      "Judge by it: id or id@version of the data folder's rubrics, or a file (proto/rubric.schema.json)");
+  command->add_option("--benchmark", options->benchmark, "Compare with experts: file of ream benchmark");
+  command->add_flag("--save", options->save, "Write score.json into each session's folder");
+  command->add_option("--csv", options->csv,
+                      "FILE.csv: one row a session; FILE-codebook.csv says what columns mean");
+  command->add_option("--acceptable-rate", options->cusum.acceptable_rate,
+                      "CUSUM: share of failures of the proficient, 0.2 by default");
+  command->add_option("--unacceptable-rate", options->cusum.unacceptable_rate,
+                      "CUSUM: of the others, 0.4 by default");
+  command->add_option("--alpha", options->cusum.alpha,
+                      "CUSUM: chance of calling the proficient not so, 0.1 by default");
+  command->add_option("--beta", options->cusum.beta,
+                      "CUSUM: chance of calling the others proficient, 0.1 by default");
   command->callback([options, &global] { score_sessions(*options, global); });
 }
 

@@ -18,6 +18,7 @@
 #include "app/open_database.hpp"
 #include "app/reaming_session.hpp"
 #include "app/replay_session.hpp"
+#include "app/score_makers.hpp"
 #include "app/server_address.hpp"
 #include "app/session_recovery.hpp"
 #include "core/clock.hpp"
@@ -142,7 +143,8 @@ void serve(const Options& options, const GlobalOptions& global) {
                                                const std::string& reamer) {
     return std::make_unique<ReamingSession>(house, request, reamer);
   };
-  server_options.export_formats = export_formats(house.data);
+  server_options.export_formats = served_export_formats(house.data);
+  server_options.scoring = score_makers(house.data);
   server_options.usual_device = options.device;
   server_options.retention.keep_sessions_days = options.keep_sessions_days;
   server_options.retention.keep_deleted_days = options.keep_deleted_days;

@@ -9,6 +9,7 @@
 #include "app/headless_run.hpp"
 #include "app/interrupt.hpp"
 #include "app/reamed_pictures.hpp"
+#include "app/score_document.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 
@@ -51,6 +52,7 @@ void simulate(const Options& options, const GlobalOptions& global) {
   const std::vector<uint8_t> before = rig.bone_case.bone.coverage;
   const HeadlessResult result = run_headless(rig, before, folder.path(), options.wall_clock);
   write_reamed_pictures(rig, before, folder.path());
+  keep_score(folder.path(), data_folder(global.data));
   throw_if_interrupted();
   folder.commit();
 

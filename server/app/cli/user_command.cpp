@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "access/gatehouse.hpp"
+#include "api/user_json.hpp"
 #include "app/cli/commands.hpp"
 #include "app/data_folder.hpp"
 #include "app/open_database.hpp"
@@ -44,15 +45,6 @@ struct Office {
   access::Gatehouse gatehouse;
 };
 
-json to_json(const access::User& user) {
-  return {{"id", user.id},
-          {"name", user.name},
-          {"display_name", user.display_name},
-          {"role", access::to_text(user.role)},
-          {"enabled", user.enabled},
-          {"created_utc", user.created_utc}};
-}
-
 json to_json(const store::CredentialRow& row) {
   return {{"id", row.id},
           {"user_id", row.user_id},
@@ -85,7 +77,7 @@ void add(const Options& options, const GlobalOptions& global) {
   wanted.password = ask_new_password(name);
   const access::User user = office.gatehouse.users.add(wanted);
   office.note("user.add", user.id, user.name + " as " + access::to_text(user.role));
-  tell(global, to_json(user),
+  tell(global, api::user_json(user),
        user.name + " is " + access::to_text(user.role) +
            (first ? "; from now on everybody has to log in" : ""));
 }
@@ -104,7 +96,7 @@ void list(const GlobalOptions& global) {
   std::map<std::string, std::string> names;
   json told = {{"users", json::array()}, {"tokens", json::array()}, {"links", json::array()}};
   for (const access::User& user : office.gatehouse.users.list()) {
-    told["users"].push_back(to_json(user));
+    told["users"].push_back(api::user_json(user));
     names[user.id] = user.name;
   }
   for (const auto& row : office.gatehouse.credentials.list(CredentialKind::token, ""))
@@ -165,7 +157,7 @@ void change(const std::string& name, const access::UserChange& change, const std
   Office office(global);
   const access::User user = office.gatehouse.users.change(office.user(name).id, change);
   office.note("user.change", user.id, user.name + ": " + words);
-  tell(global, to_json(user), user.name + ": " + words);
+  tell(global, api::user_json(user), user.name + ": " + words);
 }
 
 void set_password(const Options& options, const GlobalOptions& global) {

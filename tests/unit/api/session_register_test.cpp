@@ -125,6 +125,39 @@ TYPED_TEST(SessionRegisterTest, NoticesWhatChangesWithoutAWord) {
   EXPECT_EQ(this->listed(), (Ids{"cccc", "bbbb"}));
 }
 
+TYPED_TEST(SessionRegisterTest, TellsTheMarkOfAScoreThatCanBeRead) {
+  const auto mark = [&](const std::string& id, const json& score) {
+    write_file_atomically(this->sessions.folder.path() / id / "score.json", score.dump());
+  };
+  const json good = {{"points", 81.5}, {"outcome", "pass"}, {"rubric", "Standard"}, {"version", 3}};
+  for (const char* id : {"good", "odd", "none"}) this->sessions.put(id, "2025-03-01T12:00:00Z", "finished");
+  this->sessions.put("running", "2025-03-01T12:00:00Z", "running");
+  const auto lock = FileLock::attempt(this->sessions.folder.path() / "running" / "lock");
+  mark("good", {{"score", good}});
+  mark("running", {{"score", good}});
+  mark("odd", {{"score", {{"points", "many"}, {"outcome", 1}, {"rubric", json()}, {"version", "x"}}}});
+  store::SessionQuery query;
+  query.order = store::SessionOrder::points;
+  for (int start = 0; start < 2; ++start) {
+    const auto listed = this->page(query).sessions;
+    ASSERT_EQ(listed.size(), 4u);
+    EXPECT_EQ(listed[0].request.id, "good");
+    ASSERT_TRUE(listed[0].mark);
+    EXPECT_EQ(listed[0].mark->points, 81.5);
+    EXPECT_EQ(listed[0].mark->outcome, "pass");
+    EXPECT_EQ(listed[0].mark->version, 3);
+    for (size_t i = 1; i < 4; ++i) EXPECT_FALSE(listed[i].mark) << listed[i].request.id;
+    this->end();
+  }
+  json better = good;
+  better["points"] = 90.0;
+  mark("good", {{"score", better}});  // while no server runs, and then while one does
+  EXPECT_EQ(this->page(query).sessions[0].mark->points, 90.0);
+  mark("none", {{"score", good}});
+  this->register_->changed("none");
+  EXPECT_EQ(this->listed(query).at(1), "none");
+}
+
 TYPED_TEST(SessionRegisterTest, NoticesAtTheStartWhatChangedMeanwhile) {
   for (const char* id : {"aaaa", "bbbb", "cccc"}) this->sessions.put(id, "2025-03-01T12:00:00Z", "finished");
   EXPECT_EQ(this->listed().size(), 3u);

@@ -15,6 +15,7 @@
 #include "app/session_recovery.hpp"
 #include "core/file.hpp"
 #include "record/recording.hpp"
+#include "score/rubric_shelf.hpp"
 #include "support/expect_error.hpp"
 #include "support/recorded_reaming.hpp"
 
@@ -252,6 +253,7 @@ TEST_F(ReamingSessionTest, AnotherAttemptBeginsWithIntactBoneAndTheSameLabels) {
   request.trainee = "Anna";
   request.study = "pilot";
   request.participant = "P07";
+  request.theatre = true;
   const std::string first = service.create(request).request.id;
   service.start(first);
   run_for_a_while(first, 400);
@@ -268,10 +270,44 @@ TEST_F(ReamingSessionTest, AnotherAttemptBeginsWithIntactBoneAndTheSameLabels) {
   EXPECT_FALSE(before.contains("attempt"));
   EXPECT_EQ(after.at("attempt"), 2);
   EXPECT_EQ(after.at("reset_of"), first);
-  for (const char* key : {"trainee_id", "trainee", "study", "participant", "start_grid_hash", "force_scale"})
+  for (const char* key :
+       {"trainee_id", "trainee", "study", "participant", "theatre", "start_grid_hash", "force_scale"})
     EXPECT_EQ(before.at(key), after.at(key)) << key;
   for (const std::string& id : {first, second.request.id})
     EXPECT_FALSE(reaming.verify(folder(id) / "recording.ream").difference) << id;
+}
+
+TEST_F(ReamingSessionTest, LeavesItsScoreWithTheRubricOfTheDataFolderAndTheatreMode) {
+  score::Rubric rubric = score::standard_rubric();
+  rubric.name = "House";
+  EXPECT_EQ(score::RubricShelf(rubrics_folder(reaming.data())).keep("standard", rubric).version, 2);
+  api::SessionRequest request = wanted();
+  request.theatre = true;
+  const std::string id = service.create(request).request.id;
+  service.start(id);
+  run_for_a_while(id, 300);
+  EXPECT_FALSE(fs::exists(folder(id) / "score.json"));
+  service.stop(id);
+  const nlohmann::json score = read_json_file(folder(id) / "score.json");
+  EXPECT_EQ(score.at("theatre"), true);
+  EXPECT_EQ(read_json_file(folder(id) / "session.json").at("theatre"), true);
+  EXPECT_EQ(score.at("rubric").at("name"), "House");
+  EXPECT_EQ(score.at("rubric").at("version"), 2);
+  EXPECT_EQ(score.at("score").at("version"), 2);
+  EXPECT_EQ(score.at("metrics"), read_json_file(folder(id) / "metrics.json"));
+  EXPECT_EQ(score.at("metrics"), service.metrics(id));
+}
+
+TEST_F(ReamingSessionTest, StoppedAtOnceIsScoredByWhatItSays) {
+  const std::string id = service.create(wanted()).request.id;
+  service.start(id);
+  service.stop(id);
+  const nlohmann::json score = read_json_file(folder(id) / "score.json");
+  EXPECT_EQ(score.at("score").at("outcome"), "undecided");
+  for (const auto& [key, value] : score.at("metrics").items())
+    if (value.is_null()) {
+      EXPECT_FALSE(score.at("metrics").at("unsaid").value(key, "").empty()) << key;
+    }
 }
 
 TEST_F(ReamingSessionTest, LabelsAreWrittenDownWhileItRunsAndAtTheEnd) {

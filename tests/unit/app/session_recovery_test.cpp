@@ -7,7 +7,7 @@
 #include "api/recorded_annotations.hpp"
 #include "api/session_archive.hpp"
 #include "app/data_folder.hpp"
-#include "app/recorded_session.hpp"
+#include "app/rescoring.hpp"
 #include "case/plan.hpp"
 #include "core/file.hpp"
 #include "record/grid_json.hpp"
@@ -63,7 +63,7 @@ TEST_F(SessionRecoveryTest, ClosesWhatWasLeftRunning) {
   EXPECT_EQ(recording.tick_count(), 1100u);
   EXPECT_EQ(recording.end().value().state, "interrupted");
   EXPECT_EQ(recording.events().at(0).kind, "interrupted");
-  EXPECT_EQ(read_json_file(api::metrics_json(folder)), rescored_json(recording));
+  EXPECT_EQ(read_json_file(api::metrics_json(folder)), Rescorer(data.path()).metrics(recording));
   EXPECT_DOUBLE_EQ(read_json_file(api::metrics_json(folder)).at("duration_s").get<double>(), 1.1);
   for (const auto& entry : fs::directory_iterator(folder)) EXPECT_NE(entry.path().extension(), ".tmp");
   EXPECT_TRUE(recover_sessions(data.path()).empty()) << "once is enough";
@@ -121,7 +121,7 @@ TEST_F(SessionRecoveryTest, LeavesWhatAProcessHoldsAndWhatHasEnded) {
 
 TEST_F(SessionRecoveryTest, ARecordingThatWasClosedKeepsItsState) {
   const fs::path folder = leave_running("aaaa", 500);
-  EXPECT_EQ(close_session_folder(folder, api::SessionState::fault, "the disk is full"),
+  EXPECT_EQ(close_session_folder(folder, data.path(), api::SessionState::fault, "the disk is full"),
             "the disk is full; everything up to 0.50 s is kept");
   json running = session(folder);
   running["state"] = "running";  // as if the process had been killed before it could write session.json

@@ -16,11 +16,12 @@ using Rooms = std::map<std::string, std::set<std::string>>;
 const Rooms& drawn_arrows() {
   static const Rooms arrows{
       {"app", {"api"}},
-      {"api", {"sim", "stream", "score", "ct", "fe", "render", "access", "net"}},
+      {"api", {"sim", "stream", "score", "report", "ct", "fe", "render", "access", "net"}},
       {"sim", {"collide", "force", "record", "case"}},
       {"collide", {"shell"}},
       {"stream", {"surface"}},
       {"score", {"record", "surface", "render"}},
+      {"report", {"score"}},
       {"ct", {"case"}},
       {"fe", {"case"}},
       {"case", {"voxel", "shell"}},
@@ -57,6 +58,7 @@ const std::vector<Library>& single_room_libraries() {
       {"SOCI", std::regex("soci/.*"), "store"},
       {"libsodium", std::regex("sodium(/.*|\\.h)"), "access"},
       {"OSMesa and OpenGL", std::regex("(GL|EGL|GLES[0-9]*)/.*"), "render"},
+      {"Cairo and Pango", std::regex("(cairo|pango)[-a-z/]*\\.h"), "report"},
       {"libsndfile and libsamplerate", std::regex("(sndfile|samplerate)\\.h.*"), "force"},
       {"NATS", std::regex("nats(/.*|\\.h)"), "stream"},
   };

@@ -60,28 +60,33 @@ TEST(GoldenRecording, OfRevision1SaysWhereItsTicksAre) {
   test::expect_error(ErrorKind::conflict, "revision 1", [&] { log.chain(); });
 }
 
-TEST(GoldenRecording, OfRevision2HoldsEveryField) {
-  const OpLogReader log(golden_recording(2));
-  EXPECT_EQ(log.revision(), 2u);
+class GoldenRecordingOf : public testing::TestWithParam<uint32_t> {};
+
+TEST_P(GoldenRecordingOf, ARevisionHoldsEveryField) {
+  const uint32_t revision = GetParam();
+  const OpLogReader log(golden_recording(revision));
+  EXPECT_EQ(log.revision(), revision);
   EXPECT_EQ(log.damage(), "");
-  EXPECT_EQ(all_of<ops::Header>(log), std::vector{example_op<ops::Header>(7, 2)});
-  EXPECT_EQ(all_of<ops::Segment>(log), std::vector{example_op<ops::Segment>(7, 2)});
-  EXPECT_EQ(all_of<ops::Event>(log), std::vector{example_op<ops::Event>(7, 2)});
-  EXPECT_EQ(all_of<ops::Annotation>(log), std::vector{example_op<ops::Annotation>(7, 2)});
-  EXPECT_EQ(all_of<ops::End>(log), std::vector{example_op<ops::End>(7, 2)});
+  EXPECT_EQ(all_of<ops::Header>(log), std::vector{example_op<ops::Header>(7, revision)});
+  EXPECT_EQ(all_of<ops::Segment>(log), std::vector{example_op<ops::Segment>(7, revision)});
+  EXPECT_EQ(all_of<ops::Event>(log), std::vector{example_op<ops::Event>(7, revision)});
+  EXPECT_EQ(all_of<ops::Annotation>(log), std::vector{example_op<ops::Annotation>(7, revision)});
+  EXPECT_EQ(all_of<ops::End>(log), std::vector{example_op<ops::End>(7, revision)});
   std::vector<ops::Bricks> bricks;
   std::vector<ops::Checkpoint> checkpoints;
   for (const uint32_t first_tick : {0u, 50u, 100u}) {
-    bricks.push_back(example_op<ops::Bricks>(first_tick, 2));
+    bricks.push_back(example_op<ops::Bricks>(first_tick, revision));
     bricks.back().key = first_tick != 50;
-    checkpoints.push_back(example_op<ops::Checkpoint>(first_tick, 2));
+    checkpoints.push_back(example_op<ops::Checkpoint>(first_tick, revision));
   }
   EXPECT_EQ(all_of<ops::Bricks>(log), bricks);
   EXPECT_EQ(all_of<ops::Checkpoint>(log), checkpoints);
   const auto ticks = all_of<ops::Tick>(log);
   ASSERT_EQ(ticks.size(), 130u);
-  for (uint32_t i = 0; i < ticks.size(); ++i) EXPECT_EQ(ticks[i], example_tick(i, 2)) << i;
+  for (uint32_t i = 0; i < ticks.size(); ++i) EXPECT_EQ(ticks[i], example_tick(i, revision)) << i;
 }
+
+INSTANTIATE_TEST_SUITE_P(Revisions, GoldenRecordingOf, testing::Range(2u, ops::newest_revision + 1));
 
 // Lengths and checksums of the stored bytes depend on the version of zstd; what they hold does not.
 TEST(GoldenRecording, OfTheNewestRevisionIsWrittenTheSameWayToday) {

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/units.hpp"
+#include "render/camera.hpp"
 
 /// OSMesa keeps about 160 bytes of each context it has destroyed.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa"; }
@@ -153,6 +154,54 @@ TEST(Png, UnwritablePathIsNamedAndNothingIsLeft) {
   }
   EXPECT_THROW(write_png("/tmp/never.png", Image{2, 2, {}}), Error);
   EXPECT_FALSE(std::filesystem::exists("/tmp/never.png"));
+}
+
+TEST(Snapshot, VerticesMayHaveColoursOfTheirOwn) {
+  const TriangleMesh mesh = sphere(10);
+  std::vector<VertexColour> colours;
+  for (const Vec3f& v : mesh.vertices_mm)
+    colours.push_back(v.x() > 0.0f ? VertexColour{200, 20, 20, 0} : VertexColour{20, 20, 200, 0});
+  Layer layer;
+  layer.mesh = &mesh;
+  layer.colours = &colours;
+  const Image image = draw({layer}, camera_at(50), size, size);
+  EXPECT_TRUE(reddish(pixel(image, size / 2 + 30, size / 2)));
+  EXPECT_TRUE(bluish(pixel(image, size / 2 - 30, size / 2)));
+}
+
+TEST(Snapshot, HatchedColoursAreTornByDarkStripes) {
+  const TriangleMesh mesh = sphere(10);
+  const auto darkest_and_brightest = [&](uint8_t hatch) {
+    const std::vector<VertexColour> colours(mesh.vertices_mm.size(), VertexColour{200, 200, 200, hatch});
+    Layer layer;
+    layer.mesh = &mesh;
+    layer.colours = &colours;
+    const Image image = draw({layer}, camera_at(50), size, size);
+    int darkest = 255, brightest = 0;
+    for (int x = size / 2 - 12; x < size / 2 + 12; ++x) {
+      darkest = std::min(darkest, pixel(image, x, size / 2)[0]);
+      brightest = std::max(brightest, pixel(image, x, size / 2)[0]);
+    }
+    return std::pair(darkest, brightest);
+  };
+  const auto [plain_darkest, plain_brightest] = darkest_and_brightest(0);
+  EXPECT_LT(plain_brightest - plain_darkest, 40);
+  const auto [darkest, brightest] = darkest_and_brightest(255);
+  EXPECT_GT(brightest - darkest, 70);
+}
+
+TEST(Snapshot, PlacesAreWhereThingsAreDrawn) {
+  const TriangleMesh mesh = sphere(0.7);
+  Camera camera = camera_at(50);
+  camera.eye_mm += Vec3(7, 3, -4);
+  for (const Vec3& at_mm : {Vec3(5, 2, 6), Vec3(-7, 1, -3), Vec3(0, -9, 4)}) {
+    const Image image = draw({{&mesh, at(at_mm), red, 1.0f}}, camera, 2 * size, size);
+    const auto place = place_in_picture(camera, 2.0, at_mm);
+    ASSERT_TRUE(place);
+    EXPECT_TRUE(reddish(
+        pixel(image, static_cast<int>((*place)[0] * 2 * size), static_cast<int>((*place)[1] * size))));
+  }
+  EXPECT_FALSE(place_in_picture(camera, 2.0, Vec3(0, -200, 0))) << "behind the camera";
 }
 
 }  // namespace

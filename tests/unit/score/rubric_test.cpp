@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/file.hpp"
+#include "score/rubric_score.hpp"
 #include "support/expect_error.hpp"
+#include "support/json_schema.hpp"
+#include "support/places.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ream::score {
@@ -41,22 +45,56 @@ TEST_F(RubricTest, PointsRiseFromNoneToFullInEitherDirection) {
   EXPECT_DOUBLE_EQ(points(40.0, 20.0), 0.0) << "worse than none is none";
 }
 
-TEST_F(RubricTest, TheScoreIsTheWeightedMeanOfWhatIsSaid) {
-  const Rubric r = rubric({{{"metric", "thrust_n"}, {"none", 100}, {"full", 20}, {"weight", 3}},
-                           {{"metric", "depth_mm"}, {"none", 0}, {"full", 2}},
-                           {{"metric", "unsaid_n"}, {"none", 0}, {"full", 1}, {"weight", 100}}});
-  const Score score = apply_rubric(r, metrics);
-  EXPECT_DOUBLE_EQ(*score.points, (3 * 50.0 + 75.0) / 4.0);
-  EXPECT_FALSE(score.criteria[2].points) << "no points for what the session does not say";
-  const json told = to_json(r, score);
-  EXPECT_EQ(told["rubric"], "first year");
-  EXPECT_EQ(told["version"], 3);
-  EXPECT_TRUE(told["criteria"][2]["points"].is_null());
+TEST_F(RubricTest, FilesOfTheFirstFormAreStillRead) {
+  const Rubric r = rubric({{{"metric", "thrust_n"}, {"none", 100}, {"full", 20}, {"weight", 3}}});
+  EXPECT_EQ(r.name, "first year");
+  EXPECT_EQ(r.version, 3);
+  EXPECT_FALSE(r.pass_points);
+  EXPECT_FALSE(r.criteria[0].critical);
+  EXPECT_EQ(r.criteria[0].ramp->none, 100.0);
+  EXPECT_EQ(r.criteria[0].weight, 3.0);
 }
 
-TEST_F(RubricTest, ThereIsNoScoreWhenNothingIsSaid) {
-  const Score score = apply_rubric(rubric({{{"metric", "unsaid_n"}, {"none", 0}, {"full", 1}}}), metrics);
-  EXPECT_FALSE(score.points);
+TEST_F(RubricTest, IsWrittenAsItIsRead) {
+  const json whole = {{"name", "all"},
+                      {"version", 7},
+                      {"remark", "by hand"},
+                      {"pass_points", 60.0},
+                      {"least_said_percent", 40.0},
+                      {"criteria",
+                       {{{"metric", "thrust_n"}, {"none", 9.0}, {"full", 1.0}, {"weight", 2.0}},
+                        {{"metric", "depth_mm"},
+                         {"weight", 1.0},
+                         {"critical", true},
+                         {"band", {{"better", "less"}, {"pass", 2.0}, {"warn", 3.0}}}},
+                        {{"metric", "unsaid_n"},
+                         {"weight", 1.0},
+                         {"band", {{"better", "between"}, {"low", 1.0}, {"pass", 3.0}}}},
+                        {{"metric", "version_error_deg"}, {"weight", 1.0}}}}};
+  EXPECT_EQ(rubric_json(load_rubric(file(whole))), whole);
+  const json schema = read_json_file(test::source_folder() + "/proto/rubric.schema.json");
+  EXPECT_EQ(test::SchemaChecker(schema).faults(schema, whole), std::vector<std::string>{});
+}
+
+TEST_F(RubricTest, HashTellsRubricsApart) {
+  const json one = {{{"metric", "thrust_n"}, {"none", 100}, {"full", 20}}};
+  const Rubric a = rubric(one);
+  Rubric b = a;
+  EXPECT_EQ(rubric_hash(a), rubric_hash(b));
+  b.criteria[0].weight = 2.0;
+  EXPECT_NE(rubric_hash(a), rubric_hash(b));
+  b = a;
+  b.version = 4;
+  EXPECT_NE(rubric_hash(a), rubric_hash(b));
+}
+
+TEST(StandardRubric, JudgesByMetricsOfTheCatalogue) {
+  const Rubric& standard = standard_rubric();
+  const json schema = read_json_file(test::source_folder() + "/proto/rubric.schema.json");
+  EXPECT_EQ(test::SchemaChecker(schema).faults(schema, rubric_json(standard)), std::vector<std::string>{});
+  for (const Criterion& c : standard.criteria) EXPECT_NE(find_metric(c.metric), nullptr) << c.metric;
+  EXPECT_TRUE(std::any_of(standard.criteria.begin(), standard.criteria.end(),
+                          [](const Criterion& c) { return c.metric == "vault_breach_mm" && c.critical; }));
 }
 
 TEST_F(RubricTest, UnusableRubricsAreRefusedByName) {
@@ -70,6 +108,17 @@ TEST_F(RubricTest, UnusableRubricsAreRefusedByName) {
   refused({{"name", "a"}, {"version", 1}, {"criteria", {{{"metric", "x"}, {"none", 1}, {"full", 1}}}}},
           "full");
   refused({{"name", "a"}, {"version", 1}, {"criteria", {one}}, {"extra", 1}}, "extra");
+  const auto criterion_refused = [&](const json& criterion, const std::string& word) {
+    refused({{"name", "a"}, {"version", 1}, {"criteria", {criterion}}}, word);
+  };
+  criterion_refused({{"metric", "thrust_n"}}, "thrust_n");
+  criterion_refused({{"metric", "thrust_n"}, {"none", 1}}, "full");
+  criterion_refused({{"metric", "thrust_n"}, {"none", 1}, {"full", 2}, {"critical", true}}, "critical");
+  criterion_refused({{"metric", "a"}, {"band", {{"better", "less"}, {"pass", 2}, {"warn", 1}}}}, "warn");
+  criterion_refused({{"metric", "a"}, {"band", {{"better", "more"}, {"pass", 1}, {"warn", 2}}}}, "warn");
+  criterion_refused({{"metric", "a"}, {"band", {{"better", "between"}, {"pass", 1}, {"low", 1}}}}, "low");
+  criterion_refused({{"metric", "a"}, {"band", {{"better", "worse"}, {"pass", 1}, {"warn", 2}}}}, "better");
+  refused({{"name", "a"}, {"version", 1}, {"criteria", {one, one}}}, "second time");
   for (const char* absent : {"hash", "nothing"})
     expect_error(ErrorKind::invalid_input, absent, [&] {
       apply_rubric(rubric({{{"metric", absent}, {"none", 0}, {"full", 1}}}), metrics);

@@ -22,6 +22,8 @@ SessionRow row(const std::string& id) {
   made.study = "pilot";
   made.participant = "P-07";
   made.title = "first";
+  made.points = 200.0 / 3.0;
+  made.outcome = "undecided";
   made.record = "{\"words\":\"\xe2\x82\xac\"}";
   made.stamp = INT64_MAX - 1;
   made.lasting = false;
@@ -36,6 +38,11 @@ TYPED_TEST(SessionIndexTest, GivesBackEveryColumn) {
   SessionIndex index(this->database());
   index.put({row("a"), row("b")});
   EXPECT_EQ(index.get("b"), row("b"));
+  SessionRow unjudged = row("d");
+  unjudged.points.reset();
+  unjudged.outcome.clear();
+  index.put({unjudged});
+  EXPECT_EQ(index.get("d"), unjudged);
   EXPECT_EQ(index.get("c"), std::nullopt);
 }
 
@@ -99,11 +106,16 @@ class RandomSessions {
     made.study = one_of({"", "pilot"});
     made.participant = one_of({"", "P-01"});
     made.title = one_of({"", "Second try"});
+    made.outcome = one_of({"", "pass", "fail", "undecided"});
+    if (pick(3) > 0) made.points = pick(4) * 100.0 / 3.0;
     return made;
   }
   SessionQuery query() {
     SessionQuery made;
     if (pick(3) == 0) made.states = {"fault", "stopped"};
+    if (pick(4) == 0) made.outcomes = {one_of({"pass", "none"}), one_of({"fail", "undecided"})};
+    if (pick(4) == 0) made.points_from = pick(4) * 100.0 / 3.0;
+    if (pick(4) == 0) made.points_to = pick(4) * 100.0 / 3.0;
     made.case_id = one_of({"", "", "demo"});
     made.trainee_id = one_of({"", "", "u1"});
     made.study = one_of({"", "", "pilot"});
@@ -112,7 +124,7 @@ class RandomSessions {
     made.created_from = one_of({"", "", "2026-02", "2026-02-01T00:00:00Z"});
     made.created_before = one_of({"", "", "2026-02-01T00:00:01Z"});
     made.text = one_of({"", "", "SECOND", "\xc3\xb6ZG", "%", "_", "\\", "'", "s1", "demo try"});
-    made.order = static_cast<SessionOrder>(pick(5));
+    made.order = static_cast<SessionOrder>(pick(6));
     made.descending = pick(2) == 0;
     made.limit = static_cast<size_t>(1 + pick(9));
     return made;

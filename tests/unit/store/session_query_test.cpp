@@ -16,7 +16,7 @@ SessionRow row(const std::string& id, double duration_s) {
 }
 
 TEST(SessionQuery, ACursorKeepsThePlace) {
-  for (const char* word : {"created_utc", "duration_s", "case", "trainee", "state"}) {
+  for (const char* word : {"created_utc", "duration_s", "case", "trainee", "state", "points"}) {
     SessionQuery query;
     query.order = session_order_from(word).value();
     EXPECT_EQ(place_of_cursor(query), std::nullopt);
@@ -28,6 +28,24 @@ TEST(SessionQuery, ACursorKeepsThePlace) {
     EXPECT_FALSE(behind(query, place, larger)) << word;
   }
   EXPECT_EQ(session_order_from("size"), std::nullopt);
+}
+
+TEST(SessionQuery, WithoutPointsStandsBelowNone) {
+  SessionRow best = row("a", 1.0), worst = row("b", 1.0), unjudged = row("c", 1.0);
+  best.points = 100.0;
+  worst.points = 0.0;
+  SessionQuery query;
+  query.order = SessionOrder::points;
+  EXPECT_TRUE(precedes(query, best, worst));
+  EXPECT_TRUE(precedes(query, worst, unjudged));
+  query.points_to = 100.0;
+  EXPECT_TRUE(matches(query, worst));
+  EXPECT_FALSE(matches(query, unjudged)) << "a session without points has neither few nor many";
+  query.points_to.reset();
+  query.outcomes = {"none"};
+  EXPECT_TRUE(matches(query, unjudged));
+  unjudged.outcome = "pass";
+  EXPECT_FALSE(matches(query, unjudged));
 }
 
 TEST(SessionQuery, ACursorOfAnotherListIsRefused) {

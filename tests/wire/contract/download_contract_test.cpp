@@ -1,8 +1,10 @@
 #include <fstream>
 #include <future>
+#include <list>
 #include <thread>
 
 #include "contract_fixture.hpp"
+#include "core/error.hpp"
 
 namespace ream::test {
 namespace {
@@ -14,8 +16,15 @@ class DownloadContractTest : public ContractTest {
  protected:
   DownloadContractTest() {
     options.data_folder = folder.path();
-    for (const char* name : {"ply", "stl", "glb", "png", "zip"}) add_form(name, media_type_of(name), false);
-    add_form("csv", "text/csv; charset=utf-8", true);
+    for (const char* name : {"ply", "stl", "glb", "png", "zip"}) add_form(name, media_type_of(name));
+    add_form("csv", "text/csv; charset=utf-8").is_table = true;
+    add_form("surface", "application/ply").ending = "ply";
+    api::ExportFormat& pdf = add_form("pdf", "application/pdf");
+    pdf.is_report = true;
+    pdf.check = [](const api::ExportOrder& order) {
+      if (order.rubric == "nothing") throw Error(ErrorKind::not_found, "no rubric 'nothing'");
+    };
+    for (const api::ExportFormat& form : forms_) options.export_formats.add(form);
     put_session("ended");
     put_session("other");
     folder.write("sessions/bare/session.json",
@@ -35,15 +44,15 @@ class DownloadContractTest : public ContractTest {
     if (name == "glb") return "model/gltf-binary";
     return name == "png" ? "image/png" : "application/zip";
   }
-  void add_form(const std::string& name, const std::string& media_type, bool is_table) {
-    options.export_formats.add(
-        {name, media_type, is_table,
-         [this, name](const api::ExportOrder& order, const fs::path& out, const Progress& progress) {
-           progress(0.5, "writing");
-           while (held) std::this_thread::sleep_for(std::chrono::milliseconds(2));
-           std::ofstream(out) << name << " of " << order.session.id << " from " << order.part.from_s << " by "
-                              << order.part.stride;
-         }});
+  api::ExportFormat& add_form(const std::string& name, const std::string& media_type) {
+    const auto write = [this, name](const api::ExportOrder& order, const fs::path& out,
+                                    const Progress& progress) {
+      progress(0.5, "writing");
+      while (held) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      std::ofstream(out) << name << " of " << order.session.id << " from " << order.part.from_s << " by "
+                         << order.part.stride << ", " << order.rubric << " and " << order.benchmark;
+    };
+    return forms_.emplace_back(api::ExportFormat{name, media_type, false, write});
   }
   void hold() { held = true; }
   void release() { held = false; }
@@ -77,7 +86,7 @@ class DownloadContractTest : public ContractTest {
   void trace() {
     const std::string pattern = one + "/trace", path = ended_path + "/trace";
     expect_get(pattern, path, 200);
-    EXPECT_EQ(get(path + "?from_s=1.5&stride=10").body, "csv of ended from 1.5 by 10");
+    EXPECT_EQ(get(path + "?from_s=1.5&stride=10").body, "csv of ended from 1.5 by 10, standard and ");
     expect_get(pattern, all + "/bare/trace", 404);
     expect_get(pattern, path + "?stride=0", 422);
     put_session("long");
@@ -118,14 +127,30 @@ class DownloadContractTest : public ContractTest {
     EXPECT_EQ(done.at("result").at("name"), "ended.csv");
     const std::string result = "/api/v1/jobs/" + done.at("id").get<std::string>() + "/result";
     expect_get(one_job + "/result", result, 200);
-    EXPECT_EQ(get(result).body, "csv of ended from 1 by 5");
+    EXPECT_EQ(get(result).body, "csv of ended from 1 by 5, standard and ");
     expect_as_described("GET", one_job + "/result", 206, part_of(result, "0-2"));
     expect_as_described("GET", one_job + "/result", 416, part_of(result, "1000-"));
     expect_get(one_job + "/result", "/api/v1/jobs/nothing/result", 404);
+    reports(path);
     for (const char* name : {"ply", "stl", "glb", "png", "zip"}) {
       const json made = ended(post(path, json{{"format", name}}.dump()));
       expect_get(one_job + "/result", "/api/v1/jobs/" + made.at("id").get<std::string>() + "/result", 200);
     }
+  }
+
+  /// They are judged by a rubric and compared with a benchmark, which only they are.
+  void reports(const std::string& path) {
+    const std::string pattern = one + "/exports";
+    expect_post(pattern, path, 404, R"({"format": "pdf", "rubric": "nothing"})");
+    expect_post(pattern, path, 422, R"({"format": "pdf", "rubric": "../house"})");
+    expect_post(pattern, path, 422, R"({"format": "pdf", "benchmark": "/etc/passwd"})");
+    expect_post(pattern, path, 422, R"({"format": "csv", "rubric": "house"})");
+    expect_post(pattern, path, 422, R"({"format": "pdf", "stride": 5})");
+    const json made = ended(post(path, R"({"format": "pdf", "rubric": "house@3", "benchmark": "experts"})"));
+    EXPECT_EQ(get("/api/v1/jobs/" + made.at("id").get<std::string>() + "/result").body,
+              "pdf of ended from 0 by 1, house@3 and experts");
+    const json surface = ended(post(path, R"({"format": "surface"})"));
+    EXPECT_EQ(surface.at("result").at("name"), "ended.ply");
   }
 
   /// While others have all the threads and places that there are for such work.
@@ -153,6 +178,7 @@ class DownloadContractTest : public ContractTest {
   }
 
   std::atomic<bool> held{false};
+  std::list<api::ExportFormat> forms_;
   const std::string ended_path = all + "/ended", one_job = "/api/v1/jobs/{id}";
 };
 

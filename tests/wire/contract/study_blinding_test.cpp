@@ -1,6 +1,7 @@
 #include <random>
 
 #include "access_fixture.hpp"
+#include "support/some_metrics.hpp"
 
 namespace ream::test {
 namespace {
@@ -66,6 +67,17 @@ class StudyBlindingTest : public AccessTest {
     expect_nothing_of(person, request("GET", at + "/annotations", ines).body, "annotations");
     for (const char* word : {"pause", "start", "stop"})
       expect_nothing_of(person, request("POST", at + "/" + word, ines).body, word);
+    leave_results(id, person);
+  }
+
+  /// What a session leaves in its folder, which names the person.
+  void leave_results(const std::string& id, const Person& person) {
+    const json session = {{"case", "planned"},          {"script", "practice"},
+                          {"state", "stopped"},         {"trainee_id", person.id},
+                          {"trainee", person.name},     {"study", study_id},
+                          {"participant", person.code}, {"created_utc", "2026-01-31T12:00:00Z"}};
+    folder.write("sessions/" + id + "/session.json", session.dump());
+    folder.write("sessions/" + id + "/metrics.json", some_metrics(10.0).dump());
   }
 
   static void expect_nothing_of(const Person& person, const std::string& text, const std::string& where) {
@@ -95,6 +107,11 @@ class StudyBlindingTest : public AccessTest {
       for (const std::string& query :
            {"trainee=" + person.id, "q=" + person.login, std::string("sort=trainee")})
         paths.push_back(all + "?" + query);
+    for (const Person& person : people) {
+      for (const char* list : {"/api/v1/scores?format=csv&", "/api/v1/scores?", "/api/v1/learning?"})
+        for (const std::string& query : {"trainee=" + person.id, "participant=" + person.code})
+          paths.push_back(list + query);
+    }
     return paths;
   }
   static void fill(std::vector<std::string>& paths, const std::string& parameter,
@@ -178,6 +195,34 @@ TEST_F(StudyBlindingTest, OperatorsAndThePersonKnowAndAllWhoSeeItOnceItIsUnblind
   const std::string audit = request("GET", "/api/v1/audit", anna).body;
   for (const char* action : {"study.create", "study.join", "study.unblind", "study.persons", "study.export"})
     EXPECT_NE(audit.find(action), std::string::npos) << action;
+}
+
+/// Asked for a person, others than operators get nothing of a study; asked for a code, its sessions.
+TEST_F(StudyBlindingTest, LearningAndScoresAreToldByCodeOnly) {
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  const Person &first = people[0], &second = people[1];
+  for (int i = 0; i < 2; ++i) train(first, i == 1);
+  train(second, false);
+  const auto known = [this](const Sent& who, const std::string& query) {
+    return seen("/api/v1/learning?" + query, who).at("sessions").size();
+  };
+  EXPECT_EQ(known(anna, "trainee=" + first.id), 2u);
+  EXPECT_EQ(known(ines, "trainee=" + first.id), 0u);
+  EXPECT_EQ(known(ines, "participant=" + first.code), 2u);
+  EXPECT_EQ(known(first.token, ""), 2u);
+  EXPECT_EQ(known(first.token, "trainee=" + first.id), 2u);
+  EXPECT_EQ(known(first.token, "participant=" + second.code), 0u) << "of their own only";
+  EXPECT_EQ(request("GET", "/api/v1/learning?trainee=" + second.id, first.token).status, 404);
+  EXPECT_EQ(seen("/api/v1/scores", first.token).at("scores").size(), 2u);
+  const json table = seen("/api/v1/scores", ines).at("scores");
+  ASSERT_EQ(table.size(), 3u);
+  for (const json& row : table)
+    EXPECT_TRUE(row.at("trainee") == first.code || row.at("trainee") == second.code);
+  for (const std::string& id : sessions) {
+    EXPECT_EQ(request("GET", all + "/" + id + "/score", second.token).status,
+              id == sessions.back() ? 200 : 404);
+    EXPECT_EQ(request("POST", all + "/" + id + "/score", second.token, "{}").status, 403);
+  }
 }
 
 TEST_F(StudyBlindingTest, WhoTrainsInAStudyCannotBeChangedFromOutside) {

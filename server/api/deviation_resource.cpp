@@ -1,0 +1,69 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "api/job_resource.hpp"
+#include "api/score_tools.hpp"
+#include "api/session_work.hpp"
+#include "core/error.hpp"
+#include "core/file.hpp"
+
+namespace ream::api {
+namespace fs = std::filesystem;
+using nlohmann::json;
+namespace {
+
+/// In a session's folder; made once, and taken away when the session goes on.
+constexpr const char* description_name = "deviation.json";
+
+/// Bytes of one field of what lies in the folder.
+net::Response field(const std::string& id, const fs::path& folder, const std::string& to) {
+  const json description = read_json_file(folder / description_name);
+  const json& fields = description.at("fields");
+  const auto found =
+      std::find_if(fields.begin(), fields.end(), [&](const json& each) { return each.at("name") == to; });
+  if (found == fields.end())
+    throw Error(ErrorKind::not_found,
+                "session '" + id + "' has nothing to compare its surface with: " +
+                    (to == "plan" ? "nothing was removed, or there is no plan" : "no implant can be seated"));
+  const auto offset = found->at("offset").get<size_t>(), count = description.at("vertices").get<size_t>();
+  const std::vector<std::byte> bytes = read_binary_file(folder / description.at("file").get<std::string>());
+  if (offset + count > bytes.size())
+    throw Error(ErrorKind::io, "session '" + id + "': its deviations are shorter than their description");
+  auto part = std::make_shared<const net::Bytes>(bytes.begin() + static_cast<std::ptrdiff_t>(offset),
+                                                 bytes.begin() + static_cast<std::ptrdiff_t>(offset + count));
+  net::Response response = net::bytes_response(200, "application/octet-stream", std::move(part));
+  response.headers.emplace_back("Deviation-Vertices", std::to_string(count));
+  response.headers.emplace_back("Deviation-Step-Mm", description.at("step_mm").dump());
+  response.headers.emplace_back("Deviation-Range-Mm", description.at("range_mm").dump());
+  response.headers.emplace_back("Deviation-Unknown", description.at("unknown").dump());
+  return response;
+}
+
+net::Response deviation(const ScoreTools& tools, const net::Request& request) {
+  const std::string& id = request.parameters.at("id");
+  const SessionRecord record = tools.sessions.get(id);
+  if (is_live(record.status.state))
+    throw Error(ErrorKind::conflict, "session '" + id + "' is " + to_text(record.status.state) +
+                                         "; its surface is compared when it has ended");
+  const fs::path folder = tools.sessions.folder_of(id);
+  std::error_code failed;
+  if (fs::is_regular_file(folder / description_name, failed))
+    return field(id, folder, request.query.at("to"));
+  if (!fs::is_regular_file(recording_file(folder), failed))
+    throw Error(ErrorKind::not_found, "session '" + id + "' left no recording; it was never started");
+  if (!tools.makers.write_deviation) throw Error(ErrorKind::unavailable, "this server compares no surfaces");
+  return accepted(
+      work_in_folder(tools.jobs, "deviation", record, folder,
+                     [write = tools.makers.write_deviation](const fs::path& place, const Progress& progress) {
+                       write(place, place / description_name, progress);
+                     }));
+}
+
+}  // namespace
+
+void add_deviation_routes(net::Router& router, const ScoreTools& tools) {
+  router.on("GET", "/api/v1/sessions/{id}/deviation",
+            [tools](const net::Request& request) { return deviation(tools, request); });
+}
+
+}  // namespace ream::api

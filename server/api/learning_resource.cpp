@@ -1,0 +1,131 @@
+#include <nlohmann/json.hpp>
+
+#include "api/score_tools.hpp"
+#include "api/session_list.hpp"
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "net/problem.hpp"
+#include "score/learning_curve.hpp"
+
+namespace ream::api {
+namespace fs = std::filesystem;
+using nlohmann::json;
+namespace {
+
+/// A session of a trainee that has ended and left metrics.
+struct Attempt {
+  score::LearningPoint point;
+  json metrics;
+};
+
+std::string asked(const net::Request& request, const std::string& name) {
+  const auto given = request.query.find(name);
+  return given == request.query.end() ? std::string() : given->second;
+}
+
+double asked_or(const net::Request& request, const std::string& name, double otherwise) {
+  const std::string given = asked(request, name);
+  return given.empty() ? otherwise : json::parse(given).get<double>();
+}
+
+/// Of one person: by user, by the code of a study, or by the name that was given where there are no users.
+store::SessionQuery query_of(const net::Request& request) {
+  store::SessionQuery query;
+  query.trainee_id = asked(request, "trainee");
+  query.participant = asked(request, "participant");
+  query.text = asked(request, "name");
+  query.outside_studies = !query.text.empty();
+  query.case_id = asked(request, "case");
+  if (request.caller.role == "trainee") {
+    if (!query.trainee_id.empty() && query.trainee_id != request.caller.user_id)
+      throw Error(ErrorKind::not_found,
+                  "no such trainee that you may see; a trainee has their own learning only");
+  } else if (int{!query.trainee_id.empty()} + int{!query.participant.empty()} + int{!query.text.empty()} !=
+             1) {
+    throw net::RequestError(
+        422,
+        "say whose learning: either 'trainee', a user's id, or 'participant', a code of a "
+        "study, or 'name', as sessions without a user have it");
+  }
+  query.descending = false;
+  query.limit = SIZE_MAX;
+  return query;
+}
+
+/// Whether it is of the person who is called so, and of no user.
+bool is_named(const SessionRecord& record, const std::string& name) {
+  return record.request.trainee_id.empty() && record.request.trainee == name;
+}
+
+std::vector<Attempt> attempts_of(const ScoreTools& tools, const net::Request& request,
+                                 const score::Rubric& rubric) {
+  std::vector<Attempt> attempts;
+  const std::string name = asked(request, "name");
+  for (const SessionRecord& record :
+       sessions_for(request.caller, tools.sessions, query_of(request)).sessions) {
+    if (!name.empty() && !is_named(record, name)) continue;
+    const std::string& id = record.request.id;
+    const fs::path folder = tools.sessions.folder_of(id);
+    std::error_code failed;
+    if (is_live(record.status.state) || !fs::exists(metrics_json(folder), failed)) continue;
+    Attempt attempt;
+    attempt.metrics = read_json_file(metrics_json(folder));
+    const score::Score score = score::apply_rubric(rubric, attempt.metrics);
+    attempt.point = {
+        id, record.request.created_utc, record.request.theatre, score.points, score.outcome, std::nullopt};
+    attempts.push_back(std::move(attempt));
+  }
+  return attempts;
+}
+
+/// Proficiency-based progression: in which sessions all lines were reached.
+json progression(const std::string& id, const score::Benchmark& benchmark,
+                 const std::vector<Attempt>& attempts) {
+  json sessions = json::array();
+  json first;
+  for (const Attempt& attempt : attempts) {
+    size_t reached = 0;
+    for (const score::BenchmarkResult& result : score::compare_with(benchmark, attempt.metrics))
+      reached += result.reached ? 1 : 0;
+    const bool all = reached == benchmark.lines.size();
+    if (all && first.is_null()) first = attempt.point.session;
+    sessions.push_back({{"session", attempt.point.session}, {"reached", reached}, {"proficient", all}});
+  }
+  const bool proficient = !sessions.empty() && sessions.back().at("proficient").get<bool>();
+  return {{"id", id},
+          {"name", benchmark.name},
+          {"of", benchmark.lines.size()},
+          {"proficient", proficient},
+          {"first_proficient", first},
+          {"sessions", std::move(sessions)}};
+}
+
+net::Response learning(const ScoreTools& tools, const net::Request& request) {
+  const std::string benchmark = asked(request, "benchmark");
+  const Judge judge = tools.shelves.judge_by(asked(request, "rubric"), benchmark);
+  score::CusumParameters cusum;
+  cusum.acceptable_rate = asked_or(request, "acceptable_rate", cusum.acceptable_rate);
+  cusum.unacceptable_rate = asked_or(request, "unacceptable_rate", cusum.unacceptable_rate);
+  cusum.alpha = asked_or(request, "alpha", cusum.alpha);
+  cusum.beta = asked_or(request, "beta", cusum.beta);
+  score::cusum_limits(cusum);
+  std::vector<Attempt> attempts;
+  tools.quiet.run([&] { attempts = attempts_of(tools, request, judge.rubric); });
+  std::vector<score::LearningPoint> points;
+  for (const Attempt& attempt : attempts) points.push_back(attempt.point);
+  json told = score::learning_json(score::learning_curve(cusum, std::move(points)));
+  for (json& session : told["sessions"])
+    if (!session.contains("standing")) session["standing"] = nullptr;
+  told["rubric"] = {{"id", judge.rubric_id}, {"version", judge.rubric.version}};
+  told["benchmark"] = judge.benchmark ? progression(benchmark, *judge.benchmark, attempts) : json(nullptr);
+  return net::json_response(200, told);
+}
+
+}  // namespace
+
+void add_learning_routes(net::Router& router, const ScoreTools& tools) {
+  router.on("GET", "/api/v1/learning",
+            [tools](const net::Request& request) { return learning(tools, request); });
+}
+
+}  // namespace ream::api

@@ -1,0 +1,125 @@
+#include <nlohmann/json.hpp>
+
+#include "api/job_resource.hpp"
+#include "api/request_body.hpp"
+#include "api/score_tools.hpp"
+#include "api/session_list.hpp"
+#include "api/session_work.hpp"
+#include "core/error.hpp"
+#include "core/file.hpp"
+
+namespace ream::api {
+namespace fs = std::filesystem;
+using nlohmann::json;
+namespace {
+
+constexpr size_t longest_rubric = 72, most_named = 1000;
+
+/// What a job does; everything it needs, as it outlives the request.
+struct Rescoring {
+  SessionService* sessions;
+  ChangeFeed* feed;
+  ScoreMakers makers;
+  Judge judge;
+  std::vector<std::string> ids;
+};
+
+/// By ids, or by the filters of the list of sessions, of which those that have ended are meant.
+std::vector<std::string> ids_by_filter(const ScoreTools& tools, const net::Request& request,
+                                       const json& filter) {
+  net::Request as_list = request;
+  as_list.query.clear();
+  for (const auto& [key, value] : filter.items())
+    as_list.query[key] = value.is_string() ? value.get<std::string>() : value.dump();
+  store::SessionQuery query = session_query(as_list);
+  query.limit = SIZE_MAX;
+  std::vector<std::string> ids;
+  for (const SessionRecord& record : sessions_for(request.caller, tools.sessions, query).sessions)
+    if (!is_live(record.status.state)) ids.push_back(record.request.id);
+  return ids;
+}
+
+std::vector<std::string> ids_named(const ScoreTools& tools, const std::vector<std::string>& named) {
+  for (size_t i = 0; i < named.size(); ++i) {
+    const SessionRecord record = tools.sessions.get(named[i]);
+    if (is_live(record.status.state))
+      throw Error(ErrorKind::conflict, "session '" + named[i] + "' is " + to_text(record.status.state) +
+                                           "; it can be scored anew when it has ended");
+  }
+  return named;
+}
+
+json rescored(const Rescoring& all, const std::string& id, const Measure& measure, const Progress& progress) {
+  const SessionRecord record = all.sessions->get(id);
+  const fs::path folder = all.sessions->folder_of(id);
+  const FileLock lock = lock_of_ended(folder);
+  const json metrics = measure(folder, progress);
+  const json document =
+      score_document(all.makers.scored_by, read_json_file(session_json(folder)), metrics, all.judge);
+  write_results(folder, metrics, document);
+  all.sessions->note_results(id);
+  all.feed->tell({"session", id, "scored", std::make_shared<const SessionRequest>(record.request)});
+  const json& score = document.at("score");
+  return {{"session", id}, {"points", score.at("points")}, {"outcome", score.at("outcome")}};
+}
+
+/// A session that cannot be scored does not stop the others.
+json rescore_all(const Rescoring& all, const Progress& progress) {
+  const Measure measure = all.makers.make_measure();
+  json scored = json::array(), failed = json::array();
+  const double step = 1.0 / static_cast<double>(all.ids.size());
+  for (const std::string& id : all.ids) {
+    const double begun = static_cast<double>(scored.size() + failed.size()) * step;
+    const std::string words = "session " + std::to_string(scored.size() + failed.size() + 1) + " of " +
+                              std::to_string(all.ids.size());
+    const Progress of_this = [&](double share, std::string_view) { progress(begun + share * step, words); };
+    of_this(0.0, {});
+    try {
+      scored.push_back(rescored(all, id, measure, of_this));
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::cancelled) throw;
+      failed.push_back({{"session", id}, {"error", error.what()}});
+    }
+  }
+  progress(1.0, "done");
+  return {{"rubric", {{"id", all.judge.rubric_id}, {"version", all.judge.rubric.version}}},
+          {"scored", std::move(scored)},
+          {"failed", std::move(failed)}};
+}
+
+net::Response begin(const ScoreTools& tools, const net::Request& request) {
+  RequestBody body(request);
+  const std::optional<json> filter = body.value_or_none("filter");
+  std::vector<std::string> named;
+  const bool by_name = body.value_or_none("sessions").has_value();
+  if (by_name) named = body.names("sessions", 1, most_named);
+  const std::string rubric = body.words("rubric", 0, longest_rubric);
+  const std::string benchmark = body.name_or("benchmark", "");
+  body.finish();
+  if (by_name == filter.has_value())
+    throw net::RequestError(422, "say either 'sessions' or 'filter'; an empty filter means all sessions",
+                            {{"#/sessions", "or filter: one of them"}});
+  Rescoring all{&tools.sessions, &tools.feed, tools.makers, tools.shelves.judge_by(rubric, benchmark),
+                by_name ? ids_named(tools, named) : ids_by_filter(tools, request, *filter)};
+  if (all.ids.empty())
+    throw net::RequestError(422, "no session that has ended fits the filter", {{"#/filter", "fits nothing"}});
+  if (!all.makers.make_measure) throw Error(ErrorKind::unavailable, "this server measures no recordings");
+  tools.audit(request, "session.rescore", "",
+              std::to_string(all.ids.size()) + " sessions by " + all.judge.rubric_id + "@" +
+                  std::to_string(all.judge.rubric.version));
+  return accepted(tools.jobs.submit_file(
+      {"rescoring"}, [all = std::move(all)](const fs::path& folder, const Progress& progress) {
+        const json report = rescore_all(all, progress);
+        write_file_atomically(folder / "rescoring.json", report.dump(2) + "\n");
+        return JobService::MadeFile{"rescoring.json", "application/json"};
+      }));
+}
+
+}  // namespace
+
+void add_rescoring_routes(net::Router& router, const ScoreTools& tools) {
+  router.on("POST", "/api/v1/rescorings",
+            [tools](const net::Request& request) { return begin(tools, request); });
+}
+
+}  // namespace ream::api

@@ -1,0 +1,100 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/commands.hpp"
+#include "app/cli/terminal_progress.hpp"
+#include "app/data_folder.hpp"
+#include "app/interrupt.hpp"
+#include "app/rescoring.hpp"
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "report/number_words.hpp"
+#include "score/benchmark.hpp"
+#include "score/group_cut_json.hpp"
+#include "score/rubric_shelf.hpp"
+
+namespace ream::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct Options {
+  std::vector<std::string> experts, novices;
+  std::string name = "experts", rubric = "standard", case_name, density = "normal";
+  fs::path out;
+};
+
+std::vector<score::MeasuredSession> measured(const std::vector<std::string>& names, const Options& options,
+                                             const fs::path& data) {
+  const TerminalProgress progress;
+  std::vector<score::MeasuredSession> sessions;
+  for (const Rescored& one : rescore(names, options.case_name, data, std::cref(progress))) {
+    if (!one.error.empty()) throw Error(one.kind, one.name + ": " + one.error);
+    sessions.push_back({one.name, one.metrics});
+  }
+  return sessions;
+}
+
+void print(const score::Benchmark& benchmark, const json& cuts) {
+  for (const score::BenchmarkLine& line : benchmark.lines) {
+    const score::Metric* metric = score::find_metric(line.metric);
+    std::cout << line.metric << "  " << (line.better == score::Better::less ? "at most " : "at least ")
+              << report::with_unit(line.mean, metric ? metric->unit : "") << ", " << line.experts
+              << " experts";
+    if (!line.dropped.empty()) std::cout << ", " << line.dropped.size() << " left out";
+    std::cout << '\n';
+  }
+  for (const json& cut : cuts) {
+    std::cout << "cut of " << cut.at("of").get<std::string>() << "  ";
+    if (cut.contains("error"))
+      std::cout << cut.at("error").get<std::string>() << '\n';
+    else
+      std::cout << report::shortest(cut.at("cut")) << "; novices passing " << cut.at("novices_passing")
+                << " of " << cut.at("novices") << ", experts failing " << cut.at("experts_failing") << " of "
+                << cut.at("experts") << '\n';
+  }
+}
+
+void make_benchmark(const Options& options, const GlobalOptions& global) {
+  const fs::path data = data_folder(global.data);
+  const score::Density density = score::density_from_text(options.density);
+  const score::Rubric rubric = score::find_rubric(options.rubric, score::RubricShelf(rubrics_folder(data)));
+  catch_interrupts();
+  const auto experts = measured(options.experts, options, data);
+  const score::Benchmark benchmark = score::make_benchmark(options.name, experts);
+  json cuts = json::array();
+  if (!options.novices.empty())
+    cuts = score::group_cuts_json(measured(options.novices, options, data), experts, rubric, density);
+  if (!options.out.empty())
+    write_file_atomically(options.out, score::benchmark_json(benchmark).dump(2) + "\n");
+  if (global.json)
+    std::cout << json{{"benchmark", score::benchmark_json(benchmark)}, {"cuts", cuts}}.dump() << '\n';
+  else
+    print(benchmark, cuts);
+}
+
+}  // namespace
+
+void add_benchmark_command(CLI::App& app, GlobalOptions& global) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "benchmark", "Make a benchmark of experts' sessions, and pass marks by contrasting them with novices'");
+  command->add_option("EXPERT", options->experts, "Sessions of experts, as ream score takes them")
+      ->required();
+  command->add_option("--novices", options->novices,
+                      "Sessions of novices; three or more of each give pass marks");
+  command->add_option("--name", options->name, "What the benchmark is called");
+  command->add_option("--out", options->out,
+                      "FILE.json for ream score --benchmark (proto/benchmark.schema.json)");
+  command->add_option("--rubric", options->rubric, "Whose points are contrasted, beside every metric");
+  command->add_option("--density", options->density, "Of the groups: normal or kernel")
+      ->check(CLI::IsMember({"normal", "kernel"}));
+  command->add_option("--case", options->case_name,
+                      "Where the case is, if not under the name that the recordings give");
+  command->callback([options, &global] { make_benchmark(*options, global); });
+}
+
+}  // namespace ream::app

@@ -1,0 +1,37 @@
+#include "report/deviation_scale.hpp"
+
+#include "score/deviation.hpp"
+
+namespace ream::report {
+namespace {
+
+constexpr render::VertexColour bone{189, 183, 172, 0};
+
+}  // namespace
+
+const std::vector<DeviationClass>& deviation_classes() {
+  static const std::vector<DeviationClass> classes = {
+      {-1.0, {179, 88, 6, 0}, "over 1 mm proud"},           {-0.5, {241, 163, 64, 0}, "0.5 to 1 mm proud"},
+      {-0.25, {254, 224, 182, 0}, "0.25 to 0.5 mm proud"},  {0.25, {247, 247, 247, 0}, "within 0.25 mm"},
+      {0.5, {216, 218, 235, 255}, "0.25 to 0.5 mm beyond"}, {1.0, {153, 142, 195, 255}, "0.5 to 1 mm beyond"},
+      {1e9, {84, 39, 136, 255}, "over 1 mm beyond"},
+  };
+  return classes;
+}
+
+render::VertexColour deviation_colour(int8_t code) {
+  if (code == score::deviation_unknown) return bone;
+  const double mm = score::deviation_mm(code);
+  for (const DeviationClass& each : deviation_classes())
+    if (mm <= each.up_to_mm) return each.colour;
+  return bone;
+}
+
+std::vector<render::VertexColour> deviation_colours(std::span<const int8_t> codes) {
+  std::vector<render::VertexColour> colours;
+  colours.reserve(codes.size());
+  for (const int8_t code : codes) colours.push_back(deviation_colour(code));
+  return colours;
+}
+
+}  // namespace ream::report

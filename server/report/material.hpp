@@ -1,0 +1,52 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/picture.hpp"
+#include "report/trace_summary.hpp"
+#include "score/benchmark.hpp"
+#include "score/learning_curve.hpp"
+#include "score/rubric_score.hpp"
+
+namespace ream::report {
+
+/// Who did what, with what; empty texts where it is not known.
+struct SessionFacts {
+  std::string id, case_name, side;
+  std::string trainee;      ///< name, or the code that stands for it in a study
+  bool blinded = false;     ///< trainee is such a code
+  std::string created_utc;  ///< ISO
+  int attempt = 0;          ///< from 1; 0: not known
+  bool theatre = false;     ///< theatre mode: nothing but the bone is shown while reaming
+  std::string state, fault;
+  std::string reamer, device, device_profile, feed_model, guide;
+  double force_scale = 1.0;
+  std::string build, scored_by;  ///< versions of the program
+  std::string case_hash, start_grid_hash, grid_hash, session_hash;
+};
+
+/// A remark of somebody at some time of the session.
+struct Remark {
+  double at_s = 0.0;
+  std::string words, author;
+};
+
+/// Everything that a report is made of.
+struct Material {
+  SessionFacts session;
+  std::string plan_words;  ///< reamer, depth, hole and implant of the plan, for people
+  double planned_depth_mm = 0.0;
+  nlohmann::json metrics;  ///< as metrics.json
+  score::Rubric rubric;
+  score::Score score;
+  std::optional<score::Benchmark> benchmark;
+  std::optional<TraceSummary> trace;
+  std::vector<Remark> remarks;
+  score::LearningCurve learning;  ///< the trainee's sessions up to this one; may be empty
+  std::vector<Picture> pictures;
+  std::string why_no_pictures;  ///< one sentence, where there are none
+};
+
+}  // namespace ream::report

@@ -1,0 +1,87 @@
+#include "score/deviation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace ream::score {
+namespace {
+
+/// Of the two voxels between whose centres a vertex lies; SIZE_MAX outside of the grid.
+std::array<size_t, 2> voxels_beside(const voxel::VoxelGrid& grid, const Vec3f& vertex_mm) {
+  const Vec3 at = (vertex_mm.cast<double>().array() / grid.spacing_mm.array() - 0.5).matrix();
+  Vec3i low;
+  int edge = 0;
+  double farthest = -1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double nearest = std::round(at[axis]), off = std::abs(at[axis] - nearest);
+    low[axis] = static_cast<int>(nearest);
+    if (off > farthest) {
+      farthest = off;
+      edge = axis;
+    }
+  }
+  low[edge] = static_cast<int>(std::floor(at[edge]));
+  Vec3i high = low;
+  ++high[edge];
+  const auto index = [&](const Vec3i& o) { return grid.contains(o) ? grid.index(o) : SIZE_MAX; };
+  return {index(low), index(high)};
+}
+
+/// What is known of the surface at a vertex.
+enum class Origin { native, cut, pilot_hole };
+
+Origin origin_of(const BoneStates& bone, const Vec3f& vertex_mm) {
+  bool drilled = false;
+  for (const size_t i : voxels_beside(bone.grid, vertex_mm)) {
+    if (i == SIZE_MAX) continue;
+    if (bone.left[i] != bone.start[i]) return Origin::cut;
+    drilled = drilled || bone.start[i] != bone.native[i];
+  }
+  return drilled ? Origin::pilot_hole : Origin::native;
+}
+
+}  // namespace
+
+int8_t deviation_code(double mm) {
+  const double steps = std::floor(mm / deviation_step_mm + 0.5);
+  return static_cast<int8_t>(std::clamp(steps, -127.0, 127.0));
+}
+
+std::vector<uint8_t> cut_vertices(std::span<const Vec3f> vertices_mm, const BoneStates& bone) {
+  std::vector<uint8_t> cut(vertices_mm.size());
+  for (size_t i = 0; i < cut.size(); ++i) cut[i] = origin_of(bone, vertices_mm[i]) == Origin::cut ? 1 : 0;
+  return cut;
+}
+
+std::vector<int8_t> deviation_from_plan(std::span<const Vec3f> vertices_mm, const BoneStates& bone,
+                                        const PlacedFront& planned, const TriangleTree& native_surface) {
+  std::vector<int8_t> codes(vertices_mm.size(), deviation_unknown);
+  for (size_t i = 0; i < codes.size(); ++i) {
+    const Origin origin = origin_of(bone, vertices_mm[i]);
+    if (origin == Origin::pilot_hole) continue;
+    const Vec3 point = vertices_mm[i].cast<double>();
+    const double beyond = planned.front.distance_mm(planned.front_from_grid.point(point));
+    if (beyond <= 0.0)
+      codes[i] = deviation_code(beyond);
+    else if (origin == Origin::cut)
+      codes[i] = deviation_code(native_surface.distance_mm(point, std::min(beyond, deviation_range_mm)));
+  }
+  return codes;
+}
+
+std::vector<int8_t> deviation_from_implant(std::span<const Vec3f> vertices_mm, const BoneStates& bone,
+                                           const PlacedFront& implant) {
+  std::vector<int8_t> codes(vertices_mm.size(), deviation_unknown);
+  const double outer2 = implant.front.outer_mm() * implant.front.outer_mm();
+  for (size_t i = 0; i < codes.size(); ++i) {
+    const Vec3 point = implant.front_from_grid.point(vertices_mm[i].cast<double>());
+    if (point.head<2>().squaredNorm() > outer2) continue;
+    const double gap = implant.front.distance_mm(point);
+    if (std::abs(gap) > far_from_implant_mm) continue;
+    if (origin_of(bone, vertices_mm[i]) != Origin::pilot_hole) codes[i] = deviation_code(gap);
+  }
+  return codes;
+}
+
+}  // namespace ream::score

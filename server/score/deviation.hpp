@@ -1,0 +1,54 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/triangle_tree.hpp"
+#include "score/swept_front.hpp"
+#include "voxel/voxel_grid.hpp"
+
+namespace ream::score {
+
+/// A deviation as one signed byte: steps of 1/32 mm, saturating at 127 steps (3.97 mm) either way; -128 where
+/// there is nothing to compare.
+inline constexpr double deviation_step_mm = 1.0 / 32.0;
+inline constexpr int8_t deviation_unknown = -128;
+inline constexpr double deviation_range_mm = 127.0 * deviation_step_mm;
+
+int8_t deviation_code(double mm);
+/// Not of deviation_unknown.
+inline double deviation_mm(int8_t code) { return code * deviation_step_mm; }
+
+/// Coverage of one bone at three moments, in the order of VoxelGrid::index: untouched; with the pilot hole,
+/// as it was before the first tick; as it is now. All outlive it.
+struct BoneStates {
+  const voxel::VoxelGrid& grid;
+  const uint8_t *native, *start, *left;
+};
+
+/// A surface to compare with, put somewhere in the grid.
+struct PlacedFront {
+  SweptFront front;
+  Pose front_from_grid;
+};
+
+/// 1 for every vertex that removal has made, else 0; vertices as below.
+std::vector<uint8_t> cut_vertices(std::span<const Vec3f> vertices_mm, const BoneStates& bone);
+
+/// How far the surface that is left lies beyond the planned one, vertex by vertex: positive where it is too
+/// deep, negative where bone stands that should be gone. The planned surface is the native one less what the
+/// reamer sweeps as planned. Unknown where nothing was removed and nothing should be, and in the pilot hole.
+/// `vertices_mm`: of the surface of `left`, grid frame, on edges between voxel centres as marching cubes puts
+/// them (whole_surface, BlockExtractor at stride 1). `native_surface`: of the untouched bone, grid frame, at
+/// least within the range of what was removed.
+std::vector<int8_t> deviation_from_plan(std::span<const Vec3f> vertices_mm, const BoneStates& bone,
+                                        const PlacedFront& planned, const TriangleTree& native_surface);
+
+/// How far the surface that is left lies behind an implant's back, vertex by vertex: a gap is positive, bone
+/// that stands into the implant negative. Unknown beside the implant, in the pilot hole, and where the
+/// surface is farther than `far_from_implant_mm`.
+std::vector<int8_t> deviation_from_implant(std::span<const Vec3f> vertices_mm, const BoneStates& bone,
+                                           const PlacedFront& implant);
+inline constexpr double far_from_implant_mm = 8.0;
+
+}  // namespace ream::score

@@ -1,0 +1,66 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "case/anatomy.hpp"
+#include "score/cutting_meridian.hpp"
+#include "score/outer_cortex.hpp"
+#include "score/ray_lattice.hpp"
+#include "score/subchondral_plate.hpp"
+
+namespace ream::score {
+
+/// What a session is measured against, beside the bone itself.
+struct Task {
+  case_::Anatomy anatomy;
+  std::optional<case_::Plan> plan;
+  shell::ToolProfile reamer;  ///< the last that was used
+};
+
+/// A glenoid before anything was done to it (the pilot hole is not cut either), measured along rays that are
+/// parallel to the planned axis; without a plan to the inverse normal of the glenoid's frame. Everything that
+/// scoring needs to know of the untouched bone, made once a session (about 0.2 s for a glenoid at 0.2 mm).
+/// Rays reach 10 mm beyond the reamer, 0.25 mm apart.
+class NativeGlenoid {
+ public:
+  static constexpr double spacing_mm = 0.25, beyond_reamer_mm = 10.0;
+
+  /// `native`: the untouched bone; not needed afterwards. Error invalid_input without plan and glenoid frame.
+  NativeGlenoid(Task task, const voxel::BoneModel& native);
+
+  const Task& task() const { return task_; }
+  const RayLattice& rays() const { return rays_; }
+  /// Of every ray, mm: where it meets the face first (cartilage, where there is some), where bone begins, and
+  /// where it leaves the bone again; no_surface_mm where it does not.
+  const std::vector<double>& surface_mm() const { return surface_mm_; }
+  const std::vector<double>& subchondral_mm() const { return subchondral_mm_; }
+  const std::vector<double>& exit_mm() const { return exit_mm_; }
+  /// 1: the ray meets the face, which is what is connected to its middle without a slope of over 60 degrees
+  /// against the rays, without its outermost quarter millimetre (of coarser bone, as many quarters as make a
+  /// voxel), and does not run into the pilot hole.
+  const std::vector<uint8_t>& face() const { return face_; }
+  const SubchondralPlate& plate() const { return plate_; }
+  const OuterCortex& outer_cortex() const { return *outer_cortex_; }
+  const CuttingMeridian& reamer() const { return reamer_; }
+  /// On every `stride`-th ray each way; shares the outer cortex.
+  NativeGlenoid thinned(int stride) const;
+
+ private:
+  NativeGlenoid() = default;
+  void find_depths(const voxel::BoneModel& native);
+  void leave_out_pilot_hole(double margin_mm);
+  std::vector<uint8_t> connected_to_middle() const;
+  std::vector<uint8_t> without_edge(const std::vector<uint8_t>& face) const;
+  void find_outer_cortex(const voxel::BoneModel& native);
+
+  Task task_;
+  CuttingMeridian reamer_;
+  RayLattice rays_;
+  std::vector<double> surface_mm_, subchondral_mm_, exit_mm_;
+  std::vector<uint8_t> face_;
+  SubchondralPlate plate_;
+  std::shared_ptr<const OuterCortex> outer_cortex_;
+};
+
+}  // namespace ream::score

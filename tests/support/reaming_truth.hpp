@@ -1,0 +1,41 @@
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "case/case.hpp"
+#include "support/analytic_glenoid.hpp"
+
+namespace ream::test {
+
+/// A reamer as a convex body in its own frame: half an ellipsoid (a sphere where both semi-axes are equal)
+/// out to a radius, flat within that of its nipple, and half a millimetre of body behind its rim.
+struct ReamerShape {
+  double across_mm = 30.0, along_mm = 30.0, outer_mm = 10.0, nipple_mm = 0.0;
+
+  double component_mm() const { return outer_mm - 0.5; }  ///< radius of what is seated in what it reamed
+  double behind_mm(double radius_mm) const;
+  std::string words() const;  ///< as make_tool takes them, with an 8 mm nipple where there is one
+};
+
+/// A glenoid, a plan, and with what it is to be reamed.
+struct PlannedReaming {
+  AnalyticGlenoid glenoid;
+  case_::Plan plan;
+  ReamerShape reamer;
+  double pilot_margin_mm = 0.4;  ///< left out of the face around the pilot hole: a voxel
+};
+
+/// What must come out, by the glenoid's formulas and the poses of trace.csv alone: the union of the reamer at
+/// those poses, taken from the glenoid, integrated numerically in double precision.
+struct ReamingTruth {
+  double version_deg = 0.0, inclination_deg = 0.0;
+  double axis_error_deg = 0.0, entry_error_mm = 0.0;
+  double volume_mm3 = 0.0;
+  double depth_max_mm = 0.0, depth_mean_mm = 0.0, footprint_mm2 = 0.0;
+  double seating_percent = 0.0, plate_percent = 0.0;
+  double rim_version_deg = 0.0, rim_inclination_deg = 0.0;
+};
+
+ReamingTruth reaming_truth(const PlannedReaming& planned, const std::filesystem::path& trace_csv);
+
+}  // namespace ream::test
