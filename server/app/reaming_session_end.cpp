@@ -5,6 +5,7 @@
 #include "app/reaming_session.hpp"
 #include "app/score_document.hpp"
 #include "app/session_recovery.hpp"
+#include "app/stream_words.hpp"
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -80,6 +81,8 @@ void ReamingSession::close(api::SessionState state, const std::string& fault, co
     status_.fault = fault;
     status_.held = false;
     metrics_ = metrics;
+    sample_.state = wire_state(state);
+    tell_port();  // before anybody who waits for the end goes on
     lock_.reset();
     place_.reset();
     finished_ = true;

@@ -42,6 +42,10 @@ Vec3 vibration_n(const Model& model, const Pose& world_from_tool, double vibrati
 }  // namespace
 
 double HandOutput::fade(bool stale) noexcept {
+  if (faded_ticks == 0) {
+    fades_n = contact.force_n.norm();
+    fades_n_mm = contact.torque_n_mm.norm();
+  }
   if (stale || (faded_ticks > 0 && faded_ticks < fade_ticks))
     faded_ticks = std::min(faded_ticks + 1, fade_ticks);
   else if (faded_ticks > 0) {
@@ -80,6 +84,10 @@ void render(const Model& model, HandOutput& output, const Pose& world_from_tool,
     const double risen = report.paused ? 0.0 : output.start_up.next(load.asked_n);
     contact.force_n = faded * force::limited(contact.force_n, risen * limits.force_max_n);
     contact.torque_n_mm = faded * force::limited(contact.torque_n_mm, risen * limits.torque_max_n_mm);
+    if (output.faded_ticks > 0) {  // the hand's last known way leads on for a moment, its force must not
+      contact.force_n = force::limited(contact.force_n, faded * output.fades_n);
+      contact.torque_n_mm = force::limited(contact.torque_n_mm, faded * output.fades_n_mm);
+    }
     const double gain = faded * risen;
     contact = force::slewed(output.contact, contact, limits);
     if (model.settings.energy_guarded) contact = output.energy.allow(contact, stored_mj(model, load));

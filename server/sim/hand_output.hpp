@@ -31,7 +31,9 @@ struct HandOutput {
   /// Of the last tick, world frame: what bone and guide do to the hand, and what the spindle does beside it.
   force::Wrench contact;
   Vec3 spindle_n_mm = Vec3::Zero();
-  int faded_ticks = 0;  ///< since a pose was too old
+  int faded_ticks = 0;      ///< since a pose was too old
+  double fades_n = 0.0;     ///< contact's force when it became so: what fades is no more than that
+  double fades_n_mm = 0.0;  ///< and its torque
 };
 
 /// What a device is told of a tick.

@@ -12,7 +12,8 @@ LinkState link_state(double age_ms, const device::StaleLimits& limits) noexcept 
 }
 
 LinkState PoseWatchdog::judge(uint32_t tick, device::DeviceInput& input) noexcept {
-  const LinkState state = link_state(input.age_ms, limits_);
+  LinkState state = link_state(input.age_ms, limits_);
+  if (state == LinkState::fading && state_ == LinkState::lost) state = LinkState::lost;
   if (state == LinkState::lost && state_ != LinkState::lost && been_there_) {
     ++losses_;
     lost_tick_ = tick;

@@ -19,7 +19,7 @@ struct Rendering {
   static case_::Plan plan() { return slab_plan(slab({32, 32, 32}, 0.5, 8.0, 0.6), 8.0); }
 
   record::TickReport tick(sim::HandOutput& output, double thrust_n, double spindle_n_mm, double vibration_g,
-                          bool paused = false) {
+                          bool paused = false, bool stale = false) {
     sim::ToolLoad load;
     load.spring.force_n = Vec3(0, 0, thrust_n);
     load.spindle_torque_n_mm = spindle_n_mm;
@@ -27,6 +27,7 @@ struct Rendering {
     record::TickReport report;
     report.vibration_g = vibration_g;
     report.paused = paused;
+    report.stale = stale;
     // A hand that keeps pressing has put in what contact may ask back.
     report.world_from_handle.translation_mm.z() = depth_mm += 0.01;
     sim::render(run.model, output, Pose{}, load, report);
@@ -51,6 +52,18 @@ TEST(HandOutput, RampsUpAfterTheStartAndAfterAPause) {
   EXPECT_NEAR(previous_n, 2.0, 1e-9);
   EXPECT_EQ(r.tick(output, 20.0, 100.0, 1.0, true).hand_force_n.norm(), 0.0);
   EXPECT_EQ(r.tick(output, 20.0, 0.0, 0.0).hand_force_n.norm(), 0.0) << "waits for a small force again";
+}
+
+TEST(HandOutput, AStalePosesForceFallsThoughTheLoadRises) {
+  Rendering r;
+  sim::HandOutput output(0.0);
+  double before_n = 0.0;
+  for (int i = 0; i < 100; ++i) before_n = r.tick(output, 20.0, 0.0, 0.0).hand_force_n.norm();
+  EXPECT_NEAR(before_n, 2.0, 1e-9);
+  for (int i = 1; i <= 20; ++i)
+    EXPECT_LE(r.tick(output, 20.0 + 5.0 * i, 0.0, 0.0, false, true).hand_force_n.norm(),
+              before_n * (1.0 - i / 20.0) + 1e-9)
+        << "stale for " << i;
 }
 
 TEST(HandOutput, VibrationHasALimitOfItsOwnAndStaysWithinTheDevices) {

@@ -50,6 +50,26 @@ TEST(PoseWatchdog, MarksWhatIsTooOldAndCountsLosses) {
   EXPECT_EQ(watchdog.lost_tick(), 7);
 }
 
+TEST(PoseWatchdog, WhatWasLostIsBackWithAPoseThatIsGoodAndNotBefore) {
+  sim::PoseWatchdog watchdog({5.0, 10.0, 50.0});
+  const auto judge = [&](uint32_t tick, double age_ms) {
+    device::DeviceInput input;
+    input.age_ms = age_ms;
+    watchdog.judge(tick, input);
+    return input;
+  };
+  EXPECT_TRUE(judge(0, 12.0).paused) << "it has never been there";
+  EXPECT_EQ(watchdog.state(), LinkState::lost);
+  EXPECT_FALSE(judge(1, 8.0).paused);
+  EXPECT_FALSE(judge(2, 12.0).paused);
+  EXPECT_TRUE(judge(3, 60.0).paused);
+  EXPECT_TRUE(judge(4, 12.0).paused) << "a force would be there at once, and fade";
+  EXPECT_EQ(watchdog.state(), LinkState::lost);
+  EXPECT_EQ(watchdog.losses(), 1u);
+  EXPECT_FALSE(judge(5, 0.0).paused);
+  EXPECT_EQ(watchdog.state(), LinkState::fresh);
+}
+
 /// A hand that leans on bone, behind a link that says nothing for a while: the pose of its last word.
 class SilentDevice final : public device::HapticDevice {
  public:
