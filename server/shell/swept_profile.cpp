@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
 #include "shell/meridian.hpp"
+#include "shell/swept_body.hpp"
 
 namespace ream::shell {
 namespace {
@@ -12,42 +12,13 @@ namespace {
 constexpr double widest_z_step_mm = 0.0625, widest_r2_step_mm2 = 0.5;
 constexpr double z_steps_per_radius = 200, r2_steps_per_radius2 = 400;
 
-/// Meridian of the swept body, closed to the axis on both ends.
-ToolProfile swept_body(const ToolProfile& profile) {
-  ToolProfile body;
-  const auto add = [&body](double radius_mm, double z_mm) {
-    if (!body.points.empty()) {
-      const ProfilePoint& last = body.points.back();
-      if (last.radius_mm == radius_mm && last.z_mm == z_mm) return;
-      body.roles.push_back(SurfaceRole::cutting);
-    }
-    body.points.push_back({radius_mm, z_mm});
-  };
-  double lowest = 0.0;
-  for (size_t i = 0; i < profile.roles.size(); ++i) {
-    if (profile.roles[i] != SurfaceRole::cutting) continue;
-    const ProfilePoint &a = profile.points[i], &b = profile.points[i + 1];
-    if (body.points.empty()) {
-      lowest = a.z_mm;
-      add(0.0, a.z_mm);
-    }
-    add(a.radius_mm, a.z_mm);
-    add(b.radius_mm, b.z_mm);
-    lowest = std::min({lowest, a.z_mm, b.z_mm});
-  }
-  if (body.points.empty()) throw Error(ErrorKind::invalid_input, "the tool has no cutting surface");
-  add(body.points.back().radius_mm, lowest - rim_backing_mm);
-  add(0.0, lowest - rim_backing_mm);
-  return body;
-}
-
 /// Largest power of two that is at most `limit`: its inverse is then exact.
 double power_of_two_below(double limit) { return std::exp2(std::floor(std::log2(limit))); }
 
 }  // namespace
 
 SweptProfile swept_profile(const ToolProfile& profile, double margin_mm) {
-  const ToolProfile body = swept_body(profile);
+  const ToolProfile body = swept_body(profile, rim_backing_mm);
   SweptProfile table;
   table.max_radius_mm = body.max_radius_mm();
   table.body_min_z_mm = body.min_z_mm();
@@ -81,7 +52,7 @@ SweptProfile swept_profile(const ToolProfile& profile, double margin_mm) {
 }
 
 double swept_distance_mm(const ToolProfile& profile, double radius_mm, double z_mm) {
-  return nearest_on_profile(swept_body(profile), radius_mm, z_mm).signed_distance_mm;
+  return nearest_on_profile(swept_body(profile, rim_backing_mm), radius_mm, z_mm).signed_distance_mm;
 }
 
 }  // namespace ream::shell

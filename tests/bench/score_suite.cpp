@@ -5,6 +5,7 @@
 #include "app/data_folder.hpp"
 #include "app/rescoring.hpp"
 #include "bench/bench.hpp"
+#include "bench/pecking.hpp"
 #include "bench/scored_reaming.hpp"
 #include "core/clock.hpp"
 #include "support/temporary_folder.hpp"

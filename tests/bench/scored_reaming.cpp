@@ -9,17 +9,16 @@
 #include "app/loop_rings.hpp"
 #include "app/measured_glenoid.hpp"
 #include "app/session_files.hpp"
+#include "bench/pecking.hpp"
 #include "core/clock.hpp"
 #include "core/file.hpp"
-#include "ct/phantom_case.hpp"
 #include "score/live_score.hpp"
 #include "shell/tool.hpp"
 
 namespace ream::bench {
 namespace {
 
-constexpr const char* case_name = "thesis-5-4-2";
-constexpr double press_n = 35.0, peck_every_s = 5.0, shell_spacing_mm = 0.1;
+constexpr double press_n = 35.0, shell_spacing_mm = 0.1;
 /// Feed of a specimen so hard that ten minutes stay in the vault.
 constexpr double hard = 0.1;
 /// How often a server looks at what has come.
@@ -33,31 +32,10 @@ double thread_cpu_s() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-nlohmann::json pecking(double duration_s) {
-  nlohmann::json profile = nlohmann::json::array();
-  const auto add = [&](double t_s, double force_n) {
-    profile.push_back({{"t_s", t_s}, {"force_n", force_n}});
-  };
-  add(0.0, 10.0);
-  add(0.5, press_n);
-  for (double t = peck_every_s; t < duration_s; t += peck_every_s) {
-    add(t - 0.4, press_n);
-    add(t - 0.3, -8.0);
-    add(t - 0.1, -8.0);
-    add(t, 10.0);
-    add(t + 0.3, press_n);
-  }
-  return {{"device", "hand"},
-          {"duration_s", duration_s},
-          {"stiffness_n_mm", 100.0},
-          {"specimen_factor", hard},
-          {"hand", {{"start_mm", {0.0, 0.0, -8.0}}, {"force_profile", profile}}}};
-}
-
 app::RunRequest request_for(const std::filesystem::path& folder, double duration_s) {
-  write_file_atomically(folder / "script.json", pecking(duration_s).dump());
+  write_file_atomically(folder / "script.json", pecking(duration_s, press_n, hard).dump());
   app::RunRequest request;
-  request.case_name = case_name;
+  request.case_name = thesis_case;
   request.script_name = (folder / "script.json").string();
   request.backend = "cpu";
   request.tool_spacing_mm = shell_spacing_mm;
@@ -118,8 +96,8 @@ class LiveScoring {
 };
 
 double native_ms_of(const std::filesystem::path& data) {
-  const case_::Case native = app::find_case(case_name, data);
-  const case_::Anatomy anatomy = app::find_anatomy(native, case_name, data);
+  const case_::Case native = app::find_case(thesis_case, data);
+  const case_::Anatomy anatomy = app::find_anatomy(native, thesis_case, data);
   const shell::Tool reamer = shell::make_tool(native.plan->reamer);
   const auto begun = SteadyClock::now();
   app::measured_glenoid(native, anatomy, reamer);
@@ -127,13 +105,6 @@ double native_ms_of(const std::filesystem::path& data) {
 }
 
 }  // namespace
-
-void keep_thesis_case(const std::filesystem::path& data) {
-  const ct::PhantomPreset preset = ct::phantom_preset(case_name);
-  case_::Case bone_case = ct::make_phantom_case(case_name, preset.params, preset.upsample);
-  bone_case.plan->reamer = shell::thesis_tool;
-  case_::save_case(bone_case, app::cases_folder(data) / case_name);
-}
 
 ScoredReaming ream_and_score(const std::filesystem::path& data, const std::string& id, double duration_s) {
   ScoredReaming scored;

@@ -16,11 +16,8 @@ struct ScoredReaming {
   double final_ms = 0.0;   ///< from the last tick until metrics.json is written
 };
 
-/// The bench case thesis-5-4-2 in a data folder.
-void keep_thesis_case(const std::filesystem::path& data);
-
 /// Somebody presses, lifts and presses again on a hard specimen, in virtual time; the session is left in
-/// `data` under `id`, recording and all.
+/// `data`, which has the thesis' case, under `id`, recording and all.
 ScoredReaming ream_and_score(const std::filesystem::path& data, const std::string& id, double duration_s);
 
 }  // namespace ream::bench

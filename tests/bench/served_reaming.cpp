@@ -12,10 +12,9 @@
 #include "app/data_folder.hpp"
 #include "app/reaming_session.hpp"
 #include "bench/many_sessions.hpp"
+#include "bench/pecking.hpp"
 #include "core/clock.hpp"
 #include "core/error.hpp"
-#include "ct/phantom_case.hpp"
-#include "shell/tool.hpp"
 #include "store/database.hpp"
 #include "support/memory_in_use.hpp"
 #include "support/raw_http.hpp"
@@ -25,43 +24,18 @@ namespace ream::bench {
 using nlohmann::json;
 namespace {
 
-constexpr const char* case_name = "thesis-5-4-2";
 constexpr const char* script_name = "pecking";
 constexpr double thesis_spacing_mm = 0.1;
 constexpr int office_sessions = 10'000;
 constexpr int most_refusals = 60;
-constexpr double press_n = 52.0, peck_every_s = 5.0;
-
-/// Press, lift for a look, press again; the last press lasts to the end.
-json pecking(double duration_s) {
-  json profile = json::array();
-  const auto add = [&](double t_s, double force_n) {
-    profile.push_back({{"t_s", t_s}, {"force_n", force_n}});
-  };
-  add(0.0, 10.0);
-  add(0.5, press_n);
-  for (double t = peck_every_s; t < duration_s; t += peck_every_s) {
-    add(t - 0.4, press_n);
-    add(t - 0.3, -8.0);
-    add(t - 0.1, -8.0);
-    add(t, 10.0);
-    add(t + 0.3, press_n);
-  }
-  return {{"device", "hand"},
-          {"duration_s", duration_s},
-          {"stiffness_n_mm", 100.0},
-          {"hand", {{"start_mm", {0.0, 0.0, -8.0}}, {"force_profile", profile}}}};
-}
+constexpr double press_n = 52.0;
 
 }  // namespace
 
 struct ServedReaming::House {
   House(sim::Realtime realtime, double turn_s, Surroundings surroundings) {
-    const ct::PhantomPreset preset = ct::phantom_preset(case_name);
-    case_::Case bone_case = ct::make_phantom_case(case_name, preset.params, preset.upsample);
-    bone_case.plan->reamer = shell::thesis_tool;
-    case_::save_case(bone_case, app::cases_folder(folder.path()) / case_name);
-    folder.write("scripts/" + std::string(script_name) + ".json", pecking(turn_s).dump());
+    keep_thesis_case(folder.path());
+    folder.write("scripts/" + std::string(script_name) + ".json", pecking(turn_s, press_n).dump());
     app::SessionHouse house;
     house.data = folder.path();
     house.backend = "cpu";
@@ -120,7 +94,7 @@ ServedReaming::~ServedReaming() = default;
 ServedTurn ServedReaming::run(StreamViewer& viewer, const std::function<void(const Door&)>& beside) {
   ServedTurn turn;
   const std::string id =
-      house_->ask("POST", "", json{{"case", case_name}, {"script", script_name}}.dump()).at("id");
+      house_->ask("POST", "", json{{"case", thesis_case}, {"script", script_name}}.dump()).at("id");
   const Door door(house_->server->port(), id, house_->token);
   viewer.watch(door);
   house_->ask("POST", "/" + id + "/start");
