@@ -59,7 +59,8 @@ export const dashboardWords = {
   learnerSessions: (name: string, count: number) => `${name} (${count})`,
   noLearner:
     'Nobody has trained under a name or a study’s code yet. Operators add trainees under Users; whoever logs in and practises appears here.',
-  noOwnSessions: 'You have no session that has ended yet. Practise in the live view; your course of learning appears here.',
+  noOwnSessions:
+    'You have no session that has ended yet. Practise in the live view; your course of learning appears here.',
   allTogether:
     'This server has no users, so sessions are not told apart by trainee: these are the points of all of them. An operator adds trainees under Users.',
   pointsOver: 'Points over sessions',
@@ -76,7 +77,9 @@ export const dashboardWords = {
   standingWhy: (acceptable: string, unacceptable: string) =>
     `Decided by CUSUM: ${acceptable} % of failures are acceptable, ${unacceptable} % are not.`,
   passesToGo: (count: number) =>
-    count === 1 ? 'One more passed session would prove proficiency.' : `${count} passed sessions in a row would prove it.`,
+    count === 1
+      ? 'One more passed session would prove proficiency.'
+      : `${count} passed sessions in a row would prove it.`,
   byRubric: (id: string, version: number) => `Judged by ${id}, version ${version}.`,
   asTable: 'As a table',
   cusum: 'CUSUM',

@@ -1,6 +1,12 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 
-import { LiveBoard, type LiveSource, pictureEveryMs, readEveryMs, staleAfterMs } from '../../../src/state/dashboard/live_board';
+import {
+  LiveBoard,
+  type LiveSource,
+  pictureEveryMs,
+  readEveryMs,
+  staleAfterMs,
+} from '../../../src/state/dashboard/live_board';
 import type { Session } from '../../../src/wire/api';
 import type { SoFar } from '../../../src/wire/dashboard_api';
 import { ApiError } from '../../../src/wire/rest';
@@ -63,7 +69,12 @@ describe('LiveBoard', () => {
 
   it('shows what is under way with figures, plan and picture, and reads them again', async () => {
     const [first] = board.tiles.value;
-    expect(first).toMatchObject({ soFar: { reaming_depth_mm: 1 }, before: null, plannedDepthMm: 2.5, picture: 'blob:1' });
+    expect(first).toMatchObject({
+      soFar: { reaming_depth_mm: 1 },
+      before: null,
+      plannedDepthMm: 2.5,
+      picture: 'blob:1',
+    });
     await pass(readEveryMs);
     expect(board.tiles.value[0]).toMatchObject({ soFar: { reaming_depth_mm: 2 }, before: { reaming_depth_mm: 1 } });
     expect(source.asked).toEqual(['plan demo', 'picture a']);
