@@ -31,6 +31,7 @@ void fill_in(const record::TickReport& r, stream::TelemetrySample& sample) {
   sample.torque_n_mm = static_cast<float>(r.torque_n_mm);
   sample.feed_rate_mm_s = static_cast<float>(r.feed_rate_mm_s);
   sample.density_g_cc = static_cast<float>(r.density_g_cc);
+  sample.vibration_g = static_cast<float>(r.vibration_g);
   sample.world_from_tool = r.world_from_tool;
   sample.world_from_handle = r.world_from_handle;
   sample.world_from_bone_rest.reset();

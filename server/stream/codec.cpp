@@ -30,7 +30,8 @@ std::vector<std::byte> encoded(size_t bound, Encode encode) {
 
 }  // namespace
 
-EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t tick, int stride) {
+EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t tick, int stride,
+                    const SurfaceClasses* classes) {
   EncodedBlock result;
   result.block = mesh.block;
   result.revision = revision;
@@ -50,6 +51,7 @@ EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t 
                                               sizeof(BlockVertex)));
   result.vertex_count = static_cast<uint32_t>(vertices.size());
   result.index_count = static_cast<uint32_t>(indices.size());
+  if (classes != nullptr) result.classes = classes->packed(vertices, mesh.block, stride);
   result.vertices = encoded(meshopt_encodeVertexBufferBound(vertices.size(), sizeof(BlockVertex)),
                             [&](unsigned char* to, size_t size) {
                               return meshopt_encodeVertexBuffer(to, size, vertices.data(), vertices.size(),

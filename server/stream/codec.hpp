@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "surface/block_mesh.hpp"
+#include "stream/surface_classes.hpp"
 
 namespace ream::stream {
 
@@ -17,15 +17,17 @@ struct EncodedBlock {
   int stride = 1;         ///< of the samples, in voxels; positions are in the same units at every stride
   uint32_t vertex_count = 0, index_count = 0;
   std::vector<std::byte> vertices, indices;
+  std::vector<uint8_t> classes;  ///< as SurfaceClasses::packed; empty where they are not known
 
   bool empty() const { return index_count == 0; }
-  size_t bytes() const { return vertices.size() + indices.size(); }
+  size_t bytes() const { return vertices.size() + indices.size() + classes.size(); }
 };
 
 using SharedBlock = std::shared_ptr<const EncodedBlock>;
 
 /// Reorders vertices and triangles so that they pack well; the surface itself is unchanged. A mesh without
-/// triangles gives an empty block.
-EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t tick, int stride = 1);
+/// triangles gives an empty block. `classes` of the bone that the surface bounds, where they are wanted.
+EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t tick, int stride = 1,
+                    const SurfaceClasses* classes = nullptr);
 
 }  // namespace ream::stream

@@ -44,7 +44,7 @@ MeshPublisher::MeshPublisher(const voxel::BoneModel& bone, Fanout& fanout, MeshP
 
 MeshPublisher::MeshPublisher(const voxel::BoneModel& bone, voxel::BrickRing* ring, Fanout& fanout,
                              MeshPublisherOptions options)
-    : replica_(bone), ring_(ring), fanout_(fanout), options_(options), layout_(bone.grid) {
+    : replica_(bone), classes_(bone), ring_(ring), fanout_(fanout), options_(options), layout_(bone.grid) {
   for (const int stride : {1, 2, 4}) levels_.emplace_back(bone.grid, stride);
 }
 
@@ -137,8 +137,8 @@ void MeshPublisher::extract(int most_surfaces) {
       const uint64_t hash = surface_hash(mesh);
       if (hash != 0) left -= whole / (level.stride * level.stride);
       if (hash == std::exchange(level.shown[block], hash)) continue;
-      ready_.push_back(
-          std::make_shared<const EncodedBlock>(encode(mesh, ++level.revision[block], tick_, level.stride)));
+      ready_.push_back(std::make_shared<const EncodedBlock>(
+          encode(mesh, ++level.revision[block], tick_, level.stride, &classes_)));
     }
 }
 

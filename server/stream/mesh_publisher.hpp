@@ -76,6 +76,7 @@ class MeshPublisher {
   size_t publish_ready();
 
   voxel::Replica replica_;
+  const SurfaceClasses classes_;
   voxel::BrickRing* const ring_;  ///< null: bricks come by take() only
   Fanout& fanout_;
   const MeshPublisherOptions options_;

@@ -88,8 +88,10 @@ Message mesh_message(std::span<const SharedBlock> blocks, bool key_complete) {
   for (const SharedBlock& block : blocks) {
     const auto vertices = aligned_bytes(builder, block->vertices);
     const auto indices = aligned_bytes(builder, block->indices);
+    const auto classes = builder.CreateVector(block->classes);
     tables.push_back(wire::CreateMeshBlock(builder, block->block, block->revision, block->tick,
-                                           block->vertex_count, block->index_count, vertices, indices));
+                                           block->vertex_count, block->index_count, vertices, indices,
+                                           classes));
   }
   const auto list = builder.CreateVector(tables);
   return finished(builder, wire::Body::MeshDelta, wire::CreateMeshDelta(builder, list, key_complete));
@@ -115,7 +117,7 @@ Message telemetry_message(const TelemetryBatch& batch, uint32_t dropped) {
       static_cast<wire::SessionState>(newest.state), newest.depth_mm, newest.removed_volume_mm3,
       newest.cortical_share, dropped, newest.tick_mean_us, newest.tick_p99_us, newest.ticks_missed,
       builder.CreateString(newest.fault.data(), fault_length), newest.world_from_bone_rest ? &bone : nullptr,
-      playback);
+      playback, column(builder, batch, &TelemetrySample::vibration_g));
   return finished(builder, wire::Body::Telemetry, telemetry);
 }
 

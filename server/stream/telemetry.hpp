@@ -41,6 +41,7 @@ struct TelemetrySample {
   float torque_n_mm = 0;
   float feed_rate_mm_s = 0;
   float density_g_cc = 0;  ///< mean of what is engaged, 0 without contact
+  float vibration_g = 0;   ///< acceleration of the tool beside what contact does
   Pose world_from_tool, world_from_handle;
   std::optional<Pose> world_from_bone_rest;  ///< how far the bone has moved; empty: it is held rigidly
   bool spindle_on = false;

@@ -59,6 +59,8 @@ function main(root: HTMLElement): void {
   });
   effect(() => scene.setToolPose(store.telemetry.value?.worldFromTool ?? null));
   effect(() => scene.setBonePose(store.telemetry.value?.worldFromBoneRest ?? null));
+  const touching = computed(() => store.upToDate.value && (store.telemetry.value?.densityGCc ?? 0) > 0);
+  effect(() => scene.setTouching(touching.value));
   effect(() => scene.setToolShown(store.reamerShown.value));
   const liveCase = new LiveCase(store, () => identity.may.value.readCases, window.location.origin);
   const alarms = new Alarms(store);

@@ -35,6 +35,7 @@ TelemetryBatch example_telemetry() {
     sample.tick = 100 + i;
     sample.thrust_n = static_cast<float>(i);
     sample.density_g_cc = 1.5f;
+    sample.vibration_g = 0.25f * static_cast<float>(i);
     sample.state = SessionState::fault;
     sample.world_from_tool.translation_mm = {7, 8, 9};
     std::strcpy(sample.fault.data(), "device gone");
@@ -81,6 +82,8 @@ TEST(Messages, TelemetryIsParallelArraysAndTheNewestValues) {
   EXPECT_FLOAT_EQ(t->thrust_n()->Get(32), 32);
   EXPECT_FLOAT_EQ(t->density_g_cc()->Get(0), 1.5f);
   EXPECT_EQ(t->hand_force_n()->size(), 33u);
+  ASSERT_EQ(t->vibration_g()->size(), 33u);
+  EXPECT_FLOAT_EQ(t->vibration_g()->Get(32), 8.0f);
   EXPECT_FLOAT_EQ(t->world_from_tool()->translation_mm().x(), 7);
   EXPECT_EQ(t->state(), wire::SessionState::fault);
   EXPECT_EQ(t->fault()->str(), "device gone");

@@ -1,7 +1,7 @@
 import { Figures, Results } from '../panels/figures';
 import { type Signal, signal } from '@preact/signals';
 
-import { ForcePlot } from '../panels/force_plot';
+import { ForcePlots } from '../panels/force_plot';
 import { later } from '../panels/later';
 import { LiveStrip } from '../panels/live_strip';
 import { Gauges } from '../panels/gauges';
@@ -73,7 +73,7 @@ export function LivePage(parts: LivePageParts) {
         )}
         <ProblemBanner store={store} />
         <div class="readings">
-          <ForcePlot store={store} />
+          <ForcePlots store={store} />
           <Gauges store={store} liveCase={liveCase} />
           <Figures store={store} />
           <Results store={store} />

@@ -1,27 +1,39 @@
-import { effect } from '@preact/signals';
-import { useEffect, useRef } from 'preact/hooks';
-import UPlot from 'uplot';
-
-import { plotSeconds, type Store } from '../state/store';
-import { theme } from '../state/theme';
+import type { Store } from '../state/store';
 import { words } from '../words';
 import { fixed } from './format';
+import { type PlotKind, TracePlot } from './trace_plot';
 
-/** Redrawn at most this often; the eye reads no more from a rolling line. */
-const redrawMs = 50;
-/** The force axis reaches at least this far, so that it does not jump while the force rises. */
-const axisAtLeastN = 60;
+const thrust: PlotKind = {
+  column: 'thrustN',
+  unit: 'N',
+  axisAtLeast: 60,
+  axisStep: 20,
+  swings: false,
+  axisDigits: 0,
+};
+const feed: PlotKind = {
+  column: 'feedRateMmS',
+  unit: '',
+  axisAtLeast: 0.2,
+  axisStep: 0.2,
+  swings: false,
+  axisDigits: 1,
+};
+const vibration: PlotKind = {
+  column: 'vibrationG',
+  unit: '',
+  axisAtLeast: 1,
+  axisStep: 0.5,
+  swings: true,
+  axisDigits: 1,
+};
+/** The strength of a vibration is that of its last tenth of a second. */
+const strengthSeconds = 0.1;
 
-/** Axial thrust over the last seconds of session time. */
-export function ForcePlot({ store }: { store: Store }) {
-  const place = useRef<HTMLDivElement>(null);
-  useEffect(() => {
-    const element = place.current;
-    if (element === null) return;
-    return keepPlotted(element, store);
-  }, [store]);
-
-  const newest = store.traceRevision.value >= 0 ? store.trace.newest() : null;
+/** What the hand's work came to, tick by tick, over the last seconds of session time: thrust, feed and vibration. */
+export function ForcePlots({ store }: { store: Store }) {
+  const known = store.traceRevision.value >= 0;
+  const newest = known ? store.trace.newest('thrustN') : null;
   const shown = newest === null ? words.none : fixed(newest, 1);
   return (
     <section class="force" aria-labelledby="force-title">
@@ -37,85 +49,60 @@ export function ForcePlot({ store }: { store: Store }) {
           )}
         </p>
       </div>
-      <div
-        ref={place}
-        class="plot"
-        role="img"
-        aria-label={`${words.thrustPlot}, ${words.thrustNow(shown)}`}
-        data-testid="force-plot"
+      <TracePlot
+        store={store}
+        kind={thrust}
+        label={`${words.thrustPlot}, ${words.thrustNow(shown)}`}
+        testId="force-plot"
       />
+      <div class="lesser-plots">
+        <LesserPlot
+          store={store}
+          kind={feed}
+          title={words.feed}
+          now={store.trace.newest('feedRateMmS')}
+          digits={2}
+          unit="mm/s"
+          label={words.feedPlot}
+          testId="feed-plot"
+        />
+        <LesserPlot
+          store={store}
+          kind={vibration}
+          title={words.vibration}
+          now={store.trace.rms('vibrationG', strengthSeconds)}
+          digits={2}
+          unit={words.gRms}
+          label={words.vibrationPlot}
+          testId="vibration-plot"
+        />
+      </div>
     </section>
   );
 }
 
-/** Draws the trace into `element` as it grows, and anew for another size or colour scheme, until the result is called. */
-function keepPlotted(element: HTMLElement, store: Store): () => void {
-  let plot = createPlot(element);
-  let timer: ReturnType<typeof setTimeout> | undefined;
-
-  const redraw = () => {
-    timer = undefined;
-    const { seconds, values } = store.trace.window(plotSeconds);
-    plot.setData([seconds, values]);
-  };
-  const recreate = () => {
-    plot.destroy();
-    plot = createPlot(element);
-    redraw();
-  };
-  const observer = new ResizeObserver(() => plot.setSize({ width: element.clientWidth, height: element.clientHeight }));
-  observer.observe(element);
-  let drawnIn = theme.shown.peek();
-  const stopFollowingTheme = effect(() => {
-    if (theme.shown.value === drawnIn) return;
-    drawnIn = theme.shown.value;
-    recreate();
-  });
-  const stopFollowing = effect(() => {
-    if (store.traceRevision.value >= 0 && timer === undefined) timer = setTimeout(redraw, redrawMs);
-  });
-  redraw();
-  return () => {
-    stopFollowing();
-    clearTimeout(timer);
-    observer.disconnect();
-    stopFollowingTheme();
-    plot.destroy();
-  };
+interface LesserParts {
+  store: Store;
+  kind: PlotKind;
+  title: string;
+  now: number | null;
+  digits: number;
+  unit: string;
+  label: string;
+  testId: string;
 }
 
-function createPlot(element: HTMLElement): UPlot {
-  const style = getComputedStyle(element);
-  const colour = (name: string) => style.getPropertyValue(name).trim();
-  const axis = {
-    stroke: colour('--text-soft'),
-    font: '12px system-ui, sans-serif',
-    grid: { stroke: colour('--line'), width: 1 },
-    ticks: { show: false },
-  };
-  return new UPlot(
-    {
-      width: element.clientWidth,
-      height: element.clientHeight,
-      padding: [8, 16, 0, 0],
-      legend: { show: false },
-      cursor: { show: false },
-      scales: {
-        x: { time: false, range: (plot) => rollingRange(plot.data[0].at(-1)) },
-        y: { range: (_plot, _least, most) => [0, Math.max(axisAtLeastN, Math.ceil((most * 1.1) / 20) * 20)] },
-      },
-      axes: [
-        { ...axis, size: 26, values: (_plot, marks) => marks.map((mark) => `${mark} s`) },
-        { ...axis, size: 46, values: (_plot, marks) => marks.map((mark) => `${mark} N`) },
-      ],
-      series: [{}, { stroke: colour('--force'), fill: colour('--force-fill'), width: 1.75, points: { show: false } }],
-    },
-    [[], []],
-    element,
+function LesserPlot({ store, kind, title, now, digits, unit, label, testId }: LesserParts) {
+  const shown = fixed(now, digits);
+  return (
+    <div class="lesser-plot">
+      <p class="lesser-head">
+        <span>{title}</span>{' '}
+        <span>
+          <strong data-testid={`${testId}-now`}>{shown}</strong> <span class="soft">{unit}</span>
+        </span>
+      </p>
+      <TracePlot store={store} kind={kind} label={`${label}, ${words.nowIs(shown, unit)}`} testId={testId} />
+    </div>
   );
-}
-
-function rollingRange(newestSeconds: number | undefined): [number, number] {
-  const end = Math.max(newestSeconds ?? 0, plotSeconds);
-  return [end - plotSeconds, end];
 }

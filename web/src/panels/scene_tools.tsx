@@ -11,6 +11,7 @@ import {
   type SectionName,
   type ViewSettings,
 } from '../state/view_settings';
+import { contactColour, kindColours } from '../scene/bone_paint';
 import { fixed } from './format';
 import { useLiveKeys } from './live_keys';
 
@@ -27,7 +28,7 @@ export function SceneTools({ view }: { view: ViewSettings }) {
     [view],
   );
   useLiveKeys(keys);
-  const { camera, cutAway, seeThrough, sections } = view.choices.value;
+  const { camera, cutAway, boneKinds, seeThrough, sections } = view.choices.value;
   const cut = sectionNames.some((name) => sections[name].on);
   return (
     <>
@@ -46,6 +47,9 @@ export function SceneTools({ view }: { view: ViewSettings }) {
       <Toggle id="see-through" letter="X" on={seeThrough} hint={liveWords.seeThroughHint} act={() => deeds.x?.(view)}>
         {liveWords.seeThrough}
       </Toggle>
+      <Toggle id="bone-kinds" letter="K" on={boneKinds} hint={liveWords.boneKindsHint} act={() => deeds.k?.(view)}>
+        {liveWords.boneKinds}
+      </Toggle>
       <button
         type="button"
         class={cut ? 'tool-on' : ''}
@@ -58,7 +62,27 @@ export function SceneTools({ view }: { view: ViewSettings }) {
         {liveWords.sections}
       </button>
       {open.value && <SectionsPanel view={view} />}
+      {boneKinds && !open.value && <KindsLegend />}
     </>
+  );
+}
+
+/** What the colours of the bone say. */
+function KindsLegend() {
+  const rows: [string, string][] = [
+    [liveWords.kind.cortical, kindColours.cortical],
+    [liveWords.kind.cancellous, kindColours.cancellous],
+    [liveWords.kind.cartilage, kindColours.cartilage],
+    [liveWords.contact, contactColour],
+  ];
+  return (
+    <ul class="kinds-legend" data-testid="kinds-legend">
+      {rows.map(([name, colour]) => (
+        <li key={name}>
+          <span class="kind-swatch" style={{ background: colour }} aria-hidden="true" /> {name}
+        </li>
+      ))}
+    </ul>
   );
 }
 
@@ -187,6 +211,7 @@ const moveSection = (view: ViewSettings, byMm: number) => {
 const deeds: Record<string, (view: ViewSettings) => void> = {
   v: (view) => view.change({ camera: view.choices.value.camera === 'own' ? 'trainee' : 'own' }),
   c: (view) => view.change({ cutAway: !view.choices.value.cutAway }),
+  k: (view) => view.change({ boneKinds: !view.choices.value.boneKinds }),
   x: (view) => view.change({ seeThrough: !view.choices.value.seeThrough }),
   '1': (view) => toggleSection(view, 'axial'),
   '2': (view) => toggleSection(view, 'coronal'),

@@ -15,7 +15,8 @@ import {
 } from 'three';
 
 import type { BlockSurface, Hello, MeshDelta, Pose } from '../wire/messages';
-import { boneMaterial, lookOfBone } from './bone_material';
+import { lookOfBone } from './bone_material';
+import { BonePaint, kindAttribute } from './bone_paint';
 
 /** Steps of a block's vertex positions in one voxel. */
 const stepsPerVoxel = 1024;
@@ -80,6 +81,7 @@ class BonePicture {
     const normals = new InterleavedBuffer(surface.normals, 4);
     geometry.setAttribute('position', new InterleavedBufferAttribute(positions, 3, 0));
     geometry.setAttribute('normal', new InterleavedBufferAttribute(normals, 3, 0, true));
+    geometry.setAttribute(kindAttribute, new InterleavedBufferAttribute(normals, 1, 3));
     geometry.setIndex(new BufferAttribute(surface.indices, 1));
     const halfEdge = ((this.hello.blockEdgeVoxels + 2) / 2) * stepsPerVoxel;
     geometry.boundingSphere = new Sphere(new Vector3(halfEdge, halfEdge, halfEdge), halfEdge * Math.sqrt(3));
@@ -111,14 +113,14 @@ export interface InsteadOfBone {
  */
 export class BoneView {
   readonly group = new Group();
-  private readonly material = boneMaterial();
+  readonly paint = new BonePaint();
   private shown: BonePicture | null = null;
   private incoming: BonePicture | null = null;
   private instead: InsteadOfBone | null = null;
 
   begin(hello: Hello): void {
     this.incoming?.dispose();
-    const picture = new BonePicture(hello, this.material);
+    const picture = new BonePicture(hello, this.paint.material);
     if (this.shown === null || this.shown.blockCount === 0) {
       this.show(picture);
     } else {
@@ -134,7 +136,7 @@ export class BoneView {
 
   /** How much of it is seen: opacity 0 to 1; what lies on the negative side of any plane (world frame) is left out. */
   setLook(opacity: number, cuts: Plane[]): void {
-    lookOfBone(this.material, opacity, cuts);
+    lookOfBone(this.paint.material, opacity, cuts);
     this.instead?.setLook(opacity, cuts);
   }
 
@@ -150,7 +152,7 @@ export class BoneView {
     this.showInstead(null);
     this.shown?.dispose();
     this.incoming?.dispose();
-    this.material.dispose();
+    this.paint.dispose();
   }
 
   apply(mesh: MeshDelta): void {

@@ -121,7 +121,7 @@ export class BoneScene implements SteeredView {
   /** A new connection's picture begins. The view stays as the viewer left it unless the case is another. */
   begin(hello: Hello): void {
     this.bone.begin(hello);
-    this.tool.setMesh(hello.tool);
+    this.setTool(hello.tool);
     this.rig.setPlan(hello);
     this.plan = new PlanFrame(hello);
     this.surgeon.setPlan(this.plan);
@@ -140,12 +140,14 @@ export class BoneScene implements SteeredView {
   /** Another reamer from here on; drawn once its pose is told. */
   setTool(tool: ToolMesh): void {
     this.tool.setMesh(tool);
+    this.bone.paint.setTool(tool);
     this.invalidate();
   }
 
   setToolPose(pose: Pose | null): void {
     this.toolPose = pose;
     this.tool.setPose(pose);
+    this.bone.paint.setToolPose(pose);
     this.surgeon.setTool(pose === null ? null : new Vector3(...pose.translationMm));
     this.invalidate();
   }
@@ -155,6 +157,12 @@ export class BoneScene implements SteeredView {
     this.bone.setPose(worldFromBoneRest);
     this.extras.position.copy(this.bone.group.position);
     this.extras.quaternion.copy(this.bone.group.quaternion);
+    this.invalidate();
+  }
+
+  /** Whether the reamer presses on bone now. */
+  setTouching(touching: boolean): void {
+    this.bone.paint.setTouching(touching);
     this.invalidate();
   }
 
@@ -168,6 +176,7 @@ export class BoneScene implements SteeredView {
     this.choices = choices;
     this.opaqueTool = theatre;
     this.aim.setWanted(!theatre);
+    this.bone.paint.setWanted(choices.boneKinds);
     this.surgeon.follow(choices.camera === 'trainee');
     this.invalidate();
   }

@@ -60,11 +60,17 @@ export class Sound {
     const moves = store.playback.value === null ? store.sessionState.value === 'running' : store.playback.value.playing;
     if (!moves) return silence;
     const steered = practice.steering.value ? practice.feedback.peek() : null;
-    const heard: Heard = { ...t, thrustN: t.thrustN.at(-1) ?? 0, vibrationG: null };
-    // The hand's is of one moment and of either sign: it may only add to what is usual for the bone.
+    const heard: Heard = { ...t, thrustN: t.thrustN.at(-1) ?? 0, vibrationG: rootMeanSquare(t.vibrationG) };
+    // The hand's is of one moment and of either sign: it may only add.
     const told = soundOf(heard);
     if (steered === null) return told;
     const felt = soundOf({ ...heard, vibrationG: steered.vibrationG });
     return { ...told, cuttingGain: Math.max(told.cuttingGain, felt.cuttingGain) };
   }
+}
+
+/** Null of nothing: then the sound is that which is usual for the bone. */
+function rootMeanSquare(values: Float32Array): number | null {
+  if (values.length === 0) return null;
+  return Math.sqrt(values.reduce((sum, value) => sum + value * value, 0) / values.length);
 }

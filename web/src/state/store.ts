@@ -3,7 +3,7 @@ import { computed, signal } from '@preact/signals';
 import type { Mark, Metrics, Session } from '../wire/api';
 import type { LinkState } from '../wire/link';
 import type { Hello, Playback, SessionState, Telemetry } from '../wire/messages';
-import { ForceTrace } from './force_trace';
+import { LiveTrace } from './live_trace';
 
 /** Length of the force plot, seconds of session time. */
 export const plotSeconds = 20;
@@ -59,7 +59,7 @@ export class Store {
   /** What of the watched recording is damaged, in the server's words; null: nothing, as far as is known. */
   readonly recordingWarning = signal<string | null>(null);
 
-  readonly trace = new ForceTrace(plotSeconds * 1000 + 1000);
+  readonly trace = new LiveTrace(plotSeconds * 1000 + 1000);
   /** Grows when the trace changes. */
   readonly traceRevision = signal(0);
 

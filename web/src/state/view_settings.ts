@@ -19,6 +19,8 @@ export interface ViewChoices {
   /** One's own view, or the surgeon's at the beach chair, which follows the reamer. */
   camera: 'own' | 'trainee';
   cutAway: boolean;
+  /** Painted by cortical and cancellous bone and cartilage, and where the reamer touches. */
+  boneKinds: boolean;
   seeThrough: boolean;
   /** Of a bone that is seen through, 0 to 1. */
   opacity: number;
@@ -29,6 +31,7 @@ const section: Section = { on: false, offsetMm: 0, flipped: false };
 export const plainView: ViewChoices = {
   camera: 'own',
   cutAway: false,
+  boneKinds: false,
   seeThrough: false,
   opacity: 0.4,
   sections: { axial: section, coronal: section, sagittal: section },
@@ -77,6 +80,7 @@ export function viewFromText(text: string | null): ViewChoices {
   return {
     camera: kept.camera === 'trainee' ? 'trainee' : 'own',
     cutAway: kept.cutAway === true,
+    boneKinds: kept.boneKinds === true,
     seeThrough: kept.seeThrough === true,
     opacity: limited(numberOr(kept.opacity, plainView.opacity), opacityLeast, 1),
     sections: sections as Record<SectionName, Section>,

@@ -403,7 +403,11 @@ export class Watcher {
       ++this.store.traceRevision.value;
     }
     if (telemetry.thrustN.length > 0) {
-      this.store.trace.append(telemetry.firstTick, telemetry.tickStride, telemetry.thrustN);
+      this.store.trace.append(telemetry.firstTick, telemetry.tickStride, {
+        thrustN: telemetry.thrustN,
+        feedRateMmS: telemetry.feedRatesMmS,
+        vibrationG: telemetry.vibrationG,
+      });
       ++this.store.traceRevision.value;
     }
     const ended = this.store.sessionState.value !== telemetry.state;

@@ -59,7 +59,11 @@ export function transferables(message: StreamMessage): ArrayBuffer[] {
     case 'mesh':
       return message.mesh.blocks.flatMap((b) => [b.positions.buffer, b.normals.buffer, b.indices.buffer]);
     case 'telemetry':
-      return [message.telemetry.thrustN.buffer];
+      return [
+        message.telemetry.thrustN.buffer,
+        message.telemetry.feedRatesMmS.buffer,
+        message.telemetry.vibrationG.buffer,
+      ];
     case 'tool':
       return [message.tool.positionsMm.buffer, message.tool.indices.buffer];
   }
@@ -109,6 +113,8 @@ function decodeTelemetry(t: WireTelemetry): Telemetry {
     firstTick: t.firstTick(),
     tickStride: Math.max(t.tickStride(), 1),
     thrustN: Float32Array.from(t.thrustNArray() ?? []),
+    feedRatesMmS: Float32Array.from(t.feedRateMmSArray() ?? []),
+    vibrationG: Float32Array.from(t.vibrationGArray() ?? []),
     tick: t.tick(),
     handForceN: last(t.handForceNArray()),
     torqueNMm: last(t.torqueNMmArray()),

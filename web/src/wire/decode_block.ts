@@ -5,6 +5,7 @@ import type { BlockSurface, Triple } from './messages';
 import { stretchedNormals } from './octahedral';
 
 const vertexBytes = 8;
+const unknownClass = -1;
 
 /** Resolves once the mesh decoder may be used. */
 export const meshDecoderReady: Promise<void> = MeshoptDecoder.ready;
@@ -29,12 +30,21 @@ export function decodeBlock(block: MeshBlock, voxelSpacingMm: Triple): BlockSurf
       }
     }
   }
+  const normals = stretchedNormals(vertices, vertexCount, voxelSpacingMm);
+  putClasses(normals, vertexCount, block.classesArray());
   return {
     block: block.block(),
     revision: block.revision(),
     tick: block.tick(),
     positions: new Uint16Array(vertices.buffer),
-    normals: stretchedNormals(vertices, vertexCount, voxelSpacingMm),
+    normals,
     indices,
   };
+}
+
+/** Unpacks 2 bits a vertex into the fourth of each normal's numbers. */
+function putClasses(normals: Int16Array, vertexCount: number, packed: Uint8Array | null): void {
+  const told = packed !== null && packed.length >= Math.ceil(vertexCount / 4);
+  for (let i = 0; i < vertexCount; ++i)
+    normals[4 * i + 3] = told ? ((packed[i >> 2] ?? 0) >> (2 * (i & 3))) & 3 : unknownClass;
 }

@@ -58,7 +58,10 @@ export interface BlockSurface {
   tick: number;
   /** Four per vertex: x, y, z in 1/1024 voxel from the block's origin minus one voxel, then padding. */
   positions: Uint16Array<ArrayBuffer>;
-  /** Four per vertex: a direction in signed 1/32767, voxel frame, see stretchedNormals; then padding. */
+  /**
+   * Four per vertex: a direction in signed 1/32767, voxel frame, see stretchedNormals; then the class of the bone under
+   * it: 0 cancellous, 1 cortical, 2 cartilage, -1 where the server does not tell.
+   */
   normals: Int16Array<ArrayBuffer>;
   /** Triangles, counter-clockwise from outside. */
   indices: Uint16Array<ArrayBuffer> | Uint32Array<ArrayBuffer>;
@@ -83,6 +86,9 @@ export interface Telemetry {
   firstTick: number;
   tickStride: number;
   thrustN: Float32Array<ArrayBuffer>;
+  feedRatesMmS: Float32Array<ArrayBuffer>;
+  /** Acceleration of the reamer beside what contact does. Empty where the server does not tell it. */
+  vibrationG: Float32Array<ArrayBuffer>;
   /** The newest tick of all, and what held then. */
   tick: number;
   handForceN: number;

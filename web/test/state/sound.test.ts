@@ -51,6 +51,21 @@ describe('the sound of the reamer', () => {
     expect(told.filter(({ cuttingGain }) => cuttingGain > 0)).toHaveLength(5);
   });
 
+  it('is as strong as the reamer shakes', async () => {
+    const { store, sound } = place();
+    await sound.toggle();
+    const gain = (...vibrationG: number[]) => {
+      const message = telemetry({
+        ...{ tick: 1, spindleOn: true, densityGCc: 1.2, corticalShare: 1, feedRateMmS: 0.1 },
+        ...{ thrustN: Float32Array.of(52), vibrationG: Float32Array.from(vibrationG) },
+      });
+      if (message.kind === 'telemetry') store.telemetry.value = message.telemetry;
+      return sound.told.value.cuttingGain;
+    };
+    expect(gain(0.1, -0.1)).toBeLessThan(gain(0.3, -0.3));
+    expect(gain(0.3, -0.3)).toBeCloseTo(gain(), 6);
+  });
+
   it('is silent as soon as what is shown is not of this moment', async () => {
     const { store, sound, told } = place();
     await sound.toggle();

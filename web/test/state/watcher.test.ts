@@ -157,7 +157,7 @@ describe('Watcher', () => {
     expect(api.list[0]?.state).toBe('running');
     serve('s2', '1');
     expect(store.telemetry.value).toBeNull();
-    expect(store.trace.newest()).toBeNull();
+    expect(store.trace.newest('thrustN')).toBeNull();
     expect(store.metrics.value).toBeNull();
   });
 
@@ -362,10 +362,10 @@ describe('Watcher', () => {
       await open();
       playback(5000, 0, [50, 51]);
       playback(5002, 0, [52, 53]);
-      expect(store.trace.window(20).values).toEqual([50, 51, 52, 53]);
+      expect(store.trace.line('thrustN', 20, 100_000).values).toEqual([50, 51, 52, 53]);
       playback(1000, 1, [7]);
       playback(1001, 1, [8]);
-      expect(store.trace.window(20)).toEqual({ seconds: [0.999, 1], values: [7, 8] });
+      expect(store.trace.line('thrustN', 20, 100_000)).toEqual({ seconds: [0.999, 1], values: [7, 8] });
     });
 
     it('stays with it though a session is started elsewhere, and comes back when asked to', async () => {

@@ -57,6 +57,7 @@ describe('StreamDecoder', () => {
       [1024, 2048, 34816],
       [1536, 1536, 512],
     ]);
+    expect([0, 1, 2, 3, 4].map((v) => full?.normals[4 * v + 3])).toEqual([0, 1, 2, 1, 2]);
     expect(full?.indices).toBeInstanceOf(Uint16Array);
     expect(cyclicTriangles(full?.indices ?? [])).toEqual([
       [0, 1, 2],
@@ -65,6 +66,11 @@ describe('StreamDecoder', () => {
     ]);
     expect(empty).toMatchObject({ block: 6, revision: 9 });
     expect(empty?.indices.length).toBe(0);
+  });
+
+  it('reads blocks of a server that does not tell what kind of bone there is', () => {
+    const { mesh } = decoded('mesh_without_classes', 'mesh');
+    expect([0, 1, 2, 3, 4].map((v) => mesh.blocks[0]?.normals[4 * v + 3])).toEqual([-1, -1, -1, -1, -1]);
   });
 
   it('reads telemetry, with the newest of each series', () => {
@@ -86,6 +92,8 @@ describe('StreamDecoder', () => {
       worldFromHandle: null,
     });
     expect([...telemetry.thrustN]).toEqual([10.5, 11.25, 12]);
+    expect([...telemetry.feedRatesMmS]).toEqual([0.125, 0.25, 0.375]);
+    expect([...telemetry.vibrationG]).toEqual([0.25, -0.5, 0.75]);
     expect(telemetry.worldFromTool?.translationMm).toEqual([4, 5, 6]);
     expect(telemetry.worldFromBoneRest).toEqual({ rotationXyzw: [0, 0, 1, 0], translationMm: [0.5, -1, 2.5] });
   });

@@ -35,6 +35,8 @@ export function telemetry(changes: Partial<Telemetry> = {}): StreamMessage {
       firstTick: 0,
       tickStride: 1,
       thrustN: new Float32Array(),
+      feedRatesMmS: new Float32Array(),
+      vibrationG: new Float32Array(),
       tick: 0,
       handForceN: 0,
       torqueNMm: 0,

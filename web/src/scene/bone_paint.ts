@@ -1,0 +1,130 @@
+import { Color, Matrix4, type MeshStandardMaterial, Quaternion, Vector3 } from 'three';
+
+import type { Pose, ToolMesh } from '../wire/messages';
+import { boneMaterial } from './bone_material';
+import { faceHeights } from './face_heights';
+
+/** What the kinds of bone are painted with, apart for every kind of colour vision; CSS colours. */
+export const kindColours = { cortical: '#f2e8d5', cancellous: '#d9822b', cartilage: '#5aa2d6' };
+/** Where the reamer touches; hatched as well. */
+export const contactColour = '#5b2a86';
+/** Closer than this to the reamer's face counts as touched, mm: a voxel of a usual case. */
+const touchesWithinMm = 0.35;
+const heightCount = 33;
+
+const inVertex = `
+attribute float boneKind;
+uniform mat4 toolFromWorld;
+varying vec3 vKinds;
+varying vec3 vInTool;
+`;
+const passOn = `
+#include <project_vertex>
+vKinds = vec3(boneKind == 0.0, boneKind == 1.0, boneKind == 2.0);
+vInTool = (toolFromWorld * modelMatrix * vec4(transformed, 1.0)).xyz;
+`;
+const inFragment = `
+uniform bool kindsShown;
+uniform bool contactShown;
+uniform vec3 kindColour[3];
+uniform vec3 touchedColour;
+uniform float faceReachMm;
+uniform float faceHeightMm[${heightCount}];
+varying vec3 vKinds;
+varying vec3 vInTool;
+
+bool touchesReamer() {
+  float offAxisMm = length(vInTool.xy);
+  if (!contactShown || offAxisMm >= faceReachMm) return false;
+  float at = offAxisMm / faceReachMm * ${(heightCount - 1).toFixed(1)};
+  int below = int(at);
+  float heightMm = mix(faceHeightMm[below], faceHeightMm[below + 1], at - float(below));
+  return abs(vInTool.z - heightMm) < ${touchesWithinMm};
+}
+`;
+const paintKinds = `
+#include <color_fragment>
+float known = vKinds.x + vKinds.y + vKinds.z;
+if (kindsShown && known > 0.01) {
+  vec3 kind = (kindColour[0] * vKinds.x + kindColour[1] * vKinds.y + kindColour[2] * vKinds.z) / known;
+  diffuseColor.rgb = mix(diffuseColor.rgb, kind, min(known, 1.0));
+}
+if (touchesReamer()) {
+  float line = fract((gl_FragCoord.x + gl_FragCoord.y) / 6.0);
+  diffuseColor.rgb = mix(diffuseColor.rgb, touchedColour, line < 0.5 ? 0.85 : 0.45);
+}
+`;
+
+/** Paints the streamed bone by its kinds, and where the reamer touches it, while that is wanted. */
+export class BonePaint {
+  readonly material: MeshStandardMaterial;
+  private readonly toolFromWorld = { value: new Matrix4() };
+  private readonly kindsShown = { value: false };
+  private readonly contactShown = { value: false };
+  private readonly faceReachMm = { value: 0 };
+  private readonly faceHeightMm = { value: new Float32Array(heightCount) };
+  private posed = false;
+  private wanted = false;
+  private touching = false;
+
+  constructor() {
+    this.material = boneMaterial();
+    const paintInside = this.material.onBeforeCompile.bind(this.material);
+    this.material.onBeforeCompile = (shader, renderer) => {
+      const { cancellous, cortical, cartilage } = kindColours;
+      Object.assign(shader.uniforms, {
+        toolFromWorld: this.toolFromWorld,
+        kindsShown: this.kindsShown,
+        contactShown: this.contactShown,
+        faceReachMm: this.faceReachMm,
+        faceHeightMm: this.faceHeightMm,
+        kindColour: { value: [cancellous, cortical, cartilage].map((colour) => new Color(colour)) },
+        touchedColour: { value: new Color(contactColour) },
+      });
+      shader.vertexShader = inVertex + shader.vertexShader.replace('#include <project_vertex>', passOn);
+      shader.fragmentShader = inFragment + shader.fragmentShader.replace('#include <color_fragment>', paintKinds);
+      paintInside(shader, renderer);
+    };
+    this.material.customProgramCacheKey = () => 'bone by its kinds';
+  }
+
+  setTool(tool: ToolMesh): void {
+    const { reachMm, heightsMm } = faceHeights(tool, heightCount);
+    this.faceReachMm.value = reachMm;
+    this.faceHeightMm.value.set(heightsMm);
+  }
+
+  setToolPose(pose: Pose | null): void {
+    this.posed = pose !== null;
+    if (pose !== null) {
+      const { rotationXyzw, translationMm } = pose;
+      this.toolFromWorld.value
+        .compose(new Vector3(...translationMm), new Quaternion(...rotationXyzw), new Vector3(1, 1, 1))
+        .invert();
+    }
+    this.refresh();
+  }
+
+  /** Whether the reamer presses on bone now. */
+  setTouching(touching: boolean): void {
+    this.touching = touching;
+    this.refresh();
+  }
+
+  setWanted(wanted: boolean): void {
+    this.wanted = wanted;
+    this.refresh();
+  }
+
+  dispose(): void {
+    this.material.dispose();
+  }
+
+  private refresh(): void {
+    this.kindsShown.value = this.wanted;
+    this.contactShown.value = this.wanted && this.posed && this.touching;
+  }
+}
+
+/** Name of the attribute by which a surface's corners say what kind of bone they are: 0, 1, 2, or -1 unknown. */
+export const kindAttribute = 'boneKind';
