@@ -46,6 +46,13 @@ export const liveWords = {
   superior: 'superior',
   inferior: 'inferior',
 
+  remarks: 'Remarks',
+  remarkLabel: 'Remark on this moment',
+  remarkHint: 'Remark on this moment…',
+  keepRemark: 'Keep',
+  keepRemarkAt: (time: string) => `Keep at ${time}`,
+  moreRemarks: (count: number) => `${count} more on the review`,
+
   alarms: 'Alarms',
   thrustExcess: 'Thrust too high',
   thrustExcessWhy: (newtons: string) => `Over ${newtons} N, 1.5 times the 52 N of the cadaver experiments. Push less.`,

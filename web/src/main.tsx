@@ -12,6 +12,7 @@ import { Alarms } from './state/alarms';
 import { Identity } from './state/identity';
 import { Latency } from './state/latency';
 import { LiveCase } from './state/live_case';
+import { LiveRemarks } from './state/live_remarks';
 import { Practice } from './state/practice';
 import { PracticeStore } from './state/practice_store';
 import { browserWindow, letGoWhenLeft } from './state/practice_window';
@@ -28,6 +29,7 @@ import { Watcher } from './state/watcher';
 import { Api } from './wire/api';
 import { WorkerDeviceSocket } from './wire/device_socket';
 import { LoginApi } from './wire/login_api';
+import { ReviewApi } from './wire/review_api';
 import { WorkerStreamSocket } from './wire/stream_socket';
 import { words } from './words';
 
@@ -86,6 +88,7 @@ function main(root: HTMLElement): void {
         alarms,
         sound,
         latency,
+        remarks: new LiveRemarks(store, new ReviewApi(window.location.origin)),
         theatreWanted: signal(false),
         practice,
         practiceStore,

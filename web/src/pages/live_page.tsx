@@ -11,6 +11,7 @@ import { Picture } from '../panels/picture';
 import { PlaybackBar } from '../panels/playback_bar';
 import { PracticeBar } from '../panels/practice_bar';
 import { ProblemBanner } from '../panels/problem_banner';
+import { RemarksPanel } from '../panels/remarks_panel';
 import { ReplayPanel } from '../panels/replay_panel';
 import { RunPanel } from '../panels/run_panel';
 import { SessionList } from '../panels/session_list';
@@ -18,6 +19,7 @@ import type { BoneScene } from '../scene/scene';
 import type { Alarms } from '../state/alarms';
 import type { Latency } from '../state/latency';
 import type { LiveCase } from '../state/live_case';
+import type { LiveRemarks } from '../state/live_remarks';
 import type { Practice } from '../state/practice';
 import type { PracticeStore } from '../state/practice_store';
 import type { Sound } from '../state/sound';
@@ -37,6 +39,7 @@ export interface LivePageParts {
   alarms: Alarms;
   sound: Sound;
   latency: Latency;
+  remarks: LiveRemarks;
   theatreWanted: Signal<boolean>;
   practice: Practice;
   practiceStore: PracticeStore;
@@ -78,6 +81,7 @@ export function LivePage(parts: LivePageParts) {
           <Figures store={store} />
           <Results store={store} />
         </div>
+        {!store.replaying.value && <RemarksPanel store={store} remarks={parts.remarks} />}
         <SessionList store={store} watcher={watcher} />
         {!store.replaying.value && <HealthPanel store={store} practice={practiceStore} />}
       </aside>

@@ -1,13 +1,14 @@
 import { batch } from '@preact/signals';
 
-import { ApiError, type Api, type PlaybackChange, type Replay, type Session } from '../wire/api';
+import { ApiError, type Api, type PlaybackChange, type Session } from '../wire/api';
 import { Link, type LinkState } from '../wire/link';
 import type { Hello, MeshDelta, StreamMessage, Telemetry, ToolMesh } from '../wire/messages';
 import type { StreamSocket } from '../wire/stream_socket';
 import { words } from '../words';
-import { chooseSession, isActive, type Watched } from './choose_session';
+import { isActive } from './choose_session';
 import { Scrubber } from './scrubber';
 import type { Store } from './store';
+import { StreamFinder, type WatcherPolicy } from './stream_finder';
 
 /** Where pictures go. */
 export interface Picture {
@@ -20,12 +21,6 @@ const idlePollMs = 2500;
 /** A session that rests sends nothing, so that a cut connection is only noticed by questions that are not answered. */
 const answerWithinMs = 8000;
 
-/** What the watcher may do, as of now. */
-export interface WatcherPolicy {
-  /** Make a session that waits to be started where there is none, so that there is bone to see. */
-  makesSession(): boolean;
-}
-
 /**
  * Watches one session at a time: finds it, follows its stream into the store and the picture, and finds another when
  * it is gone or a newer one runs. Watches a replay instead while one is wanted. Carries out what the user asks for.
@@ -34,10 +29,7 @@ export class Watcher {
   private readonly link: Link;
   /** Goes to moments of the watched replay. */
   readonly scrubber: Scrubber;
-  private readonly unstreamable = new Set<string>();
-  /** A stream was asked for and has not said hello. */
-  private awaitingHello = false;
-  private endedWithoutHello = 0;
+  private readonly finder: StreamFinder;
   private pollTimer: ReturnType<typeof setInterval> | undefined;
 
   constructor(
@@ -45,11 +37,12 @@ export class Watcher {
     private readonly api: Api,
     socket: StreamSocket,
     private readonly picture: Picture,
-    private readonly policy: WatcherPolicy = { makesSession: () => true },
+    policy: WatcherPolicy = { makesSession: () => true },
   ) {
+    this.finder = new StreamFinder(store, api, policy);
     this.link = new Link({
       socket,
-      findStream: () => this.findStream(),
+      findStream: () => this.finder.find(),
       onState: (state) => this.onLink(state),
       onMessage: (message) => this.onMessage(message),
     });
@@ -79,7 +72,7 @@ export class Watcher {
   /** Watches this session, and no newer one that is started elsewhere, for as long as it can be watched. */
   watch(sessionId: string): void {
     batch(() => {
-      if (this.store.replayId.value !== null) this.forgetReplay();
+      if (this.store.replayId.value !== null) this.finder.forgetReplay();
       this.store.chosenId.value = sessionId;
       this.store.sessionId.value = sessionId;
     });
@@ -184,18 +177,8 @@ export class Watcher {
   /** Back to what is live. The replay stays open for others. */
   leaveReplay(): void {
     if (this.store.replayId.value === null) return;
-    this.forgetReplay();
+    this.finder.forgetReplay();
     this.turn();
-  }
-
-  private forgetReplay(): void {
-    batch(() => {
-      this.store.replayId.value = null;
-      this.store.sessionId.value = this.store.chosenId.value;
-      this.store.playback.value = null;
-      this.store.marks.value = [];
-      this.store.recordingWarning.value = null;
-    });
   }
 
   /** Plays, rests or changes the speed of the watched replay. */
@@ -207,15 +190,7 @@ export class Watcher {
     const id = this.store.replayId.value;
     if (id === null) return;
     const replay = await this.api.changePlayback(id, change);
-    if (id === this.store.replayId.value) this.takeNotes(replay);
-  }
-
-  /** Damage may be found, and marks be made, while the replay is open. */
-  private takeNotes(replay: Replay): void {
-    batch(() => {
-      this.store.marks.value = replay.marks;
-      this.store.recordingWarning.value = replay.warning;
-    });
+    if (id === this.store.replayId.value) this.finder.takeNotes(replay);
   }
 
   private async startNew() {
@@ -254,81 +229,6 @@ export class Watcher {
     this.link.connect();
   }
 
-  private async findStream(): Promise<string | null> {
-    this.awaitingHello = false;
-    const replayId = this.store.replayId.value;
-    if (replayId !== null) {
-      const stream = await this.findReplay(replayId);
-      if (stream !== null) return stream;
-    }
-    const listed = await this.api.sessions();
-    this.store.sessions.value = listed;
-    const sessions = await this.withWatched(listed);
-    const session =
-      chooseSession(sessions, this.watched(), this.unstreamable) ??
-      (this.policy.makesSession() ? await this.api.createDemo() : undefined);
-    if (session === undefined) {
-      await this.api.ready();
-      this.store.sessionId.value = null;
-      this.store.sessionState.value = null;
-      return null;
-    }
-    batch(() => {
-      if (session.id !== this.store.sessionId.value) this.endedWithoutHello = 0;
-      this.store.sessionId.value = session.id;
-      this.store.sessionState.value = session.state;
-    });
-    this.awaitingHello = true;
-    return this.api.streamUrl(session.id);
-  }
-
-  /** The list has the newest sessions only, which the watched one may not be; where it has been deleted, it is told. */
-  private async withWatched(sessions: readonly Session[]): Promise<readonly Session[]> {
-    const { id } = this.watched();
-    if (id === null || sessions.some((session) => session.id === id)) return sessions;
-    try {
-      return [...sessions, await this.api.session(id)];
-    } catch (error) {
-      if (!(error instanceof ApiError) || error.status !== 404) throw error;
-      this.forgetDeleted(id);
-      return sessions;
-    }
-  }
-
-  /** One that nobody had started is no loss. */
-  private forgetDeleted(id: string): void {
-    const missed = this.store.sessionState.value !== 'created' && this.store.sessionState.value !== null;
-    batch(() => {
-      if (missed) this.store.problem.value = words.sessionGone(id);
-      if (this.store.chosenId.value === id) this.store.chosenId.value = null;
-      this.store.sessionId.value = null;
-      this.store.sessionState.value = null;
-    });
-  }
-
-  /** Null when the replay is gone; then what is live is to be watched. */
-  private async findReplay(replayId: string): Promise<string | null> {
-    try {
-      const replay = await this.api.replay(replayId);
-      batch(() => {
-        this.store.sessionId.value = replay.id;
-        this.store.sessionState.value = 'replaying';
-        this.takeNotes(replay);
-      });
-      return this.api.streamUrl(replay.id);
-    } catch (error) {
-      if (!(error instanceof ApiError) || error.status !== 404) throw error;
-      this.forgetReplay();
-      this.store.problem.value = words.replayGone;
-      return null;
-    }
-  }
-
-  private watched(): Watched {
-    const chosenId = this.store.chosenId.value;
-    return { id: chosenId ?? this.store.sessionId.value, chosen: chosenId !== null };
-  }
-
   private onLink(state: LinkState): void {
     batch(() => {
       if (state.kind === 'lost') {
@@ -337,14 +237,7 @@ export class Watcher {
       }
       this.store.link.value = state;
     });
-    if (state.kind === 'lost' && state.retryAtMs !== null) this.countSilentEnd();
-  }
-
-  /** A session that is listed but twice gave no stream is left aside. */
-  private countSilentEnd(): void {
-    const id = this.store.sessionId.value;
-    if (!this.awaitingHello || id === null) return;
-    if (++this.endedWithoutHello >= 2 && !this.store.active.value) this.unstreamable.add(id);
+    if (state.kind === 'lost' && state.retryAtMs !== null) this.finder.countSilentEnd();
   }
 
   private onMessage(message: StreamMessage): void {
@@ -380,8 +273,7 @@ export class Watcher {
   }
 
   private onHello(hello: Hello): void {
-    this.awaitingHello = false;
-    this.endedWithoutHello = 0;
+    this.finder.greeted();
     const before = this.store.hello.value;
     const sameSession = before?.sessionId === hello.sessionId && before.serverEpoch === hello.serverEpoch;
     if (!sameSession) {
@@ -445,7 +337,7 @@ export class Watcher {
     if (id !== this.store.sessionId.value) return;
     this.store.details.value = details;
     if (!gone) return;
-    this.forgetDeleted(id);
+    this.finder.forgetDeleted(id);
     this.turn();
   }
 
@@ -468,7 +360,7 @@ export class Watcher {
     void this.readDetails();
     const sessions = await this.readSessions();
     if (this.store.active.value || this.store.replaying.value || this.store.busy.value) return;
-    const chosen = chooseSession(sessions, this.watched(), this.unstreamable);
+    const chosen = this.finder.choose(sessions);
     if (chosen !== undefined && isActive(chosen) && chosen.id !== this.store.sessionId.value) this.turn();
   }
 }

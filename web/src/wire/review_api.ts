@@ -17,6 +17,8 @@ export interface DeviationBytes {
 export interface Annotation {
   at_s: number;
   words: string;
+  /** Empty when nobody signed. */
+  author: string;
 }
 
 type OnProgress = (share: number) => void;

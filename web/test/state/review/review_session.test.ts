@@ -15,7 +15,7 @@ function begin(change: Partial<ReviewSources['review']> = {}) {
   const socket = new FakeSocket();
   const changes: PlaybackChange[] = [];
   const asked: string[] = [];
-  const remarks = [{ at_s: 5, words: 'here' }];
+  const remarks = [{ at_s: 5, words: 'here', author: '' }];
   const replay = {
     id: 'r1',
     replay_of: 'abcd',
@@ -47,7 +47,7 @@ function begin(change: Partial<ReviewSources['review']> = {}) {
       },
       annotations: () => Promise.resolve(remarks),
       annotate: (_, words, atS) => {
-        const made = { words, at_s: atS };
+        const made = { words, at_s: atS, author: '' };
         remarks.push(made);
         return Promise.resolve(made);
       },
