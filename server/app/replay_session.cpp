@@ -32,13 +32,10 @@ double recorded_force_max_n(const record::Recording& recording) {
   return sim::settings_from_json(json, place).limits.force_max_n;
 }
 
-/// Without its densities, which nobody looks at here.
 case_::Case bone_before(const record::Recording& recording, const std::filesystem::path& data) {
   if (recording.tick_count() == 0)
     throw Error(ErrorKind::invalid_input, recording.log().path().string() + " holds no tick to show");
-  case_::Case c = case_of(recording, {}, data);
-  c.bone.density = {};
-  return c;
+  return case_of(recording, {}, data);
 }
 
 /// What the session said of itself when it ended; null where it left none that can be read.

@@ -29,6 +29,7 @@ voxel::BoneClass SurfaceClasses::under(const surface::BlockVertex& vertex, uint3
 
 std::vector<uint8_t> SurfaceClasses::packed(std::span<const surface::BlockVertex> vertices, uint32_t block,
                                             int stride) const {
+  if (density_.empty()) return {};
   std::vector<uint8_t> bytes((vertices.size() + vertices_per_byte - 1) / vertices_per_byte);
   for (size_t i = 0; i < vertices.size(); ++i)
     bytes[i / vertices_per_byte] |= static_cast<uint8_t>(

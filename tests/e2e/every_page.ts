@@ -27,6 +27,7 @@ export async function goThroughEveryPage(
   await expect(page.getByTestId('login')).toBeVisible();
   await look('login');
   await logIn(page, olga.name);
+  await expect(page.getByTestId('dashboard')).toBeVisible();
   await untilReady(page, url);
   const study = await post<{ id: string; join_code: string }>(page, 'studies', {
     name: 'Who presses?',

@@ -16,6 +16,7 @@ import { LiveRemarks } from './state/live_remarks';
 import { Practice } from './state/practice';
 import { PracticeStore } from './state/practice_store';
 import { browserWindow, letGoWhenLeft } from './state/practice_window';
+import { headsetWords } from './state/headset_words';
 import { isActive } from './state/choose_session';
 import { addressOfReplay, replayInAddress } from './state/replay_address';
 import { addressOfRoute, followRoute, type Route, routeInAddress, showsSession } from './state/route';
@@ -63,6 +64,9 @@ function main(root: HTMLElement): void {
   effect(() => scene.setBonePose(store.telemetry.value?.worldFromBoneRest ?? null));
   const touching = computed(() => store.upToDate.value && (store.telemetry.value?.densityGCc ?? 0) > 0);
   effect(() => scene.setTouching(touching.value));
+  effect(() => {
+    if (scene.headset.worn.value) scene.headset.say(headsetWords(store));
+  });
   effect(() => scene.setToolShown(store.reamerShown.value));
   const liveCase = new LiveCase(store, () => identity.may.value.readCases, window.location.origin);
   const alarms = new Alarms(store);

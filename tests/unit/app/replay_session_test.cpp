@@ -105,6 +105,7 @@ TEST_F(ReplaySessionTest, TellsViewersWhereItStandsAndThatItHasEnded) {
   EXPECT_EQ(replay_of, "abcdefgh");
   EXPECT_EQ(state, wire::SessionState::replaying);
   EXPECT_EQ(viewer.key_completes, 1);
+  EXPECT_EQ(viewer.blocks_with_classes, viewer.blocks_received);
   EXPECT_EQ(replay.status().unwatched_s, 0.0);
   replay.stop();
   pull();

@@ -76,6 +76,10 @@ TEST(SurfaceClasses, AreLeftOutWhereNobodyKnowsTheBone) {
   const voxel::BoneModel bone = half_cortical();
   const surface::BlockMesh mesh = surface::BlockExtractor(bone.grid).extract(bone.coverage.data(), 0);
   EXPECT_TRUE(encode(mesh, 1, 1).classes.empty());
+  voxel::BoneModel without = bone;
+  without.density = {};
+  const SurfaceClasses none(without);
+  EXPECT_TRUE(encode(mesh, 1, 1, 1, &none).classes.empty());
   EXPECT_TRUE(encode(surface::BlockMesh{9, {}, {}}, 2, 3).classes.empty());
 }
 

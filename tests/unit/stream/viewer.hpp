@@ -66,6 +66,7 @@ struct Viewer {
   std::map<uint32_t, uint32_t> revisions;
   int hellos = 0, key_completes = 0, mesh_messages = 0, telemetry_messages = 0;
   size_t blocks_received = 0, largest_mesh_message = 0, samples = 0;
+  size_t blocks_with_classes = 0;
   uint32_t dropped = 0;
 
   /// Fails the test on messages that do not verify or blocks that are older than what is held.
@@ -85,6 +86,10 @@ struct Viewer {
     largest_mesh_message = std::max(largest_mesh_message, message->size());
     for (const wire::MeshBlock* b : *delta->blocks()) {
       ++blocks_received;
+      if (b->classes()->size() > 0) {
+        EXPECT_EQ(b->classes()->size(), (b->vertex_count() + 3) / 4);
+        ++blocks_with_classes;
+      }
       if (b->vertices()->size() > 0) {
         EXPECT_EQ((reinterpret_cast<const std::byte*>(b->vertices()->data()) - message->data()) % 8, 0);
       }

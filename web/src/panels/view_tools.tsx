@@ -2,8 +2,10 @@ import type { Signal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 
 import type { ViewName } from '../scene/camera_rig';
+import type { BoneScene } from '../scene/scene';
 import type { ViewSettings } from '../state/view_settings';
 import { words } from '../words';
+import { HeadsetButton } from './headset_button';
 import { SceneTools } from './scene_tools';
 
 const views: readonly (readonly [ViewName, string])[] = [
@@ -13,7 +15,7 @@ const views: readonly (readonly [ViewName, string])[] = [
 ];
 
 interface Parts {
-  scene: { look(view: ViewName): void };
+  scene: Pick<BoneScene, 'look' | 'headset' | 'putOnHeadset'>;
   view: ViewSettings;
   reamerShown: Signal<boolean>;
   children?: ComponentChildren;
@@ -38,6 +40,7 @@ export function ViewTools({ scene, view, reamerShown, children }: Parts) {
       ))}
       <SceneTools view={view} />
       {children}
+      <HeadsetButton headset={scene.headset} putOn={() => scene.putOnHeadset()} />
       <label>
         <input
           type="checkbox"

@@ -13,9 +13,8 @@ export class OperatingLights {
   }
 
   follow(camera: PerspectiveCamera): void {
-    const right = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0);
-    const up = new Vector3().setFromMatrixColumn(camera.matrixWorld, 1);
-    const back = new Vector3().setFromMatrixColumn(camera.matrixWorld, 2);
+    const column = (i: number) => new Vector3().setFromMatrixColumn(camera.matrixWorld, i).normalize();
+    const [right, up, back] = [column(0), column(1), column(2)] as const;
     this.lamp.position.copy(right).multiplyScalar(-0.55).addScaledVector(up, 0.9).addScaledVector(back, 1);
     this.fill.position.copy(right).addScaledVector(up, -0.1).addScaledVector(back, 0.8);
   }

@@ -1,6 +1,7 @@
 import { effect } from '@preact/signals';
 
 import { deviationMm } from '../state/review/deviation_scale';
+import { headsetWords } from '../state/headset_words';
 import type { ReviewSession } from '../state/review/review_session';
 import type { ReviewSettings } from '../state/review/review_settings';
 import type { SortedSurface } from '../wire/surface_worker';
@@ -41,6 +42,10 @@ export class ReviewView {
     this.session = session;
     this.stops.push(
       effect(() => scene.setToolPose(store.telemetry.value?.worldFromTool ?? null)),
+      effect(() => {
+        if (scene.headset.worn.value) scene.headset.say(headsetWords(store));
+      }),
+      effect(() => scene.setTouching(store.upToDate.value && (store.telemetry.value?.densityGCc ?? 0) > 0)),
       effect(() => scene.setBonePose(store.telemetry.value?.worldFromBoneRest ?? null)),
       // Its glass would change the colours of a map.
       effect(() => scene.setToolShown(settings.reamerShown.value && session.mapShown.value === null)),

@@ -3,6 +3,7 @@ import {
   Group,
   MeshBasicMaterial,
   NeutralToneMapping,
+  type PerspectiveCamera,
   type Plane,
   Quaternion,
   Scene,
@@ -20,6 +21,7 @@ import { BoneView, type InsteadOfBone } from './bone_view';
 import { CameraRig, type ViewName } from './camera_rig';
 import { watchContext } from './context_watch';
 import { planeThroughAxis, sectionPlanes } from './cut_planes';
+import { Headset } from './headset';
 import { OperatingLights } from './lights';
 import type { Eye } from './shared_eye';
 import { SurgeonCamera } from './surgeon_camera';
@@ -37,6 +39,7 @@ export class BoneScene implements SteeredView {
   readonly extras = new Group();
   /** The browser has taken the picture away; it is drawn anew when it is given back. */
   readonly lost: ReadonlySignal<boolean>;
+  readonly headset: Headset;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly bone = new BoneView();
@@ -73,7 +76,12 @@ export class BoneScene implements SteeredView {
     );
     this.surgeon = new SurgeonCamera(this.rig);
     this.lights = new OperatingLights(this.scene);
-    this.scene.add(this.bone.group, this.tool.group, this.aim.group, this.extras);
+    this.headset = new Headset(
+      this.renderer,
+      () => this.draw(),
+      () => this.resize(),
+    );
+    this.scene.add(this.bone.group, this.tool.group, this.aim.group, this.extras, this.headset.room);
     // After the renderer's own listeners, which make what is drawn with anew.
     this.lost = watchContext(this.canvas, () => this.resize()).lost;
     new ResizeObserver(() => this.resize()).observe(this.canvas);
@@ -94,10 +102,11 @@ export class BoneScene implements SteeredView {
   }
   /** All that is seen of the bone; what lies on the negative side of any of `cuts` (world frame) is not. */
   get seenBone(): { group: Group; cuts: Plane[] } {
-    return { group: this.bone.group, cuts: this.cuts() };
+    return { group: this.bone.group, cuts: this.cuts(this.rig.camera) };
   }
 
   dispose(): void {
+    this.headset.dispose();
     this.bone.dispose();
     this.renderer.dispose();
     this.renderer.forceContextLoss();
@@ -107,6 +116,12 @@ export class BoneScene implements SteeredView {
   showInstead(other: InsteadOfBone | null): void {
     this.bone.showInstead(other);
     this.invalidate();
+  }
+
+  /** At a person's click; what is seen begins from where the picture is seen. */
+  putOnHeadset(): void {
+    const { target, towardsEye } = this.eye();
+    void this.headset.putOn({ target, eye: target.clone().add(towardsEye) });
   }
 
   /** From where the picture is seen. */
@@ -214,7 +229,7 @@ export class BoneScene implements SteeredView {
 
   /** What nobody sees is not drawn; resize() draws it when it is shown again. */
   invalidate(): void {
-    if (this.drawRequested || !this.canvas.isConnected) return;
+    if (this.drawRequested || !this.canvas.isConnected || this.headset.worn.peek()) return;
     this.drawRequested = true;
     requestAnimationFrame(() => {
       this.drawRequested = false;
@@ -225,24 +240,25 @@ export class BoneScene implements SteeredView {
   private draw(): void {
     if (this.lost.value) return;
     const beganMs = performance.now();
-    const { camera } = this.rig;
+    const worn = this.headset.worn.peek();
+    const camera = worn ? this.headset.camera : this.rig.camera;
     const moving = this.surgeon.step(Math.min((beganMs - this.drawnAtMs) / 1000, longestStepS));
     this.drawnAtMs = beganMs;
-    camera.updateMatrixWorld();
+    if (!worn) camera.updateMatrixWorld();
     this.lights.follow(camera);
     const seenThrough = this.choices.seeThrough && this.choices.opacity < 1;
-    const cuts = this.cuts();
+    const cuts = this.cuts(camera);
     this.bone.setLook(seenThrough ? this.choices.opacity : 1, cuts);
     this.tool.setLook(this.opaqueTool ? 'steel' : seenThrough ? 'throughBone' : 'glass');
-    if (seenThrough) this.drawSeenThrough(cuts);
+    if (seenThrough) this.drawSeenThrough(cuts, camera);
     else this.renderer.render(this.scene, camera);
     ++this.drawn;
     this.onDrawn();
-    if (moving) this.invalidate();
+    if (moving && !worn) this.invalidate();
   }
 
   /** Through the nearest bone the reamer is seen, but none of the bone behind. */
-  private drawSeenThrough(cuts: Plane[]): void {
+  private drawSeenThrough(cuts: Plane[], camera: PerspectiveCamera): void {
     const { renderer, scene } = this;
     const aimShown = this.aim.group.visible;
     const passes: [bone: boolean, others: boolean, material: MeshBasicMaterial | null][] = [
@@ -260,7 +276,7 @@ export class BoneScene implements SteeredView {
       this.extras.visible = others;
       this.aim.group.visible = others && aimShown;
       scene.overrideMaterial = material;
-      renderer.render(scene, this.rig.camera);
+      renderer.render(scene, camera);
     }
     scene.overrideMaterial = null;
     this.bone.group.visible = true;
@@ -271,7 +287,7 @@ export class BoneScene implements SteeredView {
   }
 
   /** The planes that cut the bone now, world frame; they move with it. */
-  private cuts(): Plane[] {
+  private cuts(camera: PerspectiveCamera): Plane[] {
     const { plan, toolPose, choices } = this;
     if (plan === null) return [];
     this.bone.group.updateMatrix();
@@ -279,16 +295,16 @@ export class BoneScene implements SteeredView {
     if (choices.cutAway) {
       const at = toolPose === null ? plan.entry : new Vector3(...toolPose.translationMm);
       const axis = toolPose === null ? plan.axis : axisOf(toolPose);
-      const { camera } = this.rig;
-      const up = new Vector3().setFromMatrixColumn(camera.matrixWorld, 1);
-      planes.push(planeThroughAxis(at, axis, camera.position, up));
+      const eye = new Vector3().setFromMatrixPosition(camera.matrixWorld);
+      const up = new Vector3().setFromMatrixColumn(camera.matrixWorld, 1).normalize();
+      planes.push(planeThroughAxis(at, axis, eye, up));
     }
     return planes;
   }
 
   private resize(): void {
     const { clientWidth, clientHeight } = this.canvas;
-    if (clientWidth === 0 || clientHeight === 0) return;
+    if (clientWidth === 0 || clientHeight === 0 || this.headset.worn.peek()) return;
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, pixelRatioMax));
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.rig.resize(clientWidth / clientHeight);

@@ -9,7 +9,8 @@ import { ViewTools } from '../view_tools';
 export function ReviewTools({ desk }: { desk: ReviewDesk }) {
   const { settings } = desk;
   // The other is seen from where the first one is.
-  const scene = { look: (view: 'plan' | 'axis' | 'side') => desk.panes.peek()[0]?.view.scene.look(view) };
+  const scene = desk.panes.value[0]?.view.scene;
+  if (scene === undefined) return null;
   return (
     <div class="review-tools">
       <ViewTools scene={scene} view={settings.view} reamerShown={settings.reamerShown}>
