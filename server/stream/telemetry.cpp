@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/clock.hpp"
 #include "stream/fanout.hpp"
 
 namespace ream::stream {
@@ -30,6 +31,7 @@ void TelemetryBatcher::publish_if_due(int64_t now_ns) {
 
 void TelemetryBatcher::flush() {
   if (batch_.samples.empty()) return;
+  batch_.stamp_us = steady_ns() / 1000;
   TelemetryBatch next;
   next.tick_stride = tick_stride_;
   fanout_.publish_telemetry(std::make_shared<const TelemetryBatch>(std::exchange(batch_, std::move(next))));

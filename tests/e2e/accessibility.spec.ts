@@ -2,6 +2,7 @@
 import { AxeBuilder } from '@axe-core/playwright';
 import { expect, type Page, test } from '@playwright/test';
 
+import { differsAtMost, difference, expectKeptLook } from './kept_pictures';
 import { goThroughEveryPage, olga, tom } from './every_page';
 import { serverForEachTest } from './server_for_each_test';
 
@@ -18,16 +19,21 @@ async function serious(page: Page): Promise<string[]> {
     );
 }
 
-test('axe finds nothing serious on any page, in light and dark', async ({ page }, info) => {
+test('axe finds nothing serious on any page, in light and dark, and all look as they did', async ({ page }, info) => {
   test.setTimeout(420_000);
+  const seen: string[] = [];
   await goThroughEveryPage(page, here.server.url, async (name) => {
     for (const colorScheme of ['light', 'dark'] as const) {
       await page.emulateMedia({ colorScheme, reducedMotion: 'reduce' });
       await expect(page.locator('html')).toHaveAttribute('data-theme', colorScheme);
-      await page.screenshot({ path: info.outputPath(`${name}-${colorScheme}.png`) });
+      const png = await page.screenshot({ path: info.outputPath(`${name}-${colorScheme}.png`) });
+      seen.push(await expectKeptLook(page, `${name}-${colorScheme}`, png));
       expect.soft(await serious(page), `${name} ${colorScheme}`).toEqual([]);
     }
   });
+  // The measure tells pages from each other, and light from dark.
+  for (let i = 1; i < seen.length; ++i)
+    expect(await difference(page, seen[i - 1] ?? '', seen[i] ?? ''), `picture ${i}`).toBeGreaterThan(differsAtMost);
 });
 
 /** What sticks out of the window, is hidden behind something else, or is too small for a finger. */

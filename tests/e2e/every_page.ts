@@ -79,6 +79,10 @@ export async function goThroughEveryPage(
   await page.waitForFunction((of) => window.__ream.replayOf === of && window.__ream.positionTicks !== null, ended);
   await look('replay');
   await page.getByTestId('leave-replay').click();
+  await open(`#/review/${ended}`);
+  await expect(page.getByTestId('score')).toBeVisible({ timeout: 60_000 });
+  await page.waitForTimeout(1500);
+  await look('review');
   for (const [name, hash, testId] of [
     ['sessions', '#/sessions', `row-${ended}`],
     ['cases', '#/cases', 'cases'],

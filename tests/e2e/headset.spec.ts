@@ -20,7 +20,7 @@ async function withHeadset(page: Page): Promise<void> {
   await page.addInitScript(() => {
     const { IWER } = window as unknown as Emulated;
     const device = new IWER.XRDevice(IWER.metaQuest3, { stereoEnabled: true });
-    device.installRuntime();
+    device.installRuntime({ forceInstall: true });
     (window as unknown as Emulated).worn = device;
   });
 }

@@ -16,6 +16,8 @@ export interface DebugReadout {
   serverEpoch: string | null;
   lastTick: number | null;
   traceRevision: number;
+  /** How old news are beyond what they always are, ms. */
+  behindMs: number;
   replayOf: string | null;
   positionTicks: number | null;
   /** Steering from this page: state of the device's connection, else null. */
@@ -46,6 +48,7 @@ export function publishDebugReadout(store: Store, practice: PracticeStore, scene
       serverEpoch: store.hello.value?.serverEpoch ?? null,
       lastTick: store.telemetry.value?.tick ?? null,
       traceRevision: store.traceRevision.value,
+      behindMs: store.behindMs.value,
       replayOf: store.hello.value?.replayOf ?? null,
       positionTicks: store.playback.value?.positionTicks ?? null,
       deviceLink: practice.sessionId.value === null ? null : practice.link.value.kind,

@@ -62,8 +62,7 @@ function main(root: HTMLElement): void {
   });
   effect(() => scene.setToolPose(store.telemetry.value?.worldFromTool ?? null));
   effect(() => scene.setBonePose(store.telemetry.value?.worldFromBoneRest ?? null));
-  const touching = computed(() => store.upToDate.value && (store.telemetry.value?.densityGCc ?? 0) > 0);
-  effect(() => scene.setTouching(touching.value));
+  effect(() => scene.setTouching(store.touching.value));
   effect(() => {
     if (scene.headset.worn.value) scene.headset.say(headsetWords(store));
   });

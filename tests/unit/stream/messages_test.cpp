@@ -30,6 +30,7 @@ HelloInfo example_hello() {
 
 TelemetryBatch example_telemetry() {
   TelemetryBatch batch;
+  batch.stamp_us = 1'234'567;
   for (uint32_t i = 0; i < 33; ++i) {
     TelemetrySample sample;
     sample.tick = 100 + i;
@@ -82,6 +83,7 @@ TEST(Messages, TelemetryIsParallelArraysAndTheNewestValues) {
   EXPECT_FLOAT_EQ(t->thrust_n()->Get(32), 32);
   EXPECT_FLOAT_EQ(t->density_g_cc()->Get(0), 1.5f);
   EXPECT_EQ(t->hand_force_n()->size(), 33u);
+  EXPECT_EQ(t->stamp_us(), 1'234'567u);
   ASSERT_EQ(t->vibration_g()->size(), 33u);
   EXPECT_FLOAT_EQ(t->vibration_g()->Get(32), 8.0f);
   EXPECT_FLOAT_EQ(t->world_from_tool()->translation_mm().x(), 7);

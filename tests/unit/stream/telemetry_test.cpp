@@ -1,6 +1,7 @@
 #include "stream/telemetry.hpp"
 
 #include "stream/fanout_local.hpp"
+#include "core/clock.hpp"
 #include "unit/stream/viewer.hpp"
 
 namespace ream::stream {
@@ -30,6 +31,21 @@ TEST(Telemetry, AboutThirtyMessagesASecondAndNoSampleLost) {
   EXPECT_NEAR(viewer.telemetry_messages, 31, 1);
   EXPECT_EQ(viewer.samples, 1000u);
   EXPECT_EQ(viewer.dropped, 0u);
+}
+
+TEST(Telemetry, SaysWhenItWasOnItsWay) {
+  LocalFanout fanout;
+  const auto mailbox = fanout.subscribe({}, 1);
+  TelemetryBatcher batcher(fanout);
+  const int64_t before_us = steady_ns() / 1000;
+  batcher.add(at_tick(7));
+  batcher.flush();
+  const int64_t after_us = steady_ns() / 1000;
+  const Message message = mailbox->next();
+  const wire::Telemetry* t = wire::GetServerMessage(message->data())->body_as_Telemetry();
+  ASSERT_NE(t, nullptr);
+  EXPECT_GE(static_cast<int64_t>(t->stamp_us()), before_us);
+  EXPECT_LE(static_cast<int64_t>(t->stamp_us()), after_us);
 }
 
 TEST(Telemetry, AGapEndsTheBatchAndIsCounted) {

@@ -46,9 +46,6 @@ export function Figures({ store }: { store: Store }) {
       <Figure name={words.cortical} unit="%">
         {engaged ? fixed(t.corticalShare * 100, 0) : words.none}
       </Figure>
-      <Figure name={words.feed} unit="mm/s">
-        {fixed(t?.feedRateMmS, 2)}
-      </Figure>
       <Figure name={words.spindle}>{t === null ? words.none : t.spindleOn ? words.on : words.off}</Figure>
       <Figure name={words.time} unit="s" id="session-time">
         {fixed(t === null ? null : t.tick / 1000, 1)}

@@ -23,6 +23,7 @@ export function LinkNotice({ store, mayReam }: { store: Store; mayReam: boolean 
 function notice(store: Store, link: LinkState, nowMs: number, mayReam: boolean): [title: string, text: string] {
   switch (link.kind) {
     case 'live':
+      if (store.farBehind.value) return [words.behindTitle, words.behindText(store.behindMs.value / 1000)];
       if (store.pictureComplete.value) return ['', ''];
       return [store.metWithLoss.value ? words.catchingUp : words.loading, ''];
     case 'connecting':

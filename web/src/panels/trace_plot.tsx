@@ -17,6 +17,8 @@ export interface PlotKind {
   unit: string;
   /** The axis reaches at least this far, so that it does not jump while the values rise. */
   axisAtLeast: number;
+  /** And no further: what is beyond it says nothing of reaming. */
+  axisAtMost: number;
   /** The axis ends at a multiple of this. */
   axisStep: number;
   /** To both sides of zero. */
@@ -101,7 +103,7 @@ function createPlot(element: HTMLElement, kind: PlotKind): UPlot {
       },
       axes: [
         { ...axis, size: 26, values: (_plot, marks) => marks.map((mark) => `${mark} s`) },
-        { ...axis, size: 46, values: (_plot, marks) => marks.map((mark) => axisMark(kind, mark)) },
+        { ...axis, size: 46, space: 22, values: (_plot, marks) => marks.map((mark) => axisMark(kind, mark)) },
       ],
       series: [{}, { stroke: colour('--force'), ...fill, width: 1.75, points: { show: false } }],
     },
@@ -115,7 +117,8 @@ const axisMark = (kind: PlotKind, mark: number): string => `${mark.toFixed(kind.
 /** From zero, or as far below it as above. */
 export function axisRange(kind: PlotKind, least: number, most: number): [number, number] {
   const reach = kind.swings ? Math.max(Math.abs(least), Math.abs(most)) : most;
-  const end = Math.max(kind.axisAtLeast, Math.ceil((reach * 1.1) / kind.axisStep) * kind.axisStep);
+  const wanted = Math.ceil((reach * 1.1) / kind.axisStep) * kind.axisStep;
+  const end = Math.min(Math.max(kind.axisAtLeast, wanted), kind.axisAtMost);
   return [kind.swings ? -end : 0, end];
 }
 

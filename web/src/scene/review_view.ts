@@ -45,7 +45,7 @@ export class ReviewView {
       effect(() => {
         if (scene.headset.worn.value) scene.headset.say(headsetWords(store));
       }),
-      effect(() => scene.setTouching(store.upToDate.value && (store.telemetry.value?.densityGCc ?? 0) > 0)),
+      effect(() => scene.setTouching(store.touching.value)),
       effect(() => scene.setBonePose(store.telemetry.value?.worldFromBoneRest ?? null)),
       // Its glass would change the colours of a map.
       effect(() => scene.setToolShown(settings.reamerShown.value && session.mapShown.value === null)),

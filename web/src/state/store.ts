@@ -8,6 +8,9 @@ import { LiveTrace } from './live_trace';
 /** Length of the force plot, seconds of session time. */
 export const plotSeconds = 20;
 
+/** News that is older than this is not shown as live. */
+export const behindAtMostMs = 1000;
+
 /** What the page knows. Written by the watcher, read by panels and scene. */
 export class Store {
   readonly link = signal<LinkState>({ kind: 'connecting' });
@@ -65,8 +68,19 @@ export class Store {
 
   /** Whether what is shown is a recording, or will be. */
   readonly replaying = computed(() => this.replayId.value !== null || (this.hello.value?.replayOf ?? '') !== '');
+  /** How long what came last was on its way, beyond what it always takes; ms. Grows where the link is too slow. */
+  readonly behindMs = signal(0);
+  readonly farBehind = computed(() => this.behindMs.value > behindAtMostMs);
   /** Whether what is shown is all that the stream has told, of the present or of a recording. */
-  readonly upToDate = computed(() => this.link.value.kind === 'live' && this.pictureComplete.value);
+  readonly upToDate = computed(
+    () => this.link.value.kind === 'live' && this.pictureComplete.value && !this.farBehind.value,
+  );
+  /** Whether the reamer is seen on bone; of a session that has ended the bone is seen as it was left. */
+  readonly touching = computed(() => {
+    const told = this.telemetry.value;
+    const ended = told?.state === 'finished' || told?.state === 'stopped' || told?.state === 'fault';
+    return this.upToDate.value && !ended && (told?.densityGCc ?? 0) > 0;
+  });
   /** Whether what is shown is the present state of the simulator. */
   readonly live = computed(() => this.upToDate.value && !this.replaying.value);
   readonly active = computed(() => this.sessionState.value === 'running' || this.sessionState.value === 'paused');

@@ -6,6 +6,7 @@ import type { Hello, MeshDelta, StreamMessage, Telemetry, ToolMesh } from '../wi
 import type { StreamSocket } from '../wire/stream_socket';
 import { words } from '../words';
 import { isActive } from './choose_session';
+import { Lateness } from './lateness';
 import { Scrubber } from './scrubber';
 import type { Store } from './store';
 import { StreamFinder, type WatcherPolicy } from './stream_finder';
@@ -30,6 +31,7 @@ export class Watcher {
   /** Goes to moments of the watched replay. */
   readonly scrubber: Scrubber;
   private readonly finder: StreamFinder;
+  private lateness = new Lateness();
   private pollTimer: ReturnType<typeof setInterval> | undefined;
 
   constructor(
@@ -274,7 +276,9 @@ export class Watcher {
 
   private onHello(hello: Hello): void {
     this.finder.greeted();
+    this.store.behindMs.value = 0;
     const before = this.store.hello.value;
+    if (before?.serverEpoch !== hello.serverEpoch) this.lateness = new Lateness();
     const sameSession = before?.sessionId === hello.sessionId && before.serverEpoch === hello.serverEpoch;
     if (!sameSession) {
       this.store.trace.clear();
@@ -302,12 +306,20 @@ export class Watcher {
       });
       ++this.store.traceRevision.value;
     }
+    this.store.behindMs.value = this.behind(telemetry);
     const ended = this.store.sessionState.value !== telemetry.state;
     this.store.telemetry.value = telemetry;
     this.store.playback.value = telemetry.playback;
     if (telemetry.playback !== null) this.scrubber.streamTold();
     this.store.sessionState.value = telemetry.state;
     if (ended) void this.readMetrics();
+  }
+
+  /** What a session that rests told last is its newest, however late it came. */
+  private behind({ stampMs, receivedMs, state }: Telemetry): number {
+    if (stampMs === 0 || receivedMs === undefined) return 0;
+    const behindMs = this.lateness.of(stampMs, receivedMs);
+    return state === 'running' || state === 'replaying' ? behindMs : 0;
   }
 
   /** Final figures, once a session has ended. They are a supplement: without them the page shows the rest. */

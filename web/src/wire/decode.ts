@@ -134,6 +134,7 @@ function decodeTelemetry(t: WireTelemetry): Telemetry {
     fault: t.fault() ?? '',
     worldFromBoneRest: pose(t.worldFromBoneRest()),
     playback: decodePlayback(t.playback()),
+    stampMs: Number(t.stampUs()) / 1000,
   };
 }
 

@@ -111,6 +111,8 @@ export interface Telemetry {
   worldFromBoneRest: Pose | null;
   /** Null for what is live. */
   playback: Playback | null;
+  /** When it was on its way, by the server's own clock, ms; 0: not told. */
+  stampMs: number;
   /** When it came, ms since 1970 by this computer's clock; absent where nobody has looked at the clock. */
   receivedMs?: number;
 }

@@ -184,6 +184,27 @@ describe('Watcher', () => {
     expect(begun).toEqual(['s1', 's2']);
   });
 
+  it('is not live while news come too late, and is again when they come in time or nothing moves', async () => {
+    watcher.start();
+    await settle();
+    serve('s1', '1');
+    await watcher.runDemo();
+    const news = (stampMs: number, receivedMs: number, state: 'running' | 'paused' = 'running') =>
+      socket.handlers?.onMessage(telemetry({ state, stampMs, receivedMs }));
+    news(1000, 50_000);
+    news(1033, 50_034);
+    expect(store.live.value).toBe(true);
+    news(2000, 53_000);
+    expect(store.behindMs.value).toBeCloseTo(2000, -2);
+    expect(store.live.value).toBe(false);
+    news(5000, 54_010);
+    expect(store.live.value).toBe(true);
+    news(6000, 57_500);
+    expect(store.live.value).toBe(false);
+    news(6001, 58_500, 'paused');
+    expect(store.live.value).toBe(true);
+  });
+
   it('is not live again before the whole picture has come', async () => {
     watcher.start();
     await settle();

@@ -90,6 +90,7 @@ describe('StreamDecoder', () => {
       dropped: 7,
       ticksMissed: 2,
       worldFromHandle: null,
+      stampMs: 5000,
     });
     expect([...telemetry.thrustN]).toEqual([10.5, 11.25, 12]);
     expect([...telemetry.feedRatesMmS]).toEqual([0.125, 0.25, 0.375]);

@@ -37,6 +37,7 @@ export function telemetry(changes: Partial<Telemetry> = {}): StreamMessage {
       thrustN: new Float32Array(),
       feedRatesMmS: new Float32Array(),
       vibrationG: new Float32Array(),
+      stampMs: 0,
       tick: 0,
       handForceN: 0,
       torqueNMm: 0,
