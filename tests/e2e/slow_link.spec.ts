@@ -1,10 +1,10 @@
 // A slow line between page and server: at 1 Mbit/s the session is seen live; where the line is too slow for that the page
 // says how old its news are, and is live again by itself when the line is.
-import { expect, test } from "@playwright/test";
+import { expect, test } from '@playwright/test';
 
-import { startDemo } from "./rest_as_page";
-import { readout, serverForEachTest, untilLive } from "./server_for_each_test";
-import { SlowProxy } from "./slow_proxy";
+import { startDemo } from './rest_as_page';
+import { readout, serverForEachTest, untilLive } from './server_for_each_test';
+import { SlowProxy } from './slow_proxy';
 
 const here = serverForEachTest();
 test.use({ actionTimeout: 60_000, viewport: { width: 900, height: 520 } });
@@ -17,13 +17,13 @@ test.beforeEach(async () => {
 });
 test.afterEach(() => line.dispose());
 
-test("is live at 1 Mbit/s, and says so where it cannot be", async ({ page }, info) => {
+test('is live at 1 Mbit/s, and says so where it cannot be', async ({ page }, info) => {
   test.setTimeout(300_000);
   await page.goto(line.url, { timeout: 60_000 });
   await page.waitForFunction(() => window.__ream.live, null, { timeout: 120_000 });
   await startDemo(page, here.server.url);
   await expect
-    .poll(async () => Number(await page.getByTestId("removed-volume").textContent()), { timeout: 90_000 })
+    .poll(async () => Number(await page.getByTestId('removed-volume').textContent()), { timeout: 90_000 })
     .toBeGreaterThan(5);
   // Live throughout: never a second behind.
   for (let i = 0; i < 10; ++i) {
@@ -34,10 +34,10 @@ test("is live at 1 Mbit/s, and says so where it cannot be", async ({ page }, inf
   }
 
   line.bitsPerSecond = mebibit / 20;
-  await expect(page.getByTestId("picture")).toHaveAttribute("data-stale", "true", { timeout: 60_000 });
-  await expect(page.getByTestId("link-notice")).toContainText(/too slow|waiting|lost/i);
-  await page.screenshot({ path: info.outputPath("too-slow.png") });
+  await expect(page.getByTestId('picture')).toHaveAttribute('data-stale', 'true', { timeout: 60_000 });
+  await expect(page.getByTestId('link-notice')).toContainText(/too slow|waiting|lost/i);
+  await page.screenshot({ path: info.outputPath('too-slow.png') });
   line.bitsPerSecond = 8 * mebibit;
   await untilLive(page);
-  await expect(page.getByTestId("link-notice")).toBeHidden();
+  await expect(page.getByTestId('link-notice')).toBeHidden();
 });

@@ -1,4 +1,4 @@
-import { createServer, connect, type AddressInfo, type Server, type Socket } from "node:net";
+import { createServer, connect, type AddressInfo, type Server, type Socket } from 'node:net';
 
 const stepMs = 20;
 
@@ -10,7 +10,7 @@ export class SlowProxy {
   private readonly timer: ReturnType<typeof setInterval>;
   private credit = 0;
   private lastMs = performance.now();
-  url = "";
+  url = '';
 
   constructor(
     private readonly serverUrl: string,
@@ -21,7 +21,7 @@ export class SlowProxy {
   }
 
   async start(): Promise<void> {
-    await new Promise<void>((resolve) => this.server.listen(0, "127.0.0.1", resolve));
+    await new Promise<void>((resolve) => this.server.listen(0, '127.0.0.1', resolve));
     this.url = `http://127.0.0.1:${(this.server.address() as AddressInfo).port}`;
   }
 
@@ -59,14 +59,14 @@ export class SlowProxy {
     ] as const) {
       this.sockets.add(from);
       from.setNoDelay(true);
-      from.on("error", () => to.destroy());
-      from.on("close", () => {
+      from.on('error', () => to.destroy());
+      from.on('close', () => {
         to.destroy();
         this.sockets.delete(from);
       });
     }
-    page.on("data", (bytes) => server.write(bytes));
-    server.on("data", (bytes) => {
+    page.on('data', (bytes) => server.write(bytes));
+    server.on('data', (bytes) => {
       server.pause();
       this.waiting.push({ page, server, bytes });
     });

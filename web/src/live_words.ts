@@ -14,7 +14,8 @@ export const liveWords = {
   seeThroughHint: 'The bone lets the reamer be seen.',
   headset: 'Headset',
   headsetOff: 'End headset',
-  headsetHint: 'Seen in a headset, upright before you; the trigger grabs the bone, the stick makes it larger or smaller.',
+  headsetHint:
+    'Seen in a headset, upright before you; the trigger grabs the bone, the stick makes it larger or smaller.',
   headsetRefused: (why: string) => `The headset could not be used: ${why}`,
   headsetLive: 'Live',
   headsetRecorded: 'Recording',

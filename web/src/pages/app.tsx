@@ -63,7 +63,7 @@ function Page({ route, live, identity }: { route: Route; live: LivePageParts; id
     case 'case':
       if (!may.readCases) return <NotForYou />;
       return casePages.show(({ CasePages }) => (
-        <CasePages route={route} startReaming={(caseId) => startReaming(caseId, live)} />
+        <CasePages route={route} startReaming={(caseId, theatre) => startReaming(caseId, theatre, live)} />
       ));
     case 'sessions':
       if (!may.ream) return <NotForYou />;
@@ -93,9 +93,13 @@ function NotForYou() {
 }
 
 /** Makes a session on a case, takes the reamer into the hand, and shows it; throws an Error with words when it fails. */
-async function startReaming(caseId: string, { watcher, practice, store }: LivePageParts): Promise<void> {
+async function startReaming(
+  caseId: string,
+  theatre: boolean,
+  { watcher, practice, store }: LivePageParts,
+): Promise<void> {
   if (store.replayId.value !== null) watcher.leaveReplay();
-  const sessionId = await watcher.practise(caseId);
+  const sessionId = await watcher.practise(caseId, theatre);
   if (sessionId === null) {
     const said = store.problem.value ?? words.noAnswer;
     store.problem.value = null;

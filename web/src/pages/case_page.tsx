@@ -15,7 +15,7 @@ import { ViewMarks } from '../state/case/view_marks';
 
 interface Parts {
   keeper: CaseKeeper;
-  startReaming: (caseId: string) => Promise<void>;
+  startReaming: (caseId: string, theatre: boolean) => Promise<void>;
 }
 
 /** One case: its slices and surface, and the steps from the CT to the reamer. */

@@ -20,7 +20,7 @@ const cases = new CasesKeeper(api, window.localStorage, (caseId) => {
 interface Parts {
   route: Route;
   /** Makes a session on the case and shows it; throws an Error with words. */
-  startReaming: (caseId: string) => Promise<void>;
+  startReaming: (caseId: string, theatre: boolean) => Promise<void>;
 }
 
 /** The pages of the cases, loaded when one of them is first opened. */

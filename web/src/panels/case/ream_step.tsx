@@ -1,19 +1,21 @@
 import { useSignal } from '@preact/signals';
 
 import { caseWords } from '../../case_words';
+import { liveWords } from '../../live_words';
 import { type CaseKeeper, wordsOf } from '../../state/case/case_keeper';
 import type { StepName, StepState } from '../../state/case/case_steps';
-import { Remark } from '../fields';
+import { CheckField, Remark } from '../fields';
 
 interface Parts {
   keeper: CaseKeeper;
   states: Record<StepName, StepState>;
-  startReaming: (caseId: string) => Promise<void>;
+  startReaming: (caseId: string, theatre: boolean) => Promise<void>;
 }
 
 /** Opens the simulator on this case, with the reamer in the user's hand. */
 export function ReamStep({ keeper, states, startReaming }: Parts) {
   const starting = useSignal(false);
+  const theatre = useSignal(false);
   const { store } = keeper;
   const details = store.details.value;
   const lacking = (['build', 'plan'] as const).filter((name) =>
@@ -25,7 +27,7 @@ export function ReamStep({ keeper, states, startReaming }: Parts) {
     store.problem.value = null;
     try {
       await keeper.landmarks.saveNow();
-      await startReaming(keeper.caseId);
+      await startReaming(keeper.caseId, theatre.value);
     } catch (error) {
       store.problem.value = wordsOf(error);
     } finally {
@@ -40,6 +42,13 @@ export function ReamStep({ keeper, states, startReaming }: Parts) {
           : caseWords.reamHint}
       </p>
       {outdated && lacking.length === 0 && <Remark kind="warn">{caseWords.reamOutdated}</Remark>}
+      <CheckField
+        label={liveWords.theatreMode}
+        hint={liveWords.theatreHint}
+        checked={theatre.value}
+        testId="case-theatre"
+        onChange={(wanted) => (theatre.value = wanted)}
+      />
       <div class="buttons">
         <button
           type="button"

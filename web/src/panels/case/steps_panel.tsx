@@ -14,7 +14,7 @@ import { SegmentStep } from './segment_step';
 
 interface Parts {
   keeper: CaseKeeper;
-  startReaming: (caseId: string) => Promise<void>;
+  startReaming: (caseId: string, theatre: boolean) => Promise<void>;
 }
 
 /** The steps from a CT to a reamed bone, one of them open. */
