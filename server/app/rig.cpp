@@ -74,9 +74,11 @@ nlohmann::json mount_json(const sim::Model& model) {
 }  // namespace
 
 case_::Case find_case(const std::string& name, const fs::path& data) {
-  if (name == "demo") return ct::load_or_make_demo_case(data);
   static CaseShelf shelf;
-  return shelf.load(case_path(name, data));
+  if (name != "demo") return shelf.load(case_path(name, data));
+  const fs::path demo = cases_folder(data) / "demo";
+  if (!fs::exists(demo / "case.json")) ct::load_or_make_demo_case(data);
+  return shelf.load(demo);
 }
 
 case_::Anatomy find_anatomy(const case_::Case& c, const std::string& name, const fs::path& data) {

@@ -40,10 +40,10 @@ tcp::endpoint endpoint_of(const ListenOptions& options) {
   return {address, options.port};
 }
 
-/// What waits for a slow peer waits in the program, where newer takes the place of older, and not in the kernel's
-/// queue, where it grows old: the kernel takes this many bytes that it cannot send yet, and no more.
+/// What waits for a slow peer waits in the program, where newer takes the place of older, and not in the
+/// kernel's queue, where it grows old: the kernel takes this many bytes that it cannot send yet, and no more.
 void keep_little_unsent(tcp::socket& socket) {
-  constexpr int most_bytes = 32 * 1024;
+  constexpr int most_bytes = 16 * 1024;
   // Without it a slow viewer's picture is only later.
   static_cast<void>(
       ::setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &most_bytes, sizeof most_bytes));

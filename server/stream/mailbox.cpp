@@ -4,6 +4,23 @@
 
 namespace ream::stream {
 
+namespace {
+
+/// What a block takes in a message beside its streams, about.
+constexpr size_t table_bytes = 96;
+
+/// Whether the two are one batch that was taken in two.
+bool continues(const TelemetryBatch& first, const TelemetryBatch& second) {
+  const TelemetrySample &last = first.samples.back(), &next = second.samples.front();
+  const auto jump = [](const TelemetrySample& sample) {
+    return sample.playback ? std::optional(sample.playback->jump) : std::nullopt;
+  };
+  return second.lost_before == 0 && second.tick_stride == first.tick_stride &&
+         next.tick == last.tick + first.tick_stride && jump(next) == jump(last);
+}
+
+}  // namespace
+
 Message Mailbox::next() {
   const std::lock_guard lock(mutex_);
   if (hello_) return std::exchange(hello_, nullptr);
@@ -20,19 +37,30 @@ Message Mailbox::next() {
 }
 
 Message Mailbox::next_telemetry() {
-  const SharedTelemetry batch = std::move(telemetry_.front());
+  SharedTelemetry batch = std::move(telemetry_.front());
   telemetry_.pop_front();
   dropped_ += batch->lost_before;
-  return telemetry_message(*batch, dropped_);
+  if (telemetry_.empty() || !continues(*batch, *telemetry_.front()))
+    return telemetry_message(*batch, dropped_);
+  TelemetryBatch joined = *batch;
+  while (!telemetry_.empty() && continues(joined, *telemetry_.front())) {
+    const TelemetryBatch& more = *telemetry_.front();
+    joined.samples.insert(joined.samples.end(), more.samples.begin(), more.samples.end());
+    joined.stamp_us = more.stamp_us;
+    telemetry_.pop_front();
+  }
+  return telemetry_message(joined, dropped_);
 }
 
 Message Mailbox::next_mesh() {
   std::vector<SharedBlock> blocks;
   bool complete = picture_ == Picture::sending && picture_blocks_left_ == 0;
+  const size_t most_bytes = picture_ == Picture::sent ? update_message_bytes : mesh_message_bytes;
   for (size_t bytes = 0; !order_.empty() && !complete;) {
     const auto place = newest_.find(order_.front());
-    if (!blocks.empty() && bytes + place->second->bytes() > mesh_message_bytes) break;
-    bytes += place->second->bytes();
+    const size_t block_bytes = place->second->bytes() + table_bytes;
+    if (!blocks.empty() && bytes + block_bytes > most_bytes) break;
+    bytes += block_bytes;
     blocks.push_back(std::move(place->second));
     newest_.erase(place);
     order_.pop_front();

@@ -14,14 +14,16 @@ namespace ream::stream {
 /// and the latest telemetry; what telemetry was dropped is counted and told. Thread-safe.
 class Mailbox {
  public:
-  static constexpr size_t max_telemetry_batches = 60;  ///< about two seconds
-  static constexpr size_t mesh_message_bytes = 256 * 1024;
+  static constexpr size_t max_telemetry_batches = 60;       ///< about two seconds
+  static constexpr size_t mesh_message_bytes = 256 * 1024;  ///< of the first whole picture
+  /// Of what changes afterwards: telemetry, whose turn is next, is not kept waiting for long by a slow line.
+  static constexpr size_t update_message_bytes = 16 * 1024;
 
   explicit Mailbox(std::function<void()> notify) : notify_(std::move(notify)) {}
 
   /// The viewer's side. The next message to send, null for nothing now: then `notify` is called once as soon
-  /// as there is something again. Blocks are gathered to messages of about mesh_message_bytes; telemetry and
-  /// surface take turns.
+  /// as there is something again. Blocks are gathered to messages of about mesh_message_bytes or
+  /// update_message_bytes; telemetry, as much as waits without a gap, and surface take turns.
   Message next();
 
   /// The fanout's side.

@@ -61,7 +61,7 @@ using TelemetryRing = SpscRing<TelemetrySample>;
 struct TelemetryBatch {
   uint32_t tick_stride = 1;
   uint32_t lost_before = 0;              ///< entries lost on the way here since the previous batch
-  int64_t stamp_us = 0;      ///< steady clock when it was published
+  int64_t stamp_us = 0;                  ///< steady clock when it was published
   std::vector<TelemetrySample> samples;  ///< at least one
 };
 

@@ -52,7 +52,16 @@ export class SlowProxy {
 
   private pass(page: Socket): void {
     const { hostname, port } = new URL(this.serverUrl);
-    const server = connect(Number(port), hostname);
+    // Read in small pieces, so that little waits here.
+    const onread = {
+      buffer: Buffer.alloc(4096),
+      callback: (count: number, buffer: Uint8Array) => {
+        server.pause();
+        this.waiting.push({ page, server, bytes: Buffer.from(buffer.subarray(0, count)) });
+        return true;
+      },
+    };
+    const server: Socket = connect({ port: Number(port), host: hostname, onread });
     for (const [from, to] of [
       [page, server],
       [server, page],
@@ -66,9 +75,5 @@ export class SlowProxy {
       });
     }
     page.on('data', (bytes) => server.write(bytes));
-    server.on('data', (bytes) => {
-      server.pause();
-      this.waiting.push({ page, server, bytes });
-    });
   }
 }

@@ -75,7 +75,8 @@ export const liveWords = {
   handDelayHint:
     'From the moment at which your hand was sampled to the end of drawing what it did; 95 of 100 are faster.',
   drawDelay: 'News to picture',
-  drawDelayHint: 'From the arrival of a message to the end of drawing it; 95 of 100 are faster.',
+  drawDelayHint:
+    'From the arrival of a message to the end of drawing it, 95 of 100 are faster; and how much longer than usual it was on its way.',
   loop: 'Loop',
   force: 'Force',
   forceScaleHint: 'Simulated newtons for each newton at the hand',

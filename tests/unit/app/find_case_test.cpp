@@ -1,7 +1,9 @@
 #include "app/cli/case_path.hpp"
+#include "app/data_folder.hpp"
 #include "app/rig.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/test_bone.hpp"
 
 namespace ream::app {
 namespace {
@@ -21,6 +23,19 @@ TEST(FindCase, UnknownAndBrokenCasesAreNamed) {
   folder.write("cases/broken/case.json", "{\"id\": ");
   test::expect_error(ErrorKind::invalid_input, "case.json", [&] { find_case("broken", folder.path()); });
   EXPECT_EQ(folder.entries(), std::vector<std::string>{"cases"}) << "looking for a case makes nothing";
+}
+
+TEST(FindCase, SessionsOnOneCaseShareItsDensities) {
+  const test::TemporaryFolder folder;
+  for (const std::string name : {"demo", "knee"}) {
+    case_::Case c;
+    c.id = c.name = c.source = name;
+    c.bone = test::slab({24, 24, 24}, 0.5, 4.0, 0.6);
+    case_::save_case(c, cases_folder(folder.path()) / name);
+    const case_::Case first = find_case(name, folder.path()), second = find_case(name, folder.path());
+    EXPECT_TRUE(first.bone.density.shares_with(second.bone.density)) << name;
+    EXPECT_EQ(first.id, name);
+  }
 }
 
 }  // namespace

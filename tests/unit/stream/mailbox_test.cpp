@@ -122,9 +122,45 @@ TEST(Mailbox, OldTelemetryIsDroppedAndCounted) {
   for (uint32_t i = 0; i < batches; ++i) fanout.publish_telemetry(telemetry(33 * i, 33));
   Viewer viewer;
   viewer.pull(*mailbox);
-  EXPECT_EQ(viewer.telemetry_messages, static_cast<int>(Mailbox::max_telemetry_batches));
+  EXPECT_EQ(viewer.telemetry_messages, 1) << "what waits goes together";
   EXPECT_EQ(viewer.dropped, 330u);
   EXPECT_EQ(viewer.samples + viewer.dropped, batches * 33);
+}
+
+TEST(Mailbox, OnlyTelemetryWithoutAGapGoesTogether) {
+  Mailbox mailbox({});
+  mailbox.put_telemetry(telemetry(0, 33));
+  mailbox.put_telemetry(telemetry(33, 33));
+  mailbox.put_telemetry(telemetry(99, 33));  // 33 ticks are missing
+  auto jumped = std::make_shared<TelemetryBatch>(*telemetry(132, 33));
+  for (TelemetrySample& sample : jumped->samples) sample.playback = Playback{0, 1.0f, true, 2};
+  mailbox.put_telemetry(jumped);
+  auto coarse = std::make_shared<TelemetryBatch>(*telemetry(165, 1));
+  coarse->tick_stride = 10;
+  coarse->stamp_us = 77;
+  mailbox.put_telemetry(coarse);
+  std::vector<std::pair<uint32_t, size_t>> sent;
+  uint64_t stamp_us = 0;
+  while (const Message message = mailbox.next()) {
+    ASSERT_TRUE(verified(message->data(), message->size()));
+    const wire::Telemetry* t = wire::GetServerMessage(message->data())->body_as_Telemetry();
+    sent.emplace_back(t->first_tick(), t->thrust_n()->size());
+    stamp_us = t->stamp_us();
+  }
+  EXPECT_EQ(sent, (std::vector<std::pair<uint32_t, size_t>>{{0, 66}, {99, 33}, {132, 33}, {165, 1}}));
+  EXPECT_EQ(stamp_us, 77u);
+}
+
+TEST(Mailbox, UpdatesAreSmallSoThatTelemetryIsNotKeptWaiting) {
+  Mailbox mailbox({});
+  mailbox.put_picture_complete();
+  Viewer viewer;
+  viewer.pull(mailbox);
+  for (uint32_t block = 0; block < 2000; ++block) mailbox.put_block(small_block(block, 1));
+  viewer.pull(mailbox);
+  EXPECT_EQ(viewer.blocks.size(), 2000u);
+  EXPECT_GT(viewer.mesh_messages, 4);
+  EXPECT_LT(viewer.largest_mesh_message, 2 * Mailbox::update_message_bytes);
 }
 
 TEST(Mailbox, TelemetryAndSurfaceTakeTurns) {

@@ -1,7 +1,7 @@
 #include "stream/telemetry.hpp"
 
-#include "stream/fanout_local.hpp"
 #include "core/clock.hpp"
+#include "stream/fanout_local.hpp"
 #include "unit/stream/viewer.hpp"
 
 namespace ream::stream {

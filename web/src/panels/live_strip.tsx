@@ -31,7 +31,9 @@ export function LiveStrip({ store, practice, latency, sound, slicesOpen }: Parts
   useLiveKeys(useMemo(() => ({ t: () => (slicesOpen.value = !slicesOpen.value) }), [slicesOpen]));
   const live = store.live.value;
   const steering = practice.steering.value;
-  const delayMs = !live ? null : steering ? latency.handMs.value : latency.drawingMs.value;
+  const drawingMs = latency.drawingMs.value;
+  const watchingMs = drawingMs === null ? null : drawingMs + store.behindMs.value;
+  const delayMs = !live ? null : steering ? latency.handMs.value : watchingMs;
   const slow = delayMs !== null && delayMs > latencyGoalMs;
   const percent = live ? missedPercent(store) : null;
   const late = percent !== null && percent > lateAbovePercent;

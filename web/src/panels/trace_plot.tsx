@@ -103,7 +103,7 @@ function createPlot(element: HTMLElement, kind: PlotKind): UPlot {
       },
       axes: [
         { ...axis, size: 26, values: (_plot, marks) => marks.map((mark) => `${mark} s`) },
-        { ...axis, size: 46, space: 22, values: (_plot, marks) => marks.map((mark) => axisMark(kind, mark)) },
+        { ...axis, size: 46, space: 14, values: (_plot, marks) => marks.map((mark) => axisMark(kind, mark)) },
       ],
       series: [{}, { stroke: colour('--force'), ...fill, width: 1.75, points: { show: false } }],
     },

@@ -9,7 +9,7 @@ import { LiveTrace } from './live_trace';
 export const plotSeconds = 20;
 
 /** News that is older than this is not shown as live. */
-export const behindAtMostMs = 1000;
+export const behindAtMostMs = 1500;
 
 /** What the page knows. Written by the watcher, read by panels and scene. */
 export class Store {
