@@ -2,7 +2,6 @@
 // says how old its news are, and is live again by itself when the line is.
 import { expect, test } from '@playwright/test';
 
-import { startDemo } from './rest_as_page';
 import { readout, serverForEachTest, untilLive } from './server_for_each_test';
 import { SlowProxy } from './slow_proxy';
 
@@ -21,7 +20,7 @@ test('is live at 1 Mbit/s, and says so where it cannot be', async ({ page }, inf
   test.setTimeout(300_000);
   await page.goto(line.url, { timeout: 60_000 });
   await page.waitForFunction(() => window.__ream.live, null, { timeout: 120_000 });
-  await startDemo(page, here.server.url);
+  await page.getByTestId('run-demo').click();
   await expect
     .poll(async () => Number(await page.getByTestId('removed-volume').textContent()), { timeout: 90_000 })
     .toBeGreaterThan(5);
