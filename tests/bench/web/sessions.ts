@@ -1,0 +1,41 @@
+const pause = (ms: number) => new Promise((done) => setTimeout(done, ms));
+
+/** Sessions of a server, over REST as any client makes them. */
+export class Sessions {
+  constructor(private readonly serverUrl: string) {}
+
+  /** Returns when the server can make sessions. */
+  async ready(): Promise<void> {
+    while (!(await fetch(new URL('/readyz', this.serverUrl))).ok) await pause(200);
+  }
+
+  /** A session that runs, of a script of the data folder. */
+  async begin(caseName: string, script: string): Promise<string> {
+    const { id } = (await this.ask('POST', '', { case: caseName, script })) as { id: string };
+    await this.ask('POST', `/${id}/start`);
+    return id;
+  }
+
+  /** Stops it and returns when it has ended. */
+  async end(id: string): Promise<void> {
+    await this.ask('POST', `/${id}/stop`);
+    for (let state = 'running'; state === 'running' || state === 'paused'; ) {
+      await pause(100);
+      ({ state } = (await this.ask('GET', `/${id}`)) as { state: string });
+    }
+  }
+
+  streamUrl(id: string): string {
+    return `${this.serverUrl.replace(/^http/, 'ws').replace(/\/$/, '')}/api/v1/sessions/${id}/stream`;
+  }
+
+  private async ask(method: string, path: string, body?: object): Promise<unknown> {
+    const reply = await fetch(new URL(`/api/v1/sessions${path}`, this.serverUrl), {
+      method,
+      ...(body === undefined ? {} : { headers: { 'content-type': 'application/json' }, body: JSON.stringify(body) }),
+    });
+    const text = await reply.text();
+    if (!reply.ok) throw new Error(`${method} /api/v1/sessions${path}: ${String(reply.status)} ${text}`);
+    return text === '' ? null : JSON.parse(text);
+  }
+}
