@@ -1,9 +1,11 @@
-import type { Browser } from '@playwright/test';
+import type { Browser, Page } from '@playwright/test';
 
-import { viewport } from './browser';
+import type { Eye } from '../../../web/src/scene/shared_eye';
 import type { BareServer } from './bare_server';
+import { viewport } from './browser';
 import { median, tell } from './figures';
 import { LiveVisit } from './live_visit';
+import { ProcessorTime } from './processor_time';
 import type { Turned } from './turned';
 
 const turns = 5;
@@ -12,58 +14,102 @@ const warmS = 0.5;
 /** As the page's keys turn. */
 const stepRad = 0.09;
 
-export interface FrameRates {
-  /** Pictures a second, medians. */
-  ours: number;
-  bare: number;
+/** How one page draws, medians of turns. */
+export interface FrameRate {
+  picturesPerS: number;
+  /** Of a processor, per picture: in the page's own process, and drawing for it. */
+  pageMs: number;
+  drawingMs: number;
   triangles: number;
-  bareTriangles: number;
-  /** Of ours, one each turn. */
-  joinedAfterMs: number[];
-  openedAfterMs: number[];
 }
 
-const rate = ({ pictures, seconds }: Turned) => pictures / seconds;
+interface View {
+  eye: Eye;
+  widthPx: number;
+  heightPx: number;
+}
 
-/** Both pages draw the same bone in turns, while its session goes on. */
-export async function frameRates(browser: Browser, liveUrl: string, bare: BareServer): Promise<FrameRates> {
-  const ours: number[] = [];
-  const others: number[] = [];
-  const figures = { triangles: 0, bareTriangles: 0, joinedAfterMs: [] as number[], openedAfterMs: [] as number[] };
+/** Both pages draw the same bone from the same place, in turns, while its session goes on. */
+export async function frameRates(
+  browser: Browser,
+  liveUrl: string,
+  bare: BareServer,
+): Promise<{ ours: FrameRate; bare: FrameRate }> {
+  const clock = await ProcessorTime.of(browser);
+  const ours: FrameRate[] = [];
+  const others: FrameRate[] = [];
   for (let turn = 0; turn < turns; ++turn) {
     const visit = await LiveVisit.begin(browser, liveUrl);
-    figures.joinedAfterMs.push(visit.joinedAfterMs);
-    figures.openedAfterMs.push(visit.openedAfterMs);
     await visit.seeAll();
-    const { eye, triangles } = await visit.page.evaluate(() => window.__ream);
-    const size = await visit.page.getByTestId('bone-canvas').boundingBox();
-    figures.triangles = triangles;
-    await visit.turn(warmS);
-    ours.push(rate(await visit.turn(turnS)));
+    const view = await viewOf(visit.page);
+    const triangles = await visit.page.evaluate(() => window.__ream.triangles);
+    ours.push(await timed(clock, triangles, (seconds) => visit.turn(seconds)));
     await visit.end();
+    others.push(await turnBare(browser, clock, bare.url, view));
+    tell(`pictures a second: ${rounded(ours.at(-1))}, of the bare page ${rounded(others.at(-1))}`);
+  }
+  return { ours: medians(ours), bare: medians(others) };
+}
 
-    const page = await browser.newPage({ viewport });
-    await page.goto(bare.url);
-    await page.waitForFunction(() => window.bare !== undefined);
-    const { target, towardsEye, distanceMm } = eye;
-    await page.evaluate((view) => window.bare?.see(view), {
-      widthPx: size?.width ?? 0,
-      heightPx: size?.height ?? 0,
-      targetMm: [target.x, target.y, target.z] as [number, number, number],
+async function viewOf(page: Page): Promise<View> {
+  const eye = await page.evaluate(() => window.__ream.eye);
+  const box = await page.getByTestId('bone-canvas').boundingBox();
+  if (box === null) throw new Error('the page shows no picture');
+  return { eye, widthPx: box.width, heightPx: box.height };
+}
+
+async function turnBare(browser: Browser, clock: ProcessorTime, url: string, view: View): Promise<FrameRate> {
+  const page = await browser.newPage({ viewport });
+  await page.goto(url);
+  await page.waitForFunction(() => window.bare !== undefined);
+  const triangles = await page.evaluate(({ eye: { target, towardsEye, distanceMm }, widthPx, heightPx }) => {
+    window.bare?.see({
+      widthPx,
+      heightPx,
+      targetMm: [target.x, target.y, target.z],
       eyeMm: [
         target.x + towardsEye.x * distanceMm,
         target.y + towardsEye.y * distanceMm,
         target.z + towardsEye.z * distanceMm,
-      ] as [number, number, number],
+      ],
     });
-    figures.bareTriangles = await page.evaluate(() => window.bare?.triangles() ?? 0);
-    const turnBare = (seconds: number) =>
-      page.evaluate(([step, s]) => window.bare?.turn(step, s), [stepRad, seconds] as const);
-    await turnBare(warmS);
-    const turned = await turnBare(turnS);
-    if (turned !== undefined) others.push(rate(turned));
-    await page.context().close();
-    tell(`pictures a second: ours ${ours.at(-1)?.toFixed(1) ?? ''}, bare ${others.at(-1)?.toFixed(1) ?? ''}`);
-  }
-  return { ours: median(ours), bare: median(others), ...figures };
+    return window.bare?.triangles() ?? 0;
+  }, view);
+  const rate = await timed(clock, triangles, (seconds) =>
+    page.evaluate(async ([step, s]) => await window.bare?.turn(step, s), [stepRad, seconds] as const),
+  );
+  await page.context().close();
+  return rate;
 }
+
+async function timed(
+  clock: ProcessorTime,
+  triangles: number,
+  turn: (seconds: number) => Promise<Turned | undefined>,
+): Promise<FrameRate> {
+  await turn(warmS);
+  const before = await clock.read();
+  const turned = await turn(turnS);
+  const after = await clock.read();
+  if (turned === undefined) throw new Error('the bare page shows no picture');
+  const { pictures, seconds } = turned;
+  return {
+    picturesPerS: pictures / seconds,
+    pageMs: (1000 * (after.pagesS - before.pagesS)) / pictures,
+    drawingMs: (1000 * (after.drawingS - before.drawingS)) / pictures,
+    triangles,
+  };
+}
+
+function medians(rates: FrameRate[]): FrameRate {
+  const of = (value: (rate: FrameRate) => number) => median(rates.map(value));
+  return {
+    picturesPerS: of((rate) => rate.picturesPerS),
+    pageMs: of((rate) => rate.pageMs),
+    drawingMs: of((rate) => rate.drawingMs),
+    triangles: of((rate) => rate.triangles),
+  };
+}
+
+const rounded = (rate: FrameRate | undefined) =>
+  `${rate?.picturesPerS.toFixed(1) ?? ''} (${rate?.drawingMs.toFixed(0) ?? ''} ms of a processor each)`;

@@ -1,0 +1,44 @@
+import type { Browser } from '@playwright/test';
+
+import { percentile, tell } from './figures';
+import { LiveVisit } from './live_visit';
+import { scriptOfFrames, type TraceEvent } from './trace';
+
+const watchS = 30;
+
+/** Of the page's script between one animation frame and the next, ms. */
+export interface ScriptTime {
+  frames: number;
+  /** What the script computed: waiting for the drawing process or for a processor is not in it. */
+  longestMs: number;
+  p99Ms: number;
+  medianMs: number;
+  /** By the clock on the wall. */
+  longestWallMs: number;
+  p99WallMs: number;
+}
+
+/** Of somebody who watches a session live, from when the picture is whole. */
+export async function scriptTime(browser: Browser, liveUrl: string): Promise<ScriptTime> {
+  const visit = await LiveVisit.begin(browser, liveUrl);
+  await visit.page.waitForTimeout(1000);
+  await browser.startTracing(visit.page, {
+    categories: ['devtools.timeline', 'devtools.timeline.frame', 'disabled-by-default-devtools.timeline', 'v8'],
+  });
+  await visit.page.waitForTimeout(watchS * 1000);
+  const trace = JSON.parse((await browser.stopTracing()).toString()) as { traceEvents: TraceEvent[] };
+  await visit.end();
+  const frames = scriptOfFrames(trace.traceEvents, liveUrl);
+  const computed = frames.map((frame) => frame.computedMs);
+  const passed = frames.map((frame) => frame.passedMs);
+  const figures = {
+    frames: frames.length,
+    longestMs: Math.max(...computed),
+    p99Ms: percentile(computed, 0.99),
+    medianMs: percentile(computed, 0.5),
+    longestWallMs: Math.max(...passed),
+    p99WallMs: percentile(passed, 0.99),
+  };
+  tell(`script of ${String(frames.length)} frames: longest ${figures.longestMs.toFixed(1)} ms`);
+  return figures;
+}
