@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double press_n = 52.0;
-/// As long as the reamer stays in the vault at the feed of usual bone.
-constexpr double usual_s = 60.0;
+/// As long as the reamer stays in the vault in bone half as soft as usual.
+constexpr double usual_s = 120.0, half = 0.5;
 /// Longer than anybody watches here, and so hard a bone and so slow a reamer that it stays in the vault.
 constexpr double long_s = 3600.0, hard = 0.1, slow_rpm = 25.0;
 
@@ -114,7 +114,7 @@ std::vector<Row> web_suite(const Options&) {
   const test::TemporaryFolder data;
   keep_glenoid(data.path(), "demo", coarse_mm, 1);  // in place of the demo, which the page practises on
   keep_glenoid(data.path(), "fine", fine_mm, 2);
-  data.write("scripts/usual.json", pecking(usual_s, press_n).dump());
+  data.write("scripts/usual.json", pecking(usual_s, press_n, half).dump());
   json for_long = pecking(long_s, press_n, hard);
   for_long["spindle_rpm"] = slow_rpm;
   data.write("scripts/long.json", for_long.dump());

@@ -2,7 +2,7 @@ import type { Browser, Page } from '@playwright/test';
 
 import type { Eye } from '../../../web/src/scene/shared_eye';
 import type { BareServer } from './bare_server';
-import { viewport } from './browser';
+import { patienceMs, viewport } from './browser';
 import { median, tell } from './figures';
 import { LiveVisit } from './live_visit';
 import { ProcessorTime } from './processor_time';
@@ -60,6 +60,7 @@ async function viewOf(page: Page): Promise<View> {
 
 async function turnBare(browser: Browser, clock: ProcessorTime, url: string, view: View): Promise<FrameRate> {
   const page = await browser.newPage({ viewport });
+  page.setDefaultTimeout(patienceMs);
   await page.goto(url);
   await page.waitForFunction(() => window.bare !== undefined);
   const triangles = await page.evaluate(({ eye: { target, towardsEye, distanceMm }, widthPx, heightPx }) => {

@@ -17,7 +17,7 @@ export interface HandDelay {
 export async function handDelay(browser: Browser, liveUrl: string): Promise<HandDelay> {
   const { page } = await LiveVisit.begin(browser, liveUrl);
   await page.getByTestId('practise').click();
-  await page.waitForFunction(() => window.__ream.deviceLink === 'holding', null, { timeout: 60_000 });
+  await page.waitForFunction(() => window.__ream.deviceLink === 'holding');
   await page.keyboard.press('s');
   await page.keyboard.down(' ');
   const readings: number[] = [];

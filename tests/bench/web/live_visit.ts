@@ -1,6 +1,6 @@
 import type { Browser, CDPSession, Page } from '@playwright/test';
 
-import { viewport } from './browser';
+import { patienceMs, viewport } from './browser';
 import type { Turned } from './turned';
 
 declare global {
@@ -57,10 +57,11 @@ export class LiveVisit {
 
   static async begin(browser: Browser, url: string): Promise<LiveVisit> {
     const page = await browser.newPage({ viewport });
+    page.setDefaultTimeout(patienceMs);
     await page.addInitScript(watchJoining);
     const beganMs = Date.now();
     await page.goto(url);
-    await page.waitForFunction(() => window.joinedAfterMs !== null, null, { timeout: 60_000, polling: 20 });
+    await page.waitForFunction(() => window.joinedAfterMs !== null, null, { polling: 20 });
     const joinedAfterMs = await page.evaluate(() => window.joinedAfterMs);
     return new LiveVisit(page, joinedAfterMs ?? NaN, Date.now() - beganMs);
   }

@@ -1,3 +1,5 @@
+import { writeFileSync } from 'node:fs';
+
 import type { Browser } from '@playwright/test';
 
 import { percentile, tell } from './figures';
@@ -18,7 +20,10 @@ export interface ScriptTime {
   p99WallMs: number;
 }
 
-/** Of somebody who watches a session live, from when the picture is whole. */
+/**
+ * Of somebody who watches a session live, from when the picture is whole. REAM_BENCH_WEB_TRACE names a file for the
+ * trace, which Chromium's DevTools show.
+ */
 export async function scriptTime(browser: Browser, liveUrl: string): Promise<ScriptTime> {
   const visit = await LiveVisit.begin(browser, liveUrl);
   await visit.page.waitForTimeout(1000);
@@ -28,6 +33,8 @@ export async function scriptTime(browser: Browser, liveUrl: string): Promise<Scr
   await visit.page.waitForTimeout(watchS * 1000);
   const trace = JSON.parse((await browser.stopTracing()).toString()) as { traceEvents: TraceEvent[] };
   await visit.end();
+  if (process.env.REAM_BENCH_WEB_TRACE !== undefined)
+    writeFileSync(process.env.REAM_BENCH_WEB_TRACE, JSON.stringify(trace));
   const frames = scriptOfFrames(trace.traceEvents, liveUrl);
   const computed = frames.map((frame) => frame.computedMs);
   const passed = frames.map((frame) => frame.passedMs);

@@ -16,13 +16,15 @@ export class Sessions {
     return id;
   }
 
-  /** Stops it and returns when it has ended. */
+  /** Stops it, unless it has ended, and returns when it has. */
   async end(id: string): Promise<void> {
+    if (!(await this.isRunning(id))) return;
     await this.ask('POST', `/${id}/stop`);
-    for (let state = 'running'; state === 'running' || state === 'paused'; ) {
-      await pause(100);
-      ({ state } = (await this.ask('GET', `/${id}`)) as { state: string });
-    }
+    while (await this.isRunning(id)) await pause(100);
+  }
+
+  async isRunning(id: string): Promise<boolean> {
+    return ((await this.ask('GET', `/${id}`)) as { state: string }).state === 'running';
   }
 
   streamUrl(id: string): string {

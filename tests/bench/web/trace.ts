@@ -19,16 +19,17 @@ export interface FrameScript {
 
 const scriptNames = new Set(['FunctionCall', 'EvaluateScript', 'v8.callFunction', 'RunMicrotasks', 'MinorGC', 'MajorGC']);
 
-/** Script of the main thread of the page at a URL, summed from the begin of each frame to the next. */
+/** Script of the main thread of the page at a URL, summed from the end of each animation frame to the next. */
 export function scriptOfFrames(events: readonly TraceEvent[], url: string): FrameScript[] {
   const thread = mainThreadOf(events, url);
   const ours = events.filter((event) => event.tid === thread.tid && event.pid === thread.pid);
-  const begins = ours.filter((event) => event.name === 'BeginMainThreadFrame').map((event) => event.ts);
-  begins.sort((a, b) => a - b);
-  const frames = begins.slice(1).map(() => ({ computedMs: 0, passedMs: 0 }));
+  const ends = ours.filter((event) => event.name === 'AnimationFrame' && event.ph === 'e').map((event) => event.ts);
+  ends.sort((a, b) => a - b);
+  if (ends.length < 2) throw new Error("the browser's trace tells of no animation frames");
+  const frames = ends.slice(1).map(() => ({ computedMs: 0, passedMs: 0 }));
   let next = 0;
   for (const script of outermost(ours.filter((event) => event.ph === 'X' && scriptNames.has(event.name)))) {
-    while (next < begins.length && (begins[next] ?? Infinity) <= script.ts) ++next;
+    while (next < ends.length && (ends[next] ?? Infinity) <= script.ts) ++next;
     const frame = frames[next - 1];
     if (frame === undefined) continue;
     if (script.tdur === undefined) throw new Error("the browser's trace does not tell the time of threads");
