@@ -7,7 +7,11 @@ import { extname, join, normalize, resolve } from 'node:path';
 import { build } from 'vite';
 import WebSocket from 'ws';
 
-const types: Record<string, string> = { '.html': 'text/html', '.js': 'text/javascript', '': 'application/octet-stream' };
+const types: Record<string, string> = {
+  '.html': 'text/html',
+  '.js': 'text/javascript',
+  '': 'application/octet-stream',
+};
 
 /** Serves the bare page on loopback, with what a session streamed. */
 export class BareServer {
@@ -27,7 +31,8 @@ export class BareServer {
     const server = createServer((request, response) => {
       const path = normalize(new URL(request.url ?? '/', 'http://bare').pathname);
       try {
-        const body = path === '/stream' ? this.stream : readFileSync(join(this.folder, path === '/' ? 'index.html' : path));
+        const body =
+          path === '/stream' ? this.stream : readFileSync(join(this.folder, path === '/' ? 'index.html' : path));
         response.setHeader('content-type', types[path === '/' ? '.html' : extname(path)] ?? 'application/octet-stream');
         response.end(body);
       } catch {

@@ -30,7 +30,9 @@ export async function handDelay(browser: Browser, liveUrl: string): Promise<Hand
   await page.getByTestId('stop').click();
   await page.waitForFunction(() => window.__ream.sessionState === 'stopped');
   await page.context().close();
-  tell(`hand to picture, p95: ${readings.map((ms) => ms.toFixed(0)).join(', ')} ms; ${removedMm3.toFixed(1)} mm3 removed`);
+  tell(
+    `hand to picture, p95: ${readings.map((ms) => ms.toFixed(0)).join(', ')} ms; ${removedMm3.toFixed(1)} mm3 removed`,
+  );
   if (!(removedMm3 > 0)) throw new Error('the hand on the page did not ream');
   return { p95Ms: Math.max(...readings), removedMm3 };
 }

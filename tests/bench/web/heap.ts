@@ -33,16 +33,18 @@ export async function heapOverTime(browser: Browser, liveUrl: string, minutes: n
   await visit.page.waitForTimeout(warmS * 1000);
   const readings: { minute: number; mb: number }[] = [];
   const beganMs = Date.now();
-  for (let minute = 0; minute <= minutes; ) {
+  for (let minute = 0; minute <= minutes;) {
     await page.send('HeapProfiler.collectGarbage');
     await workers.ask('HeapProfiler.collectGarbage');
     const usages = [await page.send('Runtime.getHeapUsage'), ...(await workers.ask('Runtime.getHeapUsage'))] as Usage[];
     minute = (Date.now() - beganMs) / 60_000;
     readings.push({ minute, mb: usages.reduce((sum, usage) => sum + mbOf(usage), 0) });
-    if (readings.length % 8 === 1) tell(`heap after ${minute.toFixed(1)} minutes: ${readings.at(-1)?.mb.toFixed(2) ?? ''} MB`);
+    if (readings.length % 8 === 1)
+      tell(`heap after ${minute.toFixed(1)} minutes: ${readings.at(-1)?.mb.toFixed(2) ?? ''} MB`);
     await visit.page.waitForTimeout(everyS * 1000);
     const { live, sessionState } = await visit.page.evaluate(() => window.__ream);
-    if (!live || sessionState !== 'running') throw new Error(`the session that is watched is ${sessionState ?? 'gone'}`);
+    if (!live || sessionState !== 'running')
+      throw new Error(`the session that is watched is ${sessionState ?? 'gone'}`);
   }
   await visit.end();
   return { minutes: readings.at(-1)?.minute ?? 0, mb: readings.at(-1)?.mb ?? 0, growthMb: 30 * slope(readings) };

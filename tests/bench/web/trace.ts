@@ -15,9 +15,18 @@ export interface TraceEvent {
 export interface FrameScript {
   computedMs: number;
   passedMs: number;
+  /** Computed without letting the browser draw in between. */
+  unbrokenMs: number;
 }
 
-const scriptNames = new Set(['FunctionCall', 'EvaluateScript', 'v8.callFunction', 'RunMicrotasks', 'MinorGC', 'MajorGC']);
+const scriptNames = new Set([
+  'FunctionCall',
+  'EvaluateScript',
+  'v8.callFunction',
+  'RunMicrotasks',
+  'MinorGC',
+  'MajorGC',
+]);
 
 /** Script of the main thread of the page at a URL, summed from the end of each animation frame to the next. */
 export function scriptOfFrames(events: readonly TraceEvent[], url: string): FrameScript[] {
@@ -26,7 +35,7 @@ export function scriptOfFrames(events: readonly TraceEvent[], url: string): Fram
   const ends = ours.filter((event) => event.name === 'AnimationFrame' && event.ph === 'e').map((event) => event.ts);
   ends.sort((a, b) => a - b);
   if (ends.length < 2) throw new Error("the browser's trace tells of no animation frames");
-  const frames = ends.slice(1).map(() => ({ computedMs: 0, passedMs: 0 }));
+  const frames = ends.slice(1).map(() => ({ computedMs: 0, passedMs: 0, unbrokenMs: 0 }));
   let next = 0;
   for (const script of outermost(ours.filter((event) => event.ph === 'X' && scriptNames.has(event.name)))) {
     while (next < ends.length && (ends[next] ?? Infinity) <= script.ts) ++next;
@@ -34,6 +43,7 @@ export function scriptOfFrames(events: readonly TraceEvent[], url: string): Fram
     if (frame === undefined) continue;
     if (script.tdur === undefined) throw new Error("the browser's trace does not tell the time of threads");
     frame.computedMs += script.tdur / 1000;
+    frame.unbrokenMs = Math.max(frame.unbrokenMs, script.tdur / 1000);
     frame.passedMs += (script.dur ?? 0) / 1000;
   }
   return frames;

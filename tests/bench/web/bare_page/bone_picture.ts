@@ -33,7 +33,7 @@ export async function bonePicture(stream: ArrayBuffer): Promise<BonePicture> {
 
 function* messagesOf(stream: ArrayBuffer): Generator<Uint8Array> {
   const view = new DataView(stream);
-  for (let at = 0; at < stream.byteLength; ) {
+  for (let at = 0; at < stream.byteLength;) {
     const length = view.getUint32(at, true);
     yield new Uint8Array(stream.slice(at + 4, at + 4 + length));
     at += 4 + length;
@@ -81,6 +81,10 @@ function originVoxels(hello: Hello, block: number): Vector3 {
   const edge = hello.blockEdgeVoxels;
   const blocksX = Math.ceil(hello.gridDims[0] / edge);
   const blocksY = Math.ceil(hello.gridDims[1] / edge);
-  const place = new Vector3(block % blocksX, Math.floor(block / blocksX) % blocksY, Math.floor(block / (blocksX * blocksY)));
+  const place = new Vector3(
+    block % blocksX,
+    Math.floor(block / blocksX) % blocksY,
+    Math.floor(block / (blocksX * blocksY)),
+  );
   return place.multiplyScalar(edge).subScalar(1);
 }
