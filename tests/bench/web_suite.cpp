@@ -51,7 +51,7 @@ json measured(const fs::path& data) {
   return json::parse(told);
 }
 
-/// As the issue of the page has them.
+/// What the page is held to.
 constexpr double share_of_bare_goal = 0.8, join_goal_s = 1.0, script_goal_ms = 16.0, heap_goal_mb = 10.0,
                  hand_goal_ms = 100.0;
 
