@@ -42,5 +42,7 @@ std::vector<Row> store_suite(const Options& options);
 std::vector<Row> surface_suite(const Options& options);
 /// Force against the thesis' chapter 5.
 std::vector<Row> validate_suite(const Options& options);
+/// What the page is like to those who watch and steer, in a real browser.
+std::vector<Row> web_suite(const Options& options);
 
 }  // namespace ream::bench

@@ -19,8 +19,10 @@ export const passwordOf = (name: string) => `password of ${name}`;
 /** A `ream serve` of its own, with a data folder of its own. */
 export class ServerProcess {
   private child: ChildProcess | null = null;
-  private readonly dataFolder = mkdtempSync(join(tmpdir(), 'ream-e2e-'));
   url = '';
+
+  /** The data folder goes away with it. */
+  constructor(private readonly dataFolder = mkdtempSync(join(tmpdir(), 'ream-e2e-'))) {}
 
   /** The first user ends the time in which everybody may do everything. */
   addUser({ name, role, displayName }: TestUser): void {

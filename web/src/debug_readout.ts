@@ -1,5 +1,7 @@
 import type { BoneScene } from './scene/scene';
+import type { Eye } from './scene/shared_eye';
 import type { SoundParameters } from './sound/reaming_sound';
+import type { Latency } from './state/latency';
 import type { PracticeStore } from './state/practice_store';
 import type { Sound } from './state/sound';
 import type { Store } from './state/store';
@@ -27,6 +29,10 @@ export interface DebugReadout {
   toolDepthMm: number | null;
   /** What was last told to the loudspeaker. */
   sound: SoundParameters;
+  /** From where the picture is seen. */
+  eye: Eye;
+  /** Of a hand on this page: p95 from its sample to the picture of it, ms. */
+  handLatencyMs: number | null;
 }
 
 declare global {
@@ -35,7 +41,15 @@ declare global {
   }
 }
 
-export function publishDebugReadout(store: Store, practice: PracticeStore, scene: BoneScene, sound: Sound): void {
+interface Sources {
+  store: Store;
+  practice: PracticeStore;
+  scene: BoneScene;
+  sound: Sound;
+  latency: Latency;
+}
+
+export function publishDebugReadout({ store, practice, scene, sound, latency }: Sources): void {
   Object.defineProperty(window, '__ream', {
     get: (): DebugReadout => ({
       framesDrawn: scene.framesDrawn,
@@ -55,6 +69,8 @@ export function publishDebugReadout(store: Store, practice: PracticeStore, scene
       pushN: practice.hand.pushN.value,
       toolDepthMm: toolDepthMm(store),
       sound: sound.told.value,
+      eye: scene.eye(),
+      handLatencyMs: latency.handMs.value,
     }),
   });
 }

@@ -70,8 +70,8 @@ function main(root: HTMLElement): void {
   const liveCase = new LiveCase(store, () => identity.may.value.readCases, window.location.origin);
   const alarms = new Alarms(store);
   const sound = new Sound(store, practiceStore, async () => (await import('./sound/sound_output')).SoundOutput.open());
-  publishDebugReadout(store, practiceStore, scene, sound);
   const latency = measureLatency(store, practiceStore, scene);
+  publishDebugReadout({ store, practice: practiceStore, scene, sound, latency });
   const view = new ViewSettings();
   scene.onTaken = () => view.change({ camera: 'own' });
   const inTheatre = theatreHere(store, practiceStore, route);

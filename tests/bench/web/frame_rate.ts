@@ -1,0 +1,116 @@
+import type { Browser, Page } from '@playwright/test';
+
+import type { Eye } from '../../../web/src/scene/shared_eye';
+import type { BareServer } from './bare_server';
+import { patienceMs, viewport } from './browser';
+import { median, tell } from './figures';
+import { LiveVisit } from './live_visit';
+import { ProcessorTime } from './processor_time';
+import type { Turned } from './turned';
+
+const turns = 5;
+const turnS = 3;
+const warmS = 0.5;
+/** As the page's keys turn. */
+const stepRad = 0.09;
+
+/** How one page draws, medians of turns. */
+export interface FrameRate {
+  picturesPerS: number;
+  /** Of a processor, per picture: in the page's own process, and drawing for it. */
+  pageMs: number;
+  drawingMs: number;
+  triangles: number;
+}
+
+interface View {
+  eye: Eye;
+  widthPx: number;
+  heightPx: number;
+}
+
+/** Both pages draw the same bone from the same place, in turns, while its session goes on. */
+export async function frameRates(
+  browser: Browser,
+  liveUrl: string,
+  bare: BareServer,
+): Promise<{ ours: FrameRate; bare: FrameRate }> {
+  const clock = await ProcessorTime.of(browser);
+  const ours: FrameRate[] = [];
+  const others: FrameRate[] = [];
+  for (let turn = 0; turn < turns; ++turn) {
+    const visit = await LiveVisit.begin(browser, liveUrl);
+    await visit.seeAll();
+    const view = await viewOf(visit.page);
+    const triangles = await visit.page.evaluate(() => window.__ream.triangles);
+    ours.push(await timed(clock, triangles, (seconds) => visit.turn(seconds)));
+    await visit.end();
+    others.push(await turnBare(browser, clock, bare.url, view));
+    tell(`pictures a second: ${rounded(ours.at(-1))}, of the bare page ${rounded(others.at(-1))}`);
+  }
+  return { ours: medians(ours), bare: medians(others) };
+}
+
+async function viewOf(page: Page): Promise<View> {
+  const eye = await page.evaluate(() => window.__ream.eye);
+  const box = await page.getByTestId('bone-canvas').boundingBox();
+  if (box === null) throw new Error('the page shows no picture');
+  return { eye, widthPx: box.width, heightPx: box.height };
+}
+
+async function turnBare(browser: Browser, clock: ProcessorTime, url: string, view: View): Promise<FrameRate> {
+  const page = await browser.newPage({ viewport });
+  page.setDefaultTimeout(patienceMs);
+  await page.goto(url);
+  await page.waitForFunction(() => window.bare !== undefined);
+  const triangles = await page.evaluate(({ eye: { target, towardsEye, distanceMm }, widthPx, heightPx }) => {
+    window.bare?.see({
+      widthPx,
+      heightPx,
+      targetMm: [target.x, target.y, target.z],
+      eyeMm: [
+        target.x + towardsEye.x * distanceMm,
+        target.y + towardsEye.y * distanceMm,
+        target.z + towardsEye.z * distanceMm,
+      ],
+    });
+    return window.bare?.triangles() ?? 0;
+  }, view);
+  const rate = await timed(clock, triangles, (seconds) =>
+    page.evaluate(async ([step, s]) => await window.bare?.turn(step, s), [stepRad, seconds] as const),
+  );
+  await page.context().close();
+  return rate;
+}
+
+async function timed(
+  clock: ProcessorTime,
+  triangles: number,
+  turn: (seconds: number) => Promise<Turned | undefined>,
+): Promise<FrameRate> {
+  await turn(warmS);
+  const before = await clock.read();
+  const turned = await turn(turnS);
+  const after = await clock.read();
+  if (turned === undefined) throw new Error('the bare page shows no picture');
+  const { pictures, seconds } = turned;
+  return {
+    picturesPerS: pictures / seconds,
+    pageMs: (1000 * (after.pagesS - before.pagesS)) / pictures,
+    drawingMs: (1000 * (after.drawingS - before.drawingS)) / pictures,
+    triangles,
+  };
+}
+
+function medians(rates: FrameRate[]): FrameRate {
+  const of = (value: (rate: FrameRate) => number) => median(rates.map(value));
+  return {
+    picturesPerS: of((rate) => rate.picturesPerS),
+    pageMs: of((rate) => rate.pageMs),
+    drawingMs: of((rate) => rate.drawingMs),
+    triangles: of((rate) => rate.triangles),
+  };
+}
+
+const rounded = (rate: FrameRate | undefined) =>
+  `${rate?.picturesPerS.toFixed(1) ?? ''} (${rate?.drawingMs.toFixed(0) ?? ''} ms of a processor each)`;
