@@ -1,22 +1,11 @@
 #include "voxelizer/mark_triangle.hpp"
 
 #include "core/vector_clones.hpp"
-#include "voxelizer/bounds.hpp"
+#include "voxelizer/prepared_triangle.hpp"
 
 // Twin of kernels/voxelizer.cl: the same double operations in the same order, so the same bits.
 namespace ream::voxelizer {
 namespace {
-
-constexpr int lanes = 8;
-
-double most_of(const EdgeBounds& b, double s) {
-  return larger(larger(b.lower[0] + b.lower_slope[0] * s, b.lower[1] + b.lower_slope[1] * s),
-                b.lower[2] + b.lower_slope[2] * s);
-}
-double least_of(const EdgeBounds& b, double s) {
-  return smaller(smaller(b.upper[0] + b.upper_slope[0] * s, b.upper[1] + b.upper_slope[1] * s),
-                 b.upper[2] + b.upper_slope[2] * s);
-}
 
 /// Sets bits low to high of a row.
 inline void set_bits(uint32_t* row, int low, int high) {
@@ -31,57 +20,59 @@ inline void set_bits(uint32_t* row, int low, int high) {
   row[last] |= to;
 }
 
-/// What eight neighbouring rows of all layers share.
-struct Strip {
-  double lower[lanes], upper[lanes], plane[lanes];
-};
-
-inline void prepare_strip(const PreparedTriangle& p, int v, Strip& strip) {
-  for (int i = 0; i < lanes; ++i) {
-    const double s = static_cast<double>(v + i);
-    strip.lower[i] = most_of(p.u_by_v, s);
-    strip.upper[i] = least_of(p.u_by_v, s);
-    strip.plane[i] = p.plane + p.plane_by_v * s;
+/// Neighbouring rows v, v + 1, ... of all layers of the triangle's box.
+template <class Doubles>
+inline void mark_strip(const PlacedTriangle& t, const PreparedTriangle& p, int v, const TileRows& tile) {
+  constexpr int lanes = static_cast<int>(sizeof(Doubles) / sizeof(double));
+  using Whole = typename WholeOf<Doubles>::Type;
+  Doubles s{};
+  for (int i = 0; i < lanes; ++i) s[i] = static_cast<double>(v + i);
+  const Doubles strip_lower = p.u_by_v.most(s), strip_upper = p.u_by_v.least(s);
+  const Doubles strip_plane = p.plane.at + p.plane.by_v * s;
+  const int last_v = v + lanes - 1 < t.high[1] ? v + lanes - 1 : t.high[1];
+  const double low = static_cast<double>(t.low[0]), high = static_cast<double>(t.high[0]);
+  for (int w = t.low[2]; w <= t.high[2]; ++w) {
+    const double at_w = static_cast<double>(w);
+    const int begin = ceil_between(p.v_by_w.most(at_w), v, last_v + 1);
+    const int end = floor_between(p.v_by_w.least(at_w), v - 1, last_v);
+    if (begin > end) continue;
+    const Doubles middle = strip_plane + p.plane.by_w * at_w;
+    const Doubles least =
+        larger(larger(strip_lower, Doubles{} + p.u_by_w.most(at_w)), middle - p.plane.width);
+    const Doubles most =
+        smaller(smaller(strip_upper, Doubles{} + p.u_by_w.least(at_w)), middle + p.plane.width);
+    const Whole from = ceil_between(least, low, high + 1.0), to = floor_between(most, low - 1.0, high);
+    uint32_t* row = tile.row(begin, w);
+    for (int i = begin - v; i <= end - v; ++i, row += tile.words_per_row)
+      if (from[i] <= to[i]) set_bits(row, from[i], to[i]);
   }
+}
+
+inline void mark_triangle(const PlacedTriangle& t, const PreparedTriangle& p, const TileRows& tile) {
+  if (t.high[1] - t.low[1] < 4) {
+    mark_strip<Double4>(t, p, t.low[1], tile);
+    return;
+  }
+  for (int v = t.low[1]; v <= t.high[1]; v += 8) mark_strip<Double8>(t, p, v, tile);
+}
+
+REAM_VECTOR_CLONES __attribute__((flatten)) void mark_all(const SurfaceMarker& marker, size_t tile_number,
+                                                          int dims_x, const TileRows& tile) {
+  const bool thin = marker.separability == Separability::six;
+  marker.bins.for_each(tile_number, [&](size_t triangle) {
+    PlacedTriangle placed;
+    if (!placed.place(marker.mesh, triangle, marker.map, dims_x, tile.range)) return;
+    if (placed.low[0] > placed.high[0]) return;
+    PreparedTriangle prepared;
+    prepared.prepare(placed, thin);
+    mark_triangle(placed, prepared, tile);
+  });
 }
 
 }  // namespace
 
-REAM_VECTOR_CLONES void mark_triangle(const PlacedTriangle& t, const PreparedTriangle& p,
-                                      const TileRows& tile) {
-  const int low = t.low[0], high = t.high[0];
-  for (int v = t.low[1]; v <= t.high[1]; v += lanes) {
-    Strip strip;
-    prepare_strip(p, v, strip);
-    for (int w = t.low[2]; w <= t.high[2]; ++w) {
-      const double s = static_cast<double>(w);
-      const int last_v = v + lanes - 1 < t.high[1] ? v + lanes - 1 : t.high[1];
-      const int begin = ceil_between(most_of(p.v_by_w, s), v, last_v + 1);
-      const int end = floor_between(least_of(p.v_by_w, s), v - 1, last_v);
-      if (begin > end) continue;
-      const double lower = most_of(p.u_by_w, s), upper = least_of(p.u_by_w, s), plane = p.plane_by_w * s;
-      int from[lanes], to[lanes];
-      for (int i = 0; i < lanes; ++i) {
-        const double middle = strip.plane[i] + plane;
-        const double least = larger(larger(strip.lower[i], lower), middle - p.plane_width);
-        const double most = smaller(smaller(strip.upper[i], upper), middle + p.plane_width);
-        from[i] = ceil_between(least, low, high + 1);
-        to[i] = floor_between(most, low - 1, high);
-      }
-      for (int row = begin; row <= end; ++row)
-        if (from[row - v] <= to[row - v]) set_bits(tile.row(row, w), from[row - v], to[row - v]);
-    }
-  }
-}
-
 void SurfaceMarker::mark(size_t tile_number, int dims_x, const TileRows& tile) const {
-  PlacedTriangle placed;
-  PreparedTriangle prepared;
-  bins.for_each(tile_number, [&](size_t triangle) {
-    if (!placed.place(mesh, triangle, map, dims_x, tile.range) || placed.low[0] > placed.high[0]) return;
-    prepared.prepare(placed, separability == Separability::six);
-    mark_triangle(placed, prepared, tile);
-  });
+  mark_all(*this, tile_number, dims_x, tile);
 }
 
 }  // namespace ream::voxelizer

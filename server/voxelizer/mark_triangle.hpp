@@ -3,11 +3,8 @@
 
 namespace ream::voxelizer {
 
-/// Marks the voxels of a tile that a triangle meets. Rows are taken eight at a time, a row's voxels as whole
-/// words.
-void mark_triangle(const PlacedTriangle& placed, const PreparedTriangle& prepared, const TileRows& tile);
-
-/// Marks what some triangles of a mesh mark in a tile.
+/// Marks the voxels of a tile that the triangles of a mesh meet: rows are taken four or eight at a time, a row's
+/// voxels as whole words.
 struct SurfaceMarker {
   const TriangleMesh& mesh;
   const VoxelMap& map;

@@ -12,6 +12,10 @@ inline constexpr double most_voxels = 1099511627776.0;  // 2^40
 /// How far a mesh may reach from a grid that was given, in voxels: beyond it doubles grow too coarse.
 inline constexpr double farthest_corner = 16777216.0;  // 2^24
 
+/// Which voxels a triangle marks: 26-separating is the supercover (thesis eqs 3.1-3.5), 6-separating the thin
+/// form (eqs 3.6-3.8).
+enum class Separability { six = 6, twenty_six = 26 };
+
 /// Axis-aligned grid of any voxel size: voxel (u,v,w) fills (u,v,w) to (u+1,v+1,w+1) times `size_mm` from
 /// `origin_mm`.
 struct RasterGrid {
@@ -28,6 +32,13 @@ struct RasterGrid {
   Vec3 centre_mm(int u, int v, int w) const {
     return origin_mm + (Vec3(u + 0.5, v + 0.5, w + 0.5).array() * size_mm.array()).matrix();
   }
+};
+
+/// Half-open range of rows (v,w) of a grid that is worked on at once.
+struct RowRange {
+  int v_begin = 0, v_end = 0, w_begin = 0, w_end = 0;
+
+  size_t rows() const { return static_cast<size_t>(v_end - v_begin) * static_cast<size_t>(w_end - w_begin); }
 };
 
 /// From a mesh's own coordinates to voxels of a grid: coordinate * factor + offset, axis by axis.

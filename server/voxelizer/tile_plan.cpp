@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "voxelizer/bounds.hpp"
+#include "voxelizer/lanes.hpp"
+
 
 namespace ream::voxelizer {
 namespace {
@@ -69,14 +70,14 @@ RowRange TilePlan::range(size_t tile) const {
   return {i * rows, std::min((i + 1) * rows, dims.y()), j * layers, std::min((j + 1) * layers, dims.z())};
 }
 
-TilePlan plan_tiles(const RasterGrid& grid, size_t tile_bytes, size_t least_tiles) {
+TilePlan plan_tiles(const RasterGrid& grid, size_t tile_bytes, size_t least_tiles, bool whole_layers) {
   TilePlan plan;
   plan.dims = grid.dims;
   const double row_bytes = 4.0 * static_cast<double>(grid.words_per_row());
   const double rows = static_cast<double>(tile_bytes) / row_bytes;
-  plan.rows = whole_steps(rows / side_step, grid.dims.y());
+  plan.rows = whole_layers ? grid.dims.y() : whole_steps(rows / side_step, grid.dims.y());
   const double layers = std::min(rows / plan.rows, grid.dims.z() / static_cast<double>(least_tiles));
-  plan.layers = whole_steps(layers, grid.dims.z());
+  plan.layers = whole_layers && layers < side_step ? std::max(1, static_cast<int>(layers)) : whole_steps(layers, grid.dims.z());
   plan.count_v = (grid.dims.y() + plan.rows - 1) / plan.rows;
   plan.count_w = (grid.dims.z() + plan.layers - 1) / plan.layers;
   return plan;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "voxelizer/crew.hpp"
-#include "voxelizer/prepared_triangle.hpp"
+#include "voxelizer/raster_grid.hpp"
 
 namespace ream::voxelizer {
 
@@ -37,8 +37,8 @@ struct TilePlan {
 };
 
 /// Tiles of about `tile_bytes` bytes of bits, their sides multiples of 8, at least `least_tiles` where the
-/// grid has the layers for it.
-TilePlan plan_tiles(const RasterGrid& grid, size_t tile_bytes, size_t least_tiles);
+/// grid has the layers for it. `whole_layers` keeps layers whole, however large they are.
+TilePlan plan_tiles(const RasterGrid& grid, size_t tile_bytes, size_t least_tiles, bool whole_layers = false);
 
 /// Which triangles may touch which tile, in the order of the mesh.
 class TileBins {

@@ -36,6 +36,8 @@ class VoxelSet {
 
   /// For voxelizers. A sparse set is made of the tiles of a plan.
   void begin_bricks(const TilePlan& plan);
+  /// Rows to be filled: of the whole grid, or, where bricks are kept, of `memory`.
+  TileRows rows_of(const RowRange& range, std::vector<uint32_t>& memory);
   void set_bricks(size_t tile, const TileRows& rows) { bricks_[tile].take(rows); }
   void set_filled(uint64_t voxels) { filled_ = voxels; }
 
@@ -49,6 +51,7 @@ class VoxelSet {
 
 /// Marked voxels in some rows.
 uint64_t count_marked(const TileRows& rows);
+uint64_t count_marked(const TileRows& rows, Crew& crew);
 /// Sets all of the rows' bits to 0.
 void clear(const TileRows& rows);
 

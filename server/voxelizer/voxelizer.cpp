@@ -12,28 +12,6 @@ constexpr size_t tile_bytes = 384 << 10;
 constexpr size_t sparse_tile_bytes = size_t{2} << 20;
 constexpr size_t tiles_a_thread = 6;
 
-/// Rows of a tile within the bits of the whole grid.
-TileRows rows_in_grid(VoxelSet& set, const RowRange& range) {
-  TileRows rows;
-  rows.range = range;
-  rows.words_per_row = set.grid().words_per_row();
-  rows.rows_per_layer = static_cast<size_t>(set.grid().dims.y());
-  rows.words = set.words() + rows.words_per_row * (static_cast<size_t>(range.v_begin) +
-                                                   rows.rows_per_layer * static_cast<size_t>(range.w_begin));
-  return rows;
-}
-
-/// Rows of a tile in a worker's own memory.
-TileRows rows_apart(const RasterGrid& grid, const RowRange& range, std::vector<uint32_t>& memory) {
-  TileRows rows;
-  rows.range = range;
-  rows.words_per_row = grid.words_per_row();
-  rows.rows_per_layer = static_cast<size_t>(range.v_end - range.v_begin);
-  memory.resize(rows.words_per_row * rows.rows_per_layer * static_cast<size_t>(range.w_end - range.w_begin));
-  rows.words = memory.data();
-  return rows;
-}
-
 }  // namespace
 
 TilePlan usual_tiles(const VoxelSet& set, int threads) {
@@ -56,10 +34,7 @@ void Voxelizer::voxelize(const TriangleMesh& mesh, const Request& request, Voxel
   crew_.run(
       plan.count(),
       [&](size_t tile, int worker) {
-        const RowRange range = plan.range(tile);
-        const TileRows rows = set.sparse()
-                                  ? rows_apart(set.grid(), range, memory[static_cast<size_t>(worker)])
-                                  : rows_in_grid(set, range);
+        const TileRows rows = set.rows_of(plan.range(tile), memory[static_cast<size_t>(worker)]);
         clear(rows);
         if (request.solid) solid.fill(tile, dims_x, rows);
         if (request.surface) surface.mark(tile, dims_x, rows);
