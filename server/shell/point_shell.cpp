@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "shell/meridian.hpp"
-#include "shell/morton.hpp"
+#include "geometry/morton.hpp"
 
 namespace ream::shell {
 namespace {

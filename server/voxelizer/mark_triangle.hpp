@@ -3,7 +3,7 @@
 
 namespace ream::voxelizer {
 
-/// Marks the voxels of a tile that the triangles of a mesh meet: rows are taken four or eight at a time, a row's
+/// Marks the voxels of a tile that the triangles of a mesh meet, a row's
 /// voxels as whole words.
 struct SurfaceMarker {
   const TriangleMesh& mesh;

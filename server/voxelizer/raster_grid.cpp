@@ -18,7 +18,7 @@ std::string text_of(const Vec3& v) {
 
 void check_count(const Vec3& voxels, const Vec3& size_mm) {
   const double count = voxels.x() * voxels.y() * voxels.z();
-  if (voxels.maxCoeff() <= most_voxels_a_side && count <= most_voxels) return;
+  if (voxels.allFinite() && voxels.maxCoeff() <= most_voxels_a_side && count <= most_voxels) return;
   refuse("voxels of " + text_of(size_mm) + " mm would make a grid of " + text_of(voxels) +
          " voxels, more than 2^40 or 2^20 along a side; use larger voxels");
 }
@@ -72,6 +72,19 @@ RasterGrid grid_around(const Aabb& box_mm, const Vec3& size_mm) {
   grid.size_mm = size_mm;
   grid.origin_mm = box_mm.min - 0.5 * size_mm;
   grid.dims = voxels.cast<int>();
+  return grid;
+}
+
+RasterGrid grid_from(const Vec3& corner_mm, const Aabb& box_mm, const Vec3& size_mm) {
+  check_size(size_mm);
+  // A voxel's breadth beyond what the box touches on either side.
+  const Vec3 low = ((box_mm.min - corner_mm).array() / size_mm.array() - 1.0).floor();
+  const Vec3 high = ((box_mm.max - corner_mm).array() / size_mm.array() + 1.0).ceil();
+  check_count(high - low, size_mm);
+  RasterGrid grid;
+  grid.size_mm = size_mm;
+  grid.origin_mm = corner_mm + (low.array() * size_mm.array()).matrix();
+  grid.dims = (high - low).cast<int>();
   return grid;
 }
 

@@ -57,6 +57,9 @@ Aabb used_bounds(const TriangleMesh& mesh, double scale);
 /// invalid_input for a size that is not positive or more than `most_voxels`.
 RasterGrid grid_around(const Aabb& box_mm, const Vec3& size_mm);
 
+/// Grid around a box whose voxels have a corner at `corner_mm`, wherever that is. Errors as grid_around.
+RasterGrid grid_from(const Vec3& corner_mm, const Aabb& box_mm, const Vec3& size_mm);
+
 /// Throws Error invalid_input naming what is wrong with the grid: no voxels, too many, sizes that are not
 /// positive.
 void check_grid(const RasterGrid& grid);

@@ -8,7 +8,7 @@
 
 #include "core/units.hpp"
 #include "shell/meridian.hpp"
-#include "shell/morton.hpp"
+#include "geometry/morton.hpp"
 #include "support/expect_error.hpp"
 #include "support/shared_data.hpp"
 
