@@ -42,5 +42,7 @@ std::vector<Row> store_suite(const Options& options);
 std::vector<Row> surface_suite(const Options& options);
 /// Force against the thesis' chapter 5.
 std::vector<Row> validate_suite(const Options& options);
+/// Surface and solid voxelization of the meshes of the thesis' chapter 3.
+std::vector<Row> voxelize_suite(const Options& options);
 
 }  // namespace ream::bench
