@@ -56,9 +56,11 @@ void add_face(const std::vector<std::string_view>& words, TriangleMesh& mesh) {
   std::vector<uint32_t> indices;
   for (uint32_t i = 1; i <= corners; ++i) {
     indices.push_back(number_of<uint32_t>(words[i]));
-    if (indices.back() >= mesh.vertices_mm.size()) throw Fault{"a triangle names a vertex that does not exist"};
+    if (indices.back() >= mesh.vertices_mm.size())
+      throw Fault{"a triangle names a vertex that does not exist"};
   }
-  for (size_t k = 2; k < indices.size(); ++k) mesh.triangles.push_back({indices[0], indices[k - 1], indices[k]});
+  for (size_t k = 2; k < indices.size(); ++k)
+    mesh.triangles.push_back({indices[0], indices[k - 1], indices[k]});
 }
 
 TriangleMesh parse(std::string_view text) {
@@ -66,7 +68,8 @@ TriangleMesh parse(std::string_view text) {
   std::vector<std::string_view> counts = lines.next();
   if (!counts[0].ends_with("OFF")) throw Fault{"it does not begin as an OFF file"};
   counts.erase(counts.begin());
-  if (!counts.empty() && counts[0] == "BINARY") throw Fault{"it is a binary OFF file; only text is understood"};
+  if (!counts.empty() && counts[0] == "BINARY")
+    throw Fault{"it is a binary OFF file; only text is understood"};
   if (counts.empty()) counts = lines.next();
   if (counts.size() < 2) throw Fault{"it does not say how many vertices and faces it has"};
   const auto vertices = number_of<uint32_t>(counts[0]), faces = number_of<uint32_t>(counts[1]);
@@ -74,7 +77,8 @@ TriangleMesh parse(std::string_view text) {
   for (uint32_t i = 0; i < vertices; ++i) {
     const std::vector<std::string_view> words = lines.next();
     if (words.size() < 3) throw Fault{"vertex " + std::to_string(i) + " has fewer than three coordinates"};
-    mesh.vertices_mm.emplace_back(number_of<float>(words[0]), number_of<float>(words[1]), number_of<float>(words[2]));
+    mesh.vertices_mm.emplace_back(number_of<float>(words[0]), number_of<float>(words[1]),
+                                  number_of<float>(words[2]));
   }
   for (uint32_t i = 0; i < faces; ++i) add_face(lines.next(), mesh);
   return mesh;

@@ -6,8 +6,8 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "shell/meridian.hpp"
 #include "geometry/morton.hpp"
+#include "shell/meridian.hpp"
 
 namespace ream::shell {
 namespace {

@@ -11,12 +11,10 @@ namespace {
 constexpr uint64_t most_faces = (uint64_t{1} << 31) / 4 - 1;
 
 /// Corners of the faces towards -x, +x, -y, +y, -z, +z, in voxels.
-constexpr int face_corners[6][4][3] = {{{0, 0, 0}, {0, 0, 1}, {0, 1, 1}, {0, 1, 0}},
-                                       {{1, 0, 0}, {1, 1, 0}, {1, 1, 1}, {1, 0, 1}},
-                                       {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}},
-                                       {{0, 1, 0}, {0, 1, 1}, {1, 1, 1}, {1, 1, 0}},
-                                       {{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}},
-                                       {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
+constexpr int face_corners[6][4][3] = {
+    {{0, 0, 0}, {0, 0, 1}, {0, 1, 1}, {0, 1, 0}}, {{1, 0, 0}, {1, 1, 0}, {1, 1, 1}, {1, 0, 1}},
+    {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}}, {{0, 1, 0}, {0, 1, 1}, {1, 1, 1}, {1, 1, 0}},
+    {{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}}, {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
 
 /// Visits the exposed faces of a set row by row.
 class Faces {
@@ -36,7 +34,8 @@ class Faces {
     const auto& row = rows_[0];
     for (size_t i = 0; i < row.size(); ++i) {
       if (row[i] == 0) continue;
-      const uint32_t before = i > 0 ? row[i - 1] >> 31 : 0, behind = i + 1 < row.size() ? row[i + 1] << 31 : 0;
+      const uint32_t before = i > 0 ? row[i - 1] >> 31 : 0,
+                     behind = i + 1 < row.size() ? row[i + 1] << 31 : 0;
       visit(0, i, row[i] & ~(row[i] << 1 | before));
       visit(1, i, row[i] & ~(row[i] >> 1 | behind));
       for (size_t side = 2; side < 6; ++side) visit(static_cast<int>(side), i, row[i] & ~rows_[side - 1][i]);
@@ -62,7 +61,8 @@ uint64_t count_faces(const VoxelSet& set, const Progress& progress) {
   for (int w = 0; w < set.grid().dims.z(); ++w) {
     progress(w / static_cast<double>(set.grid().dims.z()), "counting faces");
     for (int v = 0; v < set.grid().dims.y(); ++v)
-      faces.for_each(v, w, [&](int, size_t, uint32_t bits) { count += static_cast<uint64_t>(std::popcount(bits)); });
+      faces.for_each(
+          v, w, [&](int, size_t, uint32_t bits) { count += static_cast<uint64_t>(std::popcount(bits)); });
   }
   return count;
 }
@@ -82,8 +82,8 @@ void write_face(const RasterGrid& grid, const Vec3i& voxel, int side, StreamedFi
 void write_boxes(const VoxelSet& set, StreamedFile& file, const Progress& progress) {
   const uint64_t count = count_faces(set, part_of(progress, 0.0, 0.3));
   if (count > most_faces)
-    throw Error(ErrorKind::invalid_input, std::to_string(count) +
-                                              " faces are too many for a file of boxes; use larger voxels");
+    throw Error(ErrorKind::invalid_input,
+                std::to_string(count) + " faces are too many for a file of boxes; use larger voxels");
   file.write("ply\nformat binary_little_endian 1.0\ncomment voxels, millimetres\nelement vertex " +
              std::to_string(4 * count) +
              "\nproperty float x\nproperty float y\nproperty float z\nelement face " + std::to_string(count) +

@@ -5,7 +5,6 @@
 #include "core/vector_clones.hpp"
 #include "voxelizer/prepared_triangle.hpp"
 
-
 // Twin of kernels/voxelizer.cl: the same double operations in the same order, so the same bits.
 namespace ream::voxelizer {
 namespace {
@@ -81,7 +80,8 @@ void fill_between_flips(uint32_t* row, int dims_x) {
   if ((dims_x & 31) != 0) row[words - 1] &= ~0u >> (32 - (dims_x & 31));
 }
 
-REAM_VECTOR_CLONES __attribute__((flatten)) void SolidFiller::fill(size_t tile_number, int dims_x, const TileRows& tile) const {
+REAM_VECTOR_CLONES __attribute__((flatten)) void SolidFiller::fill(size_t tile_number, int dims_x,
+                                                                   const TileRows& tile) const {
   bins.for_each(tile_number, [&](size_t triangle) {
     PlacedTriangle placed;
     if (!placed.place(mesh, triangle, map, dims_x, tile.range)) return;

@@ -25,11 +25,12 @@ std::string header_of(const RasterGrid& grid, GridFormat format) {
   const Vec3 first = grid.origin_mm + 0.5 * step;
   const Vec3i& d = grid.dims;
   std::ostringstream text;
-  text << "NRRD0004\n# voxels of a triangle mesh, mm\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\n"
+  text << "NRRD0004\n# voxels of a triangle mesh, mm\ntype: uint8\ndimension: 3\nspace: "
+          "left-posterior-superior\n"
        << "sizes: " << (d.x() + voxels_a_byte - 1) / voxels_a_byte << ' ' << d.y() << ' ' << d.z()
        << "\nspace directions: (" << exact(step.x()) << ",0,0) (0," << exact(step.y()) << ",0) (0,0,"
-       << exact(step.z()) << ")\nkinds: domain domain domain\nencoding: raw\nspace origin: (" << exact(first.x())
-       << ',' << exact(first.y()) << ',' << exact(first.z()) << ")\n";
+       << exact(step.z()) << ")\nkinds: domain domain domain\nencoding: raw\nspace origin: ("
+       << exact(first.x()) << ',' << exact(first.y()) << ',' << exact(first.z()) << ")\n";
   if (format == GridFormat::bits) text << "ream_dims:=" << d.x() << ' ' << d.y() << ' ' << d.z() << '\n';
   text << '\n';
   return text.str();
@@ -140,8 +141,7 @@ RasterGrid grid_of_nrrd(const std::filesystem::path& path) {
   if (!space.empty() && space != "left-posterior-superior" && space != "LPS")
     header.refuse("its space is " + space + "; only left-posterior-superior is understood");
   const bool bits = header.has("ream_dims");
-  const std::vector<double> dims =
-      bits ? numbers_in(header.text("ream_dims")) : header.numbers("sizes", 3);
+  const std::vector<double> dims = bits ? numbers_in(header.text("ream_dims")) : header.numbers("sizes", 3);
   if (header.text("dimension") != "3" || dims.size() != 3) header.refuse("it does not have three axes");
   RasterGrid grid;
   Vec3 step = voxel_size(header);

@@ -8,8 +8,8 @@
 namespace ream::voxelizer {
 
 /// How a voxel stands in a NRRD file: a byte that is 1 or 0, or one bit, eight voxels along x in a byte, the
-/// lowest bit first, each row beginning a byte. NRRD knows no bits: such a file has bytes of eight voxels, and
-/// its key ream_dims says how many voxels there are.
+/// lowest bit first, each row beginning a byte. NRRD knows no bits: such a file has bytes of eight voxels,
+/// and its key ream_dims says how many voxels there are.
 enum class GridFormat { bytes, bits };
 
 /// Writes the grid as an attached raw NRRD, space LPS, origin the centre of the first sample.

@@ -3,7 +3,8 @@
 // Vectors are only passed between functions that become one.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-// Vectors of doubles that every form of the program computes alike, with whatever instructions it was compiled for.
+// Vectors of doubles that every form of the program computes alike, with whatever instructions it was
+// compiled for.
 namespace ream::voxelizer {
 
 using Double4 = double __attribute__((vector_size(32)));

@@ -31,8 +31,8 @@ inline void visit_strip(const PlacedTriangle& t, const PreparedTriangle& p, int 
   }
 }
 
-/// Calls visit(v, w, first u, last u) for the rows in which a triangle marks voxels, within the rows that it was
-/// placed in: four or eight rows at a time.
+/// Calls visit(v, w, first u, last u) for the rows in which a triangle marks voxels, within the rows that it
+/// was placed in: four or eight rows at a time.
 template <class Visit>
 inline void for_each_marked_row(const PlacedTriangle& t, const PreparedTriangle& p, const Visit& visit) {
   if (t.high[1] - t.low[1] < 4) {

@@ -26,16 +26,19 @@ void for_each_cube(const Vec3i& dims, const Vec3i& corner, int edge,
     for_each_cube(dims, corner + half * Vec3i(child & 1, child >> 1 & 1, child >> 2), half, visit);
 }
 
-void add_codes(const VoxelSet& set, const Vec3i& corner, std::vector<uint32_t>& row, std::vector<uint64_t>& codes) {
+void add_codes(const VoxelSet& set, const Vec3i& corner, std::vector<uint32_t>& row,
+               std::vector<uint64_t>& codes) {
   const Vec3i end = (corner.array() + cube_edge).min(set.grid().dims.array());
-  const auto first_word = static_cast<size_t>(corner.x() / 32), end_word = static_cast<size_t>((end.x() + 31) / 32);
+  const auto first_word = static_cast<size_t>(corner.x() / 32),
+             end_word = static_cast<size_t>((end.x() + 31) / 32);
   for (int w = corner.z(); w < end.z(); ++w)
     for (int v = corner.y(); v < end.y(); ++v) {
       if (!set.read_row(v, w, row)) continue;
       for (size_t i = first_word; i < end_word; ++i)
         for (uint32_t bits = row[i]; bits != 0; bits &= bits - 1)
-          codes.push_back(morton_code(static_cast<uint32_t>(32 * i) + static_cast<uint32_t>(std::countr_zero(bits)),
-                                      static_cast<uint32_t>(v), static_cast<uint32_t>(w)));
+          codes.push_back(
+              morton_code(static_cast<uint32_t>(32 * i) + static_cast<uint32_t>(std::countr_zero(bits)),
+                          static_cast<uint32_t>(v), static_cast<uint32_t>(w)));
     }
 }
 
@@ -47,8 +50,8 @@ void write_morton_codes(const VoxelSet& set, StreamedFile& file, const Progress&
   header.precision(17);
   header << "NRRD0004\n# Morton codes of the voxels of a triangle mesh\ntype: uint64\ndimension: 1\nsizes: "
          << set.filled() << "\nendian: little\nencoding: raw\nream_dims:=" << grid.dims.transpose()
-         << "\nream_origin_mm:=" << grid.origin_mm.transpose() << "\nream_size_mm:=" << grid.size_mm.transpose()
-         << "\n\n";
+         << "\nream_origin_mm:=" << grid.origin_mm.transpose()
+         << "\nream_size_mm:=" << grid.size_mm.transpose() << "\n\n";
   file.write(header.str());
   const int longest = grid.dims.maxCoeff();
   int edge = cube_edge;

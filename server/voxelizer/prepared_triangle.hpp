@@ -72,14 +72,13 @@ struct PlacedTriangle {
     const bool is_short = longest < short_edge;
     for (int k = 0; k < 3; ++k) {
       const int i = k == 2 ? 0 : k + 1, j = k == 0 ? 2 : k - 1;
-      normal[k] =
-          is_short ? a[i] * b[j] - a[j] * b[i] : difference_of_products(a[i], b[j], a[j], b[i]);
+      normal[k] = is_short ? a[i] * b[j] - a[j] * b[i] : difference_of_products(a[i], b[j], a[j], b[i]);
     }
   }
 };
 
-/// Bounds of a voxel's index along a row or column of index s, one edge a lane: at least lower + lower_slope *
-/// s and at most upper + upper_slope * s. Edges that bound one side only have no bound on the other.
+/// Bounds of a voxel's index along a row or column of index s, one edge a lane: at least lower + lower_slope
+/// * s and at most upper + upper_slope * s. Edges that bound one side only have no bound on the other.
 struct EdgeBounds {
   Double4 lower, lower_slope, upper, upper_slope;
 

@@ -4,7 +4,6 @@
 
 #include "voxelizer/lanes.hpp"
 
-
 namespace ream::voxelizer {
 namespace {
 
@@ -77,7 +76,8 @@ TilePlan plan_tiles(const RasterGrid& grid, size_t tile_bytes, size_t least_tile
   const double rows = static_cast<double>(tile_bytes) / row_bytes;
   plan.rows = whole_layers ? grid.dims.y() : whole_steps(rows / side_step, grid.dims.y());
   const double layers = std::min(rows / plan.rows, grid.dims.z() / static_cast<double>(least_tiles));
-  plan.layers = whole_layers && layers < side_step ? std::max(1, static_cast<int>(layers)) : whole_steps(layers, grid.dims.z());
+  plan.layers = whole_layers && layers < side_step ? std::max(1, static_cast<int>(layers))
+                                                   : whole_steps(layers, grid.dims.z());
   plan.count_v = (grid.dims.y() + plan.rows - 1) / plan.rows;
   plan.count_w = (grid.dims.z() + plan.layers - 1) / plan.layers;
   return plan;

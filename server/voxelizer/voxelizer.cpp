@@ -8,9 +8,9 @@
 namespace ream::voxelizer {
 namespace {
 
-constexpr size_t tile_bytes = 384 << 10;
+constexpr size_t tile_bytes = size_t{1} << 20;
 constexpr size_t sparse_tile_bytes = size_t{2} << 20;
-constexpr size_t tiles_a_thread = 6;
+constexpr size_t tiles_a_thread = 4;
 
 }  // namespace
 

@@ -27,10 +27,15 @@ std::span<const uint32_t> indices_of(const TriangleMesh& mesh) {
 }
 
 layout::VoxelizerArguments arguments_of(const RasterGrid& grid, const RowRange& range, bool thin) {
-  return {0,           grid.dims.x(), range.v_begin,
-          range.v_end, range.w_begin, range.w_end,
+  return {0,
+          grid.dims.x(),
+          range.v_begin,
+          range.v_end,
+          range.w_begin,
+          range.w_end,
           static_cast<int32_t>(grid.words_per_row()),
-          range.v_end - range.v_begin, thin};
+          range.v_end - range.v_begin,
+          thin};
 }
 
 const gpu::Queue& with_doubles(const gpu::Queue& queue) {
@@ -98,8 +103,8 @@ void VoxelizerCl::mark_band(const Meshed& meshed, const RasterGrid& grid, const 
                             const TileRows& rows) {
   const RowRange& range = rows.range;
   const std::span<uint32_t> host(rows.words, rows.words_per_row * range.rows());
-  gpu::Buffer words = queue_.shares_host_memory() ? gpu::Buffer::over(queue_, host)
-                                                  : gpu::Buffer(queue_, host.size_bytes());
+  gpu::Buffer words =
+      queue_.shares_host_memory() ? gpu::Buffer::over(queue_, host) : gpu::Buffer(queue_, host.size_bytes());
   words.fill(queue_, 0);
   if (request.solid) {
     run_tasks(flip_, meshed, grid, false, range, words);

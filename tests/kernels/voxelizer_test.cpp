@@ -51,7 +51,8 @@ TriangleMesh awkward_soup(unsigned seed, int count, const Vec3i& dims) {
   TriangleMesh mesh;
   for (int i = 0; i < count; ++i) {
     const auto first = static_cast<uint32_t>(mesh.vertices_mm.size());
-    for (const Vec3f& corner : test::awkward_triangle(random, i, dims).corners) mesh.vertices_mm.push_back(corner);
+    for (const Vec3f& corner : test::awkward_triangle(random, i, dims).corners)
+      mesh.vertices_mm.push_back(corner);
     mesh.triangles.push_back({first, first + 1, first + 2});
   }
   return mesh;
@@ -59,8 +60,7 @@ TriangleMesh awkward_soup(unsigned seed, int count, const Vec3i& dims) {
 
 TEST(VoxelizerCl, AwkwardTrianglesMarkTheSameVoxels) {
   const RasterGrid grid{{230, 190, 170}, Vec3::Zero(), Vec3::Ones()};
-  for (const unsigned seed : {1u, 2u})
-    expect_equal_sets(awkward_soup(seed, 1200, grid.dims), grid, false);
+  for (const unsigned seed : {1u, 2u}) expect_equal_sets(awkward_soup(seed, 1200, grid.dims), grid, false);
   for (const int count : {1, 15, 17}) expect_equal_sets(awkward_soup(3, count, grid.dims), grid, false);
 }
 

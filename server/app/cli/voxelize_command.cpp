@@ -40,7 +40,8 @@ Vec3 voxel_size(const std::string& text) {
   const bool one = text.find(',') == std::string::npos;
   const std::vector<double> n = parse_numbers(text, one ? 1 : 3, "--size");
   for (const double edge : n)
-    if (!(edge > 0.0)) throw Error(ErrorKind::usage, "--size must be a positive voxel edge in mm, or three: X,Y,Z");
+    if (!(edge > 0.0))
+      throw Error(ErrorKind::usage, "--size must be a positive voxel edge in mm, or three: X,Y,Z");
   return one ? Vec3::Constant(n[0]) : Vec3(n[0], n[1], n[2]);
 }
 
@@ -72,7 +73,8 @@ void mark(AVoxelizer& marker, const TriangleMesh& mesh, const voxelizer::Request
   const TerminalProgress progress;
   const auto start = std::chrono::steady_clock::now();
   marker.voxelize(mesh, request, result.set, std::cref(progress));
-  result.time_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  result.time_ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 Result voxelize(const Options& options, const TriangleMesh& mesh, const voxelizer::Request& request) {
@@ -181,20 +183,23 @@ void run(const Options& options, const GlobalOptions& global) {
 
 void add_voxelize_command(CLI::App& app, GlobalOptions& global) {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("voxelize", "Mark the voxels that the surface of a triangle mesh passes, or fill it");
+  CLI::App* command = app.add_subcommand(
+      "voxelize", "Mark the voxels that the surface of a triangle mesh passes, or fill it");
   command->add_option("MESH", options->mesh, "STL, OBJ, PLY, OFF or GLB file, in mm unless --scale is given")
       ->required();
   command->add_option("--size", options->size, "Voxel edge in mm, or three: X,Y,Z");
-  command->add_option("--scale", options->scale, "Millimetres for one unit of the mesh")->capture_default_str();
+  command->add_option("--scale", options->scale, "Millimetres for one unit of the mesh")
+      ->capture_default_str();
   command->add_option("--origin", options->origin,
                       "X,Y,Z, mm: a corner that voxels have in common; the grid still goes around the mesh. "
                       "Default: half a voxel before the mesh's box");
-  command->add_option("--like", options->like, "Take size, origin and dimensions of the grid from this NRRD file");
+  command->add_option("--like", options->like,
+                      "Take size, origin and dimensions of the grid from this NRRD file");
   CLI::Option* separability =
       command
-          ->add_option("--separability", options->separability,
-                       "26: every voxel the surface touches; 6: the thin form. With --solid: add the surface, too")
+          ->add_option(
+              "--separability", options->separability,
+              "26: every voxel the surface touches; 6: the thin form. With --solid: add the surface, too")
           ->check(CLI::IsMember({6, 26}))
           ->capture_default_str();
   command->add_flag("--solid", options->solid,

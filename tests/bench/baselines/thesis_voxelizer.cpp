@@ -31,8 +31,10 @@ struct Setup {
       for (int k = 0; k < 3; ++k) v[i][k] = corner[3 * i + k];
     for (int k = 0; k < 3; ++k) {
       const auto at = static_cast<size_t>(k);
-      low[at] = std::clamp(static_cast<int>(std::floor(std::min({v[0][k], v[1][k], v[2][k]}))), 0, dims[k] - 1);
-      high[at] = std::clamp(static_cast<int>(std::floor(std::max({v[0][k], v[1][k], v[2][k]}))), 0, dims[k] - 1);
+      low[at] =
+          std::clamp(static_cast<int>(std::floor(std::min({v[0][k], v[1][k], v[2][k]}))), 0, dims[k] - 1);
+      high[at] =
+          std::clamp(static_cast<int>(std::floor(std::max({v[0][k], v[1][k], v[2][k]}))), 0, dims[k] - 1);
       const int i = (k + 1) % 3, j = (k + 2) % 3;
       n[at] = (v[1][i] - v[0][i]) * (v[2][j] - v[1][j]) - (v[1][j] - v[0][j]) * (v[2][i] - v[1][i]);
     }
@@ -62,11 +64,12 @@ struct Setup {
 
 size_t word_of(const RasterGrid& grid, int u, int v, int w) {
   return static_cast<size_t>(u / 32) +
-         grid.words_per_row() * (static_cast<size_t>(v) + static_cast<size_t>(grid.dims.y()) * static_cast<size_t>(w));
+         grid.words_per_row() *
+             (static_cast<size_t>(v) + static_cast<size_t>(grid.dims.y()) * static_cast<size_t>(w));
 }
 
-/// Bits of first to last along one axis, for every line of that axis, into `inside`: kept where they are set there
-/// already.
+/// Bits of first to last along one axis, for every line of that axis, into `inside`: kept where they are set
+/// there already.
 struct LineFill {
   const std::vector<uint32_t>& surface;
   const RasterGrid& grid;
@@ -121,7 +124,8 @@ ThesisVoxelizer::ThesisVoxelizer(const gpu::Queue& queue, const TriangleMesh& me
       grid_(grid),
       corners_(thesis_corners(mesh, grid)),
       words_(grid.rows() * grid.words_per_row(), 0),
-      program_(gpu::Program::from_source(queue, "thesis_voxelizer.cl", baseline_source("thesis_voxelizer.cl"))),
+      program_(
+          gpu::Program::from_source(queue, "thesis_voxelizer.cl", baseline_source("thesis_voxelizer.cl"))),
       sat_(program_, "sat_voxelizer"),
       column_(program_, "column_voxelizer"),
       corner_buffer_(gpu::Buffer::over(queue, std::span(corners_))),
@@ -142,7 +146,8 @@ const std::vector<uint32_t>& ThesisVoxelizer::words() {
   return words_;
 }
 
-void thesis_voxelizer_serial(const std::vector<float>& corners, const RasterGrid& grid, std::vector<uint32_t>& words) {
+void thesis_voxelizer_serial(const std::vector<float>& corners, const RasterGrid& grid,
+                             std::vector<uint32_t>& words) {
   for (size_t triangle = 0; triangle < corners.size() / 9; ++triangle) {
     const Setup s(corners.data() + 9 * triangle, grid.dims);
     for (int w = s.low[2]; w <= s.high[2]; ++w)

@@ -39,9 +39,9 @@ void thesis_voxelizer_serial(const std::vector<float>& corners, const voxelizer:
 /// Pairs of triangle and voxel that are tested: all voxels of each triangle's box (table 3.1, TB).
 uint64_t triangle_based_tests(const std::vector<float>& corners, const voxelizer::RasterGrid& grid);
 
-/// Solid fill as the thesis' author published it: a voxel is inside when on each of the three axes it lies between
-/// the first and the last surface voxel of its line. Fills cavities and whatever is concave on all axes. On two
-/// threads; `surface` as words of a VoxelSet.
+/// Solid fill as the thesis' author published it: a voxel is inside when on each of the three axes it lies
+/// between the first and the last surface voxel of its line. Fills cavities and whatever is concave on all
+/// axes. On two threads; `surface` as words of a VoxelSet.
 std::vector<uint32_t> first_and_last_hit_fill(const std::vector<uint32_t>& surface,
                                               const voxelizer::RasterGrid& grid);
 

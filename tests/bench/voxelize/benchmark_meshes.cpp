@@ -15,7 +15,8 @@ std::string unpacked(const std::filesystem::path& path) {
   if (file == nullptr) throw Error(ErrorKind::io, "cannot read " + path.string());
   std::string text;
   char piece[65536];
-  for (int read = 0; (read = gzread(file, piece, sizeof piece)) > 0;) text.append(piece, static_cast<size_t>(read));
+  for (int read = 0; (read = gzread(file, piece, sizeof piece)) > 0;)
+    text.append(piece, static_cast<size_t>(read));
   gzclose(file);
   return text;
 }

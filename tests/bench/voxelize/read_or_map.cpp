@@ -31,8 +31,8 @@ double read_ms(const gpu::Queue& queue, const gpu::Buffer& buffer, std::vector<u
 double map_ms(const gpu::Queue& queue, const gpu::Buffer& buffer) {
   const auto start = SteadyClock::now();
   cl_int status = CL_SUCCESS;
-  void* mapped = clEnqueueMapBuffer(queue.handle(), buffer.handle(), CL_TRUE, CL_MAP_READ, 0, buffer.bytes(), 0,
-                                    nullptr, nullptr, &status);
+  void* mapped = clEnqueueMapBuffer(queue.handle(), buffer.handle(), CL_TRUE, CL_MAP_READ, 0, buffer.bytes(),
+                                    0, nullptr, nullptr, &status);
   if (status != CL_SUCCESS) throw Error(ErrorKind::unavailable, "clEnqueueMapBuffer failed");
   clEnqueueUnmapMemObject(queue.handle(), buffer.handle(), mapped, 0, nullptr, nullptr);
   queue.finish();
@@ -42,9 +42,12 @@ double map_ms(const gpu::Queue& queue, const gpu::Buffer& buffer) {
 }  // namespace
 
 std::vector<Row> read_or_map(const gpu::Queue& queue, std::ostream* tables) {
-  TextTable table{"Figure 3.5: bringing voxels to the host (ms); in the thesis mapping always was the faster, the more "
-                  "so the more there was (plot without numbers)",
-                  "MB", {"read", "map", "read / map"}, {}};
+  TextTable table{
+      "Figure 3.5: bringing voxels to the host (ms); in the thesis mapping always was the faster, the more "
+      "so the more there was (plot without numbers)",
+      "MB",
+      {"read", "map", "read / map"},
+      {}};
   std::vector<Row> rows;
   for (const double mb : megabytes) {
     const auto bytes = static_cast<size_t>(mb * 1e6);

@@ -7,8 +7,8 @@
 
 namespace ream::bench {
 
-/// Figure 3.5: bringing voxels from the device to the host by reading a buffer and by mapping it, for the grids of
-/// table 3.3.
+/// Figure 3.5: bringing voxels from the device to the host by reading a buffer and by mapping it, for the
+/// grids of table 3.3.
 std::vector<Row> read_or_map(const gpu::Queue& queue, std::ostream* tables);
 
 }  // namespace ream::bench

@@ -16,7 +16,8 @@ struct ThesisTimes {
 /// 202,520 and 28,106. Table 3.5's column of the 6700HQ repeats a number and is left out.
 const std::array<ThesisTimes, 5>& thesis_times();
 
-/// Table 3.1: voxel size, tests by voxel, tests by triangle, in millions; of a mesh that the thesis does not name.
+/// Table 3.1: voxel size, tests by voxel, tests by triangle, in millions; of a mesh that the thesis does not
+/// name.
 inline constexpr std::array<std::array<double, 3>, 4> thesis_tests = {
     {{3.0, 1.767431, 93e-6}, {2.0, 4.615507, 224e-6}, {1.0, 44.406021, 1107e-6}, {0.5, 368.832950, 5874e-6}}};
 

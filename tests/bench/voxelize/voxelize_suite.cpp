@@ -57,8 +57,9 @@ void measure_in_turns(std::vector<Contender*> contenders) {
     }
 }
 
-/// Milliseconds at one voxel size; not a number where not measured. Ours from the mesh to the bits, the grid's
-/// clearing and all preparation with it; kernels and the serial form from prepared corners into cleared bits.
+/// Milliseconds at one voxel size; not a number where not measured. Ours from the mesh to the bits, the
+/// grid's clearing and all preparation with it; kernels and the serial form from prepared corners into
+/// cleared bits.
 struct Times {
   double cpu, opencl, by_voxel = not_there, by_column = not_there, serial = not_there;
   double solid, solid_opencl, first_and_last = not_there;
@@ -93,19 +94,22 @@ struct Bench {
       thesis->by_column();  // the first run of a kernel compiles once more
       thesis->by_voxel();
       serial = {[&] { words.assign(set.word_count(), 0); },
-                [&] { thesis_voxelizer_serial(corners, grid, words); }, {}, slow_rounds};
+                [&] { thesis_voxelizer_serial(corners, grid, words); },
+                {},
+                slow_rounds};
       if (solid) first_last = {{}, [&] { first_and_last_hit_fill(thesis->words(), grid); }, {}, slow_rounds};
     }
     measure_in_turns({&ours, &by_voxel, &by_column, &ours_cl, &serial, &fill, &fill_cl, &first_last});
-    return {ours.time_ms(), ours_cl.time_ms(), by_voxel.time_ms(), by_column.time_ms(), serial.time_ms(),
-            fill.time_ms(), fill_cl.time_ms(), first_last.time_ms(), set.filled(), other.filled()};
+    return {ours.time_ms(), ours_cl.time_ms(), by_voxel.time_ms(),   by_column.time_ms(), serial.time_ms(),
+            fill.time_ms(), fill_cl.time_ms(), first_last.time_ms(), set.filled(),        other.filled()};
   }
 };
 
 void add_rows(const std::string& mesh, const Times& t, std::vector<Row>& rows) {
   const std::string name = mesh + ", 0.1 mm, 2 threads";
   const Goals goals = goals_of(mesh);
-  rows.push_back({"voxelize", name + ": cpu", t.cpu, 0.0, "ms", mesh.starts_with("reamer") ? goal_reamer_ms : 0.0});
+  rows.push_back(
+      {"voxelize", name + ": cpu", t.cpu, 0.0, "ms", mesh.starts_with("reamer") ? goal_reamer_ms : 0.0});
   rows.push_back({"voxelize", name + ": OpenCL", t.opencl, 0.0, "ms", 0.0});
   const auto times_faster = [&](const std::string& what, double baseline, double ours, double goal) {
     if (!std::isnan(baseline) && !std::isnan(ours))
@@ -129,10 +133,12 @@ TextTable table_of(const std::string& title, std::vector<std::string> columns) {
 
 /// Table 3.1: how many pairs of triangle and voxel are looked at.
 void table_3_1(const TriangleMesh& reamer, std::ostream* out) {
-  TextTable table = table_of("Table 3.1: intersection tests, millions (the thesis' mesh is not named; here the reamer)",
-                             {"VB, thesis", "TB, thesis", "VB here", "TB here"});
+  TextTable table =
+      table_of("Table 3.1: intersection tests, millions (the thesis' mesh is not named; here the reamer)",
+               {"VB, thesis", "TB, thesis", "VB here", "TB here"});
   for (const auto& [size_mm, vb, tb] : thesis_tests) {
-    const RasterGrid grid = voxelizer::grid_around(voxelizer::used_bounds(reamer, 1.0), Vec3::Constant(size_mm));
+    const RasterGrid grid =
+        voxelizer::grid_around(voxelizer::used_bounds(reamer, 1.0), Vec3::Constant(size_mm));
     const double tests = static_cast<double>(triangle_based_tests(thesis_corners(reamer, grid), grid));
     char label[16];
     std::snprintf(label, sizeof label, "%g", size_mm);
@@ -147,9 +153,10 @@ void table_3_1(const TriangleMesh& reamer, std::ostream* out) {
 std::vector<Row> voxelize_suite(const Options& options) {
   Bench bench;
   std::vector<Row> rows;
-  TextTable gpus = table_of("Table 3.4: running time (ms), the thesis' GPUs and single thread beside this machine",
-                            {"GTX 970", "HD 530", "1 thread", "SAT here", "columns here", "1 thread here", "OpenCL",
-                             "cpu", "GTX 970/cpu"});
+  TextTable gpus =
+      table_of("Table 3.4: running time (ms), the thesis' GPUs and single thread beside this machine",
+               {"GTX 970", "HD 530", "1 thread", "SAT here", "columns here", "1 thread here", "OpenCL", "cpu",
+                "GTX 970/cpu"});
   TextTable processors = table_of("Table 3.5: running time (ms), the thesis' processors",
                                   {"i7-6700K", "FX 770K", "SAT here", "cpu", "i7-6700K/cpu", "SAT here/cpu"});
   for (size_t m = 0; m < benchmark_meshes().size(); ++m) {
@@ -170,10 +177,12 @@ std::vector<Row> voxelize_suite(const Options& options) {
       if (finest) add_rows(which.name, t, rows);
       char label[64];
       std::snprintf(label, sizeof label, "%s %g", which.name.c_str(), thesis_sizes_mm[s]);
-      gpus.lines.push_back({label, {thesis.gtx_970[s], thesis.hd_530[s], thesis.single_thread[s], t.by_voxel,
-                                    t.by_column, t.serial, t.opencl, t.cpu, thesis.gtx_970[s] / t.cpu}});
-      processors.lines.push_back({label, {thesis.core_i7_6700k[s], thesis.fx_770k[s], t.by_voxel, t.cpu,
-                                          thesis.core_i7_6700k[s] / t.cpu, t.by_voxel / t.cpu}});
+      gpus.lines.push_back({label,
+                            {thesis.gtx_970[s], thesis.hd_530[s], thesis.single_thread[s], t.by_voxel,
+                             t.by_column, t.serial, t.opencl, t.cpu, thesis.gtx_970[s] / t.cpu}});
+      processors.lines.push_back({label,
+                                  {thesis.core_i7_6700k[s], thesis.fx_770k[s], t.by_voxel, t.cpu,
+                                   thesis.core_i7_6700k[s] / t.cpu, t.by_voxel / t.cpu}});
     }
   }
   if (options.baselines) {

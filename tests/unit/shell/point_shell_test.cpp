@@ -7,8 +7,8 @@
 #include <set>
 
 #include "core/units.hpp"
-#include "shell/meridian.hpp"
 #include "geometry/morton.hpp"
+#include "shell/meridian.hpp"
 #include "support/expect_error.hpp"
 #include "support/shared_data.hpp"
 

@@ -49,8 +49,7 @@ class VoxelFiles : public testing::Test {
 TEST_F(VoxelFiles, GridsOfBytesAndBitsReadBackAsGridsLikeThem) {
   const VoxelSet set = voxelized({});
   for (const GridFormat format : {GridFormat::bytes, GridFormat::bits}) {
-    const std::string text =
-        written([&](StreamedFile& file) { write_nrrd(set, format, file, no_progress); });
+    const std::string text = written([&](StreamedFile& file) { write_nrrd(set, format, file, no_progress); });
     const RasterGrid like = grid_of_nrrd(folder.path() / "file");
     EXPECT_EQ(like.dims, grid.dims);
     EXPECT_LT((like.origin_mm - grid.origin_mm).norm(), 1e-12);
@@ -95,8 +94,11 @@ TEST_F(VoxelFiles, MortonCodesRiseAndNameTheMarkedVoxels) {
     std::vector<uint64_t> codes(set.filled());
     std::memcpy(codes.data(), body.data(), body.size());
     for (size_t i = 0; i < codes.size(); ++i) {
-      if (i > 0) ASSERT_LT(codes[i - 1], codes[i]);
-      ASSERT_TRUE(set.marked(static_cast<int>(gather_bits(codes[i])), static_cast<int>(gather_bits(codes[i] >> 1)),
+      if (i > 0) {
+        ASSERT_LT(codes[i - 1], codes[i]);
+      }
+      ASSERT_TRUE(set.marked(static_cast<int>(gather_bits(codes[i])),
+                             static_cast<int>(gather_bits(codes[i] >> 1)),
                              static_cast<int>(gather_bits(codes[i] >> 2))));
     }
   }
