@@ -25,6 +25,18 @@ struct SurfaceVoxelizerArguments {
   ream_int32 thin;  // 1: 6-separating (eqs 3.6-3.8), 0: 26-separating (eqs 3.1-3.5)
 };
 
+// Voxelizer (server/voxelizer): a task is a triangle and a part of its box, so many rows in so many layers.
+#define REAM_VOXELIZER_TASK_ROWS 4
+#define REAM_VOXELIZER_TASK_LAYERS 64
+
+// The rows v_begin to v_end of the layers w_begin to w_end of a grid, in words of their own.
+struct VoxelizerArguments {
+  ream_uint32 tasks;
+  ream_int32 dims_x, v_begin, v_end, w_begin, w_end;
+  ream_int32 words_per_row, rows_per_layer;
+  ream_int32 thin;  // 1: 6-separating (eqs 3.6-3.8), 0: 26-separating (eqs 3.1-3.5)
+};
+
 // Affine map, row by row: out_i = m[3i] x + m[3i+1] y + m[3i+2] z + t[i] (collide/grid_affine.hpp).
 struct AffineArguments {
   float m[9];

@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/hash.hpp"
+#include "geometry/off.hpp"
 #include "geometry/ply.hpp"
 
 namespace ream {
@@ -119,11 +120,13 @@ TriangleMesh load_mesh(const std::filesystem::path& path) {
     throw Error(ErrorKind::not_found, "no such mesh: " + path.string());
   const std::string extension = lower_case_extension(path);
   // Other readers of assimp were seen to abort the program on damaged files.
-  if (extension != ".stl" && extension != ".obj" && extension != ".glb" && extension != ".ply")
-    refuse(path, "its name must end in .stl, .obj, .ply or .glb");
+  if (extension != ".stl" && extension != ".obj" && extension != ".glb" && extension != ".ply" &&
+      extension != ".off")
+    refuse(path, "its name must end in .stl, .obj, .ply, .off or .glb");
   if (extension == ".stl") check_text_stl_is_whole(path);
-  const TriangleMesh read =
-      extension == ".ply" ? parse_ply(read_text_file(path), path) : load_with_assimp(path);
+  const TriangleMesh read = extension == ".ply"   ? parse_ply(read_text_file(path), path)
+                            : extension == ".off" ? parse_off(read_text_file(path), path)
+                                                  : load_with_assimp(path);
   check_finite(path, read);
   TriangleMesh mesh = joined(read);
   if (mesh.triangles.empty()) refuse(path, "it holds no triangles");

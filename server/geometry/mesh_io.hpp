@@ -6,10 +6,10 @@
 
 namespace ream {
 
-/// An STL, OBJ, PLY or GLB file, all parts merged, vertices joined, in the
+/// An STL, OBJ, PLY, OFF or GLB file, all parts merged, vertices joined, in the
 /// file's own coordinates (taken as mm). Throws Error: not_found; invalid_input for unreadable files, no
 /// triangles, NaN or infinite vertices, indices out of range, cut-off files. Triangles with two equal corners
-/// are dropped. PLY is read by geometry/ply, not by assimp.
+/// are dropped. PLY and OFF are read by geometry/ply and off, not by assimp.
 TriangleMesh load_mesh(const std::filesystem::path& path);
 
 /// The bytes of a binary little-endian PLY file with float positions and, where present, normals. `remark`

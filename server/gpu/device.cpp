@@ -60,6 +60,7 @@ void append_devices(cl_platform_id platform, std::vector<Device>& devices) {
     device.is_cpu = (value_of<cl_device_type>(id, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU) != 0;
     device.may_share_host_memory = device.is_cpu;
     device.is_pocl = platform_name == "Portable Computing Language";
+    device.knows_doubles = value_of<cl_device_fp_config>(id, CL_DEVICE_DOUBLE_FP_CONFIG) != 0;
     device.max_buffer_bytes = value_of<cl_ulong>(id, CL_DEVICE_MAX_MEM_ALLOC_SIZE);
     device.max_local_size = value_of<size_t>(id, CL_DEVICE_MAX_WORK_GROUP_SIZE);
     devices.push_back(std::move(device));

@@ -19,6 +19,7 @@ struct Device {
   std::string name, platform, driver;
   bool is_cpu = false;
   bool is_pocl = false;
+  bool knows_doubles = false;  ///< cl_khr_fp64
   /// CPUs are tried for working on the host's own arrays; false makes every buffer a copy.
   bool may_share_host_memory = false;
   size_t max_buffer_bytes = 0;

@@ -6,8 +6,8 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "geometry/morton.hpp"
 #include "shell/meridian.hpp"
-#include "shell/morton.hpp"
 
 namespace ream::shell {
 namespace {

@@ -44,5 +44,7 @@ std::vector<Row> surface_suite(const Options& options);
 std::vector<Row> validate_suite(const Options& options);
 /// What the page is like to those who watch and steer, in a real browser.
 std::vector<Row> web_suite(const Options& options);
+/// Surface and solid voxelization of the meshes of the thesis' chapter 3.
+std::vector<Row> voxelize_suite(const Options& options);
 
 }  // namespace ream::bench

@@ -40,6 +40,12 @@ struct ZhengArguments {
   baseline_uint32 points;
 };
 
+struct ThesisVoxelizerArguments {
+  baseline_uint32 triangles;
+  baseline_int32 dims[3];
+  baseline_int32 words_per_row;
+};
+
 // One tick of the voxel-parallel baseline: arguments, then results.
 struct YauExchange {
   struct BaselineAffine tool_from_voxel;

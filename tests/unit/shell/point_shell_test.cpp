@@ -7,8 +7,8 @@
 #include <set>
 
 #include "core/units.hpp"
+#include "geometry/morton.hpp"
 #include "shell/meridian.hpp"
-#include "shell/morton.hpp"
 #include "support/expect_error.hpp"
 #include "support/shared_data.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-namespace ream::shell {
+namespace ream {
 
 /// Interleaves the low 21 bits of u, v, w (u lowest) into 63 bits: thesis section 4.3, whose 10 bits in 32
 /// end at 1024 cells a side; for coordinates below 1024 the codes are the thesis' own.
@@ -26,4 +26,4 @@ constexpr uint64_t morton_code(uint32_t u, uint32_t v, uint32_t w) {
   return spread_bits(u) | (spread_bits(v) << 1) | (spread_bits(w) << 2);
 }
 
-}  // namespace ream::shell
+}  // namespace ream

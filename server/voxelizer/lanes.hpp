@@ -1,0 +1,73 @@
+#pragma once
+
+// Vectors are only passed between functions that become one.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+// Vectors of doubles that every form of the program computes alike, with whatever instructions it was
+// compiled for.
+namespace ream::voxelizer {
+
+using Double4 = double __attribute__((vector_size(32)));
+using Double8 = double __attribute__((vector_size(64)));
+using Int4 = int __attribute__((vector_size(16)));
+using Int8 = int __attribute__((vector_size(32)));
+using Long4 = long long __attribute__((vector_size(32)));
+
+/// Whole numbers of as many lanes.
+template <class Doubles>
+struct WholeOf;
+template <>
+struct WholeOf<Double4> {
+  using Type = Int4;
+};
+template <>
+struct WholeOf<Double8> {
+  using Type = Int8;
+};
+
+template <class T>
+inline T smaller(const T& a, const T& b) {
+  return a < b ? a : b;
+}
+template <class T>
+inline T larger(const T& a, const T& b) {
+  return a > b ? a : b;
+}
+template <class T>
+inline T magnitude(const T& a) {
+  return a < 0.0 ? -a : a;
+}
+
+/// Of the first three lanes.
+inline double most_of_three(const Double4& a) { return larger(larger(a[0], a[1]), a[2]); }
+inline double least_of_three(const Double4& a) { return smaller(smaller(a[0], a[1]), a[2]); }
+
+/// ceil(x) and floor(x) held within [low, high], exact for every x and so the same whatever the limits.
+inline int ceil_between(double x, int low, int high) {
+  const double held = smaller(larger(x, static_cast<double>(low)), static_cast<double>(high));
+  const int whole = static_cast<int>(held);
+  return whole + static_cast<int>(static_cast<double>(whole) < held);
+}
+inline int floor_between(double x, int low, int high) {
+  const double held = smaller(larger(x, static_cast<double>(low)), static_cast<double>(high));
+  const int whole = static_cast<int>(held);
+  return whole - static_cast<int>(static_cast<double>(whole) > held);
+}
+
+/// The same lane by lane, the limits as doubles that are whole numbers.
+template <class Doubles, class Whole = typename WholeOf<Doubles>::Type>
+inline Whole ceil_between(const Doubles& x, double low, double high) {
+  const Doubles held = smaller(larger(x, Doubles{} + low), Doubles{} + high);
+  const Whole whole = __builtin_convertvector(held, Whole);
+  const Doubles back = __builtin_convertvector(whole, Doubles);
+  return __builtin_convertvector(back < held ? back + 1.0 : back, Whole);
+}
+template <class Doubles, class Whole = typename WholeOf<Doubles>::Type>
+inline Whole floor_between(const Doubles& x, double low, double high) {
+  const Doubles held = smaller(larger(x, Doubles{} + low), Doubles{} + high);
+  const Whole whole = __builtin_convertvector(held, Whole);
+  const Doubles back = __builtin_convertvector(whole, Doubles);
+  return __builtin_convertvector(back > held ? back - 1.0 : back, Whole);
+}
+
+}  // namespace ream::voxelizer

@@ -1,0 +1,68 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "voxelizer/crew.hpp"
+#include "voxelizer/raster_grid.hpp"
+
+namespace ream::voxelizer {
+
+/// Rows of bits of one tile: all u, some (v,w). They may stand in the whole grid or in memory of their own.
+struct TileRows {
+  RowRange range;
+  uint32_t* words = nullptr;  ///< of row (v_begin, w_begin)
+  size_t words_per_row = 0;
+  size_t rows_per_layer = 0;  ///< between equal v of neighbouring w
+
+  uint32_t* row(int v, int w) const {
+    return words + words_per_row * (static_cast<size_t>(v - range.v_begin) +
+                                    rows_per_layer * static_cast<size_t>(w - range.w_begin));
+  }
+};
+
+/// A grid cut into tiles of whole rows, so that each can be worked on by itself, without atomics and in a
+/// processor's cache. Tile (i, j) is number i + count_v * j.
+struct TilePlan {
+  int rows = 0, layers = 0;  ///< of a tile; the last ones have fewer
+  int count_v = 0, count_w = 0;
+  Vec3i dims = Vec3i::Zero();
+
+  size_t count() const { return static_cast<size_t>(count_v) * static_cast<size_t>(count_w); }
+  RowRange range(size_t tile) const;
+  /// The tile that row (v, w) is in.
+  size_t tile_of(int v, int w) const {
+    return static_cast<size_t>(v / rows) + static_cast<size_t>(count_v) * static_cast<size_t>(w / layers);
+  }
+};
+
+/// Tiles of about `tile_bytes` bytes of bits, their sides multiples of 8, at least `least_tiles` where the
+/// grid has the layers for it. `whole_layers` keeps layers whole, however large they are.
+TilePlan plan_tiles(const RasterGrid& grid, size_t tile_bytes, size_t least_tiles, bool whole_layers = false);
+
+/// Which triangles may touch which tile, in the order of the mesh.
+class TileBins {
+ public:
+  /// Where lists would take more than `most_bytes` there are none and every tile looks at all triangles.
+  TileBins(const TriangleMesh& mesh, const VoxelMap& map, const TilePlan& plan, Crew& crew,
+           size_t most_bytes = size_t{24} << 20);
+
+  /// Calls visit(triangle) for every triangle that may touch the tile.
+  template <class Visit>
+  void for_each(size_t tile, Visit visit) const {
+    if (!listed_) {
+      for (size_t triangle = 0; triangle < triangles_; ++triangle) visit(triangle);
+      return;
+    }
+    for (size_t i = first_[tile]; i < first_[tile + 1]; ++i) visit(static_cast<size_t>(list_[i]));
+  }
+  bool listed() const { return listed_; }
+
+ private:
+  size_t triangles_ = 0;
+  bool listed_ = false;
+  std::vector<size_t> first_;
+  std::vector<uint32_t> list_;
+};
+
+}  // namespace ream::voxelizer
