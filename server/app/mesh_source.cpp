@@ -30,9 +30,9 @@ Kind kind_of(const MeshSource& source) {
   if (source.name == "demo" || fs::exists(cases_folder(source.data) / source.name / "case.json", failed))
     return Kind::case_folder;
   if (fs::exists(sessions_folder(source.data) / source.name / "recording.ream", failed)) return Kind::session;
-  throw Error(ErrorKind::not_found,
-              "no such volume, case or session: " + source.name + "; `ream list cases` and `ream list sessions` "
-                                                                  "say what the data folder holds");
+  throw Error(ErrorKind::not_found, "no such volume, case or session: " + source.name +
+                                        "; `ream list cases` and `ream list sessions` "
+                                        "say what the data folder holds");
 }
 
 /// The mesh frame: the world's where the grid's axes are the world's, else the grid's own.
@@ -90,7 +90,8 @@ fe::ElementModel from_bone(const voxel::BoneModel& bone, const MeshSource& sourc
       for (int u = 0; u < dims.x(); ++u, ++at) {
         const size_t i = bone.grid.index(u, v, w);
         const uint8_t density = bone.density[i];
-        const bool solid = bone.coverage[i] >= voxel::solid_coverage, is_bone = density != voxel::cartilage_code;
+        const bool solid = bone.coverage[i] >= voxel::solid_coverage,
+                   is_bone = density != voxel::cartilage_code;
         if (solid && !is_bone) ++cartilage;
         const bool above = !source.threshold || model.gray.value(density) >= *source.threshold;
         codes[at] = solid && is_bone && above ? int32_t{density} : fe::no_element;
@@ -131,7 +132,8 @@ fe::ElementModel from_case(const MeshSource& source, fe::MemoryBudget& budget, c
 
 }  // namespace
 
-fe::ElementModel open_mesh_source(const MeshSource& source, fe::MemoryBudget& budget, const Progress& progress) {
+fe::ElementModel open_mesh_source(const MeshSource& source, fe::MemoryBudget& budget,
+                                  const Progress& progress) {
   switch (kind_of(source)) {
     case Kind::case_folder:
       return from_case(source, budget, progress);

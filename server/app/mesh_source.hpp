@@ -11,8 +11,8 @@ namespace ream::app {
 
 /// What a mesh is to be made of.
 struct MeshSource {
-  /// A volume (folder, file or zip, as CtSource), text rows, a case, or a recorded session; cases and sessions
-  /// by path or, where there is no such path, by id.
+  /// A volume (folder, file or zip, as CtSource), text rows, a case, or a recorded session; cases and
+  /// sessions by path or, where there is no such path, by id.
   std::string name;
   std::string case_name;  ///< of a session, where its case is not in the data folder
   /// Least gray value (of volumes and rows) or density (of cases and sessions, g/cc) that is bone; without it

@@ -29,19 +29,30 @@ template <typename Use>
 void with_type(Type type, const char* bytes, const std::string& place, Use&& use) {
   const auto as = [&]<typename T>(T) { use(reinterpret_cast<const T*>(bytes)); };
   switch (type) {
-    case Type::UCHAR: return as(uint8_t{});
-    case Type::CHAR: return as(int8_t{});
-    case Type::USHORT: return as(uint16_t{});
-    case Type::SHORT: return as(int16_t{});
-    case Type::UINT: return as(uint32_t{});
-    case Type::INT: return as(int32_t{});
+    case Type::UCHAR:
+      return as(uint8_t{});
+    case Type::CHAR:
+      return as(int8_t{});
+    case Type::USHORT:
+      return as(uint16_t{});
+    case Type::SHORT:
+      return as(int16_t{});
+    case Type::UINT:
+      return as(uint32_t{});
+    case Type::INT:
+      return as(int32_t{});
     case Type::ULONG:
-    case Type::ULONGLONG: return as(uint64_t{});
+    case Type::ULONGLONG:
+      return as(uint64_t{});
     case Type::LONG:
-    case Type::LONGLONG: return as(int64_t{});
-    case Type::FLOAT: return as(float{});
-    case Type::DOUBLE: return as(double{});
-    default: throw Error(ErrorKind::invalid_input, place + " holds voxels of an unknown type");
+    case Type::LONGLONG:
+      return as(int64_t{});
+    case Type::FLOAT:
+      return as(float{});
+    case Type::DOUBLE:
+      return as(double{});
+    default:
+      throw Error(ErrorKind::invalid_input, place + " holds voxels of an unknown type");
   }
 }
 
@@ -55,12 +66,15 @@ uint64_t raw_begin(const fs::path& path, uint64_t image_bytes) {
   head.resize(static_cast<size_t>(in.gcount()));
   size_t end = std::string::npos;
   if (ending == ".nrrd") {
-    const bool raw = head.find("\nencoding: raw\n") != std::string::npos && head.find("\ndata file:") == std::string::npos &&
-                     head.find("skip:") == std::string::npos && head.find("\nendian: big") == std::string::npos;
+    const bool raw = head.find("\nencoding: raw\n") != std::string::npos &&
+                     head.find("\ndata file:") == std::string::npos &&
+                     head.find("skip:") == std::string::npos &&
+                     head.find("\nendian: big") == std::string::npos;
     if (raw && (end = head.find("\n\n")) != std::string::npos) end += 2;
   } else {
     const bool raw = head.find("CompressedData = True") == std::string::npos &&
-                     head.find("ByteOrderMSB = True") == std::string::npos && head.find("HeaderSize") == std::string::npos;
+                     head.find("ByteOrderMSB = True") == std::string::npos &&
+                     head.find("HeaderSize") == std::string::npos;
     const std::string last = "ElementDataFile = LOCAL\n";
     if (raw && (end = head.find(last)) != std::string::npos) end += last.size();
   }
@@ -179,13 +193,15 @@ void GrayVolume::Contents::read_whole(itk::ImageIOBase& io, uint64_t most_bytes)
                     " MB while it is read; give more --memory-mb, or unpack it into a .nrrd of encoding raw, "
                     "which is read layer by layer");
   itk::ImageIORegion region(io.GetNumberOfDimensions());
-  for (unsigned axis = 0; axis < io.GetNumberOfDimensions(); ++axis) region.SetSize(axis, io.GetDimensions(axis));
+  for (unsigned axis = 0; axis < io.GetNumberOfDimensions(); ++axis)
+    region.SetSize(axis, io.GetDimensions(axis));
   io.SetIORegion(region);
   std::vector<char> bytes(count * value_bytes);
   io.Read(bytes.data());
   const auto known = scale_of(type);
   voxel::GrayScaleFinder finder;
-  if (!known) with_type(type, bytes.data(), file, [&](const auto* values) { add_values(values, count, finder); });
+  if (!known)
+    with_type(type, bytes.data(), file, [&](const auto* values) { add_values(values, count, finder); });
   gray = known ? *known : finder.scale();
   codes.resize(count);
   encode(bytes.data(), count, codes.data());

@@ -15,8 +15,8 @@ class GrayVolume {
  public:
   /// A folder of DICOM slices, or a NRRD, NIfTI or MetaImage file, as read_ct takes them. What lies unpacked
   /// in a .nrrd or .mha file stays there and is read layer by layer; everything else is read whole, unless
-  /// that takes more than `most_bytes` of memory. Errors: those of read_ct; invalid_input that says what to do
-  /// where it would take more.
+  /// that takes more than `most_bytes` of memory. Errors: those of read_ct; invalid_input that says what to
+  /// do where it would take more.
   explicit GrayVolume(const std::filesystem::path& path, uint64_t most_bytes = UINT64_MAX,
                       const Progress& progress = no_progress);
   ~GrayVolume();

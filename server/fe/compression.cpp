@@ -55,7 +55,8 @@ std::string compression_text(const Compression& compression, const NodeNumbering
     if (compression.fixed_platens) text += fixed(base, across) + fixed(top, across);
   if (!compression.fixed_platens) {
     const Pins pins = pins_on(numbering, axis);
-    text += fixed(std::to_string(pins.held), (axis + 1) % 3) + fixed(std::to_string(pins.held), (axis + 2) % 3) +
+    text += fixed(std::to_string(pins.held), (axis + 1) % 3) +
+            fixed(std::to_string(pins.held), (axis + 2) % 3) +
             fixed(std::to_string(pins.guided), (axis + 2) % 3);
   }
   text += "*STEP\n*STATIC\n*BOUNDARY\n" +

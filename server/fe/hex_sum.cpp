@@ -29,7 +29,8 @@ double volume_of(const HexCorners& p) {
                           (point & 4) != 0 ? gauss : -gauss};
     Vec3 along[3] = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
     for (size_t i = 0; i < 8; ++i) {
-      const double sign[3] = {i % 4 == 1 || i % 4 == 2 ? 1.0 : -1.0, i % 4 >= 2 ? 1.0 : -1.0, i >= 4 ? 1.0 : -1.0};
+      const double sign[3] = {i % 4 == 1 || i % 4 == 2 ? 1.0 : -1.0, i % 4 >= 2 ? 1.0 : -1.0,
+                              i >= 4 ? 1.0 : -1.0};
       for (int k = 0; k < 3; ++k) {
         const int l = (k + 1) % 3, m = (k + 2) % 3;
         along[k] += 0.125 * sign[k] * (1.0 + sign[l] * at[l]) * (1.0 + sign[m] * at[m]) * p[i];
@@ -49,7 +50,9 @@ bool HexSum::add(const HexCorners& p) {
     volume_mm3_ += volume;
   } else {
     for (const auto& corner : edges) {
-      const auto edge = [&](int k) { return p[static_cast<size_t>(corner[k][1])] - p[static_cast<size_t>(corner[k][0])]; };
+      const auto edge = [&](int k) {
+        return p[static_cast<size_t>(corner[k][1])] - p[static_cast<size_t>(corner[k][0])];
+      };
       least_mm3_ = std::min(least_mm3_, spanned(edge(0), edge(1), edge(2)));
     }
     volume_mm3_ += volume_of(p);

@@ -38,14 +38,17 @@ class InpCheck {
       if (material == outline_.materials.end() || !material->second)
         refuse_line(file_, section.line, "material " + section.material + " has no *ELASTIC");
       const auto set = outline_.sets.find(section.set);
-      if (set == outline_.sets.end()) refuse_line(file_, section.line, "there is no element set " + section.set);
+      if (set == outline_.sets.end())
+        refuse_line(file_, section.line, "there is no element set " + section.set);
       for (const InpOutline::SetPart& part : set->second)
         for_each_id(part, [&](uint64_t id) {
           if (!outline_.elements.contains(id))
-            refuse_line(file_, lines_.number(), "set " + section.set + " names element " + std::to_string(id) +
-                                                    ", which there is not");
+            refuse_line(
+                file_, lines_.number(),
+                "set " + section.set + " names element " + std::to_string(id) + ", which there is not");
           if (!assigned.insert(id))
-            refuse_line(file_, lines_.number(), "element " + std::to_string(id) + " has more than one section");
+            refuse_line(file_, lines_.number(),
+                        "element " + std::to_string(id) + " has more than one section");
         });
     }
     if (const uint64_t id = outline_.elements.first_not_in(assigned))
@@ -65,7 +68,8 @@ class InpCheck {
         if (read_id(at, end, id)) use(id);
       } else if (part.generate) {
         uint64_t last = 0, step = 1;
-        if (!read_id(at, end, id) || !read_id(at, end, last) || (at < end && !read_id(at, end, step)) || step == 0)
+        if (!read_id(at, end, id) || !read_id(at, end, last) || (at < end && !read_id(at, end, step)) ||
+            step == 0)
           refuse_line(file_, lines_.number(), "is not 'first, last, step'");
         for (; id <= last; id += step) use(id);
       } else {
@@ -85,7 +89,8 @@ class InpCheck {
       uint64_t least = blocks[first].least_node, greatest = blocks[first].greatest_node;
       size_t end = first + 1;
       for (; end < blocks.size(); ++end) {
-        const uint64_t low = std::min(least, blocks[end].least_node), high = std::max(greatest, blocks[end].greatest_node);
+        const uint64_t low = std::min(least, blocks[end].least_node),
+                       high = std::max(greatest, blocks[end].greatest_node);
         if (high - low >= most_nodes_at_hand(budget_)) break;
         least = low;
         greatest = high;
@@ -113,7 +118,8 @@ class InpCheck {
   void read_nodes(const FilePlace& place, uint64_t end_byte) {
     lines_.seek(place.byte, place.line);
     std::string_view line;
-    while (lines_.next(line) && lines_.byte() < end_byte && (!line.starts_with('*') || line.starts_with("**"))) {
+    while (lines_.next(line) && lines_.byte() < end_byte &&
+           (!line.starts_with('*') || line.starts_with("**"))) {
       const char* at = line.data();
       const char* const end = at + line.size();
       uint64_t id = 0;
@@ -137,7 +143,8 @@ class InpCheck {
         c = nodes_[corner - first_node_];
       }
       if (!sum_.add(corners))
-        refuse_line(file_, lines_.number(), "element " + std::to_string(id) + " has a Jacobian that is not positive");
+        refuse_line(file_, lines_.number(),
+                    "element " + std::to_string(id) + " has a Jacobian that is not positive");
       ++i;
     }
   }

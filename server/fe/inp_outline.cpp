@@ -15,7 +15,8 @@ constexpr uint64_t lines_between_progress = 1 << 18;
 std::string upper(std::string_view text) {
   std::string result;
   for (const char c : text)
-    if (c != ' ' && c != '\r' && c != '\t') result += static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
+    if (c != ' ' && c != '\r' && c != '\t')
+      result += static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
   return result;
 }
 
@@ -78,7 +79,8 @@ class OutlineReader {
     if (keyword.name == "NODE") {
       in_ = In::nodes;
     } else if (keyword.name == "ELEMENT") {
-      if (keyword.of("TYPE") != "C3D8") refuse("elements of type " + keyword.of("TYPE") + ", C3D8 is expected");
+      if (keyword.of("TYPE") != "C3D8")
+        refuse("elements of type " + keyword.of("TYPE") + ", C3D8 is expected");
       in_ = In::elements;
       after_keyword_ = keyword.of("ELSET");
     } else if (keyword.name == "ELSET") {
@@ -86,7 +88,8 @@ class OutlineReader {
       outline_.sets[keyword.of("ELSET")].push_back({behind, keyword.has("GENERATE"), false});
     } else if (keyword.name == "MATERIAL") {
       material_ = keyword.of("NAME");
-      if (!outline_.materials.emplace(material_, false).second) refuse("material " + material_ + " is given twice");
+      if (!outline_.materials.emplace(material_, false).second)
+        refuse("material " + material_ + " is given twice");
     } else if (keyword.name == "ELASTIC") {
       in_ = In::elastic;
     } else if (keyword.name == "SOLIDSECTION") {
@@ -101,8 +104,10 @@ class OutlineReader {
     double x = 0.0;
     if (!read_id(at, end, id)) refuse("is not 'id, x, y, z'");
     for (int k = 0; k < 3; ++k)
-      if (!read_real(at, end, x) || !std::isfinite(x)) refuse("node " + std::to_string(id) + " has no three coordinates");
-    if (id == 0 || id > greatest_id) refuse("node id " + std::to_string(id) + " is not from 1 to 999,999,999");
+      if (!read_real(at, end, x) || !std::isfinite(x))
+        refuse("node " + std::to_string(id) + " has no three coordinates");
+    if (id == 0 || id > greatest_id)
+      refuse("node id " + std::to_string(id) + " is not from 1 to 999,999,999");
     if (!outline_.nodes.insert(id)) refuse("node " + std::to_string(id) + " is given twice");
     outline_.nodes_rise = outline_.nodes_rise && id > last_node_;
     last_node_ = id;
@@ -119,7 +124,8 @@ class OutlineReader {
     for (uint64_t& corner : corners)
       if (!read_id(at, end, corner)) refuse("element " + std::to_string(id) + " has no eight nodes");
     if (at != end) refuse("element " + std::to_string(id) + " has more than eight nodes");
-    if (id == 0 || id > greatest_id) refuse("element id " + std::to_string(id) + " is not from 1 to 999,999,999");
+    if (id == 0 || id > greatest_id)
+      refuse("element id " + std::to_string(id) + " is not from 1 to 999,999,999");
     if (!outline_.elements.insert(id)) refuse("element " + std::to_string(id) + " is given twice");
     if (new_section_ && !after_keyword_.empty())
       outline_.sets[after_keyword_].push_back({{lines_.byte(), lines_.number()}, false, true});

@@ -22,7 +22,8 @@ struct InpOutline {
     uint64_t id = 0;
     FilePlace place;
   };
-  std::vector<NodeMark> node_marks;  ///< one of every few thousand nodes, the first of each section among them
+  std::vector<NodeMark>
+      node_marks;  ///< one of every few thousand nodes, the first of each section among them
 
   struct ElementBlock {
     FilePlace place;

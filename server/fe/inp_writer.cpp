@@ -24,8 +24,7 @@ std::string heading(const NumberedMesh& mesh) {
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column)
       text += (row + column == 0 ? ", R = " : " ") + real_text(pose.rotation(row, column));
-  for (int row = 0; row < 3; ++row)
-    text += (row == 0 ? ", t = " : " ") + real_text(pose.translation_mm[row]);
+  for (int row = 0; row < 3; ++row) text += (row == 0 ? ", t = " : " ") + real_text(pose.translation_mm[row]);
   return text + "\n";
 }
 
@@ -117,7 +116,8 @@ char* element_lines(const TextRow* rows, int begin, int end, uint64_t& number, I
 void write_elements(const NodeNumbering& numbering, OrderedOutput& out, const Progress& progress) {
   out.append("*ELEMENT, TYPE=C3D8, ELSET=EALL\n");
   const auto most_bytes = [&](size_t i) {
-    return (numbering.elements_before(i + 1) - numbering.elements_before(i)) * 9 * most_id_bytes + spare_bytes;
+    return (numbering.elements_before(i + 1) - numbering.elements_before(i)) * 9 * most_id_bytes +
+           spare_bytes;
   };
   const auto make = [&](size_t slab, char* at) {
     if (numbering.elements_before(slab + 1) == numbering.elements_before(slab)) return at;
@@ -164,7 +164,9 @@ void write_sets(const NumberedMesh& mesh, MemoryBudget& budget, OrderedOutput& o
       for (size_t i = 0; i < ids.size(); i += most_ids)
         pieces.push_back({m, ids.subspan(i, std::min(most_ids, ids.size() - i)), i == 0});
     }
-    const auto most_bytes = [&](size_t i) { return pieces[i].ids.size() * (most_id_bytes + 1) + 2 * spare_bytes; };
+    const auto most_bytes = [&](size_t i) {
+      return pieces[i].ids.size() * (most_id_bytes + 1) + 2 * spare_bytes;
+    };
     const auto make = [&](size_t i, char* at) {
       if (pieces[i].first) {
         const std::string head = "*ELSET, ELSET=" + set_name(pieces[i].material) + "\n";
@@ -180,9 +182,9 @@ void write_materials(const NumberedMesh& mesh, OrderedOutput& out) {
   std::string text;
   for (size_t m = 0; m < mesh.materials.list.size(); ++m) {
     const std::string number = std::to_string(m + 1);
-    text += "*MATERIAL, NAME=MAT_" + number + "\n*ELASTIC\n" +
-            real_text(mesh.materials.list[m].modulus_mpa) + ", " + real_text(mesh.rule.poisson) +
-            "\n*SOLID SECTION, ELSET=" + set_name(m) + ", MATERIAL=MAT_" + number + "\n";
+    text += "*MATERIAL, NAME=MAT_" + number + "\n*ELASTIC\n" + real_text(mesh.materials.list[m].modulus_mpa) +
+            ", " + real_text(mesh.rule.poisson) + "\n*SOLID SECTION, ELSET=" + set_name(m) +
+            ", MATERIAL=MAT_" + number + "\n";
   }
   out.append(text);
 }

@@ -37,7 +37,8 @@ void label(const VoxelMask& mask, Half& half) {
 }
 
 /// Takes the runs of a half out of the mask whose labels are not kept.
-void remove_others(VoxelMask& mask, const Half& half, const LabelJoins& joins, uint32_t raise, uint32_t kept) {
+void remove_others(VoxelMask& mask, const Half& half, const LabelJoins& joins, uint32_t raise,
+                   uint32_t kept) {
   size_t run = 0;
   std::vector<uint64_t> row(mask.words_per_row());
   for (int w = half.first; w < half.end; ++w)

@@ -7,8 +7,8 @@ namespace ream::fe {
 
 /// What hung together by faces before all but the largest part was taken away.
 struct ComponentCount {
-  uint64_t components = 0;       ///< one more than islands
-  uint64_t removed_voxels = 0;   ///< of the islands
+  uint64_t components = 0;      ///< one more than islands
+  uint64_t removed_voxels = 0;  ///< of the islands
 };
 
 /// Keeps the largest 6-connected component of the model (of equal ones the first) and its gray codes. On two

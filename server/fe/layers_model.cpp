@@ -25,7 +25,8 @@ void fill_from_layers(ElementModel& model, const Vec3i& dims, const LayerReader&
           uint64_t* row = mask.row(v, static_cast<int>(w));
           for (int u = 0; u < dims.x(); ++u, ++code) row[u / 64] |= uint64_t{*code != no_element} << (u % 64);
         }
-        before[w] = set_bits(mask.row(0, static_cast<int>(w)), mask.words_per_row() * static_cast<size_t>(dims.y()));
+        before[w] =
+            set_bits(mask.row(0, static_cast<int>(w)), mask.words_per_row() * static_cast<size_t>(dims.y()));
       },
       part_of(progress, 0.0, 0.5), "finding bone");
   std::exclusive_scan(before.begin(), before.end(), before.begin(), uint64_t{0});

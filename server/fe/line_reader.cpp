@@ -28,7 +28,8 @@ bool pass_comma(const char*& at, const char* end) {
 }  // namespace
 
 LineReader::LineReader(const std::filesystem::path& path) : path_(path), text_(piece_bytes) {
-  if (!std::filesystem::is_regular_file(path)) throw Error(ErrorKind::not_found, "no such file: " + path.string());
+  if (!std::filesystem::is_regular_file(path))
+    throw Error(ErrorKind::not_found, "no such file: " + path.string());
   fd_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (fd_ < 0) throw Error(ErrorKind::io, "cannot read " + path.string() + ": " + std::strerror(errno));
   file_bytes_ = std::filesystem::file_size(path);
@@ -51,7 +52,8 @@ bool LineReader::fill() {
   if (filled_ == text_.size()) text_.resize(2 * text_.size());
   ssize_t n = 0;
   do {
-    n = ::pread(fd_, text_.data() + filled_, text_.size() - filled_, static_cast<off_t>(text_byte_ + filled_));
+    n = ::pread(fd_, text_.data() + filled_, text_.size() - filled_,
+                static_cast<off_t>(text_byte_ + filled_));
   } while (n < 0 && errno == EINTR);
   if (n < 0) throw Error(ErrorKind::io, "cannot read " + path_.string() + ": " + std::strerror(errno));
   filled_ += static_cast<size_t>(n);
@@ -62,7 +64,8 @@ bool LineReader::next(std::string_view& line) {
   size_t looked = 0;
   while (true) {
     const char* const begin = text_.data() + at_;
-    const void* stop = filled_ > at_ + looked ? std::memchr(begin + looked, '\n', filled_ - at_ - looked) : nullptr;
+    const void* stop =
+        filled_ > at_ + looked ? std::memchr(begin + looked, '\n', filled_ - at_ - looked) : nullptr;
     if (stop == nullptr) {
       looked = filled_ - at_;
       if (fill()) continue;
@@ -81,7 +84,8 @@ bool read_id(const char*& at, const char* end, uint64_t& id) {
   pass_blanks(at, end);
   const char* const first = at;
   id = 0;
-  while (at < end && *at >= '0' && *at <= '9' && at - first < 18) id = 10 * id + static_cast<uint64_t>(*at++ - '0');
+  while (at < end && *at >= '0' && *at <= '9' && at - first < 18)
+    id = 10 * id + static_cast<uint64_t>(*at++ - '0');
   return at != first && pass_comma(at, end);
 }
 

@@ -68,12 +68,11 @@ MeshReport make_mesh(ElementModel model, const MeshOptions& options, MemoryBudge
   if (!options.keep_islands)
     report.components_ms = timed_ms(
         [&] { report.components = keep_largest_component(model, budget, part_of(progress, 0.2, 0.3)); });
-  report.upsample_ms = timed_ms([&] {
-    model = refined(std::move(model), options.upsample, budget, part_of(progress, 0.3, 0.45));
-  });
+  report.upsample_ms = timed_ms(
+      [&] { model = refined(std::move(model), options.upsample, budget, part_of(progress, 0.3, 0.45)); });
   Materials materials;
-  report.materials_ms = timed_ms(
-      [&] { materials = make_materials(histogram_of(model.codes), model.gray, options.rule); });
+  report.materials_ms =
+      timed_ms([&] { materials = make_materials(histogram_of(model.codes), model.gray, options.rule); });
   std::optional<NodeNumbering> numbering;
   report.numbering_ms = timed_ms([&] { numbering.emplace(model.mask); });
   const NumberedMesh mesh{model, *numbering, materials, options.rule};

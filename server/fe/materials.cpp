@@ -16,15 +16,16 @@ constexpr size_t block = size_t{1} << 20;
 
 void check(const MaterialRule& rule) {
   if (!(rule.poisson > -1.0 && rule.poisson < 0.5))
-    throw Error(ErrorKind::usage, "Poisson's ratio " + real_text(rule.poisson) + " must lie between -1 and 0.5");
+    throw Error(ErrorKind::usage,
+                "Poisson's ratio " + real_text(rule.poisson) + " must lie between -1 and 0.5");
   if (rule.bin_width_mpa && !(*rule.bin_width_mpa > 0.0))
     throw Error(ErrorKind::usage, "the width of bins must be a positive number of MPa");
 }
 
 [[noreturn]] void refuse(double modulus_mpa, double gray, uint64_t elements, const ModulusLaw& law) {
   throw Error(ErrorKind::invalid_input,
-              "gray value " + real_text(gray) + " (" + std::to_string(elements) + " elements) would have E = " +
-                  real_text(modulus_mpa) + " MPa by the law " + law.words() +
+              "gray value " + real_text(gray) + " (" + std::to_string(elements) +
+                  " elements) would have E = " + real_text(modulus_mpa) + " MPa by the law " + law.words() +
                   "; E must be positive: give another --modulus, or a higher --threshold");
 }
 

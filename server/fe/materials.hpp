@@ -37,8 +37,8 @@ struct Materials {
 
 /// On two threads.
 CodeHistogram histogram_of(const ElementCodes& codes);
-/// Throws Error invalid_input when an element's modulus is not a positive number, naming its gray value; usage
-/// for a Poisson's ratio outside ]-1, 0.5[ or a bin width that is not positive.
+/// Throws Error invalid_input when an element's modulus is not a positive number, naming its gray value;
+/// usage for a Poisson's ratio outside ]-1, 0.5[ or a bin width that is not positive.
 Materials make_materials(const CodeHistogram& histogram, const voxel::GrayScale& gray,
                          const MaterialRule& rule);
 

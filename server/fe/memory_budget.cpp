@@ -11,7 +11,7 @@ constexpr uint64_t megabyte = 1'000'000;
 /// Of the program itself and of the buffers of two threads that format text.
 constexpr uint64_t always_bytes = 120 * megabyte;
 /// What is lent even when nothing is left: small meshes are made whatever the limit.
-constexpr uint64_t least_bytes = 16 * megabyte;
+constexpr uint64_t least_bytes = 4 * megabyte;
 
 }  // namespace
 

@@ -61,9 +61,11 @@ MeshFacts check_mesh_file(const std::filesystem::path& path, MeshFormat format, 
                                      real_text(found) + " instead of " + real_text(expected));
   };
   expect("nodes", static_cast<double>(facts.nodes), static_cast<double>(mesh.numbering.nodes()), 0.0);
-  expect("elements", static_cast<double>(facts.elements), static_cast<double>(mesh.numbering.elements()), 0.0);
+  expect("elements", static_cast<double>(facts.elements), static_cast<double>(mesh.numbering.elements()),
+         0.0);
   expect("elements that are no voxel", static_cast<double>(ticks.wrong()), 0.0, 0.0);
-  expect("materials", static_cast<double>(facts.materials), static_cast<double>(mesh.materials.list.size()), 0.0);
+  expect("materials", static_cast<double>(facts.materials), static_cast<double>(mesh.materials.list.size()),
+         0.0);
   const double volume = mesh.model.spacing_mm.prod() * static_cast<double>(mesh.numbering.elements());
   expect("volume", facts.volume_mm3, volume, volume_tolerance * volume);
   return facts;

@@ -36,16 +36,17 @@ NodeNumbering::NodeNumbering(const VoxelMask& mask)
     if (static_cast<int>(layer) == voxels_.layers) return;
     for (size_t i = layer * voxels_.per_layer(); i < (layer + 1) * voxels_.per_layer(); ++i) {
       const Slab slab = voxels_.at(i);
-      elements_before_[i] =
-          set_bits(mask.row(slab.first_row, slab.w), words * static_cast<size_t>(slab.end_row - slab.first_row));
+      elements_before_[i] = set_bits(mask.row(slab.first_row, slab.w),
+                                     words * static_cast<size_t>(slab.end_row - slab.first_row));
     }
   });
   sum_up(elements_before_);
   sum_up(nodes_before_);
   if (nodes() > greatest_id)
-    throw Error(ErrorKind::invalid_input, "the mesh would have " + std::to_string(nodes()) +
-                                              " nodes, and solvers take ids up to 999,999,999; give a smaller "
-                                              "region or less upsampling");
+    throw Error(ErrorKind::invalid_input,
+                "the mesh would have " + std::to_string(nodes()) +
+                    " nodes, and solvers take ids up to 999,999,999; give a smaller "
+                    "region or less upsampling");
 }
 
 void NodeNumbering::corner_row(int v, int w, uint64_t* words) const {

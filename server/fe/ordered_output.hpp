@@ -16,8 +16,8 @@ class OrderedOutput {
 
   struct Pieces {
     size_t count = 0;
-    std::function<size_t(size_t i)> most_bytes;        ///< of piece i
-    std::function<char*(size_t i, char* at)> make;     ///< writes it from `at` on, returns its end
+    std::function<size_t(size_t i)> most_bytes;     ///< of piece i
+    std::function<char*(size_t i, char* at)> make;  ///< writes it from `at` on, returns its end
   };
   /// Errors: io; what the functions and the progress throw.
   void append(const Pieces& pieces, const Progress& progress, std::string_view step);

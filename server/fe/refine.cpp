@@ -92,7 +92,8 @@ class Splitter {
   void split(int w) {
     const OpenLayer below(coarse_, before_, w - 1), own(coarse_, before_, w), above(coarse_, before_, w + 1);
     const Around around{{&below, &own, &above}};
-    const uint64_t first = before_[static_cast<size_t>(w)], count = before_[static_cast<size_t>(w) + 1] - first;
+    const uint64_t first = before_[static_cast<size_t>(w)],
+                   count = before_[static_cast<size_t>(w) + 1] - first;
     const auto n = static_cast<uint64_t>(factor_);
     std::vector<uint16_t> codes;
     codes.reserve(count * n * n);
@@ -114,7 +115,8 @@ class Splitter {
       for (int u = begin; u < end; ++u)
         for (int i = 0; i < factor_; ++i)
           codes.push_back(interpolated(around, u, v, leans_[static_cast<size_t>(i)],
-                                       leans_[static_cast<size_t>(j)], leans_[static_cast<size_t>(k)], whole));
+                                       leans_[static_cast<size_t>(j)], leans_[static_cast<size_t>(k)],
+                                       whole));
     });
   }
 
@@ -129,7 +131,8 @@ class Splitter {
 
 ElementModel refined(ElementModel model, int factor, MemoryBudget& budget, const Progress& progress) {
   if (factor < 1 || factor > voxel::max_upsample_factor)
-    throw Error(ErrorKind::invalid_input, "upsampling factor " + std::to_string(factor) + " must be from 1 to " +
+    throw Error(ErrorKind::invalid_input, "upsampling factor " + std::to_string(factor) +
+                                              " must be from 1 to " +
                                               std::to_string(voxel::max_upsample_factor));
   if (factor == 1) return model;
   ElementModel fine;
@@ -146,8 +149,9 @@ ElementModel refined(ElementModel model, int factor, MemoryBudget& budget, const
   const auto n = static_cast<uint64_t>(factor);
   fine.codes = ElementCodes(model.codes.size() * n * n * n, budget);
   Splitter splitter(model, fine, factor);
-  on_two_threads(static_cast<size_t>(model.mask.dims().z()),
-                 [&](size_t w) { splitter.split(static_cast<int>(w)); }, progress, "upsampling");
+  on_two_threads(
+      static_cast<size_t>(model.mask.dims().z()), [&](size_t w) { splitter.split(static_cast<int>(w)); },
+      progress, "upsampling");
   budget.give_back(model.mask.bytes() + model.codes.bytes());
   return fine;
 }

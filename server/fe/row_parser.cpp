@@ -67,7 +67,8 @@ std::optional<std::string> RowParser::row(const char* at, uint64_t byte, RowReco
     while (separates(*at)) ++at;
     const auto place = places[k].read(at, byte);
     if (!place && places[k].full())
-      return std::string("more than 65,535 different ") + "xyz"[k] + " so far; the rows are on no regular grid";
+      return std::string("more than 65,535 different ") + "xyz"[k] +
+             " so far; the rows are on no regular grid";
     if (!place) return no_row;
     record.place[k] = *place;
   }

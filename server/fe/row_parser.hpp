@@ -29,8 +29,8 @@ class RowParser {
 
   /// Appends the rows of all lines that begin before `end`, each ended by a line break that follows with 64
   /// readable bytes; `byte` is where `begin` lies in the file. Stops at the first fault.
-  std::optional<RowFault> parse(const char* begin, const char* end, uint64_t byte, std::vector<RowRecord>& rows,
-                                std::vector<uint64_t>* bytes_of_rows = nullptr);
+  std::optional<RowFault> parse(const char* begin, const char* end, uint64_t byte,
+                                std::vector<RowRecord>& rows, std::vector<uint64_t>* bytes_of_rows = nullptr);
 
   std::array<RowPlaces, 3> places;
   voxel::GrayScaleFinder gray;

@@ -109,7 +109,8 @@ std::optional<uint16_t> RowPlaces::look_up(const char* at, size_t length, uint64
   }
   Text text;
   const auto parsed = std::from_chars(at, at + length, text.place.at);
-  if (parsed.ec != std::errc() || parsed.ptr != at + length || !std::isfinite(text.place.at) || full()) return {};
+  if (parsed.ec != std::errc() || parsed.ptr != at + length || !std::isfinite(text.place.at) || full())
+    return {};
   std::memcpy(text.text, at, length);
   text.length = static_cast<uint8_t>(length);
   text.place.first_byte = line_byte;

@@ -21,8 +21,8 @@ class RowPlaces {
 
   RowPlaces();
 
-  /// The number of the text at `at`, which must be followed by 32 bytes that may be read; advances `at` behind
-  /// it. Empty when it is no finite number or there are too many different ones (then full()).
+  /// The number of the text at `at`, which must be followed by 32 bytes that may be read; advances `at`
+  /// behind it. Empty when it is no finite number or there are too many different ones (then full()).
   std::optional<uint16_t> read(const char*& at, uint64_t line_byte);
   bool full() const { return places_.size() >= most; }
 
@@ -38,7 +38,9 @@ class RowPlaces {
   bool is(const Text& text, const char* at) const {
     return std::memcmp(at, text.text, text.length) == 0 && ends_number(at[text.length]);
   }
-  static bool ends_number(char c) { return c == ' ' || c == '\t' || c == ',' || c == ';' || c == '\r' || c == '\n'; }
+  static bool ends_number(char c) {
+    return c == ' ' || c == '\t' || c == ',' || c == ';' || c == '\r' || c == '\n';
+  }
   std::optional<uint16_t> look_up(const char* at, size_t length, uint64_t line_byte);
 
   std::vector<Text> places_;

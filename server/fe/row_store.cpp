@@ -77,8 +77,9 @@ void RowStore::read_block(size_t block, std::vector<char>& text, const char*& be
     const ssize_t n = ::pread(fd_, text.data() + done, to - from - done, static_cast<off_t>(from + done));
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0)
-      throw Error(ErrorKind::io, "cannot read " + path_.string() +
-                                     (n < 0 ? std::string(": ") + std::strerror(errno) : ", it was cut short"));
+      throw Error(ErrorKind::io,
+                  "cannot read " + path_.string() +
+                      (n < 0 ? std::string(": ") + std::strerror(errno) : ", it was cut short"));
     done += static_cast<uint64_t>(n);
   }
   const char* const all = text.data() + (to - from);
@@ -94,7 +95,8 @@ void RowStore::read_block(size_t block, std::vector<char>& text, const char*& be
   // The line that begins last must end in what was read.
   if (std::memchr(end, '\n', static_cast<size_t>(all - end)) == nullptr)
     throw Error(ErrorKind::invalid_input,
-                path_.string() + " line " + std::to_string(line_of_byte(from + static_cast<uint64_t>(end - text.data()))) +
+                path_.string() + " line " +
+                    std::to_string(line_of_byte(from + static_cast<uint64_t>(end - text.data()))) +
                     ": is too long for 'x y z gray'");
 }
 
@@ -125,7 +127,8 @@ uint64_t RowStore::line_of_byte(uint64_t byte) const {
   uint64_t line = 1;
   std::vector<char> text(block_bytes);
   for (uint64_t at = 0; at < byte;) {
-    const ssize_t n = ::pread(fd_, text.data(), std::min<uint64_t>(text.size(), byte - at), static_cast<off_t>(at));
+    const ssize_t n =
+        ::pread(fd_, text.data(), std::min<uint64_t>(text.size(), byte - at), static_cast<off_t>(at));
     if (n <= 0) break;
     line += static_cast<uint64_t>(std::count(text.begin(), text.begin() + n, '\n'));
     at += static_cast<uint64_t>(n);

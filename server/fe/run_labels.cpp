@@ -63,9 +63,11 @@ LayerRuns label_layer(const VoxelMask& mask, int w, const LayerRuns* below, Labe
   for (int v = 0; v < rows; ++v) {
     const size_t first = layer.runs.size();
     layer.row_begin.push_back(first);
-    for_each_run(mask.row(v, w), mask.words_per_row(),
-                 [&](int begin, int end) { layer.runs.push_back({begin, end, no_label}); });
-    LabelledRun *const run = layer.runs.data() + first, *const run_end = layer.runs.data() + layer.runs.size();
+    for_each_run(mask.row(v, w), mask.words_per_row(), [&](int begin, int end) {
+      layer.runs.push_back({begin, end, no_label});
+    });
+    LabelledRun *const run = layer.runs.data() + first, *const run_end =
+                                                            layer.runs.data() + layer.runs.size();
     const auto touch = [&](LabelledRun& here, const LabelledRun& there) {
       if (here.label == no_label)
         here.label = there.label;

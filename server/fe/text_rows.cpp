@@ -25,19 +25,22 @@ Axes axes_of(const RowStore& store, const std::string& file) {
     std::optional<RowPlace> off;
     axes[k] = axis_of(std::move(places), off);
     if (off)
-      throw Error(ErrorKind::invalid_input, file + " line " + std::to_string(store.line_of_byte(off->first_byte)) +
-                                                ": its " + "xyz"[k] + " lies on no regular grid with the others");
+      throw Error(ErrorKind::invalid_input,
+                  file + " line " + std::to_string(store.line_of_byte(off->first_byte)) + ": its " +
+                      "xyz"[k] + " lies on no regular grid with the others");
   }
   return axes;
 }
 
 /// Places the grid of the model; `spacing_mm` from a comment.
-void set_grid(ElementModel& model, Axes& axes, const std::optional<Vec3>& spacing_mm, const std::string& file) {
+void set_grid(ElementModel& model, Axes& axes, const std::optional<Vec3>& spacing_mm,
+              const std::string& file) {
   double step = 0.0;
   bool whole = true;
   for (const RowAxis& axis : axes) {
     if (axis.count > 1) step = step > 0.0 ? std::min(step, axis.step) : axis.step;
-    whole = whole && (axis.count == 1 || axis.step == 1.0) && axis.first == std::floor(axis.first) && axis.first >= 0.0;
+    whole = whole && (axis.count == 1 || axis.step == 1.0) && axis.first == std::floor(axis.first) &&
+            axis.first >= 0.0;
   }
   for (int k = 0; k < 3; ++k) {
     RowAxis& axis = axes[static_cast<size_t>(k)];
@@ -50,14 +53,16 @@ void set_grid(ElementModel& model, Axes& axes, const std::optional<Vec3>& spacin
     if (axis.count == 1 && !(axis.step > 0.0)) axis.step = step;
     if (!(axis.step > 0.0))
       throw Error(ErrorKind::invalid_input,
-                  file + " holds a single voxel, which says nothing of its size; put a line "
-                         "'# spacing_mm X Y Z' before it");
+                  file +
+                      " holds a single voxel, which says nothing of its size; put a line "
+                      "'# spacing_mm X Y Z' before it");
     model.spacing_mm[k] = axis.step;
     model.origin_mm[k] = axis.first - 0.5 * axis.step;
   }
   if (whole && !spacing_mm && step == 1.0)
     model.remarks.push_back(
-        "the rows give whole numbers, which were taken as mm: voxels of 1 mm; if they are voxel indices, put a "
+        "the rows give whole numbers, which were taken as mm: voxels of 1 mm; if they are voxel indices, put "
+        "a "
         "line '# spacing_mm X Y Z' before the rows");
 }
 
@@ -109,7 +114,8 @@ class Placing {
     for (size_t block = 0; block < store_.blocks(); ++block)
       each(block, [&](int u, int v, int w, float, size_t row) {
         if (seen.at(u, v, w))
-          throw Error(ErrorKind::invalid_input, file + " line " + std::to_string(store_.line_of_row(block, row)) +
+          throw Error(ErrorKind::invalid_input, file + " line " +
+                                                    std::to_string(store_.line_of_row(block, row)) +
                                                     ": gives a voxel that an earlier line gave already");
         seen.set(u, v, w);
       });
@@ -142,9 +148,11 @@ void place_codes(const RowStore& store, const Placing& placing, const VoxelMask&
 /// All at once, or as many layers at a time as there is room for.
 void place_all(const RowStore& store, const Placing& placing, ElementModel& model, MemoryBudget& budget) {
   const VoxelMask& mask = model.mask;
-  std::vector<uint64_t> before_row(static_cast<size_t>(mask.dims().y()) * static_cast<size_t>(mask.dims().z()) + 1);
+  std::vector<uint64_t> before_row(
+      static_cast<size_t>(mask.dims().y()) * static_cast<size_t>(mask.dims().z()) + 1);
   for (size_t i = 0; i + 1 < before_row.size(); ++i)
-    before_row[i + 1] = before_row[i] + set_bits(mask.row(0, 0) + i * mask.words_per_row(), mask.words_per_row());
+    before_row[i + 1] =
+        before_row[i] + set_bits(mask.row(0, 0) + i * mask.words_per_row(), mask.words_per_row());
   model.codes = ElementCodes(store.size(), budget);
   if (model.codes.in_memory()) {
     place_codes(store, placing, mask, before_row, model.gray, 0, mask.dims().z(), model.codes.all());
@@ -167,7 +175,8 @@ void place_all(const RowStore& store, const Placing& placing, ElementModel& mode
 
 }  // namespace
 
-ElementModel read_text_rows(const std::filesystem::path& path, MemoryBudget& budget, const Progress& progress) {
+ElementModel read_text_rows(const std::filesystem::path& path, MemoryBudget& budget,
+                            const Progress& progress) {
   const std::string file = path.string();
   const RowStore store(path, budget, progress);
   if (store.size() == 0) throw Error(ErrorKind::invalid_input, file + " holds no rows 'x y z gray'");

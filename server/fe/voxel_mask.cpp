@@ -23,9 +23,7 @@ size_t VoxelMask::bytes_of(const Vec3i& dims) {
          static_cast<size_t>(dims.z()) * sizeof(uint64_t);
 }
 
-Slabs voxel_slabs(const VoxelMask& mask) {
-  return {mask.dims().y(), mask.dims().z(), rows_per_slab(mask)};
-}
+Slabs voxel_slabs(const VoxelMask& mask) { return {mask.dims().y(), mask.dims().z(), rows_per_slab(mask)}; }
 
 Slabs corner_slabs(const VoxelMask& mask) {
   return {mask.dims().y() + 1, mask.dims().z() + 1, rows_per_slab(mask)};

@@ -34,7 +34,8 @@ class ReadFile {
   size_t read_some(uint64_t at, void* to, size_t bytes) const {
     size_t done = 0;
     while (done < bytes) {
-      const ssize_t n = ::pread(fd_, static_cast<char*>(to) + done, bytes - done, static_cast<off_t>(at + done));
+      const ssize_t n =
+          ::pread(fd_, static_cast<char*>(to) + done, bytes - done, static_cast<off_t>(at + done));
       if (n < 0 && errno == EINTR) continue;
       if (n < 0) throw Error(ErrorKind::io, "cannot read " + name_ + ": " + std::strerror(errno));
       if (n == 0) break;
@@ -142,18 +143,21 @@ class VtuCheck {
       for (uint64_t i = 0; i < count; ++i) {
         const std::string cell = "cell " + std::to_string(first + i);
         if (kind[i] != 12) file_.refuse(cell + " is no hexahedron");
-        if (static_cast<uint64_t>(end_of[i]) != 8 * (first + i + 1)) file_.refuse(cell + " has a wrong offset");
+        if (static_cast<uint64_t>(end_of[i]) != 8 * (first + i + 1))
+          file_.refuse(cell + " has a wrong offset");
         check_ids(std::span<const Index>(ids).subspan(8 * i, 8), cell, used);
       }
       add_shapes<Index>(ids, first);
     }
-    if (used.size() != nodes_) file_.refuse(std::to_string(nodes_ - used.size()) + " points belong to no cell");
+    if (used.size() != nodes_)
+      file_.refuse(std::to_string(nodes_ - used.size()) + " points belong to no cell");
   }
 
   template <typename Index>
   void check_ids(std::span<const Index> ids, const std::string& cell, IdSet& used) const {
     for (size_t k = 0; k < ids.size(); ++k) {
-      if (ids[k] < 0 || static_cast<uint64_t>(ids[k]) >= nodes_) file_.refuse(cell + " names point " + std::to_string(ids[k]));
+      if (ids[k] < 0 || static_cast<uint64_t>(ids[k]) >= nodes_)
+        file_.refuse(cell + " names point " + std::to_string(ids[k]));
       if (std::find(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(k), ids[k]) !=
           ids.begin() + static_cast<std::ptrdiff_t>(k))
         file_.refuse(cell + " names point " + std::to_string(ids[k]) + " twice");
@@ -182,7 +186,8 @@ class VtuCheck {
   }
 
   void check_values() {
-    const Array grays = array("gray", "Float32", elements_ * 4), moduli = array("modulus_MPa", "Float32", elements_ * 4),
+    const Array grays = array("gray", "Float32", elements_ * 4),
+                moduli = array("modulus_MPa", "Float32", elements_ * 4),
                 numbers = array("material", "Int32", elements_ * 4);
     std::vector<float> gray, modulus;
     std::vector<int32_t> material;

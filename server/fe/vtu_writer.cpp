@@ -55,8 +55,8 @@ std::string head_of(const NumberedMesh& mesh, const std::array<Block, array_coun
          "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
          std::to_string(mesh.numbering.nodes()) + "\" NumberOfCells=\"" +
          std::to_string(mesh.numbering.elements()) + "\">\n<Points>\n" + array(points) +
-         "</Points>\n<Cells>\n" + array(connectivity) + array(offsets) + array(types) + "</Cells>\n<CellData>\n" +
-         array(gray) + array(modulus) + array(material) +
+         "</Points>\n<Cells>\n" + array(connectivity) + array(offsets) + array(types) +
+         "</Cells>\n<CellData>\n" + array(gray) + array(modulus) + array(material) +
          "</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
 }
 
@@ -101,18 +101,21 @@ void write_cells(const NumberedMesh& mesh, const ArrayWriter& corners, const Arr
     if (count == 0) return;
     std::vector<Index> ids;
     ids.reserve(count * corners_of_element);
-    for_each_element_run<CornerRow>(mesh.numbering, slab, [&](int, int begin, int end, const CornerRow* rows) {
-      Index node[4];  // points count from 0
-      for (int k = 0; k < 4; ++k) node[k] = static_cast<Index>(rows[k].first_id() + rows[k].rank(begin) - 1);
-      for (int u = begin; u < end; ++u) {
-        ids.insert(ids.end(), {node[0], node[0] + 1, node[1] + 1, node[1], node[2], node[2] + 1, node[3] + 1,
-                               node[3]});
-        for (Index& n : node) ++n;
-      }
-    });
+    for_each_element_run<CornerRow>(
+        mesh.numbering, slab, [&](int, int begin, int end, const CornerRow* rows) {
+          Index node[4];  // points count from 0
+          for (int k = 0; k < 4; ++k)
+            node[k] = static_cast<Index>(rows[k].first_id() + rows[k].rank(begin) - 1);
+          for (int u = begin; u < end; ++u) {
+            ids.insert(ids.end(), {node[0], node[0] + 1, node[1] + 1, node[1], node[2], node[2] + 1,
+                                   node[3] + 1, node[3]});
+            for (Index& n : node) ++n;
+          }
+        });
     corners.write(before * corners_of_element, ids);
     std::vector<Index> end_of(count);
-    for (uint64_t i = 0; i < count; ++i) end_of[i] = static_cast<Index>((before + i + 1) * corners_of_element);
+    for (uint64_t i = 0; i < count; ++i)
+      end_of[i] = static_cast<Index>((before + i + 1) * corners_of_element);
     ends.write(before, end_of);
     kinds.write(before, std::vector<uint8_t>(count, vtk_hexahedron));
   };

@@ -47,7 +47,8 @@ fe::ModulusLaw law_for(const Options& options, fe::ElementModel& model) {
   if (!options.law.empty()) {
     const fe::NamedLaw& named = fe::law_of_name(options.law);
     if (named.of_density && !model.gray_is_density_g_cc)
-      model.remarks.push_back("law " + named.law.name + " is of apparent density in g/cc; gray values were taken as such");
+      model.remarks.push_back("law " + named.law.name +
+                              " is of apparent density in g/cc; gray values were taken as such");
     return named.law;
   }
   if (model.gray_is_density_g_cc) return fe::default_density_law().law;
@@ -76,7 +77,8 @@ double peak_memory_mb() {
   return static_cast<double>(usage.ru_maxrss) * 1024.0 / 1e6;
 }
 
-nlohmann::json json_of(const fe::MeshReport& r, const fe::ElementModel& about, double read_ms, double time_ms) {
+nlohmann::json json_of(const fe::MeshReport& r, const fe::ElementModel& about, double read_ms,
+                       double time_ms) {
   return {{"elements", r.elements},
           {"nodes", r.nodes},
           {"time_ms", time_ms},
@@ -107,13 +109,14 @@ nlohmann::json json_of(const fe::MeshReport& r, const fe::ElementModel& about, d
 void print(const fe::MeshReport& r, const Options& options, double time_ms) {
   std::cout << r.elements << " elements, " << r.nodes << " nodes, " << r.materials.size() << " materials, "
             << r.volume_mm3 << " mm3 (" << 100.0 * r.volume_mm3 / r.box_volume_mm3 << " % of their box)\n"
-            << "E " << r.materials.front().modulus_mpa << " to " << r.materials.back().modulus_mpa << " MPa, mean "
-            << r.modulus_mean_mpa << " MPa\n";
+            << "E " << r.materials.front().modulus_mpa << " to " << r.materials.back().modulus_mpa
+            << " MPa, mean " << r.modulus_mean_mpa << " MPa\n";
   if (r.components.removed_voxels > 0)
     std::cout << r.components.components - 1 << " islands of " << r.components.removed_voxels
               << " voxels were removed\n";
-  std::cout << options.out.string() << ": " << static_cast<double>(r.bytes) / 1e6 << " MB in " << time_ms / 1e3
-            << " s, at most " << peak_memory_mb() << " MB of memory" << (options.check ? ", checked" : "") << '\n';
+  std::cout << options.out.string() << ": " << static_cast<double>(r.bytes) / 1e6 << " MB in "
+            << time_ms / 1e3 << " s, at most " << peak_memory_mb() << " MB of memory"
+            << (options.check ? ", checked" : "") << '\n';
 }
 
 /// Reads a mesh that is there already.
@@ -130,8 +133,8 @@ void check_file(const Options& options, const fe::MemoryBudget& budget, const Gl
                      .dump()
               << '\n';
   else
-    std::cout << options.input << " is sound: " << facts.elements << " elements, " << facts.nodes << " nodes, "
-              << facts.materials << " materials, " << facts.volume_mm3 << " mm3\n";
+    std::cout << options.input << " is sound: " << facts.elements << " elements, " << facts.nodes
+              << " nodes, " << facts.materials << " materials, " << facts.volume_mm3 << " mm3\n";
 }
 
 void femesh(const Options& options, const GlobalOptions& global) {
@@ -175,21 +178,25 @@ std::string names_of_laws() {
 
 void add_femesh_command(CLI::App& app, GlobalOptions& global) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("femesh", "Turn voxels into a mesh of hexahedra for finite elements");
+  CLI::App* command =
+      app.add_subcommand("femesh", "Turn voxels into a mesh of hexahedra for finite elements");
   command
-      ->add_option("INPUT", options->input,
-                   "Volume (DICOM folder, .nrrd, .nii, .mha, zip), text rows x y z gray, case, or session: the "
-                   "bone that it left; with --check alone a mesh file")
+      ->add_option(
+          "INPUT", options->input,
+          "Volume (DICOM folder, .nrrd, .nii, .mha, zip), text rows x y z gray, case, or session: the "
+          "bone that it left; with --check alone a mesh file")
       ->required();
   command->add_option("--out", options->out, "FILE.inp for Abaqus and CalculiX, or FILE.vtu for VTK");
   command->add_option("--upsample", options->upsample, "Parts of a voxel per axis")
       ->check(CLI::Range(1, 16))
       ->capture_default_str();
-  command->add_option("--modulus", options->modulus, "A,B: E = A + B g; A,B,C: E = A + B g^C, MPa, of gray value g");
+  command->add_option("--modulus", options->modulus,
+                      "A,B: E = A + B g; A,B,C: E = A + B g^C, MPa, of gray value g");
   command->add_option("--law", options->law, "A law by its name: " + names_of_laws());
   command->add_option("--poisson", options->poisson, "Poisson's ratio")->capture_default_str();
   command->add_option("--bins", options->bin_width_mpa, "Put moduli into bins of this width, MPa");
-  command->add_option("--bin-value", options->bin_value, "What stands for a bin: its centre, or the mean in it")
+  command
+      ->add_option("--bin-value", options->bin_value, "What stands for a bin: its centre, or the mean in it")
       ->check(CLI::IsMember({"centre", "mean"}))
       ->capture_default_str();
   command->add_option("--threshold", options->threshold,
@@ -198,16 +205,19 @@ void add_femesh_command(CLI::App& app, GlobalOptions& global) {
   command->add_flag("--keep-islands", options->keep_islands,
                     "Keep what does not hang together with the largest part");
   command->add_flag("--node-sets", options->node_sets, "Node sets XMIN to ZMAX on the six faces");
-  command->add_option("--compress", options->axis, "Node sets and a ready step of compression along x, y or z")
+  command
+      ->add_option("--compress", options->axis, "Node sets and a ready step of compression along x, y or z")
       ->check(CLI::IsMember({"x", "y", "z"}));
   command->add_option("--strain-percent", options->strain_percent, "Of that step")->capture_default_str();
   command->add_option("--platens", options->platens, "Of that step: sliding or fixed")
       ->check(CLI::IsMember({"sliding", "fixed"}))
       ->capture_default_str();
-  command->add_option("--memory-mb", options->memory_mb, "Stay below this; what does not fit goes to the disk")
+  command
+      ->add_option("--memory-mb", options->memory_mb, "Stay below this; what does not fit goes to the disk")
       ->check(CLI::Range(64, 1 << 20));
   command->add_flag("--check", options->check, "Read the file again and hold it against the voxels");
-  command->add_option("--case", options->case_name, "Case folder of a session, where it is not in the data folder");
+  command->add_option("--case", options->case_name,
+                      "Case folder of a session, where it is not in the data folder");
   command->callback([options, &global] { femesh(*options, global); });
 }
 

@@ -11,7 +11,8 @@ namespace {
 
 using Node = std::array<float, 3>;
 
-constexpr int corners[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+constexpr int corners[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                               {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
 
 struct NodeHash {
   size_t operator()(const Node& n) const {
@@ -38,15 +39,17 @@ Grid make_grid(std::span<const VoxelRow> rows, const Vec3i& dims, const Vec3& sp
   Grid grid{Vec3::Constant(1e30), spacing_mm, dims, {}};
   for (const VoxelRow& row : rows)
     for (int k = 0; k < 3; ++k)
-      grid.first_mm[k] = std::min(grid.first_mm[k], static_cast<double>(row.centre_mm[static_cast<size_t>(k)]));
-  grid.density.resize(static_cast<size_t>(dims.x()) * static_cast<size_t>(dims.y()) * static_cast<size_t>(dims.z()));
+      grid.first_mm[k] =
+          std::min(grid.first_mm[k], static_cast<double>(row.centre_mm[static_cast<size_t>(k)]));
+  grid.density.resize(static_cast<size_t>(dims.x()) * static_cast<size_t>(dims.y()) *
+                      static_cast<size_t>(dims.z()));
   for (const VoxelRow& row : rows) {
     size_t index[3];
     for (size_t k = 0; k < 3; ++k)
       index[k] = static_cast<size_t>(std::lround((row.centre_mm[k] - grid.first_mm[static_cast<int>(k)]) /
                                                  spacing_mm[static_cast<int>(k)]));
-    grid.density[index[0] + static_cast<size_t>(dims.x()) * (index[1] + static_cast<size_t>(dims.y()) * index[2])] =
-        row.gray;
+    grid.density[index[0] + static_cast<size_t>(dims.x()) *
+                                (index[1] + static_cast<size_t>(dims.y()) * index[2])] = row.gray;
   }
   return grid;
 }
@@ -64,7 +67,8 @@ std::vector<Node> make_hexahedra(const Grid& grid, std::vector<float>& gray) {
         for (const auto& corner : corners) {
           Node node;
           for (int k = 0; k < 3; ++k)
-            node[static_cast<size_t>(k)] = static_cast<float>(grid.first_mm[k] + (at[k] + corner[k] - 0.5) * grid.spacing_mm[k]);
+            node[static_cast<size_t>(k)] =
+                static_cast<float>(grid.first_mm[k] + (at[k] + corner[k] - 0.5) * grid.spacing_mm[k]);
           nodes.push_back(node);
         }
       }
@@ -82,7 +86,8 @@ std::vector<Node> nodes_of(std::span<const VoxelRow> rows, const Vec3& spacing_m
       for (size_t k = 0; k < 3; ++k) {
         const double half = spacing_mm[static_cast<int>(k)] * 0.5;
         // On the lattice of half voxels, so that equal corners are equal numbers.
-        node[k] = static_cast<float>(std::nearbyint((row.centre_mm[k] + (2 * corner[k] - 1) * half) / half) * half);
+        node[k] =
+            static_cast<float>(std::nearbyint((row.centre_mm[k] + (2 * corner[k] - 1) * half) / half) * half);
       }
       nodes.push_back(node);
     }
@@ -119,8 +124,8 @@ Indexed index_by_hash_map(const std::vector<Node>& nodes, std::vector<uint32_t>&
   return result;
 }
 
-ThesisMesh thesis_mesh(std::span<const VoxelRow> rows, const Vec3i& dims, const Vec3& spacing_mm, double slope,
-                       double bin_width) {
+ThesisMesh thesis_mesh(std::span<const VoxelRow> rows, const Vec3i& dims, const Vec3& spacing_mm,
+                       double slope, double bin_width) {
   ThesisMesh mesh;
   Grid grid;
   mesh.grid_ms = timed_ms([&] { grid = make_grid(rows, dims, spacing_mm); });

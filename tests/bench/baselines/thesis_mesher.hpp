@@ -16,17 +16,18 @@ struct VoxelRow {
 
 /// Milliseconds of the thesis' phases (table 2.3), and what came of them.
 struct ThesisMesh {
-  double grid_ms = 0.0, hexahedra_ms = 0.0, indexing_ms = 0.0, material_ms = 0.0, binning_ms = 0.0, sets_ms = 0.0;
+  double grid_ms = 0.0, hexahedra_ms = 0.0, indexing_ms = 0.0, material_ms = 0.0, binning_ms = 0.0,
+         sets_ms = 0.0;
   uint64_t elements = 0, nodes = 0, materials = 0;
 
   double sum_ms() const { return grid_ms + hexahedra_ms + indexing_ms + material_ms + binning_ms + sets_ms; }
 };
 
 /// The pipeline of thesis sections 2.2 to 2.4: a density array, eight nodes an element, duplicates removed
-/// by a hash map, moduli E = slope * gray in bins of `bin_width` (0: none), elements of a material gathered by
-/// a second hash map. One thread, as published.
-ThesisMesh thesis_mesh(std::span<const VoxelRow> rows, const Vec3i& dims, const Vec3& spacing_mm, double slope,
-                       double bin_width);
+/// by a hash map, moduli E = slope * gray in bins of `bin_width` (0: none), elements of a material gathered
+/// by a second hash map. One thread, as published.
+ThesisMesh thesis_mesh(std::span<const VoxelRow> rows, const Vec3i& dims, const Vec3& spacing_mm,
+                       double slope, double bin_width);
 
 /// Unique nodes of the 8 n nodes of elements, as table 2.1 finds them; milliseconds.
 struct Indexed {

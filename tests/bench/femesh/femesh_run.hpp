@@ -18,8 +18,8 @@ class BenchFolder {
   std::filesystem::path path_;
 };
 
-/// `ream femesh` with these words and --json, a process of its own: what it printed. Error unavailable when it
-/// fails.
+/// `ream femesh` with these words and --json, a process of its own: what it printed. Error unavailable when
+/// it fails.
 nlohmann::json run_femesh(const std::string& words);
 
 /// Writes so many bytes into a new file and waits for the disk: seconds.

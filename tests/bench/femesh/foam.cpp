@@ -11,8 +11,8 @@
 namespace ream::bench {
 namespace {
 
-constexpr double wall_voxels = 3.0;      // thick enough to hang together by faces
-constexpr double gyroid_area = 3.1;      // of one wave's cube, in waves squared
+constexpr double wall_voxels = 3.0;  // thick enough to hang together by faces
+constexpr double gyroid_area = 3.1;  // of one wave's cube, in waves squared
 constexpr int histogram_bins = 1 << 16;
 constexpr float field_limit = 1.6f;  // the gyroid's function stays below 1.5
 
@@ -25,14 +25,38 @@ char* coordinate(double mm, char* at) {
 }  // namespace
 
 const std::vector<ThesisModel>& thesis_models() {
-  static const std::vector<ThesisModel> models{
-      {"scapula", {0.472, 0.472, 1.0}, {311, 284, 169}, 558e3, 548.79, 213, {17.36, 69.36, 343.33, 9.34, 0, 109.24}, false},
-      {"cancellous core", {0.032, 0.032, 0.032}, {281, 372, 353}, 1.7e6, 1979.0, 359,
-       {25.06, 196.09, 1354.80, 15.74, 0, 387.31}, false},
-      {"cellular foam", {0.032, 0.032, 0.032}, {422, 629, 652}, 12.4e6, 17945.14, 3650,
-       {189.14, 1383.37, 12888.20, 147.41, 35.41, 3301.62}, true},
-      {"glenoid", {0.064, 0.064, 0.064}, {1021, 548, 742}, 36.2e6, 55163.56, 10830,
-       {641.88, 4631.19, 37013.26, 500.39, 97.42, 12279.43}, true}};
+  static const std::vector<ThesisModel> models{{"scapula",
+                                                {0.472, 0.472, 1.0},
+                                                {311, 284, 169},
+                                                558e3,
+                                                548.79,
+                                                213,
+                                                {17.36, 69.36, 343.33, 9.34, 0, 109.24},
+                                                false},
+                                               {"cancellous core",
+                                                {0.032, 0.032, 0.032},
+                                                {281, 372, 353},
+                                                1.7e6,
+                                                1979.0,
+                                                359,
+                                                {25.06, 196.09, 1354.80, 15.74, 0, 387.31},
+                                                false},
+                                               {"cellular foam",
+                                                {0.032, 0.032, 0.032},
+                                                {422, 629, 652},
+                                                12.4e6,
+                                                17945.14,
+                                                3650,
+                                                {189.14, 1383.37, 12888.20, 147.41, 35.41, 3301.62},
+                                                true},
+                                               {"glenoid",
+                                                {0.064, 0.064, 0.064},
+                                                {1021, 548, 742},
+                                                36.2e6,
+                                                55163.56,
+                                                10830,
+                                                {641.88, 4631.19, 37013.26, 500.39, 97.42, 12279.43},
+                                                true}};
   return models;
 }
 

@@ -25,7 +25,8 @@ uint64_t make_explicit(const fe::ElementModel& model, const fe::NodeNumbering& n
   fe::on_two_threads(numbering.corners().count(), [&](size_t slab) {
     size_t at = numbering.nodes_before(slab);
     fe::for_each_corner_row(numbering, slab, [&](int v, int w, const fe::CornerRow& row) {
-      const auto y = static_cast<float>(v * model.spacing_mm.y()), z = static_cast<float>(w * model.spacing_mm.z());
+      const auto y = static_cast<float>(v * model.spacing_mm.y()),
+                 z = static_cast<float>(w * model.spacing_mm.z());
       fe::for_each_run(row.words().data(), row.words().size(), [&](int begin, int end) {
         for (int u = begin; u < end; ++u) nodes[at++] = {static_cast<float>(u * model.spacing_mm.x()), y, z};
       });
@@ -63,7 +64,8 @@ fe::ElementModel model_of(const Foam& foam, const std::vector<uint16_t>& gray, d
 
 std::vector<uint16_t> dense_gray(const Foam& foam) {
   const Vec3i d = foam.dims();
-  std::vector<uint16_t> gray(static_cast<size_t>(d.x()) * static_cast<size_t>(d.y()) * static_cast<size_t>(d.z()));
+  std::vector<uint16_t> gray(static_cast<size_t>(d.x()) * static_cast<size_t>(d.y()) *
+                             static_cast<size_t>(d.z()));
   size_t at = 0;
   for (int w = 0; w < d.z(); ++w)
     for (int v = 0; v < d.y(); ++v)
@@ -85,7 +87,8 @@ OurMesh our_mesh(const Foam& foam, int upsample, double bin_width) {
   fe::Materials materials;
   mesh.materials_ms =
       timed_ms([&] { materials = fe::make_materials(fe::histogram_of(model.codes), model.gray, rule); });
-  mesh.sets_ms = timed_ms([&] { fe::for_each_part_of_sets(model.codes, materials, budget, [](const fe::SetsPart&) {}); });
+  mesh.sets_ms = timed_ms(
+      [&] { fe::for_each_part_of_sets(model.codes, materials, budget, [](const fe::SetsPart&) {}); });
   std::optional<fe::NodeNumbering> numbering;
   mesh.numbering_ms = timed_ms([&] { numbering.emplace(model.mask); });
   mesh.explicit_ms = timed_ms([&] { make_explicit(model, *numbering); });

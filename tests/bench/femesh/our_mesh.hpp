@@ -3,8 +3,8 @@
 
 namespace ream::bench {
 
-/// What our compute phases take, ms, reading and writing of files apart. `nodes` and `connectivity` in the sense
-/// of the thesis: every coordinate and all eight ids of every element are computed and stored.
+/// What our compute phases take, ms, reading and writing of files apart. `nodes` and `connectivity` in the
+/// sense of the thesis: every coordinate and all eight ids of every element are computed and stored.
 struct OurMesh {
   double grid_ms = 0.0, components_ms = 0.0, upsample_ms = 0.0, materials_ms = 0.0, sets_ms = 0.0,
          numbering_ms = 0.0, explicit_ms = 0.0;
