@@ -73,10 +73,14 @@ class InpCheck {
           refuse_line(file_, lines_.number(), "is not 'first, last, step'");
         for (; id <= last; id += step) use(id);
       } else {
-        int count = 0;
-        for (; at < end; use(id), ++count)
+        std::vector<uint64_t> ids;
+        while (at < end) {
           if (!read_id(at, end, id)) refuse_line(file_, lines_.number(), "is no list of ids");
-        if (count > 16) refuse_line(file_, lines_.number(), "has more than 16 ids, which CalculiX refuses");
+          ids.push_back(id);
+        }
+        if (ids.size() > 16)
+          refuse_line(file_, lines_.number(), "has more than 16 ids, which CalculiX refuses");
+        for (const uint64_t listed : ids) use(listed);
       }
     }
   }

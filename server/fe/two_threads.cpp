@@ -46,6 +46,7 @@ class Shared {
 
 void on_two_threads(size_t count, const std::function<void(size_t)>& work, const Progress& progress,
                     std::string_view step) {
+  if (!step.empty()) progress(0.0, step);
   Shared shared(count, work);
   {
     std::jthread second;

@@ -30,7 +30,7 @@ TEST_F(BoundedMemory, MeshesAreTheSameBytesHoweverLittleThereIs) {
   const auto path = folder_.write("rows.txt", rows());
   std::string texts[2];
   for (int i = 0; i < 2; ++i) {
-    MemoryBudget budget = i == 0 ? MemoryBudget() : MemoryBudget(1, folder_.path());
+    MemoryBudget budget = i == 0 ? MemoryBudget() : MemoryBudget(132'000'000, folder_.path());
     ElementModel model = read_text_rows(path, budget);
     EXPECT_EQ(model.codes.in_memory(), i == 0);
     MeshOptions options;
@@ -46,7 +46,7 @@ TEST_F(BoundedMemory, MeshesAreTheSameBytesHoweverLittleThereIs) {
 TEST_F(BoundedMemory, UpsamplesOutOfCoreToTheSameMesh) {
   std::string texts[2];
   for (int i = 0; i < 2; ++i) {
-    MemoryBudget budget = i == 0 ? MemoryBudget() : MemoryBudget(1, folder_.path());
+    MemoryBudget budget = i == 0 ? MemoryBudget() : MemoryBudget(129'000'000, folder_.path());
     MeshOptions options;
     options.upsample = 3;
     texts[i] = inp_of(model_of({70, 40, 40}, gray), options, budget);

@@ -153,17 +153,17 @@ TEST(Materials, EqualModuliAreOneMaterialAndLawsAreWhatTheySay) {
 }
 
 TEST(GrayScale, KeepsWholeNumbersAndShortDecimalsExactly) {
-  const auto scale_of = [](std::initializer_list<float> values) {
+  const auto scale_of = [](const std::vector<float>& values) {
     voxel::GrayScaleFinder finder;
     for (const float v : values) finder.add(v);
     return finder.scale();
   };
-  for (const auto& values : {std::initializer_list<float>{0, 255, 17},
-                             {-1024, 3071, 5},
-                             {0.85f, 1.2345f, 0.0f},
-                             {-0.5f, 0.25f},
-                             {65535, 0},
-                             {70000, 80000}}) {
+  for (const auto& values : std::vector<std::vector<float>>{{0, 255, 17},
+                                                            {-1024, 3071, 5},
+                                                            {0.85f, 1.2345f, 0.0f},
+                                                            {-0.5f, 0.25f},
+                                                            {65535, 0},
+                                                            {70000, 80000}}) {
     const voxel::GrayScale scale = scale_of(values);
     EXPECT_TRUE(scale.exact);
     for (const float v : values)

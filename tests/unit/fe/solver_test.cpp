@@ -171,6 +171,8 @@ TEST_F(Solver, CropsOfMicroCtLieBetweenReussAndVoigt) {
     if ((at.array() <= 180).all() && bone_voxels(at) > bone_voxels(densest)) densest = at;
   }
   ElementModel bone = crop(volume, densest, 142);
+  MemoryBudget budget;
+  keep_largest_component(bone, budget);
   const MeshBounds bounds = bounds_of(bone.mask);
   ASSERT_EQ(bounds.greatest.z() - bounds.least.z(), 20) << "the crop must reach both platens";
   const Reactions r = solved(std::move(bone), options);
@@ -181,8 +183,8 @@ TEST_F(Solver, ASyntheticFoamLiesBetweenReussAndVoigt) {
   REAM_SKIP_WITHOUT_CCX();
   MeshOptions options = elastic(0.3);
   const auto graded = [](int u, int v, int w) { return 500 + 37 * ((7 * u + 11 * v + 13 * w) % 400); };
-  expect_between_bounds((solved(model_of({12, 12, 20}, graded), options), report_),
-                        solved(model_of({12, 12, 20}, graded), options), true);
+  const Reactions r = solved(model_of({12, 12, 20}, graded), options);
+  expect_between_bounds(report_, r, true);
 }
 
 TEST_F(Solver, MeshioReadsBothFormats) {
@@ -206,7 +208,7 @@ TEST_F(Solver, MeshioReadsBothFormats) {
       "    p = m.points[cells]\n"
       "    e = p[:, 1] - p[:, 0], p[:, 3] - p[:, 0], p[:, 4] - p[:, 0]\n"
       "    v = numpy.einsum('ij,ij->i', numpy.cross(e[0], e[1]), e[2])\n"
-      "    print(name, len(m.points), len(cells), v.min() > 0, round(v.sum(), 9))\n"
+      "    print(name, len(m.points), len(cells), v.min() > 0, '%g' % v.sum())\n"
       "    if name == 'm.inp':\n"
       "        print(sorted(k for k in m.point_sets), sum(k.startswith('SET_') for k in m.cell_sets))\n"
       "    else:\n"
@@ -222,7 +224,7 @@ TEST_F(Solver, MeshioReadsBothFormats) {
   volume << report_.volume_mm3;
   const std::string materials = std::to_string(report_.materials.size());
   EXPECT_EQ(read_text_file(folder_.path() / "read.out"),
-            "m.inp " + counts + volume.str() + "\n['NALL', 'XMAX', 'XMIN', 'YMAX', 'YMIN', 'ZMAX', 'ZMIN'] " +
+            "m.inp " + counts + volume.str() + "\n['XMAX', 'XMIN', 'YMAX', 'YMIN', 'ZMAX', 'ZMIN'] " +
                 materials + "\n" + "m.vtu " + counts + volume.str() +
                 "\n['gray', 'material', 'modulus_MPa'] " + materials + "\n");
 }
