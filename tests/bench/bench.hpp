@@ -29,8 +29,6 @@ struct Options {
 /// From a CT to a bone in memory.
 std::vector<Row> case_suite(const Options& options);
 std::vector<Row> collide_suite(const Options& options);
-/// Micro-FE meshes against the thesis' chapter 2.
-std::vector<Row> femesh_suite(const Options& options);
 /// Whether the haptic loop is on time in a served session.
 std::vector<Row> loop_suite(const Options& options);
 /// What recording costs, and how soon any moment of a recording opens.

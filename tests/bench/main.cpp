@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/bench.hpp"
+#include "bench/femesh/femesh_suite.hpp"
 #include "core/error.hpp"
 
 namespace {

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <ostream>
 
-#include "bench/bench.hpp"
+#include "bench/femesh/femesh_suite.hpp"
 #include "bench/femesh/femesh_run.hpp"
 #include "bench/femesh/our_mesh.hpp"
 #include "bench/text_table.hpp"
