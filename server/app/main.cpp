@@ -29,6 +29,7 @@ void add_commands(CLI::App& app, ream::app::GlobalOptions& global) {
   add_import_command(app, global);
   add_plan_command(app, global);
   add_voxelize_command(app, global);
+  add_femesh_command(app, global);
   add_score_command(app, global);
   add_benchmark_command(app, global);
   add_export_command(app, global);

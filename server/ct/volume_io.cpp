@@ -1,14 +1,11 @@
 #include "ct/volume_io.hpp"
 
-#include <itkMetaImageIO.h>
-#include <itkNiftiImageIO.h>
-#include <itkNrrdImageIO.h>
-
 #include <algorithm>
 
 #include "core/error.hpp"
 #include "ct/dicom_file.hpp"
 #include "ct/file_completeness.hpp"
+#include "ct/image_io.hpp"
 #include "ct/itk_volume.hpp"
 #include "ct/nrrd_order.hpp"
 #include "ct/text_rows.hpp"
@@ -18,18 +15,6 @@
 namespace ream::ct {
 namespace fs = std::filesystem;
 namespace {
-
-itk::ImageIOBase::Pointer io_for(const fs::path& path) {
-  const std::string name = path.filename().string();
-  const auto ends = [&](const char* ending) { return name.ends_with(ending); };
-  if (ends(".nrrd") || ends(".nhdr")) return itk::NrrdImageIO::New().GetPointer();
-  if (ends(".nii") || ends(".nii.gz")) return itk::NiftiImageIO::New().GetPointer();
-  if (ends(".mha") || ends(".mhd")) return itk::MetaImageIO::New().GetPointer();
-  throw Error(ErrorKind::invalid_input,
-              path.string() +
-                  " is not a volume that can be read; give a folder of DICOM slices or a .nrrd, "
-                  ".nii, .nii.gz, .mha, .mhd or .txt (rows x y z gray) file");
-}
 
 enum class Kind { volume, rows, dicom };
 
@@ -44,22 +29,8 @@ Kind kind_of(const fs::path& path) {
   const std::string ending = ending_of(path);
   if (ending == ".txt" || ending == ".csv" || ending == ".xyz") return Kind::rows;
   if (ending == ".dcm" || ending == ".DCM") return Kind::dicom;
-  for (const char* known : {".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd"})
-    if (ending == known) return Kind::volume;
+  if (is_volume_file(path)) return Kind::volume;
   return fs::is_regular_file(path) && dicom_state(path) != DicomState::not_dicom ? Kind::dicom : Kind::volume;
-}
-
-void check_dimensions(const itk::ImageIOBase& io, const std::string& place) {
-  double voxels = 1.0;
-  for (unsigned axis = 0; axis < io.GetNumberOfDimensions(); ++axis) {
-    voxels *= static_cast<double>(io.GetDimensions(axis));
-    if (axis >= 3 && io.GetDimensions(axis) != 1)
-      throw Error(ErrorKind::invalid_input, place + " has more than three dimensions; a CT has three");
-  }
-  if (io.GetNumberOfDimensions() < 3)
-    throw Error(ErrorKind::invalid_input, place + " is a flat image; a CT has three dimensions");
-  if (!(voxels >= 1.0)) throw Error(ErrorKind::invalid_input, place + " has a side of zero voxels");
-  if (voxels > max_ct_voxels) throw Error(ErrorKind::invalid_input, place + " has more than 1e9 voxels");
 }
 
 }  // namespace
@@ -67,7 +38,7 @@ void check_dimensions(const itk::ImageIOBase& io, const std::string& place) {
 HuVolume read_volume_file(const fs::path& path) {
   const std::string place = path.string();
   if (!fs::exists(path)) throw Error(ErrorKind::not_found, "no such file: " + place);
-  const auto io = io_for(path);
+  const auto io = image_io_for(path);
   HuVolume volume;
   volume.warnings = check_claims(path);
   itk::Object::GlobalWarningDisplayOff();
@@ -134,7 +105,7 @@ HuVolume read_ct(const fs::path& path, const ReadOptions& options, const Progres
 }
 
 void write_volume_file(const HuVolume& volume, const fs::path& path) {
-  const auto io = io_for(path);
+  const auto io = image_io_for(path);
   try {
     describe(*io, volume);
     io->SetUseCompression(true);

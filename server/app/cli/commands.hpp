@@ -20,6 +20,7 @@ void add_phantom_command(CLI::App& app, GlobalOptions& options);
 void add_import_command(CLI::App& app, GlobalOptions& options);
 void add_plan_command(CLI::App& app, GlobalOptions& options);
 void add_voxelize_command(CLI::App& app, GlobalOptions& options);
+void add_femesh_command(CLI::App& app, GlobalOptions& options);
 void add_simulate_command(CLI::App& app, GlobalOptions& options);
 void add_serve_command(CLI::App& app, GlobalOptions& options);
 void add_score_command(CLI::App& app, GlobalOptions& options);

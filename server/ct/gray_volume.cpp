@@ -1,0 +1,258 @@
+#include "ct/gray_volume.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <fstream>
+#include <mutex>
+
+#include "core/error.hpp"
+#include "ct/file_completeness.hpp"
+#include "ct/image_io.hpp"
+#include "ct/itk_volume.hpp"
+#include "ct/nrrd_order.hpp"
+#include "ct/volume_claims.hpp"
+#include "ct/volume_io.hpp"
+
+namespace ream::ct {
+namespace fs = std::filesystem;
+namespace {
+
+using Type = itk::IOComponentEnum;
+
+constexpr double hu_offset = -32768.0;
+constexpr uint64_t megabyte = 1'000'000;
+
+/// Calls use with a pointer of the type.
+template <typename Use>
+void with_type(Type type, const char* bytes, const std::string& place, Use&& use) {
+  const auto as = [&]<typename T>(T) { use(reinterpret_cast<const T*>(bytes)); };
+  switch (type) {
+    case Type::UCHAR:
+      return as(uint8_t{});
+    case Type::CHAR:
+      return as(int8_t{});
+    case Type::USHORT:
+      return as(uint16_t{});
+    case Type::SHORT:
+      return as(int16_t{});
+    case Type::UINT:
+      return as(uint32_t{});
+    case Type::INT:
+      return as(int32_t{});
+    case Type::ULONG:
+    case Type::ULONGLONG:
+      return as(uint64_t{});
+    case Type::LONG:
+    case Type::LONGLONG:
+      return as(int64_t{});
+    case Type::FLOAT:
+      return as(float{});
+    case Type::DOUBLE:
+      return as(double{});
+    default:
+      throw Error(ErrorKind::invalid_input, place + " holds voxels of an unknown type");
+  }
+}
+
+/// Where the voxels begin in a file that holds them unpacked and whole behind its header; 0 elsewhere.
+uint64_t raw_begin(const fs::path& path, uint64_t image_bytes) {
+  const std::string ending = path.extension();
+  if (ending != ".nrrd" && ending != ".mha") return 0;
+  std::ifstream in(path, std::ios::binary);
+  std::string head(1 << 16, '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<size_t>(in.gcount()));
+  size_t end = std::string::npos;
+  if (ending == ".nrrd") {
+    const bool raw = head.find("\nencoding: raw\n") != std::string::npos &&
+                     head.find("\ndata file:") == std::string::npos &&
+                     head.find("skip:") == std::string::npos &&
+                     head.find("\nendian: big") == std::string::npos;
+    if (raw && (end = head.find("\n\n")) != std::string::npos) end += 2;
+  } else {
+    const bool raw = head.find("CompressedData = True") == std::string::npos &&
+                     head.find("ByteOrderMSB = True") == std::string::npos &&
+                     head.find("HeaderSize") == std::string::npos;
+    const std::string last = "ElementDataFile = LOCAL\n";
+    if (raw && (end = head.find(last)) != std::string::npos) end += last.size();
+  }
+  return end != std::string::npos && end + image_bytes == fs::file_size(path) ? end : 0;
+}
+
+/// The scale of whole numbers of a type that has no more than 16 bits.
+std::optional<voxel::GrayScale> scale_of(Type type) {
+  if (type == Type::UCHAR || type == Type::USHORT) return voxel::GrayScale{};
+  if (type == Type::CHAR || type == Type::SHORT) return voxel::GrayScale{hu_offset, 1.0, true};
+  return {};
+}
+
+template <typename T>
+void add_values(const T* values, size_t count, voxel::GrayScaleFinder& finder) {
+  for (size_t i = 0; i < count; ++i)
+    if (const auto v = static_cast<float>(values[i]); std::isfinite(v)) finder.add(v);
+}
+
+}  // namespace
+
+struct GrayVolume::Contents {
+  HuVolume place;  ///< everything but the values, unless they are HU
+  voxel::GrayScale gray;
+  std::vector<uint16_t> codes;
+  // Of a file that is read layer by layer.
+  std::string file;
+  mutable std::ifstream in;
+  mutable std::mutex mutex;
+  Type type = Type::UNKNOWNCOMPONENTTYPE;
+  uint64_t begin = 0, value_bytes = 0;
+  bool reversed = false;  ///< the last axis
+
+  size_t layer() const { return static_cast<size_t>(place.dims.x()) * static_cast<size_t>(place.dims.y()); }
+
+  void open(const fs::path& path, uint64_t most_bytes, const Progress& progress);
+  void read_raw(int w, std::vector<char>& bytes) const;
+  void encode(const char* bytes, size_t count, uint16_t* to) const {
+    with_type(type, bytes, file, [&](const auto* values) {
+      for (size_t i = 0; i < count; ++i) to[i] = gray.code(static_cast<double>(values[i]));
+    });
+  }
+  void find_scale(const Progress& progress);
+  void read_whole(itk::ImageIOBase& io, uint64_t most_bytes);
+};
+
+/// A left-handed volume becomes right-handed by reversing its last axis.
+static bool make_right_handed(ItkGeometry& g) {
+  if (!(g.direction.determinant() < 0.0)) return false;
+  g.origin_mm += g.direction.col(2) * (g.spacing_mm.z() * (g.dims.z() - 1));
+  g.direction.col(2) = -g.direction.col(2);
+  return true;
+}
+
+void GrayVolume::Contents::open(const fs::path& path, uint64_t most_bytes, const Progress& progress) {
+  file = path.string();
+  place.warnings = check_claims(path);
+  itk::Object::GlobalWarningDisplayOff();
+  const OrderedNrrd readable(path);
+  const auto io = image_io_for(path);
+  try {
+    io->SetFileName(readable.path().string());
+    io->ReadImageInformation();
+    check_dimensions(*io, file);
+    const auto image_bytes = static_cast<uint64_t>(io->GetImageSizeInBytes());
+    check_complete(path, image_bytes);
+    if (io->GetNumberOfComponents() != 1)
+      throw Error(ErrorKind::invalid_input, file + " has more than one value per voxel");
+    type = io->GetComponentType();
+    value_bytes = io->GetComponentSize();
+    ItkGeometry geometry = geometry_of(*io);
+    reversed = make_right_handed(geometry);
+    set_geometry(place, geometry, file);
+    begin = raw_begin(path, image_bytes);
+    if (begin > 0) {
+      in.open(path, std::ios::binary);
+      find_scale(progress);
+    } else {
+      read_whole(*io, most_bytes);
+    }
+  } catch (const itk::ExceptionObject& e) {
+    throw Error(ErrorKind::invalid_input, file + " cannot be read, it may be cut short: " + short_reason(e));
+  }
+}
+
+void GrayVolume::Contents::read_raw(int w, std::vector<char>& bytes) const {
+  const auto at = static_cast<uint64_t>(reversed ? place.dims.z() - 1 - w : w);
+  bytes.resize(layer() * value_bytes);
+  const std::lock_guard lock(mutex);
+  in.seekg(static_cast<std::streamoff>(begin + at * bytes.size()));
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!in) throw Error(ErrorKind::io, "cannot read " + file);
+}
+
+void GrayVolume::Contents::find_scale(const Progress& progress) {
+  if (const auto known = scale_of(type)) {
+    gray = *known;
+    return;
+  }
+  voxel::GrayScaleFinder finder;
+  std::vector<char> bytes;
+  for (int w = 0; w < place.dims.z(); ++w) {
+    progress(static_cast<double>(w) / place.dims.z(), "reading values");
+    read_raw(w, bytes);
+    with_type(type, bytes.data(), file, [&](const auto* values) { add_values(values, layer(), finder); });
+  }
+  gray = finder.scale();
+}
+
+void GrayVolume::Contents::read_whole(itk::ImageIOBase& io, uint64_t most_bytes) {
+  const size_t count = place.voxel_count();
+  const uint64_t needed = count * (value_bytes + sizeof(uint16_t));
+  if (needed > most_bytes)
+    throw Error(ErrorKind::invalid_input,
+                file + " needs " + std::to_string(needed / megabyte + 1) +
+                    " MB while it is read; give more --memory-mb, or unpack it into a .nrrd of encoding raw, "
+                    "which is read layer by layer");
+  itk::ImageIORegion region(io.GetNumberOfDimensions());
+  for (unsigned axis = 0; axis < io.GetNumberOfDimensions(); ++axis)
+    region.SetSize(axis, io.GetDimensions(axis));
+  io.SetIORegion(region);
+  std::vector<char> bytes(count * value_bytes);
+  io.Read(bytes.data());
+  const auto known = scale_of(type);
+  voxel::GrayScaleFinder finder;
+  if (!known)
+    with_type(type, bytes.data(), file, [&](const auto* values) { add_values(values, count, finder); });
+  gray = known ? *known : finder.scale();
+  codes.resize(count);
+  encode(bytes.data(), count, codes.data());
+}
+
+GrayVolume::GrayVolume(const fs::path& path, uint64_t most_bytes, const Progress& progress)
+    : contents_(std::make_unique<Contents>()) {
+  if (!fs::exists(path)) throw Error(ErrorKind::not_found, "no such file or folder: " + path.string());
+  try {
+    if (is_volume_file(path)) {
+      contents_->open(path, most_bytes, progress);
+    } else {
+      contents_->place = read_ct(path, {}, progress);
+      contents_->gray = {hu_offset, 1.0, true};
+    }
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorKind::invalid_input, path.string() + " does not fit into memory");
+  }
+  if (!contents_->gray.exact)
+    contents_->place.warnings.push_back(
+        "gray values were rounded to 65,536 steps between the least and the greatest");
+}
+
+GrayVolume::~GrayVolume() = default;
+GrayVolume::GrayVolume(GrayVolume&&) noexcept = default;
+GrayVolume& GrayVolume::operator=(GrayVolume&&) noexcept = default;
+
+const Vec3i& GrayVolume::dims() const { return contents_->place.dims; }
+const Vec3& GrayVolume::spacing_mm() const { return contents_->place.spacing_mm; }
+const Pose& GrayVolume::world_from_volume() const { return contents_->place.world_from_volume; }
+const voxel::GrayScale& GrayVolume::gray() const { return contents_->gray; }
+const std::vector<std::string>& GrayVolume::warnings() const { return contents_->place.warnings; }
+uint64_t GrayVolume::bytes() const {
+  return (contents_->codes.size() + contents_->place.hu.size()) * sizeof(uint16_t);
+}
+
+void GrayVolume::read_layer(int w, std::span<uint16_t> codes) const {
+  const Contents& c = *contents_;
+  const auto first = static_cast<std::ptrdiff_t>(c.layer()) * w;
+  const auto count = static_cast<std::ptrdiff_t>(c.layer());
+  if (c.begin > 0) {
+    std::vector<char> bytes;
+    c.read_raw(w, bytes);
+    c.encode(bytes.data(), c.layer(), codes.data());
+  } else if (!c.codes.empty()) {
+    const auto from = c.reversed ? static_cast<std::ptrdiff_t>(c.codes.size()) - first - count : first;
+    std::copy_n(c.codes.begin() + from, count, codes.begin());
+  } else {
+    for (size_t i = 0; i < c.layer(); ++i)
+      codes[i] = static_cast<uint16_t>(c.place.hu[static_cast<size_t>(first) + i] + 32768);
+  }
+}
+
+}  // namespace ream::ct

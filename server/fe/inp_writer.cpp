@@ -1,0 +1,218 @@
+#include "fe/inp_writer.hpp"
+
+#include "fe/corner_row.hpp"
+#include "fe/element_sets.hpp"
+#include "fe/number_text.hpp"
+#include "fe/ordered_output.hpp"
+
+namespace ream::fe {
+namespace {
+
+constexpr size_t most_id_bytes = 10, most_coordinate_bytes = 21, spare_bytes = 64;
+constexpr size_t ids_per_line = 16;  // more are refused by CalculiX
+
+std::string heading(const NumberedMesh& mesh) {
+  const ElementModel& model = mesh.model;
+  std::string text = "*HEADING\nmicro-FE mesh by ream femesh; units mm, N, MPa\n";
+  text += "** " + std::to_string(mesh.numbering.elements()) + " elements, " +
+          std::to_string(mesh.numbering.nodes()) + " nodes, " + std::to_string(mesh.materials.list.size()) +
+          " materials\n** modulus of gray value g, " + mesh.rule.law.words() + "\n";
+  if (model.gray_is_density_g_cc) text += "** g is the apparent density in g/cc\n";
+  if (!model.source.empty()) text += "** from " + model.source + "\n";
+  const Pose& pose = model.world_from_mesh;
+  text += "** world (LPS, mm) = R x + t";
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column)
+      text += (row + column == 0 ? ", R = " : " ") + real_text(pose.rotation(row, column));
+  for (int row = 0; row < 3; ++row) text += (row == 0 ? ", t = " : " ") + real_text(pose.translation_mm[row]);
+  return text + "\n";
+}
+
+/// Coordinates of all planes of corners along an axis.
+std::vector<CoordinateText> coordinates(const ElementModel& model, int axis) {
+  const double first = model.origin_mm[axis], step = model.spacing_mm[axis];
+  const int decimals = decimals_of(first, step);
+  std::vector<CoordinateText> texts;
+  for (int i = 0; i <= model.mask.dims()[axis]; ++i)
+    texts.push_back(CoordinateText::of(first + i * step, decimals));
+  return texts;
+}
+
+void write_nodes(const NumberedMesh& mesh, OrderedOutput& out, const Progress& progress) {
+  const NodeNumbering& numbering = mesh.numbering;
+  const std::vector<CoordinateText> x = coordinates(mesh.model, 0), y = coordinates(mesh.model, 1),
+                                    z = coordinates(mesh.model, 2);
+  out.append("*NODE, NSET=NALL\n");
+  const auto most_bytes = [&](size_t i) {
+    return (numbering.nodes_before(i + 1) - numbering.nodes_before(i)) *
+               (most_id_bytes + 3 * most_coordinate_bytes) +
+           spare_bytes;
+  };
+  const auto make = [&](size_t slab, char* at) {
+    for_each_corner_row(numbering, slab, [&](int v, int w, const CornerRow& row) {
+      char tail[80] = {','};
+      char* end = y[static_cast<size_t>(v)].append(tail + 1);
+      *end++ = ',';
+      end = z[static_cast<size_t>(w)].append(end);
+      *end++ = '\n';
+      const auto tail_bytes = static_cast<size_t>(end - tail);
+      IdText id;
+      uint64_t number = row.first_id();
+      id.set(number);
+      for_each_run(row.words().data(), row.words().size(), [&](int begin, int stop) {
+        for (int u = begin; u < stop; ++u) {
+          at = id.append(at);
+          at = x[static_cast<size_t>(u)].append(at);
+          std::memcpy(at, tail, 48);
+          at += tail_bytes;
+          id.step(++number);
+        }
+      });
+    });
+    return at;
+  };
+  out.append({numbering.corners().count(), most_bytes, make}, progress, "writing nodes");
+}
+
+/// A row of corners with the texts of its ids.
+struct TextRow : CornerRow {
+  std::vector<IdText> ids;
+
+  uint64_t load(const NodeNumbering& numbering, int v, int w, uint64_t first) {
+    const uint64_t next = CornerRow::load(numbering, v, w, first);
+    ids.resize(count() + 1);
+    ids[0].set(first);
+    for (size_t i = 1; i < count(); ++i) {
+      ids[i] = ids[i - 1];
+      ids[i].step(first + i);
+    }
+    return next;
+  }
+};
+
+/// A run of elements side by side.
+char* element_lines(const TextRow* rows, int begin, int end, uint64_t& number, IdText& id, char* at) {
+  const IdText* front_low = rows[0].ids.data() + rows[0].rank(begin);
+  const IdText* back_low = rows[1].ids.data() + rows[1].rank(begin);
+  const IdText* front_high = rows[2].ids.data() + rows[2].rank(begin);
+  const IdText* back_high = rows[3].ids.data() + rows[3].rank(begin);
+  for (int u = begin; u < end; ++u) {
+    at = id.append(at);
+    at = front_low[0].append(at);
+    at = front_low[1].append(at);
+    at = back_low[1].append(at);
+    at = back_low[0].append(at);
+    at = front_high[0].append(at);
+    at = front_high[1].append(at);
+    at = back_high[1].append(at);
+    at = back_high[0].append(at);
+    at[-1] = '\n';
+    ++front_low, ++back_low, ++front_high, ++back_high;
+    id.step(++number);
+  }
+  return at;
+}
+
+void write_elements(const NodeNumbering& numbering, OrderedOutput& out, const Progress& progress) {
+  out.append("*ELEMENT, TYPE=C3D8, ELSET=EALL\n");
+  const auto most_bytes = [&](size_t i) {
+    return (numbering.elements_before(i + 1) - numbering.elements_before(i)) * 9 * most_id_bytes +
+           spare_bytes;
+  };
+  const auto make = [&](size_t slab, char* at) {
+    if (numbering.elements_before(slab + 1) == numbering.elements_before(slab)) return at;
+    uint64_t number = numbering.elements_before(slab) + 1;
+    IdText id;
+    id.set(number);
+    for_each_element_run<TextRow>(numbering, slab, [&](int, int begin, int end, const TextRow* rows) {
+      at = element_lines(rows, begin, end, number, id, at);
+    });
+    return at;
+  };
+  out.append({numbering.voxels().count(), most_bytes, make}, progress, "writing elements");
+}
+
+char* id_lines(std::span<const uint32_t> ids, char* at) {
+  for (size_t i = 0; i < ids.size(); ++i) {
+    IdText id;
+    id.set(ids[i]);
+    at = id.append(at);
+    if (i % ids_per_line == ids_per_line - 1 || i + 1 == ids.size()) at[-1] = '\n';
+  }
+  return at;
+}
+
+std::string set_name(size_t material) { return "SET_" + std::to_string(material + 1); }
+
+void write_sets(const NumberedMesh& mesh, MemoryBudget& budget, OrderedOutput& out,
+                const Progress& progress) {
+  const Materials& materials = mesh.materials;
+  if (materials.list.size() == 1) {
+    out.append("*ELSET, ELSET=SET_1, GENERATE\n1, " + std::to_string(mesh.numbering.elements()) + ", 1\n");
+    return;
+  }
+  for_each_part_of_sets(mesh.model.codes, materials, budget, [&](const SetsPart& part) {
+    struct Piece {
+      size_t material;
+      std::span<const uint32_t> ids;
+      bool first;
+    };
+    constexpr size_t most_ids = ids_per_line << 12;
+    std::vector<Piece> pieces;
+    for (size_t m = part.first_material; m < part.end_material; ++m) {
+      const std::span<const uint32_t> ids = part.ids_of(m);
+      for (size_t i = 0; i < ids.size(); i += most_ids)
+        pieces.push_back({m, ids.subspan(i, std::min(most_ids, ids.size() - i)), i == 0});
+    }
+    const auto most_bytes = [&](size_t i) {
+      return pieces[i].ids.size() * (most_id_bytes + 1) + 2 * spare_bytes;
+    };
+    const auto make = [&](size_t i, char* at) {
+      if (pieces[i].first) {
+        const std::string head = "*ELSET, ELSET=" + set_name(pieces[i].material) + "\n";
+        at = std::copy(head.begin(), head.end(), at);
+      }
+      return id_lines(pieces[i].ids, at);
+    };
+    out.append({pieces.size(), most_bytes, make}, progress, "writing element sets");
+  });
+}
+
+void write_materials(const NumberedMesh& mesh, OrderedOutput& out) {
+  std::string text;
+  for (size_t m = 0; m < mesh.materials.list.size(); ++m) {
+    const std::string number = std::to_string(m + 1);
+    text += "*MATERIAL, NAME=MAT_" + number + "\n*ELASTIC\n" + real_text(mesh.materials.list[m].modulus_mpa) +
+            ", " + real_text(mesh.rule.poisson) + "\n*SOLID SECTION, ELSET=" + set_name(m) +
+            ", MATERIAL=MAT_" + number + "\n";
+  }
+  out.append(text);
+}
+
+void write_faces(const NodeNumbering& numbering, OrderedOutput& out) {
+  const auto faces = face_nodes(numbering);
+  for (size_t face = 0; face < faces.size(); ++face) {
+    out.append(std::string("*NSET, NSET=") + face_names[face] + "\n");
+    std::string text(faces[face].size() * (most_id_bytes + 1) + spare_bytes, '\0');
+    const char* end = id_lines(faces[face], text.data());
+    out.append(std::string_view(text.data(), static_cast<size_t>(end - text.data())));
+  }
+}
+
+}  // namespace
+
+uint64_t write_inp(const NumberedMesh& mesh, const InpOptions& options, MemoryBudget& budget,
+                   const FileInProgress& file, const Progress& progress) {
+  OrderedOutput out(file);
+  out.append(heading(mesh));
+  write_nodes(mesh, out, part_of(progress, 0.0, 0.4));
+  write_elements(mesh.numbering, out, part_of(progress, 0.4, 0.9));
+  write_sets(mesh, budget, out, part_of(progress, 0.9, 1.0));
+  write_materials(mesh, out);
+  if (options.faces || options.compression) write_faces(mesh.numbering, out);
+  if (options.compression)
+    out.append(compression_text(*options.compression, mesh.numbering, mesh.model.spacing_mm));
+  return out.bytes();
+}
+
+}  // namespace ream::fe

@@ -1,0 +1,30 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace ream::fe {
+
+/// How much memory a mesh may take, and where goes what does not fit. Large things ask before they are made.
+class MemoryBudget {
+ public:
+  /// No limit.
+  MemoryBudget() = default;
+  /// `limit_bytes` of the whole process; `folder` for passing files without a name, which go away with the
+  /// process whatever ends it.
+  MemoryBudget(uint64_t limit_bytes, std::filesystem::path folder);
+
+  /// What is left; never below what a few buffers take.
+  uint64_t left() const;
+  bool fits(uint64_t bytes) const { return bytes <= left(); }
+  /// For what cannot lie on the disk. Throws Error invalid_input that names `what` and the limit it needs.
+  void take(uint64_t bytes, const std::string& what);
+  void give_back(uint64_t bytes);
+  const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  uint64_t limit_ = UINT64_MAX, used_ = 0;
+  std::filesystem::path folder_;
+};
+
+}  // namespace ream::fe
