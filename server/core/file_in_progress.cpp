@@ -43,8 +43,14 @@ void FileInProgress::write_at(uint64_t offset, std::span<const std::byte> bytes)
   ::sync_file_range(fd_, begin, static_cast<off_t>(bytes.size()), SYNC_FILE_RANGE_WRITE);
 }
 
-void FileInProgress::commit() {
+void FileInProgress::finish() {
+  if (finished_) return;
   if (::fsync(fd_) != 0) fail();
+  finished_ = true;
+}
+
+void FileInProgress::commit() {
+  finish();
   if (::rename(temporary_.c_str(), final_.c_str()) != 0) fail();
   committed_ = true;
   sync_folder(final_.parent_path());

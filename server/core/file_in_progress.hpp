@@ -21,7 +21,9 @@ class FileInProgress {
   const std::filesystem::path& path() const { return temporary_; }
   /// Thread-safe. The disk begins at once, so that commit() has little to wait for. Throws Error io.
   void write_at(uint64_t offset, std::span<const std::byte> bytes) const;
-  /// Fsyncs and renames. Throws Error io.
+  /// What was written is on the disk from here on; commit() only renames then. Throws Error io.
+  void finish();
+  /// finish(), and the final name. Throws Error io.
   void commit();
 
  private:
@@ -30,7 +32,7 @@ class FileInProgress {
   const std::filesystem::path final_;
   std::filesystem::path temporary_;
   int fd_ = -1;
-  bool committed_ = false;
+  bool finished_ = false, committed_ = false;
 };
 
 }  // namespace ream

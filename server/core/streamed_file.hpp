@@ -1,22 +1,21 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "core/file_in_progress.hpp"
+
 namespace ream {
 
-/// A file too large to be put together in memory: written piece by piece under a name beside it that ends in
-/// .tmp, fsynced and renamed by commit(). Destroyed uncommitted, it goes away and the old file is untouched.
+/// A file too large to be put together in memory, written piece by piece from its beginning; otherwise as
+/// FileInProgress.
 class StreamedFile {
  public:
   /// Throws Error io naming `path` when it cannot be written there.
   explicit StreamedFile(std::filesystem::path path);
-  ~StreamedFile();
-  StreamedFile(const StreamedFile&) = delete;
-  StreamedFile& operator=(const StreamedFile&) = delete;
-
   /// Throws Error io naming the path and the cause (a full disk, say).
   void write(std::span<const std::byte> bytes);
   void write(std::string_view text) { write(std::as_bytes(std::span(text.data(), text.size()))); }
@@ -32,10 +31,9 @@ class StreamedFile {
  private:
   void flush();
 
-  const std::filesystem::path path_, temporary_;
+  FileInProgress file_;
+  uint64_t written_bytes_ = 0;
   std::vector<std::byte> waiting_;
-  int file_ = -1;
-  bool committed_ = false;
 };
 
 }  // namespace ream
