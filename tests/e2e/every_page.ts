@@ -81,7 +81,8 @@ export async function goThroughEveryPage(
   await page.getByTestId('leave-replay').click();
   await open(`#/review/${ended}`);
   await expect(page.getByTestId('score')).toBeVisible({ timeout: 60_000 });
-  await page.waitForTimeout(1500);
+  await expect(page.getByText('Preparing the bone')).toBeHidden({ timeout: 60_000 });
+  await page.waitForTimeout(1000);
   await look('review');
   for (const [name, hash, testId] of [
     ['sessions', '#/sessions', `row-${ended}`],
@@ -95,6 +96,7 @@ export async function goThroughEveryPage(
   ] as const) {
     await open(hash);
     await expect(page.getByTestId(testId).first()).toBeVisible({ timeout: 60_000 });
+    await expect(page.getByText('Loading the surface')).toBeHidden({ timeout: 60_000 });
     await page.waitForTimeout(500);
     await look(name);
   }
