@@ -8,7 +8,7 @@
 namespace ream::fe {
 namespace {
 
-constexpr uint64_t nodes_between_marks = 1 << 14, elements_of_block = 1 << 16;
+constexpr uint64_t nodes_between_marks = 1 << 14, elements_of_block = 1 << 14;
 constexpr uint64_t greatest_id = 999'999'999;
 constexpr uint64_t lines_between_progress = 1 << 18;
 

@@ -9,15 +9,15 @@ namespace {
 
 using ream::test::expect_error;
 
-/// A porous block of 160^3 whose gray values alone do not fit into what a small budget lends.
+/// A porous block of 110^3 whose gray values alone do not fit into what a small budget lends.
 class BoundedMemory : public testing::Test {
  protected:
   static int gray(int u, int v, int w) { return (u * v + w) % 7 == 0 ? -1 : 100 + (u ^ v ^ w) % 100; }
   static std::string rows() {
     std::string text;
-    for (int w = 0; w < 160; ++w)
-      for (int v = 0; v < 160; ++v)
-        for (int u = 0; u < 160; ++u)
+    for (int w = 0; w < 110; ++w)
+      for (int v = 0; v < 110; ++v)
+        for (int u = 0; u < 110; ++u)
           if (gray(u, v, w) >= 0)
             text += std::to_string(u) + " " + std::to_string(v) + " " + std::to_string(w) + " " +
                     std::to_string(gray(u, v, w)) + "\n";
@@ -30,7 +30,7 @@ TEST_F(BoundedMemory, MeshesAreTheSameBytesHoweverLittleThereIs) {
   const auto path = folder_.write("rows.txt", rows());
   std::string texts[2];
   for (int i = 0; i < 2; ++i) {
-    MemoryBudget budget = i == 0 ? MemoryBudget() : MemoryBudget(132'000'000, folder_.path());
+    MemoryBudget budget = i == 0 ? MemoryBudget() : MemoryBudget(124'500'000, folder_.path());
     ElementModel model = read_text_rows(path, budget);
     EXPECT_EQ(model.codes.in_memory(), i == 0);
     MeshOptions options;
@@ -46,10 +46,10 @@ TEST_F(BoundedMemory, MeshesAreTheSameBytesHoweverLittleThereIs) {
 TEST_F(BoundedMemory, UpsamplesOutOfCoreToTheSameMesh) {
   std::string texts[2];
   for (int i = 0; i < 2; ++i) {
-    MemoryBudget budget = i == 0 ? MemoryBudget() : MemoryBudget(129'000'000, folder_.path());
+    MemoryBudget budget = i == 0 ? MemoryBudget() : MemoryBudget(126'000'000, folder_.path());
     MeshOptions options;
     options.upsample = 3;
-    texts[i] = inp_of(model_of({70, 40, 40}, gray), options, budget);
+    texts[i] = inp_of(model_of({50, 40, 40}, gray), options, budget);
   }
   EXPECT_TRUE(texts[0] == texts[1]);
 }
