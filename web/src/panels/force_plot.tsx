@@ -11,6 +11,7 @@ const thrust: PlotKind = {
   axisStep: 20,
   swings: false,
   axisDigits: 0,
+  axisSpacePx: 28,
 };
 const feed: PlotKind = {
   column: 'feedRateMmS',
@@ -20,6 +21,7 @@ const feed: PlotKind = {
   axisStep: 0.2,
   swings: false,
   axisDigits: 1,
+  axisSpacePx: 14,
 };
 const vibration: PlotKind = {
   column: 'vibrationG',
@@ -29,6 +31,7 @@ const vibration: PlotKind = {
   axisStep: 0.5,
   swings: true,
   axisDigits: 1,
+  axisSpacePx: 14,
 };
 /** The strength of a vibration is that of its last tenth of a second. */
 const strengthSeconds = 0.1;

@@ -23,7 +23,11 @@ export function ReplayPanel({ store, watcher }: { store: Store; watcher: Watcher
           {words.backToLive}
         </button>
         {of !== '' && (
-          <a class="to-review" data-testid="to-review" href={addressOfRoute({ kind: 'review', id: of, beside: null })}>
+          <a
+            class="plain-button"
+            data-testid="to-review"
+            href={addressOfRoute({ kind: 'review', id: of, beside: null })}
+          >
             {words.review}
           </a>
         )}

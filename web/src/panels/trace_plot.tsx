@@ -24,6 +24,8 @@ export interface PlotKind {
   /** To both sides of zero. */
   swings: boolean;
   axisDigits: number;
+  /** Between two marks of the axis at least. */
+  axisSpacePx: number;
 }
 
 interface Parts {
@@ -103,7 +105,12 @@ function createPlot(element: HTMLElement, kind: PlotKind): UPlot {
       },
       axes: [
         { ...axis, size: 26, values: (_plot, marks) => marks.map((mark) => `${mark} s`) },
-        { ...axis, size: 46, space: 14, values: (_plot, marks) => marks.map((mark) => axisMark(kind, mark)) },
+        {
+          ...axis,
+          size: 46,
+          space: kind.axisSpacePx,
+          values: (_plot, marks) => marks.map((mark) => axisMark(kind, mark)),
+        },
       ],
       series: [{}, { stroke: colour('--force'), ...fill, width: 1.75, points: { show: false } }],
     },

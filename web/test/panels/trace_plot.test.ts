@@ -10,6 +10,7 @@ const feed: PlotKind = {
   axisStep: 0.2,
   swings: false,
   axisDigits: 1,
+  axisSpacePx: 14,
 };
 
 describe('axisRange', () => {
