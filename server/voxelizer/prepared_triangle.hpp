@@ -1,4 +1,5 @@
 #pragma once
+#include "voxelizer/exact_products.hpp"
 #include "voxelizer/lanes.hpp"
 #include "voxelizer/raster_grid.hpp"
 
@@ -16,23 +17,6 @@ inline constexpr double no_bound = 1e30;
 inline constexpr double least_share = 5.684341886080802e-14;  // 2^-44
 /// Edges shorter than this many voxels have products that are exact anyway.
 inline constexpr double short_edge = 32.0;
-
-/// a*b - c*d as if rounded once, for values whose products do not overflow: Dekker's exact products.
-inline double difference_of_products(double a, double b, double c, double d) {
-  struct Product {
-    double value, error;
-  };
-  const auto exact = [](double p, double q) {
-    constexpr double splitter = 134217729.0;  // 2^27 + 1
-    const double sp = splitter * p, sq = splitter * q;
-    const double ph = sp - (sp - p), qh = sq - (sq - q);
-    const double pl = p - ph, ql = q - qh;
-    const double value = p * q;
-    return Product{value, ((ph * qh - value) + ph * ql + pl * qh) + pl * ql};
-  };
-  const Product p = exact(a, b), q = exact(c, d);
-  return (p.value - q.value) + (p.error - q.error);
-}
 
 /// Corners of a triangle in voxels of the grid, and the voxels that its box touches within some rows.
 struct PlacedTriangle {
