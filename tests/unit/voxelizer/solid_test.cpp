@@ -113,8 +113,15 @@ TEST(Solid, VolumesOfMeshesOfOthersAreTheirs) {
     const Aabb box = used_bounds(mesh, 1.0);
     const RasterGrid grid = roomy(mesh, Vec3::Constant((box.max - box.min).maxCoeff() / voxels_across));
     const VoxelSet set = voxelized(mesh, grid, solid_alone());
-    const double volume = static_cast<double>(set.filled()) * grid.size_mm.prod();
-    EXPECT_NEAR(volume / std::abs(mesh.volume_mm3()), 1.0, 0.005) << name;
+    // Faces that lie along the grid gain or lose up to half a voxel; not in the mean over places of the mesh.
+    constexpr int places = 8;
+    double volume = 0.0;
+    for (int place = 0; place < places; ++place) {
+      const Pose moved{Mat3::Identity(), grid.size_mm * (static_cast<double>(place) / places)};
+      volume += static_cast<double>(voxelized(mesh.transformed(moved), grid, solid_alone()).filled()) *
+                grid.size_mm.prod() / places;
+    }
+    EXPECT_NEAR(volume / std::abs(mesh.volume_mm3()), 1.0, 0.002) << name;
     // Every voxel that can be reached from outside around the thin surface is outside, all others inside.
     Request thin;
     thin.separability = Separability::six;
