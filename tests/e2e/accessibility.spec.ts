@@ -64,9 +64,10 @@ function misplaced(page: Page): Promise<string[]> {
       const view = scroller?.getBoundingClientRect();
       if (view && (y < view.top || y > view.bottom || x < view.left || x > view.right)) continue;
       const top = document.elementFromPoint(x, y);
+      // Marks of moments that are close lie over each other; all of them are in the list of events, too.
       if (
         top === null ||
-        !(pressed.contains(top) || top.contains(pressed) || element.matches('.tile-open, [type="file"]'))
+        !(pressed.contains(top) || top.contains(pressed) || element.matches('.tile-open, [type="file"], .mark'))
       )
         found.push(`${name(element)} is behind ${top === null ? 'nothing' : name(top)}`);
     }
