@@ -43,6 +43,8 @@ test('a picture that the browser takes away is said to be lost, and drawn anew w
 }, info) => {
   await watchResting(page, 'stop');
   await page.getByTestId('view-axis').click();
+  // It stands before the bone, nearer or farther as the session was stopped.
+  await page.getByTestId('show-reamer').uncheck();
   await drawn(page);
   const canvas = page.getByTestId('bone-canvas');
   const before = await picture(canvas);
