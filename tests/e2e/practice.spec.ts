@@ -83,7 +83,7 @@ test('the mouse alone reams the demo, and stops reaming when it lets go', async 
 
 test('the keys alone ream, pause and stop', async ({ page }) => {
   await open(page);
-  for (let i = 0; i < 20; ++i) {
+  for (let i = 0; i < 30; ++i) {
     await page.keyboard.press('Tab');
     if (await page.getByTestId('practise').evaluate((button) => button === document.activeElement)) break;
   }
