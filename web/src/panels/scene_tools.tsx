@@ -14,6 +14,7 @@ import {
 import { contactColour, kindColours } from '../scene/bone_paint';
 import { fixed } from './format';
 import { useLiveKeys } from './live_keys';
+import { ViewToggle } from './view_toggle';
 
 /** One press of a key that moves a section, mm. */
 const keyStepMm = 1;
@@ -32,7 +33,7 @@ export function SceneTools({ view }: { view: ViewSettings }) {
   const cut = sectionNames.some((name) => sections[name].on);
   return (
     <>
-      <Toggle
+      <ViewToggle
         id="trainee-camera"
         letter="V"
         on={camera === 'trainee'}
@@ -40,16 +41,22 @@ export function SceneTools({ view }: { view: ViewSettings }) {
         act={() => deeds.v?.(view)}
       >
         {liveWords.traineeCamera}
-      </Toggle>
-      <Toggle id="cut-away" letter="C" on={cutAway} hint={liveWords.cutAwayHint} act={() => deeds.c?.(view)}>
+      </ViewToggle>
+      <ViewToggle id="cut-away" letter="C" on={cutAway} hint={liveWords.cutAwayHint} act={() => deeds.c?.(view)}>
         {liveWords.cutAway}
-      </Toggle>
-      <Toggle id="see-through" letter="X" on={seeThrough} hint={liveWords.seeThroughHint} act={() => deeds.x?.(view)}>
+      </ViewToggle>
+      <ViewToggle
+        id="see-through"
+        letter="X"
+        on={seeThrough}
+        hint={liveWords.seeThroughHint}
+        act={() => deeds.x?.(view)}
+      >
         {liveWords.seeThrough}
-      </Toggle>
-      <Toggle id="bone-kinds" letter="K" on={boneKinds} hint={liveWords.boneKindsHint} act={() => deeds.k?.(view)}>
+      </ViewToggle>
+      <ViewToggle id="bone-kinds" letter="K" on={boneKinds} hint={liveWords.boneKindsHint} act={() => deeds.k?.(view)}>
         {liveWords.boneKinds}
-      </Toggle>
+      </ViewToggle>
       <button
         type="button"
         class={cut ? 'tool-on' : ''}
@@ -83,31 +90,6 @@ function KindsLegend() {
         </li>
       ))}
     </ul>
-  );
-}
-
-interface ToggleParts {
-  id: string;
-  letter: string;
-  on: boolean;
-  hint: string;
-  act: () => void;
-  children: string;
-}
-
-function Toggle({ id, letter, on, hint, act, children }: ToggleParts) {
-  return (
-    <button
-      type="button"
-      class={on ? 'tool-on' : ''}
-      data-testid={id}
-      aria-pressed={on}
-      aria-keyshortcuts={letter}
-      title={liveWords.key(hint, letter)}
-      onClick={act}
-    >
-      {children}
-    </button>
   );
 }
 

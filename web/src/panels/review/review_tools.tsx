@@ -3,6 +3,7 @@ import '../live_strip.css';
 import type { ReviewDesk } from '../../pages/review_desk';
 import { liveWords } from '../../live_words';
 import { reviewWords } from '../../review_words';
+import { ViewToggle } from '../view_toggle';
 import { ViewTools } from '../view_tools';
 
 /** From where the bones are seen and what is seen of them, for all sessions at once. */
@@ -14,7 +15,7 @@ export function ReviewTools({ desk }: { desk: ReviewDesk }) {
   return (
     <div class="review-tools">
       <ViewTools scene={scene} view={settings.view} reamerShown={settings.reamerShown}>
-        <Toggle
+        <ViewToggle
           id="slices"
           letter="T"
           hint={liveWords.slicesHint}
@@ -22,8 +23,8 @@ export function ReviewTools({ desk }: { desk: ReviewDesk }) {
           act={() => (settings.slicesOpen.value = !settings.slicesOpen.peek())}
         >
           {liveWords.slices}
-        </Toggle>
-        <Toggle
+        </ViewToggle>
+        <ViewToggle
           id="measure"
           letter="E"
           hint={reviewWords.measureHint}
@@ -31,33 +32,8 @@ export function ReviewTools({ desk }: { desk: ReviewDesk }) {
           act={() => (settings.measuring.value = !settings.measuring.peek())}
         >
           {reviewWords.measure}
-        </Toggle>
+        </ViewToggle>
       </ViewTools>
     </div>
-  );
-}
-
-interface ToggleParts {
-  id: string;
-  letter: string;
-  hint: string;
-  on: boolean;
-  act: () => void;
-  children: string;
-}
-
-function Toggle({ id, letter, hint, on, act, children }: ToggleParts) {
-  return (
-    <button
-      type="button"
-      class={on ? 'tool-on' : ''}
-      data-testid={id}
-      aria-pressed={on}
-      aria-keyshortcuts={letter}
-      title={liveWords.key(hint, letter)}
-      onClick={act}
-    >
-      {children}
-    </button>
   );
 }
