@@ -18,6 +18,9 @@ const heapMinutes = Number(process.env.REAM_BENCH_WEB_MINUTES ?? 4);
 /** REAM_BENCH_WEB_ONLY: parts, with commas between; all where it is not set. */
 const wanted = process.env.REAM_BENCH_WEB_ONLY?.split(',') ?? ['hand', 'script', 'join', 'frames', 'heap'];
 
+/** REAM_BENCH_WEB_SIZES: of the two cases. */
+const sizes = process.env.REAM_BENCH_WEB_SIZES?.split(',') ?? Object.keys(cases);
+
 /** Everything on one server that runs on the data folder, one session and one page at a time. */
 export async function measurePage(dataFolder: string): Promise<Record<string, object>> {
   const server = new ServerProcess(dataFolder);
@@ -50,7 +53,7 @@ async function measured(browser: Browser, url: string, bare: BareServer): Promis
   };
   await measure('hand', 'hand', () => handDelay(browser, url));
   await during(cases['67k'], 'usual', () => measure('script', 'script', () => scriptTime(browser, url)));
-  for (const [size, caseName] of Object.entries(cases))
+  for (const [size, caseName] of Object.entries(cases).filter(([size]) => sizes.includes(size)))
     await during(caseName, 'long', async (id) => {
       await measure('join', `join ${size}`, () => lateJoin(browser, url));
       await measure('frames', `frames ${size}`, async () => {

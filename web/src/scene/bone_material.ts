@@ -6,11 +6,13 @@ import { DoubleSide, FrontSide, MeshStandardMaterial, type Plane } from 'three';
  */
 const paintInside = `
 #include <dithering_fragment>
+#ifdef DOUBLE_SIDED
 if (!gl_FrontFacing) {
   float line = fract((gl_FragCoord.x - gl_FragCoord.y) / 9.0);
   vec3 inside = mix(vec3(0.62, 0.44, 0.36), vec3(0.78, 0.61, 0.51), step(0.22, line));
   gl_FragColor = vec4(inside, 1.0);
 }
+#endif
 `;
 
 /** The bone's surface from outside, ivory; from inside a section. */

@@ -12,19 +12,26 @@ export const contactColour = '#5b2a86';
 const touchesWithinMm = 0.35;
 const heightCount = 33;
 
+/** Defined while the bone is painted: a plain one costs no more than a plain material. */
+const painted = 'BONE_PAINTED';
+
 const inVertex = `
+#ifdef ${painted}
 attribute float boneKind;
 uniform mat4 toolFromWorld;
 varying vec3 vKinds;
 varying vec3 vInTool;
+#endif
 `;
 const passOn = `
 #include <project_vertex>
+#ifdef ${painted}
 vKinds = vec3(boneKind == 0.0, boneKind == 1.0, boneKind == 2.0);
 vInTool = (toolFromWorld * modelMatrix * vec4(transformed, 1.0)).xyz;
+#endif
 `;
 const inFragment = `
-uniform bool kindsShown;
+#ifdef ${painted}
 uniform bool contactShown;
 uniform vec3 kindColour[3];
 uniform vec3 touchedColour;
@@ -41,11 +48,13 @@ bool touchesReamer() {
   float heightMm = mix(faceHeightMm[below], faceHeightMm[below + 1], at - float(below));
   return abs(vInTool.z - heightMm) < ${touchesWithinMm};
 }
+#endif
 `;
 const paintKinds = `
 #include <color_fragment>
+#ifdef ${painted}
 float known = vKinds.x + vKinds.y + vKinds.z;
-if (kindsShown && known > 0.01) {
+if (known > 0.01) {
   vec3 kind = (kindColour[0] * vKinds.x + kindColour[1] * vKinds.y + kindColour[2] * vKinds.z) / known;
   diffuseColor.rgb = mix(diffuseColor.rgb, kind, min(known, 1.0));
 }
@@ -53,13 +62,13 @@ if (touchesReamer()) {
   float line = fract((gl_FragCoord.x + gl_FragCoord.y) / 6.0);
   diffuseColor.rgb = mix(diffuseColor.rgb, touchedColour, line < 0.5 ? 0.85 : 0.45);
 }
+#endif
 `;
 
 /** Paints the streamed bone by its kinds, and where the reamer touches it, while that is wanted. */
 export class BonePaint {
   readonly material: MeshStandardMaterial;
   private readonly toolFromWorld = { value: new Matrix4() };
-  private readonly kindsShown = { value: false };
   private readonly contactShown = { value: false };
   private readonly faceReachMm = { value: 0 };
   private readonly faceHeightMm = { value: new Float32Array(heightCount) };
@@ -74,7 +83,6 @@ export class BonePaint {
       const { cancellous, cortical, cartilage } = kindColours;
       Object.assign(shader.uniforms, {
         toolFromWorld: this.toolFromWorld,
-        kindsShown: this.kindsShown,
         contactShown: this.contactShown,
         faceReachMm: this.faceReachMm,
         faceHeightMm: this.faceHeightMm,
@@ -112,7 +120,11 @@ export class BonePaint {
   }
 
   setWanted(wanted: boolean): void {
+    if (wanted !== this.wanted) this.material.needsUpdate = true;
     this.wanted = wanted;
+    const { defines = {} } = this.material;
+    if (wanted) defines[painted] = '';
+    else delete defines[painted];
     this.refresh();
   }
 
@@ -121,7 +133,6 @@ export class BonePaint {
   }
 
   private refresh(): void {
-    this.kindsShown.value = this.wanted;
     this.contactShown.value = this.wanted && this.posed && this.touching;
   }
 }

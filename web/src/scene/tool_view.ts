@@ -1,5 +1,5 @@
 import { BufferAttribute, BufferGeometry, CylinderGeometry, Group, Mesh, MeshStandardMaterial, Vector3 } from 'three';
-import { toCreasedNormals } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
+import { mergeVertices, toCreasedNormals } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
 
 import type { Pose, ToolMesh } from '../wire/messages';
 
@@ -40,7 +40,7 @@ export class ToolView {
     const indexed = new BufferGeometry();
     indexed.setAttribute('position', new BufferAttribute(tool.positionsMm, 3));
     indexed.setIndex(new BufferAttribute(tool.indices, 1));
-    const envelope = toCreasedNormals(indexed, creaseRad);
+    const envelope = mergeVertices(toCreasedNormals(indexed, creaseRad));
     envelope.computeBoundingBox();
     this.group.add(new Mesh(envelope, this.envelopeMaterial));
     const top = envelope.boundingBox?.min.z ?? 0;
