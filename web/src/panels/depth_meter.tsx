@@ -6,7 +6,7 @@ import { fixed } from './format';
 /** Reaming depth against the plan. */
 export function DepthMeter({ store }: { store: Store }) {
   const plannedMm = store.hello.value?.plannedDepthMm ?? 0;
-  const toldMm = store.telemetry.value?.depthMm ?? NaN;
+  const toldMm = store.reading.value.told?.depthMm ?? NaN;
   const depthMm = Number.isFinite(toldMm) ? toldMm : null;
   const share = plannedMm > 0 && depthMm !== null ? Math.min(Math.max(depthMm / plannedMm, 0), 1) : 0;
   const pastMm = depthMm === null ? 0 : depthMm - plannedMm;

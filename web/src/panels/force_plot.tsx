@@ -38,7 +38,7 @@ const strengthSeconds = 0.1;
 
 /** What the hand's work came to, tick by tick, over the last seconds of session time: thrust, feed and vibration. */
 export function ForcePlots({ store }: { store: Store }) {
-  const known = store.traceRevision.value >= 0;
+  const known = store.reading.value.traceRevision >= 0;
   const newest = known ? store.trace.newest('thrustN') : null;
   const shown = newest === null ? words.none : fixed(newest, 1);
   return (

@@ -12,7 +12,7 @@ export const lateAbovePercent = 0.1;
 export function missedPercent(store: Store): number | null {
   const details = store.details.value;
   const session = details !== null && details.id === store.sessionId.value ? details : null;
-  const telemetry = store.telemetry.value;
+  const telemetry = store.reading.value.told;
   const missed = telemetry?.ticksMissed ?? session?.loop?.missed ?? null;
   const ticks = telemetry?.tick ?? session?.tick ?? 0;
   return missed === null || ticks === 0 ? null : (missed / ticks) * 100;

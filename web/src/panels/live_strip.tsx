@@ -32,7 +32,7 @@ export function LiveStrip({ store, practice, latency, sound, slicesOpen }: Parts
   const live = store.live.value;
   const steering = practice.steering.value;
   const drawingMs = latency.drawingMs.value;
-  const watchingMs = drawingMs === null ? null : drawingMs + store.behindMs.value;
+  const watchingMs = drawingMs === null ? null : drawingMs + store.reading.value.behindMs;
   const delayMs = !live ? null : steering ? latency.handMs.value : watchingMs;
   const slow = delayMs !== null && delayMs > latencyGoalMs;
   const percent = live ? missedPercent(store) : null;

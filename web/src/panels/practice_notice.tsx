@@ -52,7 +52,7 @@ function ofHand(store: Store, practice: PracticeStore, theatre: boolean): Notice
     return ['silent', words.noticeSpindleOff, words.noticeSpindleOffText];
   if (theatre) return null;
   const plannedMm = store.hello.value?.plannedDepthMm ?? 0;
-  if (pushing && plannedMm > 0 && (store.telemetry.value?.depthMm ?? 0) >= plannedMm)
+  if (pushing && plannedMm > 0 && (store.reading.value.told?.depthMm ?? 0) >= plannedMm)
     return ['lost', words.noticeDepth, words.noticeDepthText];
   return null;
 }

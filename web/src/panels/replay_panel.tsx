@@ -7,7 +7,7 @@ import { words } from '../words';
 export function ReplayPanel({ store, watcher }: { store: Store; watcher: Watcher }) {
   const of = store.hello.value?.replayOf ?? '';
   const recorded = store.sessions.value.find((session) => session.id === of);
-  const fault = store.telemetry.value?.fault ?? '';
+  const fault = store.fault.value;
   const warning = store.recordingWarning.value;
   return (
     <section class="replay" aria-label={words.replayBadge} data-testid="replay-panel">

@@ -118,7 +118,7 @@ function StateLine({
 }: Pick<Parts, 'store' | 'practiceStore'> & { reachable: boolean }) {
   const state = store.sessionState.value;
   if (state === null) return null;
-  const fault = store.telemetry.value?.fault ?? '';
+  const fault = store.fault.value;
   return (
     <p class="session-state" data-testid="session-state" data-state={state} aria-live="polite">
       {reachable ? (

@@ -6,8 +6,8 @@ import type { TraceColumn } from '../state/live_trace';
 import { plotSeconds, type Store } from '../state/store';
 import { theme } from '../state/theme';
 
-/** Redrawn at most this often; the eye reads no more from a rolling line. */
-const redrawMs = 50;
+/** Of the browser's frames at least so many for each drawing, so that a slow computer keeps them for the picture. */
+const framesEach = 3;
 /** More are not told apart in the width of the panel. */
 const mostPoints = 700;
 
@@ -49,12 +49,15 @@ export function TracePlot({ store, kind, label, testId }: Parts) {
 /** Draws the trace into `element` as it grows, and anew for another size or colour scheme, until the result is called. */
 function keepPlotted(element: HTMLElement, store: Store, kind: PlotKind): () => void {
   let plot = createPlot(element, kind);
-  let timer: ReturnType<typeof setTimeout> | undefined;
+  let waiting: number | null = null;
 
   const redraw = () => {
-    timer = undefined;
+    waiting = null;
     const { seconds, values } = store.trace.line(kind.column, plotSeconds, mostPoints);
     plot.setData([seconds, values]);
+  };
+  const waitFrames = (left: number) => {
+    waiting = requestAnimationFrame(left > 1 ? () => waitFrames(left - 1) : redraw);
   };
   const recreate = () => {
     plot.destroy();
@@ -70,12 +73,12 @@ function keepPlotted(element: HTMLElement, store: Store, kind: PlotKind): () => 
     recreate();
   });
   const stopFollowing = effect(() => {
-    if (store.traceRevision.value >= 0 && timer === undefined) timer = setTimeout(redraw, redrawMs);
+    if (store.traceRevision.value >= 0 && waiting === null) waitFrames(framesEach);
   });
   redraw();
   return () => {
     stopFollowing();
-    clearTimeout(timer);
+    if (waiting !== null) cancelAnimationFrame(waiting);
     observer.disconnect();
     stopFollowingTheme();
     plot.destroy();

@@ -49,10 +49,13 @@ export function pastPlanMm(depthMm: number, plannedMm: number): number | null {
   return plannedMm > 0 && pastMm > reachedWithinMm ? pastMm : null;
 }
 
+/** Always the same, so that nothing follows from there being none still. */
+const none: readonly Alarm[] = [];
+
 /** What the person at the reamer should stop doing. Nothing while what is known is not of this moment. */
 export class Alarms {
   private readonly thrustN = signal<number | null>(null);
-  readonly now = computed((): readonly Alarm[] => (this.store.upToDate.value ? this.all() : []));
+  readonly now = computed((): readonly Alarm[] => (this.store.upToDate.value ? this.all() : none));
 
   constructor(private readonly store: Store) {
     const watch = new ThrustWatch();
@@ -66,7 +69,7 @@ export class Alarms {
     });
   }
 
-  private all(): Alarm[] {
+  private all(): readonly Alarm[] {
     const found: Alarm[] = [];
     const newtons = this.thrustN.value;
     const moving = this.store.active.value || this.store.replaying.value;
@@ -77,6 +80,6 @@ export class Alarms {
     if (pastMm !== null) found.push({ kind: 'depth', level: pastMm > farPastMm ? 'bad' : 'warn', value: pastMm });
     const breachMm = metrics.value?.vault_breach_mm ?? 0;
     if (breachMm > 0) found.push({ kind: 'vault', level: 'bad', value: breachMm });
-    return found;
+    return found.length === 0 ? none : found;
   }
 }

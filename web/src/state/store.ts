@@ -4,12 +4,16 @@ import type { Mark, Metrics, Session } from '../wire/api';
 import type { LinkState } from '../wire/link';
 import type { Hello, Playback, SessionState, Telemetry } from '../wire/messages';
 import { LiveTrace } from './live_trace';
+import { unhurried } from './unhurried';
 
 /** Length of the force plot, seconds of session time. */
 export const plotSeconds = 20;
 
 /** News that is older than this is not shown as live. */
 export const behindAtMostMs = 1500;
+
+/** Numbers that change more often are not read, and cost a slow computer its pictures. */
+const readEveryMs = 100;
 
 /** What the page knows. Written by the watcher, read by panels and scene. */
 export class Store {
@@ -70,6 +74,18 @@ export class Store {
   readonly replaying = computed(() => this.replayId.value !== null || (this.hello.value?.replayOf ?? '') !== '');
   /** How long what came last was on its way, beyond what it always takes; ms. Grows where the link is too slow. */
   readonly behindMs = signal(0);
+  /** What is read as numbers: the last moment as it was told, and how late; nothing of a session that is left. */
+  readonly reading = unhurried(
+    computed(() => ({
+      told: this.telemetry.value,
+      behindMs: this.behindMs.value,
+      traceRevision: this.traceRevision.value,
+    })),
+    readEveryMs,
+    ({ told }) => told === null,
+  );
+  /** In the server's words, why the session rests; empty: it does not. */
+  readonly fault = computed(() => this.telemetry.value?.fault ?? '');
   readonly farBehind = computed(() => this.behindMs.value > behindAtMostMs);
   /** Whether what is shown is all that the stream has told, of the present or of a recording. */
   readonly upToDate = computed(
