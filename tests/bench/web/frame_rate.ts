@@ -8,7 +8,7 @@ import { LiveVisit } from './live_visit';
 import { ProcessorTime } from './processor_time';
 import type { Turned } from './turned';
 
-const turns = 3;
+const turns = 5;
 const turnS = 3;
 const warmS = 0.5;
 /** As the page's keys turn. */
@@ -40,9 +40,6 @@ export async function frameRates(
   const others: FrameRate[] = [];
   for (let turn = 0; turn < turns; ++turn) {
     const visit = await LiveVisit.begin(browser, liveUrl);
-    await visit.seeAll();
-    await visit.page.evaluate((css) => { const sheet = new CSSStyleSheet(); sheet.replaceSync(css); document.adoptedStyleSheets = [sheet]; }, process.env.EXP_CSS ?? '');
-    await visit.page.waitForTimeout(300);
     await visit.seeAll();
     const view = await viewOf(visit.page);
     const triangles = await visit.page.evaluate(() => window.__ream.triangles);
