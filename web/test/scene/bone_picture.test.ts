@@ -1,0 +1,159 @@
+import { Mesh, MeshBasicMaterial, Vector3 } from 'three';
+import { describe, expect, it } from 'vitest';
+
+import { BonePicture } from '../../src/scene/bone_picture';
+import type { BlockSurface, Hello } from '../../src/wire/messages';
+import { hello } from '../wire/fake_messages';
+
+const gridDims = [300, 200, 170] as const;
+const edge = 32;
+const blockCount = 10 * 7 * 6;
+const spacing = new Vector3(0.5, 0.25, 0.75);
+const settledMs = 10_000;
+
+function pictured(): BonePicture {
+  const message = hello({ gridDims, blockEdgeVoxels: edge, voxelSpacingMm: spacing.toArray() });
+  if (message.kind !== 'hello') throw new Error('not a hello');
+  return new BonePicture(message.hello satisfies Hello, new MeshBasicMaterial());
+}
+
+/** Numbers from 0 to 1 that are the same for the same seed. */
+function randomNumbers(seed: number): () => number {
+  let state = seed;
+  return () => {
+    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+    return state / 2 ** 32;
+  };
+}
+
+function randomSurface(random: () => number, block: number, revision: number): BlockSurface {
+  const triangles = Math.floor(random() * 5);
+  const corners = 3 * triangles;
+  const among = (count: number) => Math.floor(random() * count);
+  return {
+    block,
+    revision,
+    tick: 0,
+    positions: Uint16Array.from({ length: 4 * corners }, (_, i) => (i % 4 === 3 ? 0 : among(34 * 1024))),
+    normals: Int16Array.from({ length: 4 * corners }, (_, i) => (i % 4 === 3 ? among(4) - 1 : among(65535) - 32767)),
+    indices: Uint16Array.from({ length: corners }, (_, i) => i),
+  };
+}
+
+/** Of each corner its place in the grid, mm, its direction and its kind of bone. */
+type Corner = readonly [place: Vector3, direction: string, kind: number];
+const triangleOf = (corners: readonly Corner[]) =>
+  corners
+    .map(([place, direction, kind]) =>
+      [...place.toArray().map((x) => x.toFixed(4)), direction, kind.toFixed(0)].join(','),
+    )
+    .join(' ');
+
+function drawn(picture: BonePicture): string[] {
+  const found: string[] = [];
+  picture.group.traverse((part) => {
+    if (!(part instanceof Mesh)) return;
+    const mesh = part as Mesh;
+    const { position, normal, boneKind } = mesh.geometry.attributes;
+    const { index } = mesh.geometry;
+    if (!position || !normal || !boneKind || index === null) throw new Error('a mesh without corners');
+    const corner = (at: number): Corner => [
+      new Vector3().fromBufferAttribute(position, at).applyMatrix4(mesh.matrix),
+      new Vector3().fromBufferAttribute(normal, at).toArray().map((x) => x.toFixed(6)).join(','),
+      boneKind.getX(at),
+    ];
+    for (let i = 0; i < index.count; i += 3) {
+      const corners = [index.getX(i), index.getX(i + 1), index.getX(i + 2)];
+      if (corners[0] !== corners[1]) found.push(triangleOf(corners.map(corner)));
+    }
+  });
+  return found.sort();
+}
+
+/** Blocks begin one voxel before their own; x runs fastest. */
+function told(surfaces: Iterable<BlockSurface>): string[] {
+  const found: string[] = [];
+  for (const { block, positions, normals, indices } of surfaces) {
+    const origin = new Vector3(block % 10, Math.floor(block / 10) % 7, Math.floor(block / 70));
+    const corner = (at: number): Corner => [
+      new Vector3()
+        .fromArray(positions, 4 * at)
+        .divideScalar(1024)
+        .addScaledVector(origin, edge)
+        .subScalar(1)
+        .multiply(spacing),
+      Array.from(normals.subarray(4 * at, 4 * at + 3), (x) => Math.max(x / 32767, -1).toFixed(6)).join(','),
+      normals[4 * at + 3] ?? NaN,
+    ];
+    for (let i = 0; i < indices.length; i += 3) found.push(triangleOf([...indices.subarray(i, i + 3)].map(corner)));
+  }
+  return found.sort();
+}
+
+const meshes = (picture: BonePicture) => picture.group.children.length;
+
+describe('BonePicture', () => {
+  it.each([1, 2, 3, 4, 5, 6, 7, 8])(
+    'draws every block as it was told last, whatever is drawn together (seed %i)',
+    (seed) => {
+      const random = randomNumbers(seed);
+      const picture = pictured();
+      const newest = new Map<number, BlockSurface>();
+      for (let step = 0, nowMs = 0; step < 400; ++step, nowMs += random() * 400) {
+        const block = Math.floor(random() ** 2 * blockCount);
+        const surface = randomSurface(random, block, step);
+        picture.apply(surface, nowMs);
+        newest.set(block, surface);
+        if (random() < 0.3) picture.settleOne(nowMs);
+        if (step % 20 === 0) expect(drawn(picture)).toEqual(told(newest.values()));
+      }
+      while (picture.settleOne(1e9));
+      expect(drawn(picture)).toEqual(told(newest.values()));
+      expect(picture.restless).toBe(false);
+    },
+  );
+
+  it('draws a picture that is whole by regions, and again block by block what changes', () => {
+    const random = randomNumbers(11);
+    const picture = pictured();
+    for (let block = 0; block < blockCount; ++block) {
+      let surface = randomSurface(random, block, 0);
+      while (surface.indices.length === 0) surface = randomSurface(random, block, 0);
+      picture.apply(surface, 0);
+    }
+    expect(meshes(picture)).toBe(blockCount);
+    picture.whole();
+    while (picture.settleOne(0));
+    expect(meshes(picture)).toBe(3 * 2 * 2);
+    expect(picture.restless).toBe(false);
+
+    let changed = randomSurface(random, 5, 1);
+    while (changed.indices.length === 0) changed = randomSurface(random, 5, 1);
+    picture.apply(changed, 100);
+    expect(picture.settleOne(200)).toBe(false);
+    expect(meshes(picture)).toBe(3 * 2 * 2 + 1);
+    expect(picture.settleOne(settledMs)).toBe(true);
+    expect(meshes(picture)).toBe(3 * 2 * 2);
+  });
+
+  it('keeps a block that is newer than what is told', () => {
+    const random = randomNumbers(3);
+    const picture = pictured();
+    const newer = randomSurface(random, 9, 5);
+    picture.apply(newer, 0);
+    while (picture.settleOne(settledMs));
+    picture.apply(randomSurface(random, 9, 4), settledMs);
+    expect(drawn(picture)).toEqual(told([newer]));
+  });
+
+  it('leaves nothing behind', () => {
+    const random = randomNumbers(4);
+    const picture = pictured();
+    for (let block = 0; block < 50; ++block) picture.apply(randomSurface(random, block, 0), 0);
+    picture.whole();
+    picture.settleOne(0);
+    picture.dispose();
+    expect(meshes(picture)).toBe(0);
+    expect(picture.blockCount).toBe(0);
+  });
+});
