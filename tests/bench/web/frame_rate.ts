@@ -29,7 +29,7 @@ interface View {
   heightPx: number;
 }
 
-/** Both pages draw the same bone from the same place, in turns, while its session goes on. */
+/** Both pages draw the same bone and reamer from the same place, in turns, while its session goes on. */
 export async function frameRates(
   browser: Browser,
   liveUrl: string,

@@ -1,4 +1,4 @@
-// The least that draws a bone's triangles with three.js: one mesh, one material, two lights, one camera that turns.
+// The least that draws the triangles of a bone and a reamer with three.js: a mesh and a material each, two lights, one camera that turns.
 import {
   BufferAttribute,
   BufferGeometry,
@@ -13,7 +13,7 @@ import {
 } from 'three';
 
 import type { Turned } from '../turned';
-import { bonePicture } from './bone_picture';
+import { streamedPicture } from './bone_picture';
 
 export interface BareView {
   widthPx: number;
@@ -46,12 +46,20 @@ async function main(canvas: HTMLCanvasElement): Promise<void> {
   const lamp = new DirectionalLight(0xffffff, 2.5);
   scene.add(new HemisphereLight(0xffffff, 0x888888, 1), lamp);
 
-  const { positionsMm, normals, indices } = await bonePicture(stream);
+  const { bone: picture, reamer } = await streamedPicture(stream);
   const bone = new BufferGeometry();
-  bone.setAttribute('position', new BufferAttribute(positionsMm, 3));
-  bone.setAttribute('normal', new BufferAttribute(normals, 3));
-  bone.setIndex(new BufferAttribute(indices, 1));
+  bone.setAttribute('position', new BufferAttribute(picture.positionsMm, 3));
+  bone.setAttribute('normal', new BufferAttribute(picture.normals, 3));
+  bone.setIndex(new BufferAttribute(picture.indices, 1));
   scene.add(new Mesh(bone, new MeshStandardMaterial({ color: 0xf2e8d5, roughness: 0.72 })));
+  const tool = new BufferGeometry();
+  tool.setAttribute('position', new BufferAttribute(reamer.positionsMm, 3));
+  tool.setIndex(new BufferAttribute(reamer.indices, 1));
+  tool.computeVertexNormals();
+  const toolMesh = new Mesh(tool, new MeshStandardMaterial({ color: 0xb4c0c6, roughness: 0.3 }));
+  toolMesh.position.set(...reamer.worldFromTool.translationMm);
+  toolMesh.quaternion.set(...reamer.worldFromTool.rotationXyzw);
+  scene.add(toolMesh);
 
   const draw = () => {
     camera.lookAt(target);

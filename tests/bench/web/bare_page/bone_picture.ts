@@ -2,7 +2,15 @@ import { Matrix4, Quaternion, Vector3 } from 'three';
 
 import { StreamDecoder } from '../../../../web/src/wire/decode';
 import { meshDecoderReady } from '../../../../web/src/wire/decode_block';
-import type { BlockSurface, Hello } from '../../../../web/src/wire/messages';
+import type { BlockSurface, Hello, Pose } from '../../../../web/src/wire/messages';
+
+/** The reamer as the page shows it, where the stream has it first. */
+export interface ReamerPicture {
+  /** Tool frame. */
+  positionsMm: Float32Array;
+  indices: Uint32Array;
+  worldFromTool: Pose;
+}
 
 /** One indexed mesh, world frame. */
 export interface BonePicture {
@@ -16,19 +24,24 @@ const stepsPerVoxel = 1024;
 /** Values of a vertex in a block's buffers, the last one padding. */
 const stride = 4;
 
-/** The whole bone of a stream's messages, each with its length (u32, little endian) before it. */
-export async function bonePicture(stream: ArrayBuffer): Promise<BonePicture> {
+/** The whole bone of a stream's messages, each with its length (u32, little endian) before it, and the reamer. */
+export async function streamedPicture(stream: ArrayBuffer): Promise<{ bone: BonePicture; reamer: ReamerPicture }> {
   await meshDecoderReady;
   const decoder = new StreamDecoder();
   const newest = new Map<number, BlockSurface>();
   let hello: Hello | null = null;
+  let pose: Pose | null = null;
   for (const bytes of messagesOf(stream)) {
     const message = decoder.decode(bytes);
     if (message.kind === 'hello') ({ hello } = message);
+    if (message.kind === 'telemetry') pose ??= message.telemetry.worldFromTool;
     if (message.kind === 'mesh') for (const block of message.mesh.blocks) newest.set(block.block, block);
   }
-  if (hello === null) throw new Error('a stream without a hello');
-  return merged(hello, [...newest.values()]);
+  if (hello === null || pose === null) throw new Error('a stream that does not tell where bone and reamer are');
+  return {
+    bone: merged(hello, [...newest.values()]),
+    reamer: { ...hello.tool, worldFromTool: pose },
+  };
 }
 
 function* messagesOf(stream: ArrayBuffer): Generator<Uint8Array> {
