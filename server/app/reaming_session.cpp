@@ -19,7 +19,7 @@
 namespace ream::app {
 namespace {
 
-constexpr auto follower_period = std::chrono::milliseconds(10);
+constexpr auto follower_period = std::chrono::milliseconds(5);
 /// A session that rests tells its viewers so this often, so that a silent link is a broken one.
 constexpr int64_t heartbeat_ns = 500'000'000;
 

@@ -67,11 +67,11 @@ struct TelemetryBatch {
 
 using SharedTelemetry = std::shared_ptr<const TelemetryBatch>;
 
-/// Collects samples and publishes them about 30 times a second. Used by one thread.
+/// Collects samples and publishes them about 60 times a second. Used by one thread.
 class TelemetryBatcher {
  public:
   /// Samples are expected every `tick_stride` ticks; a larger step ends the batch and counts as lost entries.
-  explicit TelemetryBatcher(Fanout& fanout, uint32_t tick_stride = 1, int64_t interval_ns = 33'000'000);
+  explicit TelemetryBatcher(Fanout& fanout, uint32_t tick_stride = 1, int64_t interval_ns = 15'000'000);
 
   /// Takes in a sample; publishes nothing but batches that this sample ends.
   void add(const TelemetrySample& sample);

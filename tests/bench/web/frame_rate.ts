@@ -10,7 +10,8 @@ import type { Turned } from './turned';
 
 const turns = 5;
 const turnS = 3;
-const warmS = 0.5;
+/** Until the browser has compiled what is run often, and the bone has come to rest. */
+const warmS = 3;
 /** As the page's keys turn. */
 const stepRad = 0.09;
 
@@ -27,9 +28,11 @@ interface View {
   eye: Eye;
   widthPx: number;
   heightPx: number;
+  /** Edges are. */
+  smooth: boolean;
 }
 
-/** Both pages draw the same bone and reamer from the same place, in turns, while its session goes on. */
+/** Both pages draw the same bone and reamer from the same place, with the same edges, in turns, while its session goes on. */
 export async function frameRates(
   browser: Browser,
   liveUrl: string,
@@ -45,7 +48,7 @@ export async function frameRates(
     const triangles = await visit.page.evaluate(() => window.__ream.triangles);
     ours.push(await timed(clock, triangles, (seconds) => visit.turn(seconds)));
     await visit.end();
-    others.push(await turnBare(browser, clock, bare.url, view));
+    others.push(await turnBare(browser, clock, `${bare.url}${view.smooth ? '#smooth' : ''}`, view));
     tell(`pictures a second: ${rounded(ours.at(-1))}, of the bare page ${rounded(others.at(-1))}`);
   }
   return { ours: medians(ours), bare: medians(others) };
@@ -54,8 +57,12 @@ export async function frameRates(
 async function viewOf(page: Page): Promise<View> {
   const eye = await page.evaluate(() => window.__ream.eye);
   const box = await page.getByTestId('bone-canvas').boundingBox();
+  const smooth = await page.evaluate(() => {
+    const canvas = document.querySelector<HTMLCanvasElement>('[data-testid=bone-canvas]');
+    return canvas?.getContext('webgl2')?.getContextAttributes()?.antialias === true;
+  });
   if (box === null) throw new Error('the page shows no picture');
-  return { eye, widthPx: box.width, heightPx: box.height };
+  return { eye, widthPx: box.width, heightPx: box.height, smooth };
 }
 
 async function turnBare(browser: Browser, clock: ProcessorTime, url: string, view: View): Promise<FrameRate> {

@@ -24,6 +24,7 @@ import { planeThroughAxis, sectionPlanes } from './cut_planes';
 import { Headset } from './headset';
 import { OperatingLights } from './lights';
 import type { Eye } from './shared_eye';
+import { drawsInSoftware } from './software_drawing';
 import { SurgeonCamera } from './surgeon_camera';
 import { ToolView } from './tool_view';
 
@@ -65,7 +66,7 @@ export class BoneScene implements SteeredView {
 
   /** Throws where the browser offers no WebGL. */
   constructor() {
-    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: true, alpha: true });
+    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: !drawsInSoftware(), alpha: true });
     this.renderer.toneMapping = NeutralToneMapping;
     this.renderer.toneMappingExposure = 1.05;
     this.renderer.localClippingEnabled = true;

@@ -15,6 +15,9 @@ import {
 import type { Turned } from '../turned';
 import { streamedPicture } from './bone_picture';
 
+/** Of the address, where edges are to be smooth. */
+const smoothEdges = '#smooth';
+
 export interface BareView {
   widthPx: number;
   heightPx: number;
@@ -38,7 +41,7 @@ declare global {
 
 async function main(canvas: HTMLCanvasElement): Promise<void> {
   const stream = await (await fetch('./stream')).arrayBuffer();
-  const renderer = new WebGLRenderer({ canvas, antialias: true });
+  const renderer = new WebGLRenderer({ canvas, antialias: location.hash === smoothEdges });
   const scene = new Scene();
   const camera = new PerspectiveCamera(32, 1, 1, 2000);
   camera.up.set(0, 0, 1);
