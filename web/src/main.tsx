@@ -73,7 +73,9 @@ function main(root: HTMLElement): void {
   const latency = measureLatency(store, practiceStore, scene);
   publishDebugReadout({ store, practice: practiceStore, scene, sound, latency });
   const view = new ViewSettings();
-  scene.onTaken = () => view.change({ camera: 'own' });
+  scene.onTaken = () => {
+    if (view.choices.peek().camera !== 'own') view.change({ camera: 'own' });
+  };
   const inTheatre = theatreHere(store, practiceStore, route);
   effect(() => void (view.theatre.value = inTheatre.value));
   effect(() => scene.setView(view.shown.value, view.theatre.value));
