@@ -24,17 +24,27 @@ constexpr double protocol_n = 52.0;
 /// Eq. 5.2 for the slab's 0.5 g/cc, mm/s.
 constexpr double protocol_feed_mm_s = 0.42 - 0.34 * 0.5;
 constexpr double rounding_n = 1.0e-5;
-constexpr uint32_t settled_tick = 3200, last_tick = 4400;
+/// Force rises in the first two seconds; whoever pushes harder than it meanwhile sinks in.
+constexpr uint32_t risen_tick = 2400, settled_tick = 3600, last_tick = 4800;
+constexpr double approach_n = 1.0;
 
 class HardwareSessions : public testing::Test {
  protected:
   void use(const std::string& device) {
     bench = make_bench(device);
     bench->set_up(server.reaming().data());
+    // Room for the nipple, so that bone alone decides the feed.
+    case_::Case deep;
+    deep.id = "deep";
+    deep.name = "Slab with a deep pilot hole";
+    deep.bone = RecordedReaming::small_bone();
+    deep.plan = RecordedReaming::small_plan();
+    deep.plan->pilot_hole = case_::PilotHole{3.2, 8.0};
+    case_::save_case(deep, server.reaming().data() / "cases/deep");
   }
   std::string run() {
     bench->begin();
-    return server.run({{"case", "slab"}, {"device", bench->device()}});
+    return server.run({{"case", "deep"}, {"device", bench->device()}});
   }
   json session(const std::string& id) const { return server.get(id); }
   std::string state(const std::string& id) const { return session(id).at("state"); }
@@ -73,6 +83,8 @@ class ClosedLoop : public HardwareSessions, public testing::WithParamInterface<s
   std::optional<double> measured_feed_mm_s() {
     const std::string id = run();
     const double scale = session(id).at("force_scale");
+    bench->hardware().push_n = approach_n;
+    LiveServer::until("all of the force", [&] { return session(id).at("tick") > risen_tick || over(id); });
     bench->hardware().push_n = protocol_n / scale;
     LiveServer::until("the settled part", [&] { return session(id).at("tick") > last_tick || over(id); });
     if (over(id)) return std::nullopt;
@@ -124,7 +136,7 @@ class HardwareFaults : public HardwareSessions,
   /// How long the force lasted; empty when the machine spoilt it.
   std::optional<double> ms_of_force(HardwareFault fault) {
     const std::string id = run();
-    bench->hardware().push_n = protocol_n / session(id).at("force_scale").get<double>();
+    bench->hardware().push_n = approach_n;
     if (!until_force(id, 0.5)) return std::nullopt;
     const int64_t since_ns = monotonic_ns();
     bench->make(fault);

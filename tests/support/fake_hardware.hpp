@@ -27,7 +27,7 @@ inline int64_t monotonic_ns() {
 /// Euler; device frame. Shares nothing with the product's hands.
 struct FakeHand {
   std::array<double, 3> axis{0, 0, -1}, start_mm{0, 0, 0}, place_mm{0, 0, 0}, velocity_mm_s{0, 0, 0};
-  double mass_kg = 0.3, damping_n_s_mm = 0.05, sideways_n_mm = 0.5;
+  double mass_kg = 0.3, damping_n_s_mm = 0.03, sideways_n_mm = 0.5;
 
   void advance(double time_s, double push_n, const std::array<double, 3>& felt_n) {
     double along_mm = 0.0;
