@@ -7,11 +7,12 @@
 
 namespace ream::device {
 
-/// How the force is written into a message to Haply's service: "vector" since its version 3.5, "values" before.
+/// How the force is written into a message to Haply's service: "vector" since its version 3.5, "values"
+/// before.
 enum class HaplyForceForm { vector, values };
 
-/// Where a device is and how it is spoken to: `connection` in devices/NAME.json. Each kind of device uses what
-/// concerns it; empty texts: the first or usual one.
+/// Where a device is and how it is spoken to: `connection` in devices/NAME.json. Each kind of device uses
+/// what concerns it; empty texts: the first or usual one.
 struct DeviceConnection {
   std::string host = "127.0.0.1";  ///< haply: of the service
   uint16_t port = 10001;           ///< haply: of the service's simulation channel

@@ -30,8 +30,8 @@ struct DeviceSetup {
   static constexpr double least_scale = 0.05, most_scale = 20.0;
 };
 
-/// The set-up that a kind of device is made with: its maker's frame, as it stands before a person, and a handle
-/// whose neutral place points the tool away from the person.
+/// The set-up that a kind of device is made with: its maker's frame, as it stands before a person, and a
+/// handle whose neutral place points the tool away from the person.
 DeviceSetup usual_device_setup(const std::string& device);
 
 /// The orientation to be told of a handle that senses none (device frame), so that the tool keeps the planned

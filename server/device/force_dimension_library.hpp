@@ -4,9 +4,9 @@
 
 namespace ream::device {
 
-/// The functions of Force Dimension's libdhd that the driver needs, by their names there without `dhd`, with the
-/// types that its documentation gives (SDK 3.17). Lengths are m, forces N, torques N m; below 0 is an error, and
-/// 1 (the time guard) and 2 (motors saturated) are none.
+/// The functions of Force Dimension's libdhd that the driver needs, by their names there without `dhd`, with
+/// the types that its documentation gives (SDK 3.17). Lengths are m, forces N, torques N m; below 0 is an
+/// error, and 1 (the time guard) and 2 (motors saturated) are none.
 struct ForceDimensionLibrary {
   /// Opens the library. `path` from a set-up; empty: REAM_DHD_LIBRARY, or where the loader finds it. Error
   /// unavailable.
@@ -25,8 +25,8 @@ struct ForceDimensionLibrary {
   int (*get_status)(int status[], char id);
   int (*get_pose)(double* x, double* y, double* z, double rotation[3][3], char id);
   unsigned (*get_button_mask)(char id);
-  int (*set_force_and_torque)(double fx, double fy, double fz, double tx, double ty, double tz, double gripper,
-                              char id);
+  int (*set_force_and_torque)(double fx, double fy, double fz, double tx, double ty, double tz,
+                              double gripper, char id);
   int (*set_max_force)(double newtons, char id);  ///< null in releases that do not have it
 
   /// What went wrong last, in the maker's words.

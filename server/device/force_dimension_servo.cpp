@@ -88,8 +88,7 @@ class ForceDimensionServo final : public Servo {
   void make_safe() {
     require(dhd().set_force_and_torque(0, 0, 0, 0, 0, 0, 0, id_), "takes no force");
     require(dhd().enable_expert_mode(), "takes no watchdog");
-    const int guarded =
-        dhd().set_watchdog(static_cast<unsigned char>(watchdog_ms / watchdog_period_ms), id_);
+    const int guarded = dhd().set_watchdog(static_cast<unsigned char>(watchdog_ms / watchdog_period_ms), id_);
     dhd().disable_expert_mode();
     require(guarded, "takes no watchdog");
     if (dhd().set_max_force != nullptr) dhd().set_max_force(force_max_n_, id_);
@@ -100,15 +99,16 @@ class ForceDimensionServo final : public Servo {
     int status[status_count] = {};
     require(dhd().get_status(status, id_), "tells no status");
     if (status[reset_status] == 0)
-      throw Error(ErrorKind::unavailable,
-                  "the device is not calibrated; follow its manual (reset button, or the maker's HapticInit), "
-                  "then start again");
+      throw Error(
+          ErrorKind::unavailable,
+          "the device is not calibrated; follow its manual (reset button, or the maker's HapticInit), "
+          "then start again");
   }
 
   void render(const ServoForce& force) const {
     const Vec3 torque_n_m = force.torque_n_mm / mm_per_m;
-    require(dhd().set_force_and_torque(force.force_n.x(), force.force_n.y(), force.force_n.z(), torque_n_m.x(),
-                                       torque_n_m.y(), torque_n_m.z(), 0.0, id_),
+    require(dhd().set_force_and_torque(force.force_n.x(), force.force_n.y(), force.force_n.z(),
+                                       torque_n_m.x(), torque_n_m.y(), torque_n_m.z(), 0.0, id_),
             "takes no force");
   }
 

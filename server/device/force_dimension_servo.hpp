@@ -6,10 +6,10 @@
 
 namespace ream::device {
 
-/// The driver of Force Dimension's devices (omega, delta, sigma, lambda; Novint Falcon) through the maker's own
-/// library. Pose and force are exchanged once a turn; the firmware's watchdog takes the force off a device that
-/// has been told nothing for watchdog_ms, so that a process that dies leaves none behind. Button 1 turns the
-/// spindle, 2 is the clutch, 3 pauses. The traits' force is also told to the device where the
+/// The driver of Force Dimension's devices (omega, delta, sigma, lambda; Novint Falcon) through the maker's
+/// own library. Pose and force are exchanged once a turn; the firmware's watchdog takes the force off a
+/// device that has been told nothing for watchdog_ms, so that a process that dies leaves none behind. Button
+/// 1 turns the spindle, 2 is the clutch, 3 pauses. The traits' force is also told to the device where the
 /// library allows it.
 std::unique_ptr<Servo> make_force_dimension_servo(const DeviceSetup& setup, const DeviceTraits& traits);
 

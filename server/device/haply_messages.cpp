@@ -166,11 +166,10 @@ void HaplyReader::take_inventory(std::string_view text) {
   const json& list = member(frame, "inverse3");
   const json& found = device_in(list, wanted_id_);
   if (found.is_null())
-    throw Error(ErrorKind::unavailable,
-                wanted_id_.empty()
-                    ? "it has no Inverse3; check the device's cable and power"
-                    : "it has no Inverse3 '" + wanted_id_ + "', but " + ids_of(list) +
-                          "; correct device_id in the set-up, or check the cable");
+    throw Error(ErrorKind::unavailable, wanted_id_.empty()
+                                            ? "it has no Inverse3; check the device's cable and power"
+                                            : "it has no Inverse3 '" + wanted_id_ + "', but " + ids_of(list) +
+                                                  "; correct device_id in the set-up, or check the cable");
   device_ = {};
   device_.device_id = text_of(found, "device_id");
   const double scale = force_scale_of(member(found, "config"));

@@ -12,9 +12,9 @@ namespace ream::device {
 /// The name under which Haply's service keeps what people configure for this program.
 inline constexpr const char* haply_profile = "ream.simulator:main";
 
-/// One message to the service (docs.haply.co, WebSocket protocol 3.5): the force on one Inverse3, N, its frame.
-/// `first`: it also configures the session, as the first message of a connection must. Written into `text`.
-/// Forces are rounded to a micronewton.
+/// One message to the service (docs.haply.co, WebSocket protocol 3.5): the force on one Inverse3, N, its
+/// frame. `first`: it also configures the session, as the first message of a connection must. Written into
+/// `text`. Forces are rounded to a micronewton.
 void write_haply_message(std::string& text, const std::string& device_id, const Vec3& force_n,
                          HaplyForceForm form, bool first);
 
@@ -34,8 +34,8 @@ class HaplyReader {
   /// Ids as in DeviceConnection: empty takes the first of the inventory.
   HaplyReader(std::string device_id, std::string grip_id);
 
-  /// The first frame of a connection. Error unavailable, naming what there is, when the Inverse3 is not there;
-  /// invalid_input when it is no inventory.
+  /// The first frame of a connection. Error unavailable, naming what there is, when the Inverse3 is not
+  /// there; invalid_input when it is no inventory.
   void take_inventory(std::string_view text);
   /// Any later frame. False: it could not be read, or does not tell of this Inverse3 (`why` says which), and
   /// nothing has changed.

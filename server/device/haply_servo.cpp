@@ -17,7 +17,8 @@ constexpr int useless_frames_allowed = 100;
 constexpr int turns_between_events = 10;
 
 const std::string start_service =
-    "; start Haply's Inverse Service (`systemctl start haply-inverse-service`), or correct host and port in the "
+    "; start Haply's Inverse Service (`systemctl start haply-inverse-service`), or correct host and port in "
+    "the "
     "set-up";
 
 /// The service with one device of it.
@@ -108,8 +109,9 @@ class HaplyServo final : public Servo {
   ServoState state() const {
     const HaplyDevice& device = reader_.device();
     ServoState state;
-    state.device_from_handle = {device.has_grip ? rotation_from_quaternion(device.orientation_wxyz) : unsensed_,
-                                mm_per_m * device.position_m};
+    state.device_from_handle = {
+        device.has_grip ? rotation_from_quaternion(device.orientation_wxyz) : unsensed_,
+        mm_per_m * device.position_m};
     state.spindle_on = wanted_.spindle_by_button && device.has_buttons ? device.button_a : true;
     state.clutch = device.button_b;
     state.paused = device.button_c || braked_;

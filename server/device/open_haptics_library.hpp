@@ -3,8 +3,8 @@
 
 namespace ream::device {
 
-/// The functions of OpenHaptics' HDAPI (libHD) that the driver needs, by their names there without `hd`, with the
-/// types that its documentation gives. Lengths are mm, forces N, torques mN m (the same as N mm).
+/// The functions of OpenHaptics' HDAPI (libHD) that the driver needs, by their names there without `hd`, with
+/// the types that its documentation gives. Lengths are mm, forces N, torques mN m (the same as N mm).
 struct OpenHapticsLibrary {
   struct ErrorInfo {
     unsigned code;

@@ -35,9 +35,11 @@ class OpenHapticsServo final : public Servo {
     while (hd().get_error().code != Library::success) {
     }
     device_ = hd().init_device(wanted_.device_id.empty() ? nullptr : wanted_.device_id.c_str());
-    if (const unsigned failed = hd().get_error().code; failed != Library::success || device_ == Library::invalid_device)
-      throw Error(ErrorKind::unavailable, "the device cannot be opened: " + words(failed) +
-                                              "; check cable and power, and set it up with its maker's program");
+    if (const unsigned failed = hd().get_error().code;
+        failed != Library::success || device_ == Library::invalid_device)
+      throw Error(ErrorKind::unavailable,
+                  "the device cannot be opened: " + words(failed) +
+                      "; check cable and power, and set it up with its maker's program");
     is_open_ = true;
     limit();
     hd().enable(Library::max_force_clamping);
@@ -62,7 +64,8 @@ class OpenHapticsServo final : public Servo {
       ::poll(nullptr, 0, 1);
     }
     last_frame_ns_ = end.now_ns();
-    if (warm_ && !warm_told_) log::warn("openhaptics: its motors are warm; no more than their continuous force");
+    if (warm_ && !warm_told_)
+      log::warn("openhaptics: its motors are warm; no more than their continuous force");
     warm_told_ = warm_;
   }
 
@@ -75,7 +78,8 @@ class OpenHapticsServo final : public Servo {
     is_open_ = false;
     leaving_ = true;
     const uint64_t seen = frames_;
-    for (int waited_ms = 0; waited_ms < farewell_ms && frames_ < seen + 2 && error_ == Library::success && !stands_still_;
+    for (int waited_ms = 0;
+         waited_ms < farewell_ms && frames_ < seen + 2 && error_ == Library::success && !stands_still_;
          ++waited_ms)
       ::poll(nullptr, 0, 1);
     hd().make_current_device(device_);

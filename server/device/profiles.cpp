@@ -39,8 +39,8 @@ constexpr std::array<Published, 18> table{{
     {"premium-1.5-6dof", impedance, 8.5, 0.188, 800.0, 5.0, 0.12, 6, by_lever, 0.0},
     {"premium-3.0-6dof", impedance, 22.0, 0.188, 1000.0, 5.0, 0.25, 6, by_lever, 0.0},
     // Haply Inverse3: its public documents give neither force nor stiffness. Force as it is cut until one has
-    // been measured; stiffness and damping as of the phantom-desktop, reach as of the phantom-omni. Engineering
-    // choices.
+    // been measured; stiffness and damping as of the phantom-desktop, reach as of the phantom-omni.
+    // Engineering choices.
     {"inverse3", impedance, 5.0, 0.0, 1000.0, 5.0, 0.10, 6, by_lever, 0.0},
     // KUKA LBR iiwa in Cartesian impedance control: stiffness up to 5000 N/m and 300 N m/rad (libiiwa's
     // documentation); force is the payload's weight; torque of the wrist axes and reach from the maker's data

@@ -26,14 +26,15 @@ struct ServoForce {
 /// alone decides what goes out, for every driver alike. Wait-free; one thread at a time.
 class ServoEnd {
  public:
-  /// Forces and torques are cut to these, keeping their direction. `clock_ns`: the clock of RemoteLink's times.
+  /// Forces and torques are cut to these, keeping their direction. `clock_ns`: the clock of RemoteLink's
+  /// times.
   ServoEnd(std::shared_ptr<RemoteLink> link, double force_max_n, double torque_max_n_mm,
            int64_t (*clock_ns)());
 
   /// A device is about to be opened: its poses are of a new connection, and no force is for it yet.
   void begin() noexcept;
-  /// The newest force, cut to the limits. Zero when it is older than output_too_old_ns, was taken away, is not
-  /// finite, or answers to poses of an earlier connection.
+  /// The newest force, cut to the limits. Zero when it is older than output_too_old_ns, was taken away, is
+  /// not finite, or answers to poses of an earlier connection.
   ServoForce force() noexcept;
   /// False, and nothing is said, for a pose that is not finite, no rotation, or
   /// further away than 2 m. `sensed_ns`: a time
@@ -69,8 +70,8 @@ class Servo {
   /// Makes the hardware ready, without force. Error unavailable, in one line that says what to do, when it
   /// cannot be had now. After it, a driver may use `end` from another thread until close().
   virtual void open(ServoEnd& end) = 0;
-  /// About one millisecond: renders end.force() and tells what was sensed. Error unavailable when the hardware
-  /// has gone, so that it is closed and opened again; any other kind: it cannot be used any more.
+  /// About one millisecond: renders end.force() and tells what was sensed. Error unavailable when the
+  /// hardware has gone, so that it is closed and opened again; any other kind: it cannot be used any more.
   virtual void turn(ServoEnd& end) = 0;
   /// Zero force, force off, closed, in that order; also after a failed open() or turn().
   virtual void close() noexcept = 0;

@@ -42,10 +42,10 @@ class ServoDevice final : public HapticDevice {
   const std::unique_ptr<Servo> servo_;
   std::thread thread_;
   std::atomic<bool> leaving_{false}, unusable_{false};
-  std::atomic<bool> serving_{false};    ///< the driver turns: what is taken away is soon gone
+  std::atomic<bool> serving_{false};        ///< the driver turns: what is taken away is soon gone
   std::atomic<bool> without_force_{false};  ///< a turn has begun since the force was taken away
-  std::atomic<int> opened_{0};          ///< 0: not yet, 1: yes, -1: no
-  std::string refusal_;                 ///< why not; before opened_
+  std::atomic<int> opened_{0};              ///< 0: not yet, 1: yes, -1: no
+  std::string refusal_;                     ///< why not; before opened_
 };
 
 }  // namespace ream::device

@@ -6,14 +6,14 @@ namespace ream::device {
 
 /// Where a maker's library may be found.
 struct VendorLibraryPlace {
-  std::string maker;                   ///< for people, "Force Dimension's SDK"
-  std::string path;                    ///< from a set-up; empty: not said
-  const char* variable;                ///< of the environment, that names a path where the set-up says none
+  std::string maker;                    ///< for people, "Force Dimension's SDK"
+  std::string path;                     ///< from a set-up; empty: not said
+  const char* variable;                 ///< of the environment, that names a path where the set-up says none
   std::vector<std::string> file_names;  ///< that the loader looks for where neither says one, in this order
 };
 
-/// A library that its maker alone may give out: it is opened where it is installed, and stays loaded to the end
-/// of the process, as makers' libraries have threads of their own.
+/// A library that its maker alone may give out: it is opened where it is installed, and stays loaded to the
+/// end of the process, as makers' libraries have threads of their own.
 class VendorLibrary {
  public:
   /// Error unavailable, saying where it was looked for and what to do, when it is not there.

@@ -92,8 +92,8 @@ void WebSocketClient::connect(const std::string& host, uint16_t port, const std:
     parts.lost("was not found", asio::error::timed_out);
   }
   if (*resolved) parts.lost("was not found", *resolved);
-  if (const error_code failed = parts.within(
-          most, [&](auto done) { asio::async_connect(parts.socket(), found, std::move(done)); }))
+  if (const error_code failed =
+          parts.within(most, [&](auto done) { asio::async_connect(parts.socket(), found, std::move(done)); }))
     parts.lost("cannot be reached", failed);
   error_code ignored;
   parts.socket().set_option(tcp::no_delay(true), ignored);
@@ -136,8 +136,9 @@ void WebSocketClient::close() noexcept {
   Parts& parts = *parts_;
   if (!parts.open) return;
   try {
-    parts.within(goodbye,
-                 [&](auto done) { parts.stream.async_close(websocket::close_code::normal, std::move(done)); });
+    parts.within(goodbye, [&](auto done) {
+      parts.stream.async_close(websocket::close_code::normal, std::move(done));
+    });
     parts.drop();
   } catch (const std::exception&) {
     // The connection ends with the socket, said goodbye or not.

@@ -14,7 +14,8 @@
 namespace ream::test {
 namespace {
 
-/// From the last good pose: 10 ms until it counts as old, 20 ms of fading, and a tick, a turn and a half beside.
+/// From the last good pose: 10 ms until it counts as old, 20 ms of fading, and a tick, a turn and a half
+/// beside.
 constexpr double faded_ms = 35.0;
 /// With answers of 15 ms the last good pose is as old when it comes, and the next force as late.
 constexpr double faded_slowly_ms = 65.0;

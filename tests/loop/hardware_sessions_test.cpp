@@ -1,7 +1,7 @@
-// Every driver of real hardware in whole sessions, against a fake that speaks as the hardware does: the thesis'
-// 52 N protocol through a closed loop of a millisecond, and every fault with the time in which the force at the
-// fake is gone. A machine with too much to do adds faults of its own, so what it spoils is done again. The table
-// for people is in server/device/GUIDE.md.
+// Every driver of real hardware in whole sessions, against a fake that speaks as the hardware does: the
+// thesis' 52 N protocol through a closed loop of a millisecond, and every fault with the time in which the
+// force at the fake is gone. A machine with too much to do adds faults of its own, so what it spoils is done
+// again. The table for people is in server/device/GUIDE.md.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -125,10 +125,12 @@ struct NamedFault {
   const char* name;
   HardwareFault fault;
 };
-constexpr std::array faults{
-    NamedFault{"dies", HardwareFault::absent},        NamedFault{"goes_silent", HardwareFault::silent},
-    NamedFault{"not_finite", HardwareFault::not_finite}, NamedFault{"absurd", HardwareFault::absurd},
-    NamedFault{"slow", HardwareFault::slow},          NamedFault{"malformed", HardwareFault::malformed}};
+constexpr std::array faults{NamedFault{"dies", HardwareFault::absent},
+                            NamedFault{"goes_silent", HardwareFault::silent},
+                            NamedFault{"not_finite", HardwareFault::not_finite},
+                            NamedFault{"absurd", HardwareFault::absurd},
+                            NamedFault{"slow", HardwareFault::slow},
+                            NamedFault{"malformed", HardwareFault::malformed}};
 
 class HardwareFaults : public HardwareSessions,
                        public testing::WithParamInterface<std::tuple<std::string, size_t>> {

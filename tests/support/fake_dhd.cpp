@@ -1,5 +1,5 @@
-// A libdhd.so with one omega.3 or sigma.7 in it: exports the maker's symbols, and fake_hardware() for tests. Its
-// firmware's watchdog switches the force off; the hand moves on 1 ms with each force.
+// A libdhd.so with one omega.3 or sigma.7 in it: exports the maker's symbols, and fake_hardware() for tests.
+// Its firmware's watchdog switches the force off; the hand moves on 1 ms with each force.
 #include <poll.h>
 
 #include <thread>
@@ -104,7 +104,8 @@ int dhdEnableForce(unsigned char on, char) {
   hardware().called(on != 0 ? "dhdEnableForce on" : "dhdEnableForce off");
   if (!device().open) return -1;
   if (on != 0 && device().watchdog_ms == 0.0) hardware().refused("its force is on without a watchdog");
-  if (on == 0 && hardware().fault == HardwareFault::none && hardware().force_now_n() > 0.0) hardware().refused("its force is switched off while it pushes");
+  if (on == 0 && hardware().fault == HardwareFault::none && hardware().force_now_n() > 0.0)
+    hardware().refused("its force is switched off while it pushes");
   device().forced = on != 0;
   if (on == 0) hardware().off();
   return 0;
@@ -135,8 +136,8 @@ int dhdGetPositionAndOrientationFrame(double* x, double* y, double* z, double r[
 
 unsigned dhdGetButtonMask(char) { return hardware().buttons; }
 
-int dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz, double tx, double ty, double tz, double,
-                                        char) {
+int dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz, double tx, double ty, double tz,
+                                        double, char) {
   if (!answers()) return -1;
   device().told_ns = ream::test::monotonic_ns();
   const double force_n = std::hypot(fx, fy, fz);

@@ -61,10 +61,11 @@ bool shake_hands(int socket) {
   ::SHA1(reinterpret_cast<const unsigned char*>(key.data()), key.size(), hash);
   unsigned char encoded[64];
   const int length = ::EVP_EncodeBlock(encoded, hash, sizeof hash);
-  return send_all(socket, "HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
-                          "Sec-WebSocket-Accept: " +
-                              std::string(reinterpret_cast<char*>(encoded), static_cast<size_t>(length)) +
-                              "\r\n\r\n");
+  return send_all(socket,
+                  "HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+                  "Sec-WebSocket-Accept: " +
+                      std::string(reinterpret_cast<char*>(encoded), static_cast<size_t>(length)) +
+                      "\r\n\r\n");
 }
 
 bool send_text(int socket, const std::string& text) {
@@ -221,7 +222,8 @@ json FakeHaply::state_frame() {
   const std::array<double, 3> place_mm = hardware_.move_hand(step_s);
   json position = json::object();
   for (size_t i = 0; i < 3; ++i)
-    if (place_mm[i] != told_mm_[i]) position[std::string(1, static_cast<char>('x' + i))] = place_mm[i] / mm_per_m;
+    if (place_mm[i] != told_mm_[i])
+      position[std::string(1, static_cast<char>('x' + i))] = place_mm[i] / mm_per_m;
   told_mm_ = place_mm;
   if (hardware_.fault == HardwareFault::not_finite) position["x"] = std::nan("");
   if (hardware_.fault == HardwareFault::absurd) position["x"] = 1000.0;
@@ -255,7 +257,8 @@ std::string FakeHaply::why_refused(const json& message, bool first) const {
   if (!command.is_object() || command.size() != 1) return "no force";
   const json force = command.contains("vector") ? command["vector"] : command.value("values", json());
   for (const char* axis : {"x", "y", "z"})
-    if (!force.is_object() || !force.contains(axis) || !force[axis].is_number()) return "a force that is none";
+    if (!force.is_object() || !force.contains(axis) || !force[axis].is_number())
+      return "a force that is none";
   return "";
 }
 

@@ -7,11 +7,12 @@
 
 namespace ream::test {
 
-/// Haply's Inverse Service with one Inverse3, and a grip unless told otherwise, on free ports of 127.0.0.1: an
-/// inventory on connect, then exactly one state for each message; takes a force as `vector` or `values`, lets it
-/// act until the next message and forgets it 10 ms later; refuses (and ends the connection) what is no JSON,
-/// names no device of its own, has no force in it, or does not configure the session with the first message
-/// alone. States leave out what is as in the frame before. The hand moves 1 ms a message. On plain sockets.
+/// Haply's Inverse Service with one Inverse3, and a grip unless told otherwise, on free ports of 127.0.0.1:
+/// an inventory on connect, then exactly one state for each message; takes a force as `vector` or `values`,
+/// lets it act until the next message and forgets it 10 ms later; refuses (and ends the connection) what is
+/// no JSON, names no device of its own, has no force in it, or does not configure the session with the first
+/// message alone. States leave out what is as in the frame before. The hand moves 1 ms a message. On plain
+/// sockets.
 class FakeHaply {
  public:
   struct Setting {

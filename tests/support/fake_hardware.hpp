@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "support/fake_hand.hpp"
+
 namespace ream::test {
 
 inline int64_t monotonic_ns() {
@@ -22,25 +24,6 @@ inline int64_t monotonic_ns() {
   ::clock_gettime(CLOCK_MONOTONIC, &now);
   return now.tv_sec * 1'000'000'000LL + now.tv_nsec;
 }
-
-/// A hand on a handle: a mass that is pushed along an axis, damped by the arm and kept on its line. Semi-implicit
-/// Euler; device frame. Shares nothing with the product's hands.
-struct FakeHand {
-  std::array<double, 3> axis{0, 0, -1}, start_mm{0, 0, 0}, place_mm{0, 0, 0}, velocity_mm_s{0, 0, 0};
-  double mass_kg = 0.3, damping_n_s_mm = 0.03, sideways_n_mm = 0.5;
-
-  void advance(double time_s, double push_n, const std::array<double, 3>& felt_n) {
-    double along_mm = 0.0;
-    for (size_t i = 0; i < 3; ++i) along_mm += axis[i] * (place_mm[i] - start_mm[i]);
-    const double gain = time_s * 1000.0 / mass_kg;
-    for (size_t i = 0; i < 3; ++i) {
-      const double off_mm = place_mm[i] - start_mm[i] - axis[i] * along_mm;
-      const double force_n = axis[i] * push_n + felt_n[i] - sideways_n_mm * off_mm;
-      velocity_mm_s[i] = (velocity_mm_s[i] + gain * force_n) / (1.0 + gain * damping_n_s_mm);
-      place_mm[i] += time_s * velocity_mm_s[i];
-    }
-  }
-};
 
 enum class HardwareFault : int {
   none,
@@ -52,10 +35,10 @@ enum class HardwareFault : int {
   malformed,   ///< it answers what makes no sense
 };
 
-/// What a fake device does and what was done to it: a hand, faults on demand, and a diary of every force with its
-/// time and of every call. Any thread. With FAKE_HARDWARE_LOG in the environment the diary also goes to that
-/// file, line by line, so that it outlives its process; FAKE_HARDWARE_PUSH is what its hand pushes with, as
-/// "N,X,Y,Z", N being newtons and X,Y,Z the direction.
+/// What a fake device does and what was done to it: a hand, faults on demand, and a diary of every force with
+/// its time and of every call. Any thread. With FAKE_HARDWARE_LOG in the environment the diary also goes to
+/// that file, line by line, so that it outlives its process; FAKE_HARDWARE_PUSH is what its hand pushes with,
+/// as "N,X,Y,Z", N being newtons and X,Y,Z the direction.
 class FakeHardware {
  public:
   /// A force acts until another takes its place, or for so long.
@@ -65,8 +48,8 @@ class FakeHardware {
       log_ = ::open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
     double push = 0.0;
     const char* pushed = std::getenv("FAKE_HARDWARE_PUSH");
-    if (pushed != nullptr && std::sscanf(pushed, "%lf,%lf,%lf,%lf", &push, &hand_.axis[0], &hand_.axis[1],
-                                         &hand_.axis[2]) == 4)
+    if (pushed != nullptr &&
+        std::sscanf(pushed, "%lf,%lf,%lf,%lf", &push, &hand_.axis[0], &hand_.axis[1], &hand_.axis[2]) == 4)
       push_n = push;
   }
 
@@ -138,8 +121,8 @@ class FakeHardware {
     double end_ns = std::numeric_limits<double>::infinity();
     for (size_t i = all.size(); i-- > 0;) {
       const auto t_ns = static_cast<double>(all[i].t_ns);
-      const double next_ns = i + 1 < all.size() ? static_cast<double>(all[i + 1].t_ns)
-                                                : std::numeric_limits<double>::infinity();
+      const double next_ns =
+          i + 1 < all.size() ? static_cast<double>(all[i + 1].t_ns) : std::numeric_limits<double>::infinity();
       const bool zero = all[i].force_n == 0.0;
       const double zero_from_ns = zero ? t_ns : t_ns + force_lives_ns_;
       if (next_ns <= static_cast<double>(since_ns)) break;

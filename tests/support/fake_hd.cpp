@@ -1,6 +1,6 @@
-// A libHD.so with one Touch in it: exports the maker's symbols, and fake_hardware() for tests. Its servo loop is a
-// thread of its own at 1 kHz, which calls back as the maker's does; a force acts until a frame sets another or
-// force output is disabled. The hand moves on 1 ms with each frame.
+// A libHD.so with one Touch in it: exports the maker's symbols, and fake_hardware() for tests. Its servo loop
+// is a thread of its own at 1 kHz, which calls back as the maker's does; a force acts until a frame sets
+// another or force output is disabled. The hand moves on 1 ms with each frame.
 #include <poll.h>
 
 #include <cstring>
@@ -15,7 +15,8 @@ using ream::test::HardwareFault;
 
 constexpr double step_s = 0.001, max_force_n = 3.3, max_continuous_force_n = 0.88;
 constexpr unsigned invalid_device = 0xFFFFFFFF, the_device = 7;
-constexpr unsigned comm_error = 0x0302, bad_handle = 0x0104, frame_error = 0x0402, exceeded_max_force = 0x0201;
+constexpr unsigned comm_error = 0x0302, bad_handle = 0x0104, frame_error = 0x0402,
+                   exceeded_max_force = 0x0201;
 
 struct ErrorInfo {
   unsigned code;
@@ -86,7 +87,8 @@ void hdDisable(unsigned ability) {
   hardware().called("hdDisable HD_FORCE_OUTPUT");
   // A servo loop that stands still cannot be told a last frame.
   const bool answers = hardware().fault == HardwareFault::none;
-  if (answers && hardware().force_now_n() > 0.0) hardware().refused("its force is switched off while it pushes");
+  if (answers && hardware().force_now_n() > 0.0)
+    hardware().refused("its force is switched off while it pushes");
   device().forced = false;
   hardware().off();
 }
@@ -159,8 +161,6 @@ void hdSetDoublev(unsigned parameter, const double* values) {
 
 ErrorInfo hdGetError() { return {device().error.exchange(0), 0, the_device}; }
 
-const char* hdGetErrorString(unsigned code) {
-  return code == comm_error ? "Communication error" : "Error";
-}
+const char* hdGetErrorString(unsigned code) { return code == comm_error ? "Communication error" : "Error"; }
 
 }  // extern "C"

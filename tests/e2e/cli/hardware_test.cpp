@@ -1,5 +1,5 @@
-// Haptic devices as people use them: listed, tried out, in a server that is told to end, crashes, or is killed. The
-// fakes' diaries say when which force was on the hand and in which order the hardware was let go.
+// Haptic devices as people use them: listed, tried out, in a server that is told to end, crashes, or is
+// killed. The fakes' diaries say when which force was on the hand and in which order the hardware was let go.
 #include <signal.h>
 
 #include <cmath>
@@ -61,9 +61,8 @@ class Hardware : public ServeBlock {
   void run_session(const std::string& device) {
     serve({"--backend", "cpu", "--realtime", "off", "--device", device});
     until_ready();
-    const std::string id = request(201, "POST", "/api/v1/sessions",
-                                   json{{"case", "block"}, {"device", device}}.dump())
-                               .at("id");
+    const std::string id =
+        request(201, "POST", "/api/v1/sessions", json{{"case", "block"}, {"device", device}}.dump()).at("id");
     request(200, "POST", path_of(id) + "/start");
   }
   /// The calls after the last force that pushed.
@@ -90,9 +89,9 @@ TEST_F(Hardware, IsListedWithWhatIsMissingAndWhatToDo) {
   set_up_haply(fake, fake.port());
   std::map<std::string, json> rows;
   for (const json& row : answer({"devices", "--json"})) rows[row.at("name")] = row;
-  for (const auto& [name, words] :
-       {std::pair{"haply", "start Haply's Inverse Service"}, {"forcedimension", "/nowhere/libdhd.so"},
-        {"openhaptics", "REAM_HD_LIBRARY"}}) {
+  for (const auto& [name, words] : {std::pair{"haply", "start Haply's Inverse Service"},
+                                    {"forcedimension", "/nowhere/libdhd.so"},
+                                    {"openhaptics", "REAM_HD_LIBRARY"}}) {
     ASSERT_TRUE(rows.contains(name)) << name;
     EXPECT_FALSE(rows[name].at("usable").get<bool>()) << name;
     EXPECT_NE(rows[name].at("reason").get<std::string>().find(words), std::string::npos) << rows[name];
@@ -101,8 +100,7 @@ TEST_F(Hardware, IsListedWithWhatIsMissingAndWhatToDo) {
   fake.revive();
   environment_["REAM_DHD_LIBRARY"] = fake_library("dhd");
   environment_["REAM_HD_LIBRARY"] = fake_library("hd");
-  for (const json& row : answer({"devices", "--json"}))
-    EXPECT_TRUE(row.at("usable").get<bool>()) << row;
+  for (const json& row : answer({"devices", "--json"})) EXPECT_TRUE(row.at("usable").get<bool>()) << row;
 }
 
 TEST_F(Hardware, ATrialOfHaplyFeelsTheWall) {
@@ -143,9 +141,8 @@ TEST_F(Hardware, IsLetGoInOrderWhenTheServerIsToldToEnd) {
     EXPECT_EQ(server_->wait(20s), 0) << printed("server.err");
     const std::vector<Entry> entries = diary();
     EXPECT_EQ(after_the_last_push(entries), order) << name;
-    const auto zero = std::find_if(entries.rbegin(), entries.rend(), [&](const Entry& entry) {
-      return entry.what == "call " + order.front();
-    });
+    const auto zero = std::find_if(entries.rbegin(), entries.rend(),
+                                   [&](const Entry& entry) { return entry.what == "call " + order.front(); });
     ASSERT_NE(zero, entries.rend());
     EXPECT_TRUE((zero + 1)->what.starts_with("force") && (zero + 1)->force_n == 0.0)
         << name << ": zero force first, then off";

@@ -20,13 +20,16 @@ std::string message(const Vec3& force_n, HaplyForceForm form, bool first, const 
 
 /// As docs.haply.co gives the protocol of 3.5, without its spaces.
 TEST(HaplyMessage, IsByteForByteTheDocumentedOne) {
-  EXPECT_EQ(message({0, 0, 1.5}, HaplyForceForm::vector, true),
-            R"({"session":{"configure":{"profile":{"name":"ream.simulator:main"}}},)"
-            R"("inverse3":[{"device_id":"049D","commands":{"set_cursor_force":{"vector":{"x":0,"y":0,"z":1.5}}}}]})");
-  EXPECT_EQ(message({0.25, -1.5, 1e-3}, HaplyForceForm::vector, false),
-            R"({"inverse3":[{"device_id":"049D","commands":{"set_cursor_force":{"vector":{"x":0.25,"y":-1.5,"z":0.001}}}}]})");
-  EXPECT_EQ(message({0.25, -1.5, 1e-3}, HaplyForceForm::values, false),
-            R"({"inverse3":[{"device_id":"049D","commands":{"set_cursor_force":{"values":{"x":0.25,"y":-1.5,"z":0.001}}}}]})");
+  EXPECT_EQ(
+      message({0, 0, 1.5}, HaplyForceForm::vector, true),
+      R"({"session":{"configure":{"profile":{"name":"ream.simulator:main"}}},)"
+      R"("inverse3":[{"device_id":"049D","commands":{"set_cursor_force":{"vector":{"x":0,"y":0,"z":1.5}}}}]})");
+  EXPECT_EQ(
+      message({0.25, -1.5, 1e-3}, HaplyForceForm::vector, false),
+      R"({"inverse3":[{"device_id":"049D","commands":{"set_cursor_force":{"vector":{"x":0.25,"y":-1.5,"z":0.001}}}}]})");
+  EXPECT_EQ(
+      message({0.25, -1.5, 1e-3}, HaplyForceForm::values, false),
+      R"({"inverse3":[{"device_id":"049D","commands":{"set_cursor_force":{"values":{"x":0.25,"y":-1.5,"z":0.001}}}}]})");
 }
 
 TEST(HaplyMessage, RoundsToAMicronewtonAndIsAlwaysJson) {
@@ -108,7 +111,8 @@ TEST(HaplyReader, ChangesNothingByAFrameThatMakesNoSense) {
   reader.take_inventory(inventory);
   std::string why;
   for (const char* senseless :
-       {"", "{", "7", R"({"inverse3":7})", R"({"inverse3":[]})", R"({"inverse3":[{"device_id":"1AB2","state":{}}]})",
+       {"", "{", "7", R"({"inverse3":7})", R"({"inverse3":[]})",
+        R"({"inverse3":[{"device_id":"1AB2","state":{}}]})",
         R"({"inverse3":[{"device_id":"049D","state":{"cursor_position":{"x":1,"y":null}}}]})",
         R"({"inverse3":[{"device_id":"049D","state":{"cursor_position":{"x":"1"}}}]})",
         R"({"inverse3":[{"device_id":"049D","state":{"cursor_position":{"x":1e999}}}]})",

@@ -182,7 +182,8 @@ TEST_F(ServoDeviceTest, IsOpenedAgainWhenItHasGone) {
   device.open();
   press();
   rack.there = false;
-  until([&] { return rack.force_n == 0.0 && device.read(input) == DeviceStatus::ok && input.age_ms > 100.0; });
+  until(
+      [&] { return rack.force_n == 0.0 && device.read(input) == DeviceStatus::ok && input.age_ms > 100.0; });
   rack.there = true;
   press();
   EXPECT_EQ(rack.opened, 2);
