@@ -18,6 +18,8 @@ using Library = OpenHapticsLibrary;
 constexpr int spindle_button = 1, clutch_button = 2, pause_button = 4;
 constexpr int64_t lost_ns = static_cast<int64_t>(servo_loop_lost_ms * 1e6);
 constexpr int farewell_ms = 20;
+/// That one look takes from the library's list.
+constexpr int most_errors = 8;
 
 class OpenHapticsServo final : public Servo {
  public:
@@ -32,8 +34,7 @@ class OpenHapticsServo final : public Servo {
     frames_ = 0;
     error_ = Library::success;
     leaving_ = warm_ = warm_told_ = stands_still_ = false;
-    while (hd().get_error().code != Library::success) {
-    }
+    forget_errors();
     device_ = hd().init_device(wanted_.device_id.empty() ? nullptr : wanted_.device_id.c_str());
     if (const unsigned failed = hd().get_error().code;
         failed != Library::success || device_ == Library::invalid_device)
@@ -97,6 +98,11 @@ class OpenHapticsServo final : public Servo {
     return code == Library::success || text == nullptr ? "no reason given" : text;
   }
 
+  void forget_errors() const {
+    for (int looked = 0; looked < most_errors && hd().get_error().code != Library::success; ++looked) {
+    }
+  }
+
   void limit() {
     double most_n = 0.0;
     hd().get_doubles(Library::nominal_max_force, &most_n);
@@ -134,7 +140,7 @@ class OpenHapticsServo final : public Servo {
   /// False when the device has failed.
   bool take_errors() noexcept {
     bool warm = false;
-    for (int looked = 0; looked < 8; ++looked) {
+    for (int looked = 0; looked < most_errors; ++looked) {
       const unsigned code = hd().get_error().code;
       if (code == Library::success) break;
       warm |= code == Library::warm_motors;
