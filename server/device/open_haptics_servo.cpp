@@ -55,10 +55,14 @@ class OpenHapticsServo final : public Servo {
   /// Waits for a whole frame from now on.
   void turn(ServoEnd& end) override {
     const uint64_t seen = frames_;
+    uint64_t newest = seen;
     while (frames_ < seen + 2) {
       if (const unsigned failed = error_; failed != Library::success)
         throw Error(ErrorKind::unavailable, words(failed) + "; check cable and power");
-      if (frames_ != seen) last_frame_ns_ = end.now_ns();
+      if (frames_ != newest) {
+        newest = frames_;
+        last_frame_ns_ = end.now_ns();
+      }
       stands_still_ = end.now_ns() - last_frame_ns_ > lost_ns;
       if (stands_still_)
         throw Error(ErrorKind::unavailable, "its servo loop stands still; check cable and power");
