@@ -35,6 +35,9 @@ struct WebSocketClient::Parts {
   bool wait_for(const std::optional<error_code>& result, Milliseconds most) {
     const auto until = std::chrono::steady_clock::now() + most;
     io.restart();
+    // What is there already counts also when there is no time to wait.
+    while (!result && io.poll_one() > 0) {
+    }
     while (!result && io.run_one_until(until) > 0) {
     }
     return result.has_value();
