@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/real_devices.hpp"
 #include "core/error.hpp"
 #include "device/mapped_device.hpp"
 #include "device/network_device.hpp"
@@ -11,32 +12,21 @@
 namespace ream::app {
 namespace {
 
+/// A real device's tool begins this far before the planned entry.
+constexpr double start_before_entry_mm = 30.0;
+
+}  // namespace
+
 DeviceOffer offer_of(const std::string& name, const std::string& about, const std::string& profile) {
   const device::DeviceTraits traits = device::device_profile(profile);
   return {name, about, true, "", traits.force_max_n, traits.degrees_of_freedom};
 }
 
-DeviceKind scripted() {
-  return {"script", "",
-          [] {
-            return offer_of("script", "A simulated hand, robot or list of poses that plays a script",
-                            "ideal");
-          },
-          [](const DeviceWish& wish) {
-            return MadeDevice{
-                device::make_scripted_device(*wish.script, wish.world_from_plan, wish.random_seed), nullptr};
-          }};
-}
-
-/// Of a remote device: nobody else's but its own.
 std::string profile_of(const DeviceWish& wish, const std::string& usual) {
   if (!wish.profile.empty()) return wish.profile;
   const bool said = wish.script->kind == device::ScriptKind::remote && !wish.script->device_profile.empty();
   return said ? wish.script->device_profile : usual;
 }
-
-/// A real device's tool begins this far before the planned entry.
-constexpr double start_before_entry_mm = 30.0;
 
 std::unique_ptr<device::HapticDevice> mapped(const DeviceWish& wish,
                                              std::unique_ptr<device::HapticDevice> device) {
@@ -46,10 +36,24 @@ std::unique_ptr<device::HapticDevice> mapped(const DeviceWish& wish,
                                                 wish.world_from_plan * before_entry);
 }
 
+namespace {
+
+DeviceKind scripted() {
+  return {"script", "",
+          [](const std::filesystem::path&) {
+            return offer_of("script", "A simulated hand, robot or list of poses that plays a script",
+                            "ideal");
+          },
+          [](const DeviceWish& wish) {
+            return MadeDevice{
+                device::make_scripted_device(*wish.script, wish.world_from_plan, wish.random_seed), nullptr};
+          }};
+}
+
 DeviceKind network() {
   static const std::string usual = "touch";
   return {"network", usual,
-          [] {
+          [](const std::filesystem::path&) {
             return offer_of("network", "A haptic device whose own computer connects over the network", usual);
           },
           [](const DeviceWish& wish) {
@@ -62,7 +66,7 @@ DeviceKind network() {
 DeviceKind browser() {
   static const std::string usual = "ideal";
   return {"browser", usual,
-          [] {
+          [](const std::filesystem::path&) {
             return offer_of("browser", "Mouse, touch screen, keys or gamepad, in the page of the session",
                             usual);
           },
@@ -77,7 +81,11 @@ DeviceKind browser() {
 }  // namespace
 
 const std::vector<DeviceKind>& device_kinds() {
-  static const std::vector<DeviceKind> kinds{scripted(), network(), browser()};
+  static const std::vector<DeviceKind> kinds = [] {
+    std::vector<DeviceKind> all{scripted(), network(), browser()};
+    for (DeviceKind& real : real_device_kinds()) all.push_back(std::move(real));
+    return all;
+  }();
   return kinds;
 }
 

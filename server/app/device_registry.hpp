@@ -40,12 +40,23 @@ struct DeviceKind {
   std::string name;
   /// What it renders with (device/profiles.hpp) unless somebody says otherwise; empty: scripts say.
   std::string usual_profile;
-  std::function<DeviceOffer()> offer;
+  /// `data`: where set-ups of devices are kept.
+  std::function<DeviceOffer(const std::filesystem::path& data)> offer;
   std::function<MadeDevice(const DeviceWish&)> make;
 };
 
 /// Every kind, in the order in which people are shown them.
 const std::vector<DeviceKind>& device_kinds();
+
+/// What is known of it that its profile says; usable.
+DeviceOffer offer_of(const std::string& name, const std::string& about, const std::string& profile);
+
+/// Whose limits a device that renders somebody's own hand has: asked for, or the script's, or `usual`.
+std::string profile_of(const DeviceWish& wish, const std::string& usual);
+
+/// A device that speaks of its own frame, made one of the world that begins before the planned entry.
+std::unique_ptr<device::HapticDevice> mapped(const DeviceWish& wish,
+                                             std::unique_ptr<device::HapticDevice> device);
 
 /// Error invalid_input, listing the names, for an unknown one.
 const DeviceKind& device_kind(const std::string& name);

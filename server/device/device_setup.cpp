@@ -71,6 +71,9 @@ Vec3 axis_from_word(std::string word) {
   return sign * Vec3::Unit(word[0] - 'x');
 }
 
+/// As DeviceSetup says: away from the person, of somebody who holds the handle towards them.
+const Mat3 person_from_tool = Vec3(1.0, -1.0, -1.0).asDiagonal();
+
 }  // namespace
 
 const char* to_text(Hand hand) noexcept { return hand == Hand::left ? "left" : "right"; }
@@ -78,6 +81,20 @@ const char* to_text(Hand hand) noexcept { return hand == Hand::left ? "left" : "
 Mat3 handle_from_tool(const DeviceSetup& setup) {
   const Mat3 mirror = Vec3(-1.0, 1.0, 1.0).asDiagonal();
   return setup.hand == Hand::left ? Mat3(mirror * setup.handle_from_tool * mirror) : setup.handle_from_tool;
+}
+
+DeviceSetup usual_device_setup(const std::string& device) {
+  DeviceSetup setup;
+  // Haply's Inverse3: y away from the person, z up; Force Dimension's: x towards the person, z up; 3D
+  // Systems': the person's frame.
+  if (device == "haply") setup.person_from_device = person_from_axes("x,z,-y");
+  if (device == "forcedimension") setup.person_from_device = person_from_axes("y,z,x");
+  setup.handle_from_tool = setup.person_from_device.transpose() * person_from_tool;
+  return setup;
+}
+
+Mat3 unsensed_rotation(const DeviceSetup& setup) {
+  return setup.person_from_device.transpose() * person_from_tool * handle_from_tool(setup).transpose();
 }
 
 Mat3 person_from_motions(const Vec3& right_mm, const Vec3& up_mm, const Vec3& towards_mm) {
@@ -130,15 +147,18 @@ DeviceSetup parse_device_setup(const nlohmann::json& json, const std::string& pl
   if (hand != "left" && hand != "right") reader.refuse("hand", "is '" + hand + "', must be left or right");
   setup.hand = hand == "left" ? Hand::left : Hand::right;
   if (reader.has("grip")) setup.handle_from_tool = rotation_of(reader, "grip", tool_axes).transpose();
+  if (reader.has("connection")) setup.connection = read_device_connection(reader.object("connection"));
   reader.finish();
   return setup;
 }
 
 nlohmann::json to_json(const DeviceSetup& setup) {
-  return {{"axes", named_rows(setup.person_from_device, person_axes)},
-          {"scale", setup.scale},
-          {"hand", to_text(setup.hand)},
-          {"grip", named_rows(setup.handle_from_tool.transpose(), tool_axes)}};
+  nlohmann::json json = {{"axes", named_rows(setup.person_from_device, person_axes)},
+                         {"scale", setup.scale},
+                         {"hand", to_text(setup.hand)},
+                         {"grip", named_rows(setup.handle_from_tool.transpose(), tool_axes)}};
+  if (setup.connection != DeviceConnection{}) json["connection"] = to_json(setup.connection);
+  return json;
 }
 
 std::filesystem::path device_setup_path(const std::filesystem::path& data, const std::string& device) {
@@ -147,7 +167,7 @@ std::filesystem::path device_setup_path(const std::filesystem::path& data, const
 
 DeviceSetup load_device_setup(const std::filesystem::path& data, const std::string& device) {
   const std::filesystem::path path = device_setup_path(data, device);
-  if (!std::filesystem::exists(path)) return {};
+  if (!std::filesystem::exists(path)) return usual_device_setup(device);
   return parse_device_setup(read_json_file(path), path.string());
 }
 

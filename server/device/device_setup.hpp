@@ -3,6 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "device/device_connection.hpp"
 #include "geometry/pose.hpp"
 
 namespace ream::device {
@@ -24,8 +25,18 @@ struct DeviceSetup {
   /// reports no turn. As it is here, a handle without a turn points the tool away from the person.
   Mat3 handle_from_tool = Vec3(1.0, -1.0, -1.0).asDiagonal();
 
+  DeviceConnection connection;
+
   static constexpr double least_scale = 0.05, most_scale = 20.0;
 };
+
+/// The set-up that a kind of device is made with: its maker's frame, as it stands before a person, and a
+/// handle whose neutral place points the tool away from the person.
+DeviceSetup usual_device_setup(const std::string& device);
+
+/// The orientation to be told of a handle that senses none (device frame), so that the tool keeps the planned
+/// axis.
+Mat3 unsensed_rotation(const DeviceSetup& setup);
 
 /// How the tool lies in the hand that holds it: in a left one mirrored, left for right.
 Mat3 handle_from_tool(const DeviceSetup& setup);
@@ -49,7 +60,7 @@ Mat3 world_from_person(const Vec3& axis_direction);
 DeviceSetup parse_device_setup(const nlohmann::json& json, const std::string& place);
 nlohmann::json to_json(const DeviceSetup& setup);
 
-/// Where the set-up of a device is kept, and what is kept there: without a file the set-up as it is made.
+/// Where the set-up of a device is kept, and what is kept there: without a file its usual one.
 std::filesystem::path device_setup_path(const std::filesystem::path& data, const std::string& device);
 DeviceSetup load_device_setup(const std::filesystem::path& data, const std::string& device);
 /// All of it or nothing. Error io.

@@ -25,7 +25,7 @@ constexpr Causality impedance = Causality::impedance, admittance = Causality::ad
 constexpr double gravity_m_s2 = 9.80665;
 
 /// Rows without a note: CHAI3D 3 device table (continuous force, closed loop at 1 kHz).
-constexpr std::array<Published, 17> table{{
+constexpr std::array<Published, 18> table{{
     {"omega.3", impedance, 12.0, 0.0, 5000.0, 30.0, 0.075, 3, by_lever, 0.0},
     {"omega.6", impedance, 12.0, 0.0, 5000.0, 30.0, 0.075, 6, by_lever, 0.0},
     {"omega.7", impedance, 12.0, 0.0, 5000.0, 30.0, 0.075, 7, by_lever, 0.0},
@@ -38,6 +38,10 @@ constexpr std::array<Published, 17> table{{
     {"phantom-desktop", impedance, 7.9, 0.0, 1000.0, 5.0, 0.10, 6, by_lever, 0.0},
     {"premium-1.5-6dof", impedance, 8.5, 0.188, 800.0, 5.0, 0.12, 6, by_lever, 0.0},
     {"premium-3.0-6dof", impedance, 22.0, 0.188, 1000.0, 5.0, 0.25, 6, by_lever, 0.0},
+    // Haply Inverse3: its public documents give neither force nor stiffness. Force as it is cut until one has
+    // been measured; stiffness and damping as of the phantom-desktop, reach as of the phantom-omni.
+    // Engineering choices.
+    {"inverse3", impedance, 5.0, 0.0, 1000.0, 5.0, 0.10, 6, by_lever, 0.0},
     // KUKA LBR iiwa in Cartesian impedance control: stiffness up to 5000 N/m and 300 N m/rad (libiiwa's
     // documentation); force is the payload's weight; torque of the wrist axes and reach from the maker's data
     // sheet, not checked; damping is critical (ratio 1, the control's upper end) with the payload as mass, 2

@@ -53,7 +53,13 @@ RawSocket::RawSocket(uint16_t port, int receive_buffer_bytes) : socket_(::socket
 
 RawSocket::~RawSocket() { ::close(socket_); }
 
-long RawSocket::read_some(char* into, size_t bytes) { return ::recv(socket_, into, bytes, 0); }
+/// A process that is stopped and goes on finds its call interrupted.
+long RawSocket::read_some(char* into, size_t bytes) {
+  long got = -1;
+  do got = ::recv(socket_, into, bytes, 0);
+  while (got < 0 && errno == EINTR);
+  return got;
+}
 
 long RawSocket::write_some(const char* from, size_t bytes) {
   return ::send(socket_, from, bytes, MSG_NOSIGNAL);

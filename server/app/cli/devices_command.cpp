@@ -30,7 +30,7 @@ struct Options {
 void list_devices(const GlobalOptions& global) {
   nlohmann::json rows = nlohmann::json::array();
   for (const DeviceKind& kind : device_kinds()) {
-    const DeviceOffer offer = kind.offer();
+    const DeviceOffer offer = kind.offer(data_folder(global.data));
     rows.push_back({{"name", offer.name},
                     {"usable", offer.usable},
                     {"reason", offer.reason},
@@ -98,7 +98,7 @@ void print_trial(const DeviceTrial& trial) {
 }
 
 void test_device(const Options& options, const GlobalOptions& global) {
-  const DeviceOffer offer = device_kind(options.test).offer();
+  const DeviceOffer offer = device_kind(options.test).offer(data_folder(global.data));
   refuse_browser(options.test, "tried out");
   if (!offer.usable)
     throw Error(ErrorKind::unavailable, "the device '" + offer.name + "' is not usable: " + offer.reason);

@@ -102,6 +102,26 @@ TEST(DeviceSetup, ALeftHandsGripIsTheMirrorImageOfARightOnes) {
   }
 }
 
+TEST(DeviceSetup, AHandleThatSensesNoTurnKeepsThePlannedAxis) {
+  std::mt19937 random(11);
+  for (const char* device : {"haply", "forcedimension", "openhaptics", "network"})
+    for (const Hand hand : {Hand::right, Hand::left}) {
+      const DeviceSetup usual = usual_device_setup(device);
+      EXPECT_TRUE(is_rotation(usual.person_from_device)) << device;
+      EXPECT_TRUE(is_rotation(usual.handle_from_tool)) << device;
+      DeviceSetup setup = usual;
+      setup.hand = hand;
+      setup.person_from_device = test::random_pose(random).rotation;
+      setup.handle_from_tool = test::random_pose(random).rotation;
+      const Vec3 axis = test::random_direction(random);
+      const Mat3 world_from_tool = world_from_person(axis) * setup.person_from_device *
+                                   unsensed_rotation(setup) * handle_from_tool(setup);
+      EXPECT_LT((world_from_tool.col(2) - axis).norm(), 1e-12) << device;
+      const Mat3 neutral = usual.person_from_device * usual.handle_from_tool;
+      EXPECT_LT((neutral.col(2) + Vec3::UnitZ()).norm(), 1e-12) << device << ": away from the person";
+    }
+}
+
 std::string complaint(const json& setup) {
   try {
     parse_device_setup(setup, "touch.json");
@@ -119,12 +139,14 @@ TEST(DeviceSetup, AFileKeepsAllOfItAndIsAsTheSchemaSays) {
   setup.handle_from_tool = test::random_pose(random).rotation;
   setup.scale = 2.5;
   setup.hand = Hand::left;
+  setup.connection = {"10.0.0.7", 10002, 0, HaplyForceForm::values, "049D", "61548", "/opt/libdhd.so", false};
   save_device_setup(folder.path(), "touch", setup);
   const DeviceSetup found = load_device_setup(folder.path(), "touch");
   EXPECT_EQ(found.person_from_device, setup.person_from_device);
   EXPECT_EQ(found.handle_from_tool, setup.handle_from_tool);
   EXPECT_EQ(found.scale, setup.scale);
   EXPECT_EQ(found.hand, setup.hand);
+  EXPECT_EQ(found.connection, setup.connection);
   const json schema = read_json_file(test::source_folder() + "/proto/device-setup.schema.json");
   const json written = read_json_file(device_setup_path(folder.path(), "touch"));
   EXPECT_EQ(test::SchemaChecker(schema).faults(schema, written), std::vector<std::string>{});
@@ -143,6 +165,13 @@ TEST(DeviceSetup, SchemaAndReaderRefuseTheSame) {
       {"hand", "both"},
       {"colour", "red"},
       {"grip", 1},
+      {"connection", 7},
+      {"connection", {{"colour", "red"}}},
+      {"connection", {{"host", ""}}},
+      {"connection", {{"port", 0}}},
+      {"connection", {{"events_port", 65536}}},
+      {"connection", {{"force_form", "matrix"}}},
+      {"connection", {{"spindle", "sometimes"}}},
       {"scale", 21},
       {"axes", {{"right", {1, 0, 0}}, {"up", {0, 1, 0}}, {"towards", {0, 0, 1}}, {"down", {0, 0, 1}}}}};
   for (const auto& [key, value] : wrong) {

@@ -1,0 +1,225 @@
+#include "device/servo_device.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <thread>
+
+#include "core/error.hpp"
+#include "device/profiles.hpp"
+#include "support/expect_error.hpp"
+
+namespace ream::device {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int64_t ms = 1'000'000;
+std::atomic<int64_t> now_ns{0};
+int64_t test_clock() { return now_ns; }
+
+ServoState at(double x_mm) {
+  ServoState state;
+  state.device_from_handle.translation_mm = Vec3(x_mm, 0, 0);
+  return state;
+}
+
+class ServoEndTest : public testing::Test {
+ protected:
+  ServoEndTest() {
+    now_ns = 1000 * ms;
+    end.open();
+    servo.begin();
+  }
+  /// The haptic thread answers the newest pose with a force.
+  void answer(const Vec3& force_n, const Vec3& torque_n_mm = Vec3::Zero()) {
+    RemoteInput ignored;
+    end.take(ignored);
+    end.take(ignored);
+    DeviceOutput output;
+    output.force_n = force_n;
+    output.torque_n_mm = torque_n_mm;
+    end.write(output);
+  }
+  std::shared_ptr<RemoteLink> link = std::make_shared<RemoteLink>();
+  RemoteEnd end{link, test_clock};
+  ServoEnd servo{link, 5.0, 10.0, test_clock};
+};
+
+TEST_F(ServoEndTest, PassesOnWhatAnswersItsOwnPoses) {
+  EXPECT_TRUE(servo.force().is_zero());
+  answer({1, 2, 3});
+  EXPECT_TRUE(servo.force().is_zero()) << "nobody has said a pose yet";
+  EXPECT_TRUE(servo.tell(at(1), now_ns));
+  answer({1, 2, 3}, {4, 0, 0});
+  EXPECT_EQ(servo.force().force_n, Vec3(1, 2, 3));
+  EXPECT_EQ(servo.force().torque_n_mm, Vec3(4, 0, 0));
+  servo.begin();
+  EXPECT_TRUE(servo.force().is_zero()) << "what answered an earlier connection is for nobody";
+}
+
+TEST_F(ServoEndTest, CutsToTheLimitsAndKeepsTheDirection) {
+  servo.tell(at(1), now_ns);
+  answer({30, 0, 40}, {0, 100, 0});
+  EXPECT_LT((servo.force().force_n - Vec3(3, 0, 4)).norm(), 1e-12);
+  EXPECT_LT((servo.force().torque_n_mm - Vec3(0, 10, 0)).norm(), 1e-12);
+  servo.limit_force(1.0);
+  EXPECT_LT((servo.force().force_n - Vec3(0.6, 0, 0.8)).norm(), 1e-12);
+}
+
+TEST_F(ServoEndTest, TakesAnOldForceBack) {
+  servo.tell(at(1), now_ns);
+  answer({1, 0, 0});
+  now_ns += 20 * ms;
+  EXPECT_FALSE(servo.force().is_zero());
+  now_ns += 1;
+  EXPECT_TRUE(servo.force().is_zero());
+  answer({1, 0, 0});
+  EXPECT_FALSE(servo.force().is_zero());
+  end.take_force_away();
+  EXPECT_TRUE(servo.force().is_zero());
+}
+
+TEST_F(ServoEndTest, RefusesWhatIsNoPoseOrNoForce) {
+  servo.tell(at(1), now_ns);
+  for (const double wrong : {std::nan(""), std::numeric_limits<double>::infinity(), 2001.0})
+    EXPECT_FALSE(servo.tell(at(wrong), now_ns)) << wrong;
+  ServoState turned = at(1);
+  turned.device_from_handle.rotation(0, 0) = 0.5;
+  EXPECT_FALSE(servo.tell(turned, now_ns));
+  turned.device_from_handle.rotation = Vec3(1, 1, -1).asDiagonal();
+  EXPECT_FALSE(servo.tell(turned, now_ns)) << "a mirror";
+  EXPECT_EQ(link->refused, 5u);
+  answer({1, std::nan(""), 0});
+  EXPECT_TRUE(servo.force().is_zero());
+}
+
+/// Hardware in the memory of the test.
+struct Rack {
+  std::atomic<bool> there{true}, usable{true};
+  std::atomic<int> turns{0}, opened{0};
+  std::atomic<double> force_n{0.0};
+  std::string diary;  ///< while nothing runs
+};
+
+class RackServo final : public Servo {
+ public:
+  explicit RackServo(Rack& rack) : rack_(rack) {}
+  void open(ServoEnd&) override {
+    if (!rack_.there) throw Error(ErrorKind::unavailable, "the rack is empty");
+    ++rack_.opened;
+    rack_.diary += "open ";
+  }
+  void turn(ServoEnd& end) override {
+    if (!rack_.there) throw Error(ErrorKind::unavailable, "the rack is empty now");
+    if (!rack_.usable) throw Error(ErrorKind::io, "the rack is broken");
+    rack_.force_n = end.force().force_n.norm();
+    end.tell(at(1), end.now_ns());
+    ++rack_.turns;
+  }
+  void close() noexcept override {
+    rack_.force_n = 0.0;
+    rack_.diary += "close ";
+  }
+
+ private:
+  Rack& rack_;
+};
+
+class ServoDeviceTest : public testing::Test {
+ protected:
+  static void until(const std::function<bool()>& condition) {
+    for (int i = 0; i < 60'000 && !condition(); ++i) std::this_thread::sleep_for(1ms);
+    EXPECT_TRUE(condition());
+  }
+  /// The haptic thread's ticks until its force is rendered.
+  void press() {
+    until([&] {
+      device.read(input);
+      DeviceOutput output;
+      output.force_n = Vec3(1, 0, 0);
+      device.write(output);
+      return rack.force_n > 0.0;
+    });
+  }
+  void press_in_vain() {
+    const int turns = rack.turns;
+    until([&] {
+      DeviceOutput output;
+      output.force_n = Vec3(1, 0, 0);
+      device.write(output);
+      return rack.turns > turns + 2;
+    });
+    EXPECT_EQ(rack.force_n, 0.0);
+  }
+  Rack rack;
+  DeviceInput input;
+  ServoDevice device{device_profile("touch"), std::make_unique<RackServo>(rack)};
+};
+
+TEST_F(ServoDeviceTest, OpensRendersAndLeavesNoForce) {
+  device.open();
+  press();
+  EXPECT_EQ(input.world_from_handle.translation_mm, Vec3(1, 0, 0));
+  device.close();
+  EXPECT_EQ(rack.force_n, 0.0);
+  EXPECT_EQ(rack.diary, "open close ");
+  device.open();
+  press();
+}
+
+TEST_F(ServoDeviceTest, SaysInItsDriversWordsWhyItCannotBeOpened) {
+  rack.there = false;
+  test::expect_error(ErrorKind::unavailable, "the rack is empty", [&] { device.open(); });
+  rack.there = true;
+  device.open();
+  press();
+}
+
+TEST_F(ServoDeviceTest, IsOpenedAgainWhenItHasGone) {
+  device.open();
+  press();
+  rack.there = false;
+  until(
+      [&] { return rack.force_n == 0.0 && device.read(input) == DeviceStatus::ok && input.age_ms > 100.0; });
+  rack.there = true;
+  press();
+  EXPECT_EQ(rack.opened, 2);
+  device.close();
+  EXPECT_EQ(rack.force_n, 0.0);
+}
+
+TEST_F(ServoDeviceTest, IsAFaultWhenItCannotBeUsedAnyMore) {
+  device.open();
+  press();
+  rack.usable = false;
+  until([&] { return device.read(input) == DeviceStatus::fault; });
+  EXPECT_EQ(device.write({}), DeviceStatus::fault);
+  EXPECT_EQ(rack.force_n, 0.0);
+}
+
+TEST_F(ServoDeviceTest, AForceThatIsNotRenewedIsTakenBackWhileItTurns) {
+  device.open();
+  press();
+  const int turns = rack.turns;
+  until([&] { return rack.force_n == 0.0; });
+  EXPECT_GT(rack.turns, turns);
+}
+
+TEST_F(ServoDeviceTest, WhatIsTakenAwayIsGoneWhenTheCallReturns) {
+  // A machine that stands still may keep the driver from it, so it may be tried again.
+  bool gone = false;
+  for (int attempt = 0; attempt < 20 && !gone; ++attempt) {
+    device.open();
+    press();
+    device.take_force_away();
+    gone = rack.force_n == 0.0;
+    press_in_vain();
+  }
+  EXPECT_TRUE(gone);
+}
+
+}  // namespace
+}  // namespace ream::device
