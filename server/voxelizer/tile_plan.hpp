@@ -56,6 +56,22 @@ class TileBins {
     }
     for (size_t i = first_[tile]; i < first_[tile + 1]; ++i) visit(static_cast<size_t>(list_[i]));
   }
+  /// As for_each, some at a time: visit(triangles, count) for up to `few` of them; those behind the last
+  /// repeat it.
+  template <int few, class Visit>
+  void for_each_few(size_t tile, Visit visit) const {
+    uint32_t some[few];
+    int count = 0;
+    for_each(tile, [&](size_t triangle) {
+      some[count++] = static_cast<uint32_t>(triangle);
+      if (count < few) return;
+      visit(some, few);
+      count = 0;
+    });
+    if (count == 0) return;
+    for (int i = count; i < few; ++i) some[i] = some[count - 1];
+    visit(some, count);
+  }
   bool listed() const { return listed_; }
 
  private:
