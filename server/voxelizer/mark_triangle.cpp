@@ -44,12 +44,15 @@ struct NarrowBox {
   }
 
   void mark(const PlacedTriangle& t, const PreparedTriangle& p, const TileRows& tile) const {
-    // Rows behind the last are the last, and nothing is set there.
-    size_t row_at[4];
-    for (int i = 0; i < 4; ++i)
-      row_at[i] = tile.words_per_row * static_cast<size_t>(std::min(i, t.high[1] - t.low[1]));
-    const size_t layer_words = tile.words_per_row * tile.rows_per_layer;
-    uint32_t* words = tile.row(t.low[1], t.low[2]) + first_word;
+    // What is written of rows behind the last is nothing, to a place beside.
+    uint32_t beside[2] = {};
+    uint32_t* words[4];
+    size_t layer_words[4];
+    for (int i = 0; i < 4; ++i) {
+      const bool is_row = i <= t.high[1] - t.low[1];
+      words[i] = is_row ? tile.row(t.low[1] + i, t.low[2]) + first_word : beside;
+      layer_words[i] = is_row ? tile.words_per_row * tile.rows_per_layer : 0;
+    }
 
     const Double4 at_v = static_cast<double>(t.low[1]) + Double4{0.0, 1.0, 2.0, 3.0};
     const Double4 row_least = p.u_by_v.most(at_v), row_most = p.u_by_v.least(at_v);
@@ -64,7 +67,7 @@ struct NarrowBox {
       layers.set(p, w);
       const Double4 v_most = smaller(layers.v_most, last_v);
       const int count = std::min(4, t.high[2] - w + 1);
-      for (int j = 0; j < count; ++j, words += layer_words) {
+      for (int j = 0; j < count; ++j) {
         const Double4 middle = row_plane + layers.plane[j];
         const Double4 least =
             larger(larger(row_least, Double4{} + layers.u_least[j]), middle - p.plane.width);
@@ -74,7 +77,10 @@ struct NarrowBox {
         const Long4 end = whole_up_to(smaller(larger(most, low - 1.0), high)) - (base - 1);
         const Long4 marked = (from < end) & (at_v >= layers.v_least[j]) & (at_v <= v_most[j]);
         const Long4 bits = ((one << end) - (one << from)) & marked;
-        for (int i = 0; i < 4; ++i) set_two_words(words + row_at[i], bits[i]);
+        for (int i = 0; i < 4; ++i) {
+          set_two_words(words[i], bits[i]);
+          words[i] += layer_words[i];
+        }
       }
     }
   }
