@@ -8,7 +8,8 @@ namespace ream::voxelizer {
 
 /// a*b - c*d as if rounded once, for values whose products do not overflow: Dekker's exact products.
 template <class Real>
-__attribute__((always_inline)) inline Real difference_of_products(const Real& a, const Real& b, const Real& c, const Real& d) {
+__attribute__((always_inline)) inline Real difference_of_products(const Real& a, const Real& b, const Real& c,
+                                                                  const Real& d) {
   struct Product {
     Real value, error;
   };

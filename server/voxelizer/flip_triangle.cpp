@@ -37,7 +37,8 @@ FlipEdges flip_edges(const PlacedTriangle& t) {
 
 /// Flips, in every row whose line of centres passes the triangle, the first voxel whose centre lies behind
 /// it.
-inline void flip_triangle(const PlacedTriangle& t, const PlaneBound<double>& p, int dims_x, const TileRows& tile) {
+inline void flip_triangle(const PlacedTriangle& t, const PlaneBound<double>& p, int dims_x,
+                          const TileRows& tile) {
   const FlipEdges edges = flip_edges(t);
   // The plane's x is held within the triangle, which matters where it is steep.
   const double least = smallest(t.at[0]) - 0.5, most = largest(t.at[0]) - 0.5;

@@ -79,7 +79,7 @@ inline Whole floor_between(const Doubles& x, double low, double high) {
   return __builtin_convertvector(back > held ? back - 1.0 : back, Whole);
 }
 
-/// Nearest whole number not below x, not above x, for |x| < 2^50.
+/// The first whole number that is not below x, and the last that is not above it, for |x| < 2^50.
 inline constexpr double whole_shift = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to whole numbers
 inline constexpr long long whole_shift_bits = 0x4338000000000000;
 inline Long4 whole_from(const Double4& x) {

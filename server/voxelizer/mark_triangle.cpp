@@ -31,6 +31,27 @@ inline void set_two_words(uint32_t* words, long long bits) {
   std::memcpy(words, &there, sizeof there);
 }
 
+/// Runs of up to 32 voxels lie within two words each and are set without a branch, longer ones word by word.
+inline void set_rows(const FourRows& four, const TileRows& tile) {
+  const Long4 one = Long4{} + 1;
+  const long long last_pair = static_cast<long long>(tile.words_per_row) - 2;
+  const Long4 word = smaller(four.first >> 5, Long4{} + last_pair);
+  const Long4 first = four.first - (word << 5), end = four.end - (word << 5);
+  const Long4 is_long = four.marked & (end > 63);
+  if (last_pair < 0 || (is_long[0] | is_long[1] | is_long[2] | is_long[3]) != 0) {
+    for (int i = 0; i < 4; ++i)
+      if (four.marked[i] != 0)
+        set_bits(tile.row(four.v + i, four.w), static_cast<int>(four.first[i]),
+                 static_cast<int>(four.end[i]) - 1);
+    return;
+  }
+  const Long4 bits = ((one << (end & 63)) - (one << (first & 63))) & four.marked;
+  uint32_t beside[2] = {};
+  uint32_t* row = tile.row(four.v, four.w);
+  for (int i = 0; i < 4; ++i, row += tile.words_per_row)
+    set_two_words(bits[i] != 0 ? row + word[i] : beside, bits[i]);
+}
+
 /// Of a triangle whose box has four rows a layer or fewer and lies within two words of each: most triangles
 /// of a fine mesh. Without a branch on what is marked.
 struct NarrowBox {
@@ -71,8 +92,7 @@ struct NarrowBox {
         const Double4 middle = row_plane + layers.plane[j];
         const Double4 least =
             larger(larger(row_least, Double4{} + layers.u_least[j]), middle - p.plane.width);
-        const Double4 most =
-            smaller(smaller(row_most, Double4{} + layers.u_most[j]), middle + p.plane.width);
+        const Double4 most = smaller(smaller(row_most, Double4{} + layers.u_most[j]), middle + p.plane.width);
         const Long4 from = whole_from(smaller(larger(least, low), high + 1.0)) - base;
         const Long4 end = whole_up_to(smaller(larger(most, low - 1.0), high)) - (base - 1);
         const Long4 marked = (from < end) & (at_v >= layers.v_least[j]) & (at_v <= v_most[j]);
@@ -151,8 +171,7 @@ REAM_VECTOR_CLONES __attribute__((flatten)) void mark_all(const SurfaceMarker& m
       if (narrow.holds(t, tile))
         narrow.mark(t, batch.triangle(lane), tile);
       else
-        for_each_marked_row(t, batch.triangle(lane),
-                            [&](int v, int w, int from, int to) { set_bits(tile.row(v, w), from, to); });
+        for_each_four_rows(t, batch.triangle(lane), [&](const FourRows& four) { set_rows(four, tile); });
     }
   });
 }

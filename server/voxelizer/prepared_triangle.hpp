@@ -32,7 +32,7 @@ inline Real smallest(const Real of[3]) {
 template <class Real>
 struct Placed {
   using Whole = typename WholeOf<Real>::Type;
-  Real at[3][3];           ///< [axis][corner]
+  Real at[3][3];          ///< [axis][corner]
   Whole low[3], high[3];  ///< inclusive; low > high on an axis: none
 
   /// `file`: corners in the mesh's own coordinates, [axis][corner].

@@ -54,8 +54,8 @@ struct Spans {
 
 /// False when the lists have become too long.
 REAM_VECTOR_CLONES __attribute__((flatten)) bool list_triangles(const TriangleMesh& mesh, const VoxelMap& map,
-                                                                const TilePlan& plan, size_t begin, size_t end,
-                                                                TriangleLists& lists) {
+                                                                const TilePlan& plan, size_t begin,
+                                                                size_t end, TriangleLists& lists) {
   Spans spans;
   for (size_t first = begin; first < end; first += 8) {
     spans.set(mesh, map, plan, first, end);
