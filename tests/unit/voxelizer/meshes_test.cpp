@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 
 #include "bench/voxelize/benchmark_meshes.hpp"
 #include "support/separating_axis.hpp"
@@ -24,7 +25,8 @@ struct Reference {
     for (const auto& indices : mesh.triangles) {
       std::array<Vec3, 3> corners;
       for (size_t i = 0; i < 3; ++i)
-        corners[i] = (mesh.vertices_mm[indices[i]].cast<double>() - grid.origin_mm).cwiseQuotient(grid.size_mm);
+        corners[i] =
+            (mesh.vertices_mm[indices[i]].cast<double>() - grid.origin_mm).cwiseQuotient(grid.size_mm);
       add(corners, grid.dims);
     }
   }
@@ -47,7 +49,8 @@ struct Reference {
 
   static size_t index(const Vec3i& dims, int u, int v, int w) {
     return static_cast<size_t>(u) +
-           static_cast<size_t>(dims.x()) * (static_cast<size_t>(v) + static_cast<size_t>(dims.y()) * static_cast<size_t>(w));
+           static_cast<size_t>(dims.x()) *
+               (static_cast<size_t>(v) + static_cast<size_t>(dims.y()) * static_cast<size_t>(w));
   }
 };
 
@@ -77,6 +80,10 @@ TEST(MeshesOfOthers, MarkTheirSupercover) {
           added += marked && !reference.allowed[voxel];
         }
       }
+    const auto touched = std::count(reference.touched.begin(), reference.touched.end(), true);
+    std::cout << which.name << ": " << touched << " voxels touched, " << thick.filled() << " marked, thin "
+              << thin.filled() << '\n';
+    EXPECT_GT(touched, 1000) << which.name;
     EXPECT_GT(thin.filled(), 1000u) << which.name;
     EXPECT_LT(thin.filled(), thick.filled()) << which.name;
     EXPECT_EQ(missed, 0u) << which.name;
