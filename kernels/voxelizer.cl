@@ -2,7 +2,7 @@
 #include "layout.h"
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 
-// Twin of server/voxelizer/prepared_triangle.hpp, mark_triangle.cpp and flip_triangle.cpp, where the method is
+// Twin of server/voxelizer/prepared_triangle.hpp, marked_rows.hpp and flip_triangle.cpp, where the method is
 // explained: the same double operations in the same order, so the same bits. One work-item takes a triangle's part of
 // a task: four rows of up to REAM_VOXELIZER_TASK_LAYERS layers.
 
@@ -18,7 +18,7 @@ typedef struct {
 } PlacedTriangle;
 
 typedef struct {
-  double4 lower, lower_slope, upper, upper_slope;
+  double4 lower, upper, slope;
 } EdgeBounds;
 
 typedef struct {
@@ -108,19 +108,16 @@ static EdgeBounds edge_bounds(double4 x, double4 s, double side, int thin) {
   const double4 mx = magnitude4(nx), ms = magnitude4(ns), sum = mx + ms;
   const double4 reach = 0.5 * (thin ? larger4(mx, ms) : sum) + MARGIN * sum;
   const double4 inverse = 1.0 / (mx > 0.0 ? nx : (double4)1.0);
-  const double4 slope = -ns * inverse;
-  const double4 base = ((x - 0.5) - reach * inverse) - slope * (s - 0.5);
-  const double4 none = (double4)NO_BOUND, flat = (double4)0.0;
   EdgeBounds bounds;
-  bounds.lower = nx > 0.0 ? base : -none;
-  bounds.lower_slope = nx > 0.0 ? slope : flat;
-  bounds.upper = nx < 0.0 ? base : none;
-  bounds.upper_slope = nx < 0.0 ? slope : flat;
+  bounds.slope = -ns * inverse;
+  const double4 base = ((x - 0.5) - reach * inverse) - bounds.slope * (s - 0.5);
+  bounds.lower = nx > 0.0 ? base : -(double4)NO_BOUND;
+  bounds.upper = nx < 0.0 ? base : (double4)NO_BOUND;
   return bounds;
 }
 
-static double most_at(const EdgeBounds* b, double s) { return most_of_three(b->lower + b->lower_slope * s); }
-static double least_at(const EdgeBounds* b, double s) { return least_of_three(b->upper + b->upper_slope * s); }
+static double most_at(const EdgeBounds* b, double s) { return most_of_three(b->lower + b->slope * s); }
+static double least_at(const EdgeBounds* b, double s) { return least_of_three(b->upper + b->slope * s); }
 
 static PlaneBound plane_bound(const PlacedTriangle* t, const double* normal, int thin) {
   const double ax = magnitude(normal[0]), ay = magnitude(normal[1]), az = magnitude(normal[2]);
@@ -185,12 +182,12 @@ kernel void mark_surface(global const float* vertices, global const uint* triang
 
   const int v = t.low[1];
   const double4 s = convert_double4((int4)(v, v + 1, v + 2, v + 3));
-  const double4 strip_lower = larger4(larger4(u_by_v.lower.x + u_by_v.lower_slope.x * s,
-                                              u_by_v.lower.y + u_by_v.lower_slope.y * s),
-                                      u_by_v.lower.z + u_by_v.lower_slope.z * s);
-  const double4 strip_upper = smaller4(smaller4(u_by_v.upper.x + u_by_v.upper_slope.x * s,
-                                                u_by_v.upper.y + u_by_v.upper_slope.y * s),
-                                       u_by_v.upper.z + u_by_v.upper_slope.z * s);
+  const double4 strip_lower = larger4(larger4(u_by_v.lower.x + u_by_v.slope.x * s,
+                                              u_by_v.lower.y + u_by_v.slope.y * s),
+                                      u_by_v.lower.z + u_by_v.slope.z * s);
+  const double4 strip_upper = smaller4(smaller4(u_by_v.upper.x + u_by_v.slope.x * s,
+                                                u_by_v.upper.y + u_by_v.slope.y * s),
+                                       u_by_v.upper.z + u_by_v.slope.z * s);
   const double4 strip_plane = plane.at + plane.by_v * s;
   const double low = (double)t.low[0], high = (double)t.high[0];
   for (int w = t.low[2]; w <= t.high[2]; ++w) {

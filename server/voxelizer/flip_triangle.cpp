@@ -37,10 +37,11 @@ FlipEdges flip_edges(const PlacedTriangle& t) {
 
 /// Flips, in every row whose line of centres passes the triangle, the first voxel whose centre lies behind
 /// it.
-inline void flip_triangle(const PlacedTriangle& t, const PlaneBound& p, int dims_x, const TileRows& tile) {
+inline void flip_triangle(const PlacedTriangle& t, const PlaneBound<double>& p, int dims_x,
+                          const TileRows& tile) {
   const FlipEdges edges = flip_edges(t);
   // The plane's x is held within the triangle, which matters where it is steep.
-  const double least = least_of_three(t.at[0]) - 0.5, most = most_of_three(t.at[0]) - 0.5;
+  const double least = smallest(t.at[0]) - 0.5, most = largest(t.at[0]) - 0.5;
   for (int w = t.low[2]; w <= t.high[2]; ++w) {
     const double z = static_cast<double>(w) + 0.5;
     double first = 1e30, last = -1e30;
@@ -87,7 +88,7 @@ REAM_VECTOR_CLONES __attribute__((flatten)) void SolidFiller::fill(size_t tile_n
     if (!placed.place(mesh, triangle, map, dims_x, tile.range)) return;
     double normal[3];
     placed.exact_normal(normal);
-    PlaneBound plane;
+    PlaneBound<double> plane;
     plane.set(placed, normal, false);
     flip_triangle(placed, plane, dims_x, tile);
   });

@@ -12,10 +12,15 @@ using Double8 = double __attribute__((vector_size(64)));
 using Int4 = int __attribute__((vector_size(16)));
 using Int8 = int __attribute__((vector_size(32)));
 using Long4 = long long __attribute__((vector_size(32)));
+using Float8 = float __attribute__((vector_size(32)));
 
 /// Whole numbers of as many lanes.
 template <class Doubles>
 struct WholeOf;
+template <>
+struct WholeOf<double> {
+  using Type = int;
+};
 template <>
 struct WholeOf<Double4> {
   using Type = Int4;
@@ -38,9 +43,13 @@ inline T magnitude(const T& a) {
   return a < 0.0 ? -a : a;
 }
 
-/// Of the first three lanes.
-inline double most_of_three(const Double4& a) { return larger(larger(a[0], a[1]), a[2]); }
-inline double least_of_three(const Double4& a) { return smaller(smaller(a[0], a[1]), a[2]); }
+inline bool all_below(double a, double limit) { return a < limit; }
+inline bool all_below(const Double8& a, double limit) {
+  int below = -1;
+  const Int8 each = __builtin_convertvector(a < limit, Int8);
+  for (int i = 0; i < 8; ++i) below &= each[i];
+  return below != 0;
+}
 
 /// ceil(x) and floor(x) held within [low, high], exact for every x and so the same whatever the limits.
 inline int ceil_between(double x, int low, int high) {
@@ -68,6 +77,18 @@ inline Whole floor_between(const Doubles& x, double low, double high) {
   const Whole whole = __builtin_convertvector(held, Whole);
   const Doubles back = __builtin_convertvector(whole, Doubles);
   return __builtin_convertvector(back > held ? back - 1.0 : back, Whole);
+}
+
+/// The first whole number that is not below x, and the last that is not above it, for |x| < 2^50.
+inline constexpr double whole_shift = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to whole numbers
+inline constexpr long long whole_shift_bits = 0x4338000000000000;
+inline Long4 whole_from(const Double4& x) {
+  const Double4 shifted = x + whole_shift;
+  return (reinterpret_cast<Long4>(shifted) - whole_shift_bits) - (shifted - whole_shift < x);
+}
+inline Long4 whole_up_to(const Double4& x) {
+  const Double4 shifted = x + whole_shift;
+  return (reinterpret_cast<Long4>(shifted) - whole_shift_bits) + (shifted - whole_shift > x);
 }
 
 }  // namespace ream::voxelizer

@@ -1,7 +1,10 @@
 #include "voxelizer/tile_plan.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <cstring>
 
+#include "core/vector_clones.hpp"
 #include "voxelizer/lanes.hpp"
 
 namespace ream::voxelizer {
@@ -9,7 +12,7 @@ namespace {
 
 /// Sides of tiles are whole bricks.
 constexpr int side_step = 8;
-constexpr size_t triangles_a_piece = 8192;
+constexpr size_t triangles_a_piece = 2048;
 
 int whole_steps(double rows, int most) {
   const double steps = std::floor(std::max(1.0, rows / side_step));
@@ -17,49 +20,57 @@ int whole_steps(double rows, int most) {
   return static_cast<int>(std::min(steps * side_step, static_cast<double>(whole)));
 }
 
-/// Tiles that a triangle's box may touch, inclusive; none when first > last.
-struct Span {
-  int first_v, last_v, first_w, last_w;
-};
-
+/// Tiles that the boxes of eight triangles may touch, inclusive; none where first > last.
 struct Spans {
-  const TriangleMesh& mesh;
-  const VoxelMap& map;
-  const TilePlan& plan;
-  double tiles_a_row, tiles_a_layer;
+  Int8 first_v, last_v, first_w, last_w;
 
-  Spans(const TriangleMesh& a_mesh, const VoxelMap& a_map, const TilePlan& a_plan)
-      : mesh(a_mesh),
-        map(a_map),
-        plan(a_plan),
-        tiles_a_row(1.0 / a_plan.rows),
-        tiles_a_layer(1.0 / a_plan.layers) {}
-
-  /// A voxel more on either side than the corners need: rounding is decided where voxels are marked.
-  Span of(size_t triangle) const {
-    const auto& indices = mesh.triangles[triangle];
-    const float* a = mesh.vertices_mm[indices[0]].data();
-    const float* b = mesh.vertices_mm[indices[1]].data();
-    const float* c = mesh.vertices_mm[indices[2]].data();
-    const auto voxel = [&](float coordinate, size_t k) {
-      return static_cast<double>(coordinate) * map.factor[k] + map.offset[k];
+  /// Triangles from `first` on. A voxel more on either side than the corners need: rounding is decided where
+  /// voxels are marked.
+  void set(const TriangleMesh& mesh, const VoxelMap& map, const TilePlan& plan, size_t first, size_t end) {
+    float corners[3][2][8];
+    for (size_t lane = 0; lane < 8; ++lane) {
+      const auto& indices = mesh.triangles[std::min(first + lane, end - 1)];
+      for (size_t i = 0; i < 3; ++i) {
+        const float* corner = mesh.vertices_mm[indices[i]].data();
+        corners[i][0][lane] = corner[1];
+        corners[i][1][lane] = corner[2];
+      }
+    }
+    const auto tiles = [&](size_t axis, double tiles_a_voxel, int count, Int8& from, Int8& to) {
+      Float8 a, b, c;
+      std::memcpy(&a, corners[0][axis - 1], sizeof a);
+      std::memcpy(&b, corners[1][axis - 1], sizeof b);
+      std::memcpy(&c, corners[2][axis - 1], sizeof c);
+      const auto voxel = [&](const Float8& x) __attribute__((always_inline)) {
+        return __builtin_convertvector(x, Double8) * map.factor[axis] + map.offset[axis];
+      };
+      from = floor_between((voxel(smaller(smaller(a, b), c)) - 1.5) * tiles_a_voxel, 0, count);
+      to = floor_between((voxel(larger(larger(a, b), c)) + 0.5) * tiles_a_voxel, -1, count - 1);
     };
-    const auto lowest = [&](int k, size_t axis) { return voxel(std::min({a[k], b[k], c[k]}), axis) - 1.5; };
-    const auto highest = [&](int k, size_t axis) { return voxel(std::max({a[k], b[k], c[k]}), axis) + 0.5; };
-    return {floor_between(lowest(1, 1) * tiles_a_row, 0, plan.count_v),
-            floor_between(highest(1, 1) * tiles_a_row, -1, plan.count_v - 1),
-            floor_between(lowest(2, 2) * tiles_a_layer, 0, plan.count_w),
-            floor_between(highest(2, 2) * tiles_a_layer, -1, plan.count_w - 1)};
-  }
-
-  template <class Visit>
-  void for_each_tile(size_t triangle, Visit visit) const {
-    const Span span = of(triangle);
-    for (int j = span.first_w; j <= span.last_w; ++j)
-      for (int i = span.first_v; i <= span.last_v; ++i)
-        visit(static_cast<size_t>(i) + static_cast<size_t>(plan.count_v) * static_cast<size_t>(j));
+    tiles(1, 1.0 / plan.rows, plan.count_v, first_v, last_v);
+    tiles(2, 1.0 / plan.layers, plan.count_w, first_w, last_w);
   }
 };
+
+/// False when the lists have become too long.
+REAM_VECTOR_CLONES __attribute__((flatten)) bool list_triangles(const TriangleMesh& mesh, const VoxelMap& map,
+                                                                const TilePlan& plan, size_t begin,
+                                                                size_t end, TriangleLists& lists) {
+  Spans spans;
+  for (size_t first = begin; first < end; first += 8) {
+    spans.set(mesh, map, plan, first, end);
+    const int count = static_cast<int>(std::min<size_t>(8, end - first));
+    for (int lane = 0; lane < count; ++lane) {
+      const auto triangle = static_cast<uint32_t>(first) + static_cast<uint32_t>(lane);
+      for (int w = spans.first_w[lane]; w <= spans.last_w[lane]; ++w)
+        for (int v = spans.first_v[lane]; v <= spans.last_v[lane]; ++v)
+          if (!lists.add(static_cast<size_t>(v) + static_cast<size_t>(plan.count_v) * static_cast<size_t>(w),
+                         triangle))
+            return false;
+    }
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -75,7 +86,8 @@ TilePlan plan_tiles(const RasterGrid& grid, size_t tile_bytes, size_t least_tile
   const double row_bytes = 4.0 * static_cast<double>(grid.words_per_row());
   const double rows = static_cast<double>(tile_bytes) / row_bytes;
   plan.rows = whole_layers ? grid.dims.y() : whole_steps(rows / side_step, grid.dims.y());
-  const double layers = std::min(rows / plan.rows, grid.dims.z() / static_cast<double>(least_tiles));
+  const double share = std::ceil(grid.dims.z() / static_cast<double>(side_step * least_tiles)) * side_step;
+  const double layers = std::min(rows / plan.rows, share);
   plan.layers = whole_layers && layers < side_step ? std::max(1, static_cast<int>(layers))
                                                    : whole_steps(layers, grid.dims.z());
   plan.count_v = (grid.dims.y() + plan.rows - 1) / plan.rows;
@@ -86,38 +98,19 @@ TilePlan plan_tiles(const RasterGrid& grid, size_t tile_bytes, size_t least_tile
 TileBins::TileBins(const TriangleMesh& mesh, const VoxelMap& map, const TilePlan& plan, Crew& crew,
                    size_t most_bytes)
     : triangles_(mesh.triangles.size()) {
-  const Spans spans(mesh, map, plan);
-  const size_t tiles = plan.count();
-  const size_t pieces =
-      std::clamp<size_t>(triangles_ / triangles_a_piece, 1, 4 * static_cast<size_t>(crew.threads()));
-  if (tiles * pieces * sizeof(size_t) > most_bytes || tiles == 1) return;
-  // Each piece counts, then fills its own part of every list, so that lists keep the mesh's order.
-  std::vector<size_t> places(tiles * pieces, 0);
-  const auto piece_begin = [&](size_t piece) { return triangles_ * piece / pieces; };
-  crew.run(pieces, [&](size_t piece, int) {
-    size_t* counts = places.data() + piece * tiles;
-    for (size_t t = piece_begin(piece); t < piece_begin(piece + 1); ++t)
-      spans.for_each_tile(t, [&](size_t tile) { ++counts[tile]; });
+  const auto workers = static_cast<size_t>(crew.threads());
+  if (plan.count() == 1 || plan.count() > TriangleLists::most_lists(most_bytes / workers)) return;
+  for (size_t worker = 0; worker < workers; ++worker) lists_.emplace_back(plan.count(), most_bytes / workers);
+  std::atomic<bool> fits = true;
+  const size_t pieces = (triangles_ + triangles_a_piece - 1) / triangles_a_piece;
+  crew.run(pieces, [&](size_t piece, int worker) {
+    const size_t begin = piece * triangles_a_piece;
+    if (fits && !list_triangles(mesh, map, plan, begin, std::min(begin + triangles_a_piece, triangles_),
+                                lists_[static_cast<size_t>(worker)]))
+      fits = false;
   });
-  first_.resize(tiles + 1);
-  size_t total = 0;
-  for (size_t tile = 0; tile < tiles; ++tile) {
-    first_[tile] = total;
-    for (size_t piece = 0; piece < pieces; ++piece) {
-      const size_t count = places[piece * tiles + tile];
-      places[piece * tiles + tile] = total;
-      total += count;
-    }
-  }
-  first_[tiles] = total;
-  if (total * sizeof(uint32_t) > most_bytes) return;
-  list_.resize(total);
-  crew.run(pieces, [&](size_t piece, int) {
-    size_t* next = places.data() + piece * tiles;
-    for (size_t t = piece_begin(piece); t < piece_begin(piece + 1); ++t)
-      spans.for_each_tile(t, [&](size_t tile) { list_[next[tile]++] = static_cast<uint32_t>(t); });
-  });
-  listed_ = true;
+  listed_ = fits;
+  if (!listed_) lists_.clear();
 }
 
 }  // namespace ream::voxelizer

@@ -1,10 +1,10 @@
 #pragma once
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "voxelizer/crew.hpp"
 #include "voxelizer/raster_grid.hpp"
+#include "voxelizer/triangle_lists.hpp"
 
 namespace ream::voxelizer {
 
@@ -40,7 +40,7 @@ struct TilePlan {
 /// grid has the layers for it. `whole_layers` keeps layers whole, however large they are.
 TilePlan plan_tiles(const RasterGrid& grid, size_t tile_bytes, size_t least_tiles, bool whole_layers = false);
 
-/// Which triangles may touch which tile, in the order of the mesh.
+/// Which triangles may touch which tile. One thread's lists keep the order of the mesh.
 class TileBins {
  public:
   /// Where lists would take more than `most_bytes` there are none and every tile looks at all triangles.
@@ -50,19 +50,33 @@ class TileBins {
   /// Calls visit(triangle) for every triangle that may touch the tile.
   template <class Visit>
   void for_each(size_t tile, Visit visit) const {
-    if (!listed_) {
+    if (!listed_)
       for (size_t triangle = 0; triangle < triangles_; ++triangle) visit(triangle);
-      return;
-    }
-    for (size_t i = first_[tile]; i < first_[tile + 1]; ++i) visit(static_cast<size_t>(list_[i]));
+    else
+      for (const TriangleLists& lists : lists_) lists.for_each(tile, visit);
+  }
+  /// As for_each, some at a time: visit(triangles, count) for up to `few` of them; those behind the last
+  /// repeat it.
+  template <int few, class Visit>
+  void for_each_few(size_t tile, Visit visit) const {
+    uint32_t some[few];
+    int count = 0;
+    for_each(tile, [&](size_t triangle) {
+      some[count++] = static_cast<uint32_t>(triangle);
+      if (count < few) return;
+      visit(some, few);
+      count = 0;
+    });
+    if (count == 0) return;
+    for (int i = count; i < few; ++i) some[i] = some[count - 1];
+    visit(some, count);
   }
   bool listed() const { return listed_; }
 
  private:
   size_t triangles_ = 0;
   bool listed_ = false;
-  std::vector<size_t> first_;
-  std::vector<uint32_t> list_;
+  std::vector<TriangleLists> lists_;  ///< a worker's each
 };
 
 }  // namespace ream::voxelizer

@@ -1,6 +1,7 @@
-// The thesis' voxelization kernel (section 3.5, algorithm 3.1): one work-item a triangle. `sat_voxelizer` tests every
-// voxel of the triangle's box (eqs 3.1-3.5); `column_voxelizer` bounds each column along the normal's main axis by the
-// plane equation (Schwarz and Seidel 2010) and tests what is left.
+// The thesis' voxelization kernel (section 3.5, algorithm 3.1): one work-item a triangle. `pair_voxelizer` invokes the
+// whole test of eqs 3.1-3.5 for every pair of triangle and voxel of its box, as the kernels do that the thesis' author
+// published; `sat_voxelizer` does the same with what belongs to the triangle set up once; `column_voxelizer` bounds
+// each column along the normal's main axis by the plane equation (Schwarz and Seidel 2010) and tests what is left.
 
 typedef struct {
   float n[2], d;
@@ -60,6 +61,54 @@ static int edges_overlap(const Setup* s, int plane, float a, float b) {
 
 static void set_bit(global uint* words, const int* dims, int words_per_row, int u, int v, int w) {
   atomic_or(&words[(size_t)(u >> 5) + (size_t)words_per_row * ((size_t)v + (size_t)dims[1] * (size_t)w)], 1u << (u & 31));
+}
+
+static int pair_overlaps(const float v[3][3], const float* p) {
+  float e[3][3], n[3];
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) e[i][k] = v[(i + 1) % 3][k] - v[i][k];
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    n[k] = e[0][i] * e[1][j] - e[0][j] * e[1][i];
+  }
+  float a1 = 0.0f, a2 = 0.0f, np = 0.0f;
+  for (int k = 0; k < 3; ++k) {
+    const float c = n[k] > 0.0f ? 1.0f : 0.0f;
+    a1 += n[k] * (c - v[0][k]);
+    a2 += n[k] * (1.0f - c - v[0][k]);
+    np += n[k] * p[k];
+  }
+  if ((np + a1) * (np + a2) > 0.0f) return 0;
+  for (int a = 0; a < 3; ++a) {
+    const int b = (a + 1) % 3;
+    const float side = n[(a + 2) % 3] >= 0.0f ? 1.0f : -1.0f;
+    for (int i = 0; i < 3; ++i) {
+      const float na = -e[i][b] * side, nb = e[i][a] * side;
+      const float d = -(na * v[i][a] + nb * v[i][b]) + fmax(0.0f, na) + fmax(0.0f, nb);
+      if (na * p[a] + nb * p[b] + d < 0.0f) return 0;
+    }
+  }
+  return 1;
+}
+
+kernel void pair_voxelizer(global const float* corners, struct ThesisVoxelizerArguments grid, global uint* words) {
+  const uint triangle = get_global_id(0);
+  if (triangle >= grid.triangles) return;
+  const int dims[3] = {grid.dims[0], grid.dims[1], grid.dims[2]};
+  float vertices[3][3];
+  int low[3], high[3];
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) vertices[i][k] = corners[(size_t)triangle * 9 + 3 * i + k];
+  for (int k = 0; k < 3; ++k) {
+    low[k] = clamp((int)floor(fmin(vertices[0][k], fmin(vertices[1][k], vertices[2][k]))), 0, dims[k] - 1);
+    high[k] = clamp((int)floor(fmax(vertices[0][k], fmax(vertices[1][k], vertices[2][k]))), 0, dims[k] - 1);
+  }
+  for (int w = low[2]; w <= high[2]; ++w)
+    for (int v = low[1]; v <= high[1]; ++v)
+      for (int u = low[0]; u <= high[0]; ++u) {
+        const float p[3] = {(float)u, (float)v, (float)w};
+        if (pair_overlaps(vertices, p)) set_bit(words, dims, grid.words_per_row, u, v, w);
+      }
 }
 
 kernel void sat_voxelizer(global const float* corners, struct ThesisVoxelizerArguments grid, global uint* words) {

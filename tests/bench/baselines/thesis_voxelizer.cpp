@@ -68,6 +68,36 @@ size_t word_of(const RasterGrid& grid, int u, int v, int w) {
              (static_cast<size_t>(v) + static_cast<size_t>(grid.dims.y()) * static_cast<size_t>(w));
 }
 
+/// Eqs 3.1-3.5 of one triangle and the voxel with its corner at p.
+bool pair_overlaps(const float* corner, const float p[3]) {
+  float e[3][3], n[3];
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) e[i][k] = corner[3 * ((i + 1) % 3) + k] - corner[3 * i + k];
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    n[k] = e[0][i] * e[1][j] - e[0][j] * e[1][i];
+  }
+  float a1 = 0.0f, a2 = 0.0f, np = 0.0f;
+  for (int k = 0; k < 3; ++k) {
+    const float c = n[k] > 0.0f ? 1.0f : 0.0f;
+    a1 += n[k] * (c - corner[k]);
+    a2 += n[k] * (1.0f - c - corner[k]);
+    np += n[k] * p[k];
+  }
+  if ((np + a1) * (np + a2) > 0.0f) return false;
+  for (int a = 0; a < 3; ++a) {
+    const int b = (a + 1) % 3;
+    const float side = n[(a + 2) % 3] >= 0.0f ? 1.0f : -1.0f;
+    for (int i = 0; i < 3; ++i) {
+      const float na = -e[i][b] * side, nb = e[i][a] * side;
+      const float d =
+          -(na * corner[3 * i + a] + nb * corner[3 * i + b]) + std::max(0.0f, na) + std::max(0.0f, nb);
+      if (na * p[a] + nb * p[b] + d < 0.0f) return false;
+    }
+  }
+  return true;
+}
+
 /// Bits of first to last along one axis, for every line of that axis, into `inside`: kept where they are set
 /// there already.
 struct LineFill {
@@ -126,6 +156,7 @@ ThesisVoxelizer::ThesisVoxelizer(const gpu::Queue& queue, const TriangleMesh& me
       words_(grid.rows() * grid.words_per_row(), 0),
       program_(
           gpu::Program::from_source(queue, "thesis_voxelizer.cl", baseline_source("thesis_voxelizer.cl"))),
+      pair_(program_, "pair_voxelizer"),
       sat_(program_, "sat_voxelizer"),
       column_(program_, "column_voxelizer"),
       corner_buffer_(gpu::Buffer::over(queue, std::span(corners_))),
@@ -148,6 +179,27 @@ const std::vector<uint32_t>& ThesisVoxelizer::words() {
 
 void thesis_voxelizer_serial(const std::vector<float>& corners, const RasterGrid& grid,
                              std::vector<uint32_t>& words) {
+  for (size_t triangle = 0; triangle < corners.size() / 9; ++triangle) {
+    const float* corner = corners.data() + 9 * triangle;
+    std::array<int, 3> low{}, high{};
+    for (int k = 0; k < 3; ++k) {
+      const float least = std::min({corner[k], corner[3 + k], corner[6 + k]});
+      const float most = std::max({corner[k], corner[3 + k], corner[6 + k]});
+      const auto at = static_cast<size_t>(k);
+      low[at] = std::clamp(static_cast<int>(std::floor(least)), 0, grid.dims[k] - 1);
+      high[at] = std::clamp(static_cast<int>(std::floor(most)), 0, grid.dims[k] - 1);
+    }
+    for (int w = low[2]; w <= high[2]; ++w)
+      for (int v = low[1]; v <= high[1]; ++v)
+        for (int u = low[0]; u <= high[0]; ++u) {
+          const float p[3] = {static_cast<float>(u), static_cast<float>(v), static_cast<float>(w)};
+          if (pair_overlaps(corner, p)) words[word_of(grid, u, v, w)] |= 1u << (u % 32);
+        }
+  }
+}
+
+void set_up_once_serial(const std::vector<float>& corners, const RasterGrid& grid,
+                        std::vector<uint32_t>& words) {
   for (size_t triangle = 0; triangle < corners.size() / 9; ++triangle) {
     const Setup s(corners.data() + 9 * triangle, grid.dims);
     for (int w = s.low[2]; w <= s.high[2]; ++w)

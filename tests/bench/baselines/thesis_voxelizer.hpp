@@ -10,12 +10,15 @@ namespace ream::bench {
 std::vector<float> thesis_corners(const TriangleMesh& mesh, const voxelizer::RasterGrid& grid);
 
 /// The voxelizers that chapter 3 measures and compares with, 26-separating, on an OpenCL device: the thesis'
-/// kernel with its separating-axis test for every voxel of a triangle's box, and the same with the columns'
-/// bounds of Schwarz and Seidel (2010). Bits as in voxelizer::VoxelSet.
+/// kernel, which invokes the whole separating-axis test (eqs 3.1-3.5) for every pair of a triangle and a
+/// voxel of its box, as in the kernels that its author published; the same with edges, normal and offsets
+/// computed once a triangle; and that with the columns' bounds of Schwarz and Seidel (2010). Bits as in
+/// voxelizer::VoxelSet.
 class ThesisVoxelizer {
  public:
   ThesisVoxelizer(const gpu::Queue& queue, const TriangleMesh& mesh, const voxelizer::RasterGrid& grid);
   /// One kernel over a grid that was cleared, as far as the bits on the device.
+  void by_pair() { run(pair_); }
   void by_voxel() { run(sat_); }
   void by_column() { run(column_); }
   const std::vector<uint32_t>& words();
@@ -28,13 +31,15 @@ class ThesisVoxelizer {
   std::vector<float> corners_;
   std::vector<uint32_t> words_;
   gpu::Program program_;
-  gpu::Kernel sat_, column_;
+  gpu::Kernel pair_, sat_, column_;
   gpu::Buffer corner_buffer_, word_buffer_;
 };
 
-/// The thesis' serial C++ form of by_voxel, on one thread. `words` must be 0.
+/// The thesis' serial C++ form, on one thread: of by_pair, and of by_voxel. `words` must be 0.
 void thesis_voxelizer_serial(const std::vector<float>& corners, const voxelizer::RasterGrid& grid,
                              std::vector<uint32_t>& words);
+void set_up_once_serial(const std::vector<float>& corners, const voxelizer::RasterGrid& grid,
+                        std::vector<uint32_t>& words);
 
 /// Pairs of triangle and voxel that are tested: all voxels of each triangle's box (table 3.1, TB).
 uint64_t triangle_based_tests(const std::vector<float>& corners, const voxelizer::RasterGrid& grid);

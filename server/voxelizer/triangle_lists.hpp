@@ -1,0 +1,70 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace ream::voxelizer {
+
+/// Many lists of numbers that grow at their ends, in small pieces of memory so that they take little more
+/// than they hold.
+class TriangleLists {
+ public:
+  TriangleLists(size_t lists, size_t most_bytes) : ends_(lists), most_blocks_(most_bytes / sizeof(Block)) {}
+  /// Lists that can each hold something within so many bytes.
+  static size_t most_lists(size_t bytes) { return bytes / (sizeof(Ends) + sizeof(Piece)); }
+
+  /// False when there is no room for it.
+  bool add(size_t list, uint32_t number) {
+    Ends& ends = ends_[list];
+    if (ends.last == nullptr || ends.last->count == Piece::room) {
+      Piece* piece = new_piece();
+      if (piece == nullptr) return false;
+      (ends.last == nullptr ? ends.first : ends.last->next) = piece;
+      ends.last = piece;
+    }
+    ends.last->numbers[ends.last->count++] = number;
+    return true;
+  }
+
+  /// In the order in which they were added.
+  template <class Visit>
+  void for_each(size_t list, Visit visit) const {
+    for (const Piece* piece = ends_[list].first; piece != nullptr; piece = piece->next)
+      for (uint32_t i = 0; i < piece->count; ++i) visit(static_cast<size_t>(piece->numbers[i]));
+  }
+
+ private:
+  struct Piece {
+    static constexpr uint32_t room = 61;  // 256 bytes
+    Piece* next;
+    uint32_t count;
+    uint32_t numbers[room];
+  };
+  struct Block {
+    static constexpr size_t room = 128;
+    Piece pieces[room];
+  };
+  struct Ends {
+    Piece* first = nullptr;
+    Piece* last = nullptr;
+  };
+
+  Piece* new_piece() {
+    if (used_ == Block::room) {
+      if (blocks_.size() == most_blocks_) return nullptr;
+      blocks_.push_back(std::make_unique_for_overwrite<Block>());
+      used_ = 0;
+    }
+    Piece* piece = &blocks_.back()->pieces[used_++];
+    piece->next = nullptr;
+    piece->count = 0;
+    return piece;
+  }
+
+  std::vector<Ends> ends_;
+  std::vector<std::unique_ptr<Block>> blocks_;
+  size_t most_blocks_ = 0, used_ = Block::room;
+};
+
+}  // namespace ream::voxelizer
