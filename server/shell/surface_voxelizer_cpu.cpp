@@ -2,8 +2,7 @@
 #include "shell/surface_corners.hpp"
 #include "shell/surface_voxelizer.hpp"
 
-// Twin of kernels/surface_voxelizer.cl: the same float operations in the same order, so the same bits. All
-// tests are written around cell centres, which turns eqs 3.2, 3.4 and 3.6-3.8 into |d| <= reach and d >=
+// All tests are written around cell centres, which turns eqs 3.2, 3.4 and 3.6-3.8 into |d| <= reach and d >=
 // -reach.
 namespace ream::shell {
 namespace {

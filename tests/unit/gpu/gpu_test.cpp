@@ -103,7 +103,7 @@ TEST(Program, ErrorsNameTheCallAndThePlace) {
 }
 
 TEST(KernelSource, IncludesAreResolvedOnce) {
-  const std::string source = kernel_source("surface_voxelizer.cl");
+  const std::string source = kernel_source("voxelizer.cl");
   EXPECT_EQ(source.find("#include \""), std::string::npos);
   const size_t first = source.find("#pragma OPENCL FP_CONTRACT OFF");
   ASSERT_NE(first, std::string::npos);
