@@ -148,6 +148,7 @@ Message status_message(const Label& label, StatusCode code, const std::string& n
                        const std::string& words) {
   igtl::StatusMessage::Pointer message = igtl::StatusMessage::New();
   message->SetCode(static_cast<int>(code));
+  message->SetSubCode(0);  // else it is whatever lay in memory
   message->SetErrorName(name.substr(0, 19).c_str());
   message->SetStatusString(words.c_str());
   return packed(label, *message);

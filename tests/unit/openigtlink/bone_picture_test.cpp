@@ -31,13 +31,13 @@ TEST(BonePicture, IsTheWholeSurfaceInRasBeforeAndAfterCuts) {
   BonePicture picture(ball.bone().grid);
   take_all(*mailbox, picture);
   const TriangleMesh whole = picture.in_ras();
-  EXPECT_EQ(corners_of(whole), corners_of(ball.surface()));
+  EXPECT_TRUE(corners_of(whole) == corners_of(ball.surface()));
   EXPECT_EQ(whole.vertices_mm.size(), ball.surface().vertices_mm.size()) << "vertices of borders are one";
   EXPECT_TRUE(is_closed(whole));
   EXPECT_GT(whole.volume_mm3(), 10'000.0) << "outside is outside";
-  for (const uint32_t brick : {300u, 301u, 350u, 500u}) ball.cut(brick);
+  for (const int brick : {0, 1, 7, 20}) ball.cut(brick);
   take_all(*mailbox, picture);
-  EXPECT_EQ(corners_of(picture.in_ras()), corners_of(ball.surface()));
+  EXPECT_TRUE(corners_of(picture.in_ras()) == corners_of(ball.surface()));
   EXPECT_TRUE(is_closed(picture.in_ras()));
   EXPECT_LT(picture.in_ras().volume_mm3(), whole.volume_mm3());
 }
@@ -47,8 +47,7 @@ TEST(BonePicture, BoneThatIsGoneLeavesNothing) {
   const auto mailbox = ball.fanout().subscribe([] {}, 1);
   BonePicture picture(ball.bone().grid);
   take_all(*mailbox, picture);
-  for (uint32_t brick = 0; brick < ball.bone().grid.voxel_count() / voxel::brick_voxels; ++brick)
-    ball.cut(brick);
+  ball.cut_everything();
   take_all(*mailbox, picture);
   EXPECT_TRUE(picture.in_ras().triangles.empty());
 }

@@ -138,7 +138,7 @@ TEST(OpenIgtlinkMessages, PolydataWithNormals) {
 
 TEST(OpenIgtlinkMessages, WordsAndStatus) {
   const Message words = string_message({"Session", second_and_a_half}, "Schulter l\xC3\xA4nks");
-  expect_bytes(words, 58, "006a 0010");
+  expect_bytes(words, 58, "006a 000f");
   EXPECT_EQ(read(words).text, "Schulter l\xC3\xA4nks");
   const Message status =
       status_message({"Simulator", second_and_a_half}, StatusCode::hardware_failure, "fault", "no hand");

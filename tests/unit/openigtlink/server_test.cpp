@@ -26,6 +26,7 @@ class OpenIgtlinkServer : public testing::Test {
 
   /// Tells where the tool is until the client has heard of a place.
   void tell_until_heard(WatchedBall& ball, SlicerClient& client, double x_mm) {
+    ball.tell(x_mm);
     client.hear_until("the tool", [&](const IgtlReading& reading) {
       ball.tell(x_mm);
       return reading.name == "ReamerToRas" && reading.transform[9] == static_cast<float>(-x_mm);
@@ -55,7 +56,7 @@ TEST_F(OpenIgtlinkServer, WhoComesGetsEverythingAndThenWhatChanges) {
   SlicerClient client(server_.port());
   EXPECT_EQ(client.hear("Session").text, "s1: a ball");
   EXPECT_EQ(client.hear("Reamer").triangles.size(), 4u);
-  EXPECT_EQ(corners_of(client.hear("Bone")), corners_of(ball.surface()));
+  EXPECT_TRUE(corners_of(client.hear("Bone")) == corners_of(ball.surface()));
   ball.tell(10.0);
   const IgtlReading tool = client.hear("ReamerToRas");
   EXPECT_EQ(tool.transform, (std::array<float, 12>{-1, 0, 0, 0, -1, 0, 0, 0, 1, -10, -2, 3}));
@@ -63,8 +64,8 @@ TEST_F(OpenIgtlinkServer, WhoComesGetsEverythingAndThenWhatChanges) {
   EXPECT_EQ(client.hear("Force").values, (std::vector<double>{52.0, 2.0}));
   ball.tell(10.0);
   EXPECT_EQ(client.hear("Torque").values, std::vector<double>{0.25});
-  ball.cut(300);
-  EXPECT_EQ(corners_of(client.hear("Bone")), corners_of(ball.surface()));
+  ball.cut(17);
+  EXPECT_TRUE(corners_of(client.hear("Bone")) == corners_of(ball.surface()));
   ball.tell(11.0, stream::SessionState::paused);
   EXPECT_EQ(
       client.hear_until("a pause", [](const IgtlReading& r) { return r.name == "Simulator" && r.code != 1; })
@@ -77,10 +78,10 @@ TEST_F(OpenIgtlinkServer, TheSessionThatWasShownLastIsTheOne) {
   showcase_->show(first.session());
   SlicerClient client(server_.port());
   EXPECT_EQ(client.hear("Session").text, "first: a ball");
-  second.cut(300);
+  second.cut(17);
   showcase_->show(second.session());
   EXPECT_EQ(client.hear("Session").text, "second: a ball");
-  EXPECT_EQ(corners_of(client.hear("Bone")), corners_of(second.surface()));
+  EXPECT_TRUE(corners_of(client.hear("Bone")) == corners_of(second.surface()));
   until_viewers(first, 0);
 }
 
@@ -93,9 +94,10 @@ TEST_F(OpenIgtlinkServer, FollowsASessionOnlyWhileSomebodyWatches) {
     client.hear("Bone");
     EXPECT_EQ(ball.fanout().viewers(), 1u);
   }
-  ball.cut(300);
+  until_viewers(ball, 0);
+  ball.cut(17);
   SlicerClient again(server_.port());
-  EXPECT_EQ(corners_of(again.hear("Bone")), corners_of(ball.surface()));
+  EXPECT_TRUE(corners_of(again.hear("Bone")) == corners_of(ball.surface()));
 }
 
 TEST_F(OpenIgtlinkServer, AClientThatDoesNotReadDisturbsNobodyAndThenGetsTheNewest) {
@@ -105,7 +107,7 @@ TEST_F(OpenIgtlinkServer, AClientThatDoesNotReadDisturbsNobodyAndThenGetsTheNewe
   SlicerClient client(server_.port());
   client.hear("Bone");
   // Far more than the kernel takes for the sleeper.
-  for (uint32_t brick = 200; brick < 240; ++brick) {
+  for (int brick = 0; brick < WatchedBall::bricks - 1; ++brick) {
     ball.cut(brick);
     client.hear("Bone");
   }
@@ -113,7 +115,7 @@ TEST_F(OpenIgtlinkServer, AClientThatDoesNotReadDisturbsNobodyAndThenGetsTheNewe
   sleeper.hear_until("the tool where it is now", [&](const IgtlReading& reading) {
     return reading.name == "ReamerToRas" && reading.transform[9] == -77.0f;
   });
-  ball.cut(250);
+  ball.cut(WatchedBall::bricks - 1);
   const auto now = corners_of(ball.surface());
   sleeper.hear_until("the bone as it is now",
                      [&](const IgtlReading& r) { return r.name == "Bone" && corners_of(r) == now; });
@@ -163,7 +165,7 @@ TEST_F(OpenIgtlinkServer, ASessionThatIsGoneIsNotWaitedFor) {
   EXPECT_EQ(client.hear("Session").text, "s1: a ball");
   WatchedBall next("next");
   showcase_->show(next.session());
-  EXPECT_EQ(corners_of(client.hear("Bone")), corners_of(next.surface()));
+  EXPECT_TRUE(corners_of(client.hear("Bone")) == corners_of(next.surface()));
 }
 
 TEST_F(OpenIgtlinkServer, APortInUseIsSaidInOneLine) {

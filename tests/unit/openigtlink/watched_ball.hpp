@@ -23,13 +23,25 @@ class WatchedBall {
   stream::LocalFanout& fanout() { return *fanout_; }
   const voxel::BoneModel& bone() const { return bone_; }
 
-  /// Takes a brick of bone away and shows that.
-  void cut(uint32_t brick) {
+  /// Bricks that hold bone, whether or not it has been cut.
+  static constexpr int bricks = 4 * 3 * 3;
+  /// Takes one of them away and shows that.
+  void cut(int which) {
     voxel::BrickImage image{};
-    image.brick = brick;
+    image.brick = bone_.grid.brick_index(Vec3i(4 + which % 4, 3 + which / 4 % 3, 3 + which / 12));
     image.tick = ++tick_;
-    voxel::write_brick(bone_.grid, bone_.coverage.data(), brick, image.coverage);
+    voxel::write_brick(bone_.grid, bone_.coverage.data(), image.brick, image.coverage);
     publisher_.take(image, steady_ns());
+    publisher_.flush(steady_ns());
+  }
+
+  void cut_everything() {
+    for (uint32_t brick = 0; brick < bone_.grid.voxel_count() / voxel::brick_voxels; ++brick) {
+      voxel::BrickImage image{};
+      image.brick = brick;
+      voxel::write_brick(bone_.grid, bone_.coverage.data(), brick, image.coverage);
+      publisher_.take(image, steady_ns());
+    }
     publisher_.flush(steady_ns());
   }
 
