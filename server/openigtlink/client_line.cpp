@@ -2,6 +2,7 @@
 
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <cerrno>
 
 namespace ream::openigtlink {
@@ -9,6 +10,8 @@ namespace {
 
 /// Of what a client says, looked at in one round.
 constexpr int most_reads = 16;
+/// Between two calls that come one after the other.
+constexpr int64_t longest_round_ns = 1'000'000'000;
 
 bool would_wait() { return errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR; }
 
@@ -39,16 +42,18 @@ bool ClientLine::choose(const Board& board) {
 }
 
 bool ClientLine::serve(const Board& board, int64_t now_ns) {
+  waited_ns_ += std::min(now_ns - served_ns_, longest_round_ns);
+  served_ns_ = now_ns;
   if (!hear()) return false;
   while (writing_ || choose(board)) {
     const ssize_t count =
         ::send(socket_.get(), writing_->data() + written_, writing_->size() - written_, MSG_NOSIGNAL);
-    if (count < 0) return would_wait() && now_ns - moved_ns_ < patience_ns;
-    moved_ns_ = now_ns;
+    if (count < 0) return would_wait() && waited_ns_ < patience_ns;
+    waited_ns_ = 0;
     written_ += static_cast<size_t>(count);
     if (written_ == writing_->size()) writing_.reset();
   }
-  moved_ns_ = now_ns;
+  waited_ns_ = 0;
   return true;
 }
 

@@ -8,6 +8,7 @@
 #include <igtlStringMessage.h>
 #include <igtlTransformMessage.h>
 
+#include <cerrno>
 #include <cstring>
 #include <stdexcept>
 
@@ -105,8 +106,14 @@ SlicerClient::~SlicerClient() { line_->socket->CloseSocket(); }
 
 IgtlBytes SlicerClient::raw(size_t count) {
   IgtlBytes bytes(count);
-  if (count > 0 && line_->socket->Receive(bytes.data(), static_cast<int>(count)) != static_cast<int>(count))
-    throw std::runtime_error("the line has ended, or nothing came");
+  for (size_t done = 0; done < count;) {
+    errno = 0;
+    const int got = line_->socket->Receive(bytes.data() + done, static_cast<int>(count - done), 0);
+    if (got > 0)
+      done += static_cast<size_t>(got);
+    else if (errno != EINTR)  // the test was stopped for a while
+      throw std::runtime_error("the line has ended, or nothing came");
+  }
   return bytes;
 }
 
