@@ -26,6 +26,7 @@ class WatchedMachine final : public device::AdmittanceMachine {
   struct Seen {
     std::vector<std::string> calls;  ///< "open", "enable", "disable", ...; "rest": no motion any more
     std::vector<Pose> told;
+    std::vector<Pose> measured;  ///< where it was, in every tick since its motors are on
     double fastest_mm_s = 0.0, hardest_mm_s2 = 0.0, farthest_mm = 0.0;
     int64_t last_motion = -1;  ///< set point of which tick was the last that moved
     std::atomic<int> stops{0};
@@ -57,6 +58,7 @@ class WatchedMachine final : public device::AdmittanceMachine {
     if (begun_ && seen_->told.empty()) begun_ = false;
     if (!begun_ && status == device::DeviceStatus::ok) first_ = sense.base_from_handle;
     last_ = sense;
+    if (enabled_) seen_->measured.push_back(sense.base_from_handle);
     const bool now = enabled_ && senses_ >= fault_.from && senses_ < fault_.from + fault_.ticks;
     ++senses_;
     if (!now) return status;
