@@ -1,9 +1,11 @@
 // A session as 3D Slicer sees it, from a server in a process of its own.
 #include <signal.h>
 
-#include <fstream>
+#include <algorithm>
+#include <iostream>
 
 #include "e2e/cli/serve_block_fixture.hpp"
+#include "geometry/mesh_io.hpp"
 #include "support/slicer_client.hpp"
 
 namespace ream::test {
@@ -31,35 +33,12 @@ class WatchedServe : public ServeBlock {
     return all;
   }
 
-  /// reamed.ply of a session (binary, little-endian, LPS): vertices and triangles, turned to RAS.
+  /// reamed.ply of a session (LPS), turned to RAS.
   std::vector<std::array<std::array<float, 3>, 3>> reamed_in_ras(const std::string& id) const {
-    std::ifstream file(folder() / "data/sessions" / id / "reamed.ply", std::ios::binary);
-    size_t vertices = 0, triangles = 0, vertex_bytes = 0;
-    bool in_vertices = false;
-    for (std::string line; std::getline(file, line) && line != "end_header";) {
-      std::istringstream words(line);
-      std::string first, second;
-      words >> first >> second;
-      if (first == "element") {
-        in_vertices = second == "vertex";
-        words >> (in_vertices ? vertices : triangles);
-      }
-      if (first == "property" && in_vertices) vertex_bytes += second == "float" ? 4 : 1;
-    }
-    std::vector<std::array<float, 3>> points(vertices);
-    for (auto& point : points) {
-      std::vector<char> bytes(vertex_bytes);
-      file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-      std::memcpy(point.data(), bytes.data(), sizeof point);
-      point = {-point[0], -point[1], point[2]};
-    }
-    std::vector<std::array<uint32_t, 3>> corners(triangles);
-    for (auto& triangle : corners) {
-      EXPECT_EQ(file.get(), 3);
-      file.read(reinterpret_cast<char*>(triangle.data()), sizeof triangle);
-    }
-    EXPECT_TRUE(file.good());
-    return corners_of(points, corners);
+    const TriangleMesh mesh = load_mesh(folder() / "data/sessions" / id / "reamed.ply");
+    std::vector<std::array<float, 3>> points;
+    for (const Vec3f& v : mesh.vertices_mm) points.push_back({-v.x(), -v.y(), v.z()});
+    return corners_of(points, mesh.triangles);
   }
 
   void TearDown() override {
