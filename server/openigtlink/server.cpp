@@ -70,11 +70,12 @@ void Server::wait_for_news() const {
 
 void Server::one_round() {
   let_in();
-  if (clients_.empty()) return leave_session();
+  if (clients_.empty()) return;
   follow_shown();
   const int64_t now_ns = steady_ns();
   if (mailbox_) take(now_ns);
   std::erase_if(clients_, [&](ClientLine& client) { return !client.serve(board_, now_ns); });
+  if (clients_.empty()) leave_session();
 }
 
 void Server::let_in() {

@@ -33,9 +33,10 @@ class WatchedServe : public ServeBlock {
     return all;
   }
 
-  /// reamed.ply of a session (LPS), turned to RAS.
-  std::vector<std::array<std::array<float, 3>, 3>> reamed_in_ras(const std::string& id) const {
-    const TriangleMesh mesh = load_mesh(folder() / "data/sessions" / id / "reamed.ply");
+  /// What the program exports of a session that has ended (LPS), turned to RAS.
+  std::vector<std::array<std::array<float, 3>, 3>> reamed_in_ras(const std::string& id) {
+    succeed({"export", id, "--out", "left.ply"});
+    const TriangleMesh mesh = load_mesh(folder() / "left.ply");
     std::vector<std::array<float, 3>> points;
     for (const Vec3f& v : mesh.vertices_mm) points.push_back({-v.x(), -v.y(), v.z()});
     return corners_of(points, mesh.triangles);
