@@ -35,8 +35,8 @@ class WatchedServe : public ServeBlock {
 
   /// What the program exports of a session that has ended (LPS), turned to RAS.
   std::vector<std::array<std::array<float, 3>, 3>> reamed_in_ras(const std::string& id) {
-    succeed({"export", id, "--out", "left.ply"});
-    const TriangleMesh mesh = load_mesh(folder() / "left.ply");
+    succeed({"export", id, "--out", "left.stl"});
+    const TriangleMesh mesh = load_mesh(folder() / "left.stl");
     std::vector<std::array<float, 3>> points;
     for (const Vec3f& v : mesh.vertices_mm) points.push_back({-v.x(), -v.y(), v.z()});
     return corners_of(points, mesh.triangles);
