@@ -4,6 +4,8 @@
 
 #include "app/real_devices.hpp"
 #include "core/error.hpp"
+#include "device/admittance_device.hpp"
+#include "device/admittance_plant.hpp"
 #include "device/mapped_device.hpp"
 #include "device/network_device.hpp"
 #include "device/profiles.hpp"
@@ -78,11 +80,32 @@ DeviceKind browser() {
           }};
 }
 
+/// A simulated machine that senses force and moves, in the hand of the script.
+DeviceKind plant(const device::PlantParameters& parameters, const std::string& usual,
+                 const std::string& about) {
+  return {parameters.name, usual,
+          [&parameters, usual, about](const std::filesystem::path&) { return offer_of(parameters.name, about, usual); },
+          [&parameters, usual](const DeviceWish& wish) {
+            const Pose plan_from_start{rotation_from_small_vector(wish.script->hand.tilt_rad),
+                                       wish.script->hand.start_mm};
+            auto machine = device::make_admittance_plant(
+                parameters, device::device_profile(profile_of(wish, usual)), *wish.script, wish.random_seed);
+            return MadeDevice{std::make_unique<device::AdmittanceDevice>(
+                                  std::move(machine), wish.world_from_plan * plan_from_start),
+                              nullptr};
+          }};
+}
+
 }  // namespace
 
 const std::vector<DeviceKind>& device_kinds() {
   static const std::vector<DeviceKind> kinds = [] {
-    std::vector<DeviceKind> all{scripted(), network(), browser()};
+    std::vector<DeviceKind> all{
+        scripted(), network(), browser(),
+        plant(device::hapticmaster_plant(), "hapticmaster",
+              "A simulated HapticMaster: senses the script's hand and moves, with its limits and servo"),
+        plant(device::robot_plant(), "robot-force-mode",
+              "A simulated robot arm with a force sensor, moved by the script's hand")};
     for (DeviceKind& real : real_device_kinds()) all.push_back(std::move(real));
     return all;
   }();

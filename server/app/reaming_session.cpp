@@ -127,6 +127,15 @@ stream::HelloInfo ReamingSession::hello() const {
   return info;
 }
 
+void ReamingSession::show() const {
+  if (!house_.showcase) return;
+  const case_::Case& c = rig_.bone_case;
+  const std::string words =
+      (c.name.empty() ? c.id : c.name) + ", " + case_::to_text(c.side) + ", reamer " + rig_.model.tool.name;
+  house_.showcase->show(std::make_shared<const openigtlink::ShownSession>(
+      openigtlink::ShownSession{id_, words, c.bone.grid, rig_.model.tool.mesh, fanout_}));
+}
+
 /// session.json beside what describes the run.
 nlohmann::json ReamingSession::told_of(api::SessionState state, const std::string& fault) const {
   nlohmann::json told = {{"id", id_},
@@ -191,6 +200,7 @@ void ReamingSession::start() {
   try {
     loop_.pin_to(place_->cpu());
     loop_.start();
+    show();
   } catch (const std::exception& e) {
     std::unique_lock lock(mutex_);
     start_failure_ = e.what();

@@ -12,6 +12,7 @@
 #include "app/rig.hpp"
 #include "app/session_files.hpp"
 #include "device/device_socket.hpp"
+#include "openigtlink/showcase.hpp"
 #include "score/live_score.hpp"
 #include "sim/haptic_loop.hpp"
 #include "sim/loop_places.hpp"
@@ -27,7 +28,8 @@ struct SessionHouse {
   std::string backend = "auto";
   sim::Realtime realtime = sim::Realtime::attempt;
   std::shared_ptr<sim::LoopPlaces> places = std::make_shared<sim::LoopPlaces>();
-  double tool_spacing_mm = 0.2;  ///< of the points that feel bone
+  double tool_spacing_mm = 0.2;                               ///< of the points that feel bone
+  std::shared_ptr<openigtlink::Showcase> showcase = nullptr;  ///< null: nobody watches over OpenIGTLink
 };
 
 /// A live session: the haptic loop on its own thread, and one follower thread that keeps files, metrics,
@@ -92,6 +94,7 @@ class ReamingSession final : public api::RunningSession {
   void end_without_force(const std::string& words);
   void close(api::SessionState state, const std::string& fault, const nlohmann::json& metrics);
   stream::HelloInfo hello() const;
+  void show() const;
   std::shared_ptr<device::DevicePort> port_of_device() const;
   void note_device();
   void tell_port();

@@ -51,6 +51,9 @@ constexpr std::array<Published, 18> table{{
     // HapticMaster (Van der Linde and others, EuroHaptics 2002): nominal force; the low end of 10 to 50 kN/m;
     // smallest tip mass; half of the arm's 0.36 m stroke. Not checked against the paper.
     {"hapticmaster", admittance, 100.0, 0.0, 10000.0, 0.0, 0.18, 3, by_lever, 2.0},
+    // An arm of the same kind, position-controlled, with a force sensor at its flange: payload's weight as
+    // force; the virtual mass is what its delay lets feel steady in a hand. Engineering choice.
+    {"robot-force-mode", admittance, 14.0 * gravity_m_s2, 40.0, 5000.0, 0.0, 0.40, 6, 300.0, 10.0},
     // No device: far beyond what a hand does, for scripts that study the simulation and not a device.
     {"ideal", impedance, 1000.0, 100.0, 100000.0, 1.0e6, 10.0, 6, by_lever, 0.0},
     {"ideal-admittance", admittance, 1000.0, 100.0, 100000.0, 1.0e6, 10.0, 6, by_lever, 1.0},

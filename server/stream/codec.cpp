@@ -2,7 +2,11 @@
 
 #include <meshoptimizer.h>
 
+#include <algorithm>
 #include <stdexcept>
+#include <string>
+
+#include "core/error.hpp"
 
 namespace ream::stream {
 namespace {
@@ -62,6 +66,25 @@ EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t 
                              return meshopt_encodeIndexBuffer(to, size, indices.data(), indices.size());
                            });
   return result;
+}
+
+surface::BlockMesh decode(const EncodedBlock& block) {
+  surface::BlockMesh mesh;
+  mesh.block = block.block;
+  if (block.empty()) return mesh;
+  mesh.vertices.resize(block.vertex_count);
+  mesh.indices.resize(block.index_count);
+  const auto* vertices = reinterpret_cast<const unsigned char*>(block.vertices.data());
+  const auto* indices = reinterpret_cast<const unsigned char*>(block.indices.data());
+  const bool whole = meshopt_decodeVertexBuffer(mesh.vertices.data(), mesh.vertices.size(),
+                                                sizeof(BlockVertex), vertices, block.vertices.size()) == 0 &&
+                     meshopt_decodeIndexBuffer(mesh.indices.data(), mesh.indices.size(), sizeof(uint32_t),
+                                               indices, block.indices.size()) == 0;
+  const auto is_vertex = [&](uint32_t index) { return index < block.vertex_count; };
+  if (!whole || !std::all_of(mesh.indices.begin(), mesh.indices.end(), is_vertex))
+    throw Error(ErrorKind::invalid_input,
+                "the surface of block " + std::to_string(block.block) + " is damaged; have it made again");
+  return mesh;
 }
 
 }  // namespace ream::stream

@@ -30,4 +30,7 @@ using SharedBlock = std::shared_ptr<const EncodedBlock>;
 EncodedBlock encode(const surface::BlockMesh& mesh, uint32_t revision, uint32_t tick, int stride = 1,
                     const SurfaceClasses* classes = nullptr);
 
+/// The surface that was encoded. Error invalid_input for a block that is damaged.
+surface::BlockMesh decode(const EncodedBlock& block);
+
 }  // namespace ream::stream

@@ -36,6 +36,21 @@ Message Mailbox::next() {
   return nullptr;
 }
 
+Parcel Mailbox::take() {
+  const std::lock_guard lock(mutex_);
+  Parcel parcel;
+  for (const uint32_t key : order_) parcel.blocks.push_back(std::move(newest_.at(key)));
+  order_.clear();
+  newest_.clear();
+  if (!telemetry_.empty()) parcel.newest = std::move(telemetry_.back());
+  telemetry_.clear();
+  hello_ = tool_ = nullptr;
+  if (picture_ == Picture::sending) picture_ = Picture::sent;
+  parcel.picture_complete = picture_ == Picture::sent;
+  asleep_ = true;
+  return parcel;
+}
+
 Message Mailbox::next_telemetry() {
   SharedTelemetry batch = std::move(telemetry_.front());
   telemetry_.pop_front();

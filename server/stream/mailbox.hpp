@@ -10,6 +10,13 @@
 
 namespace ream::stream {
 
+/// What a viewer in this process gets.
+struct Parcel {
+  std::vector<SharedBlock> blocks;  ///< the newest of each place
+  SharedTelemetry newest;           ///< the last batch; null: none since the last time
+  bool picture_complete = false;    ///< with these blocks, or before
+};
+
 /// What waits for one viewer, bounded however slow it is: at most one surface per block, always the newest,
 /// and the latest telemetry; what telemetry was dropped is counted and told. Thread-safe.
 class Mailbox {
@@ -25,6 +32,10 @@ class Mailbox {
   /// as there is something again. Blocks are gathered to messages of about mesh_message_bytes or
   /// update_message_bytes; telemetry, as much as waits without a gap, and surface take turns.
   Message next();
+
+  /// All that waits, for a viewer in this process: nothing is made into messages, hello and tool are left
+  /// out, and `notify` is called for what comes later. Use either this or next().
+  Parcel take();
 
   /// The fanout's side.
   void put_hello(Message hello);

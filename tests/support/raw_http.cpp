@@ -82,7 +82,8 @@ void RawSocket::end_sending() { ::shutdown(socket_, SHUT_WR); }
 
 bool RawSocket::fill() {
   char chunk[65536];
-  const long n = read_some(chunk, sizeof chunk);
+  long n = read_some(chunk, sizeof chunk);
+  while (n < 0 && errno == EINTR) n = read_some(chunk, sizeof chunk);  // the test was stopped for a while
   if (n < 0 && errno != ECONNRESET) fail("receive");
   if (n <= 0) return false;
   buffer_.append(chunk, static_cast<size_t>(n));

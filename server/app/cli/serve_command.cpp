@@ -16,6 +16,7 @@
 #include "app/export_session.hpp"
 #include "app/interrupt.hpp"
 #include "app/open_database.hpp"
+#include "app/openigtlink_address.hpp"
 #include "app/reaming_session.hpp"
 #include "app/replay_session.hpp"
 #include "app/score_makers.hpp"
@@ -28,6 +29,7 @@
 #include "core/log.hpp"
 #include "ct/phantom_case.hpp"
 #include "ct/volume_io.hpp"
+#include "openigtlink/server.hpp"
 #include "store/database_url.hpp"
 
 namespace ream::app {
@@ -40,6 +42,7 @@ constexpr int most_days = 36500;
 
 struct Options {
   ServerAddress address;
+  std::string openigtlink;  ///< as on the command line; empty: not wanted
   fs::path web;
   std::string backend = "auto", realtime = "try", device = "script";
   std::optional<int> keep_sessions_days;
@@ -93,14 +96,18 @@ std::string viewer_link(access::Gatehouse& gatehouse, const std::string& url) {
 }
 
 /// The viewer link goes to a person or a program that asked for it, never into a file of logs.
-void tell_address(const std::string& url, access::Gatehouse& gatehouse, bool for_programs) {
+void tell_address(const std::string& url, const openigtlink::Server* watched, access::Gatehouse& gatehouse,
+                  bool for_programs) {
   if (for_programs) {
     nlohmann::json told = {{"url", url}};
+    if (watched != nullptr) told["openigtlink_port"] = watched->port();
     if (const std::string link = viewer_link(gatehouse, url); !link.empty()) told["viewer_link"] = link;
     std::cout << told.dump() << std::endl;
     return;
   }
   std::cout << "ream is at " << url << "  (Ctrl-C ends it)" << std::endl;
+  if (watched != nullptr)
+    std::cout << "3D Slicer watches by OpenIGTLink, port " << watched->port() << std::endl;
   if (::isatty(STDOUT_FILENO) == 0) return;
   if (const std::string link = viewer_link(gatehouse, url); !link.empty())
     std::cout << "to watch, for 12 hours: " << link << std::endl;
@@ -117,6 +124,9 @@ void serve(const Options& options, const GlobalOptions& global) {
   api::ServerOptions server_options;
   server_options.web_folder = web_folder(options.web);
   server_options.listen = listen_options(options.address, has_users(global.db, house.data));
+  std::optional<openigtlink::ServerOptions> openigtlink_options;
+  if (!options.openigtlink.empty())
+    openigtlink_options = openigtlink_address(options.openigtlink, options.address);
   server_options.database = open_database(global.db, house.data);
   make_data_folder(house.data);
   const auto alone = FileLock::attempt(serving_lock(house.data));
@@ -127,6 +137,11 @@ void serve(const Options& options, const GlobalOptions& global) {
   for (const std::string& line : recover_sessions(house.data)) log::warn(line);
   catch_interrupts();
 
+  std::optional<openigtlink::Server> watched;
+  if (openigtlink_options) {
+    house.showcase = std::make_shared<openigtlink::Showcase>();
+    watched.emplace(*openigtlink_options, house.showcase);
+  }
   server_options.cases_folder = cases_folder(house.data);
   server_options.data_folder = house.data;
   server_options.read_ct = [](const fs::path& file, const std::string& series_uid, const Progress& progress) {
@@ -155,7 +170,8 @@ void serve(const Options& options, const GlobalOptions& global) {
   api::Server server(std::move(server_options));
   server.start();
 
-  tell_address(server_url(options.address, server.port()), *server.gatehouse(), global.json);
+  tell_address(server_url(options.address, server.port()), watched ? &*watched : nullptr, *server.gatehouse(),
+               global.json);
   while (!interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   log::info("stopping: sessions end without force, recordings are closed");
   server.stop();
@@ -177,6 +193,8 @@ void add_serve_command(CLI::App& app, GlobalOptions& global) {
   command->add_option("--tls-key", address.key, "Its key, PEM");
   command->add_flag("--insecure", address.insecure,
                     "Let others log in without TLS, where something else encrypts");
+  command->add_option("--openigtlink", options->openigtlink,
+                      "[HOST:]PORT where 3D Slicer and others can watch the newest session; HOST as --host");
   command->add_option("--web", options->web, "Folder of the built page");
   command->add_option("--backend", options->backend, "auto, cpu, opencl or opencl:N")->capture_default_str();
   command->add_option("--device", options->device, "Device of sessions that name none")

@@ -28,7 +28,7 @@ TEST(DeviceProfiles, AreAllUsable) {
     EXPECT_EQ(t.start_up_ramp_s, ideal ? 0.0 : 2.0);
     EXPECT_EQ(t.vibration_max_n, 0.5);
   }
-  EXPECT_EQ(seen.size(), 18u);
+  EXPECT_EQ(seen.size(), 19u);
 }
 
 TEST(DeviceProfiles, AreInMillimetres) {

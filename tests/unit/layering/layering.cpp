@@ -15,11 +15,12 @@ using Rooms = std::map<std::string, std::set<std::string>>;
 /// The arrows as the house plan draws them, before following them further.
 const Rooms& drawn_arrows() {
   static const Rooms arrows{
-      {"app", {"api"}},
+      {"app", {"api", "openigtlink"}},
       {"api", {"sim", "stream", "score", "report", "ct", "fe", "render", "access", "net"}},
       {"sim", {"collide", "force", "record", "case"}},
       {"collide", {"shell"}},
       {"stream", {"surface"}},
+      {"openigtlink", {"stream"}},
       {"score", {"record", "surface", "render"}},
       {"report", {"score"}},
       {"ct", {"case"}},
@@ -61,6 +62,7 @@ const std::vector<Library>& single_room_libraries() {
       {"OSMesa and OpenGL", std::regex("(GL|EGL|GLES[0-9]*)/.*"), "render"},
       {"Cairo and Pango", std::regex("(cairo|pango)[-a-z/]*\\.h"), "report"},
       {"libsndfile and libsamplerate", std::regex("(sndfile|samplerate)\\.h.*"), "force"},
+      {"OpenIGTLink", std::regex("igtl.*\\.h"), "openigtlink"},
       {"NATS", std::regex("nats(/.*|\\.h)"), "stream"},
   };
   return libraries;

@@ -1,0 +1,170 @@
+#include "device/admittance_device.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "core/clock.hpp"
+#include "core/error.hpp"
+
+namespace ream::device {
+namespace {
+
+constexpr double tick_ms = 1e3 * tick_s;
+/// How firmly tool and machine keep together where limits hold the machine back, critically damped.
+constexpr double keeping_rad_s = 30.0;
+constexpr double n_per_kg_mm_s2 = 1.0e-3;
+/// Nothing said for so long while the sensor is zeroed: it is not there.
+constexpr int most_silent_samples = 500;
+
+}  // namespace
+
+AdmittanceDevice::AdmittanceDevice(std::unique_ptr<AdmittanceMachine> machine, const Pose& world_from_start)
+    : machine_(std::move(machine)), world_from_start_(world_from_start), limiter_(machine_->limits().motion) {
+  if (machine_->traits().causality != Causality::admittance)
+    throw Error(ErrorKind::invalid_input,
+                machine_->traits().name + " takes a force; a device that moves needs an admittance profile");
+}
+
+AdmittanceDevice::~AdmittanceDevice() { close(); }
+
+bool AdmittanceDevice::is_good(const MachineSense& sense) const noexcept {
+  return sense.base_from_handle.rotation.allFinite() && sense.base_from_handle.translation_mm.allFinite() &&
+         sense.force_n.allFinite() && sense.torque_n_mm.allFinite() && std::isfinite(sense.age_ms) &&
+         sense.force_n.cwiseAbs().maxCoeff() < clipped_share * machine_->limits().sensor_range_n;
+}
+
+/// Real machines say something new once a millisecond; simulated ones whenever they are asked.
+void AdmittanceDevice::pace() const {
+  if (!traits().simulated) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+void AdmittanceDevice::open() {
+  close();
+  machine_->open();
+  opened_ = true;
+  try {
+    zero_sensor();
+    machine_->enable();
+    enabled_ = true;
+  } catch (...) {
+    close();
+    throw;
+  }
+  limiter_.begin(said_.base_from_handle);
+  world_from_base_ = world_from_start_ * said_.base_from_handle.inverse();
+  base_from_world_ = world_from_base_.inverse();
+  offset_mm_ = tool_velocity_mm_s_ = Vec3::Zero();
+  tool_mm_ = said_.base_from_handle.translation_mm;
+  unsaid_ms_ = 0.0;
+  rests_ = true;
+  session_paused_ = false;
+}
+
+void AdmittanceDevice::zero_sensor() {
+  const std::string who = traits().name + ": ";
+  Eigen::AlignedBox3d spread_n;
+  Vec3 force_n = Vec3::Zero(), torque_n_mm = Vec3::Zero();
+  int good = 0;
+  for (int silent = 0; good < zeroing_samples; pace()) {
+    MachineSense sense;
+    if (machine_->sense(sense) != DeviceStatus::ok)
+      throw Error(ErrorKind::unavailable, who + "it cannot be read; check its cable and power");
+    if (!is_good(sense) || sense.age_ms > traits().stale.hold_ms) {
+      if (++silent > most_silent_samples)
+        throw Error(
+            ErrorKind::unavailable,
+            who + "its force sensor is silent or beyond its range; check it, and let go of the handle");
+      continue;
+    }
+    said_ = sense;
+    spread_n.extend(sense.force_n);
+    force_n += sense.force_n;
+    torque_n_mm += sense.torque_n_mm;
+    ++good;
+  }
+  if (spread_n.sizes().maxCoeff() > zeroing_spread_n)
+    throw Error(ErrorKind::unavailable, who + "let go of the handle while its force sensor is zeroed");
+  zero_n_ = force_n / zeroing_samples;
+  zero_n_mm_ = torque_n_mm / zeroing_samples;
+}
+
+void AdmittanceDevice::session_paused(bool paused) noexcept {
+  session_paused_ = paused;
+  machine_->session_paused(paused);
+}
+
+/// Where the limits hold the machine back from the tool, what draws the tool to it, base frame.
+Vec3 AdmittanceDevice::held_back_n() const noexcept {
+  const double mass = n_per_kg_mm_s2 * traits().effective_mass_kg;
+  const Vec3 behind_mm = limiter_.now().translation_mm - tool_mm_;
+  const Vec3 slower_mm_s = limiter_.velocity_mm_s() - tool_velocity_mm_s_;
+  return mass * keeping_rad_s * (keeping_rad_s * behind_mm + 2.0 * slower_mm_s);
+}
+
+DeviceStatus AdmittanceDevice::read(DeviceInput& input) noexcept {
+  MachineSense sense = said_;
+  const DeviceStatus status = machine_->sense(sense);
+  if (status != DeviceStatus::ok) return status;
+  unsaid_ms_ += tick_ms;
+  if (is_good(sense)) {
+    unsaid_ms_ = 0.0;
+    said_ = sense;
+  }
+  const Vec3 off_mm = said_.base_from_handle.translation_mm - limiter_.now().translation_mm;
+  if (unsaid_ms_ == 0.0 && off_mm.norm() > machine_->limits().following_error_max_mm)
+    return DeviceStatus::fault;
+  const StaleLimits& stale = traits().stale;
+  input.age_ms = said_.age_ms + unsaid_ms_;
+  input.deadman = said_.deadman;
+  input.spindle_on = said_.spindle_on && said_.deadman;
+  input.paused = said_.paused || session_paused_ || !said_.deadman || input.age_ms >= stale.lost_ms;
+  const bool rests = input.paused || input.age_ms >= stale.fade_ms;
+  input.world_from_handle = world_from_base_ * said_.base_from_handle;
+  const Vec3 drawn_n = rests || rests_ ? Vec3(Vec3::Zero()) : held_back_n();
+  input.hand_force_n = world_from_base_.rotation * (said_.force_n - zero_n_ + drawn_n);
+  input.hand_torque_n_mm = world_from_base_.rotation * (said_.torque_n_mm - zero_n_mm_);
+  rests_ = rests;
+  return DeviceStatus::ok;
+}
+
+DeviceStatus AdmittanceDevice::write(const DeviceOutput& output) noexcept {
+  if (rests_ || !output.world_from_tool) {
+    limiter_.brake();
+    if (output.world_from_tool)  // from where it rests it goes on
+      offset_mm_ =
+          limiter_.now().translation_mm - (base_from_world_ * *output.world_from_tool).translation_mm;
+    tool_mm_ = limiter_.now().translation_mm;
+    tool_velocity_mm_s_ = limiter_.velocity_mm_s();
+  } else {
+    Pose wanted = base_from_world_ * *output.world_from_tool;
+    wanted.translation_mm += offset_mm_;
+    tool_velocity_mm_s_ = (wanted.translation_mm - tool_mm_) / tick_s;
+    tool_mm_ = wanted.translation_mm;
+    limiter_.toward(wanted);
+  }
+  return machine_->move_to(limiter_.now()) ? DeviceStatus::ok : DeviceStatus::fault;
+}
+
+/// The loop has ended, so that waiting is allowed.
+void AdmittanceDevice::come_to_rest() noexcept {
+  const auto most_ticks = static_cast<int>(2.0 * machine_->limits().motion.stop_time_s() / tick_s) + 1;
+  MachineSense ignored;
+  for (int i = 0; i < most_ticks && !limiter_.at_rest(); ++i) {
+    limiter_.brake();
+    machine_->sense(ignored);
+    if (!machine_->move_to(limiter_.now())) break;
+    pace();
+  }
+  machine_->stop();
+}
+
+void AdmittanceDevice::close() noexcept {
+  if (!opened_) return;
+  if (enabled_) come_to_rest();
+  enabled_ = opened_ = false;
+  machine_->disable();
+  machine_->close();
+}
+
+}  // namespace ream::device

@@ -1,0 +1,58 @@
+#pragma once
+#include <memory>
+
+#include "device/admittance_machine.hpp"
+
+namespace ream::device {
+
+/// A machine that senses force and moves, made a haptic device, with what makes it safe:
+/// - open() zeroes the sensor while nobody pulls, then switches the motors on where the machine stands.
+/// - Every set point keeps to the machine's speed, acceleration and reach. Where they hold it back, the
+///   simulated mass feels that as a spring, so that tool and machine stay together.
+/// - What the sensor says counts for nothing while it is no number, clipped or too old; from fade_ms of that
+///   on the motion is braked to rest and stays there. It goes on from where it stands as soon as the sensor
+///   speaks again, as after a pause: it never jumps.
+/// - A machine that does not follow, or that cannot be told any more, is a fault: the session ends.
+/// - close() brakes to rest, switches the motors off and then disconnects, in this order.
+/// Such a machine pushes only by moving: at rest its hand meets a thing that stands still, and no more.
+class AdmittanceDevice final : public HapticDevice {
+ public:
+  /// `world_from_start`: where the tool is at first; the handle's frame is the tool's there.
+  AdmittanceDevice(std::unique_ptr<AdmittanceMachine> machine, const Pose& world_from_start);
+  ~AdmittanceDevice() override;
+
+  const DeviceTraits& traits() const noexcept override { return machine_->traits(); }
+  /// Errors: those of the machine; unavailable in words when the sensor cannot be zeroed.
+  void open() override;
+  void close() noexcept override;
+  void session_paused(bool paused) noexcept override;
+  DeviceStatus read(DeviceInput& input) noexcept override;
+  DeviceStatus write(const DeviceOutput& output) noexcept override;
+  void take_force_away() noexcept override { machine_->stop(); }
+
+  /// Of the sensor's range: from here on a force is taken for clipped.
+  static constexpr double clipped_share = 0.98;
+  static constexpr int zeroing_samples = 200;
+  /// A sensor that moves more than this while it is zeroed is being pulled at.
+  static constexpr double zeroing_spread_n = 2.0;
+
+ private:
+  void zero_sensor();
+  bool is_good(const MachineSense& sense) const noexcept;
+  Vec3 held_back_n() const noexcept;
+  void come_to_rest() noexcept;
+  void pace() const;
+
+  const std::unique_ptr<AdmittanceMachine> machine_;
+  const Pose world_from_start_;
+  Pose world_from_base_, base_from_world_;
+  MotionLimiter limiter_;
+  MachineSense said_;  ///< its last good word
+  Vec3 zero_n_ = Vec3::Zero(), zero_n_mm_ = Vec3::Zero();
+  Vec3 offset_mm_ = Vec3::Zero();  ///< base frame: of the set points against the tool
+  Vec3 tool_mm_ = Vec3::Zero(), tool_velocity_mm_s_ = Vec3::Zero();  ///< base frame, with the offset
+  double unsaid_ms_ = 0.0;
+  bool opened_ = false, enabled_ = false, rests_ = true, session_paused_ = false;
+};
+
+}  // namespace ream::device
