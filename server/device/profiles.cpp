@@ -25,7 +25,7 @@ constexpr Causality impedance = Causality::impedance, admittance = Causality::ad
 constexpr double gravity_m_s2 = 9.80665;
 
 /// Rows without a note: CHAI3D 3 device table (continuous force, closed loop at 1 kHz).
-constexpr std::array<Published, 18> table{{
+constexpr std::array<Published, 19> table{{
     {"omega.3", impedance, 12.0, 0.0, 5000.0, 30.0, 0.075, 3, by_lever, 0.0},
     {"omega.6", impedance, 12.0, 0.0, 5000.0, 30.0, 0.075, 6, by_lever, 0.0},
     {"omega.7", impedance, 12.0, 0.0, 5000.0, 30.0, 0.075, 7, by_lever, 0.0},

@@ -177,7 +177,7 @@ TEST(AdmittanceLoop, PlantsAreDevicesThatPeopleCanChoose) {
     device::Script script = press_52_n("ideal", 1.0, 1.0);
     app::settle_for_device(kind.plant.name, "", script);
     EXPECT_EQ(script.device_profile, kind.profile);
-    const app::DeviceOffer offer = app::device_kind(kind.plant.name).offer();
+    const app::DeviceOffer offer = app::device_kind(kind.plant.name).offer({});
     EXPECT_TRUE(offer.usable);
     const app::MadeDevice made = app::make_device({kind.plant.name, "", &script, Pose{}, 1, {}});
     EXPECT_EQ(made.device->traits().causality, device::Causality::admittance);
