@@ -84,7 +84,9 @@ DeviceKind browser() {
 DeviceKind plant(const device::PlantParameters& parameters, const std::string& usual,
                  const std::string& about) {
   return {parameters.name, usual,
-          [&parameters, usual, about](const std::filesystem::path&) { return offer_of(parameters.name, about, usual); },
+          [&parameters, usual, about](const std::filesystem::path&) {
+            return offer_of(parameters.name, about, usual);
+          },
           [&parameters, usual](const DeviceWish& wish) {
             const Pose plan_from_start{rotation_from_small_vector(wish.script->hand.tilt_rad),
                                        wish.script->hand.start_mm};

@@ -34,8 +34,8 @@ struct SurfaceVoxels {
 SurfaceVoxels surface_grid(const TriangleMesh& mesh, double size_mm);
 
 /// Marks the cells of `grid` that the mesh's surface passes, where a point shell gets its points: single
-/// precision, for tools. What `ream voxelize` marks is voxelizer/'s, which is exact. Float arithmetic of + - x
-/// and comparisons only, so the same bits everywhere: recordings depend on them.
+/// precision, for tools. What `ream voxelize` marks is voxelizer/'s, which is exact. Float arithmetic of + -
+/// x and comparisons only, so the same bits everywhere: recordings depend on them.
 void voxelize_surface_cpu(const TriangleMesh& mesh, Separability separability, SurfaceVoxels& grid);
 
 }  // namespace ream::shell

@@ -55,11 +55,7 @@ export class BlockLayout {
   /** Counted in blocks. */
   private placeOf(block: number): Vector3 {
     const { x: alongX, y: alongY } = this.blocks;
-    return new Vector3(
-      block % alongX,
-      Math.floor(block / alongX) % alongY,
-      Math.floor(block / (alongX * alongY)),
-    );
+    return new Vector3(block % alongX, Math.floor(block / alongX) % alongY, Math.floor(block / (alongX * alongY)));
   }
 
   private firstOfRegion(place: Vector3): Vector3 {

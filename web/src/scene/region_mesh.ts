@@ -54,7 +54,6 @@ export class RegionMesh {
     this.mesh.matrix.copy(layout.gridFromRegionSteps(surfaces[0]?.block ?? 0));
   }
 
-
   /** A block that is drawn otherwise from here on, or not at all: all its corners fall into one. */
   leaveOut(block: number): void {
     const part = this.parts.get(block);

@@ -59,7 +59,11 @@ function drawn(picture: BonePicture): string[] {
     if (!position || !normal || !boneKind || index === null) throw new Error('a mesh without corners');
     const corner = (at: number): Corner => [
       new Vector3().fromBufferAttribute(position, at).applyMatrix4(mesh.matrix),
-      new Vector3().fromBufferAttribute(normal, at).toArray().map((x) => x.toFixed(6)).join(','),
+      new Vector3()
+        .fromBufferAttribute(normal, at)
+        .toArray()
+        .map((x) => x.toFixed(6))
+        .join(','),
       boneKind.getX(at),
     ];
     for (let i = 0; i < index.count; i += 3) {
