@@ -40,7 +40,7 @@ class Crew {
   std::mutex mutex_;
   std::condition_variable start_, done_;
   Job job_;
-  size_t number_of_job_ = 0;
+  std::atomic<size_t> number_of_job_{0};
   int busy_ = 0;
   bool ends_ = false;
   std::exception_ptr failure_;

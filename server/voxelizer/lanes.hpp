@@ -12,6 +12,7 @@ using Double8 = double __attribute__((vector_size(64)));
 using Int4 = int __attribute__((vector_size(16)));
 using Int8 = int __attribute__((vector_size(32)));
 using Long4 = long long __attribute__((vector_size(32)));
+using Long8 = long long __attribute__((vector_size(64)));
 using Float8 = float __attribute__((vector_size(32)));
 
 /// Whole numbers of as many lanes.
@@ -89,6 +90,20 @@ inline Long4 whole_from(const Double4& x) {
 inline Long4 whole_up_to(const Double4& x) {
   const Double4 shifted = x + whole_shift;
   return (reinterpret_cast<Long4>(shifted) - whole_shift_bits) + (shifted - whole_shift > x);
+}
+
+/// The same as doubles.
+inline Double8 rounded_up(const Double8& x) {
+  const Double8 whole = (x + whole_shift) - whole_shift;
+  return whole < x ? whole + 1.0 : whole;
+}
+inline Double8 rounded_down(const Double8& x) {
+  const Double8 whole = (x + whole_shift) - whole_shift;
+  return whole > x ? whole - 1.0 : whole;
+}
+/// 1 << x for whole numbers x from 0 to 63.
+inline Long8 bit_at(const Double8& x) {
+  return (Long8{} + 1) << (reinterpret_cast<Long8>(x + whole_shift) & 63);
 }
 
 }  // namespace ream::voxelizer

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstring>
+#include <numeric>
 
 #include "core/vector_clones.hpp"
 #include "voxelizer/lanes.hpp"
@@ -12,7 +13,7 @@ namespace {
 
 /// Sides of tiles are whole bricks.
 constexpr int side_step = 8;
-constexpr size_t triangles_a_piece = 2048;
+constexpr size_t triangles_a_piece = 1024;
 
 int whole_steps(double rows, int most) {
   const double steps = std::floor(std::max(1.0, rows / side_step));
@@ -20,9 +21,9 @@ int whole_steps(double rows, int most) {
   return static_cast<int>(std::min(steps * side_step, static_cast<double>(whole)));
 }
 
-/// Tiles that the boxes of eight triangles may touch, inclusive; none where first > last.
+/// Tiles that the boxes of eight triangles may touch, inclusive, none where first > last; and their sizes.
 struct Spans {
-  Int8 first_v, last_v, first_w, last_w;
+  Int8 first_v, last_v, first_w, last_w, size;
 
   /// Triangles from `first` on. A voxel more on either side than the corners need: rounding is decided where
   /// voxels are marked.
@@ -44,11 +45,14 @@ struct Spans {
       const auto voxel = [&](const Float8& x) __attribute__((always_inline)) {
         return __builtin_convertvector(x, Double8) * map.factor[axis] + map.offset[axis];
       };
-      from = floor_between((voxel(smaller(smaller(a, b), c)) - 1.5) * tiles_a_voxel, 0, count);
-      to = floor_between((voxel(larger(larger(a, b), c)) + 0.5) * tiles_a_voxel, -1, count - 1);
+      const Double8 least = voxel(smaller(smaller(a, b), c)), most = voxel(larger(larger(a, b), c));
+      from = floor_between((least - 1.5) * tiles_a_voxel, 0, count);
+      to = floor_between((most + 0.5) * tiles_a_voxel, -1, count - 1);
+      return floor_between(rounded_down(most) - rounded_down(least), 1, BoxSize::sides) - 1;
     };
-    tiles(1, 1.0 / plan.rows, plan.count_v, first_v, last_v);
-    tiles(2, 1.0 / plan.layers, plan.count_w, first_w, last_w);
+    const Int8 rows = tiles(1, 1.0 / plan.rows, plan.count_v, first_v, last_v);
+    const Int8 layers = tiles(2, 1.0 / plan.layers, plan.count_w, first_w, last_w);
+    size = rows + BoxSize::sides * layers;
   }
 };
 
@@ -62,10 +66,11 @@ REAM_VECTOR_CLONES __attribute__((flatten)) bool list_triangles(const TriangleMe
     const int count = static_cast<int>(std::min<size_t>(8, end - first));
     for (int lane = 0; lane < count; ++lane) {
       const auto triangle = static_cast<uint32_t>(first) + static_cast<uint32_t>(lane);
+      const auto size = static_cast<uint8_t>(spans.size[lane]);
       for (int w = spans.first_w[lane]; w <= spans.last_w[lane]; ++w)
         for (int v = spans.first_v[lane]; v <= spans.last_v[lane]; ++v)
           if (!lists.add(static_cast<size_t>(v) + static_cast<size_t>(plan.count_v) * static_cast<size_t>(w),
-                         triangle))
+                         triangle, size))
             return false;
     }
   }
@@ -111,6 +116,15 @@ TileBins::TileBins(const TriangleMesh& mesh, const VoxelMap& map, const TilePlan
   });
   listed_ = fits;
   if (!listed_) lists_.clear();
+}
+
+std::vector<size_t> TileBins::largest_first(size_t tiles) const {
+  std::vector<size_t> order(tiles), sizes(tiles, 0);
+  std::iota(order.begin(), order.end(), size_t{0});
+  for (const TriangleLists& lists : lists_)
+    for (size_t tile = 0; tile < tiles; ++tile) sizes[tile] += lists.size(tile);
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return sizes[a] > sizes[b]; });
+  return order;
 }
 
 }  // namespace ream::voxelizer

@@ -40,6 +40,11 @@ struct TilePlan {
 /// grid has the layers for it. `whole_layers` keeps layers whole, however large they are.
 TilePlan plan_tiles(const RasterGrid& grid, size_t tile_bytes, size_t least_tiles, bool whole_layers = false);
 
+/// Boxes of triangles by their rows and layers: about two, three, four, five, more of each.
+struct BoxSize {
+  static constexpr int sides = 5, count = sides * sides;
+};
+
 /// Which triangles may touch which tile. One thread's lists keep the order of the mesh.
 class TileBins {
  public:
@@ -50,30 +55,47 @@ class TileBins {
   /// Calls visit(triangle) for every triangle that may touch the tile.
   template <class Visit>
   void for_each(size_t tile, Visit visit) const {
+    for_each_sized(tile, [&](size_t triangle, int) { visit(triangle); });
+  }
+  /// As for_each, some at a time and, as far as it goes, of one size: visit(triangles, count) for up to `few`
+  /// of them; those behind the last repeat it.
+  template <int few, class Visit>
+  void for_each_few(size_t tile, Visit visit) const {
+    uint32_t some[BoxSize::count][few];
+    int counts[BoxSize::count] = {};
+    for_each_sized(tile, [&](size_t triangle, int size) {
+      int& count = counts[size];
+      some[size][count++] = static_cast<uint32_t>(triangle);
+      if (count < few) return;
+      count = 0;
+      visit(some[size], few);
+    });
+    uint32_t rest[few];
+    int count = 0;
+    for (int size = 0; size < BoxSize::count; ++size)
+      for (int i = 0; i < counts[size]; ++i) {
+        rest[count++] = some[size][i];
+        if (count < few) continue;
+        count = 0;
+        visit(rest, few);
+      }
+    if (count == 0) return;
+    for (int i = count; i < few; ++i) rest[i] = rest[count - 1];
+    visit(rest, count);
+  }
+  bool listed() const { return listed_; }
+  /// All tiles, those with most triangles first, so that threads that share them end at about the same time.
+  std::vector<size_t> largest_first(size_t tiles) const;
+
+ private:
+  template <class Visit>
+  void for_each_sized(size_t tile, Visit visit) const {
     if (!listed_)
-      for (size_t triangle = 0; triangle < triangles_; ++triangle) visit(triangle);
+      for (size_t triangle = 0; triangle < triangles_; ++triangle) visit(triangle, 0);
     else
       for (const TriangleLists& lists : lists_) lists.for_each(tile, visit);
   }
-  /// As for_each, some at a time: visit(triangles, count) for up to `few` of them; those behind the last
-  /// repeat it.
-  template <int few, class Visit>
-  void for_each_few(size_t tile, Visit visit) const {
-    uint32_t some[few];
-    int count = 0;
-    for_each(tile, [&](size_t triangle) {
-      some[count++] = static_cast<uint32_t>(triangle);
-      if (count < few) return;
-      visit(some, few);
-      count = 0;
-    });
-    if (count == 0) return;
-    for (int i = count; i < few; ++i) some[i] = some[count - 1];
-    visit(some, count);
-  }
-  bool listed() const { return listed_; }
 
- private:
   size_t triangles_ = 0;
   bool listed_ = false;
   std::vector<TriangleLists> lists_;  ///< a worker's each

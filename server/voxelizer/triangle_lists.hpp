@@ -6,8 +6,8 @@
 
 namespace ream::voxelizer {
 
-/// Many lists of numbers that grow at their ends, in small pieces of memory so that they take little more
-/// than they hold.
+/// Many lists of numbers with their sizes that grow at their ends, in small pieces of memory so that they
+/// take little more than they hold.
 class TriangleLists {
  public:
   TriangleLists(size_t lists, size_t most_bytes) : ends_(lists), most_blocks_(most_bytes / sizeof(Block)) {}
@@ -15,7 +15,7 @@ class TriangleLists {
   static size_t most_lists(size_t bytes) { return bytes / (sizeof(Ends) + sizeof(Piece)); }
 
   /// False when there is no room for it.
-  bool add(size_t list, uint32_t number) {
+  bool add(size_t list, uint32_t number, uint8_t size) {
     Ends& ends = ends_[list];
     if (ends.last == nullptr || ends.last->count == Piece::room) {
       Piece* piece = new_piece();
@@ -23,23 +23,33 @@ class TriangleLists {
       (ends.last == nullptr ? ends.first : ends.last->next) = piece;
       ends.last = piece;
     }
-    ends.last->numbers[ends.last->count++] = number;
+    Piece& piece = *ends.last;
+    piece.numbers[piece.count] = number;
+    piece.sizes[piece.count++] = size;
     return true;
   }
 
-  /// In the order in which they were added.
+  /// In the order in which they were added: visit(number, size).
   template <class Visit>
   void for_each(size_t list, Visit visit) const {
     for (const Piece* piece = ends_[list].first; piece != nullptr; piece = piece->next)
-      for (uint32_t i = 0; i < piece->count; ++i) visit(static_cast<size_t>(piece->numbers[i]));
+      for (uint32_t i = 0; i < piece->count; ++i)
+        visit(static_cast<size_t>(piece->numbers[i]), int{piece->sizes[i]});
+  }
+
+  size_t size(size_t list) const {
+    size_t sum = 0;
+    for (const Piece* piece = ends_[list].first; piece != nullptr; piece = piece->next) sum += piece->count;
+    return sum;
   }
 
  private:
   struct Piece {
-    static constexpr uint32_t room = 61;  // 256 bytes
+    static constexpr uint32_t room = 48;  // 256 bytes
     Piece* next;
     uint32_t count;
     uint32_t numbers[room];
+    uint8_t sizes[room];
   };
   struct Block {
     static constexpr size_t room = 128;

@@ -31,9 +31,11 @@ void Voxelizer::voxelize(const TriangleMesh& mesh, const Request& request, Voxel
   std::vector<std::vector<uint32_t>> memory(workers);
   std::vector<uint64_t> filled(plan.count(), 0);
   if (set.sparse()) set.begin_bricks(plan);
+  const std::vector<size_t> order = bins.largest_first(plan.count());
   crew_.run(
       plan.count(),
-      [&](size_t tile, int worker) {
+      [&](size_t piece, int worker) {
+        const size_t tile = order[piece];
         const TileRows rows = set.rows_of(plan.range(tile), memory[static_cast<size_t>(worker)]);
         clear(rows);
         if (request.solid) solid.fill(tile, dims_x, rows);

@@ -45,15 +45,17 @@ bool bit(const VoxelSet& set, int u, int v, int w) {
          0;
 }
 
-TEST(SeparatingAxis, TenThousandAwkwardTrianglesMarkTheirSupercover) {
+TEST(SeparatingAxis, TwentyThousandAwkwardTrianglesMarkTheirSupercover) {
   constexpr unsigned seed = 20261122;
   std::cout << "seed " << seed << '\n';
   std::mt19937 random(seed);
   Voxelizer voxelizer(1);
-  const RasterGrid grid = unit_grid({31, 26, 22});
+  // Rows of one word and of three: small triangles in rows of several words are marked eight at a time.
+  const RasterGrid grids[] = {unit_grid({31, 26, 22}), unit_grid({70, 24, 21})};
   std::map<std::string, std::pair<int, int>> wrong;  // missed, added
   uint64_t voxels = 0;
-  for (int number = 0; number < 10000; ++number) {
+  for (int number = 0; number < 20000; ++number) {
+    const RasterGrid& grid = grids[number < 10000];
     const test::AwkwardTriangle triangle = test::awkward_triangle(random, number, grid.dims);
     const TriangleMesh mesh = mesh_of(triangle.corners);
     const VoxelSet thick = marked(voxelizer, mesh, grid, Separability::twenty_six);
@@ -78,6 +80,30 @@ TEST(SeparatingAxis, TenThousandAwkwardTrianglesMarkTheirSupercover) {
   for (const auto& [kind, counts] : wrong) {
     EXPECT_EQ(counts.first, 0) << "missed by kind: " << kind;
     EXPECT_EQ(counts.second, 0) << "added by kind: " << kind;
+  }
+}
+
+/// Triangles are marked eight at a time, with others of their size: none may touch what is another's.
+TEST(SeparatingAxis, ManyTrianglesMarkWhatEachMarksAlone) {
+  constexpr unsigned seed = 4711;
+  std::cout << "seed " << seed << '\n';
+  std::mt19937 random(seed);
+  Voxelizer voxelizer(2);
+  const RasterGrid grid = unit_grid({90, 50, 70});
+  for (int soup = 0; soup < 20; ++soup) {
+    TriangleMesh mesh;
+    VoxelSet together(grid);
+    std::vector<uint32_t> alone(together.word_count(), 0);
+    for (int number = 0; number < 150; ++number) {
+      const test::AwkwardTriangle triangle = test::awkward_triangle(random, number, grid.dims);
+      const VoxelSet one = marked(voxelizer, mesh_of(triangle.corners), grid, Separability::twenty_six);
+      for (size_t i = 0; i < alone.size(); ++i) alone[i] |= one.words()[i];
+      const auto first = static_cast<uint32_t>(mesh.vertices_mm.size());
+      for (const Vec3f& corner : triangle.corners) mesh.vertices_mm.push_back(corner);
+      mesh.triangles.push_back({first, first + 1, first + 2});
+    }
+    voxelizer.voxelize(mesh, {}, together);
+    for (size_t i = 0; i < alone.size(); ++i) ASSERT_EQ(together.words()[i], alone[i]) << soup << ' ' << i;
   }
 }
 
