@@ -10,7 +10,7 @@ namespace {
 
 constexpr size_t tile_bytes = size_t{1} << 20;
 constexpr size_t sparse_tile_bytes = size_t{2} << 20;
-constexpr size_t tiles_a_thread = 4;
+constexpr size_t tiles_a_thread = 3;
 
 }  // namespace
 
