@@ -64,22 +64,6 @@ inline int floor_between(double x, int low, int high) {
   return whole - static_cast<int>(static_cast<double>(whole) > held);
 }
 
-/// The same lane by lane, the limits as doubles that are whole numbers.
-template <class Doubles, class Whole = typename WholeOf<Doubles>::Type>
-inline Whole ceil_between(const Doubles& x, double low, double high) {
-  const Doubles held = smaller(larger(x, Doubles{} + low), Doubles{} + high);
-  const Whole whole = __builtin_convertvector(held, Whole);
-  const Doubles back = __builtin_convertvector(whole, Doubles);
-  return __builtin_convertvector(back < held ? back + 1.0 : back, Whole);
-}
-template <class Doubles, class Whole = typename WholeOf<Doubles>::Type>
-inline Whole floor_between(const Doubles& x, double low, double high) {
-  const Doubles held = smaller(larger(x, Doubles{} + low), Doubles{} + high);
-  const Whole whole = __builtin_convertvector(held, Whole);
-  const Doubles back = __builtin_convertvector(whole, Doubles);
-  return __builtin_convertvector(back > held ? back - 1.0 : back, Whole);
-}
-
 /// The first whole number that is not below x, and the last that is not above it, for |x| < 2^50.
 inline constexpr double whole_shift = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to whole numbers
 inline constexpr long long whole_shift_bits = 0x4338000000000000;
@@ -93,17 +77,38 @@ inline Long4 whole_up_to(const Double4& x) {
 }
 
 /// The same as doubles.
-inline Double8 rounded_up(const Double8& x) {
-  const Double8 whole = (x + whole_shift) - whole_shift;
+template <class Doubles>
+inline Doubles rounded_up(const Doubles& x) {
+  const Doubles whole = (x + whole_shift) - whole_shift;
   return whole < x ? whole + 1.0 : whole;
 }
-inline Double8 rounded_down(const Double8& x) {
-  const Double8 whole = (x + whole_shift) - whole_shift;
+template <class Doubles>
+inline Doubles rounded_down(const Doubles& x) {
+  const Doubles whole = (x + whole_shift) - whole_shift;
   return whole > x ? whole - 1.0 : whole;
 }
-/// 1 << x for whole numbers x from 0 to 63.
-inline Long8 bit_at(const Double8& x) {
-  return (Long8{} + 1) << (reinterpret_cast<Long8>(x + whole_shift) & 63);
+
+/// ceil(x) and floor(x) held within [low, high] lane by lane, the limits as doubles that are whole numbers.
+template <class Doubles, class Whole = typename WholeOf<Doubles>::Type>
+inline Whole ceil_between(const Doubles& x, double low, double high) {
+  return __builtin_convertvector(rounded_up(smaller(larger(x, Doubles{} + low), Doubles{} + high)), Whole);
+}
+template <class Doubles, class Whole = typename WholeOf<Doubles>::Type>
+inline Whole floor_between(const Doubles& x, double low, double high) {
+  return __builtin_convertvector(rounded_down(smaller(larger(x, Doubles{} + low), Doubles{} + high)), Whole);
+}
+/// whole_shift more than ceil(x) and floor(x), so that the last bits are the whole number's.
+inline Double8 shifted_up(const Double8& x) {
+  const Double8 shifted = x + whole_shift;
+  return shifted - whole_shift < x ? shifted + 1.0 : shifted;
+}
+inline Double8 shifted_down(const Double8& x) {
+  const Double8 shifted = x + whole_shift;
+  return shifted - whole_shift > x ? shifted - 1.0 : shifted;
+}
+/// 1 << x for whole numbers x from 0 to 63 that are shifted so.
+inline Long8 bit_at(const Double8& shifted) {
+  return (Long8{} + 1) << (reinterpret_cast<Long8>(shifted) & 63);
 }
 
 }  // namespace ream::voxelizer

@@ -74,9 +74,9 @@ class NarrowBoxes {
         // Two choices, since compilers make no masks of one by two comparisons.
         const Double8 last = at_v[i] <= v_most ? most : low - 1.0;
         const Double8 first = at_v[i] >= v_least ? least : high + 1.0;
-        const Double8 end = rounded_down(smaller(larger(last, low - 1.0), high)) + 1.0;
-        const Double8 from = smaller(rounded_up(smaller(larger(first, low), high + 1.0)), end);
-        bits[j][i] = bit_at(end - base) - bit_at(from - base);
+        const Double8 end = shifted_down(smaller(larger(last, low - 1.0), high)) + (1.0 - base);
+        const Double8 from = smaller(shifted_up(smaller(larger(first, low), high + 1.0)) - base, end);
+        bits[j][i] = bit_at(end) - bit_at(from);
       }
     }
   }
