@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "voxelizer/crew.hpp"
+#include "core/crew.hpp"
 #include "voxelizer/raster_grid.hpp"
 #include "voxelizer/triangle_lists.hpp"
 

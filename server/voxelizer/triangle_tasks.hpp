@@ -2,7 +2,7 @@
 #include <array>
 #include <vector>
 
-#include "voxelizer/crew.hpp"
+#include "core/crew.hpp"
 #include "voxelizer/raster_grid.hpp"
 
 namespace ream::voxelizer {

@@ -20,8 +20,10 @@ std::vector<double> parse_numbers(const std::string& text, size_t count, const s
     if (at != end && ++at == end) break;
   }
   if (at != end || numbers.size() != count || text.back() == ',')
-    throw Error(ErrorKind::usage,
-                option + " '" + text + "' must be " + std::to_string(count) + " numbers separated by commas");
+    throw Error(ErrorKind::usage, option + " '" + text + "' " +
+                                      (count == 1 ? "is not a finite number"
+                                                  : "must be " + std::to_string(count) +
+                                                        " finite numbers separated by commas"));
   return numbers;
 }
 

@@ -7,9 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/progress.hpp"
-
-namespace ream::voxelizer {
+namespace ream {
 
 /// Threads that work on numbered pieces together with the thread that asks; kept from one job to the next.
 class Crew {
@@ -41,11 +39,11 @@ class Crew {
   std::condition_variable start_, done_;
   Job job_;
   std::atomic<size_t> number_of_job_{0};
+  std::atomic<bool> ends_{false};
   int busy_ = 0;
-  bool ends_ = false;
   std::exception_ptr failure_;
   std::atomic<size_t> next_{0};
   std::vector<std::thread> helpers_;
 };
 
-}  // namespace ream::voxelizer
+}  // namespace ream

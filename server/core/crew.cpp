@@ -1,8 +1,8 @@
-#include "voxelizer/crew.hpp"
+#include "core/crew.hpp"
 
 #include <algorithm>
 
-namespace ream::voxelizer {
+namespace ream {
 namespace {
 
 /// About 0.1 ms: a job often follows the one before at once, and waking a thread takes half of that.
@@ -49,8 +49,7 @@ void Crew::run(size_t count, const std::function<void(size_t, int)>& work,
 
 void Crew::help(int worker) {
   for (size_t jobs_seen = 0;;) {
-    for (int turn = 0;
-         turn < turns_before_sleep && number_of_job_.load(std::memory_order_relaxed) == jobs_seen; ++turn)
+    for (int turn = 0; turn < turns_before_sleep && !ends_ && number_of_job_ == jobs_seen; ++turn)
       pause_processor();
     {
       std::unique_lock lock(mutex_);
@@ -80,4 +79,4 @@ void Crew::take_pieces(int worker) {
   }
 }
 
-}  // namespace ream::voxelizer
+}  // namespace ream

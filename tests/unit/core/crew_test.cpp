@@ -1,0 +1,68 @@
+#include "core/crew.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace ream {
+namespace {
+
+TEST(Crew, EveryPieceIsWorkedOnOnceWhateverTheThreads) {
+  for (const int threads : {1, 2, 5}) {
+    Crew crew(threads);
+    EXPECT_EQ(crew.threads(), threads);
+    for (const size_t count : {0, 1, 2, 3, 1000}) {
+      std::vector<std::atomic<int>> times(count);
+      std::atomic<bool> known_worker = true;
+      crew.run(count, [&](size_t piece, int worker) {
+        ++times[piece];
+        if (worker < 0 || worker >= threads) known_worker = false;
+      });
+      EXPECT_TRUE(known_worker);
+      for (const auto& n : times) EXPECT_EQ(n, 1) << count << " pieces, " << threads << " threads";
+    }
+  }
+}
+
+TEST(Crew, TheAskingThreadIsWorkerZeroAndHearsHowFarItIs) {
+  Crew crew(1);
+  const auto asking = std::this_thread::get_id();
+  std::vector<double> shares;
+  crew.run(
+      4, [&](size_t, int) { EXPECT_EQ(std::this_thread::get_id(), asking); },
+      [&](double share) { shares.push_back(share); });
+  EXPECT_EQ(shares, (std::vector<double>{0.0, 0.25, 0.5, 0.75}));
+  EXPECT_THROW(crew.run(
+                   3, [](size_t, int) {}, [](double) { throw std::runtime_error("told"); }),
+               std::runtime_error);
+}
+
+TEST(Crew, AnErrorEndsTheJobAndTheNextOneIsAsEver) {
+  for (const int threads : {1, 3}) {
+    Crew crew(threads);
+    std::atomic<size_t> begun = 0;
+    EXPECT_THROW(crew.run(100000,
+                          [&](size_t, int) {
+                            ++begun;
+                            throw std::runtime_error("piece");
+                          }),
+                 std::runtime_error);
+    EXPECT_LE(begun, static_cast<size_t>(threads));
+    std::atomic<size_t> sum = 0;
+    crew.run(10, [&](size_t piece, int) { sum += piece; });
+    EXPECT_EQ(sum, 45u);
+  }
+}
+
+/// A helper that wakes late must not take pieces of a job that is not its own, nor miss the end.
+TEST(Crew, ManyShortJobsFollowEachOther) {
+  Crew crew(3);
+  for (size_t job = 0; job < 3000; ++job) {
+    std::atomic<size_t> sum = 0;
+    crew.run(job % 5, [&](size_t piece, int) { sum += piece + 1; });
+    ASSERT_EQ(sum, (job % 5) * (job % 5 + 1) / 2) << job;
+  }
+}
+
+}  // namespace
+}  // namespace ream
