@@ -74,6 +74,9 @@ class OpenHapticsServo final : public Servo {
     warm_told_ = warm_;
   }
 
+  /// In the maker's servo loop.
+  bool takes_force_elsewhere() const noexcept override { return true; }
+
   void find() {
     if (!hd_) hd_.emplace(wanted_.library);
   }

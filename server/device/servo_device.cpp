@@ -108,7 +108,7 @@ void ServoDevice::run() {
 void ServoDevice::serve() {
   serving_ = true;
   while (!leaving_) {
-    servo_end_.await_force(longest_wait_ns);
+    if (!servo_->takes_force_elsewhere()) servo_end_.await_force(longest_wait_ns);
     const bool away = link_->force_taken_away.load();
     servo_->turn(servo_end_);
     if (away) without_force_.store(true);

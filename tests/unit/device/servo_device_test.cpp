@@ -221,5 +221,58 @@ TEST_F(ServoDeviceTest, WhatIsTakenAwayIsGoneWhenTheCallReturns) {
   EXPECT_TRUE(gone);
 }
 
+/// Hardware that asks for the force in a loop of its own, as OpenHaptics does. It is told forces whose parts
+/// are all alike, so that one read while it is written shows.
+class LoopingServo final : public Servo {
+ public:
+  static inline thread_local bool in_turn_thread = false;
+  static inline std::atomic<int> asked_in_turn_thread{0}, torn{0}, forces{0};
+  /// Every look for a force asks for the time.
+  static int64_t clock() {
+    if (in_turn_thread) ++asked_in_turn_thread;
+    return steady_ns();
+  }
+
+  bool takes_force_elsewhere() const noexcept override { return true; }
+  void open(ServoEnd& end) override {
+    in_turn_thread = true;
+    leaving_ = false;
+    loop_ = std::thread([this, &end] {
+      while (!leaving_) {
+        const ServoForce force = end.force();
+        const Vec3& f = force.force_n;
+        if (f.x() != f.y() || f.y() != f.z() || force.torque_n_mm != f) ++torn;
+        if (f.x() != 0.0) ++forces;
+        end.tell(at(1), end.now_ns());
+      }
+    });
+  }
+  void turn(ServoEnd&) override { std::this_thread::sleep_for(100us); }
+  void close() noexcept override {
+    leaving_ = true;
+    if (loop_.joinable()) loop_.join();
+  }
+
+ private:
+  std::atomic<bool> leaving_{false};
+  std::thread loop_;
+};
+
+TEST(ServoDevice, LeavesTheForceToTheHardwaresOwnLoop) {
+  ServoDevice device(device_profile("ideal"), std::make_unique<LoopingServo>(), LoopingServo::clock);
+  device.open();
+  DeviceInput input;
+  for (int i = 0; i < 20'000'000 && LoopingServo::forces < 20'000; ++i) {
+    device.read(input);
+    DeviceOutput output;
+    output.force_n = output.torque_n_mm = Vec3::Constant(1.0 + i % 100);
+    device.write(output);
+  }
+  device.close();
+  EXPECT_GE(LoopingServo::forces, 20'000);
+  EXPECT_EQ(LoopingServo::torn, 0);
+  EXPECT_EQ(LoopingServo::asked_in_turn_thread, 0) << "two threads read the newest force";
+}
+
 }  // namespace
 }  // namespace ream::device
