@@ -30,6 +30,15 @@ std::string profile_of(const DeviceWish& wish, const std::string& usual) {
   return said ? wish.script->device_profile : usual;
 }
 
+void require_fitting_profile(const std::string& device, const std::vector<std::string>& fitting,
+                             const std::string& profile) {
+  if (std::find(fitting.begin(), fitting.end(), profile) != fitting.end()) return;
+  std::string names;
+  for (const std::string& name : fitting) names += (names.empty() ? "" : ", ") + name;
+  throw Error(ErrorKind::invalid_input, "device_profile '" + profile + "' is not of the device '" + device +
+                                            "'; those that fit it are " + names);
+}
+
 std::unique_ptr<device::HapticDevice> mapped(const DeviceWish& wish,
                                              std::unique_ptr<device::HapticDevice> device) {
   const Pose before_entry{Mat3::Identity(), Vec3(0.0, 0.0, -start_before_entry_mm)};
@@ -134,6 +143,7 @@ void settle_for_device(const std::string& device, const std::string& profile, de
     return;
   }
   const std::string resolved = profile_of({device, profile, &script, {}, 1, {}}, kind.usual_profile);
+  if (!kind.profiles.empty()) require_fitting_profile(device, kind.profiles, resolved);
   device::fit_to_remote(resolved, script);
 }
 

@@ -43,6 +43,8 @@ struct DeviceKind {
   /// `data`: where set-ups of devices are kept.
   std::function<DeviceOffer(const std::filesystem::path& data)> offer;
   std::function<MadeDevice(const DeviceWish&)> make;
+  /// Of the models that it can be; empty: any. What a profile says is what its hardware is made to render.
+  std::vector<std::string> profiles = {};
 };
 
 /// Every kind, in the order in which people are shown them.
@@ -54,6 +56,10 @@ DeviceOffer offer_of(const std::string& name, const std::string& about, const st
 /// Whose limits a device that renders somebody's own hand has: asked for, or the script's, or `usual`.
 std::string profile_of(const DeviceWish& wish, const std::string& usual);
 
+/// Error invalid_input, saying which fit, for a profile that is none of `fitting`.
+void require_fitting_profile(const std::string& device, const std::vector<std::string>& fitting,
+                             const std::string& profile);
+
 /// A device that speaks of its own frame, made one of the world that begins before the planned entry.
 std::unique_ptr<device::HapticDevice> mapped(const DeviceWish& wish,
                                              std::unique_ptr<device::HapticDevice> device);
@@ -64,7 +70,7 @@ const DeviceKind& device_kind(const std::string& name);
 /// Puts into a script what a session with this device leaves to it: whose limits the hand feels through, and
 /// with a script that leaves it open the force scale. `profile`: asked for, or empty for the usual one.
 /// Errors: invalid_input for an unknown device or profile, and for a profile beside a script that says its
-/// own.
+/// own; for a profile that is not of the device.
 void settle_for_device(const std::string& device, const std::string& profile, device::Script& script);
 
 /// Errors: those of device_kind and of the kind.

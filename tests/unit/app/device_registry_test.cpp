@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
+
 #include "device/profiles.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
@@ -65,6 +68,36 @@ TEST_F(DeviceRegistry, NamesWhatThereIsToThoseWhoAskForSomethingElse) {
   expect_error(ErrorKind::invalid_input, "there are omega.3", [&] { made("network", "spoon"); });
   expect_error(ErrorKind::invalid_input, "impedance", [&] { made("network", "hapticmaster"); });
   expect_error(ErrorKind::invalid_input, "impedance", [&] { made("browser", "ideal-admittance"); });
+}
+
+/// A profile's force is the limit of real hardware.
+TEST_F(DeviceRegistry, RealDevicesTakeTheProfilesOfTheirModelsOnly) {
+  const std::map<std::string, std::vector<std::string>> fitting{
+      {"haply", {"inverse3"}},
+      {"forcedimension", {"omega.3", "omega.6", "omega.7", "delta.3", "sigma.7", "lambda.7", "falcon"}},
+      {"openhaptics",
+       {"touch", "phantom-omni", "phantom-desktop", "premium-1.5-6dof", "premium-3.0-6dof"}}};
+  for (const auto& [name, models] : fitting) {
+    std::string names;
+    for (const std::string& model : models) names += (names.empty() ? "" : ", ") + model;
+    for (const std::string& profile : device::device_profile_names()) {
+      SCOPED_TRACE(name + ", " + profile);
+      if (std::find(models.begin(), models.end(), profile) != models.end()) {
+        EXPECT_EQ(made(name, profile).device->traits().profile, profile);
+        continue;
+      }
+      const std::string words = "device_profile '" + profile + "' is not of the device '" + name +
+                                "'; those that fit it are " + names;
+      expect_error(ErrorKind::invalid_input, words, [&] { made(name, profile); });
+      expect_error(ErrorKind::invalid_input, words, [&] {
+        make_device({name, profile, &script, Pose{}, 1, folder.path()});
+      });
+      script = device::practice_script();
+      script.device_profile = profile;
+      expect_error(ErrorKind::invalid_input, words, [&] { settle_for_device(name, "", script); });
+    }
+    EXPECT_EQ(made(name, "").device->traits().profile, models.front());
+  }
 }
 
 TEST_F(DeviceRegistry, OffersAreMadeWithoutOpeningAnything) {
