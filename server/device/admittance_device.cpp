@@ -43,10 +43,13 @@ void AdmittanceDevice::open() {
   close();
   machine_->open();
   opened_ = true;
+  halted_ = false;
   try {
     zero_sensor();
+    limiter_.begin(said_.base_from_handle);
     machine_->enable();
     enabled_ = true;
+    look_where_it_holds();
   } catch (...) {
     close();
     throw;
@@ -89,6 +92,25 @@ void AdmittanceDevice::zero_sensor() {
   zero_n_mm_ = torque_n_mm / zeroing_samples;
 }
 
+/// The motors are on: from the pose that they hold the set points begin, not from the one before.
+void AdmittanceDevice::look_where_it_holds() {
+  const std::string who = traits().name + ": ";
+  pace();
+  MachineSense sense;
+  if (machine_->sense(sense) != DeviceStatus::ok)
+    throw Error(ErrorKind::unavailable, who + "it cannot be read since its motors are on; check its cable");
+  if (!is_good(sense) || sense.age_ms > traits().stale.hold_ms)
+    throw Error(ErrorKind::unavailable,
+                who + "its sensor is silent or beyond its range since its motors are on; let go of the handle");
+  const Pose &before = said_.base_from_handle, &now = sense.base_from_handle;
+  if ((now.translation_mm - before.translation_mm).norm() > enabling_moves_max_mm ||
+      turn_between(before.rotation, now.rotation).norm() > enabling_turns_max_rad)
+    throw Error(ErrorKind::unavailable,
+                who + "it moved when its motors went on; check its brakes and its controller, and let go of "
+                      "the handle");
+  said_ = sense;
+}
+
 void AdmittanceDevice::session_paused(bool paused) noexcept {
   session_paused_ = paused;
   machine_->session_paused(paused);
@@ -102,6 +124,19 @@ Vec3 AdmittanceDevice::held_back_n() const noexcept {
   return mass * keeping_rad_s * (keeping_rad_s * behind_mm + 2.0 * slower_mm_s);
 }
 
+/// Whatever its sensor says: a machine that runs into something clips it.
+bool AdmittanceDevice::has_strayed(const MachineSense& sense) const noexcept {
+  const Vec3& place_mm = sense.base_from_handle.translation_mm;
+  return place_mm.allFinite() &&
+         (place_mm - limiter_.now().translation_mm).norm() > machine_->limits().following_error_max_mm;
+}
+
+/// Its own stop, after which it is told no more set points.
+void AdmittanceDevice::halt() noexcept {
+  if (!halted_) machine_->stop();
+  halted_ = true;
+}
+
 DeviceStatus AdmittanceDevice::read(DeviceInput& input) noexcept {
   MachineSense sense = said_;
   const DeviceStatus status = machine_->sense(sense);
@@ -111,9 +146,10 @@ DeviceStatus AdmittanceDevice::read(DeviceInput& input) noexcept {
     unsaid_ms_ = 0.0;
     said_ = sense;
   }
-  const Vec3 off_mm = said_.base_from_handle.translation_mm - limiter_.now().translation_mm;
-  if (unsaid_ms_ == 0.0 && off_mm.norm() > machine_->limits().following_error_max_mm)
+  if (halted_ || has_strayed(sense)) {
+    halt();
     return DeviceStatus::fault;
+  }
   const StaleLimits& stale = traits().stale;
   input.age_ms = said_.age_ms + unsaid_ms_;
   input.deadman = said_.deadman;
@@ -129,6 +165,7 @@ DeviceStatus AdmittanceDevice::read(DeviceInput& input) noexcept {
 }
 
 DeviceStatus AdmittanceDevice::write(const DeviceOutput& output) noexcept {
+  if (halted_) return DeviceStatus::fault;
   if (rests_ || !output.world_from_tool) {
     limiter_.brake();
     if (output.world_from_tool)  // from where it rests it goes on
@@ -150,13 +187,14 @@ DeviceStatus AdmittanceDevice::write(const DeviceOutput& output) noexcept {
 void AdmittanceDevice::come_to_rest() noexcept {
   const auto most_ticks = static_cast<int>(2.0 * machine_->limits().motion.stop_time_s() / tick_s) + 1;
   MachineSense ignored;
-  for (int i = 0; i < most_ticks && !limiter_.at_rest(); ++i) {
+  // Halted it brakes by itself, and is given the time for it.
+  for (int i = 0; i < most_ticks && (halted_ || !limiter_.at_rest()); ++i) {
     limiter_.brake();
     machine_->sense(ignored);
-    if (!machine_->move_to(limiter_.now())) break;
+    if (!halted_ && !machine_->move_to(limiter_.now())) break;
     pace();
   }
-  machine_->stop();
+  halt();
 }
 
 void AdmittanceDevice::close() noexcept {

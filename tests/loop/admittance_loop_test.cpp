@@ -107,6 +107,7 @@ TEST(AdmittanceLoop, FaultsWhilePressingEndOrGoOnInOrder) {
                            Row{"NaN", {Kind::no_number, 3000, 300}, sim::LoopEnd::finished},
                            Row{"clipped", {Kind::clipped, 3000, 300}, sim::LoopEnd::finished},
                            Row{"lags", {Kind::lags, 3000}, sim::LoopEnd::device_fault},
+                           Row{"collides", {Kind::collides, 3000}, sim::LoopEnd::device_fault},
                            Row{"killed", {Kind::unreadable, 3000}, sim::LoopEnd::device_fault},
                            Row{"deaf", {Kind::deaf, 3000}, sim::LoopEnd::device_fault}}) {
       SCOPED_TRACE(std::string(kind.profile) + ": " + row.name);
@@ -128,6 +129,7 @@ TEST(AdmittanceLoop, FaultsWhilePressingEndOrGoOnInOrder) {
         EXPECT_NEAR(thrust_at_end_n, 52.0, 2.0) << "it presses on";
       }
       expect_within_limits(*machine.seen, kind.plant.limits.motion);
+      EXPECT_EQ(machine.seen->told_after_stop, 0);
       std::vector<std::string> calls = machine.seen->calls;
       std::erase(calls, "rest");
       EXPECT_EQ(calls, (std::vector<std::string>{"open", "enable", "disable", "close"}));

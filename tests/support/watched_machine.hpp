@@ -14,7 +14,7 @@ namespace ream::test {
 
 /// What happens to a machine, from one of its ticks on, for so many ticks.
 struct MachineFault {
-  enum class Kind { none, silent, no_number, clipped, lags, unreadable, deaf } kind = Kind::none;
+  enum class Kind { none, silent, no_number, clipped, lags, collides, unreadable, deaf } kind = Kind::none;
   int64_t from = 0;
   int64_t ticks = std::numeric_limits<int64_t>::max() / 2;
 };
@@ -30,6 +30,7 @@ class WatchedMachine final : public device::AdmittanceMachine {
     double fastest_mm_s = 0.0, hardest_mm_s2 = 0.0, farthest_mm = 0.0;
     int64_t last_motion = -1;  ///< set point of which tick was the last that moved
     std::atomic<int> stops{0};
+    int told_after_stop = 0;  ///< set points
   };
 
   WatchedMachine(std::unique_ptr<device::AdmittanceMachine> machine, std::shared_ptr<Seen> seen,
@@ -67,8 +68,9 @@ class WatchedMachine final : public device::AdmittanceMachine {
       sense.age_ms = static_cast<double>(senses_ - fault_.from);
     }
     if (fault_.kind == Kind::no_number) sense.force_n.y() = std::nan("");
-    if (fault_.kind == Kind::clipped) sense.force_n.x() = limits().sensor_range_n;
-    if (fault_.kind == Kind::lags)
+    if (fault_.kind == Kind::clipped || fault_.kind == Kind::collides)
+      sense.force_n.x() = limits().sensor_range_n;
+    if (fault_.kind == Kind::lags || fault_.kind == Kind::collides)
       sense.base_from_handle.translation_mm.x() += 2.0 * limits().following_error_max_mm;
     if (fault_.kind == Kind::unreadable) return device::DeviceStatus::fault;
     return status;
@@ -77,6 +79,7 @@ class WatchedMachine final : public device::AdmittanceMachine {
   bool move_to(const Pose& at) noexcept override {
     const Pose before = seen_->told.empty() ? first_ : seen_->told.back();
     begun_ = true;
+    if (seen_->stops > 0) ++seen_->told_after_stop;
     const Vec3 velocity_mm_s = (at.translation_mm - before.translation_mm) / tick_s;
     seen_->fastest_mm_s = std::max(seen_->fastest_mm_s, velocity_mm_s.norm());
     seen_->hardest_mm_s2 = std::max(seen_->hardest_mm_s2, (velocity_mm_s - velocity_mm_s_).norm() / tick_s);

@@ -134,6 +134,7 @@ const std::vector<FaultRow>& faults() {
                                           {"one NaN", {Kind::no_number, 1000, 1}, false},
                                           {"clipped for 500 ms", {Kind::clipped, 1000, 500}, false},
                                           {"lags", {Kind::lags, 1000}, true},
+                                          {"collides", {Kind::collides, 1000}, true},
                                           {"killed", {Kind::unreadable, 1000}, true},
                                           {"deaf", {Kind::deaf, 1000}, true}};
   return rows;
@@ -159,13 +160,19 @@ TEST(AdmittanceDevice, EveryFaultBringsItToRestInItsTime) {
         EXPECT_FALSE(rig.input.paused);
         EXPECT_GT(rig.velocity_mm_s.norm(), 25.0);
       }
+      const bool strays = row.fault.kind == Kind::lags || row.fault.kind == Kind::collides;
+      if (strays) {
+        EXPECT_EQ(rig.seen->stops, 1) << "at once, by itself";
+        EXPECT_EQ(rig.device.write({}), DeviceStatus::fault);
+      }
       rig.device.close();
+      EXPECT_EQ(rig.seen->told_after_stop, 0);
       test::expect_within_limits(*rig.seen, kind.plant.limits.motion);
       std::vector<std::string> calls = rig.seen->calls;
       std::erase(calls, "rest");
       EXPECT_EQ(calls, (std::vector<std::string>{"open", "enable", "disable", "close"}));
       EXPECT_GE(rig.seen->stops, 1) << "before its motors are off";
-      if (row.fault.kind != Kind::deaf) {
+      if (row.fault.kind != Kind::deaf && !strays) {
         EXPECT_EQ(rig.seen->calls, in_order);
       }
     }
@@ -209,6 +216,68 @@ TEST(AdmittanceDevice, ASensorThatCannotBeZeroedIsSaidAndLeavesMotorsOff) {
   refused("let go of the handle", Vec3(1, 2, 3), 0.1);
   refused("beyond its range", Vec3(1, 2, 260), 0.0);
   refused("silent", Vec3(1, std::nan(""), 3), 0.0);
+}
+
+/// Stands elsewhere as soon as its motors are on.
+class Sagging final : public AdmittanceMachine {
+ public:
+  struct Seen {
+    std::vector<Pose> told;
+    std::string calls;
+  };
+  Sagging(double sag_mm, double force_n, Seen& seen) : sag_mm_(sag_mm), force_n_(force_n), seen_(seen) {
+    traits_.simulated = true;
+  }
+  const DeviceTraits& traits() const noexcept override { return traits_; }
+  const MachineLimits& limits() const noexcept override { return hapticmaster_plant().limits; }
+  void open() override { seen_.calls += "open "; }
+  void enable() override {
+    enabled_ = true;
+    seen_.calls += "enable ";
+  }
+  DeviceStatus sense(MachineSense& sense) noexcept override {
+    sense.base_from_handle.translation_mm = Vec3(1, 2, enabled_ ? 3.0 - sag_mm_ : 3.0);
+    sense.force_n = Vec3(0, 0, enabled_ ? force_n_ : 0.0);
+    return DeviceStatus::ok;
+  }
+  bool move_to(const Pose& at) noexcept override {
+    seen_.told.push_back(at);
+    return true;
+  }
+  void stop() noexcept override { seen_.calls += "stop "; }
+  void disable() noexcept override { seen_.calls += "disable "; }
+  void close() noexcept override { seen_.calls += "close "; }
+
+ private:
+  DeviceTraits traits_ = device_profile("hapticmaster");
+  const double sag_mm_, force_n_;
+  Seen& seen_;
+  bool enabled_ = false;
+};
+
+TEST(AdmittanceDevice, BeginsWhereItHoldsOnceItsMotorsAreOn) {
+  Sagging::Seen seen;
+  AdmittanceDevice device(std::make_unique<Sagging>(1.0, 0.0, seen), Pose{});
+  device.open();
+  DeviceInput input;
+  ASSERT_EQ(device.read(input), DeviceStatus::ok);
+  EXPECT_LT(input.world_from_handle.translation_mm.norm(), 1e-12);
+  ASSERT_EQ(device.write({}), DeviceStatus::ok);
+  ASSERT_EQ(seen.told.size(), 1u);
+  EXPECT_LT((seen.told.front().translation_mm - Vec3(1, 2, 2)).norm(), 1e-12);
+}
+
+TEST(AdmittanceDevice, AMachineThatMovesOrFallsSilentWhenItsMotorsGoOnIsRefused) {
+  const auto refused = [](const std::string& words, double sag_mm, double force_n) {
+    Sagging::Seen seen;
+    AdmittanceDevice device(std::make_unique<Sagging>(sag_mm, force_n, seen), Pose{});
+    test::expect_error(ErrorKind::unavailable, words, [&] { device.open(); });
+    EXPECT_TRUE(seen.told.empty());
+    EXPECT_EQ(seen.calls, "open enable stop disable close ");
+  };
+  refused("moved when its motors went on", 3.0, 0.0);
+  refused("since its motors are on", 0.0, 260.0);
+  refused("since its motors are on", 0.0, std::nan(""));
 }
 
 TEST(AdmittanceDevice, TakenAwayFromOutsideItStopsByItself) {
