@@ -95,7 +95,7 @@ void ServoDevice::run() {
           servo_->open(servo_end_);
           log::info(traits_.name + ": it is there again");
           break;
-        } catch (const Error&) {
+        } catch (const std::exception&) {  // nor may want of memory or of handles end the process
           servo_->close();
         }
     } catch (const std::exception& e) {

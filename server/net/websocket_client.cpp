@@ -6,6 +6,8 @@
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket.hpp>
 
+#include <vector>
+
 #include "core/error.hpp"
 
 namespace ream::net {
@@ -69,6 +71,12 @@ struct WebSocketClient::Parts {
   }
 };
 
+/// Where a host was found.
+struct WebSocketClient::Known {
+  std::string place;
+  std::vector<tcp::endpoint> endpoints;
+};
+
 WebSocketClient::WebSocketClient() : parts_(std::make_unique<Parts>()) {}
 
 WebSocketClient::~WebSocketClient() { close(); }
@@ -77,9 +85,20 @@ bool WebSocketClient::is_open() const noexcept { return parts_->open; }
 
 void WebSocketClient::connect(const std::string& host, uint16_t port, const std::string& target,
                               Milliseconds most) {
-  parts_ = std::make_unique<Parts>();
+  const std::string place = host + ":" + std::to_string(port);
+  try {
+    parts_ = std::make_unique<Parts>();
+    parts_->place = place;
+    if (known_ == nullptr || known_->place != place) resolve(host, port, most);
+    shake_hands(target, most);
+  } catch (const boost::system::system_error& e) {
+    parts_->drop();
+    throw Error(ErrorKind::unavailable, place + " cannot be reached: " + e.code().message());
+  }
+}
+
+void WebSocketClient::resolve(const std::string& host, uint16_t port, Milliseconds most) {
   Parts& parts = *parts_;
-  parts.place = host + ":" + std::to_string(port);
   tcp::resolver resolver(parts.io);
   tcp::resolver::results_type found;
   std::optional<error_code> resolved;
@@ -95,8 +114,13 @@ void WebSocketClient::connect(const std::string& host, uint16_t port, const std:
     parts.lost("was not found", asio::error::timed_out);
   }
   if (*resolved) parts.lost("was not found", *resolved);
+  known_ = std::make_unique<Known>(Known{parts.place, {found.begin(), found.end()}});
+}
+
+void WebSocketClient::shake_hands(const std::string& target, Milliseconds most) {
+  Parts& parts = *parts_;
   if (const error_code failed =
-          parts.within(most, [&](auto done) { asio::async_connect(parts.socket(), found, std::move(done)); }))
+          parts.within(most, [&](auto done) { asio::async_connect(parts.socket(), known_->endpoints, std::move(done)); }))
     parts.lost("cannot be reached", failed);
   error_code ignored;
   parts.socket().set_option(tcp::no_delay(true), ignored);

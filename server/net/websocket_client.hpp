@@ -9,7 +9,8 @@
 namespace ream::net {
 
 /// The client's side of a WebSocket that speaks text, for a thread of its own that may wait: every call ends
-/// within its time. Plain TCP, no TLS: for services on this machine or in the same room. One thread.
+/// within its time, but for the first connect() to a host by its name, which may take as long as this system
+/// looks for names (half a minute where its name servers do not answer). Plain TCP, no TLS: for services on this machine or in the same room. One thread.
 class WebSocketClient {
  public:
   using Milliseconds = std::chrono::milliseconds;
@@ -19,8 +20,8 @@ class WebSocketClient {
   WebSocketClient(const WebSocketClient&) = delete;
   WebSocketClient& operator=(const WebSocketClient&) = delete;
 
-  /// Connects anew; what was open is dropped. `host`: a name or an address. Error unavailable, naming host,
-  /// port and reason.
+  /// Connects anew; what was open is dropped. `host`: a name or an address; where it is found is looked for
+  /// once and then kept. Error unavailable, naming host, port and reason.
   void connect(const std::string& host, uint16_t port, const std::string& target, Milliseconds most);
   /// One message, UTF-8. Error unavailable when it did not leave; the connection is gone then.
   void send(std::string_view text, Milliseconds most);
@@ -33,7 +34,12 @@ class WebSocketClient {
 
  private:
   struct Parts;
+  struct Known;
+  void resolve(const std::string& host, uint16_t port, Milliseconds most);
+  void shake_hands(const std::string& target, Milliseconds most);
+
   std::unique_ptr<Parts> parts_;
+  std::unique_ptr<Known> known_;  ///< null: nothing yet
 };
 
 }  // namespace ream::net

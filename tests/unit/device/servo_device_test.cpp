@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <new>
 #include <thread>
 
 #include "core/error.hpp"
@@ -98,8 +99,8 @@ TEST_F(ServoEndTest, RefusesWhatIsNoPoseOrNoForce) {
 
 /// Hardware in the memory of the test.
 struct Rack {
-  std::atomic<bool> there{true}, usable{true};
-  std::atomic<int> turns{0}, opened{0};
+  std::atomic<bool> there{true}, usable{true}, memory{true};
+  std::atomic<int> turns{0}, opened{0}, tried{0};
   std::atomic<double> force_n{0.0};
   std::string diary;  ///< while nothing runs
 };
@@ -108,6 +109,8 @@ class RackServo final : public Servo {
  public:
   explicit RackServo(Rack& rack) : rack_(rack) {}
   void open(ServoEnd&) override {
+    ++rack_.tried;
+    if (!rack_.memory) throw std::bad_alloc();
     if (!rack_.there) throw Error(ErrorKind::unavailable, "the rack is empty");
     ++rack_.opened;
     rack_.diary += "open ";
@@ -189,6 +192,17 @@ TEST_F(ServoDeviceTest, IsOpenedAgainWhenItHasGone) {
   EXPECT_EQ(rack.opened, 2);
   device.close();
   EXPECT_EQ(rack.force_n, 0.0);
+}
+
+TEST_F(ServoDeviceTest, IsOpenedAgainWhateverWentWrongMeanwhile) {
+  device.open();
+  press();
+  rack.memory = rack.there = false;
+  until([&] { return rack.tried >= 3; });
+  EXPECT_EQ(device.read(input), DeviceStatus::ok);
+  rack.memory = rack.there = true;
+  press();
+  EXPECT_EQ(rack.opened, 2);
 }
 
 TEST_F(ServoDeviceTest, IsAFaultWhenItCannotBeUsedAnyMore) {
