@@ -87,15 +87,23 @@ void take_button(const json& buttons, std::initializer_list<const char*> names, 
 }
 
 /// Of the session's or the device's filters: a number, or an object that holds it.
-double force_scale_of(const json& config) {
-  const json& said = member(member(config, "filters"), "force_scale");
+double force_scale_of(const json& filters) {
+  const json& said = member(filters, "force_scale");
   if (said.is_number()) return said.get<double>();
   for (const char* name : {"gain", "scalar", "value"})
     if (const json& number = member(said, name); number.is_number()) return number.get<double>();
   return 1.0;
 }
 
+void take_force_scale(const json& inverse3, HaplyDevice& device) {
+  const json& filters = member(member(inverse3, "config"), "filters");
+  if (!filters.is_object()) return;
+  const double scale = force_scale_of(filters);
+  device.force_scale = std::isfinite(scale) && scale > 0.0 ? scale : 1.0;
+}
+
 bool take_grip(const json& frame, const std::string& wanted, HaplyDevice& device) {
+  device.grip_told = false;
   for (const char* kind : grips) {
     const json& grip = device_in(member(frame, kind), wanted.empty() ? device.grip_id : wanted);
     if (grip.is_null()) continue;
@@ -105,6 +113,9 @@ bool take_grip(const json& frame, const std::string& wanted, HaplyDevice& device
       device.has_grip = true;
     }
     device.grip_id = text_of(grip, "device_id");
+    if (const json& connected = member(member(grip, "status"), "connected"); connected.is_boolean())
+      device.grip_connected = connected.get<bool>();
+    device.grip_told = device.grip_connected;
     const json& buttons = member(state, "buttons");
     take_button(buttons, {"a", "button_1", "button"}, device, device.button_a);
     take_button(state, {"button"}, device, device.button_a);
@@ -137,14 +148,15 @@ std::string ids_of(const json& list) {
 }  // namespace
 
 void write_haply_message(std::string& text, const std::string& device_id, const Vec3& force_n,
-                         HaplyForceForm form, bool first) {
+                         HaplyForceForm form, HaplyWish wish) {
   text.clear();
   text += '{';
-  if (first) {
+  if (wish == HaplyWish::configure) {
     text += R"("session":{"configure":{"profile":{"name":)";
     append_quoted(text, haply_profile);
     text += "}}},";
   }
+  if (wish == HaplyWish::full_state) text += R"("session":{"force_render_full_state":{}},)";
   text += R"("inverse3":[{"device_id":)";
   append_quoted(text, device_id);
   text += R"(,"commands":{"set_cursor_force":{)";
@@ -172,8 +184,7 @@ void HaplyReader::take_inventory(std::string_view text) {
                                                   "; correct device_id in the set-up, or check the cable");
   device_ = {};
   device_.device_id = text_of(found, "device_id");
-  const double scale = force_scale_of(member(found, "config"));
-  device_.force_scale = std::isfinite(scale) && scale > 0.0 ? scale : 1.0;
+  take_force_scale(found, device_);
   if (!take_frame(frame, found, wanted_grip_, device_))
     throw Error(ErrorKind::unavailable, "its inventory has a position or an orientation that is no number");
   if (!wanted_grip_.empty() && device_.grip_id != wanted_grip_)
@@ -192,7 +203,15 @@ bool HaplyReader::take_state(std::string_view text, std::string& why) {
     why = "it does not tell of Inverse3 '" + device_.device_id + "' any more; check its cable and power";
     return false;
   }
-  if (take_frame(frame, found, wanted_grip_, device_)) return true;
+  // Of the position an axis may be left out, as it is where it was; without any it is no news of the pose.
+  if (!member(member(found, "state"), "cursor_position").is_object()) {
+    why = "it does not tell where Inverse3 '" + device_.device_id + "' is";
+    return false;
+  }
+  if (take_frame(frame, found, wanted_grip_, device_)) {
+    take_force_scale(found, device_);
+    return true;
+  }
   why = "it tells of a position or an orientation that is no number";
   return false;
 }

@@ -12,11 +12,14 @@ namespace ream::device {
 /// The name under which Haply's service keeps what people configure for this program.
 inline constexpr const char* haply_profile = "ream.simulator:main";
 
+/// What a message says beside its force: nothing; the session's configuration, as the first message of a
+/// connection must; or that everything is to be told anew, configurations of devices among it.
+enum class HaplyWish { nothing, configure, full_state };
+
 /// One message to the service (docs.haply.co, WebSocket protocol 3.5): the force on one Inverse3, N, its
-/// frame. `first`: it also configures the session, as the first message of a connection must. Written into
-/// `text`. Forces are rounded to a micronewton.
+/// frame. Written into `text`. Forces are rounded to a micronewton.
 void write_haply_message(std::string& text, const std::string& device_id, const Vec3& force_n,
-                         HaplyForceForm form, bool first);
+                         HaplyForceForm form, HaplyWish wish);
 
 /// What the service has said of one Inverse3 and its grip; what a frame leaves out keeps its last value.
 struct HaplyDevice {
@@ -25,6 +28,8 @@ struct HaplyDevice {
   std::array<double, 4> orientation_wxyz{1, 0, 0, 0};
   bool has_position = false, has_grip = false, has_buttons = false;
   bool button_a = false, button_b = false, button_c = false;
+  bool grip_connected = true;  ///< as it was last said
+  bool grip_told = false;      ///< the newest frame tells of the grip, and it is connected
   double force_scale = 1.0;  ///< what the service multiplies forces with
 };
 
@@ -37,9 +42,11 @@ class HaplyReader {
   /// The first frame of a connection. Error unavailable, naming what there is, when the Inverse3 is not
   /// there; invalid_input when it is no inventory.
   void take_inventory(std::string_view text);
-  /// Any later frame. False: it could not be read, or does not tell of this Inverse3 (`why` says which), and
-  /// nothing has changed.
+  /// Any later frame. False: it could not be read, or does not tell of this Inverse3 and where it is (`why`
+  /// says which), and nothing has changed.
   bool take_state(std::string_view text, std::string& why);
+  /// Buttons of a grip that has gone are pressed no longer.
+  void release_buttons() { device_.button_a = device_.button_b = device_.button_c = false; }
 
   const HaplyDevice& device() const { return device_; }
 

@@ -15,6 +15,8 @@ constexpr double mm_per_m = 1000.0;
 /// So many useless frames one after the other, and the connection is begun anew.
 constexpr int useless_frames_allowed = 100;
 constexpr int turns_between_events = 10;
+/// A grip that has not been told of for so long sleeps, is out of reach or has no battery any more.
+constexpr int64_t grip_lost_ns = 50'000'000;
 
 const std::string start_service =
     "; start Haply's Inverse Service (`systemctl start haply-inverse-service`), or correct host and port in "
@@ -34,9 +36,11 @@ class HaplyServo final : public Servo {
     listen_to_events();
     braked_ = false;
     useless_ = 0;
-    exchange(Vec3::Zero(), true);
-    const int64_t sent_ns = end.now_ns();
-    exchange(Vec3::Zero(), false);
+    grip_lost_ = false;
+    exchange(Vec3::Zero(), HaplyWish::configure);
+    const int64_t sent_ns = grip_ns_ = end.now_ns();
+    // With the profile in effect, the service may scale forces by another number than before.
+    exchange(Vec3::Zero(), HaplyWish::full_state);
     if (!reader_.device().has_position)
       throw Error(ErrorKind::unavailable, service() + " tells no position of its Inverse3");
     end.tell(state(), sent_ns);
@@ -61,14 +65,18 @@ class HaplyServo final : public Servo {
   void turn(ServoEnd& end) override {
     const ServoForce wanted = end.force();
     const int64_t sent_ns = end.now_ns();
-    if (exchange(wanted.force_n, false)) end.tell(state(), sent_ns);
+    if (exchange(wanted.force_n, HaplyWish::nothing)) {
+      look_for_grip(sent_ns);
+      end.tell(state(), sent_ns);
+    }
     if (++turns_ % turns_between_events == 0) hear_events();
   }
 
   void close() noexcept override {
     try {
       if (client_.is_open() && !reader_.device().device_id.empty()) {
-        write_haply_message(message_, reader_.device().device_id, Vec3::Zero(), wanted_.force_form, false);
+        write_haply_message(message_, reader_.device().device_id, Vec3::Zero(), wanted_.force_form,
+                            HaplyWish::nothing);
         client_.send(message_, sending);
         client_.receive(50ms);
       }
@@ -85,11 +93,11 @@ class HaplyServo final : public Servo {
   }
 
   /// One message and the one frame that answers it. False: the frame is of no use.
-  bool exchange(const Vec3& force_n, bool first) {
+  bool exchange(const Vec3& force_n, HaplyWish wish) {
     const HaplyDevice& device = reader_.device();
     // What the service scales up is sent smaller; where it scales down, no more than the device's limit.
     write_haply_message(message_, device.device_id, force_n / std::max(1.0, device.force_scale),
-                        wanted_.force_form, first);
+                        wanted_.force_form, wish);
     try {
       client_.send(message_, sending);
       const auto frame = client_.receive(answering);
@@ -106,15 +114,31 @@ class HaplyServo final : public Servo {
     return false;
   }
 
+  bool should_have_grip() const { return !wanted_.grip_id.empty() || !reader_.device().grip_id.empty(); }
+
+  void look_for_grip(int64_t now_ns) {
+    if (reader_.device().grip_told) grip_ns_ = now_ns;
+    const bool lost = should_have_grip() && now_ns - grip_ns_ > grip_lost_ns;
+    if (lost) reader_.release_buttons();
+    if (lost && !grip_lost_)
+      log::warn("haply: nothing is heard of the grip; the session rests until it is back (wake it up, or look at "
+                "its battery)");
+    if (!lost && grip_lost_) log::info("haply: the grip is back");
+    grip_lost_ = lost;
+  }
+
   ServoState state() const {
     const HaplyDevice& device = reader_.device();
     ServoState state;
     state.device_from_handle = {
         device.has_grip ? rotation_from_quaternion(device.orientation_wxyz) : unsensed_,
         mm_per_m * device.position_m};
-    state.spindle_on = wanted_.spindle_by_button && device.has_buttons ? device.button_a : true;
+    // A grip that has not said anything of its buttons yet has not switched the spindle on.
+    const bool by_button = wanted_.spindle_by_button && (device.has_buttons || should_have_grip());
+    state.spindle_on = !grip_lost_ && (!by_button || device.button_a);
     state.clutch = device.button_b;
-    state.paused = device.button_c || braked_;
+    state.paused = device.button_c || braked_ || grip_lost_;
+    state.deadman = !grip_lost_;
     return state;
   }
 
@@ -146,7 +170,8 @@ class HaplyServo final : public Servo {
   HaplyReader reader_;
   net::WebSocketClient client_, events_;
   std::string message_;
-  bool braked_ = false;
+  bool braked_ = false, grip_lost_ = false;
+  int64_t grip_ns_ = 0;  ///< when the grip was last told of
   int useless_ = 0;
   uint64_t turns_ = 0;
 };

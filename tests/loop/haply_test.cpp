@@ -101,6 +101,36 @@ TEST_F(Haply, IsSentLessWhereTheServiceEnlarges) {
   EXPECT_LE(fake->hardware().largest_force_n(), 2.0 + 1e-6);
 }
 
+TEST_F(Haply, IsSentLessWhereTheProfileEnlarges) {
+  FakeHaply::Setting setting;
+  setting.profile_force_scale = 4.0;
+  open(setting);
+  until([&] { return feels(2.0); });
+  EXPECT_LE(fake->hardware().largest_force_n(), 2.0 + 1e-6);
+}
+
+TEST_F(Haply, RestsWithItsButtonsReleasedWhileItsGripIsLost) {
+  for (const FakeHaply::Grip loss : {FakeHaply::Grip::gone, FakeHaply::Grip::not_connected}) {
+    open({});
+    until([&] { return input.spindle_on && input.deadman && !input.paused; });
+    fake->grip = loss;
+    until([&] { return !input.spindle_on && !input.deadman && input.paused; });
+    EXPECT_FALSE(input.clutch);
+    fake->grip = FakeHaply::Grip::there;
+    until([&] { return input.spindle_on && input.deadman && !input.paused; });
+    device->close();
+  }
+}
+
+TEST_F(Haply, AGripThatSaysNothingOfItsButtonsDoesNotTurnTheSpindle) {
+  FakeHaply::Setting setting;
+  setting.grip_says_buttons = false;
+  open(setting);
+  until([&] { return feels(2.0); });
+  EXPECT_FALSE(input.spindle_on);
+  EXPECT_FALSE(input.paused);
+}
+
 TEST_F(Haply, RestsWhileItsEmergencyBrakeIsOn) {
   open({});
   until([&] { return feels(2.0); });

@@ -106,7 +106,7 @@ json xyz(const std::array<double, 3>& v) { return {{"x", v[0]}, {"y", v[1]}, {"z
 
 }  // namespace
 
-FakeHaply::FakeHaply(const Setting& setting) : setting_(setting) {
+FakeHaply::FakeHaply(const Setting& setting) : setting_(setting), scale_(setting.force_scale) {
   listener_ = listen_on_any(port_);
   events_listener_ = listen_on_any(events_port_);
   acceptor_ = std::thread([this] { accept_all(); });
@@ -176,6 +176,25 @@ void FakeHaply::serve_events(int socket) {
   std::erase(event_sockets_, socket);
 }
 
+/// Null where there is none. `whole`: with its orientation and configuration.
+json FakeHaply::grip_of_now(bool whole) const {
+  const Grip now = grip;
+  if (!setting_.grip || now == Grip::gone) return nullptr;
+  json state = json::object();
+  const unsigned pressed = whole ? 0 : hardware_.buttons.load();
+  if (setting_.grip_says_buttons)
+    state["buttons"] = {{"a", (pressed & 1) != 0}, {"b", (pressed & 2) != 0}, {"c", (pressed & 4) != 0}};
+  if (whole)
+    state["orientation"] = {{"w", setting_.grip_wxyz[0]},
+                            {"x", setting_.grip_wxyz[1]},
+                            {"y", setting_.grip_wxyz[2]},
+                            {"z", setting_.grip_wxyz[3]}};
+  json told = {{"device_id", "61548"}, {"state", state}};
+  if (whole) told["config"] = {{"type", "wireless_verse_grip"}};
+  told["status"] = {{"connected", now != Grip::not_connected}};
+  return told;
+}
+
 json FakeHaply::inventory() const {
   json frame = {{"session_id", 7}, {"inverse3", json::array()}};
   if (!setting_.inverse3 || hardware_.fault == HardwareFault::absent) return frame;
@@ -191,7 +210,7 @@ json FakeHaply::inventory() const {
          {"filters",
           {{"force_gate", {{"gain", 0.3}}},
            {"damping", {{"scalar", 0.0}}},
-           {"force_scale", {{"gain", setting_.force_scale}}}}}}},
+           {"force_scale", {{"gain", scale_.load()}}}}}}},
        {"state",
         {{"cursor_position", xyz({told_mm_[0] / mm_per_m, told_mm_[1] / mm_per_m, told_mm_[2] / mm_per_m})},
          {"cursor_velocity", xyz({0, 0, 0})},
@@ -201,17 +220,7 @@ json FakeHaply::inventory() const {
          {"control_domain", "cartesian"},
          {"control_mode", "idle"}}},
        {"status", {{"calibrated", true}, {"ready", true}}}});
-  if (setting_.grip)
-    frame["wireless_verse_grip"] = {{{"device_id", "61548"},
-                                     {"config", {{"type", "wireless_verse_grip"}}},
-                                     {"state",
-                                      {{"orientation",
-                                        {{"w", setting_.grip_wxyz[0]},
-                                         {"x", setting_.grip_wxyz[1]},
-                                         {"y", setting_.grip_wxyz[2]},
-                                         {"z", setting_.grip_wxyz[3]}}},
-                                       {"buttons", {{"a", false}, {"b", false}, {"c", false}}}}},
-                                     {"status", {{"connected", true}}}}};
+  if (const json grip = grip_of_now(true); !grip.is_null()) frame["wireless_verse_grip"] = {grip};
   return frame;
 }
 
@@ -230,24 +239,23 @@ json FakeHaply::state_frame() {
   if (hardware_.fault == HardwareFault::none) position["x"] = place_mm[0] / mm_per_m;
   json frame = {{"session_id", 7},
                 {"inverse3", {{{"device_id", id}, {"state", {{"cursor_position", position}}}}}}};
-  const unsigned pressed = hardware_.buttons;
-  if (setting_.grip)
-    frame["wireless_verse_grip"] = {
-        {{"device_id", "61548"},
-         {"state",
-          {{"buttons", {{"a", (pressed & 1) != 0}, {"b", (pressed & 2) != 0}, {"c", (pressed & 4) != 0}}}}}}};
+  if (const json grip = grip_of_now(false); !grip.is_null()) frame["wireless_verse_grip"] = {grip};
   return frame;
 }
 
-std::string FakeHaply::answer() {
+std::string FakeHaply::answer(bool whole) {
   const std::lock_guard lock(mutex_);
   if (hardware_.fault == HardwareFault::malformed) return "[{\"inverse3\": 7";
-  return state_frame().dump();
+  if (!whole) return state_frame().dump();
+  told_mm_ = hardware_.move_hand(step_s);
+  return inventory().dump();
 }
 
 std::string FakeHaply::why_refused(const json& message, bool first) const {
   if (!message.is_object()) return "no JSON object";
-  if (message.contains("session") != first)
+  const bool asks = message.contains("session") && message["session"].contains("force_render_full_state");
+  if (asks && (first || message["session"].size() != 1)) return "everything is asked for at a wrong time";
+  if (!asks && message.contains("session") != first)
     return first ? "the first message does not configure the session" : "the session is configured twice";
   if (first && !message["session"].value("/configure/profile/name"_json_pointer, json()).is_string())
     return "the session's profile has no name";
@@ -287,15 +295,17 @@ void FakeHaply::serve(int socket) {
       hardware_.refused(why + ": " + text);
       break;
     }
+    if (first) scale_ = setting_.profile_force_scale.value_or(setting_.force_scale);
     first = false;
+    const bool whole = message.contains("session") && message["session"].contains("force_render_full_state");
     const json command = message.at("/inverse3/0/commands/set_cursor_force"_json_pointer);
     const json& force = command.front();
-    const double scale = setting_.force_scale;
+    const double scale = scale_;
     hardware_.render({scale * force["x"].get<double>(), scale * force["y"].get<double>(),
                       scale * force["z"].get<double>()});
     if (hardware_.fault == HardwareFault::slow) std::this_thread::sleep_for(slowness);
     if (hardware_.fault == HardwareFault::silent) continue;
-    if (!send_text(socket, answer())) break;
+    if (!send_text(socket, answer(whole))) break;
   }
   hardware_.called("disconnect");
   ::shutdown(socket, SHUT_RDWR);

@@ -1,6 +1,7 @@
 #pragma once
 #include <atomic>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 #include "support/fake_hardware.hpp"
@@ -12,14 +13,20 @@ namespace ream::test {
 /// lets it act until the next message and forgets it 10 ms later; refuses (and ends the connection) what is
 /// no JSON, names no device of its own, has no force in it, or does not configure the session with the first
 /// message alone. States leave out what is as in the frame before. The hand moves 1 ms a message. On plain
-/// sockets.
+/// sockets. Asked for its full state it answers with that, configurations among it; a profile may bring a
+/// scale of forces of its own, from the configuring message on.
 class FakeHaply {
  public:
   struct Setting {
     bool grip = true, inverse3 = true;
     double force_scale = 1.0;
     std::array<double, 4> grip_wxyz{1, 0, 0, 0};
+    bool grip_says_buttons = true;
+    std::optional<double> profile_force_scale;
   };
+  /// Left out of every state, told as not connected, or there.
+  enum class Grip { there, gone, not_connected };
+  std::atomic<Grip> grip{Grip::there};
   FakeHaply() : FakeHaply(Setting{}) {}
   explicit FakeHaply(const Setting& setting);
   ~FakeHaply();
@@ -45,8 +52,9 @@ class FakeHaply {
   void serve(int socket);
   void serve_events(int socket);
   nlohmann::json inventory() const;
+  nlohmann::json grip_of_now(bool whole) const;
   nlohmann::json state_frame();
-  std::string answer();
+  std::string answer(bool whole);
   std::string why_refused(const nlohmann::json& message, bool first) const;
 
   const Setting setting_;
@@ -54,6 +62,7 @@ class FakeHaply {
   int listener_ = -1, events_listener_ = -1;
   uint16_t port_ = 0, events_port_ = 0;
   std::atomic<bool> leaving_{false}, dead_{false};
+  std::atomic<double> scale_;
   mutable std::mutex mutex_;
   std::vector<std::string> messages_;
   std::vector<int> sockets_, event_sockets_;

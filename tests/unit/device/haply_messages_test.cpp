@@ -12,28 +12,36 @@ namespace {
 using nlohmann::json;
 using test::expect_error;
 
-std::string message(const Vec3& force_n, HaplyForceForm form, bool first, const std::string& id = "049D") {
+std::string message(const Vec3& force_n, HaplyForceForm form, HaplyWish wish, const std::string& id = "049D") {
   std::string text = "what was there before";
-  write_haply_message(text, id, force_n, form, first);
+  write_haply_message(text, id, force_n, form, wish);
   return text;
 }
 
 /// As docs.haply.co gives the protocol of 3.5, without its spaces.
 TEST(HaplyMessage, IsByteForByteTheDocumentedOne) {
   EXPECT_EQ(
-      message({0, 0, 1.5}, HaplyForceForm::vector, true),
+      message({0, 0, 1.5}, HaplyForceForm::vector, HaplyWish::configure),
       R"({"session":{"configure":{"profile":{"name":"ream.simulator:main"}}},)"
       R"("inverse3":[{"device_id":"049D","commands":{"set_cursor_force":{"vector":{"x":0,"y":0,"z":1.5}}}}]})");
   EXPECT_EQ(
-      message({0.25, -1.5, 1e-3}, HaplyForceForm::vector, false),
+      message({0.25, -1.5, 1e-3}, HaplyForceForm::vector, HaplyWish::nothing),
       R"({"inverse3":[{"device_id":"049D","commands":{"set_cursor_force":{"vector":{"x":0.25,"y":-1.5,"z":0.001}}}}]})");
   EXPECT_EQ(
-      message({0.25, -1.5, 1e-3}, HaplyForceForm::values, false),
+      message({0.25, -1.5, 1e-3}, HaplyForceForm::values, HaplyWish::nothing),
       R"({"inverse3":[{"device_id":"049D","commands":{"set_cursor_force":{"values":{"x":0.25,"y":-1.5,"z":0.001}}}}]})");
 }
 
+/// As the maker's examples ask for it.
+TEST(HaplyMessage, AsksForEverythingBesideItsForce) {
+  EXPECT_EQ(
+      message({0, 0, 0}, HaplyForceForm::vector, HaplyWish::full_state),
+      R"({"session":{"force_render_full_state":{}},)"
+      R"("inverse3":[{"device_id":"049D","commands":{"set_cursor_force":{"vector":{"x":0,"y":0,"z":0}}}}]})");
+}
+
 TEST(HaplyMessage, RoundsToAMicronewtonAndIsAlwaysJson) {
-  const json said = json::parse(message({1.0 / 3.0, -1e-9, 1e-300}, HaplyForceForm::vector, false, "a\"b"));
+  const json said = json::parse(message({1.0 / 3.0, -1e-9, 1e-300}, HaplyForceForm::vector, HaplyWish::nothing, "a\"b"));
   const json& device = said.at("inverse3").at(0);
   EXPECT_EQ(device.at("device_id"), "a\"b");
   const json& force = device.at("commands").at("set_cursor_force").at("vector");
@@ -95,6 +103,45 @@ TEST(HaplyReader, ReadsTheScaleOfForces) {
   }
 }
 
+TEST(HaplyReader, TakesTheScaleOfForcesFromAnyFrameWithAConfiguration) {
+  HaplyReader reader("", "");
+  reader.take_inventory(inventory);
+  std::string why;
+  const auto state = [](const char* config) {
+    return std::string(R"({"inverse3":[{"device_id":"049D","state":{"cursor_position":{}},"config":)") + config +
+           "}]}";
+  };
+  ASSERT_TRUE(reader.take_state(state(R"({"filters":{"force_scale":{"gain":3}}})"), why)) << why;
+  EXPECT_EQ(reader.device().force_scale, 3.0);
+  ASSERT_TRUE(reader.take_state(state(R"({"preset":"defaults"})"), why)) << why;
+  EXPECT_EQ(reader.device().force_scale, 3.0) << "it says nothing of filters";
+  ASSERT_TRUE(reader.take_state(state(R"({"filters":{}})"), why)) << why;
+  EXPECT_EQ(reader.device().force_scale, 1.0);
+}
+
+TEST(HaplyReader, KnowsWhetherAFrameTellsOfItsGrip) {
+  HaplyReader reader("", "");
+  reader.take_inventory(inventory);
+  EXPECT_TRUE(reader.device().grip_told);
+  std::string why;
+  const auto told = [&](const char* grips) {
+    const std::string state =
+        std::string(R"({"inverse3":[{"device_id":"049D","state":{"cursor_position":{}}}])") + grips + "}";
+    EXPECT_TRUE(reader.take_state(state, why)) << why;
+    return reader.device().grip_told;
+  };
+  EXPECT_FALSE(told(""));
+  EXPECT_FALSE(told(R"(,"wireless_verse_grip":[])"));
+  EXPECT_FALSE(told(R"(,"wireless_verse_grip":[{"device_id":"9"}])"));
+  EXPECT_TRUE(told(R"(,"wireless_verse_grip":[{"device_id":"61548"}])"));
+  EXPECT_FALSE(told(R"(,"wireless_verse_grip":[{"device_id":"61548","status":{"connected":false}}])"));
+  EXPECT_FALSE(told(R"(,"wireless_verse_grip":[{"device_id":"61548"}])")) << "as it was last said";
+  EXPECT_TRUE(told(R"(,"wireless_verse_grip":[{"device_id":"61548","status":{"connected":true}}])"));
+  EXPECT_TRUE(reader.device().button_b);
+  reader.release_buttons();
+  EXPECT_FALSE(reader.device().button_b);
+}
+
 TEST(HaplyReader, SaysWhatIsMissing) {
   const auto take = [](const std::string& id, const std::string& grip, const std::string& text) {
     HaplyReader(id, grip).take_inventory(text);
@@ -112,7 +159,9 @@ TEST(HaplyReader, ChangesNothingByAFrameThatMakesNoSense) {
   std::string why;
   for (const char* senseless :
        {"", "{", "7", R"({"inverse3":7})", R"({"inverse3":[]})",
-        R"({"inverse3":[{"device_id":"1AB2","state":{}}]})",
+        R"({"inverse3":[{"device_id":"1AB2","state":{}}]})", R"({"inverse3":[{"device_id":"049D"}]})",
+        R"({"inverse3":[{"device_id":"049D","state":{"cursor_velocity":{"x":1}}}]})",
+        R"({"inverse3":[{"device_id":"049D","state":{"cursor_position":7}}]})",
         R"({"inverse3":[{"device_id":"049D","state":{"cursor_position":{"x":1,"y":null}}}]})",
         R"({"inverse3":[{"device_id":"049D","state":{"cursor_position":{"x":"1"}}}]})",
         R"({"inverse3":[{"device_id":"049D","state":{"cursor_position":{"x":1e999}}}]})",
