@@ -13,7 +13,7 @@ struct ForceDimensionLibrary {
   explicit ForceDimensionLibrary(const std::string& path);
 
   int (*get_device_count)();
-  int (*open_id)(char id);
+  int (*open_id)(char number);  ///< from 0, of those found; the device's id for all other calls
   int (*close)(char id);
   const char* (*get_system_name)(char id);
   const char* (*error_get_last_str)();

@@ -1,7 +1,7 @@
 #include "device/force_dimension_servo.hpp"
 
 #include <algorithm>
-#include <cstdlib>
+#include <charconv>
 #include <optional>
 
 #include "core/error.hpp"
@@ -13,7 +13,8 @@ namespace {
 constexpr double mm_per_m = 1000.0, watchdog_period_ms = 0.125;
 constexpr unsigned char on = 1, off = 0;
 /// Places in what dhdGetStatus tells, and of how many.
-constexpr size_t status_count = 32, reset_status = 3;
+constexpr size_t status_count = 32, reset_status = 3, force_status = 5;
+constexpr int turns_between_looks = 100;
 constexpr unsigned spindle_button = 1, clutch_button = 2, pause_button = 4;
 
 class ForceDimensionServo final : public Servo {
@@ -23,14 +24,18 @@ class ForceDimensionServo final : public Servo {
 
   void open(ServoEnd& end) override {
     find();
-    const int opened = dhd().open_id(id_);
+    const int opened = dhd().open_id(number_);
     if (opened < 0)
       throw Error(ErrorKind::unavailable, "the device cannot be opened: " + dhd().last_error() +
                                               "; check cable and power, and that no other program has it");
+    id_ = static_cast<char>(opened);
     is_open_ = true;
+    force_was_on_ = false;
+    turns_ = 0;
     make_safe();
     require_calibration();
     has_wrist_ = dhd().has_wrist(id_);
+    require_force_on();
     turn(end);
   }
 
@@ -50,15 +55,16 @@ class ForceDimensionServo final : public Servo {
     state.paused = (pressed & pause_button) != 0;
     end.tell(state, asked_ns);
     render(end.force());
+    if (++turns_ % turns_between_looks == 0) require_force_on();
   }
 
   /// The library and the number of the device.
   void find() {
     if (!dhd_) dhd_.emplace(wanted_.library);
     const int count = dhd().get_device_count();
-    const int wanted = wanted_.device_id.empty() ? 0 : std::atoi(wanted_.device_id.c_str());
-    if (wanted >= 0 && wanted < count) {
-      id_ = static_cast<char>(wanted);
+    const int wanted = wanted_number();
+    if (wanted < count) {
+      number_ = static_cast<char>(wanted);
       return;
     }
     throw Error(ErrorKind::unavailable,
@@ -77,6 +83,17 @@ class ForceDimensionServo final : public Servo {
 
  private:
   const ForceDimensionLibrary& dhd() const { return *dhd_; }
+
+  int wanted_number() const {
+    const std::string& text = wanted_.device_id;
+    if (text.empty()) return 0;
+    int number = -1;
+    const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (failed != std::errc{} || end != text.data() + text.size() || number < 0)
+      throw Error(ErrorKind::invalid_input,
+                  "device_id must be a number from 0, not '" + text + "'; correct it in the set-up");
+    return number;
+  }
 
   void require(int answer, const char* what) const {
     if (answer < 0)
@@ -105,6 +122,18 @@ class ForceDimensionServo final : public Servo {
           "then start again");
   }
 
+  /// Its watchdog, its velocity limit or the button at its foot may have switched the force off. It is closed
+  /// then, so that what is switched on again rises from nothing.
+  void require_force_on() {
+    int status[status_count] = {};
+    require(dhd().get_status(status, id_), "tells no status");
+    const bool is_on = status[force_status] != 0;
+    if (force_was_on_ && !is_on)
+      throw Error(ErrorKind::unavailable,
+                  "the device's force was switched off (its button, its watchdog or its velocity limit)");
+    force_was_on_ = is_on;
+  }
+
   void render(const ServoForce& force) const {
     const Vec3 torque_n_m = force.torque_n_mm / mm_per_m;
     require(dhd().set_force_and_torque(force.force_n.x(), force.force_n.y(), force.force_n.z(),
@@ -116,8 +145,10 @@ class ForceDimensionServo final : public Servo {
   const Mat3 unsensed_;
   const double force_max_n_;
   std::optional<ForceDimensionLibrary> dhd_;
-  char id_ = 0;
-  bool is_open_ = false, has_wrist_ = false;
+  char number_ = 0;  ///< among the devices that the library finds
+  char id_ = 0;      ///< that opening it gave
+  bool is_open_ = false, has_wrist_ = false, force_was_on_ = false;
+  uint64_t turns_ = 0;
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 // A libdhd.so with one omega.3 or sigma.7 in it: exports the maker's symbols, and fake_hardware() for tests.
-// Its firmware's watchdog switches the force off; the hand moves on 1 ms with each force.
+// It is the library's number 0 and has the id 3 once it is open. Its firmware's watchdog switches the force off;
+// the hand moves on 1 ms with each force.
 #include <poll.h>
 
 #include <thread>
@@ -12,6 +13,7 @@ using ream::test::FakeHardware;
 using ream::test::HardwareFault;
 
 constexpr double mm_per_m = 1000.0, step_s = 0.001, watchdog_period_ms = 0.125;
+constexpr char the_id = 3;
 
 struct Device {
   FakeHardware hardware;
@@ -45,7 +47,8 @@ Device& device() {
 FakeHardware& hardware() { return device().hardware; }
 
 /// Whether the device answers; a silent one keeps its caller until it speaks again.
-bool answers() {
+bool answers(char id) {
+  if (id != the_id) hardware().refused("a call for id " + std::to_string(id));
   while (hardware().fault == HardwareFault::silent) ::poll(nullptr, 0, 1);
   if (hardware().fault == HardwareFault::slow) ::poll(nullptr, 0, 15);
   return device().open && hardware().fault != HardwareFault::absent;
@@ -63,11 +66,12 @@ int dhdOpenID(char id) {
   hardware().called("dhdOpenID");
   if (id != 0 || device().open || hardware().fault == HardwareFault::absent) return -1;
   device().open = true;
-  return 0;
+  return the_id;
 }
 
-int dhdClose(char) {
+int dhdClose(char id) {
   hardware().called("dhdClose");
+  if (id != the_id) hardware().refused("another id is closed");
   if (device().open && device().forced) hardware().refused("closed while its force is on");
   device().open = device().forced = false;
   device().watchdog_ms = 0.0;
@@ -86,7 +90,8 @@ int dhdDisableExpertMode() {
   return 0;
 }
 
-int dhdSetWatchdog(unsigned char periods, char) {
+int dhdSetWatchdog(unsigned char periods, char id) {
+  if (id != the_id) return -1;
   hardware().called("dhdSetWatchdog " + std::to_string(periods));
   if (!device().expert) return -1;
   device().told_ns = ream::test::monotonic_ns();
@@ -100,27 +105,30 @@ int dhdSetMaxForce(double newtons, char) {
   return 0;
 }
 
-int dhdEnableForce(unsigned char on, char) {
+int dhdEnableForce(unsigned char on, char id) {
+  if (id != the_id) return -1;
   hardware().called(on != 0 ? "dhdEnableForce on" : "dhdEnableForce off");
   if (!device().open) return -1;
   if (on != 0 && device().watchdog_ms == 0.0) hardware().refused("its force is on without a watchdog");
   if (on == 0 && hardware().fault == HardwareFault::none && hardware().force_now_n() > 0.0)
     hardware().refused("its force is switched off while it pushes");
   device().forced = on != 0;
+  if (on != 0 && hardware().fault == HardwareFault::force_off) hardware().fault = HardwareFault::none;
   if (on == 0) hardware().off();
   return 0;
 }
 
 bool dhdHasWrist(char) { return false; }
 
-int dhdGetStatus(int status[], char) {
+int dhdGetStatus(int status[], char id) {
   for (int i = 0; i < 16; ++i) status[i] = 0;
   status[0] = status[1] = status[2] = status[3] = 1;
-  return answers() ? 0 : -1;
+  status[5] = device().forced ? 1 : 0;
+  return answers(id) ? 0 : -1;
 }
 
-int dhdGetPositionAndOrientationFrame(double* x, double* y, double* z, double r[3][3], char) {
-  if (!answers()) return -1;
+int dhdGetPositionAndOrientationFrame(double* x, double* y, double* z, double r[3][3], char id) {
+  if (!answers(id)) return -1;
   const auto place_mm = hardware().move_hand(step_s);
   *x = place_mm[0] / mm_per_m;
   *y = place_mm[1] / mm_per_m;
@@ -137,9 +145,14 @@ int dhdGetPositionAndOrientationFrame(double* x, double* y, double* z, double r[
 unsigned dhdGetButtonMask(char) { return hardware().buttons; }
 
 int dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz, double tx, double ty, double tz,
-                                        double, char) {
-  if (!answers()) return -1;
+                                        double, char id) {
+  if (!answers(id)) return -1;
   device().told_ns = ream::test::monotonic_ns();
+  if (hardware().fault == HardwareFault::force_off) {
+    device().forced = false;
+    hardware().off();
+    return 0;
+  }
   const double force_n = std::hypot(fx, fy, fz);
   if (force_n > device().max_force_n + 1e-9) hardware().refused("a force beyond the device's limit");
   if (!device().forced && force_n > 0.0) hardware().refused("a force before it was switched on");

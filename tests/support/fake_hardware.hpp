@@ -33,6 +33,7 @@ enum class HardwareFault : int {
   absurd,      ///< they are a kilometre away
   slow,        ///< every answer takes 15 ms
   malformed,   ///< it answers what makes no sense
+  force_off,   ///< its force was switched off at the device, until it is switched on again (libdhd only)
 };
 
 /// What a fake device does and what was done to it: a hand, faults on demand, and a diary of every force with
