@@ -183,9 +183,19 @@ DeviceStatus AdmittanceDevice::write(const DeviceOutput& output) noexcept {
   return machine_->move_to(limiter_.now()) ? DeviceStatus::ok : DeviceStatus::fault;
 }
 
+/// Twice what it takes from its largest speed.
+double AdmittanceDevice::resting_ms() const noexcept {
+  return 2e3 * machine_->limits().motion.stop_time_s() + tick_ms;
+}
+
+double AdmittanceDevice::closing_ms() const noexcept {
+  // Each tick of the braking may come late.
+  return 2.0 * resting_ms() + letting_go_ms;
+}
+
 /// The loop has ended, so that waiting is allowed.
 void AdmittanceDevice::come_to_rest() noexcept {
-  const auto most_ticks = static_cast<int>(2.0 * machine_->limits().motion.stop_time_s() / tick_s) + 1;
+  const auto most_ticks = static_cast<int>(resting_ms() / tick_ms);
   MachineSense ignored;
   // Halted it brakes by itself, and is given the time for it.
   for (int i = 0; i < most_ticks && (halted_ || !limiter_.at_rest()); ++i) {

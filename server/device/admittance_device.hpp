@@ -32,6 +32,7 @@ class AdmittanceDevice final : public HapticDevice {
   DeviceStatus read(DeviceInput& input) noexcept override;
   DeviceStatus write(const DeviceOutput& output) noexcept override;
   void take_force_away() noexcept override { machine_->stop(); }
+  double closing_ms() const noexcept override;
 
   /// Of the sensor's range: from here on a force is taken for clipped.
   static constexpr double clipped_share = 0.98;
@@ -40,6 +41,8 @@ class AdmittanceDevice final : public HapticDevice {
   static constexpr double zeroing_spread_n = 2.0;
   /// By which a machine may move while its motors go on. Engineering choices.
   static constexpr double enabling_moves_max_mm = 2.0, enabling_turns_max_rad = 0.05;
+  /// What a driver has for stop(), disable() and close(). Engineering choice.
+  static constexpr double letting_go_ms = 250.0;
 
  private:
   void zero_sensor();
@@ -48,6 +51,7 @@ class AdmittanceDevice final : public HapticDevice {
   void halt() noexcept;
   bool is_good(const MachineSense& sense) const noexcept;
   Vec3 held_back_n() const noexcept;
+  double resting_ms() const noexcept;
   void come_to_rest() noexcept;
   void pace() const;
 

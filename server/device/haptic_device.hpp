@@ -98,6 +98,12 @@ class HapticDevice {
   /// outside its loop. Any thread may call it beside the others, and a signal handler of a crash: it does
   /// nothing that is not safe there.
   virtual void take_force_away() noexcept {}
+  /// How long write() and close() at the end may take together, as a machine that moves is braked to rest
+  /// first.
+  virtual double closing_ms() const noexcept { return 0.0; }
+  /// Threads of the device's own that exchange its forces ask for this SCHED_FIFO priority from the next
+  /// open() on, and take what they get; 0: for none.
+  virtual void use_priority(int) noexcept {}
 };
 
 }  // namespace ream::device

@@ -28,6 +28,8 @@ class MappedDevice final : public HapticDevice {
   DeviceStatus write(const DeviceOutput& output) noexcept override;
   void session_paused(bool paused) noexcept override;
   void take_force_away() noexcept override { device_->take_force_away(); }
+  double closing_ms() const noexcept override { return device_->closing_ms(); }
+  void use_priority(int fifo) noexcept override { device_->use_priority(fifo); }
 
   /// Faster than any hand, mm/s of the device: what moves more between two reads has not been moved by one.
   static constexpr double fastest_hand_mm_s = 5000.0;

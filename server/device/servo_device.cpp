@@ -1,6 +1,8 @@
 #include "device/servo_device.hpp"
 
 #include <poll.h>
+#include <pthread.h>
+#include <sched.h>
 
 #include "core/error.hpp"
 #include "core/log.hpp"
@@ -71,7 +73,16 @@ void ServoDevice::take_force_away() noexcept {
   }
 }
 
+/// For this thread alone: not for those that a maker's library starts on it.
+void ServoDevice::ask_for_priority() const noexcept {
+  if (fifo_priority_ == 0) return;
+  sched_param parameters{};
+  parameters.sched_priority = fifo_priority_;
+  ::pthread_setschedparam(::pthread_self(), SCHED_FIFO | SCHED_RESET_ON_FORK, &parameters);
+}
+
 void ServoDevice::run() {
+  ask_for_priority();
   try {
     servo_end_.begin();
     servo_->open(servo_end_);

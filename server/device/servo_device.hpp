@@ -28,8 +28,10 @@ class ServoDevice final : public HapticDevice {
   /// Waits 10 ms at most for the driver to have rendered nothing, so that a process that dies thereafter
   /// leaves no force behind where its driver still runs.
   void take_force_away() noexcept override;
+  void use_priority(int fifo) noexcept override { fifo_priority_ = fifo; }
 
  private:
+  void ask_for_priority() const noexcept;
   void run();
   void serve();
   void go_away() noexcept;
@@ -41,6 +43,7 @@ class ServoDevice final : public HapticDevice {
   ServoEnd servo_end_;
   const std::unique_ptr<Servo> servo_;
   std::thread thread_;
+  int fifo_priority_ = 0;  ///< that it asks for; 0: none
   std::atomic<bool> leaving_{false}, unusable_{false};
   std::atomic<bool> serving_{false};        ///< the driver turns: what is taken away is soon gone
   std::atomic<bool> without_force_{false};  ///< a turn has begun since the force was taken away

@@ -79,6 +79,8 @@ HapticLoop::~HapticLoop() {
 }
 
 void HapticLoop::start() {
+  const bool realtime = options_.wall_clock && options_.realtime != Realtime::off;
+  device_.use_priority(realtime ? driver_fifo_priority : 0);
   device_.open();
   std::atomic<bool> asked{false};
   bool usable = true;
@@ -144,6 +146,7 @@ void HapticLoop::loop() noexcept {
       end = one_tick(input, lateness_us);
       summarise(state_.tick % publish_every_ticks);
     }
+    if (guard_) guard_->closing(std::chrono::milliseconds(static_cast<int64_t>(device_.closing_ms())));
   }
   for (uint32_t which = 0; which < summaries; ++which) summarise(which);
   if (guard_) guard_->end();

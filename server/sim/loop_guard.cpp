@@ -21,7 +21,7 @@ void ask_for_priority() noexcept {
 }  // namespace
 
 LoopGuard::LoopGuard(device::HapticDevice& device, std::chrono::milliseconds limit, bool realtime)
-    : device_(device), limit_(limit), thread_([this, realtime] { watch(realtime); }) {}
+    : device_(device), limit_ns_(std::chrono::nanoseconds(limit).count()), thread_([this, realtime] { watch(realtime); }) {}
 
 LoopGuard::~LoopGuard() {
   {
@@ -37,6 +37,11 @@ bool LoopGuard::beat() noexcept {
   return !tripped();
 }
 
+void LoopGuard::closing(std::chrono::milliseconds longer) noexcept {
+  limit_ns_.fetch_add(std::chrono::nanoseconds(longer).count(), std::memory_order_acq_rel);
+  beat();
+}
+
 void LoopGuard::watch(bool realtime) {
   if (realtime) ask_for_priority();
   std::unique_lock lock(mutex_);
@@ -48,7 +53,7 @@ void LoopGuard::look() noexcept {
   if (beat_ns == 0 || ended_.load(std::memory_order_acquire)) return;
   const int64_t still_ns = steady_ns() - beat_ns;
   if (!tripped()) {
-    if (still_ns <= std::chrono::nanoseconds(limit_).count()) return;
+    if (still_ns <= limit_ns_.load(std::memory_order_acquire)) return;
     device_.take_force_away();
     tripped_beat_ns_ = beat_ns;
   }

@@ -31,6 +31,8 @@ class LoopGuard {
 
   /// The loop begins a tick; wait-free. False: it has stood still, and must end.
   bool beat() noexcept;
+  /// The loop is about to close its device, which may take so much longer than a tick; wait-free.
+  void closing(std::chrono::milliseconds longer) noexcept;
   /// The loop has ended in order: nothing is watched any more.
   void end() noexcept { ended_.store(true, std::memory_order_release); }
 
@@ -44,7 +46,7 @@ class LoopGuard {
   void look() noexcept;
 
   device::HapticDevice& device_;
-  const std::chrono::milliseconds limit_;
+  std::atomic<int64_t> limit_ns_;
   std::atomic<int64_t> beat_ns_{0};
   std::atomic<bool> ended_{false};
   std::atomic<int64_t> stood_still_ms_{0};

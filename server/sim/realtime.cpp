@@ -8,7 +8,6 @@
 namespace ream::sim {
 namespace {
 
-constexpr int fifo_priority = 40;
 /// Ordinary threads may be woken up to 50 us late so that the kernel can bundle timers; ours may not.
 constexpr unsigned long timer_slack_ns = 1;
 
@@ -27,7 +26,7 @@ RealtimeGrant ask_for_realtime(Realtime mode, int cpu) noexcept {
   if (mode == Realtime::off) return grant;
   ::prctl(PR_SET_TIMERSLACK, timer_slack_ns);
   sched_param parameters{};
-  parameters.sched_priority = fifo_priority;
+  parameters.sched_priority = loop_fifo_priority;
   grant.fifo = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO | SCHED_RESET_ON_FORK, &parameters) == 0;
   grant.locked = ::mlockall(MCL_CURRENT) == 0;
   if (cpu >= 0 && pin_to(cpu)) grant.cpu = cpu;

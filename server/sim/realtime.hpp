@@ -6,6 +6,9 @@ namespace ream::sim {
 /// How the loop gets its scheduling: real-time priority and locked memory demanded, tried, or left alone.
 enum class Realtime { require, attempt, off };
 
+/// SCHED_FIFO priorities of the haptic loop, and of the threads that exchange its forces with a device.
+inline constexpr int loop_fifo_priority = 40, driver_fifo_priority = loop_fifo_priority - 1;
+
 /// What the kernel gave the calling thread.
 struct RealtimeGrant {
   bool fifo = false;    ///< SCHED_FIFO: nothing ordinary runs before it

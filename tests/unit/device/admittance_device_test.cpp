@@ -280,6 +280,13 @@ TEST(AdmittanceDevice, AMachineThatMovesOrFallsSilentWhenItsMotorsGoOnIsRefused)
   refused("since its motors are on", 0.0, std::nan(""));
 }
 
+TEST(AdmittanceDevice, SaysHowLongItsBrakingMayTake) {
+  for (const PlantKind& kind : plants()) {
+    Rig rig(kind, 0.0);
+    EXPECT_GT(rig.device.closing_ms(), 2e3 * kind.plant.limits.motion.stop_time_s() + 100.0);
+  }
+}
+
 TEST(AdmittanceDevice, TakenAwayFromOutsideItStopsByItself) {
   for (const PlantKind& kind : plants()) {
     SCOPED_TRACE(kind.plant.name);

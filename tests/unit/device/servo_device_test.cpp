@@ -1,6 +1,8 @@
 #include "device/servo_device.hpp"
 
 #include <gtest/gtest.h>
+#include <pthread.h>
+#include <sched.h>
 
 #include <cmath>
 #include <functional>
@@ -100,7 +102,7 @@ TEST_F(ServoEndTest, RefusesWhatIsNoPoseOrNoForce) {
 /// Hardware in the memory of the test.
 struct Rack {
   std::atomic<bool> there{true}, usable{true}, memory{true};
-  std::atomic<int> turns{0}, opened{0}, tried{0};
+  std::atomic<int> turns{0}, opened{0}, tried{0}, priority{-1};
   std::atomic<double> force_n{0.0};
   std::string diary;  ///< while nothing runs
 };
@@ -112,6 +114,10 @@ class RackServo final : public Servo {
     ++rack_.tried;
     if (!rack_.memory) throw std::bad_alloc();
     if (!rack_.there) throw Error(ErrorKind::unavailable, "the rack is empty");
+    int policy = SCHED_OTHER;
+    sched_param parameters{};
+    ::pthread_getschedparam(::pthread_self(), &policy, &parameters);
+    rack_.priority = parameters.sched_priority;
     ++rack_.opened;
     rack_.diary += "open ";
   }
@@ -233,6 +239,26 @@ TEST_F(ServoDeviceTest, WhatIsTakenAwayIsGoneWhenTheCallReturns) {
     press_in_vain();
   }
   EXPECT_TRUE(gone);
+}
+
+/// What the kernel grants a new thread.
+int granted(int fifo_priority) {
+  int priority = 0;
+  std::thread([&] {
+    sched_param parameters{};
+    parameters.sched_priority = fifo_priority;
+    if (::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &parameters) == 0) priority = fifo_priority;
+  }).join();
+  return priority;
+}
+
+TEST_F(ServoDeviceTest, ItsThreadRunsAtThePriorityThatItIsTold) {
+  for (const int wanted : {39, 0}) {
+    device.use_priority(wanted);
+    device.open();
+    EXPECT_EQ(rack.priority, wanted == 0 ? 0 : granted(wanted));
+    device.close();
+  }
 }
 
 /// Hardware that asks for the force in a loop of its own, as OpenHaptics does. It is told forces whose parts
