@@ -95,10 +95,11 @@ class AdmittancePlant final : public AdmittanceMachine {
     servo_.begin(hand_.plan_from_hand());
     random_.seed(random_seed_);
     tick_ = 0;
-    enabled_ = session_paused_ = false;
+    enabled_ = just_enabled_ = session_paused_ = false;
     stopped_.store(false, std::memory_order_relaxed);
   }
-  void enable() override { enabled_ = true; }
+  /// The first look after it is before any motion.
+  void enable() override { enabled_ = just_enabled_ = true; }
   void session_paused(bool paused) noexcept override { session_paused_ = paused; }
 
   DeviceStatus sense(MachineSense& sense) noexcept override {
@@ -107,7 +108,9 @@ class AdmittancePlant final : public AdmittanceMachine {
     const TimedButtons buttons = buttons_at(script_.buttons, t_s);
     sense.spindle_on = buttons.spindle;
     sense.paused = buttons.pause;
-    const Load on_handle = enabled_ ? move(t_s, buttons.pause || session_paused_) : Load{};
+    const bool moves = enabled_ && !just_enabled_;
+    just_enabled_ = false;
+    const Load on_handle = moves ? move(t_s, buttons.pause || session_paused_) : Load{};
     sense.base_from_handle = servo_.measured();
     sense.force_n = on_handle.force_n / script_.force_scale + plant_.sensor_bias_n;
     for (Eigen::Index axis = 0; axis < 3; ++axis)
@@ -163,7 +166,7 @@ class AdmittancePlant final : public AdmittanceMachine {
   std::mt19937_64 random_;
   std::normal_distribution<double> noise_{0.0, 1.0};
   int64_t tick_ = 0;
-  bool enabled_ = false, session_paused_ = false;
+  bool enabled_ = false, just_enabled_ = false, session_paused_ = false;
   std::atomic<bool> stopped_{false};
 };
 

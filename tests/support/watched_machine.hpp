@@ -48,7 +48,7 @@ class WatchedMachine final : public device::AdmittanceMachine {
   void enable() override {
     machine_->enable();
     seen_->calls.emplace_back("enable");
-    senses_ = 0;
+    senses_ = -1;  // a look at where it holds comes before the first tick
     enabled_ = true;
   }
 
@@ -59,7 +59,7 @@ class WatchedMachine final : public device::AdmittanceMachine {
     if (begun_ && seen_->told.empty()) begun_ = false;
     if (!begun_ && status == device::DeviceStatus::ok) first_ = sense.base_from_handle;
     last_ = sense;
-    if (enabled_) seen_->measured.push_back(sense.base_from_handle);
+    if (enabled_ && senses_ >= 0) seen_->measured.push_back(sense.base_from_handle);
     const bool now = enabled_ && senses_ >= fault_.from && senses_ < fault_.from + fault_.ticks;
     ++senses_;
     if (!now) return status;
