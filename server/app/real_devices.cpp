@@ -43,7 +43,8 @@ MadeDevice make(const Driver& driver, const DeviceWish& wish) {
 }
 
 DeviceKind kind_of(const Driver& driver) {
-  return {driver.name, driver.profiles.front(), [driver](const fs::path& data) { return offer(driver, data); },
+  return {driver.name, driver.profiles.front(),
+          [driver](const fs::path& data) { return offer(driver, data); },
           [driver](const DeviceWish& wish) { return make(driver, wish); }, driver.profiles};
 }
 

@@ -100,14 +100,16 @@ void AdmittanceDevice::look_where_it_holds() {
   if (machine_->sense(sense) != DeviceStatus::ok)
     throw Error(ErrorKind::unavailable, who + "it cannot be read since its motors are on; check its cable");
   if (!is_good(sense) || sense.age_ms > traits().stale.hold_ms)
-    throw Error(ErrorKind::unavailable,
-                who + "its sensor is silent or beyond its range since its motors are on; let go of the handle");
+    throw Error(
+        ErrorKind::unavailable,
+        who + "its sensor is silent or beyond its range since its motors are on; let go of the handle");
   const Pose &before = said_.base_from_handle, &now = sense.base_from_handle;
   if ((now.translation_mm - before.translation_mm).norm() > enabling_moves_max_mm ||
       turn_between(before.rotation, now.rotation).norm() > enabling_turns_max_rad)
     throw Error(ErrorKind::unavailable,
-                who + "it moved when its motors went on; check its brakes and its controller, and let go of "
-                      "the handle");
+                who +
+                    "it moved when its motors went on; check its brakes and its controller, and let go of "
+                    "the handle");
   said_ = sense;
 }
 

@@ -30,7 +30,7 @@ struct HaplyDevice {
   bool button_a = false, button_b = false, button_c = false;
   bool grip_connected = true;  ///< as it was last said
   bool grip_told = false;      ///< the newest frame tells of the grip, and it is connected
-  double force_scale = 1.0;  ///< what the service multiplies forces with
+  double force_scale = 1.0;    ///< what the service multiplies forces with
 };
 
 /// Follows one Inverse3 and one grip through the frames of a connection.

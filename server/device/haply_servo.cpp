@@ -121,8 +121,9 @@ class HaplyServo final : public Servo {
     const bool lost = should_have_grip() && now_ns - grip_ns_ > grip_lost_ns;
     if (lost) reader_.release_buttons();
     if (lost && !grip_lost_)
-      log::warn("haply: nothing is heard of the grip; the session rests until it is back (wake it up, or look at "
-                "its battery)");
+      log::warn(
+          "haply: nothing is heard of the grip; the session rests until it is back (wake it up, or look at "
+          "its battery)");
     if (!lost && grip_lost_) log::info("haply: the grip is back");
     grip_lost_ = lost;
   }

@@ -75,8 +75,8 @@ class Servo {
   virtual void turn(ServoEnd& end) = 0;
   /// Zero force, force off, closed, in that order; also after a failed open() or turn().
   virtual void close() noexcept = 0;
-  /// Whether a thread of the hardware's own asks for the force between open() and close(). Nobody else may ask
-  /// then: one thread alone reads the newest force. turn() waits for that thread by itself.
+  /// Whether a thread of the hardware's own asks for the force between open() and close(). Nobody else may
+  /// ask then: one thread alone reads the newest force. turn() waits for that thread by itself.
   virtual bool takes_force_elsewhere() const noexcept { return false; }
 };
 

@@ -119,8 +119,8 @@ void WebSocketClient::resolve(const std::string& host, uint16_t port, Millisecon
 
 void WebSocketClient::shake_hands(const std::string& target, Milliseconds most) {
   Parts& parts = *parts_;
-  if (const error_code failed =
-          parts.within(most, [&](auto done) { asio::async_connect(parts.socket(), known_->endpoints, std::move(done)); }))
+  if (const error_code failed = parts.within(
+          most, [&](auto done) { asio::async_connect(parts.socket(), known_->endpoints, std::move(done)); }))
     parts.lost("cannot be reached", failed);
   error_code ignored;
   parts.socket().set_option(tcp::no_delay(true), ignored);

@@ -10,7 +10,8 @@ namespace ream::net {
 
 /// The client's side of a WebSocket that speaks text, for a thread of its own that may wait: every call ends
 /// within its time, but for the first connect() to a host by its name, which may take as long as this system
-/// looks for names (half a minute where its name servers do not answer). Plain TCP, no TLS: for services on this machine or in the same room. One thread.
+/// looks for names (half a minute where its name servers do not answer). Plain TCP, no TLS: for services on
+/// this machine or in the same room. One thread.
 class WebSocketClient {
  public:
   using Milliseconds = std::chrono::milliseconds;

@@ -21,7 +21,9 @@ void ask_for_priority() noexcept {
 }  // namespace
 
 LoopGuard::LoopGuard(device::HapticDevice& device, std::chrono::milliseconds limit, bool realtime)
-    : device_(device), limit_ns_(std::chrono::nanoseconds(limit).count()), thread_([this, realtime] { watch(realtime); }) {}
+    : device_(device),
+      limit_ns_(std::chrono::nanoseconds(limit).count()),
+      thread_([this, realtime] { watch(realtime); }) {}
 
 LoopGuard::~LoopGuard() {
   {

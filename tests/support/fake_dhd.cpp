@@ -1,6 +1,6 @@
 // A libdhd.so with one omega.3 or sigma.7 in it: exports the maker's symbols, and fake_hardware() for tests.
-// It is the library's number 0 and has the id 3 once it is open. Its firmware's watchdog switches the force off;
-// the hand moves on 1 ms with each force.
+// It is the library's number 0 and has the id 3 once it is open. Its firmware's watchdog switches the force
+// off; the hand moves on 1 ms with each force.
 #include <poll.h>
 
 #include <thread>

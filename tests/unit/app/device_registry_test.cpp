@@ -75,8 +75,7 @@ TEST_F(DeviceRegistry, RealDevicesTakeTheProfilesOfTheirModelsOnly) {
   const std::map<std::string, std::vector<std::string>> fitting{
       {"haply", {"inverse3"}},
       {"forcedimension", {"omega.3", "omega.6", "omega.7", "delta.3", "sigma.7", "lambda.7", "falcon"}},
-      {"openhaptics",
-       {"touch", "phantom-omni", "phantom-desktop", "premium-1.5-6dof", "premium-3.0-6dof"}}};
+      {"openhaptics", {"touch", "phantom-omni", "phantom-desktop", "premium-1.5-6dof", "premium-3.0-6dof"}}};
   for (const auto& [name, models] : fitting) {
     std::string names;
     for (const std::string& model : models) names += (names.empty() ? "" : ", ") + model;

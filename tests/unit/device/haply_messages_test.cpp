@@ -12,7 +12,8 @@ namespace {
 using nlohmann::json;
 using test::expect_error;
 
-std::string message(const Vec3& force_n, HaplyForceForm form, HaplyWish wish, const std::string& id = "049D") {
+std::string message(const Vec3& force_n, HaplyForceForm form, HaplyWish wish,
+                    const std::string& id = "049D") {
   std::string text = "what was there before";
   write_haply_message(text, id, force_n, form, wish);
   return text;
@@ -41,7 +42,8 @@ TEST(HaplyMessage, AsksForEverythingBesideItsForce) {
 }
 
 TEST(HaplyMessage, RoundsToAMicronewtonAndIsAlwaysJson) {
-  const json said = json::parse(message({1.0 / 3.0, -1e-9, 1e-300}, HaplyForceForm::vector, HaplyWish::nothing, "a\"b"));
+  const json said =
+      json::parse(message({1.0 / 3.0, -1e-9, 1e-300}, HaplyForceForm::vector, HaplyWish::nothing, "a\"b"));
   const json& device = said.at("inverse3").at(0);
   EXPECT_EQ(device.at("device_id"), "a\"b");
   const json& force = device.at("commands").at("set_cursor_force").at("vector");
@@ -108,8 +110,8 @@ TEST(HaplyReader, TakesTheScaleOfForcesFromAnyFrameWithAConfiguration) {
   reader.take_inventory(inventory);
   std::string why;
   const auto state = [](const char* config) {
-    return std::string(R"({"inverse3":[{"device_id":"049D","state":{"cursor_position":{}},"config":)") + config +
-           "}]}";
+    return std::string(R"({"inverse3":[{"device_id":"049D","state":{"cursor_position":{}},"config":)") +
+           config + "}]}";
   };
   ASSERT_TRUE(reader.take_state(state(R"({"filters":{"force_scale":{"gain":3}}})"), why)) << why;
   EXPECT_EQ(reader.device().force_scale, 3.0);

@@ -38,7 +38,8 @@ TEST(WebSocketClient, SaysInAnErrorOfOursThatNoHandleIsLeft) {
                        [&] { client.connect("127.0.0.1", 9, "/", 100ms); });
   }
   EXPECT_FALSE(client.is_open());
-  test::expect_error(ErrorKind::unavailable, "127.0.0.1:", [&] { client.connect("127.0.0.1", 9, "/", 100ms); });
+  test::expect_error(ErrorKind::unavailable,
+                     "127.0.0.1:", [&] { client.connect("127.0.0.1", 9, "/", 100ms); });
 }
 
 }  // namespace
