@@ -113,10 +113,10 @@ TEST_F(Haply, RestsWithItsButtonsReleasedWhileItsGripIsLost) {
   for (const FakeHaply::Grip loss : {FakeHaply::Grip::gone, FakeHaply::Grip::not_connected}) {
     open({});
     until([&] { return input.spindle_on && input.deadman && !input.paused; });
-    fake->grip = loss;
+    fake->grip_now = loss;
     until([&] { return !input.spindle_on && !input.deadman && input.paused; });
     EXPECT_FALSE(input.clutch);
-    fake->grip = FakeHaply::Grip::there;
+    fake->grip_now = FakeHaply::Grip::there;
     until([&] { return input.spindle_on && input.deadman && !input.paused; });
     device->close();
   }

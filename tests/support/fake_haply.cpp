@@ -178,7 +178,7 @@ void FakeHaply::serve_events(int socket) {
 
 /// Null where there is none. `whole`: with its orientation and configuration.
 json FakeHaply::grip_of_now(bool whole) const {
-  const Grip now = grip;
+  const Grip now = grip_now;
   if (!setting_.grip || now == Grip::gone) return nullptr;
   json state = json::object();
   const unsigned pressed = whole ? 0 : hardware_.buttons.load();

@@ -26,7 +26,7 @@ class FakeHaply {
   };
   /// Left out of every state, told as not connected, or there.
   enum class Grip { there, gone, not_connected };
-  std::atomic<Grip> grip{Grip::there};
+  std::atomic<Grip> grip_now{Grip::there};
   FakeHaply() : FakeHaply(Setting{}) {}
   explicit FakeHaply(const Setting& setting);
   ~FakeHaply();
