@@ -112,6 +112,22 @@ TEST(LoopGuard, ADeadLoopLosesItsForceOnceAndForGood) {
   EXPECT_EQ(device.taken_away, 1);
 }
 
+TEST(LoopGuard, ADeviceThatIsClosedMayTakeItsTime) {
+  CountingDevice device;
+  sim::LoopGuard guard(device, 20ms, false);
+  guard.beat();
+  guard.closing(std::chrono::hours(1));
+  // A machine that stands still may have lost its force before.
+  const int before = device.taken_away;
+  std::this_thread::sleep_for(60ms);
+  EXPECT_EQ(device.taken_away, before);
+  sim::LoopGuard shorter(device, 20ms, false);
+  shorter.beat();
+  shorter.closing(20ms);
+  wait_until([&] { return device.taken_away > before; });
+  EXPECT_GT(shorter.stood_still_ms(), 20);
+}
+
 TEST(LoopGuard, OneThatNobodyHoldsOrThatLetsGoByItselfIsGivenMoreTime) {
   device::DeviceTraits traits;
   EXPECT_EQ(sim::LoopGuard::limit_for(traits), 50ms);
