@@ -12,8 +12,10 @@ export class BlockLayout {
   private readonly blocks: Vector3;
 
   constructor(private readonly hello: Hello) {
-    const edge = hello.blockEdgeVoxels;
-    this.blocks = new Vector3(...hello.gridDims).divideScalar(edge).ceil();
+    const [x, y, z] = hello.gridDims;
+    // Not by divideScalar(), which multiplies by 1 / edge: 525 voxels would make 8 blocks of 75.
+    const along = (voxels: number) => Math.ceil(voxels / hello.blockEdgeVoxels);
+    this.blocks = new Vector3(along(x), along(y), along(z));
   }
 
   /** Which region a block belongs to. */
