@@ -21,6 +21,7 @@ export class RegionMesh {
   readonly mesh: Mesh;
   /** Where in the indices each block is. */
   private readonly parts = new Map<number, { start: number; count: number }>();
+  private leftOut = false;
 
   /** At least one surface, none empty, all of one region; what is drawn is copied. */
   constructor(layout: BlockLayout, surfaces: readonly BlockSurface[], material: Material) {
@@ -54,12 +55,18 @@ export class RegionMesh {
     this.mesh.matrix.copy(layout.gridFromRegionSteps(surfaces[0]?.block ?? 0));
   }
 
+  /** Whether all that it was made of is drawn. */
+  get whole(): boolean {
+    return !this.leftOut;
+  }
+
   /** A block that is drawn otherwise from here on, or not at all: all its corners fall into one. */
   leaveOut(block: number): void {
     const part = this.parts.get(block);
     const { index } = this.mesh.geometry;
     if (part === undefined || index === null) return;
     this.parts.delete(block);
+    this.leftOut = true;
     (index.array as Uint16Array | Uint32Array).fill(0, part.start, part.start + part.count);
     index.addUpdateRange(part.start, part.count);
     index.needsUpdate = true;
