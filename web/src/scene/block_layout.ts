@@ -1,4 +1,4 @@
-import { Matrix4, Quaternion, Sphere, Vector3 } from 'three';
+import { Box3, Matrix4, Quaternion, Sphere, Vector3 } from 'three';
 
 import type { Hello } from '../wire/messages';
 
@@ -49,8 +49,19 @@ export class BlockLayout {
     return this.ball(regionEdgeBlocks);
   }
 
+  /** All that a block can hold and a little more, in the steps of its region. */
+  blockBoxInRegion(block: number): Box3 {
+    const begin = this.stepsInRegion(block);
+    return new Box3(begin, begin.clone().addScalar(this.stepsAlong(1))).expandByScalar(1);
+  }
+
+  /** A voxel more than so many blocks at both ends. */
+  private stepsAlong(edgeBlocks: number): number {
+    return (edgeBlocks * this.hello.blockEdgeVoxels + 2) * stepsPerVoxel;
+  }
+
   private ball(edgeBlocks: number): Sphere {
-    const halfEdge = ((edgeBlocks * this.hello.blockEdgeVoxels + 2) / 2) * stepsPerVoxel;
+    const halfEdge = this.stepsAlong(edgeBlocks) / 2;
     return new Sphere(new Vector3(halfEdge, halfEdge, halfEdge), halfEdge * Math.sqrt(3));
   }
 

@@ -10,6 +10,7 @@ import {
 import type { BlockSurface } from '../wire/messages';
 import type { BlockLayout } from './block_layout';
 import { kindAttribute } from './bone_paint';
+import { type GeometryPart, haveParts } from './line_hits';
 
 /** Values of a vertex in a block's buffers. */
 const stride = 4;
@@ -20,7 +21,7 @@ const shortMost = 0xffff;
 export class RegionMesh {
   readonly mesh: Mesh;
   /** Where in the indices each block is. */
-  private readonly parts = new Map<number, { start: number; count: number }>();
+  private readonly parts = new Map<number, GeometryPart>();
   private leftOut = false;
 
   /** At least one surface, none empty, all of one region; what is drawn is copied. */
@@ -39,7 +40,7 @@ export class RegionMesh {
       normals.set(surface.normals, stride * vertex);
       const count = surface.indices.length;
       for (let i = 0; i < count; ++i) indices[start + i] = (surface.indices[i] ?? 0) + vertex;
-      this.parts.set(surface.block, { start, count });
+      this.parts.set(surface.block, { start, count, box: layout.blockBoxInRegion(surface.block) });
       vertex += surface.positions.length / stride;
       start += count;
     }
@@ -50,6 +51,7 @@ export class RegionMesh {
     geometry.setAttribute(kindAttribute, new InterleavedBufferAttribute(directions, 1, 3));
     geometry.setIndex(new BufferAttribute(indices, 1));
     geometry.boundingSphere = layout.regionBall();
+    haveParts(geometry, this.parts);
     this.mesh = new Mesh(geometry, material);
     this.mesh.matrixAutoUpdate = false;
     this.mesh.matrix.copy(layout.gridFromRegionSteps(surfaces[0]?.block ?? 0));

@@ -1,3 +1,4 @@
+import { Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
 
 import { BlockLayout } from '../../src/scene/block_layout';
@@ -34,6 +35,19 @@ describe('BlockLayout', () => {
         expect(beginOf(whole, blocks - 1)).toEqual([(blocks - 1) * edge, 0, 0]);
         expect(beginOf(whole, blocks)).toEqual([0, edge, 0]);
       }
+    }
+  });
+
+  it('knows where in its region a block can have corners', () => {
+    const whole = layout({ gridDims: [300, 200, 170], blockEdgeVoxels: 32 });
+    for (let block = 0; block < 10 * 7 * 6; ++block) {
+      const box = whole.blockBoxInRegion(block);
+      const inRegion = whole.gridFromRegionSteps(block).invert();
+      for (const steps of [0, 34 * 1024]) {
+        const corner = new Vector3(steps, steps, steps).applyMatrix4(whole.gridFromBlockSteps(block));
+        expect(box.containsPoint(corner.applyMatrix4(inRegion))).toBe(true);
+      }
+      expect(Math.max(...box.getSize(new Vector3()).toArray())).toBeLessThan(35 * 1024);
     }
   });
 });

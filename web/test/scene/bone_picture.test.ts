@@ -1,44 +1,11 @@
-import { Mesh, MeshBasicMaterial, Vector3 } from 'three';
+import { Mesh, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
 
-import { BonePicture } from '../../src/scene/bone_picture';
-import type { BlockSurface, Hello } from '../../src/wire/messages';
-import { hello } from '../wire/fake_messages';
+import type { BonePicture } from '../../src/scene/bone_picture';
+import type { BlockSurface } from '../../src/wire/messages';
+import { blockCount, fullSurface, pictured, placeOf, randomNumbers, randomSurface } from './random_surfaces';
 
-const gridDims = [300, 200, 170] as const;
-const edge = 32;
-const blockCount = 10 * 7 * 6;
-const spacing = new Vector3(0.5, 0.25, 0.75);
 const settledMs = 10_000;
-
-function pictured(): BonePicture {
-  const message = hello({ gridDims, blockEdgeVoxels: edge, voxelSpacingMm: spacing.toArray() });
-  if (message.kind !== 'hello') throw new Error('not a hello');
-  return new BonePicture(message.hello satisfies Hello, new MeshBasicMaterial());
-}
-
-/** Numbers from 0 to 1 that are the same for the same seed. */
-function randomNumbers(seed: number): () => number {
-  let state = seed;
-  return () => {
-    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
-    return state / 2 ** 32;
-  };
-}
-
-function randomSurface(random: () => number, block: number, revision: number): BlockSurface {
-  const triangles = Math.floor(random() * 5);
-  const corners = 3 * triangles;
-  const among = (count: number) => Math.floor(random() * count);
-  return {
-    block,
-    revision,
-    tick: 0,
-    positions: Uint16Array.from({ length: 4 * corners }, (_, i) => (i % 4 === 3 ? 0 : among(34 * 1024))),
-    normals: Int16Array.from({ length: 4 * corners }, (_, i) => (i % 4 === 3 ? among(4) - 1 : among(65535) - 32767)),
-    indices: Uint16Array.from({ length: corners }, (_, i) => i),
-  };
-}
 
 /** Of each corner its place in the grid, mm, its direction and its kind of bone. */
 type Corner = readonly [place: Vector3, direction: string, kind: number];
@@ -74,18 +41,11 @@ function drawn(picture: BonePicture): string[] {
   return found.sort();
 }
 
-/** Blocks begin one voxel before their own; x runs fastest. */
 function told(surfaces: Iterable<BlockSurface>): string[] {
   const found: string[] = [];
   for (const { block, positions, normals, indices } of surfaces) {
-    const origin = new Vector3(block % 10, Math.floor(block / 10) % 7, Math.floor(block / 70));
     const corner = (at: number): Corner => [
-      new Vector3()
-        .fromArray(positions, 4 * at)
-        .divideScalar(1024)
-        .addScaledVector(origin, edge)
-        .subScalar(1)
-        .multiply(spacing),
+      placeOf(block, positions, at),
       Array.from(normals.subarray(4 * at, 4 * at + 3), (x) => Math.max(x / 32767, -1).toFixed(6)).join(','),
       normals[4 * at + 3] ?? NaN,
     ];
@@ -100,12 +60,6 @@ const drawnIndices = (picture: BonePicture) =>
 const regionOf = (block: number) =>
   [block % 10, Math.floor(block / 10) % 7, Math.floor(block / 70)].map((at) => Math.floor(at / 4)).join(' ');
 
-function fullSurface(random: () => number, block: number, revision: number): BlockSurface {
-  for (;;) {
-    const surface = randomSurface(random, block, revision);
-    if (surface.indices.length > 0) return surface;
-  }
-}
 const emptySurface = (block: number, revision: number) => randomSurface(() => 0, block, revision);
 
 /** Blocks 0 to 2, of one region, drawn together. */
