@@ -18,10 +18,17 @@ inline void pause_processor() {
 
 Crew::Crew(int threads) {
   if (threads <= 0) threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  for (int worker = 1; worker < threads; ++worker) helpers_.emplace_back([this, worker] { help(worker); });
+  try {
+    for (int worker = 1; worker < threads; ++worker) helpers_.emplace_back([this, worker] { help(worker); });
+  } catch (...) {
+    send_home();
+    throw;
+  }
 }
 
-Crew::~Crew() {
+Crew::~Crew() { send_home(); }
+
+void Crew::send_home() {
   {
     const std::lock_guard lock(mutex_);
     ends_ = true;

@@ -20,9 +20,9 @@ class Crew {
 
   int threads() const { return static_cast<int>(helpers_.size()) + 1; }
 
-  /// Calls work(piece, worker) for all pieces below count, worker from 0 to threads() - 1, and returns when
-  /// all are done. `told` hears from the asking thread how far it is. The first exception of `work` or `told`
-  /// ends the job early and is thrown here.
+  /// Jobs come from one thread at a time. Calls work(piece, worker) for all pieces below count, worker from 0
+  /// to threads() - 1, and returns when all are done. `told` hears from the asking thread how far it is. The
+  /// first exception of `work` or `told` ends the job early and is thrown here.
   void run(size_t count, const std::function<void(size_t piece, int worker)>& work,
            const std::function<void(double share)>& told = {});
 
@@ -33,6 +33,7 @@ class Crew {
     const std::function<void(double)>* told = nullptr;
   };
   void help(int worker);
+  void send_home();
   void take_pieces(int worker);
 
   std::mutex mutex_;

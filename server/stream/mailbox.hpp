@@ -21,7 +21,8 @@ struct Parcel {
 /// and the latest telemetry; what telemetry was dropped is counted and told. Thread-safe.
 class Mailbox {
  public:
-  static constexpr size_t max_telemetry_batches = 60;       ///< about two seconds
+  static constexpr size_t max_telemetry_batches =
+      2'000'000'000 / telemetry_interval_ns;                ///< two seconds or a little more
   static constexpr size_t mesh_message_bytes = 256 * 1024;  ///< of the first whole picture
   /// Of what changes afterwards: telemetry, whose turn is next, is not kept waiting for long by a slow line.
   static constexpr size_t update_message_bytes = 16 * 1024;

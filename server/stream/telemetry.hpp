@@ -67,11 +67,15 @@ struct TelemetryBatch {
 
 using SharedTelemetry = std::shared_ptr<const TelemetryBatch>;
 
-/// Collects samples and publishes them about 60 times a second. Used by one thread.
+/// From one batch to the next at least, unless a gap or flush() ends one sooner: about 60 a second.
+inline constexpr int64_t telemetry_interval_ns = 15'000'000;
+
+/// Collects samples and publishes them every telemetry_interval_ns. Used by one thread.
 class TelemetryBatcher {
  public:
   /// Samples are expected every `tick_stride` ticks; a larger step ends the batch and counts as lost entries.
-  explicit TelemetryBatcher(Fanout& fanout, uint32_t tick_stride = 1, int64_t interval_ns = 15'000'000);
+  explicit TelemetryBatcher(Fanout& fanout, uint32_t tick_stride = 1,
+                            int64_t interval_ns = telemetry_interval_ns);
 
   /// Takes in a sample; publishes nothing but batches that this sample ends.
   void add(const TelemetrySample& sample);

@@ -37,7 +37,7 @@ struct Batch {
   Placed<Double8> placed;
   Prepared<Double8> prepared;
 
-  void set(const SurfaceMarker& marker, const uint32_t* triangles, int dims_x, const RowRange& rows) {
+  void place(const SurfaceMarker& marker, const uint32_t* triangles, int dims_x, const RowRange& rows) {
     float corners[3][3][lanes];
     for (int lane = 0; lane < lanes; ++lane) {
       const auto& indices = marker.mesh.triangles[triangles[lane]];
@@ -54,7 +54,6 @@ struct Batch {
         file[k][i] = __builtin_convertvector(lane_floats, Double8);
       }
     placed.place(file, marker.map, dims_x, rows);
-    prepared.prepare(placed, marker.separability == Separability::six);
   }
 
   /// Only the box.
@@ -90,8 +89,9 @@ REAM_VECTOR_CLONES __attribute__((flatten)) void mark_all(const SurfaceMarker& m
   Batch batch;
   NarrowBoxes narrow;
   marker.bins.for_each_few<lanes>(tile_number, [&](const uint32_t* triangles, int count) {
-    batch.set(marker, triangles, dims_x, tile.range);
-    narrow.set(batch.placed, static_cast<int>(tile.words_per_row), count);
+    batch.place(marker, triangles, dims_x, tile.range);
+    if (!narrow.set(batch.placed, static_cast<int>(tile.words_per_row), count)) return;
+    batch.prepared.prepare(batch.placed, marker.separability == Separability::six);
     narrow.mark(batch.placed, batch.prepared, tile);
     for (int lane = 0; lane < count; ++lane) {
       if (narrow.holds(lane)) continue;

@@ -25,8 +25,9 @@ struct RowBounds {
   static constexpr int most_rows = 256;
   double u_least[most_rows + 8], u_most[most_rows + 8], plane[most_rows + 8];
 
+  /// Three rows more than `rows`, which are read with the last four.
   void set(const PreparedTriangle& p, int v, int rows) {
-    for (int i = 0; i < rows; i += 8) {
+    for (int i = 0; i < rows + 3; i += 8) {
       const Double8 at_v = static_cast<double>(v + i) + Double8{0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0};
       const Double8 least = p.u_by_v.most(at_v), most = p.u_by_v.least(at_v);
       const Double8 middle = p.plane.at + p.plane.by_v * at_v;

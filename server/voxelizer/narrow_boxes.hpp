@@ -13,22 +13,25 @@ class NarrowBoxes {
  public:
   static constexpr int most_rows = 8;
 
-  /// Of the first `count` triangles.
-  void set(const Placed<Double8>& t, int words_per_row, int count) {
+  /// Of the first `count` triangles. False when the box of none of them, narrow or not, touches the tile.
+  bool set(const Placed<Double8>& t, int words_per_row, int count) {
     rows_ = layers_ = 0;
+    int touching = 0;
     const Int8 word = t.low[0] >> 5, last_pair = Int8{} + (words_per_row - 2);
     first_word_ = word < last_pair ? word : last_pair;
     const Int8 rows = t.high[1] - t.low[1] + 1, layers = t.high[2] - t.low[2] + 1;
-    const Int8 narrow = (first_word_ >= 0) & (rows > 0) & (rows <= most_rows) & (layers > 0) &
-                        (layers <= most_rows) & (t.low[0] <= t.high[0]) &
+    const Int8 touches = (rows > 0) & (layers > 0) & (t.low[0] <= t.high[0]);
+    const Int8 narrow = touches & (first_word_ >= 0) & (rows <= most_rows) & (layers <= most_rows) &
                         (t.high[0] - (first_word_ << 5) < 63);
     for (int lane = 0; lane < 8; ++lane) {
+      touching |= touches[lane];
       const bool holds = lane < count && narrow[lane] != 0;
       lane_rows_[lane] = holds ? rows[lane] : 0;
       lane_layers_[lane] = holds ? layers[lane] : 0;
       rows_ = lane_rows_[lane] > rows_ ? lane_rows_[lane] : rows_;
       layers_ = lane_layers_[lane] > layers_ ? lane_layers_[lane] : layers_;
     }
+    return touching != 0;
   }
   bool holds(int lane) const { return lane_rows_[lane] != 0; }
 

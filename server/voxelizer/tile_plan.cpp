@@ -91,8 +91,8 @@ TilePlan plan_tiles(const RasterGrid& grid, size_t tile_bytes, size_t least_tile
   const double row_bytes = 4.0 * static_cast<double>(grid.words_per_row());
   const double rows = static_cast<double>(tile_bytes) / row_bytes;
   plan.rows = whole_layers ? grid.dims.y() : whole_steps(rows / side_step, grid.dims.y());
-  const double share = std::ceil(grid.dims.z() / static_cast<double>(side_step * least_tiles)) * side_step;
-  const double layers = std::min(rows / plan.rows, share);
+  const double share = std::round(grid.dims.z() / static_cast<double>(side_step * least_tiles)) * side_step;
+  const double layers = std::min(rows / plan.rows, std::max<double>(share, side_step));
   plan.layers = whole_layers && layers < side_step ? std::max(1, static_cast<int>(layers))
                                                    : whole_steps(layers, grid.dims.z());
   plan.count_v = (grid.dims.y() + plan.rows - 1) / plan.rows;
@@ -104,8 +104,9 @@ TileBins::TileBins(const TriangleMesh& mesh, const VoxelMap& map, const TilePlan
                    size_t most_bytes)
     : triangles_(mesh.triangles.size()) {
   const auto workers = static_cast<size_t>(crew.threads());
-  if (plan.count() == 1 || plan.count() > TriangleLists::most_lists(most_bytes / workers)) return;
-  for (size_t worker = 0; worker < workers; ++worker) lists_.emplace_back(plan.count(), most_bytes / workers);
+  if (plan.count() == 1 || TriangleLists::least_bytes(plan.count(), workers) > most_bytes) return;
+  TriangleLists::Budget budget(most_bytes);
+  for (size_t worker = 0; worker < workers; ++worker) lists_.emplace_back(plan.count(), budget);
   std::atomic<bool> fits = true;
   const size_t pieces = (triangles_ + triangles_a_piece - 1) / triangles_a_piece;
   crew.run(pieces, [&](size_t piece, int worker) {

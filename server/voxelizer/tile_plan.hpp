@@ -36,8 +36,8 @@ struct TilePlan {
   }
 };
 
-/// Tiles of about `tile_bytes` bytes of bits, their sides multiples of 8, at least `least_tiles` where the
-/// grid has the layers for it. `whole_layers` keeps layers whole, however large they are.
+/// Tiles of up to about `tile_bytes` bytes of bits, their sides multiples of 8, and about `least_tiles` or
+/// more where the grid has the layers for it. `whole_layers` keeps layers whole, however large they are.
 TilePlan plan_tiles(const RasterGrid& grid, size_t tile_bytes, size_t least_tiles, bool whole_layers = false);
 
 /// Boxes of triangles by their rows and layers: about two, three, four, five, more of each.
@@ -50,7 +50,7 @@ class TileBins {
  public:
   /// Where lists would take more than `most_bytes` there are none and every tile looks at all triangles.
   TileBins(const TriangleMesh& mesh, const VoxelMap& map, const TilePlan& plan, Crew& crew,
-           size_t most_bytes = size_t{24} << 20);
+           size_t most_bytes = size_t{48} << 20);
 
   /// Calls visit(triangle) for every triangle that may touch the tile.
   template <class Visit>

@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -10,9 +11,22 @@ namespace ream::voxelizer {
 /// take little more than they hold.
 class TriangleLists {
  public:
-  TriangleLists(size_t lists, size_t most_bytes) : ends_(lists), most_blocks_(most_bytes / sizeof(Block)) {}
-  /// Lists that can each hold something within so many bytes.
-  static size_t most_lists(size_t bytes) { return bytes / (sizeof(Ends) + sizeof(Piece)); }
+  /// Memory for several threads' lists, shared as it is wanted.
+  class Budget {
+   public:
+    explicit Budget(size_t bytes) : blocks_left_(static_cast<long long>(bytes / sizeof(Block))) {}
+    bool take_block() { return --blocks_left_ >= 0; }
+
+   private:
+    std::atomic<long long> blocks_left_;
+  };
+
+  /// `budget` must outlive what is added.
+  TriangleLists(size_t lists, Budget& budget) : ends_(lists), budget_(&budget) {}
+  /// Of so many lists of each of several threads, every list with something in it.
+  static size_t least_bytes(size_t lists, size_t threads) {
+    return lists * (threads * sizeof(Ends) + sizeof(Piece));
+  }
 
   /// False when there is no room for it.
   bool add(size_t list, uint32_t number, uint8_t size) {
@@ -62,7 +76,7 @@ class TriangleLists {
 
   Piece* new_piece() {
     if (used_ == Block::room) {
-      if (blocks_.size() == most_blocks_) return nullptr;
+      if (!budget_->take_block()) return nullptr;
       blocks_.push_back(std::make_unique_for_overwrite<Block>());
       used_ = 0;
     }
@@ -74,7 +88,8 @@ class TriangleLists {
 
   std::vector<Ends> ends_;
   std::vector<std::unique_ptr<Block>> blocks_;
-  size_t most_blocks_ = 0, used_ = Block::room;
+  Budget* budget_;
+  size_t used_ = Block::room;
 };
 
 }  // namespace ream::voxelizer

@@ -15,7 +15,7 @@ TelemetrySample at_tick(uint32_t tick) {
   return sample;
 }
 
-TEST(Telemetry, AboutThirtyMessagesASecondAndNoSampleLost) {
+TEST(Telemetry, AboutSixtyMessagesASecondAndNoSampleLost) {
   LocalFanout fanout;
   const auto mailbox = fanout.subscribe({}, 1);
   TelemetryRing ring(64);
@@ -28,9 +28,32 @@ TEST(Telemetry, AboutThirtyMessagesASecondAndNoSampleLost) {
   }
   batcher.flush();
   viewer.pull(*mailbox);
-  EXPECT_NEAR(viewer.telemetry_messages, 31, 1);
+  EXPECT_NEAR(viewer.telemetry_messages, 1000 / 15, 2);
   EXPECT_EQ(viewer.samples, 1000u);
   EXPECT_EQ(viewer.dropped, 0u);
+}
+
+/// What a viewer finds that has read nothing for so long, of a session with a sample a tick.
+Viewer viewer_after_ms(uint32_t unread_ms) {
+  LocalFanout fanout;
+  const auto mailbox = fanout.subscribe({}, 1);
+  TelemetryBatcher batcher(fanout);
+  for (uint32_t tick = 0; tick < unread_ms; ++tick) {
+    batcher.add(at_tick(tick));
+    if (tick % 5 == 0) batcher.publish_if_due(tick * ms);
+  }
+  batcher.flush();
+  Viewer viewer;
+  viewer.pull(*mailbox);
+  EXPECT_EQ(viewer.samples + viewer.dropped, unread_ms);
+  return viewer;
+}
+
+TEST(Telemetry, AboutTwoSecondsWaitForASlowViewer) {
+  EXPECT_EQ(viewer_after_ms(1900).dropped, 0u);
+  const Viewer late = viewer_after_ms(10'000);
+  EXPECT_GT(late.dropped, 0u);
+  EXPECT_NEAR(static_cast<double>(late.samples), 2000, 30);
 }
 
 TEST(Telemetry, SaysWhenItWasOnItsWay) {

@@ -47,11 +47,12 @@ export function TracePlot({ store, kind, label, testId }: Parts) {
 }
 
 /** Draws the trace into `element` as it grows, and anew for another size or colour scheme, until the result is called. */
-function keepPlotted(element: HTMLElement, store: Store, kind: PlotKind): () => void {
+export function keepPlotted(element: HTMLElement, store: Store, kind: PlotKind): () => void {
   let plot = createPlot(element, kind);
   let waiting: number | null = null;
 
   const redraw = () => {
+    if (waiting !== null) cancelAnimationFrame(waiting);
     waiting = null;
     const { seconds, values } = store.trace.line(kind.column, plotSeconds, mostPoints);
     plot.setData([seconds, values]);

@@ -1,4 +1,4 @@
-import { Matrix4, Quaternion, Sphere, Vector3 } from 'three';
+import { Box3, Matrix4, Quaternion, Sphere, Vector3 } from 'three';
 
 import type { Hello } from '../wire/messages';
 
@@ -12,8 +12,10 @@ export class BlockLayout {
   private readonly blocks: Vector3;
 
   constructor(private readonly hello: Hello) {
-    const edge = hello.blockEdgeVoxels;
-    this.blocks = new Vector3(...hello.gridDims).divideScalar(edge).ceil();
+    const [x, y, z] = hello.gridDims;
+    // Not by divideScalar(), which multiplies by 1 / edge: 525 voxels would make 8 blocks of 75.
+    const along = (voxels: number) => Math.ceil(voxels / hello.blockEdgeVoxels);
+    this.blocks = new Vector3(along(x), along(y), along(z));
   }
 
   /** Which region a block belongs to. */
@@ -47,8 +49,19 @@ export class BlockLayout {
     return this.ball(regionEdgeBlocks);
   }
 
+  /** All that a block can hold and a little more, in the steps of its region. */
+  blockBoxInRegion(block: number): Box3 {
+    const begin = this.stepsInRegion(block);
+    return new Box3(begin, begin.clone().addScalar(this.stepsAlong(1))).expandByScalar(1);
+  }
+
+  /** A voxel more than so many blocks at both ends. */
+  private stepsAlong(edgeBlocks: number): number {
+    return (edgeBlocks * this.hello.blockEdgeVoxels + 2) * stepsPerVoxel;
+  }
+
   private ball(edgeBlocks: number): Sphere {
-    const halfEdge = ((edgeBlocks * this.hello.blockEdgeVoxels + 2) / 2) * stepsPerVoxel;
+    const halfEdge = this.stepsAlong(edgeBlocks) / 2;
     return new Sphere(new Vector3(halfEdge, halfEdge, halfEdge), halfEdge * Math.sqrt(3));
   }
 

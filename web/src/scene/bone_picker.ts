@@ -9,10 +9,10 @@ import {
   Ray,
   Vector3,
 } from 'three';
-import { MeshBVH } from 'three-mesh-bvh';
 
 import type { Ray as LineOfSight } from '../practice/plan_frame';
 import type { Triple } from '../wire/messages';
+import { hitsOf } from './line_hits';
 
 /** A place of the bone that is seen. */
 export interface BonePick {
@@ -21,21 +21,6 @@ export interface BonePick {
   /** Of the surface's corners the nearest, by its number in the mesh that was met. */
   corner: number;
   mesh: Mesh;
-}
-
-const trees = new WeakMap<BufferGeometry, MeshBVH>();
-
-/** Gives a geometry the boxes around its triangles that were made elsewhere. */
-export function haveBoxes(geometry: BufferGeometry, roots: ArrayBuffer[]): void {
-  const data = { version: 1, roots, index: null, indirectBuffer: null };
-  trees.set(geometry, MeshBVH.deserialize(data, geometry, { setIndex: false }));
-}
-
-/** Boxes are made when a mesh is first asked for; a streamed block has few triangles. */
-function treeOf(geometry: BufferGeometry): MeshBVH {
-  const found = trees.get(geometry) ?? new MeshBVH(geometry, { indirect: true });
-  trees.set(geometry, found);
-  return found;
 }
 
 /**
@@ -54,13 +39,12 @@ export function pickBone(group: Object3D, sight: LineOfSight, cuts: readonly Pla
     const local = ray.clone().applyMatrix4(new Matrix4().copy(mesh.matrixWorld).invert());
     const { boundingSphere } = mesh.geometry;
     if (boundingSphere !== null && !local.intersectsSphere(boundingSphere)) return;
-    for (const hit of treeOf(mesh.geometry).raycast(local, side)) {
+    for (const hit of hitsOf(mesh.geometry, local, side)) {
       const at = hit.point.clone().applyMatrix4(mesh.matrixWorld);
       const distance = at.distanceTo(sight.origin);
       if (nearest !== null && nearest.distance <= distance) continue;
-      if (cuts.some((cut) => cut.distanceToPoint(at) < 0) || !hit.face) continue;
-      const { a, b, c } = hit.face;
-      nearest = { distance, at, corner: nearestCorner(mesh.geometry, [a, b, c], hit.point), mesh };
+      if (cuts.some((cut) => cut.distanceToPoint(at) < 0)) continue;
+      nearest = { distance, at, corner: nearestCorner(mesh.geometry, hit.corners, hit.point), mesh };
     }
   });
   if (nearest === null) return null;

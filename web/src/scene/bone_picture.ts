@@ -15,8 +15,10 @@ import { BlockLayout } from './block_layout';
 import { kindAttribute } from './bone_paint';
 import { RegionMesh } from './region_mesh';
 
-/** A block that did not change for so long is drawn with its neighbours. */
+/** What did not change for so long has come to rest. */
 const settlesAfterMs = 1500;
+/** A region is put together before all of it rests once so many of its blocks do; each time, all that rest are copied. */
+const manyBlocks = 16;
 
 interface ShownBlock {
   region: number;
@@ -35,8 +37,8 @@ export class BonePicture {
   private readonly layout: BlockLayout;
   private readonly blocks = new Map<number, ShownBlock>();
   private readonly regions = new Map<number, RegionMesh>();
-  /** Regions that have blocks with a mesh of their own. */
-  private readonly unsettled = new Set<number>();
+  /** Regions that have blocks with a mesh of their own, or have lost blocks, and when they changed last. */
+  private readonly unsettled = new Map<number, number>();
 
   constructor(
     hello: Hello,
@@ -64,32 +66,36 @@ export class BonePicture {
     this.regions.get(region)?.leaveOut(block);
     disposeOf(shown?.mesh);
     this.blocks.delete(block);
-    if (surface.indices.length === 0) return;
+    const empty = surface.indices.length === 0;
+    if (shown !== undefined || !empty) this.unsettled.set(region, nowMs);
+    if (empty) return;
     const mesh = new Mesh(this.geometry(surface), this.material);
     mesh.matrixAutoUpdate = false;
     mesh.matrix.copy(this.layout.gridFromBlockSteps(block));
     this.group.add(mesh);
     this.blocks.set(block, { region, surface, mesh, changedMs: nowMs });
-    this.unsettled.add(region);
   }
 
   /** Nothing more comes of a first picture: all of it has come to rest. */
   whole(): void {
     for (const shown of this.blocks.values()) shown.changedMs = -Infinity;
+    for (const region of this.unsettled.keys()) this.unsettled.set(region, -Infinity);
   }
 
-  /** Whether anything is still drawn block by block. */
+  /** Whether anything is still drawn block by block, or is kept that is not seen any more. */
   get restless(): boolean {
     return this.unsettled.size > 0;
   }
 
   /** Draws together what has come to rest, of one region at each call; false: there is nothing more. */
   settleOne(nowMs: number): boolean {
-    for (const region of this.unsettled) {
-      const blocks = [...this.blocks.values()].filter((shown) => shown.region === region);
-      const resting = blocks.filter(({ changedMs }) => nowMs - changedMs >= settlesAfterMs);
-      if (resting.length === blocks.length) this.unsettled.delete(region);
-      if (resting.every(({ mesh }) => mesh === null)) continue;
+    const rests = (changedMs: number) => nowMs - changedMs >= settlesAfterMs;
+    for (const [region, changedMs] of this.unsettled) {
+      const resting = [...this.blocks.values()].filter((shown) => shown.region === region && rests(shown.changedMs));
+      const apart = resting.filter(({ mesh }) => mesh !== null).length;
+      if (!rests(changedMs) && apart < manyBlocks) continue;
+      if (rests(changedMs)) this.unsettled.delete(region);
+      if (apart === 0 && this.regions.get(region)?.whole !== false) continue;
       this.settle(region, resting);
       return true;
     }
@@ -107,6 +113,8 @@ export class BonePicture {
 
   private settle(region: number, resting: ShownBlock[]): void {
     this.regions.get(region)?.dispose();
+    this.regions.delete(region);
+    if (resting.length === 0) return;
     const together = new RegionMesh(
       this.layout,
       resting.map(({ surface }) => surface),

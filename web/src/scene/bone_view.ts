@@ -29,6 +29,9 @@ export class BoneView {
   private instead: InsteadOfBone | null = null;
   private settling: ReturnType<typeof setTimeout> | undefined;
 
+  /** `onSettled` hears whenever regions are drawn otherwise without a call from outside: each wants a picture of its own. */
+  constructor(private readonly onSettled: () => void) {}
+
   begin(hello: Hello): void {
     this.incoming?.dispose();
     const picture = new BonePicture(hello, this.paint.material);
@@ -85,6 +88,7 @@ export class BoneView {
     this.settling = setTimeout(() => {
       this.settling = undefined;
       const more = this.shown?.settleOne(performance.now()) === true;
+      if (more) this.onSettled();
       this.settleAfter(more ? settleEveryMs : lookAgainMs);
     }, waitMs);
   }

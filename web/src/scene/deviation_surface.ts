@@ -12,8 +12,8 @@ import {
 import { type DeviationCode, paletteOf, type ScaleName } from '../state/review/deviation_scale';
 import type { SortedSurface } from '../wire/surface_worker';
 import { boneMaterial, lookOfBone } from './bone_material';
-import { haveBoxes } from './bone_picker';
 import type { InsteadOfBone } from './bone_view';
+import { haveBoxes } from './line_hits';
 
 const declareInVertex = `
 attribute float deviation;

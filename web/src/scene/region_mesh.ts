@@ -10,6 +10,7 @@ import {
 import type { BlockSurface } from '../wire/messages';
 import type { BlockLayout } from './block_layout';
 import { kindAttribute } from './bone_paint';
+import { type GeometryPart, haveParts } from './line_hits';
 
 /** Values of a vertex in a block's buffers. */
 const stride = 4;
@@ -20,7 +21,8 @@ const shortMost = 0xffff;
 export class RegionMesh {
   readonly mesh: Mesh;
   /** Where in the indices each block is. */
-  private readonly parts = new Map<number, { start: number; count: number }>();
+  private readonly parts = new Map<number, GeometryPart>();
+  private leftOut = false;
 
   /** At least one surface, none empty, all of one region; what is drawn is copied. */
   constructor(layout: BlockLayout, surfaces: readonly BlockSurface[], material: Material) {
@@ -38,7 +40,7 @@ export class RegionMesh {
       normals.set(surface.normals, stride * vertex);
       const count = surface.indices.length;
       for (let i = 0; i < count; ++i) indices[start + i] = (surface.indices[i] ?? 0) + vertex;
-      this.parts.set(surface.block, { start, count });
+      this.parts.set(surface.block, { start, count, box: layout.blockBoxInRegion(surface.block) });
       vertex += surface.positions.length / stride;
       start += count;
     }
@@ -49,9 +51,15 @@ export class RegionMesh {
     geometry.setAttribute(kindAttribute, new InterleavedBufferAttribute(directions, 1, 3));
     geometry.setIndex(new BufferAttribute(indices, 1));
     geometry.boundingSphere = layout.regionBall();
+    haveParts(geometry, this.parts);
     this.mesh = new Mesh(geometry, material);
     this.mesh.matrixAutoUpdate = false;
     this.mesh.matrix.copy(layout.gridFromRegionSteps(surfaces[0]?.block ?? 0));
+  }
+
+  /** Whether all that it was made of is drawn. */
+  get whole(): boolean {
+    return !this.leftOut;
   }
 
   /** A block that is drawn otherwise from here on, or not at all: all its corners fall into one. */
@@ -60,6 +68,7 @@ export class RegionMesh {
     const { index } = this.mesh.geometry;
     if (part === undefined || index === null) return;
     this.parts.delete(block);
+    this.leftOut = true;
     (index.array as Uint16Array | Uint32Array).fill(0, part.start, part.start + part.count);
     index.addUpdateRange(part.start, part.count);
     index.needsUpdate = true;

@@ -43,7 +43,7 @@ export class BoneScene implements SteeredView {
   readonly headset: Headset;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
-  private readonly bone = new BoneView();
+  private readonly bone = new BoneView(() => this.invalidate());
   private readonly tool = new ToolView();
   private readonly aim = new AimView();
   private readonly lights: OperatingLights;

@@ -2,7 +2,8 @@ import { BoxGeometry, BufferAttribute, BufferGeometry, Group, Mesh, Plane, Spher
 import { MeshBVH } from 'three-mesh-bvh';
 import { describe, expect, it } from 'vitest';
 
-import { haveBoxes, pickBone } from '../../src/scene/bone_picker';
+import { pickBone } from '../../src/scene/bone_picker';
+import { haveBoxes } from '../../src/scene/line_hits';
 
 const ray = (origin: [number, number, number], direction: [number, number, number]) => ({
   origin: new Vector3(...origin),

@@ -1,44 +1,11 @@
-import { Mesh, MeshBasicMaterial, Vector3 } from 'three';
+import { Mesh, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
 
-import { BonePicture } from '../../src/scene/bone_picture';
-import type { BlockSurface, Hello } from '../../src/wire/messages';
-import { hello } from '../wire/fake_messages';
+import type { BonePicture } from '../../src/scene/bone_picture';
+import type { BlockSurface } from '../../src/wire/messages';
+import { blockCount, fullSurface, pictured, placeOf, randomNumbers, randomSurface } from './random_surfaces';
 
-const gridDims = [300, 200, 170] as const;
-const edge = 32;
-const blockCount = 10 * 7 * 6;
-const spacing = new Vector3(0.5, 0.25, 0.75);
 const settledMs = 10_000;
-
-function pictured(): BonePicture {
-  const message = hello({ gridDims, blockEdgeVoxels: edge, voxelSpacingMm: spacing.toArray() });
-  if (message.kind !== 'hello') throw new Error('not a hello');
-  return new BonePicture(message.hello satisfies Hello, new MeshBasicMaterial());
-}
-
-/** Numbers from 0 to 1 that are the same for the same seed. */
-function randomNumbers(seed: number): () => number {
-  let state = seed;
-  return () => {
-    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
-    return state / 2 ** 32;
-  };
-}
-
-function randomSurface(random: () => number, block: number, revision: number): BlockSurface {
-  const triangles = Math.floor(random() * 5);
-  const corners = 3 * triangles;
-  const among = (count: number) => Math.floor(random() * count);
-  return {
-    block,
-    revision,
-    tick: 0,
-    positions: Uint16Array.from({ length: 4 * corners }, (_, i) => (i % 4 === 3 ? 0 : among(34 * 1024))),
-    normals: Int16Array.from({ length: 4 * corners }, (_, i) => (i % 4 === 3 ? among(4) - 1 : among(65535) - 32767)),
-    indices: Uint16Array.from({ length: corners }, (_, i) => i),
-  };
-}
 
 /** Of each corner its place in the grid, mm, its direction and its kind of bone. */
 type Corner = readonly [place: Vector3, direction: string, kind: number];
@@ -74,18 +41,11 @@ function drawn(picture: BonePicture): string[] {
   return found.sort();
 }
 
-/** Blocks begin one voxel before their own; x runs fastest. */
 function told(surfaces: Iterable<BlockSurface>): string[] {
   const found: string[] = [];
   for (const { block, positions, normals, indices } of surfaces) {
-    const origin = new Vector3(block % 10, Math.floor(block / 10) % 7, Math.floor(block / 70));
     const corner = (at: number): Corner => [
-      new Vector3()
-        .fromArray(positions, 4 * at)
-        .divideScalar(1024)
-        .addScaledVector(origin, edge)
-        .subScalar(1)
-        .multiply(spacing),
+      placeOf(block, positions, at),
       Array.from(normals.subarray(4 * at, 4 * at + 3), (x) => Math.max(x / 32767, -1).toFixed(6)).join(','),
       normals[4 * at + 3] ?? NaN,
     ];
@@ -95,6 +55,22 @@ function told(surfaces: Iterable<BlockSurface>): string[] {
 }
 
 const meshes = (picture: BonePicture) => picture.group.children.length;
+const drawnIndices = (picture: BonePicture) =>
+  picture.group.children.reduce((sum, part) => sum + ((part as Mesh).geometry.index?.count ?? 0), 0);
+const regionOf = (block: number) =>
+  [block % 10, Math.floor(block / 10) % 7, Math.floor(block / 70)].map((at) => Math.floor(at / 4)).join(' ');
+
+const emptySurface = (block: number, revision: number) => randomSurface(() => 0, block, revision);
+
+/** Blocks 0 to 2, of one region, drawn together. */
+function settledRow(random: () => number): BonePicture {
+  const picture = pictured();
+  for (let block = 0; block < 3; ++block) picture.apply(fullSurface(random, block, 0), 0);
+  picture.whole();
+  while (picture.settleOne(0));
+  expect([meshes(picture), picture.restless]).toEqual([1, false]);
+  return picture;
+}
 
 describe('BonePicture', () => {
   it.each([1, 2, 3, 4, 5, 6, 7, 8])(
@@ -114,6 +90,10 @@ describe('BonePicture', () => {
       while (picture.settleOne(1e9));
       expect(drawn(picture)).toEqual(told(newest.values()));
       expect(picture.restless).toBe(false);
+      // Nothing is kept of what is not seen any more.
+      const seen = [...newest.values()].filter(({ indices }) => indices.length > 0);
+      expect(meshes(picture)).toBe(new Set(seen.map(({ block }) => regionOf(block))).size);
+      expect(drawnIndices(picture)).toBe(seen.reduce((sum, { indices }) => sum + indices.length, 0));
     },
   );
 
@@ -121,9 +101,7 @@ describe('BonePicture', () => {
     const random = randomNumbers(11);
     const picture = pictured();
     for (let block = 0; block < blockCount; ++block) {
-      let surface = randomSurface(random, block, 0);
-      while (surface.indices.length === 0) surface = randomSurface(random, block, 0);
-      picture.apply(surface, 0);
+      picture.apply(fullSurface(random, block, 0), 0);
     }
     expect(meshes(picture)).toBe(blockCount);
     picture.whole();
@@ -131,13 +109,73 @@ describe('BonePicture', () => {
     expect(meshes(picture)).toBe(3 * 2 * 2);
     expect(picture.restless).toBe(false);
 
-    let changed = randomSurface(random, 5, 1);
-    while (changed.indices.length === 0) changed = randomSurface(random, 5, 1);
-    picture.apply(changed, 100);
+    picture.apply(fullSurface(random, 5, 1), 100);
     expect(picture.settleOne(200)).toBe(false);
     expect(meshes(picture)).toBe(3 * 2 * 2 + 1);
     expect(picture.settleOne(settledMs)).toBe(true);
     expect(meshes(picture)).toBe(3 * 2 * 2);
+  });
+
+  it('lets go of a region that is reamed away', () => {
+    const picture = settledRow(randomNumbers(21));
+    let disposed = 0;
+    (picture.group.children[0] as Mesh).geometry.addEventListener('dispose', () => ++disposed);
+    for (let block = 0; block < 3; ++block) picture.apply(emptySurface(block, 1), 100);
+    expect(picture.restless).toBe(true);
+    expect(picture.settleOne(settledMs)).toBe(true);
+    expect([meshes(picture), disposed, picture.restless]).toEqual([0, 1, false]);
+    expect(picture.settleOne(settledMs)).toBe(false);
+  });
+
+  it('lets go of blocks that are reamed away beside others that stay', () => {
+    const picture = settledRow(randomNumbers(22));
+    const before = drawnIndices(picture);
+    const count = told([fullSurface(randomNumbers(22), 0, 0)]).length * 3;
+    picture.apply(emptySurface(0, 1), 100);
+    expect(picture.settleOne(settledMs)).toBe(true);
+    expect(drawnIndices(picture)).toBe(before - count);
+    expect([meshes(picture), picture.restless]).toEqual([1, false]);
+  });
+
+  it('copies nothing for a block that came and went', () => {
+    const random = randomNumbers(23);
+    const picture = settledRow(random);
+    const [together] = picture.group.children;
+    picture.apply(fullSurface(random, 3, 1), 100);
+    picture.apply(emptySurface(3, 2), 200);
+    expect(picture.settleOne(settledMs)).toBe(false);
+    expect(picture.group.children).toEqual([together]);
+    expect(picture.restless).toBe(false);
+  });
+
+  it('draws few blocks that rest together only once their neighbours rest, too', () => {
+    const random = randomNumbers(24);
+    const picture = settledRow(random);
+    const [together] = picture.group.children;
+    picture.apply(fullSurface(random, 0, 1), 0);
+    let nowMs = 0;
+    for (let revision = 1; nowMs < settledMs; nowMs += 500) {
+      picture.apply(fullSurface(random, 1, ++revision), nowMs);
+      expect(picture.settleOne(nowMs)).toBe(false);
+      expect(picture.group.children).toContain(together);
+    }
+    expect(meshes(picture)).toBe(3);
+    expect(picture.settleOne(nowMs + settledMs)).toBe(true);
+    expect(meshes(picture)).toBe(1);
+  });
+
+  it('does not wait for a neighbour that keeps changing while many blocks rest', () => {
+    const random = randomNumbers(25);
+    const picture = pictured();
+    const region = [0, 1, 2, 3].flatMap((x) =>
+      [0, 1, 2, 3].flatMap((y) => [0, 1, 2, 3].map((z) => x + 10 * y + 70 * z)),
+    );
+    for (const block of region) picture.apply(fullSurface(random, block, 0), 0);
+    picture.apply(fullSurface(random, 0, 1), settledMs - 1);
+    expect(meshes(picture)).toBe(64);
+    expect(picture.settleOne(settledMs)).toBe(true);
+    expect(meshes(picture)).toBe(2);
+    expect(picture.restless).toBe(true);
   });
 
   it('keeps a block that is newer than what is told', () => {

@@ -1,23 +1,21 @@
 import { Matrix4, Mesh, Quaternion, Vector3 } from 'three';
-import { describe, expect, it } from 'vitest';
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 
 import { BoneView } from '../../src/scene/bone_view';
-import type { Pose } from '../../src/wire/messages';
+import type { MeshDelta, Pose } from '../../src/wire/messages';
 import { hello } from '../wire/fake_messages';
 
-const oneBlock = {
-  blocks: [
-    {
-      block: 0,
-      revision: 1,
-      tick: 0,
-      positions: new Uint16Array(12),
-      normals: new Int16Array(12),
-      indices: new Uint16Array([0, 1, 2]),
-    },
-  ],
-  keyComplete: true,
-};
+const delta = (blocks: number[], revision: number, keyComplete: boolean): MeshDelta => ({
+  blocks: blocks.map((block) => ({
+    block,
+    revision,
+    tick: 0,
+    positions: new Uint16Array(12),
+    normals: new Int16Array(12),
+    indices: new Uint16Array([0, 1, 2]),
+  })),
+  keyComplete,
+});
 
 /** Where a vertex step of the first block is drawn. */
 function drawnAt(view: BoneView, step: Vector3): Vector3 {
@@ -30,16 +28,36 @@ function drawnAt(view: BoneView, step: Vector3): Vector3 {
   return step.clone().applyMatrix4(matrix);
 }
 
-function shownBone(): BoneView {
-  const view = new BoneView();
-  const message = hello({ worldFromGrid: { rotationXyzw: [0, 0, 0, 1], translationMm: [10, 20, 30] } });
+function shownBone(onSettled = () => undefined as void): BoneView {
+  const view = new BoneView(onSettled);
+  const message = hello({
+    gridDims: [512, 64, 64],
+    worldFromGrid: { rotationXyzw: [0, 0, 0, 1], translationMm: [10, 20, 30] },
+  });
   if (message.kind !== 'hello') throw new Error('not a hello');
   view.begin(message.hello);
-  view.apply(oneBlock);
+  view.apply(delta([0], 1, true));
   return view;
 }
 
 describe('BoneView', () => {
+  beforeEach(() => void vi.useFakeTimers());
+  afterEach(() => void vi.useRealTimers());
+
+  it('tells of each region that is drawn otherwise, so that none waits for the next picture', () => {
+    const meshesTold: number[] = [];
+    const view: BoneView = shownBone(() => meshesTold.push(view.group.children[0]?.children.length ?? NaN));
+    vi.advanceTimersByTime(10_000);
+    expect(meshesTold).toEqual([1]);
+    // Two blocks in each of three regions.
+    view.apply(delta([4, 5, 8, 9, 12, 13], 2, false));
+    vi.advanceTimersByTime(1000);
+    expect(meshesTold).toEqual([1]);
+    vi.advanceTimersByTime(10_000);
+    expect(meshesTold).toEqual([1, 6, 5, 4]);
+    view.dispose();
+  });
+
   it('moves the whole bone by the displacement of the stream', () => {
     const view = shownBone();
     const rest = drawnAt(view, new Vector3(2048, 1024, 3072));
