@@ -64,28 +64,36 @@ inline int floor_between(double x, int low, int high) {
   return whole - static_cast<int>(static_cast<double>(whole) > held);
 }
 
-/// The first whole number that is not below x, and the last that is not above it, for |x| < 2^50.
-inline constexpr double whole_shift = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to whole numbers
+/// Adding it rounds to whole numbers, for |x| < 2^50, whose bits are then the last ones.
+inline constexpr double whole_shift = 6755399441055744.0;  // 1.5 * 2^52
 inline constexpr long long whole_shift_bits = 0x4338000000000000;
-inline Long4 whole_from(const Double4& x) {
-  const Double4 shifted = x + whole_shift;
-  return (reinterpret_cast<Long4>(shifted) - whole_shift_bits) - (shifted - whole_shift < x);
+
+/// whole_shift more than ceil(x) and floor(x).
+template <class Doubles>
+inline Doubles shifted_up(const Doubles& x) {
+  const Doubles shifted = x + whole_shift;
+  return shifted - whole_shift < x ? shifted + 1.0 : shifted;
 }
-inline Long4 whole_up_to(const Double4& x) {
-  const Double4 shifted = x + whole_shift;
-  return (reinterpret_cast<Long4>(shifted) - whole_shift_bits) + (shifted - whole_shift > x);
+template <class Doubles>
+inline Doubles shifted_down(const Doubles& x) {
+  const Doubles shifted = x + whole_shift;
+  return shifted - whole_shift > x ? shifted - 1.0 : shifted;
 }
 
-/// The same as doubles.
+/// ceil(x) and floor(x), as integers and as doubles.
+inline Long4 whole_from(const Double4& x) {
+  return reinterpret_cast<Long4>(shifted_up(x)) - whole_shift_bits;
+}
+inline Long4 whole_up_to(const Double4& x) {
+  return reinterpret_cast<Long4>(shifted_down(x)) - whole_shift_bits;
+}
 template <class Doubles>
 inline Doubles rounded_up(const Doubles& x) {
-  const Doubles whole = (x + whole_shift) - whole_shift;
-  return whole < x ? whole + 1.0 : whole;
+  return shifted_up(x) - whole_shift;
 }
 template <class Doubles>
 inline Doubles rounded_down(const Doubles& x) {
-  const Doubles whole = (x + whole_shift) - whole_shift;
-  return whole > x ? whole - 1.0 : whole;
+  return shifted_down(x) - whole_shift;
 }
 
 /// ceil(x) and floor(x) held within [low, high] lane by lane, the limits as doubles that are whole numbers.
@@ -97,15 +105,7 @@ template <class Doubles, class Whole = typename WholeOf<Doubles>::Type>
 inline Whole floor_between(const Doubles& x, double low, double high) {
   return __builtin_convertvector(rounded_down(smaller(larger(x, Doubles{} + low), Doubles{} + high)), Whole);
 }
-/// whole_shift more than ceil(x) and floor(x), so that the last bits are the whole number's.
-inline Double8 shifted_up(const Double8& x) {
-  const Double8 shifted = x + whole_shift;
-  return shifted - whole_shift < x ? shifted + 1.0 : shifted;
-}
-inline Double8 shifted_down(const Double8& x) {
-  const Double8 shifted = x + whole_shift;
-  return shifted - whole_shift > x ? shifted - 1.0 : shifted;
-}
+
 /// 1 << x for whole numbers x from 0 to 63 that are shifted so.
 inline Long8 bit_at(const Double8& shifted) {
   return (Long8{} + 1) << (reinterpret_cast<Long8>(shifted) & 63);
