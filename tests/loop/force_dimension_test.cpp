@@ -2,22 +2,17 @@
 // switched off at the device.
 #include "device/force_dimension_servo.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 #include "device/profiles.hpp"
-#include "device/servo_device.hpp"
 #include "loop/hardware_bench.hpp"
+#include "loop/ticked_device.hpp"
 
 namespace ream::test {
 namespace {
 
-using namespace std::chrono_literals;
-
-class ForceDimension : public testing::Test {
+class ForceDimension : public TickedDevice {
  protected:
   ForceDimension() {
     bench->begin();
@@ -28,20 +23,6 @@ class ForceDimension : public testing::Test {
     device = std::make_unique<device::ServoDevice>(traits, device::make_force_dimension_servo(setup, traits));
     device->open();
   }
-  /// Ticks with a force of 2 N until it is so; a machine that stands still takes it back meanwhile.
-  template <typename Condition>
-  void until(Condition condition) {
-    bool reached = false;
-    for (int i = 0; i < 20'000 && !reached; ++i) {
-      EXPECT_EQ(device->read(input), device::DeviceStatus::ok);
-      device::DeviceOutput output;
-      output.force_n = Vec3(0, 0, 2);
-      device->write(output);
-      std::this_thread::sleep_for(1ms);
-      reached = condition();
-    }
-    EXPECT_TRUE(reached);
-  }
   bool feels(double force_n) { return std::abs(bench->hardware().force_now_n() - force_n) < 1e-6; }
   int64_t times(const std::string& call) {
     const std::vector<std::string> calls = bench->hardware().calls();
@@ -50,8 +31,6 @@ class ForceDimension : public testing::Test {
 
   std::unique_ptr<HardwareBench> bench = make_bench("forcedimension");
   device::DeviceSetup setup = device::usual_device_setup("forcedimension");
-  std::unique_ptr<device::ServoDevice> device;
-  device::DeviceInput input;
 };
 
 TEST_F(ForceDimension, IsAskedUnderTheIdThatOpeningGave) {

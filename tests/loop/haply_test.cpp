@@ -1,23 +1,18 @@
 // What sessions with Haply's Inverse3 do not show: both forms of a force, hands without a grip, the service's
 // own scale of forces, its emergency brake, and what it is told first and last.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <thread>
 
 #include "device/haply_servo.hpp"
 #include "device/profiles.hpp"
-#include "device/servo_device.hpp"
+#include "loop/ticked_device.hpp"
 #include "support/fake_haply.hpp"
 
 namespace ream::test {
 namespace {
 
-using namespace std::chrono_literals;
-
-class Haply : public testing::Test {
+class Haply : public TickedDevice {
  protected:
   void open(const FakeHaply::Setting& setting, device::HaplyForceForm form = device::HaplyForceForm::vector) {
     fake = std::make_unique<FakeHaply>(setting);
@@ -29,25 +24,9 @@ class Haply : public testing::Test {
     device = std::make_unique<device::ServoDevice>(traits, device::make_haply_servo(setup, traits));
     device->open();
   }
-  /// Ticks with a force of 2 N along z until it is so; a machine that stands still takes it back meanwhile.
-  template <typename Condition>
-  void until(Condition condition) {
-    bool reached = false;
-    for (int i = 0; i < 20'000 && !reached; ++i) {
-      EXPECT_EQ(device->read(input), device::DeviceStatus::ok);
-      device::DeviceOutput output;
-      output.force_n = Vec3(0, 0, 2);
-      device->write(output);
-      std::this_thread::sleep_for(1ms);
-      reached = condition();
-    }
-    EXPECT_TRUE(reached);
-  }
   bool feels(double force_n) { return std::abs(fake->hardware().force_now_n() - force_n) < 1e-6; }
 
   std::unique_ptr<FakeHaply> fake;
-  std::unique_ptr<device::ServoDevice> device;
-  device::DeviceInput input;
 };
 
 TEST_F(Haply, IsConfiguredFirstAndToldNoForceLastInEitherForm) {
