@@ -131,8 +131,15 @@ IgtlBytes SlicerClient::next() {
 IgtlReading SlicerClient::hear_until(const std::string& what,
                                      const std::function<bool(const IgtlReading&)>& wanted) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+  const auto next_or_say = [&] {
+    try {
+      return next();
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error("waited for " + what + ": " + error.what());
+    }
+  };
   while (std::chrono::steady_clock::now() < end) {
-    const IgtlBytes bytes = next();
+    const IgtlBytes bytes = next_or_say();
     const IgtlReading reading = IgtlByTheBook::read(bytes);
     if (reading != read_by_library(bytes))
       throw std::runtime_error("the two readers differ in a " + reading.type + " " + reading.name);

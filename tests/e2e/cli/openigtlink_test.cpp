@@ -53,11 +53,11 @@ TEST_F(WatchedServe, ToolMovesAndTheLastSurfaceIsTheReamedOne) {
   serve_watched();
   SlicerClient client(watch_port_);
   EXPECT_EQ(client.hear("Simulator").text, "no session has been started");
-  write("data/scripts/short.json",
-        R"({"device": "hand", "duration_s": 4, "stiffness_n_mm": 100,
+  write("data/scripts/press.json",
+        R"({"device": "hand", "duration_s": 60, "stiffness_n_mm": 100,
             "hand": {"start_mm": [0, 0, -0.3], "force_profile": [{"t_s": 0, "force_n": 40}]}})");
   const std::string id =
-      request(201, "POST", "/api/v1/sessions", R"({"case": "block", "script": "short"})").at("id");
+      request(201, "POST", "/api/v1/sessions", R"({"case": "block", "script": "press"})").at("id");
   request(200, "POST", path_of(id) + "/start");
   EXPECT_TRUE(client.hear("Session").text.starts_with(id + ": A block, right, reamer")) << id;
   const IgtlReading intact = client.hear("Bone");
@@ -74,8 +74,9 @@ TEST_F(WatchedServe, ToolMovesAndTheLastSurfaceIsTheReamedOne) {
   client.hear_until("thrust", [](const IgtlReading& reading) {
     return reading.name == "Force" && reading.values.at(0) > 30.0;
   });
+  request(200, "POST", path_of(id) + "/stop");
   client.hear_until("the end", [](const IgtlReading& reading) {
-    return reading.name == "Simulator" && reading.error_name == "finished";
+    return reading.name == "Simulator" && reading.error_name == "stopped";
   });
   const auto left = reamed_in_ras(id);
   const IgtlReading last = client.hear_until("the surface that is left", [&](const IgtlReading& reading) {
