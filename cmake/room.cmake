@@ -2,6 +2,10 @@
 add_library(ream_flags INTERFACE)
 target_compile_options(ream_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror -ffp-contract=off)
+if(REAM_TOGETHER GREATER 1)
+  # A file's local name may be that of something in another that is compiled with it.
+  target_compile_options(ream_flags INTERFACE -Wno-shadow -Wshadow=local -Wno-subobject-linkage)
+endif()
 if(REAM_SANITIZER)
   # Under the address sanitizer g++ 12 takes the standard library's std::regex for uninitialized. Types of SOCI's
   # library are not to be had at run time, so that checks of vptr do not link.

@@ -81,7 +81,7 @@ json to_json(const shell::LibraryReamer& reamer) {
           {"description", reamer.description}};
 }
 
-net::Response reamers(const std::filesystem::path& data_folder) {
+net::Response reamers_response(const std::filesystem::path& data_folder) {
   std::vector<std::string> warnings;
   json list = json::array();
   for (const shell::LibraryReamer& reamer : shell::reamers_of(data_folder, &warnings))
@@ -108,7 +108,8 @@ void add_case_plan_routes(net::Router& router, CaseWorkshop& workshop,
   router.on("PUT", one + "/plan", [&workshop, data_folder](const net::Request& request) {
     return set_plan(workshop, data_folder, request);
   });
-  router.on("GET", "/api/v1/reamers", [data_folder](const net::Request&) { return reamers(data_folder); });
+  router.on("GET", "/api/v1/reamers",
+            [data_folder](const net::Request&) { return reamers_response(data_folder); });
 }
 
 }  // namespace ream::api

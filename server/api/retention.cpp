@@ -46,10 +46,10 @@ void Retention::was_deleted() {
 }
 
 std::string Retention::ends_utc(const std::string& deleted_utc) const {
-  return utc_text(utc_moment(deleted_utc) + day * rules_.keep_deleted_days);
+  return ream::utc_text(utc_moment(deleted_utc) + day * rules_.keep_deleted_days);
 }
 
-std::string Retention::days_ago(int days) const { return utc_text(rules_.now() - day * days); }
+std::string Retention::days_ago(int days) const { return ream::utc_text(rules_.now() - day * days); }
 
 bool Retention::stopping() {
   const std::lock_guard lock(mutex_);

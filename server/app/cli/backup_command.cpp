@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct BackupOptions {
   fs::path file;
   bool force = false;
 };
@@ -38,7 +38,7 @@ std::string in_words(const std::map<std::string, size_t>& counts, uint64_t rows)
          counted(count_of(counts, "cases"), "case") + ", " + counted(rows, "row");
 }
 
-void back_up(const Options& options, const GlobalOptions& global) {
+void back_up(const BackupOptions& options, const GlobalOptions& global) {
   const fs::path data = data_folder(global.data);
   std::error_code failed;
   if (!fs::is_directory(data, failed))
@@ -66,7 +66,7 @@ void back_up(const Options& options, const GlobalOptions& global) {
     std::cout << options.file.string() << ": " << in_words(report.counts, report.rows) << '\n';
 }
 
-void restore(const Options& options, const GlobalOptions& global) {
+void restore(const BackupOptions& options, const GlobalOptions& global) {
   const fs::path data = data_folder(global.data);
   require_backup(options.file);
   catch_interrupts();
@@ -95,7 +95,7 @@ void restore(const Options& options, const GlobalOptions& global) {
 }  // namespace
 
 void add_backup_command(CLI::App& app, GlobalOptions& global) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BackupOptions>();
   CLI::App* command = app.add_subcommand(
       "backup",
       "Write sessions, cases, reamers and the database's tables into one file; a server may run meanwhile");
@@ -105,7 +105,7 @@ void add_backup_command(CLI::App& app, GlobalOptions& global) {
 }
 
 void add_restore_command(CLI::App& app, GlobalOptions& global) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BackupOptions>();
   CLI::App* command = app.add_subcommand(
       "restore", "Put a backup into an empty data folder and an empty database of either kind");
   command->add_option("FILE", options->file, "What ream backup has written")->required();

@@ -11,7 +11,7 @@
 namespace ream::app {
 namespace {
 
-struct Options {
+struct BenchOptions {
   std::string suite, plots;
   bool baselines = false, check = false;
 };
@@ -27,7 +27,7 @@ std::filesystem::path bench_program() {
   return program;
 }
 
-void bench(const Options& options, const GlobalOptions& global) {
+void bench(const BenchOptions& options, const GlobalOptions& global) {
   std::vector<std::string> words{bench_program().string()};
   if (!options.suite.empty()) words.push_back(options.suite);
   if (!options.plots.empty()) words.insert(words.end(), {"--plots", options.plots});
@@ -44,7 +44,7 @@ void bench(const Options& options, const GlobalOptions& global) {
 }  // namespace
 
 void add_bench_command(CLI::App& app, GlobalOptions& global) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BenchOptions>();
   CLI::App* command = app.add_subcommand("bench", "Measure this build (runs ream-bench)");
   command->add_option("suite", options->suite, "One suite; all when left out");
   command->add_flag("--baselines", options->baselines, "Measure the baselines too");

@@ -21,14 +21,14 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-struct Options {
+struct BenchmarkOptions {
   std::vector<std::string> experts, novices;
   std::string name = "experts", rubric = "standard", case_name, density = "normal";
   fs::path out;
 };
 
-std::vector<score::MeasuredSession> measured(const std::vector<std::string>& names, const Options& options,
-                                             const fs::path& data) {
+std::vector<score::MeasuredSession> measured(const std::vector<std::string>& names,
+                                             const BenchmarkOptions& options, const fs::path& data) {
   const TerminalProgress progress;
   std::vector<score::MeasuredSession> sessions;
   for (const Rescored& one : rescore(names, options.case_name, data, std::cref(progress))) {
@@ -58,7 +58,7 @@ void print(const score::Benchmark& benchmark, const json& cuts) {
   }
 }
 
-void make_benchmark(const Options& options, const GlobalOptions& global) {
+void make_benchmark(const BenchmarkOptions& options, const GlobalOptions& global) {
   const fs::path data = data_folder(global.data);
   const score::Density density = score::density_from_text(options.density);
   const score::Rubric rubric = score::find_rubric(options.rubric, score::RubricShelf(rubrics_folder(data)));
@@ -79,7 +79,7 @@ void make_benchmark(const Options& options, const GlobalOptions& global) {
 }  // namespace
 
 void add_benchmark_command(CLI::App& app, GlobalOptions& global) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BenchmarkOptions>();
   CLI::App* command = app.add_subcommand(
       "benchmark", "Make a benchmark of experts' sessions, and pass marks by contrasting them with novices'");
   command->add_option("EXPERT", options->experts, "Sessions of experts, as ream score takes them")

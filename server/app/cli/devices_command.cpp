@@ -21,7 +21,7 @@
 namespace ream::app {
 namespace {
 
-struct Options {
+struct DevicesOptions {
   std::string test, setup, profile, axes, hand;
   std::optional<double> scale;
   uint16_t port = 0;
@@ -63,14 +63,15 @@ Pose trial_start(const std::string& name) {
   return {rotation_with_z_along(name == "script" ? Vec3(0, 0, -1) : Vec3(0, 1, 0)), Vec3::Zero()};
 }
 
-MadeDevice trial_device(const Options& options, const std::string& name, const device::Script& script,
+MadeDevice trial_device(const DevicesOptions& options, const std::string& name, const device::Script& script,
                         const GlobalOptions& global) {
   const std::string profile = name == "script" ? "" : options.profile;
   return make_device({name, profile, &script, trial_start(name), 1, data_folder(global.data)});
 }
 
 /// Where a device that connects itself finds us; nothing for others.
-std::optional<DeviceDoor> open_door(const Options& options, const std::string& name, const MadeDevice& made) {
+std::optional<DeviceDoor> open_door(const DevicesOptions& options, const std::string& name,
+                                    const MadeDevice& made) {
   std::optional<DeviceDoor> door;
   if (!made.link) return door;
   door.emplace(made.link, name, made.device->traits(), options.port);
@@ -97,7 +98,7 @@ void print_trial(const DeviceTrial& trial) {
             << trial.wall_s << " s\n";
 }
 
-void test_device(const Options& options, const GlobalOptions& global) {
+void test_device(const DevicesOptions& options, const GlobalOptions& global) {
   const DeviceOffer offer = device_kind(options.test).offer(data_folder(global.data));
   refuse_browser(options.test, "tried out");
   if (!offer.usable)
@@ -118,7 +119,7 @@ void test_device(const Options& options, const GlobalOptions& global) {
 }
 
 /// A person at the terminal tells it, or shows it with the device.
-device::DeviceSetup shown_setup(const Options& options, const device::DeviceSetup& before,
+device::DeviceSetup shown_setup(const DevicesOptions& options, const device::DeviceSetup& before,
                                 const GlobalOptions& global) {
   const device::Script script = trial_script(options.profile);
   const MadeDevice made = trial_device(options, options.setup, script, global);
@@ -138,7 +139,7 @@ device::DeviceSetup shown_setup(const Options& options, const device::DeviceSetu
       std::cin, std::cerr, before, [&] { return reader.place_mm(); }, wait);
 }
 
-void set_up_device(const Options& options, const GlobalOptions& global) {
+void set_up_device(const DevicesOptions& options, const GlobalOptions& global) {
   device_kind(options.setup);
   refuse_browser(options.setup, "steered");
   if (options.setup == "script")
@@ -168,7 +169,7 @@ void set_up_device(const Options& options, const GlobalOptions& global) {
 }  // namespace
 
 void add_devices_command(CLI::App& app, GlobalOptions& global) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DevicesOptions>();
   CLI::App* command = app.add_subcommand("devices", "List the haptic devices, try one out, or set one up");
   CLI::Option* test =
       command->add_option("--test", options->test,

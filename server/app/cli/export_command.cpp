@@ -17,12 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ExportOptions {
   std::string session, case_name, format, rubric, benchmark;
   fs::path out;
 };
 
-ExportRequest request_of(const Options& options, const fs::path& data) {
+ExportRequest request_of(const ExportOptions& options, const fs::path& data) {
   ExportRequest request;
   request.recording = recording_path(options.session, data);
   request.case_name = options.case_name;
@@ -33,7 +33,7 @@ ExportRequest request_of(const Options& options, const fs::path& data) {
   return request;
 }
 
-void export_session(const Options& options, const GlobalOptions& global) {
+void export_session(const ExportOptions& options, const GlobalOptions& global) {
   const ExportFormat& format = export_format_of(options.format, options.out);
   if (format.kind != ExportKind::report && !(options.rubric.empty() && options.benchmark.empty()))
     throw Error(ErrorKind::usage,
@@ -64,7 +64,7 @@ std::string names_of_formats() {
 }  // namespace
 
 void add_export_command(CLI::App& app, GlobalOptions& global) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExportOptions>();
   CLI::App* command = app.add_subcommand("export", "Write a recorded session as a file for other programs");
   command
       ->add_option("SESSION", options->session,

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct FemeshOptions {
   std::string input, case_name, modulus, law, bin_value = "centre", axis, platens = "sliding";
   fs::path out;
   std::optional<double> threshold, bin_width_mpa;
@@ -40,7 +40,7 @@ fe::ModulusLaw given_law(const std::string& modulus) {
 }
 
 /// What was asked for, else Morgan's law for densities; gray values of an unknown scale are taken as MPa.
-fe::ModulusLaw law_for(const Options& options, fe::ElementModel& model) {
+fe::ModulusLaw law_for(const FemeshOptions& options, fe::ElementModel& model) {
   if (!options.modulus.empty() && !options.law.empty())
     throw Error(ErrorKind::usage, "--modulus and --law exclude each other");
   if (!options.modulus.empty()) return given_law(options.modulus);
@@ -56,7 +56,7 @@ fe::ModulusLaw law_for(const Options& options, fe::ElementModel& model) {
   return fe::linear_law(0.0, 1.0);
 }
 
-fe::MeshOptions mesh_options(const Options& options) {
+fe::MeshOptions mesh_options(const FemeshOptions& options) {
   fe::MeshOptions mesh;
   mesh.upsample = options.upsample;
   mesh.keep_islands = options.keep_islands;
@@ -106,7 +106,7 @@ nlohmann::json json_of(const fe::MeshReport& r, const fe::ElementModel& about, d
           {"warnings", about.remarks}};
 }
 
-void print(const fe::MeshReport& r, const Options& options, double time_ms) {
+void print(const fe::MeshReport& r, const FemeshOptions& options, double time_ms) {
   std::cout << r.elements << " elements, " << r.nodes << " nodes, " << r.materials.size() << " materials, "
             << r.volume_mm3 << " mm3 (" << 100.0 * r.volume_mm3 / r.box_volume_mm3 << " % of their box)\n"
             << "E " << r.materials.front().modulus_mpa << " to " << r.materials.back().modulus_mpa
@@ -120,7 +120,7 @@ void print(const fe::MeshReport& r, const Options& options, double time_ms) {
 }
 
 /// Reads a mesh that is there already.
-void check_file(const Options& options, const fe::MemoryBudget& budget, const GlobalOptions& global) {
+void check_file(const FemeshOptions& options, const fe::MemoryBudget& budget, const GlobalOptions& global) {
   const TerminalProgress progress;
   const fe::MeshFacts facts =
       fe::check_mesh_file(options.input, fe::format_of(options.input), budget, std::cref(progress));
@@ -137,7 +137,7 @@ void check_file(const Options& options, const fe::MemoryBudget& budget, const Gl
               << " nodes, " << facts.materials << " materials, " << facts.volume_mm3 << " mm3\n";
 }
 
-void femesh(const Options& options, const GlobalOptions& global) {
+void femesh(const FemeshOptions& options, const GlobalOptions& global) {
   catch_interrupts();
   fe::MemoryBudget budget;
   if (options.memory_mb > 0) {
@@ -177,7 +177,7 @@ std::string names_of_laws() {
 }  // namespace
 
 void add_femesh_command(CLI::App& app, GlobalOptions& global) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FemeshOptions>();
   CLI::App* command =
       app.add_subcommand("femesh", "Turn voxels into a mesh of hexahedra for finite elements");
   command

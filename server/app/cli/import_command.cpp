@@ -20,7 +20,7 @@
 namespace ream::app {
 namespace {
 
-struct Options {
+struct ImportOptions {
   std::filesystem::path path, label;
   std::string out, grow_from, humerus, glenoid, roi, calibration, side, name, labels_out;
   ct::ImportOptions import;
@@ -30,7 +30,7 @@ struct Options {
 
 Vec3 point(const std::vector<double>& n, size_t first = 0) { return {n[first], n[first + 1], n[first + 2]}; }
 
-ct::ImportOptions parsed(const Options& options) {
+ct::ImportOptions parsed(const ImportOptions& options) {
   ct::ImportOptions import = options.import;
   if (!options.label.empty()) import.label = options.label;
   if (!options.side.empty()) import.side = case_::side_from_text(options.side);
@@ -59,7 +59,7 @@ ct::ImportOptions parsed(const Options& options) {
   return import;
 }
 
-ct::Imported imported(const Options& options, const ct::ImportOptions& import,
+ct::Imported imported(const ImportOptions& options, const ct::ImportOptions& import,
                       const std::filesystem::path& out) {
   const TerminalProgress progress;
   const CtSource source(options.path);
@@ -95,7 +95,7 @@ void report(const case_::Case& c, const std::filesystem::path& out, bool json) {
             << out.string() << '\n';
 }
 
-void import_bundle(const Options& options, const GlobalOptions& global) {
+void import_bundle(const ImportOptions& options, const GlobalOptions& global) {
   const std::filesystem::path data = data_folder(global.data);
   const std::string id = import_session_bundle(options.path, data);
   const std::string folder = (sessions_folder(data) / id).string();
@@ -105,7 +105,7 @@ void import_bundle(const Options& options, const GlobalOptions& global) {
     std::cout << "session " << id << '\n' << folder << '\n';
 }
 
-void import_case(const Options& options, const GlobalOptions& global) {
+void import_case(const ImportOptions& options, const GlobalOptions& global) {
   if (is_session_bundle(options.path)) return import_bundle(options, global);
   if (options.out.empty()) throw Error(ErrorKind::usage, "--out is required: the name of the new case");
   const auto out = case_path(options.out, global.data);
@@ -125,7 +125,7 @@ void import_case(const Options& options, const GlobalOptions& global) {
 }  // namespace
 
 void add_import_command(CLI::App& app, GlobalOptions& global) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ImportOptions>();
   auto& segmentation = options->import.segmentation;
   CLI::App* command =
       app.add_subcommand("import", "Make a case out of a CT, or take in a session from another machine");

@@ -70,12 +70,12 @@ void print_session(const nlohmann::json& row) {
             << " s\n";
 }
 
-struct Options {
+struct ListOptions {
   std::string what;
   bool rebuild_index = false;
 };
 
-void list(const Options& options, const GlobalOptions& global) {
+void list(const ListOptions& options, const GlobalOptions& global) {
   const fs::path data = data_folder(global.data);
   const bool cases = options.what == "cases";
   if (options.rebuild_index) {
@@ -96,7 +96,7 @@ void list(const Options& options, const GlobalOptions& global) {
 }  // namespace
 
 void add_list_command(CLI::App& app, GlobalOptions& global) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ListOptions>();
   CLI::App* command = app.add_subcommand("list", "List what is in the data folder");
   command->add_option("what", options->what, "cases or sessions")
       ->required()

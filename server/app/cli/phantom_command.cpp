@@ -13,21 +13,22 @@
 namespace ream::app {
 namespace {
 
-struct Options {
+struct PhantomOptions {
   std::filesystem::path out;
   ct::PhantomParams params;
   double version_deg = -2.0, inclination_deg = 4.2, spacing_mm = 0.0;
   std::string side = "right", type = "A1", format = "dicom", preset;
 };
 
-void write_volume(const ct::HuVolume& volume, const Options& options, const std::filesystem::path& folder) {
+void write_volume(const ct::HuVolume& volume, const PhantomOptions& options,
+                  const std::filesystem::path& folder) {
   if (options.format == "dicom")
     ct::write_dicom_folder(volume, folder, options.params.random_seed);
   else
     ct::write_volume_file(volume, folder / (options.format == "nrrd" ? "ct.nrrd" : "ct.nii.gz"));
 }
 
-void phantom(const Options& options, const GlobalOptions& global) {
+void phantom(const PhantomOptions& options, const GlobalOptions& global) {
   FolderInProgress folder(options.out);
   ct::PhantomParams params = options.params;
   if (!options.preset.empty()) {
@@ -66,7 +67,7 @@ void phantom(const Options& options, const GlobalOptions& global) {
 }  // namespace
 
 void add_phantom_command(CLI::App& app, GlobalOptions& global) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PhantomOptions>();
   CLI::App* command = app.add_subcommand("phantom", "Make a shoulder CT whose truth is known exactly");
   command
       ->add_option("--out", options->out,

@@ -23,7 +23,7 @@
 namespace ream::app {
 namespace {
 
-struct Options {
+struct PlanOptions {
   std::string case_name, axis, reamer, guide, override_reason;
   std::filesystem::path landmarks;
   std::optional<double> version_deg, inclination_deg, implant_radius_mm;
@@ -51,7 +51,7 @@ case_::Plan through_face(const case_::Case& c) {
   return plan;
 }
 
-case_::Plan proposed(const Options& options, const Patient& patient) {
+case_::Plan proposed(const PlanOptions& options, const Patient& patient) {
   const case_::Case& c = patient.bone_case;
   if (!patient.landmarks)
     throw Error(ErrorKind::usage,
@@ -92,7 +92,7 @@ void set_axis(case_::Plan& plan, const case_::Case& c, const std::string& axis) 
 
 /// What the plan is before the options that only change it: by wanted angles where they are given, else the
 /// case's own, else by the landmarks, else straight through the face of the glenoid.
-case_::Plan starting_plan(const Options& options, const Patient& patient) {
+case_::Plan starting_plan(const PlanOptions& options, const Patient& patient) {
   const case_::Case& c = patient.bone_case;
   if (options.by_angles()) return proposed(options, patient);
   if (c.plan) return *c.plan;
@@ -100,7 +100,7 @@ case_::Plan starting_plan(const Options& options, const Patient& patient) {
   return patient.landmarks ? proposed(options, patient) : through_face(c);
 }
 
-void set_pilot(case_::Plan& plan, const Options& options) {
+void set_pilot(case_::Plan& plan, const PlanOptions& options) {
   if (options.no_pilot) plan.pilot_hole.reset();
   if (!options.pilot_diameter_mm && !options.pilot_depth_mm) return;
   case_::PilotHole hole = plan.pilot_hole.value_or(case_::PilotHole{});
@@ -119,7 +119,7 @@ std::string checked_reamer(const std::string& asked_for, const std::filesystem::
   return reamer;
 }
 
-case_::Plan changed_plan(const Options& options, const Patient& patient) {
+case_::Plan changed_plan(const PlanOptions& options, const Patient& patient) {
   case_::Plan plan = starting_plan(options, patient);
   if (!options.axis.empty()) set_axis(plan, patient.bone_case, options.axis);
   if (options.depth_mm) plan.depth_mm = *options.depth_mm;
@@ -151,7 +151,7 @@ void print(const case_::Plan& plan, const case_::PlanAssessment& assessment,
   std::cout << (folder / "plan.json").string() << '\n';
 }
 
-void plan_case(Options options, const GlobalOptions& global) {
+void plan_case(PlanOptions options, const GlobalOptions& global) {
   const auto folder = case_path(options.case_name, global.data);
   const auto data = data_folder(global.data);
   options.reamer = checked_reamer(options.reamer, data);
@@ -179,7 +179,7 @@ void plan_case(Options options, const GlobalOptions& global) {
   std::cout << answer.dump() << '\n';
 }
 
-void add_axis_options(CLI::App& command, Options& options) {
+void add_axis_options(CLI::App& command, PlanOptions& options) {
   auto* axis = command.add_option(
       "--axis", options.axis, "X,Y,Z,DX,DY,DZ: a point of the axis and its direction into the bone, LPS mm");
   command.add_option("--landmarks", options.landmarks,
@@ -201,7 +201,7 @@ void add_axis_options(CLI::App& command, Options& options) {
 }  // namespace
 
 void add_plan_command(CLI::App& app, GlobalOptions& global) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PlanOptions>();
   CLI::App* command = app.add_subcommand("plan", "Say where and how deep a case is to be reamed");
   command->add_option("CASE", options->case_name, "Name of a case, or its folder")->required();
   add_axis_options(*command, *options);

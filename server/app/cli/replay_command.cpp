@@ -20,14 +20,14 @@ namespace {
 
 using nlohmann::json;
 
-struct Options {
+struct ReplayOptions {
   std::string recording, case_name;
   bool verify = false;
   std::string backend = "cpu";
   double until_s = -1.0;
 };
 
-uint32_t until_tick(const Options& options) {
+uint32_t until_tick(const ReplayOptions& options) {
   return options.until_s < 0.0 ? UINT32_MAX : static_cast<uint32_t>(std::lround(options.until_s / tick_s));
 }
 
@@ -78,7 +78,7 @@ void end_with(uint32_t tick, const std::optional<record::Difference>& difference
                 recording.log().path().string() + ": " + difference_words(tick, *difference));
 }
 
-void review(const Options& options, const GlobalOptions& global, const record::Recording& recording,
+void review(const ReplayOptions& options, const GlobalOptions& global, const record::Recording& recording,
             case_::Case bone_case) {
   const Review found = review_recording(recording, std::move(bone_case), until_tick(options));
   json answer = about(recording, found.ticks);
@@ -94,7 +94,7 @@ void review(const Options& options, const GlobalOptions& global, const record::R
   end_with(found.difference_tick, found.difference, recording);
 }
 
-void verify(const Options& options, const GlobalOptions& global, const record::Recording& recording,
+void verify(const ReplayOptions& options, const GlobalOptions& global, const record::Recording& recording,
             case_::Case bone_case) {
   VerifyRequest request;
   request.backend = options.backend;
@@ -111,7 +111,7 @@ void verify(const Options& options, const GlobalOptions& global, const record::R
   end_with(found.ticks, found.difference, recording);
 }
 
-void replay(const Options& options, const GlobalOptions& global) {
+void replay(const ReplayOptions& options, const GlobalOptions& global) {
   catch_interrupts();
   const auto data = data_folder(global.data);
   // All chunks are looked at first, so that what comes before damage is gone through to its end.
@@ -126,7 +126,7 @@ void replay(const Options& options, const GlobalOptions& global) {
 }  // namespace
 
 void add_replay_command(CLI::App& app, GlobalOptions& global) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReplayOptions>();
   CLI::App* command =
       app.add_subcommand("replay", "Go through a recording, or prove it by computing it again");
   command

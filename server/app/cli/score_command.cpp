@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ScoreOptions {
   std::vector<std::string> sessions;
   bool all = false, save = false;
   std::string rubric = "standard", case_name, trainee, benchmark;
@@ -44,13 +44,13 @@ struct Judged {
   nlohmann::json document;
 };
 
-Judge judge_of(const Options& options, const fs::path& data) {
+Judge judge_of(const ScoreOptions& options, const fs::path& data) {
   Judge judge{score::find_rubric(options.rubric, score::RubricShelf(rubrics_folder(data))), std::nullopt};
   if (!options.benchmark.empty()) judge.benchmark = score::load_benchmark(options.benchmark);
   return judge;
 }
 
-std::vector<std::string> names_of(const Options& options, const fs::path& data) {
+std::vector<std::string> names_of(const ScoreOptions& options, const fs::path& data) {
   const int ways =
       (options.sessions.empty() ? 0 : 1) + (options.all ? 1 : 0) + (options.trainee.empty() ? 0 : 1);
   if (ways != 1) throw Error(ErrorKind::usage, "name sessions, or say --all, or --trainee: one of these");
@@ -65,14 +65,14 @@ std::vector<std::string> names_of(const Options& options, const fs::path& data) 
   return names;
 }
 
-std::vector<Rescored> rescored(const Options& options, const fs::path& data) {
+std::vector<Rescored> rescored(const ScoreOptions& options, const fs::path& data) {
   const std::vector<std::string> names = names_of(options, data);
   catch_interrupts();
   const TerminalProgress progress;
   return rescore(names, options.case_name, data, std::cref(progress));
 }
 
-Judged judged(const Rescored& one, const Options& options, const Judge& judge, const fs::path& data) {
+Judged judged(const Rescored& one, const ScoreOptions& options, const Judge& judge, const fs::path& data) {
   const fs::path recording = recording_path(one.name, data);
   Judged result;
   result.table = {one.name, description_of(record::Recording(recording)), one.metrics};
@@ -98,7 +98,8 @@ nlohmann::json answer_of(const Judged& one) {
   return answer;
 }
 
-nlohmann::json learning_of_all(const std::vector<Judged>& all, const Judge& judge, const Options& options) {
+nlohmann::json learning_of_all(const std::vector<Judged>& all, const Judge& judge,
+                               const ScoreOptions& options) {
   std::vector<score::LearningPoint> points;
   for (const Judged& one : all)
     points.push_back(learning_point(one.table.id, one.table.session,
@@ -107,7 +108,7 @@ nlohmann::json learning_of_all(const std::vector<Judged>& all, const Judge& judg
 }
 
 void print_all(const std::vector<Judged>& all, const nlohmann::json& failed, const nlohmann::json& learning,
-               const Options& options, bool as_json) {
+               const ScoreOptions& options, bool as_json) {
   if (!as_json) {
     for (const Judged& one : all) print_score(one.table.id, one.document);
     if (!learning.is_null()) print_learning(options.trainee, learning);
@@ -121,7 +122,7 @@ void print_all(const std::vector<Judged>& all, const nlohmann::json& failed, con
     std::cout << (answers.size() == 1 && !options.all ? answers.front() : answers).dump() << '\n';
 }
 
-void score_sessions(const Options& options, const GlobalOptions& global) {
+void score_sessions(const ScoreOptions& options, const GlobalOptions& global) {
   const fs::path data = data_folder(global.data);
   const Judge judge = judge_of(options, data);
   const std::vector<Rescored> scored = rescored(options, data);
@@ -149,7 +150,7 @@ void score_sessions(const Options& options, const GlobalOptions& global) {
 }  // namespace
 
 void add_score_command(CLI::App& app, GlobalOptions& global) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ScoreOptions>();
   CLI::App* command =
       app.add_subcommand("score", "Compute the metrics of recorded sessions anew and judge them");
   command->add_option("SESSION", options->sessions,

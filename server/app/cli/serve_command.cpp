@@ -40,7 +40,7 @@ namespace fs = std::filesystem;
 constexpr double unpacking_share = 0.2;
 constexpr int most_days = 36500;
 
-struct Options {
+struct ServeOptions {
   ServerAddress address;
   std::string openigtlink;  ///< as on the command line; empty: not wanted
   fs::path web;
@@ -113,7 +113,7 @@ void tell_address(const std::string& url, const openigtlink::Server* watched, ac
     std::cout << "to watch, for 12 hours: " << link << std::endl;
 }
 
-void serve(const Options& options, const GlobalOptions& global) {
+void serve(const ServeOptions& options, const GlobalOptions& global) {
   SessionHouse house;
   house.data = data_folder(global.data);
   house.server_epoch = static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::microseconds>(
@@ -180,7 +180,7 @@ void serve(const Options& options, const GlobalOptions& global) {
 }  // namespace
 
 void add_serve_command(CLI::App& app, GlobalOptions& global) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ServeOptions>();
   ServerAddress& address = options->address;
   CLI::App* command = app.add_subcommand("serve", "Serve the page, the API and live sessions");
   command->add_option("--host", address.host, "Address to listen on; others than loopback need users and TLS")

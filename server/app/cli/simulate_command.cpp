@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct SimulateOptions {
   RunRequest request;
   std::string tool_axis;
   std::string removal = "profile";
@@ -36,7 +36,7 @@ fs::path next_output_folder() {
   }
 }
 
-void simulate(const Options& options, const GlobalOptions& global) {
+void simulate(const SimulateOptions& options, const GlobalOptions& global) {
   RunRequest request = options.request;
   if (options.removal == "decay") request.removal = sim::RemovalLaw::decay;
   if (!options.tool_axis.empty()) {
@@ -75,7 +75,7 @@ void simulate(const Options& options, const GlobalOptions& global) {
 }  // namespace
 
 void add_simulate_command(CLI::App& app, GlobalOptions& global) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SimulateOptions>();
   CLI::App* command =
       app.add_subcommand("simulate", "Run a scripted reaming without a screen and write what happened");
   command

@@ -20,7 +20,7 @@ using access::CredentialKind;
 using access::Role;
 using nlohmann::json;
 
-struct Options {
+struct UserOptions {
   std::string name, display_name, role, words, credential;
   int expires_days = 90;
 };
@@ -60,7 +60,7 @@ void tell(const GlobalOptions& global, const json& for_programs, const std::stri
   std::cout << (global.json ? for_programs.dump() : for_people) << '\n';
 }
 
-void add(const Options& options, const GlobalOptions& global) {
+void add(const UserOptions& options, const GlobalOptions& global) {
   Office office(global);
   const bool first = !office.gatehouse.users.any();
   const std::string name = access::plain_name(options.name);
@@ -117,7 +117,7 @@ void list(const GlobalOptions& global) {
   for (const json& link : told["links"]) print_row(link, "link", names[link.at("user_id")]);
 }
 
-void make_token(const Options& options, const GlobalOptions& global) {
+void make_token(const UserOptions& options, const GlobalOptions& global) {
   Office office(global);
   const access::User user = office.user(options.name);
   access::NewCredential wanted;
@@ -137,7 +137,7 @@ void make_token(const Options& options, const GlobalOptions& global) {
   if (!global.json) std::cerr << "until " << issued.row.expires_utc << "; it is not shown again\n";
 }
 
-void revoke(const Options& options, const GlobalOptions& global) {
+void revoke(const UserOptions& options, const GlobalOptions& global) {
   Office office(global);
   access::Credentials& credentials = office.gatehouse.credentials;
   for (const CredentialKind kind : {CredentialKind::token, CredentialKind::link, CredentialKind::cookie})
@@ -160,26 +160,26 @@ void change(const std::string& name, const access::UserChange& change, const std
   tell(global, api::user_json(user), user.name + ": " + words);
 }
 
-void set_password(const Options& options, const GlobalOptions& global) {
+void set_password(const UserOptions& options, const GlobalOptions& global) {
   const std::string name = Office(global).user(options.name).name;
   access::UserChange wanted;
   wanted.password = ask_new_password(name);
   change(name, wanted, "password", global);
 }
 
-void set_role(const Options& options, const GlobalOptions& global) {
+void set_role(const UserOptions& options, const GlobalOptions& global) {
   access::UserChange wanted;
   wanted.role = access::role_from(options.role);
   change(options.name, wanted, "role " + options.role, global);
 }
 
-void set_enabled(const Options& options, bool enabled, const GlobalOptions& global) {
+void set_enabled(const UserOptions& options, bool enabled, const GlobalOptions& global) {
   access::UserChange wanted;
   wanted.enabled = enabled;
   change(options.name, wanted, enabled ? "enabled" : "disabled", global);
 }
 
-void remove(const Options& options, const GlobalOptions& global) {
+void remove(const UserOptions& options, const GlobalOptions& global) {
   Office office(global);
   const access::User user = office.user(options.name);
   office.gatehouse.users.remove(user.id);
@@ -190,7 +190,7 @@ void remove(const Options& options, const GlobalOptions& global) {
 }  // namespace
 
 void add_user_command(CLI::App& app, GlobalOptions& global) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<UserOptions>();
   CLI::App* command =
       app.add_subcommand("user", "Who may log in, and their tokens; a server may run meanwhile");
   command->require_subcommand(1);

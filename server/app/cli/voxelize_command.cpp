@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct VoxelizeOptions {
   fs::path mesh, like, points, grid, morton, boxes;
   std::string size, origin;
   double scale = 1.0;
@@ -45,7 +45,7 @@ Vec3 voxel_size(const std::string& text) {
   return one ? Vec3::Constant(n[0]) : Vec3(n[0], n[1], n[2]);
 }
 
-voxelizer::RasterGrid grid_for(const Options& options, const Aabb& box_mm) {
+voxelizer::RasterGrid grid_for(const VoxelizeOptions& options, const Aabb& box_mm) {
   if (!options.like.empty()) {
     if (!options.size.empty() || !options.origin.empty())
       throw Error(ErrorKind::usage, "--like says voxel size and origin; leave out --size and --origin");
@@ -58,7 +58,7 @@ voxelizer::RasterGrid grid_for(const Options& options, const Aabb& box_mm) {
   return voxelizer::grid_from(Vec3(o[0], o[1], o[2]), box_mm, size_mm);
 }
 
-voxelizer::Request request_of(const Options& options) {
+voxelizer::Request request_of(const VoxelizeOptions& options) {
   voxelizer::Request request;
   request.separability =
       options.separability == 6 ? voxelizer::Separability::six : voxelizer::Separability::twenty_six;
@@ -77,7 +77,7 @@ void mark(AVoxelizer& marker, const TriangleMesh& mesh, const voxelizer::Request
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-Result voxelize(const Options& options, const TriangleMesh& mesh, const voxelizer::Request& request) {
+Result voxelize(const VoxelizeOptions& options, const TriangleMesh& mesh, const voxelizer::Request& request) {
   const Aabb box = voxelizer::used_bounds(mesh, options.scale);
   const voxelizer::RasterGrid grid = grid_for(options, box);
   voxelizer::check_reach(grid, box);
@@ -101,14 +101,14 @@ Result voxelize(const Options& options, const TriangleMesh& mesh, const voxelize
 class Outputs {
  public:
   /// Begins the files, so that a place where none can be written is known before the work.
-  explicit Outputs(const Options& options) {
+  explicit Outputs(const VoxelizeOptions& options) {
     begin(options.grid, grid_);
     begin(options.points, points_);
     begin(options.morton, morton_);
     begin(options.boxes, boxes_);
   }
 
-  void write(const Options& options, const TriangleMesh& mesh, const voxelizer::Request& request,
+  void write(const VoxelizeOptions& options, const TriangleMesh& mesh, const voxelizer::Request& request,
              const voxelizer::VoxelSet& set) {
     const TerminalProgress terminal;
     const Progress progress = std::cref(terminal);
@@ -132,7 +132,7 @@ class Outputs {
   std::unique_ptr<StreamedFile> grid_, points_, morton_, boxes_;
 };
 
-void check_names(const Options& options) {
+void check_names(const VoxelizeOptions& options) {
   if (options.bits && options.grid.empty()) throw Error(ErrorKind::usage, "--bits is for --grid FILE.nrrd");
   const std::vector<fs::path> names = {options.grid, options.points, options.morton, options.boxes};
   for (size_t i = 0; i < names.size(); ++i)
@@ -141,7 +141,7 @@ void check_names(const Options& options) {
         throw Error(ErrorKind::usage, "two outputs have the name " + names[i].string());
 }
 
-void report(const Options& options, const Result& result, bool json) {
+void report(const VoxelizeOptions& options, const Result& result, bool json) {
   const voxelizer::VoxelSet& set = result.set;
   const Vec3i& d = set.grid().dims;
   const Vec3 &s = set.grid().size_mm, &o = set.grid().origin_mm;
@@ -165,7 +165,7 @@ void report(const Options& options, const Result& result, bool json) {
             << result.backend << '\n';
 }
 
-void run(const Options& options, const GlobalOptions& global) {
+void run(const VoxelizeOptions& options, const GlobalOptions& global) {
   catch_interrupts();
   check_names(options);
   if (!(options.scale > 0.0)) throw Error(ErrorKind::usage, "--scale must be a positive number");
@@ -182,7 +182,7 @@ void run(const Options& options, const GlobalOptions& global) {
 }  // namespace
 
 void add_voxelize_command(CLI::App& app, GlobalOptions& global) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<VoxelizeOptions>();
   CLI::App* command = app.add_subcommand(
       "voxelize", "Mark the voxels that the surface of a triangle mesh passes, or fill it");
   command->add_option("MESH", options->mesh, "STL, OBJ, PLY, OFF or GLB file, in mm unless --scale is given")
