@@ -1,6 +1,7 @@
 # Compiles the files of every target REAM_TOGETHER at a time, which takes less than half as long: most of
 # the time goes into headers. compile_together.py says which files may share one; they are included by a file of their
-# own in the build folder's together/. Sources with options of their own are compiled by themselves.
+# own in the build folder's together/. Sources with options of their own, and
+# those that say so (SKIP_UNITY_BUILD_INCLUSION), are compiled by themselves.
 
 # ream_targets_below(<folder> <variable>): the targets described in a folder and below.
 function(ream_targets_below folder variable)
@@ -22,7 +23,7 @@ function(ream_split_sources target)
   foreach(source ${sources})
     cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder} NORMALIZE)
     set(special FALSE)
-    foreach(property GENERATED COMPILE_OPTIONS COMPILE_DEFINITIONS)
+    foreach(property GENERATED COMPILE_OPTIONS COMPILE_DEFINITIONS SKIP_UNITY_BUILD_INCLUSION)
       get_property(value SOURCE ${source} TARGET_DIRECTORY ${target} PROPERTY ${property})
       if(value)
         set(special TRUE)

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/lower.hpp"
 #include "ct/dicom_file.hpp"
 #include "store/zip_archive.hpp"
 
@@ -16,12 +17,6 @@ constexpr uint64_t max_entries = 20000;
 constexpr uint64_t max_bytes = uint64_t{8} << 30, always_bytes = uint64_t{64} << 20;
 constexpr uint64_t max_packing = 200;                  // slices pack to a third, label maps to a hundredth
 constexpr uint64_t spare_bytes = uint64_t{256} << 20;  // left free on the disk
-
-std::string lower(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
 
 bool ends_with_one_of(const std::string& name, std::initializer_list<const char*> endings) {
   return std::any_of(endings.begin(), endings.end(), [&](const char* e) { return name.ends_with(e); });

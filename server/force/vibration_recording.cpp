@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/lower.hpp"
 
 namespace ream::force {
 namespace {
@@ -99,13 +100,6 @@ void check_rate(double rate_hz, const std::string& where) {
                       " Hz; take a recording of 1000 to 1000000 Hz");
 }
 
-std::string lower_case_extension(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return extension;
-}
-
 VibrationRecording read_wav(const fs::path& path) {
   const std::string where = path.string();
   SF_INFO info{};
@@ -139,7 +133,7 @@ VibrationRecording parse_vibration_csv(const std::string& text, double rate_hz, 
 }
 
 VibrationRecording read_vibration_recording(const fs::path& path, double rate_hz) {
-  const std::string extension = lower_case_extension(path);
+  const std::string extension = lower(path.extension().string());
   if (extension != ".wav" && extension != ".csv")
     refuse(path.string(), "is no vibration recording; give a .wav or .csv file");
   if (!fs::is_regular_file(path))

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <bit>
-#include <cctype>
 #include <cstring>
 #include <string>
 #include <unordered_map>
@@ -14,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/hash.hpp"
+#include "core/lower.hpp"
 #include "geometry/off.hpp"
 #include "geometry/ply.hpp"
 
@@ -91,12 +91,6 @@ TriangleMesh joined(const TriangleMesh& mesh) {
   return out;
 }
 
-std::string lower_case_extension(const std::filesystem::path& path) {
-  std::string found = path.extension().string();
-  for (char& c : found) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return found;
-}
-
 /// assimp takes a text STL that stops in the middle as whole.
 void check_text_stl_is_whole(const std::filesystem::path& path) {
   const std::string text = read_text_file(path);
@@ -118,7 +112,7 @@ TriangleMesh load_mesh(const std::filesystem::path& path) {
   std::error_code failed;
   if (!std::filesystem::exists(path, failed))
     throw Error(ErrorKind::not_found, "no such mesh: " + path.string());
-  const std::string extension = lower_case_extension(path);
+  const std::string extension = lower(path.extension().string());
   // Other readers of assimp were seen to abort the program on damaged files.
   if (extension != ".stl" && extension != ".obj" && extension != ".glb" && extension != ".ply" &&
       extension != ".off")

@@ -1,12 +1,11 @@
 #include "gpu/device.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cstdlib>
 #include <mutex>
 
 #include "core/error.hpp"
+#include "core/lower.hpp"
 #include "gpu/check.hpp"
 
 namespace ream::gpu {
@@ -65,13 +64,6 @@ void append_devices(cl_platform_id platform, std::vector<Device>& devices) {
     device.max_local_size = value_of<size_t>(id, CL_DEVICE_MAX_WORK_GROUP_SIZE);
     devices.push_back(std::move(device));
   }
-}
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
 }
 
 std::string listing(const std::vector<Device>& devices) {

@@ -6,17 +6,11 @@
 #include <cctype>
 #include <string>
 
+#include "core/lower.hpp"
 #include "net/problem.hpp"
 
 namespace ream::net {
 namespace {
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return out;
-}
 
 bool is_port(std::string_view text) {
   return !text.empty() && text.size() <= 5 &&

@@ -1,10 +1,9 @@
 #include "net/head_shape.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <set>
 #include <string>
 
+#include "core/lower.hpp"
 #include "net/problem.hpp"
 
 namespace ream::net {
@@ -14,13 +13,6 @@ constexpr std::string_view line_end = "\r\n";
 
 [[noreturn]] void refuse(const std::string& what) {
   throw RequestError(400, "not a plain HTTP/1.1 request: " + what);
-}
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return out;
 }
 
 std::string_view trimmed(std::string_view text) {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/string_body.hpp>
-#include <cctype>
 
+#include "core/lower.hpp"
 #include "net/head_shape.hpp"
 #include "net/problem.hpp"
 
@@ -18,12 +18,6 @@ constexpr std::string_view head_end = "\r\n\r\n";
 constexpr size_t chunk_line_bytes = 4096;  ///< of a chunk's line, and of all trailer lines together
 
 std::string text(beast::string_view view) { return {view.data(), view.size()}; }
-
-std::string lower(std::string name) {
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return name;
-}
 
 Request request_of(const http::request<http::string_body>& message) {
   Request request;

@@ -1,9 +1,9 @@
 #include "shell/tool.hpp"
 
 #include <algorithm>
-#include <cctype>
 
 #include "core/error.hpp"
+#include "core/lower.hpp"
 #include "geometry/mesh_io.hpp"
 #include "shell/meridian.hpp"
 #include "shell/parametric_profile.hpp"
@@ -19,8 +19,7 @@ constexpr int picture_segments = 96;
 
 bool names_a_mesh(const std::string& description) {
   const std::filesystem::path path(description);
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = lower(path.extension().string());
   for (const char* known : {".stl", ".obj", ".ply", ".off", ".glb", ".gltf"})
     if (extension == known) return true;
   std::error_code ignored;

@@ -1,4 +1,5 @@
 #include "support/raw_http.hpp"
+#include "core/lower.hpp"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -6,7 +7,6 @@
 #include <sys/time.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
@@ -18,12 +18,6 @@ constexpr int timeout_s = 20;
 
 [[noreturn]] void fail(const std::string& what) {
   throw std::runtime_error(what + ": " + std::strerror(errno));
-}
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-  return text;
 }
 
 std::string header_lines(const std::map<std::string, std::string>& headers) {

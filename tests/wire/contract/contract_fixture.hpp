@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/lower.hpp"
 #include "server_fixture.hpp"
 #include "support/json_schema.hpp"
 #include "support/places.hpp"
@@ -16,12 +17,6 @@ using Described = std::set<std::pair<std::string, int>>;
 inline std::string upper(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](char c) { return c >= 'a' && c <= 'z' ? char(c - 32) : c; });
-  return text;
-}
-
-inline std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
   return text;
 }
 
