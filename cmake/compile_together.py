@@ -20,7 +20,7 @@ UNNAMED = re.compile(r'^namespace \{\n(.*?)^\}  // namespace$', re.S | re.M)
 TYPE = re.compile(r'^(?:template <.*>\s*)?(?:enum class|enum|struct|class|union)\s+(\w+)', re.M)
 # What only gives something another name may be said twice.
 ALIAS = re.compile(r'^(?:namespace \w+ =|using )[^;]*;', re.M)
-OTHER = re.compile(r'^(?:\[\[\w+\]\] )?[A-Za-z_][^;={}()]*?\b(\w+)\s*(?:[({;=\[]|$)', re.M)
+OTHER = re.compile(r'^(?!(?:template|enum|struct|class|union)\b)(?:\[\[\w+\]\] )?[A-Za-z_][^;={}()]*?\b(\w+)\s*(?:[({;=\[]|$)', re.M)
 ONE_LINE = re.compile(r'^(?:inline |)(?:constexpr|const|static|std::atomic)\b[^\n]*;', re.M)
 FURTHER = re.compile(r',\s*(\w+)\s*[={]')
 USED = re.compile(r'(?<![\w.:])(?<!->)([A-Za-z_]\w*)(?!\w|::)')
