@@ -25,7 +25,7 @@ bool ends_with_one_of(const std::string& name, std::initializer_list<const char*
 bool is_zip(const fs::path& path) {
   std::error_code failed;
   if (!fs::is_regular_file(path, failed)) return false;
-  if (lower(path.extension()) == ".zip") return true;
+  if (lower(path.extension().string()) == ".zip") return true;
   std::ifstream in(path, std::ios::binary);
   std::string start(4, '\0');
   in.read(start.data(), 4);
@@ -55,7 +55,7 @@ Contents contents_of(const fs::path& folder, const fs::path& zip) {
   Contents contents;
   for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator();
        ++entry) {
-    const std::string name = lower(entry->path().filename());
+    const std::string name = lower(entry->path().filename().string());
     if (entry->is_directory() && (name == "__macosx" || name.starts_with('.')))
       entry.disable_recursion_pending();
     if (!entry->is_regular_file() || name.starts_with('.')) continue;
