@@ -4,7 +4,10 @@ target_compile_options(ream_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror -ffp-contract=off)
 if(REAM_TOGETHER GREATER 1)
   # A file's local name may be that of something in another that is compiled with it.
-  target_compile_options(ream_flags INTERFACE -Wno-shadow -Wshadow=local -Wno-subobject-linkage)
+  target_compile_options(ream_flags INTERFACE -Wno-shadow)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(ream_flags INTERFACE -Wshadow=local -Wno-subobject-linkage)
+  endif()
 endif()
 if(REAM_SANITIZER)
   # Under the address sanitizer g++ 12 takes the standard library's std::regex for uninitialized. Types of SOCI's
