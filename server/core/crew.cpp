@@ -73,10 +73,12 @@ void Crew::help(int worker) {
 void Crew::take_pieces(int worker) {
   try {
     for (;;) {
+      // Told before a piece is taken: whoever waits for a piece that was taken must see it worked on.
+      const size_t begun = next_.load(std::memory_order_relaxed);
+      if (worker == 0 && *job_.told && begun < job_.count)
+        (*job_.told)(static_cast<double>(begun) / static_cast<double>(job_.count));
       const size_t piece = next_.fetch_add(1, std::memory_order_relaxed);
       if (piece >= job_.count) return;
-      if (worker == 0 && *job_.told)
-        (*job_.told)(static_cast<double>(piece) / static_cast<double>(job_.count));
       (*job_.work)(piece, worker);
     }
   } catch (...) {

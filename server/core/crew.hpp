@@ -22,7 +22,8 @@ class Crew {
 
   /// Jobs come from one thread at a time. Calls work(piece, worker) for all pieces below count, worker from 0
   /// to threads() - 1, and returns when all are done. `told` hears from the asking thread how far it is. The
-  /// first exception of `work` or `told` ends the job early and is thrown here.
+  /// first exception of `work` or `told` ends the job early and is thrown here. Pieces are taken in order and
+  /// one that was taken is worked on, so that work may wait for those below it.
   void run(size_t count, const std::function<void(size_t piece, int worker)>& work,
            const std::function<void(double share)>& told = {});
 

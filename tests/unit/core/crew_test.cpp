@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <stdexcept>
 
 namespace ream {
@@ -52,6 +53,37 @@ TEST(Crew, AnErrorEndsTheJobAndTheNextOneIsAsEver) {
     crew.run(10, [&](size_t piece, int) { sum += piece; });
     EXPECT_EQ(sum, 45u);
   }
+}
+
+/// Pieces may wait for those before them: one that was taken and then given up would never come.
+TEST(Crew, NoPieceIsTakenInVainWhenWhoIsToldThrows) {
+  constexpr auto patience = std::chrono::seconds(5);
+  constexpr size_t count = 1000;
+  Crew crew(2);
+  std::atomic<size_t> begun = 0, done = 0;
+  std::atomic<bool> told_once = false, waited_in_vain = false;
+  const auto until = [&](const auto& true_now) {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (!true_now() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+    return true_now();
+  };
+  EXPECT_THROW(crew.run(
+                   count,
+                   [&](size_t piece, int worker) {
+                     ++begun;
+                     if (!until([&] { return done == piece && (told_once || worker == 0); }))
+                       waited_in_vain = true;
+                     done = piece + 1;
+                   },
+                   [&](double share) {
+                     if (share == 0.0) return;
+                     const size_t seen = begun;
+                     told_once = true;
+                     until([&] { return begun > seen || begun == count; });
+                     throw std::runtime_error("told");
+                   }),
+               std::runtime_error);
+  EXPECT_FALSE(waited_in_vain);
 }
 
 /// A helper that wakes late must not take pieces of a job that is not its own, nor miss the end.
