@@ -5,6 +5,7 @@
 #include "app/ct_source.hpp"
 #include "app/data_folder.hpp"
 #include "app/export_session.hpp"
+#include "app/find_case.hpp"
 #include "app/recorded_session.hpp"
 #include "app/rig.hpp"
 #include "core/error.hpp"

@@ -1,6 +1,7 @@
 #include "app/reamed_bone.hpp"
 
 #include "app/measured_glenoid.hpp"
+#include "app/recorded_case.hpp"
 #include "app/recorded_rig.hpp"
 #include "core/error.hpp"
 #include "record/recorded_bone.hpp"

@@ -8,6 +8,7 @@
 
 #include "api/session_folder.hpp"
 #include "api/session_labels.hpp"
+#include "app/asked_rig.hpp"
 #include "app/data_folder.hpp"
 #include "app/stream_words.hpp"
 #include "core/clock.hpp"

@@ -2,6 +2,7 @@
 
 #include "api/annotation_op.hpp"
 #include "api/viewer_stream.hpp"
+#include "app/find_case.hpp"
 #include "app/reamed_pictures.hpp"
 #include "app/reaming_session.hpp"
 #include "core/error.hpp"

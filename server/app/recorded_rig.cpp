@@ -10,8 +10,6 @@
 namespace ream::app {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// A JSON text of a recording's header. Error invalid_input naming it.
 nlohmann::json parsed(const std::string& text, const std::string& place) {
   try {
@@ -27,23 +25,19 @@ std::string place_of(const record::Recording& recording, const char* what) {
 
 }  // namespace
 
-case_::Case recorded_case(const record::Recording& recording, const std::string& case_name,
-                          const fs::path& data) {
-  const record::ops::Header& header = recording.header();
-  if (header.settings.empty())
+void require_computable(const record::Recording& recording) {
+  if (recording.header().settings.empty())
     throw Error(ErrorKind::invalid_input,
                 recording.log().path().string() +
                     " is of an older revision that does not say enough to go through it or compute it again");
-  case_::Case found;
-  try {
-    found = find_case(case_name.empty() ? header.case_id : case_name, data);
-  } catch (const Error& e) {
-    throw Error(e.kind(), "the case '" + header.case_id + "' of this recording cannot be had (" + e.what() +
-                              "); say where it is with --case");
-  }
-  if (const uint64_t hash = case_::case_hash(found); hash != header.case_hash)
+}
+
+case_::Case as_recorded(const record::Recording& recording, case_::Case found) {
+  require_computable(recording);
+  const uint64_t recorded = recording.header().case_hash;
+  if (const uint64_t hash = case_::case_hash(found); hash != recorded)
     throw Error(ErrorKind::conflict, "the case '" + found.id + "' is not what was recorded (its hash is " +
-                                         to_hex(hash) + ", recorded " + to_hex(header.case_hash) +
+                                         to_hex(hash) + ", recorded " + to_hex(recorded) +
                                          "); say where the old one is with --case");
   found.plan = recorded_plan(recording);
   return found;
@@ -54,13 +48,9 @@ case_::Plan recorded_plan(const record::Recording& recording) {
   return case_::plan_from_json(parsed(recording.header().plan, place), place);
 }
 
-case_::Anatomy recorded_anatomy(const record::Recording& recording, const case_::Case& native,
-                                const std::string& case_name, const fs::path& data) {
-  const record::ops::Header& header = recording.header();
-  if (header.anatomy.empty())
-    return find_anatomy(native, case_name.empty() ? header.case_id : case_name, data);
+case_::Anatomy anatomy_in(const record::Recording& recording) {
   const std::string place = place_of(recording, "recorded anatomy");
-  return case_::anatomy_from_json(parsed(header.anatomy, place), place);
+  return case_::anatomy_from_json(parsed(recording.header().anatomy, place), place);
 }
 
 sim::Settings recorded_settings(const record::Recording& recording, const std::string& backend) {

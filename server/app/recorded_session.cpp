@@ -1,6 +1,7 @@
 #include "app/recorded_session.hpp"
 
 #include "app/data_folder.hpp"
+#include "app/recorded_case.hpp"
 #include "app/recorded_rig.hpp"
 #include "core/error.hpp"
 #include "sim/model.hpp"

@@ -4,6 +4,7 @@
 
 #include "app/data_folder.hpp"
 #include "app/measured_glenoid.hpp"
+#include "app/recorded_case.hpp"
 #include "app/recorded_rig.hpp"
 #include "app/recorded_session.hpp"
 #include "core/error.hpp"

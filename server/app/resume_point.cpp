@@ -4,7 +4,10 @@
 
 #include "api/recorded_annotations.hpp"
 #include "api/session_folder.hpp"
+#include "app/asked_rig.hpp"
+#include "app/device_registry.hpp"
 #include "app/measured_glenoid.hpp"
+#include "app/recorded_case.hpp"
 #include "app/recorded_rig.hpp"
 #include "app/recorded_session.hpp"
 #include "core/error.hpp"

@@ -2,47 +2,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/case_shelf.hpp"
-#include "app/cli/case_path.hpp"
-#include "app/data_folder.hpp"
-#include "app/measured_glenoid.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
-#include "core/units.hpp"
-#include "ct/phantom_case.hpp"
-#include "sim/device_settings.hpp"
 
 namespace ream::app {
 namespace {
-
-namespace fs = std::filesystem;
-
-force::VibrationSettings vibration_settings(const device::ScriptVibration& script) {
-  force::VibrationSettings settings;
-  settings.source = force::vibration_source_from(script.source);
-  settings.recordings = {script.cortical_file, script.cancellous_file, script.idle_file, script.rate_hz};
-  settings.vibration_n_per_g = script.n_per_g;
-  return settings;
-}
-
-sim::Settings settings_for(const RunRequest& request, const device::Script& script,
-                           const device::DeviceTraits& traits) {
-  sim::Settings settings;
-  settings.backend = request.backend;
-  settings.removal = request.removal;
-  settings.tool_spacing_mm = request.tool_spacing_mm;
-  settings.force_scale = script.force_scale;
-  settings.vibration = vibration_settings(script.vibration);
-  sim::fit_to_device(traits, script.stiffness_n_mm, settings);
-  settings.mount = script.mount;
-  settings.random_seed = request.random_seed;
-  settings.feed.kind =
-      force::feed_kind_from_text(request.feed_model.empty() ? script.feed_model : request.feed_model);
-  settings.feed.spindle_rad_s = rad_s_from_rpm(script.spindle_rpm);
-  settings.feed.specimen_factor = script.specimen_factor;
-  return settings;
-}
 
 nlohmann::json vibration_json(const sim::Model& model) {
   const force::VibrationSettings& vibration = model.settings.vibration;
@@ -73,52 +38,11 @@ nlohmann::json mount_json(const sim::Model& model) {
 
 }  // namespace
 
-case_::Case find_case(const std::string& name, const fs::path& data) {
-  static CaseShelf shelf;
-  if (name != "demo") return shelf.load(case_path(name, data));
-  const fs::path demo = cases_folder(data) / "demo";
-  if (!fs::exists(demo / "case.json")) ct::load_or_make_demo_case(data);
-  return shelf.load(demo);
-}
-
-case_::Anatomy find_anatomy(const case_::Case& c, const std::string& name, const fs::path& data) {
-  return case_::anatomy_of(c, name == "demo" ? cases_folder(data) / "demo" : case_path(name, data));
-}
-
-device::Script find_script(const RunRequest& request) {
-  device::Script script = request.script_name == "demo"       ? device::demo_script()
-                          : request.script_name == "practice" ? device::practice_script()
-                                                              : device::load_script(request.script_name);
-  if (request.force_scale) script.force_scale = *request.force_scale;
-  return script;
-}
-
 const case_::Plan& plan_of(const case_::Case& c) {
   if (!c.plan)
     throw Error(ErrorKind::conflict, "case '" + c.id + "' has no plan; make one with `ream plan " + c.id +
                                          " --axis X,Y,Z,DX,DY,DZ`");
   return *c.plan;
-}
-
-RigParts asked_for(const RunRequest& request, const fs::path& data) {
-  RigParts parts;
-  parts.request = request;
-  parts.script = find_script(request);
-  settle_for_device(request.device, request.device_profile, parts.script);
-  parts.bone_case = find_case(request.case_name, data);
-  const case_::Plan& plan = plan_of(parts.bone_case);
-  parts.case_hash = case_::case_hash(parts.bone_case);
-  parts.reamer = reamer_asked_for(reamer_in_library(request.tool.empty() ? plan.reamer : request.tool, data),
-                                  request.tool_axis);
-  parts.tool = shell::make_tool(parts.reamer.words, parts.reamer.axis);
-  MadeDevice made = make_device({request.device, request.device_profile, &parts.script,
-                                 sim::world_from_plan(plan), request.random_seed, data});
-  parts.device = std::move(made.device);
-  parts.link = std::move(made.link);
-  parts.settings = settings_for(request, parts.script, parts.device->traits());
-  parts.anatomy = find_anatomy(parts.bone_case, request.case_name, data);
-  parts.native = measured_glenoid(parts.bone_case, parts.anatomy, parts.tool);
-  return parts;
 }
 
 Rig::Rig(RigParts parts)

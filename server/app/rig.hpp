@@ -1,13 +1,13 @@
 #pragma once
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
-#include "app/device_registry.hpp"
 #include "app/reamer.hpp"
 #include "case/anatomy.hpp"
+#include "device/haptic_device.hpp"
+#include "device/remote_link.hpp"
 #include "device/script.hpp"
 #include "score/native_glenoid.hpp"
 #include "sim/state.hpp"
@@ -46,18 +46,12 @@ struct RigParts {
   sim::CarriedOn from;
 };
 
-/// The parts of a new session. Errors: not_found and invalid_input of case, script and reamer; conflict when
-/// the case has no plan. `data` is where cases are looked up; the demo case is made there on first use.
-RigParts asked_for(const RunRequest& request, const std::filesystem::path& data);
-
 /// One case, one tool, one device, ready for the first tick of a segment. Everything in it stays where it is
 /// (the model refers to the bone), so it is made once and neither copied nor moved.
 class Rig {
  public:
   /// Errors: those of make_model; unavailable for the backend.
   explicit Rig(RigParts parts);
-  /// Errors: those of asked_for, too.
-  Rig(const RunRequest& request_in, const std::filesystem::path& data) : Rig(asked_for(request_in, data)) {}
   Rig(const Rig&) = delete;
   Rig& operator=(const Rig&) = delete;
 
@@ -79,14 +73,5 @@ class Rig {
 
 /// The plan of a case. Error conflict when it has none.
 const case_::Plan& plan_of(const case_::Case& c);
-
-/// The script that a request means, its force scale the request's. Errors: those of load_script.
-device::Script find_script(const RunRequest& request);
-
-/// The case that a name means; see RunRequest::case_name.
-case_::Case find_case(const std::string& name, const std::filesystem::path& data);
-
-/// Its side, landmarks and glenoid frame as they are now. Error invalid_input for its landmarks.
-case_::Anatomy find_anatomy(const case_::Case& c, const std::string& name, const std::filesystem::path& data);
 
 }  // namespace ream::app

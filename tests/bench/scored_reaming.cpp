@@ -5,7 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "app/asked_rig.hpp"
 #include "app/data_folder.hpp"
+#include "app/find_case.hpp"
 #include "app/loop_rings.hpp"
 #include "app/measured_glenoid.hpp"
 #include "app/session_files.hpp"
@@ -111,7 +113,7 @@ ScoredReaming ream_and_score(const std::filesystem::path& data, const std::strin
   scored.native_ms = native_ms_of(data);
   const std::filesystem::path folder = app::sessions_folder(data) / id;
   std::filesystem::create_directories(folder);
-  app::Rig rig(request_for(folder, duration_s), data);
+  app::Rig rig(app::asked_for(request_for(folder, duration_s), data));
   app::LoopRings rings(rig.bone_case.bone.grid);
   rig.state.brick_sender = &rings.sender;
   rig.state.brick_budget = bricks_a_tick;

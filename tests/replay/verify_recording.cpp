@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/data_folder.hpp"
+#include "app/recorded_rig.hpp"
 #include "app/verify_replay.hpp"
 #include "core/hash.hpp"
 
@@ -18,8 +19,10 @@ int main(int argc, char** argv) {
   try {
     const record::Recording recording(std::filesystem::path(argv[1]) / "recording.ream",
                                       record::Recording::Trust::checked);
+    case_::Case bone_case =
+        case_::load_case(app::cases_folder(app::data_folder({})) / recording.header().case_id);
     const app::VerifyResult found =
-        app::verify_replay(recording, app::recorded_case(recording, {}, app::data_folder({})), {});
+        app::verify_replay(recording, app::as_recorded(recording, std::move(bone_case)), {});
     nlohmann::json answer = {{"ticks", found.ticks},
                              {"verified", !found.difference},
                              {"session_hash", to_hex(found.session_hash)},

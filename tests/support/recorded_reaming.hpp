@@ -1,8 +1,10 @@
 #pragma once
 #include <nlohmann/json.hpp>
 
+#include "app/asked_rig.hpp"
 #include "app/headless_run.hpp"
 #include "app/loop_rings.hpp"
+#include "app/recorded_case.hpp"
 #include "app/recording_header.hpp"
 #include "app/verify_replay.hpp"
 #include "core/file.hpp"
@@ -70,7 +72,7 @@ class RecordedReaming {
     return out / "recording.ream";
   }
   std::filesystem::path record(const nlohmann::json& script) {
-    app::Rig rig(request(script), data());
+    app::Rig rig(app::asked_for(request(script), data()));
     return record(rig);
   }
 

@@ -8,6 +8,7 @@
 #include "app/cli/commands.hpp"
 #include "app/data_folder.hpp"
 #include "app/interrupt.hpp"
+#include "app/recorded_case.hpp"
 #include "app/recorded_session.hpp"
 #include "app/review_recording.hpp"
 #include "app/verify_replay.hpp"

@@ -3,6 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/asked_rig.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/numbers.hpp"
 #include "app/data_folder.hpp"
@@ -48,7 +49,7 @@ void simulate(const SimulateOptions& options, const GlobalOptions& global) {
   const fs::path out = options.out.empty() ? next_output_folder() : options.out;
   FolderInProgress folder(out);
   catch_interrupts();
-  Rig rig(request, data_folder(global.data));
+  Rig rig(asked_for(request, data_folder(global.data)));
   const std::vector<uint8_t> before = rig.bone_case.bone.coverage;
   const HeadlessResult result = run_headless(rig, before, folder.path(), options.wall_clock);
   write_reamed_pictures(rig, before, folder.path());

@@ -8,6 +8,7 @@
 #include <map>
 #include <string>
 
+#include "app/asked_rig.hpp"
 #include "app/crash_guard.hpp"
 #include "app/interrupt.hpp"
 #include "core/error.hpp"

@@ -1,4 +1,5 @@
 #include "app/reaming_session.hpp"
+#include "app/asked_rig.hpp"
 
 #include <gtest/gtest.h>
 #include <linux/capability.h>
@@ -188,7 +189,7 @@ TEST_F(ReamingSessionTest, ManyRemarksAtOnceBehindTheEnd) {
 }
 
 TEST_F(ReamingSessionTest, EventsAreRecorded) {
-  Rig rig(reaming.request(test::RecordedReaming::push("ideal-admittance", 0.2)), reaming.data());
+  Rig rig(asked_for(reaming.request(test::RecordedReaming::push("ideal-admittance", 0.2)), reaming.data()));
   const fs::path out = reaming.folder().path() / "events";
   fs::create_directories(out);
   const std::vector<uint8_t> start = rig.bone_case.bone.coverage;
@@ -205,7 +206,7 @@ TEST_F(ReamingSessionTest, EventsAreRecorded) {
 }
 
 TEST_F(ReamingSessionTest, AnAbandonedHealthyRecordingKeepsItsRemarks) {
-  Rig rig(reaming.request(test::RecordedReaming::push("ideal-admittance", 0.2)), reaming.data());
+  Rig rig(asked_for(reaming.request(test::RecordedReaming::push("ideal-admittance", 0.2)), reaming.data()));
   const fs::path out = reaming.folder().path() / "abandoned";
   fs::create_directories(out);
   const std::vector<uint8_t> start = rig.bone_case.bone.coverage;

@@ -1,4 +1,5 @@
 #include "app/replay_session.hpp"
+#include "app/asked_rig.hpp"
 
 #include <gtest/gtest.h>
 
@@ -38,7 +39,7 @@ class ReplaySessionTest : public testing::Test {
     request.case_name = "slab";
     request.script_name = script.string();
     request.backend = "cpu";
-    Rig rig(request, folder_->path());
+    Rig rig(asked_for(request, folder_->path()));
     const auto session = sessions_folder(folder_->path()) / "abcdefgh";
     std::filesystem::create_directories(session);
     const std::vector<uint8_t> start = rig.bone_case.bone.coverage;

@@ -1,4 +1,5 @@
 #include "app/rescoring.hpp"
+#include "app/asked_rig.hpp"
 
 #include <gtest/gtest.h>
 
@@ -54,7 +55,7 @@ class RescoringTest : public testing::Test {
     request.backend = "cpu";
     request.tool = tool;
     request.tool_spacing_mm = 1.0;
-    Rig rig(request, data());
+    Rig rig(asked_for(request, data()));
     const std::filesystem::path folder = sessions_folder(data()) / id;
     std::filesystem::create_directories(folder);
     const std::vector<uint8_t> start = rig.bone_case.bone.coverage;

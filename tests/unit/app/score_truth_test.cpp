@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "app/asked_rig.hpp"
 #include "app/headless_run.hpp"
 #include "case/landmarks.hpp"
 #include "core/file.hpp"
@@ -39,7 +40,7 @@ Scored run(const RandomReaming& reaming, const TemporaryFolder& folder) {
   request.script_name = (folder.path() / "script.json").string();
   request.backend = "cpu";
   request.tool_spacing_mm = robot_spacing_mm;
-  app::Rig rig(request, data);
+  app::Rig rig(app::asked_for(request, data));
   std::filesystem::create_directories(out);
   const std::vector<uint8_t> start = rig.bone_case.bone.coverage;
   const app::HeadlessResult result = app::run_headless(rig, start, out, false);

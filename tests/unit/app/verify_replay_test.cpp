@@ -1,4 +1,6 @@
 #include "app/verify_replay.hpp"
+#include "app/asked_rig.hpp"
+#include "app/recorded_case.hpp"
 
 #include <gtest/gtest.h>
 
@@ -154,7 +156,7 @@ TEST(VerifyReplay, RemovalByDecay) {
   RecordedReaming reaming;
   RunRequest request = reaming.request(RecordedReaming::push("ideal"));
   request.removal = sim::RemovalLaw::decay;
-  Rig rig(request, reaming.data());
+  Rig rig(asked_for(request, reaming.data()));
   expect_the_same_everywhere(reaming, reaming.record(rig));
 }
 
@@ -184,7 +186,7 @@ TEST(VerifyReplay, EveryFeedModelAndVibration) {
 
 TEST(VerifyReplay, ASessionWhoseDeviceFailed) {
   RecordedReaming reaming;
-  Rig rig(reaming.request(RecordedReaming::push("omega.6")), reaming.data());
+  Rig rig(asked_for(reaming.request(RecordedReaming::push("omega.6")), reaming.data()));
   rig.state.reserve = sim::make_cpp_backend(rig.model, rig.bone_case.bone, rig.state.cells);
   rig.state.backend.narrow_phase =
       std::make_unique<test::FailingNarrowPhase>(std::move(rig.state.backend.narrow_phase), 300);

@@ -1,0 +1,33 @@
+#include "app/recorded_case.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "app/find_case.hpp"
+#include "app/recorded_rig.hpp"
+#include "core/error.hpp"
+
+namespace ream::app {
+
+case_::Case recorded_case(const record::Recording& recording, const std::string& case_name,
+                          const std::filesystem::path& data) {
+  require_computable(recording);
+  const std::string& recorded_id = recording.header().case_id;
+  case_::Case found;
+  try {
+    found = find_case(case_name.empty() ? recorded_id : case_name, data);
+  } catch (const Error& e) {
+    throw Error(e.kind(), "the case '" + recorded_id + "' of this recording cannot be had (" + e.what() +
+                              "); say where it is with --case");
+  }
+  return as_recorded(recording, std::move(found));
+}
+
+case_::Anatomy recorded_anatomy(const record::Recording& recording, const case_::Case& native,
+                                const std::string& case_name, const std::filesystem::path& data) {
+  const record::ops::Header& header = recording.header();
+  if (header.anatomy.empty())
+    return find_anatomy(native, case_name.empty() ? header.case_id : case_name, data);
+  return anatomy_in(recording);
+}
+
+}  // namespace ream::app

@@ -1,0 +1,21 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "case/anatomy.hpp"
+#include "case/case.hpp"
+#include "record/recording.hpp"
+
+namespace ream::app {
+
+/// The case that a recording began with, as_recorded(). `case_name` as for find_case(), or empty for the case
+/// that the header names. Errors: not_found; those of as_recorded().
+case_::Case recorded_case(const record::Recording& recording, const std::string& case_name,
+                          const std::filesystem::path& data);
+
+/// What a recording's session is measured against; recordings of older revisions do not say it, so that it is
+/// what `native`, their case, says now. `case_name` as above. Error invalid_input.
+case_::Anatomy recorded_anatomy(const record::Recording& recording, const case_::Case& native,
+                                const std::string& case_name, const std::filesystem::path& data);
+
+}  // namespace ream::app
