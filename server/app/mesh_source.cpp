@@ -7,7 +7,6 @@
 #include "app/export_session.hpp"
 #include "app/find_case.hpp"
 #include "app/recorded_session.hpp"
-#include "app/rig.hpp"
 #include "core/error.hpp"
 #include "ct/gray_volume.hpp"
 #include "fe/layers_model.hpp"

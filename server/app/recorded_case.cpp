@@ -1,12 +1,20 @@
 #include "app/recorded_case.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include "app/find_case.hpp"
 #include "app/recorded_rig.hpp"
 #include "core/error.hpp"
 
 namespace ream::app {
+namespace {
+
+void require_computable(const record::Recording& recording) {
+  if (recording.header().settings.empty())
+    throw Error(ErrorKind::invalid_input,
+                recording.log().path().string() +
+                    " is of an older revision that does not say enough to go through it or compute it again");
+}
+
+}  // namespace
 
 case_::Case recorded_case(const record::Recording& recording, const std::string& case_name,
                           const std::filesystem::path& data) {
@@ -19,7 +27,7 @@ case_::Case recorded_case(const record::Recording& recording, const std::string&
     throw Error(e.kind(), "the case '" + recorded_id + "' of this recording cannot be had (" + e.what() +
                               "); say where it is with --case");
   }
-  return as_recorded(recording, std::move(found));
+  return case_as_recorded(recording, std::move(found));
 }
 
 case_::Anatomy recorded_anatomy(const record::Recording& recording, const case_::Case& native,

@@ -8,8 +8,9 @@
 
 namespace ream::app {
 
-/// The case that a recording began with, as_recorded(). `case_name` as for find_case(), or empty for the case
-/// that the header names. Errors: not_found; those of as_recorded().
+/// The case_as_recorded() that a recording began with. `case_name` as for find_case(), or empty for the case
+/// that the header names. Errors: not_found; invalid_input for a recording of a revision that says too little
+/// to be computed again; those of case_as_recorded().
 case_::Case recorded_case(const record::Recording& recording, const std::string& case_name,
                           const std::filesystem::path& data);
 

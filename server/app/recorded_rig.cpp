@@ -25,15 +25,7 @@ std::string place_of(const record::Recording& recording, const char* what) {
 
 }  // namespace
 
-void require_computable(const record::Recording& recording) {
-  if (recording.header().settings.empty())
-    throw Error(ErrorKind::invalid_input,
-                recording.log().path().string() +
-                    " is of an older revision that does not say enough to go through it or compute it again");
-}
-
-case_::Case as_recorded(const record::Recording& recording, case_::Case found) {
-  require_computable(recording);
+case_::Case case_as_recorded(const record::Recording& recording, case_::Case found) {
   const uint64_t recorded = recording.header().case_hash;
   if (const uint64_t hash = case_::case_hash(found); hash != recorded)
     throw Error(ErrorKind::conflict, "the case '" + found.id + "' is not what was recorded (its hash is " +

@@ -6,13 +6,9 @@
 
 namespace ream::app {
 
-/// Error invalid_input for a recording of a revision that says too little to be computed again.
-void require_computable(const record::Recording& recording);
-
 /// `found` under the recording's plan instead of its present one; its pilot hole is not cut yet. Errors:
-/// conflict when it is not the case that was recorded; invalid_input for the plan; that of
-/// require_computable.
-case_::Case as_recorded(const record::Recording& recording, case_::Case found);
+/// conflict when it is not the case that was recorded; invalid_input for the plan.
+case_::Case case_as_recorded(const record::Recording& recording, case_::Case found);
 
 /// The plan of a recording. Error invalid_input.
 case_::Plan recorded_plan(const record::Recording& recording);
@@ -26,8 +22,8 @@ sim::Settings recorded_settings(const record::Recording& recording, const std::s
 /// The reamer of a segment. Error invalid_input.
 Reamer recorded_reamer(const record::Recording& recording, const record::ops::Segment& segment);
 
-/// A segment's rig once more, without device or script. `bone_case` is as_recorded(), its coverage as the
-/// segment finds it; `from` likewise. Errors: those above; of tool_of.
+/// A segment's rig once more, without device or script. `bone_case` is the case_as_recorded(), its coverage
+/// as the segment finds it; `from` likewise. Errors: those above; of tool_of.
 RigParts recorded_parts(const record::Recording& recording, const record::ops::Segment& segment,
                         case_::Case bone_case, const sim::CarriedOn& from, const std::string& backend);
 

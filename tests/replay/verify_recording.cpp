@@ -5,7 +5,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "app/data_folder.hpp"
+#include "app/cli/case_path.hpp"
 #include "app/recorded_rig.hpp"
 #include "app/verify_replay.hpp"
 #include "core/hash.hpp"
@@ -19,10 +19,9 @@ int main(int argc, char** argv) {
   try {
     const record::Recording recording(std::filesystem::path(argv[1]) / "recording.ream",
                                       record::Recording::Trust::checked);
-    case_::Case bone_case =
-        case_::load_case(app::cases_folder(app::data_folder({})) / recording.header().case_id);
+    case_::Case bone_case = case_::load_case(app::case_path(recording.header().case_id, {}));
     const app::VerifyResult found =
-        app::verify_replay(recording, app::as_recorded(recording, std::move(bone_case)), {});
+        app::verify_replay(recording, app::case_as_recorded(recording, std::move(bone_case)), {});
     nlohmann::json answer = {{"ticks", found.ticks},
                              {"verified", !found.difference},
                              {"session_hash", to_hex(found.session_hash)},

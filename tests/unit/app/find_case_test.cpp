@@ -1,7 +1,7 @@
 #include "app/find_case.hpp"
+
 #include "app/cli/case_path.hpp"
 #include "app/data_folder.hpp"
-#include "app/find_case.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_bone.hpp"

@@ -1,5 +1,4 @@
 #include "app/reaming_session.hpp"
-#include "app/asked_rig.hpp"
 
 #include <gtest/gtest.h>
 #include <linux/capability.h>
@@ -12,6 +11,7 @@
 
 #include "api/recorded_annotations.hpp"
 #include "api/session_service.hpp"
+#include "app/asked_rig.hpp"
 #include "app/data_folder.hpp"
 #include "app/session_recovery.hpp"
 #include "core/file.hpp"

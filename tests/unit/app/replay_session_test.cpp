@@ -1,10 +1,10 @@
 #include "app/replay_session.hpp"
-#include "app/asked_rig.hpp"
 
 #include <gtest/gtest.h>
 
 #include <thread>
 
+#include "app/asked_rig.hpp"
 #include "app/data_folder.hpp"
 #include "app/headless_run.hpp"
 #include "case/case.hpp"

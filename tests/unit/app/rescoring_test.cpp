@@ -1,8 +1,8 @@
 #include "app/rescoring.hpp"
-#include "app/asked_rig.hpp"
 
 #include <gtest/gtest.h>
 
+#include "app/asked_rig.hpp"
 #include "app/data_folder.hpp"
 #include "app/headless_run.hpp"
 #include "case/landmarks.hpp"

@@ -1,12 +1,12 @@
 #include "app/verify_replay.hpp"
-#include "app/asked_rig.hpp"
-#include "app/recorded_case.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "app/asked_rig.hpp"
+#include "app/recorded_case.hpp"
 #include "app/review_recording.hpp"
 #include "core/hash.hpp"
 #include "geometry/mesh_io.hpp"
