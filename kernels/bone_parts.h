@@ -1,5 +1,5 @@
 // The bone's bytes, one a voxel: in one buffer, or where the device does not allocate as much at once in PARTS (2 or 4)
-// of 2^PART_SHIFT voxels each (server/collide/bone_parts.hpp). A brick never crosses from one part to the next, so a
+// of 2^PART_SHIFT voxels each (server/collide/bone_buffers.hpp). A brick never crosses from one part to the next, so a
 // pointer to one of its voxels reaches the others.
 //   BONE_PARTS(global const uchar, coverage)  declares the parameters
 //   PASS_PARTS(coverage)                      hands them on

@@ -2,7 +2,7 @@
 #include "layout.h"
 #include "bone_parts.h"
 
-// Finds the points of the shell that lie in bone (algorithm 4.1). Twin of server/collide/decay_cpu.cpp. A group takes
+// Finds the points of the shell that lie in bone (algorithm 4.1). Twin of server/collide/removal/decay.cpp. A group takes
 // every G-th listed run, its LANES work-items take the run's points. What the points take from their voxels is
 // subtracted on the host, where the order is one of many with the same result.
 

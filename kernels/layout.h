@@ -37,13 +37,13 @@ struct VoxelizerArguments {
   ream_int32 thin;  // 1: 6-separating (eqs 3.6-3.8), 0: 26-separating (eqs 3.1-3.5)
 };
 
-// Affine map, row by row: out_i = m[3i] x + m[3i+1] y + m[3i+2] z + t[i] (collide/grid_affine.hpp).
+// Affine map, row by row: out_i = m[3i] x + m[3i+1] y + m[3i+2] z + t[i] (collide/grid_transform.hpp).
 struct AffineArguments {
   float m[9];
   float t[3];
 };
 
-// Narrow phase (collide/contact_shell.hpp, contact_direction.hpp, contact_sums.hpp). A work-group's sums, 64-bit: products
+// Narrow phase (collide/contact/contact_shell.hpp, narrow_phase.hpp). A work-group's sums, 64-bit: products
 // and points of the cutting, then of the guiding blocks, then points and densities by class, then the depth key.
 #define REAM_CONTACT_PRODUCTS 21
 #define REAM_CONTACT_PART_SUMS 22
@@ -119,19 +119,6 @@ struct DecayArguments {
   struct AffineArguments voxel_from_tool;
   ream_int32 dims_x, dims_y, dims_z;
   ream_uint32 listed;  // runs
-};
-
-// Upsampling: where an output sample lies between two input samples (voxel/upsample.hpp).
-struct UpsampleTapLayout {
-  ream_int32 low, high;
-  ream_uint32 low_weight, high_weight;
-};
-
-struct UpsampleArguments {
-  ream_uint32 input_x, input_y;    // samples a row, rows a slice
-  ream_uint32 output_x, output_y;  // the same of the output
-  ream_uint32 first_slice;         // of the output slab being made
-  ream_uint32 rounding, divisor;   // 4 N^3 and 8 N^3
 };
 
 #ifndef __OPENCL_VERSION__

@@ -2,7 +2,7 @@
 #include "layout.h"
 #include "bone_parts.h"
 
-// Contact sums of the shell's due chunks: whole numbers only. Twin of server/collide/contact_look_portable.cpp.
+// Contact sums of the shell's due chunks: whole numbers only. Twin of server/collide/contact/contact_kernel.cpp.
 // LANES work-items a group: 1 where work-items are loops (CPU), and one takes a share of the chunks in a row, each as
 // vectors; elsewhere a multiple of the warp, a group takes every G-th chunk and its lanes one point at a time.
 

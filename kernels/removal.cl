@@ -2,7 +2,7 @@
 #include "layout.h"
 #include "bone_parts.h"
 
-// Cuts listed bricks by the swept profile. Twin of server/collide/removal_cpu.cpp. LANES work-items a group: 1 where
+// Cuts listed bricks by the swept profile. Twin of server/collide/removal/removal.cpp. LANES work-items a group: 1 where
 // work-items are loops (CPU), up to 64 elsewhere. A group takes every G-th brick, its lanes take rows of eight voxels.
 
 #if LANES > 1

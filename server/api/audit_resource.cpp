@@ -1,8 +1,8 @@
 #include <charconv>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 
 #include "api/access_resource.hpp"
+#include "core/json.hpp"
 #include "net/problem.hpp"
 
 namespace ream::api {

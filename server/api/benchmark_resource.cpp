@@ -4,7 +4,7 @@
 #include "api/rights.hpp"
 #include "api/score_tools.hpp"
 #include "core/error.hpp"
-#include "score/group_cut_json.hpp"
+#include "score/group_cut.hpp"
 
 namespace ream::api {
 using nlohmann::json;
@@ -88,7 +88,7 @@ Wishes wishes_in(const net::Request& request) {
 
 net::Response create(const ScoreTools& tools, const net::Request& request) {
   const Wishes wishes = wishes_in(request);
-  const Judge judge = tools.shelves.judge_by(wishes.rubric);
+  const Judge judge = tools.stores.judge_by(wishes.rubric);
   KeptBenchmark made;
   tools.quiet.run([&] {
     const auto experts = measured(tools, wishes.experts, "experts");
@@ -103,7 +103,7 @@ net::Response create(const ScoreTools& tools, const net::Request& request) {
   if (made.benchmark.lines.empty())
     throw net::RequestError(422, "the experts' sessions say nothing that others could be compared with",
                             {{"#/experts", "say no metric that has an aim"}});
-  const KeptBenchmark kept = tools.shelves.benchmarks.keep(std::move(made));
+  const KeptBenchmark kept = tools.stores.benchmarks.keep(std::move(made));
   tools.audit(request, "benchmark.create", kept.id, kept.benchmark.name);
   net::Response response = net::json_response(201, to_json(kept, request.caller));
   response.headers.emplace_back("Location", base + "/" + kept.id);
@@ -115,14 +115,13 @@ net::Response create(const ScoreTools& tools, const net::Request& request) {
 void add_benchmark_routes(net::Router& router, const ScoreTools& tools) {
   router.on("GET", base, [tools](const net::Request&) {
     json benchmarks = json::array();
-    for (const KeptBenchmark& kept : tools.shelves.benchmarks.list())
-      benchmarks.push_back(summary_json(kept));
+    for (const KeptBenchmark& kept : tools.stores.benchmarks.list()) benchmarks.push_back(summary_json(kept));
     return net::json_response(200, {{"benchmarks", std::move(benchmarks)}});
   });
   router.on("POST", base, [tools](const net::Request& request) { return create(tools, request); });
   router.on("GET", base + "/{id}", [tools](const net::Request& request) {
     return net::json_response(
-        200, to_json(tools.shelves.benchmarks.get(request.parameters.at("id")), request.caller));
+        200, to_json(tools.stores.benchmarks.get(request.parameters.at("id")), request.caller));
   });
 }
 

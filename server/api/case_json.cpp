@@ -6,8 +6,7 @@
 #include "case/landmarks.hpp"
 #include "case/plan.hpp"
 #include "core/file.hpp"
-#include "ct/workup.hpp"
-#include "ct/workup_json.hpp"
+#include "ct/build/ct_workspace.hpp"
 #include "geometry/pose_json.hpp"
 
 namespace ream::api {

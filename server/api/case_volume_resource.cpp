@@ -2,7 +2,8 @@
 #include <optional>
 
 #include "api/case_work_resource.hpp"
-#include "api/passing_file.hpp"
+#include "core/temporary_file.hpp"
+#include "net/file_body.hpp"
 #include "net/problem.hpp"
 
 namespace ream::api {
@@ -51,11 +52,11 @@ net::Response slice(CaseWorkshop& workshop, const net::Request& request) {
 }
 
 /// Made now, sent, and gone.
-net::Response volume(CaseWorkshop& workshop, QuietWork& quiet, const std::filesystem::path& passing_folder,
+net::Response volume(CaseWorkshop& workshop, QuietWork& quiet, const std::filesystem::path& temporary_folder,
                      const net::Request& request) {
   const std::string& id = request.parameters.at("id");
   workshop.workup(id);
-  const PassingFile file(passing_folder, ".nrrd");
+  const TemporaryFile file(temporary_folder, ".nrrd");
   quiet.run([&] { workshop.write_volume(id, file.path()); });
   return net::file_response(request, {file.path(), "application/octet-stream", id + ".nrrd"});
 }
@@ -70,9 +71,9 @@ net::Response mesh(CaseWorkshop& workshop, const net::Request& request) {
 }  // namespace
 
 void add_case_volume_routes(net::Router& router, CaseWorkshop& workshop, QuietWork& quiet,
-                            const std::filesystem::path& passing_folder) {
-  router.on("GET", "/api/v1/cases/{id}/volume", [&, passing_folder](const net::Request& request) {
-    return volume(workshop, quiet, passing_folder, request);
+                            const std::filesystem::path& temporary_folder) {
+  router.on("GET", "/api/v1/cases/{id}/volume", [&, temporary_folder](const net::Request& request) {
+    return volume(workshop, quiet, temporary_folder, request);
   });
   router.on("GET", "/api/v1/cases/{id}/volume/slices/{axis}/{index}",
             [&workshop](const net::Request& request) { return slice(workshop, request); });

@@ -6,7 +6,7 @@
 #include "api/job_resource.hpp"
 #include "api/request_body.hpp"
 #include "core/error.hpp"
-#include "ct/workup_json.hpp"
+#include "ct/build/ct_workspace.hpp"
 
 namespace ream::api {
 using nlohmann::json;

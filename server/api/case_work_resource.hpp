@@ -10,9 +10,9 @@ namespace ream::api {
 void add_case_work_routes(net::Router& router, CaseWorkshop& workshop, UploadStore& uploads);
 
 /// Looking at a case's CT and surface: slices, mesh, and the whole CT as a file, which is made by `quiet` in
-/// `passing_folder`. Both outlive the router.
+/// `temporary_folder`. Both outlive the router.
 void add_case_volume_routes(net::Router& router, CaseWorkshop& workshop, QuietWork& quiet,
-                            const std::filesystem::path& passing_folder);
+                            const std::filesystem::path& temporary_folder);
 
 /// Landmarks, measures, plan, and the library of reamers of `data_folder`.
 void add_case_plan_routes(net::Router& router, CaseWorkshop& workshop,

@@ -9,9 +9,8 @@
 #include "api/job_service.hpp"
 #include "api/upload_store.hpp"
 #include "case/landmarks.hpp"
-#include "case/plan_assessment.hpp"
-#include "case/plan_proposal.hpp"
-#include "ct/workup.hpp"
+#include "case/planning.hpp"
+#include "ct/build/ct_workspace.hpp"
 #include "net/message.hpp"
 
 namespace ream::api {

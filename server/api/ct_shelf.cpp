@@ -1,6 +1,6 @@
 #include "api/ct_shelf.hpp"
 
-#include "ct/workup_bone.hpp"
+#include "ct/build/ct_workspace.hpp"
 
 namespace ream::api {
 namespace fs = std::filesystem;

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <string>
 
-#include "ct/workup.hpp"
+#include "ct/build/ct_workspace.hpp"
 #include "voxel/bone_model.hpp"
 
 namespace ream::api {

@@ -7,8 +7,8 @@
 #include "api/new_id.hpp"
 #include "core/clock.hpp"
 #include "core/file.hpp"
-#include "core/give_way.hpp"
 #include "core/log.hpp"
+#include "core/thread_pool.hpp"
 
 namespace ream::api {
 namespace fs = std::filesystem;
@@ -209,7 +209,7 @@ void JobService::remove_old_results() {
 }
 
 void JobService::work() {
-  give_way();
+  lower_thread_priority();
   std::unique_lock lock(mutex_);
   while (true) {
     const auto next = std::find_if(jobs_.begin(), jobs_.end(),

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "core/hex.hpp"
+#include "core/text.hpp"
 
 namespace ream::api {
 using nlohmann::json;

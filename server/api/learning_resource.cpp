@@ -102,7 +102,7 @@ json progression(const std::string& id, const score::Benchmark& benchmark,
 
 net::Response learning(const ScoreTools& tools, const net::Request& request) {
   const std::string benchmark = asked(request, "benchmark");
-  const Judge judge = tools.shelves.judge_by(asked(request, "rubric"), benchmark);
+  const Judge judge = tools.stores.judge_by(asked(request, "rubric"), benchmark);
   score::CusumParameters cusum;
   cusum.acceptable_rate = asked_or(request, "acceptable_rate", cusum.acceptable_rate);
   cusum.unacceptable_rate = asked_or(request, "unacceptable_rate", cusum.unacceptable_rate);

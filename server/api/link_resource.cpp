@@ -1,8 +1,8 @@
-#include <nlohmann/json.hpp>
 
 #include "api/access_resource.hpp"
 #include "api/request_body.hpp"
 #include "core/error.hpp"
+#include "core/json.hpp"
 
 namespace ream::api {
 using access::CredentialKind;

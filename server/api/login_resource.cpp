@@ -1,11 +1,11 @@
 #include <chrono>
-#include <nlohmann/json.hpp>
 
 #include "access/password_rules.hpp"
 #include "api/access_resource.hpp"
 #include "api/login_cookie.hpp"
 #include "api/request_body.hpp"
 #include "core/error.hpp"
+#include "core/json.hpp"
 
 namespace ream::api {
 using access::CredentialKind;

@@ -3,7 +3,7 @@
 #include <future>
 
 #include "core/error.hpp"
-#include "core/give_way.hpp"
+#include "core/thread_pool.hpp"
 
 namespace ream::api {
 namespace {
@@ -27,7 +27,7 @@ void QuietWork::run(const std::function<void()>& work) {
   try {
     const std::lock_guard one_at_a_time(working_);
     std::async(std::launch::async, [&work] {
-      give_way();
+      lower_thread_priority();
       work();
     }).get();
   } catch (...) {

@@ -4,7 +4,7 @@
 #include "api/session_folder.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
-#include "record/append_notes.hpp"
+#include "record/op_log.hpp"
 
 namespace ream::api {
 

@@ -1,10 +1,10 @@
 #include "api/request_contract.hpp"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "api/request_body.hpp"
 #include "api/yaml_json.hpp"
+#include "core/json.hpp"
 
 namespace ream::api {
 using nlohmann::json;

@@ -99,7 +99,7 @@ net::Response begin(const ScoreTools& tools, const net::Request& request) {
   if (by_name == filter.has_value())
     throw net::RequestError(422, "say either 'sessions' or 'filter'; an empty filter means all sessions",
                             {{"#/sessions", "or filter: one of them"}});
-  Rescoring all{&tools.sessions, &tools.feed, tools.makers, tools.shelves.judge_by(rubric, benchmark),
+  Rescoring all{&tools.sessions, &tools.feed, tools.makers, tools.stores.judge_by(rubric, benchmark),
                 by_name ? ids_named(tools, named) : ids_by_filter(tools, request, *filter)};
   if (all.ids.empty())
     throw net::RequestError(422, "no session that has ended fits the filter", {{"#/filter", "fits nothing"}});

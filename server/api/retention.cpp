@@ -3,8 +3,8 @@
 #include <chrono>
 
 #include "core/error.hpp"
-#include "core/give_way.hpp"
 #include "core/log.hpp"
+#include "core/thread_pool.hpp"
 
 namespace ream::api {
 namespace {
@@ -57,7 +57,7 @@ bool Retention::stopping() {
 }
 
 void Retention::work() {
-  give_way();
+  lower_thread_priority();
   std::unique_lock lock(mutex_);
   std::chrono::milliseconds wait{0};
   while (!stopping_) {

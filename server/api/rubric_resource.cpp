@@ -23,12 +23,12 @@ class Desk {
 
   net::Response list() const {
     json rubrics = json::array();
-    for (const std::string& id : shelf().ids()) {
-      const score::Rubric newest = shelf().get(id);
+    for (const std::string& id : store().ids()) {
+      const score::Rubric newest = store().get(id);
       rubrics.push_back({{"id", id},
                          {"name", newest.name},
                          {"version", newest.version},
-                         {"versions", shelf().versions(id)},
+                         {"versions", store().versions(id)},
                          {"remark", newest.remark},
                          {"pass_points", newest.pass_points ? json(*newest.pass_points) : json(nullptr)}});
     }
@@ -38,7 +38,7 @@ class Desk {
   /// `version` 0: the newest.
   net::Response one(const std::string& id, int version) const {
     require(id);
-    return net::json_response(200, told(id, version == 0 ? shelf().get(id) : shelf().get(id, version)));
+    return net::json_response(200, told(id, version == 0 ? store().get(id) : store().get(id, version)));
   }
 
   net::Response create(const net::Request& request) {
@@ -50,7 +50,7 @@ class Desk {
     const std::lock_guard one_at_a_time(editing_);
     if (has(id)) throw Error(ErrorKind::conflict, "there is a rubric '" + id + "' already; PUT edits it");
     require_place();
-    const score::Rubric kept = shelf().keep(id, std::move(rubric));
+    const score::Rubric kept = store().save(id, std::move(rubric));
     tools_.audit(request, "rubric.create", id, kept.name);
     net::Response response = net::json_response(201, told(id, kept));
     response.headers.emplace_back("Location", base + "/" + id);
@@ -65,30 +65,30 @@ class Desk {
     require(id);
     const net::Response now = one(id, 0);
     net::require_match(request, net::entity_tag(*now.body));
-    const int newest = shelf().versions(id).back();
+    const int newest = store().versions(id).back();
     if (rubric.version != newest)
       throw Error(ErrorKind::conflict, "rubric '" + id + "' is at version " + std::to_string(newest) +
                                            ", and the body says it edits version " +
                                            std::to_string(rubric.version) +
                                            "; read the newest and repeat the change there");
     require_place();
-    const score::Rubric kept = shelf().keep(id, std::move(rubric));
+    const score::Rubric kept = store().save(id, std::move(rubric));
     tools_.audit(request, "rubric.edit", id, "version " + std::to_string(kept.version));
     return net::json_response(200, told(id, kept));
   }
 
  private:
-  const score::RubricShelf& shelf() const { return tools_.shelves.rubrics; }
+  const score::RubricStore& store() const { return tools_.stores.rubrics; }
 
   bool has(const std::string& id) const {
-    const auto ids = shelf().ids();
+    const auto ids = store().ids();
     return std::find(ids.begin(), ids.end(), id) != ids.end();
   }
   void require(const std::string& id) const {
     if (!has(id)) throw Error(ErrorKind::not_found, "no rubric '" + id + "'; GET " + base + " lists them");
   }
   void require_place() const {
-    if (!tools_.shelves.writable) throw Error(ErrorKind::unavailable, "this server keeps no rubrics");
+    if (!tools_.stores.writable) throw Error(ErrorKind::unavailable, "this server keeps no rubrics");
   }
   /// Over the network a rubric asks only for what every session can say.
   static score::Rubric rubric_from(const json& value) {
@@ -102,7 +102,7 @@ class Desk {
   json told(const std::string& id, const score::Rubric& rubric) const {
     return {{"id", id},
             {"version", rubric.version},
-            {"versions", shelf().versions(id)},
+            {"versions", store().versions(id)},
             {"rubric", score::rubric_json(rubric)}};
   }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
 #include <valijson/schema_parser.hpp>
@@ -11,6 +10,7 @@
 
 #include "api/schema_words.hpp"
 #include "core/error.hpp"
+#include "core/json.hpp"
 
 namespace ream::api {
 using nlohmann::json;

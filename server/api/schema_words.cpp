@@ -1,6 +1,6 @@
 #include "api/schema_words.hpp"
 
-#include <nlohmann/json.hpp>
+#include "core/json.hpp"
 
 namespace ream::api {
 using nlohmann::json;

@@ -3,7 +3,7 @@
 #include "api/session_folder.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
-#include "score/band_json.hpp"
+#include "score/metric_results.hpp"
 
 namespace ream::api {
 namespace fs = std::filesystem;
@@ -24,6 +24,7 @@ json explained(const score::Metric& metric, const json& document) {
   const std::string key(metric.key);
   const auto found = metrics.find(key);
   const bool said = found != metrics.end() && found->is_number();
+  const json missing = said ? json(nullptr) : json(score::missing_reason(metrics, key));
   const json criterion = criterion_of(document, metric.key);
   json verdict;
   if (criterion.is_object())
@@ -34,7 +35,8 @@ json explained(const score::Metric& metric, const json& document) {
   return {{"metric", key},
           {"name", metric.name},
           {"value", said ? *found : json(nullptr)},
-          {"unsaid", said ? json(nullptr) : json(score::why_unsaid(metrics, key))},
+          {"missing", missing},
+          {"unsaid", missing},  // the key of the version before
           {"unit", text_or_null(metric.unit)},
           {"definition", metric.definition},
           {"source", metric.source},
@@ -96,7 +98,7 @@ void write_results(const fs::path& folder, const json& metrics, const json& docu
     const json before = read_json_file(metrics_json(folder));
     if (const std::string lost = lost_metric(before, metrics); !lost.empty())
       throw Error(ErrorKind::conflict, "it said " + lost + " before and does not now: " +
-                                           score::why_unsaid(metrics, lost) + "; it is left as it was");
+                                           score::missing_reason(metrics, lost) + "; it is left as it was");
     if (before != metrics) write_file_atomically(metrics_json(folder), metrics.dump(2) + "\n");
   } else {
     write_file_atomically(metrics_json(folder), metrics.dump(2) + "\n");

@@ -12,7 +12,7 @@ namespace ream::api {
 /// What a session is judged by.
 struct Judge {
   score::Rubric rubric;
-  std::string rubric_id;  ///< on the shelf of the data folder; empty: on none
+  std::string rubric_id;  ///< among the rubrics of the data folder; empty: not there
   std::shared_ptr<const score::Benchmark> benchmark = nullptr;  ///< null: none
 };
 

@@ -43,7 +43,7 @@ net::Response score(const ScoreTools& tools, const net::Request& request) {
   std::error_code failed;
   if (!live && rubric.empty() && benchmark.empty() && fs::exists(score_json(folder), failed))
     return told(id, "kept", read_json_file(score_json(folder)));
-  const Judge judge = tools.shelves.judge_by(rubric, benchmark);
+  const Judge judge = tools.stores.judge_by(rubric, benchmark);
   const json metrics = tools.sessions.metrics(id);
   return told(id, live ? "live" : "computed",
               score_document(tools.makers.scored_by, about(record), metrics, judge));
@@ -61,7 +61,7 @@ net::Response score_anew(const ScoreTools& tools, const net::Request& request) {
                                          "; its score can be kept when it has ended");
   const fs::path folder = tools.sessions.folder_of(id);
   const json metrics = tools.sessions.metrics(id);
-  const Judge judge = tools.shelves.judge_by(rubric, benchmark);
+  const Judge judge = tools.stores.judge_by(rubric, benchmark);
   const FileLock lock = lock_of_ended(folder);
   const json document = score_document(tools.makers.scored_by, about(record), metrics, judge);
   write_results(folder, metrics, document);
@@ -93,7 +93,7 @@ net::Response csv_response(const ExportTable& table) {
 }
 
 net::Response scores(const ScoreTools& tools, const net::Request& request) {
-  const Judge judge = tools.shelves.judge_by(asked(request, "rubric"));
+  const Judge judge = tools.stores.judge_by(asked(request, "rubric"));
   ExportTable table, codebook;
   tools.quiet.run([&] {
     table = score_table(table_sessions(tools, request), judge.rubric);

@@ -1,6 +1,6 @@
 #include "api/score_table.hpp"
 
-#include "score/band_json.hpp"
+#include "score/band.hpp"
 
 namespace ream::api {
 namespace {
@@ -54,7 +54,7 @@ std::vector<json> session_cells(const TableSession& one, const score::Rubric& ru
           rubric.name + " " + std::to_string(rubric.version),
           score.outcome ? json(score::to_text(*score.outcome)) : json(),
           score.points ? json(*score.points) : json(),
-          score.said_percent};
+          score.measured_percent};
 }
 
 std::string limits_in_words(const score::Metric& metric) {

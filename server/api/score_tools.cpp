@@ -6,7 +6,7 @@
 
 namespace ream::api {
 
-Judge ScoreShelves::judge_by(const std::string& rubric, const std::string& benchmark) const {
+Judge ScoreStores::judge_by(const std::string& rubric, const std::string& benchmark) const {
   const std::string words = rubric.empty() ? "standard" : rubric;
   const size_t at = words.find('@');
   const std::string id = words.substr(0, at);

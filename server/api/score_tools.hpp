@@ -5,7 +5,7 @@
 #include <string>
 
 #include "api/audit.hpp"
-#include "api/benchmark_shelf.hpp"
+#include "api/benchmark_store.hpp"
 #include "api/change_feed.hpp"
 #include "api/job_service.hpp"
 #include "api/quiet_work.hpp"
@@ -14,7 +14,7 @@
 #include "api/session_service.hpp"
 #include "api/study_service.hpp"
 #include "net/router.hpp"
-#include "score/rubric_shelf.hpp"
+#include "score/rubric_store.hpp"
 
 namespace ream::api {
 
@@ -34,9 +34,9 @@ struct ScoreMakers {
 };
 
 /// Rubrics and benchmarks of a data folder.
-struct ScoreShelves {
-  score::RubricShelf rubrics;
-  BenchmarkShelf benchmarks;
+struct ScoreStores {
+  score::RubricStore rubrics;
+  BenchmarkStore benchmarks;
   bool writable = true;  ///< false: there is no data folder
 
   /// "id" or "id@version"; empty: the newest standard one. Errors: not_found; invalid_input for a damaged
@@ -52,7 +52,7 @@ struct ScoreTools {
   JobService& jobs;
   QuietWork& quiet;
   ChangeFeed& feed;
-  const ScoreShelves& shelves;
+  const ScoreStores& stores;
   const ScoreMakers& makers;
   Audit audit;
 };

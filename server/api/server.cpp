@@ -135,8 +135,8 @@ net::Router Server::routes_of(const ServerOptions& options) {
   add_job_routes(router, jobs_);
   add_replay_routes(router, sessions_, replays_, readiness_);
   add_study_routes(router, studies_.get(), audit_in(gatehouse_.get()));
-  add_all_score_routes(router, {sessions_, replays_, studies_.get(), jobs_, quiet_, *feed_, shelves_,
-                                scoring_, audit_in(gatehouse_.get())});
+  add_all_score_routes(router, {sessions_, replays_, studies_.get(), jobs_, quiet_, *feed_, stores_, scoring_,
+                                audit_in(gatehouse_.get())});
   router.otherwise([files = net::StaticFiles(options.web_folder)](const net::Request& request) {
     return files.respond(request);
   });
@@ -156,8 +156,8 @@ Server::Server(ServerOptions options)
       idempotency_(options.database),
       export_formats_(std::move(options.export_formats)),
       scoring_(std::move(options.scoring)),
-      shelves_({score::RubricShelf(under(options.data_folder, "rubrics")),
-                BenchmarkShelf(under(options.data_folder, "benchmarks")), !options.data_folder.empty()}),
+      stores_({score::RubricStore(under(options.data_folder, "rubrics")),
+               BenchmarkStore(under(options.data_folder, "benchmarks")), !options.data_folder.empty()}),
       jobs_({under(options.data_folder, "jobs"), std::chrono::hours(24), 256,
              [this](const JobRecord& job) { tell(job); }}),
       gatehouse_(database_ ? std::make_unique<access::Gatehouse>(*database_, options.gatehouse) : nullptr),

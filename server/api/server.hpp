@@ -88,7 +88,7 @@ class Server {
   Idempotency idempotency_;
   const ExportFormats export_formats_;
   const ScoreMakers scoring_;
-  const ScoreShelves shelves_;
+  const ScoreStores stores_;
   JobService jobs_;
   QuietWork quiet_;
   const std::unique_ptr<access::Gatehouse> gatehouse_;

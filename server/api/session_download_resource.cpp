@@ -4,12 +4,12 @@
 #include <nlohmann/json.hpp>
 
 #include "api/job_resource.hpp"
-#include "api/passing_file.hpp"
 #include "api/request_body.hpp"
 #include "api/session_labels.hpp"
 #include "api/session_work.hpp"
 #include "core/clock.hpp"
 #include "core/file.hpp"
+#include "core/temporary_file.hpp"
 #include "net/file_body.hpp"
 
 namespace ream::api {
@@ -75,7 +75,7 @@ void require_few_rows(const TracePart& part, double duration_s) {
 template <typename Write>
 net::Response made_now(const DownloadTools& tools, const net::Request& request, const std::string& ending,
                        const std::string& media_type, Write&& write) {
-  const PassingFile file(tools.passing_folder, "." + ending);
+  const TemporaryFile file(tools.temporary_folder, "." + ending);
   tools.quiet.run([&] { write(file.path()); });
   return net::file_response(request, {file.path(), media_type, id_of(request) + "." + ending});
 }

@@ -17,7 +17,7 @@ struct DownloadTools {
   JobService& jobs;
   const ExportFormats& formats;
   QuietWork& quiet;
-  std::filesystem::path passing_folder;  ///< for files that are made to be sent once
+  std::filesystem::path temporary_folder;  ///< for files that are made to be sent once
 };
 
 /// GET /api/v1/sessions/{id}/recording, session.json, trace, mesh and snapshot, and POST exports.

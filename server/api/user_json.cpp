@@ -1,6 +1,6 @@
 #include "api/user_json.hpp"
 
-#include <nlohmann/json.hpp>
+#include "core/json.hpp"
 
 namespace ream::api {
 

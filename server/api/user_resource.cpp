@@ -1,10 +1,10 @@
-#include <nlohmann/json.hpp>
 
 #include "access/password_rules.hpp"
 #include "api/access_resource.hpp"
 #include "api/request_body.hpp"
 #include "api/user_json.hpp"
 #include "core/error.hpp"
+#include "core/json.hpp"
 
 namespace ream::api {
 using access::Role;

@@ -4,7 +4,7 @@
 #include "app/find_case.hpp"
 #include "app/measured_glenoid.hpp"
 #include "core/units.hpp"
-#include "sim/device_settings.hpp"
+#include "sim/settings.hpp"
 
 namespace ream::app {
 namespace {

@@ -4,9 +4,10 @@
 
 #include "app/backup_manifest.hpp"
 #include "app/data_snapshot.hpp"
-#include "app/passing_folder.hpp"
 #include "app/version.hpp"
+#include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/temporary_file.hpp"
 #include "core/utc.hpp"
 #include "store/table_files.hpp"
 #include "store/zip_archive.hpp"
@@ -27,8 +28,8 @@ void make_folder(const fs::path& folder) {
 /// In a folder of its own until it is whole, where nobody else may look at it.
 void write_private_zip(const fs::path& file, const std::vector<store::ArchiveEntry>& entries,
                        const Progress& progress) {
-  const PassingFolder folder(file);
-  const fs::path made = folder.path / "backup.zip";
+  const TemporaryFolder folder(file);
+  const fs::path made = folder.path() / "backup.zip";
   store::write_zip(made, entries, progress);
   std::error_code failed;
   fs::permissions(made, fs::perms::owner_read | fs::perms::owner_write, failed);
@@ -41,8 +42,8 @@ void write_private_zip(const fs::path& file, const std::vector<store::ArchiveEnt
 
 BackupReport write_backup(store::Database& database, const fs::path& data, const fs::path& file,
                           const Progress& progress) {
-  const PassingFolder passing(data / ".backup");
-  const fs::path tables = passing.path / "tables", links = passing.path / "data";
+  const TemporaryFolder scratch(data / ".backup");
+  const fs::path tables = scratch.path() / "tables", links = scratch.path() / "data";
   make_folder(tables);
   make_folder(links);
   progress(0.0, "reading the database");
@@ -53,9 +54,9 @@ BackupReport write_backup(store::Database& database, const fs::path& data, const
   progress(packing_begins / 2, "looking at sessions and cases");
   const DataSnapshot snapshot = snapshot_data(data, links);
   manifest.files = snapshot.files.size();
-  write_manifest(manifest, passing.path / "backup.json");
+  write_manifest(manifest, scratch.path() / "backup.json");
 
-  std::vector<store::ArchiveEntry> entries{{passing.path / "backup.json", "backup.json"}};
+  std::vector<store::ArchiveEntry> entries{{scratch.path() / "backup.json", "backup.json"}};
   for (const store::TableFile& table : manifest.tables)
     entries.push_back({tables / (table.table + ".jsonl"), "tables/" + table.table + ".jsonl"});
   for (const store::ArchiveEntry& held : snapshot.files)

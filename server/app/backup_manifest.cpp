@@ -1,10 +1,10 @@
 #include "app/backup_manifest.hpp"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/json.hpp"
 #include "core/json_reader.hpp"
 #include "store/migrations.hpp"
 

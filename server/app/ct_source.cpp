@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/lower.hpp"
-#include "ct/dicom_file.hpp"
+#include "core/text.hpp"
+#include "ct/read/read_ct.hpp"
 #include "store/zip_archive.hpp"
 
 namespace ream::app {
@@ -67,8 +67,7 @@ Contents contents_of(const fs::path& folder, const fs::path& zip) {
     else if (ends_with_one_of(name, {".txt", ".csv", ".xyz"}))
       contents.texts.push_back(entry->path());
     else if (!contents.dicom)
-      contents.dicom =
-          ends_with_one_of(name, {".dcm"}) || ct::dicom_state(entry->path()) != ct::DicomState::not_dicom;
+      contents.dicom = ends_with_one_of(name, {".dcm"}) || ct::is_dicom(entry->path());
   }
   return contents;
 }
@@ -93,14 +92,14 @@ fs::path ct_in(const fs::path& folder, const fs::path& zip) {
 CtSource::CtSource(const fs::path& path, const Progress& progress, const fs::path& scratch)
     : given_(path), path_(path) {
   if (!is_zip(path)) return;
-  unpacked_ = std::make_unique<PassingFolder>(scratch / "ream-ct");
-  store::unpack_zip(path, unpacked_->path, limits_for(path, scratch), progress);
-  path_ = ct_in(unpacked_->path, path);
+  unpacked_ = std::make_unique<TemporaryFolder>(scratch / "ream-ct");
+  store::unpack_zip(path, unpacked_->path(), limits_for(path, scratch), progress);
+  path_ = ct_in(unpacked_->path(), path);
 }
 
 std::string CtSource::without_scratch(std::string message) const {
   if (!unpacked_) return message;
-  const std::string folder = unpacked_->path.string();
+  const std::string folder = unpacked_->path().string();
   for (size_t at = 0; (at = message.find(folder, at)) != std::string::npos;)
     message.replace(at, folder.size(), given_.string());
   return message;

@@ -1,8 +1,9 @@
 #pragma once
 #include <memory>
 
-#include "app/passing_folder.hpp"
+#include "core/error.hpp"
 #include "core/progress.hpp"
+#include "core/temporary_file.hpp"
 
 namespace ream::app {
 
@@ -36,7 +37,7 @@ class CtSource {
   std::string without_scratch(std::string message) const;
 
   std::filesystem::path given_, path_;
-  std::unique_ptr<PassingFolder> unpacked_;
+  std::unique_ptr<TemporaryFolder> unpacked_;
 };
 
 }  // namespace ream::app

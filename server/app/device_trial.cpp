@@ -1,5 +1,6 @@
 #include "app/device_trial.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -9,10 +10,8 @@
 #include "app/interrupt.hpp"
 #include "core/clock.hpp"
 #include "device/device_guard.hpp"
-#include "sim/loop_guard.hpp"
-#include "sim/pose_watchdog.hpp"
 #include "sim/realtime.hpp"
-#include "sim/tick_clock.hpp"
+#include "sim/watchdogs.hpp"
 
 namespace ream::app {
 namespace {

@@ -10,7 +10,7 @@
 #include "core/log.hpp"
 #include "report/html.hpp"
 #include "report/pdf.hpp"
-#include "score/rubric_shelf.hpp"
+#include "score/rubric_store.hpp"
 
 namespace ream::app {
 namespace {
@@ -42,7 +42,7 @@ ExportRequest request_of(const api::ExportOrder& order, const fs::path& data, Ex
   request.part = order.part;
   request.labels = order.session;
   if (kind != ExportKind::report) return request;
-  request.rubric = score::RubricShelf(rubrics_folder(data)).named(order.rubric);
+  request.rubric = score::RubricStore(rubrics_folder(data)).find(order.rubric);
   if (!order.benchmark.empty())
     request.benchmark = score::load_benchmark(benchmarks_folder(data) / (order.benchmark + ".json"));
   return request;

@@ -9,7 +9,7 @@
 #include "geometry/scene_export.hpp"
 #include "record/recorded_bone.hpp"
 #include "report/deviation_scale.hpp"
-#include "score/deviation_file.hpp"
+#include "score/deviation.hpp"
 
 namespace ream::app {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "app/case_shelf.hpp"
 #include "app/cli/case_path.hpp"
-#include "ct/phantom_case.hpp"
+#include "ct/phantom/phantom_case.hpp"
 
 namespace ream::app {
 

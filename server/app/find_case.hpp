@@ -2,8 +2,8 @@
 #include <filesystem>
 #include <string>
 
-#include "case/anatomy.hpp"
 #include "case/case.hpp"
+#include "case/landmarks.hpp"
 
 namespace ream::app {
 

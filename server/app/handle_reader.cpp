@@ -1,8 +1,8 @@
 #include "app/handle_reader.hpp"
 
 #include "core/error.hpp"
-#include "sim/pose_watchdog.hpp"
-#include "sim/tick_clock.hpp"
+#include "sim/realtime.hpp"
+#include "sim/watchdogs.hpp"
 
 namespace ream::app {
 

@@ -48,11 +48,11 @@ HeadlessResult run_headless(Rig& rig, std::span<const uint8_t> start_coverage,
   rings.drain_rest(rig.bone_case.bone, rig.state.tick - 1, take_brick, take_report);
 
   const sim::LoopHealth health = loop.health();
-  if (const std::string fault = to_words(health.end); !fault.empty()) {
+  if (const std::string fault = message_of(health.end); !fault.empty()) {
     loop.black_box().write("ream-black-box.csv");
     throw Error(ErrorKind::unavailable, fault + " The last seconds are in ream-black-box.csv.");
   }
-  if (health.failed_over_tick >= 0) log::warn(sim::failover_words(health.failed_over_tick));
+  if (health.failed_over_tick >= 0) log::warn(sim::failover_message(health.failed_over_tick));
   const SessionFiles::Results results = files.finish(health, nlohmann::json::object());
   if (const double weakened_s = results.metrics.at("weakened_time_s").get<double>();
       weakened_s > told_weakened_s)

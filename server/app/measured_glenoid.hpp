@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "case/anatomy.hpp"
+#include "case/landmarks.hpp"
 #include "score/native_glenoid.hpp"
 #include "shell/tool.hpp"
 

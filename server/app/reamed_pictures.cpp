@@ -1,5 +1,7 @@
 #include "app/reamed_pictures.hpp"
 
+#include <Eigen/Geometry>
+
 #include "geometry/mesh_io.hpp"
 #include "surface/whole_surface.hpp"
 

@@ -15,7 +15,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"
-#include "sim/rehearsal.hpp"
+#include "sim/tick_trial.hpp"
 
 namespace ream::app {
 namespace {
@@ -78,9 +78,10 @@ ReamingSession::ReamingSession(const SessionHouse& house, const api::SessionRequ
       rig_(std::move(beginning.parts)),
       rings_(rig_.bone_case.bone.grid),
       rehearsed_us_(sim::rehearsed_tick_us(rig_.model, rig_.state)),
-      loop_(rig_.model, rig_.state, *rig_.device, rings_.reports, {true, house.realtime}),
+      loop_(rig_.model, rig_.state, *rig_.device, rings_.reports,
+            {true, house.realtime, -1, house.guard_now_ns}),
       port_(port_of_device()),
-      fanout_(std::make_shared<stream::LocalFanout>()),
+      fanout_(std::make_shared<stream::Fanout>()),
       publisher_(rig_.bone_case.bone, *fanout_),
       live_score_(*rig_.native, rig_.model.world_from_plan),
       batcher_(*fanout_),
@@ -101,8 +102,8 @@ ReamingSession::ReamingSession(const SessionHouse& house, const api::SessionRequ
     status_.tick = sample_.tick = from_->ticks();
     annotations_ = from_->recording().annotations();
   }
-  status_.duration_s = metrics.metrics().duration_s;
-  metrics_ = score::session_metrics_json(metrics, live_score_.findings(), status_.force_scale, nullptr);
+  status_.duration_s = metrics.duration_s();
+  metrics_ = score::session_metrics_json(metrics, live_score_.results(), status_.force_scale, nullptr);
   sample_.world_from_tool = sample_.world_from_handle =
       rig_.model.world_from_plan * Pose{Mat3::Identity(), rig_.script.hand.start_mm};
   fanout_->publish_hello(stream::hello_message(hello()));
@@ -184,7 +185,7 @@ void ReamingSession::open_files() {
 void ReamingSession::start() {
   if (status().state != api::SessionState::created)
     throw Error(ErrorKind::conflict, "session " + id_ + " has been started already");
-  place_ = house_.places->take(id_, rehearsed_us_);
+  place_ = house_.places->reserve(id_, rehearsed_us_);
   try {
     open_files();
   } catch (const std::exception& e) {
@@ -341,19 +342,19 @@ void ReamingSession::take_report(const record::TickReport& r) {
 }
 
 void ReamingSession::note_health() {
-  const score::Metrics metrics = files_->metrics().metrics();
+  const score::MetricsAccumulator& metrics = files_->metrics();
   const int64_t now_ns = steady_ns();
   live_score_.update(files_->metrics(), {rig_.bone_case.bone.grid, publisher_.replica().coverage().data()},
                      now_ns);
   const sim::LoopHealth health = loop_.health();
-  sample_.depth_mm = static_cast<float>(metrics.reaming_depth_mm);
-  sample_.removed_volume_mm3 = static_cast<float>(metrics.removed_volume_mm3);
+  sample_.depth_mm = static_cast<float>(metrics.reaming_depth_mm());
+  sample_.removed_volume_mm3 = static_cast<float>(metrics.removed_volume_mm3());
   sample_.tick_mean_us = static_cast<float>(health.tick_us.mean_us);
   sample_.tick_p99_us = static_cast<float>(health.tick_us.p99_us);
   sample_.ticks_missed = static_cast<uint32_t>(health.missed);
   if (health.failed_over_tick >= 0 && !failover_told_) {
     failover_told_ = true;
-    log::warn("session " + id_ + ": " + sim::failover_words(health.failed_over_tick));
+    log::warn("session " + id_ + ": " + sim::failover_message(health.failed_over_tick));
     keep_black_box(recent_);
     files_->note_failover(health.failed_over_tick);
   }
@@ -361,12 +362,12 @@ void ReamingSession::note_health() {
   const std::lock_guard lock(mutex_);
   const bool held_or_let_go = held_ != status_.held;  // who asked for a pause sees what it left
   if (now_ns >= metrics_due_ns_ || held_or_let_go) {
-    metrics_due_ns_ = now_ns + score::LiveScore::told_every_ns;
+    metrics_due_ns_ = now_ns + score::LiveScore::publish_period_ns;
     metrics_ =
-        score::session_metrics_json(files_->metrics(), live_score_.findings(), status_.force_scale, nullptr);
+        score::session_metrics_json(files_->metrics(), live_score_.results(), status_.force_scale, nullptr);
   }
   status_.tick = sample_.tick + 1;
-  status_.duration_s = metrics.duration_s;
+  status_.duration_s = metrics.duration_s();
   status_.loop = loop_status(health);
   note_device();
   if (status_.state == api::SessionState::running || status_.state == api::SessionState::paused)

@@ -14,9 +14,9 @@
 #include "device/device_socket.hpp"
 #include "openigtlink/showcase.hpp"
 #include "score/live_score.hpp"
+#include "sim/cpu_allocator.hpp"
 #include "sim/haptic_loop.hpp"
-#include "sim/loop_places.hpp"
-#include "stream/fanout_local.hpp"
+#include "stream/fanout.hpp"
 #include "stream/mesh_publisher.hpp"
 
 namespace ream::app {
@@ -27,9 +27,10 @@ struct SessionHouse {
   uint64_t server_epoch = 0;  ///< differs after each start of the server
   std::string backend = "auto";
   sim::Realtime realtime = sim::Realtime::attempt;
-  std::shared_ptr<sim::LoopPlaces> places = std::make_shared<sim::LoopPlaces>();
+  std::shared_ptr<sim::CpuAllocator> places = std::make_shared<sim::CpuAllocator>();
   double tool_spacing_mm = 0.2;                               ///< of the points that feel bone
   std::shared_ptr<openigtlink::Showcase> showcase = nullptr;  ///< null: nobody watches over OpenIGTLink
+  int64_t (*guard_now_ns)() = steady_ns;  ///< the clock by which each loop is watched; see sim::LoopGuard
 };
 
 /// A live session: the haptic loop on its own thread, and one follower thread that keeps files, metrics,
@@ -109,11 +110,11 @@ class ReamingSession final : public api::RunningSession {
   std::optional<FileLock> lock_;  ///< of the folder, while it runs
   Rig rig_;
   LoopRings rings_;
-  const double rehearsed_us_;                      ///< slow ticks of this session, before the first
-  std::unique_ptr<sim::LoopPlaces::Place> place_;  ///< of the loop while it runs
+  const double rehearsed_us_;                              ///< slow ticks of this session, before the first
+  std::unique_ptr<sim::CpuAllocator::Reservation> place_;  ///< of the loop while it runs
   sim::HapticLoop loop_;
   std::shared_ptr<device::DevicePort> port_;  ///< of devices that connect over the network
-  std::shared_ptr<stream::LocalFanout> fanout_;
+  std::shared_ptr<stream::Fanout> fanout_;
   stream::MeshPublisher publisher_;
   score::LiveScore live_score_;  ///< follower only
   int64_t metrics_due_ns_ = 0;   ///< when metrics_ are written down next; follower only

@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"
-#include "record/append_notes.hpp"
+#include "record/op_log.hpp"
 
 namespace ream::app {
 namespace {

@@ -72,7 +72,7 @@ void ReamingSession::tell_fault(const std::string& words) {
 }
 
 std::string ReamingSession::end_words(sim::LoopEnd end) const {
-  if (end != sim::LoopEnd::stood_still) return to_words(end);
+  if (end != sim::LoopEnd::stood_still) return message_of(end);
   return "The haptic loop stopped for " + std::to_string(loop_.stood_still_ms()) +
          " ms; force off. Start a new session, on a computer with less to do.";
 }

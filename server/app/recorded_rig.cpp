@@ -5,7 +5,7 @@
 #include "case/plan.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
-#include "sim/settings_json.hpp"
+#include "sim/settings.hpp"
 
 namespace ream::app {
 namespace {
@@ -58,7 +58,7 @@ Reamer recorded_reamer(const record::Recording& recording, const record::ops::Se
 }
 
 RigParts recorded_parts(const record::Recording& recording, const record::ops::Segment& segment,
-                        case_::Case bone_case, const sim::CarriedOn& from, const std::string& backend) {
+                        case_::Case bone_case, const sim::ResumeState& from, const std::string& backend) {
   RigParts parts;
   parts.request.case_name = bone_case.id;
   parts.request.backend = backend;

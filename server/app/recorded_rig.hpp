@@ -25,6 +25,6 @@ Reamer recorded_reamer(const record::Recording& recording, const record::ops::Se
 /// A segment's rig once more, without device or script. `bone_case` is the case_as_recorded(), its coverage
 /// as the segment finds it; `from` likewise. Errors: those above; of tool_of.
 RigParts recorded_parts(const record::Recording& recording, const record::ops::Segment& segment,
-                        case_::Case bone_case, const sim::CarriedOn& from, const std::string& backend);
+                        case_::Case bone_case, const sim::ResumeState& from, const std::string& backend);
 
 }  // namespace ream::app

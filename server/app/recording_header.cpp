@@ -6,8 +6,8 @@
 #include "app/version.hpp"
 #include "case/plan.hpp"
 #include "core/hash.hpp"
-#include "record/grid_json.hpp"
-#include "sim/settings_json.hpp"
+#include "record/recording.hpp"
+#include "sim/settings.hpp"
 
 namespace ream::app {
 std::string table_hashes(const sim::Model& model) {

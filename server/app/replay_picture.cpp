@@ -187,9 +187,8 @@ void ReplayPicture::catch_up_metrics() {
 
 void ReplayPicture::show_metrics() {
   constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
-  const score::Metrics metrics = metrics_ ? metrics_->metrics() : score::Metrics{};
-  sample_.depth_mm = metrics_ ? static_cast<float>(metrics.reaming_depth_mm) : unknown;
-  sample_.removed_volume_mm3 = metrics_ ? static_cast<float>(metrics.removed_volume_mm3) : unknown;
+  sample_.depth_mm = metrics_ ? static_cast<float>(metrics_->reaming_depth_mm()) : unknown;
+  sample_.removed_volume_mm3 = metrics_ ? static_cast<float>(metrics_->removed_volume_mm3()) : unknown;
 }
 
 void ReplayPicture::poll(int64_t now_ns) {

@@ -13,8 +13,8 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"
-#include "score/session_metrics.hpp"
-#include "sim/settings_json.hpp"
+#include "score/metrics.hpp"
+#include "sim/settings.hpp"
 
 namespace ream::app {
 namespace {
@@ -72,7 +72,7 @@ ReplaySession::ReplaySession(const SessionHouse& house, const api::ReplayRequest
       kept_metrics_(kept_metrics(sessions_folder(house.data) / request.replay_of)),
       bone_case_(bone_before(recording_, house.data)),
       timeline_(recording_, bone_case_.bone.grid.world_from_grid, no_metrics(bone_case_)),
-      fanout_(std::make_shared<stream::LocalFanout>()),
+      fanout_(std::make_shared<stream::Fanout>()),
       picture_(recording_, bone_case_, timeline_, hello(), *fanout_),
       playhead_(recording_.tick_count()) {
   bone_hash_ = picture_.bone_hash();
@@ -141,10 +141,10 @@ nlohmann::json ReplaySession::metrics() const {
     ticks = playhead_.position_ticks();
     if (bone_ticks_ == ticks) grid_hash = bone_hash_;
   }
-  nlohmann::json now =
-      score::session_metrics_json(timeline_.wait_for(ticks, metrics_patience),
-                                  score::bone_unsaid("the bone is measured at the session's end only"),
-                                  recording_.header().force_scale, grid_hash ? &*grid_hash : nullptr);
+  nlohmann::json now = score::session_metrics_json(
+      timeline_.wait_for(ticks, metrics_patience),
+      score::missing_bone_results("the bone is measured at the session's end only"),
+      recording_.header().force_scale, grid_hash ? &*grid_hash : nullptr);
   return same_moment(kept_metrics_, now) ? kept_metrics_ : now;
 }
 

@@ -8,7 +8,7 @@
 #include "app/playhead.hpp"
 #include "app/reaming_session.hpp"
 #include "app/replay_picture.hpp"
-#include "stream/fanout_local.hpp"
+#include "stream/fanout.hpp"
 
 namespace ream::app {
 
@@ -40,7 +40,7 @@ class ReplaySession final : public api::RunningReplay {
   const nlohmann::json kept_metrics_;  ///< of the session, at its end; or null
   const case_::Case bone_case_;        ///< before tick 0
   const MetricsTimeline timeline_;
-  const std::shared_ptr<stream::LocalFanout> fanout_;
+  const std::shared_ptr<stream::Fanout> fanout_;
   ReplayPicture picture_;  ///< of the thread, as the next two
   int64_t last_told_ns_ = 0;
   std::string logged_fault_;

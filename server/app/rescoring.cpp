@@ -10,8 +10,8 @@
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "record/recorded_bone.hpp"
-#include "score/session_metrics.hpp"
-#include "score/surface_findings.hpp"
+#include "score/bone_results.hpp"
+#include "score/metrics.hpp"
 #include "sim/model.hpp"
 
 namespace ream::app {
@@ -65,20 +65,20 @@ void Rescorer::cut_start() {
   start_->coverage = std::move(bone.coverage);
 }
 
-score::Findings Rescorer::bone_findings(const record::Recording& recording,
-                                        const score::MetricsAccumulator& ticks) const {
+score::MetricResults Rescorer::bone_results(const record::Recording& recording,
+                                            const score::MetricsAccumulator& ticks) const {
   const voxel::VoxelGrid& grid = case_->bone.grid;
   std::vector<uint8_t> left = start_->coverage;
   record::RecordedBone bone(recording, grid, start_->coverage);
   bone.seek(recording.tick_count(), [](const voxel::BrickImage&) {});
   bone.write_to(left);
-  return score::surface_findings(*start_->glenoid, {grid, left.data()}, ticks.cut_line(),
-                                 start_->world_from_plan, ticks.metrics().reaming_depth_mm);
+  return score::bone_results(*start_->glenoid, {grid, left.data()}, ticks.cut_line(), start_->world_from_plan,
+                             ticks.reaming_depth_mm());
 }
 
 nlohmann::json Rescorer::metrics(const record::Recording& recording, const Progress& progress) {
   const score::MetricsAccumulator ticks = accumulated(recording, part_of(progress, 0.0, 0.7));
-  score::Findings of_bone;
+  score::MetricResults of_bone;
   std::string reason;  // why the bone cannot be measured
   const auto attempt = [&](double share, std::string_view words, const auto& work) {
     progress(share, words);
@@ -91,8 +91,8 @@ nlohmann::json Rescorer::metrics(const record::Recording& recording, const Progr
   attempt(0.7, "loading the case", [&] { load_case(recording); });
   attempt(0.8, "measuring the untouched bone", [&] { measure_start(recording); });
   attempt(0.85, "cutting the pilot hole", [&] { cut_start(); });
-  attempt(0.9, "measuring the bone", [&] { of_bone = bone_findings(recording, ticks); });
-  if (!reason.empty()) of_bone = score::bone_unsaid(reason);
+  attempt(0.9, "measuring the bone", [&] { of_bone = bone_results(recording, ticks); });
+  if (!reason.empty()) of_bone = score::missing_bone_results(reason);
   progress(1.0, "measured");
   const uint64_t grid_hash = final_grid_hash(recording);
   return score::session_metrics_json(ticks, of_bone, recording.header().force_scale, &grid_hash);

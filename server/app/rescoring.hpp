@@ -40,8 +40,8 @@ class Rescorer {
   void load_case(const record::Recording& recording);
   void measure_start(const record::Recording& recording);
   void cut_start();
-  score::Findings bone_findings(const record::Recording& recording,
-                                const score::MetricsAccumulator& ticks) const;
+  score::MetricResults bone_results(const record::Recording& recording,
+                                    const score::MetricsAccumulator& ticks) const;
 
   const std::filesystem::path data_;
   const std::string case_name_;

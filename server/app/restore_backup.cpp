@@ -9,9 +9,10 @@
 #include "app/backup_manifest.hpp"
 #include "app/data_folder.hpp"
 #include "app/data_snapshot.hpp"
-#include "app/passing_folder.hpp"
+#include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/file_lock.hpp"
+#include "core/temporary_file.hpp"
 #include "core/utc.hpp"
 #include "store/table_files.hpp"
 #include "store/zip_archive.hpp"
@@ -165,19 +166,19 @@ RestoreReport restore_backup(store::Database& database, const fs::path& data, co
   if (!alone)
     throw Error(ErrorKind::conflict, "a server runs on " + data.string() + "; stop it, then restore");
 
-  const PassingFolder passing(data / ".restore");
+  const TemporaryFolder scratch(data / ".restore");
   constexpr uint64_t any = INT64_MAX;
-  store::unpack_zip(file, passing.path, {any, any, false, true}, part_of(progress, 0.0, unpacked_share));
-  const BackupManifest manifest = read_manifest(passing.path / "backup.json", file);
-  if (const uint64_t files = files_below(passing.path / "data"); files != manifest.files)
+  store::unpack_zip(file, scratch.path(), {any, any, false, true}, part_of(progress, 0.0, unpacked_share));
+  const BackupManifest manifest = read_manifest(scratch.path() / "backup.json", file);
+  if (const uint64_t files = files_below(scratch.path() / "data"); files != manifest.files)
     throw Error(ErrorKind::invalid_input, file.string() + " holds " + std::to_string(files) +
                                               " files of the " + std::to_string(manifest.files) +
                                               " that it should; it is not whole");
-  sync_all(passing.path);
+  sync_all(scratch.path());
 
   const fs::path aside = made_aside(database, present, data);
   try {
-    replace(database, passing.path, manifest.tables, data, aside, part_of(progress, unpacked_share, 1.0));
+    replace(database, scratch.path(), manifest.tables, data, aside, part_of(progress, unpacked_share, 1.0));
   } catch (...) {
     std::error_code ignored;
     if (!aside.empty()) fs::remove_all(aside / "tables", ignored);

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "record/recorded_bone.hpp"
+#include "score/metrics.hpp"
 
 namespace ream::app {
 namespace {
@@ -50,11 +51,13 @@ Review review_recording(const record::Recording& recording, case_::Case bone_cas
     throw_if_interrupted();
     read_ticks(checkpoint.tick + 1);
     bone.seek(checkpoint.tick + 1, nothing);
-    compare(review, checkpoint, metrics.metrics().session_hash, bone);
+    compare(review, checkpoint, metrics.session_hash(), bone);
   }
   read_ticks(end);
   bone.seek(end, nothing);
-  review.metrics = metrics.metrics();
+  review.removed_volume_mm3 = metrics.removed_volume_mm3();
+  review.reaming_depth_mm = metrics.reaming_depth_mm();
+  review.session_hash = metrics.session_hash();
   review.grid_hash = bone.coverage_hash();
   review.grid_ticks = bone.ticks();
   return review;

@@ -5,14 +5,14 @@
 #include "case/case.hpp"
 #include "record/recording.hpp"
 #include "record/tick_difference.hpp"
-#include "score/metrics.hpp"
 
 namespace ream::app {
 
 /// What a recording says happened.
 struct Review {
   uint32_t ticks = 0;
-  score::Metrics metrics;
+  double removed_volume_mm3 = 0.0, reaming_depth_mm = 0.0;
+  uint64_t session_hash = 0;
   uint64_t grid_hash = 0;    ///< of the bone with all brick deltas up to the last moment before `ticks`
   uint32_t grid_ticks = 0;   ///< that moment
   uint32_t checkpoints = 0;  ///< that were compared

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "app/reamer.hpp"
-#include "case/anatomy.hpp"
+#include "case/landmarks.hpp"
 #include "device/haptic_device.hpp"
 #include "device/remote_link.hpp"
 #include "device/script.hpp"
@@ -43,7 +43,7 @@ struct RigParts {
   sim::Settings settings;
   std::unique_ptr<device::HapticDevice> device;  ///< may be null where somebody else steps the state
   std::shared_ptr<device::RemoteLink> link;      ///< of devices that connect over the network
-  sim::CarriedOn from;
+  sim::ResumeState from;
 };
 
 /// One case, one tool, one device, ready for the first tick of a segment. Everything in it stays where it is

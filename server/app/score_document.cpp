@@ -6,7 +6,7 @@
 #include "app/version.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"
-#include "score/rubric_shelf.hpp"
+#include "score/rubric_store.hpp"
 
 namespace ream::app {
 
@@ -22,7 +22,7 @@ void write_score(const std::filesystem::path& folder, const nlohmann::json& docu
 
 void keep_score(const std::filesystem::path& folder, const std::filesystem::path& data) noexcept {
   try {
-    const score::Rubric rubric = score::RubricShelf(rubrics_folder(data)).get("standard");
+    const score::Rubric rubric = score::RubricStore(rubrics_folder(data)).get("standard");
     write_score(folder, api::score_document(version_text(), read_json_file(api::session_json(folder)),
                                             read_json_file(api::metrics_json(folder)),
                                             {rubric, "standard", nullptr}));

@@ -8,13 +8,13 @@
 #include "api/session_labels.hpp"
 #include "app/cli/case_path.hpp"
 #include "app/data_folder.hpp"
-#include "app/passing_folder.hpp"
 #include "app/recorded_session.hpp"
 #include "app/rig.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/hash.hpp"
 #include "core/log.hpp"
+#include "core/temporary_file.hpp"
 #include "store/zip_archive.hpp"
 
 namespace ream::app {
@@ -90,16 +90,16 @@ void write_session_bundle(const fs::path& recording_file, const std::string& cas
   if (const std::string& damage = recording.log().damage(); !damage.empty()) log::warn(damage);
   case_of(recording, case_name, data);
   const fs::path folder = fs::absolute(recording_file).parent_path();
-  const PassingFolder made(zip);
+  const TemporaryFolder made(zip);
   const nlohmann::json bundle = {{"format", format},
                                  {"revision", revision},
                                  {"session", session_id(folder, recording)},
                                  {"case", recording.header().case_id}};
-  write_file_atomically(made.path / "bundle.json", bundle.dump(2) + "\n");
-  std::vector<store::ArchiveEntry> entries{{made.path / "bundle.json", "bundle.json"}};
+  write_file_atomically(made.path() / "bundle.json", bundle.dump(2) + "\n");
+  std::vector<store::ArchiveEntry> entries{{made.path() / "bundle.json", "bundle.json"}};
   add_files(folder, session_files, "session", entries);
   if (labels != nullptr && fs::is_regular_file(folder / "session.json"))
-    relabel(folder, *labels, made.path, entries);
+    relabel(folder, *labels, made.path(), entries);
   for (const fs::path& box : black_boxes_in(folder))
     entries.push_back({box, "session/" + box.filename().string()});
   add_files(case_path(case_name.empty() ? recording.header().case_id : case_name, data), case_files, "case",
@@ -121,28 +121,28 @@ bool is_session_bundle(const fs::path& file) {
 std::string import_session_bundle(const fs::path& zip, const fs::path& data) {
   make_writable_folder(sessions_folder(data));
   make_writable_folder(cases_folder(data));
-  const PassingFolder unpacked(data / ("." + zip.filename().string()));
-  store::unpack_zip(zip, unpacked.path);
-  const nlohmann::json bundle = read_bundle_json(unpacked.path, zip);
+  const TemporaryFolder unpacked(data / ("." + zip.filename().string()));
+  store::unpack_zip(zip, unpacked.path());
+  const nlohmann::json bundle = read_bundle_json(unpacked.path(), zip);
   const std::string session = bundle["session"], case_id = bundle["case"];
   const fs::path session_to = sessions_folder(data) / session, case_to = cases_folder(data) / case_id;
   if (fs::exists(session_to))
     throw Error(ErrorKind::conflict, "session '" + session + "' is in the data folder already");
-  const record::Recording recording(unpacked.path / "session" / "recording.ream",
+  const record::Recording recording(unpacked.path() / "session" / "recording.ream",
                                     record::Recording::Trust::checked);
   const bool known = fs::exists(case_to);
-  const uint64_t hash = case_::case_hash(case_::load_case(known ? case_to : unpacked.path / "case"));
+  const uint64_t hash = case_::case_hash(case_::load_case(known ? case_to : unpacked.path() / "case"));
   if (hash != recording.header().case_hash || recording.header().case_id != case_id)
     throw Error(
         ErrorKind::conflict,
         known ? "another case '" + case_id + "' is in the data folder; import with --data into one of its own"
               : zip.string() + " holds a case that is not its session's");
-  if (!known) fs::rename(unpacked.path / "case", case_to);
+  if (!known) fs::rename(unpacked.path() / "case", case_to);
   std::error_code failed;
-  fs::rename(unpacked.path / "session", session_to, failed);
+  fs::rename(unpacked.path() / "session", session_to, failed);
   if (failed) {
     std::error_code ignored;
-    if (!known) fs::rename(case_to, unpacked.path / "case", ignored);
+    if (!known) fs::rename(case_to, unpacked.path() / "case", ignored);
     throw Error(ErrorKind::io, "cannot write " + session_to.string() + ": " + failed.message());
   }
   sync_folder(cases_folder(data));

@@ -7,8 +7,8 @@
 #include "core/file.hpp"
 #include "core/hash.hpp"
 #include "core/log.hpp"
-#include "score/session_metrics.hpp"
-#include "score/surface_findings.hpp"
+#include "score/bone_results.hpp"
+#include "score/metrics.hpp"
 
 namespace ream::app {
 namespace {
@@ -70,7 +70,7 @@ SessionFiles::SessionFiles(const Rig& rig, const std::filesystem::path& folder, 
 void SessionFiles::note_failover(int64_t tick) {
   if (tick < 0 || failover_noted_) return;
   failover_noted_ = true;
-  recorder_->add(record::ops::Event{static_cast<uint32_t>(tick), "failover", sim::failover_words(tick)});
+  recorder_->add(record::ops::Event{static_cast<uint32_t>(tick), "failover", sim::failover_message(tick)});
 }
 
 void SessionFiles::abandon(const std::string& state, const std::string& words) {
@@ -95,11 +95,11 @@ record::TickReport SessionFiles::add(const record::TickReport& report) {
   return kept;
 }
 
-score::Findings SessionFiles::bone_findings() const {
-  if (!rig_.native) return score::bone_unsaid("the bone before the session is not known");
+score::MetricResults SessionFiles::bone_results() const {
+  if (!rig_.native) return score::missing_bone_results("the bone before the session is not known");
   const voxel::BoneModel& bone = rig_.bone_case.bone;
-  return score::surface_findings(*rig_.native, {bone.grid, bone.coverage.data()}, metrics_.cut_line(),
-                                 rig_.model.world_from_plan, metrics_.metrics().reaming_depth_mm);
+  return score::bone_results(*rig_.native, {bone.grid, bone.coverage.data()}, metrics_.cut_line(),
+                             rig_.model.world_from_plan, metrics_.reaming_depth_mm());
 }
 
 SessionFiles::Results SessionFiles::finish(const sim::LoopHealth& health, const nlohmann::json& extra) {
@@ -111,7 +111,7 @@ SessionFiles::Results SessionFiles::finish(const sim::LoopHealth& health, const 
   recorder_.reset();  // others may append remarks or go on from here
   const uint64_t grid_hash = rig_.bone_case.bone.coverage_hash();
   Results results{
-      score::session_metrics_json(metrics_, bone_findings(), rig_.model.settings.force_scale, &grid_hash),
+      score::session_metrics_json(metrics_, bone_results(), rig_.model.settings.force_scale, &grid_hash),
       timing_json(health)};
   write_json(folder_ / "metrics.json", results.metrics);
   write_json(folder_ / "timing.json", results.timing);

@@ -55,7 +55,7 @@ class SessionFiles {
   void abandon(const std::string& state, const std::string& words);
 
  private:
-  score::Findings bone_findings() const;
+  score::MetricResults bone_results() const;
 
   const Rig& rig_;
   const std::filesystem::path folder_;

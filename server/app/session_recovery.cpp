@@ -11,11 +11,11 @@
 #include "app/data_folder.hpp"
 #include "app/rescoring.hpp"
 #include "app/score_document.hpp"
+#include "core/atomic_file.hpp"
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
-#include "core/staged_file.hpp"
-#include "record/append_notes.hpp"
+#include "record/op_log.hpp"
 
 namespace ream::app {
 namespace {
@@ -122,9 +122,14 @@ std::string close_session_folder(const fs::path& folder, const fs::path& data, a
     recording.reset();
     closing = without_recording(state, cause, e);
   }
-  std::optional<StagedFile> metrics;
-  if (closing->metrics) metrics.emplace(api::metrics_json(folder), pretty(*closing->metrics));
-  StagedFile session(api::session_json(folder), pretty(session_of(folder, *closing)));
+  const auto prepare = [](AtomicFile& file, const json& contents) {
+    file.write(pretty(contents));
+    file.finish();
+  };
+  std::optional<AtomicFile> metrics;
+  if (closing->metrics) prepare(metrics.emplace(api::metrics_json(folder)), *closing->metrics);
+  AtomicFile session(api::session_json(folder));
+  prepare(session, session_of(folder, *closing));
   if (recording && !recording->end()) {
     keep_what_is_cut(recording->log());
     record::append_notes(recording->log(),

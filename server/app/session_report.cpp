@@ -11,7 +11,7 @@
 #include "app/rescoring.hpp"
 #include "app/session_facts.hpp"
 #include "core/error.hpp"
-#include "score/rubric_shelf.hpp"
+#include "score/rubric_store.hpp"
 #include "sim/model.hpp"
 
 namespace ream::app {
@@ -64,7 +64,7 @@ report::Report session_report(const ExportRequest& request, const Progress& prog
   const record::Recording recording = recording_of(request);
   report::Material material;
   material.rubric =
-      request.rubric ? *request.rubric : score::RubricShelf(rubrics_folder(request.data)).get("standard");
+      request.rubric ? *request.rubric : score::RubricStore(rubrics_folder(request.data)).get("standard");
   material.benchmark = request.benchmark;
   material.metrics =
       Rescorer(request.data, request.case_name).metrics(recording, part_of(progress, 0.0, 0.3));

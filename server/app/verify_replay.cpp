@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "record/replay_device.hpp"
-#include "record/tick_flags.hpp"
+#include "record/tick_report.hpp"
 #include "sim/step.hpp"
 
 namespace ream::app {
@@ -74,7 +74,7 @@ class Verifier {
 
   /// The rig of a segment on the bone as it now is.
   void make_rig(const record::ops::Segment& segment) {
-    sim::CarriedOn from;
+    sim::ResumeState from;
     if (rig_) {
       from = {rig_->state.tick, rig_->state.session_hash};
       bone_case_ = std::move(rig_->bone_case);

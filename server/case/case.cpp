@@ -1,19 +1,19 @@
 #include "case/case.hpp"
 
 #include <Eigen/Geometry>
+#include <bit>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "case/calibration.hpp"
-#include "case/glenoid_json.hpp"
 #include "case/plan.hpp"
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/hash.hpp"
 #include "core/json_reader.hpp"
-#include "core/zstd_file.hpp"
 #include "geometry/pose_json.hpp"
-#include "voxel/brick_order.hpp"
+#include "voxel/bricks.hpp"
 
 namespace ream::case_ {
 namespace fs = std::filesystem;
@@ -22,9 +22,8 @@ namespace {
 
 constexpr int64_t max_dim = 65528;
 constexpr double max_voxels = 4.0e9;
-
-json list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-Vec3 vec3(const std::vector<double>& n) { return {n[0], n[1], n[2]}; }
+constexpr double min_slope = 1e-6, max_coefficient = 1e6;
+constexpr double unit_tolerance = 1e-6;
 
 bool valid_id(const std::string& id) {
   return !id.empty() && id.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos;
@@ -37,7 +36,7 @@ json to_json(const Case& c) {
                 {"source", c.source},
                 {"side", to_text(c.side)},
                 {"dims", {grid.dims.x(), grid.dims.y(), grid.dims.z()}},
-                {"spacing_mm", list(grid.spacing_mm)},
+                {"spacing_mm", json_of(grid.spacing_mm)},
                 {"world_from_grid", ream::to_json(grid.world_from_grid)},
                 {"cortical_threshold_g_cc", c.bone.cortical_threshold_g_cc},
                 {"calibration", to_json(c.calibration)},
@@ -56,7 +55,7 @@ voxel::VoxelGrid read_grid(JsonReader& reader) {
     grid.dims[axis] = static_cast<int>(d);
   }
   if (dims[0] * dims[1] * dims[2] > max_voxels) reader.refuse("dims", "is more than 4e9 voxels");
-  grid.spacing_mm = vec3(reader.numbers("spacing_mm", 3));
+  grid.spacing_mm = read_vec3(reader, "spacing_mm");
   grid.world_from_grid = pose_from_json(reader.object("world_from_grid"));
   try {
     voxel::validate(grid);
@@ -93,9 +92,7 @@ Case load_case_description(const fs::path& folder) {
   if (!valid_id(c.id)) reader.refuse("id", "may hold only a-z, 0-9 and -");
   c.name = reader.text("name");
   c.source = reader.text("source");
-  const std::string side = reader.text("side");
-  if (side != "left" && side != "right") reader.refuse("side", "must be left or right");
-  c.side = side_from_text(side);
+  c.side = side_from_json(reader);
   c.bone.grid = read_grid(reader);
   c.bone.cortical_threshold_g_cc = reader.number("cortical_threshold_g_cc", 0.0, 3.0);
   if (!reader.has("calibration")) reader.refuse("calibration", "is missing");
@@ -154,7 +151,7 @@ void link_files(const fs::path& from, const fs::path& to) {
 
 void save_case(const Case& c, const fs::path& folder, bool replace) {
   check(c);
-  FolderInProgress target(folder, replace);
+  AtomicFolder target(folder, replace);
   if (c.plan) write_file_atomically(target.path() / "plan.json", to_json(*c.plan).dump(2) + "\n");
   write_bone(c, target.path());
   target.commit();
@@ -162,7 +159,7 @@ void save_case(const Case& c, const fs::path& folder, bool replace) {
 
 void save_bone(const Case& c, const fs::path& folder) {
   check(c);
-  FolderInProgress target(folder, true);
+  AtomicFolder target(folder, true);
   link_files(folder, target.path());
   write_bone(c, target.path());
   target.commit();
@@ -187,6 +184,13 @@ GuideKind guide_from_text(const std::string& text) {
   throw Error(ErrorKind::invalid_input, "guide '" + text + "' must be none, nipple or pin");
 }
 
+GuideKind guide_from_json(JsonReader& reader) {
+  const std::string guide = reader.text("guide");
+  if (guide != "none" && guide != "nipple" && guide != "pin")
+    reader.refuse("guide", "must be none, nipple or pin");
+  return guide_from_text(guide);
+}
+
 std::string frame_in_words(Side side) { return "millimetres, LPS, " + to_text(side) + " shoulder"; }
 
 std::string to_text(Side side) { return side == Side::left ? "left" : "right"; }
@@ -195,6 +199,81 @@ Side side_from_text(const std::string& text) {
   if (text == "left") return Side::left;
   if (text == "right") return Side::right;
   throw Error(ErrorKind::invalid_input, "side '" + text + "' must be left or right");
+}
+
+Side side_from_json(JsonReader& reader) {
+  const std::string side = reader.text("side");
+  if (side != "left" && side != "right") reader.refuse("side", "must be left or right");
+  return side_from_text(side);
+}
+
+Calibration calibration_from_json(const json& value, const std::string& place) {
+  JsonReader reader(value, place);
+  Calibration c;
+  c.intercept_mg_cc = reader.number("intercept_mg_cc", -max_coefficient, max_coefficient);
+  c.slope_mg_cc_per_hu = reader.number("slope_mg_cc_per_hu", min_slope, max_coefficient);
+  c.threshold_hu = reader.number("threshold_hu");
+  c.scanner = reader.text_or("scanner", c.scanner);
+  c.ash_law = reader.text_or("ash_law", c.ash_law);
+  c.ash_intercept_g_cc = reader.number_or("ash_intercept_g_cc", c.ash_intercept_g_cc, -10.0, 10.0);
+  c.ash_slope = reader.number_or("ash_slope", c.ash_slope, min_slope, max_coefficient);
+  c.ash_per_apparent = reader.number_or("ash_per_apparent", c.ash_per_apparent, 0.01, 1.0);
+  reader.finish();
+  return c;
+}
+
+json to_json(const Calibration& c) {
+  json value = {{"intercept_mg_cc", c.intercept_mg_cc},
+                {"slope_mg_cc_per_hu", c.slope_mg_cc_per_hu},
+                {"threshold_hu", c.threshold_hu},
+                {"ash_law", c.ash_law},
+                {"ash_intercept_g_cc", c.ash_intercept_g_cc},
+                {"ash_slope", c.ash_slope},
+                {"ash_per_apparent", c.ash_per_apparent}};
+  if (!c.scanner.empty()) value["scanner"] = c.scanner;
+  return value;
+}
+
+GlenoidFrame glenoid_from_json(JsonReader reader) {
+  GlenoidFrame frame;
+  frame.centre_mm = read_vec3(reader, "centre_mm");
+  for (const auto& [key, axis] :
+       {std::pair{"lateral", &frame.lateral}, std::pair{"superior", &frame.superior},
+        std::pair{"anterior", &frame.anterior}}) {
+    *axis = read_vec3(reader, key);
+    if (!(std::abs(axis->norm() - 1.0) < unit_tolerance)) reader.refuse(key, "must be a unit vector");
+  }
+  reader.finish();
+  return frame;
+}
+
+json to_json(const GlenoidFrame& frame) {
+  return {{"centre_mm", json_of(frame.centre_mm)},
+          {"lateral", json_of(frame.lateral)},
+          {"superior", json_of(frame.superior)},
+          {"anterior", json_of(frame.anterior)}};
+}
+
+namespace {
+
+void fold(uint64_t& rolling, double value) {
+  rolling = hash_combine(rolling, std::bit_cast<uint64_t>(value));
+}
+
+}  // namespace
+
+uint64_t case_hash(const Case& c) {
+  const voxel::VoxelGrid& grid = c.bone.grid;
+  uint64_t rolling = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    rolling = hash_combine(rolling, static_cast<uint64_t>(grid.dims[axis]));
+    fold(rolling, grid.spacing_mm[axis]);
+    fold(rolling, grid.world_from_grid.translation_mm[axis]);
+    for (int column = 0; column < 3; ++column) fold(rolling, grid.world_from_grid.rotation(axis, column));
+  }
+  fold(rolling, c.bone.cortical_threshold_g_cc);
+  rolling = hash_bytes(std::as_bytes(std::span(c.bone.density)), rolling);
+  return hash_bytes(std::as_bytes(std::span(c.bone.coverage)), rolling);
 }
 
 }  // namespace ream::case_

@@ -1,10 +1,15 @@
 #pragma once
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "voxel/bone_model.hpp"
+
+namespace ream {
+class JsonReader;
+}
 
 namespace ream::case_ {
 
@@ -32,7 +37,7 @@ struct Plan {
   std::string implant_size = {};                 ///< as its maker names it; "": not chosen
   /// What was aimed at (3D, science 2.1), kept so that scoring can compare; axis_direction decides.
   std::optional<double> target_version_rad = {}, target_inclination_rad = {};
-  /// Taken in spite of a correction that reaming alone should not make (plan_assessment.hpp), and why.
+  /// Taken in spite of a correction that reaming alone should not make (planning.hpp), and why.
   bool override_correction = false;
   std::string override_reason = {};
 };
@@ -100,13 +105,27 @@ std::optional<double> bone_depth_along(const voxel::BoneModel& bone, const Vec3&
                                        const Vec3& direction);
 
 std::string to_text(GuideKind guide);
-/// Error invalid_input for other words than none, nipple and pin.
+/// Error invalid_input for other texts than none, nipple and pin; that of the reader names place and key.
 GuideKind guide_from_text(const std::string& text);
+GuideKind guide_from_json(JsonReader& reader);
 
 /// What surfaces that are written say of themselves: "millimetres, LPS, right shoulder".
 std::string frame_in_words(Side side);
 
 std::string to_text(Side side);
+/// Error invalid_input for other texts than left and right; that of the reader names place and key.
 Side side_from_text(const std::string& text);
+Side side_from_json(JsonReader& reader);
+
+/// `calibration` of case.json (proto/case.schema.json). Only intercept, slope and threshold are needed; the
+/// rest of the chain is that of Calibration's defaults where it is not given. Error invalid_input names place
+/// and key: slopes and ratio must be over 0, so that the chain can be inverted.
+Calibration calibration_from_json(const nlohmann::json& value, const std::string& place);
+nlohmann::json to_json(const Calibration& calibration);
+
+/// centre_mm, lateral, superior and anterior, as in case.json. Error invalid_input names place and key unless
+/// the directions are unit vectors.
+GlenoidFrame glenoid_from_json(JsonReader reader);
+nlohmann::json to_json(const GlenoidFrame& frame);
 
 }  // namespace ream::case_

@@ -4,9 +4,11 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "case/case.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/json_reader.hpp"
+#include "geometry/pose_json.hpp"
 
 namespace ream::case_ {
 using nlohmann::json;
@@ -29,11 +31,8 @@ constexpr std::array named_points = {NamedPoint{"glenoid_centre_mm", &Landmarks:
                                      NamedPoint{"trigonum_mm", &Landmarks::trigonum_mm},
                                      NamedPoint{"inferior_angle_mm", &Landmarks::inferior_angle_mm}};
 
-json list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-
 Vec3 read_point(JsonReader& reader, const std::string& key) {
-  const auto n = reader.numbers(key, 3);
-  const Vec3 point(n[0], n[1], n[2]);
+  const Vec3 point = read_vec3(reader, key);
   if (!(point.cwiseAbs().maxCoeff() <= max_coordinate_mm))
     reader.refuse(key, "must be coordinates of at most 100 m, in mm");
   return point;
@@ -83,10 +82,10 @@ Landmarks landmarks_from_json(const json& value, const std::string& place) {
 json to_json(const Landmarks& landmarks) {
   json value = json::object();
   for (const NamedPoint& named : named_points)
-    if (const auto& point = landmarks.*named.point) value[named.key] = list(*point);
+    if (const auto& point = landmarks.*named.point) value[named.key] = json_of(*point);
   if (const auto& head = landmarks.humeral_head)
-    value["humeral_head"] = {{"centre_mm", list(head->centre_mm)}, {"radius_mm", head->radius_mm}};
-  for (const Vec3& point : landmarks.biconcavity_mm) value["biconcavity_mm"].push_back(list(point));
+    value["humeral_head"] = {{"centre_mm", json_of(head->centre_mm)}, {"radius_mm", head->radius_mm}};
+  for (const Vec3& point : landmarks.biconcavity_mm) value["biconcavity_mm"].push_back(json_of(point));
   if (!landmarks.walch.empty()) value["walch"] = landmarks.walch;
   return value;
 }
@@ -102,6 +101,28 @@ std::optional<Landmarks> load_landmarks(const std::filesystem::path& case_folder
   const std::filesystem::path file = case_folder / "landmarks.json";
   if (!std::filesystem::exists(file)) return std::nullopt;
   return landmarks_from_json(read_json_file(file), file.string());
+}
+
+Anatomy anatomy_of(const Case& c, const std::filesystem::path& case_folder) {
+  return {c.side, load_landmarks(case_folder), c.glenoid};
+}
+
+Anatomy anatomy_from_json(const json& value, const std::string& place) {
+  JsonReader reader(value, place);
+  Anatomy anatomy;
+  anatomy.side = side_from_json(reader);
+  if (reader.has("landmarks"))
+    anatomy.landmarks = landmarks_from_json(value.at("landmarks"), place + ".landmarks");
+  if (reader.has("glenoid")) anatomy.glenoid = glenoid_from_json(reader.object("glenoid"));
+  reader.finish();
+  return anatomy;
+}
+
+json to_json(const Anatomy& anatomy) {
+  json value = {{"side", to_text(anatomy.side)}};
+  if (anatomy.landmarks) value["landmarks"] = to_json(*anatomy.landmarks);
+  if (anatomy.glenoid) value["glenoid"] = to_json(*anatomy.glenoid);
+  return value;
 }
 
 }  // namespace ream::case_

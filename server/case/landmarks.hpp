@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/vec.hpp"
+#include "case/case.hpp"
 
 namespace ream::case_ {
 
@@ -42,5 +42,19 @@ nlohmann::json to_json(const Landmarks& landmarks);
 /// Errors: invalid_input, io. Loading gives nothing where there is no such file.
 void save_landmarks(const Landmarks& landmarks, const std::filesystem::path& case_folder);
 std::optional<Landmarks> load_landmarks(const std::filesystem::path& case_folder);
+
+/// What a case says of the shoulder beside its bone: what directions and angles are measured against.
+struct Anatomy {
+  Side side = Side::right;
+  std::optional<Landmarks> landmarks;
+  std::optional<GlenoidFrame> glenoid;
+};
+
+/// Of a case and its folder. Errors: those of load_landmarks.
+Anatomy anatomy_of(const Case& c, const std::filesystem::path& case_folder);
+
+/// As recordings keep it. Error invalid_input names place and key.
+Anatomy anatomy_from_json(const nlohmann::json& value, const std::string& place);
+nlohmann::json to_json(const Anatomy& anatomy);
 
 }  // namespace ream::case_

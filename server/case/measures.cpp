@@ -4,15 +4,47 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
 
-#include "case/scapular_frame.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 
 namespace ream::case_ {
+using nlohmann::json;
+FaceAngles ScapularFrame::angles_of(const Vec3& face_normal) const {
+  const double lateral_part = face_normal.dot(lateral);
+  return {-std::atan2(face_normal.dot(posterior), lateral_part),
+          std::atan2(face_normal.dot(superior), lateral_part)};
+}
+
+Vec3 ScapularFrame::face_normal(const FaceAngles& angles) const {
+  return (lateral + std::tan(angles.inclination_rad) * superior - std::tan(angles.version_rad) * posterior)
+      .normalized();
+}
+
+ScapularFrame scapular_frame(const Vec3& glenoid_centre_mm, const Vec3& spine_root_mm,
+                             const Vec3& inferior_angle_mm) {
+  ScapularFrame frame;
+  frame.lateral = (glenoid_centre_mm - spine_root_mm).normalized();
+  frame.posterior = (spine_root_mm - glenoid_centre_mm).cross(inferior_angle_mm - glenoid_centre_mm);
+  if (!(frame.posterior.norm() > 1e-9))
+    throw Error(ErrorKind::invalid_input, "spine root, inferior angle and glenoid centre lie on one line");
+  frame.posterior.normalize();
+  if (frame.posterior.y() < 0.0) frame.posterior = -frame.posterior;
+  frame.superior = frame.posterior.cross(frame.lateral);
+  if (frame.superior.dot(glenoid_centre_mm - inferior_angle_mm) < 0.0) frame.superior = -frame.superior;
+  return frame;
+}
+
+FaceAngles face_angles(const Vec3& face_normal, const Vec3& glenoid_centre_mm, const Vec3& spine_root_mm,
+                       const Vec3& inferior_angle_mm) {
+  return scapular_frame(glenoid_centre_mm, spine_root_mm, inferior_angle_mm).angles_of(face_normal);
+}
+
 namespace {
 
-constexpr double least_distance_mm = 0.1;  // landmarks nearer to each other than this are a slip
+constexpr double min_distance_mm = 0.1;  // landmarks nearer to each other than this are a slip
 
 /// The two ends of the rim lines.
 struct RimLines {
@@ -51,7 +83,7 @@ Vec3 face_normal(const Vec3& superior_line, const Vec3& anterior_line, Side side
 }
 
 void check_apart(const Vec3& a, const Vec3& b, const char* what) {
-  if (!((a - b).norm() > least_distance_mm)) contradiction(std::string(what) + " are the same point");
+  if (!((a - b).norm() > min_distance_mm)) contradiction(std::string(what) + " are the same point");
 }
 
 std::optional<RimLines> rim_lines(const Landmarks& l) {
@@ -96,7 +128,7 @@ double friedman_inclination(const Landmarks& l) {
   const Vec3 middle = 0.5 * (*l.superior_rim_mm + *l.inferior_rim_mm);
   Vec3 along = middle - *l.trigonum_mm;
   along.z() = 0.0;
-  if (!(along.norm() > least_distance_mm))
+  if (!(along.norm() > min_distance_mm))
     contradiction("the trigonum lies right above or below the glenoid; place it anew");
   along.normalize();
   const auto coronal = [&](const Vec3& p) -> Vec3 { return {along.dot(p), p.z(), 0.0}; };
@@ -182,6 +214,62 @@ GlenoidFrame glenoid_frame(const Landmarks& l, Side side) {
   frame.anterior = frame.superior.cross(frame.lateral);
   if (frame.anterior.dot(rim->anterior - rim->posterior) < 0.0) frame.anterior = -frame.anterior;
   return frame;
+}
+
+namespace {
+
+json number_or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
+
+/// Healthy shoulders; low and high are the range that was seen, or of what counts as centred.
+json normal_values() {
+  return {{"version_deg",
+           {{"mean", -1.23}, {"low", -10.5}, {"high", 9.5}, {"source", "Churchill 2001, 344 scapulae"}}},
+          {"inclination_deg",
+           {{"mean", 4.2}, {"low", -7.0}, {"high", 15.8}, {"source", "Churchill 2001, 344 scapulae"}}},
+          {"subluxation_percent",
+           {{"mean", 50.0}, {"low", 45.0}, {"high", 55.0}, {"source", "Walch 1999: 45 to 55 is centred"}}}};
+}
+
+std::string in_words(double rad, const char* negative, const char* positive, const char* none) {
+  const double tenths = std::floor(std::abs(degrees_from_radians(rad)) * 10.0 + 0.5);
+  char number[32];
+  std::snprintf(number, sizeof number, "%.1f", tenths / 10.0);
+  return std::string(number) + "\u00b0 " + (tenths == 0.0 ? none : rad < 0.0 ? negative : positive);
+}
+
+}  // namespace
+
+json degrees_or_null(const std::optional<double>& rad) {
+  return rad ? json(degrees_from_radians(*rad)) : json(nullptr);
+}
+
+std::string version_in_words(double version_rad) {
+  return in_words(version_rad, "retroversion", "anteversion", "version");
+}
+
+std::string inclination_in_words(double inclination_rad) {
+  return in_words(inclination_rad, "inferior", "superior", "inclination");
+}
+
+json to_json(const Measures& m) {
+  json value = {{"version_3d_deg", degrees_or_null(m.version_3d_rad)},
+                {"inclination_3d_deg", degrees_or_null(m.inclination_3d_rad)},
+                {"version_friedman_deg", degrees_or_null(m.version_friedman_rad)},
+                {"inclination_friedman_deg", degrees_or_null(m.inclination_friedman_rad)},
+                {"subluxation_percent", number_or_null(m.subluxation_percent)},
+                {"subluxation_glenoid_percent", number_or_null(m.subluxation_glenoid_percent)},
+                {"biconcavity", nullptr},
+                {"normal", normal_values()},
+                {"missing", m.missing},
+                {"words", {{"version", nullptr}, {"inclination", nullptr}}}};
+  if (const auto& b = m.biconcavity)
+    value["biconcavity"] = {{"paleo_version_deg", degrees_from_radians(b->paleo_version_rad)},
+                            {"neo_version_deg", degrees_from_radians(b->neo_version_rad)},
+                            {"intermediate_version_deg", degrees_from_radians(b->intermediate_version_rad)},
+                            {"between_deg", degrees_from_radians(b->between_rad)}};
+  if (m.version_3d_rad) value["words"]["version"] = version_in_words(*m.version_3d_rad);
+  if (m.inclination_3d_rad) value["words"]["inclination"] = inclination_in_words(*m.inclination_3d_rad);
+  return value;
 }
 
 }  // namespace ream::case_

@@ -9,6 +9,31 @@
 
 namespace ream::case_ {
 
+/// Version and inclination of a face, rad; retroversion negative, superior inclination positive.
+struct FaceAngles {
+  double version_rad = 0, inclination_rad = 0;
+};
+
+/// Scapular coordinate system, world frame, each a unit vector (science 2.1): lateral from the root of the
+/// spine to the glenoid centre, posterior across the plane of both and the inferior angle, superior in that
+/// plane. Posterior is the patient's (LPS +y), whatever the order of the points.
+struct ScapularFrame {
+  Vec3 lateral = Vec3::UnitX(), superior = Vec3::UnitZ(), posterior = Vec3::UnitY();
+
+  /// version = -atan2(n posterior, n lateral), inclination = atan2(n superior, n lateral); n of any length.
+  FaceAngles angles_of(const Vec3& face_normal) const;
+  /// The unit normal, lateral, of a face with these angles; each below a right angle.
+  Vec3 face_normal(const FaceAngles& angles) const;
+};
+
+/// Error invalid_input when the three points lie on one line.
+ScapularFrame scapular_frame(const Vec3& glenoid_centre_mm, const Vec3& spine_root_mm,
+                             const Vec3& inferior_angle_mm);
+
+/// The angles of a face normal in the frame of those landmarks.
+FaceAngles face_angles(const Vec3& face_normal, const Vec3& glenoid_centre_mm, const Vec3& spine_root_mm,
+                       const Vec3& inferior_angle_mm);
+
 /// A biconcave (B2) glenoid: 3D versions of its two concavities and of the intermediate line from the
 /// anterior edge of the one to the posterior edge of the other (Rouleau 2010), and the angle between both
 /// concavities.
@@ -20,7 +45,7 @@ struct Biconcavity {
 /// measure whose landmarks are missing is empty.
 ///
 /// 3D (science 2.1): against the plane of trigonum, inferior angle and glenoid centre; see
-/// scapular_frame.hpp. Unchanged by moving or scaling all points, and by turning them as long as posterior
+/// ScapularFrame. Unchanged by moving or scaling all points, and by turning them as long as posterior
 /// stays LPS +y.
 ///
 /// Friedman 2D: version in the axial plane (LPS x, y: every point is projected along z): angle between the
@@ -53,6 +78,7 @@ Measures measure(const Landmarks& landmarks, Side side);
 /// Angles in degrees, empty ones null; `normal` with the values of healthy shoulders and their sources, and
 /// `words` for people ("12.0° retroversion", never a bare sign).
 nlohmann::json to_json(const Measures& measures);
+nlohmann::json degrees_or_null(const std::optional<double>& rad);
 
 /// "12.0° retroversion", "3.0° anteversion", "0.0° version" and "4.0° superior", "2.0° inferior", "0.0°
 /// inclination".

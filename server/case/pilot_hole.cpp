@@ -3,7 +3,7 @@
 
 #include "case/case.hpp"
 #include "core/error.hpp"
-#include "voxel/coverage_at.hpp"
+#include "voxel/bone_model.hpp"
 
 namespace ream::case_ {
 namespace {

@@ -7,6 +7,7 @@
 #include "core/file.hpp"
 #include "core/json_reader.hpp"
 #include "core/units.hpp"
+#include "geometry/pose_json.hpp"
 
 namespace ream::case_ {
 namespace {
@@ -15,8 +16,6 @@ constexpr double max_length_mm = 100.0;  // no glenoid is reamed or drilled deep
 constexpr double max_coordinate_mm = 1e5;
 constexpr double max_target_deg = 60.0;
 constexpr double kept_per_degree = 1e9;  // degrees are written to 1e-9, so that reading them changes nothing
-
-Vec3 vec3(const std::vector<double>& n) { return {n[0], n[1], n[2]}; }
 
 void check_length(const std::string& place, const char* key, double value, bool may_be_zero) {
   if (value > 0.0 && value <= max_length_mm) return;
@@ -82,8 +81,8 @@ void validate(const Plan& plan, const std::string& place) {
 Plan plan_from_json(const nlohmann::json& value, const std::string& place) {
   JsonReader reader(value, place);
   Plan plan;
-  plan.entry_mm = vec3(reader.numbers("entry_mm", 3));
-  plan.axis_direction = vec3(reader.numbers("axis_direction", 3));
+  plan.entry_mm = read_vec3(reader, "entry_mm");
+  plan.axis_direction = read_vec3(reader, "axis_direction");
   const double length = plan.axis_direction.norm();
   if (!(length > 1e-9)) reader.refuse("axis_direction", "must not be zero");
   // An already unit direction keeps its bits, so that reading and writing a plan changes nothing.
@@ -93,10 +92,7 @@ Plan plan_from_json(const nlohmann::json& value, const std::string& place) {
   plan.pilot_hole.reset();
   if (reader.has("pilot_diameter_mm") || reader.has("pilot_depth_mm"))
     plan.pilot_hole = PilotHole{reader.number("pilot_diameter_mm"), reader.number("pilot_depth_mm")};
-  const std::string guide = reader.text_or("guide", "none");
-  if (guide != "none" && guide != "nipple" && guide != "pin")
-    reader.refuse("guide", "must be none, nipple or pin");
-  plan.guide = guide_from_text(guide);
+  if (reader.has("guide")) plan.guide = guide_from_json(reader);
   read_targets(reader, plan);
   reader.finish();
   validate(plan, place);
@@ -104,9 +100,8 @@ Plan plan_from_json(const nlohmann::json& value, const std::string& place) {
 }
 
 nlohmann::json to_json(const Plan& plan) {
-  const auto list = [](const Vec3& v) { return nlohmann::json{v.x(), v.y(), v.z()}; };
-  nlohmann::json value = {{"entry_mm", list(plan.entry_mm)},
-                          {"axis_direction", list(plan.axis_direction)},
+  nlohmann::json value = {{"entry_mm", json_of(plan.entry_mm)},
+                          {"axis_direction", json_of(plan.axis_direction)},
                           {"depth_mm", plan.depth_mm},
                           {"reamer", plan.reamer}};
   // Programs that know of no guides read a plan that needs none.

@@ -1,10 +1,15 @@
 #include "collide/bone_buffers.hpp"
 
 #include <algorithm>
+#include <bit>
+
+#include "core/error.hpp"
+#include "voxel/voxel_grid.hpp"
 
 namespace ream::collide {
-
 namespace {
+
+constexpr size_t max_parts = 4;
 
 template <typename Byte>
 std::vector<gpu::Buffer> in_parts(const gpu::Queue& queue, std::span<Byte> bytes, BoneParts parts) {
@@ -20,15 +25,31 @@ std::vector<gpu::Buffer> in_parts(const gpu::Queue& queue, std::span<Byte> bytes
 
 }  // namespace
 
+std::string BoneParts::build_options() const {
+  return " -D PARTS=" + std::to_string(built()) + " -D PART_SHIFT=" + std::to_string(shift);
+}
+
+BoneParts bone_parts(size_t voxels, size_t max_buffer_bytes, const std::string& device_name) {
+  if (voxels <= max_buffer_bytes) return {};
+  const size_t part = std::bit_floor(max_buffer_bytes);
+  if (part < voxel::brick_voxels || voxels > max_parts * part)
+    throw Error(ErrorKind::unavailable,
+                "OpenCL: " + device_name + " allocates at most " + std::to_string(max_buffer_bytes) +
+                    " bytes at once, and the bone's " + std::to_string(voxels) + " voxels do not fit in " +
+                    std::to_string(max_parts) + " parts of " + std::to_string(part) +
+                    " bytes; use a coarser grid or --backend cpu");
+  return {static_cast<int>((voxels + part - 1) / part), std::countr_zero(part)};
+}
+
 LaunchShape LaunchShape::fitting(const gpu::Device& device) {
   return device.is_cpu ? LaunchShape{4, 1} : LaunchShape{256, 64};
 }
 
 BoneBuffers::BoneBuffers(const gpu::Device& device, voxel::BoneModel& session_bone,
-                         std::optional<size_t> largest_buffer_bytes)
+                         std::optional<size_t> max_buffer_bytes)
     : bone(session_bone),
       queue(device),
-      parts(bone_parts(bone.grid.voxel_count(), largest_buffer_bytes.value_or(device.max_buffer_bytes),
+      parts(bone_parts(bone.grid.voxel_count(), max_buffer_bytes.value_or(device.max_buffer_bytes),
                        device.name)),
       coverage(in_parts(queue, std::span<uint8_t>(bone.coverage), parts)),
       density(in_parts(queue, std::span<const uint8_t>(bone.density), parts)) {

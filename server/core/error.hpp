@@ -27,6 +27,6 @@ class Error : public std::runtime_error {
 };
 
 /// 2 for usage, 1 for everything else.
-int exit_code(ErrorKind kind);
+constexpr int exit_code(ErrorKind kind) { return kind == ErrorKind::usage ? 2 : 1; }
 
 }  // namespace ream

@@ -2,14 +2,15 @@
 
 #include <fcntl.h>
 #include <unistd.h>
+#include <zstd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "core/replaceable.hpp"
+#include "core/json.hpp"
 
 namespace ream {
 namespace fs = std::filesystem;
@@ -17,27 +18,7 @@ namespace {
 
 std::string reason() { return std::strerror(errno); }
 
-void write_all(int fd, const std::byte* data, size_t size, const fs::path& path) {
-  while (size > 0) {
-    const ssize_t n = ::write(fd, data, size);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw Error(ErrorKind::io, "cannot write " + path.string() + ": " + reason());
-    data += n;
-    size -= static_cast<size_t>(n);
-  }
-}
-
-fs::path temporary_beside(const fs::path& path) {
-  fs::path name = path;
-  name += "." + std::to_string(::getpid()) + ".tmp";
-  return name;
-}
-
-/// The same folder as a name that a sibling can be put beside ("a/b/" -> "/here/a/b", "." -> "/here").
-fs::path without_trailing_slash(const fs::path& path) {
-  const fs::path normal = fs::absolute(path).lexically_normal();
-  return normal.has_filename() ? normal : normal.parent_path();
-}
+constexpr int compression_level = 1;
 
 }  // namespace
 
@@ -68,25 +49,9 @@ void sync_folder(const fs::path& folder) {
 }
 
 void write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {
-  require_replaceable(path);
-  const fs::path temporary = temporary_beside(path);
-  const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (fd < 0) throw Error(ErrorKind::io, "cannot write " + path.string() + ": " + reason());
-  try {
-    write_all(fd, bytes.data(), bytes.size(), path);
-    if (::fsync(fd) != 0) throw Error(ErrorKind::io, "cannot write " + path.string() + ": " + reason());
-  } catch (...) {
-    ::close(fd);
-    ::unlink(temporary.c_str());
-    throw;
-  }
-  ::close(fd);
-  if (::rename(temporary.c_str(), path.c_str()) != 0) {
-    const std::string why = reason();
-    ::unlink(temporary.c_str());
-    throw Error(ErrorKind::io, "cannot write " + path.string() + ": " + why);
-  }
-  sync_folder(path.parent_path());
+  AtomicFile file(path);
+  file.write_at(0, bytes);
+  file.commit();
 }
 
 void write_file_atomically(const fs::path& path, std::string_view text) {
@@ -109,7 +74,7 @@ void make_writable_folder(const fs::path& path) {
   std::error_code failed;
   fs::create_directories(path, failed);
   if (failed) throw Error(ErrorKind::io, "cannot create folder " + path.string() + ": " + failed.message());
-  const fs::path probe = temporary_beside(path / "probe");
+  const fs::path probe = path / ("probe." + std::to_string(::getpid()) + ".tmp");
   const int fd = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (fd < 0) throw Error(ErrorKind::io, "cannot write in folder " + path.string() + ": " + reason());
   ::close(fd);
@@ -117,49 +82,26 @@ void make_writable_folder(const fs::path& path) {
   sync_folder(path.parent_path());
 }
 
-FolderInProgress::FolderInProgress(fs::path final_path, bool replace)
-    : final_(without_trailing_slash(final_path)), temporary_(temporary_beside(final_)) {
-  std::error_code failed;
-  if (fs::exists(final_, failed)) {
-    if (!fs::is_directory(final_, failed))
-      throw Error(ErrorKind::conflict, final_.string() + " exists and is not a folder; choose another place");
-    if (!replace && !fs::is_empty(final_, failed))
-      throw Error(ErrorKind::conflict, final_.string() + " exists and is not empty; choose another place");
-  }
-  fs::remove_all(temporary_, failed);
-  for (fs::path p = final_.parent_path(); !fs::exists(p, failed) && p.has_relative_path();
-       p = p.parent_path())
-    made_parents_.push_back(p);
-  make_writable_folder(temporary_);
+void read_zstd_file(const fs::path& path, std::span<std::byte> raw, const char* description) {
+  const auto packed = read_binary_file(path);
+  const unsigned long long size = ZSTD_getFrameContentSize(packed.data(), packed.size());
+  if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN)
+    throw Error(ErrorKind::invalid_input, path.string() + " is not zstd data; import the case again");
+  if (size != raw.size())
+    throw Error(ErrorKind::invalid_input, path.string() + " holds " + std::to_string(size) + " bytes, " +
+                                              description + " says " + std::to_string(raw.size()) +
+                                              "; import the case again");
+  const size_t read = ZSTD_decompress(raw.data(), raw.size(), packed.data(), packed.size());
+  if (ZSTD_isError(read) || read != raw.size())
+    throw Error(ErrorKind::invalid_input, path.string() + " is damaged or cut short; import the case again");
 }
 
-FolderInProgress::~FolderInProgress() {
-  std::error_code ignored;
-  if (committed_) return;
-  fs::remove_all(temporary_, ignored);
-  for (const fs::path& parent : made_parents_) fs::remove(parent, ignored);  // unless others use it by now
-}
-
-void FolderInProgress::commit() {
-  const auto check = [&](const std::error_code& failed) {
-    if (failed)
-      throw Error(ErrorKind::io, "cannot write folder " + final_.string() + ": " + failed.message());
-  };
-  std::error_code failed, ignored;
-  fs::path old = final_;
-  old += "." + std::to_string(::getpid()) + ".old.tmp";
-  const bool had_old = fs::exists(final_, ignored);
-  if (had_old) {
-    fs::remove_all(old, ignored);
-    fs::rename(final_, old, failed);
-    check(failed);
-  }
-  fs::rename(temporary_, final_, failed);
-  if (failed && had_old) fs::rename(old, final_, ignored);
-  check(failed);
-  committed_ = true;
-  if (had_old) fs::remove_all(old, ignored);
-  sync_folder(final_.parent_path());
+void write_zstd_file(const fs::path& path, std::span<const std::byte> raw) {
+  std::vector<std::byte> packed(ZSTD_compressBound(raw.size()));
+  const size_t size = ZSTD_compress(packed.data(), packed.size(), raw.data(), raw.size(), compression_level);
+  if (ZSTD_isError(size))
+    throw Error(ErrorKind::io, "cannot compress " + path.string() + ": " + ZSTD_getErrorName(size));
+  write_file_atomically(path, std::span<const std::byte>(packed.data(), size));
 }
 
 }  // namespace ream

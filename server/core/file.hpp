@@ -29,23 +29,12 @@ void sync_folder(const std::filesystem::path& folder);
 /// Creates `path` and its parents and proves that a file can be written there. Throws Error io.
 void make_writable_folder(const std::filesystem::path& path);
 
-/// A folder under construction: everything is written to a sibling temporary, and `commit` moves it to its
-/// final name. Destroyed uncommitted, it removes itself, so nothing half-written is ever seen.
-class FolderInProgress {
- public:
-  /// `final_path` must not exist, or be an empty folder, or `replace` is set. Throws Error io or conflict.
-  explicit FolderInProgress(std::filesystem::path final_path, bool replace = false);
-  ~FolderInProgress();
-  FolderInProgress(const FolderInProgress&) = delete;
-  FolderInProgress& operator=(const FolderInProgress&) = delete;
+/// Reads a file that holds one zstd frame of exactly the size of `raw`, as `description` (the name of a file
+/// beside it) says. Errors name the file: not_found; io; invalid_input when it is no zstd data, of another
+/// size, damaged or cut short.
+void read_zstd_file(const std::filesystem::path& path, std::span<std::byte> raw, const char* description);
 
-  const std::filesystem::path& path() const { return temporary_; }
-  void commit();
-
- private:
-  std::filesystem::path final_, temporary_;
-  std::vector<std::filesystem::path> made_parents_;  ///< innermost first
-  bool committed_ = false;
-};
+/// Replaces the file atomically. Throws Error io.
+void write_zstd_file(const std::filesystem::path& path, std::span<const std::byte> raw);
 
 }  // namespace ream

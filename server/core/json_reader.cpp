@@ -1,9 +1,9 @@
 #include "core/json_reader.hpp"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/json.hpp"
 
 namespace ream {
 namespace {

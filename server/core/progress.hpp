@@ -4,7 +4,7 @@
 
 namespace ream {
 
-/// Told by long work how far it has come: share from 0 to 1, and what it does now in a few words for people
+/// Called by long work with how far it has come: share from 0 to 1, and what it does now, briefly, for people
 /// ("reading slices"). Called from the thread that works. It may throw Error cancelled, which the work lets
 /// through after leaving nothing half-written.
 using Progress = std::function<void(double share, std::string_view step)>;

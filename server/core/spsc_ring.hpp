@@ -7,7 +7,7 @@
 namespace ream {
 
 /// Bounded queue between exactly one producer and one consumer thread: wait-free on both sides, and nothing
-/// is allocated after construction. When it is full the producer is told so and keeps the item.
+/// is allocated after construction. When it is full the push fails and the producer keeps the item.
 template <typename T>
 class SpscRing {
  public:

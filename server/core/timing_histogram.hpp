@@ -26,22 +26,22 @@ class TimingHistogram {
   TimingSummary summary() const noexcept {
     TimingSummary found{
         count_ ? sum_us_ / static_cast<double>(count_) : 0.0, max_us_, max_us_, max_us_, max_us_, count_};
-    const std::array wanted{Wanted{0.5, &found.p50_us}, Wanted{0.99, &found.p99_us},
-                            Wanted{0.999, &found.p999_us}};
+    const std::array quantiles{Quantile{0.5, &found.p50_us}, Quantile{0.99, &found.p99_us},
+                               Quantile{0.999, &found.p999_us}};
     uint64_t seen = 0;
     size_t next = 0;
-    for (size_t i = 0; i + 1 < bins_.size() && next < wanted.size(); ++i) {
+    for (size_t i = 0; i + 1 < bins_.size() && next < quantiles.size(); ++i) {
       seen += bins_[i];
-      for (; next < wanted.size() &&
-             static_cast<double>(seen) >= wanted[next].fraction * static_cast<double>(count_);
+      for (; next < quantiles.size() &&
+             static_cast<double>(seen) >= quantiles[next].fraction * static_cast<double>(count_);
            ++next)
-        if (upper_edge_us(i) < max_us_) *wanted[next].us = upper_edge_us(i);
+        if (upper_edge_us(i) < max_us_) *quantiles[next].us = upper_edge_us(i);
     }
     return found;
   }
 
  private:
-  struct Wanted {
+  struct Quantile {
     double fraction;
     double* us;
   };

@@ -1,11 +1,14 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "geometry/box.hpp"
 #include "geometry/pose.hpp"
+#include "geometry/vec.hpp"
 
 namespace ream::ct {
 
@@ -55,5 +58,32 @@ HuVolume cropped(const HuVolume& volume, const Aabb& roi_mm);
 /// Sigma 0 returns the volume unchanged. Throws Error invalid_input for a negative sigma or one above 20
 /// voxels.
 void smooth(HuVolume& volume, double sigma_mm);
+
+/// One slice of a volume across a voxel axis (0 u, 1 v, 2 w), rows of the lower remaining axis first: across
+/// w it is nx * ny with x fastest, across v nx * nz with x fastest, across u ny * nz with y fastest. Needs an
+/// index within the dims.
+template <typename T>
+std::vector<T> slice_of(std::span<const T> voxels, const Vec3i& dims, int axis, int index) {
+  const auto nx = static_cast<size_t>(dims.x()), ny = static_cast<size_t>(dims.y()),
+             nz = static_cast<size_t>(dims.z());
+  const size_t step[3] = {1, nx, nx * ny}, count[3] = {nx, ny, nz};
+  const size_t across = axis == 0 ? 1 : 0, down = axis == 2 ? 1 : 2;
+  const size_t first = static_cast<size_t>(index) * step[axis];
+  std::vector<T> slice;
+  slice.reserve(count[across] * count[down]);
+  for (size_t row = 0; row < count[down]; ++row)
+    for (size_t i = 0; i < count[across]; ++i)
+      slice.push_back(voxels[first + row * step[down] + i * step[across]]);
+  return slice;
+}
+
+/// "x,y,z" with one decimal each, for messages.
+inline std::string text_of_point(const Vec3& p) {
+  const auto one = [](double v) {
+    const std::string s = std::to_string(v);
+    return s.substr(0, s.find('.') + 2);
+  };
+  return one(p.x()) + "," + one(p.y()) + "," + one(p.z());
+}
 
 }  // namespace ream::ct

@@ -1,5 +1,6 @@
 #include "device/admittance_device.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <thread>

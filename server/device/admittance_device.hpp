@@ -33,6 +33,8 @@ class AdmittanceDevice final : public HapticDevice {
   DeviceStatus write(const DeviceOutput& output) noexcept override;
   void take_force_away() noexcept override { machine_->stop(); }
   double closing_ms() const noexcept override;
+  /// Machines are told where to be in the haptic thread itself.
+  void use_priority(int) noexcept override {}
 
   /// Of the sensor's range: from here on a force is taken for clipped.
   static constexpr double clipped_share = 0.98;

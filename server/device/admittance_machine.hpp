@@ -37,7 +37,8 @@ class AdmittanceMachine {
   virtual DeviceStatus sense(MachineSense& sense) noexcept = 0;
   /// Where to be at the end of this tick; within limits().motion. False: it cannot be told any more.
   virtual bool move_to(const Pose& base_from_handle) noexcept = 0;
-  virtual void session_paused(bool) noexcept {}
+  /// As HapticDevice::session_paused.
+  virtual void session_paused(bool paused) noexcept = 0;
   /// The machine's own fastest stop; then it holds and takes no more orders until the next open(). Any
   /// thread and a signal handler may call it.
   virtual void stop() noexcept = 0;

@@ -1,6 +1,6 @@
 #include "device/device_connection.hpp"
 
-#include <nlohmann/json.hpp>
+#include "core/json.hpp"
 
 namespace ream::device {
 namespace {

@@ -1,12 +1,13 @@
 #include "device/device_setup.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/json.hpp"
 #include "core/json_reader.hpp"
 
 namespace ream::device {

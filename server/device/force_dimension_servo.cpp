@@ -73,6 +73,8 @@ class ForceDimensionServo final : public Servo {
                     " is wanted; check cable, power and the rights to USB, or device_id in the set-up");
   }
 
+  bool takes_force_elsewhere() const noexcept override { return false; }
+
   void close() noexcept override {
     if (!is_open_) return;
     is_open_ = false;

@@ -72,6 +72,8 @@ class HaplyServo final : public Servo {
     if (++turns_ % turns_between_events == 0) hear_events();
   }
 
+  bool takes_force_elsewhere() const noexcept override { return false; }
+
   void close() noexcept override {
     try {
       if (client_.is_open() && !reader_.device().device_id.empty()) {

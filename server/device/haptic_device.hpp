@@ -79,7 +79,8 @@ enum class DeviceStatus {
 
 /// A thing held in the hand: gives a pose, takes a force, once a millisecond. read and write are called from
 /// the haptic thread: they never block, throw or allocate. The owner opens it before the first tick and
-/// closes it after the last; close() leaves the device without force.
+/// closes it after the last; close() leaves the device without force. Nothing here has a default body: a
+/// driver that forgot to take its force away would say so only in somebody's hand.
 class HapticDevice {
  public:
   virtual ~HapticDevice() = default;
@@ -90,20 +91,20 @@ class HapticDevice {
   /// Whether the session is paused by somebody else than the hand; said before every read, from the haptic
   /// thread. A simulated hand then rests and its script waits; of all others the loop takes the force away as
   /// for their own pause button.
-  virtual void session_paused(bool) noexcept {}
+  virtual void session_paused(bool paused) noexcept = 0;
   /// Newest input; `input` keeps its last value when the status is not ok.
   virtual DeviceStatus read(DeviceInput& input) noexcept = 0;
   virtual DeviceStatus write(const DeviceOutput& output) noexcept = 0;
   /// Takes all force away at once and for good (until the next open()), where the device allows that from
   /// outside its loop. Any thread may call it beside the others, and a signal handler of a crash: it does
   /// nothing that is not safe there.
-  virtual void take_force_away() noexcept {}
+  virtual void take_force_away() noexcept = 0;
   /// How long write() and close() at the end may take together, as a machine that moves is braked to rest
   /// first.
-  virtual double closing_ms() const noexcept { return 0.0; }
+  virtual double closing_ms() const noexcept = 0;
   /// Threads of the device's own that exchange its forces ask for this SCHED_FIFO priority from the next
   /// open() on, and take what they get; 0: for none.
-  virtual void use_priority(int) noexcept {}
+  virtual void use_priority(int fifo) noexcept = 0;
 };
 
 }  // namespace ream::device

@@ -22,6 +22,9 @@ class NetworkDevice final : public HapticDevice {
   DeviceStatus read(DeviceInput& input) noexcept override;
   DeviceStatus write(const DeviceOutput& output) noexcept override;
   void take_force_away() noexcept override { end_.take_force_away(); }
+  void session_paused(bool) noexcept override {}
+  double closing_ms() const noexcept override { return 0.0; }
+  void use_priority(int) noexcept override {}
 
  private:
   void glide_to(const Pose& pose, int64_t now_ns) noexcept;

@@ -11,6 +11,7 @@
 #include "core/units.hpp"
 #include "device/profiles.hpp"
 #include "device/script_mount.hpp"
+#include "force/feed_model.hpp"
 
 namespace ream::device {
 namespace {
@@ -158,8 +159,8 @@ Script parse_script(const nlohmann::json& json, const std::string& where) {
   parse_profile(reader, script);
   script.spindle_rpm = reader.number_or("spindle_rpm", script.spindle_rpm, 1.0, 2000.0);
   script.feed_model = reader.text_or("feed_model", script.feed_model);
-  if (script.feed_model != "empirical" && script.feed_model != "oblique" && script.feed_model != "scraping")
-    reader.refuse("feed_model", "must be 'empirical', 'oblique' or 'scraping'");
+  if (!force::find_feed_kind(script.feed_model))
+    reader.refuse("feed_model", "must be " + force::feed_model_names("'"));
   script.specimen_factor = reader.number_or("specimen_factor", script.specimen_factor, 0.1, 10.0);
   if (reader.has("mount")) script.mount = parse_mount(json.at("mount"), reader);
   if (script.kind == ScriptKind::hand) script.hand = parse_hand(reader.object("hand"));

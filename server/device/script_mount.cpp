@@ -1,7 +1,6 @@
 #include "device/script_mount.hpp"
 
-#include <nlohmann/json.hpp>
-
+#include "core/json.hpp"
 #include "core/json_reader.hpp"
 
 namespace ream::device {

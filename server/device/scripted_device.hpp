@@ -13,6 +13,10 @@ class ScriptedDevice : public HapticDevice {
   void close() noexcept override {}
   void session_paused(bool paused) noexcept override { session_paused_ = paused; }
   DeviceStatus read(DeviceInput& input) noexcept override;
+  // Nobody's hand is in it, and it has no thread.
+  void take_force_away() noexcept override {}
+  double closing_ms() const noexcept override { return 0.0; }
+  void use_priority(int) noexcept override {}
 
  protected:
   /// Puts itself at its beginning.

@@ -2,6 +2,7 @@
 
 #include <time.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 
 namespace ream::device {

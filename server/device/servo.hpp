@@ -77,7 +77,7 @@ class Servo {
   virtual void close() noexcept = 0;
   /// Whether a thread of the hardware's own asks for the force between open() and close(). Nobody else may
   /// ask then: one thread alone reads the newest force. turn() waits for that thread by itself.
-  virtual bool takes_force_elsewhere() const noexcept { return false; }
+  virtual bool takes_force_elsewhere() const noexcept = 0;
 };
 
 }  // namespace ream::device

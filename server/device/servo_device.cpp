@@ -11,7 +11,8 @@ namespace ream::device {
 namespace {
 
 constexpr double ms_per_ns = 1.0e-6;
-constexpr int try_again_ms = 500, look_ms = 5, longest_farewell_ms = 10;
+constexpr int try_again_ms = 500, look_ms = 5;
+constexpr int64_t max_farewell_ns = 10'000'000;
 /// A driver that hears nothing new turns all the same, with the force as it is.
 constexpr int64_t longest_wait_ns = 2'000'000;
 
@@ -67,7 +68,7 @@ DeviceStatus ServoDevice::write(const DeviceOutput& output) noexcept {
 void ServoDevice::take_force_away() noexcept {
   without_force_.store(false);
   end_.take_force_away();
-  for (int waited_ms = 0; waited_ms < longest_farewell_ms; ++waited_ms) {
+  for (const int64_t until_ns = end_.now_ns() + max_farewell_ns; end_.now_ns() < until_ns;) {
     if (!serving_.load() || without_force_.load()) return;
     ::poll(nullptr, 0, 1);
   }

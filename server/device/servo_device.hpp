@@ -25,10 +25,12 @@ class ServoDevice final : public HapticDevice {
   void close() noexcept override;
   DeviceStatus read(DeviceInput& input) noexcept override;
   DeviceStatus write(const DeviceOutput& output) noexcept override;
-  /// Waits 10 ms at most for the driver to have rendered nothing, so that a process that dies thereafter
-  /// leaves no force behind where its driver still runs.
+  /// Waits 10 ms of its clock at most for the driver to have rendered nothing, so that a process that dies
+  /// thereafter leaves no force behind where its driver still runs.
   void take_force_away() noexcept override;
   void use_priority(int fifo) noexcept override { fifo_priority_ = fifo; }
+  void session_paused(bool) noexcept override {}
+  double closing_ms() const noexcept override { return 0.0; }
 
  private:
   void ask_for_priority() const noexcept;

@@ -1,5 +1,6 @@
 #include "device/steered_hand_device.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -78,6 +79,8 @@ class SteeredHandDevice final : public HapticDevice {
   void take_force_away() noexcept override { end_.take_force_away(); }
 
   void session_paused(bool paused) noexcept override { session_paused_ = paused; }
+  double closing_ms() const noexcept override { return 0.0; }
+  void use_priority(int) noexcept override {}
 
   DeviceStatus read(DeviceInput& input) noexcept override {
     end_.take(wish_);

@@ -1,13 +1,44 @@
 #pragma once
+#include <functional>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "fe/element_codes.hpp"
+#include "core/progress.hpp"
+#include "fe/memory_budget.hpp"
 #include "fe/voxel_mask.hpp"
 #include "geometry/pose.hpp"
 #include "voxel/gray_scale.hpp"
 
 namespace ream::fe {
+
+/// The gray code of every element, in the order of their numbers; on the disk where memory is short.
+class ElementCodes {
+ public:
+  ElementCodes() = default;
+  /// Room for `count`; takes what it keeps in memory from the budget.
+  ElementCodes(uint64_t count, MemoryBudget& budget);
+
+  uint64_t size() const { return size_; }
+  bool in_memory() const { return !spill_; }
+  /// All of them; only in memory.
+  std::span<uint16_t> all() { return codes_; }
+
+  /// From different threads only at different places.
+  void write(uint64_t first, std::span<const uint16_t> codes);
+  /// Valid until `scratch` changes. Thread-safe.
+  std::span<const uint16_t> read(uint64_t first, size_t count, std::vector<uint16_t>& scratch) const;
+  /// Forgets those from `size` on.
+  void shrink(uint64_t size, MemoryBudget& budget);
+  /// Of memory.
+  uint64_t bytes() const { return codes_.size() * sizeof(uint16_t); }
+
+ private:
+  uint64_t size_ = 0;
+  std::vector<uint16_t> codes_;
+  std::unique_ptr<SpillFile> spill_;
+};
 
 /// What becomes a mesh: an element for every voxel of the mask, with its gray value. Elements are numbered in
 /// the order of the mask's bits. The mesh frame has its axes along the grid's: voxel (u,v,w) fills
@@ -22,5 +53,20 @@ struct ElementModel {
   std::vector<std::string> remarks;   ///< what was odd or left out
   bool gray_is_density_g_cc = false;  ///< apparent density; else nothing is known of the scale
 };
+
+/// After voxels were taken out of the model's mask, which was `before`: takes their gray codes out too.
+void keep_elements(const VoxelMask& before, ElementModel& model, MemoryBudget& budget);
+
+/// Which voxels of a layer become elements: their gray code, or `no_element`; x fastest, dims.x * dims.y of
+/// them. Called twice for every layer, from two threads, in any order.
+using LayerReader = std::function<void(int w, std::span<int32_t> codes)>;
+inline constexpr int32_t no_element = -1;
+
+/// Mask and codes of a model whose other fields are set already.
+void fill_from_layers(ElementModel& model, const Vec3i& dims, const LayerReader& read, MemoryBudget& budget,
+                      const Progress& progress = no_progress);
+
+/// Takes elements whose gray value is below the threshold out of the model.
+void remove_below(ElementModel& model, double threshold, MemoryBudget& budget);
 
 }  // namespace ream::fe

@@ -1,14 +1,76 @@
-#include "fe/inp_writer.hpp"
+#include "fe/mesh_writers.hpp"
 
-#include "fe/corner_row.hpp"
-#include "fe/element_sets.hpp"
+#include "fe/materials.hpp"
+#include "fe/node_numbering.hpp"
 #include "fe/number_text.hpp"
 #include "fe/ordered_output.hpp"
 
 namespace ream::fe {
 namespace {
 
-constexpr size_t most_id_bytes = 10, most_coordinate_bytes = 21, spare_bytes = 64;
+/// Nodes that stop a body on a sliding platen from drifting and from turning.
+struct Pins {
+  uint64_t held = 0, guided = 0;
+};
+
+/// The least face's first node, and the farthest from it along the first axis across among those level with
+/// it along the second.
+Pins pins_on(const NodeNumbering& numbering, int axis) {
+  const int along = (axis + 1) % 3, level = (axis + 2) % 3;
+  Pins pins;
+  Vec3i held = Vec3i::Zero();
+  int farthest = 0;
+  for_each_face_node(numbering, [&](int face, const Vec3i& corner, uint64_t id) {
+    if (face != 2 * axis) return;
+    if (pins.held == 0) {
+      pins.held = id;
+      held = corner;
+    }
+    const int distance = std::abs(corner[along] - held[along]);
+    if (corner[level] != held[level] || distance <= farthest) return;
+    farthest = distance;
+    pins.guided = id;
+  });
+  return pins;
+}
+
+std::string fixed(const std::string& nodes, int direction, const std::string& value = "0.0") {
+  const std::string d = std::to_string(direction + 1);
+  return nodes + ", " + d + ", " + d + ", " + value + "\n";
+}
+
+}  // namespace
+
+double compression_mm(const Compression& compression, const NodeNumbering& numbering,
+                      const Vec3& spacing_mm) {
+  const MeshBounds bounds = bounds_of(numbering.mask());
+  const int axis = compression.axis;
+  return compression.strain * (bounds.greatest[axis] - bounds.least[axis]) * spacing_mm[axis];
+}
+
+std::string compression_text(const Compression& compression, const NodeNumbering& numbering,
+                             const Vec3& spacing_mm) {
+  const int axis = compression.axis;
+  const std::string base = face_names[static_cast<size_t>(2 * axis)],
+                    top = face_names[static_cast<size_t>(2 * axis + 1)];
+  std::string text = "*BOUNDARY\n" + fixed(base, axis);
+  for (const int across : {(axis + 1) % 3, (axis + 2) % 3})
+    if (compression.fixed_platens) text += fixed(base, across) + fixed(top, across);
+  if (!compression.fixed_platens) {
+    const Pins pins = pins_on(numbering, axis);
+    text += fixed(std::to_string(pins.held), (axis + 1) % 3) +
+            fixed(std::to_string(pins.held), (axis + 2) % 3) +
+            fixed(std::to_string(pins.guided), (axis + 2) % 3);
+  }
+  text += "*STEP\n*STATIC\n*BOUNDARY\n" +
+          fixed(top, axis, real_text(-compression_mm(compression, numbering, spacing_mm)));
+  for (const std::string& face : {base, top}) text += "*NODE PRINT, NSET=" + face + ", TOTALS=ONLY\nRF\n";
+  return text + "*NODE FILE\nU\n*EL FILE\nS, E\n*END STEP\n";
+}
+
+namespace {
+
+constexpr size_t max_id_bytes = 10, max_coordinate_bytes = 21, spare_bytes = 64;
 constexpr size_t ids_per_line = 16;  // more are refused by CalculiX
 
 std::string heading(const NumberedMesh& mesh) {
@@ -16,7 +78,7 @@ std::string heading(const NumberedMesh& mesh) {
   std::string text = "*HEADING\nmicro-FE mesh by ream femesh; units mm, N, MPa\n";
   text += "** " + std::to_string(mesh.numbering.elements()) + " elements, " +
           std::to_string(mesh.numbering.nodes()) + " nodes, " + std::to_string(mesh.materials.list.size()) +
-          " materials\n** modulus of gray value g, " + mesh.rule.law.words() + "\n";
+          " materials\n** modulus of gray value g, " + mesh.rule.law.description() + "\n";
   if (model.gray_is_density_g_cc) text += "** g is the apparent density in g/cc\n";
   if (!model.source.empty()) text += "** from " + model.source + "\n";
   const Pose& pose = model.world_from_mesh;
@@ -43,9 +105,9 @@ void write_nodes(const NumberedMesh& mesh, OrderedOutput& out, const Progress& p
   const std::vector<CoordinateText> x = coordinates(mesh.model, 0), y = coordinates(mesh.model, 1),
                                     z = coordinates(mesh.model, 2);
   out.append("*NODE, NSET=NALL\n");
-  const auto most_bytes = [&](size_t i) {
+  const auto max_bytes = [&](size_t i) {
     return (numbering.nodes_before(i + 1) - numbering.nodes_before(i)) *
-               (most_id_bytes + 3 * most_coordinate_bytes) +
+               (max_id_bytes + 3 * max_coordinate_bytes) +
            spare_bytes;
   };
   const auto make = [&](size_t slab, char* at) {
@@ -71,7 +133,7 @@ void write_nodes(const NumberedMesh& mesh, OrderedOutput& out, const Progress& p
     });
     return at;
   };
-  out.append({numbering.corners().count(), most_bytes, make}, progress, "writing nodes");
+  out.append({numbering.corners().count(), max_bytes, make}, progress, "writing nodes");
 }
 
 /// A row of corners with the texts of its ids.
@@ -115,9 +177,8 @@ char* element_lines(const TextRow* rows, int begin, int end, uint64_t& number, I
 
 void write_elements(const NodeNumbering& numbering, OrderedOutput& out, const Progress& progress) {
   out.append("*ELEMENT, TYPE=C3D8, ELSET=EALL\n");
-  const auto most_bytes = [&](size_t i) {
-    return (numbering.elements_before(i + 1) - numbering.elements_before(i)) * 9 * most_id_bytes +
-           spare_bytes;
+  const auto max_bytes = [&](size_t i) {
+    return (numbering.elements_before(i + 1) - numbering.elements_before(i)) * 9 * max_id_bytes + spare_bytes;
   };
   const auto make = [&](size_t slab, char* at) {
     if (numbering.elements_before(slab + 1) == numbering.elements_before(slab)) return at;
@@ -129,7 +190,7 @@ void write_elements(const NodeNumbering& numbering, OrderedOutput& out, const Pr
     });
     return at;
   };
-  out.append({numbering.voxels().count(), most_bytes, make}, progress, "writing elements");
+  out.append({numbering.voxels().count(), max_bytes, make}, progress, "writing elements");
 }
 
 char* id_lines(std::span<const uint32_t> ids, char* at) {
@@ -157,15 +218,15 @@ void write_sets(const NumberedMesh& mesh, MemoryBudget& budget, OrderedOutput& o
       std::span<const uint32_t> ids;
       bool first;
     };
-    constexpr size_t most_ids = ids_per_line << 12;
+    constexpr size_t max_ids = ids_per_line << 12;
     std::vector<Piece> pieces;
     for (size_t m = part.first_material; m < part.end_material; ++m) {
       const std::span<const uint32_t> ids = part.ids_of(m);
-      for (size_t i = 0; i < ids.size(); i += most_ids)
-        pieces.push_back({m, ids.subspan(i, std::min(most_ids, ids.size() - i)), i == 0});
+      for (size_t i = 0; i < ids.size(); i += max_ids)
+        pieces.push_back({m, ids.subspan(i, std::min(max_ids, ids.size() - i)), i == 0});
     }
-    const auto most_bytes = [&](size_t i) {
-      return pieces[i].ids.size() * (most_id_bytes + 1) + 2 * spare_bytes;
+    const auto max_bytes = [&](size_t i) {
+      return pieces[i].ids.size() * (max_id_bytes + 1) + 2 * spare_bytes;
     };
     const auto make = [&](size_t i, char* at) {
       if (pieces[i].first) {
@@ -174,7 +235,7 @@ void write_sets(const NumberedMesh& mesh, MemoryBudget& budget, OrderedOutput& o
       }
       return id_lines(pieces[i].ids, at);
     };
-    out.append({pieces.size(), most_bytes, make}, progress, "writing element sets");
+    out.append({pieces.size(), max_bytes, make}, progress, "writing element sets");
   });
 }
 
@@ -193,7 +254,7 @@ void write_faces(const NodeNumbering& numbering, OrderedOutput& out) {
   const auto faces = face_nodes(numbering);
   for (size_t face = 0; face < faces.size(); ++face) {
     out.append(std::string("*NSET, NSET=") + face_names[face] + "\n");
-    std::string text(faces[face].size() * (most_id_bytes + 1) + spare_bytes, '\0');
+    std::string text(faces[face].size() * (max_id_bytes + 1) + spare_bytes, '\0');
     const char* end = id_lines(faces[face], text.data());
     out.append(std::string_view(text.data(), static_cast<size_t>(end - text.data())));
   }
@@ -202,7 +263,7 @@ void write_faces(const NodeNumbering& numbering, OrderedOutput& out) {
 }  // namespace
 
 uint64_t write_inp(const NumberedMesh& mesh, const InpOptions& options, MemoryBudget& budget,
-                   const FileInProgress& file, const Progress& progress) {
+                   const AtomicFile& file, const Progress& progress) {
   OrderedOutput out(file);
   out.append(heading(mesh));
   write_nodes(mesh, out, part_of(progress, 0.0, 0.4));

@@ -3,8 +3,8 @@
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "fe/mesh_check.hpp"
+#include "fe/mesh_writers.hpp"
 #include "fe/refine.hpp"
-#include "fe/vtu_writer.hpp"
 
 namespace ream::fe {
 namespace {
@@ -36,7 +36,7 @@ void describe(const NumberedMesh& mesh, MeshReport& report) {
 void write(const NumberedMesh& mesh, const MeshOptions& options, MemoryBudget& budget,
            const std::filesystem::path& out, const Progress& progress, MeshReport& report) {
   const MeshFormat format = format_of(out);
-  FileInProgress file(out);
+  AtomicFile file(out);
   const Progress writing = part_of(progress, 0.5, options.check ? 0.75 : 1.0);
   report.write_ms = timed_ms([&] {
     report.bytes = format == MeshFormat::inp ? write_inp(mesh, options.inp, budget, file, writing)

@@ -1,8 +1,8 @@
 #pragma once
 #include <optional>
 
-#include "fe/inp_writer.hpp"
 #include "fe/largest_component.hpp"
+#include "fe/mesh_writers.hpp"
 
 namespace ream::fe {
 

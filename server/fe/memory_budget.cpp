@@ -1,6 +1,13 @@
 #include "fe/memory_budget.hpp"
 
+#include <fcntl.h>
+#include <stdlib.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <string>
 
 #include "core/error.hpp"
 
@@ -11,7 +18,7 @@ constexpr uint64_t megabyte = 1'000'000;
 /// Of the program itself and of the buffers of two threads that format text.
 constexpr uint64_t always_bytes = 120 * megabyte;
 /// What is lent even when nothing is left: small meshes are made whatever the limit.
-constexpr uint64_t least_bytes = 4 * megabyte;
+constexpr uint64_t min_bytes = 4 * megabyte;
 
 }  // namespace
 
@@ -20,7 +27,7 @@ MemoryBudget::MemoryBudget(uint64_t limit_bytes, std::filesystem::path folder)
 
 uint64_t MemoryBudget::left() const {
   if (limit_ == UINT64_MAX) return UINT64_MAX;
-  return std::max(least_bytes, limit_ > used_ ? limit_ - used_ : 0);
+  return std::max(min_bytes, limit_ > used_ ? limit_ - used_ : 0);
 }
 
 void MemoryBudget::take(uint64_t bytes, const std::string& what) {
@@ -32,5 +39,40 @@ void MemoryBudget::take(uint64_t bytes, const std::string& what) {
 }
 
 void MemoryBudget::give_back(uint64_t bytes) { used_ -= std::min(used_, limit_ == UINT64_MAX ? 0 : bytes); }
+
+SpillFile::SpillFile(const std::filesystem::path& folder) : folder_(folder.empty() ? "." : folder) {
+  std::string name = (folder_ / ".ream-XXXXXX").string();
+  fd_ = ::mkostemp(name.data(), O_CLOEXEC);
+  if (fd_ < 0) fail();
+  ::unlink(name.c_str());
+}
+
+SpillFile::~SpillFile() { ::close(fd_); }
+
+void SpillFile::fail() const {
+  throw Error(ErrorKind::io, "cannot keep what does not fit into memory in " + folder_.string() + ": " +
+                                 std::strerror(errno));
+}
+
+void SpillFile::write_at(uint64_t offset, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::pwrite(fd_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail();
+    bytes = bytes.subspan(static_cast<size_t>(n));
+    offset += static_cast<uint64_t>(n);
+  }
+}
+
+void SpillFile::read_at(uint64_t offset, std::span<std::byte> bytes) const {
+  while (!bytes.empty()) {
+    const ssize_t n = ::pread(fd_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (n < 0 && errno == EINTR) continue;
+    if (n == 0) errno = EIO;
+    if (n <= 0) fail();
+    bytes = bytes.subspan(static_cast<size_t>(n));
+    offset += static_cast<uint64_t>(n);
+  }
+}
 
 }  // namespace ream::fe

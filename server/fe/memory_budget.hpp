@@ -1,6 +1,8 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 
 namespace ream::fe {
@@ -10,7 +12,7 @@ class MemoryBudget {
  public:
   /// No limit.
   MemoryBudget() = default;
-  /// `limit_bytes` of the whole process; `folder` for passing files without a name, which go away with the
+  /// `limit_bytes` of the whole process; `folder` for temporary files without a name, which go away with the
   /// process whatever ends it.
   MemoryBudget(uint64_t limit_bytes, std::filesystem::path folder);
 
@@ -25,6 +27,26 @@ class MemoryBudget {
  private:
   uint64_t limit_ = UINT64_MAX, used_ = 0;
   std::filesystem::path folder_;
+};
+
+/// A temporary file without a name: it goes away with this object or with the process, whatever ends it.
+/// Thread-safe. Errors are Error io that name the folder.
+class SpillFile {
+ public:
+  explicit SpillFile(const std::filesystem::path& folder);
+  ~SpillFile();
+  SpillFile(const SpillFile&) = delete;
+  SpillFile& operator=(const SpillFile&) = delete;
+
+  void write_at(uint64_t offset, std::span<const std::byte> bytes);
+  /// All of `bytes` must have been written.
+  void read_at(uint64_t offset, std::span<std::byte> bytes) const;
+
+ private:
+  [[noreturn]] void fail() const;
+
+  std::filesystem::path folder_;
+  int fd_ = -1;
 };
 
 }  // namespace ream::fe

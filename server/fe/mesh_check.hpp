@@ -4,8 +4,8 @@
 #include <functional>
 
 #include "core/progress.hpp"
-#include "fe/inp_writer.hpp"
 #include "fe/make_mesh.hpp"
+#include "fe/mesh_writers.hpp"
 
 namespace ream::fe {
 

@@ -6,7 +6,7 @@
 namespace ream::fe {
 namespace {
 
-constexpr int least_decimals = 3, nanometre_decimals = 6, most_decimals = 9;
+constexpr int min_decimals = 3, nanometre_decimals = 6, max_decimals = 9;
 constexpr double powers[] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
 
 bool exact_with(double value, int decimals) {
@@ -42,10 +42,10 @@ CoordinateText CoordinateText::of(double mm, int decimals) {
 }
 
 int decimals_of(double first_mm, double step_mm) {
-  for (int decimals = least_decimals; decimals <= most_decimals; ++decimals)
+  for (int decimals = min_decimals; decimals <= max_decimals; ++decimals)
     if (exact_with(first_mm, decimals) && exact_with(step_mm, decimals)) return decimals;
   // Rounding must stay small beside the voxel too.
-  return step_mm < 1e-3 ? most_decimals : nanometre_decimals;
+  return step_mm < 1e-3 ? max_decimals : nanometre_decimals;
 }
 
 std::string real_text(double value) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "fe/two_threads.hpp"
+#include "core/thread_pool.hpp"
 
 namespace ream::fe {
 namespace {
@@ -84,7 +84,7 @@ void OrderedOutput::append(const Pieces& pieces, const Progress& progress, std::
     Buffers::Buffer buffer;
     size_t size = 0;
     try {
-      buffer = buffers.take(pieces.most_bytes(i));
+      buffer = buffers.take(pieces.max_bytes(i));
       size = static_cast<size_t>(pieces.make(i, buffer.bytes.get()) - buffer.bytes.get());
     } catch (...) {
       places.give_up();
@@ -94,7 +94,7 @@ void OrderedOutput::append(const Pieces& pieces, const Progress& progress, std::
     file_.write_at(begin, std::as_bytes(std::span(buffer.bytes.get(), size)));
     buffers.give_back(std::move(buffer));
   };
-  on_two_threads(pieces.count, work, progress, step);
+  parallel_for(2, pieces.count, work, progress, step);
   bytes_ = places.end();
 }
 

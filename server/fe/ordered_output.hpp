@@ -2,7 +2,7 @@
 #include <functional>
 #include <string_view>
 
-#include "core/file_in_progress.hpp"
+#include "core/atomic_file.hpp"
 #include "core/progress.hpp"
 
 namespace ream::fe {
@@ -10,13 +10,13 @@ namespace ream::fe {
 /// Text at the end of a file in progress, made piece by piece on two threads and written in order.
 class OrderedOutput {
  public:
-  explicit OrderedOutput(const FileInProgress& file) : file_(file) {}
+  explicit OrderedOutput(const AtomicFile& file) : file_(file) {}
 
   void append(std::string_view text);
 
   struct Pieces {
     size_t count = 0;
-    std::function<size_t(size_t i)> most_bytes;     ///< of piece i
+    std::function<size_t(size_t i)> max_bytes;      ///< of piece i
     std::function<char*(size_t i, char* at)> make;  ///< writes it from `at` on, returns its end
   };
   /// Errors: io; what the functions and the progress throw.
@@ -25,7 +25,7 @@ class OrderedOutput {
   uint64_t bytes() const { return bytes_; }
 
  private:
-  const FileInProgress& file_;
+  const AtomicFile& file_;
   uint64_t bytes_ = 0;
 };
 

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/error.hpp"
-#include "fe/two_threads.hpp"
+#include "core/thread_pool.hpp"
 #include "voxel/upsample.hpp"
 
 namespace ream::fe {
@@ -149,8 +149,8 @@ ElementModel refined(ElementModel model, int factor, MemoryBudget& budget, const
   const auto n = static_cast<uint64_t>(factor);
   fine.codes = ElementCodes(model.codes.size() * n * n * n, budget);
   Splitter splitter(model, fine, factor);
-  on_two_threads(
-      static_cast<size_t>(model.mask.dims().z()), [&](size_t w) { splitter.split(static_cast<int>(w)); },
+  parallel_for(
+      2, static_cast<size_t>(model.mask.dims().z()), [&](size_t w) { splitter.split(static_cast<int>(w)); },
       progress, "upsampling");
   budget.give_back(model.mask.bytes() + model.codes.bytes());
   return fine;

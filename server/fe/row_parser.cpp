@@ -2,11 +2,155 @@
 
 #include <string.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string_view>
 
 namespace ream::fe {
+namespace {
+
+constexpr size_t table_size = 1 << 18;
+constexpr size_t max_text_bytes = 30;
+constexpr double grid_tolerance = 0.08;  // of a voxel, for positions rounded when written
+constexpr double same_place = 1e-3;      // of a voxel: two ways to write one position
+
+uint64_t hash_of(const char* text, size_t length) {
+  uint64_t hash = length;
+  for (size_t i = 0; i < length; ++i) hash = (hash ^ static_cast<unsigned char>(text[i])) * 0x100000001b3u;
+  return (hash * 0x9e3779b97f4a7c15u) >> 46;
+}
+
+struct Gap {
+  double length = 0.0;
+  uint64_t rows = 0;  // of the lesser of its ends
+};
+
+std::vector<Gap> gaps_of(const std::vector<RowPlace>& places) {
+  std::vector<Gap> gaps;
+  for (size_t i = 1; i < places.size(); ++i)
+    gaps.push_back({places[i].at - places[i - 1].at, std::min(places[i].rows, places[i - 1].rows)});
+  std::sort(gaps.begin(), gaps.end(), [](const Gap& a, const Gap& b) { return a.length < b.length; });
+  return gaps;
+}
+
+/// The gap that half of the rows lie beside.
+double typical_gap(const std::vector<Gap>& gaps) {
+  uint64_t all = 0, sum = 0;
+  for (const Gap& gap : gaps) all += gap.rows;
+  for (const Gap& gap : gaps)
+    if (2 * (sum += gap.rows) >= all) return gap.length;
+  return gaps.back().length;
+}
+
+/// One place for those that differ by the way they are written.
+void merge_same(std::vector<RowPlace>& places) {
+  const double same = same_place * typical_gap(gaps_of(places));
+  std::vector<RowPlace> merged{places.front()};
+  for (size_t i = 1; i < places.size(); ++i) {
+    if (places[i].at - merged.back().at > same) {
+      merged.push_back(places[i]);
+      continue;
+    }
+    merged.back().rows += places[i].rows;
+    merged.back().first_byte = std::min(merged.back().first_byte, places[i].first_byte);
+  }
+  places = std::move(merged);
+}
+
+/// Small gaps first, so that the step is known well before long gaps are counted in it.
+double step_of(const std::vector<RowPlace>& places) {
+  const std::vector<Gap> gaps = gaps_of(places);
+  const double typical = typical_gap(gaps);
+  double length = 0.0, steps = 0.0;
+  for (const Gap& gap : gaps) {
+    const double step = steps > 0.0 ? length / steps : typical, count = std::nearbyint(gap.length / step);
+    if (count < 1.0 || std::abs(gap.length / step - count) > 2.0 * grid_tolerance) continue;
+    length += gap.length;
+    steps += count;
+  }
+  return steps > 0.0 ? length / steps : typical;
+}
+
+}  // namespace
+
+RowPlaces::RowPlaces() : table_(table_size) {}
+
+std::optional<uint16_t> RowPlaces::read(const char*& at, uint64_t line_byte) {
+  if (!places_.empty()) {
+    const uint16_t guesses[2] = {last_, places_[last_].next};
+    for (int k = 0; k < 2; ++k) {
+      const uint16_t guess = guesses[k ^ int{moves_}];
+      Text& text = places_[guess];
+      if (!is(text, at)) continue;
+      at += text.length;
+      moves_ = guess != last_;
+      ++text.place.rows;
+      last_ = guess;
+      return guess;
+    }
+  }
+  size_t length = 0;
+  while (length <= max_text_bytes && !ends_number(at[length])) ++length;
+  if (length > max_text_bytes) return {};
+  const auto found = look_up(at, length, line_byte);
+  if (!found) return {};
+  at += length;
+  moves_ = *found != last_;
+  if (moves_) places_[last_].next = *found;
+  ++places_[*found].place.rows;
+  last_ = *found;
+  return found;
+}
+
+std::optional<uint16_t> RowPlaces::look_up(const char* at, size_t length, uint64_t line_byte) {
+  size_t slot = hash_of(at, length);
+  for (; table_[slot] != 0; slot = (slot + 1) % table_size) {
+    const Text& text = places_[table_[slot] - 1];
+    if (text.length == length && std::memcmp(text.text, at, length) == 0)
+      return static_cast<uint16_t>(table_[slot] - 1);
+  }
+  Text text;
+  const auto parsed = std::from_chars(at, at + length, text.place.at);
+  if (parsed.ec != std::errc() || parsed.ptr != at + length || !std::isfinite(text.place.at) || full())
+    return {};
+  std::memcpy(text.text, at, length);
+  text.length = static_cast<uint8_t>(length);
+  text.place.first_byte = line_byte;
+  places_.push_back(text);
+  table_[slot] = static_cast<uint32_t>(places_.size());
+  return static_cast<uint16_t>(places_.size() - 1);
+}
+
+std::vector<RowPlace> RowPlaces::places() const {
+  std::vector<RowPlace> result;
+  for (const Text& text : places_) result.push_back(text.place);
+  return result;
+}
+
+int RowAxis::index(double at) const {
+  return count == 1 ? 0 : static_cast<int>(std::floor((at - first) / step + 0.5));
+}
+
+RowAxis axis_of(std::vector<RowPlace> places, std::optional<RowPlace>& off) {
+  std::sort(places.begin(), places.end(), [](const RowPlace& a, const RowPlace& b) { return a.at < b.at; });
+  if (places.size() > 1) merge_same(places);
+  if (places.size() == 1) return {places.front().at, 0.0, 1};
+  const double step = step_of(places);
+  const RowPlace& anchor = *std::max_element(
+      places.begin(), places.end(), [](const RowPlace& a, const RowPlace& b) { return a.rows < b.rows; });
+  const auto steps_to = [&](const RowPlace& place) { return std::nearbyint((place.at - anchor.at) / step); };
+  for (const RowPlace& place : places)
+    if (std::abs(place.at - anchor.at - steps_to(place) * step) > grid_tolerance * step)
+      if (!off || place.first_byte < off->first_byte) off = place;
+  RowAxis axis;
+  axis.step = step;
+  axis.first = anchor.at + steps_to(places.front()) * step;
+  const double count = steps_to(places.back()) - steps_to(places.front()) + 1.0;
+  axis.count = static_cast<int>(std::min(count, 2e9));
+  return axis;
+}
+
 namespace {
 
 constexpr const char* no_row = "is not four finite numbers 'x y z gray'";

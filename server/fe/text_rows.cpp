@@ -1,20 +1,211 @@
 #include "fe/text_rows.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <array>
 #include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <mutex>
 #include <numeric>
+#include <vector>
 
 #include "core/error.hpp"
-#include "fe/row_store.hpp"
-#include "fe/two_threads.hpp"
+#include "core/progress.hpp"
+#include "core/thread_pool.hpp"
+#include "fe/memory_budget.hpp"
+#include "fe/row_parser.hpp"
 
 namespace ream::fe {
 namespace {
 
+/// All rows of a text file, read once on two threads, in its order.
+class RowStore {
+ public:
+  /// Throws Error not_found, io, cancelled, or invalid_input naming the first line that is no row.
+  RowStore(const std::filesystem::path& path, MemoryBudget& budget, const Progress& progress);
+  ~RowStore();
+  RowStore(const RowStore&) = delete;
+  RowStore& operator=(const RowStore&) = delete;
+
+  uint64_t size() const { return size_; }
+  const RowParser& parser(size_t thread) const { return parsers_[thread]; }
+  static constexpr size_t threads = 2;
+
+  /// The file lies here in blocks, each read by one of the parsers.
+  size_t blocks() const { return blocks_.size(); }
+  size_t parser_of(size_t block) const { return blocks_[block].parser; }
+  /// Valid until `scratch` changes. Thread-safe.
+  std::span<const RowRecord> rows(size_t block, std::vector<RowRecord>& scratch) const;
+
+  /// The line of a place in the file, and of a row of a block; read anew.
+  uint64_t line_of_byte(uint64_t byte) const;
+  uint64_t line_of_row(size_t block, size_t row) const;
+
+ private:
+  struct Block {
+    size_t parser = 0;
+    uint64_t first_row = 0;  ///< in the order of keeping, of those on the disk
+    size_t count = 0;
+    std::vector<RowRecord> rows;
+  };
+  void read_block(size_t block, std::vector<char>& text, const char*& begin, const char*& end,
+                  uint64_t& byte) const;
+  void keep(size_t block, std::vector<RowRecord>&& rows);
+
+  MemoryBudget& budget_;
+  std::filesystem::path path_;
+  int fd_ = -1;
+  uint64_t file_bytes_ = 0, size_ = 0;
+  std::vector<RowParser> parsers_;
+  std::vector<Block> blocks_;
+  std::unique_ptr<SpillFile> spill_;
+  uint64_t spilled_ = 0;
+  std::mutex mutex_;
+};
+
+namespace fs = std::filesystem;
+
+constexpr uint64_t block_bytes = 4 << 20;
+constexpr uint64_t short_row_bytes = 16;  // to guess how many rows there can be
+constexpr size_t readable_behind = 64;
+
+RowStore::RowStore(const fs::path& path, MemoryBudget& budget, const Progress& progress)
+    : budget_(budget), path_(path), parsers_(threads) {
+  if (!fs::is_regular_file(path)) throw Error(ErrorKind::not_found, "no such file: " + path.string());
+  fd_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd_ < 0) throw Error(ErrorKind::io, "cannot read " + path.string() + ": " + std::strerror(errno));
+  file_bytes_ = fs::file_size(path);
+  blocks_.resize((file_bytes_ + block_bytes - 1) / block_bytes);
+  if (!budget.fits(2 * file_bytes_ / short_row_bytes * sizeof(RowRecord)))
+    spill_ = std::make_unique<SpillFile>(budget.folder());
+  std::mutex mutex;
+  std::optional<RowFault> first_fault;
+  std::vector<bool> busy(threads);
+  const auto work = [&](size_t block) {
+    size_t parser = 0;
+    {
+      const std::lock_guard lock(mutex);
+      if (first_fault && first_fault->byte < block * block_bytes) return;
+      parser = busy[0] ? 1 : 0;
+      busy[parser] = true;
+    }
+    std::vector<char> text;
+    std::vector<RowRecord> rows;
+    const char *begin = nullptr, *end = nullptr;
+    uint64_t byte = 0;
+    read_block(block, text, begin, end, byte);
+    rows.reserve(text.size() / 40);
+    const auto fault = parsers_[parser].parse(begin, end, byte, rows);
+    blocks_[block].parser = parser;
+    keep(block, std::move(rows));
+    const std::lock_guard lock(mutex);
+    busy[parser] = false;
+    if (fault && (!first_fault || fault->byte < first_fault->byte)) first_fault = fault;
+  };
+  parallel_for(2, blocks_.size(), work, progress, "reading rows");
+  if (first_fault)
+    throw Error(ErrorKind::invalid_input, path_.string() + " line " +
+                                              std::to_string(line_of_byte(first_fault->byte)) + ": " +
+                                              first_fault->why);
+  for (const Block& block : blocks_) size_ += block.count;
+  if (!spill_) budget.take(size_ * sizeof(RowRecord), "reading " + path.string());
+}
+
+RowStore::~RowStore() {
+  if (!spill_) budget_.give_back(size_ * sizeof(RowRecord));
+  if (fd_ >= 0) ::close(fd_);
+}
+
+/// The lines that begin in the block, the last of them whole.
+void RowStore::read_block(size_t block, std::vector<char>& text, const char*& begin, const char*& end,
+                          uint64_t& byte) const {
+  const uint64_t first = block * block_bytes, from = first == 0 ? 0 : first - 1;
+  const uint64_t to = std::min(file_bytes_, first + block_bytes + RowParser::max_line_bytes);
+  text.resize(to - from + 1 + readable_behind);
+  for (uint64_t done = 0; done < to - from;) {
+    const ssize_t n = ::pread(fd_, text.data() + done, to - from - done, static_cast<off_t>(from + done));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0)
+      throw Error(ErrorKind::io,
+                  "cannot read " + path_.string() +
+                      (n < 0 ? std::string(": ") + std::strerror(errno) : ", it was cut short"));
+    done += static_cast<uint64_t>(n);
+  }
+  const char* const all = text.data() + (to - from);
+  text[to - from] = '\n';  // ends the last line, and any search
+  begin = text.data();
+  byte = from;
+  if (first > 0) {
+    begin = static_cast<const char*>(std::memchr(begin, '\n', static_cast<size_t>(all - begin) + 1)) + 1;
+    byte += static_cast<uint64_t>(begin - text.data());
+  }
+  end = std::min(all, static_cast<const char*>(text.data()) + (first - from) + block_bytes);
+  if (end == all) return;
+  // The line that begins last must end in what was read.
+  if (std::memchr(end, '\n', static_cast<size_t>(all - end)) == nullptr)
+    throw Error(ErrorKind::invalid_input,
+                path_.string() + " line " +
+                    std::to_string(line_of_byte(from + static_cast<uint64_t>(end - text.data()))) +
+                    ": is too long for 'x y z gray'");
+}
+
+void RowStore::keep(size_t block, std::vector<RowRecord>&& rows) {
+  blocks_[block].count = rows.size();
+  if (!spill_) {
+    rows.shrink_to_fit();
+    blocks_[block].rows = std::move(rows);
+    return;
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    blocks_[block].first_row = spilled_;
+    spilled_ += rows.size();
+  }
+  spill_->write_at(blocks_[block].first_row * sizeof(RowRecord), std::as_bytes(std::span(rows)));
+}
+
+std::span<const RowRecord> RowStore::rows(size_t block, std::vector<RowRecord>& scratch) const {
+  const Block& b = blocks_[block];
+  if (!spill_) return b.rows;
+  scratch.resize(b.count);
+  spill_->read_at(b.first_row * sizeof(RowRecord), std::as_writable_bytes(std::span(scratch)));
+  return scratch;
+}
+
+uint64_t RowStore::line_of_byte(uint64_t byte) const {
+  uint64_t line = 1;
+  std::vector<char> text(block_bytes);
+  for (uint64_t at = 0; at < byte;) {
+    const ssize_t n =
+        ::pread(fd_, text.data(), std::min<uint64_t>(text.size(), byte - at), static_cast<off_t>(at));
+    if (n <= 0) break;
+    line += static_cast<uint64_t>(std::count(text.begin(), text.begin() + n, '\n'));
+    at += static_cast<uint64_t>(n);
+  }
+  return line;
+}
+
+uint64_t RowStore::line_of_row(size_t block, size_t row) const {
+  std::vector<char> text;
+  const char *begin = nullptr, *end = nullptr;
+  uint64_t byte = 0;
+  read_block(block, text, begin, end, byte);
+  RowParser parser;
+  std::vector<RowRecord> rows;
+  std::vector<uint64_t> bytes;
+  parser.parse(begin, end, byte, rows, &bytes);
+  return line_of_byte(bytes.at(row));
+}
+
 using Axes = std::array<RowAxis, 3>;
 
 /// A grid may have so many voxels for each row, and this many whatever its rows.
-constexpr uint64_t most_voxels_per_row = 2000, always_voxels = 100'000'000;
+constexpr uint64_t max_voxels_per_row = 2000, always_voxels = 100'000'000;
 
 Axes axes_of(const RowStore& store, const std::string& file) {
   Axes axes;
@@ -69,7 +260,7 @@ void set_grid(ElementModel& model, Axes& axes, const std::optional<Vec3>& spacin
 void check_size(const Axes& axes, uint64_t rows, const std::string& file) {
   const double voxels = static_cast<double>(axes[0].count) * axes[1].count * axes[2].count;
   if (voxels > static_cast<double>(always_voxels) &&
-      voxels > static_cast<double>(most_voxels_per_row) * static_cast<double>(rows))
+      voxels > static_cast<double>(max_voxels_per_row) * static_cast<double>(rows))
     throw Error(ErrorKind::invalid_input, file + " spans " + std::to_string(axes[0].count) + " x " +
                                               std::to_string(axes[1].count) + " x " +
                                               std::to_string(axes[2].count) + " voxels with " +
@@ -99,7 +290,7 @@ class Placing {
   /// False when a voxel was given twice.
   bool mark(VoxelMask& mask) const {
     std::atomic<bool> once{true};
-    on_two_threads(store_.blocks(), [&](size_t block) {
+    parallel_for(2, store_.blocks(), [&](size_t block) {
       each(block, [&](int u, int v, int w, float, size_t) {
         const uint64_t bit = uint64_t{1} << (u % 64);
         const uint64_t old = std::atomic_ref(mask.row(v, w)[u / 64]).fetch_or(bit, std::memory_order_relaxed);
@@ -133,7 +324,7 @@ void place_codes(const RowStore& store, const Placing& placing, const VoxelMask&
                  std::span<uint16_t> codes) {
   const auto rows_per_layer = static_cast<size_t>(mask.dims().y());
   const uint64_t before = before_row[static_cast<size_t>(first) * rows_per_layer];
-  on_two_threads(store.blocks(), [&](size_t block) {
+  parallel_for(2, store.blocks(), [&](size_t block) {
     placing.each(block, [&](int u, int v, int w, float value, size_t) {
       if (w < first || w >= end) return;
       const uint64_t* row = mask.row(v, w);

@@ -8,13 +8,12 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "fe/id_set.hpp"
 #include "fe/mesh_file_checks.hpp"
 
 namespace ream::fe {
 namespace {
 
-constexpr size_t most_head_bytes = 1 << 16;
+constexpr size_t max_head_bytes = 1 << 16;
 constexpr uint64_t elements_of_block = 1 << 16;
 
 /// A file that is read from any place.
@@ -91,7 +90,7 @@ class VtuCheck {
   }
 
   void read_head() {
-    head_.resize(most_head_bytes);
+    head_.resize(max_head_bytes);
     head_.resize(file_.read_some(0, head_.data(), head_.size()));
     const size_t mark = head_.find("<AppendedData encoding=\"raw\">");
     data_ = head_.find('_', mark == std::string::npos ? head_.size() : mark);
@@ -169,7 +168,7 @@ class VtuCheck {
   void add_shapes(const std::vector<Index>& ids, uint64_t first) {
     const auto [least, greatest] = std::minmax_element(ids.begin(), ids.end());
     const auto low = static_cast<uint64_t>(*least), high = static_cast<uint64_t>(*greatest);
-    if (high - low >= most_nodes_at_hand(budget_))
+    if (high - low >= max_nodes_at_hand(budget_))
       file_.refuse("cells name points too far apart to be checked within --memory-mb");
     const Array points = array("Points", "Float64", nodes_ * sizeof(Vec3));
     std::vector<double> at;

@@ -1,9 +1,9 @@
-#include "fe/vtu_writer.hpp"
+#include "fe/mesh_writers.hpp"
 
 #include <array>
 
-#include "fe/corner_row.hpp"
-#include "fe/two_threads.hpp"
+#include "core/thread_pool.hpp"
+#include "fe/node_numbering.hpp"
 
 namespace ream::fe {
 namespace {
@@ -63,7 +63,7 @@ std::string head_of(const NumberedMesh& mesh, const std::array<Block, array_coun
 /// Writes values of one array at their place in the file.
 class ArrayWriter {
  public:
-  ArrayWriter(const FileInProgress& file, uint64_t data_begin, const Block& block)
+  ArrayWriter(const AtomicFile& file, uint64_t data_begin, const Block& block)
       : file_(file), begin_(data_begin + block.offset + sizeof(uint64_t)) {
     file.write_at(data_begin + block.offset, std::as_bytes(std::span(&block.bytes, 1)));
   }
@@ -73,7 +73,7 @@ class ArrayWriter {
   }
 
  private:
-  const FileInProgress& file_;
+  const AtomicFile& file_;
   uint64_t begin_;
 };
 
@@ -89,7 +89,7 @@ void write_points(const NumberedMesh& mesh, const ArrayWriter& out, const Progre
     });
     out.write(3 * mesh.numbering.nodes_before(slab), values);
   };
-  on_two_threads(mesh.numbering.corners().count(), work, progress, "writing points");
+  parallel_for(2, mesh.numbering.corners().count(), work, progress, "writing points");
 }
 
 template <typename Index>
@@ -119,7 +119,7 @@ void write_cells(const NumberedMesh& mesh, const ArrayWriter& corners, const Arr
     ends.write(before, end_of);
     kinds.write(before, std::vector<uint8_t>(count, vtk_hexahedron));
   };
-  on_two_threads(mesh.numbering.voxels().count(), work, progress, "writing elements");
+  parallel_for(2, mesh.numbering.voxels().count(), work, progress, "writing elements");
 }
 
 void write_values(const NumberedMesh& mesh, const ArrayWriter& grays, const ArrayWriter& moduli,
@@ -142,12 +142,12 @@ void write_values(const NumberedMesh& mesh, const ArrayWriter& grays, const Arra
     moduli.write(first, e);
     materials.write(first, m);
   };
-  on_two_threads((count + block - 1) / block, work, progress, "writing values");
+  parallel_for(2, (count + block - 1) / block, work, progress, "writing values");
 }
 
 }  // namespace
 
-uint64_t write_vtu(const NumberedMesh& mesh, const FileInProgress& file, const Progress& progress) {
+uint64_t write_vtu(const NumberedMesh& mesh, const AtomicFile& file, const Progress& progress) {
   const auto blocks = blocks_of(mesh);
   const std::string head = head_of(mesh, blocks), tail = "\n</AppendedData>\n</VTKFile>\n";
   file.write_at(0, std::as_bytes(std::span(head)));

@@ -20,7 +20,7 @@ inline constexpr double cartilage_feed_mm_s = 0.40;
 
 /// The laws reach zero inside the density range (2.20 and 1.235 g/cc); no bone is slower than this at the
 /// reference thrust. Engineering choice (science.md finding 3), mm/s.
-inline constexpr double slowest_feed_mm_s = 0.005;
+inline constexpr double min_feed_mm_s = 0.005;
 
 /// Simulated thrust below which the lips only rub, N. Engineering choice.
 inline constexpr double start_threshold_n = 1.0;

@@ -1,9 +1,10 @@
 #include "force/coupling.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
-#include "force/limits.hpp"
+#include "core/clock.hpp"
 
 namespace ream::force {
 namespace {
@@ -38,6 +39,17 @@ void move_over(const Vec3& direction, Vec6& from, Vec6& to) {
     from[i] -= share;
     to[i] += share;
   }
+}
+
+/// 1 N moves 1 kg with 1000 mm/s^2; likewise 1 N mm turns 1 kg mm^2 with 1000 rad/s^2.
+constexpr double mm_s2_per_n_kg = 1000.0;
+
+double inertia_kg_mm2(const VirtualMass& mass) {
+  return mass.mass_kg * mass.gyration_radius_mm * mass.gyration_radius_mm;
+}
+
+double damping_gain(const VirtualMass& mass) {
+  return tick_s * mm_s2_per_n_kg / mass.mass_kg * mass.damping_n_s_mm;
 }
 
 }  // namespace
@@ -83,6 +95,49 @@ CouplingStep couple(const CouplingParameters& p, const Resistance& resistance, c
   // That is not felt.
   if (resistance.outward.z() < 0.0) step.wrench_on_tool[2] = std::max(0.0, step.wrench_on_tool[2]);
   return step;
+}
+
+void add_friction(const Sliding& sliding, Resistance& resistance) noexcept {
+  if (!(sliding.normal_force_n > 0.0)) return;
+  const double spin_mm_s = sliding.turn_speed_rad_s * sliding.mean_radius_mm;
+  const double speed_mm_s =
+      std::max(sticking_speed_mm_s,
+               std::sqrt(sliding.along_speed_mm_s * sliding.along_speed_mm_s + spin_mm_s * spin_mm_s));
+  const double damping_n_s_mm = friction_coefficient * sliding.normal_force_n / speed_mm_s;
+  // The point's velocity is v + w x p, its part across n is what rubs: b J^T (1 - n n^T) J.
+  const Vec3& n = resistance.outward;
+  const Mat3 across = damping_n_s_mm * (Mat3::Identity() - n * n.transpose());
+  const Vec3& p = sliding.point_mm;
+  Mat3 arm;
+  arm << 0.0, p.z(), -p.y(), -p.z(), 0.0, p.x(), p.y(), -p.x(), 0.0;
+  const Mat3 mixed = across * arm, turning = arm.transpose() * mixed;
+  for (Eigen::Index i = 0; i < 3; ++i)
+    for (Eigen::Index j = 0; j < 3; ++j) {
+      resistance.cutting[static_cast<size_t>(6 * i + j)] += across(i, j);
+      resistance.cutting[static_cast<size_t>(6 * i + 3 + j)] += mixed(i, j);
+      resistance.cutting[static_cast<size_t>(6 * (3 + j) + i)] += mixed(i, j);
+      resistance.cutting[static_cast<size_t>(6 * (3 + i) + 3 + j)] += turning(i, j);
+    }
+  resistance.cutting[35] += damping_n_s_mm * sliding.mean_radius_mm * sliding.mean_radius_mm;
+}
+
+CouplingParameters coupling_of(const VirtualMass& mass, double force_scale) noexcept {
+  // Damping holds the mass back within the tick as free_flight takes it: it stiffens both alike.
+  const double per_tick_squared = (1.0 + damping_gain(mass)) / (mm_s2_per_n_kg * tick_s * tick_s);
+  return {mass.mass_kg * per_tick_squared, inertia_kg_mm2(mass) * per_tick_squared, force_scale};
+}
+
+Vec6 free_flight(const VirtualMass& mass, const Vec6& twist, const Wrench& hand) noexcept {
+  const double linear_gain = tick_s * mm_s2_per_n_kg / mass.mass_kg;
+  const double angular_gain = tick_s * mm_s2_per_n_kg / inertia_kg_mm2(mass);
+  const double slowed = 1.0 / (1.0 + damping_gain(mass));
+  Vec6 way{};
+  for (size_t i = 0; i < 3; ++i) {
+    const auto axis = static_cast<Eigen::Index>(i);
+    way[i] = tick_s * slowed * (twist[i] + linear_gain * hand.force_n[axis]);
+    way[3 + i] = tick_s * slowed * (twist[3 + i] + angular_gain * hand.torque_n_mm[axis]);
+  }
+  return way;
 }
 
 }  // namespace ream::force

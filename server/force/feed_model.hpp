@@ -2,7 +2,11 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "force/coefficients.hpp"
 #include "force/oblique_cutting.hpp"
@@ -38,15 +42,7 @@ class FeedModel {
   virtual uint64_t table_hash() const noexcept { return 0; }
 };
 
-enum class FeedKind {
-  empirical,  ///< the thesis' statistical law, eqs 5.1 and 5.2
-  oblique,    ///< the mechanics of appendix A, calibrated with the law
-  scraping,   ///< experimental: wear under pressure, calibrated with the law
-};
-
-const char* to_text(FeedKind kind);
-/// The words of to_text; Error usage for others.
-FeedKind feed_kind_from_text(const std::string& text);
+enum class FeedKind { empirical, oblique, scraping };
 
 struct FeedSettings {
   FeedKind kind = FeedKind::empirical;
@@ -66,7 +62,61 @@ struct CuttingTool {
   double seated_area_mm2 = 1.0;  ///< of the cutting surface in bone at the planned seating, above 0
 };
 
+/// A feed model as command line, scripts and recordings name it.
+struct FeedModelEntry {
+  const char* name;
+  const char* description;  ///< a few words for people
+  std::unique_ptr<FeedModel> (*make)(const FeedSettings& settings, const CuttingTool& tool);
+};
+/// All there are, in the order of FeedKind. A new model is a FeedKind, a row of this table, and its name in
+/// proto/script.schema.json.
+std::span<const FeedModelEntry> feed_models();
+
+const char* to_text(FeedKind kind);
+/// The model of that name; empty for any other.
+std::optional<FeedKind> find_feed_kind(std::string_view name);
+/// The same; Error usage naming all models for any other.
+FeedKind feed_kind_from_text(const std::string& text);
+/// All names for messages, each between `quote`s: "empirical, oblique or scraping".
+std::string feed_model_names(const std::string& quote = "");
+
 /// Errors: invalid_input when the lip cuts nothing, or its thrust does not rise with the feed.
 std::unique_ptr<FeedModel> make_feed_model(const FeedSettings& settings, const CuttingTool& tool);
+
+/// Feed rate of one class (0 cancellous, 1 cortical, 2 cartilage) at the reference thrust and spindle speed,
+/// mm/s: thesis eqs 5.1 and 5.2 times the specimen's factor; never below min_feed_mm_s.
+double empirical_feed_mm_s(int bone_class, double density_g_cc, double specimen_factor = 1.0) noexcept;
+
+/// 52 N over the feed rate that the law and the settings' spindle speed give, N s/mm. The classes under the
+/// reamer act side by side, so their resistances add by share. Needs bone.any().
+double lawful_resistance_n_s_mm(const EngagedBone& bone, const FeedSettings& settings) noexcept;
+
+/// mm advanced a revolution.
+double feed_a_revolution_mm(double feed_mm_s, double spindle_rad_s) noexcept;
+
+/// Thrust and torque of all lips against the feed per revolution, for a specific cutting coefficient of 1
+/// N/mm^2: thrust in N per N/mm^2 (mm^2), torque in N mm per N/mm^2 (mm^3). Linear between its rows and
+/// beyond the last one; the first is all zero. Reading it takes comparison and + - x / only.
+class FeedTable {
+ public:
+  /// Feeds and thrusts ascend strictly from 0; at least two rows.
+  FeedTable(std::vector<double> feed_mm, std::vector<double> thrust_mm2, std::vector<double> torque_mm3);
+
+  double thrust_mm2_at(double feed_mm) const noexcept;
+  double torque_mm3_at(double feed_mm) const noexcept;
+  /// The feed per revolution that takes this thrust.
+  double feed_mm_at(double thrust_mm2) const noexcept;
+  /// Of every bit in the table.
+  uint64_t hash() const noexcept { return hash_; }
+
+ private:
+  std::vector<double> feed_mm_, thrust_mm2_, torque_mm3_;
+  uint64_t hash_ = 0;
+};
+
+/// From 0 and 0.1 um a revolution to more than 5 mm in steps of a sixteenth, so that power laws are as true
+/// at small feeds as at large ones. Error invalid_input when the lip is empty or thrust does not rise with
+/// feed.
+FeedTable make_feed_table(const Lip& lip, const CuttingCoefficients& coefficients, double spindle_rad_s);
 
 }  // namespace ream::force

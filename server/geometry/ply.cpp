@@ -1,4 +1,4 @@
-#include "geometry/ply.hpp"
+#include "geometry/mesh_io.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -7,6 +7,11 @@
 
 namespace ream {
 
+/// [x, y, z].
+nlohmann::json json_of(const Vec3& v);
+/// Back again from three finite numbers. Errors: those of JsonReader::numbers.
+Vec3 read_vec3(JsonReader& reader, const std::string& key);
+
 /// {"rotation": three rows, "translation_mm": [x, y, z]}, to the bit.
 nlohmann::json to_json(const Pose& pose);
 

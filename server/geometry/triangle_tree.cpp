@@ -1,5 +1,6 @@
 #include "geometry/triangle_tree.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

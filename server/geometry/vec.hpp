@@ -1,6 +1,5 @@
 #pragma once
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
 #include <utility>

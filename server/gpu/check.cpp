@@ -1,7 +1,7 @@
 #include "gpu/check.hpp"
 
 #include "core/error.hpp"
-#include "gpu/handle.hpp"
+#include "gpu/device.hpp"
 
 namespace ream::gpu {
 

@@ -5,7 +5,7 @@
 #include <mutex>
 
 #include "core/error.hpp"
-#include "core/lower.hpp"
+#include "core/text.hpp"
 #include "gpu/check.hpp"
 
 namespace ream::gpu {
@@ -74,10 +74,10 @@ std::string listing(const std::vector<Device>& devices) {
 }
 
 const Device& preferred(const std::vector<Device>& devices, Use use) {
-  const std::string_view wanted = use == Use::tick ? "basic" : "pthread";
+  const std::string_view prefix = use == Use::tick ? "basic" : "pthread";
   const Device* best = &devices.front();
   for (const Device& d : devices) {
-    if (d.is_pocl && d.name.starts_with(wanted)) return d;
+    if (d.is_pocl && d.name.starts_with(prefix)) return d;
     if (d.is_pocl && !best->is_pocl) best = &d;
   }
   return *best;
@@ -96,23 +96,23 @@ std::vector<Device> list_devices() {
   return devices;
 }
 
-Device choose_device(std::string_view wish, Use use) {
+Device choose_device(std::string_view name, Use use) {
   const std::vector<Device> devices = list_devices();
   if (devices.empty())
     throw Error(ErrorKind::unavailable,
                 "no OpenCL device: install pocl-opencl-icd or a GPU's driver, or use --backend cpu");
-  if (wish == "auto" || wish == "opencl") return preferred(devices, use);
-  if (wish.starts_with("opencl:")) {
-    const std::string_view number = wish.substr(7);
+  if (name == "auto" || name == "opencl") return preferred(devices, use);
+  if (name.starts_with("opencl:")) {
+    const std::string_view number = name.substr(7);
     size_t index = 0;
     const auto [end, failed] = std::from_chars(number.data(), number.data() + number.size(), index);
     if (failed == std::errc{} && end == number.data() + number.size() && index < devices.size())
       return devices[index];
-  } else if (!wish.empty()) {
+  } else if (!name.empty()) {
     for (const Device& d : devices)
-      if (lower(d.name + " " + d.platform).find(lower(wish)) != std::string::npos) return d;
+      if (lower(d.name + " " + d.platform).find(lower(name)) != std::string::npos) return d;
   }
-  throw Error(ErrorKind::usage, "no OpenCL device '" + std::string(wish) + "'; " + listing(devices));
+  throw Error(ErrorKind::usage, "no OpenCL device '" + std::string(name) + "'; " + listing(devices));
 }
 
 }  // namespace ream::gpu

@@ -1,14 +1,34 @@
 #pragma once
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "gpu/handle.hpp"
+// OpenCL's own opaque types, declared here so that no header of ours includes OpenCL.
+struct _cl_device_id;
+struct _cl_context;
+struct _cl_command_queue;
+struct _cl_mem;
+struct _cl_program;
+struct _cl_kernel;
 
 namespace ream::gpu {
 
-/// What a device is wanted for. PoCL offers the same processor twice: `basic` runs kernels on the calling
+/// Gives an OpenCL object back. Never throws: a failing release leaves nothing to do.
+struct Release {
+  void operator()(_cl_context* object) const noexcept;
+  void operator()(_cl_command_queue* object) const noexcept;
+  void operator()(_cl_mem* object) const noexcept;
+  void operator()(_cl_program* object) const noexcept;
+  void operator()(_cl_kernel* object) const noexcept;
+};
+
+/// Owns one reference of an OpenCL object.
+template <class Object>
+using Handle = std::unique_ptr<Object, Release>;
+
+/// What a device is used for. PoCL offers the same processor twice: `basic` runs kernels on the calling
 /// thread and starts one in under a microsecond (the tick), `pthread` uses every core (bulk work).
 enum class Use { tick, bulk };
 
@@ -31,10 +51,10 @@ struct Device {
 /// threads start.
 std::vector<Device> list_devices();
 
-/// The device that `wish` names: "auto" or "opencl" (PoCL's device that fits `use`, else the first of the
+/// The device that `name` names: "auto" or "opencl" (PoCL's device that fits `use`, else the first of the
 /// list), "opencl:N" (the N-th of list_devices), or part of a device's or platform's name, in any case.
 /// Errors: usage for an N or a name that is not there (lists what is), unavailable when there is no device at
 /// all.
-Device choose_device(std::string_view wish, Use use);
+Device choose_device(std::string_view name, Use use);
 
 }  // namespace ream::gpu

@@ -6,7 +6,7 @@
 #include <cctype>
 #include <string>
 
-#include "core/lower.hpp"
+#include "core/text.hpp"
 #include "net/problem.hpp"
 
 namespace ream::net {

@@ -3,7 +3,7 @@
 #include <set>
 #include <string>
 
-#include "core/lower.hpp"
+#include "core/text.hpp"
 #include "net/problem.hpp"
 
 namespace ream::net {

@@ -1,8 +1,8 @@
 #include "net/message.hpp"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "core/json.hpp"
 #include "net/problem.hpp"
 
 namespace ream::net {

@@ -4,7 +4,7 @@
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/string_body.hpp>
 
-#include "core/lower.hpp"
+#include "core/text.hpp"
 #include "net/head_shape.hpp"
 #include "net/problem.hpp"
 

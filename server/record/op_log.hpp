@@ -4,22 +4,17 @@
 #include <memory>
 #include <string>
 #include <type_traits>
+#include <variant>
 #include <vector>
 
-#include "record/compression.hpp"
+#include "record/chunk.hpp"
 #include "record/log_sink.hpp"
 #include "record/ops.hpp"
 
 namespace ream::record {
 
-/// Where a chunk is in the file and what it is about, as its header says.
-struct ChunkPlace {
-  uint64_t offset = 0;  ///< of its header in the file
-  uint32_t stored_bytes = 0, raw_bytes = 0;
-  uint32_t first_tick = 0, ticks = 0;  ///< rows of tick that it holds; 0: notes only
-  bool has_key = false;                ///< holds a key of bricks
-  bool has_notes = false;              ///< holds ops other than tick, bricks and checkpoint
-};
+/// What a recording may hold beside its ticks; it may also follow when nobody writes ticks any more.
+using Note = std::variant<ops::Event, ops::Annotation, ops::End>;
 
 /// Writes an op log: a magic number and revision, then chunks. A chunk is one zstd frame of ops behind a
 /// header with lengths, what it holds, a checksum of the stored bytes and one of the header itself; checksums
@@ -63,11 +58,12 @@ class OpLogWriter {
   ChunkPlace place_;
 };
 
-/// Reads an op log of any revision so far. Opening reads chunk headers only, some milliseconds for an hour.
+/// Reads an op log of any revision from 2 on. Opening reads chunk headers only, some milliseconds for an
+/// hour.
 class OpLogReader {
  public:
   /// Error not_found, io; invalid_input when it is no recording, one of a newer revision, or not even its
-  /// first chunk is whole. Of revision 1, which has no such headers, all is read.
+  /// first chunk is whole.
   explicit OpLogReader(const std::filesystem::path& path);
   ~OpLogReader();
   OpLogReader(OpLogReader&&) noexcept;
@@ -97,5 +93,9 @@ class OpLogReader {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Appends one chunk of notes behind what `log` has found whole, fsynced; what is behind that in the file is
+/// cut off. Error io when it cannot be written; the file is then as it was.
+void append_notes(const OpLogReader& log, const std::vector<Note>& notes);
 
 }  // namespace ream::record

@@ -9,8 +9,8 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
-#include "record/chunk_header.hpp"
-#include "record/old_log.hpp"
+#include "record/chunk.hpp"
+#include "record/op_log.hpp"
 
 namespace ream::record {
 namespace {
@@ -89,7 +89,6 @@ struct OpLogReader::Impl {
   std::string damage;
 
   void open();
-  void open_old();
   void find_chunks(uint64_t chain);
   ops::Bytes read_chunk(size_t i) const;
   /// Ticks that whole chunks before chunk `i` reach to.
@@ -133,31 +132,15 @@ void OpLogReader::Impl::find_chunks(uint64_t chain) {
   }
 }
 
-void OpLogReader::Impl::open_old() {
-  revision = 1;
-  for (const OldChunk& chunk : old_chunks(file.read(0, file.size()))) {
-    places.push_back(chunk.place);
-    stored.push_back({chunk.stored_at, chunk.checksum, 0});
-  }
-  if (!places.empty() && end() < file.size())
-    damage = path() + " is damaged or ends too early, " + since(places.size(), end()) +
-             "; what comes before is used";
-}
-
 void OpLogReader::Impl::open() {
-  const auto begin = file.read(0, file_header_bytes);
-  if (begin.size() >= sizeof old_magic && std::memcmp(begin.data(), old_magic, sizeof old_magic) == 0) {
-    open_old();
-  } else {
-    const auto header = take_file_header(begin);
-    if (!header) throw Error(ErrorKind::invalid_input, path() + " is not a recording of this program");
-    revision = header->revision;
-    if (revision > ops::newest_revision)
-      throw Error(ErrorKind::invalid_input, path() + " is a recording of revision " +
-                                                std::to_string(revision) + "; this program reads up to " +
-                                                std::to_string(ops::newest_revision) + ", use a newer one");
-    find_chunks(header->chain);
-  }
+  const auto header = take_file_header(file.read(0, file_header_bytes));
+  if (!header) throw Error(ErrorKind::invalid_input, path() + " is not a recording of this program");
+  revision = header->revision;
+  if (revision > ops::newest_revision)
+    throw Error(ErrorKind::invalid_input, path() + " is a recording of revision " + std::to_string(revision) +
+                                              "; this program reads up to " +
+                                              std::to_string(ops::newest_revision) + ", use a newer one");
+  find_chunks(header->chain);
   if (places.empty())
     throw Error(ErrorKind::invalid_input, path() + " is damaged or ends before anything was recorded");
   read_chunk(0);
@@ -167,12 +150,8 @@ ops::Bytes OpLogReader::Impl::read_chunk(size_t i) const {
   const ChunkPlace& place = places.at(i);
   const auto bytes = file.read(stored[i].at, place.stored_bytes);
   std::optional<ops::Bytes> raw;
-  if (bytes.size() == place.stored_bytes && hash_bytes(bytes) == stored[i].checksum) {
-    if (revision > 1)
-      raw = decompressed(bytes, place.raw_bytes);
-    else
-      raw = i == 0 ? ops_of_old_text(bytes) : ops_of_old_ticks(bytes, place.raw_bytes);
-  }
+  if (bytes.size() == place.stored_bytes && hash_bytes(bytes) == stored[i].checksum)
+    raw = decompressed(bytes, place.raw_bytes);
   if (!raw)
     throw Error(ErrorKind::invalid_input, path() + " is damaged " + since(i, place.offset) +
                                               ": a chunk's checksum does not fit; what comes before is used");

@@ -2,11 +2,13 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <cstring>
 #include <ctime>
 #include <deque>
+#include <map>
 #include <mutex>
 #include <thread>
 #include <unordered_map>
@@ -14,7 +16,7 @@
 
 #include "core/clock.hpp"
 #include "core/error.hpp"
-#include "record/chunk_encoder.hpp"
+#include "record/brick_deltas.hpp"
 
 namespace ream::record {
 namespace {
@@ -27,6 +29,88 @@ double thread_cpu_s() {
   timespec t{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+/// A changed brick on its way into a chunk.
+struct ChangedBrick {
+  voxel::BrickImage now;
+  std::unique_ptr<BrickCoverage> start;  ///< set when the recording has not had this brick yet
+};
+
+/// What becomes one chunk.
+struct ChunkContents {
+  std::vector<ops::Tick> rows;
+  std::vector<ChangedBrick> bricks;  ///< each brick once
+  bool bone_is_whole = true;         ///< with them a reader has the bone after the last row
+  std::vector<Note> notes;
+
+  /// Memory, roughly.
+  size_t bytes() const {
+    return rows.size() * sizeof(ops::Tick) + bricks.size() * (sizeof(ChangedBrick) + sizeof(BrickCoverage));
+  }
+};
+
+/// Turns the contents of chunks into ops: keeps what a reader knows of each brick and the hash of the whole
+/// grid. Used by the recorder's thread.
+class ChunkEncoder {
+ public:
+  /// `grid_hash`: of the coverage now. `changed` and `starts`: bricks that differ from the start already, and
+  /// what they were at the start.
+  ChunkEncoder(uint64_t grid_hash, BrickCoverages changed, BrickCoverages starts);
+
+  /// Adds ops to the writer's open chunk; every chunks_per_key-th time a key of bricks as well.
+  void encode(ChunkContents contents, OpLogWriter& writer);
+
+ private:
+  void add_bricks(std::vector<ChangedBrick>& bricks, uint32_t tick, OpLogWriter& writer);
+  void add_key(uint32_t tick, OpLogWriter& writer) const;
+
+  uint64_t grid_hash_;
+  BrickCoverages now_, start_;  ///< the same bricks in both
+  uint32_t chunks_ = 0;
+};
+
+ChunkEncoder::ChunkEncoder(uint64_t grid_hash, BrickCoverages changed, BrickCoverages starts)
+    : grid_hash_(grid_hash), now_(std::move(changed)), start_(std::move(starts)) {}
+
+void ChunkEncoder::encode(ChunkContents contents, OpLogWriter& writer) {
+  for (const Note& note : contents.notes) std::visit([&](const auto& op) { writer.add(op); }, note);
+  if (contents.rows.empty()) return;
+  for (const ops::Tick& row : contents.rows) writer.add(row);
+  const ops::Tick& last = contents.rows.back();
+  add_bricks(contents.bricks, last.tick, writer);
+  if (++chunks_ % chunks_per_key == 0) add_key(last.tick, writer);
+  if (contents.bone_is_whole) writer.add(ops::Checkpoint{last.tick, last.session_hash, grid_hash_});
+}
+
+void ChunkEncoder::add_bricks(std::vector<ChangedBrick>& bricks, uint32_t tick, OpLogWriter& writer) {
+  std::map<uint32_t, const voxel::BrickImage*> newest;
+  for (ChangedBrick& brick : bricks) {
+    newest[brick.now.brick] = &brick.now;
+    if (!brick.start) continue;
+    start_.emplace(brick.now.brick, *brick.start);
+    now_.emplace(brick.now.brick, *brick.start);
+  }
+  BrickDeltaWriter deltas;
+  for (const auto& [index, image] : newest) {
+    uint8_t* before = now_.at(index).level;
+    if (std::memcmp(before, image->coverage, voxel::brick_voxels) == 0) continue;
+    deltas.add(index, before, image->coverage);
+    grid_hash_ += voxel::brick_hash(index, image->coverage) - voxel::brick_hash(index, before);
+    std::memcpy(before, image->coverage, voxel::brick_voxels);
+  }
+  if (const uint32_t count = deltas.count(); count > 0)
+    writer.add(ops::Bricks{tick, 0, count, deltas.take()});
+}
+
+void ChunkEncoder::add_key(uint32_t tick, OpLogWriter& writer) const {
+  std::vector<uint32_t> indices;
+  for (const auto& [index, coverage] : now_) indices.push_back(index);
+  std::sort(indices.begin(), indices.end());
+  BrickDeltaWriter deltas;
+  for (const uint32_t index : indices) deltas.add(index, start_.at(index).level, now_.at(index).level);
+  const uint32_t count = deltas.count();
+  writer.add(ops::Bricks{tick, 1, count, deltas.take()});
 }
 
 BrickCoverages starts_of(const BrickCoverages& changed, const RecordedBone& bone) {
@@ -129,7 +213,7 @@ struct Recorder::Impl {
   void hand_over(ChunkContents contents) {
     {
       const std::lock_guard lock(mutex);
-      if (queued_bytes > most_waiting_bytes && words.empty()) {
+      if (queued_bytes > max_waiting_bytes && words.empty()) {
         words = "the disk is too far behind the recording";
         failed = true;
       }
@@ -239,7 +323,7 @@ void Recorder::add(const TickReport& report) {
   impl_->next_tick = report.tick + 1;
   impl_->bricks_waiting = report.bricks_waiting;
   const size_t rows = impl_->open_chunk.rows.size();
-  if (rows >= ticks_per_chunk && (report.bricks_waiting == 0 || rows >= most_ticks_per_chunk))
+  if (rows >= ticks_per_chunk && (report.bricks_waiting == 0 || rows >= max_ticks_per_chunk))
     impl_->close_chunk();
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "record/op_log.hpp"
 #include "record/recorded_bone.hpp"
 #include "voxel/bricks.hpp"
 
@@ -12,8 +14,8 @@ inline constexpr uint32_t chunks_per_key = 64;    ///< keys of bricks every 16 s
 inline constexpr double sync_interval_s = 1.0;    ///< fsync; a loss of power costs no more
 /// Rows of a chunk while brick images are behind; such a chunk has no checkpoint, and the bone of its moment
 /// is not quite what it was.
-inline constexpr uint32_t most_ticks_per_chunk = 4 * ticks_per_chunk;
-inline constexpr size_t most_waiting_bytes = size_t{512} << 20;  ///< a disk that is later has failed
+inline constexpr uint32_t max_ticks_per_chunk = 4 * ticks_per_chunk;
+inline constexpr size_t max_waiting_bytes = size_t{512} << 20;  ///< a disk that is later has failed
 
 /// Writes recording.ream on a thread of its own. add() only hands over; a chunk of 250 ticks (a few more
 /// while brick images are behind), the bricks that they changed, and a checkpoint are encoded, compressed,

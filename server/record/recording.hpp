@@ -64,4 +64,9 @@ class Recording {
   uint32_t tick_count_ = 0;
 };
 
+/// A grid as JSON text, to the bit.
+std::string grid_to_text(const voxel::VoxelGrid& grid);
+/// Error invalid_input naming what is missing, or as voxel::validate().
+voxel::VoxelGrid grid_from_text(const std::string& text);
+
 }  // namespace ream::record

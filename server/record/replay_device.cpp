@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "record/tick_flags.hpp"
+#include "record/tick_report.hpp"
 
 namespace ream::record {
 namespace {

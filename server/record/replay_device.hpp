@@ -22,6 +22,11 @@ class ReplayDevice final : public device::HapticDevice {
   device::DeviceStatus write(const device::DeviceOutput&) noexcept override {
     return device::DeviceStatus::ok;
   }
+  // Recorded inputs say when they were paused, and nobody feels a force.
+  void session_paused(bool) noexcept override {}
+  void take_force_away() noexcept override {}
+  double closing_ms() const noexcept override { return 0.0; }
+  void use_priority(int) noexcept override {}
 
  private:
   struct Cause {

@@ -4,19 +4,80 @@
 #include <GL/gl.h>
 #include <GL/glext.h>
 #include <GL/osmesa.h>
+#include <png.h>
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <mutex>
 #include <string>
 
 #include "core/error.hpp"
+#include "core/file.hpp"
 #include "render/camera.hpp"
-#include "render/shader.hpp"
 
 namespace ream::render {
 namespace {
+
+// GLSL 1.20 for OSMesa: `position` and `normal` in the mesh's frame (where it has none: that of the
+// triangle), lit in camera coordinates by a key light above the left shoulder, a weak fill light and a sky,
+// then to sRGB.
+
+const char* const vertex_shader = R"(#version 120
+attribute vec3 position;
+attribute vec3 normal;
+attribute vec4 vertex_colour;
+uniform mat4 camera_from_mesh;
+uniform mat4 clip_from_camera;
+varying vec3 camera_position;
+varying vec3 camera_normal;
+varying vec4 own_colour;
+void main() {
+  own_colour = vertex_colour;
+  vec4 p = camera_from_mesh * vec4(position, 1.0);
+  camera_position = p.xyz;
+  camera_normal = mat3(camera_from_mesh) * normal;
+  gl_Position = clip_from_camera * p;
+}
+)";
+
+const char* const fragment_shader = R"(#version 120
+uniform vec3 colour;
+uniform float opacity;
+uniform bool has_normals;
+uniform bool has_colours;
+varying vec3 camera_position;
+varying vec3 camera_normal;
+varying vec4 own_colour;
+
+vec3 srgb(vec3 linear) {
+  vec3 c = clamp(linear, 0.0, 1.0);
+  return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(vec3(0.0031308), c));
+}
+
+void main() {
+  vec3 to_eye = normalize(-camera_position);
+  vec3 n = has_normals ? normalize(camera_normal) : normalize(cross(dFdx(camera_position), dFdy(camera_position)));
+  if (has_normals ? !gl_FrontFacing : dot(n, to_eye) < 0.0) n = -n;
+
+  vec3 key = normalize(vec3(-0.45, 0.65, 0.75));
+  vec3 fill = normalize(vec3(0.8, -0.1, 0.5));
+  vec3 light = vec3(1.00, 0.98, 0.94) * (0.72 * max(dot(n, key), 0.0)) +
+               vec3(0.85, 0.90, 1.00) * (0.16 * max(dot(n, fill), 0.0)) +
+               mix(vec3(0.13, 0.12, 0.11), vec3(0.24, 0.25, 0.26), 0.5 + 0.5 * n.y);
+  float shine = pow(max(dot(n, normalize(key + to_eye)), 0.0), 40.0);
+  vec3 surface = colour;
+  if (has_colours) {
+    surface = pow(own_colour.rgb, vec3(2.2));
+    bool stripe = mod(gl_FragCoord.x + gl_FragCoord.y, 18.0) < 5.0;
+    if (own_colour.a > 0.5 && stripe) surface *= 0.25;
+    light = mix(vec3(0.95), light, 0.4);
+    shine = 0.0;
+  }
+  gl_FragColor = vec4(srgb(surface * light + vec3(0.06 * shine)), opacity);
+}
+)";
 
 constexpr int oversampling = 2;
 constexpr int max_edge_pixels = 8192;  // 16384 in OSMesa before downsampling
@@ -58,9 +119,9 @@ GLuint linked_program() {
   GLint good = GL_FALSE;
   glGetProgramiv(program, GL_LINK_STATUS, &good);
   if (good == GL_FALSE) {
-    std::array<char, 512> words{};
-    glGetProgramInfoLog(program, static_cast<GLsizei>(words.size()), nullptr, words.data());
-    throw Error(ErrorKind::unavailable, std::string("picture: OSMesa rejects the shader: ") + words.data());
+    std::array<char, 512> log{};
+    glGetProgramInfoLog(program, static_cast<GLsizei>(log.size()), nullptr, log.data());
+    throw Error(ErrorKind::unavailable, std::string("picture: OSMesa rejects the shader: ") + log.data());
   }
   return program;
 }
@@ -188,6 +249,37 @@ Image draw(const std::vector<Layer>& layers, const Camera& camera, int width, in
     draw_layers(layers, camera, static_cast<double>(width) / height);
   }
   return downsampled(pixels, width, height);
+}
+
+std::vector<std::byte> png_of(const Image& image) {
+  const auto pixels = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
+  if (image.width <= 0 || image.height <= 0 || image.rgba.size() != 4 * pixels)
+    throw Error(ErrorKind::invalid_input, "the picture has no pixels, or not as many as its size says");
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  header.width = static_cast<png_uint_32>(image.width);
+  header.height = static_cast<png_uint_32>(image.height);
+  header.format = PNG_FORMAT_RGBA;
+  const auto write = [&](void* to, png_alloc_size_t& size) {
+    if (png_image_write_to_memory(&header, to, &size, 0, image.rgba.data(), 0, nullptr) == 0)
+      throw Error(ErrorKind::io, std::string("the picture cannot be encoded as PNG: ") + header.message);
+  };
+  png_alloc_size_t size = 0;
+  write(nullptr, size);
+  std::vector<std::byte> bytes(size);
+  write(bytes.data(), size);
+  bytes.resize(size);
+  return bytes;
+}
+
+void write_png(const std::filesystem::path& path, const Image& image) {
+  try {
+    write_file_atomically(path, png_of(image));
+  } catch (const Error& e) {
+    const std::string what = e.what();
+    if (what.find(path.string()) != std::string::npos) throw;
+    throw Error(e.kind(), path.string() + ": " + what);
+  }
 }
 
 }  // namespace ream::render

@@ -101,7 +101,7 @@ std::string mark_cell(const MetricLine& line) {
   const std::string critical = line.critical && line.mark == Mark::fail ? ", decides" : "";
   const std::string word = mark_word(line.mark);
   return element("td", escaped(mark_sign(line.mark) + " " + word + critical),
-                 "mark mark-" + (line.mark == Mark::unsaid ? std::string("unsaid") : word));
+                 "mark mark-" + (line.mark == Mark::missing ? std::string("unsaid") : word));
 }
 
 std::string table(const MetricTable& table) {
@@ -122,8 +122,8 @@ std::string table(const MetricTable& table) {
 std::string metrics(const Report& report) {
   std::string content = text_element("h2", "Metrics");
   for (const MetricTable& each : report.tables) content += table(each);
-  if (!report.unsaid.empty())
-    content += text_element("h3", "What cannot be said") + facts(report.unsaid, "facts wide");
+  if (!report.missing.empty())
+    content += text_element("h3", "What cannot be said") + facts(report.missing, "facts wide");
   return element("section", content);
 }
 

@@ -20,8 +20,8 @@ std::string verdict_of(const std::optional<Outcome>& outcome) {
 std::string points_in_words(const score::Score& score) {
   if (!score.points) return "";
   const std::string points = decimal(std::floor(*score.points), 0) + " of 100 points";
-  if (score.said_percent >= 99.95) return points;
-  return points + ", on " + decimal(std::floor(score.said_percent), 0) + "\u00a0% of the rubric";
+  if (score.measured_percent >= 99.95) return points;
+  return points + ", on " + decimal(std::floor(score.measured_percent), 0) + "\u00a0% of the rubric";
 }
 
 void add(std::vector<Fact>& facts, const std::string& name, const std::string& value) {
@@ -113,7 +113,7 @@ Report make_report(const Material& m) {
   report.why_no_pictures = m.why_no_pictures;
   for (const Picture& picture : m.pictures) report.has_maps = report.has_maps || picture.is_map;
   report.tables = metric_tables(m, report.sources);
-  report.unsaid = unsaid_metrics(m.metrics);
+  report.missing = missing_metrics(m.metrics);
   report.meanings = metric_meanings(report.sources);
   if (m.trace && !m.trace->bins().empty())
     report.charts = session_charts(*m.trace, m.planned_depth_mm, m.remarks);
@@ -135,7 +135,7 @@ std::string mark_word(Mark mark) {
       return "warn";
     case Mark::fail:
       return "fail";
-    case Mark::unsaid:
+    case Mark::missing:
       return "not said";
     default:
       return "";
@@ -150,7 +150,7 @@ std::string mark_sign(Mark mark) {
       return "!";
     case Mark::fail:
       return "\u2717";
-    case Mark::unsaid:
+    case Mark::missing:
       return "\u2013";
     default:
       return "";

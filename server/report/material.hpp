@@ -1,9 +1,9 @@
 #pragma once
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/json.hpp"
 #include "report/picture.hpp"
 #include "report/trace_summary.hpp"
 #include "score/benchmark.hpp"

@@ -1,20 +1,16 @@
 #include "report/metric_tables.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include "case/measures.hpp"
 #include "core/units.hpp"
 #include "report/number_words.hpp"
-#include "score/metric_groups.hpp"
+#include "score/metric_results.hpp"
 
 namespace ream::report {
 namespace {
 
 using score::Better;
-
-/// Metrics that stand beside another one, as its planned value.
-const std::set<std::string_view> planned_ones = {"version_planned_deg", "inclination_planned_deg"};
 
 std::optional<double> number_of(const nlohmann::json& metrics, std::string_view key) {
   const auto found = metrics.find(std::string(key));
@@ -23,23 +19,31 @@ std::optional<double> number_of(const nlohmann::json& metrics, std::string_view 
 }
 
 std::string value_in_words(const score::Metric& metric, double value) {
-  if (metric.key.starts_with("version_") && metric.key.find("error") == std::string_view::npos)
-    return case_::version_in_words(radians_from_degrees(value));
-  if (metric.key.starts_with("inclination_") && metric.key.find("error") == std::string_view::npos)
-    return case_::inclination_in_words(radians_from_degrees(value));
-  return with_unit(value, metric.unit);
+  switch (metric.style) {
+    case score::Style::version:
+      return case_::version_in_words(radians_from_degrees(value));
+    case score::Style::inclination:
+      return case_::inclination_in_words(radians_from_degrees(value));
+    default:
+      return with_unit(value, metric.unit);
+  }
 }
 
 std::string planned_in_words(const score::Metric& metric, const Material& material) {
-  const auto planned = [&](std::string_view key) -> std::string {
-    const auto value = number_of(material.metrics, key);
-    return value ? value_in_words(*score::find_metric(key), *value) : "";
-  };
-  if (metric.key == "version_achieved_deg") return planned("version_planned_deg");
-  if (metric.key == "inclination_achieved_deg") return planned("inclination_planned_deg");
+  if (const score::Metric* planned = score::find_metric(metric.planned_by)) {
+    const auto value = number_of(material.metrics, planned->key);
+    return value ? value_in_words(*planned, *value) : "";
+  }
   if (metric.key == "reaming_depth_mm" && material.planned_depth_mm > 0.0)
     return with_unit(material.planned_depth_mm, "mm");
   return "";
+}
+
+/// Whether it is printed beside another metric, as what was planned.
+bool is_beside_another(const score::Metric& metric) {
+  const auto all = score::metrics_of(metric.group);
+  return std::any_of(all.begin(), all.end(),
+                     [&](const score::Metric& each) { return each.planned_by == metric.key; });
 }
 
 std::string limit(double value, std::string_view unit) {
@@ -68,7 +72,7 @@ void put_limits(const score::Band& band, std::string_view unit, MetricLine& line
 }
 
 Mark mark_of(const score::Band& band, const std::optional<double>& value) {
-  if (!value) return Mark::unsaid;
+  if (!value) return Mark::missing;
   const auto judged = score::verdict(band, *value);
   if (!judged) return Mark::none;
   if (*judged == score::Verdict::pass) return Mark::pass;
@@ -125,17 +129,14 @@ MetricLine line_of(const score::Metric& metric, const Material& material, std::v
 }  // namespace
 
 std::vector<MetricTable> metric_tables(const Material& material, std::vector<std::string>& sources) {
-  struct Group {
-    const char* title;
-    std::span<const score::Metric> metrics;
-  };
+  using Group = std::pair<const char*, score::MetricGroup>;
   std::vector<MetricTable> tables;
-  for (const Group& group :
-       {Group{"Alignment", score::alignment_metrics()}, Group{"Bone", score::bone_metrics()},
-        Group{"Handling", score::handling_metrics()}}) {
-    MetricTable table{group.title, {}};
-    for (const score::Metric& metric : group.metrics)
-      if (!planned_ones.contains(metric.key)) table.lines.push_back(line_of(metric, material, sources));
+  for (const auto& [title, group] :
+       {Group{"Alignment", score::MetricGroup::alignment}, Group{"Bone", score::MetricGroup::bone},
+        Group{"Handling", score::MetricGroup::handling}}) {
+    MetricTable table{title, {}};
+    for (const score::Metric& metric : score::metrics_of(group))
+      if (!is_beside_another(metric)) table.lines.push_back(line_of(metric, material, sources));
     tables.push_back(std::move(table));
   }
   return tables;
@@ -152,11 +153,11 @@ std::vector<Fact> metric_meanings(std::vector<std::string>& sources) {
   return facts;
 }
 
-std::vector<Fact> unsaid_metrics(const nlohmann::json& metrics) {
+std::vector<Fact> missing_metrics(const nlohmann::json& metrics) {
   std::vector<Fact> facts;
   for (const score::Metric& metric : score::metric_catalogue()) {
     if (number_of(metrics, metric.key)) continue;
-    const std::string reason = score::why_unsaid(metrics, std::string(metric.key));
+    const std::string reason = score::missing_reason(metrics, metric.key);
     const auto same =
         std::find_if(facts.begin(), facts.end(), [&](const Fact& f) { return f.value == reason; });
     if (same == facts.end())

@@ -13,7 +13,7 @@ std::vector<MetricTable> metric_tables(const Material& material, std::vector<std
 /// of its source; appends those to `sources` that are not there yet.
 std::vector<Fact> metric_meanings(std::vector<std::string>& sources);
 
-/// Reasons why metrics are not said, in the order of the catalogue; `name`: of all metrics with that reason.
-std::vector<Fact> unsaid_metrics(const nlohmann::json& metrics);
+/// Reasons why metrics are missing, in the order of the catalogue; `name`: of all metrics with that reason.
+std::vector<Fact> missing_metrics(const nlohmann::json& metrics);
 
 }  // namespace ream::report

@@ -33,9 +33,9 @@ std::string result_in_words(const MetricLine& line) {
 void PdfPages::metrics() {
   heading("Metrics", 80.0);
   for (const MetricTable& each : report_.tables) table(each);
-  if (report_.unsaid.empty()) return;
+  if (report_.missing.empty()) return;
   small_heading("What cannot be said", 20.0);
-  facts(report_.unsaid, 1, 250.0);
+  facts(report_.missing, 1, 250.0);
 }
 
 void PdfPages::table(const MetricTable& table) {
@@ -62,7 +62,7 @@ void PdfPages::table_line(const MetricLine& line) {
                                             line.warn, result_in_words(line), line.points};
   const bool emphasized = line.mark == Mark::fail || line.mark == Mark::warn;
   const auto type = [&](size_t column) {
-    return Type{text_size, line.mark == Mark::unsaid ? grey(0.4) : grey(0.12), column == 5 && emphasized,
+    return Type{text_size, line.mark == Mark::missing ? grey(0.4) : grey(0.12), column == 5 && emphasized,
                 Anchor::left};
   };
   const double note_width = 12.0;

@@ -13,7 +13,7 @@ struct Fact {
 };
 
 /// What stands in the column of results; `none`: without limits.
-enum class Mark { none, pass, warn, fail, unsaid };
+enum class Mark { none, pass, warn, fail, missing };
 
 /// One metric as it is printed; texts are empty where there is nothing to say.
 struct MetricLine {
@@ -41,7 +41,7 @@ struct Report {
   std::string why_no_pictures;
   bool has_maps = false;  ///< a legend of deviations is needed
   std::vector<MetricTable> tables;
-  std::vector<Fact> unsaid;    ///< metrics and their reason
+  std::vector<Fact> missing;   ///< metrics and the reason why they have no value
   std::vector<Fact> meanings;  ///< metrics with unit: definition, confidence and source
   std::vector<Chart> charts;
   std::string why_no_charts;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "report/number_words.hpp"
+#include "score/handling.hpp"
 
 namespace ream::report {
 namespace {
@@ -73,9 +74,12 @@ Chart thrust_chart(const TraceSummary& trace, const std::vector<Remark>& remarks
   }));
   const double peak_n = highest(chart.curves.front());
   chart.y_max = std::max(115.0, 1.08 * peak_n);
-  chart.ranges.push_back({thrust_from_n, thrust_to_n, "mean: 35 to 70 N"});
-  chart.levels.push_back({thrust_excess_n, "excess: over 78 N"});
-  chart.levels.push_back({thrust_peak_n, "peak: up to 104 N"});
+  const score::Band& mean = score::find_metric("axial_thrust_mean_n")->band;
+  const score::Band& peak = score::find_metric("axial_thrust_peak_n")->band;
+  chart.ranges.push_back(
+      {mean.low, mean.pass, "mean: " + shortest(mean.low) + " to " + shortest(mean.pass) + " N"});
+  chart.levels.push_back({score::excess_from_n, "excess: over " + shortest(score::excess_from_n) + " N"});
+  chart.levels.push_back({peak.pass, "peak: up to " + shortest(peak.pass) + " N"});
   const TimeAxis time(trace.duration_s());
   chart.stretches_name = "contact";
   for (size_t i = 0; i < trace.bins().size(); ++i) {

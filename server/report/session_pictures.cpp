@@ -1,5 +1,6 @@
 #include "report/session_pictures.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "render/camera.hpp"

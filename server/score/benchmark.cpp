@@ -1,46 +1,37 @@
 #include "score/benchmark.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/hash.hpp"
 #include "core/json_reader.hpp"
-#include "score/group_density.hpp"
 
 namespace ream::score {
 namespace {
 
-/// Metrics are rounded to 1e-6 of their unit (score/findings.hpp); nearer to the mean is at the mean.
+/// Metrics are rounded to 1e-6 of their unit (MetricResults::set); nearer to the mean is at the mean.
 constexpr double half_rounding = 5e-7;
 
 using nlohmann::json;
 
-/// Aims of metrics that are reported without limits.
-constexpr std::array<std::string_view, 9> less_is_better = {
-    "depth_error_mm", "axial_thrust_excess_n_s", "breakthrough_advance_mm", "breakthrough_time_s",   "passes",
-    "duration_s",     "contact_time_s",          "path_in_contact_mm",      "path_out_of_contact_mm"};
-constexpr std::array<std::string_view, 2> more_is_better = {"sparc", "ldlj"};
-
-/// What one expert's session says of a metric.
-struct Said {
+/// One expert's value of a metric.
+struct ExpertValue {
   std::string session;
   double value = 0.0;
 };
 
-std::vector<Said> all_said(const std::vector<MeasuredSession>& sessions, const std::string& metric) {
-  std::vector<Said> result;
+std::vector<ExpertValue> values_in(const std::vector<MeasuredSession>& sessions, std::string_view metric) {
+  std::vector<ExpertValue> found;
   for (const MeasuredSession& session : sessions)
-    if (const auto found = session.metrics.find(metric); found != session.metrics.end() && found->is_number())
-      result.push_back({session.session, found->get<double>()});
-  return result;
+    if (const auto value = session.value(metric)) found.push_back({session.session, *value});
+  return found;
 }
 
-std::vector<double> values_of(const std::vector<Said>& said) {
+std::vector<double> numbers_of(const std::vector<ExpertValue>& found) {
   std::vector<double> values;
-  for (const Said& each : said) values.push_back(each.value);
+  for (const ExpertValue& each : found) values.push_back(each.value);
   return values;
 }
 
@@ -48,23 +39,23 @@ Spread spread_of_any(const std::vector<double>& values) {
   return values.size() > 1 ? spread_of(values) : Spread{values.front(), 0.0};
 }
 
-BenchmarkLine line_of(const std::string& metric, Better better, std::vector<Said> said) {
+BenchmarkLine line_of(const std::string& metric, Better better, std::vector<ExpertValue> values) {
   BenchmarkLine line;
   line.metric = metric;
   line.better = better;
-  const Spread all = spread_of_any(values_of(said));
-  const auto far = [&](const Said& each) {
+  const Spread all = spread_of_any(numbers_of(values));
+  const auto far = [&](const ExpertValue& each) {
     return std::abs(each.value - all.mean) > dropped_from_z * all.sd;
   };
   if (all.sd > 0.0) {
-    for (const Said& each : said)
+    for (const ExpertValue& each : values)
       if (far(each)) line.dropped.push_back(each.session);
-    said.erase(std::remove_if(said.begin(), said.end(), far), said.end());
+    values.erase(std::remove_if(values.begin(), values.end(), far), values.end());
   }
-  const Spread left = spread_of_any(values_of(said));
+  const Spread left = spread_of_any(numbers_of(values));
   line.mean = left.mean;
   line.sd = left.sd;
-  line.experts = static_cast<int>(said.size());
+  line.experts = static_cast<int>(values.size());
   return line;
 }
 
@@ -82,17 +73,22 @@ BenchmarkLine line_from(JsonReader& reader) {
   return line;
 }
 
-std::string_view to_text(Better better) { return better == Better::less ? "less" : "more"; }
-
 }  // namespace
 
-std::optional<Better> aim_of(const Metric& metric) {
-  if (metric.band.better == Better::less || metric.band.better == Better::more) return metric.band.better;
-  if (std::find(less_is_better.begin(), less_is_better.end(), metric.key) != less_is_better.end())
-    return Better::less;
-  if (std::find(more_is_better.begin(), more_is_better.end(), metric.key) != more_is_better.end())
-    return Better::more;
-  return std::nullopt;
+std::optional<double> MeasuredSession::value(std::string_view metric) const {
+  const auto found = metrics.find(std::string(metric));
+  if (found == metrics.end() || !found->is_number()) return std::nullopt;
+  return found->get<double>();
+}
+
+Spread spread_of(std::span<const double> values) {
+  Spread result;
+  for (const double value : values) result.mean += value;
+  result.mean /= static_cast<double>(values.size());
+  double squares = 0.0;
+  for (const double value : values) squares += (value - result.mean) * (value - result.mean);
+  result.sd = std::sqrt(squares / static_cast<double>(values.size() - 1));
+  return result;
 }
 
 Benchmark make_benchmark(const std::string& name, const std::vector<MeasuredSession>& experts) {
@@ -104,8 +100,8 @@ Benchmark make_benchmark(const std::string& name, const std::vector<MeasuredSess
   for (const Metric& metric : metric_catalogue()) {
     const std::optional<Better> aim = aim_of(metric);
     if (!aim) continue;
-    std::vector<Said> said = all_said(experts, std::string(metric.key));
-    if (!said.empty()) benchmark.lines.push_back(line_of(std::string(metric.key), *aim, std::move(said)));
+    std::vector<ExpertValue> values = values_in(experts, metric.key);
+    if (!values.empty()) benchmark.lines.push_back(line_of(std::string(metric.key), *aim, std::move(values)));
   }
   return benchmark;
 }

@@ -2,13 +2,28 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "score/measured_session.hpp"
 #include "score/metric_catalogue.hpp"
 
 namespace ream::score {
+
+/// A session's id and its metrics.json.
+struct MeasuredSession {
+  std::string session;
+  nlohmann::json metrics;
+
+  /// Empty: it is missing.
+  std::optional<double> value(std::string_view metric) const;
+};
+
+/// Mean and standard deviation (n - 1) of at least two values.
+struct Spread {
+  double mean = 0.0, sd = 0.0;
+};
+Spread spread_of(std::span<const double> values);
 
 /// What experts reach in one metric.
 struct BenchmarkLine {
@@ -31,11 +46,7 @@ struct Benchmark {
 /// of n values can be (n - 1) / sqrt(n) away, so that this needs six experts or more.
 inline constexpr double dropped_from_z = 1.96;
 
-/// Which way is better, for metrics whose band does not say it too; empty for those that are no achievement
-/// (planned angles, volumes) and for bands `between`.
-std::optional<Better> aim_of(const Metric& metric);
-
-/// Over all metrics that have an aim and that an expert's session says. Error invalid_input when there is no
+/// Over all metrics that have an aim and that an expert's session has. Error invalid_input when there is no
 /// session.
 Benchmark make_benchmark(const std::string& name, const std::vector<MeasuredSession>& experts);
 
@@ -47,7 +58,7 @@ uint64_t benchmark_hash(const Benchmark& benchmark);
 
 struct BenchmarkResult {
   const BenchmarkLine* line = nullptr;  ///< of the benchmark, which must outlive this
-  std::optional<double> value;          ///< empty: not said
+  std::optional<double> value;          ///< empty: missing
   bool reached = false;
 };
 

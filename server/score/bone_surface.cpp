@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "voxel/coverage_at.hpp"
+#include "voxel/bone_model.hpp"
 
 namespace ream::score {
 namespace {

@@ -1,5 +1,6 @@
 #include "score/component.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

@@ -4,7 +4,7 @@
 
 #include "score/bone_surface.hpp"
 #include "score/cut_axis.hpp"
-#include "score/cutting_meridian.hpp"
+#include "score/cutting_surface.hpp"
 #include "score/native_glenoid.hpp"
 
 namespace ream::score {

@@ -1,10 +1,12 @@
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "geometry/triangle_tree.hpp"
-#include "score/swept_front.hpp"
+#include "score/cutting_surface.hpp"
 #include "voxel/voxel_grid.hpp"
 
 namespace ream::score {
@@ -50,5 +52,16 @@ std::vector<int8_t> deviation_from_plan(std::span<const Vec3f> vertices_mm, cons
 std::vector<int8_t> deviation_from_implant(std::span<const Vec3f> vertices_mm, const BoneStates& bone,
                                            const PlacedFront& implant);
 inline constexpr double far_from_implant_mm = 8.0;
+
+/// Deviations of one surface; a field is empty when there is nothing to compare with.
+struct DeviationFields {
+  std::vector<int8_t> from_plan, from_implant;
+};
+
+/// Writes `json_path` (proto/deviation.schema.json) and beside it a file of the same stem that ends in .bin:
+/// one byte a vertex and field in the order of the vertices of `mesh_file`, which has `vertices` of them.
+/// Error io.
+void write_deviation(const std::filesystem::path& json_path, const std::string& mesh_file, size_t vertices,
+                     const DeviationFields& fields);
 
 }  // namespace ream::score

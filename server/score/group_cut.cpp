@@ -1,14 +1,74 @@
 #include "score/group_cut.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numbers>
 #include <optional>
 #include <string>
 
 #include "core/error.hpp"
-#include "score/group_density.hpp"
+#include "score/benchmark.hpp"
 
 namespace ream::score {
+using nlohmann::json;
 namespace {
+
+/// Quantile by linear interpolation between order statistics.
+double quantile(const std::vector<double>& sorted, double share) {
+  const double at = share * static_cast<double>(sorted.size() - 1);
+  const size_t low = static_cast<size_t>(at);
+  const size_t high = std::min(low + 1, sorted.size() - 1);
+  return sorted[low] + (at - static_cast<double>(low)) * (sorted[high] - sorted[low]);
+}
+
+double silverman_width(std::vector<double> values, double sd) {
+  std::sort(values.begin(), values.end());
+  const double iqr = quantile(values, 0.75) - quantile(values, 0.25);
+  const double scale = iqr > 0.0 ? std::min(sd, iqr / 1.34) : sd;
+  return 0.9 * scale * std::pow(static_cast<double>(values.size()), -0.2);
+}
+
+/// Density of one group of values; see Density for both kinds.
+class GroupDensity {
+ public:
+  /// At least two values that are not all equal.
+  GroupDensity(std::span<const double> values, Density kind);
+
+  double at(double x) const;
+  /// Share of the group below x.
+  double below(double x) const;
+
+ private:
+  std::vector<double> centres_;
+  double width_ = 1.0;  ///< standard deviation of the normal around each centre
+};
+
+GroupDensity::GroupDensity(std::span<const double> values, Density kind) {
+  const Spread spread = spread_of(values);
+  if (kind == Density::normal) {
+    centres_ = {spread.mean};
+    width_ = spread.sd;
+  } else {
+    centres_.assign(values.begin(), values.end());
+    width_ = silverman_width(centres_, spread.sd);
+  }
+}
+
+double GroupDensity::at(double x) const {
+  double sum = 0.0;
+  for (const double centre : centres_) {
+    const double z = (x - centre) / width_;
+    sum += std::exp(-0.5 * z * z);
+  }
+  return sum / (static_cast<double>(centres_.size()) * width_ * std::sqrt(2.0 * std::numbers::pi));
+}
+
+double GroupDensity::below(double x) const {
+  double sum = 0.0;
+  for (const double centre : centres_) sum += 0.5 * std::erfc((centre - x) / (width_ * std::numbers::sqrt2));
+  return sum / static_cast<double>(centres_.size());
+}
 
 constexpr int scan_steps = 4096;
 constexpr int bisections = 60;
@@ -72,6 +132,38 @@ std::optional<double> best_crossing(const Groups& groups, double novice_mean, do
   return best;
 }
 
+using Value = std::function<std::optional<double>(const MeasuredSession&)>;
+
+std::vector<double> values_in(const std::vector<MeasuredSession>& sessions, const Value& value) {
+  std::vector<double> values;
+  for (const MeasuredSession& session : sessions)
+    if (const auto number = value(session)) values.push_back(*number);
+  return values;
+}
+
+json cut_json(const std::string& of, const std::vector<double>& novices, const std::vector<double>& experts,
+              Density density) {
+  try {
+    const GroupCut cut = contrasting_groups(novices, experts, density);
+    return {{"of", of},
+            {"density", to_text(cut.density)},
+            {"cut", cut.cut},
+            {"experts_higher", cut.experts_higher},
+            {"novices", cut.novices},
+            {"novice_mean", cut.novice_mean},
+            {"novice_sd", cut.novice_sd},
+            {"novices_passing", cut.novices_passing},
+            {"expected_novices_passing", cut.expected_novices_passing},
+            {"experts", cut.experts},
+            {"expert_mean", cut.expert_mean},
+            {"expert_sd", cut.expert_sd},
+            {"experts_failing", cut.experts_failing},
+            {"expected_experts_failing", cut.expected_experts_failing}};
+  } catch (const Error& e) {
+    return {{"of", of}, {"error", e.what()}};
+  }
+}
+
 }  // namespace
 
 GroupCut contrasting_groups(std::span<const double> novices, std::span<const double> experts,
@@ -102,5 +194,29 @@ GroupCut contrasting_groups(std::span<const double> novices, std::span<const dou
 }
 
 std::string_view to_text(Density density) { return density == Density::normal ? "normal" : "kernel"; }
+
+json group_cuts_json(const std::vector<MeasuredSession>& novices, const std::vector<MeasuredSession>& experts,
+                     const Rubric& rubric, Density density) {
+  const Value points = [&](const MeasuredSession& session) {
+    return apply_rubric(rubric, session.metrics).points;
+  };
+  json cuts =
+      json::array({cut_json("points", values_in(novices, points), values_in(experts, points), density)});
+  for (const Metric& metric : metric_catalogue()) {
+    if (!aim_of(metric)) continue;
+    const std::string key(metric.key);
+    const Value value = [&](const MeasuredSession& session) { return session.value(key); };
+    const auto of_novices = values_in(novices, value), of_experts = values_in(experts, value);
+    if (!of_novices.empty() && !of_experts.empty())
+      cuts.push_back(cut_json(key, of_novices, of_experts, density));
+  }
+  return cuts;
+}
+
+Density density_from_text(const std::string& text) {
+  for (const Density density : {Density::normal, Density::kernel})
+    if (text == to_text(density)) return density;
+  throw Error(ErrorKind::invalid_input, "density '" + text + "' is neither normal nor kernel");
+}
 
 }  // namespace ream::score

@@ -1,6 +1,12 @@
 #pragma once
+#include <nlohmann/json.hpp>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
+
+#include "score/benchmark.hpp"
+#include "score/rubric_score.hpp"
 
 namespace ream::score {
 
@@ -33,5 +39,14 @@ GroupCut contrasting_groups(std::span<const double> novices, std::span<const dou
 
 /// "normal", "kernel".
 std::string_view to_text(Density density);
+
+/// Cuts of the points by a rubric ("points") and of every metric that has an aim and that both groups have.
+/// Where groups cannot be cut, the entry has `error` in place of figures.
+nlohmann::json group_cuts_json(const std::vector<MeasuredSession>& novices,
+                               const std::vector<MeasuredSession>& experts, const Rubric& rubric,
+                               Density density);
+
+/// Error invalid_input for other words than normal and kernel.
+Density density_from_text(const std::string& text);
 
 }  // namespace ream::score

@@ -1,14 +1,12 @@
 #pragma once
 #include <memory>
 
+#include "score/bone_results.hpp"
 #include "score/metrics.hpp"
-#include "score/native_glenoid.hpp"
-#include "score/session_metrics.hpp"
-#include "score/surface_findings.hpp"
 
 namespace ream::score {
 
-/// What the bone says while a session goes on, measured three times a second on rays 1 mm apart (the final
+/// What the bone tells during a session, measured three times a second on rays 1 mm apart (the final
 /// score's are 0.25 mm apart). Takes less than 1 % of a core: after a measurement it rests for 100 times as
 /// long as that took. Used by one thread.
 class LiveScore {
@@ -16,23 +14,23 @@ class LiveScore {
   static constexpr int stride = 4;
   static constexpr int64_t period_ns = 333'000'000;
   static constexpr int64_t rest_for_work = 100;
-  /// How often it is enough to write metrics down for whoever asks: ten times a second.
-  static constexpr int64_t told_every_ns = 100'000'000;
+  /// How often it is enough to publish metrics: ten times a second.
+  static constexpr int64_t publish_period_ns = 100'000'000;
 
   LiveScore(const NativeGlenoid& native, const Pose& world_from_plan)
       : native_(native.thinned(stride)),
         world_from_plan_(world_from_plan),
-        findings_(bone_unsaid("it is measured when the session has begun")) {}
+        results_(missing_bone_results("it is measured when the session has begun")) {}
 
   /// Measures anew if it is due and tells whether it did. `left`: the bone as a follower has it. `now_ns`: as
   /// steady_ns().
   bool update(const MetricsAccumulator& ticks, const CoverageView& left, int64_t now_ns);
-  const Findings& findings() const { return findings_; }
+  const MetricResults& results() const { return results_; }
 
  private:
   const NativeGlenoid native_;
   const Pose world_from_plan_;
-  Findings findings_;
+  MetricResults results_;
   int64_t due_ns_ = 0;
 };
 

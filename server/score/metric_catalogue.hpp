@@ -1,8 +1,10 @@
 #pragma once
-#include <nlohmann/json_fwd.hpp>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
+
+#include "score/band.hpp"
 
 namespace ream::score {
 
@@ -14,17 +16,33 @@ enum class Evidence {
   tested      ///< computed or tested for this project
 };
 
-/// Which values of a metric are good.
-enum class Better { report_only, less, more, between };
-
-/// Limits in the metric's unit. `less`: up to `pass` passes, up to `warn` warns, more fails; `more` the other
-/// way round; `between`: from `low` to `pass` passes, all else warns.
-struct Band {
-  Better better = Better::report_only;
-  double pass = 0.0, warn = 0.0, low = 0.0;
+/// What a metric rests on. Where that is not there, the metric is missing, with the reason.
+enum class Basis {
+  ticks,           ///< sums over all ticks: never missing
+  episode,         ///< something that a session need not hold: a stroke, a breakthrough
+  plan,            ///< of the case, whatever the session does
+  untouched_bone,  ///< the face before the session
+  reamed_bone,     ///< the face and what was removed of it
+  achieved_axis    ///< where the tool cut last
 };
 
-/// One number of metrics.json, for people and for whoever judges it.
+enum class MetricGroup { alignment, bone, handling };
+
+/// Values that a metric can have at all, in its unit.
+struct Range {
+  double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
+  bool min_excluded = false;
+};
+
+/// How people read a value.
+enum class Style {
+  number,      ///< with its unit
+  version,     ///< "12.0 degrees retroversion"
+  inclination  ///< "5.0 degrees superior"
+};
+
+/// One number of metrics.json, for people and for whoever judges it. Everything that names, prints, limits or
+/// describes a metric reads it from here.
 struct Metric {
   std::string_view key;   ///< of metrics.json; ends with its unit
   std::string_view name;  ///< for people
@@ -32,27 +50,30 @@ struct Metric {
   std::string_view definition;
   std::string_view source;
   Evidence evidence = Evidence::judgement;
-  std::string_view confidence;  ///< how sure the number and its limits are, in words
+  std::string_view confidence;  ///< how sure the number and its limits are
+  MetricGroup group = MetricGroup::alignment;
+  Basis basis = Basis::ticks;
+  Range range;
   Band band;
-  bool live = true;  ///< said while the session goes on, too
+  /// Which way is better, for a metric without limits; empty: its band tells, or it is no achievement.
+  std::optional<Better> aim = std::nullopt;
+  Style style = Style::number;
+  /// Key of the metric that holds what was planned: it is printed beside this one, not in a line of its own.
+  std::string_view planned_by = "";
 };
 
-/// All metrics with a number, in the order in which people read them.
+/// All metrics with a number, in the order in which people read them, group after group.
 std::span<const Metric> metric_catalogue();
+std::span<const Metric> metrics_of(MetricGroup group);
 
 /// Null when there is no such metric.
 const Metric* find_metric(std::string_view key);
 
-enum class Verdict { pass, warn, fail };
-
-/// Empty for metrics that are only reported.
-std::optional<Verdict> verdict(const Band& band, double value);
+/// Which way is better, by its band or its aim; empty for those that are no achievement (planned angles,
+/// volumes) and for bands `between`.
+std::optional<Better> aim_of(const Metric& metric);
 
 /// As science.md marks them: "S", "M", "E", "T".
 std::string_view to_text(Evidence evidence);
-std::string_view to_text(Verdict verdict);
-
-/// The catalogue as a JSON list, for pages and exports.
-nlohmann::json catalogue_json();
 
 }  // namespace ream::score

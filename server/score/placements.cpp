@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "score/alignment_findings.hpp"
-#include "score/surface_findings.hpp"
+#include "score/alignment.hpp"
 #include "shell/parametric_profile.hpp"
 
 namespace ream::score {

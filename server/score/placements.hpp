@@ -2,7 +2,6 @@
 #include <optional>
 
 #include "score/component.hpp"
-#include "score/swept_front.hpp"
 
 namespace ream::score {
 
@@ -21,7 +20,7 @@ struct Placements {
   std::optional<Placement> implant;   ///< the seated component, see Component
 };
 
-/// `plan_line` and `world_from_plan` as for surface_findings; `left`: what remains, with the bone at rest.
+/// `plan_line` and `world_from_plan` as for bone_results; `left`: what remains, with the bone at rest.
 Placements placements_of(const NativeGlenoid& native, const CoverageView& left,
                          const std::optional<CutLine>& plan_line, const Pose& world_from_plan);
 

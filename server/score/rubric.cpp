@@ -8,7 +8,6 @@
 #include "core/file.hpp"
 #include "core/hash.hpp"
 #include "core/json_reader.hpp"
-#include "score/band_json.hpp"
 
 namespace ream::score {
 namespace {
@@ -66,7 +65,7 @@ Rubric rubric_from_json(const json& value, const std::string& place) {
   rubric.version = static_cast<int>(reader.integer("version", 1, 1'000'000));
   rubric.remark = reader.text_or("remark", "");
   if (reader.has("pass_points")) rubric.pass_points = reader.number("pass_points", 0.0, 100.0);
-  rubric.least_said_percent = reader.number_or("least_said_percent", 50.0, 0.0, 100.0);
+  rubric.min_measured_percent = reader.number_or("least_said_percent", 50.0, 0.0, 100.0);
   std::set<std::string> metrics;
   for (JsonReader& entry : reader.objects("criteria")) {
     rubric.criteria.push_back(criterion_from(entry));
@@ -83,7 +82,7 @@ json rubric_json(const Rubric& rubric) {
   for (const Criterion& c : rubric.criteria) criteria.push_back(criterion_json(c));
   json value = {{"name", rubric.name},
                 {"version", rubric.version},
-                {"least_said_percent", rubric.least_said_percent},
+                {"least_said_percent", rubric.min_measured_percent},
                 {"criteria", std::move(criteria)}};
   if (!rubric.remark.empty()) value["remark"] = rubric.remark;
   if (rubric.pass_points) value["pass_points"] = *rubric.pass_points;

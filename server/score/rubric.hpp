@@ -34,8 +34,8 @@ struct Rubric {
   int version = 1;
   std::string remark;  ///< where its marks come from; may be empty
   std::optional<double> pass_points;
-  /// Below this share of all weights, what is said is too little for points to tell pass from fail.
-  double least_said_percent = 50.0;
+  /// Below this share of all weights, too little was measured for points to tell pass from fail.
+  double min_measured_percent = 50.0;
   std::vector<Criterion> criteria;
 };
 

@@ -6,14 +6,14 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
-#include "score/band_json.hpp"
+#include "score/metric_results.hpp"
 
 namespace ream::score {
 namespace {
 
 using nlohmann::json;
 
-constexpr double points_beside_between = 50.0;
+constexpr double points_outside_between = 50.0;
 
 double points_by(const Ramp& ramp, double value) {
   return 100.0 * std::clamp((value - ramp.none) / (ramp.full - ramp.none), 0.0, 1.0);
@@ -23,7 +23,7 @@ double points_by(const Band& band, double value) {
   const std::optional<Verdict> judged = verdict(band, value);
   if (judged == Verdict::pass) return 100.0;
   if (judged == Verdict::fail) return 0.0;
-  if (band.better == Better::between || band.warn == band.pass) return points_beside_between;
+  if (band.better == Better::between || band.warn == band.pass) return points_outside_between;
   return points_by(Ramp{band.warn, band.pass}, value);
 }
 
@@ -42,8 +42,8 @@ CriterionScore scored(const Rubric& rubric, const Criterion& criterion, const js
   result.criterion = criterion;
   const auto found = metrics.find(criterion.metric);
   if (found == metrics.end() || !found->is_number()) {
-    result.unsaid = why_unsaid(metrics, criterion.metric);
-    if (!result.unsaid.empty()) return result;
+    result.missing_reason = missing_reason(metrics, criterion.metric);
+    if (!result.missing_reason.empty()) return result;
     throw Error(ErrorKind::invalid_input, "rubric '" + rubric.name + "': there is no metric '" +
                                               criterion.metric + "' with a number; metrics.json names them");
   }
@@ -63,7 +63,8 @@ std::optional<Outcome> critical_outcome(Score& score) {
       score.reasons.push_back(name_of(c.criterion.metric) + " fails, which decides whatever the points");
     } else if (!c.value) {
       if (outcome != Outcome::fail) outcome = Outcome::undecided;
-      score.reasons.push_back(name_of(c.criterion.metric) + " decides, and cannot be said: " + c.unsaid);
+      score.reasons.push_back(name_of(c.criterion.metric) +
+                              " decides, and cannot be said: " + c.missing_reason);
     }
   }
   return outcome;
@@ -71,9 +72,9 @@ std::optional<Outcome> critical_outcome(Score& score) {
 
 /// What decides by points.
 Outcome points_outcome(const Rubric& rubric, Score& score) {
-  if (!score.points || score.said_percent < rubric.least_said_percent) {
-    score.reasons.push_back("the session says " + in_words(score.said_percent) +
-                            " % of what the rubric weighs, and " + in_words(rubric.least_said_percent) +
+  if (!score.points || score.measured_percent < rubric.min_measured_percent) {
+    score.reasons.push_back("the session says " + in_words(score.measured_percent) +
+                            " % of what the rubric weighs, and " + in_words(rubric.min_measured_percent) +
                             " % are needed");
     return Outcome::undecided;
   }
@@ -97,34 +98,23 @@ std::optional<Outcome> outcome_of(const Rubric& rubric, Score& score) {
 
 }  // namespace
 
-std::string why_unsaid(const json& metrics, const std::string& metric) {
-  const auto found = metrics.find(metric);
-  if (found == metrics.end())
-    return find_metric(metric) ? "it was not measured when these metrics were made; score the session anew"
-                               : "";
-  if (!found->is_null()) return "";
-  const auto reasons = metrics.find("unsaid");
-  const bool known = reasons != metrics.end() && reasons->is_object();
-  return known ? reasons->value(metric, "the session does not say it") : "the session does not say it";
-}
-
 double points_of(const Criterion& criterion, double value) {
   return criterion.ramp ? points_by(*criterion.ramp, value) : points_by(criterion.judged_by(), value);
 }
 
 Score apply_rubric(const Rubric& rubric, const json& metrics) {
   Score score;
-  double sum = 0.0, said = 0.0, all = 0.0;
+  double sum = 0.0, measured = 0.0, all = 0.0;
   for (const Criterion& c : rubric.criteria) {
     score.criteria.push_back(scored(rubric, c, metrics));
     all += c.weight;
     if (const auto& points = score.criteria.back().points) {
       sum += c.weight * *points;
-      said += c.weight;
+      measured += c.weight;
     }
   }
-  if (said > 0.0) score.points = sum / said;
-  if (all > 0.0) score.said_percent = 100.0 * said / all;
+  if (measured > 0.0) score.points = sum / measured;
+  if (all > 0.0) score.measured_percent = 100.0 * measured / all;
   score.outcome = outcome_of(rubric, score);
   return score;
 }
@@ -139,14 +129,15 @@ json score_json(const Rubric& rubric, const Score& score) {
                  {"critical", c.criterion.critical},
                  {"band", band_json(c.criterion.judged_by())},
                  {"verdict", c.verdict ? json(to_text(*c.verdict)) : json()}};
-    if (!c.unsaid.empty()) line["unsaid"] = c.unsaid;
+    // "unsaid" is the key of the version before.
+    if (!c.missing_reason.empty()) line["missing"] = line["unsaid"] = c.missing_reason;
     criteria.push_back(std::move(line));
   }
   return {{"rubric", rubric.name},
           {"version", rubric.version},
           {"hash", to_hex(rubric_hash(rubric))},
           {"points", or_null(score.points)},
-          {"said_percent", score.said_percent},
+          {"said_percent", score.measured_percent},
           {"outcome", score.outcome ? json(to_text(*score.outcome)) : json()},
           {"reasons", score.reasons},
           {"criteria", std::move(criteria)}};

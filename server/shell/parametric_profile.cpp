@@ -17,7 +17,7 @@ constexpr double default_outer_radius_mm = 18.25;  // thesis, appendix A
 constexpr double default_back_mm = 4.0;
 constexpr double shaft_radius_mm = 4.0, shaft_length_mm = 5.0;
 constexpr double chord_error_mm = 1e-4;
-constexpr double largest_length_mm = 1000.0;
+constexpr double max_length_mm = 1000.0;
 
 /// Half an ellipsoid of revolution, cut off at outer_radius; a sphere has equal semi-axes.
 struct Shape {
@@ -47,7 +47,7 @@ std::vector<double> lengths_mm(const std::string& description, const std::string
     const auto [rest, error] = std::from_chars(at, end, value);
     if (error != std::errc{} || (rest != end && *rest != ','))
       refuse(description, "\"" + list + "\" after \"" + keyword + "\" is not a list of numbers");
-    if (!(value > 0.0) || !(value <= largest_length_mm))
+    if (!(value > 0.0) || !(value <= max_length_mm))
       refuse(description, "each length after \"" + keyword + "\" must be over 0 and at most 1000 mm");
     values.push_back(value);
     if (rest == end) return values;

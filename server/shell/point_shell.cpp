@@ -12,7 +12,7 @@
 namespace ream::shell {
 namespace {
 
-constexpr int most_cells_a_side = 2048;
+constexpr int max_cells_per_side = 2048;
 constexpr uint32_t block_bits = 9;             // 8^3 cells
 constexpr double facet_error_in_cells = 0.01;  // of the revolved surface that is voxelized
 constexpr double tie_in_cells = 1e-4;
@@ -28,12 +28,12 @@ void check_size(const ToolProfile& profile, double spacing_mm) {
   if (!std::isfinite(spacing_mm) || spacing_mm <= 0.0)
     throw Error(ErrorKind::invalid_input, "tool spacing must be a positive number of mm");
   const double longest_mm = std::max(2.0 * profile.max_radius_mm(), profile.max_z_mm() - profile.min_z_mm());
-  if (longest_mm / spacing_mm > most_cells_a_side - 2)
+  if (longest_mm / spacing_mm > max_cells_per_side - 2)
     throw Error(ErrorKind::invalid_input, "tool spacing " + std::to_string(spacing_mm) +
-                                              " mm makes more than " + std::to_string(most_cells_a_side) +
+                                              " mm makes more than " + std::to_string(max_cells_per_side) +
                                               " cells along the tool's " + std::to_string(longest_mm) +
                                               " mm; use at least " +
-                                              std::to_string(longest_mm / (most_cells_a_side - 2)) + " mm");
+                                              std::to_string(longest_mm / (max_cells_per_side - 2)) + " mm");
 }
 
 ShellPoint point_of(const MeridianHit& hit, const Vec3& normal, SurfaceRole role, uint64_t morton) {

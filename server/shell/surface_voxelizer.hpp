@@ -38,4 +38,9 @@ SurfaceVoxels surface_grid(const TriangleMesh& mesh, double size_mm);
 /// x and comparisons only, so the same bits everywhere: recordings depend on them.
 void voxelize_surface_cpu(const TriangleMesh& mesh, Separability separability, SurfaceVoxels& grid);
 
+/// Mesh data of thesis section 3.2: nine floats a triangle, corner after corner, in cells of `grid` from its
+/// minimum corner. Computed once in double on the host, so that both back ends start from the same bits and a
+/// shared vertex is the same point in all its triangles.
+std::vector<float> surface_corners(const TriangleMesh& mesh, const SurfaceVoxels& grid);
+
 }  // namespace ream::shell

@@ -48,4 +48,9 @@ SweptProfile swept_profile(const ToolProfile& profile, double margin_mm);
 /// The exact distance the table samples (double, libm); also the reference in tests.
 double swept_distance_mm(const ToolProfile& profile, double radius_mm, double z_mm);
 
+/// Meridian of what the cutting surface sweeps by spinning: from the axis (flat where a nipple stands) along
+/// the cutting points, straight to `back_mm` behind the lowest of them, and back to the axis. Tool frame, mm.
+/// Error invalid_input without a cutting surface.
+ToolProfile swept_body(const ToolProfile& profile, double back_mm);
+
 }  // namespace ream::shell

@@ -63,7 +63,7 @@ void add_guide(const Model& model, const State& state, const Pose& world_from_ha
   const Vec3 force_n = linear * (tool_from_guided * Vec3(held_back[0], held_back[1], held_back[2]));
   load.spring.force_n += force_n;
   load.spring.torque_n_mm += angular * (tool_from_guided * Vec3(held_back[3], held_back[4], held_back[5]));
-  load.asked_n += force_n.norm() / model.coupling.force_scale;
+  load.unlimited_force_n += force_n.norm() / model.coupling.force_scale;
   report.guide_force_n = force_n.norm();
 }
 

@@ -55,6 +55,14 @@ double HandOutput::fade(bool stale) noexcept {
   return 1.0 - static_cast<double>(faded_ticks) / fade_ticks;
 }
 
+force::VibrationInput vibration_input(const Model& model, const record::TickReport& report) noexcept {
+  return {report.spindle_on,
+          model.settings.feed.spindle_rad_s,
+          report.cutting,
+          {report.share[0], report.share[1], report.share[2]},
+          report.paused};
+}
+
 device::DeviceOutput output_of(const record::TickReport& report) noexcept {
   device::DeviceOutput output{report.hand_force_n, report.hand_torque_n_mm, report.hand_vibration_n,
                               report.world_from_tool};
@@ -81,7 +89,7 @@ void render(const Model& model, HandOutput& output, const Pose& world_from_tool,
   }
   if (!model.virtual_mass) {
     output.energy.observe(report.world_from_handle);
-    const double risen = report.paused ? 0.0 : output.start_up.next(load.asked_n);
+    const double risen = report.paused ? 0.0 : output.start_up.next(load.unlimited_force_n);
     contact.force_n = faded * force::limited(contact.force_n, risen * limits.force_max_n);
     contact.torque_n_mm = faded * force::limited(contact.torque_n_mm, risen * limits.torque_max_n_mm);
     if (output.faded_ticks > 0) {  // the hand's last known way leads on for a moment, its force must not

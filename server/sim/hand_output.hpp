@@ -1,7 +1,7 @@
 #pragma once
 #include "device/haptic_device.hpp"
-#include "force/energy_guard.hpp"
-#include "force/start_up.hpp"
+#include "force/hand_safety.hpp"
+#include "force/vibration/vibration_player.hpp"
 #include "record/tick_report.hpp"
 
 namespace ream::sim {
@@ -14,7 +14,7 @@ struct ToolLoad {
   double spindle_torque_n_mm = 0.0;  ///< that turns the spindle, about +z
   bool cuts = false;                 ///< pressed enough, and turning
   /// What the spring between handle and tool would put on the hand without any limit, hand N.
-  double asked_n = 0.0;
+  double unlimited_force_n = 0.0;
 };
 
 /// What of a session's hand output carries over from tick to tick.
@@ -36,7 +36,10 @@ struct HandOutput {
   double fades_n_mm = 0.0;  ///< and its torque
 };
 
-/// What a device is told of a tick.
+/// What a tick says about vibration, as the tick itself plays it.
+force::VibrationInput vibration_input(const Model& model, const record::TickReport& report) noexcept;
+
+/// What is written to a device after a tick.
 device::DeviceOutput output_of(const record::TickReport& report) noexcept;
 
 /// From what acts on the tool to what the hand feels. Contact: the force scale, the device's largest force

@@ -2,10 +2,9 @@
 
 #include <system_error>
 
-#include "core/clock.hpp"
 #include "core/error.hpp"
 #include "device/device_guard.hpp"
-#include "sim/tick_clock.hpp"
+#include "sim/realtime.hpp"
 
 namespace ream::sim {
 namespace {
@@ -32,7 +31,7 @@ LoopEnd end_of(StepStatus status) {
 
 }  // namespace
 
-std::string to_words(LoopEnd end) {
+std::string message_of(LoopEnd end) {
   switch (end) {
     case LoopEnd::device_fault:
       return "The haptic device stopped answering; check its cable and power, then start a new session.";
@@ -43,8 +42,7 @@ std::string to_words(LoopEnd end) {
              "force was set to zero and the session ended.";
     case LoopEnd::stood_still:
       return "The haptic loop stood still and the force was taken away; start a new session, on a computer "
-             "with "
-             "less to do.";
+             "with less to do.";
     case LoopEnd::followers_late:
       return "The recording could not keep up with the loop; check the disk, then start a new session.";
     case LoopEnd::running:
@@ -55,7 +53,7 @@ std::string to_words(LoopEnd end) {
   return "";
 }
 
-std::string failover_words(int64_t tick) {
+std::string failover_message(int64_t tick) {
   return "the OpenCL device failed in tick " + std::to_string(tick) +
          "; the session goes on with the C++ form and the same results";
 }
@@ -70,7 +68,8 @@ HapticLoop::HapticLoop(const Model& model, State& state, device::HapticDevice& d
       force_expires_ms_(device.traits().force_expires_ms),
       watchdog_(device.traits().stale) {
   if (options.wall_clock)
-    guard_.emplace(device, LoopGuard::limit_for(device.traits()), options.realtime != Realtime::off);
+    guard_.emplace(device, LoopGuard::limit_for(device.traits()), options.realtime != Realtime::off,
+                   options.guard_now_ns);
 }
 
 HapticLoop::~HapticLoop() {
@@ -88,10 +87,10 @@ void HapticLoop::start() {
     thread_ = std::thread([this, &asked, &usable] {
       if (options_.wall_clock) health_.realtime = ask_for_realtime(options_.realtime, options_.cpu);
       usable = options_.realtime != Realtime::require || refusal().empty();
-      const bool go_on = usable;
+      const bool runs = usable;
       asked.store(true, std::memory_order_release);
       asked.notify_one();
-      if (go_on) loop();
+      if (runs) loop();
     });
   } catch (const std::system_error& e) {
     device_.close();
@@ -107,7 +106,7 @@ void HapticLoop::start() {
 
 std::string HapticLoop::refusal() const {
   if (!options_.wall_clock) return "";
-  return refusal_words(health_.realtime, options_.realtime, options_.cpu);
+  return refusal_message(health_.realtime, options_.realtime, options_.cpu);
 }
 
 LoopEnd HapticLoop::run() {
@@ -198,10 +197,10 @@ LoopEnd HapticLoop::compute_and_write(const device::DeviceInput& input, bool hel
   if (status != StepStatus::ok) return end_of(status);
 
   count(timing);
-  // Bone may have been cut, so the tick is told even when it is the last.
-  const bool told = push(report);
+  // Bone may have been cut, so the tick is reported even when it is the last.
+  const bool pushed = push(report);
   if (written != device::DeviceStatus::ok) return LoopEnd::device_fault;
-  return told ? LoopEnd::running : LoopEnd::followers_late;
+  return pushed ? LoopEnd::running : LoopEnd::followers_late;
 }
 
 void HapticLoop::count(const TickTiming& timing) noexcept {

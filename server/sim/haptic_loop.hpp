@@ -5,15 +5,15 @@
 #include <string>
 #include <thread>
 
+#include "core/clock.hpp"
 #include "core/latest_slot.hpp"
 #include "core/spsc_ring.hpp"
 #include "core/timing_histogram.hpp"
 #include "device/haptic_device.hpp"
 #include "sim/black_box.hpp"
-#include "sim/loop_guard.hpp"
-#include "sim/pose_watchdog.hpp"
 #include "sim/realtime.hpp"
 #include "sim/step.hpp"
+#include "sim/watchdogs.hpp"
 
 namespace ream::sim {
 
@@ -29,10 +29,10 @@ enum class LoopEnd : uint8_t {
 };
 
 /// One sentence for people; empty while running, finished or stopped.
-std::string to_words(LoopEnd end);
+std::string message_of(LoopEnd end);
 
 /// One sentence for people about a device that failed while the session went on.
-std::string failover_words(int64_t tick);
+std::string failover_message(int64_t tick);
 
 /// Health of the loop as others may read it at any time.
 struct LoopHealth {
@@ -51,7 +51,8 @@ struct LoopHealth {
 struct LoopOptions {
   bool wall_clock = true;  ///< false: virtual time, each tick as soon as the last is done
   Realtime realtime = Realtime::attempt;
-  int cpu = -1;  ///< that the loop's thread is to run on; -1: any
+  int cpu = -1;                           ///< that the loop's thread is to run on; -1: any
+  int64_t (*guard_now_ns)() = steady_ns;  ///< the clock of its LoopGuard
 };
 
 /// The 1 kHz loop: read, compute, check, limit, write. In virtual time it runs the same ticks without

@@ -5,19 +5,11 @@
 
 #include "core/error.hpp"
 #include "core/huge_pages.hpp"
-#include "sim/cutting_tool.hpp"
+#include "sim/cutting_surface.hpp"
 #include "sim/guided_handle.hpp"
 #include "sim/scapula_mount.hpp"
 
 namespace ream::sim {
-
-const char* to_text(RemovalLaw law) { return law == RemovalLaw::decay ? "decay" : "profile"; }
-
-RemovalLaw removal_law_from_text(const std::string& text) {
-  for (const RemovalLaw law : {RemovalLaw::profile, RemovalLaw::decay})
-    if (text == to_text(law)) return law;
-  throw Error(ErrorKind::invalid_input, "removal '" + text + "' must be profile or decay");
-}
 
 Pose world_from_plan(const case_::Plan& plan) {
   return {rotation_with_z_along(plan.axis_direction), plan.entry_mm};

@@ -1,6 +1,7 @@
 #pragma once
-#include "collide/contact_sums.hpp"
+#include "collide/contact/narrow_phase.hpp"
 #include "device/haptic_device.hpp"
+#include "force/coupling.hpp"
 #include "sim/state.hpp"
 
 namespace ream::sim {

@@ -4,6 +4,9 @@
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <time.h>
+
+#include <algorithm>
 
 namespace ream::sim {
 namespace {
@@ -19,6 +22,9 @@ bool pin_to(int cpu) noexcept {
   return ::pthread_setaffinity_np(::pthread_self(), sizeof only, &only) == 0;
 }
 
+constexpr int64_t hopeless_ns = 100'000'000;
+constexpr double step_us = 1.0, wanted_in_time = 0.99;
+
 }  // namespace
 
 RealtimeGrant ask_for_realtime(Realtime mode, int cpu) noexcept {
@@ -33,7 +39,7 @@ RealtimeGrant ask_for_realtime(Realtime mode, int cpu) noexcept {
   return grant;
 }
 
-std::string refusal_words(const RealtimeGrant& grant, Realtime mode, int cpu) {
+std::string refusal_message(const RealtimeGrant& grant, Realtime mode, int cpu) {
   if (mode == Realtime::off) return "";
   std::string refused, remedy;
   const auto add = [&](const std::string& what, const std::string& what_to_do) {
@@ -46,6 +52,28 @@ std::string refusal_words(const RealtimeGrant& grant, Realtime mode, int cpu) {
     add("CPU " + std::to_string(cpu), "let it run on that CPU (taskset, cpuset)");
   if (refused.empty()) return "";
   return "the haptic loop was refused " + refused + "; " + remedy + ", or use --realtime try";
+}
+
+void WakeMargin::note(double late_us) noexcept {
+  // A running estimate of that quantile: in balance when so many wake-ups are not later.
+  const double change_us = late_us > margin_us_ ? wanted_in_time * step_us : (wanted_in_time - 1.0) * step_us;
+  margin_us_ = std::clamp(margin_us_ + change_us, min_us, max_us);
+}
+
+double TickClock::wait() noexcept {
+  const int64_t wake_ns = next_ns_ - margin_.ns();
+  int64_t now = steady_ns();
+  if (now < wake_ns) {
+    const timespec until{wake_ns / 1'000'000'000, wake_ns % 1'000'000'000};
+    while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) != 0) {
+    }
+    now = steady_ns();
+    margin_.note(static_cast<double>(now - wake_ns) * 1e-3);
+  }
+  while (now < next_ns_) now = steady_ns();
+  const int64_t late_ns = now - next_ns_;
+  next_ns_ = late_ns > hopeless_ns ? now + tick_ns : next_ns_ + tick_ns;
+  return static_cast<double>(late_ns) * 1e-3;
 }
 
 }  // namespace ream::sim

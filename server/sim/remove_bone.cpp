@@ -1,7 +1,7 @@
 #include "sim/remove_bone.hpp"
 
 #include "core/hash.hpp"
-#include "sim/failover.hpp"
+#include "sim/state.hpp"
 
 namespace ream::sim {
 namespace {

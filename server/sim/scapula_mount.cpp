@@ -1,5 +1,7 @@
 #include "sim/scapula_mount.hpp"
 
+#include <Eigen/Geometry>
+
 #include "core/clock.hpp"
 #include "sim/approach.hpp"
 #include "sim/state.hpp"
@@ -8,7 +10,7 @@ namespace ream::sim {
 namespace {
 
 /// Share of the spring's deflection that the bone may take up in one tick.
-constexpr double largest_gain = 0.5;
+constexpr double max_gain = 0.5;
 
 /// x after a tick of damping x' + stiffness x = load.
 Vec3 settled(const Vec3& stiffness, const Vec3& damping, const Vec3& x, const Vec3& load, double tick_s) {
@@ -26,14 +28,14 @@ std::optional<device::ScapulaMount> stable_mount(const Model& model) {
   const double linear = model.coupling.stiffness_n_mm * model.coupling.force_scale;
   const double angular =
       model.coupling.angular_stiffness_n_mm_rad * model.coupling.force_scale + lever_mm * lever_mm * linear;
-  const double least_linear = linear * tick_s / largest_gain, least_angular = angular * tick_s / largest_gain;
-  mount.damping_n_s_mm = mount.damping_n_s_mm.cwiseMax(least_linear);
-  mount.angular_damping_n_mm_s_rad = mount.angular_damping_n_mm_s_rad.cwiseMax(least_angular);
+  const double min_linear = linear * tick_s / max_gain, min_angular = angular * tick_s / max_gain;
+  mount.damping_n_s_mm = mount.damping_n_s_mm.cwiseMax(min_linear);
+  mount.angular_damping_n_mm_s_rad = mount.angular_damping_n_mm_s_rad.cwiseMax(min_angular);
   return mount;
 }
 
-MountState given_way(const device::ScapulaMount& mount, const MountState& state,
-                     const force::Wrench& about_entry, double step_s) noexcept {
+MountState settled_mount(const device::ScapulaMount& mount, const MountState& state,
+                         const force::Wrench& about_entry, double step_s) noexcept {
   return {settled(mount.stiffness_n_mm, mount.damping_n_s_mm, state.shift_mm, about_entry.force_n, step_s),
           settled(mount.angular_stiffness_n_mm_rad, mount.angular_damping_n_mm_s_rad, state.turn_rad,
                   about_entry.torque_n_mm, step_s)};
@@ -53,7 +55,7 @@ void move_bone(const Model& model, State& state, const ToolLoad& load, bool carr
   const Vec3 torque_n_mm =
       world_from_tool * (load.spring.torque_n_mm + load.spindle_torque_n_mm * Vec3::UnitZ());
   const force::Wrench about_entry{force_n, torque_n_mm + arm_mm.cross(force_n)};
-  const MountState wanted = given_way(*model.mount, state.mount, about_entry, tick_s);
+  const MountState wanted = settled_mount(*model.mount, state.mount, about_entry, tick_s);
   const Pose before = state.world_from_bone_rest;
   const auto settle = [&](double fraction) {
     MountState settled;

@@ -22,8 +22,8 @@ struct MountState {
 std::optional<device::ScapulaMount> stable_mount(const Model& model);
 
 /// One tick (implicit Euler) of a mount under a force and its moment about the entry where it is now.
-MountState given_way(const device::ScapulaMount& mount, const MountState& state,
-                     const force::Wrench& about_entry, double tick_s) noexcept;
+MountState settled_mount(const device::ScapulaMount& mount, const MountState& state,
+                         const force::Wrench& about_entry, double tick_s) noexcept;
 
 /// World from rest of a bone displaced about `point_mm` (world frame, at rest).
 Pose displacement(const MountState& state, const Vec3& point_mm) noexcept;

@@ -2,7 +2,7 @@
 
 namespace ream::sim {
 
-State::State(const Model& model, voxel::BoneModel& bone_in, const CarriedOn& from)
+State::State(const Model& model, voxel::BoneModel& bone_in, const ResumeState& from)
     : bone(bone_in),
       cells(bone_in),
       backend(make_backend(model, bone_in, cells)),
@@ -13,5 +13,12 @@ State::State(const Model& model, voxel::BoneModel& bone_in, const CarriedOn& fro
       vibration(model.vibration, model.settings.random_seed),
       world_from_grid(bone_in.grid.world_from_grid),
       session_hash(from.session_hash) {}
+
+bool fail_over(State& state) noexcept {
+  if (state.failed_over_tick >= 0 || state.reserve.narrow_phase == nullptr) return false;
+  std::swap(state.backend, state.reserve);
+  state.failed_over_tick = state.tick - 1;  // the step has counted its tick already
+  return true;
+}
 
 }  // namespace ream::sim

@@ -3,10 +3,11 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
-#include "collide/removal_schedule.hpp"
-#include "force/vibration_player.hpp"
+#include "collide/removal/removal_schedule.hpp"
+#include "force/vibration/vibration_player.hpp"
 #include "record/tick_report.hpp"
 #include "sim/backend.hpp"
 #include "sim/hand_output.hpp"
@@ -16,14 +17,14 @@
 namespace ream::sim {
 
 /// What a segment of a session takes over from the one before it; else the session begins.
-struct CarriedOn {
+struct ResumeState {
   uint32_t tick = 0;  ///< the next
   uint64_t session_hash = 0;
 };
 
 /// Everything that a tick changes. Owned by the haptic thread once the session runs.
 struct State {
-  State(const Model& model, voxel::BoneModel& bone, const CarriedOn& from = {});
+  State(const Model& model, voxel::BoneModel& bone, const ResumeState& from = {});
 
   voxel::BoneModel& bone;
   voxel::SolidCells cells;  ///< what of the bone is left; follows every cut
@@ -34,8 +35,8 @@ struct State {
   /// hand feels nothing in that tick, and no other device may fail.
   int64_t failed_over_tick = -1;
   collide::RemovalSchedule schedule;
-  std::array<collide::BrickOutcome, collide::RemovalSchedule::most_bricks_a_tick> outcomes;
-  std::array<uint32_t, collide::RemovalSchedule::most_bricks_a_tick> changed;  ///< bricks of the last cut
+  std::array<collide::BrickOutcome, collide::RemovalSchedule::max_bricks_per_tick> outcomes;
+  std::array<uint32_t, collide::RemovalSchedule::max_bricks_per_tick> changed;  ///< bricks of the last cut
   size_t changed_count = 0;
   voxel::BrickSender* brick_sender = nullptr;  ///< followers, where there are any; not owned
   int brick_budget = 256;                      ///< images sent a tick
@@ -66,5 +67,17 @@ struct State {
 };
 
 using record::TickReport;
+
+/// Puts the reserve in the failed backend's place; the failed one is kept, for giving it back takes time that
+/// a tick has not. False when there is no reserve (any more). What the failed device left behind: bone on the
+/// host is as before its last call (Removal::cut, Decay::apply), so the reserve does the same work again and
+/// the tick's result, coverage and hash are those of a session without a failure.
+bool fail_over(State& state) noexcept;
+
+/// Calls `work(backend)`, which answers false when the device failed, once more with the reserve if need be.
+template <class Work>
+bool work_or_fail_over(State& state, Work work) noexcept {
+  return work(state.backend) || (fail_over(state) && work(state.backend));
+}
 
 }  // namespace ream::sim

@@ -8,7 +8,6 @@
 #include "sim/guided_handle.hpp"
 #include "sim/press.hpp"
 #include "sim/remove_bone.hpp"
-#include "sim/vibration_input.hpp"
 
 namespace ream::sim {
 namespace {
@@ -65,10 +64,10 @@ bool is_finite(const TickReport& r) {
 }
 
 /// Recorded poses reach to 2.1 m; scanners' tables put bones as far as this from the origin, mm.
-constexpr double farthest_mm = 2000.0;
+constexpr double max_coordinate_mm = 2000.0;
 
 bool is_usable(const Pose& pose) {
-  return pose.rotation.allFinite() && (pose.translation_mm.array().abs() < farthest_mm).all();
+  return pose.rotation.allFinite() && (pose.translation_mm.array().abs() < max_coordinate_mm).all();
 }
 
 bool is_finite(const device::DeviceInput& input) {

@@ -5,7 +5,7 @@
 #include <charconv>
 
 #include "core/error.hpp"
-#include "core/hex.hpp"
+#include "core/text.hpp"
 
 namespace ream::store {
 namespace {

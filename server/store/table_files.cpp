@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "store/dialect.hpp"
 #include "store/migrations.hpp"
 #include "store/sql.hpp"

@@ -70,11 +70,11 @@ Message Mailbox::next_telemetry() {
 Message Mailbox::next_mesh() {
   std::vector<SharedBlock> blocks;
   bool complete = picture_ == Picture::sending && picture_blocks_left_ == 0;
-  const size_t most_bytes = picture_ == Picture::sent ? update_message_bytes : mesh_message_bytes;
+  const size_t max_bytes = picture_ == Picture::sent ? update_message_bytes : mesh_message_bytes;
   for (size_t bytes = 0; !order_.empty() && !complete;) {
     const auto place = newest_.find(order_.front());
     const size_t block_bytes = place->second->bytes() + table_bytes;
-    if (!blocks.empty() && bytes + block_bytes > most_bytes) break;
+    if (!blocks.empty() && bytes + block_bytes > max_bytes) break;
     bytes += block_bytes;
     blocks.push_back(std::move(place->second));
     newest_.erase(place);

@@ -1,14 +1,25 @@
 #include "stream/mesh_publisher.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <climits>
 #include <cstring>
 #include <utility>
 
 #include "core/hash.hpp"
+#include "core/vector_clones.hpp"
 
 namespace ream::stream {
 namespace {
+
+REAM_VECTOR_CLONES int max_difference(const uint8_t* a, const uint8_t* b) {
+  uint8_t largest = 0;
+  for (int i = 0; i < voxel::brick_voxels; ++i) {
+    const auto difference = static_cast<uint8_t>(std::max(a[i], b[i]) - std::min(a[i], b[i]));
+    largest = std::max(largest, difference);
+  }
+  return largest;
+}
 
 /// Not 0 unless the mesh is empty.
 uint64_t surface_hash(const surface::BlockMesh& mesh) {
@@ -24,6 +35,47 @@ uint64_t surface_hash(const surface::BlockMesh& mesh) {
 
 }  // namespace
 
+VoxelBox difference_box(const uint8_t* a, const uint8_t* b) {
+  constexpr int edge = voxel::brick_edge;
+  VoxelBox box{Vec3i::Constant(edge), Vec3i::Constant(-1)};
+  uint64_t columns = 0;  // byte x is not 0 where any row differs at x
+  for (int z = 0; z < edge; ++z)
+    for (int y = 0; y < edge; ++y, a += edge, b += edge) {
+      uint64_t row_a, row_b;
+      std::memcpy(&row_a, a, edge);
+      std::memcpy(&row_b, b, edge);
+      if (row_a == row_b) continue;
+      columns |= row_a ^ row_b;
+      box.low = box.low.cwiseMin(Vec3i(edge, y, z));
+      box.high = box.high.cwiseMax(Vec3i(-1, y, z));
+    }
+  box.low.x() = std::countr_zero(columns) / 8;
+  box.high.x() = edge - 1 - std::countl_zero(columns) / 8;
+  return box;
+}
+
+void WaitingBricks::put(const voxel::BrickImage& image, const uint8_t* shown, int64_t now_ns) {
+  const int moved = max_difference(shown, image.coverage);
+  const auto known = place_.find(image.brick);
+  if (known == place_.end()) {
+    if (moved == 0) return;
+    if (images_.empty()) since_ns_ = now_ns;
+    place_.emplace(image.brick, images_.size());
+    images_.push_back(image);
+  } else {
+    images_[known->second] = image;
+  }
+  max_moved_ = std::max(max_moved_, moved);
+  newest_tick_ = std::max(newest_tick_, image.tick);
+}
+
+void WaitingBricks::clear() {
+  images_.clear();
+  place_.clear();
+  max_moved_ = 0;
+  newest_tick_ = 0;
+}
+
 MeshPublisher::Level::Level(const voxel::VoxelGrid& grid, int stride_voxels)
     : stride(stride_voxels),
       extractor(grid, stride),
@@ -35,16 +87,8 @@ void MeshPublisher::Level::touch(uint32_t block) {
   if (std::exchange(is_touched[block], uint8_t{1}) == 0) to_extract.push_back(block);
 }
 
-MeshPublisher::MeshPublisher(const voxel::BoneModel& bone, voxel::BrickRing& ring, Fanout& fanout,
-                             MeshPublisherOptions options)
-    : MeshPublisher(bone, &ring, fanout, options) {}
-
 MeshPublisher::MeshPublisher(const voxel::BoneModel& bone, Fanout& fanout, MeshPublisherOptions options)
-    : MeshPublisher(bone, nullptr, fanout, options) {}
-
-MeshPublisher::MeshPublisher(const voxel::BoneModel& bone, voxel::BrickRing* ring, Fanout& fanout,
-                             MeshPublisherOptions options)
-    : replica_(bone), classes_(bone), ring_(ring), fanout_(fanout), options_(options), layout_(bone.grid) {
+    : replica_(bone), classes_(bone), fanout_(fanout), options_(options), layout_(bone.grid) {
   for (const int stride : {1, 2, 4}) levels_.emplace_back(bone.grid, stride);
 }
 
@@ -61,7 +105,6 @@ void MeshPublisher::publish_all() {
 }
 
 size_t MeshPublisher::poll(int64_t now_ns) {
-  drain(now_ns);
   if (now_ns - last_work_ns_ < options_.min_interval_ns) return 0;
   if (!extracting()) {
     begin_pictures();
@@ -74,7 +117,6 @@ size_t MeshPublisher::poll(int64_t now_ns) {
 }
 
 size_t MeshPublisher::flush(int64_t now_ns) {
-  drain(now_ns);
   extract(INT_MAX);
   size_t published = publish_ready();
   begin_pictures();
@@ -85,14 +127,8 @@ size_t MeshPublisher::flush(int64_t now_ns) {
   return published;
 }
 
-void MeshPublisher::drain(int64_t now_ns) {
-  if (ring_ == nullptr) return;
-  voxel::BrickImage image;
-  while (ring_->try_pop(image)) take(image, now_ns);
-}
-
 bool MeshPublisher::due(int64_t now_ns) const {
-  return !waiting_.empty() && (waiting_.most_moved() >= options_.noticeable_coverage ||
+  return !waiting_.empty() && (waiting_.max_moved() >= options_.noticeable_coverage ||
                                now_ns - waiting_.since_ns() >= options_.max_delay_ns);
 }
 
@@ -126,9 +162,9 @@ void MeshPublisher::begin_update() {
   waiting_.clear();
 }
 
-void MeshPublisher::extract(int most_surfaces) {
+void MeshPublisher::extract(int max_surfaces) {
   constexpr int whole = 16;  // what a surface of stride 1 costs; triangles go with the stride's square
-  int64_t left = int64_t{most_surfaces} * whole;
+  int64_t left = int64_t{max_surfaces} * whole;
   for (Level& level : levels_)
     for (; level.next < level.to_extract.size() && left > 0; ++level.next) {
       const uint32_t block = level.to_extract[level.next];

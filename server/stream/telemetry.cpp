@@ -42,10 +42,4 @@ void TelemetryBatcher::jump() {
   any_ = false;
 }
 
-void TelemetryBatcher::poll(TelemetryRing& ring, int64_t now_ns) {
-  TelemetrySample sample;
-  while (ring.try_pop(sample)) add(sample);
-  publish_if_due(now_ns);
-}
-
 }  // namespace ream::stream

@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "core/spsc_ring.hpp"
 #include "geometry/pose.hpp"
 
 namespace ream::stream {
@@ -32,8 +31,7 @@ struct Playback {
   uint32_t jump = 0;
 };
 
-/// One tick as viewers see it. World frame, mm; forces N, torque N mm. No heap inside, so it may pass through
-/// rings.
+/// One tick as viewers see it. World frame, mm; forces N, torque N mm. No heap inside.
 struct TelemetrySample {
   uint32_t tick = 0;
   float thrust_n = 0;      ///< simulated, along the tool's axis
@@ -53,9 +51,6 @@ struct TelemetrySample {
   std::optional<Playback> playback;  ///< in replays only
   std::array<char, 160> fault{};     ///< words, zero-terminated, when state is fault
 };
-
-/// From the loop (or whoever follows it) to the batcher; a full ring loses samples, which viewers are told.
-using TelemetryRing = SpscRing<TelemetrySample>;
 
 /// Samples that follow each other: tick of entry i is front().tick + i * tick_stride.
 struct TelemetryBatch {
@@ -85,8 +80,6 @@ class TelemetryBatcher {
   void flush();
   /// Publishes what was collected; the next sample may be of any tick and nothing between is lost.
   void jump();
-  /// Drains the ring, then publish_if_due.
-  void poll(TelemetryRing& ring, int64_t now_ns);
 
  private:
   Fanout& fanout_;

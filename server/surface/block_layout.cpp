@@ -1,5 +1,7 @@
 #include "surface/block_layout.hpp"
 
+#include "core/vector_clones.hpp"
+
 namespace ream::surface {
 
 BlockLayout::BlockLayout(const voxel::VoxelGrid& grid)
@@ -16,6 +18,15 @@ BlockRange blocks_touched(const BlockLayout& layout, const Vec3i& low, const Vec
     return voxel.cwiseMax(0).cwiseMin(layout.grid_dims - Vec3i::Ones()) / block_edge;
   };
   return {block_of(low.array() - reach), block_of(high.array() + reach)};
+}
+
+REAM_VECTOR_CLONES Fill fill_of(const uint8_t* brick) {
+  uint8_t any = 0, all = 0xff;
+  for (int i = 0; i < voxel::brick_voxels; ++i) {
+    any |= brick[i];
+    all &= brick[i];
+  }
+  return (any & 0x80) == 0 ? Fill::none : (all & 0x80) != 0 ? Fill::all : Fill::some;
 }
 
 }  // namespace ream::surface

@@ -37,9 +37,9 @@ Vec3f position_mm(const BlockVertex& vertex, const Vec3i& block, const Vec3& spa
 /// Normals are smoothed central differences of coverage, pointing out of the bone. Vertices come in the order
 /// of their edges' lower corners, z, then y, then axis, then x, which neighbours therefore agree on.
 ///
-/// At a stride of 2 or 4 the same is done with one sample every 2 or 4 voxels (coarse.hpp): about 1/4 or 1/16
-/// of the triangles, in the same units and the same blocks, closed and equal at borders among blocks of the
-/// same stride. Holds working memory only: one per thread.
+/// At a stride of 2 or 4 the same is done with one sample every 2 or 4 voxels (coarse_samples()): about 1/4
+/// or 1/16 of the triangles, in the same units and the same blocks, closed and equal at borders among blocks
+/// of the same stride. Holds working memory only: one per thread.
 class BlockExtractor {
  public:
   /// Throws Error invalid_input for a stride other than 1, 2 or 4.

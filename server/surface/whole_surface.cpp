@@ -4,8 +4,8 @@
 #include <atomic>
 #include <thread>
 
+#include "surface/block_layout.hpp"
 #include "surface/block_mesh.hpp"
-#include "surface/brick_fill.hpp"
 #include "surface/octahedral.hpp"
 
 namespace ream::surface {

@@ -6,10 +6,16 @@
 
 #include "core/spsc_ring.hpp"
 #include "voxel/bone_model.hpp"
+#include "voxel/voxel_grid.hpp"
 
 namespace ream::voxel {
 
-/// What followers are told of a changed brick: its whole coverage at one tick, x fastest.
+/// Files and CT filters keep voxels row after row (VoxelGrid::row_index), a BoneModel brick after brick
+/// (VoxelGrid::index); these turn one into the other. Both sizes must be grid.voxel_count().
+std::vector<uint8_t> bricks_from_rows(const VoxelGrid& grid, std::span<const uint8_t> rows);
+std::vector<uint8_t> rows_from_bricks(const VoxelGrid& grid, std::span<const uint8_t> bricks);
+
+/// What followers get of a changed brick: its whole coverage at one tick, x fastest.
 struct BrickImage {
   uint32_t brick = 0;
   uint32_t tick = 0;
@@ -45,6 +51,26 @@ class BrickSender {
   std::vector<uint8_t> marked_;
   std::vector<uint32_t> queue_;  ///< circular, holds each marked brick once
   size_t head_ = 0, count_ = 0;
+};
+
+/// A follower's own copy of the coverage, brought up to date by brick images. Owned by one thread.
+class Replica {
+ public:
+  /// Copies the coverage as it is before the first tick.
+  explicit Replica(const BoneModel& bone) : grid_(bone.grid), coverage_(bone.coverage) {}
+
+  void apply(const BrickImage& image) noexcept {
+    write_brick(grid_, coverage_.data(), image.brick, image.coverage);
+  }
+
+  /// The brick's coverage, brick_voxels bytes, x fastest.
+  const uint8_t* brick(uint32_t index) const { return coverage_.data() + size_t{index} * brick_voxels; }
+  const VoxelGrid& grid() const { return grid_; }
+  const std::vector<uint8_t>& coverage() const { return coverage_; }
+
+ private:
+  VoxelGrid grid_;
+  std::vector<uint8_t> coverage_;
 };
 
 }  // namespace ream::voxel

@@ -7,7 +7,7 @@ namespace ream::voxel {
 namespace {
 
 constexpr double last_code = 65535.0;
-constexpr int most_decimals = 4;
+constexpr int max_decimals = 4;
 constexpr double float_error = 1.2e-7;  ///< relative, of a decimal number kept as a float
 
 bool whole(double v) { return std::abs(v - std::nearbyint(v)) <= float_error * std::abs(v); }
@@ -27,7 +27,7 @@ void GrayScaleFinder::add(float value) {
     least_ = std::min(least_, v);
     greatest_ = std::max(greatest_, v);
   }
-  while (decimals_ <= most_decimals && !whole(v * power_)) {
+  while (decimals_ <= max_decimals && !whole(v * power_)) {
     ++decimals_;
     power_ *= 10.0;
   }
@@ -48,7 +48,7 @@ void GrayScaleFinder::add(const GrayScaleFinder& other) {
 GrayScale GrayScaleFinder::scale() const {
   if (greatest_ < least_) return {};
   const double steps = (greatest_ - least_) * power_;
-  if (decimals_ > most_decimals || steps > last_code)
+  if (decimals_ > max_decimals || steps > last_code)
     return {least_, std::max((greatest_ - least_) / last_code, 1e-12), false};
   const bool from_zero = least_ >= 0.0 && greatest_ * power_ <= last_code;
   return {from_zero ? 0.0 : std::nearbyint(least_ * power_) / power_, 1.0 / power_, true};

@@ -1,10 +1,9 @@
 #include "voxel/upsample.hpp"
 
-#include <atomic>
 #include <string>
-#include <thread>
 
 #include "core/error.hpp"
+#include "core/thread_pool.hpp"
 #include "core/vector_clones.hpp"
 
 namespace ream::voxel {
@@ -78,31 +77,7 @@ void upsample_slice(const Volume<T>& v, const UpsampleTap& z, std::vector<uint32
   }
 }
 
-template <typename T>
-std::vector<T> upsample(std::span<const T> input, const Vec3i& dims, int factor) {
-  check_upsample(input.size(), dims, factor);
-  const auto n = static_cast<uint32_t>(factor);
-  const Volume<T> volume{input.data(),           static_cast<size_t>(dims.x()), static_cast<size_t>(dims.y()),
-                         taps(dims.x(), factor), taps(dims.y(), factor),        taps(dims.z(), factor),
-                         4 * n * n * n,          Divisor(8 * n * n * n)};
-  const size_t slice = volume.tx.size() * volume.ty.size();
-  std::vector<T> output(slice * volume.tz.size());
-  std::atomic<size_t> next{0};
-  const auto work = [&] {
-    std::vector<uint32_t> row(volume.nx);
-    for (size_t w = next++; w < volume.tz.size(); w = next++)
-      upsample_slice(volume, volume.tz[w], row, output.data() + w * slice);
-  };
-  {
-    const std::jthread helper(work);
-    work();
-  }
-  return output;
-}
-
-}  // namespace
-
-void check_upsample(size_t size, const Vec3i& dims, int factor) {
+void check(size_t size, const Vec3i& dims, int factor) {
   if (factor < 1 || factor > max_upsample_factor)
     throw Error(ErrorKind::invalid_input, "upsampling factor " + std::to_string(factor) +
                                               " must be from 1 to " + std::to_string(max_upsample_factor));
@@ -112,6 +87,24 @@ void check_upsample(size_t size, const Vec3i& dims, int factor) {
   if (static_cast<int64_t>(size) != d.x() * d.y() * d.z())
     throw Error(ErrorKind::invalid_input, "the volume to upsample does not have the size its dimensions say");
 }
+
+template <typename T>
+std::vector<T> upsample(std::span<const T> input, const Vec3i& dims, int factor) {
+  check(input.size(), dims, factor);
+  const auto n = static_cast<uint32_t>(factor);
+  const Volume<T> volume{input.data(),           static_cast<size_t>(dims.x()), static_cast<size_t>(dims.y()),
+                         taps(dims.x(), factor), taps(dims.y(), factor),        taps(dims.z(), factor),
+                         4 * n * n * n,          Divisor(8 * n * n * n)};
+  const size_t slice = volume.tx.size() * volume.ty.size();
+  std::vector<T> output(slice * volume.tz.size());
+  parallel_for(2, volume.tz.size(), [&](size_t w) {
+    std::vector<uint32_t> row(volume.nx);
+    upsample_slice(volume, volume.tz[w], row, output.data() + w * slice);
+  });
+  return output;
+}
+
+}  // namespace
 
 std::vector<uint8_t> upsample_trilinear(std::span<const uint8_t> input, const Vec3i& dims, int factor) {
   return upsample(input, dims, factor);

@@ -40,7 +40,4 @@ constexpr UpsampleTap upsample_tap(int i, int factor, int input_count) {
 std::vector<uint8_t> upsample_trilinear(std::span<const uint8_t> input, const Vec3i& dims, int factor);
 std::vector<int16_t> upsample_trilinear(std::span<const int16_t> input, const Vec3i& dims, int factor);
 
-/// The check that both forms make first.
-void check_upsample(size_t input_samples, const Vec3i& dims, int factor);
-
 }  // namespace ream::voxel

@@ -1,4 +1,4 @@
-#include "voxelizer/box_file.hpp"
+#include "voxelizer/voxel_files.hpp"
 
 #include <array>
 #include <bit>
@@ -8,7 +8,7 @@
 namespace ream::voxelizer {
 namespace {
 
-constexpr uint64_t most_faces = (uint64_t{1} << 31) / 4 - 1;
+constexpr uint64_t max_faces = (uint64_t{1} << 31) / 4 - 1;
 
 /// Corners of the faces towards -x, +x, -y, +y, -z, +z, in voxels.
 constexpr int face_corners[6][4][3] = {
@@ -67,7 +67,7 @@ uint64_t count_faces(const VoxelSet& set, const Progress& progress) {
   return count;
 }
 
-void write_face(const RasterGrid& grid, const Vec3i& voxel, int side, StreamedFile& file) {
+void write_face(const RasterGrid& grid, const Vec3i& voxel, int side, AtomicFile& file) {
   for (const auto& corner : face_corners[side]) {
     std::array<float, 3> at{};
     for (int k = 0; k < 3; ++k)
@@ -79,9 +79,9 @@ void write_face(const RasterGrid& grid, const Vec3i& voxel, int side, StreamedFi
 
 }  // namespace
 
-void write_boxes(const VoxelSet& set, StreamedFile& file, const Progress& progress) {
+void write_boxes(const VoxelSet& set, AtomicFile& file, const Progress& progress) {
   const uint64_t count = count_faces(set, part_of(progress, 0.0, 0.3));
-  if (count > most_faces)
+  if (count > max_faces)
     throw Error(ErrorKind::invalid_input,
                 std::to_string(count) + " faces are too many for a file of boxes; use larger voxels");
   file.write("ply\nformat binary_little_endian 1.0\ncomment voxels, millimetres\nelement vertex " +

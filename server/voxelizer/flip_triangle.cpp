@@ -1,4 +1,4 @@
-#include "voxelizer/flip_triangle.hpp"
+#include "voxelizer/triangle_marking.hpp"
 
 #include <cstring>
 

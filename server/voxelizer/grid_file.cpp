@@ -1,4 +1,4 @@
-#include "voxelizer/grid_file.hpp"
+#include "voxelizer/voxel_files.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace ream::voxelizer {
 namespace {
 
-constexpr size_t longest_header = 65536;
+constexpr size_t max_header_bytes = 65536;
 
 std::string exact(double value) {
   char text[32];
@@ -62,7 +62,7 @@ class Header {
     if (!in) throw Error(ErrorKind::not_found, "no such file: " + path.string());
     std::string line;
     if (!std::getline(in, line) || !line.starts_with("NRRD000")) refuse("it does not begin as a NRRD file");
-    for (size_t read = 0; read < longest_header && std::getline(in, line); read += line.size() + 1) {
+    for (size_t read = 0; read < max_header_bytes && std::getline(in, line); read += line.size() + 1) {
       while (!line.empty() && line.back() == '\r') line.pop_back();
       if (line.empty()) return;
       const size_t colon = line.find(':');
@@ -115,7 +115,7 @@ Vec3 first_centre(const Header& header) {
 
 }  // namespace
 
-void write_nrrd(const VoxelSet& set, GridFormat format, StreamedFile& file, const Progress& progress) {
+void write_nrrd(const VoxelSet& set, GridFormat format, AtomicFile& file, const Progress& progress) {
   const RasterGrid& grid = set.grid();
   file.write(header_of(grid, format));
   std::vector<uint32_t> row(grid.words_per_row());
@@ -149,7 +149,7 @@ RasterGrid grid_of_nrrd(const std::filesystem::path& path) {
   if (bits) step.x() /= 8.0;
   grid.size_mm = step;
   for (size_t k = 0; k < 3; ++k) {
-    if (!(dims[k] >= 1.0 && dims[k] <= most_voxels_a_side) || dims[k] != std::floor(dims[k]))
+    if (!(dims[k] >= 1.0 && dims[k] <= max_voxels_a_side) || dims[k] != std::floor(dims[k]))
       header.refuse("its size along an axis is not a whole number from 1 to 2^20");
     grid.dims[static_cast<Eigen::Index>(k)] = static_cast<int>(dims[k]);
   }

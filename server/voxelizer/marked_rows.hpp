@@ -22,8 +22,8 @@ struct LayerBounds {
 
 /// What bounds neighbouring rows of any layer.
 struct RowBounds {
-  static constexpr int most_rows = 256;
-  double u_least[most_rows + 8], u_most[most_rows + 8], plane[most_rows + 8];
+  static constexpr int max_rows = 256;
+  double u_least[max_rows + 8], u_most[max_rows + 8], plane[max_rows + 8];
 
   /// Three rows more than `rows`, which are read with the last four.
   void set(const PreparedTriangle& p, int v, int rows) {
@@ -58,8 +58,8 @@ inline void for_each_four_rows(const PlacedTriangle& t, const PreparedTriangle& 
   const Double4 high = Double4{} + static_cast<double>(t.high[0]);
   RowBounds rows;
   LayerBounds layers;
-  for (int v = t.low[1]; v <= t.high[1]; v += RowBounds::most_rows) {
-    const int last_v = t.high[1] - v < RowBounds::most_rows ? t.high[1] : v + RowBounds::most_rows - 1;
+  for (int v = t.low[1]; v <= t.high[1]; v += RowBounds::max_rows) {
+    const int last_v = t.high[1] - v < RowBounds::max_rows ? t.high[1] : v + RowBounds::max_rows - 1;
     rows.set(p, v, last_v - v + 1);
     for (int four_w = t.low[2]; four_w <= t.high[2]; four_w += 4) {
       layers.set(p, four_w);

@@ -1,4 +1,4 @@
-#include "voxelizer/morton_file.hpp"
+#include "voxelizer/voxel_files.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -44,7 +44,7 @@ void add_codes(const VoxelSet& set, const Vec3i& corner, std::vector<uint32_t>& 
 
 }  // namespace
 
-void write_morton_codes(const VoxelSet& set, StreamedFile& file, const Progress& progress) {
+void write_morton_codes(const VoxelSet& set, AtomicFile& file, const Progress& progress) {
   const RasterGrid& grid = set.grid();
   std::ostringstream header;
   header.precision(17);

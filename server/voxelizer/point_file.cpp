@@ -1,18 +1,67 @@
-#include "voxelizer/point_file.hpp"
+#include "voxelizer/voxel_files.hpp"
 
+#include <Eigen/Geometry>
+#include <array>
 #include <bit>
 
-#include "voxelizer/clipped_area.hpp"
-#include "voxelizer/mark_triangle.hpp"
+#include "geometry/vec.hpp"
 #include "voxelizer/marked_rows.hpp"
+#include "voxelizer/triangle_marking.hpp"
 
 namespace ream::voxelizer {
 namespace {
 
+/// Share of a triangle's area that lies in the unit cube from `low`, 0 for a triangle without area. Corners
+/// and cube are in voxels, where shares are what they are in mm.
+double share_in_voxel(const Vec3 corners[3], const Vec3& low);
+
+/// A triangle cut by six planes has nine corners at most.
+struct Polygon {
+  std::array<Vec3, 10> corners;
+  size_t count = 0;
+};
+
+/// What of the polygon lies where side * (p[axis] - at) >= 0.
+Polygon cut(const Polygon& polygon, int axis, double at, double side) {
+  Polygon result;
+  for (size_t i = 0; i < polygon.count; ++i) {
+    const Vec3& p = polygon.corners[i];
+    const Vec3& q = polygon.corners[i + 1 == polygon.count ? 0 : i + 1];
+    const double dp = side * (p[axis] - at), dq = side * (q[axis] - at);
+    if (dp >= 0.0) result.corners[result.count++] = p;
+    if ((dp >= 0.0) != (dq >= 0.0)) {
+      Vec3 crossing = p + dp / (dp - dq) * (q - p);
+      crossing[axis] = at;
+      result.corners[result.count++] = crossing;
+    }
+  }
+  return result;
+}
+
+Vec3 twice_area(const Vec3* corners, size_t count) {
+  Vec3 sum = Vec3::Zero();
+  for (size_t i = 2; i < count; ++i) sum += (corners[i - 1] - corners[0]).cross(corners[i] - corners[0]);
+  return sum;
+}
+
+double share_in_voxel(const Vec3 corners[3], const Vec3& low) {
+  Polygon polygon;
+  for (size_t i = 0; i < 3; ++i) polygon.corners[i] = corners[i];
+  polygon.count = 3;
+  const Vec3 whole = twice_area(corners, 3);
+  const double scale = whole.squaredNorm();
+  if (!(scale > 0.0)) return 0.0;
+  for (int axis = 0; axis < 3 && polygon.count > 2; ++axis) {
+    polygon = cut(polygon, axis, low[axis], 1.0);
+    polygon = cut(polygon, axis, low[axis] + 1.0, -1.0);
+  }
+  return polygon.count < 3 ? 0.0 : twice_area(polygon.corners.data(), polygon.count).dot(whole) / scale;
+}
+
 /// Bits of the tiles that are worked on one by one; a voxel that the surface passes takes 32 bytes meanwhile.
 constexpr size_t tile_bytes = 32 << 10;
 /// Voxels that a triangle only just touches hold none of it; its normal still is theirs when nothing else is.
-constexpr double least_share = 1e-12;
+constexpr double min_share = 1e-12;
 
 struct SurfacePart {
   Vec3 area_mm2 = Vec3::Zero();  ///< along the normal
@@ -59,7 +108,7 @@ class TileSurface {
         SurfacePart* part_here = part(u, v, w);
         if (part_here == nullptr) continue;
         const double share = share_in_voxel(corners, Vec3(u, v, w));
-        part_here->area_mm2 += std::max(share, least_share) * area;
+        part_here->area_mm2 += std::max(share, min_share) * area;
         part_here->size_mm2 += share * size;
       }
     });
@@ -83,7 +132,7 @@ double column_area_mm2(const Vec3& normal, const Vec3& size_mm) {
 struct Writer {
   const RasterGrid& grid;
   bool by_column;
-  StreamedFile& file;
+  AtomicFile& file;
 
   void write(const Vec3i& voxel, const SurfacePart* part) const {
     const Vec3 centre = grid.centre_mm(voxel.x(), voxel.y(), voxel.z());
@@ -101,7 +150,7 @@ struct Writer {
 
 }  // namespace
 
-void write_points(const TriangleMesh& mesh, const Request& request, const VoxelSet& set, StreamedFile& file,
+void write_points(const TriangleMesh& mesh, const Request& request, const VoxelSet& set, AtomicFile& file,
                   const Progress& progress) {
   const RasterGrid& grid = set.grid();
   file.write("ply\nformat binary_little_endian 1.0\ncomment centres of voxels, millimetres\nelement vertex " +
@@ -110,8 +159,8 @@ void write_points(const TriangleMesh& mesh, const Request& request, const VoxelS
              "property float nz\nproperty float area_mm2\nend_header\n");
   const VoxelMap map = voxel_map(grid, request.scale);
   const TilePlan plan = plan_tiles(grid, tile_bytes, 1);
-  Crew crew(1);
-  const TileBins bins(mesh, map, plan, crew);
+  ThreadPool pool(1);
+  const TileBins bins(mesh, map, plan, pool);
   const bool thin = request.surface && request.separability == Separability::six;
   const SurfaceMarker marker{mesh, map, bins, thin ? Separability::six : Separability::twenty_six};
   const Writer writer{grid, thin, file};

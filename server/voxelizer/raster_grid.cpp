@@ -18,7 +18,7 @@ std::string text_of(const Vec3& v) {
 
 void check_count(const Vec3& voxels, const Vec3& size_mm) {
   const double count = voxels.x() * voxels.y() * voxels.z();
-  if (voxels.allFinite() && voxels.maxCoeff() <= most_voxels_a_side && count <= most_voxels) return;
+  if (voxels.allFinite() && voxels.maxCoeff() <= max_voxels_a_side && count <= max_voxels) return;
   refuse("voxels of " + text_of(size_mm) + " mm would make a grid of " + text_of(voxels) +
          " voxels, more than 2^40 or 2^20 along a side; use larger voxels");
 }
@@ -98,7 +98,7 @@ void check_grid(const RasterGrid& grid) {
 void check_reach(const RasterGrid& grid, const Aabb& box_mm) {
   const Vec3 low = ((box_mm.min - grid.origin_mm).array() / grid.size_mm.array()).matrix();
   const Vec3 high = ((box_mm.max - grid.origin_mm).array() / grid.size_mm.array()).matrix();
-  if (low.minCoeff() < -farthest_corner || high.maxCoeff() > farthest_corner)
+  if (low.minCoeff() < -max_corner_voxels || high.maxCoeff() > max_corner_voxels)
     refuse("the mesh reaches more than 2^24 voxels from the grid; use larger voxels or another grid");
 }
 

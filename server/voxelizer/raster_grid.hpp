@@ -6,11 +6,11 @@
 
 namespace ream::voxelizer {
 
-/// Voxels along one side, and altogether, beyond which a request is a mistake rather than a wish.
-inline constexpr int most_voxels_a_side = 1 << 20;
-inline constexpr double most_voxels = 1099511627776.0;  // 2^40
+/// Voxels along one side, and altogether, beyond which a request is refused as a mistake.
+inline constexpr int max_voxels_a_side = 1 << 20;
+inline constexpr double max_voxels = 1099511627776.0;  // 2^40
 /// How far a mesh may reach from a grid that was given, in voxels: beyond it doubles grow too coarse.
-inline constexpr double farthest_corner = 16777216.0;  // 2^24
+inline constexpr double max_corner_voxels = 16777216.0;  // 2^24
 
 /// Which voxels a triangle marks: 26-separating is the supercover (thesis eqs 3.1-3.5), 6-separating the thin
 /// form (eqs 3.6-3.8).
@@ -54,7 +54,7 @@ VoxelMap voxel_map(const RasterGrid& grid, double scale);
 Aabb used_bounds(const TriangleMesh& mesh, double scale);
 
 /// Grid around a box, grown by half a voxel on each side so that no surface lies on the border. Throws Error
-/// invalid_input for a size that is not positive or more than `most_voxels`.
+/// invalid_input for a size that is not positive or more than `max_voxels`.
 RasterGrid grid_around(const Aabb& box_mm, const Vec3& size_mm);
 
 /// Grid around a box whose voxels have a corner at `corner_mm`, wherever that is. Errors as grid_around.
@@ -64,7 +64,7 @@ RasterGrid grid_from(const Vec3& corner_mm, const Aabb& box_mm, const Vec3& size
 /// positive.
 void check_grid(const RasterGrid& grid);
 
-/// Throws Error invalid_input when the box reaches farther than `farthest_corner` voxels from the grid.
+/// Throws Error invalid_input when the box reaches farther than `max_corner_voxels` voxels from the grid.
 void check_reach(const RasterGrid& grid, const Aabb& box_mm);
 
 }  // namespace ream::voxelizer

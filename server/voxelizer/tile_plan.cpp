@@ -85,13 +85,13 @@ RowRange TilePlan::range(size_t tile) const {
   return {i * rows, std::min((i + 1) * rows, dims.y()), j * layers, std::min((j + 1) * layers, dims.z())};
 }
 
-TilePlan plan_tiles(const RasterGrid& grid, size_t tile_bytes, size_t least_tiles, bool whole_layers) {
+TilePlan plan_tiles(const RasterGrid& grid, size_t tile_bytes, size_t min_tiles, bool whole_layers) {
   TilePlan plan;
   plan.dims = grid.dims;
   const double row_bytes = 4.0 * static_cast<double>(grid.words_per_row());
   const double rows = static_cast<double>(tile_bytes) / row_bytes;
   plan.rows = whole_layers ? grid.dims.y() : whole_steps(rows / side_step, grid.dims.y());
-  const double share = std::round(grid.dims.z() / static_cast<double>(side_step * least_tiles)) * side_step;
+  const double share = std::round(grid.dims.z() / static_cast<double>(side_step * min_tiles)) * side_step;
   const double layers = std::min(rows / plan.rows, std::max<double>(share, side_step));
   plan.layers = whole_layers && layers < side_step ? std::max(1, static_cast<int>(layers))
                                                    : whole_steps(layers, grid.dims.z());
@@ -100,16 +100,16 @@ TilePlan plan_tiles(const RasterGrid& grid, size_t tile_bytes, size_t least_tile
   return plan;
 }
 
-TileBins::TileBins(const TriangleMesh& mesh, const VoxelMap& map, const TilePlan& plan, Crew& crew,
-                   size_t most_bytes)
+TileBins::TileBins(const TriangleMesh& mesh, const VoxelMap& map, const TilePlan& plan, ThreadPool& pool,
+                   size_t max_bytes)
     : triangles_(mesh.triangles.size()) {
-  const auto workers = static_cast<size_t>(crew.threads());
-  if (plan.count() == 1 || TriangleLists::least_bytes(plan.count(), workers) > most_bytes) return;
-  TriangleLists::Budget budget(most_bytes);
+  const auto workers = static_cast<size_t>(pool.threads());
+  if (plan.count() == 1 || TriangleLists::min_bytes(plan.count(), workers) > max_bytes) return;
+  TriangleLists::Budget budget(max_bytes);
   for (size_t worker = 0; worker < workers; ++worker) lists_.emplace_back(plan.count(), budget);
   std::atomic<bool> fits = true;
   const size_t pieces = (triangles_ + triangles_a_piece - 1) / triangles_a_piece;
-  crew.run(pieces, [&](size_t piece, int worker) {
+  pool.run(pieces, [&](size_t piece, int worker) {
     const size_t begin = piece * triangles_a_piece;
     if (fits && !list_triangles(mesh, map, plan, begin, std::min(begin + triangles_a_piece, triangles_),
                                 lists_[static_cast<size_t>(worker)]))

@@ -1,22 +1,50 @@
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
-#include "voxelizer/brick_store.hpp"
 #include "voxelizer/raster_grid.hpp"
 #include "voxelizer/tile_plan.hpp"
 
 namespace ream::voxelizer {
 
+/// The marked voxels of one tile as bricks of 8 x 8 x 8: 64 bytes for one that is partly marked, a run along
+/// u for full ones, nothing for empty ones.
+class BrickStore {
+ public:
+  void take(const TileRows& rows);
+  size_t bytes() const;
+  /// Bits of a row, counted from the tile's first; `words` covers all u. False when none is set.
+  bool read_row(int v, int w, std::span<uint32_t> words) const;
+
+ private:
+  /// Bricks from number `first` along u: `full` of them full, or, where that is 0, one whose bits are kept.
+  struct Run {
+    uint32_t first, full;
+  };
+  /// The bricks of eight rows in eight layers.
+  struct Line {
+    uint32_t first_run, runs;
+    size_t first_bits;  ///< of the partly marked ones, in bricks
+  };
+  void take_line(const TileRows& rows, int v, int w);
+
+  int lines_v_ = 0;
+  std::vector<Line> lines_;  ///< none where the tile is empty
+  std::vector<Run> runs_;
+  std::vector<uint8_t> bits_;  ///< 64 a brick: [w][v], lowest bit the lowest u
+};
+
 /// Bits of a grid beyond which a set is kept as sparse bricks.
-inline constexpr size_t usual_dense_bytes = size_t{1} << 30;
+inline constexpr size_t default_dense_bytes = size_t{1} << 30;
 
 /// Which voxels of a grid are marked: one bit each, row after row, or, where that would take more than a
 /// limit, the bricks (8^3) that hold any.
 class VoxelSet {
  public:
   /// Empty, not yet marked. Memory for bits is taken here, but touched only when they are set.
-  explicit VoxelSet(const RasterGrid& grid, size_t most_dense_bytes = usual_dense_bytes);
+  explicit VoxelSet(const RasterGrid& grid, size_t max_dense_bytes = default_dense_bytes);
 
   const RasterGrid& grid() const { return grid_; }
   bool sparse() const { return words_ == nullptr; }
@@ -51,7 +79,7 @@ class VoxelSet {
 
 /// Marked voxels in some rows.
 uint64_t count_marked(const TileRows& rows);
-uint64_t count_marked(const TileRows& rows, Crew& crew);
+uint64_t count_marked(const TileRows& rows, ThreadPool& pool);
 /// Sets all of the rows' bits to 0.
 void clear(const TileRows& rows);
 

@@ -1,21 +1,65 @@
 #include "voxelizer/voxelizer_cl.hpp"
 
 #include <algorithm>
+#include <array>
 #include <span>
+#include <vector>
 
 #include "core/error.hpp"
+#include "core/thread_pool.hpp"
+#include "core/vector_clones.hpp"
 #include "kernels/layout.h"
-#include "voxelizer/triangle_tasks.hpp"
+#include "voxelizer/prepared_triangle.hpp"
+#include "voxelizer/raster_grid.hpp"
 
 namespace ream::voxelizer {
 namespace {
+
+/// A triangle's number and which part of its box, counted strip by strip, then block of layers by block.
+using TriangleTask = std::array<uint32_t, 2>;
+
+/// Work-items of about equal work for triangles first to end - 1 within some rows of a grid: large triangles
+/// make many. Replaces `tasks`.
+void list_tasks(const TriangleMesh& mesh, const VoxelMap& map, int dims_x, const RowRange& rows, size_t first,
+                size_t end, ThreadPool& pool, std::vector<TriangleTask>& tasks);
+
+constexpr size_t triangles_a_piece = 4096;
+
+/// Parts of the boxes of some triangles, in `parts`.
+REAM_VECTOR_CLONES __attribute__((flatten)) void count_parts(const TriangleMesh& mesh, const VoxelMap& map,
+                                                             int dims_x, const RowRange& rows, size_t first,
+                                                             size_t end, uint32_t* parts) {
+  for (size_t triangle = first; triangle < end; ++triangle) {
+    PlacedTriangle t;
+    uint32_t count = 0;
+    if (t.place(mesh, triangle, map, dims_x, rows))
+      count = static_cast<uint32_t>((t.high[1] - t.low[1]) / REAM_VOXELIZER_TASK_ROWS + 1) *
+              static_cast<uint32_t>((t.high[2] - t.low[2]) / REAM_VOXELIZER_TASK_LAYERS + 1);
+    *parts++ = count;
+  }
+}
+
+void list_tasks(const TriangleMesh& mesh, const VoxelMap& map, int dims_x, const RowRange& rows, size_t first,
+                size_t end, ThreadPool& pool, std::vector<TriangleTask>& tasks) {
+  std::vector<uint32_t> parts(end - first);
+  const size_t pieces = (end - first + triangles_a_piece - 1) / triangles_a_piece;
+  pool.run(pieces, [&](size_t piece, int) {
+    const size_t begin = first + piece * triangles_a_piece;
+    count_parts(mesh, map, dims_x, rows, begin, std::min(begin + triangles_a_piece, end),
+                parts.data() + (begin - first));
+  });
+  tasks.clear();
+  for (size_t i = 0; i < parts.size(); ++i)
+    for (uint32_t part = 0; part < parts[i]; ++part)
+      tasks.push_back({static_cast<uint32_t>(first + i), part});
+}
 
 constexpr size_t local_size = 16;
 /// Triangles whose tasks are listed at once.
 constexpr size_t triangles_a_batch = size_t{1} << 18;
 /// Bits that are worked on at once where a set keeps bricks.
 constexpr size_t sparse_band_bytes = size_t{16} << 20;
-constexpr size_t most_band_bytes = size_t{1} << 31;
+constexpr size_t max_band_bytes = size_t{1} << 31;
 
 std::span<const float> floats_of(const TriangleMesh& mesh) {
   static_assert(sizeof(Vec3f) == 3 * sizeof(float));
@@ -83,7 +127,7 @@ void VoxelizerCl::voxelize(const TriangleMesh& mesh, const Request& request, Vox
   const RasterGrid& grid = set.grid();
   const VoxelMap map = voxel_map(grid, request.scale);
   const Meshed meshed(queue_, mesh, map);
-  const size_t band_bytes = set.sparse() ? sparse_band_bytes : most_band_bytes;
+  const size_t band_bytes = set.sparse() ? sparse_band_bytes : max_band_bytes;
   const TilePlan plan =
       plan_tiles(grid, std::min(band_bytes, queue_.device().max_buffer_bytes / 2), 1, !set.sparse());
   if (set.sparse()) set.begin_bricks(plan);
@@ -93,7 +137,7 @@ void VoxelizerCl::voxelize(const TriangleMesh& mesh, const Request& request, Vox
     progress(static_cast<double>(tile) / static_cast<double>(plan.count()), "marking voxels");
     const TileRows rows = set.rows_of(plan.range(tile), memory);
     mark_band(meshed, grid, request, rows);
-    filled += count_marked(rows, crew_);
+    filled += count_marked(rows, pool_);
     if (set.sparse()) set.set_bricks(tile, rows);
   }
   set.set_filled(filled);
@@ -126,7 +170,7 @@ void VoxelizerCl::run_tasks(gpu::Kernel& kernel, const Meshed& meshed, const Ras
   const size_t triangles = meshed.mesh.triangles.size();
   for (size_t first = 0; first < triangles; first += triangles_a_batch) {
     list_tasks(meshed.mesh, meshed.map, grid.dims.x(), range, first,
-               std::min(first + triangles_a_batch, triangles), crew_, tasks);
+               std::min(first + triangles_a_batch, triangles), pool_, tasks);
     if (tasks.empty()) continue;
     const gpu::Buffer listed = gpu::Buffer::over(queue_, std::span<const TriangleTask>(tasks));
     arguments.tasks = static_cast<uint32_t>(tasks.size());

@@ -24,7 +24,7 @@ class VoxelizerCl {
   const gpu::Queue& queue_;
   gpu::Program program_;
   gpu::Kernel mark_, flip_, fill_;
-  Crew crew_;
+  ThreadPool pool_;
 };
 
 }  // namespace ream::voxelizer

@@ -8,10 +8,9 @@
 #include "case/case.hpp"
 #include "core/clock.hpp"
 #include "core/file.hpp"
-#include "ct/phantom_case.hpp"
-#include "ct/shoulder_bones.hpp"
-#include "ct/workup.hpp"
-#include "ct/workup_bone.hpp"
+#include "ct/build/ct_workspace.hpp"
+#include "ct/phantom/phantom_case.hpp"
+#include "ct/segment/shoulder_bones.hpp"
 #include "support/temporary_folder.hpp"
 #include "voxel/upsample.hpp"
 

@@ -1,5 +1,5 @@
 #include "bench/collide_parts.hpp"
-#include "ct/phantom_case.hpp"
+#include "ct/phantom/phantom_case.hpp"
 
 namespace ream::bench {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "collide/removal_schedule.hpp"
+#include "collide/removal/removal_schedule.hpp"
 #include "shell/swept_profile.hpp"
 #include "voxel/bricks.hpp"
 

@@ -1,6 +1,6 @@
 #include "bench/our_contact.hpp"
 
-#include "collide/narrow_phase_cl.hpp"
+#include "collide/contact/narrow_phase_cl.hpp"
 #include "core/error.hpp"
 #include "core/huge_pages.hpp"
 

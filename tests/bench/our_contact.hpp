@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "bench/measure.hpp"
-#include "collide/narrow_phase.hpp"
+#include "collide/contact/narrow_phase.hpp"
 #include "gpu/device.hpp"
 
 namespace ream::bench {

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/data_folder.hpp"
-#include "ct/phantom_case.hpp"
+#include "ct/phantom/phantom_case.hpp"
 #include "shell/tool.hpp"
 
 namespace ream::bench {

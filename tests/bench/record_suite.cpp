@@ -6,7 +6,7 @@
 #include "bench/seated_reaming.hpp"
 #include "bench/seek_rows.hpp"
 #include "core/clock.hpp"
-#include "ct/phantom_case.hpp"
+#include "ct/phantom/phantom_case.hpp"
 #include "record/recorder.hpp"
 #include "sim/haptic_loop.hpp"
 

@@ -107,15 +107,15 @@ class Worker {
 
 RequestFigures ask_all(const Order& order) {
   const auto start = SteadyClock::now();
-  std::vector<Worker> crew;
-  for (int i = 0; i < workers; ++i) crew.emplace_back(order, i, start);
+  std::vector<Worker> drivers;
+  for (int i = 0; i < workers; ++i) drivers.emplace_back(order, i, start);
   std::vector<std::thread> threads;
-  for (Worker& worker : crew) threads.emplace_back([&worker] { worker.work(); });
+  for (Worker& worker : drivers) threads.emplace_back([&worker] { worker.work(); });
   for (std::thread& thread : threads) thread.join();
   RequestFigures figures;
   figures.duration_s = elapsed_us(start) * 1e-6;
   std::vector<double> times_ms;
-  for (const Worker& worker : crew) {
+  for (const Worker& worker : drivers) {
     times_ms.insert(times_ms.end(), worker.times_ms.begin(), worker.times_ms.end());
     figures.failed += worker.failed;
   }

@@ -75,8 +75,8 @@ class LiveScoring {
     const bool measured = live_.update(ticks_, {grid_, left_.data()}, now_ns);
     const double after = thread_cpu_s();
     if (now_ns >= json_due_ns_) {
-      json_due_ns_ = now_ns + score::LiveScore::told_every_ns;
-      json_ = score::session_metrics_json(ticks_, live_.findings(), force_scale_, nullptr);
+      json_due_ns_ = now_ns + score::LiveScore::publish_period_ns;
+      json_ = score::session_metrics_json(ticks_, live_.results(), force_scale_, nullptr);
     }
     cpu_s_ += thread_cpu_s() - begun;
     waiting_.clear();

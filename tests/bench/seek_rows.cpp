@@ -11,7 +11,7 @@
 #include "core/clock.hpp"
 #include "record/recorder.hpp"
 #include "sim/step.hpp"
-#include "stream/fanout_local.hpp"
+#include "stream/fanout.hpp"
 
 namespace ream::bench {
 namespace {
@@ -124,7 +124,7 @@ void add_seek_rows(const case_::Case& bone_case, const std::filesystem::path& fo
   }
   add_rows("the bone alone", bone_ms, rows);
 
-  stream::LocalFanout fanout;
+  stream::Fanout fanout;
   const app::MetricsTimeline timeline(
       recording, before.bone.grid.world_from_grid,
       {before.bone.grid.voxel_volume_mm3(), sim::world_from_plan(*before.plan).inverse()});

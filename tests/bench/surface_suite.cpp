@@ -7,12 +7,12 @@
 #include "bench/flying_edges.hpp"
 #include "bench/seated_reaming.hpp"
 #include "core/clock.hpp"
-#include "ct/phantom_case.hpp"
+#include "ct/phantom/phantom_case.hpp"
 #include "sim/step.hpp"
 #include "stream/mesh_publisher.hpp"
 #include "stream/messages.hpp"
 #include "surface/whole_surface.hpp"
-#include "voxel/brick_order.hpp"
+#include "voxel/bricks.hpp"
 
 namespace ream::bench {
 namespace {
@@ -25,21 +25,6 @@ constexpr double thesis_update_us = 21700.0;  ///< its graphic frame, section 5.
 constexpr uint8_t cortical_code = 168;
 constexpr double goal_speed_over_vtk = 1.3;
 constexpr int threads = 2, whole_runs = 9;
-
-/// Collects what viewers would be sent.
-class Collector final : public stream::Fanout {
- public:
-  void publish_hello(stream::Message) override {}
-  void publish_tool(stream::Message, stream::Message) override {}
-  void publish_block(stream::SharedBlock block) override { blocks.push_back(std::move(block)); }
-  void publish_picture_complete(int) override {}
-  void publish_telemetry(stream::SharedTelemetry) override {}
-  size_t viewers() const override { return 1; }
-  bool wants(int) const override { return false; }
-  std::shared_ptr<stream::Mailbox> subscribe(std::function<void()>, int) override { return nullptr; }
-
-  std::vector<stream::SharedBlock> blocks;
-};
 
 /// Of the calling thread: what one core has to give, also while other programs take their share.
 double processor_us() {
@@ -77,10 +62,11 @@ Seated measure_seated(case_::Case bone_case) {
   voxel::BrickRing ring(8192);
   voxel::BrickSender sender(bone_case.bone.grid, ring);
   state.brick_sender = &sender;
-  Collector fanout;
-  stream::MeshPublisher publisher(bone_case.bone, ring, fanout);
+  stream::Fanout fanout;
+  const auto viewer = fanout.subscribe({}, 1);
+  stream::MeshPublisher publisher(bone_case.bone, fanout);
   publisher.publish_all();
-  fanout.blocks.clear();
+  viewer->take();
 
   const auto device = device::make_scripted_device(script, model.world_from_plan);
   device->open();
@@ -95,18 +81,19 @@ Seated measure_seated(case_::Case bone_case) {
     if (state.tick % update_ticks != 0) continue;
     const auto start = SteadyClock::now();
     const double start_us = processor_us();
+    for (voxel::BrickImage image; ring.try_pop(image);) publisher.take(image, state.tick * tick_ns);
     publisher.poll(state.tick * tick_ns);
     const double us = processor_us() - start_us, wall_us = elapsed_us(start);
+    const std::vector<stream::SharedBlock> sent = viewer->take().blocks;
     if (state.tick > seated_from_tick) {
       seated.update_us.push_back(us);
       seated.wall_us.push_back(wall_us);
-      pictures += fanout.blocks.empty() ? 0.0 : 1.0;
-      if (!fanout.blocks.empty()) bytes += static_cast<double>(mesh_message(fanout.blocks, false)->size());
-      blocks += static_cast<double>(fanout.blocks.size());
+      pictures += sent.empty() ? 0.0 : 1.0;
+      if (!sent.empty()) bytes += static_cast<double>(mesh_message(sent, false)->size());
+      blocks += static_cast<double>(sent.size());
       seconds += update_ticks * tick_s;
       feeds.push_back(report.feed_rate_mm_s);
     }
-    fanout.blocks.clear();
   }
   device->close();
   seated.bytes_per_s = bytes / seconds;

@@ -56,8 +56,8 @@ void add_lines(const ResolutionStudy& study, size_t v, const double* thesis_ms,
   };
   table.lines.push_back(line(name + "thesis, GTX 970", [&](size_t s) { return thesis_ms[s]; }));
   for (const auto& [label, method] : here)
-    table.lines.push_back(
-        line(name + label, [&](size_t s) { return milliseconds(study.time_us(v, s, method)); }));
+    table.lines.push_back(line(
+        name + label, [&, timed = method](size_t s) { return milliseconds(study.time_us(v, s, timed)); }));
   table.lines.push_back(line(name + "ours, cpu",
                              [&](size_t s) { return milliseconds(study.time_us(v, s, Method::ours_cpu)); }));
   table.lines.push_back(line(name + "ours, OpenCL", [&](size_t s) {

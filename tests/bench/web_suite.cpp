@@ -9,7 +9,7 @@
 #include "bench/machine_rows.hpp"
 #include "bench/pecking.hpp"
 #include "core/error.hpp"
-#include "ct/phantom_case.hpp"
+#include "ct/phantom/phantom_case.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ream::bench {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "ct/import.hpp"
+#include "ct/build/import.hpp"
 #include "device/script.hpp"
 #include "sim/step.hpp"
 #include "support/shared_data.hpp"

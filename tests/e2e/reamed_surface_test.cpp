@@ -4,6 +4,9 @@
 #include <iostream>
 
 #include "core/units.hpp"
+
+#include <Eigen/Geometry>
+
 #include "render/snapshot.hpp"
 #include "support/places.hpp"
 #include "support/small_run.hpp"

@@ -2,7 +2,7 @@
 
 #include <iostream>
 
-#include "ct/phantom_case.hpp"
+#include "ct/phantom/phantom_case.hpp"
 #include "support/small_run.hpp"
 #include "support/swept_voxels.hpp"
 

@@ -10,7 +10,7 @@
 #include "fuzz_input.hpp"
 #include "net/connections.hpp"
 #include "net/engine.hpp"
-#include "stream/fanout_local.hpp"
+#include "stream/fanout.hpp"
 
 namespace ream::fuzz {
 namespace {
@@ -30,7 +30,7 @@ net::Request handshake() {
 }
 
 std::unique_ptr<net::WebSocketSession> session_of(uint8_t kind) {
-  if (kind % 2 == 0) return api::viewer_stream(std::make_shared<stream::LocalFanout>(), 1);
+  if (kind % 2 == 0) return api::viewer_stream(std::make_shared<stream::Fanout>(), 1);
   const auto port =
       std::make_shared<device::DevicePort>(std::make_shared<device::RemoteLink>(), device::RemoteKind::handle,
                                            device::DeviceWelcome{"fuzz", "network", 12.0, {}});

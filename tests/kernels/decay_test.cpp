@@ -1,4 +1,4 @@
-#include "collide/decay_cl.hpp"
+#include "collide/removal/removal_cl.hpp"
 
 #include "fresh_bones.hpp"
 
@@ -40,7 +40,7 @@ struct Expected {
 };
 
 void expect_the_same(const Expected& expected, unsigned seed, const gpu::Device& device,
-                     std::optional<size_t> largest_buffer_bytes = {}, int parts = 1) {
+                     std::optional<size_t> max_buffer_bytes = {}, int parts = 1) {
   const auto check = [&](test::ReamingScene& scene, const std::shared_ptr<BoneBuffers>& buffers,
                          LaunchShape shape) {
     const auto cl = make_decay_cl({expected.shell, scene.bone}, buffers, shape);
@@ -48,7 +48,7 @@ void expect_the_same(const Expected& expected, unsigned seed, const gpu::Device&
       ASSERT_EQ(apply(*cl, expected.poses[i]), expected.answers[i]) << "pose " << i;
     ASSERT_EQ(scene.bone.coverage, expected.scene.bone.coverage);
   };
-  test::with_every_shape(seed, expected.scene.bone.grid.dims, device, largest_buffer_bytes, parts, check);
+  test::with_every_shape(seed, expected.scene.bone.grid.dims, device, max_buffer_bytes, parts, check);
 }
 
 TEST(DecayCl, TakesWhatTheCppTwinTakesAtAThousandRandomPoses) {

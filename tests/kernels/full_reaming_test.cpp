@@ -1,6 +1,5 @@
-#include "collide/decay_cl.hpp"
-#include "collide/narrow_phase_cl.hpp"
-#include "collide/removal_cl.hpp"
+#include "collide/contact/narrow_phase_cl.hpp"
+#include "collide/removal/removal_cl.hpp"
 #include "every_device.hpp"
 #include "support/small_run.hpp"
 

@@ -1,4 +1,4 @@
-#include "collide/narrow_phase_cl.hpp"
+#include "collide/contact/narrow_phase_cl.hpp"
 #include "every_device.hpp"
 #include "reaming_scene.hpp"
 
@@ -52,12 +52,12 @@ TEST(NarrowPhaseCl, SumsEqualTheCppTwinAtAThousandRandomPoses) {
 
 TEST(NarrowPhaseCl, SumsAreTheSameWhereTheBoneIsInParts) {
   std::cout << "seed 33\n";
-  for (const auto& [dims, largest_buffer_bytes, parts] : test::small_parts) {
+  for (const auto& [dims, max_buffer_bytes, parts] : test::small_parts) {
     SCOPED_TRACE(std::to_string(parts) + " parts");
     test::ReamingScene scene(33, dims);
     const Expected expected(scene, 33, 200);
     EXPECT_GT(expected.engaged, 50000);
-    test::on_every_device([&, limit = largest_buffer_bytes, count = parts](const gpu::Device& device) {
+    test::on_every_device([&, limit = max_buffer_bytes, count = parts](const gpu::Device& device) {
       const auto buffers = std::make_shared<BoneBuffers>(device, scene.bone, limit);
       ASSERT_EQ(buffers->parts.count, count);
       expect_the_same(scene, expected, buffers);

@@ -1,12 +1,11 @@
 #pragma once
-#include <Eigen/Geometry>
 #include <optional>
 #include <random>
 
-#include "collide/contact_shell.hpp"
-#include "collide/narrow_phase.hpp"
-#include "collide/removal.hpp"
-#include "collide/removal_schedule.hpp"
+#include "collide/contact/contact_shell.hpp"
+#include "collide/contact/narrow_phase.hpp"
+#include "collide/removal/removal.hpp"
+#include "collide/removal/removal_schedule.hpp"
 #include "shell/swept_profile.hpp"
 
 namespace ream::test {
@@ -64,7 +63,7 @@ struct ReamingScene {
 /// Grids of scenes and buffer limits, bytes, that cut them into `parts`; the tool meets bone in all of them.
 struct SmallParts {
   Vec3i dims;
-  size_t largest_buffer_bytes;
+  size_t max_buffer_bytes;
   int parts;
 };
 inline const SmallParts small_parts[] = {

@@ -1,8 +1,8 @@
-#include "collide/removal_cl.hpp"
+#include "collide/removal/removal_cl.hpp"
 
 #include <algorithm>
 
-#include "collide/narrow_phase_cl.hpp"
+#include "collide/contact/narrow_phase_cl.hpp"
 #include "fresh_bones.hpp"
 #include "support/cut_bricks.hpp"
 
@@ -54,7 +54,7 @@ struct Expected {
 };
 
 void expect_the_same(const Expected& expected, unsigned seed, const gpu::Device& device,
-                     std::optional<size_t> largest_buffer_bytes = {}, int parts = 1) {
+                     std::optional<size_t> max_buffer_bytes = {}, int parts = 1) {
   const auto check = [&](test::ReamingScene& scene, const std::shared_ptr<BoneBuffers>& buffers,
                          LaunchShape shape) {
     const auto cl = make_removal_cl({scene.profile, scene.bone}, buffers, shape);
@@ -66,7 +66,7 @@ void expect_the_same(const Expected& expected, unsigned seed, const gpu::Device&
     }
     ASSERT_EQ(scene.bone.coverage, expected.scene.bone.coverage);
   };
-  test::with_every_shape(seed, expected.scene.bone.grid.dims, device, largest_buffer_bytes, parts, check);
+  test::with_every_shape(seed, expected.scene.bone.grid.dims, device, max_buffer_bytes, parts, check);
 }
 
 TEST(RemovalCl, CutsWhatTheCppTwinCutsAtAThousandRandomPoses) {

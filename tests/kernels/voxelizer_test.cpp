@@ -27,17 +27,17 @@ std::vector<Request> requests(bool with_solid) {
 }
 
 void expect_equal_sets(const TriangleMesh& mesh, const RasterGrid& grid, bool with_solid,
-                       size_t most_dense_bytes = usual_dense_bytes) {
+                       size_t max_dense_bytes = default_dense_bytes) {
   std::vector<VoxelSet> expected;
   for (const Request& request : requests(with_solid))
-    Voxelizer(2).voxelize(mesh, request, expected.emplace_back(grid, most_dense_bytes));
+    Voxelizer(2).voxelize(mesh, request, expected.emplace_back(grid, max_dense_bytes));
   ASSERT_GT(expected.front().filled(), 0u);
   test::on_every_device([&](const gpu::Device& device) {
     if (!device.knows_doubles) return;
     const gpu::Queue queue(device);
     VoxelizerCl voxelizer(queue);
     for (size_t i = 0; i < expected.size(); ++i) {
-      VoxelSet set(grid, most_dense_bytes);
+      VoxelSet set(grid, max_dense_bytes);
       voxelizer.voxelize(mesh, requests(with_solid)[i], set);
       EXPECT_EQ(set.filled(), expected[i].filled()) << "request " << i;
       EXPECT_EQ(rows_of(set), rows_of(expected[i])) << "request " << i;

@@ -15,6 +15,7 @@
 #include "force/coefficients.hpp"
 #include "sim/haptic_loop.hpp"
 #include "support/small_run.hpp"
+#include "support/wait_until.hpp"
 #include "support/watched_machine.hpp"
 
 namespace ream::test {
@@ -151,9 +152,9 @@ TEST(AdmittanceLoop, SigtermStopsThenDisablesThenCloses) {
       sim::HapticLoop loop(machine.run.model, machine.run.state, *machine.run.device, reports,
                            {true, sim::Realtime::off});
       loop.start();
-      std::this_thread::sleep_for(std::chrono::milliseconds(500));
+      wait_until("it to press", [&] { return reports.size() > 500; });
       static_cast<void>(::write(pipe_ends[1], "!", 1));
-      while (!app::interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      wait_until("the signal", [] { return app::interrupted(); });
       loop.stop();
       std::string calls;
       for (const std::string& call : machine.seen->calls) calls += call + " ";
@@ -174,6 +175,14 @@ TEST(AdmittanceLoop, SigtermStopsThenDisablesThenCloses) {
   }
 }
 
+/// The time by which a loop is watched: it goes on as the machine says, not as busy as this computer is.
+std::atomic<int64_t> machine_ns{1};
+std::atomic<int> asked{0};
+int64_t machine_clock() {
+  ++asked;
+  return machine_ns;
+}
+
 /// A real machine, whose motors take a while to go off.
 class SlowToLetGo final : public device::AdmittanceMachine {
  public:
@@ -185,12 +194,17 @@ class SlowToLetGo final : public device::AdmittanceMachine {
   const device::MachineLimits& limits() const noexcept override { return machine_->limits(); }
   void open() override { machine_->open(); }
   void enable() override { machine_->enable(); }
-  device::DeviceStatus sense(device::MachineSense& sense) noexcept override { return machine_->sense(sense); }
+  device::DeviceStatus sense(device::MachineSense& sense) noexcept override {
+    machine_ns += tick_ns;
+    return machine_->sense(sense);
+  }
   bool move_to(const Pose& at) noexcept override { return machine_->move_to(at); }
   void session_paused(bool paused) noexcept override { machine_->session_paused(paused); }
   void stop() noexcept override { machine_->stop(); }
   void disable() noexcept override {
-    std::this_thread::sleep_for(2 * sim::LoopGuard::held_limit);
+    machine_ns += 2 * std::chrono::nanoseconds(sim::LoopGuard::held_limit).count();
+    // Until it has been looked at twice the guard has judged the new time.
+    wait_until("the guard", [before = asked.load()] { return asked >= before + 2; });
     machine_->disable();
   }
   void close() noexcept override { machine_->close(); }
@@ -204,30 +218,22 @@ TEST(AdmittanceLoop, AMachineThatIsClosedInOrderIsNotTakenForALoopThatStandsStil
   for (const PlantKind& kind : plants()) {
     SCOPED_TRACE(kind.profile);
     const device::Script script = press_52_n(kind.profile, 1.0, 600.0);
-    sim::LoopEnd end = sim::LoopEnd::stood_still;
-    int64_t still_ms = 1, stops = 0;
-    // A machine with too much to do keeps the loop itself from its ticks, so it may be tried again.
-    for (int attempt = 0; attempt < 20 && still_ms > 0; ++attempt) {
-      Machine machine(kind, script);
-      machine.run.device = std::make_unique<device::AdmittanceDevice>(
-          std::make_unique<SlowToLetGo>(std::make_unique<WatchedMachine>(
-              device::make_admittance_plant(kind.plant, device::device_profile(kind.profile), script, 1),
-              machine.seen)),
-          machine.run.model.world_from_plan);
-      SpscRing<record::TickReport> reports(1 << 14);
-      sim::HapticLoop loop(machine.run.model, machine.run.state, *machine.run.device, reports,
-                           {true, sim::Realtime::off});
-      loop.start();
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-      loop.request_stop();
-      while (!loop.ended()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      end = loop.health().end;
-      still_ms = loop.stood_still_ms();
-      stops = machine.seen->stops;
-    }
-    EXPECT_EQ(still_ms, 0);
-    EXPECT_EQ(end, sim::LoopEnd::stopped);
-    EXPECT_EQ(stops, 1) << "its own, once it is at rest";
+    Machine machine(kind, script);
+    machine.run.device = std::make_unique<device::AdmittanceDevice>(
+        std::make_unique<SlowToLetGo>(std::make_unique<WatchedMachine>(
+            device::make_admittance_plant(kind.plant, device::device_profile(kind.profile), script, 1),
+            machine.seen)),
+        machine.run.model.world_from_plan);
+    SpscRing<record::TickReport> reports(1 << 14);
+    sim::HapticLoop loop(machine.run.model, machine.run.state, *machine.run.device, reports,
+                         {true, sim::Realtime::off, -1, machine_clock});
+    loop.start();
+    wait_until("a hundred ticks", [&] { return reports.size() >= 100; });
+    loop.request_stop();
+    wait_until("the end", [&] { return loop.ended(); });
+    EXPECT_EQ(loop.stood_still_ms(), 0);
+    EXPECT_EQ(loop.health().end, sim::LoopEnd::stopped);
+    EXPECT_EQ(machine.seen->stops, 1) << "its own, once it is at rest";
   }
 }
 

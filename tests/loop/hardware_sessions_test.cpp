@@ -1,7 +1,8 @@
 // Every driver of real hardware in whole sessions, against a fake that speaks as the hardware does: the
 // thesis' 52 N protocol through a closed loop of a millisecond, and every fault with the time in which the
-// force at the fake is gone. A machine with too much to do adds faults of its own, so what it spoils is done
-// again. The table for people is in server/device/GUIDE.md.
+// force at the fake is gone. Both are claims about real time: poses count as lost after some milliseconds,
+// and a machine with too much to do adds such faults of its own. What it spoils is measured again, six times
+// at most; then the test fails. The table for people is in server/device/GUIDE.md.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +11,7 @@
 #include "core/hash.hpp"
 #include "loop/hardware_bench.hpp"
 #include "record/recording.hpp"
-#include "record/tick_flags.hpp"
+#include "record/tick_report.hpp"
 #include "support/live_server.hpp"
 
 namespace ream::test {
@@ -118,7 +119,7 @@ TEST_P(ClosedLoop, FeedsByTheProtocolAndNeverBeyondItsLimits) {
                 << "; largest force " << bench->hardware().largest_force_n() << " N\n";
       return;
     }
-  GTEST_SKIP() << "this machine spoilt " << attempts << " sessions";
+  FAIL() << "in each of " << attempts << " sessions the device was lost, or the session ended";
 }
 INSTANTIATE_TEST_SUITE_P(Hardware, ClosedLoop, testing::ValuesIn(bench_devices()),
                          [](const auto& about) { return about.param; });
@@ -172,8 +173,8 @@ TEST_P(HardwareFaults, LeaveNoForceInTheirStatedTimeAndTheSessionGoesOn) {
               << stated_ms << " ms\n";
     return;
   }
-  if (std::isinf(least_ms)) GTEST_SKIP() << "this machine spoilt " << attempts << " sessions";
-  FAIL() << "at best no force after " << least_ms << " ms, stated " << stated_ms << " ms";
+  FAIL() << "in " << attempts << " sessions at best no force after " << least_ms << " ms, stated "
+         << stated_ms << " ms";
 }
 INSTANTIATE_TEST_SUITE_P(Hardware, HardwareFaults,
                          testing::Combine(testing::ValuesIn(bench_devices()),

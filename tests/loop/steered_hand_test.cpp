@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "device/profiles.hpp"
-#include "sim/device_settings.hpp"
+#include "sim/settings.hpp"
 #include "support/small_run.hpp"
 
 namespace ream::test {

@@ -3,7 +3,7 @@
 #include <iostream>
 #include <thread>
 
-#include "collide/guarded_removal.hpp"
+#include "collide/removal/removal_cl.hpp"
 #include "loop/trapping_device.hpp"
 #include "sim/haptic_loop.hpp"
 #include "support/small_run.hpp"

@@ -29,6 +29,10 @@ class TrappingDevice final : public device::HapticDevice {
     largest_force_n = std::max(largest_force_n, output.force_n.norm());
     return inner_.write(output);
   }
+  void session_paused(bool paused) noexcept override { inner_.session_paused(paused); }
+  void take_force_away() noexcept override { inner_.take_force_away(); }
+  double closing_ms() const noexcept override { return inner_.closing_ms(); }
+  void use_priority(int fifo) noexcept override { inner_.use_priority(fifo); }
 
   std::function<void(device::DeviceInput&)> during_read;
   int tick = 0;

@@ -13,7 +13,7 @@
 
 #include "core/clock.hpp"
 #include "core/log.hpp"
-#include "sim/tick_clock.hpp"
+#include "sim/realtime.hpp"
 
 namespace ream::test {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "collide/removal.hpp"
+#include "collide/removal/removal.hpp"
 
 namespace ream::test {
 
@@ -17,8 +17,8 @@ inline CutAnswer cut_bricks(collide::Removal& removal, const QuantisedPose& pose
                             std::span<const uint32_t> bricks) {
   CutAnswer answer;
   answer.outcomes.resize(bricks.size());
-  for (size_t done = 0; done < bricks.size(); done += collide::most_bricks_a_cut) {
-    const size_t count = std::min(collide::most_bricks_a_cut, bricks.size() - done);
+  for (size_t done = 0; done < bricks.size(); done += collide::max_bricks_per_cut) {
+    const size_t count = std::min(collide::max_bricks_per_cut, bricks.size() - done);
     collide::RemovalSums sums;
     EXPECT_TRUE(removal.cut(pose, bricks.subspan(done, count),
                             std::span(answer.outcomes).subspan(done, count), sums));

@@ -1,5 +1,5 @@
 #include "support/raw_http.hpp"
-#include "core/lower.hpp"
+#include "core/text.hpp"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>

@@ -4,7 +4,7 @@
 #include "core/units.hpp"
 #include "device/profiles.hpp"
 #include "device/script.hpp"
-#include "sim/device_settings.hpp"
+#include "sim/settings.hpp"
 #include "sim/step.hpp"
 #include "support/test_bone.hpp"
 

@@ -6,20 +6,20 @@
 
 namespace ream::test {
 
-/// A metrics.json that says three metrics, all of them worse the larger `size` is, and why it does not say
-/// the others.
+/// A metrics.json that has three metrics, all of them worse the larger `size` is, and why it lacks the
+/// others.
 inline nlohmann::json some_metrics(double size) {
   nlohmann::json metrics = {{"force_scale", 26.0},
                             {"grid_hash", "00112233445566ff"},
                             {"session_hash", "0123456789abcdef"},
-                            {"unsaid", nlohmann::json::object()}};
+                            {"missing", nlohmann::json::object()}};
   for (const score::Metric& metric : score::metric_catalogue()) {
     metrics[std::string(metric.key)] = nullptr;
-    metrics["unsaid"][std::string(metric.key)] = "no bone was removed";
+    metrics["missing"][std::string(metric.key)] = "no bone was removed";
   }
-  for (const char* said : {"duration_s", "contact_time_s", "version_error_deg"}) {
-    metrics[said] = size;
-    metrics["unsaid"].erase(said);
+  for (const char* measured : {"duration_s", "contact_time_s", "version_error_deg"}) {
+    metrics[measured] = size;
+    metrics["missing"].erase(measured);
   }
   return metrics;
 }

@@ -12,6 +12,10 @@ struct StillDevice : device::HapticDevice {
   device::DeviceStatus write(const device::DeviceOutput&) noexcept override {
     return device::DeviceStatus::ok;
   }
+  void session_paused(bool) noexcept override {}
+  void take_force_away() noexcept override {}
+  double closing_ms() const noexcept override { return 0.0; }
+  void use_priority(int) noexcept override {}
   device::DeviceTraits device_traits;
 };
 

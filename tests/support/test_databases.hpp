@@ -33,7 +33,7 @@ class TestDatabase : public ::testing::Test {
   std::unique_ptr<store::Database> open_again() const { return std::make_unique<store::Database>(url()); }
 
  private:
-  const Store store_;
+  const Store store_{};
   const std::unique_ptr<store::Database> database_ = std::make_unique<store::Database>(store_.url);
 };
 

@@ -1,8 +1,8 @@
 #pragma once
 #include <utility>
 
-#include "collide/narrow_phase.hpp"
-#include "collide/removal.hpp"
+#include "collide/contact/narrow_phase.hpp"
+#include "collide/removal/removal.hpp"
 
 namespace ream::test {
 

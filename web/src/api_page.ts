@@ -1,7 +1,7 @@
 // The page under /api: the server's own description of its API, to be read. A bundle of its own, so that the page for
 // people who ream stays small.
 import 'swagger-ui-dist/swagger-ui.css';
-import './api_page.css';
+import './styles/api_page.css';
 
 import SwaggerUI from 'swagger-ui-dist/swagger-ui-es-bundle.js';
 

@@ -1,6 +1,6 @@
 import 'uplot/dist/uPlot.min.css';
-import './style.css';
-import './forms.css';
+import './styles/base.css';
+import './styles/forms.css';
 
 import { computed, effect, type Signal, signal, untracked } from '@preact/signals';
 import { render } from 'preact';
@@ -16,7 +16,7 @@ import { LiveRemarks } from './state/live_remarks';
 import { Practice } from './state/practice';
 import { PracticeStore } from './state/practice_store';
 import { browserWindow, letGoWhenLeft } from './state/practice_window';
-import { headsetWords } from './state/headset_words';
+import { headsetMessage } from './scene/headset_text';
 import { isActive } from './state/choose_session';
 import { addressOfReplay, replayInAddress } from './state/replay_address';
 import { addressOfRoute, followRoute, type Route, routeInAddress, showsSession } from './state/route';
@@ -32,7 +32,7 @@ import { WorkerDeviceSocket } from './wire/device_socket';
 import { LoginApi } from './wire/login_api';
 import { ReviewApi } from './wire/review_api';
 import { WorkerStreamSocket } from './wire/stream_socket';
-import { words } from './words';
+import { appText } from './text/app_text';
 
 function main(root: HTMLElement): void {
   const linkSecret = takeLinkFromAddress();
@@ -64,7 +64,7 @@ function main(root: HTMLElement): void {
   effect(() => scene.setBonePose(store.telemetry.value?.worldFromBoneRest ?? null));
   effect(() => scene.setTouching(store.touching.value));
   effect(() => {
-    if (scene.headset.worn.value) scene.headset.say(headsetWords(store));
+    if (scene.headset.worn.value) scene.headset.show(headsetMessage(store));
   });
   effect(() => scene.setToolShown(store.reamerShown.value));
   const liveCase = new LiveCase(store, () => identity.may.value.readCases, window.location.origin);
@@ -225,6 +225,6 @@ if (root !== null) {
   try {
     main(root);
   } catch {
-    root.textContent = words.noWebGl;
+    root.textContent = appText.noWebGl;
   }
 }

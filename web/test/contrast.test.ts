@@ -3,7 +3,7 @@ import { readFileSync } from 'node:fs';
 
 import { describe, expect, it } from 'vitest';
 
-const css = readFileSync(new URL('../src/style.css', import.meta.url), 'utf8');
+const css = readFileSync(new URL('../src/styles/base.css', import.meta.url), 'utf8');
 
 function coloursOf(selector: string): Map<string, string> {
   const at = css.indexOf(`${selector} {`);

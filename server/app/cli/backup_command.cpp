@@ -11,9 +11,9 @@
 #include "app/interrupt.hpp"
 #include "app/open_database.hpp"
 #include "app/restore_backup.hpp"
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
-#include "core/replaceable.hpp"
 
 namespace ream::app {
 namespace {

@@ -12,8 +12,8 @@
 #include "core/file.hpp"
 #include "report/number_words.hpp"
 #include "score/benchmark.hpp"
-#include "score/group_cut_json.hpp"
-#include "score/rubric_shelf.hpp"
+#include "score/group_cut.hpp"
+#include "score/rubric_store.hpp"
 
 namespace ream::app {
 namespace {
@@ -61,7 +61,7 @@ void print(const score::Benchmark& benchmark, const json& cuts) {
 void make_benchmark(const BenchmarkOptions& options, const GlobalOptions& global) {
   const fs::path data = data_folder(global.data);
   const score::Density density = score::density_from_text(options.density);
-  const score::Rubric rubric = score::find_rubric(options.rubric, score::RubricShelf(rubrics_folder(data)));
+  const score::Rubric rubric = score::find_rubric(options.rubric, score::RubricStore(rubrics_folder(data)));
   catch_interrupts();
   const auto experts = measured(options.experts, options, data);
   const score::Benchmark benchmark = score::make_benchmark(options.name, experts);

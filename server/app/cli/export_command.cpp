@@ -10,7 +10,7 @@
 #include "app/export_session.hpp"
 #include "app/recorded_session.hpp"
 #include "core/error.hpp"
-#include "score/rubric_shelf.hpp"
+#include "score/rubric_store.hpp"
 
 namespace ream::app {
 namespace {
@@ -28,7 +28,7 @@ ExportRequest request_of(const ExportOptions& options, const fs::path& data) {
   request.case_name = options.case_name;
   request.data = data;
   if (!options.rubric.empty())
-    request.rubric = score::find_rubric(options.rubric, score::RubricShelf(rubrics_folder(data)));
+    request.rubric = score::find_rubric(options.rubric, score::RubricStore(rubrics_folder(data)));
   if (!options.benchmark.empty()) request.benchmark = score::load_benchmark(options.benchmark);
   return request;
 }

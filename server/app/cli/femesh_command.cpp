@@ -170,7 +170,8 @@ void femesh(const FemeshOptions& options, const GlobalOptions& global) {
 
 std::string names_of_laws() {
   std::string names;
-  for (const fe::NamedLaw& named : fe::named_laws()) names += (names.empty() ? "" : "; ") + named.law.words();
+  for (const fe::NamedLaw& named : fe::named_laws())
+    names += (names.empty() ? "" : "; ") + named.law.description();
   return names;
 }
 

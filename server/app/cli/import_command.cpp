@@ -15,7 +15,7 @@
 #include "app/session_bundle.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
-#include "ct/import.hpp"
+#include "ct/build/import.hpp"
 
 namespace ream::app {
 namespace {

@@ -5,10 +5,11 @@
 
 #include "app/cli/commands.hpp"
 #include "case/landmarks.hpp"
+#include "core/atomic_file.hpp"
 #include "core/file.hpp"
 #include "core/units.hpp"
-#include "ct/phantom_case.hpp"
-#include "ct/volume_io.hpp"
+#include "ct/phantom/phantom_case.hpp"
+#include "ct/read/write_volume.hpp"
 
 namespace ream::app {
 namespace {
@@ -29,7 +30,7 @@ void write_volume(const ct::HuVolume& volume, const PhantomOptions& options,
 }
 
 void phantom(const PhantomOptions& options, const GlobalOptions& global) {
-  FolderInProgress folder(options.out);
+  AtomicFolder folder(options.out);
   ct::PhantomParams params = options.params;
   if (!options.preset.empty()) {
     const ct::PhantomParams preset = ct::phantom_preset(options.preset).params;

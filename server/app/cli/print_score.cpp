@@ -48,7 +48,7 @@ void print_metrics(const json& metrics, const json& score) {
 }
 
 void print_unsaid(const json& metrics) {
-  const std::vector<report::Fact> unsaid = report::unsaid_metrics(metrics);
+  const std::vector<report::Fact> unsaid = report::missing_metrics(metrics);
   if (!unsaid.empty()) std::cout << "  not said:\n";
   for (const report::Fact& fact : unsaid)
     std::cout << "    " << fact.value << ":\n      " << fact.name << '\n';

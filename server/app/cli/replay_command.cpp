@@ -84,9 +84,9 @@ void review(const ReplayOptions& options, const GlobalOptions& global, const rec
   const Review found = review_recording(recording, std::move(bone_case), until_tick(options));
   json answer = about(recording, found.ticks);
   answer["checkpoints"] = found.checkpoints;
-  answer["removed_volume_mm3"] = found.metrics.removed_volume_mm3;
-  answer["reaming_depth_mm"] = found.metrics.reaming_depth_mm;
-  answer["session_hash"] = to_hex(found.metrics.session_hash);
+  answer["removed_volume_mm3"] = found.removed_volume_mm3;
+  answer["reaming_depth_mm"] = found.reaming_depth_mm;
+  answer["session_hash"] = to_hex(found.session_hash);
   answer["grid_hash"] = to_hex(found.grid_hash);
   if (found.grid_ticks != found.ticks) answer["grid_ticks"] = found.grid_ticks;
   if (found.difference && global.json)

@@ -17,7 +17,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"
-#include "score/rubric_shelf.hpp"
+#include "score/rubric_store.hpp"
 
 namespace ream::app {
 namespace {
@@ -45,7 +45,7 @@ struct Judged {
 };
 
 Judge judge_of(const ScoreOptions& options, const fs::path& data) {
-  Judge judge{score::find_rubric(options.rubric, score::RubricShelf(rubrics_folder(data))), std::nullopt};
+  Judge judge{score::find_rubric(options.rubric, score::RubricStore(rubrics_folder(data))), std::nullopt};
   if (!options.benchmark.empty()) judge.benchmark = score::load_benchmark(options.benchmark);
   return judge;
 }

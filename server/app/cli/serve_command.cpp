@@ -27,8 +27,8 @@
 #include "core/file.hpp"
 #include "core/file_lock.hpp"
 #include "core/log.hpp"
-#include "ct/phantom_case.hpp"
-#include "ct/volume_io.hpp"
+#include "ct/phantom/phantom_case.hpp"
+#include "ct/read/read_ct.hpp"
 #include "openigtlink/server.hpp"
 #include "store/database_url.hpp"
 

@@ -11,8 +11,10 @@
 #include "app/interrupt.hpp"
 #include "app/reamed_pictures.hpp"
 #include "app/score_document.hpp"
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "force/feed_model.hpp"
 
 namespace ream::app {
 namespace {
@@ -27,6 +29,19 @@ struct SimulateOptions {
   fs::path out;
   bool wall_clock = false;
 };
+
+std::string feed_models_help() {
+  std::string text = "Feed model: ";
+  for (const force::FeedModelEntry& model : force::feed_models())
+    text += std::string(model.name) + " (" + model.description + "), ";
+  return text + "default: the script's";
+}
+
+std::vector<std::string> feed_model_names() {
+  std::vector<std::string> names;
+  for (const force::FeedModelEntry& model : force::feed_models()) names.emplace_back(model.name);
+  return names;
+}
 
 /// ./ream-out/<n> with the first n that is free.
 fs::path next_output_folder() {
@@ -47,7 +62,7 @@ void simulate(const SimulateOptions& options, const GlobalOptions& global) {
   if (options.force_scale > 0.0) request.force_scale = options.force_scale;
 
   const fs::path out = options.out.empty() ? next_output_folder() : options.out;
-  FolderInProgress folder(out);
+  AtomicFolder folder(out);
   catch_interrupts();
   Rig rig(asked_for(request, data_folder(global.data)));
   const std::vector<uint8_t> before = rig.bone_case.bone.coverage;
@@ -93,12 +108,8 @@ void add_simulate_command(CLI::App& app, GlobalOptions& global) {
                     "One tick a millisecond instead of as fast as it goes");
   command->add_option("--backend", options->request.backend, "auto, cpu, opencl or opencl:N")
       ->capture_default_str();
-  command
-      ->add_option(
-          "--model", options->request.feed_model,
-          "Feed model: empirical (the thesis' law), oblique (cutting mechanics of its appendix A) or "
-          "scraping (experimental: wear, resistance grows with the engaged area). Default: the script's")
-      ->check(CLI::IsMember({"empirical", "oblique", "scraping"}));
+  command->add_option("--model", options->request.feed_model, feed_models_help())
+      ->check(CLI::IsMember(feed_model_names()));
   command
       ->add_option(
           "--removal", options->removal,

@@ -2,18 +2,15 @@
 #include <chrono>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "app/cli/commands.hpp"
 #include "app/cli/numbers.hpp"
 #include "app/cli/terminal_progress.hpp"
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "geometry/mesh_io.hpp"
-#include "voxelizer/box_file.hpp"
-#include "voxelizer/closed_mesh.hpp"
-#include "voxelizer/grid_file.hpp"
-#include "voxelizer/morton_file.hpp"
-#include "voxelizer/point_file.hpp"
+#include "voxelizer/voxel_files.hpp"
+#include "voxelizer/voxelizer.hpp"
 #include "voxelizer/voxelizer_cl.hpp"
 
 namespace ream::app {
@@ -25,7 +22,7 @@ struct VoxelizeOptions {
   fs::path mesh, like, points, grid, morton, boxes;
   std::string size, origin;
   double scale = 1.0;
-  int separability = 26, memory_mb = static_cast<int>(voxelizer::usual_dense_bytes >> 20);
+  int separability = 26, memory_mb = static_cast<int>(voxelizer::default_dense_bytes >> 20);
   bool solid = false, with_surface = false, bits = false;
   std::string backend = "auto";
 };
@@ -126,10 +123,10 @@ class Outputs {
   }
 
  private:
-  static void begin(const fs::path& path, std::unique_ptr<StreamedFile>& file) {
-    if (!path.empty()) file = std::make_unique<StreamedFile>(path);
+  static void begin(const fs::path& path, std::unique_ptr<AtomicFile>& file) {
+    if (!path.empty()) file = std::make_unique<AtomicFile>(path);
   }
-  std::unique_ptr<StreamedFile> grid_, points_, morton_, boxes_;
+  std::unique_ptr<AtomicFile> grid_, points_, morton_, boxes_;
 };
 
 void check_names(const VoxelizeOptions& options) {

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "bench/baselines/kernel_source.hpp"
-#include "collide/grid_affine.hpp"
-#include "collide/obb_sat.hpp"
+#include "collide/contact/broad_phase.hpp"
+#include "collide/grid_transform.hpp"
 #include "core/error.hpp"
 
 namespace ream::bench {

@@ -13,7 +13,7 @@ using baseline_uint32 = std::uint32_t;
 using baseline_int32 = std::int32_t;
 #endif
 
-// Affine map, row by row: out_i = m[3i] x + m[3i+1] y + m[3i+2] z + t[i] (collide/grid_affine.hpp).
+// Affine map, row by row: out_i = m[3i] x + m[3i+1] y + m[3i+2] z + t[i] (collide/grid_transform.hpp).
 struct BaselineAffine {
   float m[9];
   float t[3];

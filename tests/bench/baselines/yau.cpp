@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "bench/baselines/kernel_source.hpp"
-#include "collide/grid_affine.hpp"
+#include "collide/grid_transform.hpp"
 
 namespace ream::bench {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "bench/baselines/kernel_source.hpp"
-#include "collide/grid_affine.hpp"
+#include "collide/grid_transform.hpp"
 
 namespace ream::bench {
 namespace {

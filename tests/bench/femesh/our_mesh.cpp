@@ -3,12 +3,12 @@
 #include <memory>
 
 #include "core/clock.hpp"
-#include "fe/corner_row.hpp"
-#include "fe/element_sets.hpp"
+#include "core/thread_pool.hpp"
+#include "fe/element_model.hpp"
 #include "fe/largest_component.hpp"
-#include "fe/layers_model.hpp"
+#include "fe/materials.hpp"
+#include "fe/node_numbering.hpp"
 #include "fe/refine.hpp"
-#include "fe/two_threads.hpp"
 
 namespace ream::bench {
 namespace {
@@ -25,7 +25,7 @@ double timed_ms(Phase&& phase) {
 uint64_t make_explicit(const fe::ElementModel& model, const fe::NodeNumbering& numbering) {
   const auto nodes = std::make_unique_for_overwrite<std::array<float, 3>[]>(numbering.nodes());
   const auto elements = std::make_unique_for_overwrite<std::array<uint32_t, 8>[]>(numbering.elements());
-  fe::on_two_threads(numbering.corners().count(), [&](size_t slab) {
+  parallel_for(2, numbering.corners().count(), [&](size_t slab) {
     size_t at = numbering.nodes_before(slab);
     fe::for_each_corner_row(numbering, slab, [&](int v, int w, const fe::CornerRow& row) {
       const auto y = static_cast<float>(v * model.spacing_mm.y()),
@@ -35,7 +35,7 @@ uint64_t make_explicit(const fe::ElementModel& model, const fe::NodeNumbering& n
       });
     });
   });
-  fe::on_two_threads(numbering.voxels().count(), [&](size_t slab) {
+  parallel_for(2, numbering.voxels().count(), [&](size_t slab) {
     size_t at = numbering.elements_before(slab);
     if (at == numbering.elements_before(slab + 1)) return;
     fe::for_each_element_run<fe::CornerRow>(

@@ -5,9 +5,9 @@
 #include "core/error.hpp"
 #include "sim/approach.hpp"
 #include "sim/guided_handle.hpp"
+#include "sim/hand_output.hpp"
 #include "sim/press.hpp"
 #include "sim/remove_bone.hpp"
-#include "sim/vibration_input.hpp"
 #include "support/small_run.hpp"
 
 namespace ream::bench {

@@ -6,7 +6,7 @@
 #include "bench/validate/statistics.hpp"
 #include "bench/validate/validate_parts.hpp"
 #include "core/clock.hpp"
-#include "force/vibration_player.hpp"
+#include "force/vibration/vibration_player.hpp"
 
 namespace ream::bench {
 namespace {

@@ -4,7 +4,6 @@
 
 #include "core/error.hpp"
 #include "geometry/mesh_io.hpp"
-#include "geometry/ply.hpp"
 #include "support/shared_data.hpp"
 
 namespace ream::bench {

@@ -124,7 +124,7 @@ TEST_F(Hardware, ATrialOfHaplyFeelsTheWall) {
     EXPECT_TRUE(fake.hardware().refusals().empty());
     return;
   }
-  GTEST_SKIP() << "this machine is too busy: " << outcome.out << outcome.error;
+  FAIL() << "in none of 6 trials: " << outcome.out << outcome.error;
 }
 
 TEST_F(Hardware, IsLetGoInOrderWhenTheServerIsToldToEnd) {
@@ -141,8 +141,9 @@ TEST_F(Hardware, IsLetGoInOrderWhenTheServerIsToldToEnd) {
     EXPECT_EQ(server_->wait(20s), 0) << printed("server.err");
     const std::vector<Entry> entries = diary();
     EXPECT_EQ(after_the_last_push(entries), order) << name;
+    const std::string first_call = "call " + order.front();
     const auto zero = std::find_if(entries.rbegin(), entries.rend(),
-                                   [&](const Entry& entry) { return entry.what == "call " + order.front(); });
+                                   [&](const Entry& entry) { return entry.what == first_call; });
     ASSERT_NE(zero, entries.rend());
     EXPECT_TRUE((zero + 1)->what.starts_with("force") && (zero + 1)->force_n == 0.0)
         << name << ": zero force first, then off";

@@ -11,6 +11,7 @@
 #include "e2e/cli/serve_block_fixture.hpp"
 #include "record/recording.hpp"
 #include "support/places.hpp"
+#include "support/seed.hpp"
 
 namespace ream::test {
 namespace {
@@ -101,9 +102,8 @@ class KilledServer : public ServeBlock {
 TEST_F(KilledServer, LosesLessThanASecondAtAnyMoment) {
   const char* wanted = std::getenv("REAM_KILLS");
   const int kills = wanted ? std::atoi(wanted) : 20;
-  const unsigned seed = std::random_device{}();
-  std::cout << "seed " << seed << ", " << kills << " kills (REAM_KILLS)\n";
-  std::mt19937 random(seed);
+  std::cout << kills << " kills (REAM_KILLS)\n";
+  std::mt19937 random(test::seed());
   std::uniform_int_distribution<int> life_ms(0, 2500);
   int recorded = 0;
   std::optional<std::string> id;
@@ -119,7 +119,7 @@ TEST_F(KilledServer, LosesLessThanASecondAtAnyMoment) {
     if (kill == kills) break;
     id = create();
     seen_s = watch_until_killed(*id, std::chrono::milliseconds(life_ms(random)));
-    if (HasFailure()) FAIL() << "seed " << seed << ", kill " << kill << '\n' << printed("server.err");
+    if (HasFailure()) FAIL() << "kill " << kill << '\n' << printed("server.err");
   }
   std::cout << "longest time lost " << worst_loss_s_ << " s; " << recorded << " recordings proven\n";
 }

@@ -50,12 +50,13 @@ class Scoring : public CommandLine {
   json expect_sound() {
     const json told = answer({"score", "run", "--csv", "scores.csv"});
     EXPECT_EQ(told.at("metrics"), json_of("run/metrics.json"));
-    const json& unsaid = told.at("metrics").at("unsaid");
+    const json& missing = told.at("metrics").at("missing");
     for (const auto& [key, value] : told.at("metrics").items())
       if (value.is_null()) {
-        EXPECT_FALSE(unsaid.value(key, "").empty()) << key;
+        EXPECT_FALSE(missing.value(key, "").empty()) << key;
       }
-    for (const auto& [key, reason] : unsaid.items()) EXPECT_TRUE(told.at("metrics").at(key).is_null()) << key;
+    for (const auto& [key, reason] : missing.items())
+      EXPECT_TRUE(told.at("metrics").at(key).is_null()) << key;
     for (const char* name : {"report.html", "report.pdf"}) succeed({"export", "run", "--out", name});
     const std::regex no_number("[^a-zA-Z](nan|inf|NaN|Infinity)[^a-zA-Z]");
     EXPECT_FALSE(std::regex_search(text_of("report.html"), no_number));
@@ -64,7 +65,7 @@ class Scoring : public CommandLine {
     return told;
   }
   static std::string reason(const json& told, const char* metric) {
-    return told.at("metrics").at("unsaid").value(metric, "");
+    return told.at("metrics").at("missing").value(metric, "");
   }
 };
 

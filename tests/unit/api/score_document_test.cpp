@@ -33,7 +33,7 @@ const json& metric(const json& score, const std::string& key) {
   throw std::logic_error("no metric " + key);
 }
 
-TEST(ScoreDocument, FitsItsSchemaWithAndWithoutARubricOfTheShelf) {
+TEST(ScoreDocument, FitsItsSchemaWithAndWithoutAStoredRubric) {
   const json schema = read_json_file(test::source_folder() + "/proto/score.schema.json");
   for (const char* id : {"", "simple"}) {
     const json document =
@@ -58,7 +58,7 @@ TEST(ScoreDocument, IsExplainedMetricByMetric) {
   EXPECT_TRUE(inclination.at("value").is_null());
   EXPECT_TRUE(inclination.at("verdict").is_null());
   EXPECT_TRUE(inclination.at("points").is_null()) << "the rubric does not ask for it";
-  EXPECT_EQ(inclination.at("unsaid"), "no bone was removed");
+  EXPECT_EQ(inclination.at("missing"), "no bone was removed");
   EXPECT_EQ(score.at("theatre"), true);
   EXPECT_EQ(score.at("said_percent"), 50.0);
 }
@@ -79,7 +79,7 @@ TEST(WriteResults, LosesNothingThatWasSaidBefore) {
   EXPECT_EQ(read_json_file(metrics_json(folder.path())), good);
   json poorer = good;
   poorer["contact_time_s"] = nullptr;
-  poorer["unsaid"]["contact_time_s"] = "the case is gone";
+  poorer["missing"]["contact_time_s"] = "the case is gone";
   test::expect_error(ErrorKind::conflict, "contact_time_s",
                      [&] { write_results(folder.path(), poorer, document(poorer)); });
   EXPECT_EQ(read_json_file(metrics_json(folder.path())), good);

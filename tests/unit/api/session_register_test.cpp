@@ -8,6 +8,7 @@
 #include "core/file.hpp"
 #include "core/file_lock.hpp"
 #include "support/expect_error.hpp"
+#include "support/seed.hpp"
 #include "support/test_databases.hpp"
 
 namespace ream::api {
@@ -83,11 +84,11 @@ class SessionRegisterTest : public testing::Test {
   }
   void end() { register_.reset(); }
 
-  const Sessions sessions;
+  const Sessions sessions{};
   std::unique_ptr<SessionRegister> register_;
 
  private:
-  const Store store_;
+  const Store store_{};
 };
 using Ways = testing::Types<WithoutDatabase, test::OnSqlite, test::OnPostgresql>;
 TYPED_TEST_SUITE(SessionRegisterTest, Ways, Names);
@@ -202,9 +203,7 @@ TYPED_TEST(SessionRegisterTest, WhatIsInMemoryCountsAsItIsNow) {
 }
 
 TYPED_TEST(SessionRegisterTest, PagesHoldEverySessionOnce) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed());
   const auto pick = [&](int below) { return std::uniform_int_distribution<int>(0, below - 1)(random); };
   std::vector<SessionRecord> held;
   for (int i = 0; i < 60; ++i) {
@@ -322,7 +321,7 @@ TYPED_TEST(SessionIndexUpkeepTest, ListsManyAtTheFirstStart) {
 
 TEST(SessionIndexOutage, ListsAreRefusedAndThenHoldEverything) {
   test::PostgresServer server;
-  const Sessions sessions;
+  const Sessions sessions{};
   sessions.put("aaaa", "2025-03-01T12:00:00Z", "finished");
   const auto database = std::make_shared<store::Database>(server.make_database());
   SessionRegister all(sessions.archive, database);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <random>
 
+#include "support/seed.hpp"
+
 namespace ream::api {
 namespace {
 
@@ -147,9 +149,7 @@ TEST(StudyExport, AnEmptyStudyHasHeadingsOnly) {
 
 /// In whatever order sessions were found, the export is the same: it says nothing about who came when.
 TEST(StudyExport, DoesNotDependOnTheOrderOfWhatItIsMadeOf) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed());
   const StudyExport first = export_of(study(), participants(), attempts());
   for (int turn = 0; turn < 50; ++turn) {
     auto people = participants();

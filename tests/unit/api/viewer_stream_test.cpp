@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include "stream/fanout_local.hpp"
+#include "stream/fanout.hpp"
 
 namespace ream::api {
 namespace {
 
 TEST(ViewerStream, PullsFromItsMailboxAndIsWokenForMore) {
-  const auto fanout = std::make_shared<stream::LocalFanout>();
+  const auto fanout = std::make_shared<stream::Fanout>();
   const net::SharedBytes first = net::share("first"), second = net::share("second");
   fanout->publish_hello(first);
   int wakes = 0;
@@ -24,7 +24,7 @@ TEST(ViewerStream, PullsFromItsMailboxAndIsWokenForMore) {
 }
 
 TEST(ViewerStream, ClosingEndsTheSubscription) {
-  const auto fanout = std::make_shared<stream::LocalFanout>();
+  const auto fanout = std::make_shared<stream::Fanout>();
   int wakes = 0;
   const auto viewer = viewer_stream(fanout, 1);
   EXPECT_EQ(fanout->viewers(), 0u);

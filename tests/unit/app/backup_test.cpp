@@ -19,6 +19,7 @@
 #include "store/zip_archive.hpp"
 #include "support/damage.hpp"
 #include "support/expect_error.hpp"
+#include "support/seed.hpp"
 #include "support/test_databases.hpp"
 
 namespace ream::app {
@@ -197,9 +198,7 @@ TYPED_TEST(BackupTest, InterruptedItLeavesNothing) {
 }
 
 TYPED_TEST(BackupTest, DamageIsSaidAndNothingIsRestored) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed());
   House<TypeParam> house;
   fill(house);
   write_backup(house.database, house.data(), this->file());

@@ -8,7 +8,8 @@
 #include <fstream>
 #include <memory>
 
-#include "ct/volume_io.hpp"
+#include "ct/read/read_ct.hpp"
+#include "ct/read/write_volume.hpp"
 #include "store/zip_archive.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"

@@ -76,7 +76,8 @@ TEST_F(DeviceRegistry, RealDevicesTakeTheProfilesOfTheirModelsOnly) {
       {"haply", {"inverse3"}},
       {"forcedimension", {"omega.3", "omega.6", "omega.7", "delta.3", "sigma.7", "lambda.7", "falcon"}},
       {"openhaptics", {"touch", "phantom-omni", "phantom-desktop", "premium-1.5-6dof", "premium-3.0-6dof"}}};
-  for (const auto& [name, models] : fitting) {
+  for (const auto& [device_name, models] : fitting) {
+    const std::string& name = device_name;
     std::string names;
     for (const std::string& model : models) names += (names.empty() ? "" : ", ") + model;
     for (const std::string& profile : device::device_profile_names()) {

@@ -34,6 +34,10 @@ class LoweredDevice final : public device::HapticDevice {
     forces_n.push_back(output.force_n);
     return device::DeviceStatus::ok;
   }
+  void session_paused(bool) noexcept override {}
+  void take_force_away() noexcept override {}
+  double closing_ms() const noexcept override { return 0.0; }
+  void use_priority(int) noexcept override {}
   bool is_open = false;
   std::vector<Vec3> forces_n;
 

@@ -45,6 +45,9 @@ class TellingDevice final : public device::HapticDevice {
   void take_force_away() noexcept override {
     if (!taken_away_.exchange(true)) say("taken away\n");
   }
+  void session_paused(bool paused) noexcept override { inner_->session_paused(paused); }
+  double closing_ms() const noexcept override { return inner_->closing_ms(); }
+  void use_priority(int fifo) noexcept override { inner_->use_priority(fifo); }
 
  private:
   static void say(const char* words) noexcept {

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <iostream>
 #include <random>
 
 #include "support/expect_error.hpp"
+#include "support/seed.hpp"
 
 namespace ream::app {
 namespace {
@@ -29,9 +29,7 @@ TEST(Playhead, RestsUntilItIsToldToPlay) {
 
 TEST(Playhead, GoesAtAnySpeedWithoutLosingTime) {
   for (const double speed : {0.1, 0.25, 1.0, 3.3, 16.0}) {
-    const unsigned seed = std::random_device{}();
-    std::cout << "seed " << seed << "\n";
-    std::mt19937 random(seed);
+    std::mt19937 random(test::seed());
     Playhead head(1'000'000);
     head.change({true, speed, {}});
     int64_t passed_ns = 0;

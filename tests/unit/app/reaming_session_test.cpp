@@ -16,7 +16,7 @@
 #include "app/session_recovery.hpp"
 #include "core/file.hpp"
 #include "record/recording.hpp"
-#include "score/rubric_shelf.hpp"
+#include "score/rubric_store.hpp"
 #include "support/expect_error.hpp"
 #include "support/recorded_reaming.hpp"
 
@@ -81,8 +81,8 @@ class ReamingSessionTest : public testing::Test {
   }
 
   const test::RecordedReaming reaming;
-  const std::shared_ptr<sim::LoopPlaces> places =
-      std::make_shared<sim::LoopPlaces>(std::vector{sim::allowed_cpus().front()});
+  const std::shared_ptr<sim::CpuAllocator> places =
+      std::make_shared<sim::CpuAllocator>(std::vector{sim::allowed_cpus().front()});
   api::SessionService service{makers(), {4, 4}, sessions_folder(reaming.data())};
 };
 
@@ -113,7 +113,7 @@ TEST_F(ReamingSessionTest, NoAcceptedRemarkIsLostAtTheEnd) {
 TEST_F(ReamingSessionTest, OneThatWouldMakeRunningOnesMissWaitsUntilThereIsRoom) {
   const std::string stopped = stopped_session(), created = service.create(wanted()).request.id;
   const auto recording = read_binary_file(folder(stopped) / "recording.ream");
-  auto other = places->take("other", 1000.0);
+  auto other = places->reserve("other", 1000.0);
   test::expect_error(ErrorKind::unavailable, "running sessions use 1000 us", [&] { service.start(created); });
   EXPECT_EQ(service.get(created).status.state, api::SessionState::created);
   EXPECT_FALSE(fs::exists(folder(created)));
@@ -124,7 +124,7 @@ TEST_F(ReamingSessionTest, OneThatWouldMakeRunningOnesMissWaitsUntilThereIsRoom)
   service.start(created);
   EXPECT_EQ(service.get(created).status.state, api::SessionState::running);
   service.stop(created);
-  EXPECT_NO_THROW(other = places->take("other", 1000.0)) << "a session that has ended leaves its place";
+  EXPECT_NO_THROW(other = places->reserve("other", 1000.0)) << "a session that has ended leaves its place";
 }
 
 TEST_F(ReamingSessionTest, ASessionThatCouldNotGoOnCanStillBeResumed) {
@@ -281,7 +281,7 @@ TEST_F(ReamingSessionTest, AnotherAttemptBeginsWithIntactBoneAndTheSameLabels) {
 TEST_F(ReamingSessionTest, LeavesItsScoreWithTheRubricOfTheDataFolderAndTheatreMode) {
   score::Rubric rubric = score::standard_rubric();
   rubric.name = "House";
-  EXPECT_EQ(score::RubricShelf(rubrics_folder(reaming.data())).keep("standard", rubric).version, 2);
+  EXPECT_EQ(score::RubricStore(rubrics_folder(reaming.data())).save("standard", rubric).version, 2);
   api::SessionRequest request = wanted();
   request.theatre = true;
   const std::string id = service.create(request).request.id;
@@ -307,7 +307,7 @@ TEST_F(ReamingSessionTest, StoppedAtOnceIsScoredByWhatItSays) {
   EXPECT_EQ(score.at("score").at("outcome"), "undecided");
   for (const auto& [key, value] : score.at("metrics").items())
     if (value.is_null()) {
-      EXPECT_FALSE(score.at("metrics").at("unsaid").value(key, "").empty()) << key;
+      EXPECT_FALSE(score.at("metrics").at("missing").value(key, "").empty()) << key;
     }
 }
 

@@ -2,13 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <iostream>
-
 #include "core/clock.hpp"
 #include "core/error.hpp"
-#include "stream/fanout_local.hpp"
+#include "stream/fanout.hpp"
 #include "support/damage.hpp"
 #include "support/recorded_cutting.hpp"
+#include "support/seed.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/stream/viewer.hpp"
 
@@ -139,7 +138,7 @@ class ReplayPictureTest : public testing::Test {
   const std::filesystem::path path_ = folder_.path() / "recording.ream";
   RecordedCutting session_{seed, Vec3i(40, 24, 24)};
   case_::Case before_;
-  stream::LocalFanout fanout_;
+  stream::Fanout fanout_;
   std::optional<record::Recording> recording_;
   std::optional<MetricsTimeline> timeline_;
   std::optional<ReplayPicture> picture_;
@@ -157,9 +156,7 @@ TEST_F(ReplayPictureTest, BeginsWithTheBoneBeforeTheFirstTick) {
 }
 
 TEST_F(ReplayPictureTest, AnyMomentLooksAsItDidForwardsAndBackwards) {
-  const unsigned moments_seed = std::random_device{}();
-  std::cout << "seed " << moments_seed << "\n";
-  std::mt19937 random(moments_seed);
+  std::mt19937 random(test::seed());
   open();
   for (int i = 0; i < 40; ++i) {
     const auto ticks = static_cast<uint32_t>(random() % (ticks_in_all + 1));
@@ -240,9 +237,9 @@ TEST_F(ReplayPictureTest, MetricsAreThoseUpToTheMoment) {
     for (uint32_t tick = 0; tick < ticks; ++tick)
       metrics.add(record::as_recorded(session_.reports[tick], before_.bone.grid.world_from_grid));
     jump(ticks);
-    EXPECT_EQ(viewer_.removed_mm3, static_cast<float>(metrics.metrics().removed_volume_mm3)) << ticks;
-    EXPECT_EQ(viewer_.depth_mm, static_cast<float>(metrics.metrics().reaming_depth_mm)) << ticks;
-    EXPECT_EQ(timeline_->wait_for(ticks, patience).metrics().session_hash, metrics.metrics().session_hash);
+    EXPECT_EQ(viewer_.removed_mm3, static_cast<float>(metrics.removed_volume_mm3())) << ticks;
+    EXPECT_EQ(viewer_.depth_mm, static_cast<float>(metrics.reaming_depth_mm())) << ticks;
+    EXPECT_EQ(timeline_->wait_for(ticks, patience).session_hash(), metrics.session_hash());
   }
 }
 

@@ -92,7 +92,7 @@ TEST_F(RescoringTest, ACaseThatIsGoneIsSaidWithoutPlacesOfThisMachine) {
   EXPECT_EQ(all.at(0).error, "");
   const json& metrics = all.at(0).metrics;
   EXPECT_TRUE(metrics.at("seating_percent").is_null());
-  const std::string reason = metrics.at("unsaid").at("seating_percent");
+  const std::string reason = metrics.at("missing").at("seating_percent");
   EXPECT_NE(reason.find("case"), std::string::npos) << reason;
   EXPECT_EQ(reason.find('/'), std::string::npos) << reason;
 }

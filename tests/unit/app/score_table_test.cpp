@@ -17,10 +17,10 @@ using api::score_table;
 using nlohmann::json;
 
 json some_metrics() {
-  json metrics = {{"force_scale", 26.0}, {"unsaid", json::object()}};
+  json metrics = {{"force_scale", 26.0}, {"missing", json::object()}};
   for (const score::Metric& metric : score::metric_catalogue()) {
     metrics[std::string(metric.key)] = nullptr;
-    metrics["unsaid"][std::string(metric.key)] = "no bone was removed";
+    metrics["missing"][std::string(metric.key)] = "no bone was removed";
   }
   metrics["duration_s"] = 12.5;
   return metrics;

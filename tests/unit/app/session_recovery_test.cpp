@@ -10,7 +10,7 @@
 #include "app/rescoring.hpp"
 #include "case/plan.hpp"
 #include "core/file.hpp"
-#include "record/grid_json.hpp"
+#include "record/recording.hpp"
 #include "support/expect_error.hpp"
 #include "support/recorded_cutting.hpp"
 #include "support/temporary_folder.hpp"
@@ -136,14 +136,15 @@ TEST_F(SessionRecoveryTest, WhatCannotBeWrittenLeavesEverythingAsItWas) {
   const fs::path folder = leave_running("aaaa", 600);
   const auto recording = read_binary_file(api::recording_file(folder));
   const std::string before = read_text_file(api::session_json(folder));
-  fs::create_directories(folder / "session.json.staged.tmp" / "in the way");
+  const fs::path in_the_way = folder / ("session.json." + std::to_string(::getpid()) + ".tmp");
+  fs::create_directories(in_the_way / "a folder");
   const auto lines = recover_sessions(data.path());
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_NE(lines[0].find("is left as it was"), std::string::npos) << lines[0];
   EXPECT_EQ(read_binary_file(api::recording_file(folder)), recording);
   EXPECT_EQ(read_text_file(api::session_json(folder)), before);
   EXPECT_FALSE(fs::exists(api::metrics_json(folder)));
-  fs::remove_all(folder / "session.json.staged.tmp");
+  fs::remove_all(in_the_way);
   recover_sessions(data.path());
   EXPECT_EQ(session(folder).at("state"), "interrupted");
 }

@@ -12,7 +12,7 @@
 #include "geometry/mesh_io.hpp"
 #include "gpu/device.hpp"
 #include "record/replay_device.hpp"
-#include "record/tick_flags.hpp"
+#include "record/tick_report.hpp"
 #include "support/changed_recording.hpp"
 #include "support/expect_error.hpp"
 #include "support/recorded_reaming.hpp"
@@ -36,7 +36,7 @@ void expect_the_same_everywhere(const RecordedReaming& reaming, const std::files
   const record::Recording recording(path);
   const Review review = review_recording(recording, recorded_case(recording, "", reaming.data()), UINT32_MAX);
   EXPECT_FALSE(review.difference.has_value());
-  EXPECT_GT(review.metrics.removed_volume_mm3, 0.05);
+  EXPECT_GT(review.removed_volume_mm3, 0.05);
   EXPECT_EQ(review.ticks, recording.tick_count());
   ASSERT_GE(every_backend().size(), 2u) << "no OpenCL device: install pocl-opencl-icd";
   for (const std::string& backend : every_backend()) {
@@ -45,7 +45,7 @@ void expect_the_same_everywhere(const RecordedReaming& reaming, const std::files
     EXPECT_FALSE(result.difference.has_value()) << difference_words(result.ticks, *result.difference);
     EXPECT_EQ(result.ticks, recording.tick_count());
     EXPECT_EQ(result.grid_hash, review.grid_hash);
-    EXPECT_EQ(result.session_hash, review.metrics.session_hash);
+    EXPECT_EQ(result.session_hash, review.session_hash);
     EXPECT_TRUE(result.left_out.empty());
   }
 }
@@ -115,6 +115,10 @@ class HaltingDevice final : public device::HapticDevice {
   device::DeviceStatus write(const device::DeviceOutput& output) noexcept override {
     return inner_->write(output);
   }
+  void session_paused(bool paused) noexcept override { inner_->session_paused(paused); }
+  void take_force_away() noexcept override { inner_->take_force_away(); }
+  double closing_ms() const noexcept override { return inner_->closing_ms(); }
+  void use_priority(int fifo) noexcept override { inner_->use_priority(fifo); }
 
  private:
   std::unique_ptr<device::HapticDevice> inner_;

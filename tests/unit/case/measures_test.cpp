@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "case/scapular_frame.hpp"
 #include "support/expect_error.hpp"
 #include "support/shoulder_landmarks.hpp"
 

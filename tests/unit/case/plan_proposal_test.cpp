@@ -1,12 +1,11 @@
-#include "case/plan_proposal.hpp"
+#include "case/planning.hpp"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
+#include "case/measures.hpp"
 #include "case/plan.hpp"
-#include "case/plan_assessment.hpp"
-#include "case/scapular_frame.hpp"
 #include "shell/reamer_library.hpp"
 #include "support/expect_error.hpp"
 #include "support/shoulder_landmarks.hpp"

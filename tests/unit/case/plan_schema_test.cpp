@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "case/calibration.hpp"
+#include "case/case.hpp"
 #include "case/plan.hpp"
 #include "core/file.hpp"
 #include "core/units.hpp"

@@ -1,4 +1,4 @@
-#include "collide/bone_parts.hpp"
+#include "collide/bone_buffers.hpp"
 
 #include <gtest/gtest.h>
 

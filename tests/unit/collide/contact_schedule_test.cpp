@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "collide/contact_schedule.hpp"
+#include "collide/contact/contact_schedule.hpp"
 #include "support/random_pose.hpp"
 #include "support/test_bone.hpp"
 
@@ -81,7 +81,7 @@ TEST(ContactSchedule, AToolAtRestIsVisitedWhereItTouchesAndHardlyElsewhere) {
   Walk walk(1);
   collide::ContactSchedule schedule(walk.input());
   collide::ContactView view = collide::contact_view(walk.input());
-  const collide::LookFunctions functions = collide::best_look();
+  const collide::ContactKernels functions = collide::best_contact_kernels();
   const QuantisedPose pose = quantised({rotation_with_z_along(-Vec3::UnitZ()), Vec3(8, 8, 7.5)});
   const collide::Voi voi =
       collide::broad_phase(walk.cells.bounds_mm(), walk.contact.bounds_mm, dequantised(pose), 0.25);

@@ -1,4 +1,6 @@
-#include "collide/contact_shell.hpp"
+#include "collide/contact/contact_shell.hpp"
+
+#include <Eigen/Geometry>
 
 #include <gtest/gtest.h>
 
@@ -31,7 +33,7 @@ TEST(ContactShell, BlocksAndChunksHoldEveryPointOnce) {
     const ContactBlock& block = contact.blocks[b];
     ASSERT_EQ(block.first, next);
     ASSERT_GT(block.count, 0);
-    ASSERT_LE(block.count, most_block_points);
+    ASSERT_LE(block.count, max_block_points);
     ASSERT_EQ(contact.first_chunks[b + 1] - contact.first_chunks[b], (block.count + 15u) / 16u);
     next += block.count;
   }

@@ -1,4 +1,4 @@
-#include "collide/decay.hpp"
+#include "collide/removal/decay.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "collide/narrow_phase.hpp"
+#include "collide/contact/narrow_phase.hpp"
 
 #include <gtest/gtest.h>
 

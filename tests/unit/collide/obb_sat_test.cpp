@@ -1,10 +1,9 @@
-#include "collide/obb_sat.hpp"
+#include "collide/contact/broad_phase.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "collide/broad_phase.hpp"
 #include "support/random_pose.hpp"
 
 namespace ream::test {

@@ -1,4 +1,4 @@
-#include "collide/removal_schedule.hpp"
+#include "collide/removal/removal_schedule.hpp"
 
 #include <gtest/gtest.h>
 
@@ -58,17 +58,17 @@ TEST(RemovalSchedule, ASuddenDeepContactIsWorkedOffInTurnAndBounded) {
   Scene s;
   const QuantisedPose pose = quantised(above(3.0));
   const size_t bricks = s.unfinished(pose);
-  ASSERT_GT(bricks, 4 * collide::RemovalSchedule::most_bricks_a_tick);
+  ASSERT_GT(bricks, 4 * collide::RemovalSchedule::max_bricks_per_tick);
   size_t ticks = 0, visited = 0;
   while (s.unfinished(pose) > 0 && ticks < 200) {
     const size_t count = s.tick(pose);
-    EXPECT_LE(count, collide::RemovalSchedule::most_bricks_a_tick);
+    EXPECT_LE(count, collide::RemovalSchedule::max_bricks_per_tick);
     visited += count;
     ++ticks;
   }
   for (const auto& [brick, times] : s.visits) EXPECT_LE(times, 1) << "brick " << brick << " had its turn";
   // A quarter in the first tick, then 128 a tick of those that are due.
-  EXPECT_LE(ticks, visited / collide::RemovalSchedule::most_bricks_a_tick + 2);
+  EXPECT_LE(ticks, visited / collide::RemovalSchedule::max_bricks_per_tick + 2);
   std::cout << bricks << " bricks to cut, " << visited << " visited in " << ticks << " ticks\n";
 }
 

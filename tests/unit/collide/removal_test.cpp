@@ -1,4 +1,4 @@
-#include "collide/removal.hpp"
+#include "collide/removal/removal.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-#include "collide/removal_schedule.hpp"
+#include "collide/removal/removal_schedule.hpp"
 #include "core/hash.hpp"
 #include "support/cut_bricks.hpp"
 #include "support/random_pose.hpp"

@@ -1,8 +1,7 @@
-#include "collide/voxel_transform.hpp"
+#include "collide/grid_transform.hpp"
 
 #include <gtest/gtest.h>
 
-#include "collide/odometer.hpp"
 #include "support/random_bone.hpp"
 #include "support/random_pose.hpp"
 

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
-#include <iostream>
 #include <random>
 
-#include "ct/build_case.hpp"
+#include "ct/build/bone_from_mask.hpp"
 #include "support/expect_error.hpp"
+#include "support/seed.hpp"
 #include "surface/whole_surface.hpp"
 #include "unit/ct/shoulder_phantom.hpp"
 #include "unit/surface/volumes.hpp"
@@ -41,8 +41,7 @@ void expect_closed(const voxel::BoneModel& bone, const std::string& what) {
 }
 
 TEST(BoneFromMask, SurfaceIsClosedWhereverTheRegionCuts) {
-  const unsigned seed = std::random_device{}();
-  std::cout << "seed " << seed << "\n";
+  const unsigned seed = test::seed();
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> off(-12.0, 12.0), half(6.0, 16.0);
   for (int i = 0; i < 6; ++i) {

@@ -1,10 +1,10 @@
-#include "ct/cartilage.hpp"
+#include "ct/build/cartilage.hpp"
 
 #include <gtest/gtest.h>
 
-#include "ct/phantom_case.hpp"
+#include "ct/phantom/phantom_case.hpp"
 #include "support/expect_error.hpp"
-#include "voxel/coverage_at.hpp"
+#include "voxel/bone_model.hpp"
 
 namespace ream::ct {
 namespace {

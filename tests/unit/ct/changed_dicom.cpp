@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "ct/volume_io.hpp"
+#include "ct/read/write_volume.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ream::test {

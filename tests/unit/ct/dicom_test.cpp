@@ -2,8 +2,10 @@
 
 #include <fstream>
 
-#include "ct/dicom_file.hpp"
-#include "ct/volume_io.hpp"
+#include "ct/read/dicom_file.hpp"
+#include "ct/read/read_ct.hpp"
+#include "ct/read/readers.hpp"
+#include "ct/read/write_volume.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -92,11 +94,11 @@ TEST(Dicom, EveryTruncationIsNoticed) {
   const test::TemporaryFolder folder;
   write_dicom_folder(stack(2), folder.path(), 1);
   const fs::path whole = slice(folder.path(), 1), part = folder.path() / "part";
-  ASSERT_EQ(dicom_state(whole), DicomState::whole);
+  ASSERT_EQ(parse_dicom(whole).state, DicomState::whole);
   for (uintmax_t size = fs::file_size(whole); size-- > 0;) {
     fs::copy_file(whole, part, fs::copy_options::overwrite_existing);
     fs::resize_file(part, size);
-    ASSERT_NE(dicom_state(part), DicomState::whole) << size;
+    ASSERT_NE(parse_dicom(part).state, DicomState::whole) << size;
   }
 }
 

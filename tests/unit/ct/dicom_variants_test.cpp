@@ -2,7 +2,8 @@
 
 #include <fstream>
 
-#include "ct/volume_io.hpp"
+#include "ct/read/read_ct.hpp"
+#include "ct/read/write_volume.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/ct/changed_dicom.hpp"
@@ -170,7 +171,6 @@ TEST(DicomVariants, AnEnhancedFileIsReadFrameByFrame) {
     EXPECT_EQ(back.dims, stack().dims);
     EXPECT_LT((back.world_of_centre({3, 2, 1}) - stack().world_of_centre({3, 2, 1})).norm(), 1e-3);
   }
-  EXPECT_EQ(list_series(file).at(0).slices, 4);
 }
 
 TEST(DicomVariants, ManyFramesWithoutPlacesAreRefused) {

@@ -1,11 +1,12 @@
-#include "ct/import.hpp"
+#include "ct/build/import.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "ct/phantom_case.hpp"
-#include "ct/volume_io.hpp"
+#include "ct/phantom/phantom_case.hpp"
+#include "ct/read/read_ct.hpp"
+#include "ct/read/write_volume.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/ct/shoulder_phantom.hpp"

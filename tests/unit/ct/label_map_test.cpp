@@ -1,8 +1,9 @@
-#include "ct/label_map.hpp"
+#include "ct/segment/label_map.hpp"
 
 #include <gtest/gtest.h>
 
-#include "ct/volume_io.hpp"
+#include "ct/read/read_ct.hpp"
+#include "ct/read/write_volume.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/ct/shoulder_phantom.hpp"

@@ -6,11 +6,10 @@
 #include <random>
 
 #include "case/measures.hpp"
-#include "case/scapular_frame.hpp"
 #include "core/units.hpp"
-#include "ct/import.hpp"
-#include "ct/phantom_case.hpp"
-#include "ct/volume_io.hpp"
+#include "ct/build/import.hpp"
+#include "ct/phantom/phantom_case.hpp"
+#include "ct/read/write_volume.hpp"
 #include "support/temporary_folder.hpp"
 #include "voxel/bone_model.hpp"
 

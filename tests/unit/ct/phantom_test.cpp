@@ -1,14 +1,14 @@
-#include "ct/phantom.hpp"
+#include "ct/phantom/phantom.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
 
-#include "case/scapular_frame.hpp"
+#include "case/measures.hpp"
 #include "core/units.hpp"
-#include "ct/calibration.hpp"
-#include "ct/phantom_case.hpp"
+#include "ct/build/bone_from_mask.hpp"
+#include "ct/phantom/phantom_case.hpp"
 #include "support/expect_error.hpp"
 
 namespace ream::ct {

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,7 +12,7 @@
 #include "core/file.hpp"
 #include "core/hash.hpp"
 #include "core/units.hpp"
-#include "ct/phantom_case.hpp"
+#include "ct/phantom/phantom_case.hpp"
 #include "support/expect_error.hpp"
 
 namespace ream::ct {

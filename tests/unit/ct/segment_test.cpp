@@ -1,4 +1,4 @@
-#include "ct/segment.hpp"
+#include "ct/segment/mask.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 
 #include <iostream>
 
-#include "ct/label_map.hpp"
-#include "ct/volume_io.hpp"
+#include "ct/read/read_ct.hpp"
+#include "ct/segment/label_map.hpp"
 #include "support/shared_data.hpp"
 #include "unit/ct/shoulder_phantom.hpp"
 

@@ -1,4 +1,4 @@
-#include "ct/shoulder_bones.hpp"
+#include "ct/segment/shoulder_bones.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #pragma once
-#include "ct/phantom.hpp"
-#include "ct/phantom_shape.hpp"
-#include "ct/shoulder_bones.hpp"
+#include "ct/phantom/phantom.hpp"
+#include "ct/phantom/phantom_shape.hpp"
+#include "ct/segment/shoulder_bones.hpp"
 
 namespace ream::ct {
 

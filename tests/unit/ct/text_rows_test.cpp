@@ -1,4 +1,4 @@
-#include "ct/text_rows.hpp"
+#include "ct/read/readers.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <random>
 #include <sstream>
 
-#include "ct/volume_io.hpp"
+#include "ct/read/read_ct.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/ct/changed_dicom.hpp"

@@ -5,9 +5,8 @@
 #include <cmath>
 #include <iostream>
 
-#include "ct/phantom.hpp"
-#include "ct/volume_io.hpp"
-#include "ct/volume_remarks.hpp"
+#include "ct/phantom/phantom.hpp"
+#include "ct/read/readers.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/ct/changed_dicom.hpp"
 
@@ -133,7 +132,7 @@ Cost worst(int slices_as_one) {
   return largest;
 }
 
-/// The figures of remark_thickness: none is exceeded, none exaggerates by half.
+/// The figures of warn_of_thickness: none is exceeded, none exaggerates by half.
 void expect_said(const Cost& c, double inclination_deg, double depth_mm, double lost_percent) {
   std::cout << "version " << c.version_deg << " deg, inclination " << c.inclination_deg << " deg, depth "
             << c.depth_mm << " mm, lost " << c.lost_percent << " %\n";
@@ -155,12 +154,12 @@ TEST(ThickSlices, CostWhatTheWarningSays) {
 TEST(ThickSlices, AreWarnedOfFrom5MillimetresOn) {
   HuVolume volume;
   volume.spacing_mm = {0.7, 0.7, 4.9};
-  remark_thickness(volume, 0.0);
+  warn_of_thickness(volume, 0.0);
   EXPECT_TRUE(volume.warnings.empty());
-  remark_thickness(volume, 5.0);  // overlapping slices
+  warn_of_thickness(volume, 5.0);  // overlapping slices
   EXPECT_TRUE(test::mentions(volume, "the slices are 5 mm thick: phantoms of 5 mm"));
   volume.spacing_mm.z() = 8.0;
-  remark_thickness(volume, 0.0);
+  warn_of_thickness(volume, 0.0);
   EXPECT_TRUE(test::mentions(volume, "the slices are 8 mm thick: phantoms of 8 mm"));
 }
 

@@ -1,4 +1,4 @@
-#include "ct/threshold_suggestion.hpp"
+#include "ct/segment/threshold_suggestion.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,9 @@
 #include <cstring>
 #include <fstream>
 
-#include "ct/volume_io.hpp"
+#include <Eigen/LU>
+#include "ct/read/read_ct.hpp"
+#include "ct/read/write_volume.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/ct/changed_dicom.hpp"

@@ -1,4 +1,4 @@
-#include "ct/workup.hpp"
+#include "ct/build/ct_workspace.hpp"
 #include "support/places.hpp"
 
 #include <gtest/gtest.h>
@@ -9,10 +9,8 @@
 #include "case/landmarks.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
-#include "ct/phantom.hpp"
-#include "ct/slice.hpp"
-#include "ct/workup_bone.hpp"
-#include "ct/workup_json.hpp"
+#include "ct/hu_volume.hpp"
+#include "ct/phantom/phantom.hpp"
 #include "support/json_schema.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -195,6 +195,7 @@ TEST(AdmittanceDevice, ASensorThatCannotBeZeroedIsSaidAndLeavesMotorsOff) {
       return DeviceStatus::ok;
     }
     bool move_to(const Pose&) noexcept override { return true; }
+    void session_paused(bool) noexcept override {}
     void stop() noexcept override {}
     void disable() noexcept override { ++disabled; }
     void close() noexcept override { ++closed; }
@@ -244,6 +245,7 @@ class Sagging final : public AdmittanceMachine {
     seen_.told.push_back(at);
     return true;
   }
+  void session_paused(bool) noexcept override {}
   void stop() noexcept override { seen_.calls += "stop "; }
   void disable() noexcept override { seen_.calls += "disable "; }
   void close() noexcept override { seen_.calls += "close "; }

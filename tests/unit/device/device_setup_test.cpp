@@ -1,4 +1,7 @@
 #include "device/device_setup.hpp"
+
+#include <Eigen/LU>
+
 #include "support/places.hpp"
 
 #include <gtest/gtest.h>

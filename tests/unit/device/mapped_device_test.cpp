@@ -37,6 +37,9 @@ class ToldDevice final : public HapticDevice {
     return DeviceStatus::ok;
   }
   void take_force_away() noexcept override { memory_.force_taken_away = true; }
+  void session_paused(bool) noexcept override {}
+  double closing_ms() const noexcept override { return 0.0; }
+  void use_priority(int) noexcept override {}
 
  private:
   Memory& memory_;

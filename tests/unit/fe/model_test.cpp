@@ -2,7 +2,7 @@
 
 #include <queue>
 
-#include "fe/keep_elements.hpp"
+#include "fe/element_model.hpp"
 #include "fe/largest_component.hpp"
 #include "fe/refine.hpp"
 #include "support/expect_error.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/file.hpp"
-#include "fe/layers_model.hpp"
+#include "fe/element_model.hpp"
 #include "fe/make_mesh.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "fe/layers_model.hpp"
+#include "fe/element_model.hpp"
 #include "support/expect_error.hpp"
 #include "unit/fe/small_models.hpp"
 

@@ -1,12 +1,16 @@
-#include "force/empirical_feed.hpp"
+#include "force/feed_model.hpp"
 
 #include <gtest/gtest.h>
 
-#include "force/feed_law.hpp"
 #include "unit/force/thesis_lip.hpp"
 
 namespace ream::force {
 namespace {
+
+std::unique_ptr<FeedModel> make_empirical(FeedSettings settings, Lip lip) {
+  settings.kind = FeedKind::empirical;
+  return make_feed_model(settings, {std::move(lip)});
+}
 
 EngagedBone cortical(double density_g_cc) {
   EngagedBone bone;
@@ -16,7 +20,7 @@ EngagedBone cortical(double density_g_cc) {
 }
 
 TEST(EmpiricalFeed, IsLinearInThrustToTheBit) {
-  const auto model = make_empirical_feed_model({}, test::thesis_lip(100));
+  const auto model = make_empirical({}, test::thesis_lip(100));
   for (const double thrust_n : {0.0, 1.0, 52.0, 300.0})
     EXPECT_EQ(model->load(cortical(1.5), thrust_n).resistance_n_s_mm,
               lawful_resistance_n_s_mm(cortical(1.5), {}));
@@ -24,7 +28,7 @@ TEST(EmpiricalFeed, IsLinearInThrustToTheBit) {
 
 TEST(EmpiricalFeed, TakesItsTorqueFromTheLipsAtTheReferenceFeed) {
   const Lip lip = test::thesis_lip(200);
-  const auto model = make_empirical_feed_model({}, lip);
+  const auto model = make_empirical({}, lip);
   for (const double density_g_cc : {1.2, 1.5, 1.9}) {
     const double feed_mm = (0.11 - 0.05 * density_g_cc) / 2.6;
     const LipLoad load = whole_load(lip_loads(lip, {}, {feed_mm}));

@@ -1,11 +1,11 @@
-#include "force/energy_guard.hpp"
+#include "force/hand_safety.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "core/clock.hpp"
-#include "force/limits.hpp"
+#include "force/wrench.hpp"
 
 namespace ream::force {
 namespace {
@@ -114,7 +114,7 @@ TEST(EnergyGuard, WhatTheBoneUsedUpDoesNotPayLater) {
     given_mj -= rendered.force_n.z() * 0.01;
     guard.observe(at_depth(z_mm));
   }
-  EXPECT_LT(given_mj, energy_guard::most_saved_mj + 4.0 + 1.0);
+  EXPECT_LT(given_mj, energy_guard::max_saved_mj + 4.0 + 1.0);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "force/feed_law.hpp"
+#include "force/feed_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ TEST(FeedLaw, NeverTurnsNegative) {
   for (double d = 0.0; d <= 2.5; d += 0.01)
     for (int k = 0; k < 3; ++k)
       for (const double factor : {0.1, 1.0, 10.0})
-        EXPECT_GE(empirical_feed_mm_s(k, d, factor), slowest_feed_mm_s);
+        EXPECT_GE(empirical_feed_mm_s(k, d, factor), min_feed_mm_s);
 }
 
 TEST(FeedLaw, MixesClassesByShare) {

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "force/feed_law.hpp"
+#include <nlohmann/json.hpp>
+
+#include "core/file.hpp"
 #include "support/expect_error.hpp"
+#include "support/places.hpp"
 #include "unit/force/thesis_lip.hpp"
 
 namespace ream::force {
@@ -96,10 +99,22 @@ INSTANTIATE_TEST_SUITE_P(Models, EveryFeedModel,
                          testing::Values(FeedKind::empirical, FeedKind::oblique, FeedKind::scraping),
                          [](const auto& kind) { return std::string(to_text(kind.param)); });
 
-TEST(FeedKind, HasAWordEach) {
+TEST(FeedKind, HasANameEach) {
   for (const FeedKind kind : {FeedKind::empirical, FeedKind::oblique, FeedKind::scraping})
     EXPECT_EQ(feed_kind_from_text(to_text(kind)), kind);
+  EXPECT_EQ(feed_models().size(), 3u);
+  EXPECT_EQ(feed_model_names(), "empirical, oblique or scraping");
+  EXPECT_EQ(std::string(to_text(FeedKind::scraping)), "scraping");
   test::expect_error(ErrorKind::usage, "rubbing", [] { feed_kind_from_text("rubbing"); });
+}
+
+// Whoever adds a model adds its name to the schema of scripts.
+TEST(FeedKind, NamesAreThoseOfTheScriptsSchema) {
+  const auto schema = read_json_file(test::source_folder() + "/proto/script.schema.json");
+  const auto& names = schema.at("properties").at("feed_model").at("enum");
+  ASSERT_EQ(names.size(), feed_models().size());
+  for (size_t i = 0; i < names.size(); ++i) EXPECT_EQ(names[i], feed_models()[i].name);
+  EXPECT_EQ(schema.at("properties").at("feed_model").at("default"), feed_models()[0].name);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "force/feed_table.hpp"
+#include "force/feed_model.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "force/friction.hpp"
+#include "force/coupling.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "force/guide_walls.hpp"
+#include "force/guide.hpp"
 
 #include <gtest/gtest.h>
 

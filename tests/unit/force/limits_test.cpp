@@ -1,4 +1,4 @@
-#include "force/limits.hpp"
+#include "force/wrench.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,7 @@
 #include "force/oblique_cutting.hpp"
 
+#include <Eigen/Geometry>
+
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "force/oblique_feed.hpp"
+#include "force/feed_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,11 @@
 
 namespace ream::force {
 namespace {
+
+std::unique_ptr<FeedModel> make_oblique(FeedSettings settings, Lip lip) {
+  settings.kind = FeedKind::oblique;
+  return make_feed_model(settings, {std::move(lip)});
+}
 
 constexpr double reference_revolutions_s = 156.0 / 60.0;
 
@@ -26,7 +31,7 @@ TEST(ObliqueFeed, TheLipsTakeTheThrustThatTheModelSays) {
     settings.cutting.depth_exponent = depth_exponent;
     settings.spindle_rad_s = 2.0 * reference_spindle_rad_s;
     settings.cutting.speed_exponent = 0.1;
-    const auto model = make_oblique_feed_model(settings, lip);
+    const auto model = make_oblique(settings, lip);
     const double lawful_feed_mm = (0.42 - 0.34 * 0.6) / reference_revolutions_s;
     const double coefficient = 52.0 / whole_load(lip_loads(lip, settings.cutting, {lawful_feed_mm})).thrust_n;
     for (const double thrust_n : {5.0, 20.0, 52.0, 90.0}) {
@@ -44,7 +49,7 @@ TEST(ObliqueFeed, ADepthExponentBendsTheLaw) {
   // Thrust grows with feed^(1 + exponent), so that feed grows with thrust^(1 / (1 + exponent)).
   FeedSettings settings;
   settings.cutting.depth_exponent = -0.4;
-  const auto model = make_oblique_feed_model(settings, test::thesis_lip(300));
+  const auto model = make_oblique(settings, test::thesis_lip(300));
   const auto feed = [&](double thrust_n) {
     return thrust_n / model->load(cancellous(0.6), thrust_n).resistance_n_s_mm;
   };
@@ -54,7 +59,7 @@ TEST(ObliqueFeed, ADepthExponentBendsTheLaw) {
 TEST(ObliqueFeed, BelowTheStartThresholdResistanceStaysFinite) {
   FeedSettings settings;
   settings.cutting.depth_exponent = -0.4;
-  const auto model = make_oblique_feed_model(settings, test::thesis_lip(100));
+  const auto model = make_oblique(settings, test::thesis_lip(100));
   const CuttingLoad at = model->load(cancellous(0.6), start_threshold_n);
   for (const double thrust_n : {-3.0, 0.0, 0.5})
     EXPECT_EQ(model->load(cancellous(0.6), thrust_n).resistance_n_s_mm, at.resistance_n_s_mm);
@@ -69,7 +74,7 @@ TEST(ObliqueFeed, TorqueIsTheLipsMeanRadiusOverFriction) {
     FeedSettings settings;
     settings.cutting.friction = friction;
     const double arm =
-        make_oblique_feed_model(settings, test::thesis_lip(300))->load(cancellous(0.6), 52.0).torque_arm_mm;
+        make_oblique(settings, test::thesis_lip(300))->load(cancellous(0.6), 52.0).torque_arm_mm;
     EXPECT_LT(arm, before);
     EXPECT_GT(arm, test::ellipse_a_mm * 2.0 / 3.0 * 0.9);
     before = arm;

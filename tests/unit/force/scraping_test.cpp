@@ -1,4 +1,4 @@
-#include "force/scraping.hpp"
+#include "force/feed_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,11 @@
 
 namespace ream::force {
 namespace {
+
+std::unique_ptr<FeedModel> make_scraping(FeedSettings settings, double seated_area_mm2) {
+  settings.kind = FeedKind::scraping;
+  return make_feed_model(settings, {{}, seated_area_mm2});
+}
 
 EngagedBone cortical(double area_mm2) {
   EngagedBone bone;
@@ -16,7 +21,7 @@ EngagedBone cortical(double area_mm2) {
 }
 
 TEST(Scraping, ResistanceGrowsWithTheRootOfTheArea) {
-  const auto model = make_scraping_feed_model({}, 100.0);
+  const auto model = make_scraping({}, 100.0);
   const double seated = model->load(cortical(100.0), 52.0).resistance_n_s_mm;
   EXPECT_NEAR(seated, 52.0 / 0.035, 1e-9);
   EXPECT_NEAR(model->load(cortical(400.0), 52.0).resistance_n_s_mm, 2.0 * seated, 1e-9);
@@ -42,7 +47,7 @@ TEST(Scraping, IsTheIntegralOfWearOverTheFootprint) {
     }
     return sum;
   };
-  const auto model = make_scraping_feed_model(settings, pi * 36.0);
+  const auto model = make_scraping(settings, pi * 36.0);
   for (const double radius_mm : {1.0, 6.0, 13.0}) {
     const CuttingLoad load = model->load(cortical(pi * radius_mm * radius_mm), 52.0);
     const auto here = integral(radius_mm), seated = integral(6.0);

@@ -1,4 +1,4 @@
-#include "force/start_up.hpp"
+#include "force/hand_safety.hpp"
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ TEST(StartUpRamp, WaitsForASmallForceThenRisesEvenly) {
 
 TEST(StartUpRamp, MeetsAHandThatNeverEasesTooByTheSameRamp) {
   StartUpRamp ramp(1.0);
-  for (int i = 0; i < StartUpRamp::longest_wait_ticks; ++i) ASSERT_EQ(ramp.next(5.0), 0.0);
+  for (int i = 0; i < StartUpRamp::max_wait_ticks; ++i) ASSERT_EQ(ramp.next(5.0), 0.0);
   for (int i = 1; i <= 1000; ++i) ASSERT_NEAR(ramp.next(5.0), i / 1000.0, 1e-9);
 }
 

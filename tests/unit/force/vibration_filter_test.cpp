@@ -1,4 +1,4 @@
-#include "force/vibration_filter.hpp"
+#include "force/vibration/vibration_signal.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
-#include "force/vibration_player.hpp"
+#include "force/vibration/vibration_player.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/units.hpp"
-#include "force/vibration_resample.hpp"
-#include "force/vibration_sound.hpp"
+#include "force/vibration/vibration_signal.hpp"
 #include "support/spectrum.hpp"
+#include "unit/force/vibration_sound.hpp"
 
 namespace ream::force {
 namespace {

@@ -1,4 +1,4 @@
-#include "force/vibration_recording.hpp"
+#include "force/vibration/vibration_recording.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "force/vibration_tracks.hpp"
+#include "force/vibration/vibration_tracks.hpp"
 #include "support/expect_error.hpp"
 #include "support/recording_files.hpp"
 #include "support/spectrum.hpp"

@@ -1,4 +1,4 @@
-#include "force/vibration_resample.hpp"
+#include "force/vibration/vibration_signal.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "force/vibration_synthesizer.hpp"
+#include "force/vibration/vibration_synthesizer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <map>
 
 #include "core/units.hpp"
-#include "force/vibration_sound.hpp"
 #include "support/spectrum.hpp"
+#include "unit/force/vibration_sound.hpp"
 
 namespace ream::force {
 namespace {

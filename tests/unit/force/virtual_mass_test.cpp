@@ -1,4 +1,4 @@
-#include "force/virtual_mass.hpp"
+#include "force/coupling.hpp"
 
 #include <gtest/gtest.h>
 

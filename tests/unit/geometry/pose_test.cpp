@@ -1,5 +1,7 @@
 #include "geometry/pose.hpp"
 
+#include <Eigen/Geometry>
+
 #include <gtest/gtest.h>
 
 #include <cmath>

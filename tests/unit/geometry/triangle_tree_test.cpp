@@ -42,9 +42,9 @@ TEST(TriangleTree, DistanceToATriangleIsThatToItsNearestPoint) {
     Vec3 points[4];
     for (Vec3& point : points) point = Vec3(place(random), place(random), place(random));
     const double sampled = sampled_distance(points[0], points[1], points[2], points[3]);
-    const double told = triangle_distance_mm(points[0], points[1], points[2], points[3]);
-    EXPECT_LE(told, sampled + 1e-9) << "seed 61, round " << round;
-    EXPECT_GE(told, sampled - 0.06) << "seed 61, round " << round;
+    const double computed = triangle_distance_mm(points[0], points[1], points[2], points[3]);
+    EXPECT_LE(computed, sampled + 1e-9) << "seed 61, round " << round;
+    EXPECT_GE(computed, sampled - 0.06) << "seed 61, round " << round;
   }
 }
 

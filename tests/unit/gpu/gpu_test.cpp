@@ -6,7 +6,6 @@
 
 #include "core/error.hpp"
 #include "gpu/binary_cache.hpp"
-#include "gpu/kernel_source.hpp"
 #include "gpu/program.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -42,10 +41,10 @@ TEST(Device, IsChosenByNumberAndName) {
 }
 
 TEST(Device, UnknownWishesAreUsageErrorsThatListTheDevices) {
-  for (const char* wish : {"opencl:99", "opencl:", "opencl:-1", "opencl:0x", "no such device", ""}) {
+  for (const char* name : {"opencl:99", "opencl:", "opencl:-1", "opencl:0x", "no such device", ""}) {
     try {
-      choose_device(wish, Use::tick);
-      FAIL() << wish;
+      choose_device(name, Use::tick);
+      FAIL() << name;
     } catch (const Error& e) {
       EXPECT_EQ(e.kind(), ErrorKind::usage);
       EXPECT_NE(std::string(e.what()).find("opencl:0 is "), std::string::npos) << e.what();

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <fstream>
 #include <functional>
+#include <numeric>
 #include <optional>
 #include <regex>
+#include <sstream>
+
+#include "unit/layering/source_shape.hpp"
 
 namespace ream::layering {
 namespace fs = std::filesystem;
@@ -31,7 +35,7 @@ const Rooms& drawn_arrows() {
       {"record", {"case", "device"}},
       {"surface", {"voxel"}},
       {"voxel", {"geometry", "gpu"}},
-      {"device", {"geometry", "net"}},
+      {"device", {"force", "net"}},
       {"force", {"geometry"}},
       {"render", {"geometry"}},
       {"geometry", {"core"}},
@@ -102,6 +106,70 @@ std::vector<Include> includes_of(const fs::path& root, const fs::path& file) {
   }
   return includes;
 }
+
+bool is_header(const fs::path& file) { return has_extension(file, {".hpp", ".h"}); }
+std::string name_of(const fs::path& root, const fs::path& file) { return fs::relative(file, root).string(); }
+
+std::string text_of(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+int lines_of(const fs::path& file) {
+  const std::string text = text_of(file);
+  return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+}
+
+std::vector<FunctionLines> functions_under(const fs::path& root) {
+  std::vector<FunctionLines> functions;
+  for (const fs::path& file : files_under(root / "server"))
+    for (const FunctionLines& function : function_lines(name_of(root, file), text_of(file)))
+      functions.push_back(function);
+  return functions;
+}
+
+/// Names, and for each the names it leads to.
+using Graph = std::map<std::string, std::set<std::string>>;
+
+Graph include_graph(const fs::path& root) {
+  Graph graph;
+  for (const fs::path& file : files_under(root / "server"))
+    for (const Include& include : includes_of(root, file))
+      if (fs::exists(root / "server" / include.path))
+        graph[name_of(root, file)].insert("server/" + include.path);
+  return graph;
+}
+
+/// Walks the graph and writes down each cycle it meets, "a -> b -> a".
+class CycleFinder {
+ public:
+  explicit CycleFinder(const Graph& graph) : graph_(graph) {}
+  std::vector<std::string> find() {
+    for (const auto& [name, targets] : graph_) visit(name);
+    return found_;
+  }
+
+ private:
+  void visit(const std::string& name) {
+    const auto on_way = std::find(way_.begin(), way_.end(), name);
+    if (on_way != way_.end()) {
+      std::string cycle;
+      for (auto step = on_way; step != way_.end(); ++step) cycle += *step + " -> ";
+      found_.push_back(cycle + name);
+      return;
+    }
+    if (!seen_.insert(name).second || !graph_.contains(name)) return;
+    way_.push_back(name);
+    for (const std::string& target : graph_.at(name)) visit(target);
+    way_.pop_back();
+  }
+
+  const Graph& graph_;
+  std::set<std::string> seen_;
+  std::vector<std::string> way_, found_;
+};
+
+std::vector<std::string> cycles(const Graph& graph) { return CycleFinder(graph).find(); }
 
 /// First folder of a path with folders; empty for a bare name.
 std::string first_folder(const fs::path& path) {
@@ -191,15 +259,73 @@ std::vector<std::string> length_violations(const fs::path& root) {
   std::vector<std::string> found;
   for (const char* folder : {"server", "kernels"})
     for (const fs::path& file : files_under(root / folder)) {
-      std::ifstream in(file);
-      const auto lines =
-          std::count(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>(), '\n');
-      const int limit = has_extension(file, {".hpp", ".h"}) ? 150 : 400;
+      const int lines = lines_of(file);
+      const int limit = is_header(file) ? server_limits.header_lines : server_limits.source_lines;
       if (lines > limit)
-        found.push_back(fs::relative(file, root).string() + ":" + std::to_string(lines) + ": longer than " +
+        found.push_back(name_of(root, file) + ":" + std::to_string(lines) + ": longer than " +
                         std::to_string(limit) + " lines");
     }
   return found;
+}
+
+std::vector<std::string> function_violations(const fs::path& root) {
+  std::vector<std::string> found;
+  for (const FunctionLines& function : functions_under(root))
+    if (function.lines > server_limits.function_lines)
+      found.push_back(function.place + ": a function of " + std::to_string(function.lines) + " lines");
+  return found;
+}
+
+std::vector<std::string> file_cycles(const fs::path& root) { return cycles(include_graph(root)); }
+
+std::vector<std::string> folder_cycles(const fs::path& root) {
+  Graph folders;
+  for (const auto& [file, targets] : include_graph(root))
+    for (const std::string& target : targets) {
+      const std::string from = fs::path(file).parent_path(), to = fs::path(target).parent_path();
+      if (from != to) folders[from].insert(to);
+    }
+  return cycles(folders);
+}
+
+std::vector<std::string> single_function_headers(const fs::path& root) {
+  std::vector<std::string> found;
+  for (const fs::path& file : files_under(root / "server")) {
+    if (!is_header(file)) continue;
+    const Declarations declared = declarations(text_of(file));
+    if (declared.functions == 1 && declared.types == 0) found.push_back(name_of(root, file));
+  }
+  return found;
+}
+
+std::vector<std::string> private_headers(const fs::path& root) {
+  std::map<std::string, std::set<std::string>> users;
+  for (const auto& [file, targets] : include_graph(root))
+    for (const std::string& target : targets)
+      if (fs::path(file).replace_extension() != fs::path(target).replace_extension())
+        users[target].insert(file);
+  for (const fs::path& test : files_under(root / "tests"))
+    for (const Include& include : includes_of(root, test)) users["server/" + include.path].insert("tests");
+  std::vector<std::string> found;
+  for (const auto& [header, by] : users)
+    if (by.size() == 1 && fs::path(*by.begin()).parent_path() == fs::path(header).parent_path())
+      found.push_back(header + ": " + *by.begin() + " alone includes it");
+  return found;
+}
+
+Totals totals(const fs::path& root) {
+  std::vector<int> files, functions;
+  for (const fs::path& file : files_under(root / "server")) files.push_back(lines_of(file));
+  for (const FunctionLines& function : functions_under(root)) functions.push_back(function.lines);
+  std::sort(files.begin(), files.end());
+  std::sort(functions.begin(), functions.end());
+  Totals sizes;
+  sizes.files = static_cast<int>(files.size());
+  sizes.lines = std::accumulate(files.begin(), files.end(), 0);
+  sizes.functions = static_cast<int>(functions.size());
+  if (!files.empty()) sizes.median_file_lines = files[files.size() / 2];
+  if (!functions.empty()) sizes.p90_function_lines = functions[functions.size() * 9 / 10];
+  return sizes;
 }
 
 }  // namespace ream::layering

@@ -22,7 +22,47 @@ std::vector<std::string> arrow_violations(const std::filesystem::path& root);
 /// them.
 std::vector<std::string> library_violations(const std::filesystem::path& root);
 
-/// Headers over 150 lines and sources (kernels too) over 400.
+/// Headers and sources (kernels too) with more lines than `server_limits` has.
 std::vector<std::string> length_violations(const std::filesystem::path& root);
+
+/// Functions of server/ with more lines than `server_limits` has.
+std::vector<std::string> function_violations(const std::filesystem::path& root);
+
+/// Cycles of includes under server/, "a -> b -> a": between files, and between the folders in which they lie
+/// (every folder for itself, not with those inside it).
+std::vector<std::string> file_cycles(const std::filesystem::path& root);
+std::vector<std::string> folder_cycles(const std::filesystem::path& root);
+
+/// Headers of server/ that declare one free function and no type: they belong to a noun's header.
+std::vector<std::string> single_function_headers(const std::filesystem::path& root);
+
+/// Headers of server/ that one other file includes, one of their own folder, and no test: private parts of
+/// it.
+std::vector<std::string> private_headers(const std::filesystem::path& root);
+
+/// Sizes of what lies under server/.
+struct Totals {
+  int files = 0, lines = 0, median_file_lines = 0;
+  int functions = 0, p90_function_lines = 0;
+};
+Totals totals(const std::filesystem::path& root);
+
+/// Upper and lower bounds on the shape of server/
+struct Limits {
+  int header_lines, source_lines, function_lines, p90_function_lines;
+  int folder_cycles, single_function_headers, private_headers;
+  int files, lines, min_median_file_lines, max_median_file_lines;
+};
+inline constexpr Limits server_limits{.header_lines = 250,
+                                      .source_lines = 600,
+                                      .function_lines = 80,
+                                      .p90_function_lines = 25,
+                                      .folder_cycles = 1,
+                                      .single_function_headers = 82,
+                                      .private_headers = 200,
+                                      .files = 1200,
+                                      .lines = 81000,
+                                      .min_median_file_lines = 45,
+                                      .max_median_file_lines = 110};
 
 }  // namespace ream::layering

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iostream>
 
 #include "support/temporary_folder.hpp"
 
@@ -31,6 +32,45 @@ TEST(Layering, BigLibrariesStayInTheirRoom) {
 TEST(Layering, FilesAreShort) {
   const Found found = length_violations(test::source_folder());
   EXPECT_TRUE(found.empty()) << lines(found);
+}
+
+TEST(Layering, FunctionsAreShort) {
+  const Found found = function_violations(test::source_folder());
+  EXPECT_TRUE(found.empty()) << lines(found);
+}
+
+TEST(Layering, NoFileIncludesItselfByADetour) {
+  const Found found = file_cycles(test::source_folder());
+  EXPECT_TRUE(found.empty()) << lines(found);
+}
+
+TEST(Layering, NoFolderIncludesItselfByADetour) {
+  const Found found = folder_cycles(test::source_folder());
+  EXPECT_LE(static_cast<int>(found.size()), server_limits.folder_cycles) << lines(found);
+}
+
+TEST(Layering, AHeaderIsOfANounNotOfAFunction) {
+  const Found found = single_function_headers(test::source_folder());
+  EXPECT_LE(static_cast<int>(found.size()), server_limits.single_function_headers) << lines(found);
+}
+
+TEST(Layering, PrivatePartsAreInWhatUsesThem) {
+  const Found found = private_headers(test::source_folder());
+  std::cout << found.size() << " headers with one user, in their own folder, and no test:" << lines(found)
+            << "\n";
+  EXPECT_LE(static_cast<int>(found.size()), server_limits.private_headers);
+}
+
+TEST(Layering, TheServerIsOfThisSize) {
+  const Totals sizes = totals(test::source_folder());
+  std::cout << "server/: " << sizes.files << " files, " << sizes.lines << " lines, median file "
+            << sizes.median_file_lines << " lines; " << sizes.functions << " functions, 90 % have "
+            << sizes.p90_function_lines << " lines at most\n";
+  EXPECT_LE(sizes.files, server_limits.files);
+  EXPECT_LE(sizes.lines, server_limits.lines);
+  EXPECT_GE(sizes.median_file_lines, server_limits.min_median_file_lines);
+  EXPECT_LE(sizes.median_file_lines, server_limits.max_median_file_lines);
+  EXPECT_LE(sizes.p90_function_lines, server_limits.p90_function_lines);
 }
 
 TEST(LayeringPlan, NoRoomReachesItself) {
@@ -114,14 +154,48 @@ TEST(LayeringChecker, NamesALibraryOutsideItsRoom) {
 
 TEST(LayeringChecker, CountsLines) {
   const test::TemporaryFolder tree;
-  tree.write("server/core/fits.hpp", std::string(150, '\n'));
-  tree.write("server/core/fits.cpp", std::string(400, '\n'));
-  tree.write("server/core/long.hpp", std::string(151, '\n'));
-  tree.write("server/core/long.cpp", std::string(401, '\n'));
-  tree.write("kernels/long.cl", std::string(401, '\n'));
-  EXPECT_EQ(length_violations(tree.path()), (Found{"server/core/long.cpp:401: longer than 400 lines",
-                                                   "server/core/long.hpp:151: longer than 150 lines",
-                                                   "kernels/long.cl:401: longer than 400 lines"}));
+  tree.write("server/core/fits.hpp", std::string(250, '\n'));
+  tree.write("server/core/fits.cpp", std::string(600, '\n'));
+  tree.write("server/core/long.hpp", std::string(251, '\n'));
+  tree.write("server/core/long.cpp", std::string(601, '\n'));
+  tree.write("kernels/long.cl", std::string(601, '\n'));
+  EXPECT_EQ(length_violations(tree.path()), (Found{"server/core/long.cpp:601: longer than 600 lines",
+                                                   "server/core/long.hpp:251: longer than 250 lines",
+                                                   "kernels/long.cl:601: longer than 600 lines"}));
+}
+
+TEST(LayeringChecker, NamesALongFunction) {
+  const test::TemporaryFolder tree;
+  tree.write("server/core/a.cpp",
+             "int f() {\n" + std::string(78, '\n') + "}\n\nint g() {\n" + std::string(79, '\n') + "}\n");
+  EXPECT_EQ(function_violations(tree.path()), Found{"server/core/a.cpp:82: a function of 81 lines"});
+}
+
+TEST(LayeringChecker, NamesCyclesOfFilesAndOfFolders) {
+  const test::TemporaryFolder tree;
+  tree.write("server/core/a.hpp", "#include \"core/b.hpp\"\n");
+  tree.write("server/core/b.hpp", "#include \"core/a.hpp\"\n");
+  tree.write("server/sim/c.hpp", "#include \"sim/parts/d.hpp\"\n#include \"core/a.hpp\"\n");
+  tree.write("server/sim/parts/d.hpp", "");
+  tree.write("server/sim/parts/e.cpp", "#include \"sim/f.hpp\"\n");
+  tree.write("server/sim/f.hpp", "");
+  EXPECT_EQ(file_cycles(tree.path()), Found{"server/core/a.hpp -> server/core/b.hpp -> server/core/a.hpp"});
+  EXPECT_EQ(folder_cycles(tree.path()), Found{"server/sim -> server/sim/parts -> server/sim"});
+}
+
+TEST(LayeringChecker, NamesHeadersOfOneFunctionAndPrivateOnes) {
+  const test::TemporaryFolder tree;
+  tree.write("server/core/one.hpp", "namespace ream {\nint f(int a = g());\n}  // namespace ream\n");
+  tree.write("server/core/two.hpp", "namespace ream {\nint f();\nint f(int a);\n}  // namespace ream\n");
+  tree.write("server/core/noun.hpp",
+             "namespace ream {\nstruct A {\n  int f();\n};\nA make();\n}  // namespace ream\n");
+  tree.write("server/core/one.cpp",
+             "#include \"core/one.hpp\"\n#include \"core/two.hpp\"\n#include \"core/noun.hpp\"\n");
+  tree.write("server/sim/a.cpp", "#include \"core/one.hpp\"\n");
+  tree.write("tests/unit/core/noun_test.cpp", "#include \"core/noun.hpp\"\n");
+  EXPECT_EQ(single_function_headers(tree.path()), Found{"server/core/one.hpp"});
+  EXPECT_EQ(private_headers(tree.path()),
+            Found{"server/core/two.hpp: server/core/one.cpp alone includes it"});
 }
 
 }  // namespace

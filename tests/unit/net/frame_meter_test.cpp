@@ -5,6 +5,8 @@
 #include <random>
 #include <string>
 
+#include "support/seed.hpp"
+
 namespace ream::net {
 namespace {
 
@@ -33,9 +35,7 @@ std::string frame(char first, size_t length, bool masked) {
 }
 
 TEST(FrameMeter, CountsFramesOfEveryLengthWhereverTheyAreCut) {
-  const unsigned seed = std::random_device{}();
-  SCOPED_TRACE(seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed());
   std::string bytes;
   size_t frames = 0;
   for (const size_t length : {size_t{0}, size_t{1}, size_t{125}, size_t{126}, size_t{65'535}, size_t{65'536}})

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "net/problem.hpp"
+#include "support/seed.hpp"
 
 namespace ream::net {
 namespace {
@@ -73,9 +74,7 @@ TEST_F(RequestParserTest, ReadsTheSameHoweverTheBytesAreCut) {
       "POST /two HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n6\r\nsecond\r\n0\r\nX: "
       "y\r\n\r\n"
       "GET /three HTTP/1.1\r\nHost: localhost\r\n\r\n";
-  const unsigned seed = std::random_device()();
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed());
   for (int round = 0; round < 200; ++round) {
     const size_t most = round == 0 ? 1 : round == 1 ? stream.size() : 1 + random() % 20;
     RequestParser parser(limits);

@@ -1,8 +1,10 @@
 #include "openigtlink/ras.hpp"
 
+#include <Eigen/LU>
+
 #include <gtest/gtest.h>
 
-#include "ct/phantom_case.hpp"
+#include "ct/phantom/phantom_case.hpp"
 #include "openigtlink/told_words.hpp"
 #include "support/igtl_by_the_book.hpp"
 #include "support/random_pose.hpp"

@@ -3,7 +3,7 @@
 
 #include "core/clock.hpp"
 #include "openigtlink/showcase.hpp"
-#include "stream/fanout_local.hpp"
+#include "stream/fanout.hpp"
 #include "stream/mesh_publisher.hpp"
 #include "support/igtl_reading.hpp"
 #include "surface/whole_surface.hpp"
@@ -20,7 +20,7 @@ class WatchedBall {
   }
 
   std::shared_ptr<const ShownSession> session() const { return session_; }
-  stream::LocalFanout& fanout() { return *fanout_; }
+  stream::Fanout& fanout() { return *fanout_; }
   const voxel::BoneModel& bone() const { return bone_; }
 
   /// Bricks that hold bone, whether or not it has been cut.
@@ -91,7 +91,7 @@ class WatchedBall {
   }
 
   voxel::BoneModel bone_;
-  std::shared_ptr<stream::LocalFanout> fanout_ = std::make_shared<stream::LocalFanout>();
+  std::shared_ptr<stream::Fanout> fanout_ = std::make_shared<stream::Fanout>();
   stream::MeshPublisher publisher_;
   std::shared_ptr<const ShownSession> session_;
   uint32_t tick_ = 0;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <random>
 
+#include "support/seed.hpp"
+
 namespace ream::record {
 namespace {
 
@@ -21,9 +23,7 @@ void expect_back(const Words& words, uint32_t columns) {
 }
 
 TEST(Columns, AnyWordsComeBack) {
-  const uint32_t seed = std::random_device{}();
-  std::mt19937 random(seed);
-  SCOPED_TRACE(seed);
+  std::mt19937 random(test::seed());
   for (const uint32_t columns : {1u, 2u, 7u, 64u})
     for (const uint32_t rows : {0u, 1u, 2u, 3u, 250u}) {
       Words words(rows * columns);

@@ -8,6 +8,7 @@
 
 #include "support/example_log.hpp"
 #include "support/expect_error.hpp"
+#include "support/seed.hpp"
 
 namespace ream::record::ops {
 namespace {
@@ -135,9 +136,7 @@ TEST(Ops, DamagedBytesNeverDoMoreThanBeRefused) {
   put_rows(whole, std::vector<Tick>{example_op<Tick>(1), example_op<Tick>(2)});
   put(whole, example_op<Bricks>(1));
   put(whole, example_op<Annotation>(1));
-  const uint32_t seed = std::random_device{}();
-  SCOPED_TRACE(seed);
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed());
   int refused = 0;
   for (int round = 0; round < 20000; ++round) {
     Bytes raw = whole;

@@ -81,7 +81,7 @@ TEST_F(RecordedBoneTest, ImagesThatComeMuchTooLateCostCheckpointsAndNothingElse)
   {
     Recorder recorder(create_log_file(path_), session.header(), RecordedCutting::segment(0),
                       session.follower.data());
-    session.run(recorder, 5 * most_ticks_per_chunk, 0);
+    session.run(recorder, 5 * max_ticks_per_chunk, 0);
     session.run(recorder, 700);
     recorder.finish("finished");
   }

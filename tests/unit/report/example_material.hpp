@@ -27,7 +27,7 @@ inline report::Material full_material() {
   m.metrics["axial_thrust_mean_n"] = 52.0;
   m.metrics["plate_preserved_percent"] = 92.0;
   m.metrics["vault_breach_mm"] = 0.0;
-  m.metrics["unsaid"] = nlohmann::json::object();
+  m.metrics["missing"] = nlohmann::json::object();
   m.rubric = score::standard_rubric();
   m.score = score::apply_rubric(m.rubric, m.metrics);
   m.trace.emplace(3000, Pose{});
@@ -49,7 +49,7 @@ inline report::Material empty_material() {
   m.metrics = nlohmann::json::object();
   for (const score::Metric& metric : score::metric_catalogue()) {
     m.metrics[std::string(metric.key)] = nullptr;
-    m.metrics["unsaid"][std::string(metric.key)] = "the reamer never touched bone";
+    m.metrics["missing"][std::string(metric.key)] = "the reamer never touched bone";
   }
   m.rubric = score::standard_rubric();
   m.score = score::apply_rubric(m.rubric, m.metrics);

@@ -34,7 +34,7 @@ TEST(MakeReport, PutsPlanBesideWhatWasAchieved) {
   EXPECT_EQ(line(report, "Duration").mark, Mark::none);
   EXPECT_TRUE(line(report, "Vault breach").critical);
   EXPECT_EQ(report.verdict, "Passed");
-  EXPECT_TRUE(report.unsaid.empty());
+  EXPECT_TRUE(report.missing.empty());
 }
 
 TEST(MakeReport, EveryMetricIsThereOnceWithItsSource) {
@@ -105,10 +105,10 @@ TEST(MakeReport, WhatIsNotSaidIsSaidToBe) {
   for (const MetricTable& table : report.tables)
     for (const MetricLine& each : table.lines) {
       EXPECT_EQ(each.value, "") << each.name;
-      EXPECT_EQ(each.mark, Mark::unsaid) << each.name;
+      EXPECT_EQ(each.mark, Mark::missing) << each.name;
     }
-  ASSERT_EQ(report.unsaid.size(), 1u) << "one reason for all";
-  EXPECT_EQ(report.unsaid[0].value, "the reamer never touched bone");
+  ASSERT_EQ(report.missing.size(), 1u) << "one reason for all";
+  EXPECT_EQ(report.missing[0].value, "the reamer never touched bone");
   EXPECT_TRUE(report.charts.empty());
   EXPECT_FALSE(report.why_no_charts.empty());
   EXPECT_EQ(fact(report.facts, "Trainee"), "not named");

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "score/handling.hpp"
 #include "score/metric_catalogue.hpp"
-#include "score/metrics.hpp"
 
 namespace ream::report {
 namespace {

@@ -1,4 +1,4 @@
-#include "score/cusum.hpp"
+#include "score/learning_curve.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,7 @@
 #include "score/cut_axis.hpp"
 
+#include <Eigen/Geometry>
+
 #include <gtest/gtest.h>
 
 #include <cmath>

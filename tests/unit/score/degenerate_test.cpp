@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "score/bone_results.hpp"
 #include "score/metric_catalogue.hpp"
-#include "score/session_metrics.hpp"
-#include "score/surface_findings.hpp"
+#include "score/metrics.hpp"
 #include "support/analytic_glenoid.hpp"
 #include "support/random_pose.hpp"
 #include "support/tick_reports.hpp"
@@ -45,12 +45,12 @@ void expect_sound(const nlohmann::json& metrics, const std::string& what) {
     const std::string key(metric.key);
     ASSERT_TRUE(metrics.contains(key)) << what << ": " << key;
     if (metrics[key].is_null()) {
-      ASSERT_TRUE(metrics["unsaid"].contains(key)) << what << ": " << key;
-      EXPECT_FALSE(metrics["unsaid"][key].get<std::string>().empty());
+      ASSERT_TRUE(metrics["missing"].contains(key)) << what << ": " << key;
+      EXPECT_FALSE(metrics["missing"][key].get<std::string>().empty());
     } else {
       ASSERT_TRUE(metrics[key].is_number()) << what << ": " << key;
       EXPECT_TRUE(std::isfinite(metrics[key].get<double>())) << what << ": " << key;
-      EXPECT_FALSE(metrics["unsaid"].contains(key)) << what << ": " << key;
+      EXPECT_FALSE(metrics["missing"].contains(key)) << what << ": " << key;
     }
   }
   EXPECT_EQ(metrics.dump().find("nan"), std::string::npos) << what;
@@ -59,9 +59,9 @@ void expect_sound(const nlohmann::json& metrics, const std::string& what) {
 nlohmann::json scored(const Task& task, const voxel::BoneModel& native, const std::vector<uint8_t>& left,
                       const MetricsAccumulator& ticks) {
   const NativeGlenoid glenoid(task, native);
-  const Findings findings = surface_findings(glenoid, {native.grid, left.data()}, ticks.cut_line(),
-                                             world_from_plan(task), ticks.metrics().reaming_depth_mm);
-  return session_metrics_json(ticks, findings, 1.0, nullptr);
+  const MetricResults results = bone_results(glenoid, {native.grid, left.data()}, ticks.cut_line(),
+                                             world_from_plan(task), ticks.reaming_depth_mm());
+  return session_metrics_json(ticks, results, 1.0, nullptr);
 }
 
 MetricsAccumulator no_ticks(const Task& task) { return {0.1, world_from_plan(task).inverse()}; }
@@ -90,7 +90,7 @@ TEST(DegenerateSession, ThatNeverTouchedBoneSaysSo) {
   expect_sound(metrics, "untouched");
   for (const char* key :
        {"seating_percent", "version_achieved_deg", "congruity_mm", "plate_preserved_percent"})
-    EXPECT_EQ(metrics["unsaid"][key], "no bone was removed");
+    EXPECT_EQ(metrics["missing"][key], "no bone was removed");
   EXPECT_TRUE(metrics["version_planned_deg"].is_number()) << "the plan says something all the same";
 }
 
@@ -128,7 +128,7 @@ TEST(DegenerateSession, WithoutLandmarksOrPlanSaysWhatItCan) {
   task.anatomy.landmarks.reset();
   nlohmann::json metrics = scored(task, bone, bone.coverage, straight_cut(task, 1.0));
   expect_sound(metrics, "no landmarks");
-  EXPECT_NE(metrics["unsaid"]["version_error_deg"].get<std::string>().find("trigonum"), std::string::npos);
+  EXPECT_NE(metrics["missing"]["version_error_deg"].get<std::string>().find("trigonum"), std::string::npos);
   EXPECT_TRUE(metrics["axis_error_deg"].is_number());
   task.anatomy.glenoid.reset();
   metrics = scored(task, bone, bone.coverage, straight_cut(task, 1.0));
@@ -139,7 +139,7 @@ TEST(DegenerateSession, WithoutLandmarksOrPlanSaysWhatItCan) {
   planless.plan.reset();
   metrics = scored(planless, bone, bone.coverage, straight_cut(planless, 1.0));
   expect_sound(metrics, "no plan");
-  EXPECT_EQ(metrics["unsaid"]["axis_error_deg"], "the case has no plan");
+  EXPECT_EQ(metrics["missing"]["axis_error_deg"], "the case has no plan");
 }
 
 TEST(DegenerateSession, OfAPlanBesideTheBoneSaysSo) {
@@ -149,7 +149,7 @@ TEST(DegenerateSession, OfAPlanBesideTheBoneSaysSo) {
   task.plan->entry_mm += 60.0 * Vec3::UnitZ();
   const nlohmann::json metrics = scored(task, bone, bone.coverage, straight_cut(task, 1.0));
   expect_sound(metrics, "beside");
-  EXPECT_NE(metrics["unsaid"]["seating_percent"].get<std::string>().find("no face"), std::string::npos);
+  EXPECT_NE(metrics["missing"]["seating_percent"].get<std::string>().find("no face"), std::string::npos);
 }
 
 /// Random voxels, plans, landmarks and ticks: whatever comes, nothing unsound.
@@ -217,10 +217,9 @@ TEST(MirroredCase, HasIdenticalScores) {
       line.apex_mm = plan_from_world.point(apex);
       line.direction = plan_from_world.direction(axis);
       line.deepest_mm = line.apex_mm.z();
-      nlohmann::json metrics = nlohmann::json::object();
-      surface_findings(NativeGlenoid(task, bone), {bone.grid, left.data()}, line, world_from_plan(task), 1.0)
-          .write_to(metrics);
-      return metrics;
+      return bone_results(NativeGlenoid(task, bone), {bone.grid, left.data()}, line, world_from_plan(task),
+                          1.0)
+          .to_json();
     };
     const nlohmann::json of_right = score_of(case_::Side::right), of_left = score_of(case_::Side::left);
     EXPECT_TRUE(of_right["seating_percent"].is_number());

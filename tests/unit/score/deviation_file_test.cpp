@@ -1,11 +1,10 @@
-#include "score/deviation_file.hpp"
+#include "score/deviation.hpp"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include "core/file.hpp"
-#include "score/deviation.hpp"
 #include "support/json_schema.hpp"
 #include "support/places.hpp"
 #include "support/temporary_folder.hpp"

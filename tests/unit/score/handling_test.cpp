@@ -35,51 +35,52 @@ TEST(Handling, ExcessIsThrustBeyond78N) {
   TickReport standing = pressing(0.0, 200.0, 0, 1);
   standing.spindle_on = false;
   repeat(metrics, standing, 100);
-  EXPECT_NEAR(*metrics.handling().said("axial_thrust_excess_n_s"), 10.0, 1e-9);
+  EXPECT_NEAR(*metrics.results().value("axial_thrust_excess_n_s"), 10.0, 1e-9);
 }
 
 TEST(Handling, BreakthroughIsFromCancellousBoneToLettingGo) {
   MetricsAccumulator metrics(0.008, Pose{});
   repeat(metrics, pressing(0.5, 52.0, 0.05, 0.95), 100);
-  EXPECT_NE(metrics.handling().unsaid("breakthrough_advance_mm").find("no cancellous"), std::string::npos);
+  EXPECT_NE(metrics.results().missing_reason("breakthrough_advance_mm").find("no cancellous"),
+            std::string::npos);
   for (int i = 0; i < 300; ++i) metrics.add(pressing(1.0 + 0.001 * i, 40.0, 0.3, 0.7));
-  EXPECT_NE(metrics.handling().unsaid("breakthrough_time_s").find("not fallen"), std::string::npos);
+  EXPECT_NE(metrics.results().missing_reason("breakthrough_time_s").find("not fallen"), std::string::npos);
   metrics.add(pressing(1.31, 3.0, 0.3, 0.7));
   repeat(metrics, in_the_air(), 100);
   for (int i = 0; i < 300; ++i) metrics.add(pressing(2.0 + 0.01 * i, 40.0, 0.3, 0.7));
-  EXPECT_NEAR(*metrics.handling().said("breakthrough_advance_mm"), 0.31, 1e-6);
-  EXPECT_NEAR(*metrics.handling().said("breakthrough_time_s"), 0.3, 1e-6);
+  EXPECT_NEAR(*metrics.results().value("breakthrough_advance_mm"), 0.31, 1e-6);
+  EXPECT_NEAR(*metrics.results().value("breakthrough_time_s"), 0.3, 1e-6);
 }
 
 TEST(Handling, ATouchThatDoesNotPressIsNoBreakthrough) {
   MetricsAccumulator metrics(0.008, Pose{});
   repeat(metrics, pressing(0.5, 4.0, 1.0, 0.0), 100);
-  EXPECT_FALSE(metrics.handling().said("breakthrough_advance_mm"));
+  EXPECT_FALSE(metrics.results().value("breakthrough_advance_mm"));
 }
 
 TEST(Handling, AdvancePastThePlateNeedsCartilage) {
   MetricsAccumulator without(0.008, Pose{});
   repeat(without, pressing(0.5, 52.0, 0.0, 1.0), 100);
-  EXPECT_NE(without.handling().unsaid("plate_overrun_mm").find("no cartilage"), std::string::npos);
+  EXPECT_NE(without.results().missing_reason("plate_overrun_mm").find("no cartilage"), std::string::npos);
 
   MetricsAccumulator with(0.008, Pose{});
   repeat(with, pressing(0.1, 20.0, 0.0, 0.0, 1.0), 100);
-  EXPECT_NE(with.handling().unsaid("plate_overrun_mm").find("not reached"), std::string::npos);
+  EXPECT_NE(with.results().missing_reason("plate_overrun_mm").find("not reached"), std::string::npos);
   for (int i = 0; i <= 400; ++i) with.add(pressing(1.9 + 0.001 * i, 40.0, 0.0, 0.4, 0.6));
   with.add(in_the_air());
-  EXPECT_NEAR(*with.handling().said("plate_overrun_mm"), 0.4, 1e-6);
+  EXPECT_NEAR(*with.results().value("plate_overrun_mm"), 0.4, 1e-6);
 }
 
 TEST(Handling, PassesArePartedByHalfASecond) {
   MetricsAccumulator metrics(0.008, Pose{});
-  EXPECT_EQ(*metrics.handling().said("passes"), 0.0);
+  EXPECT_EQ(*metrics.results().value("passes"), 0.0);
   repeat(metrics, pressing(0.0, 20.0, 0, 1), 100);
   repeat(metrics, in_the_air(), 500);
   repeat(metrics, pressing(0.0, 20.0, 0, 1), 100);
-  EXPECT_EQ(*metrics.handling().said("passes"), 1.0);
+  EXPECT_EQ(*metrics.results().value("passes"), 1.0);
   repeat(metrics, pressing(0.0, 5.0, 0, 1), 501);
   repeat(metrics, pressing(0.0, 20.0, 0, 1), 100);
-  EXPECT_EQ(*metrics.handling().said("passes"), 2.0);
+  EXPECT_EQ(*metrics.results().value("passes"), 2.0);
 }
 
 TEST(Handling, PathIsInTheBoneThatMoves) {
@@ -91,7 +92,7 @@ TEST(Handling, PathIsInTheBoneThatMoves) {
     r.world_from_tool = r.world_from_bone_rest * r.world_from_tool;
     metrics.add(r);
   }
-  EXPECT_NEAR(*metrics.handling().said("path_in_contact_mm"), 1.0, 1e-6);
+  EXPECT_NEAR(*metrics.results().value("path_in_contact_mm"), 1.0, 1e-6);
 }
 
 }  // namespace

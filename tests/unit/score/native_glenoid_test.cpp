@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "score/surface_findings.hpp"
+#include "score/vault_clearance.hpp"
 #include "support/analytic_glenoid.hpp"
 #include "support/expect_error.hpp"
 
@@ -128,9 +128,9 @@ TEST(Vault, DistanceOfThePegsIsThatFromTheWall) {
   const NativeGlenoid native(task, bone);
   const AchievedFace face = achieved_face(native, {bone.grid, bone.coverage.data()});
   CutLine line;
-  Findings findings;
+  MetricResults results;
   const Component component(native, face, line);
-  say_vault(native, component, line, findings);
+  measure_vault_clearance(native, component, line, results);
   // The tip of the central peg, 15 mm deep, is the nearest to the wall in front and behind.
   const test::GlenoidFormulas formulas(glenoid);
   double nearest = 1e9;
@@ -147,9 +147,9 @@ TEST(Vault, DistanceOfThePegsIsThatFromTheWall) {
           nearest = std::min(nearest, -formulas.beyond_wall_mm(p));
         }
     }
-  EXPECT_NEAR(*findings.said("vault_distance_mm"), nearest, 0.35);
-  EXPECT_EQ(*findings.said("vault_breach_mm"), 0.0);
-  EXPECT_GT(*findings.said("vault_distance_tool_mm"), 5.0);
+  EXPECT_NEAR(*results.value("vault_distance_mm"), nearest, 0.35);
+  EXPECT_EQ(*results.value("vault_breach_mm"), 0.0);
+  EXPECT_GT(*results.value("vault_distance_tool_mm"), 5.0);
 }
 
 TEST(Vault, ABreachIsNegative) {
@@ -159,11 +159,11 @@ TEST(Vault, ABreachIsNegative) {
   const voxel::BoneModel bone = test::bone_of(glenoid, 0.3);
   const NativeGlenoid native(task_on(glenoid, "sphere 30,7"), bone);
   const AchievedFace face = achieved_face(native, {bone.grid, bone.coverage.data()});
-  Findings findings;
+  MetricResults results;
   const CutLine line;
-  say_vault(native, Component(native, face, line), line, findings);
-  EXPECT_LT(*findings.said("vault_distance_mm"), -2.0);
-  EXPECT_EQ(*findings.said("vault_breach_mm"), -*findings.said("vault_distance_mm"));
+  measure_vault_clearance(native, Component(native, face, line), line, results);
+  EXPECT_LT(*results.value("vault_distance_mm"), -2.0);
+  EXPECT_EQ(*results.value("vault_breach_mm"), -*results.value("vault_distance_mm"));
 }
 
 }  // namespace

@@ -25,16 +25,16 @@ json limited(const char* metric, bool critical = false, double weight = 1.0) {
 TEST(RubricScore, IsTheWeightedMeanOfWhatIsSaid) {
   const json metrics = {{"thrust_n", 60.0},
                         {"depth_mm", 1.5},
-                        {"unsaid_n", nullptr},
-                        {"unsaid", {{"unsaid_n", "nobody knows"}}}};
+                        {"missing_n", nullptr},
+                        {"missing", {{"missing_n", "nobody knows"}}}};
   const Rubric r = rubric({{{"metric", "thrust_n"}, {"none", 100}, {"full", 20}, {"weight", 3}},
                            {{"metric", "depth_mm"}, {"none", 0}, {"full", 2}},
-                           {{"metric", "unsaid_n"}, {"none", 0}, {"full", 1}, {"weight", 4}}});
+                           {{"metric", "missing_n"}, {"none", 0}, {"full", 1}, {"weight", 4}}});
   const Score score = apply_rubric(r, metrics);
   EXPECT_DOUBLE_EQ(*score.points, (3 * 50.0 + 75.0) / 4.0);
-  EXPECT_DOUBLE_EQ(score.said_percent, 50.0);
+  EXPECT_DOUBLE_EQ(score.measured_percent, 50.0);
   EXPECT_FALSE(score.criteria[2].points) << "no points for what the session does not say";
-  EXPECT_EQ(score.criteria[2].unsaid, "nobody knows");
+  EXPECT_EQ(score.criteria[2].missing_reason, "nobody knows");
   EXPECT_FALSE(score.outcome) << "the rubric has neither mark nor critical criteria";
   const json told = score_json(r, score);
   EXPECT_EQ(told["rubric"], "first year");
@@ -116,7 +116,7 @@ TEST(RubricScore, OldMetricsDoNotSayWhatIsMeasuredSince) {
   const json since = json::array({{{"metric", "version_error_deg"}}});
   const Score score = apply_rubric(rubric(since), {{"duration_s", 3.0}});
   EXPECT_FALSE(score.criteria[0].value);
-  EXPECT_NE(score.criteria[0].unsaid.find("score the session anew"), std::string::npos);
+  EXPECT_NE(score.criteria[0].missing_reason.find("score the session anew"), std::string::npos);
 }
 
 }  // namespace

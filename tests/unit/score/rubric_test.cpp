@@ -18,7 +18,7 @@ namespace {
 using nlohmann::json;
 using test::expect_error;
 
-const json metrics = {{"thrust_n", 60.0}, {"depth_mm", 1.5}, {"unsaid_n", nullptr}, {"hash", "ab"}};
+const json metrics = {{"thrust_n", 60.0}, {"depth_mm", 1.5}, {"missing_n", nullptr}, {"hash", "ab"}};
 
 class RubricTest : public testing::Test {
  protected:
@@ -67,7 +67,7 @@ TEST_F(RubricTest, IsWrittenAsItIsRead) {
                          {"weight", 1.0},
                          {"critical", true},
                          {"band", {{"better", "less"}, {"pass", 2.0}, {"warn", 3.0}}}},
-                        {{"metric", "unsaid_n"},
+                        {{"metric", "missing_n"},
                          {"weight", 1.0},
                          {"band", {{"better", "between"}, {"low", 1.0}, {"pass", 3.0}}}},
                         {{"metric", "version_error_deg"}, {"weight", 1.0}}}}};

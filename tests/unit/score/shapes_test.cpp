@@ -3,9 +3,9 @@
 #include <cmath>
 #include <random>
 
-#include "score/cutting_meridian.hpp"
-#include "score/fixation.hpp"
+#include "score/cutting_surface.hpp"
 #include "score/sphere_fit.hpp"
+#include "score/vault_clearance.hpp"
 #include "support/expect_error.hpp"
 #include "support/random_pose.hpp"
 

@@ -6,8 +6,7 @@
 
 #include "geometry/mesh_io.hpp"
 #include "shell/meridian.hpp"
-#include "shell/mesh_envelope.hpp"
-#include "shell/revolution_axis.hpp"
+#include "shell/mesh_tool.hpp"
 #include "shell/tool.hpp"
 #include "support/expect_error.hpp"
 #include "support/random_pose.hpp"

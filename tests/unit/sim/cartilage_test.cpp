@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "force/coefficients.hpp"
-#include "force/vibration_kinds.hpp"
+#include "force/vibration/vibration_tracks.hpp"
 #include "support/small_run.hpp"
 
 namespace ream::test {

@@ -1,4 +1,4 @@
-#include "sim/cutting_tool.hpp"
+#include "sim/cutting_surface.hpp"
 
 #include <gtest/gtest.h>
 

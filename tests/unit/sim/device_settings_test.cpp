@@ -1,4 +1,4 @@
-#include "sim/device_settings.hpp"
+#include "sim/settings.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "collide/guarded_removal.hpp"
+#include "collide/removal/removal_cl.hpp"
 #include "sim/haptic_loop.hpp"
 #include "support/small_run.hpp"
 #include "support/watched_backend.hpp"
@@ -109,7 +109,7 @@ TEST(Failover, TheLoopGoesOnAndSaysSo) {
   EXPECT_EQ(loop.run(), sim::LoopEnd::finished);
   EXPECT_EQ(reports.size(), 600u);
   EXPECT_GT(loop.health().failed_over_tick, 20);
-  EXPECT_NE(sim::failover_words(7).find("tick 7"), std::string::npos);
+  EXPECT_NE(sim::failover_message(7).find("tick 7"), std::string::npos);
 }
 
 TEST(Failover, WithoutAReserveOrAfterASecondFailureTheSessionEndsWithItsData) {
@@ -127,7 +127,7 @@ TEST(Failover, WithoutAReserveOrAfterASecondFailureTheSessionEndsWithItsData) {
     EXPECT_EQ(loop.run(), sim::LoopEnd::collision_failed);
     EXPECT_GT(reports.size(), with_reserve ? 100u : 20u) << "what was done before stays";
     EXPECT_LT(reports.size(), 600u);
-    EXPECT_FALSE(to_words(sim::LoopEnd::collision_failed).empty());
+    EXPECT_FALSE(message_of(sim::LoopEnd::collision_failed).empty());
   }
 }
 

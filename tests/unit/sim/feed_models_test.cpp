@@ -4,7 +4,7 @@
 
 #include "force/coefficients.hpp"
 #include "score/metrics.hpp"
-#include "sim/cutting_tool.hpp"
+#include "sim/cutting_surface.hpp"
 #include "support/small_run.hpp"
 
 namespace ream::test {

@@ -23,7 +23,7 @@ struct Rendering {
     sim::ToolLoad load;
     load.spring.force_n = Vec3(0, 0, thrust_n);
     load.spindle_torque_n_mm = spindle_n_mm;
-    load.asked_n = thrust_n / run.model.settings.force_scale;
+    load.unlimited_force_n = thrust_n / run.model.settings.force_scale;
     record::TickReport report;
     report.vibration_g = vibration_g;
     report.paused = paused;

@@ -1,20 +1,35 @@
-#include "sim/loop_guard.hpp"
+#include "sim/watchdogs.hpp"
 
 #include <gtest/gtest.h>
 
-#include <functional>
+#include <atomic>
 #include <semaphore>
 
 #include "sim/haptic_loop.hpp"
 #include "support/small_run.hpp"
 #include "support/still_device.hpp"
+#include "support/wait_until.hpp"
 
 namespace ream::test {
 namespace {
 
 using namespace std::chrono_literals;
 
-/// A hand whose driver, against its word, waits in read() from some tick on until it is let go.
+/// The guard's time goes on only as a test says, so that no machine that is busy elsewhere can trip it.
+std::atomic<int64_t> now_ns{1};
+std::atomic<int> asked{0};
+int64_t test_clock() {
+  ++asked;
+  return now_ns;
+}
+void pass(std::chrono::nanoseconds time) { now_ns += time.count(); }
+/// The guard has judged the time as it is.
+void wait_for_its_look() {
+  wait_until("the guard", [before = asked.load()] { return asked >= before + 2; });
+}
+
+/// A hand whose ticks take a millisecond each and whose driver, against its word, waits in read() from some
+/// tick on until it is let go.
 class StuckDevice final : public device::HapticDevice {
  public:
   StuckDevice(std::unique_ptr<device::HapticDevice> inner, int stuck_at)
@@ -25,6 +40,7 @@ class StuckDevice final : public device::HapticDevice {
   void open() override { inner_->open(); }
   void close() noexcept override { inner_->close(); }
   device::DeviceStatus read(device::DeviceInput& input) noexcept override {
+    pass(1ms);
     if (reads_++ == stuck_at_) {
       is_stuck = true;
       let_go.acquire();
@@ -36,6 +52,9 @@ class StuckDevice final : public device::HapticDevice {
     return inner_->write(output);
   }
   void take_force_away() noexcept override { ++taken_away; }
+  void session_paused(bool paused) noexcept override { inner_->session_paused(paused); }
+  double closing_ms() const noexcept override { return inner_->closing_ms(); }
+  void use_priority(int fifo) noexcept override { inner_->use_priority(fifo); }
 
   std::atomic<bool> is_stuck{false};
   std::atomic<int> taken_away{0};
@@ -54,32 +73,28 @@ SmallRun small_run() {
   return SmallRun(std::move(bone), plan, "sphere 8,4", steady_push(52.0, 10.0));
 }
 
-void wait_until(const std::function<bool()>& done) {
-  const auto deadline = std::chrono::steady_clock::now() + 60s;
-  while (!done() && std::chrono::steady_clock::now() < deadline) std::this_thread::sleep_for(1ms);
-  ASSERT_TRUE(done());
-}
-
 TEST(LoopGuard, TakesTheForceFromALoopThatIsStuckInItsDriver) {
   SmallRun run = small_run();
   StuckDevice device(device::make_scripted_device(steady_push(52.0, 10.0), run.model.world_from_plan), 300);
   SpscRing<record::TickReport> reports(16384);
-  sim::HapticLoop loop(run.model, run.state, device, reports, {true, sim::Realtime::off});
+  sim::HapticLoop loop(run.model, run.state, device, reports, {true, sim::Realtime::off, -1, test_clock});
   loop.start();
-  wait_until([&] { return device.taken_away > 0; });
-  // A machine that is busy elsewhere may stop the loop before its driver does; that ends it as well.
-  wait_until([&] { return device.is_stuck || loop.ended(); });
-  wait_until([&] { return loop.stood_still_ms() > sim::LoopGuard::held_limit.count(); });
+  wait_until("the driver", [&] { return device.is_stuck.load(); });
+  pass(sim::LoopGuard::held_limit - 1ms);
+  wait_for_its_look();
+  EXPECT_EQ(device.taken_away, 0) << "its limit, of which the tick has used a millisecond";
+  EXPECT_GT(device.last_force_n, 0.0);
+  pass(1ms);
+  wait_until("the guard", [&] { return loop.stood_still_ms() > 0; });
+  EXPECT_EQ(loop.stood_still_ms(), sim::LoopGuard::held_limit.count() + 1);
   loop.stop();  // does not wait for a driver that does not come back
-  if (device.is_stuck) {
-    EXPECT_FALSE(loop.ended());
-    device.let_go.release();
-    wait_until([&] { return loop.ended(); });
-  }
+  EXPECT_FALSE(loop.ended());
+  device.let_go.release();
+  wait_until("the end", [&] { return loop.ended(); });
   EXPECT_EQ(loop.health().end, sim::LoopEnd::stood_still);
   EXPECT_EQ(device.taken_away, 1);
   EXPECT_EQ(device.last_force_n, 0.0);
-  EXPECT_FALSE(to_words(sim::LoopEnd::stood_still).empty());
+  EXPECT_FALSE(message_of(sim::LoopEnd::stood_still).empty());
 }
 
 struct CountingDevice final : StillDevice {
@@ -89,43 +104,44 @@ struct CountingDevice final : StillDevice {
 
 TEST(LoopGuard, WatchesFromTheFirstBeatToTheEnd) {
   CountingDevice device;
-  sim::LoopGuard guard(device, 20ms, false);
-  std::this_thread::sleep_for(60ms);
+  sim::LoopGuard guard(device, 20ms, false, test_clock);
+  pass(60ms);
+  wait_for_its_look();
   EXPECT_EQ(device.taken_away, 0) << "nothing has begun";
   EXPECT_TRUE(guard.beat());
   guard.end();
-  std::this_thread::sleep_for(60ms);
+  pass(60ms);
+  wait_for_its_look();
   EXPECT_EQ(device.taken_away, 0) << "it has ended in order";
 }
 
 TEST(LoopGuard, ADeadLoopLosesItsForceOnceAndForGood) {
   CountingDevice device;
-  sim::LoopGuard guard(device, 20ms, false);
+  sim::LoopGuard guard(device, 20ms, false, test_clock);
   guard.beat();
-  wait_until([&] { return guard.stood_still_ms() > 40; });
+  pass(21ms);
+  wait_until("the guard", [&] { return guard.stood_still_ms() == 21; });
+  pass(20ms);
+  wait_until("the guard", [&] { return guard.stood_still_ms() == 41; });
   EXPECT_EQ(device.taken_away, 1);
   EXPECT_FALSE(guard.beat()) << "it must end";
-  std::this_thread::sleep_for(20ms);
-  const int64_t still_ms = guard.stood_still_ms();
-  std::this_thread::sleep_for(50ms);
-  EXPECT_EQ(guard.stood_still_ms(), still_ms) << "and is not counted any further";
+  pass(50ms);
+  wait_for_its_look();
+  EXPECT_EQ(guard.stood_still_ms(), 41) << "and is not counted any further";
   EXPECT_EQ(device.taken_away, 1);
 }
 
 TEST(LoopGuard, ADeviceThatIsClosedMayTakeItsTime) {
   CountingDevice device;
-  sim::LoopGuard guard(device, 20ms, false);
+  sim::LoopGuard guard(device, 20ms, false, test_clock);
   guard.beat();
-  guard.closing(std::chrono::hours(1));
-  // A machine that stands still may have lost its force before.
-  const int before = device.taken_away;
-  std::this_thread::sleep_for(60ms);
-  EXPECT_EQ(device.taken_away, before);
-  sim::LoopGuard shorter(device, 20ms, false);
-  shorter.beat();
-  shorter.closing(20ms);
-  wait_until([&] { return device.taken_away > before; });
-  EXPECT_GT(shorter.stood_still_ms(), 20);
+  guard.closing(30ms);
+  pass(50ms);
+  wait_for_its_look();
+  EXPECT_EQ(device.taken_away, 0);
+  pass(1ms);
+  wait_until("the guard", [&] { return guard.stood_still_ms() == 51; });
+  EXPECT_EQ(device.taken_away, 1);
 }
 
 TEST(LoopGuard, OneThatNobodyHoldsOrThatLetsGoByItselfIsGivenMoreTime) {

@@ -44,6 +44,9 @@ class WatchedDevice final : public device::HapticDevice {
     largest_force_n = std::max(largest_force_n, output.force_n.norm());
     return inner_->write(output);
   }
+  void take_force_away() noexcept override { inner_->take_force_away(); }
+  double closing_ms() const noexcept override { return inner_->closing_ms(); }
+  void use_priority(int fifo) noexcept override { inner_->use_priority(fifo); }
 
   int fault_at = -1, nan_at = -1, slow_at = -1, reads = 0;
   std::function<void(int)> on_read;                ///< told how many reads there have been
@@ -115,7 +118,7 @@ TEST(HapticLoop, AFaultyDeviceGetsZeroForceAndTheBlackBoxKnowsThePast) {
   EXPECT_GT(r.device.largest_force_n, 20.0);
   EXPECT_EQ(r.device.last.force_n.norm(), 0.0);
   EXPECT_EQ(loop.black_box().size(), 500u);
-  EXPECT_FALSE(to_words(sim::LoopEnd::device_fault).empty());
+  EXPECT_FALSE(message_of(sim::LoopEnd::device_fault).empty());
 }
 
 TEST(HapticLoop, APoseThatIsNotANumberEndsTheSessionWithoutForce) {

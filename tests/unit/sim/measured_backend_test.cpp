@@ -1,4 +1,4 @@
-#include "sim/measured_backend.hpp"
+#include "sim/backend.hpp"
 
 #include <gtest/gtest.h>
 

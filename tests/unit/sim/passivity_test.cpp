@@ -5,7 +5,7 @@
 
 #include "core/clock.hpp"
 #include "device/profiles.hpp"
-#include "sim/device_settings.hpp"
+#include "sim/settings.hpp"
 #include "support/random_pose.hpp"
 #include "support/small_run.hpp"
 

@@ -1,4 +1,4 @@
-#include "sim/pose_watchdog.hpp"
+#include "sim/watchdogs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -93,6 +93,10 @@ class SilentDevice final : public device::HapticDevice {
     force_n.push_back(output.force_n.norm());
     return inner_->write(output);
   }
+  void session_paused(bool paused) noexcept override { inner_->session_paused(paused); }
+  void take_force_away() noexcept override { inner_->take_force_away(); }
+  double closing_ms() const noexcept override { return inner_->closing_ms(); }
+  void use_priority(int fifo) noexcept override { inner_->use_priority(fifo); }
   std::vector<double> force_n;
 
  private:

@@ -1,5 +1,7 @@
 #include "sim/press.hpp"
 
+#include <Eigen/Geometry>
+
 #include <gtest/gtest.h>
 
 #include "support/small_run.hpp"

@@ -8,8 +8,6 @@
 #include <thread>
 #include <vector>
 
-#include "sim/tick_clock.hpp"
-
 namespace ream::test {
 namespace {
 
@@ -51,7 +49,7 @@ TEST(Realtime, OffAsksForNothing) {
   EXPECT_EQ(asked.grant.cpu, -1);
   EXPECT_EQ(asked.policy, SCHED_OTHER);
   EXPECT_EQ(asked.cpus, Asked::cpus_of_caller());
-  EXPECT_EQ(sim::refusal_words(asked.grant, sim::Realtime::off, 3), "");
+  EXPECT_EQ(sim::refusal_message(asked.grant, sim::Realtime::off, 3), "");
 }
 
 TEST(Realtime, WhatIsGrantedIsWhatTheKernelDid) {
@@ -68,19 +66,19 @@ TEST(Realtime, ACpuThatIsNotThereIsRefusedAndTheRestGoesOn) {
     const Asked asked(sim::Realtime::attempt, cpu);
     EXPECT_EQ(asked.grant.cpu, -1);
     EXPECT_EQ(asked.cpus, Asked::cpus_of_caller());
-    const std::string words = sim::refusal_words(asked.grant, sim::Realtime::require, cpu);
+    const std::string words = sim::refusal_message(asked.grant, sim::Realtime::require, cpu);
     EXPECT_NE(words.find("CPU " + std::to_string(cpu)), std::string::npos) << words;
   }
 }
 
 TEST(Realtime, WordsNameEverythingThatWasRefused) {
   using sim::Realtime;
-  EXPECT_EQ(sim::refusal_words({true, true, -1}, Realtime::require, -1), "");
-  EXPECT_EQ(sim::refusal_words({true, true, 2}, Realtime::require, 2), "");
-  const std::string all = sim::refusal_words({}, Realtime::require, 2);
+  EXPECT_EQ(sim::refusal_message({true, true, -1}, Realtime::require, -1), "");
+  EXPECT_EQ(sim::refusal_message({true, true, 2}, Realtime::require, 2), "");
+  const std::string all = sim::refusal_message({}, Realtime::require, 2);
   for (const char* part : {"priority", "CAP_SYS_NICE", "memory", "ulimit -l", "CPU 2", "--realtime try"})
     EXPECT_NE(all.find(part), std::string::npos) << part << " in: " << all;
-  const std::string memory = sim::refusal_words({true, false, -1}, Realtime::require, -1);
+  const std::string memory = sim::refusal_message({true, false, -1}, Realtime::require, -1);
   EXPECT_NE(memory.find("memory"), std::string::npos);
   EXPECT_EQ(memory.find("priority"), std::string::npos);
 }
@@ -96,14 +94,14 @@ TEST(WakeMargin, SettlesWhereOneWakeUpInAHundredIsLater) {
 
 TEST(WakeMargin, StaysWithinItsBounds) {
   sim::WakeMargin margin;
-  EXPECT_EQ(margin.ns(), static_cast<int64_t>(sim::WakeMargin::most_us * 1e3)) << "careful at first";
+  EXPECT_EQ(margin.ns(), static_cast<int64_t>(sim::WakeMargin::max_us * 1e3)) << "careful at first";
   for (int i = 0; i < 30000; ++i) margin.note(1.0);
-  EXPECT_EQ(margin.ns(), static_cast<int64_t>(sim::WakeMargin::least_us * 1e3));
+  EXPECT_EQ(margin.ns(), static_cast<int64_t>(sim::WakeMargin::min_us * 1e3));
   margin.note(25000.0);
-  EXPECT_LE(margin.ns(), static_cast<int64_t>((sim::WakeMargin::least_us + 1.0) * 1e3))
+  EXPECT_LE(margin.ns(), static_cast<int64_t>((sim::WakeMargin::min_us + 1.0) * 1e3))
       << "one stall of the machine says little about its wake-ups";
   for (int i = 0; i < 30000; ++i) margin.note(25000.0);
-  EXPECT_EQ(margin.ns(), static_cast<int64_t>(sim::WakeMargin::most_us * 1e3));
+  EXPECT_EQ(margin.ns(), static_cast<int64_t>(sim::WakeMargin::max_us * 1e3));
 }
 
 TEST(TickClock, NeverEarlyAndEveryTickItsOwn) {

@@ -1,4 +1,4 @@
-#include "sim/rehearsal.hpp"
+#include "sim/tick_trial.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,7 @@
 #include "sim/scapula_mount.hpp"
 
+#include <Eigen/Geometry>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,7 +43,7 @@ double depth_mm(const SmallRun& run, const record::TickReport& r) {
 double removed_mm3(const SmallRun& run, const std::vector<record::TickReport>& reports) {
   score::MetricsAccumulator metrics(run.bone.grid.voxel_volume_mm3(), run.model.world_from_plan.inverse());
   for (const auto& r : reports) metrics.add(r);
-  return metrics.metrics().removed_volume_mm3;
+  return metrics.removed_volume_mm3();
 }
 
 double feed_mm_s(const SmallRun& run, const std::vector<record::TickReport>& reports, size_t ticks) {
@@ -55,13 +57,13 @@ TEST(ScapulaMount, SettlesAtLoadOverStiffnessWithItsTimeConstant) {
   mount.damping_n_s_mm = 0.1 * mount.stiffness_n_mm;
   const force::Wrench load{Vec3(10, -20, 30), Vec3(600, 0, -300)};
   sim::MountState state;
-  for (int i = 0; i < 100; ++i) state = sim::given_way(mount, state, load, tick_s);
+  for (int i = 0; i < 100; ++i) state = sim::settled_mount(mount, state, load, tick_s);
   const double share = 1.0 - std::exp(-1.0);
   EXPECT_NEAR(state.shift_mm.x(), share * 2.0, 0.01 * 2.0);
-  for (int i = 0; i < 1500; ++i) state = sim::given_way(mount, state, load, tick_s);
+  for (int i = 0; i < 1500; ++i) state = sim::settled_mount(mount, state, load, tick_s);
   EXPECT_LT((state.shift_mm - Vec3(2.0, -2.0, 1.5)).norm(), 1e-5);
   EXPECT_LT((state.turn_rad - Vec3(0.01, 0.0, -0.005)).norm(), 1e-7);
-  for (int i = 0; i < 3000; ++i) state = sim::given_way(mount, state, {}, tick_s);
+  for (int i = 0; i < 3000; ++i) state = sim::settled_mount(mount, state, {}, tick_s);
   EXPECT_LT(state.shift_mm.norm() + state.turn_rad.norm(), 1e-9);
 }
 

@@ -102,7 +102,7 @@ TEST(Segment, CarriesTickAndHashOnAndBeginsEverythingElse) {
   Bench first(script);
   const Reports reports = first.run.run();
   const uint64_t hash = reports.back().session_hash;
-  const auto second_from = [&](const sim::CarriedOn& from) {
+  const auto second_from = [&](const sim::ResumeState& from) {
     voxel::BoneModel bone = first.run.bone;
     const case_::Plan plan = first.run.model.plan;
     const sim::Model model =
@@ -122,7 +122,7 @@ TEST(Segment, CarriesTickAndHashOnAndBeginsEverythingElse) {
     }
     return std::pair{hashes, bone.coverage};
   };
-  const sim::CarriedOn from{first.run.state.tick, first.run.state.session_hash};
+  const sim::ResumeState from{first.run.state.tick, first.run.state.session_hash};
   EXPECT_EQ(from.tick, 1200u);
   EXPECT_EQ(from.session_hash, hash);
   const auto [hashes, coverage] = second_from(from);

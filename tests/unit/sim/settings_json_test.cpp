@@ -1,4 +1,4 @@
-#include "sim/settings_json.hpp"
+#include "sim/settings.hpp"
 #include "support/places.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,6 @@
 
 #include "core/file.hpp"
 #include "device/profiles.hpp"
-#include "sim/device_settings.hpp"
 #include "support/expect_error.hpp"
 
 namespace ream::sim {

@@ -1,4 +1,4 @@
-#include "sim/surface_place.hpp"
+#include "sim/cutting_surface.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "sim/vibration_input.hpp"
+#include "sim/hand_output.hpp"
 #include "support/small_run.hpp"
 
 namespace ream::test {

@@ -1,7 +1,6 @@
 #include "stream/codec.hpp"
 
-#include <iostream>
-
+#include "support/seed.hpp"
 #include "unit/stream/viewer.hpp"
 
 namespace ream::stream {
@@ -17,9 +16,7 @@ surface::BlockMesh noise_block(unsigned seed) {
 }
 
 TEST(Codec, DecodesToTheSameSurface) {
-  const unsigned seed = std::random_device{}();
-  std::cout << "seed " << seed << "\n";
-  const surface::BlockMesh mesh = noise_block(seed);
+  const surface::BlockMesh mesh = noise_block(test::seed());
   const EncodedBlock encoded = encode(mesh, 7, 42);
   EXPECT_EQ(encoded.block, 1u);
   EXPECT_EQ(encoded.revision, 7u);

@@ -1,10 +1,10 @@
 #include "stream/mailbox.hpp"
 
 #include <atomic>
-#include <iostream>
 #include <thread>
 
-#include "stream/fanout_local.hpp"
+#include "stream/fanout.hpp"
+#include "support/seed.hpp"
 #include "unit/stream/viewer.hpp"
 
 namespace ream::stream {
@@ -20,7 +20,7 @@ SharedTelemetry telemetry(uint32_t tick, size_t samples) {
 }
 
 TEST(Mailbox, SlowViewerGetsOnlyTheNewestOfEachBlock) {
-  LocalFanout fanout;
+  Fanout fanout;
   const auto mailbox = fanout.subscribe({}, 1);
   for (uint32_t revision = 1; revision <= 100; ++revision)
     for (uint32_t block = 0; block < 5; ++block) fanout.publish_block(small_block(block, revision));
@@ -31,11 +31,10 @@ TEST(Mailbox, SlowViewerGetsOnlyTheNewestOfEachBlock) {
 }
 
 TEST(Mailbox, SlowFastAndLateViewersEndWithTheSamePicture) {
-  const unsigned seed = std::random_device{}();
-  std::cout << "seed " << seed << "\n";
+  const unsigned seed = test::seed();
   std::mt19937 random(seed);
   for (int round = 0; round < 40; ++round) {
-    LocalFanout fanout;
+    Fanout fanout;
     fanout.publish_hello(any_hello());
     const auto fast_box = fanout.subscribe({}, 1), slow_box = fanout.subscribe({}, 1);
     std::shared_ptr<Mailbox> late_box;
@@ -65,7 +64,7 @@ TEST(Mailbox, SlowFastAndLateViewersEndWithTheSamePicture) {
 }
 
 TEST(Mailbox, LateJoinersFirstPictureEndsWithKeyComplete) {
-  LocalFanout fanout;
+  Fanout fanout;
   for (uint32_t block = 0; block < 20; ++block) fanout.publish_block(small_block(block, 1));
   fanout.publish_block(small_block(7, 2, true));
   fanout.publish_picture_complete(1);
@@ -82,7 +81,7 @@ TEST(Mailbox, LateJoinersFirstPictureEndsWithKeyComplete) {
 }
 
 TEST(Mailbox, AnEmptyPictureIsCompleteToo) {
-  LocalFanout fanout;
+  Fanout fanout;
   const auto early = fanout.subscribe({}, 1);
   EXPECT_EQ(early->next(), nullptr);
   fanout.publish_picture_complete(1);
@@ -103,7 +102,7 @@ TEST(Mailbox, MessagesStayNearTheirSize) {
     mesh.vertices.push_back({r(), r(), r(), 0, 0});
     mesh.indices.push_back(i);
   }
-  LocalFanout fanout;
+  Fanout fanout;
   for (mesh.block = 0; mesh.block < 60; ++mesh.block)
     fanout.publish_block(std::make_shared<const EncodedBlock>(encode(mesh, 1, 0)));
   const auto mailbox = fanout.subscribe({}, 1);
@@ -116,7 +115,7 @@ TEST(Mailbox, MessagesStayNearTheirSize) {
 }
 
 TEST(Mailbox, OldTelemetryIsDroppedAndCounted) {
-  LocalFanout fanout;
+  Fanout fanout;
   const auto mailbox = fanout.subscribe({}, 1);
   const size_t batches = Mailbox::max_telemetry_batches + 10;
   for (uint32_t i = 0; i < batches; ++i) fanout.publish_telemetry(telemetry(33 * i, 33));
@@ -174,7 +173,7 @@ TEST(Mailbox, TelemetryAndSurfaceTakeTurns) {
 }
 
 TEST(Mailbox, WakesOnceWhenThereIsSomethingAgain) {
-  LocalFanout fanout;
+  Fanout fanout;
   int calls = 0;
   const auto mailbox = fanout.subscribe([&] { ++calls; }, 1);
   fanout.publish_block(small_block(1, 1));
@@ -187,7 +186,7 @@ TEST(Mailbox, WakesOnceWhenThereIsSomethingAgain) {
 }
 
 TEST(Mailbox, LettingGoEndsTheSubscription) {
-  LocalFanout fanout;
+  Fanout fanout;
   auto mailbox = fanout.subscribe({}, 1);
   EXPECT_EQ(fanout.viewers(), 1u);
   mailbox.reset();
@@ -196,7 +195,7 @@ TEST(Mailbox, LettingGoEndsTheSubscription) {
 }
 
 TEST(Mailbox, ViewersInOtherThreadsEndWithTheSamePicture) {
-  LocalFanout fanout;
+  Fanout fanout;
   std::atomic<bool> done{false};
   std::array<Viewer, 2> viewers;
   std::vector<std::jthread> threads;

@@ -1,8 +1,7 @@
 #include "stream/mesh_publisher.hpp"
 
-#include <iostream>
-
-#include "stream/fanout_local.hpp"
+#include "stream/fanout.hpp"
+#include "support/seed.hpp"
 #include "unit/stream/viewer.hpp"
 
 namespace ream::stream {
@@ -15,7 +14,7 @@ struct Session {
   voxel::BoneModel bone;
   voxel::BrickRing ring{256};
   voxel::BrickSender sender;
-  LocalFanout fanout;
+  Fanout fanout;
   uint32_t tick = 0;
 
   Session() : bone(ball()), sender(bone.grid, ring) {}
@@ -34,6 +33,18 @@ struct Session {
   void set(const Vec3i& voxel, uint8_t coverage) {
     bone.coverage[bone.grid.index(voxel)] = coverage;
     sender.mark(bone.grid.brick_index(voxel / voxel::brick_edge));
+  }
+  void drain(MeshPublisher& publisher, int64_t now) {
+    voxel::BrickImage image;
+    while (ring.try_pop(image)) publisher.take(image, now);
+  }
+  size_t poll(MeshPublisher& publisher, int64_t now) {
+    drain(publisher, now);
+    return publisher.poll(now);
+  }
+  size_t flush(MeshPublisher& publisher, int64_t now) {
+    drain(publisher, now);
+    return publisher.flush(now);
   }
   void end_tick(int budget = 100) { sender.send(bone.coverage.data(), ++tick, budget); }
 };
@@ -58,7 +69,7 @@ std::map<uint32_t, Surface> held(const Viewer& viewer) {
 
 TEST(MeshPublisher, FirstPictureIsTheWholeSurface) {
   Session s;
-  MeshPublisher publisher(s.bone, s.ring, s.fanout);
+  MeshPublisher publisher(s.bone, s.fanout);
   publisher.publish_all();
   const auto mailbox = s.fanout.subscribe({}, 1);
   Viewer viewer;
@@ -68,11 +79,10 @@ TEST(MeshPublisher, FirstPictureIsTheWholeSurface) {
 }
 
 TEST(MeshPublisher, RandomRemovalEndsWithTheSurfaceOfTheBone) {
-  const unsigned seed = std::random_device{}();
-  std::cout << "seed " << seed << "\n";
+  const unsigned seed = test::seed();
   std::mt19937 random(seed);
   Session s;
-  MeshPublisher publisher(s.bone, s.ring, s.fanout);
+  MeshPublisher publisher(s.bone, s.fanout);
   publisher.publish_all();
   const auto mailbox = s.fanout.subscribe({}, 1);
   Viewer viewer;
@@ -85,27 +95,26 @@ TEST(MeshPublisher, RandomRemovalEndsWithTheSurfaceOfTheBone) {
       if (left > 0) s.set(voxel, static_cast<uint8_t>(random() % left));
     }
     s.end_tick(15);
-    if (random() % 10 == 0) publisher.poll(now);
+    if (random() % 10 == 0) s.poll(publisher, now);
     if (random() % 50 == 0) viewer.pull(*mailbox, 1);
   }
   while (s.sender.pending() > 0) {
     s.end_tick();
-    publisher.poll(now);
+    s.poll(publisher, now);
   }
-  publisher.flush(now);
+  s.flush(publisher, now);
   viewer.pull(*mailbox);
   EXPECT_TRUE(held(viewer) == expected(s.bone.grid, s.bone.coverage)) << "seed " << seed;
   EXPECT_TRUE(publisher.replica().coverage() == s.bone.coverage);
 }
 
 TEST(MeshPublisher, ViewersAlwaysHoldTheSurfaceOfOneCoverage) {
-  const unsigned seed = std::random_device{}();
-  std::cout << "seed " << seed << "\n";
+  const unsigned seed = test::seed();
   std::mt19937 random(seed);
   Session s;
   MeshPublisherOptions options;
   options.max_surfaces = 2;  // so that updates take several polls while removal goes on
-  MeshPublisher publisher(s.bone, s.ring, s.fanout, options);
+  MeshPublisher publisher(s.bone, s.fanout, options);
   publisher.publish_all();
   const auto mailbox = s.fanout.subscribe({}, 1);
   Viewer viewer;
@@ -121,7 +130,7 @@ TEST(MeshPublisher, ViewersAlwaysHoldTheSurfaceOfOneCoverage) {
       if (left > 0) s.set(voxel, static_cast<uint8_t>(random() % left));
     }
     s.end_tick();
-    const size_t published = publisher.poll(now);
+    const size_t published = s.poll(publisher, now);
     viewer.pull(*mailbox);
     if (published > 0) {
       // The update is complete: the replica is the coverage that it showed.
@@ -136,12 +145,11 @@ TEST(MeshPublisher, ViewersAlwaysHoldTheSurfaceOfOneCoverage) {
   EXPECT_GT(polls_between, pictures);
 }
 
-TEST(MeshPublisher, WithoutARingBoneMayGrowBack) {
-  const unsigned seed = std::random_device{}();
-  std::cout << "seed " << seed << "\n";
+TEST(MeshPublisher, BoneMayGrowBack) {
+  const unsigned seed = test::seed();
   std::mt19937 random(seed);
   const Session s;
-  LocalFanout fanout;
+  Fanout fanout;
   MeshPublisher publisher(s.bone, fanout);
   publisher.publish_all();
   const auto mailbox = fanout.subscribe({}, 1);
@@ -166,7 +174,7 @@ TEST(MeshPublisher, WithoutARingBoneMayGrowBack) {
 
 TEST(MeshPublisher, LargeChangesShowAtOnceSmallOnesLater) {
   Session s;
-  MeshPublisher publisher(s.bone, s.ring, s.fanout);
+  MeshPublisher publisher(s.bone, s.fanout);
   publisher.publish_all();
   const Vec3i at_surface(66, 32, 32);
   const uint8_t left = s.bone.coverage[s.bone.grid.index(at_surface)];
@@ -174,24 +182,23 @@ TEST(MeshPublisher, LargeChangesShowAtOnceSmallOnesLater) {
   int64_t now = 1000 * ms;
   s.set(at_surface, static_cast<uint8_t>(left - 5));
   s.end_tick();
-  EXPECT_EQ(publisher.poll(now), 0u);
-  EXPECT_EQ(publisher.poll(now + 249 * ms), 0u);
+  EXPECT_EQ(s.poll(publisher, now), 0u);
+  EXPECT_EQ(s.poll(publisher, now + 249 * ms), 0u);
   now += 250 * ms;
-  EXPECT_GT(publisher.poll(now), 0u);
+  EXPECT_GT(s.poll(publisher, now), 0u);
   s.set(at_surface, static_cast<uint8_t>(left - 5 - 64));
   s.end_tick();
-  EXPECT_EQ(publisher.poll(now + 29 * ms), 0u) << "min_interval_ns";
-  EXPECT_GT(publisher.poll(now + 30 * ms), 0u);
+  EXPECT_EQ(s.poll(publisher, now + 29 * ms), 0u) << "min_interval_ns";
+  EXPECT_GT(s.poll(publisher, now + 30 * ms), 0u);
 }
 
 TEST(MeshPublisher, CoarseViewersGetTheirOwnPictureFromTheirArrivalOn) {
-  const unsigned seed = std::random_device{}();
-  std::cout << "seed " << seed << "\n";
+  const unsigned seed = test::seed();
   std::mt19937 random(seed);
   Session s;
   MeshPublisherOptions options;
   options.max_surfaces = 2;
-  MeshPublisher publisher(s.bone, s.ring, s.fanout, options);
+  MeshPublisher publisher(s.bone, s.fanout, options);
   publisher.publish_all();
   std::map<int, std::shared_ptr<Mailbox>> mailboxes;
   std::map<int, Viewer> viewers;
@@ -204,7 +211,7 @@ TEST(MeshPublisher, CoarseViewersGetTheirOwnPictureFromTheirArrivalOn) {
                       static_cast<int>(random() % 64));
     s.set(voxel, 0);
     s.end_tick();
-    const bool shown = publisher.poll(now) > 0;
+    const bool shown = s.poll(publisher, now) > 0;
     for (auto& [stride, mailbox] : mailboxes) {
       viewers[stride].pull(*mailbox);
       if (shown && viewers[stride].key_completes == 1) {
@@ -213,7 +220,7 @@ TEST(MeshPublisher, CoarseViewersGetTheirOwnPictureFromTheirArrivalOn) {
       }
     }
   }
-  publisher.flush(now);
+  s.flush(publisher, now);
   for (auto& [stride, mailbox] : mailboxes) {
     viewers[stride].pull(*mailbox);
     EXPECT_EQ(viewers[stride].key_completes, 1) << stride;
@@ -223,17 +230,17 @@ TEST(MeshPublisher, CoarseViewersGetTheirOwnPictureFromTheirArrivalOn) {
 
 TEST(MeshPublisher, BlocksWhoseSurfaceStaysAreNotSent) {
   Session s;
-  MeshPublisher publisher(s.bone, s.ring, s.fanout);
+  MeshPublisher publisher(s.bone, s.fanout);
   publisher.publish_all();
   s.set({40, 32, 32}, 200);  // deep inside, in a corner of eight blocks
   s.end_tick();
-  EXPECT_EQ(publisher.flush(0), 0u);
+  EXPECT_EQ(s.flush(publisher, 0), 0u);
   EXPECT_EQ(publisher.replica().coverage(), s.bone.coverage);
 }
 
 TEST(MeshPublisher, CreepAddsUpAndUnchangedBricksAreNotSent) {
   Session s;
-  MeshPublisher publisher(s.bone, s.ring, s.fanout);
+  MeshPublisher publisher(s.bone, s.fanout);
   publisher.publish_all();
   const auto mailbox = s.fanout.subscribe({}, 1);
   Viewer viewer;
@@ -246,12 +253,12 @@ TEST(MeshPublisher, CreepAddsUpAndUnchangedBricksAreNotSent) {
   for (; published == 0 && polls < 100; ++polls, now += ms) {
     s.set(at_surface, --left);
     s.end_tick();
-    published = publisher.poll(now);
+    published = s.poll(publisher, now);
   }
   EXPECT_EQ(polls, MeshPublisherOptions{}.noticeable_coverage);
   s.sender.mark(0);
   s.end_tick();
-  EXPECT_EQ(publisher.flush(now), 0u);
+  EXPECT_EQ(s.flush(publisher, now), 0u);
   viewer.pull(*mailbox);
   EXPECT_TRUE(held(viewer) == expected(s.bone.grid, s.bone.coverage));
 }
@@ -261,7 +268,7 @@ TEST(MeshPublisher, ABlockThatLosesItsLastSurfaceIsToldEmptyOnce) {
   std::fill(s.bone.coverage.begin(), s.bone.coverage.end(), uint8_t{0});
   const Vec3i lonely(80, 48, 48);
   s.bone.coverage[s.bone.grid.index(lonely)] = 255;
-  MeshPublisher publisher(s.bone, s.ring, s.fanout);
+  MeshPublisher publisher(s.bone, s.fanout);
   publisher.publish_all();
   const auto mailbox = s.fanout.subscribe({}, 1);
   Viewer viewer;
@@ -269,12 +276,12 @@ TEST(MeshPublisher, ABlockThatLosesItsLastSurfaceIsToldEmptyOnce) {
   EXPECT_EQ(viewer.blocks.size(), 1u);
   s.set(lonely, 0);
   s.end_tick();
-  EXPECT_EQ(publisher.flush(0), 1u);
+  EXPECT_EQ(s.flush(publisher, 0), 1u);
   viewer.pull(*mailbox);
   EXPECT_TRUE(viewer.blocks.empty());
   s.sender.mark(0);
   s.end_tick();
-  EXPECT_EQ(publisher.flush(1), 0u);
+  EXPECT_EQ(s.flush(publisher, 1), 0u);
 }
 
 }  // namespace

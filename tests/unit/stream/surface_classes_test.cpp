@@ -1,6 +1,5 @@
-#include "stream/surface_classes.hpp"
-
 #include "stream/codec.hpp"
+
 #include "unit/stream/viewer.hpp"
 
 namespace ream::stream {

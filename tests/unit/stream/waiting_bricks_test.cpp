@@ -1,9 +1,10 @@
-#include "stream/waiting_bricks.hpp"
+#include "stream/mesh_publisher.hpp"
 
 #include <gtest/gtest.h>
 
-#include <iostream>
 #include <random>
+
+#include "support/seed.hpp"
 
 namespace ream::stream {
 namespace {
@@ -28,19 +29,17 @@ TEST(WaitingBricks, KeepTheNewestImageOfEachAndTheLargestChange) {
   ASSERT_EQ(waiting.images().size(), 2u);
   EXPECT_EQ(waiting.images()[0].brick, 7u);
   EXPECT_EQ(waiting.images()[0].coverage[100], 180);
-  EXPECT_EQ(waiting.most_moved(), 60);
+  EXPECT_EQ(waiting.max_moved(), 60);
   EXPECT_EQ(waiting.since_ns(), 20);
   waiting.clear();
   EXPECT_TRUE(waiting.empty());
-  EXPECT_EQ(waiting.most_moved(), 0);
+  EXPECT_EQ(waiting.max_moved(), 0);
   waiting.put(image_of(3, 199), shown.coverage, 50);
   EXPECT_EQ(waiting.since_ns(), 50);
 }
 
 TEST(WaitingBricks, TheBoxHoldsExactlyTheVoxelsThatDiffer) {
-  const unsigned seed = std::random_device{}();
-  std::cout << "seed " << seed << "\n";
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed());
   for (int run = 0; run < 2000; ++run) {
     const BrickImage before = image_of(0, 100);
     BrickImage after = before;

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <iostream>
 #include <set>
 
+#include "support/seed.hpp"
 #include "surface/block_mesh.hpp"
 #include "unit/surface/volumes.hpp"
 
@@ -37,9 +37,7 @@ TEST(BlockLayout, AVoxelTouchesExactlyTheBlocksWithinTwoVoxels) {
 }
 
 TEST(BlockLayout, NothingChangesOutsideTheTouchedBlocks) {
-  const unsigned seed = std::random_device{}();
-  std::cout << "seed " << seed << "\n";
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed());
   const voxel::VoxelGrid grid = grid_of({96, 64, 64});
   const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
   for (int i = 0; i < 30; ++i) {

@@ -1,11 +1,10 @@
-#include "surface/coarse.hpp"
+#include "surface/block_volume.hpp"
 
 #include <gtest/gtest.h>
 
-#include <iostream>
-
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "support/seed.hpp"
 #include "surface/whole_surface.hpp"
 #include "unit/surface/volumes.hpp"
 
@@ -52,9 +51,7 @@ TEST(Coarse, AWallOfOneVoxelStaysWithoutHoles) {
 
 TEST(Coarse, BesidePlaneSurfacesOfAnyTiltTheMeanIsEnough) {
   // So the thin walls' rule neither thickens nor roughens thick bone: the coarse volume is the fine one's.
-  const unsigned seed = std::random_device{}();
-  std::cout << "seed " << seed << "\n";
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed());
   std::normal_distribution<double> normal;
   const voxel::VoxelGrid grid = grid_of({48, 48, 48});
   for (int i = 0; i < 20; ++i) {

@@ -1,5 +1,7 @@
 #include "surface/marching_cubes.hpp"
 
+#include <Eigen/Geometry>
+
 #include <gtest/gtest.h>
 
 #include <set>

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <unordered_map>
 
+#include "support/seed.hpp"
 #include "surface/block_mesh.hpp"
 #include "surface/whole_surface.hpp"
 #include "unit/surface/volumes.hpp"
@@ -98,8 +99,7 @@ Joined joined(const RandomGrid& g, int stride) {
 }
 
 TEST(RandomGrids, SurfaceIsAClosedManifoldAtEveryStrideWithBordersEqualToTheBit) {
-  const unsigned seed = std::random_device{}();
-  std::cout << "seed " << seed << "\n";
+  const unsigned seed = test::seed();
   size_t triangles = 0;
   for (unsigned i = 0; i < grids && !HasFailure(); ++i) {
     const RandomGrid g = random_grid(seed + i);

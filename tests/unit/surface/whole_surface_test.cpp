@@ -2,10 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <iostream>
-
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "support/seed.hpp"
 #include "unit/surface/volumes.hpp"
 
 namespace ream::surface {
@@ -60,8 +59,7 @@ TEST(WholeSurface, TorusHasAHole) {
 }
 
 TEST(WholeSurface, AnyNoiseGivesAClosedManifold) {
-  const unsigned seed = std::random_device{}();
-  std::cout << "seed " << seed << "\n";
+  const unsigned seed = test::seed();
   for (unsigned i = 0; i < 8; ++i) {
     const voxel::VoxelGrid grid = grid_of({40, 48, 40});
     const TriangleMesh mesh = whole_surface(grid, noise(grid, seed + i).data());

@@ -1,4 +1,4 @@
-#include "voxel/brick_order.hpp"
+#include "voxel/bricks.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,6 @@
 #include <thread>
 
 #include "support/random_bone.hpp"
-#include "voxel/replica.hpp"
 
 namespace ream::voxel {
 namespace {

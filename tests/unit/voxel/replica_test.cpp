@@ -1,4 +1,4 @@
-#include "voxel/replica.hpp"
+#include "voxel/bricks.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,15 +3,15 @@
 #include <cstring>
 
 #include "core/file.hpp"
+
+#include <Eigen/Geometry>
+
 #include "geometry/mesh_io.hpp"
 #include "geometry/morton.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
-#include "voxelizer/box_file.hpp"
-#include "voxelizer/grid_file.hpp"
-#include "voxelizer/morton_file.hpp"
-#include "voxelizer/point_file.hpp"
+#include "voxelizer/voxel_files.hpp"
 
 namespace ream::voxelizer {
 namespace {
@@ -23,8 +23,8 @@ class VoxelFiles : public testing::Test {
                .transformed({rotation_from_small_vector(Vec3(0.2, -0.4, 0.3)), Vec3(10.0, 20.0, -5.0)});
     grid = grid_around(used_bounds(mesh, 1.0), {0.3, 0.2, 0.25});
   }
-  VoxelSet voxelized(const Request& request, size_t most_dense_bytes = usual_dense_bytes) const {
-    VoxelSet set(grid, most_dense_bytes);
+  VoxelSet voxelized(const Request& request, size_t max_dense_bytes = default_dense_bytes) const {
+    VoxelSet set(grid, max_dense_bytes);
     Voxelizer(1).voxelize(mesh, request, set);
     return set;
   }
@@ -32,7 +32,7 @@ class VoxelFiles : public testing::Test {
   template <class Write>
   std::string written(Write write) {
     const auto path = folder.path() / "file";
-    StreamedFile file(path);
+    AtomicFile file(path);
     write(file);
     file.commit();
     return read_text_file(path);
@@ -49,7 +49,7 @@ class VoxelFiles : public testing::Test {
 TEST_F(VoxelFiles, GridsOfBytesAndBitsReadBackAsGridsLikeThem) {
   const VoxelSet set = voxelized({});
   for (const GridFormat format : {GridFormat::bytes, GridFormat::bits}) {
-    const std::string text = written([&](StreamedFile& file) { write_nrrd(set, format, file, no_progress); });
+    const std::string text = written([&](AtomicFile& file) { write_nrrd(set, format, file, no_progress); });
     const RasterGrid like = grid_of_nrrd(folder.path() / "file");
     EXPECT_EQ(like.dims, grid.dims);
     EXPECT_LT((like.origin_mm - grid.origin_mm).norm(), 1e-12);
@@ -86,9 +86,9 @@ TEST_F(VoxelFiles, GridsThatCannotBeTakenAreRefusedByName) {
 }
 
 TEST_F(VoxelFiles, MortonCodesRiseAndNameTheMarkedVoxels) {
-  for (const size_t most_dense_bytes : {usual_dense_bytes, size_t{0}}) {
-    const VoxelSet set = voxelized({}, most_dense_bytes);
-    const std::string text = written([&](StreamedFile& file) { write_morton_codes(set, file, no_progress); });
+  for (const size_t max_dense_bytes : {default_dense_bytes, size_t{0}}) {
+    const VoxelSet set = voxelized({}, max_dense_bytes);
+    const std::string text = written([&](AtomicFile& file) { write_morton_codes(set, file, no_progress); });
     const std::string body = body_of(text, "\n\n");
     ASSERT_EQ(body.size(), 8 * set.filled());
     std::vector<uint64_t> codes(set.filled());
@@ -119,7 +119,7 @@ TEST_F(VoxelFiles, PointsCarryTheSurface) {
     request.separability = separability;
     const VoxelSet set = voxelized(request);
     const std::string text =
-        written([&](StreamedFile& file) { write_points(mesh, request, set, file, no_progress); });
+        written([&](AtomicFile& file) { write_points(mesh, request, set, file, no_progress); });
     const std::string body = body_of(text, "end_header\n");
     ASSERT_EQ(body.size(), sizeof(Point) * set.filled());
     std::vector<Point> points(set.filled());
@@ -141,7 +141,7 @@ TEST_F(VoxelFiles, PointsCarryTheSurface) {
 TEST_F(VoxelFiles, BoxesCloseAroundTheirVoxels) {
   const Request request{.surface = false, .solid = true};
   const VoxelSet set = voxelized(request);
-  written([&](StreamedFile& file) { write_boxes(set, file, no_progress); });
+  written([&](AtomicFile& file) { write_boxes(set, file, no_progress); });
   std::filesystem::rename(folder.path() / "file", folder.path() / "boxes.ply");
   const TriangleMesh boxes = load_mesh(folder.path() / "boxes.ply");
   EXPECT_NEAR(boxes.volume_mm3() / (static_cast<double>(set.filled()) * grid.size_mm.prod()), 1.0, 1e-4);
@@ -151,12 +151,12 @@ TEST_F(VoxelFiles, FilesThatAreNotFinishedLeaveNothing) {
   const auto path = folder.path() / "kept";
   write_file_atomically(path, "old");
   {
-    StreamedFile file(path);
+    AtomicFile file(path);
     file.write("new and long");
   }
   EXPECT_EQ(read_text_file(path), "old");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
-  test::expect_error(ErrorKind::io, "no/where", [&] { StreamedFile(folder.path() / "no/where"); });
+  test::expect_error(ErrorKind::io, "no/where", [&] { AtomicFile(folder.path() / "no/where"); });
 }
 
 }  // namespace

@@ -13,10 +13,10 @@ namespace ream::voxelizer {
 namespace {
 
 /// What the issue allows, voxels.
-constexpr double farthest = 1e-5;
+constexpr double max_gap = 1e-5;
 
 /// What an independent test in doubles says of every voxel: those that some triangle touches, and those that
-/// some triangle is at most `farthest` away from.
+/// some triangle is at most `max_gap` away from.
 struct Reference {
   std::vector<bool> touched, allowed;
 
@@ -40,10 +40,10 @@ struct Reference {
     for (int w = low.z(); w <= high.z(); ++w)
       for (int v = low.y(); v <= high.y(); ++v)
         for (int u = low.x(); u <= high.x(); ++u) {
-          const double gap = axes.gap({u + 0.5, v + 0.5, w + 0.5}, farthest);
+          const double gap = axes.gap({u + 0.5, v + 0.5, w + 0.5}, max_gap);
           const size_t voxel = index(dims, u, v, w);
           if (gap <= 0.0) touched[voxel] = true;
-          if (gap <= farthest) allowed[voxel] = true;
+          if (gap <= max_gap) allowed[voxel] = true;
         }
   }
 

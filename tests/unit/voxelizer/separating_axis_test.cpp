@@ -18,7 +18,7 @@ namespace {
 using test::TriangleAxes;
 
 /// What the issue allows, voxels.
-constexpr double farthest = 1e-5;
+constexpr double max_gap = 1e-5;
 
 RasterGrid unit_grid(const Vec3i& dims) { return {dims, Vec3::Zero(), Vec3::Ones()}; }
 
@@ -69,11 +69,11 @@ TEST(SeparatingAxis, TwentyThousandAwkwardTrianglesMarkTheirSupercover) {
     for (int w = 0; w < grid.dims.z(); ++w)
       for (int v = 0; v < grid.dims.y(); ++v)
         for (int u = 0; u < grid.dims.x(); ++u) {
-          const double gap = axes.gap({u + 0.5, v + 0.5, w + 0.5}, farthest);
+          const double gap = axes.gap({u + 0.5, v + 0.5, w + 0.5}, max_gap);
           const bool is_marked = bit(thick, u, v, w);
           voxels += is_marked;
           missed += !is_marked && gap <= 0.0;
-          added += is_marked && gap > farthest;
+          added += is_marked && gap > max_gap;
         }
   }
   EXPECT_GT(voxels, 150000u);

@@ -6,7 +6,6 @@
 #include "support/expect_error.hpp"
 #include "support/shared_data.hpp"
 #include "support/test_meshes.hpp"
-#include "voxelizer/closed_mesh.hpp"
 #include "voxelizer/voxelizer.hpp"
 
 namespace ream::voxelizer {
@@ -17,8 +16,8 @@ using test::box_mesh;
 Mat3 turned(double a) { return rotation_from_small_vector(Vec3(0.3 * a, -0.5 * a, 0.2 * a)); }
 
 VoxelSet voxelized(const TriangleMesh& mesh, const RasterGrid& grid, const Request& request, int threads = 2,
-                   size_t most_dense_bytes = usual_dense_bytes) {
-  VoxelSet set(grid, most_dense_bytes);
+                   size_t max_dense_bytes = default_dense_bytes) {
+  VoxelSet set(grid, max_dense_bytes);
   Voxelizer(threads).voxelize(mesh, request, set);
   return set;
 }

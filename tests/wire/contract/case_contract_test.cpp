@@ -5,8 +5,9 @@
 
 #include "case/landmarks.hpp"
 #include "contract_fixture.hpp"
-#include "ct/phantom.hpp"
-#include "ct/volume_io.hpp"
+#include "ct/phantom/phantom.hpp"
+#include "ct/read/read_ct.hpp"
+#include "ct/read/write_volume.hpp"
 
 namespace ream::test {
 namespace {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <set>
 
-#include "core/lower.hpp"
+#include "core/text.hpp"
 #include "server_fixture.hpp"
 #include "support/json_schema.hpp"
 #include "support/places.hpp"

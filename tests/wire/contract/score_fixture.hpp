@@ -4,8 +4,8 @@
 
 #include "contract_fixture.hpp"
 #include "core/file.hpp"
-#include "score/deviation_file.hpp"
-#include "score/rubric_shelf.hpp"
+#include "score/deviation.hpp"
+#include "score/rubric_store.hpp"
 #include "support/some_metrics.hpp"
 
 namespace ream::test {

@@ -24,12 +24,12 @@ TEST_F(ScoresTest, TellEveryMetricWithWhatItMeansAndWhyItIsNotSaid) {
   for (const json& each : score.at("metrics")) {
     for (const char* words : {"definition", "source", "confidence", "name"})
       EXPECT_FALSE(each.at(words).get<std::string>().empty()) << each;
-    EXPECT_NE(each.at("value").is_null(), each.at("unsaid").is_null()) << each;
+    EXPECT_NE(each.at("value").is_null(), each.at("missing").is_null()) << each;
   }
   EXPECT_EQ(metric(score, "version_error_deg").at("value"), 2.0);
   EXPECT_EQ(metric(score, "version_error_deg").at("unit"), "deg");
   EXPECT_EQ(metric(score, "version_error_deg").at("points"), 80.0);
-  EXPECT_EQ(metric(score, "sparc").at("unsaid"), "no bone was removed");
+  EXPECT_EQ(metric(score, "sparc").at("missing"), "no bone was removed");
   EXPECT_EQ(score.at("points"), 80.0);
   EXPECT_EQ(score.at("outcome"), "pass");
   EXPECT_EQ(score.at("theatre"), true);

@@ -1,6 +1,7 @@
 #include <random>
 
 #include "access_fixture.hpp"
+#include "support/seed.hpp"
 #include "support/some_metrics.hpp"
 
 namespace ream::test {
@@ -138,8 +139,7 @@ class StudyBlindingTest : public AccessTest {
     EXPECT_GT(answered, 5) << words;
   }
 
-  const unsigned seed = std::random_device{}();
-  std::mt19937 random{seed};
+  std::mt19937 random{test::seed()};
   const std::string studies = "/api/v1/studies";
   Sent anna, ines, outsider;
   std::string study_id;
@@ -148,7 +148,6 @@ class StudyBlindingTest : public AccessTest {
 };
 
 TEST_F(StudyBlindingTest, NobodyButOperatorsLearnsWhoAParticipantIs) {
-  SCOPED_TRACE("seed " + std::to_string(seed));
   for (const Person& person : people) {
     train(person, false);
     train(person, true);
@@ -180,7 +179,6 @@ TEST_F(StudyBlindingTest, NobodyButOperatorsLearnsWhoAParticipantIs) {
 }
 
 TEST_F(StudyBlindingTest, OperatorsAndThePersonKnowAndAllWhoSeeItOnceItIsUnblinded) {
-  SCOPED_TRACE("seed " + std::to_string(seed));
   train(people[0], false);
   const std::string study = studies + "/" + study_id, session = all + "/" + sessions[0];
   EXPECT_EQ(seen(session, anna).at("trainee"), people[0].name);
@@ -199,7 +197,6 @@ TEST_F(StudyBlindingTest, OperatorsAndThePersonKnowAndAllWhoSeeItOnceItIsUnblind
 
 /// Asked for a person, others than operators get nothing of a study; asked for a code, its sessions.
 TEST_F(StudyBlindingTest, LearningAndScoresAreToldByCodeOnly) {
-  SCOPED_TRACE("seed " + std::to_string(seed));
   const Person &first = people[0], &second = people[1];
   for (int i = 0; i < 2; ++i) train(first, i == 1);
   train(second, false);

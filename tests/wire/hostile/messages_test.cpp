@@ -3,13 +3,14 @@
 
 #include "hostile_fixture.hpp"
 #include "support/fake_device_client.hpp"
+#include "support/seed.hpp"
 
 namespace ream::test {
 namespace {
 
 class HostileMessagesTest : public HostileTest {
  protected:
-  HostileMessagesTest() : seed_(std::random_device()()), random_(seed_) {}
+  HostileMessagesTest() : seed_(test::seed()), random_(seed_) {}
 
   std::string noise(size_t most) {
     std::string bytes(random_() % (most + 1), '\0');

@@ -1,16 +1,16 @@
-import '../desk.css';
+import '../styles/pages.css';
 
 import { useEffect, useMemo } from 'preact/hooks';
 
-import { accessWords } from '../access_words';
+import { accessText } from '../text/access_text';
 import { AddUser } from '../panels/access/add_user';
 import { LinkPanel } from '../panels/access/link_panel';
 import { PasswordPanel } from '../panels/access/password_panel';
 import { TokenPanel } from '../panels/access/token_panel';
 import { UserTable } from '../panels/access/user_table';
-import { DeskHeader } from '../panels/desk_header';
-import { Remark } from '../panels/fields';
-import { useIdentity } from '../panels/site_nav';
+import { PageHeader } from '../panels/common/page_header';
+import { Remark } from '../panels/common/fields';
+import { useIdentity } from '../panels/common/site_nav';
 import { Remote } from '../state/remote';
 import { AccessApi } from '../wire/access_api';
 import { LoginApi } from '../wire/login_api';
@@ -28,19 +28,19 @@ export function UsersPage() {
   const nameOf = (id: string) => list?.find((user) => user.id === id)?.name ?? id;
   return (
     <div class="page desk-page">
-      <DeskHeader here="users" />
+      <PageHeader here="users" />
       <main class="desk">
         <section class="desk-panel" aria-labelledby="users-title">
-          <h2 id="users-title">{accessWords.users}</h2>
+          <h2 id="users-title">{accessText.users}</h2>
           {users.problem.value !== null && (
             <Remark kind="bad" testId="users-problem">
               {users.problem.value}
             </Remark>
           )}
-          {list === null && users.problem.value === null && <p class="soft">{accessWords.loading}</p>}
+          {list === null && users.problem.value === null && <p class="soft">{accessText.loading}</p>}
           {list?.length === 0 && (
             <Remark kind="warn">
-              {accessWords.noUsers} {accessWords.firstUser}
+              {accessText.noUsers} {accessText.firstUser}
             </Remark>
           )}
           {list !== null && list.length > 0 && <UserTable api={api} users={users} />}
@@ -58,8 +58,8 @@ export function AccountPage() {
   const identity = useIdentity();
   return (
     <div class="page desk-page">
-      <DeskHeader here="account" />
-      <main class="desk" aria-label={accessWords.account}>
+      <PageHeader here="account" />
+      <main class="desk" aria-label={accessText.account}>
         <PasswordPanel api={loginApi} />
         <TokenPanel api={api} userId={identity.userId.value} />
         {identity.may.value.teach && <LinkPanel api={api} />}

@@ -1,20 +1,21 @@
 import type { Signal } from '@preact/signals';
 
-import { IdentityContext } from '../panels/site_nav';
+import { IdentityContext } from '../panels/common/site_nav';
 import type { Identity } from '../state/identity';
 import { addressOfRoute, type Route } from '../state/route';
-import { words } from '../words';
-import { later } from '../panels/later';
+import { appText } from '../text/app_text';
+import { noAnswer } from '../wire/rest';
+import { lazyPart } from '../panels/common/lazy_part';
 import { LivePage, type LivePageParts } from './live_page';
 import { TraineePage } from './trainee_page';
 import { LoginPage } from './login_page';
 
-const dashboardPage = later(() => import('./dashboard_page'));
-const casePages = later(() => import('./case_pages'));
-const sessionPages = later(() => import('./session_pages'));
-const reviewPage = later(() => import('./review_page'));
-const studyPages = later(() => import('./study_pages'));
-const accessPages = later(() => import('./access_pages'));
+const dashboardPage = lazyPart(() => import('./dashboard_page'));
+const casePages = lazyPart(() => import('./case_pages'));
+const sessionPages = lazyPart(() => import('./session_pages'));
+const reviewPage = lazyPart(() => import('./review_page'));
+const studyPages = lazyPart(() => import('./study_pages'));
+const accessPages = lazyPart(() => import('./access_pages'));
 
 interface Parts {
   route: Signal<Route>;
@@ -42,7 +43,7 @@ function Entrance({ identity, children }: { identity: Identity; children: preact
     case 'asking':
       return (
         <p class="page-opening" role="status" data-testid="asking">
-          {identity.problem.value === null ? words.askingWho : `${identity.problem.value} ${words.stillAsking}`}
+          {identity.problem.value === null ? appText.askingWho : `${identity.problem.value} ${appText.stillAsking}`}
         </p>
       );
   }
@@ -87,7 +88,7 @@ function Page({ route, live, identity }: { route: Route; live: LivePageParts; id
 function NotForYou() {
   return (
     <p class="page-opening" role="status" data-testid="not-for-you">
-      {words.notForYou} <a href={addressOfRoute({ kind: 'live' })}>{words.backToLivePage}</a>
+      {appText.notForYou} <a href={addressOfRoute({ kind: 'live' })}>{appText.backToLivePage}</a>
     </p>
   );
 }
@@ -101,7 +102,7 @@ async function startReaming(
   if (store.replayId.value !== null) watcher.leaveReplay();
   const sessionId = await watcher.practise(caseId, theatre);
   if (sessionId === null) {
-    const said = store.problem.value ?? words.noAnswer;
+    const said = store.problem.value ?? noAnswer;
     store.problem.value = null;
     throw new Error(said);
   }

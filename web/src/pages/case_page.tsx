@@ -1,7 +1,7 @@
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 
-import { caseWords } from '../case_words';
+import { caseText } from '../text/case_text';
 import { planeNames } from '../ct/orientation';
 import { CaseHeader } from '../panels/case/case_header';
 import { SlicePanel, type ViewId } from '../panels/case/slice_panel';
@@ -10,11 +10,11 @@ import { SurfacePanel } from '../panels/case/surface_panel';
 import { WindowBar } from '../panels/case/window_bar';
 import { SliceView } from '../scene/slice_view';
 import { SurfaceView } from '../scene/surface_view';
-import type { CaseKeeper } from '../state/case/case_keeper';
+import type { CaseController } from '../state/case/case_controller';
 import { ViewMarks } from '../state/case/view_marks';
 
 interface Parts {
-  keeper: CaseKeeper;
+  keeper: CaseController;
   startReaming: (caseId: string, theatre: boolean) => Promise<void>;
 }
 
@@ -32,12 +32,12 @@ export function CasePage({ keeper, startReaming }: Parts) {
         <CaseHeader details={null} />
         <main class="case-note" data-testid="case-note">
           {problem === null ? (
-            <p role="status">{caseWords.loadingCase}</p>
+            <p role="status">{caseText.loadingCase}</p>
           ) : (
             <p role="alert">
-              <strong>{caseWords.caseFailed}.</strong> {problem}{' '}
+              <strong>{caseText.caseFailed}.</strong> {problem}{' '}
               <button type="button" class="plain-button" onClick={() => void keeper.open()}>
-                {caseWords.tryAgain}
+                {caseText.tryAgain}
               </button>
             </p>
           )}
@@ -71,7 +71,7 @@ class CaseViews {
   /** Null where the browser has no WebGL. */
   readonly surface: SurfaceView | null;
 
-  constructor(private readonly keeper: CaseKeeper) {
+  constructor(private readonly keeper: CaseController) {
     const marks = new ViewMarks(keeper);
     const view = (name: (typeof planeNames)[number]) => new SliceView(keeper, marks, name);
     this.slices = { axial: view('axial'), coronal: view('coronal'), sagittal: view('sagittal') };
@@ -105,7 +105,7 @@ class CaseViews {
   }
 }
 
-function surfaceView(keeper: CaseKeeper, marks: ViewMarks): SurfaceView | null {
+function surfaceView(keeper: CaseController, marks: ViewMarks): SurfaceView | null {
   try {
     return new SurfaceView(keeper, marks);
   } catch {

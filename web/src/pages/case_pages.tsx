@@ -1,9 +1,9 @@
-import '../case.css';
+import '../styles/case.css';
 
 import { useEffect, useMemo } from 'preact/hooks';
 
-import { useIdentity } from '../panels/site_nav';
-import { CaseKeeper } from '../state/case/case_keeper';
+import { useIdentity } from '../panels/common/site_nav';
+import { CaseController } from '../state/case/case_controller';
 import { CasesKeeper } from '../state/case/new_case';
 import { addressOfRoute, type Route } from '../state/route';
 import { CaseApi } from '../wire/case_api';
@@ -34,7 +34,7 @@ export function CasePages({ route, startReaming }: Parts) {
 type OneCaseParts = { id: string; mayEdit: boolean; startReaming: Parts['startReaming'] };
 
 function OneCase({ id, mayEdit, startReaming }: OneCaseParts) {
-  const keeper = useMemo(() => new CaseKeeper(api, id, mayEdit), [id, mayEdit]);
+  const keeper = useMemo(() => new CaseController(api, id, mayEdit), [id, mayEdit]);
   useEffect(() => {
     void keeper.open();
     const leave = () => keeper.landmarks.leave();

@@ -1,9 +1,9 @@
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 
-import { caseWords } from '../case_words';
+import { caseText } from '../text/case_text';
 import { CaseHeader } from '../panels/case/case_header';
-import { Remark } from '../panels/fields';
+import { Remark } from '../panels/common/fields';
 import { NewCasePanel } from '../panels/case/new_case_panel';
 import type { CasesKeeper } from '../state/case/new_case';
 import { addressOfRoute } from '../state/route';
@@ -25,22 +25,22 @@ export function CasesPage({ keeper, mayEdit }: { keeper: CasesKeeper; mayEdit: b
     <div class={mayEdit ? 'page cases-page' : 'page cases-page read-only'}>
       <CaseHeader details={null} />
       <main class="case-list">
-        <h2>{caseWords.cases}</h2>
+        <h2>{caseText.cases}</h2>
         {problem !== null && (
           <Remark kind="bad">
-            {caseWords.listFailed}: {problem}
+            {caseText.listFailed}: {problem}
           </Remark>
         )}
-        {cases === null && problem === null && <p class="soft">{caseWords.loadingCases}</p>}
-        {cases?.length === 0 && <p class="soft">{caseWords.noCases}</p>}
+        {cases === null && problem === null && <p class="soft">{caseText.loadingCases}</p>}
+        {cases?.length === 0 && <p class="soft">{caseText.noCases}</p>}
         {cases !== null && cases.length > 0 && (
           <table data-testid="cases" class={problem === null && keeper.listFresh.value ? '' : 'stale'}>
             <thead>
               <tr>
-                <th scope="col">{caseWords.caseColumn}</th>
-                <th scope="col">{caseWords.sideColumn}</th>
-                <th scope="col">{caseWords.stageColumn}</th>
-                <th scope="col">{caseWords.voxelsColumn}</th>
+                <th scope="col">{caseText.caseColumn}</th>
+                <th scope="col">{caseText.sideColumn}</th>
+                <th scope="col">{caseText.stageColumn}</th>
+                <th scope="col">{caseText.voxelsColumn}</th>
                 <th />
               </tr>
             </thead>
@@ -69,20 +69,20 @@ function CaseRow({ one, keeper, mayEdit }: { one: CaseSummary; keeper: CasesKeep
         </a>
         {name !== one.id && <span class="soft case-id">{one.id}</span>}
       </td>
-      <td>{caseWords.sideShort[one.side]}</td>
+      <td>{caseText.sideShort[one.side]}</td>
       <td>
         <span class={ready ? 'stage-chip stage-ready' : 'stage-chip'}>
-          {one.stage === 'built' && !one.planned ? caseWords.stageNoPlan : caseWords.stages[one.stage]}
+          {one.stage === 'built' && !one.planned ? caseText.stageNoPlan : caseText.stages[one.stage]}
         </span>
       </td>
       <td>
-        {one.dims === null ? <span class="soft">{caseWords.notBuilt}</span> : caseWords.dims(one.dims)}
-        {one.spacing_mm !== null && <span class="soft case-id">{caseWords.spacing(one.spacing_mm)}</span>}
+        {one.dims === null ? <span class="soft">{caseText.notBuilt}</span> : caseText.dims(one.dims)}
+        {one.spacing_mm !== null && <span class="soft case-id">{caseText.spacing(one.spacing_mm)}</span>}
       </td>
       <td class="row-deeds">
         {asking.value ? (
           <span class="really" role="alert">
-            {caseWords.removeReally(name)}
+            {caseText.removeReally(name)}
             <button
               type="button"
               class="warn-button"
@@ -92,10 +92,10 @@ function CaseRow({ one, keeper, mayEdit }: { one: CaseSummary; keeper: CasesKeep
                 void keeper.remove(one.id);
               }}
             >
-              {caseWords.removeYes}
+              {caseText.removeYes}
             </button>
             <button type="button" class="plain-button" onClick={() => (asking.value = false)}>
-              {caseWords.keep}
+              {caseText.keep}
             </button>
           </span>
         ) : (
@@ -103,19 +103,19 @@ function CaseRow({ one, keeper, mayEdit }: { one: CaseSummary; keeper: CasesKeep
             <a
               class="plain-button"
               href={addressOfRoute({ kind: 'case', id: one.id })}
-              aria-label={caseWords.openCase(name)}
+              aria-label={caseText.openCase(name)}
             >
-              {caseWords.open}
+              {caseText.open}
             </a>
             {mayEdit && one.id !== 'demo' && (
               <button
                 type="button"
                 class="plain-button"
                 data-testid={`remove-${one.id}`}
-                aria-label={caseWords.removeCase(name)}
+                aria-label={caseText.removeCase(name)}
                 onClick={() => (asking.value = true)}
               >
-                {caseWords.remove}
+                {caseText.remove}
               </button>
             )}
           </>

@@ -1,13 +1,13 @@
-import '../desk.css';
-import '../dashboard.css';
+import '../styles/pages.css';
+import '../styles/dashboard.css';
 
 import { useEffect } from 'preact/hooks';
 
 import { LearningPanel } from '../panels/dashboard/learning_panel';
 import { LivePanel } from '../panels/dashboard/live_panel';
 import { RecentPanel } from '../panels/dashboard/recent_panel';
-import { DeskHeader } from '../panels/desk_header';
-import { useIdentity } from '../panels/site_nav';
+import { PageHeader } from '../panels/common/page_header';
+import { useIdentity } from '../panels/common/site_nav';
 import { Dashboard } from '../state/dashboard/dashboard';
 import { addressOfReplay } from '../state/replay_address';
 import { DashboardApi } from '../wire/dashboard_api';
@@ -34,7 +34,7 @@ export function DashboardPage({ live }: { live: LivePageParts }) {
   };
   return (
     <div class="page desk-page">
-      <DeskHeader here="dashboard" />
+      <PageHeader here="dashboard" />
       <main class="desk dashboard" data-testid="dashboard">
         <LivePanel board={dashboard.board} watch={watch} />
         <RecentPanel ended={dashboard.ended} replay={replay} />

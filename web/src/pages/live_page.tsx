@@ -1,20 +1,20 @@
-import { Figures, Results } from '../panels/figures';
+import { Figures, Results } from '../panels/live/figures';
 import { type Signal, signal } from '@preact/signals';
 
-import { ForcePlots } from '../panels/force_plot';
-import { later } from '../panels/later';
-import { LiveStrip } from '../panels/live_strip';
-import { Gauges } from '../panels/gauges';
-import { Header } from '../panels/header';
-import { HealthPanel } from '../panels/health_panel';
-import { Picture } from '../panels/picture';
-import { PlaybackBar } from '../panels/playback_bar';
-import { PracticeBar } from '../panels/practice_bar';
-import { ProblemBanner } from '../panels/problem_banner';
-import { RemarksPanel } from '../panels/remarks_panel';
-import { ReplayPanel } from '../panels/replay_panel';
-import { RunPanel } from '../panels/run_panel';
-import { SessionList } from '../panels/session_list';
+import { ForcePlots } from '../panels/live/force_plot';
+import { lazyPart } from '../panels/common/lazy_part';
+import { LiveStrip } from '../panels/live/live_strip';
+import { Gauges } from '../panels/live/gauges';
+import { Header } from '../panels/live/header';
+import { HealthPanel } from '../panels/live/health_panel';
+import { Picture } from '../panels/live/picture';
+import { PlaybackBar } from '../panels/picture/playback_bar';
+import { PracticeBar } from '../panels/live/practice_bar';
+import { ProblemBanner } from '../panels/common/problem_banner';
+import { RemarksPanel } from '../panels/live/remarks_panel';
+import { ReplayPanel } from '../panels/live/replay_panel';
+import { RunPanel } from '../panels/live/run_panel';
+import { SessionList } from '../panels/live/session_list';
 import type { BoneScene } from '../scene/scene';
 import type { Alarms } from '../state/alarms';
 import type { Latency } from '../state/latency';
@@ -27,7 +27,7 @@ import type { Store } from '../state/store';
 import type { ViewSettings } from '../state/view_settings';
 import type { Watcher } from '../state/watcher';
 
-const slices = later(() => import('../panels/live_slices'));
+const slices = lazyPart(() => import('../panels/picture/live_slices'));
 const slicesOpen = signal(false);
 
 export interface LivePageParts {

@@ -1,9 +1,9 @@
 import { useSignal } from '@preact/signals';
 import { useEffect, useRef, useState } from 'preact/hooks';
 
-import { sentence } from '../panels/format';
-import { useIdentity } from '../panels/site_nav';
-import { words } from '../words';
+import { sentence } from '../text/format';
+import { useIdentity } from '../panels/common/site_nav';
+import { appText } from '../text/app_text';
 
 /** Asks for name and password, and says why. */
 export function LoginPage() {
@@ -25,14 +25,14 @@ export function LoginPage() {
     <main class="login" data-testid="login">
       <form class="login-card" onSubmit={(event) => void submit(event)}>
         <h1 class="product">
-          {words.product} <span class="tagline">{words.tagline}</span>
+          {appText.product} <span class="tagline">{appText.tagline}</span>
         </h1>
         {problem !== null && (
           <p class="remark remark-bad" role="alert" data-testid="login-problem">
             {sentence(problem)}
           </p>
         )}
-        <label for="login-name">{words.userName}</label>
+        <label for="login-name">{appText.userName}</label>
         <input
           id="login-name"
           ref={first}
@@ -45,7 +45,7 @@ export function LoginPage() {
           value={name.value}
           onInput={(event) => (name.value = event.currentTarget.value)}
         />
-        <label for="login-password">{words.password}</label>
+        <label for="login-password">{appText.password}</label>
         <input
           id="login-password"
           type="password"
@@ -56,7 +56,7 @@ export function LoginPage() {
           onInput={(event) => (password.value = event.currentTarget.value)}
         />
         <button type="submit" class="main-button" data-testid="log-in" disabled={identity.busy.value || waitS > 0}>
-          {identity.busy.value ? words.loggingIn : waitS > 0 ? words.tryAgainIn(waitS) : words.logIn}
+          {identity.busy.value ? appText.loggingIn : waitS > 0 ? appText.tryAgainIn(waitS) : appText.logIn}
         </button>
       </form>
     </main>

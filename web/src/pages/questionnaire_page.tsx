@@ -1,14 +1,14 @@
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 
-import { DeskHeader } from '../panels/desk_header';
-import { Remark } from '../panels/fields';
+import { PageHeader } from '../panels/common/page_header';
+import { Remark } from '../panels/common/fields';
 import { Question, questionId } from '../panels/study/question';
 import { Remote } from '../state/remote';
 import { addressOfRoute } from '../state/route';
 import { AnswerSheet, sectionsOf } from '../state/study/answer_sheet';
-import { studyWords } from '../study_words';
-import { wordsOf } from '../wire/rest';
+import { studyText } from '../text/study_text';
+import { messageOf } from '../wire/rest';
 import type { StudyApi } from '../wire/study_api';
 
 interface Parts {
@@ -40,19 +40,19 @@ export function QuestionnairePage({ api, studyId, code }: Parts) {
   const back = addressOfRoute({ kind: 'study', id: studyId });
   return (
     <div class="page desk-page">
-      <DeskHeader here="questionnaire" />
+      <PageHeader here="questionnaire" />
       <main class="desk">
         <section class="desk-panel questionnaire">
           <p>
             <a href={back} data-testid="back-to-study">
-              ‹ {loaded?.study.name ?? studyWords.backToStudy}
+              ‹ {loaded?.study.name ?? studyText.backToStudy}
             </a>
           </p>
           {sheet.problem.value !== null && <Remark kind="bad">{sheet.problem.value}</Remark>}
-          {loaded === null && sheet.problem.value === null && <p class="soft">{studyWords.loading}</p>}
-          {loaded?.sheet === null && <p>{studyWords.noQuestions}</p>}
-          {loaded?.study.state === 'closed' && <Remark kind="warn">{studyWords.closedHint}</Remark>}
-          {loaded?.theirs && <Remark kind="warn">{studyWords.theirAnswers}</Remark>}
+          {loaded === null && sheet.problem.value === null && <p class="soft">{studyText.loading}</p>}
+          {loaded?.sheet === null && <p>{studyText.noQuestions}</p>}
+          {loaded?.study.state === 'closed' && <Remark kind="warn">{studyText.closedHint}</Remark>}
+          {loaded?.theirs && <Remark kind="warn">{studyText.theirAnswers}</Remark>}
           {loaded?.sheet && (
             <Sheet
               sheet={loaded.sheet}
@@ -91,9 +91,9 @@ function Sheet({ sheet, code, readOnly, send }: SheetParts) {
     try {
       await send(sheet);
       sheet.sent();
-      said.value = { kind: 'soft', text: studyWords.sent };
+      said.value = { kind: 'soft', text: studyText.sent };
     } catch (error) {
-      said.value = { kind: 'bad', text: wordsOf(error) };
+      said.value = { kind: 'bad', text: messageOf(error) };
     } finally {
       busy.value = false;
     }
@@ -102,7 +102,7 @@ function Sheet({ sheet, code, readOnly, send }: SheetParts) {
     <form noValidate onSubmit={(event) => void submit(event)} data-testid="questionnaire" lang={questionnaire.language}>
       <h2>{questionnaire.title}</h2>
       <p class="soft">
-        {questionnaire.introduction} {studyWords.asCode(code)}
+        {questionnaire.introduction} {studyText.asCode(code)}
       </p>
       <fieldset class="questions" disabled={readOnly}>
         {sectionsOf(questionnaire).map(({ section, items }, i) => (
@@ -115,13 +115,13 @@ function Sheet({ sheet, code, readOnly, send }: SheetParts) {
         ))}
         <div class="questionnaire-end">
           <p class="soft" data-testid="progress">
-            {studyWords.progress(sheet.answered.value, sheet.asked.length)}
+            {studyText.progress(sheet.answered.value, sheet.asked.length)}
           </p>
           {sheet.tried.value && missing.length > 0 && (
             <p class="remark remark-bad" role="alert" data-testid="missing">
-              {studyWords.missing(missing.length)}{' '}
+              {studyText.missing(missing.length)}{' '}
               <button type="button" class="link-button" onClick={() => goToFirstMissing(sheet)}>
-                {studyWords.toFirstMissing}
+                {studyText.toFirstMissing}
               </button>
             </p>
           )}
@@ -133,7 +133,7 @@ function Sheet({ sheet, code, readOnly, send }: SheetParts) {
             </div>
           )}
           <button type="submit" class="main-button" data-testid="send-answers" disabled={busy.value}>
-            {busy.value ? studyWords.sending : studyWords.send}
+            {busy.value ? studyText.sending : studyText.send}
           </button>
         </div>
       </fieldset>

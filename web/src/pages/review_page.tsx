@@ -1,9 +1,9 @@
-import '../review.css';
+import '../styles/review.css';
 
 import { useEffect, useMemo } from 'preact/hooks';
 
-import { DeskHeader } from '../panels/desk_header';
-import { useLiveKeys } from '../panels/live_keys';
+import { PageHeader } from '../panels/common/page_header';
+import { useLiveKeys } from '../panels/picture/live_keys';
 import { ComparePanel } from '../panels/review/compare_panel';
 import { FactsPanel } from '../panels/review/facts_panel';
 import { FilesPanel } from '../panels/review/files_panel';
@@ -13,15 +13,15 @@ import { MeasurePanel } from '../panels/review/measure_panel';
 import { ReviewPane } from '../panels/review/review_pane';
 import { ReviewTools } from '../panels/review/review_tools';
 import { ScorePanel } from '../panels/review/score_panel';
-import { useIdentity } from '../panels/site_nav';
+import { useIdentity } from '../panels/common/site_nav';
 import type { Route } from '../state/route';
-import { ReviewDesk } from './review_desk';
+import { ReviewWorkspace } from '../panels/review/review_workspace';
 
 /** One session after its end, or two beside each other. */
 export function ReviewPage({ route }: { route: Route & { kind: 'review' } }) {
   const identity = useIdentity();
   const may = identity.may.value;
-  const desk = useMemo(() => new ReviewDesk(window.location.origin, may), [may]);
+  const desk = useMemo(() => new ReviewWorkspace(window.location.origin, may), [may]);
   useEffect(() => () => desk.dispose(), [desk]);
   useEffect(() => {
     desk.show(route.beside === null ? [route.id] : [route.id, route.beside]);
@@ -32,7 +32,7 @@ export function ReviewPage({ route }: { route: Route & { kind: 'review' } }) {
   const panes = desk.panes.value;
   return (
     <div class={`page review-page review-of-${panes.length}`}>
-      <DeskHeader here="review" />
+      <PageHeader here="review" />
       <main class="review-main">
         <div class="review-panes">
           {panes.map((pane, i) => (
@@ -56,7 +56,7 @@ export function ReviewPage({ route }: { route: Route & { kind: 'review' } }) {
   );
 }
 
-function keysOf(desk: ReviewDesk): Record<string, () => void> {
+function keysOf(desk: ReviewWorkspace): Record<string, () => void> {
   const { settings } = desk;
   const session = () => desk.panes.peek()[settings.active.peek()]?.session;
   return {

@@ -1,12 +1,12 @@
-import '../desk.css';
+import '../styles/pages.css';
 
 import { useEffect, useMemo, useRef } from 'preact/hooks';
 
-import { DeskHeader } from '../panels/desk_header';
-import { Remark } from '../panels/fields';
+import { PageHeader } from '../panels/common/page_header';
+import { Remark } from '../panels/common/fields';
 import { FilterBar } from '../panels/sessions/filter_bar';
 import { SessionTable } from '../panels/sessions/session_table';
-import { sessionWords } from '../session_words';
+import { sessionText } from '../text/session_text';
 import { addressOfReplay } from '../state/replay_address';
 import { SessionBrowser } from '../state/sessions/session_browser';
 import { SessionListApi } from '../wire/session_list_api';
@@ -46,14 +46,14 @@ export function SessionsPage({ live }: { live: LivePageParts }) {
   const problem = browser.page.problem.value;
   return (
     <div class="page desk-page">
-      <DeskHeader here="sessions" />
+      <PageHeader here="sessions" />
       <main class="desk" ref={desk}>
         <section class="desk-panel" aria-labelledby="sessions-title">
           <div class="desk-head">
-            <h2 id="sessions-title">{sessionWords.sessions}</h2>
+            <h2 id="sessions-title">{sessionText.sessions}</h2>
             {page !== null && (
               <span class="soft desk-count" role="status" data-testid="session-count">
-                {sessionWords.count(page.total)}
+                {sessionText.count(page.total)}
               </span>
             )}
           </div>
@@ -64,10 +64,10 @@ export function SessionsPage({ live }: { live: LivePageParts }) {
             </Remark>
           )}
           <Deleted />
-          {page === null && problem === null && <p class="soft">{sessionWords.loading}</p>}
+          {page === null && problem === null && <p class="soft">{sessionText.loading}</p>}
           {page?.sessions.length === 0 && (
             <p class="soft" data-testid="no-sessions">
-              {browser.filtered.value ? sessionWords.noneFits : sessionWords.none}
+              {browser.filtered.value ? sessionText.noneFits : sessionText.none}
             </p>
           )}
           {page !== null && page.sessions.length > 0 && (
@@ -86,9 +86,9 @@ function Deleted() {
   return (
     <div role="status">
       <Remark kind="soft" testId="deleted">
-        {sessionWords.deleted(session.id)}{' '}
+        {sessionText.deleted(session.id)}{' '}
         <button type="button" class="link-button" data-testid="restore" onClick={() => void browser.restore()}>
-          {sessionWords.restore}
+          {sessionText.restore}
         </button>
       </Remark>
     </div>
@@ -100,7 +100,7 @@ function Pages() {
   const next = browser.page.value.value?.next ?? null;
   if (at === 1 && next === null) return null;
   return (
-    <nav class="desk-form pages" aria-label={sessionWords.page(at)}>
+    <nav class="desk-form pages" aria-label={sessionText.page(at)}>
       <button
         type="button"
         class="plain-button"
@@ -108,10 +108,10 @@ function Pages() {
         disabled={at === 1}
         onClick={() => void browser.previous()}
       >
-        {sessionWords.previousPage}
+        {sessionText.previousPage}
       </button>
       <span class="soft" aria-live="polite">
-        {sessionWords.page(at)}
+        {sessionText.page(at)}
       </span>
       <button
         type="button"
@@ -120,7 +120,7 @@ function Pages() {
         disabled={next === null}
         onClick={() => void browser.next()}
       >
-        {sessionWords.nextPage}
+        {sessionText.nextPage}
       </button>
     </nav>
   );

@@ -1,14 +1,14 @@
 import { useEffect, useMemo } from 'preact/hooks';
 
-import { DeskHeader } from '../panels/desk_header';
-import { Remark } from '../panels/fields';
-import { dayAndTime } from '../panels/format';
-import { useIdentity } from '../panels/site_nav';
+import { PageHeader } from '../panels/common/page_header';
+import { Remark } from '../panels/common/fields';
+import { dayAndTime } from '../text/format';
+import { useIdentity } from '../panels/common/site_nav';
 import { JoinPanel } from '../panels/study/join_panel';
 import { MakeStudy } from '../panels/study/make_study';
 import { Remote } from '../state/remote';
 import { addressOfRoute } from '../state/route';
-import { studyWords } from '../study_words';
+import { studyText } from '../text/study_text';
 import type { StudyApi } from '../wire/study_api';
 import type { Study } from '../wire/study_types';
 
@@ -22,13 +22,13 @@ export function StudiesPage({ api }: { api: StudyApi }) {
   const open = (id: string) => (window.location.hash = addressOfRoute({ kind: 'study', id }));
   return (
     <div class="page desk-page">
-      <DeskHeader here="studies" />
+      <PageHeader here="studies" />
       <main class="desk">
         <section class="desk-panel" aria-labelledby="studies-title">
-          <h2 id="studies-title">{studyWords.studies}</h2>
+          <h2 id="studies-title">{studyText.studies}</h2>
           {studies.problem.value !== null && <Remark kind="bad">{studies.problem.value}</Remark>}
-          {list === null && studies.problem.value === null && <p class="soft">{studyWords.loading}</p>}
-          {list?.length === 0 && <p class="soft">{may.teach ? studyWords.none : studyWords.noneForYou}</p>}
+          {list === null && studies.problem.value === null && <p class="soft">{studyText.loading}</p>}
+          {list?.length === 0 && <p class="soft">{may.teach ? studyText.none : studyText.noneForYou}</p>}
           {list !== null && list.length > 0 && <Table studies={list} mayRun={may.teach} />}
         </section>
         {identity.userId.value !== null && <JoinPanel api={api} onJoined={open} />}
@@ -44,14 +44,14 @@ function Table({ studies, mayRun }: { studies: readonly Study[]; mayRun: boolean
       <table class="desk-table" data-testid="studies">
         <thead>
           <tr>
-            <th scope="col">{studyWords.nameColumn}</th>
-            <th scope="col">{studyWords.stateColumn}</th>
+            <th scope="col">{studyText.nameColumn}</th>
+            <th scope="col">{studyText.stateColumn}</th>
             {mayRun && (
               <th scope="col" class="number">
-                {studyWords.participantsColumn}
+                {studyText.participantsColumn}
               </th>
             )}
-            <th scope="col">{studyWords.yourCodeColumn}</th>
+            <th scope="col">{studyText.yourCodeColumn}</th>
             <th scope="col" />
           </tr>
         </thead>
@@ -63,8 +63,8 @@ function Table({ studies, mayRun }: { studies: readonly Study[]; mayRun: boolean
               </td>
               <td>
                 <span class={study.state === 'open' ? 'chip chip-good' : 'chip'}>
-                  {studyWords.states[study.state]}
-                  {!study.blinded && `, ${studyWords.unblinded.toLowerCase()}`}
+                  {studyText.states[study.state]}
+                  {!study.blinded && `, ${studyText.unblinded.toLowerCase()}`}
                 </span>
               </td>
               {mayRun && <td class="number">{study.participants}</td>}

@@ -1,15 +1,15 @@
 import { useEffect, useMemo } from 'preact/hooks';
 
-import { DeskHeader } from '../panels/desk_header';
-import { Remark } from '../panels/fields';
-import { useIdentity } from '../panels/site_nav';
+import { PageHeader } from '../panels/common/page_header';
+import { Remark } from '../panels/common/fields';
+import { useIdentity } from '../panels/common/site_nav';
 import { EnrolPanel } from '../panels/study/enrol_panel';
 import { ExportPanel, LifePanel } from '../panels/study/life_panel';
 import { ParticipantTable } from '../panels/study/participant_table';
 import { TrainPanel } from '../panels/study/train_panel';
 import { Remote } from '../state/remote';
 import { addressOfRoute } from '../state/route';
-import { studyWords } from '../study_words';
+import { studyText } from '../text/study_text';
 import type { StudyApi } from '../wire/study_api';
 import type { Participant, Study } from '../wire/study_types';
 
@@ -39,12 +39,12 @@ export function StudyPage({ api, id, train }: Parts) {
   const removed = () => (window.location.hash = addressOfRoute({ kind: 'studies' }));
   return (
     <div class="page desk-page">
-      <DeskHeader here="study" />
+      <PageHeader here="study" />
       <main class="desk">
         <section class="desk-panel">
           <p>
             <a href={addressOfRoute({ kind: 'studies' })} data-testid="all-studies">
-              ‹ {studyWords.backToList}
+              ‹ {studyText.backToList}
             </a>
           </p>
           {studies.problem.value !== null && (
@@ -52,7 +52,7 @@ export function StudyPage({ api, id, train }: Parts) {
               {studies.problem.value}
             </Remark>
           )}
-          {study === null && studies.problem.value === null && <p class="soft">{studyWords.loading}</p>}
+          {study === null && studies.problem.value === null && <p class="soft">{studyText.loading}</p>}
           {study !== null && <About {...{ api, study, studies, mayRun: may.teach, empty, removed }} />}
         </section>
         {study !== null && <TrainPanel key={study.id} study={study} codes={codes} train={begin} />}
@@ -78,23 +78,23 @@ function About({ api, study, studies, mayRun, empty, removed }: AboutParts) {
       <div class="desk-head">
         <h2 data-testid="study-title">{study.name}</h2>
         <span class={study.state === 'open' ? 'chip chip-good' : 'chip'} data-testid="study-state">
-          {studyWords.states[study.state]}
+          {studyText.states[study.state]}
         </span>
-        {!study.blinded && <span class="chip chip-warn">{studyWords.unblinded}</span>}
+        {!study.blinded && <span class="chip chip-warn">{studyText.unblinded}</span>}
         {mayRun && <LifePanel {...{ api, study, studies, empty }} onRemoved={removed} />}
       </div>
       {study.description !== '' && <p class="study-about">{study.description}</p>}
       <p class="soft">
-        {studyWords.cases}: {study.cases.join(', ')}
-        {study.device !== null && ` · ${studyWords.device}: ${deviceWords(study.device)}`}
-        {study.questionnaire && ` · ${studyWords.questionnaire}: ${study.questionnaire.title}`}
+        {studyText.cases}: {study.cases.join(', ')}
+        {study.device !== null && ` · ${studyText.device}: ${deviceWords(study.device)}`}
+        {study.questionnaire && ` · ${studyText.questionnaire}: ${study.questionnaire.title}`}
       </p>
     </>
   );
 }
 
 function deviceWords(name: string): string {
-  return studyWords.devices.find(([device]) => device === name)?.[1].toLowerCase() ?? name;
+  return studyText.devices.find(([device]) => device === name)?.[1].toLowerCase() ?? name;
 }
 
 interface StaffParts {

@@ -1,9 +1,9 @@
-import '../desk.css';
-import '../study.css';
+import '../styles/pages.css';
+import '../styles/study.css';
 
 import type { Route } from '../state/route';
 import { StudyApi } from '../wire/study_api';
-import { words } from '../words';
+import { noAnswer } from '../wire/rest';
 import type { LivePageParts } from './live_page';
 import { QuestionnairePage } from './questionnaire_page';
 import { StudiesPage } from './studies_page';
@@ -37,7 +37,7 @@ async function train(
   if (store.replayId.value !== null) watcher.leaveReplay();
   const session = await watcher.train(studyId, participant, caseId);
   if (session === null) {
-    const said = store.problem.value ?? words.noAnswer;
+    const said = store.problem.value ?? noAnswer;
     store.problem.value = null;
     return said;
   }

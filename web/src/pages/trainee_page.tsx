@@ -1,11 +1,11 @@
 import { useMemo } from 'preact/hooks';
 
-import { liveWords } from '../live_words';
-import { useLiveKeys } from '../panels/live_keys';
-import { Picture } from '../panels/picture';
-import { SoundButton } from '../panels/sound_button';
+import { liveText } from '../text/live_text';
+import { useLiveKeys } from '../panels/picture/live_keys';
+import { Picture } from '../panels/live/picture';
+import { SoundButton } from '../panels/picture/sound_button';
 import { addressOfReplay } from '../state/replay_address';
-import { words } from '../words';
+import { appText } from '../text/app_text';
 import type { LivePageParts } from './live_page';
 
 /** What the trainee sees: the picture as large as the window, and nothing beside it that takes time to draw. */
@@ -16,11 +16,11 @@ export function TraineePage(parts: LivePageParts) {
   return (
     <div class="trainee-page" data-testid="trainee-page" data-theatre={theatre}>
       <Picture store={store} practice={practiceStore} scene={scene} view={view} alarms={alarms} bare={true}>
-        <div class="trainee-bar" role="group" aria-label={words.practice}>
+        <div class="trainee-bar" role="group" aria-label={appText.practice}>
           {practiceStore.steering.value && <Pedals {...parts} />}
           <SoundButton sound={sound} />
           <button type="button" class="strip-button" aria-keyshortcuts="F" onClick={() => void fullScreen()}>
-            {liveWords.fullScreen}
+            {liveText.fullScreen}
           </button>
           {theatre ? (
             store.active.value &&
@@ -32,12 +32,12 @@ export function TraineePage(parts: LivePageParts) {
                 disabled={store.busy.value}
                 onClick={() => void watcher.stop()}
               >
-                {liveWords.endTheatre}
+                {liveText.endTheatre}
               </button>
             )
           ) : (
             <a class="strip-button" href={addressOfReplay(store.replayId.value) || '#'} data-testid="leave-trainee">
-              {liveWords.leaveTrainee}
+              {liveText.leaveTrainee}
             </a>
           )}
         </div>
@@ -63,7 +63,7 @@ function Pedals({ practiceStore, scene }: LivePageParts) {
         aria-pressed={hand.spindleOn.value}
         onClick={press(() => hand.toggleSpindle())}
       >
-        {words.spindleButton(hand.spindleOn.value)}
+        {appText.spindleButton(hand.spindleOn.value)}
       </button>
       <button
         type="button"
@@ -72,7 +72,7 @@ function Pedals({ practiceStore, scene }: LivePageParts) {
         aria-pressed={hand.paused.value}
         onClick={press(() => hand.togglePause())}
       >
-        {words.pauseButton(hand.paused.value)}
+        {appText.pauseButton(hand.paused.value)}
       </button>
     </>
   );

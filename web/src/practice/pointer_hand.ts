@@ -1,5 +1,4 @@
-import type { ScreenAxes } from './gamepad_hand';
-import { onScreen, sum } from './gamepad_hand';
+import { onScreen, type ScreenAxes, sum } from './gamepad_hand';
 import { levelStepN, type Hand } from './hand';
 import type { PlanFrame, Ray } from './plan_frame';
 

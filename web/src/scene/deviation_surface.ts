@@ -9,7 +9,8 @@ import {
   type Plane,
 } from 'three';
 
-import { type DeviationCode, paletteOf, type ScaleName } from '../state/review/deviation_scale';
+import { paletteOf, type ScaleName } from '../state/review/deviation_scale';
+import type { DeviationCode } from '../wire/review_api';
 import type { SortedSurface } from '../wire/surface_worker';
 import { boneMaterial, lookOfBone } from './bone_material';
 import type { InsteadOfBone } from './bone_view';

@@ -1,7 +1,16 @@
 import { signal } from '@preact/signals';
-import { Group, Matrix4, PerspectiveCamera, Quaternion, Vector3, type WebGLRenderer } from 'three';
-
-import { HeadsetSign } from './headset_sign';
+import {
+  CanvasTexture,
+  Group,
+  Matrix4,
+  Mesh,
+  MeshBasicMaterial,
+  PerspectiveCamera,
+  PlaneGeometry,
+  Quaternion,
+  Vector3,
+  type WebGLRenderer,
+} from 'three';
 
 /** The bone is seen so many times its size, at this distance from the eyes when the headset is put on. */
 const magnification = 4;
@@ -17,7 +26,7 @@ const near = 0.05;
 const far = 20;
 
 /** What is said in sight of the wearer, who sees nothing else of the page. */
-export interface HeadsetWords {
+export interface HeadsetMessage {
   text: string;
   /** What is seen is not of this moment, or something should be done. */
   warns: boolean;
@@ -63,8 +72,8 @@ export class Headset {
     this.stops.push(() => navigator.xr?.removeEventListener('devicechange', looksAgain));
   }
 
-  say(words: HeadsetWords): void {
-    this.sign.say(words);
+  show(words: HeadsetMessage): void {
+    this.sign.show(words);
   }
 
   /** To be called at a person's click: browsers let nobody else put it on. */
@@ -190,4 +199,58 @@ export function grown(room: Matrix4, head: Matrix4, factor: number): Matrix4 {
     .multiply(new Matrix4().makeTranslation(middle))
     .multiply(new Matrix4().makeScale(by, by, by))
     .multiply(new Matrix4().makeTranslation(middle.negate()));
+}
+
+const widthPx = 1024;
+const heightPx = 96;
+/** Metres from the eyes. */
+const ahead = 0.9;
+const below = 0.3;
+const width = 0.6;
+
+/** A line of words that stays in sight: below the middle, wherever the head turns. */
+export class HeadsetSign {
+  private readonly paper = document.createElement('canvas');
+  private readonly texture = new CanvasTexture(this.paper);
+  private readonly material = new MeshBasicMaterial({
+    map: this.texture,
+    transparent: true,
+    depthTest: false,
+    toneMapped: false,
+  });
+  readonly mesh = new Mesh(new PlaneGeometry(width, (width * heightPx) / widthPx), this.material);
+  private shown: HeadsetMessage = { text: '', warns: false };
+
+  constructor() {
+    this.paper.width = widthPx;
+    this.paper.height = heightPx;
+    this.mesh.position.set(0, -below, -ahead);
+    this.mesh.renderOrder = 1000;
+    this.mesh.visible = false;
+  }
+
+  show(words: HeadsetMessage): void {
+    if (words.text === this.shown.text && words.warns === this.shown.warns) return;
+    this.shown = words;
+    this.mesh.visible = words.text !== '';
+    const ink = this.paper.getContext('2d');
+    if (ink === null) return;
+    ink.clearRect(0, 0, widthPx, heightPx);
+    ink.fillStyle = words.warns ? '#8c1d18' : 'rgb(20 28 32 / 0.86)';
+    ink.beginPath();
+    ink.roundRect(0, 0, widthPx, heightPx, 24);
+    ink.fill();
+    ink.fillStyle = '#ffffff';
+    ink.font = '600 46px system-ui, sans-serif';
+    ink.textAlign = 'center';
+    ink.textBaseline = 'middle';
+    ink.fillText(words.text, widthPx / 2, heightPx / 2, widthPx - 40);
+    this.texture.needsUpdate = true;
+  }
+
+  dispose(): void {
+    this.mesh.geometry.dispose();
+    this.material.dispose();
+    this.texture.dispose();
+  }
 }

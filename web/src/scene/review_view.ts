@@ -1,7 +1,7 @@
 import { effect } from '@preact/signals';
 
 import { deviationMm } from '../state/review/deviation_scale';
-import { headsetWords } from '../state/headset_words';
+import { headsetMessage } from './headset_text';
 import type { ReviewSession } from '../state/review/review_session';
 import type { ReviewSettings } from '../state/review/review_settings';
 import type { SortedSurface } from '../wire/surface_worker';
@@ -43,7 +43,7 @@ export class ReviewView {
     this.stops.push(
       effect(() => scene.setToolPose(store.telemetry.value?.worldFromTool ?? null)),
       effect(() => {
-        if (scene.headset.worn.value) scene.headset.say(headsetWords(store));
+        if (scene.headset.worn.value) scene.headset.show(headsetMessage(store));
       }),
       effect(() => scene.setTouching(store.touching.value)),
       effect(() => scene.setBonePose(store.telemetry.value?.worldFromBoneRest ?? null)),

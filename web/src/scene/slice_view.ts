@@ -4,7 +4,7 @@ import type { PlaneName, SlicePlane } from '../ct/orientation';
 import { fittingLook, type PicturePoint, SliceLayout, type SliceLook } from '../ct/slice_layout';
 import { numberOf, type VolumeFrame, voxelAxes } from '../ct/volume_frame';
 import { limitWindow } from '../ct/window_level';
-import type { CaseKeeper } from '../state/case/case_keeper';
+import type { CaseController } from '../state/case/case_controller';
 import type { Framed } from '../state/case/case_store';
 import type { PointMark, ViewMarks } from '../state/case/view_marks';
 import type { Triple } from '../wire/case_types';
@@ -39,7 +39,7 @@ export class SliceView {
   private readonly stops: (() => void)[] = [];
 
   constructor(
-    private readonly keeper: CaseKeeper,
+    private readonly keeper: CaseController,
     private readonly marks: ViewMarks,
     private readonly name: PlaneName,
   ) {

@@ -19,7 +19,7 @@ import {
 
 import { planeNames } from '../ct/orientation';
 import { add, subtract } from '../ct/volume_frame';
-import type { CaseKeeper } from '../state/case/case_keeper';
+import type { CaseController } from '../state/case/case_controller';
 import type { PlanMark, PointMark, ViewMarks } from '../state/case/view_marks';
 import type { Triple } from '../wire/case_types';
 import { MeshLoader } from '../wire/mesh_loader';
@@ -76,7 +76,7 @@ export class SurfaceView {
 
   /** Throws where the browser offers no WebGL. */
   constructor(
-    private readonly keeper: CaseKeeper,
+    private readonly keeper: CaseController,
     private readonly marks: ViewMarks,
   ) {
     this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: true, alpha: true });

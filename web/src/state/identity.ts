@@ -1,10 +1,10 @@
 import { batch, computed, signal } from '@preact/signals';
 
 import type { LoginApi, Visitor } from '../wire/login_api';
-import { ApiError, credentials, wordsOf } from '../wire/rest';
-import { words } from '../words';
-import { sentence } from '../panels/format';
-import { mayOf } from './may';
+import { ApiError, credentials, messageOf } from '../wire/rest';
+import { appText } from '../text/app_text';
+import { sentence } from '../text/format';
+import { permissionsOf } from './permissions';
 
 /**
  * - asking: the server has not said yet who this is; `problem` says when it does not answer
@@ -26,7 +26,9 @@ export class Identity {
   /** Before this time the server takes no further try, ms. */
   readonly notBeforeMs = signal<number | null>(null);
 
-  readonly may = computed(() => mayOf(this.phase.value === 'known' ? (this.visitor.value?.role ?? null) : null));
+  readonly may = computed(() =>
+    permissionsOf(this.phase.value === 'known' ? (this.visitor.value?.role ?? null) : null),
+  );
   /** Whether the server has users; without them nobody logs in or out. */
   readonly hasUsers = computed(() => this.visitor.value?.login_needed === true);
   readonly userId = computed(() => this.visitor.value?.user?.id ?? null);
@@ -54,7 +56,7 @@ export class Identity {
         if (linkSecret !== null && needed) visitor = await this.enterByLink(linkSecret, visitor);
         return this.take(visitor);
       } catch (error) {
-        this.problem.value = wordsOf(error);
+        this.problem.value = messageOf(error);
         await new Promise((resolve) => setTimeout(resolve, askAgainMs));
       }
     }
@@ -67,7 +69,7 @@ export class Identity {
   async logOut(): Promise<void> {
     await this.attempt(async () => {
       await this.api.logOut();
-      this.end(words.loggedOut);
+      this.end(appText.loggedOut);
     });
   }
 
@@ -91,8 +93,8 @@ export class Identity {
   }
 
   private endedWords(): string {
-    if (!this.hasUsers.peek()) return words.loginNeededNow;
-    return this.visitor.peek()?.role === 'viewer' ? words.linkEnded : words.loginEnded;
+    if (!this.hasUsers.peek()) return appText.loginNeededNow;
+    return this.visitor.peek()?.role === 'viewer' ? appText.linkEnded : appText.loginEnded;
   }
 
   /** A server of before there were users knows no logins. */
@@ -160,7 +162,7 @@ export class Identity {
     } catch (error) {
       const waitS = error instanceof ApiError ? error.retryAfterS : null;
       batch(() => {
-        this.problem.value = wordsOf(error);
+        this.problem.value = messageOf(error);
         this.notBeforeMs.value = waitS === null ? null : Date.now() + waitS * 1000;
       });
     } finally {
@@ -170,7 +172,7 @@ export class Identity {
 }
 
 function refusedLink(said: string): string {
-  return `${words.linkRefusedText} ${sentence(said)}`;
+  return `${appText.linkRefusedText} ${sentence(said)}`;
 }
 
 function isSame(a: Visitor, b: Visitor): boolean {

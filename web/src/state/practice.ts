@@ -6,7 +6,7 @@ import { PointerHand, type SteeredView } from '../practice/pointer_hand';
 import { Rumble } from '../practice/rumble';
 import { DeviceLink, type DeviceLinkState } from '../wire/device_link';
 import type { DeviceSocket } from '../wire/device_socket';
-import { words } from '../words';
+import { appText } from '../text/app_text';
 import type { PracticeStore } from './practice_store';
 import type { Store } from './store';
 
@@ -71,7 +71,7 @@ export class Practice {
       if (state.kind === 'lost') this.practice.hand.letGo();
       if (state.kind === 'ended') {
         this.leave();
-        this.store.problem.value = words.handEnded(state.reason);
+        this.store.problem.value = appText.handEnded(state.reason);
       }
     });
     if (state.kind !== 'holding') this.rumble.forget();

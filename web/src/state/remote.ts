@@ -1,6 +1,6 @@
 import { batch, signal } from '@preact/signals';
 
-import { wordsOf } from '../wire/rest';
+import { messageOf } from '../wire/rest';
 
 /** Something that the server has, as it was last read, and what is done about it; problems are told in words. */
 export class Remote<T> {
@@ -53,7 +53,7 @@ export class Remote<T> {
   }
 
   private fail(error: unknown, deed: boolean): void {
-    this.problem.value = wordsOf(error);
+    this.problem.value = messageOf(error);
     this.deedFailed = deed;
   }
 }

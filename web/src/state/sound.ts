@@ -1,6 +1,6 @@
 import { effect, signal } from '@preact/signals';
 
-import { liveWords } from '../live_words';
+import { liveText } from '../text/live_text';
 import { type Heard, silence, type SoundParameters, soundOf } from '../sound/reaming_sound';
 import type { PracticeStore } from './practice_store';
 import type { Store } from './store';
@@ -43,7 +43,7 @@ export class Sound {
       else sink.close();
     } catch {
       this.on.value = false;
-      this.problem.value = liveWords.noSound;
+      this.problem.value = liveText.noSound;
     }
   }
 

@@ -4,7 +4,7 @@ import type { Mark, Metrics, Session } from '../wire/api';
 import type { LinkState } from '../wire/link';
 import type { Hello, Playback, SessionState, Telemetry } from '../wire/messages';
 import { LiveTrace } from './live_trace';
-import { unhurried } from './unhurried';
+import { throttled } from './throttled';
 
 /** Length of the force plot, seconds of session time. */
 export const plotSeconds = 20;
@@ -75,7 +75,7 @@ export class Store {
   /** How long what came last was on its way, beyond what it always takes; ms. Grows where the link is too slow. */
   readonly behindMs = signal(0);
   /** What is read as numbers: the last moment as it was told, and how late; nothing of a session that is left. */
-  readonly reading = unhurried(
+  readonly reading = throttled(
     computed(() => ({
       told: this.telemetry.value,
       behindMs: this.behindMs.value,

@@ -1,7 +1,7 @@
 import { batch } from '@preact/signals';
 
 import { ApiError, type Api, type Replay, type Session } from '../wire/api';
-import { words } from '../words';
+import { appText } from '../text/app_text';
 import { chooseSession, type Watched } from './choose_session';
 import type { Store } from './store';
 
@@ -73,7 +73,7 @@ export class StreamFinder {
   forgetDeleted(id: string): void {
     const missed = this.store.sessionState.value !== 'created' && this.store.sessionState.value !== null;
     batch(() => {
-      if (missed) this.store.problem.value = words.sessionGone(id);
+      if (missed) this.store.problem.value = appText.sessionGone(id);
       if (this.store.chosenId.value === id) this.store.chosenId.value = null;
       this.store.sessionId.value = null;
       this.store.sessionState.value = null;
@@ -129,7 +129,7 @@ export class StreamFinder {
     } catch (error) {
       if (!(error instanceof ApiError) || error.status !== 404) throw error;
       this.forgetReplay();
-      this.store.problem.value = words.replayGone;
+      this.store.problem.value = appText.replayGone;
       return null;
     }
   }

@@ -25,7 +25,7 @@ export interface FaceAngles {
   inclinationDeg: number;
 }
 
-/** As the server's ScapularFrame (case/scapular_frame.hpp); by the plan where the landmarks do not say. */
+/** As the server's ScapularFrame (case/measures.hpp); by the plan where the landmarks do not say. */
 export function faceFrame(plan: PlanFrame, points: ScapulaPoints | null): FaceFrame {
   return scapularFrame(points) ?? planFrame(plan);
 }

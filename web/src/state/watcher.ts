@@ -4,7 +4,8 @@ import { ApiError, type Api, type PlaybackChange, type Session } from '../wire/a
 import { Link, type LinkState } from '../wire/link';
 import type { Hello, MeshDelta, StreamMessage, Telemetry, ToolMesh } from '../wire/messages';
 import type { StreamSocket } from '../wire/stream_socket';
-import { words } from '../words';
+import { appText } from '../text/app_text';
+import { noAnswer } from '../wire/rest';
 import { isActive } from './choose_session';
 import { Lateness } from './lateness';
 import { Scrubber } from './scrubber';
@@ -262,7 +263,7 @@ export class Watcher {
     const state = this.store.sessionState.value;
     if (state === 'stopped' && this.store.playback.value !== null && this.store.replayId.value !== null) {
       this.leaveReplay();
-      this.store.problem.value = words.replayGone;
+      this.store.problem.value = appText.replayGone;
       return;
     }
     this.link.expectTraffic(this.sendsAllTheTime());
@@ -378,4 +379,4 @@ export class Watcher {
 }
 
 const noAnswerAfter = (ms: number) =>
-  new Promise<never>((_, reject) => setTimeout(() => reject(new ApiError(words.noAnswer, 0)), ms));
+  new Promise<never>((_, reject) => setTimeout(() => reject(new ApiError(noAnswer, 0)), ms));

@@ -45,3 +45,12 @@ export interface Feedback {
 }
 
 export type DeviceReport = { kind: 'welcome'; welcome: Welcome } | { kind: 'feedback'; feedback: Feedback };
+
+/** Page to worker. Each `open` closes what was open before; `connection` numbers the answers. */
+export type DeviceWorkerRequest =
+  { kind: 'open'; connection: number; url: string } | { kind: 'wish'; wish: Wish } | { kind: 'close' };
+
+/** Worker to page. `closed` comes once per opened connection that was not closed by request. */
+export type DeviceWorkerReport =
+  | { kind: 'report'; connection: number; report: DeviceReport }
+  | { kind: 'closed'; connection: number; code: number; reason: string };

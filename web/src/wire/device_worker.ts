@@ -1,5 +1,5 @@
 /** Worker: owns the device's WebSocket and its beat, so that a page that is busy drawing does not hold up the hand. */
-import type { DeviceWorkerReport, DeviceWorkerRequest } from './device_socket';
+import type { DeviceWorkerReport, DeviceWorkerRequest } from './device_messages';
 import { DeviceTalk } from './device_talk';
 
 const beatMs = 12;

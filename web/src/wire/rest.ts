@@ -1,4 +1,4 @@
-import { words } from '../words';
+export const noAnswer = 'The simulator does not answer.';
 
 /** What the server, or the way to it, answered instead of what was asked for; the message is for people. */
 export class ApiError extends Error {
@@ -77,7 +77,7 @@ async function send(url: string, method: Method, options: CallOptions): Promise<
     });
   } catch (error) {
     if (signal?.aborted === true) throw error;
-    throw new ApiError(words.noAnswer, 0);
+    throw new ApiError(noAnswer, 0);
   }
 }
 
@@ -87,7 +87,7 @@ export async function requestJson<T>(url: string, method: Method, options: CallO
   try {
     return (await response.json()) as T;
   } catch {
-    throw new ApiError(words.unreadableAnswer, response.status);
+    throw new ApiError('The simulator sent an answer that cannot be read.', response.status);
   }
 }
 
@@ -97,13 +97,13 @@ async function problem(response: Response): Promise<ApiError> {
   const said = [body?.detail, body?.title].find((text): text is string => typeof text === 'string' && text !== '');
   const wait = Number(response.headers.get('retry-after') ?? NaN);
   return new ApiError(
-    said ?? words.answeredWith(response.status),
+    said ?? `The simulator answered with an error (${response.status}).`,
     response.status,
     Number.isFinite(wait) && wait > 0 ? wait : null,
   );
 }
 
 /** Words for people of whatever was thrown. */
-export function wordsOf(error: unknown): string {
+export function messageOf(error: unknown): string {
   return error instanceof Error ? error.message : String(error);
 }

@@ -1,12 +1,21 @@
-import type { DeviationCode } from '../state/review/deviation_scale';
 import type { Session } from './api';
-import { type Making, onceMade, untilDone } from './made';
+import { type PendingJob, fetchOnceReady, waitForJob } from './job_wait';
 import { request, requestJson } from './rest';
 import type { Score } from './score_types';
 
 export type MapName = 'plan' | 'implant';
 export const exportFormats = ['html', 'pdf', 'csv', 'stl', 'ply', 'glb'] as const;
 export type ExportFormat = (typeof exportFormats)[number];
+
+/** What a byte of a deviation map means; as the server says with the map. */
+export interface DeviationCode {
+  /** mm of one step. */
+  stepMm: number;
+  /** mm of 127 steps: that much or more. */
+  rangeMm: number;
+  /** The byte for nothing to compare. */
+  unknown: number;
+}
 
 /** How far each vertex of the surface that a session left lies from something, a byte a vertex. */
 export interface DeviationBytes {
@@ -55,7 +64,7 @@ export class ReviewApi {
   /** Waits until it is made; throws ApiError 404 where there is nothing to compare the surface with. */
   async deviation(id: string, to: MapName, onProgress: OnProgress, signal: AbortSignal): Promise<DeviationBytes> {
     const get = () => request(this.url(id, `/deviation?to=${to}`), 'GET', { signal });
-    const response = await onceMade(get, this.job, onProgress, signal);
+    const response = await fetchOnceReady(get, this.job, onProgress, signal);
     const header = (name: string) => Number(response.headers.get(name) ?? NaN);
     const bytes = new Int8Array(await response.arrayBuffer());
     const code = {
@@ -70,12 +79,13 @@ export class ReviewApi {
 
   /** Makes a file of a session; where it is when it is done. */
   async exported(id: string, format: ExportFormat, onProgress: OnProgress): Promise<string> {
-    const begun = await requestJson<Making>(this.url(id, '/exports'), 'POST', { body: { format } });
-    const done = await untilDone(begun, this.job, onProgress);
+    const begun = await requestJson<PendingJob>(this.url(id, '/exports'), 'POST', { body: { format } });
+    const done = await waitForJob(begun, this.job, onProgress);
     return `${this.jobsUrl()}${encodeURIComponent(done.id)}/result`;
   }
 
-  private readonly job = (id: string): Promise<Making> => requestJson(this.jobsUrl() + encodeURIComponent(id), 'GET');
+  private readonly job = (id: string): Promise<PendingJob> =>
+    requestJson(this.jobsUrl() + encodeURIComponent(id), 'GET');
   private url(id: string, path: string): string {
     return `${this.base}/api/v1/sessions/${encodeURIComponent(id)}${path}`;
   }

@@ -2,7 +2,7 @@
 import { BufferAttribute, BufferGeometry } from 'three';
 import { MeshBVH } from 'three-mesh-bvh';
 
-import { type Making, onceMade } from './made';
+import { type PendingJob, fetchOnceReady } from './job_wait';
 import { readPly, type Surface } from './ply';
 import { ApiError } from './rest';
 
@@ -36,8 +36,8 @@ async function get(url: string): Promise<Response> {
 }
 
 async function fetchSurface({ url, jobs }: SurfaceRequest): Promise<void> {
-  const ask = async (id: string) => (await (await get(jobs + encodeURIComponent(id))).json()) as Making;
-  const response = await onceMade(
+  const ask = async (id: string) => (await (await get(jobs + encodeURIComponent(id))).json()) as PendingJob;
+  const response = await fetchOnceReady(
     () => get(url),
     ask,
     (share) => page.postMessage({ kind: 'making', share }),

@@ -3,7 +3,7 @@ import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { Identity } from '../../src/state/identity';
 import type { LoginApi, Visitor } from '../../src/wire/login_api';
 import { ApiError, credentials } from '../../src/wire/rest';
-import { words } from '../../src/words';
+import { appText } from '../../src/text/app_text';
 
 const visitor = (role: Visitor['role'], name: string | null = null, csrf: string | null = 'proof'): Visitor => ({
   login_needed: true,
@@ -119,7 +119,7 @@ describe('Identity', () => {
     login.refusal = new ApiError('the link has ended', 401);
     await identity.find('secret');
     expect(identity.phase.value).toBe('unknown');
-    expect(identity.problem.value).toBe(`${words.linkRefusedText} The link has ended.`);
+    expect(identity.problem.value).toBe(`${appText.linkRefusedText} The link has ended.`);
   });
 
   it('lets go of who it was when the login ends, and says why', async () => {
@@ -127,13 +127,13 @@ describe('Identity', () => {
     await identity.logIn('tom', 'secret');
     credentials.onRefused?.();
     expect(identity.phase.value).toBe('unknown');
-    expect(identity.problem.value).toBe(words.loginEnded);
+    expect(identity.problem.value).toBe(appText.loginEnded);
     expect(identity.visitor.value).toBeNull();
     expect(credentials.csrfToken).toBeNull();
     await identity.logIn('tom', 'secret');
     expect(others).toBe(0);
     await identity.logOut();
-    expect(identity.problem.value).toBe(words.loggedOut);
+    expect(identity.problem.value).toBe(appText.loggedOut);
     await identity.logIn('ben', 'secret');
     expect(others).toBe(1);
   });
@@ -141,12 +141,12 @@ describe('Identity', () => {
   it('has other words for a viewer, and for a server that gets its first user', async () => {
     await identity.find('secret');
     credentials.onRefused?.();
-    expect(identity.problem.value).toBe(words.linkEnded);
+    expect(identity.problem.value).toBe(appText.linkEnded);
     login.present = open;
     const operator = new Identity(login as unknown as LoginApi, () => undefined);
     await operator.find(null);
     credentials.onRefused?.();
-    expect(operator.problem.value).toBe(words.loginNeededNow);
+    expect(operator.problem.value).toBe(appText.loginNeededNow);
   });
 
   it('takes up the proof of a login that another window has made, and notices another user', async () => {

@@ -1,9 +1,9 @@
 import { useSignal } from '@preact/signals';
 
-import { accessWords } from '../../access_words';
+import { accessText } from '../../text/access_text';
 import type { Remote } from '../../state/remote';
 import { type AccessApi, type AccountRole, accountRoles, type NewUser, type User } from '../../wire/access_api';
-import { words } from '../../words';
+import { appText } from '../../text/app_text';
 
 const blank = (role: AccountRole): NewUser => ({ name: '', display_name: '', role, password: '' });
 
@@ -21,9 +21,9 @@ export function AddUser({ api, users }: { api: AccessApi; users: Remote<User[]> 
     if (made !== null) wanted.value = blank('trainee');
   };
   return (
-    <form class="desk-form" aria-label={accessWords.addUser} onSubmit={(event) => void add(event)}>
+    <form class="desk-form" aria-label={accessText.addUser} onSubmit={(event) => void add(event)}>
       <label>
-        {accessWords.nameColumn}
+        {accessText.nameColumn}
         <input
           type="text"
           autocomplete="off"
@@ -36,7 +36,7 @@ export function AddUser({ api, users }: { api: AccessApi; users: Remote<User[]> 
         />
       </label>
       <label>
-        {accessWords.shownColumn}
+        {accessText.shownColumn}
         <input
           type="text"
           autocomplete="off"
@@ -46,7 +46,7 @@ export function AddUser({ api, users }: { api: AccessApi; users: Remote<User[]> 
         />
       </label>
       <label>
-        {accessWords.roleColumn}
+        {accessText.roleColumn}
         <select
           data-testid="add-role"
           value={role}
@@ -54,13 +54,13 @@ export function AddUser({ api, users }: { api: AccessApi; users: Remote<User[]> 
         >
           {roles.map((role) => (
             <option key={role} value={role}>
-              {words.roles[role]}
+              {appText.roles[role]}
             </option>
           ))}
         </select>
       </label>
       <label>
-        {accessWords.password}
+        {accessText.password}
         <input
           type="password"
           autocomplete="new-password"
@@ -72,10 +72,10 @@ export function AddUser({ api, users }: { api: AccessApi; users: Remote<User[]> 
         />
       </label>
       <button type="submit" class="main-button" data-testid="add-user" disabled={users.busy.value}>
-        {accessWords.add}
+        {accessText.add}
       </button>
       <p id="add-password-rule" class="soft wide">
-        {accessWords.passwordRule}
+        {accessText.passwordRule}
       </p>
     </form>
   );

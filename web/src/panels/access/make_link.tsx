@@ -1,11 +1,11 @@
 import { useSignal } from '@preact/signals';
 
-import { accessWords } from '../../access_words';
+import { accessText } from '../../text/access_text';
 import { addressOfLink } from '../../state/watch_link';
 import { type AccessApi, utcInDays } from '../../wire/access_api';
-import { wordsOf } from '../../wire/rest';
-import { Remark } from '../fields';
-import { SecretOnce } from '../secret_once';
+import { messageOf } from '../../wire/rest';
+import { Remark } from '../common/fields';
+import { SecretOnce } from '../common/secret_once';
 
 const usualDays = 7;
 
@@ -36,7 +36,7 @@ export function MakeLink({ api, session, review, onMade }: Parts) {
       address.value = addressOfLink(window.location.origin, made.secret, review === true ? session : null);
       onMade();
     } catch (error) {
-      problem.value = wordsOf(error);
+      problem.value = messageOf(error);
     } finally {
       busy.value = false;
     }
@@ -45,7 +45,7 @@ export function MakeLink({ api, session, review, onMade }: Parts) {
     <>
       <form class="desk-form" onSubmit={(event) => void make(event)}>
         <label>
-          {accessWords.linkName}
+          {accessText.linkName}
           <input
             type="text"
             autocomplete="off"
@@ -55,7 +55,7 @@ export function MakeLink({ api, session, review, onMade }: Parts) {
           />
         </label>
         <label>
-          {accessWords.days}
+          {accessText.days}
           <input
             type="number"
             min={1}
@@ -68,23 +68,23 @@ export function MakeLink({ api, session, review, onMade }: Parts) {
         </label>
         {session !== null && (
           <label>
-            {accessWords.showsColumn}
+            {accessText.showsColumn}
             <select
               data-testid="link-for"
               value={all.value ? 'all' : 'this'}
               onChange={(event) => (all.value = event.currentTarget.value === 'all')}
             >
-              <option value="this">{accessWords.shareThis}</option>
-              <option value="all">{accessWords.shareAll}</option>
+              <option value="this">{accessText.shareThis}</option>
+              <option value="all">{accessText.shareAll}</option>
             </select>
           </label>
         )}
         <button type="submit" class="main-button" data-testid="make-link" disabled={busy.value}>
-          {accessWords.makeLink}
+          {accessText.makeLink}
         </button>
       </form>
       {problem.value !== null && <Remark kind="bad">{problem.value}</Remark>}
-      {address.value !== null && <SecretOnce label={accessWords.links} text={address.value} testId="link-address" />}
+      {address.value !== null && <SecretOnce label={accessText.links} text={address.value} testId="link-address" />}
     </>
   );
 }

@@ -1,9 +1,9 @@
 import { useSignal } from '@preact/signals';
 
-import { accessWords } from '../../access_words';
+import { accessText } from '../../text/access_text';
 import type { LoginApi } from '../../wire/login_api';
-import { wordsOf } from '../../wire/rest';
-import { Remark } from '../fields';
+import { messageOf } from '../../wire/rest';
+import { Remark } from '../common/fields';
 
 /** Changes one's own password. */
 export function PasswordPanel({ api }: { api: LoginApi }) {
@@ -13,29 +13,29 @@ export function PasswordPanel({ api }: { api: LoginApi }) {
   const change = async (event: Event) => {
     event.preventDefault();
     if (fields.wanted.value !== fields.again.value) {
-      said.value = { kind: 'bad', text: accessWords.passwordsDiffer };
+      said.value = { kind: 'bad', text: accessText.passwordsDiffer };
       return;
     }
     busy.value = true;
     try {
       await api.changePassword(fields.present.value, fields.wanted.value);
-      said.value = { kind: 'soft', text: accessWords.passwordChanged };
+      said.value = { kind: 'soft', text: accessText.passwordChanged };
     } catch (error) {
-      said.value = { kind: 'bad', text: wordsOf(error) };
+      said.value = { kind: 'bad', text: messageOf(error) };
     } finally {
       for (const field of Object.values(fields)) field.value = '';
       busy.value = false;
     }
   };
   const rows = [
-    ['present', accessWords.presentPassword, 'current-password'],
-    ['wanted', accessWords.newPassword, 'new-password'],
-    ['again', accessWords.newPasswordAgain, 'new-password'],
+    ['present', accessText.presentPassword, 'current-password'],
+    ['wanted', accessText.newPassword, 'new-password'],
+    ['again', accessText.newPasswordAgain, 'new-password'],
   ] as const;
   return (
     <section class="desk-panel" aria-labelledby="password-title">
-      <h2 id="password-title">{accessWords.changePassword}</h2>
-      <p class="soft">{accessWords.passwordRule}</p>
+      <h2 id="password-title">{accessText.changePassword}</h2>
+      <p class="soft">{accessText.passwordRule}</p>
       <form class="desk-form" onSubmit={(event) => void change(event)}>
         {rows.map(([key, label, autocomplete]) => (
           <label key={key}>
@@ -51,7 +51,7 @@ export function PasswordPanel({ api }: { api: LoginApi }) {
           </label>
         ))}
         <button type="submit" class="main-button" data-testid="change-password" disabled={busy.value}>
-          {accessWords.changePassword}
+          {accessText.changePassword}
         </button>
       </form>
       {said.value !== null && (

@@ -1,6 +1,6 @@
-import '../../desk.css';
+import '../../styles/pages.css';
 
-import { accessWords } from '../../access_words';
+import { accessText } from '../../text/access_text';
 import { AccessApi } from '../../wire/access_api';
 import { MakeLink } from './make_link';
 
@@ -16,11 +16,11 @@ interface Parts {
 /** Lets somebody watch a session without an account. */
 export function SharePanel({ session, review, onClose }: Parts) {
   return (
-    <section class="share" aria-label={accessWords.share} data-testid="share-panel">
-      <p class="soft">{accessWords.shareHint}</p>
+    <section class="share" aria-label={accessText.share} data-testid="share-panel">
+      <p class="soft">{accessText.shareHint}</p>
       <MakeLink api={api} session={session} review={review === true} onMade={() => undefined} />
       <button type="button" class="plain-button" onClick={onClose}>
-        {accessWords.close}
+        {accessText.close}
       </button>
     </section>
   );

@@ -1,13 +1,13 @@
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 
-import { accessWords } from '../../access_words';
+import { accessText } from '../../text/access_text';
 import { Remote } from '../../state/remote';
 import { type AccessApi, utcInDays } from '../../wire/access_api';
-import { dayAndTime } from '../format';
-import { Remark } from '../fields';
-import { Really } from '../really';
-import { SecretOnce } from '../secret_once';
+import { dayAndTime } from '../../text/format';
+import { Remark } from '../common/fields';
+import { ConfirmButton } from '../common/confirm_dialog';
+import { SecretOnce } from '../common/secret_once';
 
 const usualDays = 90;
 
@@ -25,21 +25,21 @@ export function TokenPanel({ api, userId, nameOf }: Parts) {
   const list = tokens.value.value;
   return (
     <section class="desk-panel" aria-labelledby="tokens-title">
-      <h2 id="tokens-title">{accessWords.tokens}</h2>
+      <h2 id="tokens-title">{accessText.tokens}</h2>
       <p class="soft">
-        {accessWords.tokensHint} <a href="./api">{accessWords.apiPage}</a>
+        {accessText.tokensHint} <a href="./api">{accessText.apiPage}</a>
       </p>
       {tokens.problem.value !== null && <Remark kind="bad">{tokens.problem.value}</Remark>}
-      {list?.length === 0 && <p class="soft">{accessWords.noTokens}</p>}
+      {list?.length === 0 && <p class="soft">{accessText.noTokens}</p>}
       {list !== null && list.length > 0 && (
         <div class="desk-scroll">
           <table class="desk-table" data-testid="tokens">
             <thead>
               <tr>
-                <th scope="col">{accessWords.tokenName}</th>
-                {nameOf !== undefined && <th scope="col">{accessWords.whoseColumn}</th>}
-                <th scope="col">{accessWords.usedColumn}</th>
-                <th scope="col">{accessWords.untilColumn}</th>
+                <th scope="col">{accessText.tokenName}</th>
+                {nameOf !== undefined && <th scope="col">{accessText.whoseColumn}</th>}
+                <th scope="col">{accessText.usedColumn}</th>
+                <th scope="col">{accessText.untilColumn}</th>
                 <th />
               </tr>
             </thead>
@@ -48,15 +48,15 @@ export function TokenPanel({ api, userId, nameOf }: Parts) {
                 <tr key={token.id}>
                   <td>{token.name}</td>
                   {nameOf !== undefined && <td>{nameOf(token.user_id)}</td>}
-                  <td>{token.last_used_utc === null ? accessWords.never : dayAndTime(token.last_used_utc)}</td>
+                  <td>{token.last_used_utc === null ? accessText.never : dayAndTime(token.last_used_utc)}</td>
                   <td>{dayAndTime(token.expires_utc)}</td>
                   <td class="deeds">
-                    <Really
-                      label={accessWords.revoke}
-                      describe={accessWords.revokeToken(token.name)}
-                      question={`${accessWords.revokeToken(token.name)}?`}
-                      yes={accessWords.revoke}
-                      no={accessWords.keep}
+                    <ConfirmButton
+                      label={accessText.revoke}
+                      describe={accessText.revokeToken(token.name)}
+                      question={`${accessText.revokeToken(token.name)}?`}
+                      yes={accessText.revoke}
+                      no={accessText.keep}
                       testId={`revoke-${token.id}`}
                       onYes={() => void tokens.act(() => api.revokeToken(token.id))}
                     />
@@ -87,7 +87,7 @@ function MakeToken({ api, tokens }: { api: AccessApi; tokens: Remote<unknown> })
     <>
       <form class="desk-form" onSubmit={(event) => void make(event)}>
         <label>
-          {accessWords.tokenName}
+          {accessText.tokenName}
           <input
             type="text"
             required
@@ -98,7 +98,7 @@ function MakeToken({ api, tokens }: { api: AccessApi; tokens: Remote<unknown> })
           />
         </label>
         <label>
-          {accessWords.days}
+          {accessText.days}
           <input
             type="number"
             min={1}
@@ -110,10 +110,10 @@ function MakeToken({ api, tokens }: { api: AccessApi; tokens: Remote<unknown> })
           />
         </label>
         <button type="submit" class="main-button" data-testid="make-token" disabled={tokens.busy.value}>
-          {accessWords.makeToken}
+          {accessText.makeToken}
         </button>
       </form>
-      {secret.value !== null && <SecretOnce label={accessWords.tokens} text={secret.value} testId="token-secret" />}
+      {secret.value !== null && <SecretOnce label={accessText.tokens} text={secret.value} testId="token-secret" />}
     </>
   );
 }

@@ -1,13 +1,13 @@
 import { useSignal } from '@preact/signals';
 
-import { accessWords } from '../../access_words';
+import { accessText } from '../../text/access_text';
 import type { Remote } from '../../state/remote';
 import { type AccessApi, type AccountRole, accountRoles, type User } from '../../wire/access_api';
-import { words } from '../../words';
-import { dayAndTime } from '../format';
-import { useFocusAfter } from '../focus_after';
-import { Really } from '../really';
-import { useIdentity } from '../site_nav';
+import { appText } from '../../text/app_text';
+import { dayAndTime } from '../../text/format';
+import { useFocusAfter } from '../common/focus_after';
+import { ConfirmButton } from '../common/confirm_dialog';
+import { useIdentity } from '../common/site_nav';
 
 interface Parts {
   api: AccessApi;
@@ -22,11 +22,11 @@ export function UserTable({ api, users }: Parts) {
       <table class={users.stale.value ? 'desk-table stale' : 'desk-table'} data-testid="users">
         <thead>
           <tr>
-            <th scope="col">{accessWords.nameColumn}</th>
-            <th scope="col">{accessWords.shownColumn}</th>
-            <th scope="col">{accessWords.roleColumn}</th>
-            <th scope="col">{accessWords.stateColumn}</th>
-            <th scope="col">{accessWords.sinceColumn}</th>
+            <th scope="col">{accessText.nameColumn}</th>
+            <th scope="col">{accessText.shownColumn}</th>
+            <th scope="col">{accessText.roleColumn}</th>
+            <th scope="col">{accessText.stateColumn}</th>
+            <th scope="col">{accessText.sinceColumn}</th>
             <th />
           </tr>
         </thead>
@@ -48,12 +48,12 @@ function UserRow({ user, api, users }: Parts & { user: User }) {
   return (
     <tr data-testid={`user-${user.name}`}>
       <td>
-        {user.name} {self && <span class="soft">({accessWords.you})</span>}
+        {user.name} {self && <span class="soft">({accessText.you})</span>}
       </td>
       <td>{user.display_name}</td>
       <td>
         <select
-          aria-label={accessWords.roleOf(user.name)}
+          aria-label={accessText.roleOf(user.name)}
           data-testid={`role-${user.name}`}
           disabled={busy}
           value={user.role}
@@ -61,14 +61,14 @@ function UserRow({ user, api, users }: Parts & { user: User }) {
         >
           {accountRoles.map((role) => (
             <option key={role} value={role}>
-              {words.roles[role]}
+              {appText.roles[role]}
             </option>
           ))}
         </select>
       </td>
       <td>
         <span class={user.enabled ? 'chip chip-good' : 'chip chip-warn'}>
-          {user.enabled ? accessWords.enabled : accessWords.disabled}
+          {user.enabled ? accessText.enabled : accessText.disabled}
         </span>
       </td>
       <td>{dayAndTime(user.created_utc)}</td>
@@ -79,17 +79,17 @@ function UserRow({ user, api, users }: Parts & { user: User }) {
           class="plain-button"
           data-testid={`enable-${user.name}`}
           disabled={busy}
-          aria-label={user.enabled ? accessWords.disableUser(user.name) : accessWords.enableUser(user.name)}
+          aria-label={user.enabled ? accessText.disableUser(user.name) : accessText.enableUser(user.name)}
           onClick={() => change({ enabled: !user.enabled })}
         >
-          {user.enabled ? accessWords.disable : accessWords.enable}
+          {user.enabled ? accessText.disable : accessText.enable}
         </button>
-        <Really
-          label={accessWords.remove}
-          describe={accessWords.removeUser(user.name)}
-          question={accessWords.removeReally(user.name)}
-          yes={accessWords.removeYes}
-          no={accessWords.keep}
+        <ConfirmButton
+          label={accessText.remove}
+          describe={accessText.removeUser(user.name)}
+          question={accessText.removeReally(user.name)}
+          yes={accessText.removeYes}
+          no={accessText.keep}
           testId={`remove-${user.name}`}
           disabled={busy}
           onYes={() => void users.act(() => api.removeUser(user.id))}
@@ -110,10 +110,10 @@ function NewPassword({ user, busy, onSet }: { user: User; busy: boolean; onSet: 
         class="plain-button"
         ref={place}
         data-testid={`password-${user.name}`}
-        aria-label={accessWords.resetPasswordOf(user.name)}
+        aria-label={accessText.resetPasswordOf(user.name)}
         onClick={() => (open.value = true)}
       >
-        {accessWords.resetPassword}
+        {accessText.resetPassword}
       </button>
     );
   const close = () => {
@@ -134,16 +134,16 @@ function NewPassword({ user, busy, onSet }: { user: User; busy: boolean; onSet: 
         autocomplete="new-password"
         required
         ref={place}
-        aria-label={accessWords.resetPasswordOf(user.name)}
+        aria-label={accessText.resetPasswordOf(user.name)}
         data-testid={`new-password-${user.name}`}
         value={password.value}
         onInput={(event) => (password.value = event.currentTarget.value)}
       />
       <button type="submit" class="plain-button" disabled={busy}>
-        {accessWords.setPassword}
+        {accessText.setPassword}
       </button>
       <button type="button" class="plain-button" onClick={close}>
-        {accessWords.cancel}
+        {accessText.cancel}
       </button>
     </form>
   );

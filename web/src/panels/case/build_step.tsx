@@ -1,16 +1,16 @@
 import { useSignal } from '@preact/signals';
 
-import { caseWords } from '../../case_words';
-import type { CaseKeeper } from '../../state/case/case_keeper';
+import { caseText } from '../../text/case_text';
+import type { CaseController } from '../../state/case/case_controller';
 import { isUnderWay } from '../../state/case/job_watch';
 import type { BuildWishes, BuiltBone } from '../../wire/case_types';
-import { fixed } from '../format';
-import { Remark, SelectField, SliderField } from '../fields';
+import { fixed } from '../../text/format';
+import { Remark, SelectField, SliderField } from '../common/fields';
 
 const finest = 8;
 
 /** How fine and how much, cartilage, and building the bone that is reamed. */
-export function BuildStep({ keeper }: { keeper: CaseKeeper }) {
+export function BuildStep({ keeper }: { keeper: CaseController }) {
   const { store } = keeper;
   const details = store.details.value;
   const built = details?.built ?? null;
@@ -23,30 +23,30 @@ export function BuildStep({ keeper }: { keeper: CaseKeeper }) {
   const blocked = found === null || lacksCentre || store.busy.value || isUnderWay(store.job.value);
   return (
     <>
-      <p class="soft">{found === null ? caseWords.buildNeeds : caseWords.buildHint}</p>
+      <p class="soft">{found === null ? caseText.buildNeeds : caseText.buildHint}</p>
       <SelectField
-        label={caseWords.upsample}
+        label={caseText.upsample}
         value={String(upsample.value)}
-        options={Array.from({ length: finest }, (_, i) => [String(i + 1), caseWords.upsampleTimes(i + 1)] as const)}
+        options={Array.from({ length: finest }, (_, i) => [String(i + 1), caseText.upsampleTimes(i + 1)] as const)}
         testId="upsample"
         onChange={(times) => (upsample.value = Number(times))}
       />
       <SelectField<BuildWishes['roi']>
-        label={caseWords.roi}
+        label={caseText.roi}
         value={roi.value}
         options={[
-          ['glenoid', caseWords.roiGlenoid],
-          ['whole', caseWords.roiWhole],
+          ['glenoid', caseText.roiGlenoid],
+          ['whole', caseText.roiWhole],
         ]}
         testId="roi"
         onChange={(chosen) => (roi.value = chosen)}
       />
       <SliderField
-        {...{ label: caseWords.cartilage, unit: caseWords.mm, value: cartilageMm.value, low: 0, high: 5, step: 0.5 }}
+        {...{ label: caseText.cartilage, unit: caseText.mm, value: cartilageMm.value, low: 0, high: 5, step: 0.5 }}
         testId="cartilage"
         onChange={(thickness) => (cartilageMm.value = thickness)}
       />
-      {lacksCentre && found !== null && <Remark kind="warn">{caseWords.buildNeedsCentre}</Remark>}
+      {lacksCentre && found !== null && <Remark kind="warn">{caseText.buildNeedsCentre}</Remark>}
       <div class="buttons">
         <button
           type="button"
@@ -59,7 +59,7 @@ export function BuildStep({ keeper }: { keeper: CaseKeeper }) {
               .then(() => keeper.build({ upsample: upsample.value, roi: roi.value, cartilage_mm: cartilageMm.value }))
           }
         >
-          {built === null ? caseWords.runBuild : caseWords.runBuildAgain}
+          {built === null ? caseText.runBuild : caseText.runBuildAgain}
         </button>
       </div>
       {built !== null && <Built built={built} outdated={built.segmentation_revision !== found?.revision} />}
@@ -71,12 +71,12 @@ function Built({ built, outdated }: { built: BuiltBone; outdated: boolean }) {
   const [low, high] = built.density_range_g_cc;
   return (
     <section data-testid="built">
-      {outdated && <Remark kind="warn">{caseWords.builtOutdated}</Remark>}
-      <h3>{caseWords.built}</h3>
+      {outdated && <Remark kind="warn">{caseText.builtOutdated}</Remark>}
+      <h3>{caseText.built}</h3>
       <ul class="facts">
-        <li>{caseWords.builtVoxels(fixed(built.bone_voxels / 1e6, 2))}</li>
-        <li>{caseWords.builtUpsample(built.upsample)}</li>
-        <li>{caseWords.builtDensity(fixed(low, 2), fixed(high, 2))}</li>
+        <li>{caseText.builtVoxels(fixed(built.bone_voxels / 1e6, 2))}</li>
+        <li>{caseText.builtUpsample(built.upsample)}</li>
+        <li>{caseText.builtDensity(fixed(low, 2), fixed(high, 2))}</li>
       </ul>
     </section>
   );

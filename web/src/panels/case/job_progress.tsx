@@ -1,4 +1,4 @@
-import { caseWords } from '../../case_words';
+import { caseText } from '../../text/case_text';
 import { isUnderWay } from '../../state/case/job_watch';
 import type { Job } from '../../wire/case_types';
 
@@ -23,13 +23,13 @@ export function JobProgress({ job, silent, onCancel, onDismiss }: Parts) {
       data-state={job.state}
     >
       <p>
-        <strong>{caseWords.jobKinds[job.kind]}.</strong> {caseWords.jobState(job)}
+        <strong>{caseText.jobKinds[job.kind]}.</strong> {caseText.jobState(job)}
         {failed && `: ${why}`}
       </p>
-      {underWay && <ProgressBar share={job.share} label={caseWords.jobKinds[job.kind]} stale={silent} />}
-      {underWay && silent && <p class="warn-text">{caseWords.jobSilent}</p>}
+      {underWay && <ProgressBar share={job.share} label={caseText.jobKinds[job.kind]} stale={silent} />}
+      {underWay && silent && <p class="warn-text">{caseText.jobSilent}</p>}
       <button type="button" class="plain-button" data-testid="cancel-job" onClick={underWay ? onCancel : onDismiss}>
-        {underWay ? caseWords.cancel : caseWords.dismiss}
+        {underWay ? caseText.cancel : caseText.dismiss}
       </button>
     </div>
   );
@@ -46,7 +46,7 @@ export function ProgressBar({ share, label, stale }: { share: number; label: str
       aria-valuenow={Math.floor(share * 100)}
     >
       <div style={{ width: `${share * 100}%` }} />
-      <span>{caseWords.percent(share)}</span>
+      <span>{caseText.percent(share)}</span>
     </div>
   );
 }

@@ -1,5 +1,5 @@
-import { caseWords } from '../../case_words';
-import type { CaseKeeper } from '../../state/case/case_keeper';
+import { caseText } from '../../text/case_text';
+import type { CaseController } from '../../state/case/case_controller';
 import {
   biconcavityNames,
   headRadiusLimitsMm,
@@ -8,13 +8,13 @@ import {
   type LandmarkName,
   pointOf,
 } from '../../state/case/landmark_names';
-import type { SaveState } from '../../state/case/landmark_keeper';
+import type { SaveState } from '../../state/case/landmark_editor';
 import { type WalchClass, walchClasses } from '../../wire/case_types';
-import { SelectField, SliderField } from '../fields';
+import { SelectField, SliderField } from '../common/fields';
 import { MeasuresPanel } from './measures_panel';
 
 /** The landmarks to be placed, the head's radius, the Walch class, and what is measured from them. */
-export function LandmarksStep({ keeper }: { keeper: CaseKeeper }) {
+export function LandmarksStep({ keeper }: { keeper: CaseController }) {
   const armed = keeper.store.armed.value;
   const landmarks = keeper.landmarks.landmarks.value;
   const head = landmarks.humeral_head;
@@ -22,7 +22,7 @@ export function LandmarksStep({ keeper }: { keeper: CaseKeeper }) {
   const { low, high } = headRadiusLimitsMm;
   return (
     <>
-      <p class="soft landmark-hint">{chosen === null ? caseWords.landmarksHint : caseWords.landmarkHints[chosen]}</p>
+      <p class="soft landmark-hint">{chosen === null ? caseText.landmarksHint : caseText.landmarkHints[chosen]}</p>
       <ol class="pick-list landmarks">
         {landmarkNames
           .filter((name) => !isOptional(name))
@@ -32,17 +32,17 @@ export function LandmarksStep({ keeper }: { keeper: CaseKeeper }) {
       </ol>
       {head !== undefined && (
         <SliderField
-          {...{ label: caseWords.headRadius, unit: caseWords.mm, value: head.radius_mm, low, high, step: 0.5 }}
+          {...{ label: caseText.headRadius, unit: caseText.mm, value: head.radius_mm, low, high, step: 0.5 }}
           testId="head-radius"
           onChange={(radius_mm) => keeper.landmarks.change({ ...landmarks, humeral_head: { ...head, radius_mm } })}
         />
       )}
       <SelectField<WalchClass | ''>
-        label={caseWords.walch}
+        label={caseText.walch}
         value={landmarks.walch ?? ''}
         options={[
-          ['', caseWords.walchNone] as const,
-          ...walchClasses.map((name) => [name, `${name}: ${caseWords.walchHints[name]}`] as const),
+          ['', caseText.walchNone] as const,
+          ...walchClasses.map((name) => [name, `${name}: ${caseText.walchHints[name]}`] as const),
         ]}
         testId="walch"
         onChange={(walch) => {
@@ -58,14 +58,14 @@ export function LandmarksStep({ keeper }: { keeper: CaseKeeper }) {
 }
 
 /** The points of a biconcave face, open where the class says so or one is placed. */
-function Biconcavity({ keeper, chosen }: { keeper: CaseKeeper; chosen: LandmarkName | null }) {
+function Biconcavity({ keeper, chosen }: { keeper: CaseController; chosen: LandmarkName | null }) {
   const landmarks = keeper.landmarks.landmarks.value;
   const named = landmarks.walch === 'B2' || landmarks.walch === 'C2';
   const begun = biconcavityNames.some((name) => name === chosen || pointOf(landmarks, name) !== null);
   return (
     <details class="seeds" open={named || begun} data-testid="biconcavity">
-      <summary>{caseWords.biconcavity}</summary>
-      <p class="soft">{caseWords.biconcavityHint}</p>
+      <summary>{caseText.biconcavity}</summary>
+      <p class="soft">{caseText.biconcavityHint}</p>
       <ol class="pick-list landmarks">
         {biconcavityNames.map((name) => (
           <LandmarkRow key={name} {...{ keeper, name, chosen: name === chosen }} />
@@ -76,14 +76,14 @@ function Biconcavity({ keeper, chosen }: { keeper: CaseKeeper; chosen: LandmarkN
 }
 
 interface RowParts {
-  keeper: CaseKeeper;
+  keeper: CaseController;
   name: LandmarkName;
   chosen: boolean;
 }
 
 function LandmarkRow({ keeper, name, chosen }: RowParts) {
   const isPlaced = pointOf(keeper.landmarks.landmarks.value, name) !== null;
-  const title = caseWords.landmarkNames[name];
+  const title = caseText.landmarkNames[name];
   return (
     <li>
       <button
@@ -92,14 +92,14 @@ function LandmarkRow({ keeper, name, chosen }: RowParts) {
         data-testid={`landmark-${name}`}
         data-placed={isPlaced}
         aria-pressed={chosen}
-        title={caseWords.landmarkHints[name]}
+        title={caseText.landmarkHints[name]}
         onClick={() => (chosen ? (keeper.store.armed.value = null) : keeper.choose(name))}
       >
         <kbd>{landmarkNames.indexOf(name) + 1}</kbd>
         {title}
         <span class={isPlaced ? 'pick-state good' : 'pick-state soft'}>
           {isPlaced ? '✓' : ''}
-          <span class="visually-hidden">{isPlaced ? caseWords.placed : caseWords.notPlaced}</span>
+          <span class="visually-hidden">{isPlaced ? caseText.placed : caseText.notPlaced}</span>
         </span>
       </button>
       {isPlaced && (
@@ -107,8 +107,8 @@ function LandmarkRow({ keeper, name, chosen }: RowParts) {
           type="button"
           class="remove"
           data-testid={`remove-${name}`}
-          aria-label={caseWords.removeLandmark(title)}
-          title={caseWords.removeLandmark(title)}
+          aria-label={caseText.removeLandmark(title)}
+          title={caseText.removeLandmark(title)}
           onClick={() => keeper.place(name, null)}
         >
           ×
@@ -119,7 +119,7 @@ function LandmarkRow({ keeper, name, chosen }: RowParts) {
 }
 
 /** Whether the server has what is shown. */
-function SaveLine({ keeper, state }: { keeper: CaseKeeper; state: SaveState }) {
+function SaveLine({ keeper, state }: { keeper: CaseController; state: SaveState }) {
   const { landmarks } = keeper;
   return (
     <div
@@ -128,25 +128,25 @@ function SaveLine({ keeper, state }: { keeper: CaseKeeper; state: SaveState }) {
       data-testid="save"
       data-state={state.kind}
     >
-      {state.kind === 'saved' && caseWords.saved}
-      {state.kind === 'saving' && caseWords.saving}
-      {state.kind === 'unsaved' && caseWords.unsaved}
+      {state.kind === 'saved' && caseText.saved}
+      {state.kind === 'saving' && caseText.saving}
+      {state.kind === 'unsaved' && caseText.unsaved}
       {state.kind === 'failed' && (
         <>
-          {caseWords.saveFailed(state.words)}
+          {caseText.saveFailed(state.words)}
           <button type="button" class="plain-button" data-testid="save-again" onClick={() => void landmarks.saveNow()}>
-            {caseWords.saveAgain}
+            {caseText.saveAgain}
           </button>
         </>
       )}
       {state.kind === 'conflict' && (
         <>
-          {caseWords.conflict}
+          {caseText.conflict}
           <button type="button" class="plain-button" data-testid="keep-mine" onClick={() => void landmarks.keepMine()}>
-            {caseWords.keepMine}
+            {caseText.keepMine}
           </button>
           <button type="button" class="plain-button" data-testid="take-theirs" onClick={() => landmarks.takeTheirs()}>
-            {caseWords.takeTheirs}
+            {caseText.takeTheirs}
           </button>
         </>
       )}

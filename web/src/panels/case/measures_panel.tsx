@@ -1,28 +1,28 @@
-import { caseWords } from '../../case_words';
-import type { LandmarkKeeper } from '../../state/case/landmark_keeper';
+import { caseText } from '../../text/case_text';
+import type { LandmarkEditor } from '../../state/case/landmark_editor';
 import type { LandmarkName } from '../../state/case/landmark_names';
 import type { Measures, NormalRange } from '../../wire/case_types';
-import { fixed } from '../format';
-import { inclinationWords, versionWords } from './angle_words';
-import { Remark } from '../fields';
+import { fixed } from '../../text/format';
+import { inclinationText, versionText } from './angle_text';
+import { Remark } from '../common/fields';
 
 /** What the server measures from the saved landmarks, beside what is normal; dimmed while it is of older ones. */
-export function MeasuresPanel({ keeper }: { keeper: LandmarkKeeper }) {
+export function MeasuresPanel({ keeper }: { keeper: LandmarkEditor }) {
   const measures = keeper.measures.value;
   const problem = keeper.measuresProblem.value;
   const isFresh = keeper.measured.value;
   if (measures === null)
-    return problem === null ? null : <Remark kind="bad">{caseWords.measuresFailed(problem)}</Remark>;
+    return problem === null ? null : <Remark kind="bad">{caseText.measuresFailed(problem)}</Remark>;
   return (
     <section class={isFresh ? 'measures' : 'measures stale'} data-testid="measures" data-fresh={isFresh}>
       <h3>
-        {caseWords.measures}
-        {!isFresh && <span class="warn-text"> {problem ?? caseWords.measuring}</span>}
+        {caseText.measures}
+        {!isFresh && <span class="warn-text"> {problem ?? caseText.measuring}</span>}
       </h3>
-      {!isFresh && <p class="warn-text">{caseWords.notMeasured}</p>}
+      {!isFresh && <p class="warn-text">{caseText.notMeasured}</p>}
       {measures.missing.length > 0 && (
         <p class="soft" data-testid="missing">
-          {caseWords.missing(measures.missing.map(nameOf).join(', '))}
+          {caseText.missing(measures.missing.map(nameOf).join(', '))}
         </p>
       )}
       <Figures measures={measures} />
@@ -34,36 +34,36 @@ function Figures({ measures }: { measures: Measures }) {
   const { normal } = measures;
   return (
     <dl>
-      <Block title={caseWords.version} normal={normalText(normal.version_deg, versionWords)}>
-        <Row name={caseWords.method3d} value={versionWords(measures.version_3d_deg)} testId="version-3d" />
+      <Block title={caseText.version} normal={normalText(normal.version_deg, versionText)}>
+        <Row name={caseText.method3d} value={versionText(measures.version_3d_deg)} testId="version-3d" />
         <Row
-          name={caseWords.methodFriedman}
-          value={versionWords(measures.version_friedman_deg)}
+          name={caseText.methodFriedman}
+          value={versionText(measures.version_friedman_deg)}
           testId="version-friedman"
         />
       </Block>
-      <Block title={caseWords.inclination} normal={normalText(normal.inclination_deg, inclinationWords)}>
-        <Row name={caseWords.method3d} value={inclinationWords(measures.inclination_3d_deg)} testId="inclination-3d" />
+      <Block title={caseText.inclination} normal={normalText(normal.inclination_deg, inclinationText)}>
+        <Row name={caseText.method3d} value={inclinationText(measures.inclination_3d_deg)} testId="inclination-3d" />
         <Row
-          name={caseWords.methodFriedman}
-          value={inclinationWords(measures.inclination_friedman_deg)}
+          name={caseText.methodFriedman}
+          value={inclinationText(measures.inclination_friedman_deg)}
           testId="inclination-friedman"
         />
       </Block>
-      <Block title={caseWords.subluxation} normal={normalText(normal.subluxation_percent, percentWords)}>
-        <Row name={caseWords.againstScapula} value={percentWords(measures.subluxation_percent)} testId="subluxation" />
+      <Block title={caseText.subluxation} normal={normalText(normal.subluxation_percent, percentWords)}>
+        <Row name={caseText.againstScapula} value={percentWords(measures.subluxation_percent)} testId="subluxation" />
         <Row
-          name={caseWords.againstFace}
+          name={caseText.againstFace}
           value={percentWords(measures.subluxation_glenoid_percent)}
           testId="subluxation-glenoid"
         />
       </Block>
       {measures.biconcavity !== null && (
-        <Block title={caseWords.biconcavity} normal={null}>
+        <Block title={caseText.biconcavity} normal={null}>
           {Object.entries(measures.biconcavity).map(([name, value]) => (
             <Row
               key={name}
-              name={caseWords.biconcavityFigures[name] ?? name}
+              name={caseText.biconcavityFigures[name] ?? name}
               value={biconcavityWords(name, value)}
               testId={`biconcavity-${name}`}
             />
@@ -102,18 +102,18 @@ function Row({ name, value, testId }: { name: string; value: string; testId: str
 }
 
 const percentWords = (percent: number | null | undefined): string =>
-  percent === null || percent === undefined ? caseWords.unknown : caseWords.percentValue(fixed(percent, 0));
+  percent === null || percent === undefined ? caseText.unknown : caseText.percentValue(fixed(percent, 0));
 
 function normalText(range: NormalRange | undefined, inWords: (value: number) => string): string | null {
   if (range === undefined) return null;
   const { mean, low, high, source } = range;
-  const spread = low === undefined || high === undefined ? null : caseWords.normalRange(inWords(low), inWords(high));
-  return caseWords.normal(spread === null ? inWords(mean) : `${inWords(mean)}; ${spread}`, source);
+  const spread = low === undefined || high === undefined ? null : caseText.normalRange(inWords(low), inWords(high));
+  return caseText.normal(spread === null ? inWords(mean) : `${inWords(mean)}; ${spread}`, source);
 }
 
 function nameOf(key: string): string {
-  return key === 'biconcavity_mm' ? caseWords.biconcavity : (caseWords.landmarkNames[key as LandmarkName] ?? key);
+  return key === 'biconcavity_mm' ? caseText.biconcavity : (caseText.landmarkNames[key as LandmarkName] ?? key);
 }
 
 const biconcavityWords = (name: string, degrees: number): string =>
-  name === 'between_deg' ? caseWords.fixed(fixed(degrees, 1), '°') : versionWords(degrees);
+  name === 'between_deg' ? caseText.fixed(fixed(degrees, 1), '°') : versionText(degrees);

@@ -1,10 +1,10 @@
 import { useSignal } from '@preact/signals';
 
-import { caseWords } from '../../case_words';
+import { caseText } from '../../text/case_text';
 import type { CasesKeeper, NewCaseState } from '../../state/case/new_case';
 import type { Side } from '../../wire/case_types';
-import { fixed } from '../format';
-import { Remark } from '../fields';
+import { fixed } from '../../text/format';
+import { Remark } from '../common/fields';
 import { JobProgress, ProgressBar } from './job_progress';
 
 const accepted = '.zip,.nrrd,.nii,.nii.gz,.gz,.mha,.txt,.dcm';
@@ -17,12 +17,12 @@ export function NewCasePanel({ keeper }: { keeper: CasesKeeper }) {
   const file = keeper.file.value;
   const side = keeper.side.value;
   return (
-    <aside class="new-case" aria-label={caseWords.newCase}>
-      <h2>{caseWords.newCase}</h2>
+    <aside class="new-case" aria-label={caseText.newCase}>
+      <h2>{caseText.newCase}</h2>
       <FilePlace keeper={keeper} disabled={underWay} />
-      <p class="soft">{caseWords.newCaseHint}</p>
+      <p class="soft">{caseText.newCaseHint}</p>
       <fieldset class="side-choice" disabled={underWay}>
-        <legend>{caseWords.whichSide}</legend>
+        <legend>{caseText.whichSide}</legend>
         {(['right', 'left'] as const).map((option) => (
           <SideOption
             key={option}
@@ -33,11 +33,11 @@ export function NewCasePanel({ keeper }: { keeper: CasesKeeper }) {
         ))}
       </fieldset>
       <label class="field">
-        {caseWords.caseName}
+        {caseText.caseName}
         <input
           type="text"
           maxLength={80}
-          placeholder={caseWords.caseNameHint}
+          placeholder={caseText.caseNameHint}
           data-testid="case-name"
           disabled={underWay}
           value={keeper.wishes.value.name}
@@ -45,9 +45,9 @@ export function NewCasePanel({ keeper }: { keeper: CasesKeeper }) {
         />
       </label>
       <details class="more" open={keeper.wishes.value.seriesUid !== ''}>
-        <summary>{caseWords.moreChoices}</summary>
+        <summary>{caseText.moreChoices}</summary>
         <label class="field">
-          {caseWords.seriesUid}
+          {caseText.seriesUid}
           <input
             type="text"
             data-testid="series-uid"
@@ -68,10 +68,10 @@ export function NewCasePanel({ keeper }: { keeper: CasesKeeper }) {
           disabled={file === null || side === null}
           onClick={() => void keeper.make()}
         >
-          {state.kind === 'failed' && state.during === 'upload' ? caseWords.goOn : caseWords.make}
+          {state.kind === 'failed' && state.during === 'upload' ? caseText.goOn : caseText.make}
         </button>
       )}
-      {!underWay && file !== null && side === null && <p class="soft">{caseWords.sideMustBeChosen}</p>}
+      {!underWay && file !== null && side === null && <p class="soft">{caseText.sideMustBeChosen}</p>}
     </aside>
   );
 }
@@ -80,7 +80,7 @@ function SideOption({ side, chosen, onChoose }: { side: Side; chosen: boolean; o
   return (
     <label class={chosen ? 'side-option chosen' : 'side-option'}>
       <input type="radio" name="side" data-testid={`side-${side}`} checked={chosen} onChange={onChoose} />
-      {caseWords.sides[side]}
+      {caseText.sides[side]}
     </label>
   );
 }
@@ -110,13 +110,13 @@ function FilePlace({ keeper, disabled }: { keeper: CasesKeeper; disabled: boolea
     >
       {file === null ? (
         <p>
-          <strong>{caseWords.drop}</strong> <span class="soft">{caseWords.dropOr}</span>
+          <strong>{caseText.drop}</strong> <span class="soft">{caseText.dropOr}</span>
         </p>
       ) : (
-        <p data-testid="file-chosen">{caseWords.fileChosen(file.name, megabytes(file.size))}</p>
+        <p data-testid="file-chosen">{caseText.fileChosen(file.name, megabytes(file.size))}</p>
       )}
       <label class={disabled ? 'plain-button disabled' : 'plain-button'}>
-        {file === null ? caseWords.chooseFile : caseWords.chooseOther}
+        {file === null ? caseText.chooseFile : caseText.chooseOther}
         <input
           type="file"
           class="visually-hidden"
@@ -139,14 +139,14 @@ function Progress({ keeper, state }: { keeper: CasesKeeper; state: NewCaseState 
       return null;
     case 'uploading': {
       const share = state.bytes === 0 ? 1 : state.received / state.bytes;
-      const text = caseWords.uploading(fixed(share * 100, 0), megabytes(state.received), megabytes(state.bytes));
+      const text = caseText.uploading(fixed(share * 100, 0), megabytes(state.received), megabytes(state.bytes));
       return (
         <div class="job" role="status" data-testid="upload" data-waiting={state.waiting}>
           <p>{text}</p>
           <ProgressBar share={share} label={text} stale={state.waiting} />
-          {state.waiting && <p class="warn-text">{caseWords.uploadWaiting}</p>}
+          {state.waiting && <p class="warn-text">{caseText.uploadWaiting}</p>}
           <button type="button" class="plain-button" data-testid="cancel-upload" onClick={() => void keeper.cancel()}>
-            {caseWords.cancel}
+            {caseText.cancel}
           </button>
         </div>
       );
@@ -164,8 +164,8 @@ function Progress({ keeper, state }: { keeper: CasesKeeper; state: NewCaseState 
       const during = state.during === 'upload';
       return (
         <Remark kind="bad" testId="new-case-failed">
-          <strong>{during ? caseWords.uploadFailed : caseWords.importFailed}.</strong> {state.words}{' '}
-          {during ? caseWords.uploadFailedHint : caseWords.importFailedHint}
+          <strong>{during ? caseText.uploadFailed : caseText.importFailed}.</strong> {state.words}{' '}
+          {during ? caseText.uploadFailedHint : caseText.importFailedHint}
         </Remark>
       );
     }

@@ -1,26 +1,26 @@
 import { useState } from 'preact/hooks';
 
-import { caseWords } from '../../case_words';
-import type { CaseKeeper } from '../../state/case/case_keeper';
+import { caseText } from '../../text/case_text';
+import type { CaseController } from '../../state/case/case_controller';
 import type { PlanDraft } from '../../state/case/case_store';
 import { add, length } from '../../ct/volume_frame';
 import type { Assessment, Plan, Triple } from '../../wire/case_types';
-import { fixed } from '../format';
-import { inclinationWords, versionWords } from './angle_words';
-import { NumberBox, NumberField, Remark } from '../fields';
+import { fixed } from '../../text/format';
+import { inclinationText, versionText } from './angle_text';
+import { NumberBox, NumberField, Remark } from '../common/fields';
 
 /** The proposed or kept plan by numbers, what it would do, and keeping it. */
-export function PlanDraftPanel({ keeper, draft }: { keeper: CaseKeeper; draft: PlanDraft }) {
+export function PlanDraftPanel({ keeper, draft }: { keeper: CaseController; draft: PlanDraft }) {
   const { plan, assessment, isAssessed, kept } = draft;
   const change = (part: Partial<Plan>) => keeper.draftPlan({ ...plan, ...part });
   const asked = keeper.store.overrideAsked.value;
   return (
     <section class="plan-draft" data-testid="plan-draft" data-kept={kept}>
       <p class={kept ? 'good' : 'warn-text'} data-testid="plan-state">
-        {kept ? caseWords.planKept : caseWords.planDraft}
+        {kept ? caseText.planKept : caseText.planDraft}
       </p>
       <PointField
-        label={caseWords.entry}
+        label={caseText.entry}
         value={plan.entry_mm}
         step={0.5}
         decimals={1}
@@ -28,7 +28,7 @@ export function PlanDraftPanel({ keeper, draft }: { keeper: CaseKeeper; draft: P
         onChange={(entry_mm) => change({ entry_mm })}
       />
       <PointField
-        label={caseWords.axis}
+        label={caseText.axis}
         value={plan.axis_direction}
         step={0.01}
         decimals={3}
@@ -39,12 +39,12 @@ export function PlanDraftPanel({ keeper, draft }: { keeper: CaseKeeper; draft: P
         }}
       />
       <NumberField
-        {...{ label: caseWords.depth, unit: caseWords.mm, value: plan.depth_mm, low: 0, high: 15, step: 0.5 }}
+        {...{ label: caseText.depth, unit: caseText.mm, value: plan.depth_mm, low: 0, high: 15, step: 0.5 }}
         testId="plan-depth"
         onChange={(depth_mm) => change({ depth_mm })}
       />
       <PlanFacts plan={plan} />
-      {assessment !== null && !isAssessed && <Remark kind="warn">{caseWords.planChanged}</Remark>}
+      {assessment !== null && !isAssessed && <Remark kind="warn">{caseText.planChanged}</Remark>}
       {assessment !== null && <AssessmentFigures assessment={assessment} stale={!isAssessed} />}
       {asked !== null || (isAssessed && assessment?.needs_override === true) ? (
         <Override keeper={keeper} words={asked} kept={kept} />
@@ -57,7 +57,7 @@ export function PlanDraftPanel({ keeper, draft }: { keeper: CaseKeeper; draft: P
             disabled={(kept && !keeper.store.planBeforeLandmarks.value) || keeper.store.busy.value}
             onClick={() => void keeper.keepPlan(null)}
           >
-            {caseWords.keepPlan}
+            {caseText.keepPlan}
           </button>
         </div>
       )}
@@ -71,12 +71,12 @@ function PlanFacts({ plan }: { plan: Plan }) {
   const hasPilot = typeof diameter === 'number' && typeof depth === 'number';
   return (
     <dl class="figures-list">
-      <dt>{caseWords.reamer}</dt>
+      <dt>{caseText.reamer}</dt>
       <dd>{plan.reamer}</dd>
-      <dt>{caseWords.guide}</dt>
-      <dd>{caseWords.guides[plan.guide ?? 'none']}</dd>
-      <dt>{caseWords.pilotHole}</dt>
-      <dd>{hasPilot ? caseWords.pilotSize(fixed(diameter, 1), fixed(depth, 1)) : caseWords.noPilot}</dd>
+      <dt>{caseText.guide}</dt>
+      <dd>{caseText.guides[plan.guide ?? 'none']}</dd>
+      <dt>{caseText.pilotHole}</dt>
+      <dd>{hasPilot ? caseText.pilotSize(fixed(diameter, 1), fixed(depth, 1)) : caseText.noPilot}</dd>
     </dl>
   );
 }
@@ -86,18 +86,18 @@ function AssessmentFigures({ assessment, stale }: { assessment: Assessment; stal
   return (
     <>
       <dl class={stale ? 'figures-list stale' : 'figures-list'}>
-        <dt>{caseWords.correction}</dt>
+        <dt>{caseText.correction}</dt>
         <dd data-testid="correction">
-          {correction_deg === null ? caseWords.unknown : caseWords.fixed(fixed(correction_deg, 1), '°')}
+          {correction_deg === null ? caseText.unknown : caseText.fixed(fixed(correction_deg, 1), '°')}
         </dd>
-        <dt>{caseWords.after}</dt>
+        <dt>{caseText.after}</dt>
         <dd>
-          {versionWords(version_after_deg)}, {inclinationWords(inclination_after_deg)}
+          {versionText(version_after_deg)}, {inclinationText(inclination_after_deg)}
         </dd>
         {typeof vault_depth_mm === 'number' && (
           <>
-            <dt>{caseWords.vaultDepth}</dt>
-            <dd>{caseWords.fixed(fixed(vault_depth_mm, 1), caseWords.mm)}</dd>
+            <dt>{caseText.vaultDepth}</dt>
+            <dd>{caseText.fixed(fixed(vault_depth_mm, 1), caseText.mm)}</dd>
           </>
         )}
       </dl>
@@ -111,16 +111,16 @@ function AssessmentFigures({ assessment, stale }: { assessment: Assessment; stal
 }
 
 /** Keeping what is refused without a reason. */
-function Override({ keeper, words, kept }: { keeper: CaseKeeper; words: string | null; kept: boolean }) {
+function Override({ keeper, words, kept }: { keeper: CaseController; words: string | null; kept: boolean }) {
   const [reason, setReason] = useState('');
   if (kept) return null;
   return (
     <div class="override" role="alert" data-testid="override">
       <p>
-        <strong>{caseWords.overrideTitle}.</strong> {words}
+        <strong>{caseText.overrideTitle}.</strong> {words}
       </p>
       <label>
-        {caseWords.overrideReason}
+        {caseText.overrideReason}
         <textarea
           rows={2}
           data-testid="override-reason"
@@ -135,7 +135,7 @@ function Override({ keeper, words, kept }: { keeper: CaseKeeper; words: string |
         disabled={reason.trim() === '' || keeper.store.busy.value}
         onClick={() => void keeper.keepPlan(reason.trim())}
       >
-        {caseWords.overrideKeep}
+        {caseText.overrideKeep}
       </button>
     </div>
   );
@@ -156,7 +156,7 @@ function PointField({ label, value, step, decimals, testId, onChange }: PointPar
     <div class="field">
       <span class="field-name">{label}</span>
       <div class="three-numbers">
-        {caseWords.lps.map((name, i) => (
+        {caseText.lps.map((name, i) => (
           <label key={name}>
             <span class="soft">{name}</span>
             <NumberBox

@@ -1,12 +1,12 @@
 import { signal } from '@preact/signals';
 import { useState } from 'preact/hooks';
 
-import { caseWords } from '../../case_words';
-import type { CaseKeeper } from '../../state/case/case_keeper';
+import { caseText } from '../../text/case_text';
+import type { CaseController } from '../../state/case/case_controller';
 import { neededNames, pointOf } from '../../state/case/landmark_names';
 import type { Guide, PlanWishes, Reamer } from '../../wire/case_types';
-import { fixed } from '../format';
-import { CheckField, NumberBox, NumberField, Remark, SelectField } from '../fields';
+import { fixed } from '../../text/format';
+import { CheckField, NumberBox, NumberField, Remark, SelectField } from '../common/fields';
 import { PlanDraftPanel } from './plan_draft_panel';
 
 /** What is wished of the plan (null: left to the server); the wishes last as long as the page is open. */
@@ -40,14 +40,14 @@ export class PlanWishesStore {
 }
 
 /** A proposal from what is wished, the plan by numbers, and keeping it. */
-export function PlanStep({ keeper, wishes }: { keeper: CaseKeeper; wishes: PlanWishesStore }) {
+export function PlanStep({ keeper, wishes }: { keeper: CaseController; wishes: PlanWishesStore }) {
   const { store } = keeper;
   const landmarks = keeper.landmarks.landmarks.value;
   const placed = neededNames.every((name) => pointOf(landmarks, name) !== null);
   const draft = store.draft.value;
   return (
     <>
-      <p class="soft">{placed ? caseWords.planHint : caseWords.planNeeds}</p>
+      <p class="soft">{placed ? caseText.planHint : caseText.planNeeds}</p>
       <WishFields wishes={wishes} reamers={store.reamers.value} />
       <div class="buttons">
         <button
@@ -57,71 +57,71 @@ export function PlanStep({ keeper, wishes }: { keeper: CaseKeeper; wishes: PlanW
           disabled={!placed || store.busy.value}
           onClick={() => void keeper.proposePlan(wishes.wishes())}
         >
-          {draft === null ? caseWords.propose : caseWords.proposeAgain}
+          {draft === null ? caseText.propose : caseText.proposeAgain}
         </button>
       </div>
-      {store.planBeforeLandmarks.value && draft?.kept === true && <Remark kind="warn">{caseWords.planOutdated}</Remark>}
+      {store.planBeforeLandmarks.value && draft?.kept === true && <Remark kind="warn">{caseText.planOutdated}</Remark>}
       {draft !== null && <PlanDraftPanel keeper={keeper} draft={draft} />}
     </>
   );
 }
 
 function WishFields({ wishes, reamers }: { wishes: PlanWishesStore; reamers: readonly Reamer[] }) {
-  const mm = caseWords.mm;
+  const mm = caseText.mm;
   const pilot = wishes.pilot.value;
   return (
     <>
       <SignedAngle
-        label={caseWords.wantedVersion}
+        label={caseText.wantedVersion}
         value={wishes.versionDeg.value}
-        positive={caseWords.anteversionWord}
-        negative={caseWords.retroversionWord}
+        positive={caseText.anteversionWord}
+        negative={caseText.retroversionWord}
         testId="wanted-version"
         onChange={(degrees) => (wishes.versionDeg.value = degrees)}
       />
       <SignedAngle
-        label={caseWords.wantedInclination}
+        label={caseText.wantedInclination}
         value={wishes.inclinationDeg.value}
-        positive={caseWords.superiorWord}
-        negative={caseWords.inferiorWord}
-        unset={caseWords.inclinationKept}
+        positive={caseText.superiorWord}
+        negative={caseText.inferiorWord}
+        unset={caseText.inclinationKept}
         testId="wanted-inclination"
         onChange={(degrees) => (wishes.inclinationDeg.value = degrees)}
       />
       <NumberField
-        {...{ label: caseWords.depth, unit: mm, value: wishes.depthMm.value, low: 0, high: 15, step: 0.5 }}
+        {...{ label: caseText.depth, unit: mm, value: wishes.depthMm.value, low: 0, high: 15, step: 0.5 }}
         testId="wanted-depth"
         onChange={(value) => (wishes.depthMm.value = value)}
       />
       <GivenNumber
-        label={caseWords.implantRadius}
+        label={caseText.implantRadius}
         value={wishes.implantRadiusMm.value}
         {...{ low: 20, high: 60, usual: 32, testId: 'implant-radius' }}
         onChange={(value) => (wishes.implantRadiusMm.value = value)}
       />
       <SelectField
-        label={caseWords.reamer}
+        label={caseText.reamer}
         value={wishes.reamer.value ?? ''}
-        options={[['', caseWords.reamerDefault], ...reamers.map((one) => [one.name, reamerText(one)] as const)]}
+        options={[['', caseText.reamerDefault], ...reamers.map((one) => [one.name, reamerText(one)] as const)]}
         testId="reamer"
         onChange={(name) => (wishes.reamer.value = name === '' ? null : name)}
       />
       <SelectField<Guide | ''>
-        label={caseWords.guide}
+        label={caseText.guide}
         value={wishes.guide.value ?? ''}
         options={[
-          ['', caseWords.byReamer],
-          ...(['none', 'nipple', 'pin'] as const).map((guide) => [guide, caseWords.guides[guide]] as const),
+          ['', caseText.byReamer],
+          ...(['none', 'nipple', 'pin'] as const).map((guide) => [guide, caseText.guides[guide]] as const),
         ]}
         testId="guide"
         onChange={(guide) => (wishes.guide.value = guide === '' ? null : guide)}
       />
       <SelectField<'' | 'given'>
-        label={caseWords.pilotHole}
+        label={caseText.pilotHole}
         value={pilot === null ? '' : 'given'}
         options={[
-          ['', caseWords.byReamer],
-          ['given', caseWords.pilotGiven],
+          ['', caseText.byReamer],
+          ['given', caseText.pilotGiven],
         ]}
         testId="pilot"
         onChange={(given) => (wishes.pilot.value = given === '' ? null : { diameterMm: 6.2, depthMm: 12 })}
@@ -129,12 +129,12 @@ function WishFields({ wishes, reamers }: { wishes: PlanWishesStore; reamers: rea
       {pilot !== null && (
         <>
           <NumberField
-            {...{ label: caseWords.pilotDiameter, unit: mm, value: pilot.diameterMm, low: 1, high: 12, step: 0.1 }}
+            {...{ label: caseText.pilotDiameter, unit: mm, value: pilot.diameterMm, low: 1, high: 12, step: 0.1 }}
             testId="pilot-diameter"
             onChange={(diameterMm) => (wishes.pilot.value = { ...pilot, diameterMm })}
           />
           <NumberField
-            {...{ label: caseWords.pilotDepth, unit: mm, value: pilot.depthMm, low: 1, high: 40, step: 0.5 }}
+            {...{ label: caseText.pilotDepth, unit: mm, value: pilot.depthMm, low: 1, high: 40, step: 0.5 }}
             testId="pilot-depth"
             onChange={(depthMm) => (wishes.pilot.value = { ...pilot, depthMm })}
           />
@@ -167,9 +167,9 @@ function GivenNumber({ label, value, low, high, usual, testId, onChange }: Given
         onChange={(given) => onChange(given ? usual : null)}
       />
       {isGiven ? (
-        <NumberBox {...{ label, unit: caseWords.mm, value, low, high, step: 0.5, testId }} onChange={onChange} />
+        <NumberBox {...{ label, unit: caseText.mm, value, low, high, step: 0.5, testId }} onChange={onChange} />
       ) : (
-        <span class="soft">{caseWords.byReamer}</span>
+        <span class="soft">{caseText.byReamer}</span>
       )}
     </div>
   );
@@ -178,8 +178,8 @@ function GivenNumber({ label, value, low, high, usual, testId, onChange }: Given
 function reamerText({ name, diameter_mm, radius_mm }: Reamer): string {
   const diameter = fixed(diameter_mm, 1);
   return radius_mm === null
-    ? caseWords.reamerFlat(name, diameter)
-    : caseWords.reamerText(name, diameter, fixed(radius_mm, 1));
+    ? caseText.reamerFlat(name, diameter)
+    : caseText.reamerText(name, diameter, fixed(radius_mm, 1));
 }
 
 interface AngleParts {

@@ -1,13 +1,13 @@
 import { useSignal } from '@preact/signals';
 
-import { caseWords } from '../../case_words';
-import { liveWords } from '../../live_words';
-import { type CaseKeeper, wordsOf } from '../../state/case/case_keeper';
+import { caseText } from '../../text/case_text';
+import { liveText } from '../../text/live_text';
+import { type CaseController, wordsOf } from '../../state/case/case_controller';
 import type { StepName, StepState } from '../../state/case/case_steps';
-import { CheckField, Remark } from '../fields';
+import { CheckField, Remark } from '../common/fields';
 
 interface Parts {
-  keeper: CaseKeeper;
+  keeper: CaseController;
   states: Record<StepName, StepState>;
   startReaming: (caseId: string, theatre: boolean) => Promise<void>;
 }
@@ -38,13 +38,13 @@ export function ReamStep({ keeper, states, startReaming }: Parts) {
     <>
       <p class="soft">
         {lacking.length > 0
-          ? caseWords.reamNeeds(lacking.map((name) => caseWords.steps[name].toLowerCase()).join(', '))
-          : caseWords.reamHint}
+          ? caseText.reamNeeds(lacking.map((name) => caseText.steps[name].toLowerCase()).join(', '))
+          : caseText.reamHint}
       </p>
-      {outdated && lacking.length === 0 && <Remark kind="warn">{caseWords.reamOutdated}</Remark>}
+      {outdated && lacking.length === 0 && <Remark kind="warn">{caseText.reamOutdated}</Remark>}
       <CheckField
-        label={liveWords.theatreMode}
-        hint={liveWords.theatreHint}
+        label={liveText.theatreMode}
+        hint={liveText.theatreHint}
         checked={theatre.value}
         testId="case-theatre"
         onChange={(wanted) => (theatre.value = wanted)}
@@ -57,7 +57,7 @@ export function ReamStep({ keeper, states, startReaming }: Parts) {
           disabled={lacking.length > 0 || starting.value}
           onClick={() => void start()}
         >
-          {starting.value ? caseWords.reaming : caseWords.ream}
+          {starting.value ? caseText.reaming : caseText.ream}
         </button>
       </div>
     </>

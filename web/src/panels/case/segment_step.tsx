@@ -1,41 +1,41 @@
-import { caseWords } from '../../case_words';
+import { caseText } from '../../text/case_text';
 import { cssColour } from '../../ct/palette';
-import { type CaseKeeper, settingsOf } from '../../state/case/case_keeper';
+import { type CaseController, settingsOf } from '../../state/case/case_controller';
 import { isUnderWay } from '../../state/case/job_watch';
 import { addressOfRoute } from '../../state/route';
 import { seedNames } from '../../state/case/view_marks';
 import type { CtDescription, SeedName, Segmentation, SegmentationSettings } from '../../wire/case_types';
-import { fixed } from '../format';
-import { CheckField, Remark, SliderField } from '../fields';
+import { fixed } from '../../text/format';
+import { CheckField, Remark, SliderField } from '../common/fields';
 
 /** Threshold, smoothing, joints and seeds; finding the bones, and what was found. */
-export function SegmentStep({ keeper }: { keeper: CaseKeeper }) {
+export function SegmentStep({ keeper }: { keeper: CaseController }) {
   const { store } = keeper;
   const details = store.details.value;
   const settings = store.settings.value;
   const ct = details?.ct ?? null;
-  if (settings === null || ct === null) return <Remark kind="soft">{caseWords.noCt}</Remark>;
+  if (settings === null || ct === null) return <Remark kind="soft">{caseText.noCt}</Remark>;
   const found = details?.segmentation ?? null;
   const blocked = store.busy.value || isUnderWay(store.job.value);
   const change = (part: Partial<SegmentationSettings>) => (store.settings.value = { ...settings, ...part });
   return (
     <>
-      <p class="soft">{caseWords.segmentHint}</p>
+      <p class="soft">{caseText.segmentHint}</p>
       <ThresholdField ct={ct} value={settings.threshold_hu} onChange={(threshold_hu) => change({ threshold_hu })} />
       <SliderField
-        {...{ label: caseWords.smoothing, unit: caseWords.mm, value: settings.sigma_mm, low: 0, high: 2, step: 0.1 }}
+        {...{ label: caseText.smoothing, unit: caseText.mm, value: settings.sigma_mm, low: 0, high: 2, step: 0.1 }}
         testId="sigma"
         onChange={(sigma_mm) => change({ sigma_mm })}
       />
       <CheckField
-        label={caseWords.separate}
-        hint={caseWords.separateHint}
+        label={caseText.separate}
+        hint={caseText.separateHint}
         checked={settings.separate}
         testId="separate"
         onChange={(separate) => change({ separate })}
       />
       <CheckField
-        label={caseWords.fillHoles}
+        label={caseText.fillHoles}
         checked={settings.fill_holes}
         testId="fill-holes"
         onChange={(fill_holes) => change({ fill_holes })}
@@ -49,7 +49,7 @@ export function SegmentStep({ keeper }: { keeper: CaseKeeper }) {
           disabled={blocked}
           onClick={() => void keeper.segment(settings)}
         >
-          {found === null ? caseWords.runSegment : caseWords.runSegmentAgain}
+          {found === null ? caseText.runSegment : caseText.runSegmentAgain}
         </button>
         <button
           type="button"
@@ -58,18 +58,18 @@ export function SegmentStep({ keeper }: { keeper: CaseKeeper }) {
           disabled={blocked || found?.can_undo !== true}
           onClick={() => void keeper.undoSegmentation()}
         >
-          {caseWords.undo}
+          {caseText.undo}
         </button>
       </div>
       {found !== null && !sameSettings(settingsOf(ct, found), settings) && (
         <Remark kind="warn" testId="settings-changed">
-          {caseWords.settingsChanged}
+          {caseText.settingsChanged}
         </Remark>
       )}
       {found !== null && <PartList keeper={keeper} found={found} />}
       <details class="seeds">
-        <summary>{caseWords.otherSide}</summary>
-        <p class="soft">{caseWords.otherSideHint}</p>
+        <summary>{caseText.otherSide}</summary>
+        <p class="soft">{caseText.otherSideHint}</p>
         <button
           type="button"
           class="plain-button"
@@ -77,14 +77,14 @@ export function SegmentStep({ keeper }: { keeper: CaseKeeper }) {
           disabled={blocked}
           onClick={() => void openOtherSide(keeper)}
         >
-          {caseWords.copyOtherSide(details?.side === 'left' ? 'right' : 'left')}
+          {caseText.copyOtherSide(details?.side === 'left' ? 'right' : 'left')}
         </button>
       </details>
     </>
   );
 }
 
-async function openOtherSide(keeper: CaseKeeper): Promise<void> {
+async function openOtherSide(keeper: CaseController): Promise<void> {
   const id = await keeper.copyForOtherSide();
   if (id !== null) window.location.hash = addressOfRoute({ kind: 'case', id });
 }
@@ -96,15 +96,15 @@ function ThresholdField({ ct, value, onChange }: { ct: CtDescription; value: num
   return (
     <>
       <SliderField
-        {...{ label: caseWords.threshold, unit: caseWords.hu, value, low, high, step: 1, mark: suggested }}
+        {...{ label: caseText.threshold, unit: caseText.hu, value, low, high, step: 1, mark: suggested }}
         testId="threshold"
         onChange={onChange}
       />
       <p class="soft suggestion" data-testid="suggested">
-        {caseWords.suggested(fixed(suggested, 0))}
+        {caseText.suggested(fixed(suggested, 0))}
         {Math.abs(value - suggested) > 0.5 && (
           <button type="button" class="link-button" data-testid="use-suggested" onClick={() => onChange(suggested)}>
-            {caseWords.useSuggested}
+            {caseText.useSuggested}
           </button>
         )}
       </p>
@@ -112,7 +112,7 @@ function ThresholdField({ ct, value, onChange }: { ct: CtDescription; value: num
   );
 }
 
-function SeedList({ keeper, settings }: { keeper: CaseKeeper; settings: SegmentationSettings }) {
+function SeedList({ keeper, settings }: { keeper: CaseController; settings: SegmentationSettings }) {
   const { store } = keeper;
   const armed = store.armed.value;
   const remove = (name: SeedName) => {
@@ -122,8 +122,8 @@ function SeedList({ keeper, settings }: { keeper: CaseKeeper; settings: Segmenta
   };
   return (
     <details class="seeds" open={Object.keys(settings.seeds).length > 0}>
-      <summary>{caseWords.seeds}</summary>
-      <p class="soft">{caseWords.seedsHint}</p>
+      <summary>{caseText.seeds}</summary>
+      <p class="soft">{caseText.seedsHint}</p>
       <ul class="pick-list">
         {seedNames.map((name, i) => {
           const isArmed = armed?.kind === 'seed' && armed.name === name;
@@ -138,14 +138,14 @@ function SeedList({ keeper, settings }: { keeper: CaseKeeper; settings: Segmenta
                 onClick={() => (store.armed.value = isArmed ? null : { kind: 'seed', name })}
               >
                 <span class="swatch" style={{ background: cssColour(i + 1) }} aria-hidden="true" />
-                {caseWords.seedNames[name]}
-                <span class="soft pick-state">{seed === undefined ? caseWords.seedNone : caseWords.seedSet}</span>
+                {caseText.seedNames[name]}
+                <span class="soft pick-state">{seed === undefined ? caseText.seedNone : caseText.seedSet}</span>
               </button>
               {seed !== undefined && (
                 <button
                   type="button"
                   class="remove"
-                  aria-label={caseWords.removeSeed(caseWords.seedNames[name])}
+                  aria-label={caseText.removeSeed(caseText.seedNames[name])}
                   onClick={() => remove(name)}
                 >
                   ×
@@ -159,20 +159,20 @@ function SeedList({ keeper, settings }: { keeper: CaseKeeper; settings: Segmenta
   );
 }
 
-function PartList({ keeper, found }: { keeper: CaseKeeper; found: Segmentation }) {
+function PartList({ keeper, found }: { keeper: CaseController; found: Segmentation }) {
   return (
     <>
-      <h3>{caseWords.parts}</h3>
+      <h3>{caseText.parts}</h3>
       <ul class="part-list" data-testid="parts">
         {found.parts.map((part) => {
-          const name = caseWords.partNames[part.label] ?? part.name;
+          const name = caseText.partNames[part.label] ?? part.name;
           return (
             <li key={part.label}>
               <button
                 type="button"
                 class="pick"
                 data-testid={`part-${part.label}`}
-                aria-label={caseWords.goToPart(name)}
+                aria-label={caseText.goToPart(name)}
                 onClick={() => {
                   keeper.lookAt(part.centre_mm);
                   keeper.framePart(part);
@@ -180,7 +180,7 @@ function PartList({ keeper, found }: { keeper: CaseKeeper; found: Segmentation }
               >
                 <span class="swatch" style={{ background: cssColour(part.label) }} aria-hidden="true" />
                 {name}
-                <span class="pick-state">{caseWords.volume(fixed(part.volume_mm3 / 1000, 1))}</span>
+                <span class="pick-state">{caseText.volume(fixed(part.volume_mm3 / 1000, 1))}</span>
               </button>
             </li>
           );

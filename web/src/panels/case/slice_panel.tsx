@@ -1,7 +1,7 @@
 import type { Signal } from '@preact/signals';
 import { useEffect, useRef, useState } from 'preact/hooks';
 
-import { caseWords } from '../../case_words';
+import { caseText } from '../../text/case_text';
 import type { PlaneName } from '../../ct/orientation';
 import { planeColours, type SliceView } from '../../scene/slice_view';
 import type { CaseStore } from '../../state/case/case_store';
@@ -18,11 +18,11 @@ interface Parts {
 /** One slice view with its name, place, and the letters of the patient's directions at its edges. */
 export function SlicePanel({ name, view, store, enlarged }: Parts) {
   const place = useRef<HTMLDivElement>(null);
-  const title = caseWords.planes[name];
+  const title = caseText.planes[name];
   useEffect(() => {
     const { canvas } = view;
     canvas.setAttribute('role', 'application');
-    canvas.setAttribute('aria-label', caseWords.sliceLabel(title));
+    canvas.setAttribute('aria-label', caseText.sliceLabel(title));
     canvas.dataset.testid = `slice-${name}`;
     place.current?.prepend(canvas);
     return () => canvas.remove();
@@ -41,7 +41,7 @@ export function SlicePanel({ name, view, store, enlarged }: Parts) {
             data-index={at.index}
             data-pending={view.pending.value}
           >
-            {caseWords.sliceOf(at.index, at.count)}
+            {caseText.sliceOf(at.index, at.count)}
           </span>
         )}
       </ViewHead>
@@ -53,14 +53,14 @@ export function SlicePanel({ name, view, store, enlarged }: Parts) {
               class={`edge edge-${edge}`}
               data-testid={`edge-${name}-${edge}`}
               role="img"
-              aria-label={caseWords.edge(letters[edge])}
+              aria-label={caseText.edge(letters[edge])}
             >
               {letters[edge]}
             </span>
           ))}
         {(late || problem !== null) && (
           <p class="view-note" role="status">
-            {problem === null ? caseWords.sliceLoading : caseWords.sliceFailed(problem)}
+            {problem === null ? caseText.sliceLoading : caseText.sliceFailed(problem)}
           </p>
         )}
       </div>
@@ -88,7 +88,7 @@ export function ViewHead({ id, title, enlarged, children }: HeadParts) {
 
 function EnlargeButton({ id, title, enlarged }: { id: ViewId; title: string; enlarged: Signal<ViewId | null> }) {
   const large = enlarged.value === id;
-  const label = large ? caseWords.reduce : caseWords.enlarge(title);
+  const label = large ? caseText.reduce : caseText.enlarge(title);
   return (
     <button
       type="button"

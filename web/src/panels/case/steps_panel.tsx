@@ -1,10 +1,10 @@
 import { useMemo } from 'preact/hooks';
 
-import { caseWords } from '../../case_words';
-import type { CaseKeeper } from '../../state/case/case_keeper';
+import { caseText } from '../../text/case_text';
+import type { CaseController } from '../../state/case/case_controller';
 import { type StepName, stepNames, stepStates } from '../../state/case/case_steps';
 import { BuildStep } from './build_step';
-import { Remark } from '../fields';
+import { Remark } from '../common/fields';
 import { JobProgress } from './job_progress';
 import { LandmarksStep } from './landmarks_step';
 import { MeasuresPanel } from './measures_panel';
@@ -13,7 +13,7 @@ import { ReamStep } from './ream_step';
 import { SegmentStep } from './segment_step';
 
 interface Parts {
-  keeper: CaseKeeper;
+  keeper: CaseController;
   startReaming: (caseId: string, theatre: boolean) => Promise<void>;
 }
 
@@ -41,7 +41,7 @@ export function StepsPanel({ keeper, startReaming }: Parts) {
       <aside class="steps">
         <Problem keeper={keeper} />
         <section class="step open" data-testid="step-ream">
-          <h2 class="step-title">{caseWords.steps.ream}</h2>
+          <h2 class="step-title">{caseText.steps.ream}</h2>
           <div class="step-body">
             {content.ream()}
             <MeasuresPanel keeper={keeper.landmarks} />
@@ -74,8 +74,8 @@ export function StepsPanel({ keeper, startReaming }: Parts) {
                 <span class="step-number" aria-hidden="true">
                   {states[name] === 'done' ? '✓' : i + 1}
                 </span>
-                {caseWords.steps[name]}
-                <span class={`step-state step-${states[name]}`}>{caseWords.stepStates[states[name]]}</span>
+                {caseText.steps[name]}
+                <span class={`step-state step-${states[name]}`}>{caseText.stepStates[states[name]]}</span>
               </button>
             </h2>
             {open && <div class="step-body">{content[name]()}</div>}
@@ -84,7 +84,7 @@ export function StepsPanel({ keeper, startReaming }: Parts) {
       })}
       {details.warnings.length > 0 && (
         <details class="case-warnings">
-          <summary>{caseWords.warnings}</summary>
+          <summary>{caseText.warnings}</summary>
           {details.warnings.map((warning) => (
             <Remark kind="soft" key={warning}>
               {warning}
@@ -96,7 +96,7 @@ export function StepsPanel({ keeper, startReaming }: Parts) {
   );
 }
 
-function openStep(keeper: CaseKeeper, name: StepName | null): void {
+function openStep(keeper: CaseController, name: StepName | null): void {
   const { store } = keeper;
   store.openStep.value = name;
   const fits = store.armed.value?.kind === (name === 'segment' ? 'seed' : 'landmark');
@@ -104,16 +104,16 @@ function openStep(keeper: CaseKeeper, name: StepName | null): void {
   else if (!fits || name !== 'segment') store.armed.value = null;
 }
 
-function Problem({ keeper }: { keeper: CaseKeeper }) {
+function Problem({ keeper }: { keeper: CaseController }) {
   const { problem } = keeper.store;
   if (problem.value === null) return null;
   return (
     <div class="problem" role="alert" data-testid="case-problem">
       <p>
-        <strong>{caseWords.problem}.</strong> {problem.value}
+        <strong>{caseText.problem}.</strong> {problem.value}
       </p>
       <button type="button" onClick={() => (problem.value = null)}>
-        {caseWords.dismiss}
+        {caseText.dismiss}
       </button>
     </div>
   );

@@ -1,10 +1,10 @@
 import type { Signal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 
-import { caseWords } from '../../case_words';
+import { caseText } from '../../text/case_text';
 import type { SurfaceView } from '../../scene/surface_view';
 import type { CaseStore, SurfaceState } from '../../state/case/case_store';
-import { words } from '../../words';
+import { appText } from '../../text/app_text';
 import { type ViewId, ViewHead } from './slice_panel';
 
 interface Parts {
@@ -15,9 +15,9 @@ interface Parts {
 }
 
 const looks = [
-  ['side', caseWords.viewSide],
-  ['front', caseWords.viewFront],
-  ['glenoid', caseWords.viewGlenoid],
+  ['side', caseText.viewSide],
+  ['front', caseText.viewFront],
+  ['glenoid', caseText.viewGlenoid],
 ] as const;
 
 /** The bone's surface with its set views, and the numbers of the placed landmarks beside them. */
@@ -27,7 +27,7 @@ export function SurfacePanel({ view, store, enlarged }: Parts) {
     if (view === null) return undefined;
     const { canvas } = view;
     canvas.setAttribute('role', 'application');
-    canvas.setAttribute('aria-label', caseWords.surfaceLabel);
+    canvas.setAttribute('aria-label', caseText.surfaceLabel);
     canvas.dataset.testid = 'surface-canvas';
     place.current?.prepend(canvas);
     return () => canvas.remove();
@@ -35,10 +35,10 @@ export function SurfacePanel({ view, store, enlarged }: Parts) {
   const state = store.surface.value;
   const at = store.crossHairMm.value;
   const lost = view?.lost.value ?? false;
-  const note = view === null ? caseWords.surfaceNoWebGl : lost ? words.pictureLost : noteOf(state);
+  const note = view === null ? caseText.surfaceNoWebGl : lost ? appText.pictureLost : noteOf(state);
   return (
-    <section class="view" aria-label={caseWords.surface}>
-      <ViewHead id="surface" title={caseWords.surface} enlarged={store.details.value?.ct ? enlarged : null}>
+    <section class="view" aria-label={caseText.surface}>
+      <ViewHead id="surface" title={caseText.surface} enlarged={store.details.value?.ct ? enlarged : null}>
         {view !== null &&
           looks.map(([name, label]) => (
             <button
@@ -71,7 +71,7 @@ export function SurfacePanel({ view, store, enlarged }: Parts) {
         ))}
         {at !== null && (
           <p class="cross-hair-place" data-testid="cross-hair-place">
-            {caseWords.place(at, store.crossHairHu.value)}
+            {caseText.place(at, store.crossHairHu.value)}
           </p>
         )}
         {note !== null && (
@@ -87,11 +87,11 @@ export function SurfacePanel({ view, store, enlarged }: Parts) {
 function noteOf(state: SurfaceState): string | null {
   switch (state.kind) {
     case 'none':
-      return caseWords.surfaceNone;
+      return caseText.surfaceNone;
     case 'loading':
-      return caseWords.surfaceLoading;
+      return caseText.surfaceLoading;
     case 'failed':
-      return caseWords.surfaceFailed(state.words);
+      return caseText.surfaceFailed(state.words);
     case 'shown':
       return null;
   }

@@ -1,22 +1,22 @@
-import { caseWords } from '../../case_words';
+import { caseText } from '../../text/case_text';
 import { type WindowLevel, windowLimits, windowPresets } from '../../ct/window_level';
-import type { CaseKeeper } from '../../state/case/case_keeper';
-import { CheckField } from '../fields';
+import type { CaseController } from '../../state/case/case_controller';
+import { CheckField } from '../common/fields';
 
 const presets: readonly (readonly [string, string, WindowLevel])[] = [
-  ['bone', caseWords.windowBone, windowPresets.bone],
-  ['soft', caseWords.windowSoft, windowPresets.soft],
+  ['bone', caseText.windowBone, windowPresets.bone],
+  ['soft', caseText.windowSoft, windowPresets.soft],
 ];
 
 /** Brightness of the slices and what lies over them. */
-export function WindowBar({ keeper }: { keeper: CaseKeeper }) {
+export function WindowBar({ keeper }: { keeper: CaseController }) {
   const { store } = keeper;
   const scapula = store.details.value?.segmentation?.parts.find(({ label }) => label === 1);
   const { widthHu, levelHu } = store.window.value;
   const { widthMin, widthMax, levelMin, levelMax } = windowLimits;
   return (
     <div class="window-bar">
-      <div class="window-group" role="group" aria-label={caseWords.windowGroup}>
+      <div class="window-group" role="group" aria-label={caseText.windowGroup}>
         {presets.map(([name, label, preset]) => (
           <button
             type="button"
@@ -30,17 +30,17 @@ export function WindowBar({ keeper }: { keeper: CaseKeeper }) {
           </button>
         ))}
         <WindowSlider
-          {...{ label: caseWords.windowWidth, value: widthHu, low: widthMin, high: widthMax, testId: 'window-width' }}
+          {...{ label: caseText.windowWidth, value: widthHu, low: widthMin, high: widthMax, testId: 'window-width' }}
           onChange={(value) => (store.window.value = { ...store.window.value, widthHu: value })}
         />
         <WindowSlider
-          {...{ label: caseWords.windowLevel, value: levelHu, low: levelMin, high: levelMax, testId: 'window-level' }}
+          {...{ label: caseText.windowLevel, value: levelHu, low: levelMin, high: levelMax, testId: 'window-level' }}
           onChange={(value) => (store.window.value = { ...store.window.value, levelHu: value })}
         />
       </div>
       {store.details.value?.segmentation && (
         <CheckField
-          label={caseWords.showLabels}
+          label={caseText.showLabels}
           checked={store.labelsShown.value}
           testId="show-labels"
           onChange={(shown) => (store.labelsShown.value = shown)}
@@ -48,7 +48,7 @@ export function WindowBar({ keeper }: { keeper: CaseKeeper }) {
       )}
       {store.openStep.value === 'segment' && (
         <CheckField
-          label={caseWords.showPreview}
+          label={caseText.showPreview}
           checked={store.previewShown.value}
           testId="show-preview"
           onChange={(shown) => (store.previewShown.value = shown)}
@@ -57,11 +57,11 @@ export function WindowBar({ keeper }: { keeper: CaseKeeper }) {
       <div class="window-group framing">
         {scapula !== undefined && (
           <button type="button" class="chip" data-testid="frame-scapula" onClick={() => keeper.framePart(scapula)}>
-            {caseWords.partNames[1]}
+            {caseText.partNames[1]}
           </button>
         )}
         <button type="button" class="chip" data-testid="frame-ct" onClick={() => keeper.framePart(null)}>
-          {caseWords.wholeCt}
+          {caseText.wholeCt}
         </button>
       </div>
     </div>

@@ -1,8 +1,8 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
 
-import { dashboardWords } from '../../dashboard_words';
+import { dashboardText } from '../../text/dashboard_text';
 import { type CurvePoint, drawnAtMost } from '../../state/dashboard/curve';
-import { fixed } from '../format';
+import { fixed } from '../../text/format';
 import { OutcomeSign } from './outcome_mark';
 
 const height = 150;
@@ -44,7 +44,7 @@ export function CurveChart({ title, points, value, scale, lines, decimals }: Par
           width={width}
           height={height}
           role="img"
-          aria-label={dashboardWords.chartLabel(title, points.length, fixed(last?.at, decimals))}
+          aria-label={dashboardText.chartLabel(title, points.length, fixed(last?.at, decimals))}
         >
           {lines.map((line) => (
             <g key={line.at} class="curve-line">

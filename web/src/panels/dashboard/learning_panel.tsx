@@ -1,9 +1,9 @@
-import { dashboardWords } from '../../dashboard_words';
+import { dashboardText } from '../../text/dashboard_text';
 import { type CurvePoint, curveOfLearning, curveOfSessions, scaleFor } from '../../state/dashboard/curve';
 import type { Dashboard } from '../../state/dashboard/dashboard';
 import type { Learning } from '../../wire/dashboard_api';
-import { dayAndTime, fixed } from '../format';
-import { Remark } from '../fields';
+import { dayAndTime, fixed } from '../../text/format';
+import { Remark } from '../common/fields';
 import { CurveChart } from './curve_chart';
 import { OutcomeMark } from './outcome_mark';
 
@@ -24,10 +24,10 @@ export function LearningPanel({ dashboard, own, hasUsers }: Parts) {
   return (
     <section class="desk-panel learning" aria-labelledby="learning-title">
       <div class="desk-head">
-        <h2 id="learning-title">{dashboardWords.learning}</h2>
+        <h2 id="learning-title">{dashboardText.learning}</h2>
         {learners.value.length > 0 && (
           <label class="learner-choice desk-count">
-            <span class="soft">{dashboardWords.ofWhom}</span>
+            <span class="soft">{dashboardText.ofWhom}</span>
             <select
               data-testid="learner"
               value={learner.value?.key}
@@ -35,7 +35,7 @@ export function LearningPanel({ dashboard, own, hasUsers }: Parts) {
             >
               {learners.value.map((one) => (
                 <option key={one.key} value={one.key}>
-                  {dashboardWords.learnerSessions(one.name, one.sessions)}
+                  {dashboardText.learnerSessions(one.name, one.sessions)}
                 </option>
               ))}
             </select>
@@ -58,7 +58,7 @@ function Course({ learning, own }: { learning: Learning; own: boolean }) {
   if (points.length === 0)
     return (
       <p class="soft" data-testid="no-course">
-        {own ? dashboardWords.noOwnSessions : dashboardWords.noneRecent}
+        {own ? dashboardText.noOwnSessions : dashboardText.noneRecent}
       </p>
     );
   const sums = points.flatMap(({ cusum }) => (cusum === null ? [] : [cusum]));
@@ -66,25 +66,25 @@ function Course({ learning, own }: { learning: Learning; own: boolean }) {
   return (
     <>
       <p data-testid="standing" data-standing={learning.standing}>
-        <strong>{dashboardWords.standing[learning.standing]}</strong>{' '}
-        {learning.standing !== 'proficient' && dashboardWords.passesToGo(learning.passes_to_go)}
+        <strong>{dashboardText.standing[learning.standing]}</strong>{' '}
+        {learning.standing !== 'proficient' && dashboardText.passesToGo(learning.passes_to_go)}
       </p>
       <PointsChart points={points} />
       <CurveChart
-        title={dashboardWords.cusumOver}
+        title={dashboardText.cusumOver}
         points={points}
         value={(point) => point.cusum}
         scale={scaleFor(sums, [proficient, not, 0])}
         lines={[
-          { at: not, name: dashboardWords.notProficientLine },
+          { at: not, name: dashboardText.notProficientLine },
           { at: 0, name: null },
-          { at: proficient, name: dashboardWords.proficientLine },
+          { at: proficient, name: dashboardText.proficientLine },
         ]}
         decimals={1}
       />
       <p class="soft">
-        {dashboardWords.standingWhy(percent(learning.acceptable_rate), percent(learning.unacceptable_rate))}{' '}
-        {dashboardWords.byRubric(learning.rubric.id, learning.rubric.version)}
+        {dashboardText.standingWhy(percent(learning.acceptable_rate), percent(learning.unacceptable_rate))}{' '}
+        {dashboardText.byRubric(learning.rubric.id, learning.rubric.version)}
       </p>
       <Table points={points} />
     </>
@@ -96,7 +96,7 @@ function Alone({ points, hasUsers }: { points: readonly CurvePoint[]; hasUsers: 
   return (
     <>
       <p class="soft" data-testid="no-learner">
-        {hasUsers || points.length === 0 ? dashboardWords.noLearner : dashboardWords.allTogether}
+        {hasUsers || points.length === 0 ? dashboardText.noLearner : dashboardText.allTogether}
       </p>
       {!hasUsers && points.length > 0 && (
         <>
@@ -111,7 +111,7 @@ function Alone({ points, hasUsers }: { points: readonly CurvePoint[]; hasUsers: 
 function PointsChart({ points }: { points: readonly CurvePoint[] }) {
   return (
     <CurveChart
-      title={dashboardWords.pointsOver}
+      title={dashboardText.pointsOver}
       points={points}
       value={(point) => point.points}
       scale={{ low: -4, high: 104 }}
@@ -125,21 +125,21 @@ function Table({ points }: { points: readonly CurvePoint[] }) {
   const sums = points.some(({ cusum }) => cusum !== null);
   return (
     <details class="curve-table">
-      <summary>{dashboardWords.asTable}</summary>
+      <summary>{dashboardText.asTable}</summary>
       <table class="desk-table" data-testid="curve-table">
         <thead>
           <tr>
             <th scope="col" class="number">
-              {dashboardWords.sessionNumber}
+              {dashboardText.sessionNumber}
             </th>
-            <th scope="col">{dashboardWords.when}</th>
+            <th scope="col">{dashboardText.when}</th>
             <th scope="col" class="number">
-              {dashboardWords.points}
+              {dashboardText.points}
             </th>
-            <th scope="col">{dashboardWords.result}</th>
+            <th scope="col">{dashboardText.result}</th>
             {sums && (
               <th scope="col" class="number">
-                {dashboardWords.cusum}
+                {dashboardText.cusum}
               </th>
             )}
           </tr>

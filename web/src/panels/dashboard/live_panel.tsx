@@ -1,8 +1,8 @@
-import { dashboardWords } from '../../dashboard_words';
+import { dashboardText } from '../../text/dashboard_text';
 import type { LiveBoard } from '../../state/dashboard/live_board';
 import { addressOfRoute } from '../../state/route';
-import { clock, sentence } from '../format';
-import { Remark } from '../fields';
+import { clock, sentence } from '../../text/format';
+import { Remark } from '../common/fields';
 import { LiveTile } from './live_tile';
 
 /** What goes on now, and whether that is known. */
@@ -13,22 +13,22 @@ export function LivePanel({ board, watch }: { board: LiveBoard; watch: (id: stri
   return (
     <section class="desk-panel live-now" aria-labelledby="live-now-title">
       <div class="desk-head">
-        <h2 id="live-now-title">{dashboardWords.liveNow}</h2>
+        <h2 id="live-now-title">{dashboardText.liveNow}</h2>
         {heardMs !== null && tiles.length > 0 && (
           <span class="soft desk-count" data-testid="live-count">
-            {dashboardWords.liveCount(tiles.length)}
+            {dashboardText.liveCount(tiles.length)}
           </span>
         )}
       </div>
       <News board={board} />
       {heardMs === null && board.problem.value === null && (
         <p class="soft" role="status">
-          {dashboardWords.loading}
+          {dashboardText.loading}
         </p>
       )}
       {heardMs !== null && !stale && tiles.length === 0 && (
         <p class="soft" data-testid="none-live">
-          {dashboardWords.noneLive} <a href={addressOfRoute({ kind: 'live' })}>{dashboardWords.startOne}</a>
+          {dashboardText.noneLive} <a href={addressOfRoute({ kind: 'live' })}>{dashboardText.startOne}</a>
         </p>
       )}
       {tiles.length > 0 && (
@@ -50,7 +50,7 @@ function News({ board }: { board: LiveBoard }) {
   return (
     <Remark kind="bad" testId="no-news">
       {`${problem === null ? '' : `${sentence(problem)} `}${
-        heardMs === null ? dashboardWords.neverHeard : dashboardWords.noNews(clock(heardMs))
+        heardMs === null ? dashboardText.neverHeard : dashboardText.noNews(clock(heardMs))
       }`}
     </Remark>
   );

@@ -1,16 +1,16 @@
-import { dashboardWords } from '../../dashboard_words';
+import { dashboardText } from '../../text/dashboard_text';
 import type { Tile } from '../../state/dashboard/live_board';
 import { alarmsOf, type TileAlarm } from '../../state/dashboard/tile_alarms';
 import type { Session } from '../../wire/api';
-import { words } from '../../words';
-import { clock, fixed, minutes } from '../format';
+import { appText } from '../../text/app_text';
+import { clock, fixed, minutes } from '../../text/format';
 
 /** Who trains, in words that are never empty. */
 export function whoOf({ trainee, participant, device, title }: Session): string {
   if (trainee) return trainee;
-  if (participant) return dashboardWords.byParticipant(participant);
+  if (participant) return dashboardText.byParticipant(participant);
   if (title) return title;
-  return device?.name === 'script' ? dashboardWords.scripted : dashboardWords.unnamed;
+  return device?.name === 'script' ? dashboardText.scripted : dashboardText.unnamed;
 }
 
 /** One session under way: who, what the bone looks like, the figures that matter, and what is wrong. */
@@ -33,20 +33,20 @@ export function LiveTile({ tile, old, watch }: { tile: Tile; old: boolean; watch
               type="button"
               class="tile-open"
               data-testid={`open-${session.id}`}
-              aria-label={dashboardWords.watchTile(who, session.case)}
+              aria-label={dashboardText.watchTile(who, session.case)}
               onClick={() => watch(session.id)}
             >
               {who}
             </button>
           </h3>
           <span class="chip" data-testid={`state-${session.id}`}>
-            {old ? dashboardWords.notLive : words.state[session.state]}
+            {old ? dashboardText.notLive : appText.state[session.state]}
           </span>
         </div>
         <p class="soft tile-what">
           {session.case}
-          {(session.attempt ?? 1) > 1 && `, ${dashboardWords.attempt(session.attempt ?? 1)}`}
-          {session.theatre === true && `, ${dashboardWords.theatre}`}
+          {(session.attempt ?? 1) > 1 && `, ${dashboardText.attempt(session.attempt ?? 1)}`}
+          {session.theatre === true && `, ${dashboardText.theatre}`}
         </p>
         <Figures tile={tile} />
         <AlarmWords alarms={old ? [] : alarmsOf(tile)} />
@@ -57,8 +57,8 @@ export function LiveTile({ tile, old, watch }: { tile: Tile; old: boolean; watch
 
 function Thumbnail({ tile: { picture, pictureMs } }: { tile: Tile }) {
   if (picture === null || pictureMs === null)
-    return <p class="tile-picture tile-no-picture soft">{dashboardWords.pictureComes}</p>;
-  const label = dashboardWords.pictureOf(clock(pictureMs));
+    return <p class="tile-picture tile-no-picture soft">{dashboardText.pictureComes}</p>;
+  const label = dashboardText.pictureOf(clock(pictureMs));
   return (
     <figure class="tile-picture">
       <img src={picture} alt={label} width="1280" height="960" />
@@ -71,19 +71,19 @@ function Figures({ tile: { session, soFar, plannedDepthMm } }: { tile: Tile }) {
   const depth = fixed(soFar?.reaming_depth_mm, 2);
   return (
     <dl class="tile-figures">
-      <Pair name={dashboardWords.depth}>
+      <Pair name={dashboardText.depth}>
         {plannedDepthMm === null
-          ? dashboardWords.depthAlone(depth)
-          : dashboardWords.depthOf(depth, fixed(plannedDepthMm, 1))}
+          ? dashboardText.depthAlone(depth)
+          : dashboardText.depthOf(depth, fixed(plannedDepthMm, 1))}
       </Pair>
-      <Pair name={dashboardWords.thrust}>
-        {dashboardWords.newtons(fixed(soFar?.axial_thrust_mean_n, 0))}{' '}
+      <Pair name={dashboardText.thrust}>
+        {dashboardText.newtons(fixed(soFar?.axial_thrust_mean_n, 0))}{' '}
         <span class="soft">
-          {dashboardWords.peak} {dashboardWords.newtons(fixed(soFar?.axial_thrust_peak_n, 0))}
+          {dashboardText.peak} {dashboardText.newtons(fixed(soFar?.axial_thrust_peak_n, 0))}
         </span>
       </Pair>
-      <Pair name={dashboardWords.removed}>{dashboardWords.cubicMm(fixed(soFar?.removed_volume_mm3, 0))}</Pair>
-      <Pair name={dashboardWords.time}>{minutes(soFar?.duration_s ?? session.duration_s)}</Pair>
+      <Pair name={dashboardText.removed}>{dashboardText.cubicMm(fixed(soFar?.removed_volume_mm3, 0))}</Pair>
+      <Pair name={dashboardText.time}>{minutes(soFar?.duration_s ?? session.duration_s)}</Pair>
     </dl>
   );
 }
@@ -100,7 +100,7 @@ function Pair({ name, children }: { name: string; children: preact.ComponentChil
 /** Announced when they begin; their figures are only to be seen. */
 function AlarmWords({ alarms }: { alarms: readonly TileAlarm[] }) {
   return (
-    <div class="tile-alarms" role="status" aria-label={dashboardWords.alarms}>
+    <div class="tile-alarms" role="status" aria-label={dashboardText.alarms}>
       {alarms.map((alarm) => (
         <p key={alarm.kind} class={`tile-alarm tile-alarm-${alarm.level}`} data-testid={`tile-alarm-${alarm.kind}`}>
           <svg viewBox="0 0 24 24" aria-hidden="true">
@@ -120,14 +120,14 @@ function AlarmWords({ alarms }: { alarms: readonly TileAlarm[] }) {
 function wordsOfAlarm({ kind, value, said }: TileAlarm): string {
   switch (kind) {
     case 'fault':
-      return said ?? words.fault;
+      return said ?? appText.fault;
     case 'vault':
-      return dashboardWords.alarmVault(fixed(value, 1));
+      return dashboardText.alarmVault(fixed(value, 1));
     case 'depth':
-      return dashboardWords.alarmDepth(fixed(value, 1));
+      return dashboardText.alarmDepth(fixed(value, 1));
     case 'thrust':
-      return dashboardWords.alarmThrust;
+      return dashboardText.alarmThrust;
     case 'late':
-      return dashboardWords.alarmLate(fixed(value, 1));
+      return dashboardText.alarmLate(fixed(value, 1));
   }
 }

@@ -1,4 +1,4 @@
-import { dashboardWords } from '../../dashboard_words';
+import { dashboardText } from '../../text/dashboard_text';
 import type { Outcome } from '../../wire/api';
 
 /** In words, with a sign that is told apart without colours. */
@@ -8,7 +8,7 @@ export function OutcomeMark({ outcome }: { outcome: Outcome }) {
       <svg viewBox="-8 -8 16 16" width="14" height="14" aria-hidden="true">
         <OutcomeSign outcome={outcome} />
       </svg>
-      {dashboardWords.outcome[outcome ?? 'none']}
+      {dashboardText.outcome[outcome ?? 'none']}
     </span>
   );
 }

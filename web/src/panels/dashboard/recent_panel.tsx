@@ -1,13 +1,13 @@
 import { useSignal } from '@preact/signals';
 
-import { dashboardWords } from '../../dashboard_words';
+import { dashboardText } from '../../text/dashboard_text';
 import { canBeReplayed } from '../../state/choose_session';
 import type { Remote } from '../../state/remote';
 import { addressOfRoute } from '../../state/route';
 import type { Session } from '../../wire/api';
-import { words } from '../../words';
-import { dayAndTime, fixed } from '../format';
-import { Remark } from '../fields';
+import { appText } from '../../text/app_text';
+import { dayAndTime, fixed } from '../../text/format';
+import { Remark } from '../common/fields';
 import { whoOf } from './live_tile';
 import { OutcomeMark } from './outcome_mark';
 
@@ -27,9 +27,9 @@ export function RecentPanel({ ended, replay }: Parts) {
   return (
     <section class="desk-panel recent" aria-labelledby="recent-title">
       <div class="desk-head">
-        <h2 id="recent-title">{dashboardWords.recent}</h2>
+        <h2 id="recent-title">{dashboardText.recent}</h2>
         <a class="desk-count" href={addressOfRoute({ kind: 'sessions' })}>
-          {dashboardWords.allSessions}
+          {dashboardText.allSessions}
         </a>
       </div>
       {problem !== null && (
@@ -37,11 +37,11 @@ export function RecentPanel({ ended, replay }: Parts) {
           {problem}
         </Remark>
       )}
-      {ended.stale.value && sessions !== null && <p class="soft">{dashboardWords.outOfDate}</p>}
-      {sessions === null && problem === null && <p class="soft">{dashboardWords.loading}</p>}
+      {ended.stale.value && sessions !== null && <p class="soft">{dashboardText.outOfDate}</p>}
+      {sessions === null && problem === null && <p class="soft">{dashboardText.loading}</p>}
       {sessions?.length === 0 && (
         <p class="soft" data-testid="none-recent">
-          {dashboardWords.noneRecent}
+          {dashboardText.noneRecent}
         </p>
       )}
       {sessions !== null && sessions.length > 0 && (
@@ -49,15 +49,15 @@ export function RecentPanel({ ended, replay }: Parts) {
           <table class={ended.stale.value ? 'desk-table stale' : 'desk-table'} data-testid="recent">
             <thead>
               <tr>
-                <th scope="col">{dashboardWords.when}</th>
-                <th scope="col">{dashboardWords.who}</th>
-                <th scope="col">{dashboardWords.case}</th>
+                <th scope="col">{dashboardText.when}</th>
+                <th scope="col">{dashboardText.who}</th>
+                <th scope="col">{dashboardText.case}</th>
                 <th scope="col" class="number">
-                  {dashboardWords.points}
+                  {dashboardText.points}
                 </th>
-                <th scope="col">{dashboardWords.result}</th>
+                <th scope="col">{dashboardText.result}</th>
                 <th scope="col">
-                  <span class="visually-hidden">{dashboardWords.deeds}</span>
+                  <span class="visually-hidden">{dashboardText.deeds}</span>
                 </th>
               </tr>
             </thead>
@@ -89,7 +89,7 @@ function Row({ session, replay }: { session: Session; replay: () => Promise<unkn
       <td>
         {session.state === 'fault' || session.state === 'interrupted' ? (
           <span class="session-fault" title={session.fault ?? undefined}>
-            {words.state[session.state]}
+            {appText.state[session.state]}
           </span>
         ) : (
           <OutcomeMark outcome={session.score?.outcome ?? null} />
@@ -101,10 +101,10 @@ function Row({ session, replay }: { session: Session; replay: () => Promise<unkn
             type="button"
             class="plain-button"
             data-testid={`recent-replay-${session.id}`}
-            aria-label={words.replaySession(session.id)}
+            aria-label={appText.replaySession(session.id)}
             onClick={() => void replay()}
           >
-            {dashboardWords.replay}
+            {dashboardText.replay}
           </button>
         )}
       </td>

@@ -1,15 +1,15 @@
 import { useEffect, useMemo } from 'preact/hooks';
 
-import type { Pane } from '../../pages/review_desk';
-import { reviewWords } from '../../review_words';
+import type { Pane } from './review_workspace';
+import { reviewText } from '../../text/review_text';
 import { canBeReplayed } from '../../state/choose_session';
 import { Remote } from '../../state/remote';
 import { addressOfRoute } from '../../state/route';
 import { everything } from '../../state/sessions/session_browser';
 import type { Session } from '../../wire/api';
 import { SessionListApi } from '../../wire/session_list_api';
-import { Remark } from '../fields';
-import { dayAndTime, minutes } from '../format';
+import { Remark } from '../common/fields';
+import { dayAndTime, minutes } from '../../text/format';
 
 /** Sessions of the same case, to be shown beside the first. */
 export function ComparePanel({ panes }: { panes: readonly Pane[] }) {
@@ -31,12 +31,12 @@ export function ComparePanel({ panes }: { panes: readonly Pane[] }) {
   const otherCase = second !== undefined && second.details.value !== null && second.details.value.case !== caseId;
   return (
     <section class="review-panel" aria-labelledby="compare-title" data-testid="compare">
-      <h2 id="compare-title">{reviewWords.compare}</h2>
-      {second !== undefined && <p class="soft">{otherCase ? reviewWords.otherCase : reviewWords.sameCamera}</p>}
+      <h2 id="compare-title">{reviewText.compare}</h2>
+      {second !== undefined && <p class="soft">{otherCase ? reviewText.otherCase : reviewText.sameCamera}</p>}
       {found.problem.value !== null && <Remark kind="bad">{found.problem.value}</Remark>}
       {others.length > 0 && (
         <label class="compare-choice">
-          {reviewWords.compareWith}{' '}
+          {reviewText.compareWith}{' '}
           <select
             data-testid="compare-with"
             value={second?.id ?? ''}
@@ -46,7 +46,7 @@ export function ComparePanel({ panes }: { panes: readonly Pane[] }) {
               window.location.hash = addressOfRoute({ kind: 'review', id: first.id, beside });
             }}
           >
-            <option value="">{reviewWords.compareChoose}</option>
+            <option value="">{reviewText.compareChoose}</option>
             {others.map((one) => (
               <option key={one.id} value={one.id}>
                 {optionWords(one, one.id === first.id)}
@@ -62,6 +62,6 @@ export function ComparePanel({ panes }: { panes: readonly Pane[] }) {
 function optionWords(session: Session, same: boolean): string {
   const { title, trainee, participant, created_utc: when, duration_s: length } = session;
   const said = [title || session.id, trainee || participant || '', dayAndTime(when), minutes(length)];
-  if (same) said.push(`(${reviewWords.compareSelf})`);
+  if (same) said.push(`(${reviewText.compareSelf})`);
   return said.filter((text) => text !== '').join(' · ');
 }

@@ -1,13 +1,13 @@
 import { useSignal } from '@preact/signals';
 
-import { liveWords } from '../../live_words';
-import { reviewWords } from '../../review_words';
+import { liveText } from '../../text/live_text';
+import { reviewText } from '../../text/review_text';
 import type { ReviewSession } from '../../state/review/review_session';
-import { wordsOf } from '../../wire/rest';
-import { words } from '../../words';
-import { Remark } from '../fields';
-import { minutes } from '../format';
-import { useIdentity } from '../site_nav';
+import { messageOf } from '../../wire/rest';
+import { appText } from '../../text/app_text';
+import { Remark } from '../common/fields';
+import { minutes } from '../../text/format';
+import { useIdentity } from '../common/site_nav';
 
 /** What happened, to be gone to one by one; and the present moment's remark. */
 export function EventList({ session }: { session: ReviewSession }) {
@@ -22,9 +22,9 @@ export function EventList({ session }: { session: ReviewSession }) {
           key={String(forwards)}
           class="plain-button"
           data-testid={forwards ? 'next-event' : 'previous-event'}
-          aria-label={forwards ? reviewWords.nextEvent : reviewWords.previousEvent}
+          aria-label={forwards ? reviewText.nextEvent : reviewText.previousEvent}
           aria-keyshortcuts={forwards ? '.' : ','}
-          title={liveWords.key(forwards ? reviewWords.nextEvent : reviewWords.previousEvent, forwards ? '.' : ',')}
+          title={liveText.key(forwards ? reviewText.nextEvent : reviewText.previousEvent, forwards ? '.' : ',')}
           disabled={!usable}
           onClick={() => session.seekEvent(forwards)}
         >
@@ -32,14 +32,14 @@ export function EventList({ session }: { session: ReviewSession }) {
         </button>
       ))}
       <details class="event-list">
-        <summary data-testid="events">{reviewWords.events(marks.length)}</summary>
+        <summary data-testid="events">{reviewText.events(marks.length)}</summary>
         <div class="event-box">
-          {marks.length === 0 && <p class="soft">{reviewWords.noEvents}</p>}
+          {marks.length === 0 && <p class="soft">{reviewText.noEvents}</p>}
           <ol>
             {marks.map((mark, i) => (
               <li key={i}>
                 <button type="button" data-testid="event" disabled={!usable} onClick={() => session.seek(mark.at_s)}>
-                  <span class="event-time">{minutes(mark.at_s)}</span> {words.mark(mark.kind)}
+                  <span class="event-time">{minutes(mark.at_s)}</span> {appText.mark(mark.kind)}
                   {mark.words !== '' && mark.kind !== 'excess' && <span class="soft"> {mark.words}</span>}
                 </button>
               </li>
@@ -64,7 +64,7 @@ function NewRemark({ session }: { session: ReviewSession }) {
       await session.annotate(text.value.trim());
       text.value = '';
     } catch (error) {
-      problem.value = wordsOf(error);
+      problem.value = messageOf(error);
     } finally {
       busy.value = false;
     }
@@ -75,8 +75,8 @@ function NewRemark({ session }: { session: ReviewSession }) {
         type="text"
         maxLength={400}
         data-testid="remark"
-        aria-label={`${reviewWords.remark} ${minutes(session.positionS.value)}`}
-        placeholder={reviewWords.remarkHint}
+        aria-label={`${reviewText.remark} ${minutes(session.positionS.value)}`}
+        placeholder={reviewText.remarkHint}
         value={text.value}
         onInput={(event) => (text.value = event.currentTarget.value)}
       />
@@ -86,7 +86,7 @@ function NewRemark({ session }: { session: ReviewSession }) {
         data-testid="add-remark"
         disabled={busy.value || text.value.trim() === ''}
       >
-        {reviewWords.addRemark}
+        {reviewText.addRemark}
       </button>
       {problem.value !== null && <Remark kind="bad">{problem.value}</Remark>}
     </form>

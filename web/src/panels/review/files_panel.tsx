@@ -1,23 +1,23 @@
 import { useSignal } from '@preact/signals';
 
-import { reviewWords } from '../../review_words';
+import { reviewText } from '../../text/review_text';
 import type { ReviewSession } from '../../state/review/review_session';
-import { wordsOf } from '../../wire/rest';
+import { messageOf } from '../../wire/rest';
 import { exportFormats, type ExportFormat, type ReviewApi } from '../../wire/review_api';
-import { Remark } from '../fields';
-import { fixed, sentence } from '../format';
-import { later } from '../later';
-import { useIdentity } from '../site_nav';
+import { Remark } from '../common/fields';
+import { fixed, sentence } from '../../text/format';
+import { lazyPart } from '../common/lazy_part';
+import { useIdentity } from '../common/site_nav';
 
-const sharing = later(() => import('../access/share_panel'));
+const sharing = lazyPart(() => import('../access/share_panel'));
 
 /** Report, files and a link to send. */
 export function FilesPanel({ session, review }: { session: ReviewSession; review: ReviewApi }) {
   const identity = useIdentity();
   const may = identity.may.value;
   return (
-    <section class="review-panel" aria-label={`${reviewWords.files}, ${session.id}`} data-testid="files">
-      <h2>{reviewWords.files}</h2>
+    <section class="review-panel" aria-label={`${reviewText.files}, ${session.id}`} data-testid="files">
+      <h2>{reviewText.files}</h2>
       {may.ream ? (
         <ul class="file-list">
           {exportFormats.map((format) => (
@@ -29,16 +29,16 @@ export function FilesPanel({ session, review }: { session: ReviewSession; review
             <a
               class="plain-button"
               data-testid="score-file"
-              title={reviewWords.scoreFileHint}
+              title={reviewText.scoreFileHint}
               href={review.scoreUrl(session.id)}
               download={`${session.id}-score.json`}
             >
-              {reviewWords.scoreFile}
+              {reviewText.scoreFile}
             </a>
           </li>
         </ul>
       ) : (
-        <p class="soft">{reviewWords.filesForbidden}</p>
+        <p class="soft">{reviewText.filesForbidden}</p>
       )}
       <Sharing session={session} mayShare={may.teach && identity.hasUsers.value} open={!identity.hasUsers.value} />
     </section>
@@ -55,7 +55,7 @@ interface ExportParts {
 function ExportButton({ session, review, format }: ExportParts) {
   const share = useSignal<number | null>(null);
   const problem = useSignal<string | null>(null);
-  const [label, hint] = reviewWords.formats[format];
+  const [label, hint] = reviewText.formats[format];
   const make = async () => {
     share.value = 0;
     problem.value = null;
@@ -66,7 +66,7 @@ function ExportButton({ session, review, format }: ExportParts) {
       link.download = '';
       link.click();
     } catch (error) {
-      problem.value = reviewWords.exportFailed(label, sentence(wordsOf(error)));
+      problem.value = reviewText.exportFailed(label, sentence(messageOf(error)));
     } finally {
       share.value = null;
     }
@@ -82,7 +82,7 @@ function ExportButton({ session, review, format }: ExportParts) {
         onClick={() => void make()}
       >
         {label}
-        {share.value !== null && <span role="status"> {reviewWords.making(fixed(share.value * 100, 0))}</span>}
+        {share.value !== null && <span role="status"> {reviewText.making(fixed(share.value * 100, 0))}</span>}
       </button>
       {problem.value !== null && (
         <Remark kind="bad" testId={`export-problem-${format}`}>
@@ -95,19 +95,19 @@ function ExportButton({ session, review, format }: ExportParts) {
 
 function Sharing({ session, mayShare, open }: { session: ReviewSession; mayShare: boolean; open: boolean }) {
   const shown = useSignal(false);
-  const said = useSignal<string>(reviewWords.copyAddress);
+  const said = useSignal<string>(reviewText.copyAddress);
   if (open)
     return (
       <p class="soft share-open">
-        {reviewWords.shareOpen}{' '}
+        {reviewText.shareOpen}{' '}
         <button
           type="button"
           class="link-button"
           data-testid="copy-address"
           onClick={() =>
             void navigator.clipboard.writeText(window.location.href).then(
-              () => (said.value = reviewWords.copied),
-              () => (said.value = reviewWords.notCopied),
+              () => (said.value = reviewText.copied),
+              () => (said.value = reviewText.notCopied),
             )
           }
         >
@@ -125,10 +125,10 @@ function Sharing({ session, mayShare, open }: { session: ReviewSession; mayShare
       type="button"
       class="plain-button"
       data-testid="share-review"
-      title={reviewWords.linkHint}
+      title={reviewText.linkHint}
       onClick={() => (shown.value = true)}
     >
-      {reviewWords.shareHere}
+      {reviewText.shareHere}
     </button>
   );
 }

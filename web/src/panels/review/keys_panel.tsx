@@ -1,12 +1,12 @@
-import { reviewWords } from '../../review_words';
+import { reviewText } from '../../text/review_text';
 
 /** All keys of the page. */
 export function KeysPanel() {
   return (
     <details class="review-panel">
-      <summary>{reviewWords.keys}</summary>
+      <summary>{reviewText.keys}</summary>
       <dl class="review-keys">
-        {reviewWords.keyList.map(([key, deed]) => (
+        {reviewText.keyList.map(([key, deed]) => (
           <div key={key}>
             <dt>{key}</dt>
             <dd>{deed}</dd>

@@ -1,5 +1,5 @@
-import type { ReviewDesk } from '../../pages/review_desk';
-import { reviewWords } from '../../review_words';
+import type { ReviewWorkspace } from './review_workspace';
+import { reviewText } from '../../text/review_text';
 import {
   deviationClasses,
   type DeviationClass,
@@ -9,14 +9,14 @@ import {
   unknownColour,
 } from '../../state/review/deviation_scale';
 import type { MapState } from '../../state/review/surface_map';
-import { breachWords } from '../../state/review/score_words';
+import { breachText } from '../../state/review/score_text';
 import type { MapName } from '../../wire/review_api';
-import { fixed } from '../format';
+import { fixed } from '../../text/format';
 
 const scales = Object.keys(scaleBoundsMm) as ScaleName[];
 
 /** What the colours of the maps mean, and how much of each surface has which. */
-export function MapPanel({ desk }: { desk: ReviewDesk }) {
+export function MapPanel({ desk }: { desk: ReviewWorkspace }) {
   const { settings } = desk;
   const panes = desk.panes.value;
   const wanted = panes
@@ -28,16 +28,16 @@ export function MapPanel({ desk }: { desk: ReviewDesk }) {
   return (
     <section class="review-panel map-panel" aria-labelledby="map-title" data-testid="map-panel">
       <div class="panel-head">
-        <h2 id="map-title">{reviewWords.map}</h2>
+        <h2 id="map-title">{reviewText.map}</h2>
         <label>
-          {reviewWords.scale}{' '}
+          {reviewText.scale}{' '}
           <select
             data-testid="map-scale"
             onChange={(event) => (settings.scale.value = event.currentTarget.value as ScaleName)}
           >
             {scales.map((name) => (
               <option key={name} value={name} selected={name === scale}>
-                {reviewWords.scaleName[name]}
+                {reviewText.scaleName[name]}
               </option>
             ))}
           </select>
@@ -45,7 +45,7 @@ export function MapPanel({ desk }: { desk: ReviewDesk }) {
       </div>
       {[...new Set<MapName>(wanted)].map((name) => (
         <p key={name} class="soft">
-          <strong>{reviewWords.mapName[name]}.</strong> {reviewWords.mapCaption[name]}
+          <strong>{reviewText.mapName[name]}.</strong> {reviewText.mapCaption[name]}
         </p>
       ))}
       <table class="legend" data-testid="legend">
@@ -67,11 +67,11 @@ export function MapPanel({ desk }: { desk: ReviewDesk }) {
               <th scope="row">
                 <Swatch colour={each.colour} hatched={each.hatched} />
                 {classWords(each)}
-                {each.hatched && <span class="visually-hidden"> {reviewWords.hatched}</span>}
+                {each.hatched && <span class="visually-hidden"> {reviewText.hatched}</span>}
               </th>
               {ready.map((map, pane) => (
-                <td key={pane} class="number" title={reviewWords.shareHint}>
-                  {map === null ? '' : reviewWords.share(fixed((map.classes[all.length - 1 - i] ?? 0) * 100, 1))}
+                <td key={pane} class="number" title={reviewText.shareHint}>
+                  {map === null ? '' : reviewText.share(fixed((map.classes[all.length - 1 - i] ?? 0) * 100, 1))}
                 </td>
               ))}
             </tr>
@@ -79,7 +79,7 @@ export function MapPanel({ desk }: { desk: ReviewDesk }) {
           <tr>
             <th scope="row">
               <Swatch colour={unknownColour} hatched={false} />
-              {reviewWords.classUnknown}
+              {reviewText.classUnknown}
             </th>
             {ready.map((_, pane) => (
               <td key={pane} />
@@ -88,18 +88,18 @@ export function MapPanel({ desk }: { desk: ReviewDesk }) {
         </tbody>
       </table>
       {panes.map(({ session }, i) => {
-        const { breached, words } = breachWords(session.score.value.value);
+        const { breached, words } = breachText(session.score.value.value);
         const map = ready[i];
         return (
           <div key={session.id + String(i)} class="map-facts">
             <p class={breached === true ? 'breach breach-bad' : 'breach'} data-testid={`breach-${i}`}>
               {panes.length > 1 && <span class="pane-number">{i + 1}</span>}
               <span aria-hidden="true">{breached === true ? '⬣ ' : breached === null ? '? ' : '● '}</span>
-              <strong>{reviewWords.breach}:</strong> {words}
+              <strong>{reviewText.breach}:</strong> {words}
             </p>
             {map !== null && map !== undefined && map.beyondRange > 0 && (
               <p class="soft">
-                {reviewWords.outOfRange(fixed(map.rangeMm, 1), fixed((map.beyondRange / map.known) * 100, 1))}
+                {reviewText.outOfRange(fixed(map.rangeMm, 1), fixed((map.beyondRange / map.known) * 100, 1))}
               </p>
             )}
           </div>
@@ -118,10 +118,8 @@ function readyMap(state: MapState, scale: ScaleName) {
 function classWords({ fromMm, toMm, side }: DeviationClass): string {
   const [near, far] = side === 'proud' ? [-toMm, -fromMm] : [fromMm, toMm];
   const mm = (value: number) => String(value);
-  if (side === 'even') return reviewWords.classWithin(mm(toMm));
-  return Number.isFinite(far)
-    ? reviewWords.classBetween(mm(near), mm(far), side)
-    : reviewWords.classOver(mm(near), side);
+  if (side === 'even') return reviewText.classWithin(mm(toMm));
+  return Number.isFinite(far) ? reviewText.classBetween(mm(near), mm(far), side) : reviewText.classOver(mm(near), side);
 }
 
 function Swatch({ colour, hatched }: { colour: readonly number[]; hatched: boolean }) {

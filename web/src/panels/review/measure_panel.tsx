@@ -1,18 +1,18 @@
-import type { Pane, ReviewDesk } from '../../pages/review_desk';
+import type { Pane, ReviewWorkspace } from './review_workspace';
 import { PlanFrame } from '../../practice/plan_frame';
-import { reviewWords } from '../../review_words';
+import { reviewText } from '../../text/review_text';
 import { depthMm, measured } from '../../state/review/measuring';
 import type { MeasuredPlace } from '../../state/review/review_session';
-import { fixed } from '../format';
+import { fixed } from '../../text/format';
 
 /** What was measured on each session, and how to. */
-export function MeasurePanel({ desk }: { desk: ReviewDesk }) {
+export function MeasurePanel({ desk }: { desk: ReviewWorkspace }) {
   const panes = desk.panes.value;
   const measuring = desk.settings.measuring.value;
   if (!measuring && panes.every(({ session }) => session.places.value.length === 0)) return null;
   return (
     <section class="review-panel" aria-labelledby="measure-title" data-testid="measure-panel">
-      <h2 id="measure-title">{reviewWords.measure}</h2>
+      <h2 id="measure-title">{reviewText.measure}</h2>
       {panes.map((pane, i) => (
         <Measures
           key={pane.session.id + String(i)}
@@ -30,11 +30,11 @@ function Measures({ pane, number, measuring }: { pane: Pane; number: number | nu
   const places = session.places.value;
   const hello = session.store.hello.value;
   const step = session.missed.value
-    ? reviewWords.measureMissed
+    ? reviewText.measureMissed
     : places.length === 0
-      ? reviewWords.measureFirst
+      ? reviewText.measureFirst
       : places.length === 1
-        ? reviewWords.measureSecond
+        ? reviewText.measureSecond
         : '';
   const rows = hello === null ? [] : rowsOf(places, new PlanFrame(hello));
   return (
@@ -58,7 +58,7 @@ function Measures({ pane, number, measuring }: { pane: Pane; number: number | nu
           data-testid="clear-measure"
           onClick={() => (session.places.value = [])}
         >
-          {reviewWords.measureClear}
+          {reviewText.measureClear}
         </button>
       )}
     </div>
@@ -68,20 +68,20 @@ function Measures({ pane, number, measuring }: { pane: Pane; number: number | nu
 type Row = readonly [name: string, value: string, hint?: string];
 
 function rowsOf(places: readonly MeasuredPlace[], plan: PlanFrame): Row[] {
-  const mm = (value: number) => reviewWords.millimetres(fixed(value, 2));
+  const mm = (value: number) => reviewText.millimetres(fixed(value, 2));
   const [first, second] = places;
   const rows: Row[] = [];
   if (first !== undefined && second !== undefined) {
     const { distanceMm, alongMm, acrossMm } = measured(first.at, second.at, plan);
-    rows.push([reviewWords.distance, mm(distanceMm)]);
-    rows.push([reviewWords.deeper, mm(alongMm), reviewWords.depthHint], [reviewWords.across, mm(acrossMm)]);
+    rows.push([reviewText.distance, mm(distanceMm)]);
+    rows.push([reviewText.deeper, mm(alongMm), reviewText.depthHint], [reviewText.across, mm(acrossMm)]);
   }
   places.forEach(({ at, deviation }, i) => {
-    rows.push([reviewWords.depthOf(i + 1), mm(depthMm(at, plan)), reviewWords.depthHint]);
+    rows.push([reviewText.depthOf(i + 1), mm(depthMm(at, plan)), reviewText.depthHint]);
     if (deviation === null) return;
     const off = fixed(Math.abs(deviation.mm), 2);
     const side = deviation.mm === 0 ? 'even' : deviation.mm < 0 ? 'proud' : 'beyond';
-    rows.push([reviewWords.mapAt[deviation.to](i + 1), reviewWords.deviationHere(off, side)]);
+    rows.push([reviewText.mapAt[deviation.to](i + 1), reviewText.deviationHere(off, side)]);
   });
   return rows;
 }

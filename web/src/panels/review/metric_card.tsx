@@ -1,9 +1,9 @@
 import { useLayoutEffect, useRef } from 'preact/hooks';
 
-import { reviewWords } from '../../review_words';
-import { bandWords, number, unitName, valueWords } from '../../state/review/score_words';
+import { reviewText } from '../../text/review_text';
+import { bandText, number, unitName, valueText } from '../../state/review/score_text';
 import type { Score } from '../../wire/score_types';
-import { sentence } from '../format';
+import { sentence } from '../../text/format';
 
 /** The metric that is pointed at or focused, and where its row is in the window. */
 export interface Pointed {
@@ -25,22 +25,22 @@ export function MetricCard({ pointed, scores }: { pointed: Pointed; scores: read
   if (metric === undefined || metric === null) return null;
   const unsaid = found.find((one) => one?.unsaid)?.unsaid ?? null;
   const rows: [string, string][] = [
-    [reviewWords.definition, sentence(metric.definition)],
-    [reviewWords.unit, metric.unit === null ? reviewWords.noUnit : unitName(metric.unit)],
-    [reviewWords.band, sentence(bandWords(metric.band, metric.unit))],
-    [reviewWords.source, sentence(metric.source)],
-    [reviewWords.confidence, sentence(`${reviewWords.evidence[metric.evidence]}: ${metric.confidence}`)],
+    [reviewText.definition, sentence(metric.definition)],
+    [reviewText.unit, metric.unit === null ? reviewText.noUnit : unitName(metric.unit)],
+    [reviewText.band, sentence(bandText(metric.band, metric.unit))],
+    [reviewText.source, sentence(metric.source)],
+    [reviewText.confidence, sentence(`${reviewText.evidence[metric.evidence]}: ${metric.confidence}`)],
   ];
   if (metric.weight !== null)
     rows.push([
-      reviewWords.weight,
-      reviewWords.weightOf(number(metric.weight), metric.points === null ? '–' : number(metric.points)),
+      reviewText.weight,
+      reviewText.weightOf(number(metric.weight), metric.points === null ? '–' : number(metric.points)),
     ]);
-  if (unsaid !== null) rows.push([reviewWords.whyUnsaid, sentence(unsaid)]);
+  if (unsaid !== null) rows.push([reviewText.whyUnsaid, sentence(unsaid)]);
   return (
     <div class="metric-card" id="metric-card" role="tooltip" ref={card} data-testid="metric-card">
       <p class="metric-title">
-        {metric.name}: {found.map((one) => (one === null ? '–' : valueWords(one))).join(' / ')}
+        {metric.name}: {found.map((one) => (one === null ? '–' : valueText(one))).join(' / ')}
       </p>
       <dl>
         {rows.map(([name, text]) => (

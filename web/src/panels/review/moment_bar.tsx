@@ -1,5 +1,5 @@
-import { liveWords } from '../../live_words';
-import { reviewWords } from '../../review_words';
+import { liveText } from '../../text/live_text';
+import { reviewText } from '../../text/review_text';
 import type { ReviewSession } from '../../state/review/review_session';
 
 const maps = [null, 'plan', 'implant'] as const;
@@ -10,31 +10,31 @@ export function MomentBar({ session }: { session: ReviewSession }) {
   const map = session.map.name;
   return (
     <div class="moment-bar">
-      <div class="choice" role="group" aria-label={reviewWords.moment}>
+      <div class="choice" role="group" aria-label={reviewText.moment}>
         <button
           type="button"
           data-testid="before"
           aria-pressed={session.atStart.value}
           aria-keyshortcuts="B"
-          title={liveWords.key(reviewWords.beforeHint, 'B')}
+          title={liveText.key(reviewText.beforeHint, 'B')}
           disabled={!usable}
           onClick={() => session.showBefore()}
         >
-          {reviewWords.before}
+          {reviewText.before}
         </button>
         <button
           type="button"
           data-testid="after"
           aria-pressed={session.atEnd.value}
           aria-keyshortcuts="B"
-          title={liveWords.key(reviewWords.afterHint, 'B')}
+          title={liveText.key(reviewText.afterHint, 'B')}
           disabled={!usable}
           onClick={() => session.showAfter()}
         >
-          {reviewWords.after}
+          {reviewText.after}
         </button>
       </div>
-      <div class="choice" role="group" aria-label={reviewWords.surface}>
+      <div class="choice" role="group" aria-label={reviewText.surface}>
         {maps.map((name) => (
           <button
             type="button"
@@ -42,11 +42,11 @@ export function MomentBar({ session }: { session: ReviewSession }) {
             data-testid={`map-${name ?? 'none'}`}
             aria-pressed={map === name}
             aria-keyshortcuts="D"
-            title={liveWords.key(reviewWords.mapHint[name ?? 'none'], 'D')}
+            title={liveText.key(reviewText.mapHint[name ?? 'none'], 'D')}
             disabled={!usable}
             onClick={() => session.chooseMap(name)}
           >
-            {reviewWords.mapName[name ?? 'none']}
+            {reviewText.mapName[name ?? 'none']}
           </button>
         ))}
       </div>

@@ -1,25 +1,25 @@
 import { useEffect, useRef } from 'preact/hooks';
 
-import type { Pane, ReviewDesk } from '../../pages/review_desk';
-import { reviewWords } from '../../review_words';
+import type { Pane, ReviewWorkspace } from './review_workspace';
+import { reviewText } from '../../text/review_text';
 import { addressOfRoute } from '../../state/route';
 import type { ReviewSession } from '../../state/review/review_session';
-import { words } from '../../words';
-import { fixed } from '../format';
-import { later } from '../later';
-import { LinkNotice } from '../link_notice';
-import { PlaybackBar } from '../playback_bar';
-import { ProblemBanner } from '../problem_banner';
+import { appText } from '../../text/app_text';
+import { fixed } from '../../text/format';
+import { lazyPart } from '../common/lazy_part';
+import { LinkNotice } from '../live/link_notice';
+import { PlaybackBar } from '../picture/playback_bar';
+import { ProblemBanner } from '../common/problem_banner';
 import { EventList } from './event_list';
 import { MomentBar } from './moment_bar';
 import { ThrustChart } from './thrust_chart';
 
-const slices = later(() => import('../live_slices'));
+const slices = lazyPart(() => import('../picture/live_slices'));
 
 interface Parts {
   pane: Pane;
   place: number;
-  desk: ReviewDesk;
+  desk: ReviewWorkspace;
 }
 
 /** One session: its picture, its timeline, and what of both is chosen. */
@@ -32,7 +32,7 @@ export function ReviewPane({ pane, place, desk }: Parts) {
   return (
     <section
       class={active ? 'review-pane pane-active' : 'review-pane'}
-      aria-label={several ? reviewWords.pane(place + 1, session.id) : reviewWords.session(session.id)}
+      aria-label={several ? reviewText.pane(place + 1, session.id) : reviewText.session(session.id)}
       data-testid={`pane-${place}`}
       data-session={session.id}
       data-position={session.store.playback.value?.positionTicks ?? ''}
@@ -53,7 +53,7 @@ export function ReviewPane({ pane, place, desk }: Parts) {
 }
 
 /** Which of two it is, and the way to the other alone. */
-function PaneTitle({ place, desk }: { place: number; desk: ReviewDesk }) {
+function PaneTitle({ place, desk }: { place: number; desk: ReviewWorkspace }) {
   const panes = desk.panes.value;
   const session = panes[place]?.session;
   const other = panes[1 - place]?.session.id;
@@ -63,15 +63,15 @@ function PaneTitle({ place, desk }: { place: number; desk: ReviewDesk }) {
     <p class="pane-title">
       <span class="pane-number">{place + 1}</span>
       <span class="pane-name">
-        {details?.title ? words.titled(details.title) : details?.trainee || details?.participant || session.id}
+        {details?.title ? appText.titled(details.title) : details?.trainee || details?.participant || session.id}
       </span>
       <a
         class="close-pane"
         data-testid={`close-${place}`}
-        aria-label={reviewWords.closePane(session.id)}
+        aria-label={reviewText.closePane(session.id)}
         href={addressOfRoute({ kind: 'review', id: other, beside: null })}
       >
-        {reviewWords.close}
+        {reviewText.close}
       </a>
     </p>
   );
@@ -80,10 +80,10 @@ function PaneTitle({ place, desk }: { place: number; desk: ReviewDesk }) {
 function momentWords({ store }: ReviewSession): string {
   const now = store.upToDate.value ? store.telemetry.value : null;
   const thrust = now?.thrustN.at(-1);
-  return reviewWords.momentSays(fixed(now?.depthMm, 2), fixed(thrust, 1), fixed(now?.removedVolumeMm3, 0));
+  return reviewText.momentSays(fixed(now?.depthMm, 2), fixed(thrust, 1), fixed(now?.removedVolumeMm3, 0));
 }
 
-function PanePicture({ pane, desk }: { pane: Pane; desk: ReviewDesk }) {
+function PanePicture({ pane, desk }: { pane: Pane; desk: ReviewWorkspace }) {
   const { session, view, liveCase } = pane;
   const { store } = session;
   const place = useRef<HTMLDivElement>(null);
@@ -92,7 +92,7 @@ function PanePicture({ pane, desk }: { pane: Pane; desk: ReviewDesk }) {
     canvas.tabIndex = 0;
     canvas.dataset.testid = 'bone-canvas';
     canvas.setAttribute('role', 'img');
-    canvas.setAttribute('aria-label', words.sceneLabel);
+    canvas.setAttribute('aria-label', appText.sceneLabel);
     place.current?.prepend(canvas);
     return () => canvas.remove();
   }, [view]);
@@ -116,13 +116,13 @@ function PanePicture({ pane, desk }: { pane: Pane; desk: ReviewDesk }) {
       {trouble === null ? <LinkNotice store={store} mayReam={false} /> : <TroubleNotice session={session} />}
       {store.recordingWarning.value !== null && (
         <p class="picture-note note-top" role="status" data-testid="recording-warning">
-          {words.recordingDamaged(store.recordingWarning.value)}
+          {appText.recordingDamaged(store.recordingWarning.value)}
         </p>
       )}
       <ProblemBanner store={store} />
       {map.kind === 'making' && (
         <p class="picture-note" role="status" data-testid="map-making">
-          {reviewWords.mapMaking(fixed(map.share * 100, 0))}
+          {reviewText.mapMaking(fixed(map.share * 100, 0))}
         </p>
       )}
       {map.kind === 'problem' && (
@@ -132,9 +132,9 @@ function PanePicture({ pane, desk }: { pane: Pane; desk: ReviewDesk }) {
       )}
       {map.kind === 'ready' && shown === null && (
         <p class="picture-note" role="status" data-testid="map-at-end">
-          {reviewWords.mapAtEnd}{' '}
+          {reviewText.mapAtEnd}{' '}
           <button type="button" class="link-button" onClick={() => session.showAfter()}>
-            {reviewWords.after}
+            {reviewText.after}
           </button>
         </p>
       )}
@@ -154,10 +154,10 @@ function TroubleNotice({ session }: { session: ReviewSession }) {
       <p>{trouble.text}</p>
       <p class="notice-deeds">
         <button type="button" class="plain-button" onClick={() => session.tryAgain()}>
-          {reviewWords.tryAgain}
+          {reviewText.tryAgain}
         </button>
         <a href={addressOfRoute(away ? { kind: 'live' } : { kind: 'sessions' })}>
-          {away ? reviewWords.toLive : reviewWords.toSessions}
+          {away ? reviewText.toLive : reviewText.toSessions}
         </a>
       </p>
     </div>

@@ -1,13 +1,13 @@
-import '../live_strip.css';
+import '../../styles/live_strip.css';
 
-import type { ReviewDesk } from '../../pages/review_desk';
-import { liveWords } from '../../live_words';
-import { reviewWords } from '../../review_words';
-import { ViewToggle } from '../view_toggle';
-import { ViewTools } from '../view_tools';
+import type { ReviewWorkspace } from './review_workspace';
+import { liveText } from '../../text/live_text';
+import { reviewText } from '../../text/review_text';
+import { ViewToggle } from '../common/view_toggle';
+import { ViewTools } from '../picture/view_tools';
 
 /** From where the bones are seen and what is seen of them, for all sessions at once. */
-export function ReviewTools({ desk }: { desk: ReviewDesk }) {
+export function ReviewTools({ desk }: { desk: ReviewWorkspace }) {
   const { settings } = desk;
   // The other is seen from where the first one is.
   const scene = desk.panes.value[0]?.view.scene;
@@ -18,20 +18,20 @@ export function ReviewTools({ desk }: { desk: ReviewDesk }) {
         <ViewToggle
           id="slices"
           letter="T"
-          hint={liveWords.slicesHint}
+          hint={liveText.slicesHint}
           on={settings.slicesOpen.value}
           act={() => (settings.slicesOpen.value = !settings.slicesOpen.peek())}
         >
-          {liveWords.slices}
+          {liveText.slices}
         </ViewToggle>
         <ViewToggle
           id="measure"
           letter="E"
-          hint={reviewWords.measureHint}
+          hint={reviewText.measureHint}
           on={settings.measuring.value}
           act={() => (settings.measuring.value = !settings.measuring.peek())}
         >
-          {reviewWords.measure}
+          {reviewText.measure}
         </ViewToggle>
       </ViewTools>
     </div>

@@ -1,11 +1,11 @@
 import { useSignal } from '@preact/signals';
 import { useMemo } from 'preact/hooks';
 
-import type { Pane } from '../../pages/review_desk';
-import { reviewWords } from '../../review_words';
-import { groupedMetrics, number, valueWords } from '../../state/review/score_words';
+import type { Pane } from './review_workspace';
+import { reviewText } from '../../text/review_text';
+import { groupedMetrics, number, valueText } from '../../state/review/score_text';
 import type { Score, ScoredMetric, Verdict } from '../../wire/score_types';
-import { fixed, sentence } from '../format';
+import { fixed, sentence } from '../../text/format';
 import { MetricCard, type Pointed } from './metric_card';
 
 /** What the sessions are worth: the mark, and every metric with what stands behind it. */
@@ -15,7 +15,7 @@ export function ScorePanel({ panes }: { panes: readonly Pane[] }) {
   const first = scores.find((score) => score !== null);
   return (
     <section class="review-panel score-panel" aria-labelledby="score-title" data-testid="score">
-      <h2 id="score-title">{reviewWords.score}</h2>
+      <h2 id="score-title">{reviewText.score}</h2>
       {panes.map(({ session }, i) => (
         <Mark
           key={session.id + String(i)}
@@ -43,7 +43,7 @@ function Mark({ score, problem, place, several }: MarkParts) {
     return (
       <p class="soft" role="status" data-testid={`no-score-${place}`}>
         {several && <span class="pane-number">{place + 1}</span>}
-        {problem === null ? reviewWords.scoreLoading : reviewWords.noScore(sentence(problem))}
+        {problem === null ? reviewText.scoreLoading : reviewText.noScore(sentence(problem))}
       </p>
     );
   const { points, outcome, rubric, reasons, theatre, said_percent: said } = score;
@@ -51,21 +51,21 @@ function Mark({ score, problem, place, several }: MarkParts) {
     <div class="mark-of" data-testid={`mark-${place}`}>
       <p class="overall">
         {several && <span class="pane-number">{place + 1}</span>}
-        <span class="visually-hidden">{reviewWords.overall}: </span>
-        <strong>{points === null ? reviewWords.noPoints : reviewWords.points(fixed(points, 1))}</strong>
+        <span class="visually-hidden">{reviewText.overall}: </span>
+        <strong>{points === null ? reviewText.noPoints : reviewText.points(fixed(points, 1))}</strong>
         <span class={`outcome outcome-${outcome ?? 'none'}`}>
           <span aria-hidden="true">{outcome === null ? '' : { pass: '● ', fail: '⬣ ', undecided: '▲ ' }[outcome]}</span>
-          {outcome === null ? reviewWords.noOutcome : reviewWords.outcome[outcome]}
+          {outcome === null ? reviewText.noOutcome : reviewText.outcome[outcome]}
         </span>
         {theatre && (
-          <span class="role-chip" title={reviewWords.theatreHint}>
-            {reviewWords.theatre}
+          <span class="role-chip" title={reviewText.theatreHint}>
+            {reviewText.theatre}
           </span>
         )}
       </p>
       <p class="soft">
-        {reviewWords.rubric(rubric.rubric.name, rubric.version, rubric.rubric.pass_points)}.{' '}
-        {said < 100 && reviewWords.saidPercent(fixed(said, 0))}
+        {reviewText.rubric(rubric.rubric.name, rubric.version, rubric.rubric.pass_points)}.{' '}
+        {said < 100 && reviewText.saidPercent(fixed(said, 0))}
       </p>
       {reasons.length > 0 && (
         <ul class="reasons">
@@ -89,14 +89,14 @@ function Metrics({ scores, first, pointed }: MetricsParts) {
   const parts = { scores, pointed };
   return (
     <>
-      <MetricTable {...parts} title={reviewWords.countsForMark} metrics={counting} counting />
+      <MetricTable {...parts} title={reviewText.countsForMark} metrics={counting} counting />
       <details>
-        <summary data-testid="measured-too">{reviewWords.measuredToo(measured.length)}</summary>
-        <MetricTable {...parts} title={reviewWords.measuredToo(measured.length)} metrics={measured} />
+        <summary data-testid="measured-too">{reviewText.measuredToo(measured.length)}</summary>
+        <MetricTable {...parts} title={reviewText.measuredToo(measured.length)} metrics={measured} />
       </details>
       {unsaid.length > 0 && (
         <details>
-          <summary data-testid="unsaid">{reviewWords.unsaid(unsaid.length)}</summary>
+          <summary data-testid="unsaid">{reviewText.unsaid(unsaid.length)}</summary>
           <dl class="unsaid-list">
             {unsaid.map((metric) => (
               <div key={metric.metric}>
@@ -126,15 +126,15 @@ function MetricTable({ scores, pointed, title, metrics, counting }: TableParts) 
       <caption class={counting === true ? '' : 'visually-hidden'}>{title}</caption>
       <thead>
         <tr>
-          <th scope="col">{reviewWords.metricColumn}</th>
+          <th scope="col">{reviewText.metricColumn}</th>
           {scores.map((_, i) => (
             <th key={i} scope="col" class="number">
-              {several ? <span class="pane-number">{i + 1}</span> : reviewWords.valueColumn}
+              {several ? <span class="pane-number">{i + 1}</span> : reviewText.valueColumn}
             </th>
           ))}
           {counting === true && !several && (
             <th scope="col" class="number">
-              {reviewWords.pointsColumn}
+              {reviewText.pointsColumn}
             </th>
           )}
         </tr>
@@ -184,16 +184,16 @@ function MetricRow({ metric, scores, pointed, points }: RowParts) {
         >
           {metric.name}
           {metric.critical && (
-            <span class="critical" title={reviewWords.critical}>
+            <span class="critical" title={reviewText.critical}>
               {' '}
-              !<span class="visually-hidden"> {reviewWords.critical}</span>
+              !<span class="visually-hidden"> {reviewText.critical}</span>
             </span>
           )}
         </button>
       </th>
       {each.map((one, i) => (
         <td key={i} class="number">
-          {one === null ? '' : valueWords(one)}
+          {one === null ? '' : valueText(one)}
           {one !== null && <VerdictSign verdict={one.verdict} />}
         </td>
       ))}
@@ -205,9 +205,9 @@ function MetricRow({ metric, scores, pointed, points }: RowParts) {
 function VerdictSign({ verdict }: { verdict: Verdict }) {
   if (verdict === null) return <span class="verdict" />;
   return (
-    <span class={`verdict verdict-${verdict}`} title={reviewWords.verdict[verdict]}>
+    <span class={`verdict verdict-${verdict}`} title={reviewText.verdict[verdict]}>
       <span aria-hidden="true">{{ pass: '●', warn: '▲', fail: '⬣' }[verdict]}</span>
-      <span class="visually-hidden">{reviewWords.verdict[verdict]}</span>
+      <span class="visually-hidden">{reviewText.verdict[verdict]}</span>
     </span>
   );
 }

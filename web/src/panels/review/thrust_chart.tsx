@@ -1,9 +1,9 @@
 import { useEffect, useRef } from 'preact/hooks';
 
-import { reviewWords } from '../../review_words';
+import { reviewText } from '../../text/review_text';
 import type { ReviewSession } from '../../state/review/review_session';
 import { excessN, shareOf, thrustLine } from '../../state/review/timeline';
-import { useIdentity } from '../site_nav';
+import { useIdentity } from '../common/site_nav';
 
 /** The chart reaches at least this far, so that gentle sessions look gentle. */
 const reachesN = 100;
@@ -53,16 +53,16 @@ export function ThrustChart({ session }: { session: ReviewSession }) {
       scheme.removeEventListener('change', draw);
     };
   }, [trace, durationS, mostN]);
-  const problem = !may.ream ? reviewWords.noTraceForViewers : session.traceProblem.value;
+  const problem = !may.ream ? reviewText.noTraceForViewers : session.traceProblem.value;
   if (trace === null)
     return problem === null ? null : (
       <p class="thrust-none soft" data-testid="no-trace">
-        {may.ream ? reviewWords.noTrace(problem) : problem}
+        {may.ream ? reviewText.noTrace(problem) : problem}
       </p>
     );
   return (
     <div class="thrust-chart">
-      <canvas ref={canvas} role="img" aria-label={reviewWords.thrustChart(String(mostN))} data-testid="thrust-chart" />
+      <canvas ref={canvas} role="img" aria-label={reviewText.thrustChart(String(mostN))} data-testid="thrust-chart" />
       <span class="thrust-now" style={{ left: `${(shareOf(positionS, durationS) * 100).toFixed(2)}%` }} />
     </div>
   );

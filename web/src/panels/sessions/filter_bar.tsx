@@ -1,7 +1,7 @@
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 
-import { sessionWords } from '../../session_words';
+import { sessionText } from '../../text/session_text';
 import { Remote } from '../../state/remote';
 import { everything, type SessionBrowser } from '../../state/sessions/session_browser';
 import { CaseApi } from '../../wire/case_api';
@@ -12,10 +12,10 @@ import { StudyApi } from '../../wire/study_api';
 const typingRestsMs = 300;
 
 const stateChoices: readonly (readonly [string, string, readonly SessionState[]])[] = [
-  ['any', sessionWords.anyState, []],
-  ['live', sessionWords.underWay, ['created', 'running', 'paused']],
-  ['ended', sessionWords.ended, ['finished', 'stopped']],
-  ['fault', sessionWords.withFault, ['fault', 'interrupted']],
+  ['any', sessionText.anyState, []],
+  ['live', sessionText.underWay, ['created', 'running', 'paused']],
+  ['ended', sessionText.ended, ['finished', 'stopped']],
+  ['fault', sessionText.withFault, ['fault', 'interrupted']],
 ];
 
 /** Which sessions are listed. */
@@ -37,18 +37,18 @@ export function FilterBar({ browser }: { browser: SessionBrowser }) {
   return (
     <form class="desk-form filters" role="search" onSubmit={(event) => event.preventDefault()}>
       <label>
-        {sessionWords.search}
+        {sessionText.search}
         <input
           type="search"
           maxLength={200}
-          placeholder={sessionWords.searchHint}
+          placeholder={sessionText.searchHint}
           data-testid="search"
           value={text.value}
           onInput={(event) => (text.value = event.currentTarget.value)}
         />
       </label>
       <label>
-        {sessionWords.state}
+        {sessionText.state}
         <select
           data-testid="filter-state"
           value={state}
@@ -65,7 +65,7 @@ export function FilterBar({ browser }: { browser: SessionBrowser }) {
         </select>
       </label>
       <Choice
-        label={sessionWords.case}
+        label={sessionText.case}
         testId="filter-case"
         value={query.caseId}
         options={(cases.value.value ?? []).map((one) => [one.id, one.name || one.id])}
@@ -73,7 +73,7 @@ export function FilterBar({ browser }: { browser: SessionBrowser }) {
       />
       {(studies.value.value?.length ?? 0) > 0 && (
         <Choice
-          label={sessionWords.study}
+          label={sessionText.study}
           testId="filter-study"
           value={query.study}
           options={(studies.value.value ?? []).map((one) => [one.id, one.name])}
@@ -82,7 +82,7 @@ export function FilterBar({ browser }: { browser: SessionBrowser }) {
       )}
       {(['from', 'to'] as const).map((key) => (
         <label key={key}>
-          {sessionWords[key]}
+          {sessionText[key]}
           <input
             type="date"
             data-testid={`filter-${key}`}
@@ -102,7 +102,7 @@ export function FilterBar({ browser }: { browser: SessionBrowser }) {
             void browser.show({ ...everything, sort, descending });
           }}
         >
-          {sessionWords.clear}
+          {sessionText.clear}
         </button>
       )}
     </form>
@@ -122,7 +122,7 @@ function Choice({ label, testId, value, options, onChange }: ChoiceParts) {
     <label>
       {label}
       <select data-testid={testId} value={value} onChange={(event) => onChange(event.currentTarget.value)}>
-        <option value="">{sessionWords.any}</option>
+        <option value="">{sessionText.any}</option>
         {options.map(([id, name]) => (
           <option key={id} value={id}>
             {name}

@@ -1,15 +1,15 @@
 import { useSignal } from '@preact/signals';
 
-import { sessionWords } from '../../session_words';
+import { sessionText } from '../../text/session_text';
 import { canBeReplayed, isActive } from '../../state/choose_session';
 import { addressOfRoute } from '../../state/route';
 import type { SessionBrowser } from '../../state/sessions/session_browser';
 import type { Session } from '../../wire/api';
-import { words } from '../../words';
-import { dayAndTime, minutes } from '../format';
-import { useFocusAfter } from '../focus_after';
-import { Really } from '../really';
-import { useIdentity } from '../site_nav';
+import { appText } from '../../text/app_text';
+import { dayAndTime, minutes } from '../../text/format';
+import { useFocusAfter } from '../common/focus_after';
+import { ConfirmButton } from '../common/confirm_dialog';
+import { useIdentity } from '../common/site_nav';
 
 interface Parts {
   session: Session;
@@ -31,11 +31,11 @@ export function SessionRow({ session, browser, watch, replay }: Parts) {
         <Title session={session} browser={browser} />
       </td>
       <td>
-        {session.case} {attempt > 1 && <span class="soft">{sessionWords.attempt(attempt)}</span>}
+        {session.case} {attempt > 1 && <span class="soft">{sessionText.attempt(attempt)}</span>}
       </td>
       <td>{session.trainee || session.participant}</td>
       <td>
-        <span class={`session-word session-${session.state}`}>{words.state[session.state]}</span>
+        <span class={`session-word session-${session.state}`}>{appText.state[session.state]}</span>
       </td>
       <td class="number">{minutes(session.duration_s)}</td>
       <td class="deeds">
@@ -44,20 +44,20 @@ export function SessionRow({ session, browser, watch, replay }: Parts) {
             type="button"
             class="plain-button"
             data-testid={`watch-${session.id}`}
-            aria-label={words.watchSession(session.id)}
+            aria-label={appText.watchSession(session.id)}
             onClick={() => watch(session)}
           >
-            {sessionWords.watch}
+            {sessionText.watch}
           </button>
         )}
         {canBeReplayed(session) && (
           <a
             class="plain-button"
             data-testid={`review-${session.id}`}
-            aria-label={words.reviewSession(session.id)}
+            aria-label={appText.reviewSession(session.id)}
             href={addressOfRoute({ kind: 'review', id: session.id, beside: null })}
           >
-            {words.review}
+            {appText.review}
           </a>
         )}
         {canBeReplayed(session) && (
@@ -65,19 +65,19 @@ export function SessionRow({ session, browser, watch, replay }: Parts) {
             type="button"
             class="plain-button"
             data-testid={`replay-${session.id}`}
-            aria-label={words.replaySession(session.id)}
+            aria-label={appText.replaySession(session.id)}
             onClick={() => replay(session)}
           >
-            {sessionWords.replay}
+            {sessionText.replay}
           </button>
         )}
         {may.deleteSessions && !live && (
-          <Really
-            label={sessionWords.remove}
-            describe={sessionWords.removeOf(session.id)}
-            question={sessionWords.removeReally}
-            yes={sessionWords.remove}
-            no={sessionWords.keep}
+          <ConfirmButton
+            label={sessionText.remove}
+            describe={sessionText.removeOf(session.id)}
+            question={sessionText.removeReally}
+            yes={sessionText.remove}
+            no={sessionText.keep}
             testId={`remove-${session.id}`}
             disabled={busy}
             onYes={() => void browser.remove(session)}
@@ -99,10 +99,10 @@ function Title({ session, browser }: Pick<Parts, 'session' | 'browser'>) {
         class="title-button"
         ref={place}
         data-testid={`title-${session.id}`}
-        aria-label={sessionWords.renameOf(session.id)}
+        aria-label={sessionText.renameOf(session.id)}
         onClick={() => (draft.value = title)}
       >
-        {title === '' ? <span class="soft">{sessionWords.untitled}</span> : title}
+        {title === '' ? <span class="soft">{sessionText.untitled}</span> : title}
       </button>
     );
   const save = async (event: Event) => {
@@ -115,7 +115,7 @@ function Title({ session, browser }: Pick<Parts, 'session' | 'browser'>) {
         type="text"
         maxLength={200}
         ref={place}
-        aria-label={sessionWords.renameOf(session.id)}
+        aria-label={sessionText.renameOf(session.id)}
         data-testid={`new-title-${session.id}`}
         value={draft.value}
         onInput={(event) => (draft.value = event.currentTarget.value)}
@@ -124,10 +124,10 @@ function Title({ session, browser }: Pick<Parts, 'session' | 'browser'>) {
         }}
       />
       <button type="submit" class="plain-button" data-testid={`save-title-${session.id}`}>
-        {sessionWords.save}
+        {sessionText.save}
       </button>
       <button type="button" class="plain-button" onClick={() => (draft.value = null)}>
-        {sessionWords.cancel}
+        {sessionText.cancel}
       </button>
     </form>
   );

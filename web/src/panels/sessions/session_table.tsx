@@ -1,16 +1,16 @@
-import { sessionWords } from '../../session_words';
+import { sessionText } from '../../text/session_text';
 import type { SessionBrowser } from '../../state/sessions/session_browser';
 import type { Session } from '../../wire/api';
 import type { SortKey } from '../../wire/session_list_api';
 import { SessionRow } from './session_row';
 
 const columns: readonly (readonly [SortKey | null, string])[] = [
-  ['created_utc', sessionWords.whenColumn],
-  [null, sessionWords.titleColumn],
-  ['case', sessionWords.caseColumn],
-  ['trainee', sessionWords.traineeColumn],
-  ['state', sessionWords.stateColumn],
-  ['duration_s', sessionWords.durationColumn],
+  ['created_utc', sessionText.whenColumn],
+  [null, sessionText.titleColumn],
+  ['case', sessionText.caseColumn],
+  ['trainee', sessionText.traineeColumn],
+  ['state', sessionText.stateColumn],
+  ['duration_s', sessionText.durationColumn],
 ];
 
 interface Parts {
@@ -42,7 +42,7 @@ export function SessionTable({ browser, watch, replay }: Parts) {
                     type="button"
                     class="sort-button"
                     data-testid={`sort-${key}`}
-                    title={sessionWords.sortBy(name)}
+                    title={sessionText.sortBy(name)}
                     onClick={() => void browser.sortBy(key)}
                   >
                     {name}

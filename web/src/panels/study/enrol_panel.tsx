@@ -2,12 +2,12 @@ import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 
 import { Remote } from '../../state/remote';
-import { studyWords } from '../../study_words';
+import { studyText } from '../../text/study_text';
 import { AccessApi } from '../../wire/access_api';
 import type { StudyApi } from '../../wire/study_api';
 import type { NewParticipant, Participant, Study } from '../../wire/study_types';
-import { Remark } from '../fields';
-import { useIdentity } from '../site_nav';
+import { Remark } from '../common/fields';
+import { useIdentity } from '../common/site_nav';
 import { type Background, ExperienceFields } from './experience_fields';
 
 interface Parts {
@@ -46,23 +46,23 @@ export function EnrolPanel({ api, study, participants }: Parts) {
   };
   return (
     <section class="desk-panel" aria-labelledby="enrol-title">
-      <h2 id="enrol-title">{studyWords.enrol}</h2>
+      <h2 id="enrol-title">{studyText.enrol}</h2>
       {study.join_code !== null && identity.hasUsers.value && (
         <p class="soft">
-          {studyWords.enrolHint} {studyWords.joinCode}: <strong data-testid="study-join-code">{study.join_code}</strong>
+          {studyText.enrolHint} {studyText.joinCode}: <strong data-testid="study-join-code">{study.join_code}</strong>
         </p>
       )}
       <form class="desk-form" onSubmit={(event) => void enrol(event)}>
         {operate && (
           <label>
-            {studyWords.enrolPerson}
+            {studyText.enrolPerson}
             <select
               data-testid="enrol-who"
               value={who.value}
               onChange={(event) => (who.value = event.currentTarget.value)}
             >
-              <option value="">{studyWords.enrolNobody}</option>
-              <option value={guest}>{studyWords.enrolGuest}</option>
+              <option value="">{studyText.enrolNobody}</option>
+              <option value={guest}>{studyText.enrolGuest}</option>
               {users.value.value?.map((user) => (
                 <option key={user.id} value={user.id}>
                   {user.display_name || user.name}
@@ -73,7 +73,7 @@ export function EnrolPanel({ api, study, participants }: Parts) {
         )}
         {who.value === guest && (
           <label>
-            {studyWords.guestName}
+            {studyText.guestName}
             <input
               type="text"
               required
@@ -86,13 +86,13 @@ export function EnrolPanel({ api, study, participants }: Parts) {
         )}
         <ExperienceFields background={background} />
         <button type="submit" class="main-button" data-testid="enrol" disabled={participants.busy.value}>
-          {studyWords.enrolButton}
+          {studyText.enrolButton}
         </button>
       </form>
       {made.value !== null && (
         <div role="status">
           <Remark kind="soft" testId="enrolled">
-            {studyWords.enrolled(made.value)}
+            {studyText.enrolled(made.value)}
           </Remark>
         </div>
       )}

@@ -1,6 +1,6 @@
 import type { Signal } from '@preact/signals';
 
-import { studyWords } from '../../study_words';
+import { studyText } from '../../text/study_text';
 import { type Experience, experiences } from '../../wire/study_types';
 
 export interface Background {
@@ -14,7 +14,7 @@ export function ExperienceFields({ background }: { background: Signal<Background
   return (
     <>
       <label>
-        {studyWords.experience}
+        {studyText.experience}
         <select
           required
           data-testid="experience"
@@ -26,13 +26,13 @@ export function ExperienceFields({ background }: { background: Signal<Background
           <option value="" />
           {experiences.map((level) => (
             <option key={level} value={level}>
-              {studyWords.experienceNames[level]}
+              {studyText.experienceNames[level]}
             </option>
           ))}
         </select>
       </label>
       <label>
-        {studyWords.procedures}
+        {studyText.procedures}
         <input
           type="number"
           min={0}

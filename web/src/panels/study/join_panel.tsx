@@ -1,9 +1,9 @@
 import { useSignal } from '@preact/signals';
 
-import { studyWords } from '../../study_words';
-import { wordsOf } from '../../wire/rest';
+import { studyText } from '../../text/study_text';
+import { messageOf } from '../../wire/rest';
 import type { StudyApi } from '../../wire/study_api';
-import { Remark } from '../fields';
+import { Remark } from '../common/fields';
 import { type Background, ExperienceFields } from './experience_fields';
 
 /** Taking part in a study by its join code. */
@@ -20,16 +20,16 @@ export function JoinPanel({ api, onJoined }: { api: StudyApi; onJoined: (studyId
       const about = { experience, procedures_done: proceduresDone };
       onJoined((await api.join(code.value.trim().toLowerCase(), about)).study);
     } catch (error) {
-      problem.value = wordsOf(error);
+      problem.value = messageOf(error);
     }
   };
   return (
     <section class="desk-panel" aria-labelledby="join-title">
-      <h2 id="join-title">{studyWords.join}</h2>
-      <p class="soft">{studyWords.joinHint}</p>
+      <h2 id="join-title">{studyText.join}</h2>
+      <p class="soft">{studyText.joinHint}</p>
       <form class="desk-form" onSubmit={(event) => void join(event)}>
         <label>
-          {studyWords.joinCode}
+          {studyText.joinCode}
           <input
             type="text"
             required
@@ -43,7 +43,7 @@ export function JoinPanel({ api, onJoined }: { api: StudyApi; onJoined: (studyId
         </label>
         <ExperienceFields background={background} />
         <button type="submit" class="main-button" data-testid="join">
-          {studyWords.joinButton}
+          {studyText.joinButton}
         </button>
       </form>
       {problem.value !== null && (

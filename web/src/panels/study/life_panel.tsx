@@ -1,10 +1,10 @@
 import type { Remote } from '../../state/remote';
-import { studyWords } from '../../study_words';
+import { studyText } from '../../text/study_text';
 import type { StudyApi } from '../../wire/study_api';
 import type { Study } from '../../wire/study_types';
 import { saveBlob } from '../../wire/save_blob';
-import { Really } from '../really';
-import { useIdentity } from '../site_nav';
+import { ConfirmButton } from '../common/confirm_dialog';
+import { useIdentity } from '../common/site_nav';
 
 interface Parts {
   api: StudyApi;
@@ -24,14 +24,14 @@ export function LifePanel({ api, study, studies, empty, onRemoved }: Parts) {
     if ((await studies.act(() => api.remove(study.id))) !== null) onRemoved();
   };
   const closed = study.state === 'closed';
-  const asking = { no: studyWords.no, disabled: busy };
+  const asking = { no: studyText.no, disabled: busy };
   return (
     <div class="desk-head study-deeds">
       {!closed && (
-        <Really
-          label={studyWords.close}
-          question={studyWords.closeReally}
-          yes={studyWords.closeYes}
+        <ConfirmButton
+          label={studyText.close}
+          question={studyText.closeReally}
+          yes={studyText.closeYes}
           testId="close-study"
           {...asking}
           onYes={() => act(() => api.close(study.id))}
@@ -45,24 +45,24 @@ export function LifePanel({ api, study, studies, empty, onRemoved }: Parts) {
           disabled={busy}
           onClick={() => act(() => api.reopen(study.id))}
         >
-          {studyWords.reopen}
+          {studyText.reopen}
         </button>
       )}
       {closed && study.blinded && may.operate && (
-        <Really
-          label={studyWords.unblind}
-          question={studyWords.unblindReally}
-          yes={studyWords.unblind}
+        <ConfirmButton
+          label={studyText.unblind}
+          question={studyText.unblindReally}
+          yes={studyText.unblind}
           testId="unblind-study"
           {...asking}
           onYes={() => act(() => api.unblind(study.id))}
         />
       )}
       {may.operate && empty && (
-        <Really
-          label={studyWords.remove}
-          question={studyWords.removeReally}
-          yes={studyWords.remove}
+        <ConfirmButton
+          label={studyText.remove}
+          question={studyText.removeReally}
+          yes={studyText.remove}
           testId="remove-study"
           {...asking}
           onYes={() => void remove()}
@@ -73,10 +73,10 @@ export function LifePanel({ api, study, studies, empty, onRemoved }: Parts) {
 }
 
 const tables = [
-  ['sessions', studyWords.exportSessions],
-  ['answers', studyWords.exportAnswers],
-  ['groups', studyWords.exportGroups],
-  ['json', studyWords.exportAll],
+  ['sessions', studyText.exportSessions],
+  ['answers', studyText.exportAnswers],
+  ['groups', studyText.exportGroups],
+  ['json', studyText.exportAll],
 ] as const;
 
 /** The study's data for statistics. */
@@ -87,8 +87,8 @@ export function ExportPanel({ api, study, studies }: Pick<Parts, 'api' | 'study'
     void studies.act(async () => saveBlob(await get(), `${study.id}-${name}`));
   return (
     <section class="desk-panel" aria-labelledby="export-title">
-      <h2 id="export-title">{studyWords.exports}</h2>
-      <p class="soft">{allowed ? studyWords.exportHint : studyWords.exportClosed}</p>
+      <h2 id="export-title">{studyText.exports}</h2>
+      <p class="soft">{allowed ? studyText.exportHint : studyText.exportClosed}</p>
       <div class="desk-form">
         {tables.map(([table, label]) => (
           <button
@@ -109,7 +109,7 @@ export function ExportPanel({ api, study, studies }: Pick<Parts, 'api' | 'study'
           disabled={studies.busy.value}
           onClick={() => save('codebook.json', () => api.codebook(study.id))}
         >
-          {studyWords.exportCodebook}
+          {studyText.exportCodebook}
         </button>
       </div>
     </section>

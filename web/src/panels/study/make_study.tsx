@@ -2,12 +2,12 @@ import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 
 import { Remote } from '../../state/remote';
-import { studyWords } from '../../study_words';
+import { studyText } from '../../text/study_text';
 import { CaseApi } from '../../wire/case_api';
-import { wordsOf } from '../../wire/rest';
+import { messageOf } from '../../wire/rest';
 import type { StudyApi } from '../../wire/study_api';
 import type { NewStudy } from '../../wire/study_types';
-import { Remark } from '../fields';
+import { Remark } from '../common/fields';
 
 /** The form for another study. */
 export function MakeStudy({ api, onMade }: { api: StudyApi; onMade: (studyId: string) => void }) {
@@ -29,7 +29,7 @@ export function MakeStudy({ api, onMade }: { api: StudyApi; onMade: (studyId: st
     try {
       file.value = JSON.parse(await picked.text()) as object;
     } catch {
-      problem.value = studyWords.fileUnreadable;
+      problem.value = studyText.fileUnreadable;
     }
   };
   const make = async (event: Event) => {
@@ -43,17 +43,17 @@ export function MakeStudy({ api, onMade }: { api: StudyApi; onMade: (studyId: st
     try {
       onMade((await api.make(study)).id);
     } catch (error) {
-      problem.value = wordsOf(error);
+      problem.value = messageOf(error);
     }
   };
   const { name, description, device, asking } = wanted.value;
   const complete = wanted.value.cases.length > 0 && (asking !== 'file' || file.value !== null);
   return (
     <section class="desk-panel" aria-labelledby="make-title">
-      <h2 id="make-title">{studyWords.make}</h2>
+      <h2 id="make-title">{studyText.make}</h2>
       <form class="desk-form" onSubmit={(event) => void make(event)}>
         <label>
-          {studyWords.name}
+          {studyText.name}
           <input
             type="text"
             required
@@ -64,13 +64,13 @@ export function MakeStudy({ api, onMade }: { api: StudyApi; onMade: (studyId: st
           />
         </label>
         <label>
-          {studyWords.device}
+          {studyText.device}
           <select
             data-testid="study-device"
             value={device}
             onChange={(event) => set({ device: event.currentTarget.value })}
           >
-            {studyWords.devices.map(([value, text]) => (
+            {studyText.devices.map(([value, text]) => (
               <option key={value} value={value}>
                 {text}
               </option>
@@ -78,20 +78,20 @@ export function MakeStudy({ api, onMade }: { api: StudyApi; onMade: (studyId: st
           </select>
         </label>
         <label>
-          {studyWords.questionnaire}
+          {studyText.questionnaire}
           <select
             data-testid="study-questionnaire"
             value={asking}
             onChange={(event) => set({ asking: event.currentTarget.value })}
           >
-            <option value="ours">{studyWords.ownQuestionnaire}</option>
-            <option value="none">{studyWords.noQuestionnaire}</option>
-            <option value="file">{studyWords.fileQuestionnaire}</option>
+            <option value="ours">{studyText.ownQuestionnaire}</option>
+            <option value="none">{studyText.noQuestionnaire}</option>
+            <option value="file">{studyText.fileQuestionnaire}</option>
           </select>
         </label>
         {asking === 'file' && (
           <label>
-            {studyWords.questionnaireFile}
+            {studyText.questionnaireFile}
             <input
               type="file"
               accept=".json,application/json"
@@ -101,7 +101,7 @@ export function MakeStudy({ api, onMade }: { api: StudyApi; onMade: (studyId: st
           </label>
         )}
         <label class="wide">
-          {studyWords.description}
+          {studyText.description}
           <textarea
             rows={2}
             maxLength={4000}
@@ -111,8 +111,8 @@ export function MakeStudy({ api, onMade }: { api: StudyApi; onMade: (studyId: st
           />
         </label>
         <fieldset class="wide">
-          <legend>{studyWords.cases}</legend>
-          {cases.value.value !== null && usable.length === 0 && <span class="soft">{studyWords.noCases}</span>}
+          <legend>{studyText.cases}</legend>
+          {cases.value.value !== null && usable.length === 0 && <span class="soft">{studyText.noCases}</span>}
           {usable.map((one) => (
             <label class="check" key={one.id}>
               <input
@@ -126,7 +126,7 @@ export function MakeStudy({ api, onMade }: { api: StudyApi; onMade: (studyId: st
           ))}
         </fieldset>
         <button type="submit" class="main-button" data-testid="make-study" disabled={!complete}>
-          {studyWords.makeButton}
+          {studyText.makeButton}
         </button>
       </form>
       {problem.value !== null && (

@@ -2,13 +2,13 @@ import { useSignal } from '@preact/signals';
 
 import type { Remote } from '../../state/remote';
 import { addressOfRoute } from '../../state/route';
-import { studyWords } from '../../study_words';
-import { wordsOf } from '../../wire/rest';
+import { studyText } from '../../text/study_text';
+import { messageOf } from '../../wire/rest';
 import type { StudyApi } from '../../wire/study_api';
 import type { Participant, Person, Study } from '../../wire/study_types';
-import { Remark } from '../fields';
-import { Really } from '../really';
-import { useIdentity } from '../site_nav';
+import { Remark } from '../common/fields';
+import { ConfirmButton } from '../common/confirm_dialog';
+import { useIdentity } from '../common/site_nav';
 
 interface Parts {
   api: StudyApi;
@@ -29,42 +29,42 @@ export function ParticipantTable({ api, study, participants }: Parts) {
       persons.value = await api.persons(study.id);
       problem.value = null;
     } catch (error) {
-      problem.value = wordsOf(error);
+      problem.value = messageOf(error);
     }
   };
   return (
     <section class="desk-panel" aria-labelledby="participants-title">
       <div class="desk-head">
-        <h2 id="participants-title">{studyWords.participants}</h2>
+        <h2 id="participants-title">{studyText.participants}</h2>
         {mayKnow && persons.value === null && list !== null && list.length > 0 && (
           <button
             type="button"
             class="plain-button"
             data-testid="show-persons"
-            title={studyWords.personsHint}
+            title={studyText.personsHint}
             onClick={() => void look()}
           >
-            {studyWords.showPersons}
+            {studyText.showPersons}
           </button>
         )}
       </div>
       {(problem.value ?? participants.problem.value) !== null && (
         <Remark kind="bad">{problem.value ?? participants.problem.value}</Remark>
       )}
-      {hidden && <p class="soft">{studyWords.hiddenHint}</p>}
-      {list?.length === 0 && <p class="soft">{studyWords.noParticipants}</p>}
+      {hidden && <p class="soft">{studyText.hiddenHint}</p>}
+      {list?.length === 0 && <p class="soft">{studyText.noParticipants}</p>}
       {list !== null && list.length > 0 && (
         <div class="desk-scroll">
           <table class="desk-table" data-testid="participants">
             <thead>
               <tr>
-                <th scope="col">{studyWords.code}</th>
-                {persons.value !== null && <th scope="col">{studyWords.person}</th>}
-                <th scope="col">{studyWords.experience}</th>
+                <th scope="col">{studyText.code}</th>
+                {persons.value !== null && <th scope="col">{studyText.person}</th>}
+                <th scope="col">{studyText.experience}</th>
                 <th scope="col" class="number">
-                  {studyWords.proceduresShort}
+                  {studyText.proceduresShort}
                 </th>
-                <th scope="col">{studyWords.answered}</th>
+                <th scope="col">{studyText.answered}</th>
                 <th />
               </tr>
             </thead>
@@ -97,24 +97,23 @@ function Row({
       </td>
       {persons !== null && (
         <td>
-          {person?.name ?? ''}{' '}
-          {(person?.user_id ?? null) === null && <span class="soft">({studyWords.noAccount})</span>}
+          {person?.name ?? ''} {(person?.user_id ?? null) === null && <span class="soft">({studyText.noAccount})</span>}
         </td>
       )}
       <td>
         {one.experience === null ? (
-          <span class="soft">{studyWords.hidden}</span>
+          <span class="soft">{studyText.hidden}</span>
         ) : (
-          studyWords.experienceNames[one.experience]
+          studyText.experienceNames[one.experience]
         )}
       </td>
       <td class="number">{one.procedures_done ?? ''}</td>
       <td>
         {unknown ? (
-          <span class="soft">{studyWords.hidden}</span>
+          <span class="soft">{studyText.hidden}</span>
         ) : (
           <span class={one.answers === null ? 'chip' : 'chip chip-good'}>
-            {one.answers === null ? studyWords.answeredNo : studyWords.answeredYes}
+            {one.answers === null ? studyText.answeredNo : studyText.answeredYes}
           </span>
         )}
       </td>
@@ -123,18 +122,18 @@ function Row({
           <a
             class="plain-button"
             href={addressOfRoute({ kind: 'questionnaire', id: study.id, participant: one.code })}
-            aria-label={studyWords.answersOf(one.code)}
+            aria-label={studyText.answersOf(one.code)}
           >
-            {studyWords.enter}
+            {studyText.enter}
           </a>
         )}
         {may.operate && (
-          <Really
-            label={studyWords.withdraw}
-            describe={studyWords.withdrawOf(one.code)}
-            question={studyWords.withdrawReally(one.code)}
-            yes={studyWords.withdraw}
-            no={studyWords.keep}
+          <ConfirmButton
+            label={studyText.withdraw}
+            describe={studyText.withdrawOf(one.code)}
+            question={studyText.withdrawReally(one.code)}
+            yes={studyText.withdraw}
+            no={studyText.keep}
             testId={`withdraw-${one.code}`}
             disabled={participants.busy.value}
             onYes={() => void participants.act(() => api.withdraw(study.id, one.code))}

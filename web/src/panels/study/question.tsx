@@ -1,5 +1,5 @@
 import type { AnswerSheet } from '../../state/study/answer_sheet';
-import { studyWords } from '../../study_words';
+import { studyText } from '../../text/study_text';
 import type { ChoiceItem, Item, LikertItem, TextItem } from '../../wire/study_types';
 
 interface Parts<T extends Item> {
@@ -21,7 +21,7 @@ export function Question({ item, sheet }: Parts<Item>) {
       aria-describedby={bad ? `${id}-fault` : undefined}
     >
       <legend>
-        {item.words} {!item.required && <span class="soft">({studyWords.optional})</span>}
+        {item.words} {!item.required && <span class="soft">({studyText.optional})</span>}
       </legend>
       {item.kind === 'likert' ? (
         <LikertAnswers item={item} sheet={sheet} />
@@ -30,7 +30,7 @@ export function Question({ item, sheet }: Parts<Item>) {
       )}
       {bad && (
         <p id={`${id}-fault`} class="question-fault">
-          {studyWords.needed}
+          {studyText.needed}
         </p>
       )}
     </fieldset>
@@ -47,10 +47,10 @@ function LikertAnswers({ item, sheet }: Parts<LikertItem>) {
   const points = Array.from({ length: item.points }, (_, i) => i + 1);
   const label = (at: number) =>
     at === 1
-      ? studyWords.lowest(at, item.low)
+      ? studyText.lowest(at, item.low)
       : at === item.points
-        ? studyWords.lowest(at, item.high)
-        : studyWords.points(at, item.points);
+        ? studyText.lowest(at, item.high)
+        : studyText.points(at, item.points);
   return (
     <div class="likert">
       <span class="likert-end" aria-hidden="true">
@@ -83,7 +83,7 @@ function LikertAnswers({ item, sheet }: Parts<LikertItem>) {
             checked={answer === null}
             onChange={() => sheet.set(item.id, null)}
           />
-          {studyWords.cannotJudge}
+          {studyText.cannotJudge}
         </label>
       )}
     </div>
@@ -119,7 +119,7 @@ function TextQuestion({ item, sheet, bad }: Parts<TextItem> & { bad: boolean }) 
   return (
     <div class={bad ? 'question question-bad' : 'question'} data-testid={`question-${item.id}`}>
       <label for={id}>
-        {item.words} {!item.required && <span class="soft">({studyWords.optional})</span>}
+        {item.words} {!item.required && <span class="soft">({studyText.optional})</span>}
       </label>
       <textarea
         id={id}
@@ -135,7 +135,7 @@ function TextQuestion({ item, sheet, bad }: Parts<TextItem> & { bad: boolean }) 
       />
       {(bad || tooLong) && (
         <p id={`${id}-fault`} class="question-fault">
-          {tooLong ? studyWords.tooLong(item.longest) : studyWords.needed}
+          {tooLong ? studyText.tooLong(item.longest) : studyText.needed}
         </p>
       )}
     </div>

@@ -1,9 +1,9 @@
 import { useSignal } from '@preact/signals';
 
 import { addressOfRoute } from '../../state/route';
-import { studyWords } from '../../study_words';
+import { studyText } from '../../text/study_text';
 import type { Study } from '../../wire/study_types';
-import { useIdentity } from '../site_nav';
+import { useIdentity } from '../common/site_nav';
 
 interface Parts {
   study: Study;
@@ -30,16 +30,16 @@ export function TrainPanel({ study, codes, train }: Parts) {
   if (study.state === 'closed' || (own === null && codes.length === 0)) return null;
   return (
     <section class="desk-panel" aria-labelledby="train-title">
-      <h2 id="train-title">{own === null ? studyWords.train : studyWords.yourPart}</h2>
+      <h2 id="train-title">{own === null ? studyText.train : studyText.yourPart}</h2>
       {own !== null && (
         <p class="soft" data-testid="own-code">
-          {studyWords.yourCode(own)}
+          {studyText.yourCode(own)}
         </p>
       )}
       <form class="desk-form" onSubmit={(event) => void start(event)}>
         {may.teach && codes.length > 0 && (
           <label>
-            {studyWords.trainsAs}
+            {studyText.trainsAs}
             <select
               required
               data-testid="train-as"
@@ -57,7 +57,7 @@ export function TrainPanel({ study, codes, train }: Parts) {
         )}
         {study.cases.length > 1 && (
           <label>
-            {studyWords.onCase}
+            {studyText.onCase}
             <select
               data-testid="train-on"
               value={caseId.value}
@@ -74,11 +74,11 @@ export function TrainPanel({ study, codes, train }: Parts) {
         <button
           type="submit"
           class="main-button"
-          title={studyWords.trainHint}
+          title={studyText.trainHint}
           data-testid="train"
           disabled={busy.value || participant === null}
         >
-          {busy.value ? studyWords.starting : studyWords.start}
+          {busy.value ? studyText.starting : studyText.start}
         </button>
         {own !== null && study.questionnaire && (
           <a
@@ -86,7 +86,7 @@ export function TrainPanel({ study, codes, train }: Parts) {
             data-testid="own-answers"
             href={addressOfRoute({ kind: 'questionnaire', id: study.id, participant: own })}
           >
-            {studyWords.answerNow}
+            {studyText.answerNow}
           </a>
         )}
       </form>

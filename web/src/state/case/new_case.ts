@@ -2,7 +2,7 @@ import { batch, signal } from '@preact/signals';
 
 import type { CaseApi } from '../../wire/case_api';
 import type { CaseSummary, Job, Side } from '../../wire/case_types';
-import { wordsOf } from './case_keeper';
+import { wordsOf } from './case_controller';
 import { followJob, pause } from './job_watch';
 import { dropUpload, forgetUpload, uploadFile, type UploadSource } from './upload';
 

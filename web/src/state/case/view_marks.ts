@@ -2,7 +2,7 @@ import { computed, type ReadonlySignal } from '@preact/signals';
 
 import { type Outline, reamerOutline } from '../../ct/reamer_shape';
 import type { SeedName, Triple } from '../../wire/case_types';
-import type { CaseKeeper } from './case_keeper';
+import type { CaseController } from './case_controller';
 import { landmarkNames, type LandmarkName, pointOf } from './landmark_names';
 
 /** A point that is drawn in slices and on the surface. World frame. */
@@ -33,7 +33,7 @@ export class ViewMarks {
   readonly points: ReadonlySignal<readonly PointMark[]>;
   readonly plan: ReadonlySignal<PlanMark | null>;
 
-  constructor(private readonly keeper: CaseKeeper) {
+  constructor(private readonly keeper: CaseController) {
     const { store } = keeper;
     this.points = computed(() => {
       if (store.openStep.value === 'segment') return this.seeds();

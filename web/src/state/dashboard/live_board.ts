@@ -2,7 +2,7 @@ import { batch, computed, signal } from '@preact/signals';
 
 import type { Session } from '../../wire/api';
 import type { SoFar } from '../../wire/dashboard_api';
-import { wordsOf } from '../../wire/rest';
+import { messageOf } from '../../wire/rest';
 
 /** What the board asks for. */
 export interface LiveSource {
@@ -117,7 +117,7 @@ export class LiveBoard {
     } catch (error) {
       if (turn !== this.turn) return;
       batch(() => {
-        this.problem.value = wordsOf(error);
+        this.problem.value = messageOf(error);
         this.lost.value = true;
       });
     } finally {

@@ -1,12 +1,4 @@
-/** What a byte of a deviation map means; as the server says with the map. */
-export interface DeviationCode {
-  /** mm of one step. */
-  stepMm: number;
-  /** mm of 127 steps: that much or more. */
-  rangeMm: number;
-  /** The byte for nothing to compare. */
-  unknown: number;
-}
+import type { DeviationCode } from '../../wire/review_api';
 
 export type ScaleName = 'fine' | 'report' | 'coarse';
 /** Ends of the classes on either side of what is as it should be, mm; the report has the middle ones. */

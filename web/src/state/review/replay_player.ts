@@ -3,7 +3,7 @@ import { batch, signal } from '@preact/signals';
 import { ApiError, type Api, type PlaybackChange, type Replay } from '../../wire/api';
 import { Link } from '../../wire/link';
 import type { Hello, MeshDelta, StreamMessage, Telemetry, ToolMesh } from '../../wire/messages';
-import { wordsOf } from '../../wire/rest';
+import { messageOf } from '../../wire/rest';
 import type { StreamSocket } from '../../wire/stream_socket';
 import type { Player } from '../player';
 import { Scrubber } from '../scrubber';
@@ -158,7 +158,7 @@ export class ReplayPlayer implements Player {
   }
 
   private tell(error: unknown): void {
-    this.store.problem.value = wordsOf(error);
+    this.store.problem.value = messageOf(error);
   }
 }
 

@@ -1,7 +1,7 @@
 import { computed, effect, signal } from '@preact/signals';
 
 import type { Api, Mark, Session } from '../../wire/api';
-import { ApiError, wordsOf } from '../../wire/rest';
+import { ApiError, messageOf } from '../../wire/rest';
 import type { MapName, ReviewApi } from '../../wire/review_api';
 import type { StreamSocket } from '../../wire/stream_socket';
 import type { SortedSurface } from '../../wire/surface_worker';
@@ -196,7 +196,7 @@ export class ReviewSession {
       this.trace.value = readTrace(await this.sources.review.trace(this.id, traceStride(ticks)));
       this.traceProblem.value = null;
     } catch (error) {
-      this.traceProblem.value = wordsOf(error);
+      this.traceProblem.value = messageOf(error);
     } finally {
       this.traceUnderWay = false;
     }

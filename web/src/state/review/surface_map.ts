@@ -3,7 +3,7 @@ import { batch, signal } from '@preact/signals';
 import { ApiError } from '../../wire/rest';
 import type { DeviationBytes, MapName } from '../../wire/review_api';
 import type { SortedSurface } from '../../wire/surface_worker';
-import { reviewWords } from '../../review_words';
+import { reviewText } from '../../text/review_text';
 import { troubleWithMap } from './trouble';
 
 export type MapState =
@@ -72,12 +72,12 @@ export class SurfaceMap {
       }
       this.surface = null;
       this.deviations.clear();
-      this.state.value = { kind: 'problem', name, words: reviewWords.noMap.mismatch };
+      this.state.value = { kind: 'problem', name, words: reviewText.noMap.mismatch };
     });
   }
 }
 
 function wordsOfMap(error: unknown): string {
   if (error instanceof ApiError) return troubleWithMap(error);
-  return reviewWords.noMap.other(error instanceof Error ? error.message : String(error));
+  return reviewText.noMap.other(error instanceof Error ? error.message : String(error));
 }

@@ -1,4 +1,4 @@
-import { reviewWords } from '../../review_words';
+import { reviewText } from '../../text/review_text';
 import type { ApiError } from '../../wire/rest';
 
 /** Why something is not there, and what can be done. */
@@ -10,7 +10,7 @@ export interface Trouble {
 
 /** Words for a session that cannot be shown; the server's own stand behind ours. */
 export function troubleWithSession({ status, message }: Pick<ApiError, 'status' | 'message'>): Trouble {
-  const { trouble } = reviewWords;
+  const { trouble } = reviewText;
   switch (status) {
     case 404:
       return { kind: 'gone', ...trouble.gone };
@@ -29,7 +29,7 @@ export function troubleWithSession({ status, message }: Pick<ApiError, 'status' 
 
 /** Words for a map that is not there. */
 export function troubleWithMap({ status, message }: Pick<ApiError, 'status' | 'message'>): string {
-  const { noMap } = reviewWords;
+  const { noMap } = reviewText;
   switch (status) {
     case 0:
       return noMap.silent;

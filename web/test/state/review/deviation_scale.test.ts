@@ -3,7 +3,6 @@ import { describe, expect, it } from 'vitest';
 import {
   classOf,
   deviationClasses,
-  type DeviationCode,
   deviationMm,
   deviationShares,
   paletteOf,
@@ -11,6 +10,7 @@ import {
   scaleBoundsMm,
   unknownColour,
 } from '../../../src/state/review/deviation_scale';
+import type { DeviationCode } from '../../../src/wire/review_api';
 
 const code: DeviationCode = { stepMm: 1 / 32, rangeMm: 127 / 32, unknown: -128 };
 const scales = Object.keys(scaleBoundsMm) as ScaleName[];

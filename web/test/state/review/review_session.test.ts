@@ -1,6 +1,6 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 
-import { reviewWords } from '../../../src/review_words';
+import { reviewText } from '../../../src/text/review_text';
 import { ReviewSession, type ReviewSources } from '../../../src/state/review/review_session';
 import { ApiError, type PlaybackChange, type Session } from '../../../src/wire/api';
 import type { Score } from '../../../src/wire/score_types';
@@ -164,7 +164,7 @@ describe('session under review', () => {
     });
     session.chooseMap('implant');
     await settle();
-    expect(session.map.state.value).toMatchObject({ kind: 'problem', words: reviewWords.noMap.mismatch });
+    expect(session.map.state.value).toMatchObject({ kind: 'problem', words: reviewText.noMap.mismatch });
     session.dispose();
   });
 

@@ -1,0 +1,114 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "shell/point_shell.hpp"
+
+namespace ream::collide {
+
+/// What an engaged point adds to the sums, before its weight: unit normal n in 1/127 and the x and y of its
+/// moment arm (r x n) / moment length in 1/127. The arm has no z: a normal of the swept envelope, a surface
+/// of revolution, meets the axis.
+struct ContactVector {
+  std::array<int32_t, 5> g{};
+  int32_t weight = 0;  ///< area in 1/16 cell face, 16 to 28
+};
+
+/// Direction codes: the meridian entry (normal and arm in the half plane through the axis) above ten bits of
+/// angle about the axis. Two small tables and integer products give the vector on every device.
+inline constexpr int azimuth_bits = 10;
+inline constexpr uint32_t azimuth_count = 1u << azimuth_bits;
+inline constexpr uint32_t max_meridian_entries = 2048;
+inline constexpr int azimuth_shift = 14;
+
+struct DirectionTable {
+  /// A byte each, lowest first: radial and axial normal, arm about the tangent (signed), weight.
+  std::vector<uint32_t> meridian;
+  /// cos, then sin in the high half, signed, in 2^-14.
+  std::vector<uint32_t> azimuth;
+
+  ContactVector vector(uint32_t direction) const noexcept;
+};
+
+/// A meridian entry packed.
+constexpr uint32_t meridian_entry(int normal_radial, int normal_z, int arm, int weight) {
+  return (static_cast<uint32_t>(normal_radial) & 0xff) | (static_cast<uint32_t>(normal_z) & 0xff) << 8 |
+         (static_cast<uint32_t>(arm) & 0xff) << 16 | static_cast<uint32_t>(weight) << 24;
+}
+
+/// The azimuth half of the table.
+std::vector<uint32_t> azimuth_table();
+
+/// Sums over points of w g_i g_j (upper triangle of 5 x 5, row by row), then w g_i, then w. A block's stay
+/// within 32 bits: 512 points of weight 28 and components 127.
+using ContactProducts = std::array<int32_t, 21>;
+void add_products(const ContactVector& v, ContactProducts& sums) noexcept;
+
+inline ContactVector DirectionTable::vector(uint32_t direction) const noexcept {
+  const uint32_t m = meridian[direction >> azimuth_bits], a = azimuth[direction & (azimuth_count - 1)];
+  const auto signed_byte = [m](int shift) { return static_cast<int32_t>(static_cast<int8_t>(m >> shift)); };
+  const int32_t radial = signed_byte(0), axial = signed_byte(8), arm = signed_byte(16);
+  const int32_t cosine = static_cast<int16_t>(a), sine = static_cast<int16_t>(a >> 16);
+  const auto turned = [](int32_t product) { return (product + (1 << (azimuth_shift - 1))) >> azimuth_shift; };
+  return {{turned(radial * cosine), turned(radial * sine), axial, turned(arm * sine), turned(-arm * cosine)},
+          static_cast<int32_t>(m >> 24)};
+}
+
+/// Points looked at together, as one vector: consecutive ones of a block, whose last chunk may have fewer.
+inline constexpr int chunk_points = 16;
+inline constexpr int max_block_points = 512;
+inline constexpr int max_block_chunks = max_block_points / chunk_points;
+
+/// Probes of one 8^3-cell block of the PointShell, or of a few small ones side by side, that are all cutting
+/// or all guiding.
+struct ContactBlock {
+  uint32_t first = 0;  ///< of its points
+  uint16_t count = 0;
+  uint16_t guiding = 0;             ///< 1: guiding or smooth surface, which never cuts
+  Vec3i origin_units{0, 0, 0};      ///< of its points' places, tool frame, in place_unit_mm
+  int32_t height_units = 0;         ///< greatest place along z
+  std::array<int32_t, 21> whole{};  ///< ContactProducts of all its points
+};
+
+/// A PointShell made ready for one grid: where each point probes for bone and what it adds when it meets
+/// some. Six bytes a point and less than two for its block. Read-only, shared by all narrow phases.
+///
+/// Cutting points probe one voxel out from the true surface along the normal (DESIGN 3: engaged when bone
+/// lies within one voxel, for removal must not clear its own contact). Guiding points have no such need and
+/// probe one voxel below the surface, end faces also two nearer to the axis: corners of voxels, which stand
+/// out by up to 0.87 edges, shall not stop a nipple at the mouth of a hole that is barely wider, and its side
+/// meets the wall of the hole before its end does.
+struct ContactShell {
+  /// Places in a block, nine bits each for x, y, z (x lowest) in place_unit_mm from the block's origin, then
+  /// the five high bits of the direction code. Padded by a chunk, as the directions, to be read in chunks.
+  std::vector<uint32_t> places;
+  std::vector<uint16_t> directions;  ///< low sixteen bits of the direction code
+  std::vector<ContactBlock> blocks;
+  std::vector<uint32_t> first_chunks;  ///< of the blocks, and one more: the number of chunks
+  /// Bounding spheres of the blocks' probes, tool frame, mm; struct of arrays for the culling.
+  std::vector<float> centre_x_mm, centre_y_mm, centre_z_mm, radius_mm;
+  DirectionTable table;
+  double place_unit_mm = 0.0;
+  double moment_length_mm = 1.0;
+  double cell_area_mm2 = 0.0;
+  double probe_length_mm = 0.0;
+  Aabb bounds_mm;
+
+  size_t size() const { return places.size() - chunk_points; }
+  size_t chunk_count() const { return first_chunks.back(); }
+  /// Direction code of a point.
+  uint32_t direction(size_t point) const { return directions[point] | (places[point] >> 27) << 16; }
+  /// Where a point of a block probes, tool frame.
+  Vec3 probe_mm(const ContactBlock& block, size_t point) const;
+  /// Bytes held.
+  size_t bytes() const;
+};
+
+inline constexpr int place_bits = 9;
+inline constexpr uint32_t place_mask = (1u << place_bits) - 1;
+
+/// `probe_length_mm`: the grid's largest voxel edge.
+ContactShell make_contact_shell(const shell::PointShell& shell, double probe_length_mm);
+
+}  // namespace ream::collide

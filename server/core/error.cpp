@@ -1,7 +1,0 @@
-#include "core/error.hpp"
-
-namespace ream {
-
-int exit_code(ErrorKind kind) { return kind == ErrorKind::usage ? 2 : 1; }
-
-}  // namespace ream

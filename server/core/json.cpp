@@ -1,0 +1,3 @@
+#include "core/json.hpp"
+
+template class nlohmann::basic_json<>;

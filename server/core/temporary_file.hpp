@@ -1,0 +1,38 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+namespace ream {
+
+/// A name for a file that goes when this does; what has been opened stays readable.
+class TemporaryFile {
+ public:
+  /// A name of its own in `folder` (empty: the system's for temporary files), ending in `ending` (".csv").
+  /// Makes the folder, not the file.
+  TemporaryFile(const std::filesystem::path& folder, const std::string& ending);
+  ~TemporaryFile();
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// A new folder, beside others and named after `beside`, that goes with its contents when this does.
+class TemporaryFolder {
+ public:
+  /// Throws Error io naming `beside`.
+  explicit TemporaryFolder(const std::filesystem::path& beside);
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace ream

@@ -1,0 +1,61 @@
+#pragma once
+#include <array>
+#include <optional>
+
+#include "case/case.hpp"
+#include "core/progress.hpp"
+#include "ct/segment/mask.hpp"
+
+namespace ream::ct {
+
+/// Density chain of science 2.5 with the laws of the case: rho_QCT = intercept + slope HU; rho_ash =
+/// intercept + slope rho_QCT; apparent density = rho_ash / ratio, all g/cc. Negative results become 0.
+double apparent_density_g_cc(double hu, const case_::Calibration& calibration);
+
+/// Its inverse: the HU that a bone of that apparent density has.
+double hu_of_apparent_density(double density_g_cc, const case_::Calibration& calibration);
+
+/// What turns a CT into bone. Points are world (LPS) mm.
+struct SegmentationOptions {
+  double sigma_mm = 0.0;             ///< Gaussian before the threshold
+  double threshold_hu = 200.0;       ///< bone is at least this
+  std::optional<Vec3> grow_from_mm;  ///< part to keep; without it, the largest part
+  int upsample = 1;                  ///< 1 to 16 per axis
+  case_::Calibration calibration;    ///< its threshold_hu is set from threshold_hu
+};
+
+/// HU that partial volume at the surface is measured against: muscle and joint fluid.
+inline constexpr double soft_tissue_hu = 40.0;
+
+/// Mask by threshold and region growing. `volume` is smoothed in place first. Throws Error invalid_input when
+/// nothing reaches the threshold or no bone lies within 2 mm of the seed.
+Mask segment(HuVolume& volume, const SegmentationOptions& options);
+
+/// Bone of a mask over a CT: voids filled; at the surface, how full a voxel is follows from its HU between
+/// soft tissue and the densest bone beside it (so the surface is sub-voxel and thin sheets survive), and
+/// density is that of the bone within, not of the mix; both upsampled (voxel/upsample.hpp) and padded to
+/// whole bricks.
+voxel::BoneModel bone_from_mask(const HuVolume& volume, Mask mask, const SegmentationOptions& options);
+
+/// What makes a mask over a CT a bone to ream.
+struct BoneSettings {
+  std::optional<Aabb> roi_mm;  ///< world (LPS); without it the box around the mask
+  int upsample = 1;            ///< 1 to 16 per axis
+  case_::Calibration calibration;
+};
+
+/// As above, but only the part of the mask within the region of interest, and with an empty CT voxel on every
+/// side so that the surface is closed where the region cuts the bone. Throws Error invalid_input for an empty
+/// mask, no bone within the region, a bad factor, or more than 1.5e9 voxels.
+voxel::BoneModel bone_from_mask(const HuVolume& volume, const Mask& mask, const BoneSettings& settings,
+                                const Progress& progress);
+
+/// Region of interest around a glenoid: a box along the world's axes of 60 mm across, 60 mm front to back and
+/// 70 mm high, about a point 15 mm medial of the centre (`lateral` need not be a unit vector).
+Aabb glenoid_roi_mm(const Vec3& centre_mm, const Vec3& lateral);
+
+/// Least and greatest density (g/cc) of the bone's voxels that are at least half full, cartilage left out;
+/// the bytes of any model range from 0 to 2.50 g/cc in steps of 0.01. Zeros for an empty bone.
+std::array<double, 2> density_range_g_cc(const voxel::BoneModel& bone);
+
+}  // namespace ream::ct

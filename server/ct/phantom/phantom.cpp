@@ -1,0 +1,218 @@
+#include "ct/phantom/phantom.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "core/units.hpp"
+#include "ct/build/bone_from_mask.hpp"
+#include "ct/phantom/phantom_shape.hpp"
+
+namespace ream::ct {
+namespace {
+
+constexpr double soft_tissue_hu = 50.0;
+constexpr double cortical_g_cc = 1.5;
+constexpr double sclerotic_g_cc = 1.1, sclerotic_mm = 4.0;  // under a neoglenoid's plate
+
+/// What osteoporosis leaves: of the spongy bone, of the compact bone's density and of its thickness.
+constexpr double porotic_spongy = 0.65, porotic_compact = 0.85, porotic_thickness = 0.7;
+constexpr double max_field_voxels = 6.0e8;
+
+struct TypeName {
+  PhantomType type;
+  const char* text;
+};
+constexpr TypeName type_names[] = {{PhantomType::a1, "A1"},
+                                   {PhantomType::a2, "A2"},
+                                   {PhantomType::b2, "B2"},
+                                   {PhantomType::osteophytes, "osteophytes"},
+                                   {PhantomType::osteoporotic, "osteoporotic"}};
+
+void check(const PhantomParams& p) {
+  const auto within = [](const char* what, double value, double low, double high) {
+    if (value >= low && value <= high) return;
+    const auto text = [](double v) { return nlohmann::json(v).dump(); };
+    throw Error(ErrorKind::invalid_input, std::string("phantom: ") + what + " is " + text(value) +
+                                              ", must be between " + text(low) + " and " + text(high));
+  };
+  within("version in degrees", degrees_from_radians(p.version_rad), -40.0, 40.0);
+  within("inclination in degrees", degrees_from_radians(p.inclination_rad), -40.0, 40.0);
+  within("glenoid radius in mm", p.glenoid_radius_mm, 25.0, 60.0);
+  within("glenoid height in mm", p.glenoid_height_mm, 20.0, 48.0);
+  within("glenoid width in mm", p.glenoid_width_mm, 12.0, 40.0);
+  within("subchondral plate in mm", p.plate_mm, 0.0, 5.0);
+  within("cortical shell in mm", p.shell_mm, 0.0, 5.0);
+  within("joint space in mm", p.joint_space_mm, 1.0, 12.0);
+  within("noise in HU", p.noise_hu, 0.0, 500.0);
+  for (int axis = 0; axis < 3; ++axis) within("voxel size in mm", p.spacing_mm[axis], 0.05, 10.0);
+}
+
+/// Sum of four 16-bit uniforms of one hash, centred and scaled to standard deviation 1: near Gaussian, and
+/// the same on every machine.
+double noise(uint64_t seed, uint64_t index) {
+  const uint64_t h = mix64(hash_combine(seed, index));
+  const int64_t sum =
+      static_cast<int64_t>((h & 0xffff) + ((h >> 16) & 0xffff) + ((h >> 32) & 0xffff) + (h >> 48));
+  constexpr double four_uniforms_sd = 65536.0 * 0.57735026918962573;  // sqrt(4/12)
+  return static_cast<double>(sum - 2 * 65535) / four_uniforms_sd;
+}
+
+/// Share of a voxel on the inner side of a border at signed distance `d` (negative inside).
+double inside_share(double d, double voxel_mm) { return std::clamp(0.5 - d / voxel_mm, 0.0, 1.0); }
+
+/// Apparent density of the trabecular bone: densest posterior and near the face (science 2.4).
+double cancellous_g_cc(double posterior_mm, double depth_mm) {
+  return std::clamp(0.56 + 0.010 * posterior_mm - 0.004 * std::max(0.0, depth_mm), 0.40, 0.70);
+}
+
+bool is_porotic(const PhantomParams& p) { return p.type == PhantomType::osteoporotic; }
+
+/// With what osteoporosis leaves of plate and shell.
+PhantomParams with_its_thickness(PhantomParams p) {
+  if (!is_porotic(p)) return p;
+  p.plate_mm *= porotic_thickness;
+  p.shell_mm *= porotic_thickness;
+  return p;
+}
+
+double compact_g_cc(const PhantomParams& p) {
+  return is_porotic(p) ? porotic_compact * cortical_g_cc : cortical_g_cc;
+}
+
+/// Density of what is not compact at a point of a right shoulder.
+double spongy_g_cc(const PhantomShape& shape, const PhantomParams& p, const Vec3& world, double depth_mm) {
+  const double healthy = cancellous_g_cc(shape.posterior_mm(world), depth_mm);
+  if (is_porotic(p)) return porotic_spongy * healthy;
+  const bool sclerotic = p.type == PhantomType::b2 &&
+                         shape.depth_under_neoglenoid_mm(world) < p.plate_mm + sclerotic_mm &&
+                         shape.depth_under_neoglenoid_mm(world) == depth_mm;
+  return sclerotic ? sclerotic_g_cc : healthy;
+}
+
+/// HU without noise at a point of a right shoulder.
+double tissue_hu(const PhantomShape& shape, const PhantomParams& p, const Vec3& world, double voxel_mm) {
+  const double head = shape.humerus_mm(world), scapula = shape.scapula_mm(world);
+  const double bone = std::min(head, scapula);
+  const double filled = inside_share(bone, voxel_mm);
+  if (filled == 0.0) return soft_tissue_hu;
+  const double shell = inside_share(-(bone + p.shell_mm), voxel_mm);
+  const double depth = shape.depth_under_face_mm(world);
+  const double plate =
+      scapula < head && depth < p.plate_mm + voxel_mm ? inside_share(depth - p.plate_mm, voxel_mm) : 0.0;
+  const double compact = std::max(shell, plate);
+  const double spongy = spongy_g_cc(shape, p, world, depth);
+  const double density = compact * compact_g_cc(p) + (1.0 - compact) * spongy;
+  return filled * hu_of_apparent_density(density, p.calibration) + (1.0 - filled) * soft_tissue_hu;
+}
+
+Vec3 mirrored(const Vec3& v) { return {-v.x(), v.y(), v.z()}; }
+
+void mirror(GroundTruth& truth) {
+  for (Vec3* v : {&truth.glenoid.centre_mm, &truth.glenoid.lateral, &truth.glenoid.superior,
+                  &truth.glenoid.anterior, &truth.articular_sphere_centre_mm, &truth.spine_root_mm,
+                  &truth.inferior_angle_mm, &truth.humeral_head_centre_mm})
+    *v = mirrored(*v);
+  case_::Landmarks& l = truth.landmarks;
+  for (auto* point : {&l.glenoid_centre_mm, &l.superior_rim_mm, &l.inferior_rim_mm, &l.anterior_rim_mm,
+                      &l.posterior_rim_mm, &l.trigonum_mm, &l.inferior_angle_mm})
+    *point = mirrored(**point);
+  l.humeral_head->centre_mm = mirrored(l.humeral_head->centre_mm);
+  for (Vec3& point : l.biconcavity_mm) point = mirrored(point);
+}
+
+}  // namespace
+
+std::string to_text(PhantomType type) {
+  for (const TypeName& named : type_names)
+    if (named.type == type) return named.text;
+  return "A1";
+}
+
+PhantomType phantom_type_from_text(const std::string& text) {
+  for (const TypeName& named : type_names)
+    if (named.text == text) return named.type;
+  throw Error(ErrorKind::invalid_input,
+              "phantom type '" + text + "' must be A1, A2, B2, osteophytes or osteoporotic");
+}
+
+Phantom make_phantom(const PhantomParams& params) {
+  check(params);
+  const PhantomParams sized = with_its_thickness(params);
+  const PhantomShape shape(sized);
+  Phantom phantom{{}, shape.truth()};
+  const bool left = params.side == case_::Side::left;
+  HuVolume& volume = phantom.volume;
+  const Vec3 voxels =
+      ((params.field_mm.max - params.field_mm.min).array() / params.spacing_mm.array()).round().matrix();
+  if (!(voxels.minCoeff() >= 1.0))
+    throw Error(ErrorKind::invalid_input, "phantom: the field holds no voxels");
+  if (voxels.prod() > max_field_voxels)
+    throw Error(ErrorKind::invalid_input, "phantom: more than 6e8 voxels; choose a larger voxel size");
+  volume.dims = voxels.cast<int>();
+  volume.spacing_mm = params.spacing_mm;
+  const Vec3 origin = phantom.truth.glenoid.centre_mm + params.field_mm.min;
+  volume.world_from_volume.translation_mm = origin;
+  volume.source = "phantom, random seed " + std::to_string(params.random_seed);
+  volume.hu.resize(volume.voxel_count());
+  const double voxel_mm = params.spacing_mm.minCoeff();
+  for (int w = 0; w < volume.dims.z(); ++w)
+    for (int v = 0; v < volume.dims.y(); ++v)
+      for (int u = 0; u < volume.dims.x(); ++u) {
+        const double exact = tissue_hu(shape, sized, volume.world_of_centre({u, v, w}), voxel_mm) +
+                             params.noise_hu * noise(params.random_seed, volume.index(u, v, w));
+        const int column = left ? volume.dims.x() - 1 - u : u;
+        volume.hu[volume.index(column, v, w)] =
+            static_cast<int16_t>(std::clamp(std::floor(exact + 0.5), double{min_hu}, 3071.0));
+      }
+  phantom.truth.side = params.side;
+  if (left) {
+    mirror(phantom.truth);
+    volume.world_from_volume.translation_mm.x() = -(origin.x() + volume.dims.x() * volume.spacing_mm.x());
+  }
+  return phantom;
+}
+
+std::function<double(const Vec3&)> true_density_g_cc(const PhantomParams& params) {
+  check(params);
+  const PhantomParams p = with_its_thickness(params);
+  return [p, shape = PhantomShape(p)](const Vec3& world_mm) {
+    const Vec3 world = p.side == case_::Side::left ? mirrored(world_mm) : world_mm;
+    const double scapula = shape.scapula_mm(world), depth = shape.depth_under_face_mm(world);
+    if (scapula > 0.0) return 0.0;
+    if (scapula > -p.shell_mm || depth < p.plate_mm) return compact_g_cc(p);
+    return spongy_g_cc(shape, p, world, depth);
+  };
+}
+
+nlohmann::json to_json(const GroundTruth& t) {
+  const auto list = [](const Vec3& v) { return nlohmann::json{v.x(), v.y(), v.z()}; };
+  nlohmann::json value = {{"side", case_::to_text(t.side)},
+                          {"type", to_text(t.type)},
+                          {"version_deg", degrees_from_radians(t.version_rad)},
+                          {"inclination_deg", degrees_from_radians(t.inclination_rad)},
+                          {"glenoid",
+                           {{"centre_mm", list(t.glenoid.centre_mm)},
+                            {"lateral", list(t.glenoid.lateral)},
+                            {"superior", list(t.glenoid.superior)},
+                            {"anterior", list(t.glenoid.anterior)}}},
+                          {"articular_sphere_centre_mm", list(t.articular_sphere_centre_mm)},
+                          {"articular_radius_mm", t.articular_radius_mm},
+                          {"glenoid_height_mm", t.glenoid_height_mm},
+                          {"glenoid_width_mm", t.glenoid_width_mm},
+                          {"plate_mm", t.plate_mm},
+                          {"spine_root_mm", list(t.spine_root_mm)},
+                          {"inferior_angle_mm", list(t.inferior_angle_mm)},
+                          {"humeral_head_centre_mm", list(t.humeral_head_centre_mm)},
+                          {"humeral_head_radius_mm", t.humeral_head_radius_mm},
+                          {"landmarks", case_::to_json(t.landmarks)}};
+  for (const auto& [key, version] :
+       {std::pair{"premorbid_version_deg", t.premorbid_version_rad},
+        std::pair{"paleo_version_deg", t.paleo_version_rad}, std::pair{"neo_version_deg", t.neo_version_rad}})
+    if (version) value[key] = degrees_from_radians(*version);
+  return value;
+}
+
+}  // namespace ream::ct

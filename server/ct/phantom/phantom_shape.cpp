@@ -1,0 +1,338 @@
+#include "ct/phantom/phantom_shape.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.hpp"
+
+namespace ream::ct {
+namespace {
+
+/// Polynomial maximum and minimum that round the edge between two surfaces over `width`.
+double rounded_max(double a, double b, double width) {
+  const double h = std::max(width - std::abs(a - b), 0.0) / width;
+  return std::max(a, b) + 0.25 * h * h * width;
+}
+double rounded_min(double a, double b, double width) { return -rounded_max(-a, -b, width); }
+
+/// Distance to the segment a-b with a radius that goes linearly from ra to rb.
+double capsule(const Vec3& p, const Vec3& a, const Vec3& b, double ra, double rb) {
+  const Vec3 ab = b - a;
+  const double t = std::clamp((p - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
+  return (p - a - t * ab).norm() - (ra + t * (rb - ra));
+}
+
+// Where the glenoid lies in the world of a right shoulder, LPS mm.
+const Vec3 glenoid_centre_mm(-150.0, -10.0, 20.0);
+
+constexpr double medial_end_mm = 103.0;
+
+constexpr double rim_rounding_mm = 0.8, joint_rounding_mm = 3.0;
+constexpr double head_radius_mm = PhantomShape::head_radius_mm, shaft_radius_mm = 12.0;
+
+// Central wear: how far the face lies medial, and by how much its radius exceeds that of head and joint
+// space.
+constexpr double central_wear_mm = 4.0, worn_radius_excess_mm = 1.0;
+
+/// sin and cos of the platform's library can differ in the last bit; rounded far below any voxel they do not.
+double settled(double v) { return std::floor(v * 1099511627776.0 + 0.5) / 1099511627776.0; }
+double sine(double a) { return settled(std::sin(a)); }
+double cosine(double a) { return settled(std::cos(a)); }
+double tangent(double a) { return settled(std::tan(a)); }
+
+double triangle_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = b - a, bc = c - b, ca = a - c, normal = ab.cross(-ca);
+  const bool above = normal.cross(ab).dot(p - a) >= 0 && normal.cross(bc).dot(p - b) >= 0 &&
+                     normal.cross(ca).dot(p - c) >= 0;
+  if (above) return std::abs(normal.dot(p - a)) / normal.norm();
+  return std::min({capsule(p, a, b, 0, 0), capsule(p, b, c, 0, 0), capsule(p, c, a, 0, 0)});
+}
+
+/// Smooth step between knots: value at `x` of a piecewise curve with flat tangents at its knots.
+template <size_t N>
+double eased(const double (&at)[N], const double (&value)[N], double x) {
+  if (x <= at[0]) return value[0];
+  for (size_t i = 1; i < N; ++i)
+    if (x < at[i]) {
+      const double t = (x - at[i - 1]) / (at[i] - at[i - 1]);
+      return value[i - 1] + (value[i] - value[i - 1]) * t * t * (3.0 - 2.0 * t);
+    }
+  return value[N - 1];
+}
+
+// Landmarks in the scapular frame, mm.
+const Vec3 spine_root(-105.0, 0.0, 0.0), inferior_angle(-88.0, -108.0, 0.0);
+
+// The neoglenoid: where the ridge lies behind the middle of the face, how long its chord is as a share of the
+// glenoid's width, and how far it is turned into retroversion (26 degrees) against the paleoglenoid.
+constexpr double ridge_behind_middle_mm = 1.0, chord_per_width = 0.48;
+constexpr double turned_cos = 0.89879404629916699, turned_sin = 0.43837114678907742;
+constexpr double neoglenoid_radius_excess_mm = 2.0;  // over that of head and joint space
+
+// Osteophytes: a bead of this radius around the lower rim, so much wider than the rim and raised over the
+// face continued to it.
+constexpr double bead_radius_mm = 2.2, bead_widening = 1.12, bead_raised_mm = -1.0;
+constexpr int bead_parts = 10;
+
+/// Depth of a sphere of that radius at a distance from its deepest point, measured across.
+double sagitta(double radius, double across) {
+  return radius - std::sqrt(std::max(0.0, radius * radius - across * across));
+}
+
+/// Largest r for which `inside` holds on [0, r], to the last bit that matters.
+template <typename Inside>
+double reach(double upper, Inside&& inside) {
+  double low = 0.0, high = upper;
+  for (int halving = 0; halving < 60; ++halving) {
+    const double middle = 0.5 * (low + high);
+    (inside(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+double version_of(const Vec3& normal, const Vec3& lateral, const Vec3& posterior) {
+  return -std::atan2(normal.dot(posterior), normal.dot(lateral));
+}
+
+}  // namespace
+
+PhantomShape::PhantomShape(const PhantomParams& params) : params_(params), centre_(glenoid_centre_mm) {
+  const double c = cosine(params.scapular_plane_rad), s = sine(params.scapular_plane_rad);
+  lateral_ = Vec3(-c, -s, 0.0);
+  superior_ = Vec3::UnitZ();
+  posterior_ = Vec3(-s, c, 0.0);
+  // Science 2.1: version = -atan2(n.z, n.x), inclination = atan2(n.y, n.x).
+  face_normal_ =
+      (lateral_ + tangent(params.inclination_rad) * superior_ - tangent(params.version_rad) * posterior_)
+          .normalized();
+  face_superior_ = (superior_ - superior_.dot(face_normal_) * face_normal_).normalized();
+  const Vec3 across = face_superior_.cross(face_normal_);
+  face_anterior_ = across.dot(posterior_) < 0.0 ? across : Vec3(-across);
+  medial_in_face_ =
+      -Vec3(lateral_.dot(face_superior_), lateral_.dot(face_anterior_), lateral_.dot(face_normal_));
+  const bool worn = params.type == PhantomType::a2;
+  worn_centre_ = worn ? Vec3(centre_ - central_wear_mm * lateral_) : centre_;
+  face_radius_mm_ =
+      worn ? head_radius_mm + params.joint_space_mm + worn_radius_excess_mm : params.glenoid_radius_mm;
+  sphere_centre_ = worn_centre_ + face_radius_mm_ * face_normal_;
+  head_centre_ = worn_centre_ + (params.joint_space_mm + head_radius_mm) * face_normal_;
+  if (params.type == PhantomType::b2) carve_neoglenoid();
+}
+
+double PhantomShape::depth_under_face_mm(const Vec3& world_mm) const {
+  const double depth = (world_mm - sphere_centre_).norm() - face_radius_mm_;
+  return neoglenoid_ ? std::min(depth, depth_under_neoglenoid_mm(world_mm)) : depth;
+}
+
+double PhantomShape::posterior_mm(const Vec3& world_mm) const {
+  return -(world_mm - centre_).dot(face_anterior_);
+}
+
+/// Vault, neck and body: egg-shaped sections whose half axes change with the depth along -x. Scaled to about
+/// mm.
+double PhantomShape::body_value(const Vec3& offset) const {
+  double s = offset.dot(face_superior_), t = offset.dot(face_anterior_), depth = 0.0;
+  const double height_above = offset.dot(face_normal_);
+  if (height_above < 0.0) {
+    depth = height_above / medial_in_face_.z();
+    s -= depth * medial_in_face_.x();
+    t -= depth * medial_in_face_.y();
+  }
+  // Share of the face's half width left at a depth, then half thickness of the body; and growth of the
+  // heights.
+  static constexpr double depth_at[] = {0.0, 24.0, 45.0, 60.0};
+  static constexpr double thickness_share[] = {1.0, 0.50, 0.22, 0.20};
+  static constexpr double lower_at[] = {0.0, 14.0, 40.0, 80.0};
+  static constexpr double lower_share[] = {1.0, 0.92, 2.6, 7.0};
+  static constexpr double upper_share[] = {1.0, 0.85, 1.2, 1.6};
+  const double height = params_.glenoid_height_mm;
+  const double half_width = 0.5 * params_.glenoid_width_mm * eased(depth_at, thickness_share, depth);
+  const double lower =
+      (0.5 - PhantomShape::widest_below_middle) * height * eased(lower_at, lower_share, depth);
+  const double upper =
+      (0.5 + PhantomShape::widest_below_middle) * height * eased(lower_at, upper_share, depth);
+  const double from_widest = s + PhantomShape::widest_below_middle * height;
+  const double along = from_widest / (from_widest < 0.0 ? lower : upper), across = t / half_width;
+  const double section = (std::sqrt(along * along + across * across) - 1.0) * half_width;
+  return rounded_max(section, depth - medial_end_mm, joint_rounding_mm);
+}
+
+/// Spine, acromion and coracoid, scapular frame.
+double PhantomShape::processes_value(const Vec3& p) const {
+  const Vec3 notch(-14.0, 12.0, 20.0), corner(8.0, 26.0, 34.0), tip(30.0, 34.0, 8.0);
+  const Vec3 neck_top(-28.0, 10.0, 2.0), spine_start(-103.0, 0.0, 1.0);
+  double d = triangle_distance(p, spine_start, neck_top, notch) - 1.6;
+  d = rounded_min(d, capsule(p, spine_start, notch, 2.5, 4.5), joint_rounding_mm);
+  d = rounded_min(d, capsule(p, notch, corner, 4.5, 5.5), joint_rounding_mm);
+  d = rounded_min(d, capsule(p, corner, tip, 5.5, 5.0), joint_rounding_mm);
+  const Vec3 coracoid_base(-16.0, 15.0, -2.0), coracoid_bend(-10.0, 32.0, -14.0),
+      coracoid_tip(10.0, 27.0, -34.0);
+  d = std::min(d, rounded_min(capsule(p, coracoid_base, coracoid_bend, 6.0, 6.0),
+                              capsule(p, coracoid_bend, coracoid_tip, 6.0, 4.5), joint_rounding_mm));
+  return d;
+}
+
+double PhantomShape::scapula_value(const Vec3& world_mm) const {
+  const Vec3 offset = world_mm - centre_;
+  const Vec3 in_scapula(offset.dot(lateral_), offset.dot(superior_), offset.dot(posterior_));
+  const double above = offset.dot(face_normal_);
+  double d = rounded_max(body_value(offset), -depth_under_face_mm(world_mm), rim_rounding_mm);
+  d = std::max(d, above - 0.5 * params_.glenoid_radius_mm);
+  if (params_.type == PhantomType::osteophytes)
+    d = rounded_min(d, osteophytes_value(world_mm), rim_rounding_mm);
+  return rounded_min(d, processes_value(in_scapula), joint_rounding_mm);
+}
+
+double PhantomShape::scapula_mm(const Vec3& world_mm) const {
+  constexpr double near_mm = 6.0, step = 0.01;
+  const double value = scapula_value(world_mm);
+  // Far from the surface the scale of the implicit function does not matter.
+  if (std::abs(value) > near_mm) return value;
+  Vec3 gradient;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 along = step * Vec3::Unit(axis);
+    gradient[axis] = (scapula_value(world_mm + along) - scapula_value(world_mm - along)) / (2.0 * step);
+  }
+  return value / std::max(0.3, gradient.norm());
+}
+
+double PhantomShape::humerus_mm(const Vec3& world_mm) const {
+  const double head = (world_mm - head_centre_).norm() - head_radius_mm;
+  const Vec3 shaft_top = head_centre_ + 10.0 * lateral_;
+  const Vec3 shaft_end = shaft_top + Vec3(0.0, 0.0, -300.0) + 20.0 * lateral_;
+  return rounded_min(head, capsule(world_mm, shaft_top, shaft_end, shaft_radius_mm, shaft_radius_mm), 6.0);
+}
+
+/// In the section across the middle of the face: from the ridge the chord of the neoglenoid runs posterior,
+/// turned medially; its sphere stands on that chord.
+void PhantomShape::carve_neoglenoid() {
+  Neoglenoid neo;
+  neo.radius_mm = head_radius_mm + params_.joint_space_mm + neoglenoid_radius_excess_mm;
+  const Vec3 ridge = centre_ - ridge_behind_middle_mm * face_anterior_ +
+                     sagitta(face_radius_mm_, ridge_behind_middle_mm) * face_normal_;
+  const Vec3 along = -turned_cos * face_anterior_ - turned_sin * face_normal_;
+  neo.normal = turned_cos * face_normal_ - turned_sin * face_anterior_;
+  const double half_chord = 0.5 * chord_per_width * params_.glenoid_width_mm;
+  const double to_chord = std::sqrt(neo.radius_mm * neo.radius_mm - half_chord * half_chord);
+  neo.sphere_centre_mm = ridge + half_chord * along + to_chord * neo.normal;
+  neoglenoid_ = neo;
+  head_centre_ = neo.sphere_centre_mm - neoglenoid_radius_excess_mm * neo.normal;
+}
+
+double PhantomShape::depth_under_neoglenoid_mm(const Vec3& world_mm) const {
+  if (!neoglenoid_) return 1e3;
+  return (world_mm - neoglenoid_->sphere_centre_mm).norm() - neoglenoid_->radius_mm;
+}
+
+double PhantomShape::osteophytes_value(const Vec3& world_mm) const {
+  const double height = params_.glenoid_height_mm, half_width = 0.5 * params_.glenoid_width_mm;
+  // A rational point of the half circle for each u in [-1, 1]: no trigonometry, the same bits everywhere.
+  const auto bead = [&](int i) -> Vec3 {
+    const double u = -0.8 + 1.6 * i / bead_parts;
+    const double down = (1.0 - u * u) / (1.0 + u * u), across = 2.0 * u / (1.0 + u * u);
+    const double s =
+        -widest_below_middle * height - (0.5 - widest_below_middle) * height * down * bead_widening;
+    const double t = half_width * across * bead_widening;
+    const double raised = sagitta(face_radius_mm_, std::sqrt(s * s + t * t)) + bead_raised_mm;
+    return centre_ + s * face_superior_ + t * face_anterior_ + raised * face_normal_;
+  };
+  double d = 1e3;
+  for (int i = 0; i < bead_parts; ++i)
+    d = std::min(d, capsule(world_mm, bead(i), bead(i + 1), bead_radius_mm, bead_radius_mm));
+  return d;
+}
+
+Vec3 PhantomShape::on_face(double superior_mm, double anterior_mm) const {
+  const Vec3 flat = worn_centre_ + superior_mm * face_superior_ + anterior_mm * face_anterior_;
+  const auto height_on = [&](const Vec3& sphere_centre, double radius) {
+    const Vec3 to_centre = sphere_centre - flat;
+    const double up = to_centre.dot(face_normal_);
+    return up - std::sqrt(std::max(0.0, radius * radius - (to_centre.squaredNorm() - up * up)));
+  };
+  double height = height_on(sphere_centre_, face_radius_mm_);
+  if (neoglenoid_)
+    height = std::min(height, height_on(neoglenoid_->sphere_centre_mm, neoglenoid_->radius_mm));
+  return flat + height * face_normal_;
+}
+
+double PhantomShape::reach_superior_mm(double direction) const {
+  return reach(0.6 * params_.glenoid_height_mm,
+               [&](double r) { return body_value(on_face(direction * r, 0.0) - centre_) < 0.0; });
+}
+
+double PhantomShape::reach_anterior_mm(double direction) const {
+  const double level = -widest_below_middle * params_.glenoid_height_mm;
+  return reach(0.6 * params_.glenoid_width_mm,
+               [&](double r) { return body_value(on_face(level, direction * r) - centre_) < 0.0; });
+}
+
+/// The rim points lie on the articular surface at its rim, opposite ones equally far from the middle, so that
+/// their lines have exactly the face's directions.
+case_::Landmarks PhantomShape::landmarks() const {
+  const auto world = [&](const Vec3& p) -> Vec3 {
+    return centre_ + p.x() * lateral_ + p.y() * superior_ + p.z() * posterior_;
+  };
+  case_::Landmarks l;
+  const double level = -widest_below_middle * params_.glenoid_height_mm;
+  const double pole = std::min(reach_superior_mm(1.0), reach_superior_mm(-1.0));
+  double front = reach_anterior_mm(1.0), back = reach_anterior_mm(-1.0);
+  if (!neoglenoid_) front = back = std::min(front, back);
+  l.glenoid_centre_mm = worn_centre_;
+  l.superior_rim_mm = on_face(pole, 0.0);
+  l.inferior_rim_mm = on_face(-pole, 0.0);
+  l.anterior_rim_mm = on_face(level, front);
+  l.posterior_rim_mm = on_face(level, -back);
+  l.trigonum_mm = world(spine_root);
+  l.inferior_angle_mm = world(inferior_angle);
+  l.humeral_head = case_::HumeralHead{head_centre_, head_radius_mm};
+  if (params_.type == PhantomType::a1 || params_.type == PhantomType::a2 || params_.type == PhantomType::b2)
+    l.walch = to_text(params_.type);
+  if (neoglenoid_) {
+    const double ridge = reach(back, [&](double r) {
+      const Vec3 p = on_face(level, -r);
+      return std::abs((p - sphere_centre_).norm() - face_radius_mm_) < 1e-9;
+    });
+    l.biconcavity_mm = {*l.anterior_rim_mm, on_face(level, -ridge), *l.posterior_rim_mm};
+  }
+  return l;
+}
+
+GroundTruth PhantomShape::truth() const {
+  GroundTruth truth;
+  truth.type = params_.type;
+  truth.version_rad = params_.version_rad;
+  truth.inclination_rad = params_.inclination_rad;
+  truth.glenoid = {worn_centre_, face_normal_, face_superior_, face_anterior_};
+  truth.articular_sphere_centre_mm = sphere_centre_;
+  truth.articular_radius_mm = face_radius_mm_;
+  truth.glenoid_height_mm = params_.glenoid_height_mm;
+  truth.glenoid_width_mm = params_.glenoid_width_mm;
+  truth.plate_mm = params_.plate_mm;
+  truth.landmarks = landmarks();
+  truth.spine_root_mm = *truth.landmarks.trigonum_mm;
+  truth.inferior_angle_mm = *truth.landmarks.inferior_angle_mm;
+  truth.humeral_head_centre_mm = head_centre_;
+  truth.humeral_head_radius_mm = head_radius_mm;
+  if (neoglenoid_) add_biconcavity(truth);
+  return truth;
+}
+
+void PhantomShape::add_biconcavity(GroundTruth& truth) const {
+  const auto& line = truth.landmarks.biconcavity_mm;
+  const auto face_along = [&](const Vec3& anterior) -> Vec3 {
+    const Vec3 normal = face_superior_.cross(anterior).normalized();
+    return normal.dot(lateral_) < 0.0 ? Vec3(-normal) : normal;
+  };
+  const Vec3 native = face_along(line[0] - line[2]);
+  truth.premorbid_version_rad = params_.version_rad;
+  truth.paleo_version_rad = version_of(face_along(line[0] - line[1]), lateral_, posterior_);
+  truth.neo_version_rad = version_of(face_along(line[1] - line[2]), lateral_, posterior_);
+  truth.version_rad = version_of(native, lateral_, posterior_);
+  truth.inclination_rad = std::atan2(native.dot(superior_), native.dot(lateral_));
+  truth.glenoid.lateral = native;
+  const Vec3 across = face_superior_.cross(native);
+  truth.glenoid.anterior = across.dot(posterior_) < 0.0 ? across : Vec3(-across);
+}
+
+}  // namespace ream::ct

@@ -1,0 +1,42 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <span>
+
+#include "core/progress.hpp"
+#include "ct/hu_volume.hpp"
+#include "voxel/gray_scale.hpp"
+
+namespace ream::ct {
+
+/// A volume of gray values that need not be HU: micro-CT of 8 or 16 bits, densities, moduli. Values are kept
+/// as codes of a scale, exactly where that can be (voxel::GrayScale).
+class GrayVolume {
+ public:
+  /// A folder of DICOM slices, or a NRRD, NIfTI or MetaImage file, as read_ct takes them. What lies unpacked
+  /// in a .nrrd or .mha file stays there and is read layer by layer; everything else is read whole, unless
+  /// that takes more than `max_bytes` of memory. Errors: those of read_ct; invalid_input that says what to
+  /// do where it would take more.
+  explicit GrayVolume(const std::filesystem::path& path, uint64_t max_bytes = UINT64_MAX,
+                      const Progress& progress = no_progress);
+  ~GrayVolume();
+  GrayVolume(GrayVolume&&) noexcept;
+  GrayVolume& operator=(GrayVolume&&) noexcept;
+
+  const Vec3i& dims() const;
+  const Vec3& spacing_mm() const;
+  const Pose& world_from_volume() const;
+  const voxel::GrayScale& gray() const;
+  const std::vector<std::string>& warnings() const;
+  /// Of memory.
+  uint64_t bytes() const;
+
+  /// Codes of layer w, x fastest, dims.x * dims.y of them. Thread-safe. Throws Error io.
+  void read_layer(int w, std::span<uint16_t> codes) const;
+
+ private:
+  struct Contents;
+  std::unique_ptr<Contents> contents_;
+};
+
+}  // namespace ream::ct

@@ -1,0 +1,76 @@
+#include "force/vibration/vibration_player.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/clock.hpp"
+#include "core/hash.hpp"
+#include "core/units.hpp"
+#include "force/coefficients.hpp"
+
+namespace ream::force {
+namespace {
+
+constexpr auto idle = static_cast<size_t>(VibrationKind::idle);
+
+/// Sets the starts of tracks apart from what else comes from the seed.
+constexpr uint64_t start_of_kind = 0x100;
+
+/// The mean of (1 + d cos)^2 is 1 + d^2 / 2.
+const double lips_mean_square_kept = 1.0 / std::sqrt(1.0 + 0.5 * lip_pass_depth * lip_pass_depth);
+
+std::array<double, vibration_kinds> levels_wanted(const VibrationInput& input) noexcept {
+  std::array<double, vibration_kinds> wanted{};
+  if (!input.spindle_on) return wanted;
+  if (!input.cutting) {
+    wanted[idle] = 1.0;
+    return wanted;
+  }
+  for (size_t k = 0; k < input.share.size(); ++k) wanted[k] = std::sqrt(std::max(0.0, input.share[k]));
+  return wanted;
+}
+
+}  // namespace
+
+VibrationGains VibrationMix::next(const VibrationInput& input) noexcept {
+  if (input.paused) return level_ = {};
+  constexpr double max_change = 1.0 / vibration_fade_ticks;
+  const auto wanted = levels_wanted(input);
+  for (size_t k = 0; k < vibration_kinds; ++k)
+    level_[k] += std::clamp(wanted[k] - level_[k], -max_change, max_change);
+
+  if (input.spindle_on)
+    lip_phase_rad_ = std::fmod(lip_phase_rad_ + lip_count * input.spindle_speed_rad_s * tick_s, 2.0 * pi);
+  const double lips = lips_mean_square_kept * (1.0 + lip_pass_depth * std::cos(lip_phase_rad_));
+  VibrationGains gains;
+  for (size_t k = 0; k < vibration_kinds; ++k) gains[k] = k == idle ? level_[k] : lips * level_[k];
+  return gains;
+}
+
+std::array<size_t, vibration_kinds> start_beats(const VibrationTracks& tracks, uint64_t seed) {
+  std::array<size_t, vibration_kinds> beats{};
+  for (size_t k = 0; k < vibration_kinds; ++k)
+    beats[k] = hash_combine(seed, start_of_kind + k) % (tracks.by_kind[k].device_g.size() / ticks_a_beat);
+  return beats;
+}
+
+VibrationPlayer::VibrationPlayer(std::shared_ptr<const VibrationTracks> tracks, uint64_t seed)
+    : tracks_(std::move(tracks)) {
+  if (!tracks_) return;
+  at_ = start_beats(*tracks_, seed);
+  for (size_t& at : at_) at *= ticks_a_beat;
+}
+
+double VibrationPlayer::next_g(const VibrationInput& input) noexcept {
+  if (!tracks_) return 0.0;
+  const VibrationGains gains = mix_.next(input);
+  double sum_g = 0.0;
+  for (size_t k = 0; k < vibration_kinds; ++k) {
+    const std::vector<float>& track = tracks_->by_kind[k].device_g;
+    sum_g += gains[k] * static_cast<double>(track[at_[k]]);
+    at_[k] = at_[k] + 1 < track.size() ? at_[k] + 1 : 0;
+  }
+  return sum_g;
+}
+
+}  // namespace ream::force

@@ -1,0 +1,167 @@
+#include "force/vibration/vibration_tracks.hpp"
+
+#include <cmath>
+#include <future>
+#include <map>
+#include <mutex>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "core/units.hpp"
+#include "force/vibration/vibration_recording.hpp"
+#include "force/vibration/vibration_signal.hpp"
+#include "force/vibration/vibration_synthesizer.hpp"
+
+namespace ream::force {
+namespace {
+
+/// Below this a signal is called still; the smallest step of a 24-bit file is 1.2e-7 of its range.
+constexpr double still = 1e-9;
+
+constexpr size_t samples_in(double seconds) { return static_cast<size_t>(seconds * vibration_sound_rate_hz); }
+
+/// Gravity takes the high-pass seconds to forget unless it starts with it.
+void start_from_mean(std::span<double> signal) {
+  const std::span<const double> first = signal.first(samples_in(1.0));
+  const double mean = std::accumulate(first.begin(), first.end(), 0.0) / static_cast<double>(first.size());
+  for (double& sample : signal) sample -= mean;
+}
+
+/// Whole beats whose last sample leads into the first: what follows the end fades out while the beginning
+/// fades in, with constant power.
+std::vector<float> looped(std::span<const double> signal) {
+  const size_t seam = samples_in(vibration_seam_s);
+  const size_t length = (signal.size() - seam) / sound_samples_a_beat * sound_samples_a_beat;
+  std::vector<float> loop(signal.begin(), signal.begin() + static_cast<std::ptrdiff_t>(length));
+  for (size_t i = 0; i < seam; ++i) {
+    const double angle_rad = 0.5 * pi * static_cast<double>(i) / static_cast<double>(seam);
+    loop[i] = static_cast<float>(std::sin(angle_rad) * signal[i] + std::cos(angle_rad) * signal[length + i]);
+  }
+  return loop;
+}
+
+void scale_to(double g_rms, std::span<float> track, const char* name) {
+  const double now = rms(track);
+  if (!(now > still))
+    throw Error(ErrorKind::invalid_input,
+                std::string(name) + " is still between 0.2 and 500 Hz; take a recording made while reaming");
+  const double factor = g_rms / now;
+  for (float& sample : track) sample = static_cast<float>(factor * static_cast<double>(sample));
+}
+
+using Files = std::array<std::filesystem::path, vibration_kinds>;
+
+VibrationTrack synthesized_track(VibrationKind kind, uint64_t seed) {
+  const double g_rms = vibration_levels[static_cast<size_t>(kind)].g_rms;
+  return prepared_vibration(synthesized_vibration(kind, seed), g_rms, "the synthesized vibration");
+}
+
+VibrationTrack recorded_track(VibrationKind kind, const std::filesystem::path& file, double rate_hz) {
+  VibrationRecording recording = read_vibration_recording(file, rate_hz);
+  if (recording.rate_hz != vibration_sound_rate_hz) {
+    const std::vector<float> raw(recording.samples.begin(), recording.samples.end());
+    const std::vector<float> fitting = resampled(raw, recording.rate_hz, vibration_sound_rate_hz);
+    recording.samples.assign(fitting.begin(), fitting.end());
+  }
+  const double g_rms = vibration_levels[static_cast<size_t>(kind)].g_rms;
+  return prepared_vibration(std::move(recording.samples), g_rms, file.c_str());
+}
+
+/// Kinds side by side: making one takes a fifth of a second. A kind without a file is synthesized.
+std::shared_ptr<const VibrationTracks> made(const Files& files, double rate_hz, uint64_t seed) {
+  std::array<std::future<VibrationTrack>, vibration_kinds> parts;
+  for (size_t k = 0; k < vibration_kinds; ++k)
+    parts[k] = std::async(std::launch::async, [&files, rate_hz, seed, k] {
+      const auto kind = static_cast<VibrationKind>(k);
+      return files[k].empty() ? synthesized_track(kind, seed) : recorded_track(kind, files[k], rate_hz);
+    });
+  auto tracks = std::make_shared<VibrationTracks>();
+  for (size_t k = 0; k < vibration_kinds; ++k) tracks->by_kind[k] = parts[k].get();
+  return tracks;
+}
+
+std::shared_ptr<const VibrationTracks> synthesized(uint64_t seed) {
+  static std::mutex mutex;
+  static std::map<uint64_t, std::weak_ptr<const VibrationTracks>> living;
+  const std::lock_guard lock(mutex);
+  std::erase_if(living, [](const auto& entry) { return entry.second.expired(); });
+  if (const auto found = living.find(seed); found != living.end())
+    if (auto tracks = found->second.lock()) return tracks;
+  auto tracks = made({}, 0.0, seed);
+  living[seed] = tracks;
+  return tracks;
+}
+
+Files files_of(const VibrationRecordings& recordings) {
+  if (recordings.cortical.empty() || recordings.cancellous.empty())
+    throw Error(ErrorKind::invalid_input,
+                "vibration from recordings needs both cortical_file and cancellous_file");
+  return {recordings.cancellous, recordings.cortical, {}, recordings.idle};
+}
+
+}  // namespace
+
+double rms(std::span<const float> signal) {
+  double sum = 0.0;
+  for (const float sample : signal) sum += static_cast<double>(sample) * static_cast<double>(sample);
+  return std::sqrt(sum / static_cast<double>(signal.size()));
+}
+
+VibrationTrack prepared_vibration(std::vector<double> signal, double g_rms, const char* name) {
+  if (signal.size() < samples_in(min_vibration_s))
+    throw Error(ErrorKind::invalid_input,
+                std::string(name) + " is shorter than 2 s; take a longer recording");
+  start_from_mean(signal);
+  filter_in_place(butterworth_high_pass(vibration_high_pass_hz, vibration_sound_rate_hz), signal);
+  filter_in_place(butterworth_low_pass(vibration_low_pass_hz, vibration_sound_rate_hz), signal);
+  VibrationTrack track;
+  track.sound_g = looped(signal);
+  scale_to(g_rms, track.sound_g, name);
+  track.device_g = loop_at_tick_rate(track.sound_g);
+  scale_to(g_rms, track.device_g, name);
+  return track;
+}
+
+const char* to_text(VibrationSource source) {
+  switch (source) {
+    case VibrationSource::off:
+      return "off";
+    case VibrationSource::synthesized:
+      return "synthesized";
+    case VibrationSource::recording:
+      return "recording";
+  }
+  return "";
+}
+
+VibrationSource vibration_source_from(const std::string& text) {
+  for (const auto source : {VibrationSource::off, VibrationSource::synthesized, VibrationSource::recording})
+    if (text == to_text(source)) return source;
+  throw Error(ErrorKind::invalid_input,
+              "vibration source '" + text + "' must be synthesized, recording or off");
+}
+
+uint64_t VibrationTracks::hash() const {
+  uint64_t rolling = 0;
+  for (const VibrationTrack& track : by_kind) {
+    rolling = hash_bytes(std::as_bytes(std::span(track.sound_g)), rolling);
+    rolling = hash_bytes(std::as_bytes(std::span(track.device_g)), rolling);
+  }
+  return rolling;
+}
+
+std::shared_ptr<const VibrationTracks> make_vibration_tracks(const VibrationSettings& settings,
+                                                             uint64_t seed) {
+  switch (settings.source) {
+    case VibrationSource::off:
+      return nullptr;
+    case VibrationSource::synthesized:
+      return synthesized(seed);
+    case VibrationSource::recording:
+      return made(files_of(settings.recordings), settings.recordings.rate_hz, seed);
+  }
+  return nullptr;
+}
+
+}  // namespace ream::force

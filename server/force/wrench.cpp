@@ -1,0 +1,36 @@
+#include "force/wrench.hpp"
+
+#include <algorithm>
+
+#include "core/clock.hpp"
+
+namespace ream::force {
+
+DeviceLimits limits_for(double force_max_n, double torque_max_n_mm, double stiffness_n_mm,
+                        double angular_stiffness_n_mm_rad) noexcept {
+  return {force_max_n, torque_max_n_mm, stiffness_n_mm * slew_speed_mm_s * tick_s,
+          angular_stiffness_n_mm_rad * slew_speed_rad_s * tick_s};
+}
+
+Vec3 limited(const Vec3& v, double limit) noexcept {
+  const double length = v.norm();
+  return length > limit ? Vec3(v * (limit / length)) : v;
+}
+
+Wrench limited(const Wrench& wrench, const DeviceLimits& limits) noexcept {
+  return {limited(wrench.force_n, limits.force_max_n), limited(wrench.torque_n_mm, limits.torque_max_n_mm)};
+}
+
+Vec3 slewed(const Vec3& previous, const Vec3& wanted, double step) noexcept {
+  const double squared = previous.squaredNorm();
+  const double kept = squared > 0.0 ? std::clamp(previous.dot(wanted) / squared, 0.0, 1.0) : 0.0;
+  const Vec3 weakened = kept * previous;
+  return weakened + limited(Vec3(wanted - weakened), step);
+}
+
+Wrench slewed(const Wrench& previous, const Wrench& wanted, const DeviceLimits& limits) noexcept {
+  return {slewed(previous.force_n, wanted.force_n, limits.force_slew_n),
+          slewed(previous.torque_n_mm, wanted.torque_n_mm, limits.torque_slew_n_mm)};
+}
+
+}  // namespace ream::force

@@ -1,0 +1,222 @@
+#include "score/bone_results.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.hpp"
+#include "score/alignment.hpp"
+#include "score/sphere_fit.hpp"
+#include "score/vault_clearance.hpp"
+
+namespace ream::score {
+namespace {
+
+/// A ray counts as reamed when so much of its face is gone (engineering judgement).
+constexpr double reamed_mm = 0.05;
+constexpr int directions = 360;
+constexpr double inside_rim_mm = 1.0;
+
+bool is_reamed(const AchievedFace& face, size_t ray) {
+  return face.removed_mm[ray] >= reamed_mm && face.surface_mm[ray] != no_surface_mm;
+}
+
+/// Whether a ray and all four beside it are reamed and still meet bone.
+bool is_amid_reamed(const RayLattice& rays, const AchievedFace& face, size_t ray) {
+  if (!is_reamed(face, ray)) return false;
+  constexpr int ways[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+  for (const auto& way : ways) {
+    const int beside = rays.neighbour(ray, way[0], way[1]);
+    if (beside < 0 || !is_reamed(face, static_cast<size_t>(beside))) return false;
+  }
+  return true;
+}
+
+/// The achieved face a little inside the outermost place where reamed_mm is gone; empty when there is none.
+/// At that place itself the wall that a reamer leaves around it may be as well top as bottom.
+/// `reamed_depth_mm`: of every ray, nothing where no bone is left under it.
+std::optional<Vec3> rim_point(const RayLattice& rays, const AchievedFace& face,
+                              const std::vector<double>& reamed_depth_mm, const Vec3& middle, double angle) {
+  const double step = 0.5 * rays.spacing_mm();
+  const double dx = std::cos(angle), dy = std::sin(angle);
+  std::optional<double> last;
+  double before = 0.0, edge = 0.0;
+  for (double r = 0.0; r <= 2.0 * rays.reach_mm(); r += step) {
+    const double removed = rays.between(reamed_depth_mm, middle.x() + r * dx, middle.y() + r * dy);
+    if (removed == no_surface_mm) break;
+    if (removed >= reamed_mm) {
+      last = r;
+      edge = r;
+    } else if (last && *last == r - step && before > removed) {
+      edge = r - step * (reamed_mm - removed) / (before - removed);
+    }
+    before = removed;
+  }
+  if (!last) return std::nullopt;
+  const double r = edge - inside_rim_mm;
+  const double x = middle.x() + r * dx, y = middle.y() + r * dy;
+  const int ray = rays.nearest(x, y);
+  if (ray < 0 || !is_amid_reamed(rays, face, static_cast<size_t>(ray))) return std::nullopt;
+  const double z = rays.between(face.surface_mm, x, y);
+  return z != no_surface_mm ? std::optional(Vec3(x, y, z)) : std::nullopt;
+}
+
+/// Of what was reamed, so much must still have bone for its shape to be spoken of.
+constexpr double min_share_left = 0.1;
+
+struct Greatest {
+  double removed_mm = 0.0, past_subchondral_mm = 0.0;
+
+  void take(double removed, double past_subchondral) {
+    removed_mm = std::max(removed_mm, removed);
+    past_subchondral_mm = std::max(past_subchondral_mm, past_subchondral);
+  }
+};
+
+/// Whether a ray and all four beside it meet what is left of the face: along the edge that a cut leaves where
+/// it comes out through the wall, the surface is rounded off.
+bool is_over_bone(const NativeGlenoid& native, const AchievedFace& face, size_t ray) {
+  const auto meets = [&](int i) {
+    return i >= 0 && native.face()[static_cast<size_t>(i)] &&
+           face.surface_mm[static_cast<size_t>(i)] != no_surface_mm;
+  };
+  const RayLattice& rays = native.rays();
+  return meets(static_cast<int>(ray)) && meets(rays.neighbour(ray, 1, 0)) &&
+         meets(rays.neighbour(ray, -1, 0)) && meets(rays.neighbour(ray, 0, 1)) &&
+         meets(rays.neighbour(ray, 0, -1));
+}
+
+bool has_face(const NativeGlenoid& native) {
+  for (const uint8_t face : native.face())
+    if (face) return true;
+  return false;
+}
+
+/// World normal, lateral, of the plane that fits the rim of what was reamed; empty without a rim.
+std::optional<Vec3> rim_normal(const NativeGlenoid& native, const AchievedFace& face) {
+  const RayLattice& rays = native.rays();
+  Vec3 middle = Vec3::Zero();
+  int count = 0;
+  for (size_t ray = 0; ray < rays.size(); ++ray) {
+    if (!is_reamed(face, ray)) continue;
+    middle += Vec3(rays.x_mm(ray), rays.y_mm(ray), 0.0);
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  middle /= count;
+  std::vector<double> reamed_depth_mm(rays.size(), 0.0);
+  for (size_t ray = 0; ray < rays.size(); ++ray)
+    if (face.surface_mm[ray] != no_surface_mm) reamed_depth_mm[ray] = face.removed_mm[ray];
+  std::vector<Vec3> rim;
+  for (int i = 0; i < directions; ++i)
+    if (const auto point = rim_point(rays, face, reamed_depth_mm, middle, 2.0 * pi * i / directions))
+      rim.push_back(*point);
+  const auto plane = fit_plane(rim);
+  if (!plane || rim.size() < directions / 2) return std::nullopt;
+  const Vec3 normal = rays.world_direction(plane->normal);
+  return plane->normal.z() > 0.0 ? Vec3(-normal) : normal;
+}
+
+/// Greatest and mean depth, medialization, footprint.
+void measure_depths(const NativeGlenoid& native, const AchievedFace& face, MetricResults& results) {
+  const RayLattice& rays = native.rays();
+  // Rays at the edge of a vault that narrows leave the bone sideways; how deep the reamer went is seen where
+  // bone is left under it.
+  Greatest over_bone, anywhere;
+  double sum = 0.0;
+  size_t count = 0;
+  for (size_t ray = 0; ray < rays.size(); ++ray) {
+    const double removed = face.removed_mm[ray];
+    if (removed < reamed_mm) continue;
+    ++count;
+    sum += removed;
+    const double past_subchondral = native.surface_mm()[ray] + removed - native.subchondral_mm()[ray];
+    anywhere.take(removed, past_subchondral);
+    if (is_over_bone(native, face, ray)) over_bone.take(removed, past_subchondral);
+  }
+  const Greatest& greatest = over_bone.removed_mm > 0.0 ? over_bone : anywhere;
+  results.set("footprint_area_mm2", static_cast<double>(count) * rays.cell_area_mm2());
+  results.set("depth_max_mm", greatest.removed_mm);
+  results.set("medialization_mm", greatest.past_subchondral_mm);
+  results.set("depth_mean_mm", count > 0 ? sum / static_cast<double>(count) : 0.0);
+}
+
+/// Sphere of the reamed surface and how far it is from one.
+void measure_congruity(const NativeGlenoid& native, const AchievedFace& face, MetricResults& results) {
+  std::vector<Vec3> points;
+  size_t reamed = 0;
+  for (size_t ray = 0; ray < native.rays().size(); ++ray) {
+    reamed += face.removed_mm[ray] >= reamed_mm;
+    if (is_amid_reamed(native.rays(), face, ray))
+      points.emplace_back(native.rays().x_mm(ray), native.rays().y_mm(ray), face.surface_mm[ray]);
+  }
+  // Slivers at the edge of what is gone would fit a sphere all too well.
+  const bool enough = static_cast<double>(points.size()) >= min_share_left * static_cast<double>(reamed);
+  const auto sphere = enough ? fit_sphere(points) : std::nullopt;
+  const char* too_little = "what was reamed is too small or too flat to fit a sphere to";
+  for (const char* key : {"congruity_mm", "fitted_radius_mm"}) results.set_missing(key, too_little);
+  if (!sphere) return;
+  results.set("congruity_mm", sphere->mean_deviation_mm);
+  results.set("fitted_radius_mm", sphere->radius_mm);
+}
+
+/// Share of the subchondral plate preserved under the component.
+void measure_plate(const NativeGlenoid& native, const AchievedFace& face, const Component& component,
+                   MetricResults& results) {
+  const char* nothing = "the component has no native face under it";
+  const SubchondralPlate& plate = native.plate();
+  if (component.footprint().empty()) return results.set_missing("plate_preserved_percent", nothing);
+  size_t preserved = 0;
+  for (const size_t ray : component.footprint()) {
+    const double top = native.subchondral_mm()[ray];
+    const double whole = std::min(plate.thickness_mm[ray], native.exit_mm()[ray] - top);
+    const double left = top + whole - std::max(top, native.surface_mm()[ray] + face.removed_mm[ray]);
+    preserved += left >= 0.5 * whole;
+  }
+  results.set("plate_preserved_percent",
+              100.0 * static_cast<double>(preserved) / static_cast<double>(component.footprint().size()));
+}
+
+}  // namespace
+
+MetricResults bone_results(const NativeGlenoid& native, const CoverageView& left,
+                           const std::optional<CutLine>& plan_line, const Pose& world_from_plan,
+                           double reaming_depth_mm) {
+  MetricResults results;
+  measure_plan(native.task(), results);
+  if (!has_face(native)) {
+    const char* no_face = "the planned axis meets no face of bone";
+    for (const Basis basis : {Basis::untouched_bone, Basis::reamed_bone, Basis::achieved_axis})
+      results.set_missing(basis, no_face);
+    return results;
+  }
+  results.set("plate_thickness_mm", native.plate().median_mm);
+  if (!plan_line) {
+    const char* untouched = "no bone was removed";
+    for (const Basis basis : {Basis::reamed_bone, Basis::achieved_axis})
+      results.set_missing(basis, untouched);
+    return results;
+  }
+  const CutLine line = in_lattice(native.rays(), *plan_line, world_from_plan);
+  const AchievedFace face = achieved_face(native, left);
+  measure_alignment(native, line, reaming_depth_mm, results);
+  measure_depths(native, face, results);
+  measure_congruity(native, face, results);
+  measure_rim(native.task(), rim_normal(native, face), results);
+  const Component component(native, face, line);
+  if (component.seated())
+    results.set("seating_percent", 100.0 * component.supported_share());
+  else
+    results.set_missing("seating_percent", "there is no bone left to seat a component on");
+  measure_plate(native, face, component, results);
+  measure_vault_clearance(native, component, line, results);
+  return results;
+}
+
+MetricResults missing_bone_results(const std::string& reason) {
+  MetricResults results;
+  for (const Basis basis : {Basis::plan, Basis::untouched_bone, Basis::reamed_bone, Basis::achieved_axis})
+    results.set_missing(basis, reason);
+  return results;
+}
+
+}  // namespace ream::score

@@ -1,0 +1,63 @@
+import { useSignal } from '@preact/signals';
+
+import { useFocusAfter } from './focus_after';
+
+interface Parts {
+  /** On the button that asks. */
+  label: string;
+  /** For screen readers, where the label does not say of what. */
+  describe?: string;
+  question: string;
+  yes: string;
+  no: string;
+  testId: string;
+  disabled?: boolean;
+  onYes: () => void;
+}
+
+/** A button for what cannot be undone: it asks first. */
+export function ConfirmButton({ label, describe, question, yes, no, testId, disabled, onYes }: Parts) {
+  const asking = useSignal(false);
+  const button = useFocusAfter<HTMLButtonElement>(asking.value);
+  if (!asking.value)
+    return (
+      <button
+        type="button"
+        class="plain-button"
+        data-testid={testId}
+        aria-label={describe}
+        disabled={disabled}
+        ref={button}
+        onClick={() => (asking.value = true)}
+      >
+        {label}
+      </button>
+    );
+  return (
+    <span
+      class="really"
+      role="alert"
+      onKeyDown={(event) => {
+        if (event.key === 'Escape') asking.value = false;
+      }}
+    >
+      {question}
+      <button
+        type="button"
+        class="warn-button"
+        data-testid={`really-${testId}`}
+        disabled={disabled}
+        ref={button}
+        onClick={() => {
+          asking.value = false;
+          onYes();
+        }}
+      >
+        {yes}
+      </button>
+      <button type="button" class="plain-button" onClick={() => (asking.value = false)}>
+        {no}
+      </button>
+    </span>
+  );
+}

@@ -1,0 +1,92 @@
+import type { ComponentChildren } from 'preact';
+
+import type { Store } from '../../state/store';
+import { appText } from '../../text/app_text';
+import { fixed } from '../../text/format';
+
+/** One number with its name. */
+export function Figure({
+  name,
+  unit,
+  id,
+  children,
+}: {
+  name: string;
+  unit?: string;
+  id?: string;
+  children: ComponentChildren;
+}) {
+  return (
+    <div class="figure">
+      <dt>{name}</dt>
+      <dd>
+        <span data-testid={id}>{children}</span>
+        {unit !== undefined && <span class="unit"> {unit}</span>}
+      </dd>
+    </div>
+  );
+}
+
+/** The numbers of the moment; a dash where none is known. */
+export function Figures({ store }: { store: Store }) {
+  const hello = store.hello.value;
+  const t = store.reading.value.told;
+  const engaged = t !== null && t.densityGCc > 0;
+  return (
+    <dl class="figures">
+      <Figure name={appText.removed} unit="mm³" id="removed-volume">
+        {fixed(t?.removedVolumeMm3, 0)}
+      </Figure>
+      <Figure name={appText.hand} unit="N" id="hand-force">
+        {fixed(t?.handForceN, 2)}
+      </Figure>
+      <Figure name={appText.density} unit="g/cc">
+        {engaged ? fixed(t.densityGCc, 2) : appText.none}
+      </Figure>
+      <Figure name={appText.cortical} unit="%">
+        {engaged ? fixed(t.corticalShare * 100, 0) : appText.none}
+      </Figure>
+      <Figure name={appText.spindle}>{t === null ? appText.none : t.spindleOn ? appText.on : appText.off}</Figure>
+      <Figure name={appText.time} unit="s" id="session-time">
+        {fixed(t === null ? null : t.tick / 1000, 1)}
+      </Figure>
+      <Figure name={appText.forceScale} unit=": 1">
+        {fixed(hello?.forceScale, 0)}
+      </Figure>
+      {!store.replaying.value && (
+        <>
+          <Figure name={appText.loop} unit="µs" id="tick-times">
+            {fixed(t?.tickMeanUs, 0)} / {fixed(t?.tickP99Us, 0)}
+          </Figure>
+          <Figure name={appText.missed}>{fixed(t?.ticksMissed, 0)}</Figure>
+        </>
+      )}
+      {t !== null && t.dropped > 0 && <Figure name={appText.lostSamples}>{fixed(t.dropped, 0)}</Figure>}
+    </dl>
+  );
+}
+
+/** Final figures of a session that has ended. */
+export function Results({ store }: { store: Store }) {
+  const metrics = store.metrics.value;
+  if (metrics === null) return null;
+  return (
+    <section class="results" aria-labelledby="results-title" data-testid="results">
+      <h2 id="results-title">{appText.results}</h2>
+      <dl class="figures">
+        <Figure name={appText.meanThrust} unit="N">
+          {fixed(metrics.axial_thrust_mean_n, 1)}
+        </Figure>
+        <Figure name={appText.peakThrust} unit="N">
+          {fixed(metrics.axial_thrust_peak_n, 1)}
+        </Figure>
+        <Figure name={appText.corticalVolume} unit="mm³">
+          {fixed(metrics.removed_volume_cortical_mm3, 0)}
+        </Figure>
+        <Figure name={appText.cancellousVolume} unit="mm³">
+          {fixed(metrics.removed_volume_cancellous_mm3, 0)}
+        </Figure>
+      </dl>
+    </section>
+  );
+}

@@ -1,0 +1,188 @@
+import { levelLeastN, levelMostN } from '../../practice/hand';
+import { leanMaxDeg } from '../../practice/plan_frame';
+import type { PracticeStore } from '../../state/practice_store';
+import { appText } from '../../text/app_text';
+import { fixed } from '../../text/format';
+import { HoldButton } from '../common/hold_button';
+
+/** What the hand does, and buttons for all of it: for a person without keys, and to see what the keys did. */
+export function PracticeBar({ practice, toPicture }: { practice: PracticeStore; toPicture: () => void }) {
+  const { hand } = practice;
+  return (
+    <section class="practice" aria-label={appText.practice} data-testid="practice-bar">
+      <div class="practice-buttons">
+        <button
+          type="button"
+          class={hand.spindleOn.value ? 'hand-button spindle-on' : 'hand-button'}
+          data-testid="spindle"
+          aria-pressed={hand.spindleOn.value}
+          onClick={(event) => {
+            hand.takeHold();
+            hand.toggleSpindle();
+            afterClick(event, toPicture);
+          }}
+        >
+          {appText.spindleButton(hand.spindleOn.value)}
+        </button>
+        <HoldButton
+          class="hand-button"
+          id="push"
+          onPointerDone={toPicture}
+          onHold={(held) => {
+            if (held) hand.takeHold();
+            hand.push('button', held ? 1 : 0);
+          }}
+        >
+          {appText.pushButton}
+        </HoldButton>
+        <HoldButton
+          class="hand-button"
+          id="withdraw"
+          onPointerDone={toPicture}
+          onHold={(held) => {
+            if (held) hand.takeHold();
+            hand.withdraw('button', held ? 1 : 0);
+          }}
+        >
+          {appText.withdrawButton}
+        </HoldButton>
+        <button
+          type="button"
+          class="hand-button"
+          data-testid="pause"
+          aria-pressed={hand.paused.value}
+          onClick={(event) => {
+            hand.togglePause();
+            afterClick(event, toPicture);
+          }}
+        >
+          {appText.pauseButton(hand.paused.value)}
+        </button>
+        <p class="soft off-plan" data-testid="off-plan">
+          {appText.offPlan(fixed(practice.offPlanMm.value, 1))}
+        </p>
+        <HandState practice={practice} />
+      </div>
+      <PushMeter practice={practice} />
+      <Lean practice={practice} />
+    </section>
+  );
+}
+
+/** After a click with the mouse the keys go to the picture again, where space pushes; after one with a key they stay. */
+function afterClick(event: MouseEvent, toPicture: () => void): void {
+  if (event.detail > 0) toPicture();
+}
+
+/** The push as it is wished and the thrust that comes of it (a mark), and below how hard a full push is; one scale. */
+function PushMeter({ practice }: { practice: PracticeStore }) {
+  const { hand } = practice;
+  const pushN = hand.pushN.value;
+  const thrustN = practice.feedback.value?.thrustN ?? 0;
+  const share = (newtons: number) => `${((Math.max(newtons, 0) / levelMostN) * 100).toFixed(1)}%`;
+  return (
+    <div class="push">
+      <span aria-hidden="true">{appText.push}</span>
+      <div
+        class="push-meter"
+        role="meter"
+        aria-label={appText.push}
+        aria-valuemin={0}
+        aria-valuemax={levelMostN}
+        aria-valuenow={Math.max(pushN, 0)}
+        aria-valuetext={appText.pushMeter(fixed(pushN, 0), fixed(hand.levelN.value, 0))}
+      >
+        <div class="push-now" style={{ width: share(pushN) }} />
+        <div class="push-thrust" style={{ left: share(thrustN) }} />
+      </div>
+      <span class="push-figure">
+        <strong data-testid="push-now">{fixed(pushN, 0)}</strong> N
+      </span>
+      <label for="push-level">{appText.pushLevel}</label>
+      <input
+        id="push-level"
+        type="range"
+        data-testid="push-level"
+        aria-valuetext={`${fixed(hand.levelN.value, 0)} N`}
+        min={0}
+        max={levelMostN}
+        step={1}
+        value={hand.levelN.value}
+        onInput={(event) => hand.setLevel(Math.max(event.currentTarget.valueAsNumber, levelLeastN))}
+      />
+      <span class="push-figure">
+        <strong>{fixed(hand.levelN.value, 0)}</strong> N
+      </span>
+    </div>
+  );
+}
+
+function Lean({ practice }: { practice: PracticeStore }) {
+  const { hand } = practice;
+  const lean = hand.lean.value;
+  const slider = (direction: 'superior' | 'anterior', label: string) => (
+    <label>
+      {label} <span class="lean-value">{appText.degrees(fixed(lean[direction], 0))}</span>
+      <input
+        type="range"
+        data-testid={`lean-${direction}`}
+        min={-leanMaxDeg}
+        max={leanMaxDeg}
+        step={0.5}
+        value={lean[direction]}
+        onInput={(event) => hand.leanTo({ ...hand.lean.value, [direction]: event.currentTarget.valueAsNumber })}
+        onDblClick={() => hand.leanTo({ ...hand.lean.value, [direction]: 0 })}
+      />
+    </label>
+  );
+  return (
+    <div class="lean" role="group">
+      {slider('superior', appText.leanUp)}
+      {slider('anterior', appText.leanFront)}
+    </div>
+  );
+}
+
+/** Whether the reamer is in this page's hand, and how long the way there and back takes. */
+function HandState({ practice }: { practice: PracticeStore }) {
+  const link = practice.link.value.kind;
+  const feedback = practice.feedback.value;
+  const slow = feedback !== null && feedback.link !== 'fresh';
+  const look = link === 'holding' ? (slow ? 'silent' : 'live') : link === 'lost' ? 'lost' : 'silent';
+  return (
+    <p class={`hand-link link-${look}`} data-testid="hand-link" data-link={link} title={appText.handLink}>
+      <span class="link-dot" aria-hidden="true" />
+      <span role="status">
+        {handWords(practice)}
+        {practice.gamepad.value && ` · ${appText.gamepadFound}`}
+      </span>
+      {feedback !== null && feedback.rttMs !== null && (
+        <span class="soft rtt">{appText.roundTrip(fixed(feedback.rttMs, 0))}</span>
+      )}
+    </p>
+  );
+}
+
+function handWords(practice: PracticeStore): string {
+  switch (practice.link.value.kind) {
+    case 'connecting':
+      return appText.handConnecting;
+    case 'silent':
+      return appText.handSilent;
+    case 'lost':
+    case 'ended':
+      return appText.handLost;
+    case 'holding':
+      switch (practice.feedback.value?.link) {
+        case 'held':
+          return appText.handHeld;
+        case 'fading':
+          return appText.handFading;
+        case 'lost':
+          return appText.handLost;
+        case 'fresh':
+        case undefined:
+          return appText.handHolding;
+      }
+  }
+}

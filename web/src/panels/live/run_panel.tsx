@@ -1,0 +1,143 @@
+import type { Signal } from '@preact/signals';
+
+import { liveText } from '../../text/live_text';
+import type { Practice } from '../../state/practice';
+import type { PracticeStore } from '../../state/practice_store';
+import type { Store } from '../../state/store';
+import type { Watcher } from '../../state/watcher';
+import { appText } from '../../text/app_text';
+import { SessionControls } from './session_controls';
+import { SessionLabels } from './session_labels';
+import { useIdentity } from '../common/site_nav';
+
+interface Parts {
+  store: Store;
+  watcher: Watcher;
+  practice: Practice;
+  practiceStore: PracticeStore;
+  /** Whether what is made here is made for theatre. */
+  theatreWanted: Signal<boolean>;
+}
+
+/** The things to do, and what the session is doing. */
+export function RunPanel({ store, watcher, practice, practiceStore, theatreWanted }: Parts) {
+  const may = useIdentity().may.value;
+  const reachable = store.link.value.kind === 'live' || store.link.value.kind === 'nothing';
+  const active = reachable && store.active.value;
+  const idle = reachable && !active && !store.busy.value;
+  const running = practiceStore.sessionId.value === null ? appText.running : appText.practising;
+  return (
+    <section class="run" aria-label={appText.runDemo}>
+      {may.ream && (
+        <div class="run-buttons">
+          {!active && (
+            <button
+              type="button"
+              class="run-button"
+              data-testid="practise"
+              disabled={!idle}
+              onClick={() => void practise(watcher, practice, theatreWanted.value && store.tellsTheatre.value)}
+            >
+              {appText.practise}
+            </button>
+          )}
+          <button
+            type="button"
+            class={active ? 'run-button' : 'run-button run-second'}
+            data-testid="run-demo"
+            disabled={!idle}
+            onClick={() => void watcher.runDemo()}
+          >
+            {store.busy.value ? appText.starting : active ? running : appText.runDemo}
+          </button>
+          {active && <TakeOver store={store} practice={practice} practiceStore={practiceStore} />}
+          {active && (
+            <button
+              type="button"
+              class="stop-button"
+              data-testid="stop"
+              disabled={store.busy.value}
+              onClick={() => void watcher.stop()}
+            >
+              {appText.stop}
+            </button>
+          )}
+        </div>
+      )}
+      {may.ream && !active && store.tellsTheatre.value && <TheatreChoice wanted={theatreWanted} />}
+      {may.ream && <SessionControls {...{ store, watcher, practice, practiceStore }} />}
+      <StateLine store={store} practiceStore={practiceStore} reachable={reachable} />
+      <SessionLabels store={store} />
+    </section>
+  );
+}
+
+async function practise(watcher: Watcher, practice: Practice, theatre: boolean): Promise<void> {
+  const sessionId = await watcher.practise('demo', theatre);
+  if (sessionId !== null) practice.steer(sessionId);
+}
+
+function TheatreChoice({ wanted }: { wanted: Signal<boolean> }) {
+  return (
+    <label class="theatre-choice" title={liveText.theatreHint}>
+      <input
+        type="checkbox"
+        data-testid="theatre-mode"
+        checked={wanted.value}
+        onChange={(event) => (wanted.value = event.currentTarget.checked)}
+      />
+      {liveText.theatreMode}
+      <span class="soft">{liveText.theatreShort}</span>
+    </label>
+  );
+}
+
+/** For pages that watch while another one steers. */
+function TakeOver({ store, practice, practiceStore }: Omit<Parts, 'watcher' | 'theatreWanted'>) {
+  const id = store.sessionId.value;
+  const details = store.details.value;
+  if (id === null || details?.id !== id || details.device?.name !== 'browser' || practiceStore.sessionId.value === id)
+    return null;
+  return (
+    <button
+      type="button"
+      class="stop-button take-over"
+      data-testid="take-over"
+      title={appText.takeOverHint}
+      onClick={() => practice.steer(id)}
+    >
+      {appText.takeOver}
+    </button>
+  );
+}
+
+function StateLine({
+  store,
+  practiceStore,
+  reachable,
+}: Pick<Parts, 'store' | 'practiceStore'> & { reachable: boolean }) {
+  const state = store.sessionState.value;
+  if (state === null) return null;
+  const fault = store.fault.value;
+  return (
+    <p class="session-state" data-testid="session-state" data-state={state} aria-live="polite">
+      {reachable ? (
+        <>
+          <strong>{appText.state[state]}.</strong> {hint(store, practiceStore, state)}
+          {fault !== '' && ` ${state === 'fault' ? `${appText.fault}: ` : ''}${fault}`}
+        </>
+      ) : (
+        appText.stateUnknown(appText.state[state].toLowerCase())
+      )}
+    </p>
+  );
+}
+
+function hint(store: Store, practiceStore: PracticeStore, state: keyof typeof appText.stateHint): string {
+  if (state !== 'running') return appText.stateHint[state];
+  if (practiceStore.sessionId.value !== null) return appText.practiceHint;
+  const details = store.details.value;
+  const device = details?.id === store.sessionId.value ? details?.device?.name : undefined;
+  if (device === 'browser') return appText.takeOverHint;
+  return device === undefined || device === 'script' ? appText.stateHint.running : appText.deviceHint;
+}

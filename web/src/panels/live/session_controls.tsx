@@ -1,0 +1,92 @@
+import { useSignal } from '@preact/signals';
+
+import type { Practice } from '../../state/practice';
+import type { PracticeStore } from '../../state/practice_store';
+import type { Store } from '../../state/store';
+import type { Watcher } from '../../state/watcher';
+import { appText } from '../../text/app_text';
+import { useFocusAfter } from '../common/focus_after';
+import { lazyPart } from '../common/lazy_part';
+import { useIdentity } from '../common/site_nav';
+
+const sharing = lazyPart(() => import('../access/share_panel'));
+
+interface Parts {
+  store: Store;
+  watcher: Watcher;
+  practice: Practice;
+  practiceStore: PracticeStore;
+}
+
+/** Pausing the watched session, and beginning it anew on intact bone. */
+export function SessionControls({ store, watcher, practice, practiceStore }: Parts) {
+  const asking = useSignal(false);
+  const button = useFocusAfter<HTMLButtonElement>(asking.value);
+  const shared = useSignal<string | null>(null);
+  const identity = useIdentity();
+  const details = store.details.value;
+  if (details === null || details.id !== store.sessionId.value || store.link.value.kind !== 'live') return null;
+  const busy = store.busy.value;
+  const held = details.held === true;
+  const reset = async () => {
+    asking.value = false;
+    const steered = practiceStore.sessionId.value === details.id;
+    const next = await watcher.reset();
+    if (next !== null && steered) practice.steer(next);
+  };
+  if (asking.value)
+    return (
+      <p class="session-controls really" role="alert">
+        {appText.resetReally}
+        <button
+          type="button"
+          class="warn-button"
+          data-testid="really-reset"
+          disabled={busy}
+          ref={button}
+          onClick={() => void reset()}
+        >
+          {appText.resetYes}
+        </button>
+        <button type="button" class="plain-button" onClick={() => (asking.value = false)}>
+          {appText.no}
+        </button>
+      </p>
+    );
+  const mayShare = identity.may.value.teach && identity.hasUsers.value;
+  if (mayShare && shared.value === details.id)
+    return sharing.show(({ SharePanel }) => <SharePanel session={details.id} onClose={() => (shared.value = null)} />);
+  return (
+    <div class="session-controls">
+      {(store.sessionState.value === 'running' || held) && (
+        <button
+          type="button"
+          class="plain-button"
+          data-testid="pause-session"
+          disabled={busy}
+          onClick={() => void watcher.pause(!held)}
+        >
+          {held ? appText.goOn : appText.pauseSession}
+        </button>
+      )}
+      {store.sessionState.value !== 'created' && (
+        <button
+          type="button"
+          class="plain-button"
+          data-testid="reset-session"
+          title={appText.resetHint}
+          ref={button}
+          disabled={busy || details.device?.name === undefined}
+          onClick={() => (asking.value = true)}
+        >
+          {appText.resetSession}
+        </button>
+      )}
+      {mayShare && (
+        <button type="button" class="plain-button" data-testid="share" onClick={() => (shared.value = details.id)}>
+          {appText.share}
+        </button>
+      )}
+    </div>
+  );
+}

@@ -1,0 +1,35 @@
+import { addressOfRoute } from '../../state/route';
+import type { Store } from '../../state/store';
+import { appText } from '../../text/app_text';
+import { useIdentity } from '../common/site_nav';
+
+/** Whose session it is, what it is called, and what is left to do after one of a study. */
+export function SessionLabels({ store }: { store: Store }) {
+  const identity = useIdentity();
+  const details = store.details.value;
+  if (details === null || details.id !== store.sessionId.value) return null;
+  const { title, trainee, participant, study, attempt = 1 } = details;
+  const said = [
+    title ? appText.titled(title) : '',
+    trainee || participant ? appText.trainedBy(trainee || participant || '') : '',
+    attempt > 1 ? appText.attempt(attempt) : '',
+  ].filter((text) => text !== '');
+  const ended = !store.active.value && details.state !== 'created';
+  const answers = identity.may.value.takePart && ended && study && participant;
+  if (said.length === 0 && !answers) return null;
+  return (
+    <>
+      {said.length > 0 && (
+        <p class="session-labels soft" data-testid="session-labels">
+          {said.join(' · ')}
+        </p>
+      )}
+      {answers && (
+        <p class="remark" data-testid="questionnaire-notice">
+          {appText.questionnaireOpen}{' '}
+          <a href={addressOfRoute({ kind: 'questionnaire', id: study, participant })}>{appText.toQuestionnaire}</a>
+        </p>
+      )}
+    </>
+  );
+}

@@ -1,0 +1,55 @@
+import type { Signal } from '@preact/signals';
+import type { ComponentChildren } from 'preact';
+
+import type { ViewName } from '../../scene/camera_rig';
+import type { BoneScene } from '../../scene/scene';
+import type { ViewSettings } from '../../state/view_settings';
+import { appText } from '../../text/app_text';
+import { HeadsetButton } from './headset_button';
+import { SceneTools } from './scene_tools';
+
+const views: readonly (readonly [ViewName, string])[] = [
+  ['plan', appText.viewPlan],
+  ['axis', appText.viewAxis],
+  ['side', appText.viewSide],
+];
+
+interface Parts {
+  scene: Pick<BoneScene, 'look' | 'headset' | 'putOnHeadset'>;
+  view: ViewSettings;
+  reamerShown: Signal<boolean>;
+  children?: ComponentChildren;
+}
+
+/** From where the picture is seen and what it shows. */
+export function ViewTools({ scene, view, reamerShown, children }: Parts) {
+  return (
+    <div class="views" role="group" aria-label={appText.view}>
+      {views.map(([name, label]) => (
+        <button
+          type="button"
+          key={name}
+          data-testid={`view-${name}`}
+          onClick={() => {
+            view.change({ camera: 'own' });
+            scene.look(name);
+          }}
+        >
+          {label}
+        </button>
+      ))}
+      <SceneTools view={view} />
+      {children}
+      <HeadsetButton headset={scene.headset} putOn={() => scene.putOnHeadset()} />
+      <label>
+        <input
+          type="checkbox"
+          data-testid="show-reamer"
+          checked={reamerShown.value}
+          onChange={(event) => (reamerShown.value = event.currentTarget.checked)}
+        />
+        {appText.showReamer}
+      </label>
+    </div>
+  );
+}

@@ -1,0 +1,18 @@
+import { fixed, minutes } from '../text/format';
+import type { HeadsetMessage } from './headset';
+import { liveText } from '../text/live_text';
+import type { Store } from '../state/store';
+
+/** What the wearer of a headset reads: the work's figures, and whether what is seen is of this moment. */
+export function headsetMessage(store: Store): HeadsetMessage {
+  const hello = store.hello.value;
+  if (hello === null || !store.upToDate.value) return { text: liveText.headsetNotLive, warns: true };
+  const told = store.telemetry.value;
+  const figures = [
+    `${fixed(told?.thrustN.at(-1), 0)} N`,
+    liveText.headsetDepth(fixed(told?.depthMm, 1), fixed(hello.plannedDepthMm, 1)),
+  ].join('   ');
+  if (!store.replaying.value) return { text: `${liveText.headsetLive}   ${figures}`, warns: false };
+  const at = minutes((store.playback.value?.positionTicks ?? 0) / 1000);
+  return { text: `${liveText.headsetRecorded} ${at}   ${figures}`, warns: false };
+}

@@ -1,0 +1,88 @@
+/** Texts of the dashboard; loaded with it. */
+export const dashboardText = {
+  liveNow: 'Under way',
+  liveCount: (count: number) => (count === 1 ? '1 session' : `${count} sessions`),
+  loading: 'Asking the simulator…',
+  noneLive: 'Nobody reams at the moment. A session that is started appears here by itself.',
+  startOne: 'Start one in the live view',
+  noNews: (clock: string) => `No news since ${clock}. What is shown is not live; this page asks again by itself.`,
+  neverHeard: 'This page asks again by itself.',
+  unnamed: 'Without a name',
+  scripted: 'Scripted hand',
+  byParticipant: (code: string) => `Participant ${code}`,
+  watchTile: (who: string, caseId: string) => `Watch ${who} on ${caseId}`,
+  pictureOf: (clock: string) => `The bone at ${clock}`,
+  pictureComes: 'The picture is being drawn',
+  noPicture: 'No picture yet',
+  depth: 'Depth',
+  depthOf: (mm: string, planned: string) => `${mm} of ${planned} mm`,
+  depthAlone: (mm: string) => `${mm} mm`,
+  thrust: 'Thrust, mean',
+  peak: 'highest',
+  newtons: (newtons: string) => `${newtons} N`,
+  removed: 'Removed',
+  cubicMm: (volume: string) => `${volume} mm³`,
+  time: 'Time',
+  notLive: 'not live',
+  theatre: 'Theatre',
+  attempt: (count: number) => `attempt ${count}`,
+
+  alarms: 'Alarms',
+  alarmThrust: 'Thrust over 78 N',
+  alarmDepth: (mm: string) => `${mm} mm past the plan`,
+  alarmVault: (mm: string) => `Vault breached by ${mm} mm`,
+  alarmLate: (percent: string) => `${percent} % of ticks late`,
+
+  recent: 'Recent sessions',
+  noneRecent: 'No session has ended yet. Practise, or run the demo, in the live view.',
+  allSessions: 'All sessions',
+  when: 'When',
+  who: 'Trainee',
+  case: 'Case',
+  result: 'Result',
+  points: 'Points',
+  noPoints: 'not judged',
+  outcome: {
+    pass: 'Passed',
+    fail: 'Failed',
+    undecided: 'Undecided',
+    none: 'Not judged',
+  },
+  interrupted: 'Interrupted',
+  faulted: 'Fault',
+  replay: 'Replay',
+  deeds: 'What can be done',
+  outOfDate: 'This list is of before.',
+
+  learning: 'Learning',
+  ofWhom: 'Trainee',
+  learnerSessions: (name: string, count: number) => `${name} (${count})`,
+  noLearner:
+    'Nobody has trained under a name or a study’s code yet. Operators add trainees under Users; whoever logs in and practises appears here.',
+  noOwnSessions:
+    'You have no session that has ended yet. Practise in the live view; your course of learning appears here.',
+  allTogether:
+    'This server has no users, so sessions are not told apart by trainee: these are the points of all of them. An operator adds trainees under Users.',
+  pointsOver: 'Points over sessions',
+  cusumOver: 'CUSUM: passed sessions lower it, failed ones raise it',
+  cusumShort: 'CUSUM',
+  sessionNumber: 'Session',
+  proficientLine: 'proficient',
+  notProficientLine: 'not proficient',
+  standing: {
+    'going on': 'Not decided yet.',
+    proficient: 'Proficient.',
+    'not proficient': 'Not proficient.',
+  },
+  standingWhy: (acceptable: string, unacceptable: string) =>
+    `Decided by CUSUM: ${acceptable} % of failures are acceptable, ${unacceptable} % are not.`,
+  passesToGo: (count: number) =>
+    count === 1
+      ? 'One more passed session would prove proficiency.'
+      : `${count} passed sessions in a row would prove it.`,
+  byRubric: (id: string, version: number) => `Judged by ${id}, version ${version}.`,
+  asTable: 'As a table',
+  cusum: 'CUSUM',
+  chartLabel: (title: string, count: number, last: string) =>
+    `${title}: ${count} sessions, the last one at ${last}. The table below has all figures.`,
+};

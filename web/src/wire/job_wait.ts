@@ -1,0 +1,44 @@
+import { ApiError } from './rest';
+
+/** Work that the server does, as far as waiting for it goes. */
+export interface PendingJob {
+  id: string;
+  state: 'waiting' | 'running' | 'done' | 'failed' | 'cancelled';
+  /** 0 to 1. */
+  share: number;
+  step: string;
+  problem: { status?: number; detail?: string } | null;
+}
+
+const askAgainMs = 400;
+
+/** Asks after a job until it has ended; throws ApiError in its words where it failed. */
+export async function waitForJob(
+  begun: PendingJob,
+  ask: (id: string) => Promise<PendingJob>,
+  onProgress: (share: number) => void,
+  signal?: AbortSignal,
+): Promise<PendingJob> {
+  for (let job = begun; ; job = await ask(job.id)) {
+    signal?.throwIfAborted();
+    onProgress(job.share);
+    if (job.state === 'done') return job;
+    if (job.state === 'failed' || job.state === 'cancelled')
+      throw new ApiError(job.problem?.detail ?? job.step, job.problem?.status ?? 500);
+    await new Promise((resolve) => setTimeout(resolve, askAgainMs));
+  }
+}
+
+/** Asks for something that may have to be made first (202 with the job that does so); gives the answer that has it. */
+export async function fetchOnceReady(
+  get: () => Promise<Response>,
+  ask: (id: string) => Promise<PendingJob>,
+  onProgress: (share: number) => void,
+  signal?: AbortSignal,
+): Promise<Response> {
+  for (;;) {
+    const response = await get();
+    if (response.status !== 202) return response;
+    await waitForJob((await response.json()) as PendingJob, ask, onProgress, signal);
+  }
+}
