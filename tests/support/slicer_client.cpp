@@ -17,7 +17,7 @@
 namespace ream::test {
 namespace {
 
-constexpr int patience_ms = 20'000;
+constexpr int timeout_ms = 120'000;
 
 template <typename LibraryMessage>
 typename LibraryMessage::Pointer unpacked(igtl::MessageHeader::Pointer header, const std::byte* body) {
@@ -99,7 +99,7 @@ struct SlicerClient::Line {
 SlicerClient::SlicerClient(uint16_t port) : line_(std::make_unique<Line>()) {
   if (line_->socket->ConnectToServer("127.0.0.1", port) != 0)
     throw std::runtime_error("nobody listens at port " + std::to_string(port));
-  line_->socket->SetReceiveTimeout(patience_ms);
+  line_->socket->SetReceiveTimeout(timeout_ms);
 }
 
 SlicerClient::~SlicerClient() { line_->socket->CloseSocket(); }

@@ -20,7 +20,7 @@ class SlicerClient {
   explicit SlicerClient(uint16_t port);
   ~SlicerClient();
 
-  /// The next message, as it came over the wire; throws when none comes within 20 s or the line ends.
+  /// The next message, as it came over the wire; throws when none comes within two minutes or the line ends.
   IgtlBytes next();
   /// The next `bytes` of the wire, whatever they are.
   IgtlBytes raw(size_t bytes);
