@@ -3,7 +3,7 @@
 #include <string>
 
 #include "api/running_session.hpp"
-#include "net/caller.hpp"
+#include "net/message.hpp"
 
 namespace ream::api {
 

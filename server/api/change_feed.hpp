@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "api/running_session.hpp"
-#include "net/caller.hpp"
+#include "net/message.hpp"
 #include "net/websocket.hpp"
 
 namespace ream::api {

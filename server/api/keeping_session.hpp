@@ -13,7 +13,7 @@ class KeepingSession : public net::WebSocketSession {
   void on_open(std::function<void()> wake) override { inner_->on_open(std::move(wake)); }
   bool sends_text() const override { return inner_->sends_text(); }
   std::optional<net::SharedBytes> next() override { return inner_->next(); }
-  std::optional<net::Farewell> farewell() override { return inner_->farewell(); }
+  std::optional<net::CloseReason> close_reason() override { return inner_->close_reason(); }
   void on_message(std::span<const std::byte> message) override { inner_->on_message(message); }
   void on_close() noexcept override { inner_->on_close(); }
 

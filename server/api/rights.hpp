@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "net/caller.hpp"
+#include "net/message.hpp"
 
 namespace ream::api {
 

@@ -32,7 +32,7 @@ struct SessionService::Entry {
   SessionRequest request_;
 };
 
-/// Code of the farewell to those who watched a session until it went on as another one.
+/// Close code for those who watched a session until it went on as another one.
 inline constexpr uint16_t goes_on_elsewhere = 4001;
 
 /// A viewer's or device's connection to a session, which keeps it, and says goodbye when the session goes on
@@ -44,11 +44,11 @@ class SessionService::Attendance final : public KeepingSession {
         entry_(std::move(entry)),
         came_late_(!entry_->request().followed_by.empty()) {}
 
-  std::optional<net::Farewell> farewell() override {
-    if (auto words = KeepingSession::farewell(); words || came_late_) return words;
+  std::optional<net::CloseReason> close_reason() override {
+    if (auto words = KeepingSession::close_reason(); words || came_late_) return words;
     const std::string next = entry_->request().followed_by;
     if (next.empty()) return std::nullopt;
-    return net::Farewell{goes_on_elsewhere, "goes on from intact bone as session " + next};
+    return net::CloseReason{goes_on_elsewhere, "goes on from intact bone as session " + next};
   }
 
  private:

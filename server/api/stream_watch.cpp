@@ -40,9 +40,9 @@ class StreamWatch::WatchedSession final : public net::WebSocketSession {
     if (stream_->ended) return std::nullopt;
     return inner_->next();
   }
-  std::optional<net::Farewell> farewell() override {
-    if (stream_->ended) return net::Farewell{access_ended, "access has ended; log in again"};
-    return inner_->farewell();
+  std::optional<net::CloseReason> close_reason() override {
+    if (stream_->ended) return net::CloseReason{access_ended, "access has ended; log in again"};
+    return inner_->close_reason();
   }
   void on_message(std::span<const std::byte> message) override {
     if (!stream_->ended) inner_->on_message(message);

@@ -7,7 +7,7 @@
 
 #include "api/blinding.hpp"
 #include "api/study_export.hpp"
-#include "net/caller.hpp"
+#include "net/message.hpp"
 #include "store/study_table.hpp"
 
 namespace ream::api {

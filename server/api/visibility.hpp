@@ -1,6 +1,6 @@
 #pragma once
 #include "api/running_session.hpp"
-#include "net/caller.hpp"
+#include "net/message.hpp"
 
 namespace ream::api {
 

@@ -53,7 +53,7 @@ net::ListenOptions listen_options(const ServerAddress& address, bool has_users) 
   options.public_names = address.public_names;
   if (!address.certificate_chain.empty()) {
     options.tls = {address.certificate_chain, address.key};
-    net::make_tls_context(*options.tls);  // what is wrong with them is said before anything is begun
+    net::TlsContext{*options.tls};  // what is wrong with them is said before anything is begun
   }
   if (!net::is_loopback_host(address.host)) {
     require_safe(address, has_users);

@@ -19,7 +19,7 @@ struct ServerAddress {
 
 /// What the listener has to know. `has_users`: whether people have to log in. Error usage, in words that say
 /// what to do, when others could reach the server without a login, or with one that everybody on their way
-/// can read; those of net::make_tls_context.
+/// can read; those of net::TlsContext.
 net::ListenOptions listen_options(const ServerAddress& address, bool has_users);
 
 /// The page's address for people, without a slash at its end. `port`: that was bound.

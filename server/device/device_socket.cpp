@@ -28,7 +28,7 @@ class DeviceSocket final : public net::WebSocketSession {
 
   void on_open(std::function<void()> wake) override { wake_ = std::move(wake); }
   std::optional<net::SharedBytes> next() override;
-  std::optional<net::Farewell> farewell() override;
+  std::optional<net::CloseReason> close_reason() override;
   void on_message(std::span<const std::byte> message) override;
   void on_close() noexcept override { port_->leave(number_); }
 
@@ -43,7 +43,7 @@ class DeviceSocket final : public net::WebSocketSession {
   const std::shared_ptr<DevicePort> port_;
   std::function<void()> wake_;
   uint64_t number_ = 0;  ///< at the port; 0: has not greeted
-  std::optional<net::Farewell> farewell_;
+  std::optional<net::CloseReason> close_reason_;
   bool welcome_owed_ = false, feedback_owed_ = false;
   bool any_input_ = false;
   uint32_t sequence_ = 0;
@@ -52,11 +52,11 @@ class DeviceSocket final : public net::WebSocketSession {
 };
 
 void DeviceSocket::end(DeviceClose code, std::string words) {
-  if (!farewell_) farewell_ = net::Farewell{static_cast<uint16_t>(code), std::move(words)};
+  if (!close_reason_) close_reason_ = net::CloseReason{static_cast<uint16_t>(code), std::move(words)};
 }
 
 std::optional<net::SharedBytes> DeviceSocket::next() {
-  if (farewell_ || !greeted()) return std::nullopt;
+  if (close_reason_ || !greeted()) return std::nullopt;
   if (welcome_owed_) {
     welcome_owed_ = false;
     return welcome_message(port_->welcome_);
@@ -72,13 +72,13 @@ std::optional<net::SharedBytes> DeviceSocket::next() {
   return feedback_message(feedback);
 }
 
-std::optional<net::Farewell> DeviceSocket::farewell() {
+std::optional<net::CloseReason> DeviceSocket::close_reason() {
   if (greeted() && !port_->owned_by(number_)) end(DeviceClose::replaced, replaced_words);
-  return farewell_;
+  return close_reason_;
 }
 
 void DeviceSocket::on_message(std::span<const std::byte> message) {
-  if (farewell_) return;
+  if (close_reason_) return;
   std::visit([this](const auto& one) { take(one); }, read_client_message(message));
   wake_();
 }

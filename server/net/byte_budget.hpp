@@ -8,7 +8,7 @@ namespace ream::net {
 /// Memory that many may lend from, up to a sum. Thread-safe.
 class ByteBudget {
  public:
-  explicit ByteBudget(size_t most) : left_(most) {}
+  explicit ByteBudget(size_t max_bytes) : left_(max_bytes) {}
 
   /// Gives its bytes back when it goes.
   class Lease {

@@ -11,7 +11,7 @@
 #include <span>
 #include <utility>
 
-#include "net/tls_context.hpp"
+#include "net/tls.hpp"
 
 namespace ream::net {
 
@@ -134,7 +134,7 @@ class Channel {
 };
 
 /// What Beast asks of a stream that it does not know: how a WebSocket's connection ends after its last word.
-/// Nothing here: the connection does it, with close_lingering.
+/// Nothing here: the connection does it, with Watchdog::close_lingering.
 template <typename Handler>
 void async_teardown(boost::beast::role_type, Channel& channel, Handler&& handler) {
   boost::asio::post(channel.get_executor(),

@@ -3,7 +3,7 @@
 namespace ream::net {
 
 ConnectionRegistry::Place ConnectionRegistry::make_room(const std::string& address, const Limits& limits) {
-  std::shared_ptr<Connection> gives_way;
+  std::shared_ptr<Connection> evicted;
   {
     const std::lock_guard lock(mutex_);
     size_t here = 0, of_address = 0;
@@ -14,11 +14,11 @@ ConnectionRegistry::Place ConnectionRegistry::make_room(const std::string& addre
     }
     const bool address_full = of_address >= limits.connections_per_address;
     if (!address_full && here < limits.connections) return Place::free;
-    gives_way = longest_waiting(address_full ? address : std::string());
-    if (!gives_way) return connections_.size() < 2 * limits.connections ? Place::busy : Place::overfull;
-    connections_.at(gives_way.get()).leaving = true;
+    evicted = longest_waiting(address_full ? address : std::string());
+    if (!evicted) return connections_.size() < 2 * limits.connections ? Place::busy : Place::overfull;
+    connections_.at(evicted.get()).leaving = true;
   }
-  gives_way->shut_down();
+  evicted->shut_down();
   return Place::free;
 }
 
@@ -73,9 +73,9 @@ void ConnectionRegistry::close() {
   closed_ = true;
 }
 
-bool ConnectionRegistry::wait_until_empty(std::chrono::milliseconds longest) {
+bool ConnectionRegistry::wait_until_empty(std::chrono::milliseconds timeout) {
   std::unique_lock lock(mutex_);
-  return changed_.wait_for(lock, longest, [this] { return connections_.empty(); });
+  return changed_.wait_for(lock, timeout, [this] { return connections_.empty(); });
 }
 
 }  // namespace ream::net

@@ -68,7 +68,7 @@ class ConnectionRegistry {
   /// No more connections are added from now on.
   void close();
   /// Waits until nobody is connected any more; false when that took longer.
-  bool wait_until_empty(std::chrono::milliseconds longest);
+  bool wait_until_empty(std::chrono::milliseconds timeout);
 
  private:
   struct Entry {

@@ -1,11 +1,12 @@
 #pragma once
-// Inside of net only: what the connections of one listener share.
+// Inside of net only: what the connections of one listener share, and how a connection of each kind begins.
 #include <boost/asio/io_context.hpp>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "net/byte_budget.hpp"
+#include "net/channel.hpp"
 #include "net/connection_registry.hpp"
 #include "net/limits.hpp"
 #include "net/rate_limiter.hpp"
@@ -17,13 +18,13 @@ namespace ream::net {
 
 /// Destroyed bottom up: the io_context first, and with it the connections that wait on it.
 struct Engine {
-  Engine(const Router& routes, const Limits& most, size_t io_threads, size_t worker_threads)
+  Engine(const Router& routes, const Limits& peer_limits, size_t io_threads, size_t worker_threads)
       : router(routes),
-        limits(most),
-        address_rate(most.requests_per_address),
-        bodies(most.bodies_bytes),
-        workers(worker_threads, most.waiting_requests),
-        file_readers(1, 2 * most.connections),
+        limits(peer_limits),
+        address_rate(peer_limits.requests_per_address),
+        bodies(peer_limits.bodies_bytes),
+        workers(worker_threads, peer_limits.waiting_requests),
+        file_readers(1, 2 * peer_limits.connections),
         io(static_cast<int>(io_threads)) {}
 
   const Router& router;
@@ -37,5 +38,20 @@ struct Engine {
   WorkerPool file_readers;  ///< one piece at a time for every connection
   boost::asio::io_context io;
 };
+
+/// Who is connected and through which of our addresses; numeric, without ports.
+struct Ends {
+  std::string peer, local;
+  std::string peer_key;  ///< what limits go by: the peer, of IPv6 its /64
+};
+
+Ends ends_of(const Channel::Socket& socket);
+
+/// Serves requests on a socket whose executor is a strand of its own. `refuse`: answers 503 and ends.
+void start_http(Engine& engine, Channel::Socket socket, Ends ends, bool refuse);
+
+/// Answers the upgrade request and runs the session over the channel.
+void start_websocket(Engine& engine, Channel channel, Ends ends, Request request,
+                     std::unique_ptr<WebSocketSession> session);
 
 }  // namespace ream::net

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "net/message.hpp"
 
@@ -48,5 +49,20 @@ Response file_response(const Request& request, const FileBody& body);
 
 /// Value of Content-Disposition: saved under `name`, which may hold any letters (RFC 6266).
 std::string attachment_named(const std::string& name);
+
+/// What a Range header asks of a body.
+struct ByteRange {
+  enum class Answer {
+    whole,          ///< there is no range that is understood: all of it (200)
+    part,           ///< `bytes` from `offset` (206)
+    unsatisfiable,  ///< nothing of it exists (416)
+  };
+  Answer answer = Answer::whole;
+  uint64_t offset = 0, bytes = 0;
+};
+
+/// Reads "bytes=0-99", "bytes=100-" or "bytes=-100" (RFC 9110, 14.1.2) for a body of `size` bytes. Other
+/// units, several ranges and what is not understood ask for the whole.
+ByteRange read_range(std::string_view header, uint64_t size);
 
 }  // namespace ream::net

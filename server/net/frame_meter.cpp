@@ -6,7 +6,7 @@ namespace ream::net {
 namespace {
 
 constexpr unsigned mask_bit = 0x80, length_bits = 0x7f, two_bytes_follow = 126, eight_bytes_follow = 127;
-constexpr size_t shortest_header = 2, mask_bytes = 4;
+constexpr size_t min_header_bytes = 2, mask_bytes = 4;
 
 }  // namespace
 
@@ -32,10 +32,10 @@ size_t FrameMeter::count(std::span<const std::byte> bytes) {
 
 /// As far as the bytes at hand tell.
 size_t FrameMeter::header_bytes_known() const {
-  if (have_ < shortest_header) return shortest_header;
+  if (have_ < min_header_bytes) return min_header_bytes;
   const auto second = std::to_integer<unsigned>(header_[1]);
   const unsigned length = second & length_bits;
-  return shortest_header +
+  return min_header_bytes +
          (length == two_bytes_follow     ? 2
           : length == eight_bytes_follow ? 8
                                          : 0) +
@@ -47,7 +47,7 @@ uint64_t FrameMeter::payload_bytes() const {
   if (length < two_bytes_follow) return length;
   uint64_t bytes = 0;
   for (size_t i = 0; i < (length == two_bytes_follow ? 2u : 8u); ++i)
-    bytes = bytes << 8 | std::to_integer<uint64_t>(header_[shortest_header + i]);
+    bytes = bytes << 8 | std::to_integer<uint64_t>(header_[min_header_bytes + i]);
   return bytes;
 }
 

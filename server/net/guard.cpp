@@ -32,7 +32,7 @@ std::string_view name_of_authority(std::string_view authority) {
 }
 
 /// A numeric address in its shortest form; empty when it is none.
-std::string shortest_address(const std::string& text) {
+std::string canonical_address(const std::string& text) {
   char out[INET6_ADDRSTRLEN];
   in_addr four{};
   in6_addr six{};
@@ -41,18 +41,18 @@ std::string shortest_address(const std::string& text) {
   return {};
 }
 
-std::string comparable(std::string_view name) {
+std::string canonical_host(std::string_view name) {
   const std::string plain = lower(name);
-  const std::string address = shortest_address(plain);
+  const std::string address = canonical_address(plain);
   return address.empty() ? plain : address;
 }
 
 bool names_us(std::string_view name, const AcceptedHosts& hosts) {
   if (is_loopback_host(name)) return true;
-  const std::string wanted = comparable(name);
-  if (wanted.empty()) return false;
-  return wanted == hosts.local_address ||
-         std::find(hosts.public_names.begin(), hosts.public_names.end(), wanted) != hosts.public_names.end();
+  const std::string host = canonical_host(name);
+  if (host.empty()) return false;
+  return host == hosts.local_address ||
+         std::find(hosts.public_names.begin(), hosts.public_names.end(), host) != hosts.public_names.end();
 }
 
 bool same_origin(std::string_view origin, const Request& request) {
@@ -90,10 +90,10 @@ bool is_loopback_host(std::string_view host) {
 
 std::string plain_host(const std::string& name) {
   const bool in_brackets = name.size() > 2 && name.front() == '[' && name.back() == ']';
-  const std::string plain = comparable(in_brackets ? name.substr(1, name.size() - 2) : name);
+  const std::string plain = canonical_host(in_brackets ? name.substr(1, name.size() - 2) : name);
   const bool is_name =
       plain.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789.-_") == std::string::npos;
-  if (plain.empty() || (!is_name && shortest_address(plain).empty()))
+  if (plain.empty() || (!is_name && canonical_address(plain).empty()))
     throw Error(ErrorKind::usage,
                 "'" + name + "' is no host name and no address; give it without https:// and port");
   return plain;

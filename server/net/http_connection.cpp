@@ -1,16 +1,20 @@
+#include <algorithm>
 #include <array>
+#include <boost/asio/buffer.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/write.hpp>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 
-#include "net/connections.hpp"
+#include "core/log.hpp"
+#include "net/engine.hpp"
+#include "net/file_body.hpp"
 #include "net/guard.hpp"
-#include "net/lingering_close.hpp"
+#include "net/message.hpp"
 #include "net/problem.hpp"
-#include "net/reply_writer.hpp"
 #include "net/request_parser.hpp"
-#include "net/response_head.hpp"
 #include "net/transfer_pace.hpp"
 #include "net/watchdog.hpp"
 
@@ -21,6 +25,109 @@ namespace {
 
 constexpr unsigned char tls_handshake_byte = 0x16;  ///< RFC 8446, 5.1: what a TLS connection begins with
 constexpr size_t body_read_bytes = 64 * 1024;
+
+/// Sends one reply after another over a connection's channel: the head, then bytes of memory, or those of a
+/// file piece by piece. A peer that does not take them is cut. Runs on the channel's strand.
+class ReplyWriter {
+ public:
+  ReplyWriter(Engine& engine, Channel& channel, Watchdog& watchdog)
+      : engine_(engine), channel_(channel), watchdog_(watchdog) {}
+
+  struct Reply {
+    std::weak_ptr<void> owner;  ///< holds writer, channel and watchdog; is kept alive on the way
+    std::string head;
+    SharedBytes body;
+    std::optional<FileStretch> file;
+    std::function<void()> done;  ///< called when all has left, not at all when it could not
+  };
+  void send(Reply reply);
+
+ private:
+  void write_some();
+  void fetch_piece();
+  bool read_piece();
+  void finish();
+
+  Engine& engine_;
+  Channel& channel_;
+  Watchdog& watchdog_;
+  Reply reply_;  ///< its file is what has not been read yet
+  Bytes piece_;
+  std::array<boost::asio::const_buffer, 2> outgoing_;  ///< of head and body, or of piece_
+  TransferPace pace_;
+};
+
+void ReplyWriter::send(Reply reply) {
+  reply_ = std::move(reply);
+  outgoing_ = {asio::buffer(reply_.head), reply_.body ? asio::buffer(*reply_.body) : asio::const_buffer()};
+  const Limits& limits = engine_.limits;
+  pace_ = TransferPace(TransferPace::Clock::now(), limits.write, limits.write, limits.min_bytes_per_s);
+  write_some();
+}
+
+void ReplyWriter::write_some() {
+  if (asio::buffer_size(outgoing_) == 0) {
+    if (reply_.file && reply_.file->bytes > 0)
+      fetch_piece();
+    else
+      finish();
+    return;
+  }
+  const auto owner = reply_.owner.lock();
+  watchdog_.arm(pace_.time_left(TransferPace::Clock::now()), owner);
+  channel_.async_write_some(outgoing_, [this, owner](error_code failed, size_t written) {
+    if (failed) {
+      watchdog_.close();
+      return;
+    }
+    pace_.moved(written);
+    for (asio::const_buffer& buffer : outgoing_) {
+      const size_t of_this = std::min(written, buffer.size());
+      buffer += of_this;
+      written -= of_this;
+    }
+    write_some();
+  });
+}
+
+/// The disk may take its time: a thread of its own waits for it.
+void ReplyWriter::fetch_piece() {
+  watchdog_.disarm();
+  const bool taken = engine_.file_readers.submit([this, owner = reply_.owner.lock()] {
+    const bool whole = read_piece();
+    asio::post(channel_.get_executor(), [this, owner, whole] {
+      outgoing_ = {asio::buffer(piece_), asio::const_buffer()};
+      if (whole)
+        write_some();
+      else
+        watchdog_.close();
+    });
+  });
+  if (!taken) watchdog_.close();
+}
+
+/// False when the file is not what it was: what was promised cannot be sent any more.
+bool ReplyWriter::read_piece() {
+  FileStretch& stretch = *reply_.file;
+  piece_.resize(std::min<uint64_t>(stretch.bytes, engine_.limits.file_piece_bytes));
+  try {
+    if (stretch.file->read(stretch.offset, piece_) < piece_.size())
+      throw Error(ErrorKind::io, "a file became shorter while it was sent");
+  } catch (const Error& failure) {
+    log::error(failure.what());
+    return false;
+  }
+  stretch.offset += piece_.size();
+  stretch.bytes -= piece_.size();
+  return true;
+}
+
+void ReplyWriter::finish() {
+  watchdog_.disarm();
+  piece_ = {};
+  const auto done = std::exchange(reply_, {}).done;
+  done();
+}
 
 /// One HTTP/1.1 connection: read a request, have a worker answer it, write, again. Everything but the handler
 /// runs on the socket's strand.
@@ -63,21 +170,21 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
   void await_handshake() {
     set_wait(Wait::head);
     watchdog_.arm(engine_.limits.header, shared_from_this());
-    channel_.async_read_some(asio::buffer(arrived_), [self = shared_from_this()](error_code failed,
-                                                                                 size_t bytes) {
+    channel_.async_read_some(asio::buffer(received_), [self = shared_from_this()](error_code failed,
+                                                                                  size_t bytes) {
       if (failed)
         self->watchdog_.close();
-      else if (static_cast<unsigned char>(self->arrived_.front()) != tls_handshake_byte)
+      else if (static_cast<unsigned char>(self->received_.front()) != tls_handshake_byte)
         self->fail(400, "this port speaks TLS only: ask for it with https:// or wss://");
       else if (self->engine_.address_rate.take(self->address(), self->engine_.limits.handshake_cost) > 0.0)
         self->watchdog_.close();
       else
-        self->shake_hands(bytes);
+        self->start_tls(bytes);
     });
   }
 
-  void shake_hands(size_t bytes) {
-    channel_.async_encrypt(*engine_.tls, asio::buffer(arrived_, bytes),
+  void start_tls(size_t bytes) {
+    channel_.async_encrypt(*engine_.tls, asio::buffer(received_, bytes),
                            [self = shared_from_this()](error_code failed) {
                              if (failed)
                                self->watchdog_.close();
@@ -94,11 +201,11 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
     if (parser_.stage() == RequestParser::Stage::nothing) {
       set_wait(Wait::request);
       watchdog_.arm(engine_.limits.idle, shared_from_this());
-      read(asio::buffer(arrived_));
+      read(asio::buffer(received_));
     } else {
       set_wait(Wait::head);
       watchdog_.arm(engine_.limits.header, shared_from_this());
-      go_on();
+      advance();
     }
   }
 
@@ -107,11 +214,11 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
       if (failed)
         self->on_end(failed);
       else
-        self->on_bytes({static_cast<const char*>(into.data()), bytes});
+        self->on_received({static_cast<const char*>(into.data()), bytes});
     });
   }
 
-  void on_bytes(std::string_view bytes) {
+  void on_received(std::string_view bytes) {
     if (wait() == Wait::request) {
       set_wait(Wait::head);
       watchdog_.arm(engine_.limits.header, shared_from_this());
@@ -123,23 +230,23 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
       fail(error.status(), error.what());
       return;
     }
-    go_on();
+    advance();
   }
 
   /// As far as the request has come.
-  void go_on() {
+  void advance() {
     const RequestParser::Stage stage = parser_.stage();
     if (stage >= RequestParser::Stage::body && wait() == Wait::head) {
       set_wait(Wait::body);
-      if (on_head()) go_on();
+      if (on_head()) advance();
     } else if (stage == RequestParser::Stage::whole) {
       answer();
     } else if (stage == RequestParser::Stage::body) {
-      watchdog_.arm(pace_.patience(TransferPace::Clock::now()), shared_from_this());
+      watchdog_.arm(pace_.time_left(TransferPace::Clock::now()), shared_from_this());
       body_piece_.resize(body_read_bytes);
       read(asio::buffer(body_piece_));
     } else {
-      read(asio::buffer(arrived_));
+      read(asio::buffer(received_));
     }
   }
 
@@ -151,7 +258,7 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
     keep_alive_ = parser_.keep_alive();
     head_only_ = request.method == "HEAD";
     const Limits& limits = engine_.limits;
-    pace_ = TransferPace(TransferPace::Clock::now(), limits.body, limits.body, limits.least_bytes_per_s);
+    pace_ = TransferPace(TransferPace::Clock::now(), limits.body, limits.body, limits.min_bytes_per_s);
     const bool is_websocket = wants_websocket(request);
     if (auto refusal = refuse_foreign(request, is_websocket, {engine_.public_names, ends_.local})) {
       refuse(std::move(*refusal));
@@ -162,20 +269,20 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
     } else if (is_websocket) {
       open_websocket();
     } else if (parser_.wants_continue() && parser_.stage() == RequestParser::Stage::body) {
-      say_continue();
+      send_continue();
     } else {
       return true;
     }
     return false;
   }
 
-  void say_continue() {
+  void send_continue() {
     static constexpr std::string_view line = "HTTP/1.1 100 Continue\r\n\r\n";
     asio::async_write(channel_, asio::buffer(line), [self = shared_from_this()](error_code failed, size_t) {
       if (failed)
         self->watchdog_.close();
       else
-        self->go_on();
+        self->advance();
     });
   }
 
@@ -255,7 +362,7 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
     await_request();
   }
 
-  void end() { close_lingering(channel_, watchdog_, engine_.limits.linger, shared_from_this()); }
+  void end() { watchdog_.close_lingering(engine_.limits.linger, shared_from_this()); }
 
   Engine& engine_;
   const Ends ends_;
@@ -263,7 +370,7 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
   Watchdog watchdog_;
   ReplyWriter writer_;
   RequestParser parser_;
-  std::array<char, 2048> arrived_;
+  std::array<char, 2048> received_;
   std::vector<char> body_piece_;
   ByteBudget::Lease body_lease_;
   TransferPace pace_;

@@ -35,7 +35,7 @@ struct Limits {
   std::chrono::milliseconds header{5'000};  ///< for a TLS handshake, and for a header once it has begun
   std::chrono::milliseconds body{10'000};   ///< for a body without progress
   std::chrono::milliseconds write{10'000};  ///< for a write without progress
-  size_t least_bytes_per_s = 8 * 1024;  ///< of bodies and replies on average, once `body` or `write` is over
+  size_t min_bytes_per_s = 8 * 1024;  ///< of bodies and replies on average, once `body` or `write` is over
   std::chrono::milliseconds linger{2'000};  ///< for a peer to take our last words before the socket closes
   std::chrono::milliseconds stop{3'000};    ///< for requests under way when the server stops
 };

@@ -14,7 +14,6 @@
 
 #include "core/error.hpp"
 #include "core/log.hpp"
-#include "net/connections.hpp"
 #include "net/engine.hpp"
 #include "net/guard.hpp"
 
@@ -42,14 +41,14 @@ tcp::endpoint endpoint_of(const ListenOptions& options) {
 
 /// What waits for a slow peer waits in the program, where newer takes the place of older, and not in the
 /// kernel's queue, where it grows old: the kernel takes this many bytes that it cannot send yet, and no more.
-void keep_little_unsent(tcp::socket& socket) {
-  constexpr int most_bytes = 16 * 1024;
+void limit_unsent(tcp::socket& socket) {
+  constexpr int max_bytes = 16 * 1024;
   // Without it a slow viewer's picture is only later.
   static_cast<void>(
-      ::setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &most_bytes, sizeof most_bytes));
+      ::setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &max_bytes, sizeof max_bytes));
 }
 
-[[noreturn]] void explain(const boost::system::error_code& failed, const ListenOptions& options) {
+[[noreturn]] void refuse(const boost::system::error_code& failed, const ListenOptions& options) {
   const std::string place = "port " + std::to_string(options.port) + " on " + options.host;
   if (failed == asio::error::address_in_use)
     throw Error(ErrorKind::unavailable, place + " is in use; choose another with --port");
@@ -70,7 +69,7 @@ void open(tcp::acceptor& acceptor, const ListenOptions& options) {
   if (!failed) acceptor.set_option(asio::socket_base::reuse_address(true), failed);
   if (!failed) acceptor.bind(endpoint, failed);
   if (!failed) acceptor.listen(asio::socket_base::max_listen_connections, failed);
-  if (failed) explain(failed, options);
+  if (failed) refuse(failed, options);
 }
 
 /// An IPv4 address that came through an IPv6 socket is an IPv4 address.
@@ -109,7 +108,7 @@ struct Listener::Parts {
         pause(acceptor.get_executor()),
         io_threads(options.io_threads) {
     for (const std::string& name : options.public_names) engine.public_names.push_back(plain_host(name));
-    if (options.tls) engine.tls = make_tls_context(*options.tls);
+    if (options.tls) engine.tls = std::make_shared<TlsContext>(*options.tls);
     open(acceptor, options);
     if (engine.tls && !engine.tls->warning().empty()) log::warn(engine.tls->warning());
     bound_port = acceptor.local_endpoint().port();
@@ -124,18 +123,18 @@ struct Listener::Parts {
                               return;
                             }
                             accept();
-                            welcome(std::move(socket));
+                            start_connection(std::move(socket));
                           });
   }
 
-  void welcome(tcp::socket socket) {
+  void start_connection(tcp::socket socket) {
     using Place = ConnectionRegistry::Place;
     Ends ends = ends_of(socket);
     const Place place = engine.connections.make_room(ends.peer_key, engine.limits);
     if (place == Place::overfull) return;
     boost::system::error_code ignored;
     socket.set_option(tcp::no_delay(true), ignored);
-    keep_little_unsent(socket);
+    limit_unsent(socket);
     start_http(engine, std::move(socket), std::move(ends), place == Place::busy);
   }
 
@@ -160,7 +159,7 @@ struct Listener::Parts {
   }
 
   /// What still lies in the queues holds sockets, an accepted one say: their peers must not wait for ever.
-  void let_go() {
+  void drop_pending() {
     engine.io.restart();
     try {
       engine.io.poll();
@@ -214,7 +213,7 @@ void Listener::stop() {
   boost::system::error_code ignored;
   parts_->acceptor.close(ignored);  // the threads may have ended before they came to it
   for (const auto& connection : engine.connections.all()) connection->abandon();
-  parts_->let_go();
+  parts_->drop_pending();
 }
 
 }  // namespace ream::net

@@ -33,7 +33,7 @@ class Listener {
  public:
   /// `router` must outlive the listener and not change any more.
   /// Throws Error usage for an address that may not be bound or a name that is none, unavailable when the
-  /// port cannot be had; for certificate and key see make_tls_context.
+  /// port cannot be had; for certificate and key see TlsContext.
   Listener(const Router& router, const ListenOptions& options);
   /// Stops.
   ~Listener();

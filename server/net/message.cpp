@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/json.hpp"
+#include "core/log.hpp"
 #include "net/problem.hpp"
 
 namespace ream::net {
@@ -40,9 +41,32 @@ bool has_encoded_slash(std::string_view raw_path) {
 }
 
 /// Such characters only serve to fool file systems and logs.
-bool has_unwanted_character(std::string_view path) {
+bool has_forbidden_character(std::string_view path) {
   return std::any_of(path.begin(), path.end(),
                      [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127 || c == '\\'; });
+}
+
+bool is_token_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+         std::string_view("!#$%&'*+-.^_`|~").find(c) != std::string_view::npos;
+}
+
+bool is_name(std::string_view text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), is_token_letter);
+}
+
+bool is_value(std::string_view text) {
+  return std::none_of(text.begin(), text.end(),
+                      [](char c) { return (static_cast<unsigned char>(c) < 32 && c != '\t') || c == 127; });
+}
+
+void add_line(std::string& head, std::string_view name, std::string_view value) {
+  if (!is_name(name) || !is_value(value)) {
+    log::error("a reply's header was left out, for it holds control characters: " +
+               std::string(is_name(name) ? name : "(its name)"));
+    return;
+  }
+  head.append(name).append(": ").append(value).append("\r\n");
 }
 
 }  // namespace
@@ -84,7 +108,7 @@ void set_target(Request& request, std::string_view target) {
   const size_t mark = target.find('?');
   const std::string_view raw_path = target.substr(0, mark);
   request.path = percent_decode(raw_path, false);
-  if (has_encoded_slash(raw_path) || has_unwanted_character(request.path))
+  if (has_encoded_slash(raw_path) || has_forbidden_character(request.path))
     throw RequestError(400, "the address holds an encoded '/', a '\\' or a control character");
   if (mark == std::string_view::npos) return;
   std::string_view rest = target.substr(mark + 1);
@@ -98,6 +122,20 @@ void set_target(Request& request, std::string_view target) {
       request.query[percent_decode(pair.substr(0, equals), true)] = percent_decode(value, true);
     rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 1);
   }
+}
+
+std::string response_head(const Response& response,
+                          const std::vector<std::pair<std::string, std::string>>& fixed, bool keep_alive) {
+  std::string head =
+      "HTTP/1.1 " + std::to_string(response.status) + " " + status_title(response.status) + "\r\n";
+  for (const auto& [name, value] : response.headers) add_line(head, name, value);
+  for (const auto& [name, value] : fixed)
+    if (response.header(name).empty()) add_line(head, name, value);
+  if (!response.content_type.empty()) add_line(head, "Content-Type", response.content_type);
+  if (response.status != 204 && response.status != 304)
+    add_line(head, "Content-Length", std::to_string(response.body_bytes()));
+  if (!keep_alive) add_line(head, "Connection", "close");
+  return head += "\r\n";
 }
 
 }  // namespace ream::net

@@ -10,9 +10,17 @@
 #include <utility>
 #include <vector>
 
-#include "net/caller.hpp"
-
 namespace ream::net {
+
+/// Who asks, as the router's gate has found out; net itself does not look. Without users everybody is an
+/// operator with an empty user_id.
+struct Caller {
+  std::string user_id;       ///< empty: nobody in particular (no users, or a viewer link)
+  std::string name;          ///< for people
+  std::string role;          ///< operator, instructor, trainee, viewer; empty: not known (open routes only)
+  std::string only_session;  ///< of a viewer link to one session; empty: not restricted
+  std::string credential;    ///< id of the token, cookie session or link that was shown; never its secret
+};
 
 using Bytes = std::vector<std::byte>;
 /// Made once, sent to any number of connections, never changed after.
@@ -65,5 +73,11 @@ Response bytes_response(int status, std::string content_type, SharedBytes body);
 /// Throws RequestError 400 on broken percent-encoding, encoded '/', '\' or control characters, or a target
 /// that is not a path.
 void set_target(Request& request, std::string_view target);
+
+/// The head of a reply as it goes over the wire, up to and including the empty line: status, the reply's own
+/// headers, those of `fixed` that it does not set itself, length and connection. A header that would break
+/// out of its line is left out, and logged by its name.
+std::string response_head(const Response& response,
+                          const std::vector<std::pair<std::string, std::string>>& fixed, bool keep_alive);
 
 }  // namespace ream::net

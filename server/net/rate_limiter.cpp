@@ -24,8 +24,8 @@ double TokenBucket::take(double cost, Clock::time_point now) {
 
 bool TokenBucket::full(Clock::time_point now) const { return tokens_at(now) >= rate_.burst; }
 
-RateLimiter::RateLimiter(Rate rate, size_t most_keys)
-    : rate_(rate), most_keys_(most_keys), newcomers_(rate, Clock::now()) {}
+RateLimiter::RateLimiter(Rate rate, size_t max_keys)
+    : rate_(rate), max_keys_(max_keys), overflow_(rate, Clock::now()) {}
 
 double RateLimiter::take(const std::string& key, double cost, Clock::time_point now) {
   const std::lock_guard lock(mutex_);
@@ -41,11 +41,11 @@ size_t RateLimiter::keys() const {
 TokenBucket& RateLimiter::bucket_of(const std::string& key, Clock::time_point now) {
   const auto found = buckets_.find(key);
   if (found != buckets_.end()) return found->second;
-  if (buckets_.size() >= most_keys_ && now - swept_ >= sweep_again_after) {
+  if (buckets_.size() >= max_keys_ && now - swept_ >= sweep_again_after) {
     swept_ = now;
     std::erase_if(buckets_, [now](const auto& entry) { return entry.second.full(now); });
   }
-  if (buckets_.size() >= most_keys_) return newcomers_;
+  if (buckets_.size() >= max_keys_) return overflow_;
   return buckets_.emplace(key, TokenBucket(rate_, now)).first->second;
 }
 

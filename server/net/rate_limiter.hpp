@@ -37,7 +37,7 @@ class RateLimiter {
  public:
   using Clock = TokenBucket::Clock;
 
-  explicit RateLimiter(Rate rate, size_t most_keys = 4096);
+  explicit RateLimiter(Rate rate, size_t max_keys = 4096);
 
   /// Seconds after which `key` may try again; 0 when it may pass now.
   double take(const std::string& key, double cost = 1.0, Clock::time_point now = Clock::now());
@@ -48,10 +48,10 @@ class RateLimiter {
   TokenBucket& bucket_of(const std::string& key, Clock::time_point now);
 
   const Rate rate_;
-  const size_t most_keys_;
+  const size_t max_keys_;
   mutable std::mutex mutex_;
   std::unordered_map<std::string, TokenBucket> buckets_;
-  TokenBucket newcomers_;
+  TokenBucket overflow_;
   Clock::time_point swept_;
 };
 

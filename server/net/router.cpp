@@ -70,7 +70,7 @@ void Router::check(Check check) { check_ = std::move(check); }
 
 void Router::around(Around around) { around_ = std::move(around); }
 
-std::optional<Response> Router::ask_gate(Request& request, const std::string& pattern) const {
+std::optional<Response> Router::admit(Request& request, const std::string& pattern) const {
   if (gate_) gate_(request, pattern);
   const Caller& caller = request.caller;
   const std::string& key = caller.user_id.empty() ? caller.credential : caller.user_id;
@@ -88,7 +88,7 @@ Response Router::dispatch(Request& request) const {
     if (!matches(entry.segments, path)) continue;
     if (entry.method == method) {
       take_parameters(entry.segments, path, request);
-      if (auto refusal = ask_gate(request, entry.pattern)) return *refusal;
+      if (auto refusal = admit(request, entry.pattern)) return *refusal;
       if (check_) check_(request, entry.pattern);
       return around_ ? around_(request, entry.pattern, entry.handler) : entry.handler(request);
     }
@@ -98,7 +98,7 @@ Response Router::dispatch(Request& request) const {
   if (!allowed.empty()) return method_not_allowed(request, allowed);
   if (!otherwise_) throw Error(ErrorKind::not_found, "nothing is served at " + request.path);
   if (method != "GET") return method_not_allowed(request, {"GET", "HEAD"});
-  if (auto refusal = ask_gate(request, {})) return *refusal;
+  if (auto refusal = admit(request, {})) return *refusal;
   return otherwise_(request);
 }
 
@@ -116,7 +116,7 @@ Router::Opened Router::open(Request request) const {
     for (const Entry& entry : entries_) {
       if (!entry.websocket_handler || !matches(entry.segments, path)) continue;
       take_parameters(entry.segments, path, request);
-      if (auto refusal = ask_gate(request, entry.pattern)) return {nullptr, *refusal};
+      if (auto refusal = admit(request, entry.pattern)) return {nullptr, *refusal};
       if (check_) check_(request, entry.pattern);
       auto session = entry.websocket_handler(request);
       return {wrapper_ ? wrapper_(request, std::move(session)) : std::move(session), {}};

@@ -79,7 +79,7 @@ class Router {
   };
   Response dispatch(Request& request) const;
   /// The reply that refuses the request, if it is refused; or throws.
-  std::optional<Response> ask_gate(Request& request, const std::string& pattern) const;
+  std::optional<Response> admit(Request& request, const std::string& pattern) const;
 
   std::vector<Entry> entries_;
   Handler otherwise_;

@@ -13,13 +13,13 @@ class TransferPace {
 
   TransferPace() = default;
   TransferPace(Clock::time_point begin, std::chrono::milliseconds grace, std::chrono::milliseconds stall,
-               size_t least_bytes_per_s)
-      : earned_until_(begin + grace), stall_(stall), ns_per_byte_(1'000'000'000 / least_bytes_per_s) {}
+               size_t min_bytes_per_s)
+      : earned_until_(begin + grace), stall_(stall), ns_per_byte_(1'000'000'000 / min_bytes_per_s) {}
 
   void moved(size_t bytes) { earned_until_ += ns_per_byte_ * bytes; }
 
   /// How long the next bytes may take; not negative.
-  std::chrono::milliseconds patience(Clock::time_point now) const {
+  std::chrono::milliseconds time_left(Clock::time_point now) const {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(earned_until_ - now);
     return std::clamp(left, std::chrono::milliseconds(0), stall_);
   }

@@ -3,6 +3,7 @@
 #include <boost/asio/steady_timer.hpp>
 #include <chrono>
 #include <memory>
+#include <vector>
 
 #include "net/channel.hpp"
 
@@ -15,29 +16,22 @@ class Watchdog {
   explicit Watchdog(Channel& channel) : channel_(channel), timer_(channel.get_executor()) {}
 
   /// (Re)starts the time. `owner` keeps the channel alive meanwhile.
-  void arm(std::chrono::milliseconds time, std::shared_ptr<void> owner) {
-    timer_.expires_after(time);
-    timer_.async_wait([this, owner = std::move(owner), due = timer_.expiry()](boost::system::error_code) {
-      // A cancelled wait can already be on its way: only the deadline itself decides.
-      if (armed_ && timer_.expiry() == due && due <= std::chrono::steady_clock::now()) close();
-    });
-    armed_ = true;
-  }
-
-  void disarm() {
-    armed_ = false;
-    timer_.cancel();
-  }
-
+  void arm(std::chrono::milliseconds time, std::shared_ptr<void> owner);
+  void disarm();
   /// Closes now; there is nothing left to watch.
-  void close() {
-    disarm();
-    channel_.close();
-  }
+  void close();
+
+  /// Closes so that the peer gets our last words: tells it that nothing more comes and reads on until it
+  /// closes too, for `linger` at most. Closing a socket with unread input would reset it, and what the peer
+  /// has not read by then may be lost. `owner` keeps the channel and this alive; nothing else may be reading.
+  void close_lingering(std::chrono::milliseconds linger, std::shared_ptr<void> owner);
 
  private:
+  void drain_input(std::shared_ptr<void> owner);
+
   Channel& channel_;
   boost::asio::steady_timer timer_;
+  std::vector<char> discarded_;
   bool armed_ = false;
 };
 

@@ -11,9 +11,9 @@
 namespace ream::net {
 
 /// How a session ends a connection from its side.
-struct Farewell {
+struct CloseReason {
   uint16_t code = 1000;  ///< RFC 6455, 7.4; 4000 to 4999 are the session's own
-  std::string words;     ///< for people; what goes beyond 123 bytes is cut off
+  std::string text;      ///< for people; what goes beyond 123 bytes is cut off
 };
 
 /// The server's side of one WebSocket connection. All calls come one after another (never two at once) from
@@ -22,7 +22,7 @@ class WebSocketSession {
  public:
   virtual ~WebSocketSession() = default;
 
-  /// First call, once the connection stands. `wake` asks the server to call next() again; it may be called
+  /// First call, once the connection is open. `wake` asks the server to call next() again; it may be called
   /// from any thread, any number of times, also after the connection is gone.
   virtual void on_open(std::function<void()> wake) = 0;
 
@@ -34,8 +34,8 @@ class WebSocketSession {
   /// slow viewer pulls less often and the session decides what it may skip.
   virtual std::optional<SharedBytes> next() = 0;
 
-  /// Asked for whenever next() has nothing: closes the connection in words.
-  virtual std::optional<Farewell> farewell() { return std::nullopt; }
+  /// Asked for whenever next() has nothing: a reason closes the connection.
+  virtual std::optional<CloseReason> close_reason() { return std::nullopt; }
 
   /// One whole message of the peer, aligned as new memory is.
   virtual void on_message(std::span<const std::byte> message) = 0;

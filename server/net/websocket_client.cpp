@@ -17,8 +17,8 @@ using asio::ip::tcp;
 using boost::system::error_code;
 namespace {
 
-constexpr size_t longest_message = 1024 * 1024;
-constexpr std::chrono::milliseconds goodbye{200};
+constexpr size_t max_message_bytes = 1024 * 1024;
+constexpr std::chrono::milliseconds close_timeout{200};
 
 }  // namespace
 
@@ -34,8 +34,8 @@ struct WebSocketClient::Parts {
   tcp::socket& socket() { return stream.next_layer(); }
 
   /// Lets `result` come about; false when it has not in its time.
-  bool wait_for(const std::optional<error_code>& result, Milliseconds most) {
-    const auto until = std::chrono::steady_clock::now() + most;
+  bool wait_for(const std::optional<error_code>& result, Milliseconds timeout) {
+    const auto until = std::chrono::steady_clock::now() + timeout;
     io.restart();
     // What is there already counts also when there is no time to wait.
     while (!result && io.poll_one() > 0) {
@@ -47,10 +47,10 @@ struct WebSocketClient::Parts {
 
   /// Starts something and waits for it. What has not ended in its time is broken off, with the connection.
   template <typename Start>
-  error_code within(Milliseconds most, Start start) {
+  error_code within(Milliseconds timeout, Start start) {
     std::optional<error_code> result;
     start([&result](error_code failed, auto&&...) { result = failed; });
-    if (wait_for(result, most)) return *result;
+    if (wait_for(result, timeout)) return *result;
     drop();
     while (!result) {
       io.restart();
@@ -65,14 +65,14 @@ struct WebSocketClient::Parts {
     socket().close(ignored);
   }
 
-  [[noreturn]] void lost(const std::string& what, error_code failed) {
+  [[noreturn]] void fail(const std::string& what, error_code failed) {
     drop();
     throw Error(ErrorKind::unavailable, place + " " + what + ": " + failed.message());
   }
 };
 
 /// Where a host was found.
-struct WebSocketClient::Known {
+struct WebSocketClient::ResolvedHost {
   std::string place;
   std::vector<tcp::endpoint> endpoints;
 };
@@ -84,20 +84,20 @@ WebSocketClient::~WebSocketClient() { close(); }
 bool WebSocketClient::is_open() const noexcept { return parts_->open; }
 
 void WebSocketClient::connect(const std::string& host, uint16_t port, const std::string& target,
-                              Milliseconds most) {
+                              Milliseconds timeout) {
   const std::string place = host + ":" + std::to_string(port);
   try {
     parts_ = std::make_unique<Parts>();
     parts_->place = place;
-    if (known_ == nullptr || known_->place != place) resolve(host, port, most);
-    shake_hands(target, most);
+    if (resolved_ == nullptr || resolved_->place != place) resolve(host, port, timeout);
+    handshake(target, timeout);
   } catch (const boost::system::system_error& e) {
     parts_->drop();
     throw Error(ErrorKind::unavailable, place + " cannot be reached: " + e.code().message());
   }
 }
 
-void WebSocketClient::resolve(const std::string& host, uint16_t port, Milliseconds most) {
+void WebSocketClient::resolve(const std::string& host, uint16_t port, Milliseconds timeout) {
   Parts& parts = *parts_;
   tcp::resolver resolver(parts.io);
   tcp::resolver::results_type found;
@@ -107,44 +107,45 @@ void WebSocketClient::resolve(const std::string& host, uint16_t port, Millisecon
                            found = results;
                            resolved = failed;
                          });
-  if (!parts.wait_for(resolved, most)) {
+  if (!parts.wait_for(resolved, timeout)) {
     resolver.cancel();
     parts.io.restart();
     parts.io.run();
-    parts.lost("was not found", asio::error::timed_out);
+    parts.fail("was not found", asio::error::timed_out);
   }
-  if (*resolved) parts.lost("was not found", *resolved);
-  known_ = std::make_unique<Known>(Known{parts.place, {found.begin(), found.end()}});
+  if (*resolved) parts.fail("was not found", *resolved);
+  resolved_ = std::make_unique<ResolvedHost>(ResolvedHost{parts.place, {found.begin(), found.end()}});
 }
 
-void WebSocketClient::shake_hands(const std::string& target, Milliseconds most) {
+void WebSocketClient::handshake(const std::string& target, Milliseconds timeout) {
   Parts& parts = *parts_;
-  if (const error_code failed = parts.within(
-          most, [&](auto done) { asio::async_connect(parts.socket(), known_->endpoints, std::move(done)); }))
-    parts.lost("cannot be reached", failed);
+  if (const error_code failed = parts.within(timeout, [&](auto done) {
+        asio::async_connect(parts.socket(), resolved_->endpoints, std::move(done));
+      }))
+    parts.fail("cannot be reached", failed);
   error_code ignored;
   parts.socket().set_option(tcp::no_delay(true), ignored);
-  parts.stream.read_message_max(longest_message);
+  parts.stream.read_message_max(max_message_bytes);
   parts.stream.text(true);
   parts.stream.auto_fragment(false);
   if (const error_code failed = parts.within(
-          most, [&](auto done) { parts.stream.async_handshake(parts.place, target, std::move(done)); }))
-    parts.lost("speaks no WebSocket", failed);
+          timeout, [&](auto done) { parts.stream.async_handshake(parts.place, target, std::move(done)); }))
+    parts.fail("speaks no WebSocket", failed);
   parts.open = true;
 }
 
-void WebSocketClient::send(std::string_view text, Milliseconds most) {
+void WebSocketClient::send(std::string_view text, Milliseconds timeout) {
   Parts& parts = *parts_;
-  if (!parts.open) parts.lost("is not connected", asio::error::not_connected);
-  if (const error_code failed = parts.within(most, [&](auto done) {
+  if (!parts.open) parts.fail("is not connected", asio::error::not_connected);
+  if (const error_code failed = parts.within(timeout, [&](auto done) {
         parts.stream.async_write(asio::buffer(text.data(), text.size()), std::move(done));
       }))
-    parts.lost("takes no message", failed);
+    parts.fail("takes no message", failed);
 }
 
-std::optional<std::string_view> WebSocketClient::receive(Milliseconds most) {
+std::optional<std::string_view> WebSocketClient::receive(Milliseconds timeout) {
   Parts& parts = *parts_;
-  if (!parts.open) parts.lost("is not connected", asio::error::not_connected);
+  if (!parts.open) parts.fail("is not connected", asio::error::not_connected);
   if (!parts.reading) {
     parts.incoming.clear();
     parts.read_result.reset();
@@ -152,9 +153,9 @@ std::optional<std::string_view> WebSocketClient::receive(Milliseconds most) {
     parts.stream.async_read(parts.incoming,
                             [&parts](error_code failed, size_t) { parts.read_result = failed; });
   }
-  if (!parts.wait_for(parts.read_result, most)) return std::nullopt;
+  if (!parts.wait_for(parts.read_result, timeout)) return std::nullopt;
   parts.reading = false;
-  if (*parts.read_result) parts.lost("has ended the connection", *parts.read_result);
+  if (*parts.read_result) parts.fail("has ended the connection", *parts.read_result);
   const auto data = parts.incoming.cdata();
   return std::string_view(static_cast<const char*>(data.data()), data.size());
 }
@@ -163,7 +164,7 @@ void WebSocketClient::close() noexcept {
   Parts& parts = *parts_;
   if (!parts.open) return;
   try {
-    parts.within(goodbye, [&](auto done) {
+    parts.within(close_timeout, [&](auto done) {
       parts.stream.async_close(websocket::close_code::normal, std::move(done));
     });
     parts.drop();

@@ -7,10 +7,9 @@
 #include <span>
 
 #include "core/log.hpp"
-#include "net/connections.hpp"
+#include "net/engine.hpp"
 #include "net/frame_meter.hpp"
 #include "net/guard.hpp"
-#include "net/lingering_close.hpp"
 #include "net/watchdog.hpp"
 
 namespace ream::net {
@@ -21,8 +20,8 @@ namespace websocket = boost::beast::websocket;
 using boost::system::error_code;
 namespace {
 
-constexpr size_t longest_reason = 123;     ///< bytes, RFC 6455, 5.5
-constexpr double bytes_per_unit = 1024.0;  ///< of Limits::websocket_messages
+constexpr size_t max_reason_bytes = 123;      ///< bytes, RFC 6455, 5.5
+constexpr double bytes_per_message = 1024.0;  ///< of Limits::websocket_messages
 
 /// The handshake must be read before this connection exists, so it is rebuilt from what the router saw.
 http::request<http::empty_body> handshake_of(const Request& request) {
@@ -41,10 +40,10 @@ class WebSocketConnection final : public Connection,
         stream_(std::move(channel)),
         watchdog_(stream_.next_layer()),
         messages_(engine.limits.websocket_messages, TokenBucket::Clock::now()),
-        line_(std::make_shared<WakeLine>()) {}
+        wake_(std::make_shared<WakeHandle>()) {}
 
   ~WebSocketConnection() override {
-    let_go();
+    notify_closed();
     engine_.connections.remove(this);
   }
 
@@ -78,41 +77,41 @@ class WebSocketConnection final : public Connection,
 
  private:
   /// How other threads reach this connection, and how they stop reaching it.
-  struct WakeLine {
+  struct WakeHandle {
     std::mutex mutex;
     WebSocketConnection* connection = nullptr;
-    std::atomic<bool> rung{false};
+    std::atomic<bool> requested{false};
   };
 
   void on_accepted() {
     if (finished_) return;
     accepted_ = true;
-    line_->connection = this;
+    wake_->connection = this;
     guarded([this] {
-      session_->on_open([line = line_] {
-        if (line->rung.exchange(true)) return;
-        const std::lock_guard lock(line->mutex);
-        if (line->connection) line->connection->post_pump();
+      session_->on_open([handle = wake_] {
+        if (handle->requested.exchange(true)) return;
+        const std::lock_guard lock(handle->mutex);
+        if (handle->connection) handle->connection->post_send_next();
       });
     });
     read();
-    pump();
+    send_next();
   }
 
-  /// With the wake line held. The last owner may be on its way out: then there is nobody to wake.
-  void post_pump() {
+  /// With the wake handle held. The last owner may be on its way out: then there is nobody to wake.
+  void post_send_next() {
     if (auto self = weak_from_this().lock())
       asio::post(stream_.get_executor(), [self = std::move(self)] {
-        self->line_->rung = false;
-        self->pump();
+        self->wake_->requested = false;
+        self->send_next();
       });
   }
 
-  void pump() {
+  void send_next() {
     if (writing_ || closing_ || finished_) return;
     std::optional<SharedBytes> message;
     guarded([&] { message = session_->next(); });
-    if (!message || !*message) say_farewell();
+    if (!message || !*message) close_if_ended();
     if (!message || !*message || closing_) return;
     outgoing_ = std::move(*message);
     writing_ = true;
@@ -121,12 +120,12 @@ class WebSocketConnection final : public Connection,
                         [self = shared_from_this()](error_code failed, size_t) { self->on_written(failed); });
   }
 
-  void say_farewell() {
-    std::optional<Farewell> farewell;
-    guarded([&] { farewell = session_->farewell(); });
-    if (farewell)
-      close({static_cast<websocket::close_code>(farewell->code),
-             beast::string_view(farewell->words).substr(0, longest_reason)});
+  void close_if_ended() {
+    std::optional<CloseReason> close_reason;
+    guarded([&] { close_reason = session_->close_reason(); });
+    if (close_reason)
+      close({static_cast<websocket::close_code>(close_reason->code),
+             beast::string_view(close_reason->text).substr(0, max_reason_bytes)});
   }
 
   void on_written(error_code failed) {
@@ -135,11 +134,11 @@ class WebSocketConnection final : public Connection,
     if (closing_ || finished_) return;
     if (failed) {  // a read that found the peer in the wrong is saying goodbye, or will find the socket
                    // broken
-      let_go_within_linger();
+      close_within_linger();
       return;
     }
     watchdog_.disarm();
-    pump();
+    send_next();
   }
 
   void read() {
@@ -164,7 +163,7 @@ class WebSocketConnection final : public Connection,
   /// Every frame counts, those too that never become a message.
   void take_from_rate(std::span<const std::byte> bytes) {
     const double cost =
-        static_cast<double>(frames_.count(bytes)) + static_cast<double>(bytes.size()) / bytes_per_unit;
+        static_cast<double>(frames_.count(bytes)) + static_cast<double>(bytes.size()) / bytes_per_message;
     if (messages_.take(cost, TokenBucket::Clock::now()) <= 0.0) return;
     // In the middle of a read: what follows from it must wait.
     asio::post(stream_.get_executor(), [self = shared_from_this()] {
@@ -188,14 +187,14 @@ class WebSocketConnection final : public Connection,
       finish();
       return;
     }
-    let_go_within_linger();
+    close_within_linger();
     stream_.async_close(reason, [self = shared_from_this()](error_code) { self->end(); });
   }
 
-  void let_go_within_linger() {
+  void close_within_linger() {
     if (closing_ || finished_) return;
     closing_ = true;
-    let_go();
+    notify_closed();
     watchdog_.arm(engine_.limits.linger, shared_from_this());
   }
 
@@ -203,24 +202,24 @@ class WebSocketConnection final : public Connection,
   void end() {
     if (finished_) return;
     finished_ = true;
-    let_go();
-    close_lingering(stream_.next_layer(), watchdog_, engine_.limits.linger, shared_from_this());
+    notify_closed();
+    watchdog_.close_lingering(engine_.limits.linger, shared_from_this());
   }
 
   /// At once.
   void finish() noexcept {
     finished_ = true;
-    let_go();
+    notify_closed();
     watchdog_.close();
   }
 
   /// The session hears of the end, once, and is not called again.
-  void let_go() noexcept {
+  void notify_closed() noexcept {
     if (session_closed_) return;
     session_closed_ = true;
     {
-      const std::lock_guard lock(line_->mutex);
-      line_->connection = nullptr;
+      const std::lock_guard lock(wake_->mutex);
+      wake_->connection = nullptr;
     }
     session_->on_close();
   }
@@ -233,7 +232,7 @@ class WebSocketConnection final : public Connection,
   FrameMeter frames_;
   beast::flat_buffer incoming_;
   SharedBytes outgoing_;
-  std::shared_ptr<WakeLine> line_;
+  std::shared_ptr<WakeHandle> wake_;
   bool accepted_ = false;
   bool writing_ = false;
   bool closing_ = false;

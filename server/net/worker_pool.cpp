@@ -2,7 +2,7 @@
 
 namespace ream::net {
 
-WorkerPool::WorkerPool(size_t threads, size_t most_waiting) : most_waiting_(most_waiting) {
+WorkerPool::WorkerPool(size_t threads, size_t max_waiting) : max_waiting_(max_waiting) {
   for (size_t i = 0; i < threads; ++i) threads_.emplace_back([this] { work(); });
 }
 
@@ -11,7 +11,7 @@ WorkerPool::~WorkerPool() { stop(); }
 bool WorkerPool::submit(std::function<void()> job) {
   {
     const std::lock_guard lock(mutex_);
-    if (stopped_ || waiting_.size() >= most_waiting_) return false;
+    if (stopped_ || waiting_.size() >= max_waiting_) return false;
     waiting_.push_back(std::move(job));
   }
   changed_.notify_one();

@@ -12,7 +12,7 @@ namespace ream::net {
 /// A few threads for jobs that may block, with a bounded queue.
 class WorkerPool {
  public:
-  WorkerPool(size_t threads, size_t most_waiting);
+  WorkerPool(size_t threads, size_t max_waiting);
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
@@ -26,7 +26,7 @@ class WorkerPool {
  private:
   void work();
 
-  const size_t most_waiting_;
+  const size_t max_waiting_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::function<void()>> waiting_;

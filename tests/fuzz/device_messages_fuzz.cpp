@@ -25,7 +25,8 @@ void require_sane(const device::RemoteInput& input) {
 void hear(net::WebSocketSession& client) {
   for (int i = 0; i < 10 && client.next(); ++i) {
   }
-  if (const auto farewell = client.farewell()) require(farewell->code >= 4000, "a farewell without a code");
+  if (const auto close_reason = client.close_reason())
+    require(close_reason->code >= 4000, "a close without a code");
 }
 
 }  // namespace

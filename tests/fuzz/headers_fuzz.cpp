@@ -2,7 +2,6 @@
 // target.
 #include "api/login_cookie.hpp"
 #include "fuzz_input.hpp"
-#include "net/byte_range.hpp"
 #include "net/conditional.hpp"
 #include "net/file_body.hpp"
 #include "net/guard.hpp"

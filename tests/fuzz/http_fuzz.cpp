@@ -5,9 +5,9 @@
 
 #include "fuzz_input.hpp"
 #include "net/guard.hpp"
+#include "net/message.hpp"
 #include "net/problem.hpp"
 #include "net/request_parser.hpp"
-#include "net/response_head.hpp"
 #include "net/router.hpp"
 #include "net/static_files.hpp"
 

@@ -8,7 +8,6 @@
 #include "api/viewer_stream.hpp"
 #include "device/device_socket.hpp"
 #include "fuzz_input.hpp"
-#include "net/connections.hpp"
 #include "net/engine.hpp"
 #include "stream/fanout.hpp"
 

@@ -292,7 +292,7 @@ TEST_F(ListenerTest, DribbledHeaderIsCutInTime) {
 
 TEST_F(ListenerTest, DribbledBodyIsCutInTimeAndASteadyOneIsNot) {
   options.limits.body = 300ms;
-  options.limits.least_bytes_per_s = 100;
+  options.limits.min_bytes_per_s = 100;
   const uint16_t port = start();
   const std::string head = "POST /echo HTTP/1.1\r\nHost: localhost\r\nContent-Length: 400\r\n\r\n";
   RawSocket slow(port), steady(port);
@@ -309,7 +309,7 @@ TEST_F(ListenerTest, DribbledBodyIsCutInTimeAndASteadyOneIsNot) {
 
 TEST_F(ListenerTest, ReplyThatIsReadTooSlowlyIsCut) {
   options.limits.write = 500ms;
-  options.limits.least_bytes_per_s = 100u << 20;
+  options.limits.min_bytes_per_s = 100u << 20;
   RawSocket slow(start(), 4096);
   slow.send(get_line("/large"));
   size_t got = 0;

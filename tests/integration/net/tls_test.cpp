@@ -8,7 +8,6 @@
 
 #include "core/file.hpp"
 #include "net/listener.hpp"
-#include "net/tls_context.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_certificate.hpp"
@@ -31,68 +30,68 @@ class TlsFilesTest : public testing::Test {
 };
 
 TEST_F(TlsFilesTest, GoodFilesAreTaken) {
-  EXPECT_NO_THROW(make_tls_context(files));
+  EXPECT_NO_THROW(TlsContext{files});
   test::make_certificate(files.certificate_chain, files.key, {-1, 30, 2048});
-  EXPECT_NO_THROW(make_tls_context(files));
+  EXPECT_NO_THROW(TlsContext{files});
   std::ofstream(files.certificate_chain, std::ios::app) << read_text_file(files.certificate_chain);
-  EXPECT_NO_THROW(make_tls_context(files)) << "with a chain";
+  EXPECT_NO_THROW(TlsContext{files}) << "with a chain";
 }
 
 TEST_F(TlsFilesTest, MissingFilesAreNamed) {
   expect_error(ErrorKind::not_found, "none.pem", [&] {
-    make_tls_context({folder.path() / "none.pem", files.key});
+    TlsContext({folder.path() / "none.pem", files.key});
   });
   expect_error(ErrorKind::not_found, "none.key", [&] {
-    make_tls_context({files.certificate_chain, folder.path() / "none.key"});
+    TlsContext({files.certificate_chain, folder.path() / "none.key"});
   });
-  expect_error(ErrorKind::invalid_input, "folder", [&] { make_tls_context({folder.path(), files.key}); });
+  expect_error(ErrorKind::invalid_input, "folder", [&] { TlsContext({folder.path(), files.key}); });
 }
 
 TEST_F(TlsFilesTest, FilesThatHoldSomethingElseAreNamed) {
   const auto other = folder.write("other.txt", "hello\n"), empty = folder.write("empty", "");
   expect_error(ErrorKind::invalid_input, "other.txt holds no certificate", [&] {
-    make_tls_context({other, files.key});
+    TlsContext({other, files.key});
   });
   expect_error(ErrorKind::invalid_input, "empty holds no certificate", [&] {
-    make_tls_context({empty, files.key});
+    TlsContext({empty, files.key});
   });
   expect_error(ErrorKind::invalid_input, "other.txt holds no private key", [&] {
-    make_tls_context({files.certificate_chain, other});
+    TlsContext({files.certificate_chain, other});
   });
   expect_error(ErrorKind::invalid_input, "server.pem holds no private key", [&] {
-    make_tls_context({files.certificate_chain, files.certificate_chain});
+    TlsContext({files.certificate_chain, files.certificate_chain});
   });
   const std::string whole = read_text_file(files.certificate_chain);
   const auto cut = folder.write("cut.pem", whole.substr(0, whole.size() / 2));
   expect_error(ErrorKind::invalid_input, "cut.pem holds no certificate", [&] {
-    make_tls_context({cut, files.key});
+    TlsContext({cut, files.key});
   });
 }
 
 TEST_F(TlsFilesTest, KeyOfAnotherCertificateIsRefused) {
   test::make_certificate(folder.path() / "b.pem", folder.path() / "b.key");
   expect_error(ErrorKind::invalid_input, "b.key is not the key of the certificate in", [&] {
-    make_tls_context({files.certificate_chain, folder.path() / "b.key"});
+    TlsContext({files.certificate_chain, folder.path() / "b.key"});
   });
 }
 
 TEST_F(TlsFilesTest, CertificateMustBeValidToday) {
   test::make_certificate(files.certificate_chain, files.key, {-20, -10});
-  expect_error(ErrorKind::invalid_input, "server.pem has expired", [&] { make_tls_context(files); });
+  expect_error(ErrorKind::invalid_input, "server.pem has expired", [&] { TlsContext{files}; });
   test::make_certificate(files.certificate_chain, files.key, {5, 10});
-  expect_error(ErrorKind::invalid_input, "server.pem is not valid before", [&] { make_tls_context(files); });
+  expect_error(ErrorKind::invalid_input, "server.pem is not valid before", [&] { TlsContext{files}; });
 }
 
 TEST_F(TlsFilesTest, WeakKeyIsRefused) {
   test::make_certificate(files.certificate_chain, files.key, {-1, 30, 1024});
-  expect_error(ErrorKind::invalid_input, "too weak", [&] { make_tls_context(files); });
+  expect_error(ErrorKind::invalid_input, "too weak", [&] { TlsContext{files}; });
 }
 
 TEST_F(TlsFilesTest, KeyWithAPassPhraseIsRefusedWithoutAsking) {
   folder.write("server.key",
                "-----BEGIN ENCRYPTED PRIVATE KEY-----\nMIGbMFcGCSqGSIb3DQEFDTBKMCkGCSqGSIb3DQEFDDAcBAjHq8i4\n"
                "-----END ENCRYPTED PRIVATE KEY-----\n");
-  expect_error(ErrorKind::invalid_input, "without a pass phrase", [&] { make_tls_context(files); });
+  expect_error(ErrorKind::invalid_input, "without a pass phrase", [&] { TlsContext{files}; });
 }
 
 /// Sends back what it hears.

@@ -23,7 +23,7 @@ struct Desk {
   std::condition_variable changed;
   std::deque<SharedBytes> outgoing;
   std::function<void()> wake;
-  std::optional<Farewell> farewell;
+  std::optional<CloseReason> close_reason;
   bool text = false;
   int opened = 0, closed = 0, asked = 0;
 
@@ -62,9 +62,9 @@ class DeskSession final : public WebSocketSession {
     desk_->outgoing.pop_front();
     return message;
   }
-  std::optional<Farewell> farewell() override {
+  std::optional<CloseReason> close_reason() override {
     const std::lock_guard lock(desk_->mutex);
-    return desk_->farewell;
+    return desk_->close_reason;
   }
   void on_message(std::span<const std::byte> message) override {
     const std::string text(reinterpret_cast<const char*>(message.data()), message.size());
@@ -166,7 +166,7 @@ TEST_F(WebSocketTest, ASessionEndsItsConnectionInWordsAfterItsLastMessage) {
   EXPECT_EQ(client.receive().payload, "echo hi");
   {
     const std::lock_guard lock(desk->mutex);
-    desk->farewell = Farewell{4001, std::string(200, 'w')};
+    desk->close_reason = CloseReason{4001, std::string(200, 'w')};
   }
   desk->put(share("last"));
   EXPECT_EQ(client.receive().payload, "last");

@@ -149,7 +149,7 @@ TEST_F(SessionServiceTest, ResetIsAnotherAttemptThatRunsIfTheOldOneDid) {
   create();  // as many as may be live: the old one makes room
   service.start(first);
   auto viewer = service.subscribe(first, 1);
-  EXPECT_FALSE(viewer->farewell());
+  EXPECT_FALSE(viewer->close_reason());
   const SessionRecord second = service.reset(first);
   EXPECT_EQ(second.status.state, SessionState::running);
   EXPECT_EQ(second.request.attempt, 2);
@@ -158,11 +158,11 @@ TEST_F(SessionServiceTest, ResetIsAnotherAttemptThatRunsIfTheOldOneDid) {
   EXPECT_FALSE(second.request.keep);
   EXPECT_EQ(service.get(first).status.state, SessionState::stopped);
   EXPECT_EQ(service.get(first).request.followed_by, second.request.id);
-  const auto farewell = viewer->farewell();
-  ASSERT_TRUE(farewell);
-  EXPECT_EQ(farewell->code, 4001);
-  EXPECT_NE(farewell->words.find(second.request.id), std::string::npos);
-  EXPECT_FALSE(service.subscribe(first, 1)->farewell()) << "who comes later may look at what is left";
+  const auto close_reason = viewer->close_reason();
+  ASSERT_TRUE(close_reason);
+  EXPECT_EQ(close_reason->code, 4001);
+  EXPECT_NE(close_reason->text.find(second.request.id), std::string::npos);
+  EXPECT_FALSE(service.subscribe(first, 1)->close_reason()) << "who comes later may look at what is left";
   expect_error(ErrorKind::conflict, second.request.id, [&] { service.reset(first); });
   service.stop(second.request.id);
   const SessionRecord third = service.reset(second.request.id);

@@ -27,9 +27,9 @@ class StreamWatchTest : public test::TestDatabase<test::OnSqlite> {
     return session;
   }
   static bool has_ended(net::WebSocketSession& session) {
-    const auto farewell = session.farewell();
-    if (!farewell) return false;
-    EXPECT_EQ(farewell->code, StreamWatch::access_ended);
+    const auto close_reason = session.close_reason();
+    if (!close_reason) return false;
+    EXPECT_EQ(close_reason->code, StreamWatch::access_ended);
     EXPECT_EQ(session.next(), std::nullopt) << "not a word more";
     return true;
   }

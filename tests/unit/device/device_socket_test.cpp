@@ -77,16 +77,16 @@ TEST_F(DeviceSocketTest, AGreetingIsAnsweredByAWelcome) {
   EXPECT_EQ(welcome->session_id()->str(), "abcd");
   EXPECT_FLOAT_EQ(welcome->force_max_n(), 3.3f);
   EXPECT_EQ(client.answer(), nullptr);
-  EXPECT_EQ(client.session->farewell(), std::nullopt);
+  EXPECT_EQ(client.session->close_reason(), std::nullopt);
   EXPECT_EQ(link->connections, 1u);
 }
 
 TEST_F(DeviceSocketTest, AnotherRevisionIsToldSo) {
   Client client(*port, device_protocol_revision + 1);
   EXPECT_EQ(client.answer(), nullptr);
-  const auto farewell = client.session->farewell().value();
-  EXPECT_EQ(farewell.code, static_cast<uint16_t>(DeviceClose::other_revision));
-  EXPECT_NE(farewell.words.find("revision 1"), std::string::npos) << farewell.words;
+  const auto close_reason = client.session->close_reason().value();
+  EXPECT_EQ(close_reason.code, static_cast<uint16_t>(DeviceClose::other_revision));
+  EXPECT_NE(close_reason.text.find("revision 1"), std::string::npos) << close_reason.text;
   EXPECT_EQ(link->connections, 0u);
 }
 
@@ -173,13 +173,13 @@ TEST_F(DeviceSocketTest, GarbageIsCountedUnansweredAndInTheEndShownTheDoor) {
   for (int i = 1; i < refusals_allowed; ++i) client.say(std::string("garbage"));
   EXPECT_EQ(link->refused, static_cast<uint64_t>(refusals_allowed - 1));
   EXPECT_EQ(client.answer(), nullptr);
-  EXPECT_EQ(client.session->farewell(), std::nullopt);
+  EXPECT_EQ(client.session->close_reason(), std::nullopt);
   client.say(numbered(1));
   EXPECT_NE(client.feedback(), nullptr);
   client.say(test::steering_bytes({}));
-  const auto farewell = client.session->farewell().value();
-  EXPECT_EQ(farewell.code, static_cast<uint16_t>(DeviceClose::senseless));
-  EXPECT_NE(farewell.words.find("takes Handle only"), std::string::npos) << farewell.words;
+  const auto close_reason = client.session->close_reason().value();
+  EXPECT_EQ(close_reason.code, static_cast<uint16_t>(DeviceClose::senseless));
+  EXPECT_NE(close_reason.text.find("takes Handle only"), std::string::npos) << close_reason.text;
   RemoteInput input;
   link->input.take(input);
   client.say(numbered(2));
@@ -203,7 +203,7 @@ TEST_F(DeviceSocketTest, ANewClientTakesOver) {
   const int woken = first.woken;
   Client second(*port);
   EXPECT_EQ(first.woken, woken + 1);
-  EXPECT_EQ(first.session->farewell().value().code, static_cast<uint16_t>(DeviceClose::replaced));
+  EXPECT_EQ(first.session->close_reason().value().code, static_cast<uint16_t>(DeviceClose::replaced));
   second.say(numbered(1, 2.0));
   first.say(numbered(2, 3.0));
   RemoteInput input;
@@ -211,7 +211,7 @@ TEST_F(DeviceSocketTest, ANewClientTakesOver) {
   EXPECT_EQ(input.place_mm[0], 2.0);
   EXPECT_EQ(input.connection, 2u);
   EXPECT_EQ(second.feedback()->sequence(), 1u);
-  EXPECT_EQ(second.session->farewell(), std::nullopt);
+  EXPECT_EQ(second.session->close_reason(), std::nullopt);
 }
 
 TEST_F(DeviceSocketTest, AForceIsForTheConnectionWhosePosesItAnswers) {
@@ -227,7 +227,7 @@ TEST_F(DeviceSocketTest, AForceIsForTheConnectionWhosePosesItAnswers) {
 TEST_F(DeviceSocketTest, OneWithAnotherRevisionDoesNotTakeOver) {
   Client first(*port);
   Client stranger(*port, 99);
-  EXPECT_EQ(first.session->farewell(), std::nullopt);
+  EXPECT_EQ(first.session->close_reason(), std::nullopt);
 }
 
 TEST_F(DeviceSocketTest, TheRoundTripLeavesOutWhatTheClientKeptTheStampFor) {

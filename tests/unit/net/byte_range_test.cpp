@@ -1,4 +1,4 @@
-#include "net/byte_range.hpp"
+#include "net/file_body.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,10 @@
-#include "net/tls_context.hpp"
+#include "net/tls.hpp"
 
 #include <openssl/err.h>
 #include <openssl/pem.h>
 #include <openssl/ssl.h>
 #include <openssl/x509.h>
+#include <boost/asio/ssl/context.hpp>
 
 #include <string>
 
@@ -94,8 +95,9 @@ void use_key(SSL_CTX* context, const TlsOptions& options) {
 
 }  // namespace
 
-TlsContext::TlsContext(const TlsOptions& options) : context_(boost::asio::ssl::context::tls_server) {
-  SSL_CTX* context = context_.native_handle();
+TlsContext::TlsContext(const TlsOptions& options)
+    : context_(std::make_unique<boost::asio::ssl::context>(boost::asio::ssl::context::tls_server)) {
+  SSL_CTX* context = context_->native_handle();
   SSL_CTX_set_min_proto_version(context, TLS1_2_VERSION);
   SSL_CTX_set_cipher_list(context, ciphers_of_tls_1_2);
   SSL_CTX_set_options(context, SSL_OP_NO_RENEGOTIATION | SSL_OP_NO_COMPRESSION |
@@ -106,8 +108,6 @@ TlsContext::TlsContext(const TlsOptions& options) : context_(boost::asio::ssl::c
   use_key(context, options);
 }
 
-std::shared_ptr<TlsContext> make_tls_context(const TlsOptions& options) {
-  return std::make_shared<TlsContext>(options);
-}
+TlsContext::~TlsContext() = default;
 
 }  // namespace ream::net
