@@ -134,8 +134,8 @@ void ReamingSession::show() const {
   const case_::Case& c = rig_.bone_case;
   const std::string words =
       (c.name.empty() ? c.id : c.name) + ", " + case_::to_text(c.side) + ", reamer " + rig_.model.tool.name;
-  house_.showcase->show(std::make_shared<const openigtlink::ShownSession>(
-      openigtlink::ShownSession{id_, words, c.bone.grid, rig_.model.tool.mesh, fanout_}));
+  house_.showcase->set(std::make_shared<const openigtlink::SessionView>(
+      openigtlink::SessionView{id_, words, c.bone.grid, rig_.model.tool.mesh, fanout_}));
 }
 
 /// session.json beside what describes the run.

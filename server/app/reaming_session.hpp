@@ -12,7 +12,7 @@
 #include "app/rig.hpp"
 #include "app/session_files.hpp"
 #include "device/device_socket.hpp"
-#include "openigtlink/showcase.hpp"
+#include "openigtlink/active_session.hpp"
 #include "score/live_score.hpp"
 #include "sim/cpu_allocator.hpp"
 #include "sim/haptic_loop.hpp"
@@ -29,7 +29,7 @@ struct SessionHouse {
   sim::Realtime realtime = sim::Realtime::attempt;
   std::shared_ptr<sim::CpuAllocator> places = std::make_shared<sim::CpuAllocator>();
   double tool_spacing_mm = 0.2;                               ///< of the points that feel bone
-  std::shared_ptr<openigtlink::Showcase> showcase = nullptr;  ///< null: nobody watches over OpenIGTLink
+  std::shared_ptr<openigtlink::ActiveSession> showcase = nullptr;  ///< null: nobody watches over OpenIGTLink
   int64_t (*guard_now_ns)() = steady_ns;  ///< the clock by which each loop is watched; see sim::LoopGuard
 };
 

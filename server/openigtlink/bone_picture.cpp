@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/hash.hpp"
-#include "openigtlink/ras.hpp"
+#include "openigtlink/messages.hpp"
 #include "surface/block_layout.hpp"
 #include "surface/block_mesh.hpp"
 #include "surface/octahedral.hpp"

@@ -8,7 +8,6 @@
 #include <igtl_polydata.h>
 #include <igtl_unit.h>
 #include <igtl_util.h>
-
 #include <algorithm>
 #include <cstring>
 #include <limits>
@@ -21,7 +20,7 @@ namespace {
 constexpr int64_t ns_per_s = 1'000'000'000;
 /// IANA's number of UTF-8.
 constexpr igtlUint16 utf8_mib = 106;
-constexpr size_t longest_string = 65535;
+constexpr size_t max_string_bytes = 65535;
 constexpr char normals_name[] = "Normals";
 
 igtlUint32 seconds_of(const Label& label) { return static_cast<igtlUint32>(label.unix_ns / ns_per_s); }
@@ -97,6 +96,17 @@ void put_text(char (&field)[n], const std::string& text) {
 
 }  // namespace
 
+const Pose& ras_from_world() {
+  static const Pose half_turn{Vec3(-1.0, -1.0, 1.0).asDiagonal(), Vec3::Zero()};
+  return half_turn;
+}
+
+Pose ras_from(const Pose& world_from_thing) { return ras_from_world() * world_from_thing; }
+
+Pose moved_in_ras(const Pose& world_from_rest) {
+  return ras_from_world() * world_from_rest * ras_from_world().inverse();
+}
+
 Message transform_message(const Label& label, const Pose& ras_from_thing) {
   igtl::Matrix4x4 matrix;
   igtl::IdentityMatrix(matrix);
@@ -140,17 +150,17 @@ Message sensor_message(const Label& label, std::span<const double> values, Senso
 Message string_message(const Label& label, const std::string& text) {
   igtl::StringMessage::Pointer message = igtl::StringMessage::New();
   message->SetEncoding(utf8_mib);
-  message->SetString(text.substr(0, longest_string).c_str());
+  message->SetString(text.substr(0, max_string_bytes).c_str());
   return packed(label, *message);
 }
 
 Message status_message(const Label& label, StatusCode code, const std::string& name,
-                       const std::string& words) {
+                       const std::string& text) {
   igtl::StatusMessage::Pointer message = igtl::StatusMessage::New();
   message->SetCode(static_cast<int>(code));
   message->SetSubCode(0);  // else it is whatever lay in memory
   message->SetErrorName(name.substr(0, 19).c_str());
-  message->SetStatusString(words.c_str());
+  message->SetStatusString(text.c_str());
   return packed(label, *message);
 }
 

@@ -11,6 +11,19 @@
 
 namespace ream::openigtlink {
 
+// OpenIGTLink and 3D Slicer have RAS: x to the patient's right, y to the front, z to the head; our world is
+// LPS. Between them lies half a turn about z, so directions keep their handedness and rotations stay
+// rotations. Both in mm.
+
+/// Coordinates of the world, LPS, to RAS.
+const Pose& ras_from_world();
+
+/// Where something with a frame of its own (the tool) is.
+Pose ras_from(const Pose& world_from_thing);
+
+/// How something given in RAS has moved, of how it has moved in the world.
+Pose moved_in_ras(const Pose& world_from_rest);
+
 /// One whole message: header of version 1 and body, as it goes over the wire. Shared by all clients.
 using Message = std::shared_ptr<const std::vector<std::byte>>;
 
@@ -39,7 +52,6 @@ Message sensor_message(const Label& label, std::span<const double> values, Senso
 Message string_message(const Label& label, const std::string& text);
 
 /// STATUS; `name` has 20 characters at most.
-Message status_message(const Label& label, StatusCode code, const std::string& name,
-                       const std::string& words);
+Message status_message(const Label& label, StatusCode code, const std::string& name, const std::string& text);
 
 }  // namespace ream::openigtlink

@@ -15,7 +15,7 @@ namespace ream::openigtlink {
 namespace {
 
 /// With clients, the stream is looked at this often, ms; without, nothing is done until one comes.
-constexpr int look_every_ms = 10;
+constexpr int poll_interval_ms = 10;
 /// Making and packing a surface takes no larger share of this thread's time than one in so many.
 constexpr int64_t surface_share = 10;
 constexpr std::chrono::milliseconds after_failure{1000};
@@ -31,9 +31,9 @@ int64_t unix_ns_at(int64_t steady_us) { return unix_ns_now() - (steady_ns() - st
 
 }  // namespace
 
-Server::Server(ServerOptions options, std::shared_ptr<const Showcase> showcase)
+Server::Server(ServerOptions options, std::shared_ptr<const ActiveSession> active_session)
     : options_(std::move(options)),
-      showcase_(std::move(showcase)),
+      active_session_(std::move(active_session)),
       socket_(options_.host, options_.port),
       wake_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
   if (!wake_) throw Error(ErrorKind::unavailable, "OpenIGTLink: too many files are open in this program");
@@ -41,67 +41,67 @@ Server::Server(ServerOptions options, std::shared_ptr<const Showcase> showcase)
 }
 
 Server::~Server() {
-  leaving_.store(true, std::memory_order_release);
+  stopping_.store(true, std::memory_order_release);
   static_cast<void>(::eventfd_write(wake_.get(), 1));
   thread_.join();
 }
 
 /// Whatever goes wrong costs the clients their connection, and nobody else anything.
 void Server::run() noexcept {
-  while (!leaving_.load(std::memory_order_acquire)) {
+  while (!stopping_.load(std::memory_order_acquire)) {
     try {
-      wait_for_news();
-      one_round();
+      wait_for_events();
+      poll_once();
     } catch (const std::exception& e) {
       clients_.clear();
-      leave_session();
-      log::error(std::string("OpenIGTLink: its clients were let go: ") + e.what());
+      unsubscribe();
+      log::error(std::string("OpenIGTLink: its clients were disconnected: ") + e.what());
       std::this_thread::sleep_for(after_failure);
     }
   }
 }
 
-void Server::wait_for_news() const {
+void Server::wait_for_events() const {
   std::vector<pollfd> waited{{wake_.get(), POLLIN, 0}, {socket_.descriptor(), POLLIN, 0}};
-  for (const ClientLine& client : clients_)
+  for (const ClientConnection& client : clients_)
     if (client.waits()) waited.push_back({client.descriptor(), POLLOUT, 0});
-  ::poll(waited.data(), waited.size(), clients_.empty() ? -1 : look_every_ms);
+  ::poll(waited.data(), waited.size(), clients_.empty() ? -1 : poll_interval_ms);
 }
 
-void Server::one_round() {
-  let_in();
+void Server::poll_once() {
+  accept_clients();
   if (clients_.empty()) return;
-  follow_shown();
+  follow_active_session();
   const int64_t now_ns = steady_ns();
   if (mailbox_) take(now_ns);
-  std::erase_if(clients_, [&](ClientLine& client) { return !client.serve(board_, now_ns); });
-  if (clients_.empty()) leave_session();
+  std::erase_if(clients_, [&](ClientConnection& client) { return !client.serve(cache_, now_ns); });
+  if (clients_.empty()) unsubscribe();
 }
 
-void Server::let_in() {
-  while (SocketHandle client = socket_.accept())
-    if (clients_.size() < options_.most_clients) clients_.emplace_back(std::move(client), steady_ns());
+void Server::accept_clients() {
+  while (FileDescriptor client = socket_.accept())
+    if (clients_.size() < options_.max_clients) clients_.emplace_back(std::move(client), steady_ns());
   // Somebody waits who cannot be let in, for want of descriptors or memory: not to be asked for without end.
   if (errno != EAGAIN && errno != EWOULDBLOCK)
-    std::this_thread::sleep_for(std::chrono::milliseconds(look_every_ms));
+    std::this_thread::sleep_for(std::chrono::milliseconds(poll_interval_ms));
 }
 
-void Server::leave_session() {
+void Server::unsubscribe() {
   mailbox_.reset();
   picture_.reset();
-  shown_.reset();
-  board_.clear();
+  session_.reset();
+  cache_.clear();
 }
 
-void Server::follow_shown() {
-  const std::shared_ptr<const ShownSession> now = showcase_->shown();
-  if (!now && !board_.sheet(static_cast<size_t>(Topic::status)).message)
-    tell_nothing_runs(unix_ns_now(), board_);
-  if (now == shown_) return;
-  leave_session();
-  shown_ = now;
-  tell_session(*now, unix_ns_now(), board_);
-  told_ = {};
+void Server::follow_active_session() {
+  const std::shared_ptr<const SessionView> now = active_session_->get();
+  if (!now && !cache_.message(static_cast<size_t>(Topic::status)).message)
+    put_no_session(unix_ns_now(), cache_);
+  if (now == session_) return;
+  unsubscribe();
+  session_ = now;
+  put_session(*now, unix_ns_now(), cache_);
+  sent_ = {};
   bone_due_ns_ = 0;
   bone_changed_ = false;
   picture_.emplace(now->grid);
@@ -116,13 +116,13 @@ void Server::take(int64_t now_ns) {
   for (stream::SharedBlock& block : parcel.blocks) picture_->take(std::move(block));
   bone_changed_ |= !quiet;
   if (parcel.newest)
-    tell_tick(parcel.newest->samples.back(), unix_ns_at(parcel.newest->stamp_us), told_, board_);
-  if (bone_changed_ && quiet && parcel.picture_complete && now_ns >= bone_due_ns_) make_bone(now_ns);
+    put_tick(parcel.newest->samples.back(), unix_ns_at(parcel.newest->stamp_us), sent_, cache_);
+  if (bone_changed_ && quiet && parcel.picture_complete && now_ns >= bone_due_ns_) put_bone(now_ns);
 }
 
-void Server::make_bone(int64_t now_ns) {
+void Server::put_bone(int64_t now_ns) {
   bone_changed_ = false;
-  board_.put(Topic::bone, polydata_message({"Bone", unix_ns_now()}, picture_->in_ras()));
+  cache_.put(Topic::bone, polydata_message({"Bone", unix_ns_now()}, picture_->in_ras()));
   const int64_t took_ns = steady_ns() - now_ns;
   bone_due_ns_ = steady_ns() + std::max(options_.bone_interval_ns, surface_share * took_ns);
 }

@@ -139,7 +139,7 @@ void serve(const ServeOptions& options, const GlobalOptions& global) {
 
   std::optional<openigtlink::Server> watched;
   if (openigtlink_options) {
-    house.showcase = std::make_shared<openigtlink::Showcase>();
+    house.showcase = std::make_shared<openigtlink::ActiveSession>();
     watched.emplace(*openigtlink_options, house.showcase);
   }
   server_options.cases_folder = cases_folder(house.data);

@@ -39,33 +39,33 @@ class OpenIgtlinkServer : public testing::Test {
     EXPECT_EQ(ball.fanout().viewers(), count);
   }
 
-  std::shared_ptr<Showcase> showcase_ = std::make_shared<Showcase>();
-  Server server_{on_any_port(), showcase_};
+  std::shared_ptr<ActiveSession> active_session_ = std::make_shared<ActiveSession>();
+  Server server_{on_any_port(), active_session_};
 };
 
 TEST_F(OpenIgtlinkServer, SaysThatNothingRuns) {
   SlicerClient client(server_.port());
-  const IgtlReading status = client.hear("Simulator");
+  const IgtlReading status = client.drain_input("Simulator");
   EXPECT_EQ(status.code, 13);
   EXPECT_EQ(status.text, "no session has been started");
 }
 
 TEST_F(OpenIgtlinkServer, WhoComesGetsEverythingAndThenWhatChanges) {
   WatchedBall ball;
-  showcase_->show(ball.session());
+  active_session_->set(ball.session());
   SlicerClient client(server_.port());
-  EXPECT_EQ(client.hear("Session").text, "s1: a ball");
-  EXPECT_EQ(client.hear("Reamer").triangles.size(), 4u);
-  EXPECT_TRUE(corners_of(client.hear("Bone")) == corners_of(ball.surface()));
+  EXPECT_EQ(client.drain_input("Session").text, "s1: a ball");
+  EXPECT_EQ(client.drain_input("Reamer").triangles.size(), 4u);
+  EXPECT_TRUE(corners_of(client.drain_input("Bone")) == corners_of(ball.surface()));
   ball.tell(10.0);
-  const IgtlReading tool = client.hear("ReamerToRas");
+  const IgtlReading tool = client.drain_input("ReamerToRas");
   EXPECT_EQ(tool.transform, (std::array<float, 12>{-1, 0, 0, 0, -1, 0, 0, 0, 1, -10, -2, 3}));
   ball.tell(10.0);
-  EXPECT_EQ(client.hear("Force").values, (std::vector<double>{52.0, 2.0}));
+  EXPECT_EQ(client.drain_input("Force").values, (std::vector<double>{52.0, 2.0}));
   ball.tell(10.0);
-  EXPECT_EQ(client.hear("Torque").values, std::vector<double>{0.25});
+  EXPECT_EQ(client.drain_input("Torque").values, std::vector<double>{0.25});
   ball.cut(17);
-  EXPECT_TRUE(corners_of(client.hear("Bone")) == corners_of(ball.surface()));
+  EXPECT_TRUE(corners_of(client.drain_input("Bone")) == corners_of(ball.surface()));
   ball.tell(11.0, stream::SessionState::paused);
   EXPECT_EQ(
       client.hear_until("a pause", [](const IgtlReading& r) { return r.name == "Simulator" && r.code != 1; })
@@ -75,41 +75,41 @@ TEST_F(OpenIgtlinkServer, WhoComesGetsEverythingAndThenWhatChanges) {
 
 TEST_F(OpenIgtlinkServer, TheSessionThatWasShownLastIsTheOne) {
   WatchedBall first("first"), second("second");
-  showcase_->show(first.session());
+  active_session_->set(first.session());
   SlicerClient client(server_.port());
-  EXPECT_EQ(client.hear("Session").text, "first: a ball");
+  EXPECT_EQ(client.drain_input("Session").text, "first: a ball");
   second.cut(17);
-  showcase_->show(second.session());
-  EXPECT_EQ(client.hear("Session").text, "second: a ball");
-  EXPECT_TRUE(corners_of(client.hear("Bone")) == corners_of(second.surface()));
+  active_session_->set(second.session());
+  EXPECT_EQ(client.drain_input("Session").text, "second: a ball");
+  EXPECT_TRUE(corners_of(client.drain_input("Bone")) == corners_of(second.surface()));
   until_viewers(first, 0);
 }
 
 TEST_F(OpenIgtlinkServer, FollowsASessionOnlyWhileSomebodyWatches) {
   WatchedBall ball;
-  showcase_->show(ball.session());
+  active_session_->set(ball.session());
   EXPECT_EQ(ball.fanout().viewers(), 0u);
   {
     SlicerClient client(server_.port());
-    client.hear("Bone");
+    client.drain_input("Bone");
     EXPECT_EQ(ball.fanout().viewers(), 1u);
   }
   until_viewers(ball, 0);
   ball.cut(17);
   SlicerClient again(server_.port());
-  EXPECT_TRUE(corners_of(again.hear("Bone")) == corners_of(ball.surface()));
+  EXPECT_TRUE(corners_of(again.drain_input("Bone")) == corners_of(ball.surface()));
 }
 
 TEST_F(OpenIgtlinkServer, AClientThatDoesNotReadDisturbsNobodyAndThenGetsTheNewest) {
   WatchedBall ball;
-  showcase_->show(ball.session());
+  active_session_->set(ball.session());
   SlicerClient sleeper(server_.port());
   SlicerClient client(server_.port());
-  client.hear("Bone");
+  client.drain_input("Bone");
   // Far more than the kernel takes for the sleeper.
   for (int brick = 0; brick < WatchedBall::bricks - 1; ++brick) {
     ball.cut(brick);
-    client.hear("Bone");
+    client.drain_input("Bone");
   }
   tell_until_heard(ball, client, 77.0);
   sleeper.hear_until("the tool where it is now", [&](const IgtlReading& reading) {
@@ -123,9 +123,9 @@ TEST_F(OpenIgtlinkServer, AClientThatDoesNotReadDisturbsNobodyAndThenGetsTheNewe
 
 TEST_F(OpenIgtlinkServer, AClientThatIsKilledInAMessageDisturbsNobody) {
   WatchedBall ball;
-  showcase_->show(ball.session());
+  active_session_->set(ball.session());
   SlicerClient client(server_.port());
-  client.hear("Bone");
+  client.drain_input("Bone");
   for (int i = 0; i < 5; ++i) {
     SlicerClient killed(server_.port());
     killed.raw(100 + static_cast<size_t>(i) * 1000);
@@ -135,7 +135,7 @@ TEST_F(OpenIgtlinkServer, AClientThatIsKilledInAMessageDisturbsNobody) {
 
 TEST_F(OpenIgtlinkServer, WhatClientsSayIsIgnored) {
   WatchedBall ball;
-  showcase_->show(ball.session());
+  active_session_->set(ball.session());
   SlicerClient client(server_.port());
   test::IgtlBytes noise(200'000);
   for (size_t i = 0; i < noise.size(); ++i) noise[i] = static_cast<std::byte>(i * 7);
@@ -145,11 +145,11 @@ TEST_F(OpenIgtlinkServer, WhatClientsSayIsIgnored) {
 
 TEST_F(OpenIgtlinkServer, OnlySoManyMayCome) {
   WatchedBall ball;
-  showcase_->show(ball.session());
+  active_session_->set(ball.session());
   std::vector<std::unique_ptr<SlicerClient>> clients;
-  for (size_t i = 0; i < on_any_port().most_clients; ++i) {
+  for (size_t i = 0; i < on_any_port().max_clients; ++i) {
     clients.push_back(std::make_unique<SlicerClient>(server_.port()));
-    clients.back()->hear("Bone");
+    clients.back()->drain_input("Bone");
   }
   SlicerClient one_more(server_.port());
   EXPECT_THROW(one_more.next(), std::runtime_error);
@@ -159,20 +159,20 @@ TEST_F(OpenIgtlinkServer, OnlySoManyMayCome) {
 TEST_F(OpenIgtlinkServer, ASessionThatIsGoneIsNotWaitedFor) {
   {
     WatchedBall ball;
-    showcase_->show(ball.session());
+    active_session_->set(ball.session());
   }
   SlicerClient client(server_.port());
-  EXPECT_EQ(client.hear("Session").text, "s1: a ball");
+  EXPECT_EQ(client.drain_input("Session").text, "s1: a ball");
   WatchedBall next("next");
-  showcase_->show(next.session());
-  EXPECT_TRUE(corners_of(client.hear("Bone")) == corners_of(next.surface()));
+  active_session_->set(next.session());
+  EXPECT_TRUE(corners_of(client.drain_input("Bone")) == corners_of(next.surface()));
 }
 
 TEST_F(OpenIgtlinkServer, APortInUseIsSaidInOneLine) {
   ServerOptions options;
   options.port = server_.port();
   try {
-    Server second(options, showcase_);
+    Server second(options, active_session_);
     FAIL() << "two servers have one port";
   } catch (const Error& e) {
     EXPECT_EQ(e.kind(), ErrorKind::unavailable);

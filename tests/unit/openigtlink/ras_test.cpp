@@ -1,11 +1,11 @@
-#include "openigtlink/ras.hpp"
+#include "openigtlink/messages.hpp"
 
 #include <Eigen/LU>
 
 #include <gtest/gtest.h>
 
 #include "ct/phantom/phantom_case.hpp"
-#include "openigtlink/told_words.hpp"
+#include "openigtlink/telemetry_messages.hpp"
 #include "support/igtl_by_the_book.hpp"
 #include "support/random_pose.hpp"
 
@@ -37,13 +37,13 @@ TEST(Ras, RotationsStayRotations) {
 }
 
 /// "ReamerToRas" of a tool that stands on a shoulder's planned axis.
-std::array<float, 12> told_on_axis(const case_::Case& shoulder) {
+std::array<float, 12> sent_on_axis(const case_::Case& shoulder) {
   stream::TelemetrySample tick;
   tick.world_from_tool = {rotation_with_z_along(shoulder.plan->axis_direction), shoulder.plan->entry_mm};
-  Board board;
-  AlreadyTold told;
-  tell_tick(tick, 0, told, board);
-  return test::IgtlByTheBook::read(*board.sheet(static_cast<size_t>(Topic::reamer_pose)).message).transform;
+  MessageCache cache;
+  LastSent sent;
+  put_tick(tick, 0, sent, cache);
+  return test::IgtlByTheBook::read(*cache.message(static_cast<size_t>(Topic::reamer_pose)).message).transform;
 }
 
 /// What an anatomist knows: the reamer goes from lateral to medial, that is towards the left in a right
@@ -54,14 +54,14 @@ TEST(Ras, TheReamerGoesMedialAndBackwardInEitherShoulder) {
     params.side = side;
     params.spacing_mm = Vec3::Constant(1.5);
     const case_::Case shoulder = ct::make_phantom_case("shoulder", params, 1);
-    const std::array<float, 12> told = told_on_axis(shoulder);
-    const float towards_right = told[6], towards_front = told[7];
+    const std::array<float, 12> sent = sent_on_axis(shoulder);
+    const float towards_right = sent[6], towards_front = sent[7];
     EXPECT_EQ(towards_right < 0.0f, side == case_::Side::right) << case_::to_text(side);
     EXPECT_GT(std::abs(towards_right), 0.5f);
     EXPECT_LT(towards_front, 0.0f);
-    EXPECT_FLOAT_EQ(told[9], -static_cast<float>(shoulder.plan->entry_mm.x()));
-    EXPECT_FLOAT_EQ(told[10], -static_cast<float>(shoulder.plan->entry_mm.y()));
-    EXPECT_FLOAT_EQ(told[11], static_cast<float>(shoulder.plan->entry_mm.z()));
+    EXPECT_FLOAT_EQ(sent[9], -static_cast<float>(shoulder.plan->entry_mm.x()));
+    EXPECT_FLOAT_EQ(sent[10], -static_cast<float>(shoulder.plan->entry_mm.y()));
+    EXPECT_FLOAT_EQ(sent[11], static_cast<float>(shoulder.plan->entry_mm.z()));
   }
 }
 

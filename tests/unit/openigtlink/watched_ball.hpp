@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "core/clock.hpp"
-#include "openigtlink/showcase.hpp"
+#include "openigtlink/active_session.hpp"
 #include "stream/fanout.hpp"
 #include "stream/mesh_publisher.hpp"
 #include "support/igtl_reading.hpp"
@@ -16,10 +16,10 @@ class WatchedBall {
   explicit WatchedBall(std::string id = "s1") : bone_(ball()), publisher_(bone_, *fanout_) {
     publisher_.publish_all();
     session_ =
-        std::make_shared<ShownSession>(ShownSession{std::move(id), "a ball", bone_.grid, tool(), fanout_});
+        std::make_shared<SessionView>(SessionView{std::move(id), "a ball", bone_.grid, tool(), fanout_});
   }
 
-  std::shared_ptr<const ShownSession> session() const { return session_; }
+  std::shared_ptr<const SessionView> session() const { return session_; }
   stream::Fanout& fanout() { return *fanout_; }
   const voxel::BoneModel& bone() const { return bone_; }
 
@@ -75,7 +75,7 @@ class WatchedBall {
     grid.dims = {96, 64, 64};
     grid.spacing_mm = {0.5, 0.6, 0.7};
     grid.world_from_grid = {rotation_from_small_vector({0.1, 0.2, 0.3}), {-40.0, 30.0, 20.0}};
-    voxel::BoneModel bone = voxel::make_bone(grid);
+    voxel::BoneModel bone = voxel::put_bone(grid);
     const Vec3 middle = grid.bounds_mm().centre();
     for (size_t i = 0; i < bone.coverage.size(); ++i) {
       const double inside_mm = 14.0 - (grid.centre_mm(grid.coordinates(i)) - middle).norm();
@@ -93,7 +93,7 @@ class WatchedBall {
   voxel::BoneModel bone_;
   std::shared_ptr<stream::Fanout> fanout_ = std::make_shared<stream::Fanout>();
   stream::MeshPublisher publisher_;
-  std::shared_ptr<const ShownSession> session_;
+  std::shared_ptr<const SessionView> session_;
   uint32_t tick_ = 0;
 };
 

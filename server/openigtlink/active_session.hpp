@@ -2,6 +2,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include "geometry/triangle_mesh.hpp"
 #include "stream/fanout.hpp"
@@ -10,9 +11,9 @@
 namespace ream::openigtlink {
 
 /// A session as those who watch over OpenIGTLink are to see it.
-struct ShownSession {
+struct SessionView {
   std::string id;
-  std::string words;  ///< one line: case, side, reamer
+  std::string description;  ///< one line: case, side, reamer
   voxel::VoxelGrid grid;
   TriangleMesh tool;  ///< tool frame
   std::weak_ptr<stream::Fanout> fanout;
@@ -20,15 +21,21 @@ struct ShownSession {
 
 /// The one session that is shown: the last that was put here. Sessions come and go on threads of their own;
 /// all functions are thread-safe and none waits for a client.
-class Showcase {
+class ActiveSession {
  public:
-  void show(std::shared_ptr<const ShownSession> session);
+  void set(std::shared_ptr<const SessionView> session) {
+    const std::lock_guard lock(mutex_);
+    session_ = std::move(session);
+  }
   /// Null: there has not been any.
-  std::shared_ptr<const ShownSession> shown() const;
+  std::shared_ptr<const SessionView> get() const {
+    const std::lock_guard lock(mutex_);
+    return session_;
+  }
 
  private:
   mutable std::mutex mutex_;
-  std::shared_ptr<const ShownSession> shown_;
+  std::shared_ptr<const SessionView> session_;
 };
 
 }  // namespace ream::openigtlink
