@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "access/credential_secret.hpp"
+#include "access/secret.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 
@@ -10,8 +10,8 @@ namespace ream::access {
 namespace {
 
 using std::chrono::seconds;
-constexpr seconds between_notes{60}, kept_after_end = std::chrono::hours(24 * 30);
-constexpr size_t most_remembered = 4096;
+constexpr seconds note_interval{60}, retention = std::chrono::hours(24 * 30);
+constexpr size_t max_cached = 4096;
 
 /// What somebody may do with it now; none: nothing any more.
 std::optional<Role> role_of(const store::KnownCredential& known) {
@@ -27,9 +27,9 @@ std::optional<Role> role_of(const store::KnownCredential& known) {
   return limit && may_be_limited(*of_user, *limit) ? limit : std::nullopt;
 }
 
-std::string role_column(CredentialKind kind, const NewCredential& wanted) {
-  if (kind == CredentialKind::link || !wanted.parent_id.empty()) return to_text(Role::viewer);
-  return wanted.limit ? to_text(*wanted.limit) : "";
+std::string role_column(CredentialKind kind, const NewCredential& request) {
+  if (kind == CredentialKind::link || !request.parent_id.empty()) return to_text(Role::viewer);
+  return request.limit ? to_text(*request.limit) : "";
 }
 
 }  // namespace
@@ -53,21 +53,21 @@ std::optional<store::KnownCredential> Credentials::look_up(const std::string& id
   uint64_t before = 0;
   {
     const std::lock_guard lock(mutex_);
-    const auto found = remembered_.find(id);
-    if (found != remembered_.end() && SteadyClock::now() - found->second.since < memory)
+    const auto found = cache_.find(id);
+    if (found != cache_.end() && SteadyClock::now() - found->second.since < cache_time)
       return found->second.known;
-    before = forgotten_;
+    before = invalidations_;
   }
   auto known = table_.find(id);
   const std::lock_guard lock(mutex_);
-  if (known && before == forgotten_) {
-    if (remembered_.size() >= most_remembered) remembered_.clear();
-    remembered_[id] = {*known, SteadyClock::now()};
+  if (known && before == invalidations_) {
+    if (cache_.size() >= max_cached) cache_.clear();
+    cache_[id] = {*known, SteadyClock::now()};
   }
   return known;
 }
 
-std::optional<Identity> Credentials::judge(const store::KnownCredential& known) const {
+std::optional<Identity> Credentials::identity_of(const store::KnownCredential& known) const {
   const store::CredentialRow& row = known.credential;
   const UtcMoment now = now_();
   if (row.expires_utc <= utc_text(now)) return std::nullopt;
@@ -95,12 +95,12 @@ std::optional<Identity> Credentials::judge(const store::KnownCredential& known) 
 
 void Credentials::note_use(const store::CredentialRow& row) {
   const UtcMoment now = now_();
-  if (row.last_used_utc > utc_text(now - between_notes)) return;
+  if (row.last_used_utc > utc_text(now - note_interval)) return;
   const std::string used = utc_text(now);
   {
     const std::lock_guard lock(mutex_);
-    const auto found = remembered_.find(row.id);
-    if (found != remembered_.end()) found->second.known.credential.last_used_utc = used;
+    const auto found = cache_.find(row.id);
+    if (found != cache_.end()) found->second.known.credential.last_used_utc = used;
   }
   try {
     table_.note_use(row.id, used);
@@ -115,7 +115,7 @@ std::optional<Identity> Credentials::identify(const Secret& secret, CredentialKi
   const auto known = look_up(id);
   if (!known || known->credential.kind != to_text(kind) || !has_hash(secret, known->credential.hash))
     return std::nullopt;
-  auto identity = judge(*known);
+  auto identity = identity_of(*known);
   if (identity) note_use(known->credential);
   return identity;
 }
@@ -123,38 +123,38 @@ std::optional<Identity> Credentials::identify(const Secret& secret, CredentialKi
 std::optional<Identity> Credentials::identify_again(const std::string& id) {
   const auto known = look_up(id);
   if (!known) return std::nullopt;
-  auto identity = judge(*known);
+  auto identity = identity_of(*known);
   if (identity) note_use(known->credential);
   return identity;
 }
 
-IssuedCredential Credentials::issue(CredentialKind kind, const NewCredential& wanted) {
+IssuedCredential Credentials::issue(CredentialKind kind, const NewCredential& request) {
   const UtcMoment now = now_();
-  const seconds usual = kind == CredentialKind::token    ? lifetimes_.token
-                        : kind == CredentialKind::cookie ? lifetimes_.cookie
-                                                         : lifetimes_.link;
-  const UtcMoment ends = wanted.expires_utc.empty() ? now + usual : utc_moment(wanted.expires_utc);
-  if (ends <= now || ends > now + lifetimes_.longest)
+  const seconds lifetime = kind == CredentialKind::token    ? lifetimes_.token
+                           : kind == CredentialKind::cookie ? lifetimes_.cookie
+                                                            : lifetimes_.link;
+  const UtcMoment ends = request.expires_utc.empty() ? now + lifetime : utc_moment(request.expires_utc);
+  if (ends <= now || ends > now + lifetimes_.max)
     throw Error(
         ErrorKind::invalid_input,
         "it must end in the future, within " +
-            std::to_string(std::chrono::duration_cast<std::chrono::hours>(lifetimes_.longest).count() / 24) +
+            std::to_string(std::chrono::duration_cast<std::chrono::hours>(lifetimes_.max).count() / 24) +
             " days");
   CredentialSecret secret = make_credential_secret();
   IssuedCredential issued;
   issued.row = {secret.id,
                 to_text(kind),
                 secret.hash,
-                wanted.user_id,
-                role_column(kind, wanted),
-                wanted.name,
-                wanted.only_session,
-                wanted.parent_id,
+                request.user_id,
+                role_column(kind, request),
+                request.name,
+                request.only_session,
+                request.parent_id,
                 utc_text(now),
                 utc_text(ends),
                 kind == CredentialKind::cookie ? utc_text(now) : std::string()};
   issued.secret = std::move(secret.text);
-  table_.remove_expired(utc_text(now - kept_after_end));
+  table_.remove_expired(utc_text(now - retention));
   table_.add(issued.row);
   return issued;
 }
@@ -172,32 +172,34 @@ std::optional<store::CredentialRow> Credentials::find(const std::string& id, Cre
   return std::move(known->credential);
 }
 
-void Credentials::forget(const std::vector<std::string>& ids) {
+void Credentials::invalidate(const std::vector<std::string>& ids) {
   {
     const std::lock_guard lock(mutex_);
-    ++forgotten_;
-    for (const std::string& id : ids) remembered_.erase(id);
+    ++invalidations_;
+    for (const std::string& id : ids) cache_.erase(id);
   }
-  if (told_ && !ids.empty()) told_(ids);
+  if (on_change_ && !ids.empty()) on_change_(ids);
 }
 
-void Credentials::revoke(const std::string& id) { forget(table_.remove(id)); }
+void Credentials::revoke(const std::string& id) { invalidate(table_.remove(id)); }
 
 void Credentials::end_cookies(const std::string& user_id, const std::string& except) {
-  forget(table_.remove_of_user(user_id, to_text(CredentialKind::cookie), except));
+  invalidate(table_.remove_of_user(user_id, to_text(CredentialKind::cookie), except));
 }
 
 void Credentials::revoke_links(const std::string& user_id) {
-  forget(table_.remove_of_user(user_id, to_text(CredentialKind::link), ""));
+  invalidate(table_.remove_of_user(user_id, to_text(CredentialKind::link), ""));
 }
 
-void Credentials::revoke_all(const std::string& user_id) { forget(table_.remove_of_user(user_id, "", "")); }
+void Credentials::revoke_all(const std::string& user_id) {
+  invalidate(table_.remove_of_user(user_id, "", ""));
+}
 
 void Credentials::renew(const std::string& user_id) {
   std::vector<std::string> ids;
   for (const CredentialKind kind : {CredentialKind::token, CredentialKind::cookie, CredentialKind::link})
     for (const store::CredentialRow& row : table_.list(to_text(kind), user_id)) ids.push_back(row.id);
-  forget(ids);
+  invalidate(ids);
 }
 
 }  // namespace ream::access

@@ -23,7 +23,7 @@ struct Lifetimes {
   std::chrono::seconds cookie = std::chrono::hours(24);
   std::chrono::seconds token = std::chrono::hours(24 * 90);  ///< unless asked otherwise
   std::chrono::seconds link = std::chrono::hours(12);        ///< unless asked otherwise
-  std::chrono::seconds longest = std::chrono::hours(24 * 366);
+  std::chrono::seconds max = std::chrono::hours(24 * 366);
 };
 
 /// Whom a good credential stands for.
@@ -43,7 +43,7 @@ struct NewCredential {
   std::optional<Role> limit;   ///< of a token: at most this; none: what the user has
   std::string name;            ///< for people
   std::string only_session;    ///< of a link
-  std::string expires_utc;     ///< empty: the usual lifetime
+  std::string expires_utc;     ///< empty: the default lifetime
   std::string parent_id = {};  ///< of a cookie: the link it was made with
 };
 
@@ -52,12 +52,12 @@ struct IssuedCredential {
   Secret secret;  ///< for its owner, once; kept nowhere
 };
 
-/// Tokens, cookie sessions and viewer links. What was looked up is remembered for `memory`, so that is how
+/// Tokens, cookie sessions and viewer links. What was looked up is cached for `cache_time`, so that is how
 /// long another process may take to see a revocation; in this one it holds at once. Thread-safe; errors are
 /// those of the database.
 class Credentials {
  public:
-  static constexpr std::chrono::milliseconds memory{2000};
+  static constexpr std::chrono::milliseconds cache_time{2000};
 
   explicit Credentials(store::Database& database, WallClock now = machine_clock(), Lifetimes lifetimes = {});
 
@@ -67,7 +67,7 @@ class Credentials {
   std::optional<Identity> identify_again(const std::string& id);
 
   /// Error invalid_input for an expiry in the past or too far away.
-  IssuedCredential issue(CredentialKind kind, const NewCredential& wanted);
+  IssuedCredential issue(CredentialKind kind, const NewCredential& request);
 
   /// Newest first; `user_id` empty: everybody's. Those that have ended are left out.
   std::vector<store::CredentialRow> list(CredentialKind kind, const std::string& user_id) const;
@@ -87,25 +87,27 @@ class Credentials {
 
   /// Called with the ids of what is no longer as it was: revoked or renewed here. On the thread that did it.
   /// To be set before use.
-  void on_change(std::function<void(const std::vector<std::string>&)> told) { told_ = std::move(told); }
+  void on_change(std::function<void(const std::vector<std::string>&)> called) {
+    on_change_ = std::move(called);
+  }
 
  private:
-  struct Remembered {
+  struct CachedCredential {
     store::KnownCredential known;
     SteadyClock::time_point since;
   };
   std::optional<store::KnownCredential> look_up(const std::string& id);
-  std::optional<Identity> judge(const store::KnownCredential& known) const;
+  std::optional<Identity> identity_of(const store::KnownCredential& known) const;
   void note_use(const store::CredentialRow& row);
-  void forget(const std::vector<std::string>& ids);
+  void invalidate(const std::vector<std::string>& ids);
 
   store::CredentialTable table_;
   const WallClock now_;
   const Lifetimes lifetimes_;
-  std::function<void(const std::vector<std::string>&)> told_;
+  std::function<void(const std::vector<std::string>&)> on_change_;
   std::mutex mutex_;
-  std::map<std::string, Remembered> remembered_;
-  uint64_t forgotten_ = 0;  ///< counts what invalidates look-ups that are under way
+  std::map<std::string, CachedCredential> cache_;
+  uint64_t invalidations_ = 0;  ///< counts what invalidates look-ups that are under way
 };
 
 /// "token", "cookie" or "link".

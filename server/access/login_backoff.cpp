@@ -4,15 +4,14 @@
 
 #include <algorithm>
 
-#include "access/credential_secret.hpp"
-#include "access/too_many.hpp"
+#include "access/secret.hpp"
 
 namespace ream::access {
 namespace {
 
 using std::chrono::seconds;
-constexpr Patience with_both{4, seconds(900), seconds(24 * 3600)}, with_name{20, seconds(300), seconds(3600)},
-    with_place{20, seconds(60), seconds(900)};
+constexpr BackoffPolicy both_policy{4, seconds(900), seconds(24 * 3600)},
+    name_policy{20, seconds(300), seconds(3600)}, place_policy{20, seconds(60), seconds(900)};
 constexpr int64_t day_ms = 24 * 3600 * 1000, places_ms = 90 * day_ms;
 
 /// What was typed as a name may be a password, so keys are hashes. That of name and place begins with the
@@ -25,14 +24,14 @@ struct Keys {
   const std::string name, place, both;
 };
 
-int64_t remembered_from(int64_t now_ms, const Patience& patience) {
-  return now_ms - 1000 * patience.memory.count();
+int64_t counted_from(int64_t now_ms, const BackoffPolicy& policy) {
+  return now_ms - 1000 * policy.forget_after.count();
 }
 
 /// Negative or 0: no longer.
-int64_t wait_ms(const store::LoginFailures& failed, const Patience& patience, int64_t now_ms) {
-  if (failed.last_ms < remembered_from(now_ms, patience)) return 0;
-  return failed.last_ms + 1000 * wait_after(failed.failures, patience).count() - now_ms;
+int64_t wait_ms(const store::LoginFailures& failed, const BackoffPolicy& policy, int64_t now_ms) {
+  if (failed.last_ms < counted_from(now_ms, policy)) return 0;
+  return failed.last_ms + 1000 * wait_after(failed.failures, policy).count() - now_ms;
 }
 
 }  // namespace
@@ -49,36 +48,36 @@ std::string place_of(const std::string& address) {
   return inet_ntop(AF_INET6, &six, network, sizeof network);
 }
 
-seconds wait_after(int failures, const Patience& patience) {
-  if (failures < patience.free_failures) return seconds(0);
-  const int doublings = std::min(failures - patience.free_failures, 30);
-  return std::min(seconds(int64_t{1} << doublings), patience.longest);
+seconds wait_after(int failures, const BackoffPolicy& policy) {
+  if (failures < policy.free_failures) return seconds(0);
+  const int doublings = std::min(failures - policy.free_failures, 30);
+  return std::min(seconds(int64_t{1} << doublings), policy.max_wait);
 }
 
 int64_t LoginBackoff::now_ms() const {
   return std::chrono::duration_cast<std::chrono::milliseconds>(now_().time_since_epoch()).count();
 }
 
-void LoginBackoff::require_patience(const std::string& name, const std::string& address) {
+void LoginBackoff::require_allowed(const std::string& name, const std::string& address) {
   const Keys keys(name, address);
   const int64_t now = now_ms();
   auto found = attempts_.failures({keys.both, keys.name, keys.place});
   if (found.empty()) return;
-  int64_t wait = wait_ms(found[keys.both], with_both, now);
+  int64_t wait = wait_ms(found[keys.both], both_policy, now);
   const int64_t of_others =
-      std::max(wait_ms(found[keys.name], with_name, now), wait_ms(found[keys.place], with_place, now));
+      std::max(wait_ms(found[keys.name], name_policy, now), wait_ms(found[keys.place], place_policy, now));
   if (of_others > wait && !attempts_.knows_place(keys.both, now - places_ms)) wait = of_others;
   if (wait <= 0) return;
   const int retry_s = static_cast<int>((wait + 999) / 1000);
-  throw TooMany("too many failed logins; try again in " + std::to_string(retry_s) + " s", retry_s);
+  throw TooManyAttempts("too many failed logins; try again in " + std::to_string(retry_s) + " s", retry_s);
 }
 
 void LoginBackoff::note_failure(const std::string& name, const std::string& address) {
   const Keys keys(name, address);
   const int64_t now = now_ms();
-  attempts_.note_failure({{keys.both, remembered_from(now, with_both)},
-                          {keys.name, remembered_from(now, with_name)},
-                          {keys.place, remembered_from(now, with_place)}},
+  attempts_.note_failure({{keys.both, counted_from(now, both_policy)},
+                          {keys.name, counted_from(now, name_policy)},
+                          {keys.place, counted_from(now, place_policy)}},
                          now, now - day_ms);
 }
 

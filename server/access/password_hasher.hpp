@@ -27,32 +27,38 @@ class PasswordHasher {
     bool outdated = false;  ///< right, but hashed at another cost: hash it anew
   };
 
-  /// `most_in_hand`: calls that wait or run at once; fewer than the threads that serve requests, so that a
+  /// `max_pending`: calls that wait or run at once; fewer than the threads that serve requests, so that a
   /// crowd at the login leaves some for everybody else.
-  explicit PasswordHasher(size_t most_in_hand = 2, HashCost cost = {});
+  explicit PasswordHasher(size_t max_pending = 2, HashCost cost = {});
   ~PasswordHasher();
   PasswordHasher(const PasswordHasher&) = delete;
   PasswordHasher& operator=(const PasswordHasher&) = delete;
 
-  /// Text for the database, salt and cost included. Errors: TooMany; unavailable without memory.
+  /// Text for the database, salt and cost included. Errors: TooManyAttempts; unavailable without memory.
   std::string hash(const Secret& password);
-  /// An empty `hash` (nobody of that name) is wrong and takes as long as any. Error TooMany.
+  /// An empty `hash` (nobody of that name) is wrong and takes as long as any. Error TooManyAttempts.
   Verdict verify(const Secret& password, const std::string& hash);
 
  private:
   void work();
-  void have_done(const std::function<void()>& task);
+  void run_on_thread(const std::function<void()>& task);
   std::string hashed(const Secret& password) const;
 
-  const size_t most_in_hand_;
+  const size_t max_pending_;
   const HashCost cost_;
-  std::string nobodys_hash_;  ///< of the thread alone: what unknown users are checked against
+  std::string dummy_hash_;  ///< of the thread alone: what unknown users are checked against
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::function<void()>> waiting_;
-  size_t in_hand_ = 0;
+  size_t pending_ = 0;
   bool stopped_ = false;
   std::thread thread_;
 };
+
+inline constexpr size_t min_password_length = 10;  ///< characters
+inline constexpr size_t max_password_bytes = 1000;
+
+/// Error invalid_input, without a word of the password, unless it is UTF-8 of the right length.
+void require_good_password(const Secret& password);
 
 }  // namespace ream::access

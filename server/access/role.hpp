@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <optional>
 #include <string>
 
@@ -7,13 +8,22 @@ namespace ream::access {
 /// What somebody may do, from least to most. A viewer only watches.
 enum class Role { viewer, trainee, instructor, operator_ };
 
-/// The word of the API and the database: "operator", "instructor", "trainee", "viewer".
-std::string to_text(Role role);
+/// The words of the API and the database.
+inline constexpr std::array<const char*, 4> role_names{"viewer", "trainee", "instructor", "operator"};
+
+inline std::string to_text(Role role) { return role_names[static_cast<size_t>(role)]; }
+
 /// Empty for other words.
-std::optional<Role> role_from(const std::string& text);
+inline std::optional<Role> role_from(const std::string& text) {
+  for (size_t i = 0; i < role_names.size(); ++i)
+    if (text == role_names[i]) return static_cast<Role>(i);
+  return std::nullopt;
+}
 
 /// Whether a token of somebody with role `of` may be limited to `limit`. A trainee's cannot become a
 /// viewer's: viewers see sessions of all.
-bool may_be_limited(Role of, Role limit);
+inline bool may_be_limited(Role of, Role limit) {
+  return of == Role::trainee ? limit == Role::trainee : limit <= of;
+}
 
 }  // namespace ream::access

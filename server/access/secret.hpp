@@ -32,4 +32,33 @@ void wipe(std::string& text) noexcept;
 /// Takes as long whatever the texts hold, if they are equally long.
 bool equal_in_constant_time(std::string_view a, std::string_view b);
 
+/// The secret of a token, a cookie session or a link: "ream_<id>_<32 random bytes as base64url>". The id
+/// finds it in the database, which holds its hash only.
+struct CredentialSecret {
+  std::string id;
+  Secret text;
+  std::string hash;
+};
+
+CredentialSecret make_credential_secret();
+
+/// The id inside; empty when the text is not of that form.
+std::string id_inside(const Secret& secret);
+
+/// BLAKE2b of 32 bytes as base64url. For random secrets only: passwords need PasswordHasher.
+std::string hash_of(const Secret& secret);
+/// In constant time.
+bool has_hash(const Secret& secret, const std::string& hash);
+
+/// What a page must send back with every change it makes by its cookie: a hash of the cookie's secret that
+/// does not tell it.
+std::string csrf_token_of(const Secret& cookie);
+
+/// Ten letters and digits at random, without those that are easily taken for one another.
+std::string random_id();
+
+/// Makes libsodium ready; every function of this room that needs it calls this first. Error unavailable when
+/// it cannot be.
+void require_sodium();
+
 }  // namespace ream::access

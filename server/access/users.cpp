@@ -2,16 +2,17 @@
 
 #include <algorithm>
 
-#include "access/credential_secret.hpp"
-#include "access/password_rules.hpp"
+#include "access/password_hasher.hpp"
+#include "access/secret.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "core/text.hpp"
 
 namespace ream::access {
 namespace {
 
-constexpr size_t longest_name = 64, longest_display_name_bytes = 400;
-constexpr auto between_questions = std::chrono::seconds(1);
+constexpr size_t max_name_length = 64, max_display_name_bytes = 400;
+constexpr auto ask_interval = std::chrono::seconds(1);
 
 User user_of(const store::UserRow& row) {
   return {row.id,      row.name,       row.display_name, role_from(row.role).value_or(Role::viewer),
@@ -24,9 +25,9 @@ void require_account_role(Role role) {
 }
 
 void require_display_name(const std::string& name) {
-  if (name.size() > longest_display_name_bytes || !is_plain_line(name))
-    throw Error(ErrorKind::invalid_input, "a name to show is one line of at most " +
-                                              std::to_string(longest_display_name_bytes) + " bytes");
+  if (name.size() > max_display_name_bytes || !is_plain_line(name))
+    throw Error(ErrorKind::invalid_input,
+                "a name to show is one line of at most " + std::to_string(max_display_name_bytes) + " bytes");
 }
 
 }  // namespace
@@ -35,22 +36,15 @@ bool is_plain_line(const std::string& text) {
   return std::none_of(text.begin(), text.end(), [](char c) { return (c >= 0 && c < ' ') || c == 0x7f; });
 }
 
-std::string plain_name(const std::string& typed) {
-  std::string name = typed;
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return name;
-}
-
 bool is_user_name(const std::string& name) {
-  return !name.empty() && name.size() <= longest_name &&
+  return !name.empty() && name.size() <= max_name_length &&
          name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789._@-") == std::string::npos;
 }
 
 void require_user_name(const std::string& name) {
   if (!is_user_name(name))
     throw Error(ErrorKind::invalid_input, "a user's name may hold only a-z, 0-9 and . _ @ -, and at most " +
-                                              std::to_string(longest_name) + " of them");
+                                              std::to_string(max_name_length) + " of them");
 }
 
 Users::Users(store::Database& database, PasswordHasher& hasher, Credentials& credentials,
@@ -63,28 +57,28 @@ Users::Users(store::Database& database, PasswordHasher& hasher, Credentials& cre
 
 bool Users::any() {
   if (any_) return true;
-  const std::lock_guard lock(asking_);
+  const std::lock_guard lock(mutex_);
   const auto now = SteadyClock::now();
-  if (any_ || (asked_ && now - *asked_ < between_questions)) return any_;
+  if (any_ || (last_asked_ && now - *last_asked_ < ask_interval)) return any_;
   if (table_.any()) any_ = true;
-  asked_ = now;
+  last_asked_ = now;
   return any_;
 }
 
-User Users::add(const NewUser& wanted) {
-  const std::string name = plain_name(wanted.name);
+User Users::add(const NewUser& user) {
+  const std::string name = lower(user.name);
   require_user_name(name);
-  require_display_name(wanted.display_name);
-  require_account_role(wanted.role);
-  require_good_password(wanted.password);
+  require_display_name(user.display_name);
+  require_account_role(user.role);
+  require_good_password(user.password);
   if (table_.find_by_name(name)) throw Error(ErrorKind::conflict, "there is a user '" + name + "' already");
   store::UserRow row;
   row.id = random_id();
   row.name = name;
-  row.display_name = wanted.display_name.empty() ? name : wanted.display_name;
-  row.role = to_text(wanted.role);
+  row.display_name = user.display_name.empty() ? name : user.display_name;
+  row.role = to_text(user.role);
   row.created_utc = utc_text(now_());
-  row.password_hash = hasher_.hash(wanted.password);
+  row.password_hash = hasher_.hash(user.password);
   table_.add(row);
   any_ = true;
   return user_of(row);
@@ -130,7 +124,7 @@ User Users::get(const std::string& id) const {
 }
 
 std::optional<User> Users::find_by_name(const std::string& name) const {
-  const auto row = table_.find_by_name(plain_name(name));
+  const auto row = table_.find_by_name(lower(name));
   return row ? std::optional(user_of(*row)) : std::nullopt;
 }
 
@@ -140,9 +134,9 @@ std::vector<User> Users::list() const {
   return users;
 }
 
-bool Users::is_password_of(const std::optional<store::UserRow>& row, const std::string& name,
+bool Users::check_password(const std::optional<store::UserRow>& row, const std::string& name,
                            const Secret& password, const std::string& address) {
-  backoff_.require_patience(name, address);
+  backoff_.require_allowed(name, address);
   const bool can_log_in = row && row->enabled;
   const auto verdict = hasher_.verify(password, can_log_in ? row->password_hash : "");
   if (!verdict.right) {
@@ -150,11 +144,11 @@ bool Users::is_password_of(const std::optional<store::UserRow>& row, const std::
     return false;
   }
   backoff_.note_success(name, address);
-  if (verdict.outdated) hash_anew(*row, password);
+  if (verdict.outdated) rehash(*row, password);
   return true;
 }
 
-void Users::hash_anew(const store::UserRow& row, const Secret& password) {
+void Users::rehash(const store::UserRow& row, const Secret& password) {
   try {
     const std::string hash = hasher_.hash(password);
     table_.change(row.id, [&](store::UserRow& changed) {
@@ -167,17 +161,17 @@ void Users::hash_anew(const store::UserRow& row, const Secret& password) {
 
 std::optional<User> Users::log_in(const std::string& typed, const Secret& password,
                                   const std::string& address) {
-  const std::string name = plain_name(typed);
+  const std::string name = lower(typed);
   const auto row = is_user_name(name) ? table_.find_by_name(name) : std::nullopt;
-  return is_password_of(row, name, password, address) ? std::optional(user_of(*row)) : std::nullopt;
+  return check_password(row, name, password, address) ? std::optional(user_of(*row)) : std::nullopt;
 }
 
-bool Users::change_password(const std::string& id, const Secret& present, const Secret& wanted,
+bool Users::change_password(const std::string& id, const Secret& current, const Secret& new_password,
                             const std::string& address, const std::string& this_cookie) {
-  require_good_password(wanted);
+  require_good_password(new_password);
   const auto row = table_.find(id);
-  if (!is_password_of(row, row ? row->name : "", present, address)) return false;
-  const std::string hash = hasher_.hash(wanted);
+  if (!check_password(row, row ? row->name : "", current, address)) return false;
+  const std::string hash = hasher_.hash(new_password);
   table_.change(id, [&](store::UserRow& changed) { changed.password_hash = hash; });
   credentials_.end_cookies(id, this_cookie);
   return true;

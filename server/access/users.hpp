@@ -16,7 +16,7 @@ namespace ream::access {
 
 struct User {
   std::string id;
-  std::string name;  ///< to log in with: [a-z0-9._@-], at most 64
+  std::string name;  ///< to log in with: [a-z0-9._@-], at most 64; looked for in small letters
   std::string display_name;
   Role role = Role::trainee;
   bool enabled = true;
@@ -38,7 +38,7 @@ struct UserChange {
 };
 
 /// Who may log in. There is always an operator who can, once there is anybody. Thread-safe. Errors:
-/// not_found, conflict, invalid_input, TooMany (passwords), those of the database.
+/// not_found, conflict, invalid_input, TooManyAttempts (passwords), those of the database.
 class Users {
  public:
   Users(store::Database& database, PasswordHasher& hasher, Credentials& credentials, LoginBackoff& backoff,
@@ -47,7 +47,7 @@ class Users {
   /// Whether the server is past its open beginning. Asks the database at most once a second until then.
   bool any();
 
-  User add(const NewUser& wanted);
+  User add(const NewUser& user);
   /// A new password ends the user's cookie sessions and forgives failed logins; disabling revokes all.
   User change(const std::string& id, const UserChange& change);
   void remove(const std::string& id);
@@ -58,17 +58,17 @@ class Users {
   std::vector<User> list() const;
 
   /// The user when name and password belong together, after as long as it takes when they do not.
-  /// `address` is where it was tried from. Errors: TooMany.
+  /// `address` is where it was tried from. Errors: TooManyAttempts.
   std::optional<User> log_in(const std::string& name, const Secret& password, const std::string& address);
-  /// One's own. False when `present` is not the password. Ends all other cookie sessions but `this_cookie`.
-  bool change_password(const std::string& id, const Secret& present, const Secret& wanted,
+  /// One's own. False when `current` is not the password. Ends all other cookie sessions but `this_cookie`.
+  bool change_password(const std::string& id, const Secret& current, const Secret& new_password,
                        const std::string& address, const std::string& this_cookie);
 
  private:
-  bool is_password_of(const std::optional<store::UserRow>& row, const std::string& name,
+  bool check_password(const std::optional<store::UserRow>& row, const std::string& name,
                       const Secret& password, const std::string& address);
 
-  void hash_anew(const store::UserRow& row, const Secret& password);
+  void rehash(const store::UserRow& row, const Secret& password);
 
   store::UserTable table_;
   PasswordHasher& hasher_;
@@ -76,12 +76,10 @@ class Users {
   LoginBackoff& backoff_;
   const WallClock now_;
   std::atomic<bool> any_{false};
-  std::mutex asking_;
-  std::optional<SteadyClock::time_point> asked_;
+  std::mutex mutex_;
+  std::optional<SteadyClock::time_point> last_asked_;
 };
 
-/// Names are looked for in small letters.
-std::string plain_name(const std::string& typed);
 bool is_user_name(const std::string& name);
 /// Error invalid_input, which does not repeat it.
 void require_user_name(const std::string& name);

@@ -1,12 +1,12 @@
 #include "api/access_resource.hpp"
 
-#include "access/too_many.hpp"
+#include "access/login_backoff.hpp"
 #include "api/request_body.hpp"
 #include "core/error.hpp"
 
 namespace ream::api {
 
-Audit audit_in(access::Gatehouse* gatehouse) {
+Audit audit_in(access::AccessControl* gatehouse) {
   if (!gatehouse) return no_audit();
   return [gatehouse](const net::Request& request, const std::string& action, const std::string& object,
                      const std::string& detail) {
@@ -16,7 +16,7 @@ Audit audit_in(access::Gatehouse* gatehouse) {
   };
 }
 
-access::Gatehouse& gatehouse_of(const AccessTools& tools) {
+access::AccessControl& gatehouse_of(const AccessTools& tools) {
   if (!tools.gatehouse)
     throw Error(ErrorKind::unavailable, "this server runs without a database, and has no users");
   return *tools.gatehouse;
@@ -25,12 +25,12 @@ access::Gatehouse& gatehouse_of(const AccessTools& tools) {
 net::Response patiently(const std::function<net::Response()>& handler) {
   try {
     return handler();
-  } catch (const access::TooMany& busy) {
+  } catch (const access::TooManyAttempts& busy) {
     throw net::RequestError(429, busy.what(), {}, {{"Retry-After", std::to_string(busy.retry_after_s())}});
   }
 }
 
-access::Gatehouse& gatehouse_with(const AccessTools& tools, const std::string& what) {
+access::AccessControl& gatehouse_with(const AccessTools& tools, const std::string& what) {
   if (!tools.gatehouse) throw Error(ErrorKind::not_found, "no " + what + " of that id");
   return *tools.gatehouse;
 }

@@ -2,7 +2,7 @@
 #include <functional>
 #include <string>
 
-#include "access/gatehouse.hpp"
+#include "access/access_control.hpp"
 #include "api/audit.hpp"
 #include "api/gate.hpp"
 #include "net/router.hpp"
@@ -12,7 +12,7 @@ namespace ream::api {
 /// What the resources of access share. All outlive the router.
 struct AccessTools {
   const Gate& gate;
-  access::Gatehouse* gatehouse;  ///< null: there are never users
+  access::AccessControl* gatehouse;  ///< null: there are never users
   /// Error not_found unless there is such a session.
   std::function<void(const std::string& id)> require_session;
 };
@@ -28,12 +28,12 @@ void add_link_routes(net::Router& router, const AccessTools& tools);
 void add_audit_routes(net::Router& router, const AccessTools& tools);
 
 /// Keeps changes in the gatehouse's audit log.
-Audit audit_in(access::Gatehouse* gatehouse);
+Audit audit_in(access::AccessControl* gatehouse);
 
 /// The gatehouse. Error unavailable for a server without a database.
-access::Gatehouse& gatehouse_of(const AccessTools& tools);
+access::AccessControl& gatehouse_of(const AccessTools& tools);
 /// The same to find one user, token or link in (`what`). Error not_found for a server without a database.
-access::Gatehouse& gatehouse_with(const AccessTools& tools, const std::string& what);
+access::AccessControl& gatehouse_with(const AccessTools& tools, const std::string& what);
 
 /// Runs a handler; what is asked too often becomes 429 with Retry-After.
 net::Response patiently(const std::function<net::Response()>& handler);

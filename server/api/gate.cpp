@@ -1,6 +1,6 @@
 #include "api/gate.hpp"
 
-#include "access/credential_secret.hpp"
+#include "access/secret.hpp"
 #include "api/login_cookie.hpp"
 #include "api/visibility.hpp"
 #include "core/log.hpp"

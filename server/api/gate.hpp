@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "access/gatehouse.hpp"
+#include "access/access_control.hpp"
 #include "api/rights.hpp"
 #include "api/running_session.hpp"
 #include "net/message.hpp"
@@ -25,7 +25,7 @@ class Gate {
   using SessionFinder = std::function<std::optional<SessionRequest>(const std::string& id)>;
 
   /// `gatehouse` outlives the gate; null: there are never users.
-  Gate(access::Gatehouse* gatehouse, SessionFinder find_session)
+  Gate(access::AccessControl* gatehouse, SessionFinder find_session)
       : gatehouse_(gatehouse), find_session_(std::move(find_session)) {}
 
   /// Sets the caller and takes what was shown out of the request. `pattern` empty: static files.
@@ -44,7 +44,7 @@ class Gate {
   void require_right(const Right& right, const Visitor& visitor, const net::Request& request) const;
   void require_sight(const net::Request& request, const std::string& pattern) const;
 
-  access::Gatehouse* gatehouse_;
+  access::AccessControl* gatehouse_;
   const SessionFinder find_session_;
 };
 

@@ -40,7 +40,7 @@ net::Response add(const AccessTools& tools, const net::Request& request) {
   wanted.only_session = body.name_or("session", "");
   wanted.expires_utc = body.words("expires_utc", 0, longest_moment);
   body.finish();
-  access::Gatehouse& gatehouse = gatehouse_of(tools);
+  access::AccessControl& gatehouse = gatehouse_of(tools);
   if (!access::is_plain_line(wanted.name))
     throw net::RequestError(422, "'name' must be one line", {{"#/name", "must be one line"}});
   if (!wanted.only_session.empty()) tools.require_session(wanted.only_session);
@@ -54,7 +54,7 @@ net::Response add(const AccessTools& tools, const net::Request& request) {
 }
 
 net::Response revoke(const AccessTools& tools, const net::Request& request) {
-  access::Gatehouse& gatehouse = gatehouse_with(tools, "link");
+  access::AccessControl& gatehouse = gatehouse_with(tools, "link");
   const std::string& id = id_in(request, "link");
   const auto row = gatehouse.credentials.find(id, CredentialKind::link);
   const std::string maker = maker_for(request.caller);

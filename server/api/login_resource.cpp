@@ -1,11 +1,12 @@
 #include <chrono>
 
-#include "access/password_rules.hpp"
+#include "access/password_hasher.hpp"
 #include "api/access_resource.hpp"
 #include "api/login_cookie.hpp"
 #include "api/request_body.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
+#include "core/text.hpp"
 
 namespace ream::api {
 using access::CredentialKind;
@@ -13,7 +14,7 @@ using access::Secret;
 using nlohmann::json;
 namespace {
 
-constexpr size_t longest_name = 200, longest_secret = access::longest_password_bytes;
+constexpr size_t longest_name = 200, longest_secret = access::max_password_bytes;
 const std::string path = "/api/v1/login";
 
 Secret secret_in(RequestBody& body, const std::string& key) {
@@ -42,7 +43,7 @@ net::Response who_am_i(const AccessTools& tools, const net::Request& request) {
 /// Gives the page a cookie and tells who it is now.
 net::Response let_in(const AccessTools& tools, const net::Request& request,
                      const access::NewCredential& wanted, const std::string& action) {
-  access::Gatehouse& gatehouse = gatehouse_of(tools);
+  access::AccessControl& gatehouse = gatehouse_of(tools);
   const access::IssuedCredential cookie = gatehouse.credentials.issue(CredentialKind::cookie, wanted);
   net::Request with_cookie = request;
   with_cookie.headers.erase("authorization");
@@ -63,12 +64,11 @@ net::Response log_in(const AccessTools& tools, const net::Request& request) {
   const std::string name = body.words("name", 1, longest_name);
   const Secret password = secret_in(body, "password");
   body.finish();
-  access::Gatehouse& gatehouse = gatehouse_of(tools);
+  access::AccessControl& gatehouse = gatehouse_of(tools);
   const auto user = gatehouse.users.log_in(name, password, request.peer);
   if (!user) {
     // What was typed may be a password in the wrong field: only names that exist are kept.
-    const auto known =
-        gatehouse.users.find_by_name(access::is_user_name(access::plain_name(name)) ? name : "");
+    const auto known = gatehouse.users.find_by_name(access::is_user_name(lower(name)) ? name : "");
     audit_in (&gatehouse)(request, "login.failed", known ? known->id : "", known ? known->name : "");
     refuse_unknown("name or password is wrong");
   }
@@ -81,7 +81,7 @@ net::Response log_in_by_link(const AccessTools& tools, const net::Request& reque
   RequestBody body(request);
   const Secret secret = secret_in(body, "secret");
   body.finish();
-  access::Gatehouse& gatehouse = gatehouse_of(tools);
+  access::AccessControl& gatehouse = gatehouse_of(tools);
   const auto link = gatehouse.credentials.identify(secret, CredentialKind::link);
   if (!link) refuse_unknown("the link is unknown, has ended or was revoked");
   access::NewCredential wanted;
@@ -114,7 +114,7 @@ net::Response change_password(const AccessTools& tools, const net::Request& requ
   const net::Caller& caller = request.caller;
   if (caller.user_id.empty())
     throw Error(ErrorKind::conflict, "nobody is logged in; without users there is no password");
-  access::Gatehouse& gatehouse = gatehouse_of(tools);
+  access::AccessControl& gatehouse = gatehouse_of(tools);
   if (!gatehouse.users.change_password(caller.user_id, present, wanted, request.peer, caller.credential))
     throw net::RequestError(422, "the present password is wrong", {{"#/password", "is wrong"}});
   audit_in (&gatehouse)(request, "password.change", caller.user_id, "");

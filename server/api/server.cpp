@@ -160,7 +160,8 @@ Server::Server(ServerOptions options)
                BenchmarkStore(under(options.data_folder, "benchmarks")), !options.data_folder.empty()}),
       jobs_({under(options.data_folder, "jobs"), std::chrono::hours(24), 256,
              [this](const JobRecord& job) { tell(job); }}),
-      gatehouse_(database_ ? std::make_unique<access::Gatehouse>(*database_, options.gatehouse) : nullptr),
+      gatehouse_(database_ ? std::make_unique<access::AccessControl>(*database_, options.gatehouse)
+                           : nullptr),
       stream_watch_(gatehouse_ ? std::make_unique<StreamWatch>(gatehouse_->credentials) : nullptr),
       sessions_(std::move(options.make_session), options.sessions, options.sessions_folder, options.database),
       studies_(database_ ? std::make_unique<StudyService>(

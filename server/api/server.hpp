@@ -6,7 +6,7 @@
 #include <mutex>
 #include <string>
 
-#include "access/gatehouse.hpp"
+#include "access/access_control.hpp"
 #include "api/case_workshop.hpp"
 #include "api/export_formats.hpp"
 #include "api/gate.hpp"
@@ -43,7 +43,7 @@ struct ServerOptions {
   /// Has users and what they did, the index of sessions, and answers to repeat. Null: everybody may do
   /// everything, and lists come from the folders.
   std::shared_ptr<store::Database> database;
-  access::GatehouseOptions gatehouse;
+  access::AccessOptions gatehouse;
   std::function<void()> prepare;  ///< run once in the background; /readyz is 503 until it is done
 };
 
@@ -69,7 +69,7 @@ class Server {
   void stop();
 
   /// Users, credentials and the audit log; null without a database.
-  access::Gatehouse* gatehouse() const { return gatehouse_.get(); }
+  access::AccessControl* gatehouse() const { return gatehouse_.get(); }
 
   /// Method and pattern of everything served, the page left out.
   std::vector<net::Router::Route> routes() const { return router_.routes(); }
@@ -91,7 +91,7 @@ class Server {
   const ScoreStores stores_;
   JobService jobs_;
   QuietWork quiet_;
-  const std::unique_ptr<access::Gatehouse> gatehouse_;
+  const std::unique_ptr<access::AccessControl> gatehouse_;
   const std::unique_ptr<StreamWatch> stream_watch_;  ///< null without a database
   SessionService sessions_;
   const std::unique_ptr<StudyService> studies_;  ///< null without a database

@@ -32,7 +32,7 @@ std::optional<StudyAttempt> attempt_of(const SessionService& sessions, const Ses
 }  // namespace
 
 StudySurroundings study_surroundings(const std::filesystem::path& cases_folder, SessionService& sessions,
-                                     access::Gatehouse& gatehouse) {
+                                     access::AccessControl& gatehouse) {
   StudySurroundings surroundings;
   surroundings.name_of_user = [&gatehouse](const std::string& user_id) -> std::optional<std::string> {
     try {

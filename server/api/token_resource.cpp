@@ -58,7 +58,7 @@ net::Response add(const AccessTools& tools, const net::Request& request) {
   }
   wanted.expires_utc = body.words("expires_utc", 0, longest_moment);
   body.finish();
-  access::Gatehouse& gatehouse = gatehouse_of(tools);
+  access::AccessControl& gatehouse = gatehouse_of(tools);
   const auto maker = gatehouse.credentials.identify_again(request.caller.credential);
   if (!maker || maker->user_id.empty())
     throw Error(ErrorKind::conflict, "a token belongs to a user; add one and log in first");
@@ -74,7 +74,7 @@ net::Response add(const AccessTools& tools, const net::Request& request) {
 }
 
 net::Response revoke(const AccessTools& tools, const net::Request& request) {
-  access::Gatehouse& gatehouse = gatehouse_with(tools, "token");
+  access::AccessControl& gatehouse = gatehouse_with(tools, "token");
   const std::string& id = id_in(request, "token");
   const auto row = gatehouse.credentials.find(id, CredentialKind::token);
   const bool own = row && !row->user_id.empty() && row->user_id == request.caller.user_id;

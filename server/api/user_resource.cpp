@@ -1,5 +1,5 @@
 
-#include "access/password_rules.hpp"
+#include "access/password_hasher.hpp"
 #include "api/access_resource.hpp"
 #include "api/request_body.hpp"
 #include "api/user_json.hpp"
@@ -16,7 +16,7 @@ const std::string path = "/api/v1/users";
 const std::vector<std::string> account_roles = {"operator", "instructor", "trainee"};
 
 std::optional<access::Secret> password_in(RequestBody& body) {
-  auto text = body.words_or_none("password", access::longest_password_bytes);
+  auto text = body.words_or_none("password", access::max_password_bytes);
   return text ? std::optional(access::Secret(std::move(*text))) : std::nullopt;
 }
 
@@ -33,10 +33,10 @@ net::Response add(const AccessTools& tools, const net::Request& request) {
   wanted.name = body.words("name", 1, longest_name);
   wanted.display_name = body.words("display_name", 0, longest_display_name);
   wanted.role = access::role_from(body.one_of("role", account_roles)).value_or(Role::trainee);
-  std::string password = body.words("password", access::shortest_password, access::longest_password_bytes);
+  std::string password = body.words("password", access::min_password_length, access::max_password_bytes);
   wanted.password = access::Secret(std::move(password));
   body.finish();
-  access::Gatehouse& gatehouse = gatehouse_of(tools);
+  access::AccessControl& gatehouse = gatehouse_of(tools);
   const access::User user = gatehouse.users.add(wanted);
   audit_in (&gatehouse)(request, "user.add", user.id, user.name + " as " + access::to_text(user.role));
   net::Response response = net::json_response(201, user_json(user));
@@ -66,14 +66,14 @@ net::Response change(const AccessTools& tools, const net::Request& request) {
   wanted.enabled = body.flag_or_none("enabled");
   wanted.password = password_in(body);
   body.finish();
-  access::Gatehouse& gatehouse = gatehouse_with(tools, "user");
+  access::AccessControl& gatehouse = gatehouse_with(tools, "user");
   const access::User user = gatehouse.users.change(id_in(request, "user"), wanted);
   audit_in (&gatehouse)(request, "user.change", user.id, user.name + ": " + words_of(wanted));
   return net::json_response(200, user_json(user));
 }
 
 net::Response remove(const AccessTools& tools, const net::Request& request) {
-  access::Gatehouse& gatehouse = gatehouse_with(tools, "user");
+  access::AccessControl& gatehouse = gatehouse_with(tools, "user");
   const access::User user = gatehouse.users.get(id_in(request, "user"));
   gatehouse.users.remove(user.id);
   audit_in (&gatehouse)(request, "user.remove", user.id, user.name);
@@ -81,7 +81,7 @@ net::Response remove(const AccessTools& tools, const net::Request& request) {
 }
 
 net::Response get(const AccessTools& tools, const net::Request& request) {
-  access::Gatehouse& gatehouse = gatehouse_with(tools, "user");
+  access::AccessControl& gatehouse = gatehouse_with(tools, "user");
   return net::json_response(200, user_json(gatehouse.users.get(id_in(request, "user"))));
 }
 

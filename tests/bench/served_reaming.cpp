@@ -60,7 +60,7 @@ struct ServedReaming::House {
 
   /// From here on a token is needed. Waits until all sessions are listed.
   void open_office() {
-    access::Gatehouse& gatehouse = *server->gatehouse();
+    access::AccessControl& gatehouse = *server->gatehouse();
     const access::User chief = gatehouse.users.add(
         {"chief", "", access::Role::operator_, access::Secret(std::string("a pass phrase of a bench"))});
     access::NewCredential wanted;

@@ -83,11 +83,11 @@ bool has_users(const std::string& db, const fs::path& data) {
   const store::DatabaseUrl url = store::parse_database_url(database_url(db, data));
   std::error_code failed;
   if (!url.postgresql && !fs::exists(url.file, failed)) return false;
-  return access::Gatehouse(*open_database(db, data)).users.any();
+  return access::AccessControl(*open_database(db, data)).users.any();
 }
 
 /// An expiring link for people who only watch; empty while everybody may do everything.
-std::string viewer_link(access::Gatehouse& gatehouse, const std::string& url) {
+std::string viewer_link(access::AccessControl& gatehouse, const std::string& url) {
   if (!gatehouse.users.any()) return {};
   access::NewCredential wanted;
   wanted.name = "the server's own, at its start";
@@ -96,8 +96,8 @@ std::string viewer_link(access::Gatehouse& gatehouse, const std::string& url) {
 }
 
 /// The viewer link goes to a person or a program that asked for it, never into a file of logs.
-void tell_address(const std::string& url, const openigtlink::Server* watched, access::Gatehouse& gatehouse,
-                  bool for_programs) {
+void tell_address(const std::string& url, const openigtlink::Server* watched,
+                  access::AccessControl& gatehouse, bool for_programs) {
   if (for_programs) {
     nlohmann::json told = {{"url", url}};
     if (watched != nullptr) told["openigtlink_port"] = watched->port();

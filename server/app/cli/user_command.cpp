@@ -5,13 +5,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "access/gatehouse.hpp"
+#include "access/access_control.hpp"
 #include "api/user_json.hpp"
 #include "app/cli/commands.hpp"
 #include "app/data_folder.hpp"
 #include "app/open_database.hpp"
 #include "app/password_prompt.hpp"
 #include "core/error.hpp"
+#include "core/text.hpp"
 
 namespace ream::app {
 namespace {
@@ -42,7 +43,7 @@ struct Office {
   }
 
   std::shared_ptr<store::Database> database;
-  access::Gatehouse gatehouse;
+  access::AccessControl gatehouse;
 };
 
 json to_json(const store::CredentialRow& row) {
@@ -63,7 +64,7 @@ void tell(const GlobalOptions& global, const json& for_programs, const std::stri
 void add(const UserOptions& options, const GlobalOptions& global) {
   Office office(global);
   const bool first = !office.gatehouse.users.any();
-  const std::string name = access::plain_name(options.name);
+  const std::string name = lower(options.name);
   access::require_user_name(name);
   if (office.gatehouse.users.find_by_name(name))
     throw Error(ErrorKind::conflict, "there is a user '" + name + "' already");

@@ -2,7 +2,7 @@
 
 #include <thread>
 
-#include "access/credential_secret.hpp"
+#include "access/secret.hpp"
 #include "support/expect_error.hpp"
 #include "support/hand_clock.hpp"
 #include "support/test_databases.hpp"
@@ -181,7 +181,7 @@ TEST_F(CredentialsTest, AnotherProcessSeesARevocationWithinSeconds) {
   const IssuedCredential issued = token("trainee");
   ASSERT_TRUE(other.identify(issued.secret, CredentialKind::token));
   credentials.revoke(issued.row.id);
-  std::this_thread::sleep_for(Credentials::memory + std::chrono::milliseconds(50));
+  std::this_thread::sleep_for(Credentials::cache_time + std::chrono::milliseconds(50));
   EXPECT_FALSE(other.identify(issued.secret, CredentialKind::token));
 }
 

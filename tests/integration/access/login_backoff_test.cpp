@@ -1,6 +1,5 @@
 #include "access/login_backoff.hpp"
 
-#include "access/too_many.hpp"
 #include "support/hand_clock.hpp"
 #include "support/test_databases.hpp"
 
@@ -15,9 +14,9 @@ class LoginBackoffTest : public test::TestDatabase<test::OnSqlite> {
   /// Seconds to wait; 0: none.
   int wait(const std::string& name, const std::string& address) {
     try {
-      backoff.require_patience(name, address);
+      backoff.require_allowed(name, address);
       return 0;
-    } catch (const TooMany& refused) {
+    } catch (const TooManyAttempts& refused) {
       return refused.retry_after_s();
     }
   }
@@ -29,13 +28,13 @@ class LoginBackoffTest : public test::TestDatabase<test::OnSqlite> {
 };
 
 TEST(LoginPatience, DoublesUpToItsEnd) {
-  const Patience patience{3, seconds(60), hours(1)};
-  EXPECT_EQ(wait_after(0, patience), seconds(0));
-  EXPECT_EQ(wait_after(2, patience), seconds(0));
-  EXPECT_EQ(wait_after(3, patience), seconds(1));
-  EXPECT_EQ(wait_after(6, patience), seconds(8));
-  EXPECT_EQ(wait_after(9, patience), seconds(60));
-  EXPECT_EQ(wait_after(1'000'000, patience), seconds(60));
+  const BackoffPolicy policy{3, seconds(60), hours(1)};
+  EXPECT_EQ(wait_after(0, policy), seconds(0));
+  EXPECT_EQ(wait_after(2, policy), seconds(0));
+  EXPECT_EQ(wait_after(3, policy), seconds(1));
+  EXPECT_EQ(wait_after(6, policy), seconds(8));
+  EXPECT_EQ(wait_after(9, policy), seconds(60));
+  EXPECT_EQ(wait_after(1'000'000, policy), seconds(60));
 }
 
 TEST(LoginPlace, IsANetworkWithIpv6) {
@@ -103,7 +102,7 @@ TEST_F(LoginBackoffTest, IsKeptAcrossProcessesWithoutNamesAndAddresses) {
   fail(6, "anna", "10.0.0.1");
   const auto again = open_again();
   LoginBackoff other(*again, clock.function());
-  EXPECT_THROW(other.require_patience("anna", "10.0.0.1"), TooMany);
+  EXPECT_THROW(other.require_allowed("anna", "10.0.0.1"), TooManyAttempts);
   other.forget("anna");
   EXPECT_EQ(wait("anna", "10.0.0.1"), 0);
 }

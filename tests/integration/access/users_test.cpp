@@ -2,8 +2,8 @@
 
 #include <fstream>
 
-#include "access/gatehouse.hpp"
-#include "access/too_many.hpp"
+#include "access/access_control.hpp"
+#include "access/login_backoff.hpp"
 #include "support/expect_error.hpp"
 #include "support/hand_clock.hpp"
 #include "support/test_databases.hpp"
@@ -17,8 +17,8 @@ Secret secret(std::string_view text) { return Secret(text); }
 class UsersTest : public test::TestDatabase<test::OnSqlite> {
  protected:
   UsersTest() : gatehouse(database(), options()) {}
-  GatehouseOptions options() {
-    GatehouseOptions made;
+  AccessOptions options() {
+    AccessOptions made;
     made.now = clock.function();
     made.cost = {1, size_t{8} << 10};
     return made;
@@ -34,7 +34,7 @@ class UsersTest : public test::TestDatabase<test::OnSqlite> {
   }
 
   test::HandClock clock;
-  Gatehouse gatehouse;
+  AccessControl gatehouse;
   Users& users = gatehouse.users;
 };
 
@@ -80,7 +80,7 @@ TEST_F(UsersTest, GuessingIsMadeSlowForKnownAndUnknownNamesAlike) {
   add("anna", Role::operator_);
   for (const char* name : {"anna", "nobody"}) {
     for (int i = 0; i < 4; ++i) EXPECT_FALSE(users.log_in(name, secret("guess"), here)) << name;
-    EXPECT_THROW(users.log_in(name, secret("password of anna"), here), TooMany) << name;
+    EXPECT_THROW(users.log_in(name, secret("password of anna"), here), TooManyAttempts) << name;
   }
   clock.pass(std::chrono::seconds(1));
   EXPECT_TRUE(users.log_in("anna", secret("password of anna"), here));
@@ -106,7 +106,7 @@ TEST_F(UsersTest, ANewPasswordByAnOperatorEndsCookiesAndForgives) {
   const IssuedCredential before = cookie(ben.id);
   for (int i = 0; i < 8; ++i) try {
       users.log_in("ben", secret("guess"), here);
-    } catch (const TooMany&) {
+    } catch (const TooManyAttempts&) {
       clock.pass(std::chrono::minutes(20));
     }
   UserChange change;
@@ -165,9 +165,9 @@ TEST_F(UsersTest, TheLastOperatorStays) {
 
 TEST_F(UsersTest, OutdatedHashesAreRenewedAtTheNextLogin) {
   add("anna", Role::operator_);
-  GatehouseOptions dearer = options();
+  AccessOptions dearer = options();
   dearer.cost = {2, size_t{16} << 10};
-  Gatehouse later(database(), dearer);
+  AccessControl later(database(), dearer);
   const auto hash = [&] {
     return store::UserTable(database(), "operator").find_by_name("anna")->password_hash;
   };
@@ -180,7 +180,7 @@ TEST_F(UsersTest, OutdatedHashesAreRenewedAtTheNextLogin) {
 TEST_F(UsersTest, AreFoundInTheDatabaseByAnotherProcess) {
   EXPECT_FALSE(users.any());
   const auto again = open_again();
-  Gatehouse other(*again, options());
+  AccessControl other(*again, options());
   other.users.add({"anna", "", Role::operator_, secret("password of anna")});
   for (int i = 0; i < 300 && !users.any(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_TRUE(users.any()) << "within a second or so";

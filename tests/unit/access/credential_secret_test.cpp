@@ -1,4 +1,4 @@
-#include "access/credential_secret.hpp"
+#include "access/secret.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-#include "access/too_many.hpp"
+#include "access/login_backoff.hpp"
 
 namespace ream::access {
 namespace {
@@ -56,7 +56,7 @@ TEST(PasswordHasher, RefusesACrowdAtOnceAndServesTheRest) {
       try {
         hasher.hash(secret("open sesame"));
         ++served;
-      } catch (const TooMany& busy) {
+      } catch (const TooManyAttempts& busy) {
         ++refused;
         retry = busy.retry_after_s();
       }

@@ -1,6 +1,6 @@
 #include "api/gate.hpp"
 
-#include "access/credential_secret.hpp"
+#include "access/secret.hpp"
 #include "api/login_cookie.hpp"
 #include "net/problem.hpp"
 #include "support/expect_error.hpp"
@@ -62,7 +62,7 @@ class GateTest : public test::TestDatabase<test::OnSqlite> {
     return found;
   }
 
-  access::Gatehouse gatehouse{database(), {machine_clock(), {}, {1, size_t{8} << 10}, 2}};
+  access::AccessControl gatehouse{database(), {machine_clock(), {}, {1, size_t{8} << 10}, 2}};
   Gate gate{&gatehouse, [this](const std::string& id) { return session(id); }};
   std::string anna, tom;
   const std::string users = "/api/v1/users", sessions = "/api/v1/sessions", login = "/api/v1/login";

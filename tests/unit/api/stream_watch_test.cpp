@@ -3,7 +3,7 @@
 #include <atomic>
 #include <thread>
 
-#include "access/gatehouse.hpp"
+#include "access/access_control.hpp"
 #include "support/fake_session.hpp"
 #include "support/test_databases.hpp"
 

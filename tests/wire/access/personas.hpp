@@ -1,7 +1,7 @@
 #pragma once
 #include <functional>
 
-#include "access/credential_secret.hpp"
+#include "access/secret.hpp"
 #include "api/rights.hpp"
 #include "wire/contract/access_fixture.hpp"
 

@@ -149,7 +149,7 @@ class AccessContractTest : public AccessTest {
   }
 
   void a_crowd() {
-    options.gatehouse.most_hashing = 0;
+    options.gatehouse.max_hashing = 0;
     start();
     const std::string anna_id = gatehouse().users.find_by_name("anna")->id;
     const Sent robot = token_of(anna_id);

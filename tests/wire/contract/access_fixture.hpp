@@ -15,7 +15,7 @@ class AccessTest : public ContractTest {
     options.gatehouse.cost = {1, size_t{8} << 10};
   }
 
-  access::Gatehouse& gatehouse() { return *server->gatehouse(); }
+  access::AccessControl& gatehouse() { return *server->gatehouse(); }
 
   /// Id of a new user.
   std::string add_user(const std::string& name, access::Role role) {

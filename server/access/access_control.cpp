@@ -1,4 +1,4 @@
-#include "access/audit_log.hpp"
+#include "access/access_control.hpp"
 
 #include "core/log.hpp"
 
