@@ -27,7 +27,7 @@ std::string print_of(const net::Request& request) {
   return to_hex(print);
 }
 
-net::Response response_of(const store::KeptAnswer& answer) {
+net::Response response_of(const store::StoredResponse& answer) {
   net::Response response = net::bytes_response(answer.status, answer.content_type, nullptr);
   if (!answer.body.empty()) response.body = net::share(answer.body);
   response.headers.emplace_back("Cache-Control", "no-store");
@@ -47,8 +47,8 @@ Idempotency::Idempotency(std::shared_ptr<store::Database> database, WallClock no
 
 int64_t Idempotency::oldest_ms() const { return in_ms(now_() - kept_for); }
 
-std::optional<store::KeptAnswer> Idempotency::find(const Name& name) const {
-  std::optional<store::KeptAnswer> found;
+std::optional<store::StoredResponse> Idempotency::find(const Name& name) const {
+  std::optional<store::StoredResponse> found;
   if (database_) {
     found = store::IdempotencyTable(*database_).find(name.first, name.second);
   } else {
@@ -60,14 +60,14 @@ std::optional<store::KeptAnswer> Idempotency::find(const Name& name) const {
 
 void Idempotency::keep(const Name& name, const std::string& request, const net::Response& response) {
   if (response.status >= 300 || response.body_bytes() > largest_body) return;
-  const store::KeptAnswer answer{name.first,
-                                 name.second,
-                                 request,
-                                 response.status,
-                                 response.content_type,
-                                 std::string(response.header("Location")),
-                                 text_of(response.body),
-                                 in_ms(now_())};
+  const store::StoredResponse answer{name.first,
+                                     name.second,
+                                     request,
+                                     response.status,
+                                     response.content_type,
+                                     std::string(response.header("Location")),
+                                     text_of(response.body),
+                                     in_ms(now_())};
   if (database_) {
     try {
       store::IdempotencyTable(*database_).put(answer);

@@ -34,7 +34,7 @@ class Idempotency {
 
  private:
   using Name = std::pair<std::string, std::string>;  ///< caller and key
-  std::optional<store::KeptAnswer> find(const Name& name) const;
+  std::optional<store::StoredResponse> find(const Name& name) const;
   void keep(const Name& name, const std::string& request, const net::Response& response);
   int64_t oldest_ms() const;
 
@@ -42,7 +42,7 @@ class Idempotency {
   const WallClock now_;
   mutable std::mutex mutex_;
   std::set<Name> under_way_;
-  std::map<Name, store::KeptAnswer> remembered_;  ///< without a database
+  std::map<Name, store::StoredResponse> remembered_;  ///< without a database
 };
 
 }  // namespace ream::api

@@ -13,23 +13,22 @@ void AuditTable::add(const AuditRow& row) {
   });
 }
 
-std::vector<AuditRow> AuditTable::list(int64_t before, int most) const {
+std::vector<AuditRow> AuditTable::list(int64_t before, int max_rows) const {
   const long long below = before;
   return database_.read([&](Sql& sql) {
     std::vector<AuditRow> rows;
     AuditRow row;
     long long number = 0;
-    soci::statement found =
+    for_each_row(
         (sql.prepare << "SELECT number, at_utc, user_id, name, role, credential, address, action, object, "
                         "detail FROM audit WHERE number < :below ORDER BY number DESC LIMIT :most",
-         use(below), use(most), into(number), into(row.at_utc), into(row.user_id), into(row.name),
+         use(below), use(max_rows), into(number), into(row.at_utc), into(row.user_id), into(row.name),
          into(row.role), into(row.credential), into(row.address), into(row.action), into(row.object),
-         into(row.detail));
-    found.execute();
-    while (found.fetch()) {
-      row.number = number;
-      rows.push_back(row);
-    }
+         into(row.detail)),
+        [&] {
+          row.number = number;
+          rows.push_back(row);
+        });
     return rows;
   });
 }

@@ -23,8 +23,8 @@ class AuditTable {
   explicit AuditTable(Database& database) : database_(database) {}
 
   void add(const AuditRow& row);
-  /// At most `most` rows with numbers below `before`, newest first.
-  std::vector<AuditRow> list(int64_t before, int most) const;
+  /// At most `max_rows` rows with numbers below `before`, newest first.
+  std::vector<AuditRow> list(int64_t before, int max_rows) const;
 
  private:
   Database& database_;

@@ -5,21 +5,13 @@
 namespace ream::store {
 namespace {
 
-/// `id` is what the statement reads each row into.
-std::vector<std::string> ids_of(soci::statement& found, const std::string& id) {
-  std::vector<std::string> ids;
-  found.execute();
-  while (found.fetch()) ids.push_back(id);
-  return ids;
-}
-
 void remove_with_children(Sql& sql, std::vector<std::string>& ids) {
   const size_t parents = ids.size();
   for (size_t i = 0; i < parents; ++i) {
+    const std::string parent = ids[i];
     std::string id;
-    soci::statement children =
-        (sql.prepare << "SELECT id FROM credentials WHERE parent_id = :id", use(ids[i]), into(id));
-    for (std::string& child : ids_of(children, id)) ids.push_back(std::move(child));
+    for_each_row((sql.prepare << "SELECT id FROM credentials WHERE parent_id = :id", use(parent), into(id)),
+                 [&] { ids.push_back(id); });
   }
   for (const std::string& id : ids) sql << "DELETE FROM credentials WHERE id = :id", use(id);
 }
@@ -64,15 +56,14 @@ std::vector<CredentialRow> CredentialTable::list(const std::string& kind, const 
   return database_.read([&](Sql& sql) {
     std::vector<CredentialRow> rows;
     CredentialRow row;
-    soci::statement found =
+    for_each_row(
         (sql.prepare << "SELECT id, kind, hash, user_id, role, name, session_id, parent_id, created_utc, "
                         "expires_utc, last_used_utc FROM credentials WHERE kind = :kind "
                         "AND (:anybody = '' OR user_id = :user_id) ORDER BY created_utc DESC, id",
          use(kind), use(user_id), use(user_id), into(row.id), into(row.kind), into(row.hash),
          into(row.user_id), into(row.role), into(row.name), into(row.session_id), into(row.parent_id),
-         into(row.created_utc), into(row.expires_utc), into(row.last_used_utc));
-    found.execute();
-    while (found.fetch()) rows.push_back(row);
+         into(row.created_utc), into(row.expires_utc), into(row.last_used_utc)),
+        [&] { rows.push_back(row); });
     return rows;
   });
 }
@@ -86,8 +77,9 @@ void CredentialTable::note_use(const std::string& id, const std::string& utc) {
 std::vector<std::string> CredentialTable::remove(const std::string& id) {
   return database_.run([&](Sql& sql) {
     std::string found;
-    soci::statement one = (sql.prepare << "SELECT id FROM credentials WHERE id = :id", use(id), into(found));
-    std::vector<std::string> ids = ids_of(one, found);
+    std::vector<std::string> ids;
+    for_each_row((sql.prepare << "SELECT id FROM credentials WHERE id = :id", use(id), into(found)),
+                 [&] { ids.push_back(found); });
     remove_with_children(sql, ids);
     return ids;
   });
@@ -97,10 +89,11 @@ std::vector<std::string> CredentialTable::remove_of_user(const std::string& user
                                                          const std::string& except) {
   return database_.run([&](Sql& sql) {
     std::string found;
-    soci::statement all = (sql.prepare << "SELECT id FROM credentials WHERE user_id = :user_id "
-                                          "AND (:any = '' OR kind = :kind) AND id <> :except",
-                           use(user_id), use(kind), use(kind), use(except), into(found));
-    std::vector<std::string> ids = ids_of(all, found);
+    std::vector<std::string> ids;
+    for_each_row((sql.prepare << "SELECT id FROM credentials WHERE user_id = :user_id "
+                                 "AND (:any = '' OR kind = :kind) AND id <> :except",
+                  use(user_id), use(kind), use(kind), use(except), into(found)),
+                 [&] { ids.push_back(found); });
     remove_with_children(sql, ids);
     return ids;
   });

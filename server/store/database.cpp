@@ -9,12 +9,12 @@
 #include "store/connection_pool.hpp"
 #include "store/dialect.hpp"
 #include "store/migrations.hpp"
-#include "store/sql_failure.hpp"
+#include "store/sql.hpp"
 
 namespace ream::store {
 namespace {
 
-constexpr int most_attempts = 12;
+constexpr int max_attempts = 12;
 
 /// Longer from attempt to attempt, and by chance, so that two that collided do not do so again.
 void pause_before(int attempt) {
@@ -24,21 +24,21 @@ void pause_before(int attempt) {
 }
 
 /// This thread is inside a transaction.
-thread_local bool inside = false;
+thread_local bool in_transaction = false;
 
-class Inside {
+class TransactionGuard {
  public:
-  Inside() {
-    if (inside) throw std::logic_error("a database transaction inside another one");
-    inside = true;
+  TransactionGuard() {
+    if (in_transaction) throw std::logic_error("a database transaction inside another one");
+    in_transaction = true;
   }
-  ~Inside() { inside = false; }
-  Inside(const Inside&) = delete;
-  Inside& operator=(const Inside&) = delete;
+  ~TransactionGuard() { in_transaction = false; }
+  TransactionGuard(const TransactionGuard&) = delete;
+  TransactionGuard& operator=(const TransactionGuard&) = delete;
 };
 
 /// An unstorable text is the cause of what fails after it.
-void act(Sql& sql, const std::function<void(Sql&)>& action) {
+void run_action(Sql& sql, const std::function<void(Sql&)>& action) {
   forget_unstorable();
   try {
     action(sql);
@@ -84,7 +84,7 @@ bool Database::Connections::attempt(Access access, const std::function<void(Sql&
   try {
     if (!at_length) pool_.watch(lease->sql(), watch);
     begin(lease->sql(), access);
-    act(lease->sql(), action);
+    run_action(lease->sql(), action);
     committing = true;
     lease->sql() << "COMMIT";
     return true;
@@ -126,8 +126,8 @@ const std::string& Database::name() const { return connections_->url().shown; }
 bool Database::is_postgresql() const { return connections_->url().postgresql; }
 
 void Database::transact(Access access, const std::function<void(Sql&)>& action) {
-  const Inside guard;
-  for (int attempt = 1; !connections_->attempt(access, action, attempt == most_attempts); ++attempt)
+  const TransactionGuard guard;
+  for (int attempt = 1; !connections_->attempt(access, action, attempt == max_attempts); ++attempt)
     pause_before(attempt);
 }
 

@@ -11,7 +11,7 @@ constexpr std::string_view sqlite_scheme = "sqlite:";
 
 /// What libpq is told unless the URI says otherwise: a server that has gone is noticed within seconds, and
 /// texts are UTF-8.
-constexpr std::pair<const char*, const char*> usual_parameters[] = {
+constexpr std::pair<const char*, const char*> default_parameters[] = {
     {"connect_timeout", "3"},     {"keepalives_idle", "5"},      {"keepalives_interval", "2"},
     {"keepalives_count", "3"},    {"tcp_user_timeout", "10000"}, {"client_encoding", "UTF8"},
     {"application_name", "ream"},
@@ -44,7 +44,7 @@ DatabaseUrl postgresql_url(const std::string& text, size_t scheme_length) {
   url.shown = "postgresql://" + (at == std::string::npos ? place : place.substr(at + 1));
   url.connect = text;
   char separator = question == std::string::npos ? '?' : '&';
-  for (const auto& [name, value] : usual_parameters) {
+  for (const auto& [name, value] : default_parameters) {
     if (names_parameter(parameters, name)) continue;
     url.connect += separator + std::string(name) + "=" + value;
     separator = '&';

@@ -109,7 +109,7 @@ std::vector<Column> columns_of(Sql& sql, const std::string& table) {
   return columns;
 }
 
-void go_on_numbering(Sql& sql, const std::string& table) {
+void advance_identity(Sql& sql, const std::string& table) {
   if (!on_postgresql(sql)) return;  // SQLite does so by itself
   std::string column;
   sql << "SELECT column_name FROM information_schema.columns WHERE table_schema = current_schema() AND "

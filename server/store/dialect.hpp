@@ -30,7 +30,7 @@ struct Column {
 std::vector<Column> columns_of(Sql& sql, const std::string& table);
 
 /// The table's NUMBERED_KEY goes on behind its largest number.
-void go_on_numbering(Sql& sql, const std::string& table);
+void advance_identity(Sql& sql, const std::string& table);
 
 void begin_writing(Sql& sql);
 void begin_reading(Sql& sql);

@@ -4,9 +4,10 @@
 
 namespace ream::store {
 
-std::optional<KeptAnswer> IdempotencyTable::find(const std::string& caller, const std::string& key) const {
-  return database_.read([&](Sql& sql) -> std::optional<KeptAnswer> {
-    KeptAnswer answer{caller, key, {}, 0, {}, {}, {}, 0};
+std::optional<StoredResponse> IdempotencyTable::find(const std::string& caller,
+                                                     const std::string& key) const {
+  return database_.read([&](Sql& sql) -> std::optional<StoredResponse> {
+    StoredResponse answer{caller, key, {}, 0, {}, {}, {}, 0};
     long long status = 0, at_ms = 0;
     sql << "SELECT request, status, content_type, location, body, at_ms FROM kept_answers "
            "WHERE caller = :caller AND key = :key",
@@ -19,7 +20,7 @@ std::optional<KeptAnswer> IdempotencyTable::find(const std::string& caller, cons
   });
 }
 
-void IdempotencyTable::put(const KeptAnswer& answer) {
+void IdempotencyTable::put(const StoredResponse& answer) {
   const long long status = answer.status, at_ms = answer.at_ms;
   database_.run([&](Sql& sql) {
     sql << "INSERT INTO kept_answers (caller, key, request, status, content_type, location, body, at_ms) "

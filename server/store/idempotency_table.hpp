@@ -8,14 +8,14 @@
 namespace ream::store {
 
 /// What was answered to a request that its sender may repeat.
-struct KeptAnswer {
+struct StoredResponse {
   std::string caller, key;  ///< whose request it was, and what its sender called it
   std::string request;      ///< tells different requests apart
   int status = 0;
   std::string content_type, location, body;
   int64_t at_ms = 0;  ///< since 1970
 
-  bool operator==(const KeptAnswer&) const = default;
+  bool operator==(const StoredResponse&) const = default;
 };
 
 /// Answers by caller and key. Thread-safe; errors are those of Database.
@@ -23,9 +23,9 @@ class IdempotencyTable {
  public:
   explicit IdempotencyTable(Database& database) : database_(database) {}
 
-  std::optional<KeptAnswer> find(const std::string& caller, const std::string& key) const;
+  std::optional<StoredResponse> find(const std::string& caller, const std::string& key) const;
   /// Takes the place of one with the same caller and key.
-  void put(const KeptAnswer& answer);
+  void put(const StoredResponse& answer);
   void remove_before(int64_t at_ms);
 
  private:

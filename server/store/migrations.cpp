@@ -34,9 +34,8 @@ std::set<int> done(Sql& sql) {
                     "CREATE TABLE IF NOT EXISTS migrations (number BIGINT PRIMARY KEY, name TEXT NOT NULL)");
   std::set<int> numbers;
   int number = 0;
-  soci::statement rows = (sql.prepare << "SELECT number FROM migrations", into(number));
-  rows.execute();
-  while (rows.fetch()) numbers.insert(number);
+  for_each_row((sql.prepare << "SELECT number FROM migrations", into(number)),
+               [&] { numbers.insert(number); });
   return numbers;
 }
 

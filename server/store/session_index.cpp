@@ -153,7 +153,7 @@ Conditions filters_of(const SessionQuery& query, const std::vector<std::string>&
 }
 
 /// What a row is read into where its own fields are of other types.
-struct Read {
+struct RowReader {
   SessionRow row;
   int lasting = 0;
   double points = without_points;
@@ -166,7 +166,7 @@ struct Read {
   }
 };
 
-void read_columns(OpenStatement& statement, Read& read) {
+void read_columns(OpenStatement& statement, RowReader& read) {
   SessionRow& row = read.row;
   statement.into(row.id).into(row.case_id).into(row.script).into(row.state).into(row.created_utc);
   statement.into(row.duration_s).into(row.trainee_id).into(row.trainee).into(row.study);
@@ -206,10 +206,10 @@ std::vector<SessionRow> page(Sql& sql, const SessionQuery& query, Conditions con
   const double number = place && numbers ? number_of(*place) : 0.0;
   if (place && numbers) statement.with(number).with(place->id);
   if (place && !numbers) statement.with(place->key).with(place->id);
-  const auto most = static_cast<long long>(std::min<size_t>(query.limit, INT64_MAX - 1) + 1);
-  statement.with(most);
+  const auto max_rows = static_cast<long long>(std::min<size_t>(query.limit, INT64_MAX - 1) + 1);
+  statement.with(max_rows);
   std::vector<SessionRow> rows;
-  Read read;
+  RowReader read;
   read_columns(statement, read);
   statement.each([&] { rows.push_back(read.whole()); });
   return rows;
@@ -238,7 +238,7 @@ void SessionIndex::replace_all(const std::vector<SessionRow>& rows) {
 std::optional<SessionRow> SessionIndex::get(const std::string& id) const {
   return database_.read([&](Sql& sql) {
     std::optional<SessionRow> found;
-    Read read;
+    RowReader read;
     OpenStatement statement(sql, with_records("SELECT * FROM sessions WHERE id = :id"));
     statement.with(id);
     read_columns(statement, read);

@@ -1,8 +1,13 @@
 #include "store/session_query.hpp"
 
+#include <locale.h>
+#include <wctype.h>
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <climits>
+#include <cwchar>
+#include <sstream>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -10,7 +15,7 @@
 namespace ream::store {
 namespace {
 
-constexpr std::array<const char*, 6> order_words{"created_utc", "duration_s", "case",
+constexpr std::array<const char*, 6> order_names{"created_utc", "duration_s", "case",
                                                  "trainee",     "state",      "points"};
 
 std::string number_text(double number) {
@@ -51,22 +56,38 @@ SessionPlace place_of(SessionOrder order, const SessionRow& row) { return {key_o
 
 /// The order of a cursor, so that it is not used for another one.
 std::string order_mark(const SessionQuery& query) {
-  return std::string(query.descending ? "-" : "+") + order_words[static_cast<size_t>(query.order)];
+  return std::string(query.descending ? "-" : "+") + order_names[static_cast<size_t>(query.order)];
 }
 
-bool is_or_any(const std::string& wanted, const std::string& value) {
-  return wanted.empty() || wanted == value;
+bool matches_filter(const std::string& filter, const std::string& value) {
+  return filter.empty() || filter == value;
 }
 
-bool is_among(const std::vector<std::string>& wanted, const std::string& value) {
-  return wanted.empty() || std::find(wanted.begin(), wanted.end(), value) != wanted.end();
+bool is_any_of(const std::vector<std::string>& filter, const std::string& value) {
+  return filter.empty() || std::find(filter.begin(), filter.end(), value) != filter.end();
 }
 
-bool has_wanted_points(const SessionQuery& query, const SessionRow& row) {
+bool matches_points(const SessionQuery& query, const SessionRow& row) {
   if (!query.points_from && !query.points_to) return true;
   return row.points && *row.points >= query.points_from.value_or(*row.points) &&
          *row.points <= query.points_to.value_or(*row.points);
 }
+
+/// The C library reads and writes UTF-8 on this thread as long as it lives.
+class Utf8Thread {
+ public:
+  Utf8Thread() : before_(::uselocale(utf8())) {}
+  ~Utf8Thread() { ::uselocale(before_); }
+  Utf8Thread(const Utf8Thread&) = delete;
+  Utf8Thread& operator=(const Utf8Thread&) = delete;
+
+ private:
+  static locale_t utf8() {
+    static const locale_t locale = ::newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
+    return locale;
+  }
+  const locale_t before_;
+};
 
 }  // namespace
 
@@ -81,17 +102,17 @@ double number_of(const SessionPlace& place) {
 }
 
 std::optional<SessionOrder> session_order_from(const std::string& word) {
-  const auto found = std::find(order_words.begin(), order_words.end(), word);
-  if (found == order_words.end()) return std::nullopt;
-  return static_cast<SessionOrder>(found - order_words.begin());
+  const auto found = std::find(order_names.begin(), order_names.end(), word);
+  if (found == order_names.end()) return std::nullopt;
+  return static_cast<SessionOrder>(found - order_names.begin());
 }
 
 bool matches(const SessionQuery& query, const SessionRow& row) {
-  if (!is_among(query.states, row.state) || !has_wanted_points(query, row) ||
-      !is_among(query.outcomes, row.outcome.empty() ? "none" : row.outcome))
+  if (!is_any_of(query.states, row.state) || !matches_points(query, row) ||
+      !is_any_of(query.outcomes, row.outcome.empty() ? "none" : row.outcome))
     return false;
-  if (!is_or_any(query.case_id, row.case_id) || !is_or_any(query.trainee_id, row.trainee_id) ||
-      !is_or_any(query.study, row.study) || !is_or_any(query.participant, row.participant))
+  if (!matches_filter(query.case_id, row.case_id) || !matches_filter(query.trainee_id, row.trainee_id) ||
+      !matches_filter(query.study, row.study) || !matches_filter(query.participant, row.participant))
     return false;
   if (query.outside_studies && !row.study.empty()) return false;
   if (row.created_utc < query.created_from) return false;
@@ -124,6 +145,44 @@ std::optional<SessionPlace> place_of_cursor(const SessionQuery& query) {
     throw Error(ErrorKind::invalid_input,
                 "cursor is none that this list has given; leave it out to begin with the first page");
   return SessionPlace{text.substr(end + 1), text.substr(mark.size(), end - mark.size())};
+}
+
+std::string folded(const std::string& utf8) {
+  const Utf8Thread thread;
+  std::string text;
+  std::mbstate_t reading{}, writing{};
+  for (size_t at = 0; at < utf8.size();) {
+    wchar_t letter = 0;
+    const size_t length = std::mbrtowc(&letter, utf8.data() + at, utf8.size() - at, &reading);
+    char bytes[MB_LEN_MAX];
+    const bool readable = length != 0 && length <= utf8.size() - at;
+    const size_t made =
+        readable
+            ? std::wcrtomb(bytes, static_cast<wchar_t>(::towlower(static_cast<wint_t>(letter))), &writing)
+            : MB_LEN_MAX + 1;
+    if (made <= MB_LEN_MAX)
+      text.append(bytes, made);
+    else
+      text += utf8[at];
+    if (!readable) reading = {};
+    at += readable ? length : 1;
+  }
+  return text;
+}
+
+std::string searched_text(const SessionRow& row) {
+  std::string text;
+  for (const std::string& part :
+       {row.id, row.title, row.trainee, row.participant, row.study, row.case_id, row.script})
+    if (!part.empty()) text += part + '\n';
+  return folded(text);
+}
+
+std::vector<std::string> searched_words(const SessionQuery& query) {
+  std::istringstream text(folded(query.text));
+  std::vector<std::string> words;
+  for (std::string word; text >> word;) words.push_back(word);
+  return words;
 }
 
 }  // namespace ream::store

@@ -1,11 +1,4 @@
 #pragma once
-#include <soci/soci.h>
-
-#include <string>
-#include <type_traits>
-
-#include "store/database.hpp"
-
 /// What repositories need of SOCI. Included by sources of this room only.
 ///
 ///   database.run([&](Sql& sql) {
@@ -20,6 +13,13 @@
 /// SQL is what both stores understand ("ON CONFLICT (id) DO UPDATE SET name = excluded.name" is). Columns are
 /// NOT NULL, for into() of a NULL throws. Whole numbers are read into long long or int64_t; SOCI knows no
 /// bool.
+#include <soci/soci.h>
+#include <string>
+#include <type_traits>
+
+#include "core/error.hpp"
+#include "store/database.hpp"
+
 namespace ream::store {
 
 using soci::into;
@@ -43,6 +43,14 @@ auto use(const T& value) {
 }
 template <typename T>
 void use(const T&&) = delete;
+
+/// Runs what was prepared and calls `row` after each row has come.
+template <typename Row>
+void for_each_row(const soci::details::prepare_temp_type& prepared, Row&& row) {
+  soci::statement statement(prepared);
+  statement.execute();
+  while (statement.fetch()) row();
+}
 
 /// A statement with as many parameters as it turns out to need.
 class OpenStatement {
@@ -73,9 +81,7 @@ class OpenStatement {
   /// Calls `row` after each row has come.
   template <typename Row>
   void each(Row&& row) {
-    soci::statement statement(made_);
-    statement.execute();
-    while (statement.fetch()) row();
+    for_each_row(made_, std::forward<Row>(row));
   }
   /// To be executed again and again, with what the variables of with() hold each time.
   soci::statement prepared() { return soci::statement(made_); }
@@ -83,5 +89,15 @@ class OpenStatement {
  private:
   soci::details::prepare_temp_type made_;
 };
+
+/// What a failed statement means for its transaction. Internal to this room.
+struct SqlFailure {
+  bool lost = false;   ///< the connection is of no more use
+  bool again = false;  ///< the same transaction may well succeed when it is run again
+  Error error;         ///< for the caller: one line, without values of parameters
+};
+
+/// `database`: its name for people.
+SqlFailure failure_of(const soci::soci_error& error, bool connection_lost, const std::string& database);
 
 }  // namespace ream::store

@@ -84,12 +84,11 @@ std::vector<StudyRow> StudyTable::list() const {
   return database_.read([](Sql& sql) {
     std::vector<StudyRow> found;
     StudyRow row;
-    soci::statement rows =
+    for_each_row(
         (sql.prepare << std::string(study_columns) + "ORDER BY created_utc DESC, id", into(row.id),
          into(row.name), into(row.description), into(row.state), into(row.join_code), into(row.settings),
-         into(row.questionnaire), into(row.created_utc), into(row.closed_utc), into(row.unblinded_utc));
-    rows.execute();
-    while (rows.fetch()) found.push_back(row);
+         into(row.questionnaire), into(row.created_utc), into(row.closed_utc), into(row.unblinded_utc)),
+        [&] { found.push_back(row); });
     return found;
   });
 }
@@ -144,16 +143,15 @@ std::vector<ParticipantRow> StudyTable::participants(const std::string& study) c
     std::vector<ParticipantRow> found;
     ParticipantRow row;
     long long procedures_done = 0;
-    soci::statement rows =
+    for_each_row(
         (sql.prepare << "SELECT code, study, experience, procedures_done, answers FROM study_participants "
                         "WHERE study = :study ORDER BY code",
          use(study), into(row.code), into(row.study), into(row.experience), into(procedures_done),
-         into(row.answers));
-    rows.execute();
-    while (rows.fetch()) {
-      row.procedures_done = procedures_done;
-      found.push_back(row);
-    }
+         into(row.answers)),
+        [&] {
+          row.procedures_done = procedures_done;
+          found.push_back(row);
+        });
     return found;
   });
 }
@@ -170,11 +168,10 @@ std::vector<PersonRow> StudyTable::persons(const std::string& study) const {
   return database_.read([&](Sql& sql) {
     std::vector<PersonRow> found;
     PersonRow row;
-    soci::statement rows =
+    for_each_row(
         (sql.prepare << "SELECT code, user_id, name FROM study_persons WHERE study = :study ORDER BY code",
-         use(study), into(row.code), into(row.user_id), into(row.name));
-    rows.execute();
-    while (rows.fetch()) found.push_back(row);
+         use(study), into(row.code), into(row.user_id), into(row.name)),
+        [&] { found.push_back(row); });
     return found;
   });
 }
@@ -199,10 +196,9 @@ std::map<std::string, std::string> StudyTable::codes_of(const std::string& user_
   return database_.read([&](Sql& sql) {
     std::map<std::string, std::string> found;
     std::string study, code;
-    soci::statement rows = (sql.prepare << "SELECT study, code FROM study_persons WHERE user_id = :user_id",
-                            use(user_id), into(study), into(code));
-    rows.execute();
-    while (rows.fetch()) found[study] = code;
+    for_each_row((sql.prepare << "SELECT study, code FROM study_persons WHERE user_id = :user_id",
+                  use(user_id), into(study), into(code)),
+                 [&] { found[study] = code; });
     return found;
   });
 }

@@ -169,7 +169,7 @@ uint64_t TableReader::read() {
     insert.execute(true);
     ++count;
   }
-  go_on_numbering(sql_, table_);
+  advance_identity(sql_, table_);
   return count;
 }
 

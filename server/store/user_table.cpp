@@ -83,14 +83,13 @@ std::vector<UserRow> UserTable::list() const {
     std::vector<UserRow> rows;
     UserRow row;
     int enabled = 0;
-    soci::statement found =
+    for_each_row(
         (sql.prepare << columns + "ORDER BY name", into(row.id), into(row.name), into(row.display_name),
-         into(row.role), into(row.created_utc), into(row.password_hash), into(enabled));
-    found.execute();
-    while (found.fetch()) {
-      row.enabled = enabled != 0;
-      rows.push_back(row);
-    }
+         into(row.role), into(row.created_utc), into(row.password_hash), into(enabled)),
+        [&] {
+          row.enabled = enabled != 0;
+          rows.push_back(row);
+        });
     return rows;
   });
 }

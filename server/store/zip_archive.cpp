@@ -47,7 +47,7 @@ struct Packing {
   static int cancelled(zip_t*, void* state) noexcept { return static_cast<Packing*>(state)->refusal ? 1 : 0; }
 };
 
-std::string words_of(int code) {
+std::string message_of(int code) {
   zip_error_t error;
   zip_error_init_with_code(&error, code);
   std::string words = zip_error_strerror(&error);
@@ -64,7 +64,7 @@ std::unique_ptr<zip_t, Discard> open_to_read(const fs::path& path) {
   if (!archive && code == ZIP_ER_OPEN)
     throw Error(ErrorKind::io, "cannot read " + path.string() + ": " + std::strerror(errno));
   if (!archive)
-    throw Error(ErrorKind::invalid_input, path.string() + " is no whole zip archive: " + words_of(code));
+    throw Error(ErrorKind::invalid_input, path.string() + " is no whole zip archive: " + message_of(code));
   return archive;
 }
 
@@ -183,7 +183,7 @@ void write_zip(const fs::path& path, const std::vector<ArchiveEntry>& entries, c
   const fs::path temporary = path.string() + ".tmp";
   int code = 0;
   std::unique_ptr<zip_t, Discard> archive(zip_open(temporary.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code));
-  if (!archive) throw Error(ErrorKind::io, "cannot write " + path.string() + ": " + words_of(code));
+  if (!archive) throw Error(ErrorKind::io, "cannot write " + path.string() + ": " + message_of(code));
   for (const ArchiveEntry& entry : entries) write_entry(archive.get(), entry, path);
   Packing packing{progress, nullptr};
   zip_register_progress_callback_with_state(archive.get(), progress_step, &Packing::tell, nullptr, &packing);

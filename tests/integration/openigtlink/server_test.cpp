@@ -45,7 +45,7 @@ class OpenIgtlinkServer : public testing::Test {
 
 TEST_F(OpenIgtlinkServer, SaysThatNothingRuns) {
   SlicerClient client(server_.port());
-  const IgtlReading status = client.drain_input("Simulator");
+  const IgtlReading status = client.hear("Simulator");
   EXPECT_EQ(status.code, 13);
   EXPECT_EQ(status.text, "no session has been started");
 }
@@ -54,18 +54,18 @@ TEST_F(OpenIgtlinkServer, WhoComesGetsEverythingAndThenWhatChanges) {
   WatchedBall ball;
   active_session_->set(ball.session());
   SlicerClient client(server_.port());
-  EXPECT_EQ(client.drain_input("Session").text, "s1: a ball");
-  EXPECT_EQ(client.drain_input("Reamer").triangles.size(), 4u);
-  EXPECT_TRUE(corners_of(client.drain_input("Bone")) == corners_of(ball.surface()));
+  EXPECT_EQ(client.hear("Session").text, "s1: a ball");
+  EXPECT_EQ(client.hear("Reamer").triangles.size(), 4u);
+  EXPECT_TRUE(corners_of(client.hear("Bone")) == corners_of(ball.surface()));
   ball.tell(10.0);
-  const IgtlReading tool = client.drain_input("ReamerToRas");
+  const IgtlReading tool = client.hear("ReamerToRas");
   EXPECT_EQ(tool.transform, (std::array<float, 12>{-1, 0, 0, 0, -1, 0, 0, 0, 1, -10, -2, 3}));
   ball.tell(10.0);
-  EXPECT_EQ(client.drain_input("Force").values, (std::vector<double>{52.0, 2.0}));
+  EXPECT_EQ(client.hear("Force").values, (std::vector<double>{52.0, 2.0}));
   ball.tell(10.0);
-  EXPECT_EQ(client.drain_input("Torque").values, std::vector<double>{0.25});
+  EXPECT_EQ(client.hear("Torque").values, std::vector<double>{0.25});
   ball.cut(17);
-  EXPECT_TRUE(corners_of(client.drain_input("Bone")) == corners_of(ball.surface()));
+  EXPECT_TRUE(corners_of(client.hear("Bone")) == corners_of(ball.surface()));
   ball.tell(11.0, stream::SessionState::paused);
   EXPECT_EQ(
       client.hear_until("a pause", [](const IgtlReading& r) { return r.name == "Simulator" && r.code != 1; })
@@ -77,11 +77,11 @@ TEST_F(OpenIgtlinkServer, TheSessionThatWasShownLastIsTheOne) {
   WatchedBall first("first"), second("second");
   active_session_->set(first.session());
   SlicerClient client(server_.port());
-  EXPECT_EQ(client.drain_input("Session").text, "first: a ball");
+  EXPECT_EQ(client.hear("Session").text, "first: a ball");
   second.cut(17);
   active_session_->set(second.session());
-  EXPECT_EQ(client.drain_input("Session").text, "second: a ball");
-  EXPECT_TRUE(corners_of(client.drain_input("Bone")) == corners_of(second.surface()));
+  EXPECT_EQ(client.hear("Session").text, "second: a ball");
+  EXPECT_TRUE(corners_of(client.hear("Bone")) == corners_of(second.surface()));
   until_viewers(first, 0);
 }
 
@@ -91,13 +91,13 @@ TEST_F(OpenIgtlinkServer, FollowsASessionOnlyWhileSomebodyWatches) {
   EXPECT_EQ(ball.fanout().viewers(), 0u);
   {
     SlicerClient client(server_.port());
-    client.drain_input("Bone");
+    client.hear("Bone");
     EXPECT_EQ(ball.fanout().viewers(), 1u);
   }
   until_viewers(ball, 0);
   ball.cut(17);
   SlicerClient again(server_.port());
-  EXPECT_TRUE(corners_of(again.drain_input("Bone")) == corners_of(ball.surface()));
+  EXPECT_TRUE(corners_of(again.hear("Bone")) == corners_of(ball.surface()));
 }
 
 TEST_F(OpenIgtlinkServer, AClientThatDoesNotReadDisturbsNobodyAndThenGetsTheNewest) {
@@ -105,11 +105,11 @@ TEST_F(OpenIgtlinkServer, AClientThatDoesNotReadDisturbsNobodyAndThenGetsTheNewe
   active_session_->set(ball.session());
   SlicerClient sleeper(server_.port());
   SlicerClient client(server_.port());
-  client.drain_input("Bone");
+  client.hear("Bone");
   // Far more than the kernel takes for the sleeper.
   for (int brick = 0; brick < WatchedBall::bricks - 1; ++brick) {
     ball.cut(brick);
-    client.drain_input("Bone");
+    client.hear("Bone");
   }
   tell_until_heard(ball, client, 77.0);
   sleeper.hear_until("the tool where it is now", [&](const IgtlReading& reading) {
@@ -125,7 +125,7 @@ TEST_F(OpenIgtlinkServer, AClientThatIsKilledInAMessageDisturbsNobody) {
   WatchedBall ball;
   active_session_->set(ball.session());
   SlicerClient client(server_.port());
-  client.drain_input("Bone");
+  client.hear("Bone");
   for (int i = 0; i < 5; ++i) {
     SlicerClient killed(server_.port());
     killed.raw(100 + static_cast<size_t>(i) * 1000);
@@ -149,7 +149,7 @@ TEST_F(OpenIgtlinkServer, OnlySoManyMayCome) {
   std::vector<std::unique_ptr<SlicerClient>> clients;
   for (size_t i = 0; i < on_any_port().max_clients; ++i) {
     clients.push_back(std::make_unique<SlicerClient>(server_.port()));
-    clients.back()->drain_input("Bone");
+    clients.back()->hear("Bone");
   }
   SlicerClient one_more(server_.port());
   EXPECT_THROW(one_more.next(), std::runtime_error);
@@ -162,10 +162,10 @@ TEST_F(OpenIgtlinkServer, ASessionThatIsGoneIsNotWaitedFor) {
     active_session_->set(ball.session());
   }
   SlicerClient client(server_.port());
-  EXPECT_EQ(client.drain_input("Session").text, "s1: a ball");
+  EXPECT_EQ(client.hear("Session").text, "s1: a ball");
   WatchedBall next("next");
   active_session_->set(next.session());
-  EXPECT_TRUE(corners_of(client.drain_input("Bone")) == corners_of(next.surface()));
+  EXPECT_TRUE(corners_of(client.hear("Bone")) == corners_of(next.surface()));
 }
 
 TEST_F(OpenIgtlinkServer, APortInUseIsSaidInOneLine) {

@@ -243,8 +243,8 @@ TEST(PostgresqlDatabase, DoesNotWaitForAServerThatHangs) {
   server.go_on();
   for (int answer = 0; answer != 1;) try {
       answer = one(database);
-    } catch (const Error& away) {
-      ASSERT_EQ(away.kind(), ErrorKind::unavailable) << away.what();
+    } catch (const Error& unreachable) {
+      ASSERT_EQ(unreachable.kind(), ErrorKind::unavailable) << unreachable.what();
     }
 }
 

@@ -5,7 +5,7 @@
 namespace ream::store {
 namespace {
 
-KeptAnswer answer(const std::string& caller, const std::string& key, int64_t at_ms) {
+StoredResponse answer(const std::string& caller, const std::string& key, int64_t at_ms) {
   return {caller,
           key,
           "0123456789abcdef",
@@ -34,7 +34,7 @@ TYPED_TEST(IdempotencyTableTest, GivesBackEveryColumnByCallerAndKey) {
 
 TYPED_TEST(IdempotencyTableTest, ANewerAnswerTakesThePlaceAndOldOnesGo) {
   this->answers.put(answer("anna", "k1", 10));
-  KeptAnswer newer = answer("anna", "k1", 20);
+  StoredResponse newer = answer("anna", "k1", 20);
   newer.body = "{}";
   newer.status = 202;
   this->answers.put(newer);
