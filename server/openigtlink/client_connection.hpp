@@ -47,7 +47,7 @@ class ClientConnection {
   bool choose(const MessageCache& cache);
 
   FileDescriptor socket_;
-  std::array<uint64_t, topic_count> sent_versions_{};  ///< editions
+  std::array<uint64_t, topic_count> sent_versions_{};
   size_t turn_ = 0;
   Message writing_;  ///< null: nothing
   size_t written_ = 0;

@@ -40,12 +40,13 @@ thread_local bool unstorable = false;
 
 /// The first line, without what libpq and SOCI put before it. Never what(), which has the values too.
 std::string message_of(const soci::soci_error& error) {
-  std::string words = error.get_error_message();
+  std::string message = error.get_error_message();
   for (const std::string_view before : {"failed: ", "Connection failed. ", "FATAL:  ", "ERROR:  "})
-    if (const size_t at = words.rfind(before); at != std::string::npos) words.erase(0, at + before.size());
-  words.erase(std::min(words.find('\n'), words.size()));
-  while (!words.empty() && (words.back() == ' ' || words.back() == '.')) words.pop_back();
-  return words;
+    if (const size_t at = message.rfind(before); at != std::string::npos)
+      message.erase(0, at + before.size());
+  message.erase(std::min(message.find('\n'), message.size()));
+  while (!message.empty() && (message.back() == ' ' || message.back() == '.')) message.pop_back();
+  return message;
 }
 
 Error unreachable(const std::string& database, const std::string& why) {
@@ -66,36 +67,36 @@ Error failed(const std::string& database, const std::string& why) {
 }
 
 SqlFailure sqlite_failure(const soci::sqlite3_soci_error& error, const std::string& database) {
-  const std::string words = message_of(error);
+  const std::string message = message_of(error);
   constexpr int without_detail = 0xff;
   switch (error.result() & without_detail) {
     case SQLITE_BUSY:  // it has been waited for as long as the limits say
     case SQLITE_LOCKED:
-      return {false, false, busy(database, words)};
+      return {false, false, busy(database, message)};
     case SQLITE_CONSTRAINT:
-      return {false, false, contradiction(words)};
+      return {false, false, contradiction(message)};
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
       return {true,
               false,
               {ErrorKind::io,
-               "the database at " + database + " is damaged (" + words +
+               "the database at " + database + " is damaged (" + message +
                    "); restore a backup, or move the file away (sessions are found again in their folders)"}};
     default:
-      return {true, false, failed(database, words)};
+      return {true, false, failed(database, message)};
   }
 }
 
 /// By PostgreSQL's SQLSTATE; its first two letters are the class.
-SqlFailure postgresql_failure(const std::string& state, bool lost, const std::string& words,
+SqlFailure postgresql_failure(const std::string& state, bool lost, const std::string& message,
                               const std::string& database) {
   const std::string kind = state.substr(0, 2);
-  if (kind == "40") return {lost, true, busy(database, words)};
-  if (kind == "23") return {lost, false, contradiction(words)};
-  if (state == "57014" || state == "55P03") return {lost, false, busy(database, words)};
+  if (kind == "40") return {lost, true, busy(database, message)};
+  if (kind == "23") return {lost, false, contradiction(message)};
+  if (state == "57014" || state == "55P03") return {lost, false, busy(database, message)};
   if (lost || kind == "08" || kind == "57" || kind == "53" || kind == "28" || kind == "3D")
-    return {true, false, unreachable(database, words)};
-  return {lost, false, failed(database, words)};
+    return {true, false, unreachable(database, message)};
+  return {lost, false, failed(database, message)};
 }
 
 }  // namespace

@@ -149,22 +149,22 @@ TYPED_TEST(SessionIndexTest, FindsPageByPageWhatItsWordsSay) {
     SessionQuery query = random.query();
     std::vector<std::string> except;
     for (int i = random.pick(4); i > 0; --i) except.push_back(all[static_cast<size_t>(random.pick(120))].id);
-    std::vector<SessionRow> filter;
+    std::vector<SessionRow> expected;
     for (const SessionRow& each : all)
       if (matches(query, each) && std::find(except.begin(), except.end(), each.id) == except.end())
-        filter.push_back(each);
-    std::sort(filter.begin(), filter.end(),
+        expected.push_back(each);
+    std::sort(expected.begin(), expected.end(),
               [&](const auto& a, const auto& b) { return precedes(query, a, b); });
     std::vector<SessionRow> got;
     for (bool more = true; more;) {
       auto found = index.find(query, except);
-      ASSERT_EQ(found.total, filter.size()) << query.text;
+      ASSERT_EQ(found.total, expected.size()) << query.text;
       more = found.rows.size() > query.limit;
       if (more) found.rows.pop_back();
       got.insert(got.end(), found.rows.begin(), found.rows.end());
       if (more) query.cursor = cursor_behind(query, got.back());
     }
-    ASSERT_EQ(got, filter) << "text '" << query.text << "', order " << static_cast<int>(query.order);
+    ASSERT_EQ(got, expected) << "text '" << query.text << "', order " << static_cast<int>(query.order);
   }
 }
 

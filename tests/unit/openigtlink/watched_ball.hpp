@@ -75,7 +75,7 @@ class WatchedBall {
     grid.dims = {96, 64, 64};
     grid.spacing_mm = {0.5, 0.6, 0.7};
     grid.world_from_grid = {rotation_from_small_vector({0.1, 0.2, 0.3}), {-40.0, 30.0, 20.0}};
-    voxel::BoneModel bone = voxel::put_bone(grid);
+    voxel::BoneModel bone = voxel::make_bone(grid);
     const Vec3 middle = grid.bounds_mm().centre();
     for (size_t i = 0; i < bone.coverage.size(); ++i) {
       const double inside_mm = 14.0 - (grid.centre_mm(grid.coordinates(i)) - middle).norm();
