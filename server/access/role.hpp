@@ -26,4 +26,20 @@ inline bool may_be_limited(Role of, Role limit) {
   return of == Role::trainee ? limit == Role::trainee : limit <= of;
 }
 
+/// A set of roles, as bits.
+using Roles = unsigned;
+inline constexpr Roles operators = 1u << 0, instructors = 1u << 1, trainees = 1u << 2, viewers = 1u << 3;
+/// Who teaches; who reams; everybody who is known.
+inline constexpr Roles staff = operators | instructors;
+inline constexpr Roles reamers = staff | trainees;
+inline constexpr Roles known = reamers | viewers;
+
+/// The bit of a role by its word; 0 for others.
+inline Roles role_bit(const std::string& role) {
+  if (role == "operator") return operators;
+  if (role == "instructor") return instructors;
+  if (role == "trainee") return trainees;
+  return role == "viewer" ? viewers : 0u;
+}
+
 }  // namespace ream::access

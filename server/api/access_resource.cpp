@@ -1,8 +1,9 @@
 #include "api/access_resource.hpp"
 
 #include "access/login_backoff.hpp"
-#include "api/request_body.hpp"
 #include "core/error.hpp"
+#include "core/text.hpp"
+#include "net/problem.hpp"
 
 namespace ream::api {
 

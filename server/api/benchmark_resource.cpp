@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
+#include "access/role.hpp"
 #include "api/request_body.hpp"
-#include "api/rights.hpp"
 #include "api/score_tools.hpp"
 #include "core/error.hpp"
 #include "score/group_cut.hpp"
@@ -15,7 +15,7 @@ constexpr size_t longest_name = 200, longest_rubric = 72, most_sessions = 1000, 
 
 json text_or_null(const std::string& text) { return text.empty() ? json(nullptr) : json(text); }
 
-json summary_json(const KeptBenchmark& kept) {
+json summary_json(const score::KeptBenchmark& kept) {
   return {{"id", kept.id},
           {"name", kept.benchmark.name},
           {"created_utc", kept.created_utc},
@@ -25,8 +25,8 @@ json summary_json(const KeptBenchmark& kept) {
 }
 
 /// Trainees get no ids of others' sessions.
-json to_json(const KeptBenchmark& kept, const net::Caller& caller) {
-  const bool to_staff = (role_bit(caller.role) & staff) != 0;
+json to_json(const score::KeptBenchmark& kept, const net::Caller& caller) {
+  const bool to_staff = (access::role_bit(caller.role) & access::staff) != 0;
   json lines = score::benchmark_json(kept.benchmark).at("metrics");
   for (json& line : lines)
     if (!to_staff) line["dropped"] = json::array();
@@ -50,7 +50,7 @@ std::vector<score::MeasuredSession> measured(const ScoreTools& tools, const std:
                               {{pointer_to(key) + "/" + std::to_string(i), why}});
     };
     try {
-      if (is_live(tools.sessions.get(ids[i]).status.state)) refuse("has not ended");
+      if (session::is_live(tools.sessions.get(ids[i]).status.state)) refuse("has not ended");
       sessions.push_back({ids[i], tools.sessions.metrics(ids[i])});
     } catch (const net::RequestError&) {
       throw;
@@ -88,8 +88,8 @@ Wishes wishes_in(const net::Request& request) {
 
 net::Response create(const ScoreTools& tools, const net::Request& request) {
   const Wishes wishes = wishes_in(request);
-  const Judge judge = tools.stores.judge_by(wishes.rubric);
-  KeptBenchmark made;
+  const session::Judge judge = tools.stores.judge_by(wishes.rubric);
+  score::KeptBenchmark made;
   tools.quiet.run([&] {
     const auto experts = measured(tools, wishes.experts, "experts");
     const auto novices = measured(tools, wishes.novices, "novices");
@@ -103,7 +103,7 @@ net::Response create(const ScoreTools& tools, const net::Request& request) {
   if (made.benchmark.lines.empty())
     throw net::RequestError(422, "the experts' sessions say nothing that others could be compared with",
                             {{"#/experts", "say no metric that has an aim"}});
-  const KeptBenchmark kept = tools.stores.benchmarks.keep(std::move(made));
+  const score::KeptBenchmark kept = tools.stores.benchmarks.keep(std::move(made));
   tools.audit(request, "benchmark.create", kept.id, kept.benchmark.name);
   net::Response response = net::json_response(201, to_json(kept, request.caller));
   response.headers.emplace_back("Location", base + "/" + kept.id);
@@ -115,7 +115,8 @@ net::Response create(const ScoreTools& tools, const net::Request& request) {
 void add_benchmark_routes(net::Router& router, const ScoreTools& tools) {
   router.on("GET", base, [tools](const net::Request&) {
     json benchmarks = json::array();
-    for (const KeptBenchmark& kept : tools.stores.benchmarks.list()) benchmarks.push_back(summary_json(kept));
+    for (const score::KeptBenchmark& kept : tools.stores.benchmarks.list())
+      benchmarks.push_back(summary_json(kept));
     return net::json_response(200, {{"benchmarks", std::move(benchmarks)}});
   });
   router.on("POST", base, [tools](const net::Request& request) { return create(tools, request); });

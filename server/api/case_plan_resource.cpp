@@ -1,6 +1,5 @@
 #include <nlohmann/json.hpp>
 
-#include "api/case_json.hpp"
 #include "api/case_work_resource.hpp"
 #include "api/request_body.hpp"
 #include "case/measures.hpp"
@@ -8,6 +7,7 @@
 #include "core/log.hpp"
 #include "shell/parametric_profile.hpp"
 #include "shell/reamer_library.hpp"
+#include "workup/case_json.hpp"
 
 namespace ream::api {
 using nlohmann::json;
@@ -16,27 +16,27 @@ namespace {
 const std::string one = "/api/v1/cases/{id}";
 const std::string place = "the request body";
 
-net::Response measures(CaseWorkshop& workshop, const net::Request& request) {
+net::Response measures(workup::CaseWorkshop& workshop, const net::Request& request) {
   const std::string& id = request.parameters.at("id");
   const case_::Side side = workshop.side_of(id);
   return net::json_response(200, case_::to_json(case_::measure(workshop.landmarks(id), side)));
 }
 
-net::Response landmarks(CaseWorkshop& workshop, const net::Request& request) {
+net::Response landmarks(workup::CaseWorkshop& workshop, const net::Request& request) {
   return net::json_response(200, case_::to_json(workshop.landmarks(request.parameters.at("id"))));
 }
 
-net::Response plan(CaseWorkshop& workshop, const net::Request& request) {
+net::Response plan(workup::CaseWorkshop& workshop, const net::Request& request) {
   const std::string& id = request.parameters.at("id");
-  json plan = case_json(workshop.folder_of(id)).at("plan");
+  json plan = workup::case_json(workshop.folder_of(id)).at("plan");
   if (plan.is_null()) throw Error(ErrorKind::not_found, "case '" + id + "' has no plan yet; PUT one");
   return net::json_response(200, plan);
 }
 
-net::Response set_landmarks(CaseWorkshop& workshop, const net::Request& request) {
+net::Response set_landmarks(workup::CaseWorkshop& workshop, const net::Request& request) {
   const std::string& id = request.parameters.at("id");
   workshop.set_landmarks(id, case_::landmarks_from_json(json_object_in(request), place));
-  return net::json_response(200, case_json(workshop.folder_of(id)));
+  return net::json_response(200, workup::case_json(workshop.folder_of(id)));
 }
 
 /// Over the network a reamer has a name or words; a path would open the server's files.
@@ -49,23 +49,24 @@ void check_reamer(const std::string& reamer, const std::filesystem::path& data_f
   }
 }
 
-net::Response propose(CaseWorkshop& workshop, const std::filesystem::path& data_folder,
+net::Response propose(workup::CaseWorkshop& workshop, const std::filesystem::path& data_folder,
                       const net::Request& request) {
   const std::string& id = request.parameters.at("id");
   const auto targets = case_::plan_targets_from_json(json_object_in(request), place);
   check_reamer(targets.reamer, data_folder);
   const case_::Plan plan = workshop.propose(id, targets);
   return net::json_response(
-      200, {{"plan", plan_json(plan)}, {"assessment", case_::to_json(workshop.assess(id, plan))}});
+      200, {{"plan", workup::plan_json(plan)}, {"assessment", case_::to_json(workshop.assess(id, plan))}});
 }
 
-net::Response set_plan(CaseWorkshop& workshop, const std::filesystem::path& data_folder,
+net::Response set_plan(workup::CaseWorkshop& workshop, const std::filesystem::path& data_folder,
                        const net::Request& request) {
   const std::string& id = request.parameters.at("id");
   const case_::Plan plan = case_::plan_from_json(json_object_in(request), place);
   check_reamer(plan.reamer, data_folder);
   const case_::PlanAssessment assessment = workshop.set_plan(id, plan);
-  return net::json_response(200, {{"plan", plan_json(plan)}, {"assessment", case_::to_json(assessment)}});
+  return net::json_response(200,
+                            {{"plan", workup::plan_json(plan)}, {"assessment", case_::to_json(assessment)}});
 }
 
 json to_json(const shell::LibraryReamer& reamer) {
@@ -92,7 +93,7 @@ net::Response reamers_response(const std::filesystem::path& data_folder) {
 
 }  // namespace
 
-void add_case_plan_routes(net::Router& router, CaseWorkshop& workshop,
+void add_case_plan_routes(net::Router& router, workup::CaseWorkshop& workshop,
                           const std::filesystem::path& data_folder) {
   router.on("GET", one + "/measures",
             [&workshop](const net::Request& request) { return measures(workshop, request); });

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "api/case_json.hpp"
 #include "api/json_page.hpp"
-#include "api/request_body.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "core/text.hpp"
+#include "workup/case_json.hpp"
 
 namespace ream::api {
 namespace fs = std::filesystem;
@@ -15,7 +15,7 @@ using nlohmann::json;
 namespace {
 
 bool is_case(const fs::path& folder, const std::string& id) {
-  return is_name(id) && is_case_folder(folder / id);
+  return is_name(id) && workup::is_case_folder(folder / id);
 }
 
 std::vector<fs::path> case_folders(const fs::path& folder) {
@@ -31,7 +31,7 @@ net::Response list_cases(const fs::path& folder, const net::Request& request) {
   std::vector<json> cases;
   for (const fs::path& path : case_folders(folder)) {
     try {
-      cases.push_back(case_summary_json(path));
+      cases.push_back(workup::case_summary_json(path));
     } catch (const Error& error) {
       log::warn(std::string("case left out of the list: ") + error.what());
     }
@@ -42,7 +42,7 @@ net::Response list_cases(const fs::path& folder, const net::Request& request) {
 net::Response get_case(const fs::path& folder, const std::string& id) {
   if (!is_case(folder, id))
     throw Error(ErrorKind::not_found, "no case '" + id + "'; GET /api/v1/cases lists them");
-  return net::json_response(200, case_json(folder / id));
+  return net::json_response(200, workup::case_json(folder / id));
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ std::optional<int> revision_of(const net::Request& request) {
 net::SharedBytes shared(net::Bytes bytes) { return std::make_shared<const net::Bytes>(std::move(bytes)); }
 
 /// Kept by no cache: what an address shows changes when its case is made anew.
-net::Response slice(CaseWorkshop& workshop, const net::Request& request) {
+net::Response slice(workup::CaseWorkshop& workshop, const net::Request& request) {
   const auto& parameters = request.parameters;
   net::Bytes bytes =
       workshop.slice(parameters.at("id"), axis_of(parameters.at("axis")), index_of(parameters.at("index")),
@@ -52,8 +52,8 @@ net::Response slice(CaseWorkshop& workshop, const net::Request& request) {
 }
 
 /// Made now, sent, and gone.
-net::Response volume(CaseWorkshop& workshop, QuietWork& quiet, const std::filesystem::path& temporary_folder,
-                     const net::Request& request) {
+net::Response volume(workup::CaseWorkshop& workshop, jobs::QuietWork& quiet,
+                     const std::filesystem::path& temporary_folder, const net::Request& request) {
   const std::string& id = request.parameters.at("id");
   workshop.workup(id);
   const TemporaryFile file(temporary_folder, ".nrrd");
@@ -61,7 +61,7 @@ net::Response volume(CaseWorkshop& workshop, QuietWork& quiet, const std::filesy
   return net::file_response(request, {file.path(), "application/octet-stream", id + ".nrrd"});
 }
 
-net::Response mesh(CaseWorkshop& workshop, const net::Request& request) {
+net::Response mesh(workup::CaseWorkshop& workshop, const net::Request& request) {
   net::Response response =
       net::bytes_response(200, "application/ply", net::share(workshop.mesh(request.parameters.at("id"))));
   response.headers.emplace_back("Cache-Control", "no-store");
@@ -70,7 +70,7 @@ net::Response mesh(CaseWorkshop& workshop, const net::Request& request) {
 
 }  // namespace
 
-void add_case_volume_routes(net::Router& router, CaseWorkshop& workshop, QuietWork& quiet,
+void add_case_volume_routes(net::Router& router, workup::CaseWorkshop& workshop, jobs::QuietWork& quiet,
                             const std::filesystem::path& temporary_folder) {
   router.on("GET", "/api/v1/cases/{id}/volume", [&, temporary_folder](const net::Request& request) {
     return volume(workshop, quiet, temporary_folder, request);

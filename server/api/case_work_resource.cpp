@@ -2,11 +2,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "api/case_json.hpp"
 #include "api/job_resource.hpp"
 #include "api/request_body.hpp"
 #include "core/error.hpp"
 #include "ct/build/ct_workspace.hpp"
+#include "workup/case_json.hpp"
 
 namespace ream::api {
 using nlohmann::json;
@@ -21,10 +21,11 @@ case_::Side side_in(RequestBody& body) {
   return side == "left" ? case_::Side::left : case_::Side::right;
 }
 
-net::Response create(CaseWorkshop& workshop, UploadStore& uploads, const net::Request& request) {
+net::Response create(workup::CaseWorkshop& workshop, workup::UploadStore& uploads,
+                     const net::Request& request) {
   RequestBody body(request);
   const std::string copy_of = body.name_or("copy_of", "");
-  NewCase wanted;
+  workup::NewCase wanted;
   wanted.side = side_in(body);
   if (!copy_of.empty()) {
     body.finish();
@@ -38,25 +39,25 @@ net::Response create(CaseWorkshop& workshop, UploadStore& uploads, const net::Re
   return accepted(workshop.import(wanted, uploads));
 }
 
-net::Response segment(CaseWorkshop& workshop, const net::Request& request) {
+net::Response segment(workup::CaseWorkshop& workshop, const net::Request& request) {
   const auto settings = ct::segmentation_settings_from_json(json_object_in(request), "the request body");
   return accepted(workshop.segment(request.parameters.at("id"), settings));
 }
 
-net::Response build(CaseWorkshop& workshop, const net::Request& request) {
+net::Response build(workup::CaseWorkshop& workshop, const net::Request& request) {
   const auto settings = ct::build_settings_from_json(json_object_in(request), "the request body");
   return accepted(workshop.build(request.parameters.at("id"), settings));
 }
 
-net::Response undo(CaseWorkshop& workshop, const net::Request& request) {
+net::Response undo(workup::CaseWorkshop& workshop, const net::Request& request) {
   const std::string& id = request.parameters.at("id");
   workshop.undo_segmentation(id);
-  return net::json_response(200, case_json(workshop.folder_of(id)));
+  return net::json_response(200, workup::case_json(workshop.folder_of(id)));
 }
 
 }  // namespace
 
-void add_case_work_routes(net::Router& router, CaseWorkshop& workshop, UploadStore& uploads) {
+void add_case_work_routes(net::Router& router, workup::CaseWorkshop& workshop, workup::UploadStore& uploads) {
   router.on("POST", "/api/v1/cases", [&workshop, &uploads](const net::Request& request) {
     return create(workshop, uploads, request);
   });

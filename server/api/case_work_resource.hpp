@@ -1,21 +1,21 @@
 #pragma once
-#include "api/case_workshop.hpp"
-#include "api/quiet_work.hpp"
+#include "jobs/quiet_work.hpp"
 #include "net/router.hpp"
+#include "workup/case_workshop.hpp"
 
 namespace ream::api {
 
 /// Making cases: POST /api/v1/cases and what is done to one: segmentation, undo, build, delete. Workshop and
 /// uploads must outlive the router.
-void add_case_work_routes(net::Router& router, CaseWorkshop& workshop, UploadStore& uploads);
+void add_case_work_routes(net::Router& router, workup::CaseWorkshop& workshop, workup::UploadStore& uploads);
 
 /// Looking at a case's CT and surface: slices, mesh, and the whole CT as a file, which is made by `quiet` in
 /// `temporary_folder`. Both outlive the router.
-void add_case_volume_routes(net::Router& router, CaseWorkshop& workshop, QuietWork& quiet,
+void add_case_volume_routes(net::Router& router, workup::CaseWorkshop& workshop, jobs::QuietWork& quiet,
                             const std::filesystem::path& temporary_folder);
 
 /// Landmarks, measures, plan, and the library of reamers of `data_folder`.
-void add_case_plan_routes(net::Router& router, CaseWorkshop& workshop,
+void add_case_plan_routes(net::Router& router, workup::CaseWorkshop& workshop,
                           const std::filesystem::path& data_folder);
 
 }  // namespace ream::api

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "api/new_id.hpp"
-#include "api/rights.hpp"
+#include "access/role.hpp"
 #include "api/visibility.hpp"
+#include "core/new_id.hpp"
 
 namespace ream::api {
 using nlohmann::json;
@@ -25,11 +25,11 @@ net::SharedBytes text_of(const json& message) {
 }  // namespace
 
 bool may_know(const net::Caller& caller, const Change& change) {
-  const Roles role = role_bit(caller.role);
+  const access::Roles role = access::role_bit(caller.role);
   if (change.session) return may_see(caller, *change.session);
-  if (change.kind == "case") return (role & reamers) != 0;
-  if (change.kind == "user") return role == operators;
-  return (role & staff) != 0;
+  if (change.kind == "case") return (role & access::reamers) != 0;
+  if (change.kind == "user") return role == access::operators;
+  return (role & access::staff) != 0;
 }
 
 /// One connection. Its cursor is where it stands in what all share.

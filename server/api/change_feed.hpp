@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "api/running_session.hpp"
 #include "net/message.hpp"
 #include "net/websocket.hpp"
+#include "session/running_session.hpp"
 
 namespace ream::api {
 
@@ -20,7 +20,7 @@ struct Change {
   std::string id;      ///< of it
   std::string change;  ///< what has happened: created, running, changed, deleted, ...
   /// The session that it is about, of kinds session, replay and job of a session; decides who is told.
-  std::shared_ptr<const SessionRequest> session = nullptr;
+  std::shared_ptr<const session::SessionRequest> session = nullptr;
 };
 
 /// Numbers changes and tells those who listen. Keeps the newest ones, so that who comes back misses nothing.

@@ -41,15 +41,15 @@ net::Response field(const std::string& id, const fs::path& folder, const std::st
 
 net::Response deviation(const ScoreTools& tools, const net::Request& request) {
   const std::string& id = request.parameters.at("id");
-  const SessionRecord record = tools.sessions.get(id);
-  if (is_live(record.status.state))
+  const session::SessionRecord record = tools.sessions.get(id);
+  if (session::is_live(record.status.state))
     throw Error(ErrorKind::conflict, "session '" + id + "' is " + to_text(record.status.state) +
                                          "; its surface is compared when it has ended");
   const fs::path folder = tools.sessions.folder_of(id);
   std::error_code failed;
   if (fs::is_regular_file(folder / description_name, failed))
     return field(id, folder, request.query.at("to"));
-  if (!fs::is_regular_file(recording_file(folder), failed))
+  if (!fs::is_regular_file(session::recording_file(folder), failed))
     throw Error(ErrorKind::not_found, "session '" + id + "' left no recording; it was never started");
   if (!tools.makers.write_deviation) throw Error(ErrorKind::unavailable, "this server compares no surfaces");
   return accepted(

@@ -67,7 +67,7 @@ Visitor Gate::visitor(const net::Request& request) const {
 }
 
 void Gate::require_right(const Right& right, const Visitor& visitor, const net::Request& request) const {
-  if (right.who & role_bit(visitor.caller.role)) return;
+  if (right.who & access::role_bit(visitor.caller.role)) return;
   if (right.door == Door::gauges && is_gauge_reader(visitor, request)) return;
   if (!visitor.identity) refuse_unknown("log in first, or send a token");
   throw net::RequestError(403, visitor.caller.role + "s may not " + request.method + " " + right.pattern);
@@ -75,7 +75,7 @@ void Gate::require_right(const Right& right, const Visitor& visitor, const net::
 
 void Gate::require_sight(const net::Request& request, const std::string& pattern) const {
   if (!pattern.starts_with(one_session) || !find_session_) return;
-  if (role_bit(request.caller.role) & staff) return;
+  if (access::role_bit(request.caller.role) & access::staff) return;
   const std::string& id = request.parameters.at("id");
   const auto session = find_session_(id);
   if (session && !may_see(request.caller, *session)) refuse_unseen(id);

@@ -5,8 +5,8 @@
 
 #include "access/access_control.hpp"
 #include "api/rights.hpp"
-#include "api/running_session.hpp"
 #include "net/message.hpp"
+#include "session/running_session.hpp"
 
 namespace ream::api {
 
@@ -22,7 +22,7 @@ struct Visitor {
 class Gate {
  public:
   /// What a session or replay with that id is; none when there is none.
-  using SessionFinder = std::function<std::optional<SessionRequest>(const std::string& id)>;
+  using SessionFinder = std::function<std::optional<session::SessionRequest>(const std::string& id)>;
 
   /// `gatehouse` outlives the gate; null: there are never users.
   Gate(access::AccessControl* gatehouse, SessionFinder find_session)

@@ -2,10 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "access/role.hpp"
 #include "api/json_page.hpp"
-#include "api/request_body.hpp"
-#include "api/rights.hpp"
 #include "api/visibility.hpp"
+#include "core/text.hpp"
 #include "net/file_body.hpp"
 #include "net/problem.hpp"
 
@@ -15,9 +15,9 @@ namespace {
 
 json or_null(const std::string& text) { return text.empty() ? json(nullptr) : json(text); }
 
-json to_json(const JobRecord& job) {
+json to_json(const jobs::JobRecord& job) {
   json problem, result;
-  if (job.state == JobState::failed) {
+  if (job.state == jobs::JobState::failed) {
     const int status = net::http_status(job.problem_kind);
     problem = {{"status", status}, {"title", net::status_title(status)}, {"detail", job.problem}};
   }
@@ -44,9 +44,9 @@ bool fits(const net::Request& request, const std::string& name, const std::strin
   return wanted == request.query.end() || wanted->second == value;
 }
 
-net::Response list(const JobService& jobs, const net::Request& request) {
+net::Response list(const jobs::JobService& jobs, const net::Request& request) {
   std::vector<json> list;
-  for (const JobRecord& job : jobs.list())
+  for (const jobs::JobRecord& job : jobs.list())
     if (may_see(request.caller, job) && fits(request, "case_id", job.order.case_id) &&
         fits(request, "session_id", job.order.session_id) && fits(request, "kind", job.order.kind) &&
         fits(request, "state", to_text(job.state)))
@@ -55,16 +55,16 @@ net::Response list(const JobService& jobs, const net::Request& request) {
 }
 
 /// In the words of a job that does not exist unless the caller may know of it.
-JobRecord seen(const JobService& jobs, const net::Request& request) {
-  JobRecord job = jobs.get(request.parameters.at("id"));
+jobs::JobRecord seen(const jobs::JobService& jobs, const net::Request& request) {
+  jobs::JobRecord job = jobs.get(request.parameters.at("id"));
   if (!may_see(request.caller, job))
     throw Error(ErrorKind::not_found, "no job '" + job.id + "'; GET /api/v1/jobs lists them");
   return job;
 }
 
-net::Response result(const JobService& jobs, const net::Request& request) {
-  const JobRecord job = seen(jobs, request);
-  if (is_open(job.state))
+net::Response result(const jobs::JobService& jobs, const net::Request& request) {
+  const jobs::JobRecord job = seen(jobs, request);
+  if (jobs::is_open(job.state))
     throw Error(ErrorKind::conflict, "job '" + job.id + "' is " + to_text(job.state) + "; wait for its end");
   if (!job.result) throw Error(ErrorKind::not_found, "job '" + job.id + "' has no file, or has it no longer");
   return net::file_response(request,
@@ -73,18 +73,18 @@ net::Response result(const JobService& jobs, const net::Request& request) {
 
 }  // namespace
 
-bool may_see(const net::Caller& caller, const JobRecord& job) {
-  if ((role_bit(caller.role) & staff) != 0) return true;
+bool may_see(const net::Caller& caller, const jobs::JobRecord& job) {
+  if ((access::role_bit(caller.role) & access::staff) != 0) return true;
   return job.order.session && may_see(caller, *job.order.session);
 }
 
-net::Response accepted(const JobRecord& job) {
+net::Response accepted(const jobs::JobRecord& job) {
   net::Response response = net::json_response(202, to_json(job));
   response.headers.emplace_back("Location", "/api/v1/jobs/" + job.id);
   return response;
 }
 
-void add_job_routes(net::Router& router, JobService& jobs) {
+void add_job_routes(net::Router& router, jobs::JobService& jobs) {
   const std::string all = "/api/v1/jobs", one = all + "/{id}";
   router.on("GET", all, [&jobs](const net::Request& request) { return list(jobs, request); });
   router.on("GET", one, [&jobs](const net::Request& request) {

@@ -53,7 +53,7 @@ store::SessionQuery query_of(const net::Request& request) {
 }
 
 /// Whether it is of the person who is called so, and of no user.
-bool is_named(const SessionRecord& record, const std::string& name) {
+bool is_named(const session::SessionRecord& record, const std::string& name) {
   return record.request.trainee_id.empty() && record.request.trainee == name;
 }
 
@@ -61,15 +61,15 @@ std::vector<Attempt> attempts_of(const ScoreTools& tools, const net::Request& re
                                  const score::Rubric& rubric) {
   std::vector<Attempt> attempts;
   const std::string name = asked(request, "name");
-  for (const SessionRecord& record :
+  for (const session::SessionRecord& record :
        sessions_for(request.caller, tools.sessions, query_of(request)).sessions) {
     if (!name.empty() && !is_named(record, name)) continue;
     const std::string& id = record.request.id;
     const fs::path folder = tools.sessions.folder_of(id);
     std::error_code failed;
-    if (is_live(record.status.state) || !fs::exists(metrics_json(folder), failed)) continue;
+    if (session::is_live(record.status.state) || !fs::exists(session::metrics_json(folder), failed)) continue;
     Attempt attempt;
-    attempt.metrics = read_json_file(metrics_json(folder));
+    attempt.metrics = read_json_file(session::metrics_json(folder));
     const score::Score score = score::apply_rubric(rubric, attempt.metrics);
     attempt.point = {
         id, record.request.created_utc, record.request.theatre, score.points, score.outcome, std::nullopt};
@@ -102,7 +102,7 @@ json progression(const std::string& id, const score::Benchmark& benchmark,
 
 net::Response learning(const ScoreTools& tools, const net::Request& request) {
   const std::string benchmark = asked(request, "benchmark");
-  const Judge judge = tools.stores.judge_by(asked(request, "rubric"), benchmark);
+  const session::Judge judge = tools.stores.judge_by(asked(request, "rubric"), benchmark);
   score::CusumParameters cusum;
   cusum.acceptable_rate = asked_or(request, "acceptable_rate", cusum.acceptable_rate);
   cusum.unacceptable_rate = asked_or(request, "unacceptable_rate", cusum.unacceptable_rate);

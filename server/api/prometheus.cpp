@@ -32,24 +32,25 @@ class Page {
 };
 
 /// Ids are plain ([a-z0-9-]), so they need no escapes.
-std::string label_of(const SessionRecord& record) { return "session=\"" + record.request.id + "\""; }
+std::string label_of(const session::SessionRecord& record) { return "session=\"" + record.request.id + "\""; }
 
-using Records = std::vector<SessionRecord>;
+using Records = std::vector<session::SessionRecord>;
 
 void counts_by_state(const Records& records, Page& page) {
   page.head("ream_sessions", "gauge", "Sessions of this server by state.");
-  for (const SessionState state : {SessionState::created, SessionState::running, SessionState::paused,
-                                   SessionState::finished, SessionState::stopped, SessionState::fault}) {
+  for (const session::SessionState state :
+       {session::SessionState::created, session::SessionState::running, session::SessionState::paused,
+        session::SessionState::finished, session::SessionState::stopped, session::SessionState::fault}) {
     size_t count = 0;
-    for (const SessionRecord& record : records) count += record.status.state == state;
+    for (const session::SessionRecord& record : records) count += record.status.state == state;
     page.sample("ream_sessions", "state=\"" + to_text(state) + "\"", count);
   }
 }
 
 void summaries(const Records& records, const std::string& name, const char* help,
-               TimingSummary LoopStatus::*which, Page& page) {
+               TimingSummary session::LoopStatus::*which, Page& page) {
   page.head(name, "summary", help);
-  for (const SessionRecord& record : records) {
+  for (const session::SessionRecord& record : records) {
     const TimingSummary& t = record.status.loop.*which;
     const std::string label = label_of(record);
     page.sample(name, label + ",quantile=\"0.5\"", t.p50_us * s_per_us);
@@ -62,41 +63,45 @@ void summaries(const Records& records, const std::string& name, const char* help
 }
 
 void per_session(const Records& records, const std::string& name, const char* type, const char* help,
-                 const std::function<double(const SessionStatus&)>& value, Page& page) {
+                 const std::function<double(const session::SessionStatus&)>& value, Page& page) {
   page.head(name, type, help);
-  for (const SessionRecord& record : records) page.sample(name, label_of(record), value(record.status));
+  for (const session::SessionRecord& record : records)
+    page.sample(name, label_of(record), value(record.status));
 }
 
 void loops(const Records& records, Page& page) {
-  summaries(records, "ream_tick_seconds", "Wall time of ticks.", &LoopStatus::tick_us, page);
-  summaries(records, "ream_tick_lateness_seconds", "How late ticks began.", &LoopStatus::lateness_us, page);
-  summaries(records, "ream_tick_read_seconds", "Reading the device, in ticks.", &LoopStatus::read_us, page);
-  summaries(records, "ream_tick_step_seconds", "Contact, force and removal, in ticks.", &LoopStatus::step_us,
+  summaries(records, "ream_tick_seconds", "Wall time of ticks.", &session::LoopStatus::tick_us, page);
+  summaries(records, "ream_tick_lateness_seconds", "How late ticks began.", &session::LoopStatus::lateness_us,
             page);
-  summaries(records, "ream_tick_write_seconds", "Writing the device, in ticks.", &LoopStatus::write_us, page);
+  summaries(records, "ream_tick_read_seconds", "Reading the device, in ticks.", &session::LoopStatus::read_us,
+            page);
+  summaries(records, "ream_tick_step_seconds", "Contact, force and removal, in ticks.",
+            &session::LoopStatus::step_us, page);
+  summaries(records, "ream_tick_write_seconds", "Writing the device, in ticks.",
+            &session::LoopStatus::write_us, page);
   per_session(
       records, "ream_ticks_total", "counter", "Ticks of the session, 1 ms of its time each.",
-      [](const SessionStatus& s) { return s.tick; }, page);
+      [](const session::SessionStatus& s) { return s.tick; }, page);
   per_session(
       records, "ream_ticks_missed_total", "counter", "Ticks that began more than 1 ms late.",
-      [](const SessionStatus& s) { return static_cast<double>(s.loop.missed); }, page);
+      [](const session::SessionStatus& s) { return static_cast<double>(s.loop.missed); }, page);
   per_session(
       records, "ream_loop_realtime", "gauge", "1 where the loop has real-time priority.",
-      [](const SessionStatus& s) { return s.loop.realtime ? 1.0 : 0.0; }, page);
+      [](const session::SessionStatus& s) { return s.loop.realtime ? 1.0 : 0.0; }, page);
 }
 
 void devices(const Records& records, Page& page) {
   const std::string state = "ream_device_state";
   page.head(state, "gauge", "1 for the state that the session's device is in.");
-  for (const SessionRecord& record : records)
+  for (const session::SessionRecord& record : records)
     for (const LinkState one : {LinkState::fresh, LinkState::held, LinkState::fading, LinkState::lost}) {
       const std::string word = to_text(one);
       page.sample(state, label_of(record) + ",state=\"" + word + "\"", record.status.device.state == word);
     }
   const std::string messages = "ream_device_messages_total";
   page.head(messages, "counter", "Messages of devices that connect over a network.");
-  for (const SessionRecord& record : records) {
-    const DeviceLinkStatus& device = record.status.device;
+  for (const session::SessionRecord& record : records) {
+    const session::DeviceLinkStatus& device = record.status.device;
     const std::array<std::pair<const char*, uint64_t>, 4> kinds{{{"received", device.received},
                                                                  {"missing", device.missing},
                                                                  {"late", device.late},
@@ -106,13 +111,13 @@ void devices(const Records& records, Page& page) {
   }
   const std::string rtt = "ream_device_rtt_seconds";
   page.head(rtt, "gauge", "The way to the device and back.");
-  for (const SessionRecord& record : records)
+  for (const session::SessionRecord& record : records)
     if (record.status.device.rtt_ms) page.sample(rtt, label_of(record), *record.status.device.rtt_ms * 1e-3);
 }
 
 }  // namespace
 
-std::string prometheus_text(const std::vector<SessionRecord>& records) {
+std::string prometheus_text(const std::vector<session::SessionRecord>& records) {
   Page page;
   counts_by_state(records, page);
   loops(records, page);

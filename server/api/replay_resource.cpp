@@ -15,24 +15,25 @@ constexpr double ticks_per_s = 1000.0;
 /// Longer than any recording; the replay itself knows its duration.
 constexpr double longest_s = 1e7;
 
-net::Response create(const SessionService& sessions, ReplayService& replays, const net::Request& request) {
+net::Response create(const session::SessionService& sessions, session::ReplayService& replays,
+                     const net::Request& request) {
   const std::string& id = request.parameters.at("id");
-  const SessionRecord of = sessions.get(id);
-  if (is_live(of.status.state))
+  const session::SessionRecord of = sessions.get(id);
+  if (session::is_live(of.status.state))
     throw Error(ErrorKind::conflict, "session '" + id + "' is " + to_text(of.status.state) +
                                          "; it can be replayed when it has ended");
-  const ReplayRecord record = replays.create({{}, id, of.request.case_id, of.request.script});
+  const session::ReplayRecord record = replays.create({{}, id, of.request.case_id, of.request.script});
   net::Response response = net::json_response(201, to_json(record));
   response.headers.emplace_back("Location", base + "/" + record.request.id);
   return response;
 }
 
-net::Response change(ReplayService& replays, const net::Request& request) {
+net::Response change(session::ReplayService& replays, const net::Request& request) {
   const std::string& id = request.parameters.at("id");
   RequestBody body(request);
-  PlaybackChange wanted;
+  session::PlaybackChange wanted;
   wanted.playing = body.flag_or_none("playing");
-  wanted.speed = body.number_within_or_none("speed", 0.0, fastest_playback);
+  wanted.speed = body.number_within_or_none("speed", 0.0, session::fastest_playback);
   wanted.position_s = body.number_within_or_none("position_s", 0.0, longest_s);
   body.finish();
   return net::json_response(200, to_json(replays.change(id, wanted)));
@@ -40,10 +41,10 @@ net::Response change(ReplayService& replays, const net::Request& request) {
 
 }  // namespace
 
-json to_json(const ReplayRecord& record) {
-  const PlaybackStatus& status = record.status;
+json to_json(const session::ReplayRecord& record) {
+  const session::PlaybackStatus& status = record.status;
   json marks = json::array();
-  for (const ReplayMark& mark : record.marks)
+  for (const session::ReplayMark& mark : record.marks)
     marks.push_back({{"at_s", mark.at_s}, {"kind", mark.kind}, {"words", mark.words}});
   return {{"id", record.request.id},
           {"kind", "replay"},
@@ -65,8 +66,8 @@ json to_json(const ReplayRecord& record) {
           {"marks", std::move(marks)}};
 }
 
-void add_replay_routes(net::Router& router, const SessionService& sessions, ReplayService& replays,
-                       const Readiness& readiness) {
+void add_replay_routes(net::Router& router, const session::SessionService& sessions,
+                       session::ReplayService& replays, const Readiness& readiness) {
   router.on("POST", base + "/{id}/replay", [&](const net::Request& request) {
     readiness.require_prepared();
     return create(sessions, replays, request);

@@ -15,22 +15,6 @@ std::string plain_number(double value) {
 
 }  // namespace
 
-std::string pointer_to(const std::string& key) {
-  std::string pointer = "#/";
-  for (const char c : key) pointer += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-  return pointer;
-}
-
-size_t characters(const std::string& text) {
-  return static_cast<size_t>(std::count_if(
-      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
-}
-
-bool is_name(const std::string& text) {
-  return !text.empty() && text.size() <= longest_name &&
-         text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos;
-}
-
 nlohmann::json json_object_in(const net::Request& request) {
   const std::string_view type = request.header("content-type");
   if (type.substr(0, type.find(';')) != "application/json")

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/text.hpp"
 #include "geometry/vec.hpp"
 #include "net/problem.hpp"
 
@@ -68,14 +69,5 @@ class RequestBody {
 /// The JSON value of a body, for readers that files and requests share.
 /// Throws RequestError: 415 when it is not sent as JSON, 400 when it is not JSON.
 nlohmann::json json_object_in(const net::Request& request);
-
-/// Of UTF-8: characters, not bytes.
-size_t characters(const std::string& text);
-
-/// The JSON pointer of a key of the body as a URI fragment (RFC 6901): '~' and '/' of the key are escaped.
-std::string pointer_to(const std::string& key);
-
-/// Whether `text` is an id as cases and scripts have: [a-z0-9-], 1 to 64 long.
-bool is_name(const std::string& text);
 
 }  // namespace ream::api

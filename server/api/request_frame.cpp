@@ -43,7 +43,7 @@ void RequestFrame::tell(const net::Request& request, const std::string& pattern,
     if (!change) return;
     if (change->kind == "session" || change->kind == "replay")
       if (auto session = find_session_(request.parameters.at("id")))
-        change->session = std::make_shared<const SessionRequest>(std::move(*session));
+        change->session = std::make_shared<const session::SessionRequest>(std::move(*session));
     feed_.tell(*change);
   } catch (const std::exception& failure) {
     log::warn(std::string("a change could not be told: ") + failure.what());

@@ -16,7 +16,7 @@ namespace ream::api {
 class RequestFrame {
  public:
   /// What a session with that id is; none when there is none.
-  using SessionFinder = std::function<std::optional<SessionRequest>(const std::string& id)>;
+  using SessionFinder = std::function<std::optional<session::SessionRequest>(const std::string& id)>;
 
   /// What is given outlives the frame.
   RequestFrame(const Contract& contract, Idempotency& idempotency, ChangeFeed& feed,

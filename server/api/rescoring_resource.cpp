@@ -17,10 +17,10 @@ constexpr size_t longest_rubric = 72, most_named = 1000;
 
 /// What a job does; everything it needs, as it outlives the request.
 struct Rescoring {
-  SessionService* sessions;
+  session::SessionService* sessions;
   ChangeFeed* feed;
-  ScoreMakers makers;
-  Judge judge;
+  session::ScoreMakers makers;
+  session::Judge judge;
   std::vector<std::string> ids;
 };
 
@@ -34,38 +34,39 @@ std::vector<std::string> ids_by_filter(const ScoreTools& tools, const net::Reque
   store::SessionQuery query = session_query(as_list);
   query.limit = SIZE_MAX;
   std::vector<std::string> ids;
-  for (const SessionRecord& record : sessions_for(request.caller, tools.sessions, query).sessions)
-    if (!is_live(record.status.state)) ids.push_back(record.request.id);
+  for (const session::SessionRecord& record : sessions_for(request.caller, tools.sessions, query).sessions)
+    if (!session::is_live(record.status.state)) ids.push_back(record.request.id);
   return ids;
 }
 
 std::vector<std::string> ids_named(const ScoreTools& tools, const std::vector<std::string>& named) {
   for (size_t i = 0; i < named.size(); ++i) {
-    const SessionRecord record = tools.sessions.get(named[i]);
-    if (is_live(record.status.state))
+    const session::SessionRecord record = tools.sessions.get(named[i]);
+    if (session::is_live(record.status.state))
       throw Error(ErrorKind::conflict, "session '" + named[i] + "' is " + to_text(record.status.state) +
                                            "; it can be scored anew when it has ended");
   }
   return named;
 }
 
-json rescored(const Rescoring& all, const std::string& id, const Measure& measure, const Progress& progress) {
-  const SessionRecord record = all.sessions->get(id);
+json rescored(const Rescoring& all, const std::string& id, const session::Measure& measure,
+              const Progress& progress) {
+  const session::SessionRecord record = all.sessions->get(id);
   const fs::path folder = all.sessions->folder_of(id);
   const FileLock lock = lock_of_ended(folder);
   const json metrics = measure(folder, progress);
-  const json document =
-      score_document(all.makers.scored_by, read_json_file(session_json(folder)), metrics, all.judge);
-  write_results(folder, metrics, document);
+  const json document = session::score_document(
+      all.makers.scored_by, read_json_file(session::session_json(folder)), metrics, all.judge);
+  session::write_results(folder, metrics, document);
   all.sessions->note_results(id);
-  all.feed->tell({"session", id, "scored", std::make_shared<const SessionRequest>(record.request)});
+  all.feed->tell({"session", id, "scored", std::make_shared<const session::SessionRequest>(record.request)});
   const json& score = document.at("score");
   return {{"session", id}, {"points", score.at("points")}, {"outcome", score.at("outcome")}};
 }
 
 /// A session that cannot be scored does not stop the others.
 json rescore_all(const Rescoring& all, const Progress& progress) {
-  const Measure measure = all.makers.make_measure();
+  const session::Measure measure = all.makers.make_measure();
   json scored = json::array(), failed = json::array();
   const double step = 1.0 / static_cast<double>(all.ids.size());
   for (const std::string& id : all.ids) {
@@ -111,7 +112,7 @@ net::Response begin(const ScoreTools& tools, const net::Request& request) {
       {"rescoring"}, [all = std::move(all)](const fs::path& folder, const Progress& progress) {
         const json report = rescore_all(all, progress);
         write_file_atomically(folder / "rescoring.json", report.dump(2) + "\n");
-        return JobService::MadeFile{"rescoring.json", "application/json"};
+        return jobs::JobService::MadeFile{"rescoring.json", "application/json"};
       }));
 }
 

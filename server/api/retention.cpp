@@ -90,11 +90,11 @@ void Retention::delete_old_sessions() {
   query.descending = false;
   query.limit = page;
   do {
-    const SessionPage old = tools_.sessions.list(query);
-    for (const SessionRecord& record : old.sessions) {
+    const session::SessionPage old = tools_.sessions.list(query);
+    for (const session::SessionRecord& record : old.sessions) {
       if (stopping()) return;
-      const SessionRequest& session = record.request;
-      if (is_live(record.status.state) || session.keep) continue;
+      const session::SessionRequest& session = record.request;
+      if (session::is_live(record.status.state) || session.keep) continue;
       if (session.study.empty() || tools_.is_over(session.study)) delete_by_rule(record);
     }
     query.cursor = old.next;
@@ -102,7 +102,7 @@ void Retention::delete_old_sessions() {
 }
 
 /// One that somebody uses at this moment waits for the next time.
-void Retention::delete_by_rule(const SessionRecord& record) {
+void Retention::delete_by_rule(const session::SessionRecord& record) {
   const std::string& id = record.request.id;
   try {
     tools_.sessions.remove(id);
@@ -114,12 +114,13 @@ void Retention::delete_by_rule(const SessionRecord& record) {
   tools_.replays.stop_all_of(id);
   tools_.audit("session.delete", id,
                "by rule: older than " + days_text(rules_.keep_sessions_days.value_or(0)));
-  tools_.feed.tell({"session", id, "deleted", std::make_shared<const SessionRequest>(record.request)});
+  tools_.feed.tell(
+      {"session", id, "deleted", std::make_shared<const session::SessionRequest>(record.request)});
 }
 
 void Retention::erase_deleted_sessions() {
   const std::string before = days_ago(rules_.keep_deleted_days);
-  for (const DeletedSession& deleted : tools_.sessions.deleted()) {
+  for (const session::DeletedSession& deleted : tools_.sessions.deleted()) {
     if (stopping()) return;
     if (deleted.deleted_utc > before) continue;
     try {

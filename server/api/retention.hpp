@@ -7,10 +7,10 @@
 #include <thread>
 
 #include "api/change_feed.hpp"
-#include "api/job_service.hpp"
-#include "api/replay_service.hpp"
-#include "api/session_service.hpp"
 #include "core/utc.hpp"
+#include "jobs/job_service.hpp"
+#include "session/service/replay_service.hpp"
+#include "session/service/session_service.hpp"
 
 namespace ream::api {
 
@@ -24,9 +24,9 @@ struct RetentionRules {
 
 /// What the rules of retention are carried out with. All outlive Retention.
 struct RetentionTools {
-  SessionService& sessions;
-  ReplayService& replays;
-  JobService& jobs;
+  session::SessionService& sessions;
+  session::ReplayService& replays;
+  jobs::JobService& jobs;
   ChangeFeed& feed;
   /// Whether sessions of that study may be deleted without a person asking for it.
   std::function<bool(const std::string& study_id)> is_over;
@@ -58,7 +58,7 @@ class Retention {
   void work();
   void look();
   void delete_old_sessions();
-  void delete_by_rule(const SessionRecord& record);
+  void delete_by_rule(const session::SessionRecord& record);
   void erase_deleted_sessions();
   std::string days_ago(int days) const;
   bool stopping();

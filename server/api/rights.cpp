@@ -5,6 +5,15 @@
 namespace ream::api {
 namespace {
 
+using access::instructors;
+using access::known;
+using access::operators;
+using access::reamers;
+using access::Roles;
+using access::staff;
+using access::trainees;
+using access::viewers;
+
 std::vector<Right> open_rows() {
   std::vector<Right> rows;
   for (const char* pattern : {"/healthz", "/readyz", "/api/v1/openapi.yaml", "/api/v1/login"})
@@ -153,13 +162,6 @@ const Right* right_of(const std::string& method, const std::string& pattern) {
     return right.method == asked && right.pattern == pattern;
   });
   return row == rights().end() ? nullptr : &*row;
-}
-
-Roles role_bit(const std::string& role) {
-  if (role == "operator") return operators;
-  if (role == "instructor") return instructors;
-  if (role == "trainee") return trainees;
-  return role == "viewer" ? viewers : 0u;
 }
 
 }  // namespace ream::api

@@ -1,12 +1,12 @@
 #include <nlohmann/json.hpp>
 
 #include "api/request_body.hpp"
-#include "api/score_table.hpp"
 #include "api/score_tools.hpp"
 #include "api/session_list.hpp"
 #include "api/session_work.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "session/scoring/score_table.hpp"
 
 namespace ream::api {
 namespace fs = std::filesystem;
@@ -24,10 +24,10 @@ std::string asked(const net::Request& request, const std::string& name) {
 }
 
 /// What a score says of the session itself, which has no file before its start.
-json about(const SessionRecord& record) { return {{"theatre", record.request.theatre}}; }
+json about(const session::SessionRecord& record) { return {{"theatre", record.request.theatre}}; }
 
 net::Response told(const std::string& id, const std::string& standing, const json& document) {
-  json score = explained_score(document);
+  json score = session::explained_score(document);
   score["session"] = id;
   score["standing"] = standing;
   return net::json_response(200, score);
@@ -36,17 +36,17 @@ net::Response told(const std::string& id, const std::string& standing, const jso
 /// As it is kept where nobody asks for another rubric, else made now.
 net::Response score(const ScoreTools& tools, const net::Request& request) {
   const std::string& id = id_of(request);
-  const SessionRecord record = tools.sessions.get(id);
+  const session::SessionRecord record = tools.sessions.get(id);
   const fs::path folder = tools.sessions.folder_of(id);
-  const bool live = is_live(record.status.state);
+  const bool live = session::is_live(record.status.state);
   const std::string rubric = asked(request, "rubric"), benchmark = asked(request, "benchmark");
   std::error_code failed;
-  if (!live && rubric.empty() && benchmark.empty() && fs::exists(score_json(folder), failed))
-    return told(id, "kept", read_json_file(score_json(folder)));
-  const Judge judge = tools.stores.judge_by(rubric, benchmark);
+  if (!live && rubric.empty() && benchmark.empty() && fs::exists(session::score_json(folder), failed))
+    return told(id, "kept", read_json_file(session::score_json(folder)));
+  const session::Judge judge = tools.stores.judge_by(rubric, benchmark);
   const json metrics = tools.sessions.metrics(id);
   return told(id, live ? "live" : "computed",
-              score_document(tools.makers.scored_by, about(record), metrics, judge));
+              session::score_document(tools.makers.scored_by, about(record), metrics, judge));
 }
 
 net::Response score_anew(const ScoreTools& tools, const net::Request& request) {
@@ -55,56 +55,56 @@ net::Response score_anew(const ScoreTools& tools, const net::Request& request) {
   const std::string benchmark = body.name_or("benchmark", "");
   body.finish();
   const std::string& id = id_of(request);
-  const SessionRecord record = tools.sessions.get(id);
-  if (is_live(record.status.state))
+  const session::SessionRecord record = tools.sessions.get(id);
+  if (session::is_live(record.status.state))
     throw Error(ErrorKind::conflict, "session '" + id + "' is " + to_text(record.status.state) +
                                          "; its score can be kept when it has ended");
   const fs::path folder = tools.sessions.folder_of(id);
   const json metrics = tools.sessions.metrics(id);
-  const Judge judge = tools.stores.judge_by(rubric, benchmark);
+  const session::Judge judge = tools.stores.judge_by(rubric, benchmark);
   const FileLock lock = lock_of_ended(folder);
-  const json document = score_document(tools.makers.scored_by, about(record), metrics, judge);
-  write_results(folder, metrics, document);
+  const json document = session::score_document(tools.makers.scored_by, about(record), metrics, judge);
+  session::write_results(folder, metrics, document);
   tools.sessions.note_results(id);
   return told(id, "kept", document);
 }
 
 /// Those with metrics, of all that the caller may see.
-std::vector<TableSession> table_sessions(const ScoreTools& tools, const net::Request& request) {
+std::vector<session::TableSession> table_sessions(const ScoreTools& tools, const net::Request& request) {
   store::SessionQuery query = session_query(request);
   query.limit = SIZE_MAX;
-  std::vector<TableSession> sessions;
-  for (const SessionRecord& record : sessions_for(request.caller, tools.sessions, query).sessions) {
-    if (is_live(record.status.state)) continue;
+  std::vector<session::TableSession> sessions;
+  for (const session::SessionRecord& record : sessions_for(request.caller, tools.sessions, query).sessions) {
+    if (session::is_live(record.status.state)) continue;
     const fs::path folder = tools.sessions.folder_of(record.request.id);
     std::error_code failed;
-    if (!fs::exists(metrics_json(folder), failed)) continue;
-    sessions.push_back(
-        {record.request.id, read_json_file(session_json(folder)), read_json_file(metrics_json(folder))});
+    if (!fs::exists(session::metrics_json(folder), failed)) continue;
+    sessions.push_back({record.request.id, read_json_file(session::session_json(folder)),
+                        read_json_file(session::metrics_json(folder))});
   }
   return sessions;
 }
 
-net::Response csv_response(const ExportTable& table) {
+net::Response csv_response(const session::ExportTable& table) {
   net::Response response =
-      net::bytes_response(200, "text/csv; charset=utf-8; header=present", net::share(csv_of(table)));
+      net::bytes_response(200, "text/csv; charset=utf-8; header=present", net::share(session::csv_of(table)));
   response.headers.emplace_back("Content-Disposition", "attachment; filename=\"" + table.name + ".csv\"");
   return response;
 }
 
 net::Response scores(const ScoreTools& tools, const net::Request& request) {
-  const Judge judge = tools.stores.judge_by(asked(request, "rubric"));
-  ExportTable table, codebook;
+  const session::Judge judge = tools.stores.judge_by(asked(request, "rubric"));
+  session::ExportTable table, codebook;
   tools.quiet.run([&] {
-    table = score_table(table_sessions(tools, request), judge.rubric);
-    codebook = score_codebook(table);
+    table = session::score_table(table_sessions(tools, request), judge.rubric);
+    codebook = session::score_codebook(table);
   });
   table.name = "scores";
   if (asked(request, "format") == "csv")
     return csv_response(asked(request, "table") == "codebook" ? codebook : table);
   return net::json_response(200, {{"rubric", {{"id", judge.rubric_id}, {"version", judge.rubric.version}}},
-                                  {"scores", json_of(table)},
-                                  {"codebook", json_of(codebook)}});
+                                  {"scores", session::json_of(table)},
+                                  {"codebook", session::json_of(codebook)}});
 }
 
 }  // namespace

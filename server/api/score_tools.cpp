@@ -6,11 +6,11 @@
 
 namespace ream::api {
 
-Judge ScoreStores::judge_by(const std::string& rubric, const std::string& benchmark) const {
+session::Judge ScoreStores::judge_by(const std::string& rubric, const std::string& benchmark) const {
   const std::string words = rubric.empty() ? "standard" : rubric;
   const size_t at = words.find('@');
   const std::string id = words.substr(0, at);
-  Judge judge;
+  session::Judge judge;
   judge.rubric_id = id;
   const std::vector<std::string> known = rubrics.ids();
   if (std::find(known.begin(), known.end(), id) == known.end())

@@ -34,7 +34,7 @@ void add_health_routes(net::Router& router, const Readiness& readiness) {
   });
 }
 
-void add_metrics_route(net::Router& router, const SessionService& sessions) {
+void add_metrics_route(net::Router& router, const session::SessionService& sessions) {
   router.on("GET", "/metrics", [&sessions](const net::Request&) {
     return net::bytes_response(200, "text/plain; version=0.0.4; charset=utf-8",
                                net::share(prometheus_text(sessions.held())));
@@ -52,7 +52,7 @@ std::filesystem::path under(const std::filesystem::path& data_folder, const char
   return data_folder.empty() ? std::filesystem::path() : data_folder / name;
 }
 
-CaseTools tools_of(const ServerOptions& options, const SessionService& sessions) {
+workup::CaseTools tools_of(const ServerOptions& options, const session::SessionService& sessions) {
   return {options.read_ct, [&sessions](const std::string& case_id) {
             store::SessionQuery query;
             query.case_id = case_id;
@@ -69,8 +69,8 @@ void add_all_access_routes(net::Router& router, const AccessTools& tools) {
   add_audit_routes(router, tools);
 }
 
-void add_all_case_routes(net::Router& router, const ServerOptions& options, CaseWorkshop& workshop,
-                         UploadStore& uploads, QuietWork& quiet) {
+void add_all_case_routes(net::Router& router, const ServerOptions& options, workup::CaseWorkshop& workshop,
+                         workup::UploadStore& uploads, jobs::QuietWork& quiet) {
   add_case_routes(router, options.cases_folder);
   add_case_work_routes(router, workshop, uploads);
   add_case_volume_routes(router, workshop, quiet, under(options.data_folder, "passing"));
@@ -89,7 +89,7 @@ void add_all_score_routes(net::Router& router, const ScoreTools& tools) {
 
 }  // namespace
 
-std::optional<SessionRequest> Server::session_of(const std::string& id) const {
+std::optional<session::SessionRequest> Server::session_of(const std::string& id) const {
   try {
     return sessions_.get(replays_.has(id) ? replays_.get(id).request.replay_of : id).request;
   } catch (const Error& unknown) {
@@ -99,9 +99,9 @@ std::optional<SessionRequest> Server::session_of(const std::string& id) const {
 }
 
 /// What it works on is worth reading again when it is done.
-void Server::tell(const JobRecord& job) {
+void Server::tell(const jobs::JobRecord& job) {
   feed_->tell({"job", job.id, to_text(job.state), job.order.session});
-  if (job.state != JobState::done) return;
+  if (job.state != jobs::JobState::done) return;
   if (!job.order.case_id.empty()) feed_->tell({"case", job.order.case_id, "changed"});
 }
 
@@ -157,14 +157,15 @@ Server::Server(ServerOptions options)
       export_formats_(std::move(options.export_formats)),
       scoring_(std::move(options.scoring)),
       stores_({score::RubricStore(under(options.data_folder, "rubrics")),
-               BenchmarkStore(under(options.data_folder, "benchmarks")), !options.data_folder.empty()}),
+               score::BenchmarkStore(under(options.data_folder, "benchmarks")),
+               !options.data_folder.empty()}),
       jobs_({under(options.data_folder, "jobs"), std::chrono::hours(24), 256,
-             [this](const JobRecord& job) { tell(job); }}),
+             [this](const jobs::JobRecord& job) { tell(job); }}),
       gatehouse_(database_ ? std::make_unique<access::AccessControl>(*database_, options.gatehouse)
                            : nullptr),
       stream_watch_(gatehouse_ ? std::make_unique<StreamWatch>(gatehouse_->credentials) : nullptr),
       sessions_(std::move(options.make_session), options.sessions, options.sessions_folder, options.database),
-      studies_(database_ ? std::make_unique<StudyService>(
+      studies_(database_ ? std::make_unique<study::StudyService>(
                                *database_, study_surroundings(options.cases_folder, sessions_, *gatehouse_))
                          : nullptr),
       replays_(std::move(options.make_replay), options.replays),

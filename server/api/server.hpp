@@ -7,21 +7,21 @@
 #include <string>
 
 #include "access/access_control.hpp"
-#include "api/case_workshop.hpp"
-#include "api/export_formats.hpp"
 #include "api/gate.hpp"
-#include "api/job_service.hpp"
-#include "api/quiet_work.hpp"
 #include "api/readiness.hpp"
-#include "api/replay_service.hpp"
 #include "api/request_frame.hpp"
 #include "api/retention.hpp"
 #include "api/score_tools.hpp"
-#include "api/session_service.hpp"
 #include "api/session_watch.hpp"
 #include "api/stream_watch.hpp"
-#include "api/study_service.hpp"
+#include "jobs/job_service.hpp"
+#include "jobs/quiet_work.hpp"
 #include "net/listener.hpp"
+#include "session/export/export_formats.hpp"
+#include "session/service/replay_service.hpp"
+#include "session/service/session_service.hpp"
+#include "study/study_service.hpp"
+#include "workup/case_workshop.hpp"
 
 namespace ream::api {
 
@@ -31,14 +31,14 @@ struct ServerOptions {
   std::filesystem::path data_folder;      ///< uploads, and users' reamers
   std::filesystem::path web_folder;       ///< the built page; served under "/"
   std::filesystem::path sessions_folder;  ///< where sessions keep their folders
-  SessionMakers make_session;
-  SessionLimits sessions;
-  std::string usual_device = "script";  ///< of sessions that name none
-  CtReader read_ct;                     ///< of uploaded files
-  ExportFormats export_formats;         ///< of sessions
-  ScoreMakers scoring;
-  ReplayFactory make_replay;
-  ReplayLimits replays;
+  session::SessionMakers make_session;
+  session::SessionLimits sessions;
+  std::string usual_device = "script";    ///< of sessions that name none
+  workup::CtReader read_ct;               ///< of uploaded files
+  session::ExportFormats export_formats;  ///< of sessions
+  session::ScoreMakers scoring;
+  session::ReplayFactory make_replay;
+  session::ReplayLimits replays;
   RetentionRules retention;
   /// Has users and what they did, the index of sessions, and answers to repeat. Null: everybody may do
   /// everything, and lists come from the folders.
@@ -76,9 +76,9 @@ class Server {
 
  private:
   net::Router routes_of(const ServerOptions& options);
-  void tell(const JobRecord& job);
+  void tell(const jobs::JobRecord& job);
   RetentionTools retention_tools();
-  std::optional<SessionRequest> session_of(const std::string& id) const;
+  std::optional<session::SessionRequest> session_of(const std::string& id) const;
 
   // Order matters: nothing is prepared before the port is ours. stop() has ended the listener before any of
   // these goes.
@@ -86,19 +86,19 @@ class Server {
   const std::shared_ptr<ChangeFeed> feed_;
   const Contract contract_;
   Idempotency idempotency_;
-  const ExportFormats export_formats_;
-  const ScoreMakers scoring_;
+  const session::ExportFormats export_formats_;
+  const session::ScoreMakers scoring_;
   const ScoreStores stores_;
-  JobService jobs_;
-  QuietWork quiet_;
+  jobs::JobService jobs_;
+  jobs::QuietWork quiet_;
   const std::unique_ptr<access::AccessControl> gatehouse_;
   const std::unique_ptr<StreamWatch> stream_watch_;  ///< null without a database
-  SessionService sessions_;
-  const std::unique_ptr<StudyService> studies_;  ///< null without a database
-  ReplayService replays_;
+  session::SessionService sessions_;
+  const std::unique_ptr<study::StudyService> studies_;  ///< null without a database
+  session::ReplayService replays_;
   Retention retention_;
-  UploadStore uploads_;
-  CaseWorkshop workshop_;
+  workup::UploadStore uploads_;
+  workup::CaseWorkshop workshop_;
   const Gate gate_;
   RequestFrame frame_;
   net::Router router_;

@@ -5,12 +5,12 @@
 
 #include "api/job_resource.hpp"
 #include "api/request_body.hpp"
-#include "api/session_labels.hpp"
 #include "api/session_work.hpp"
 #include "core/clock.hpp"
 #include "core/file.hpp"
 #include "core/temporary_file.hpp"
 #include "net/file_body.hpp"
+#include "session/folder/session_labels.hpp"
 
 namespace ream::api {
 namespace fs = std::filesystem;
@@ -25,9 +25,9 @@ constexpr size_t longest_rubric_name = 80;
 const std::string& id_of(const net::Request& request) { return request.parameters.at("id"); }
 
 /// The session as the caller may know it.
-SessionRecord seen(const DownloadTools& tools, const net::Request& request) {
-  SessionRecord record = tools.sessions.get(id_of(request));
-  record.request = seen_by(request.caller, tools.studies, std::move(record.request));
+session::SessionRecord seen(const DownloadTools& tools, const net::Request& request) {
+  session::SessionRecord record = tools.sessions.get(id_of(request));
+  record.request = study::seen_by(request.caller, tools.studies, std::move(record.request));
   return record;
 }
 
@@ -39,14 +39,15 @@ fs::path existing(const fs::path& file, const std::string& id, const std::string
 
 net::Response recording(const DownloadTools& tools, const net::Request& request) {
   const std::string& id = id_of(request);
-  const fs::path file = existing(recording_file(tools.sessions.folder_of(id)), id, "recording");
+  const fs::path file = existing(session::recording_file(tools.sessions.folder_of(id)), id, "recording");
   return net::file_response(request, {file, "application/octet-stream", id + ".ream"});
 }
 
 net::Response session_file(const DownloadTools& tools, const net::Request& request) {
   const std::string& id = id_of(request);
-  json session = read_json_file(existing(session_json(tools.sessions.folder_of(id)), id, "session.json"));
-  write_labels(seen(tools, request).request, session);
+  json session =
+      read_json_file(existing(session::session_json(tools.sessions.folder_of(id)), id, "session.json"));
+  session::write_labels(seen(tools, request).request, session);
   return net::json_response(200, session);
 }
 
@@ -55,14 +56,14 @@ double number_or(const net::Request& request, const std::string& name, double ot
   return given == request.query.end() ? otherwise : json::parse(given->second).get<double>();
 }
 
-TracePart part_of(const net::Request& request) {
-  TracePart part{number_or(request, "from_s", 0.0), std::nullopt,
-                 static_cast<int>(number_or(request, "stride", 1.0))};
+session::TracePart part_of(const net::Request& request) {
+  session::TracePart part{number_or(request, "from_s", 0.0), std::nullopt,
+                          static_cast<int>(number_or(request, "stride", 1.0))};
   if (request.query.contains("to_s")) part.to_s = number_or(request, "to_s", 0.0);
   return part;
 }
 
-void require_few_rows(const TracePart& part, double duration_s) {
+void require_few_rows(const session::TracePart& part, double duration_s) {
   const double span_s = std::min(part.to_s.value_or(duration_s), duration_s) - part.from_s;
   if (span_s / tick_s / part.stride > most_rows_at_once)
     throw net::RequestError(
@@ -81,10 +82,11 @@ net::Response made_now(const DownloadTools& tools, const net::Request& request, 
 }
 
 net::Response trace(const DownloadTools& tools, const net::Request& request) {
-  const SessionRecord record = seen(tools, request);
-  const ExportOrder order{record.request, part_of(request)};
-  const ExportFormat& format = tools.formats.find("csv");
-  existing(recording_file(tools.sessions.folder_of(order.session.id)), order.session.id, "recording");
+  const session::SessionRecord record = seen(tools, request);
+  const session::ExportOrder order{record.request, part_of(request)};
+  const session::ExportFormat& format = tools.formats.find("csv");
+  existing(session::recording_file(tools.sessions.folder_of(order.session.id)), order.session.id,
+           "recording");
   require_few_rows(order.part, record.status.duration_s);
   return made_now(tools, request, format.file_ending(), format.media_type,
                   [&](const fs::path& out) { format.write(order, out, no_progress); });
@@ -92,16 +94,16 @@ net::Response trace(const DownloadTools& tools, const net::Request& request) {
 
 /// What every ended session can have in its folder: given where it is there, else made by a job.
 net::Response kept_or_made(const DownloadTools& tools, const net::Request& request,
-                           const SessionRecord& record, const char* kind, const char* format_name,
+                           const session::SessionRecord& record, const char* kind, const char* format_name,
                            const char* name) {
   const fs::path folder = tools.sessions.folder_of(record.request.id);
-  existing(recording_file(folder), record.request.id, "recording");
-  const ExportFormat& format = tools.formats.find(format_name);
+  existing(session::recording_file(folder), record.request.id, "recording");
+  const session::ExportFormat& format = tools.formats.find(format_name);
   std::error_code failed;
   if (fs::is_regular_file(folder / name, failed))
     return net::file_response(
         request, {folder / name, format.media_type, record.request.id + "." + format.file_ending()});
-  const ExportOrder order{record.request};
+  const session::ExportOrder order{record.request};
   const auto write = format.write;
   return accepted(work_in_folder(
       tools.jobs, kind, record, folder,
@@ -111,8 +113,8 @@ net::Response kept_or_made(const DownloadTools& tools, const net::Request& reque
 int stride_of(const net::Request& request) { return static_cast<int>(number_or(request, "stride", 1.0)); }
 
 net::Response mesh(const DownloadTools& tools, const net::Request& request) {
-  const SessionRecord record = seen(tools, request);
-  if (!is_live(record.status.state))
+  const session::SessionRecord record = seen(tools, request);
+  if (!session::is_live(record.status.state))
     return kept_or_made(tools, request, record, "mesh", "surface", "reamed.ply");
   return made_now(tools, request, "ply", "application/ply", [&](const fs::path& out) {
     tools.sessions.write_surface(id_of(request), out, stride_of(request));
@@ -120,16 +122,16 @@ net::Response mesh(const DownloadTools& tools, const net::Request& request) {
 }
 
 net::Response snapshot(const DownloadTools& tools, const net::Request& request) {
-  const SessionRecord record = seen(tools, request);
-  if (!is_live(record.status.state))
+  const session::SessionRecord record = seen(tools, request);
+  if (!session::is_live(record.status.state))
     return kept_or_made(tools, request, record, "snapshot", "png", "snapshot.png");
   return made_now(tools, request, "png", "image/png",
                   [&](const fs::path& out) { tools.sessions.write_picture(id_of(request), out); });
 }
 
 /// Part, rubric and benchmark, where the form has such. Throws RequestError 422.
-ExportOrder order_in(RequestBody& body, const ExportFormat& format) {
-  ExportOrder order;
+session::ExportOrder order_in(RequestBody& body, const session::ExportFormat& format) {
+  session::ExportOrder order;
   const auto from_s = body.number_within_or_none("from_s", 0.0, longest_session_s);
   order.part.to_s = body.number_within_or_none("to_s", 0.0, longest_session_s);
   const auto stride = body.number_within_or_none("stride", 1.0, largest_stride);
@@ -152,22 +154,22 @@ ExportOrder order_in(RequestBody& body, const ExportFormat& format) {
 
 net::Response export_session(const DownloadTools& tools, const net::Request& request) {
   RequestBody body(request);
-  const ExportFormat& format = tools.formats.find(body.name("format"));
-  ExportOrder order = order_in(body, format);
-  const SessionRecord record = seen(tools, request);
+  const session::ExportFormat& format = tools.formats.find(body.name("format"));
+  session::ExportOrder order = order_in(body, format);
+  const session::SessionRecord record = seen(tools, request);
   const std::string id = record.request.id;
-  if (is_live(record.status.state))
+  if (session::is_live(record.status.state))
     throw Error(ErrorKind::conflict, "session '" + id + "' is " + to_text(record.status.state) +
                                          "; it can be exported when it has ended");
-  existing(recording_file(tools.sessions.folder_of(id)), id, "recording");
+  existing(session::recording_file(tools.sessions.folder_of(id)), id, "recording");
   order.session = record.request;
   if (format.check) format.check(order);
-  const JobOrder job{"export", {}, id, std::make_shared<const SessionRequest>(record.request)};
+  const jobs::JobOrder job{"export", {}, id, std::make_shared<const session::SessionRequest>(record.request)};
   return accepted(
       tools.jobs.submit_file(job, [format, order](const fs::path& folder, const Progress& progress) {
         const std::string name = order.session.id + "." + format.file_ending();
         format.write(order, folder / name, progress);
-        return JobService::MadeFile{name, format.media_type};
+        return jobs::JobService::MadeFile{name, format.media_type};
       }));
 }
 

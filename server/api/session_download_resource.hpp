@@ -1,22 +1,22 @@
 #pragma once
 #include <filesystem>
 
-#include "api/export_formats.hpp"
-#include "api/job_service.hpp"
-#include "api/quiet_work.hpp"
-#include "api/session_service.hpp"
-#include "api/study_service.hpp"
+#include "jobs/job_service.hpp"
+#include "jobs/quiet_work.hpp"
 #include "net/router.hpp"
+#include "session/export/export_formats.hpp"
+#include "session/service/session_service.hpp"
+#include "study/study_service.hpp"
 
 namespace ream::api {
 
 /// What the downloads of sessions are made of; all of it outlives the router.
 struct DownloadTools {
-  SessionService& sessions;
-  const StudyService* studies;  ///< null: there are none
-  JobService& jobs;
-  const ExportFormats& formats;
-  QuietWork& quiet;
+  session::SessionService& sessions;
+  const study::StudyService* studies;  ///< null: there are none
+  jobs::JobService& jobs;
+  const session::ExportFormats& formats;
+  jobs::QuietWork& quiet;
   std::filesystem::path temporary_folder;  ///< for files that are made to be sent once
 };
 

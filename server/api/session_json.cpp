@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "api/session_labels.hpp"
+#include "session/folder/session_labels.hpp"
 
 namespace ream::api {
 using nlohmann::json;
@@ -16,7 +16,7 @@ json to_json(const TimingSummary& times) {
           {"max_us", times.max_us}};
 }
 
-json to_json(const LoopStatus& loop) {
+json to_json(const session::LoopStatus& loop) {
   json told = to_json(loop.tick_us);
   told.update({{"missed", loop.missed},
                {"lateness", to_json(loop.lateness_us)},
@@ -29,7 +29,7 @@ json to_json(const LoopStatus& loop) {
   return told;
 }
 
-json to_json(const DeviceLinkStatus& device) {
+json to_json(const session::DeviceLinkStatus& device) {
   return {{"name", device.name},
           {"profile", device.profile},
           {"state", device.state.empty() ? json(nullptr) : json(device.state)},
@@ -40,7 +40,7 @@ json to_json(const DeviceLinkStatus& device) {
           {"refused", device.refused}};
 }
 
-json to_json(const SessionMark& mark) {
+json to_json(const session::SessionMark& mark) {
   return {{"points", mark.points ? json(*mark.points) : json(nullptr)},
           {"outcome", mark.outcome.empty() ? json(nullptr) : json(mark.outcome)},
           {"rubric", mark.rubric},
@@ -49,9 +49,9 @@ json to_json(const SessionMark& mark) {
 
 }  // namespace
 
-json to_json(const SessionRecord& record) {
-  const SessionStatus& status = record.status;
-  json told = labels_json(record.request);
+json to_json(const session::SessionRecord& record) {
+  const session::SessionStatus& status = record.status;
+  json told = session::labels_json(record.request);
   told.update({{"id", record.request.id},
                {"kind", "session"},
                {"case", record.request.case_id},

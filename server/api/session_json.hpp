@@ -1,11 +1,11 @@
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 
-#include "api/session_folder.hpp"
+#include "session/folder/session_folder.hpp"
 
 namespace ream::api {
 
 /// Session of openapi.yaml.
-nlohmann::json to_json(const SessionRecord& record);
+nlohmann::json to_json(const session::SessionRecord& record);
 
 }  // namespace ream::api

@@ -2,13 +2,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "access/role.hpp"
 #include "api/json_page.hpp"
 #include "api/replay_resource.hpp"
-#include "api/rights.hpp"
 #include "api/session_json.hpp"
-#include "api/session_row.hpp"
 #include "api/visibility.hpp"
 #include "core/error.hpp"
+#include "session/folder/session_row.hpp"
 
 namespace ream::api {
 using nlohmann::json;
@@ -42,10 +42,11 @@ std::string beginning_of(const net::Request& request, const std::string& name) {
 }
 
 /// Of one that a viewer's link is for.
-SessionPage only(const SessionService& sessions, const store::SessionQuery& query, const std::string& id) {
-  SessionPage page;
+session::SessionPage only(const session::SessionService& sessions, const store::SessionQuery& query,
+                          const std::string& id) {
+  session::SessionPage page;
   try {
-    SessionRecord record = sessions.get(id);
+    session::SessionRecord record = sessions.get(id);
     if (query.cursor.empty() && matches(query, row_of(record))) page.sessions.push_back(std::move(record));
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::not_found) throw;
@@ -54,10 +55,10 @@ SessionPage only(const SessionService& sessions, const store::SessionQuery& quer
   return page;
 }
 
-json visible_replays(const net::Caller& caller, const SessionService& sessions,
-                     const ReplayService& replays) {
+json visible_replays(const net::Caller& caller, const session::SessionService& sessions,
+                     const session::ReplayService& replays) {
   json visible = json::array();
-  for (const ReplayRecord& record : replays.list()) try {
+  for (const session::ReplayRecord& record : replays.list()) try {
       if (may_see(caller, sessions.get(record.request.replay_of).request)) visible.push_back(to_json(record));
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::not_found) throw;
@@ -89,25 +90,27 @@ store::SessionQuery session_query(const net::Request& request) {
   return query;
 }
 
-SessionPage sessions_for(const net::Caller& caller, const SessionService& sessions,
-                         store::SessionQuery query) {
-  const Roles role = role_bit(caller.role);
-  if (role == viewers && !caller.only_session.empty()) return only(sessions, query, caller.only_session);
-  if (role == trainees) {
+session::SessionPage sessions_for(const net::Caller& caller, const session::SessionService& sessions,
+                                  store::SessionQuery query) {
+  const access::Roles role = access::role_bit(caller.role);
+  if (role == access::viewers && !caller.only_session.empty())
+    return only(sessions, query, caller.only_session);
+  if (role == access::trainees) {
     if (!query.trainee_id.empty() && query.trainee_id != caller.user_id) return {};
     query.trainee_id = caller.user_id;
   }
   // What is found by a person would tell who is behind a code.
-  if (role != operators && role != trainees && !query.trainee_id.empty()) query.outside_studies = true;
+  if (role != access::operators && role != access::trainees && !query.trainee_id.empty())
+    query.outside_studies = true;
   return sessions.list(query);
 }
 
-net::Response list_sessions(const SessionService& sessions, const StudyService* studies,
-                            const ReplayService& replays, const net::Request& request) {
-  SessionPage page = sessions_for(request.caller, sessions, session_query(request));
-  const Blinding blinding = blinding_for(studies, request.caller);
+net::Response list_sessions(const session::SessionService& sessions, const study::StudyService* studies,
+                            const session::ReplayService& replays, const net::Request& request) {
+  session::SessionPage page = sessions_for(request.caller, sessions, session_query(request));
+  const study::Blinding blinding = study::blinding_for(studies, request.caller);
   json records = json::array();
-  for (SessionRecord& record : page.sessions) {
+  for (session::SessionRecord& record : page.sessions) {
     record.request = blinding.seen(std::move(record.request));
     records.push_back(to_json(record));
   }

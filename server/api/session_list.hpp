@@ -1,8 +1,8 @@
 #pragma once
-#include "api/replay_service.hpp"
-#include "api/session_service.hpp"
-#include "api/study_service.hpp"
 #include "net/message.hpp"
+#include "session/service/replay_service.hpp"
+#include "session/service/session_service.hpp"
+#include "study/study_service.hpp"
 
 namespace ream::api {
 
@@ -12,13 +12,13 @@ store::SessionQuery session_query(const net::Request& request);
 /// The sessions that a caller may see of those: trainees their own, viewers what their link is for. Who asks
 /// for a person and may not know who is behind codes gets sessions outside of studies only. Errors:
 /// invalid_input for a bad cursor; unavailable while the index cannot be asked.
-SessionPage sessions_for(const net::Caller& caller, const SessionService& sessions,
-                         store::SessionQuery query);
+session::SessionPage sessions_for(const net::Caller& caller, const session::SessionService& sessions,
+                                  store::SessionQuery query);
 
 /// GET /api/v1/sessions: a page of the sessions that the caller may see, as they may know them, and the
 /// replays of such that are open. `studies` null: there are none. Errors: invalid_input for a bad cursor;
 /// unavailable while the index cannot be asked.
-net::Response list_sessions(const SessionService& sessions, const StudyService* studies,
-                            const ReplayService& replays, const net::Request& request);
+net::Response list_sessions(const session::SessionService& sessions, const study::StudyService* studies,
+                            const session::ReplayService& replays, const net::Request& request);
 
 }  // namespace ream::api

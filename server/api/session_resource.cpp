@@ -18,7 +18,7 @@ constexpr size_t longest_trainee = 100, longest_participant = 64, longest_title 
 const std::string base = "/api/v1/sessions";
 
 /// A trainee trains for nobody else.
-void name_trainee(const net::Caller& caller, SessionRequest& wanted) {
+void name_trainee(const net::Caller& caller, session::SessionRequest& wanted) {
   if (caller.role != "trainee") return;
   if (!wanted.trainee_id.empty() && wanted.trainee_id != caller.user_id)
     throw net::RequestError(403, "a trainee's sessions are their own; leave trainee_id out");
@@ -27,19 +27,21 @@ void name_trainee(const net::Caller& caller, SessionRequest& wanted) {
 }
 
 /// The same as the caller may know it.
-json seen(const StudyService* studies, const net::Request& request, SessionRecord record) {
-  record.request = seen_by(request.caller, studies, std::move(record.request));
+json seen(const study::StudyService* studies, const net::Request& request, session::SessionRecord record) {
+  record.request = study::seen_by(request.caller, studies, std::move(record.request));
   return to_json(record);
 }
 
-net::Response created(const StudyService* studies, const net::Request& request, const SessionRecord& record) {
+net::Response created(const study::StudyService* studies, const net::Request& request,
+                      const session::SessionRecord& record) {
   net::Response response = net::json_response(201, seen(studies, request, record));
   response.headers.emplace_back("Location", base + "/" + record.request.id);
   return response;
 }
 
 /// In a study the study says how it is and who trains.
-void take_study(const StudyService* studies, const net::Request& request, SessionRequest& wanted) {
+void take_study(const study::StudyService* studies, const net::Request& request,
+                session::SessionRequest& wanted) {
   if (wanted.study.empty()) {
     if (!wanted.participant.empty())
       throw net::RequestError(422, "'participant' needs 'study'", {{"#/participant", "needs a study"}});
@@ -55,10 +57,11 @@ void take_study(const StudyService* studies, const net::Request& request, Sessio
   studies->admit(request.caller, wanted);
 }
 
-net::Response create(SessionService& service, const StudyService* studies, const Readiness& readiness,
-                     const std::string& usual_device, const net::Request& request) {
+net::Response create(session::SessionService& service, const study::StudyService* studies,
+                     const Readiness& readiness, const std::string& usual_device,
+                     const net::Request& request) {
   RequestBody body(request);
-  SessionRequest wanted;
+  session::SessionRequest wanted;
   wanted.case_id = body.name("case");
   wanted.device = body.name_or("device", "");
   wanted.script = body.name_or("script", "");
@@ -81,8 +84,8 @@ net::Response create(SessionService& service, const StudyService* studies, const
 
 const std::string& id_of(const net::Request& request) { return request.parameters.at("id"); }
 
-net::Response resume(SessionService& service, const StudyService* studies, const Readiness& readiness,
-                     const net::Request& request) {
+net::Response resume(session::SessionService& service, const study::StudyService* studies,
+                     const Readiness& readiness, const net::Request& request) {
   std::string reamer;
   if (!request.body.empty()) {
     RequestBody body(request);
@@ -93,9 +96,10 @@ net::Response resume(SessionService& service, const StudyService* studies, const
   return net::json_response(200, seen(studies, request, service.resume(id_of(request), reamer)));
 }
 
-net::Response change(SessionService& service, const StudyService* studies, const net::Request& request) {
+net::Response change(session::SessionService& service, const study::StudyService* studies,
+                     const net::Request& request) {
   RequestBody body(request);
-  SessionChange wanted;
+  session::SessionChange wanted;
   wanted.title = body.words_or_none("title", longest_title);
   wanted.keep = body.flag_or_none("keep");
   wanted.trainee_id = body.name_or_none("trainee_id");
@@ -119,9 +123,9 @@ int stride_of(const net::Request& request) {
 
 }  // namespace
 
-void add_session_routes(net::Router& router, SessionService& service, ReplayService& replays,
-                        const Readiness& readiness, const std::string& usual_device,
-                        const StudyService* studies) {
+void add_session_routes(net::Router& router, session::SessionService& service,
+                        session::ReplayService& replays, const Readiness& readiness,
+                        const std::string& usual_device, const study::StudyService* studies) {
   router.on("GET", base, [&, studies](const net::Request& request) {
     return list_sessions(service, studies, replays, request);
   });

@@ -15,9 +15,9 @@ const std::string base = "/api/v1/sessions";
 
 const std::string& id_of(const net::Request& request) { return request.parameters.at("id"); }
 
-void tell(const TrashTools& tools, const SessionRecord& record, const char* change) {
-  tools.feed.tell(
-      {"session", record.request.id, change, std::make_shared<const SessionRequest>(record.request)});
+void tell(const TrashTools& tools, const session::SessionRecord& record, const char* change) {
+  tools.feed.tell({"session", record.request.id, change,
+                   std::make_shared<const session::SessionRequest>(record.request)});
 }
 
 net::Response remove(const TrashTools& tools, const net::Request& request) {
@@ -25,18 +25,18 @@ net::Response remove(const TrashTools& tools, const net::Request& request) {
   if (tools.replays.has(id)) throw Error(ErrorKind::conflict, "'" + id + "' is a replay; POST stop ends it");
   if (request.caller.role == "trainee" && !tools.sessions.get(id).request.study.empty())
     throw net::RequestError(403, "a session of a study is deleted by those who run the study");
-  const SessionRecord record = tools.sessions.remove(id);
+  const session::SessionRecord record = tools.sessions.remove(id);
   tools.replays.stop_all_of(id);
   tell(tools, record, "deleted");
   tools.retention.was_deleted();
   return {204, {}, nullptr, {}};
 }
 
-json to_json(const TrashTools& tools, const Blinding& blinding, DeletedSession deleted) {
+json to_json(const TrashTools& tools, const study::Blinding& blinding, session::DeletedSession deleted) {
   json session;
   if (deleted.record) {
     deleted.record->request = blinding.seen(std::move(deleted.record->request));
-    session = to_json(*deleted.record);
+    session = api::to_json(*deleted.record);
   }
   return {{"id", deleted.id},
           {"deleted_utc", deleted.deleted_utc},
@@ -45,16 +45,16 @@ json to_json(const TrashTools& tools, const Blinding& blinding, DeletedSession d
 }
 
 net::Response restore(const TrashTools& tools, const net::Request& request) {
-  SessionRecord record = tools.sessions.restore(id_of(request));
+  session::SessionRecord record = tools.sessions.restore(id_of(request));
   tell(tools, record, "restored");
-  record.request = seen_by(request.caller, tools.studies, std::move(record.request));
-  return net::json_response(200, to_json(record));
+  record.request = study::seen_by(request.caller, tools.studies, std::move(record.request));
+  return net::json_response(200, api::to_json(record));
 }
 
 net::Response list(const TrashTools& tools, const net::Request& request) {
-  const Blinding blinding = blinding_for(tools.studies, request.caller);
+  const study::Blinding blinding = study::blinding_for(tools.studies, request.caller);
   std::vector<json> items;
-  for (DeletedSession& deleted : tools.sessions.deleted())
+  for (session::DeletedSession& deleted : tools.sessions.deleted())
     items.push_back(to_json(tools, blinding, std::move(deleted)));
   return page_of(request, "deleted", std::move(items), "-deleted_utc");
 }

@@ -1,18 +1,18 @@
 #pragma once
 #include "api/change_feed.hpp"
-#include "api/replay_service.hpp"
 #include "api/retention.hpp"
-#include "api/session_service.hpp"
-#include "api/study_service.hpp"
 #include "net/router.hpp"
+#include "session/service/replay_service.hpp"
+#include "session/service/session_service.hpp"
+#include "study/study_service.hpp"
 
 namespace ream::api {
 
 /// What deleting sessions takes. All outlive the router.
 struct TrashTools {
-  SessionService& sessions;
-  ReplayService& replays;
-  const StudyService* studies;  ///< null without a database
+  session::SessionService& sessions;
+  session::ReplayService& replays;
+  const study::StudyService* studies;  ///< null without a database
   Retention& retention;
   ChangeFeed& feed;
 };

@@ -4,7 +4,7 @@
 
 namespace ream::api {
 
-SessionWatch::SessionWatch(const SessionService& sessions, ChangeFeed& feed,
+SessionWatch::SessionWatch(const session::SessionService& sessions, ChangeFeed& feed,
                            std::chrono::milliseconds look_every)
     : sessions_(sessions), feed_(feed) {
   thread_ = std::thread([this, look_every] {
@@ -31,14 +31,15 @@ void SessionWatch::stop() {
 }
 
 void SessionWatch::look() {
-  std::map<std::string, SessionState> now;
-  for (const SessionRecord& record : sessions_.held()) {
+  std::map<std::string, session::SessionState> now;
+  for (const session::SessionRecord& record : sessions_.held()) {
     const std::string& id = record.request.id;
-    const SessionState state = record.status.state;
+    const session::SessionState state = record.status.state;
     now[id] = state;
     const auto before = known_.find(id);
     if (before != known_.end() && before->second == state) continue;
-    feed_.tell({"session", id, to_text(state), std::make_shared<const SessionRequest>(record.request)});
+    feed_.tell(
+        {"session", id, to_text(state), std::make_shared<const session::SessionRequest>(record.request)});
   }
   known_ = std::move(now);
 }

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "api/change_feed.hpp"
-#include "api/session_service.hpp"
+#include "session/service/session_service.hpp"
 
 namespace ream::api {
 
@@ -15,7 +15,7 @@ namespace ream::api {
 class SessionWatch {
  public:
   /// Both outlive it.
-  SessionWatch(const SessionService& sessions, ChangeFeed& feed,
+  SessionWatch(const session::SessionService& sessions, ChangeFeed& feed,
                std::chrono::milliseconds look_every = std::chrono::milliseconds(100));
   ~SessionWatch();
   SessionWatch(const SessionWatch&) = delete;
@@ -26,9 +26,9 @@ class SessionWatch {
  private:
   void look();
 
-  const SessionService& sessions_;
+  const session::SessionService& sessions_;
   ChangeFeed& feed_;
-  std::map<std::string, SessionState> known_;
+  std::map<std::string, session::SessionState> known_;
   std::mutex mutex_;
   std::condition_variable leaving_changed_;
   bool leaving_ = false;

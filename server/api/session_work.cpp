@@ -4,19 +4,19 @@ namespace ream::api {
 namespace fs = std::filesystem;
 
 FileLock lock_of_ended(const fs::path& folder) {
-  auto lock = FileLock::attempt(lock_file(folder));
+  auto lock = FileLock::attempt(session::lock_file(folder));
   if (!lock)
     throw Error(ErrorKind::conflict,
                 "session '" + folder.filename().string() + "' is in use; try again later");
   return std::move(*lock);
 }
 
-JobRecord work_in_folder(JobService& jobs, const std::string& kind, const SessionRecord& record,
-                         const fs::path& folder,
-                         const std::function<void(const fs::path&, const Progress&)>& work) {
+jobs::JobRecord work_in_folder(jobs::JobService& jobs, const std::string& kind,
+                               const session::SessionRecord& record, const fs::path& folder,
+                               const std::function<void(const fs::path&, const Progress&)>& work) {
   const std::string& id = record.request.id;
   if (const auto open = jobs.open_on_session(kind, id)) return *open;
-  const JobOrder order{kind, {}, id, std::make_shared<const SessionRequest>(record.request)};
+  const jobs::JobOrder order{kind, {}, id, std::make_shared<const session::SessionRequest>(record.request)};
   return jobs.submit(order, [folder, work](const Progress& progress) {
     const FileLock lock = lock_of_ended(folder);
     work(folder, progress);

@@ -2,9 +2,9 @@
 #include <filesystem>
 #include <functional>
 
-#include "api/job_service.hpp"
-#include "api/session_folder.hpp"
 #include "core/file_lock.hpp"
+#include "jobs/job_service.hpp"
+#include "session/folder/session_folder.hpp"
 
 namespace ream::api {
 
@@ -14,8 +14,9 @@ FileLock lock_of_ended(const std::filesystem::path& folder);
 /// Has long work done in the folder of a session that has ended, whose files nobody else changes meanwhile;
 /// of one kind once at a time, so that who asks again gets the same job. Errors: those of
 /// JobService::submit().
-JobRecord work_in_folder(JobService& jobs, const std::string& kind, const SessionRecord& record,
-                         const std::filesystem::path& folder,
-                         const std::function<void(const std::filesystem::path&, const Progress&)>& work);
+jobs::JobRecord work_in_folder(
+    jobs::JobService& jobs, const std::string& kind, const session::SessionRecord& record,
+    const std::filesystem::path& folder,
+    const std::function<void(const std::filesystem::path&, const Progress&)>& work);
 
 }  // namespace ream::api

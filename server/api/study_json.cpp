@@ -14,7 +14,7 @@ json text_or_null(const std::string& text) { return text.empty() ? json(nullptr)
 }  // namespace
 
 json summary_json(const ToldStudy& told) {
-  const Study& study = told.study;
+  const study::Study& study = told.study;
   return {{"id", study.id},
           {"name", study.name},
           {"description", study.description},
@@ -38,7 +38,7 @@ json to_json(const ToldStudy& told) {
   return all;
 }
 
-json to_json(const Participant& participant) {
+json to_json(const study::Participant& participant) {
   const bool known = !participant.experience.empty();
   return {{"code", participant.code},
           {"experience", text_or_null(participant.experience)},
@@ -51,9 +51,9 @@ json to_json(const store::PersonRow& person) {
   return {{"code", person.code}, {"user_id", text_or_null(person.user_id)}, {"name", person.name}};
 }
 
-StudyWishes study_wishes_in(const net::Request& request) {
+study::StudyWishes study_wishes_in(const net::Request& request) {
   RequestBody body(request);
-  StudyWishes wishes;
+  study::StudyWishes wishes;
   wishes.name = body.words("name", 1, longest_name);
   wishes.description = body.words("description", 0, longest_description);
   wishes.settings.cases = body.names("cases", 1, most_cases);
@@ -63,16 +63,16 @@ StudyWishes study_wishes_in(const net::Request& request) {
   const std::optional<json> questionnaire = body.value_or_none("questionnaire");
   body.finish();
   if (!questionnaire)
-    wishes.questionnaire = face_validity_questionnaire();
+    wishes.questionnaire = study::face_validity_questionnaire();
   else if (!questionnaire->is_null())
-    wishes.questionnaire = questionnaire_from(*questionnaire);
+    wishes.questionnaire = study::questionnaire_from(*questionnaire);
   return wishes;
 }
 
-NewParticipant new_participant_in(const net::Request& request, bool person) {
+study::NewParticipant new_participant_in(const net::Request& request, bool person) {
   RequestBody body(request);
-  NewParticipant wanted;
-  wanted.experience = body.one_of("experience", experience_levels);
+  study::NewParticipant wanted;
+  wanted.experience = body.one_of("experience", study::experience_levels);
   wanted.procedures_done = body.count("procedures_done", most_procedures);
   if (person) {
     wanted.user_id = body.name_or("user_id", "");

@@ -1,14 +1,14 @@
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 
-#include "api/study_service.hpp"
 #include "net/message.hpp"
+#include "study/study_service.hpp"
 
 namespace ream::api {
 
 /// What REST says of a study to its staff and to those who take part.
 struct ToldStudy {
-  const Study& study;
+  const study::Study& study;
   bool to_staff = false;
   int64_t participants = 0;  ///< told to staff
   std::string own_code;      ///< of the caller; empty: does not take part
@@ -17,12 +17,12 @@ struct ToldStudy {
 nlohmann::json to_json(const ToldStudy& told);
 /// The same without the questionnaire.
 nlohmann::json summary_json(const ToldStudy& told);
-nlohmann::json to_json(const Participant& participant);
+nlohmann::json to_json(const study::Participant& participant);
 nlohmann::json to_json(const store::PersonRow& person);
 
 /// Bodies of requests. Throw RequestError as RequestBody does.
-StudyWishes study_wishes_in(const net::Request& request);
+study::StudyWishes study_wishes_in(const net::Request& request);
 /// With `person`, a person may be named (user_id or name, not both).
-NewParticipant new_participant_in(const net::Request& request, bool person);
+study::NewParticipant new_participant_in(const net::Request& request, bool person);
 
 }  // namespace ream::api

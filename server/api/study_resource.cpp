@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "access/role.hpp"
 #include "api/request_body.hpp"
-#include "api/rights.hpp"
 #include "api/study_json.hpp"
 #include "core/error.hpp"
 
@@ -18,20 +18,20 @@ const std::string& code_of(const net::Request& request) { return request.paramet
 
 /// What all routes of studies need.
 struct Desk {
-  StudyService* service_or_none;
+  study::StudyService* service_or_none;
   Audit audit;
 
-  StudyService& service() const {
+  study::StudyService& service() const {
     if (!service_or_none)
       throw Error(ErrorKind::unavailable, "this server has no database, so it has no studies");
     return *service_or_none;
   }
 
-  ToldStudy told(const net::Request& request, const Study& study) const {
-    return {study, (role_bit(request.caller.role) & staff) != 0, service().count(study.id),
+  ToldStudy told(const net::Request& request, const study::Study& study) const {
+    return {study, (access::role_bit(request.caller.role) & access::staff) != 0, service().count(study.id),
             service().code_of(request.caller, study.id)};
   }
-  net::Response reply(const net::Request& request, int status, const Study& study) const {
+  net::Response reply(const net::Request& request, int status, const study::Study& study) const {
     return net::json_response(status, to_json(told(request, study)));
   }
   net::Response created(const std::string& where, const json& body) const {
@@ -43,19 +43,19 @@ struct Desk {
 
 net::Response list(const Desk& desk, const net::Request& request) {
   json studies = json::array();
-  for (const Study& study : desk.service().list(request.caller))
+  for (const study::Study& study : desk.service().list(request.caller))
     studies.push_back(summary_json(desk.told(request, study)));
   return net::json_response(200, {{"studies", std::move(studies)}});
 }
 
 net::Response create(const Desk& desk, const net::Request& request) {
-  const Study study = desk.service().create(study_wishes_in(request));
+  const study::Study study = desk.service().create(study_wishes_in(request));
   desk.audit(request, "study.create", study.id, study.name);
   return desk.created(base + "/" + study.id, to_json(desk.told(request, study)));
 }
 
 net::Response join(const Desk& desk, const net::Request& request) {
-  const NewParticipant about = new_participant_in(request, false);
+  const study::NewParticipant about = new_participant_in(request, false);
   const auto [id, participant] = desk.service().join(request.caller, about);
   desk.audit(request, "study.join", id, "");
   json told = to_json(participant);
@@ -64,7 +64,7 @@ net::Response join(const Desk& desk, const net::Request& request) {
 }
 
 net::Response enrol(const Desk& desk, const net::Request& request) {
-  const Participant participant =
+  const study::Participant participant =
       desk.service().enrol(request.caller, id_of(request), new_participant_in(request, true));
   desk.audit(request, "study.enrol", id_of(request), participant.code);
   return desk.created(base + "/" + id_of(request) + "/participants/" + participant.code,
@@ -73,7 +73,7 @@ net::Response enrol(const Desk& desk, const net::Request& request) {
 
 net::Response participants(const Desk& desk, const net::Request& request) {
   json list = json::array();
-  for (const Participant& participant : desk.service().participants(request.caller, id_of(request)))
+  for (const study::Participant& participant : desk.service().participants(request.caller, id_of(request)))
     list.push_back(to_json(participant));
   return net::json_response(200, {{"participants", std::move(list)}});
 }
@@ -99,18 +99,18 @@ std::string choice(const net::Request& request, const std::string& key, const st
 net::Response export_study(const Desk& desk, const net::Request& request) {
   const std::string format = choice(request, "format", "json", {"json", "csv"});
   const std::string table = choice(request, "table", "sessions", {"sessions", "answers", "groups"});
-  const StudyExport all = desk.service().export_all(request.caller, id_of(request));
+  const study::StudyExport all = desk.service().export_all(request.caller, id_of(request));
   desk.audit(request, "study.export", id_of(request), format == "csv" ? table + " as CSV" : "JSON");
   if (format == "json")
     return net::json_response(200, {{"study", id_of(request)},
-                                    {"sessions", json_of(all.sessions)},
-                                    {"answers", json_of(all.answers)},
-                                    {"groups", json_of(all.groups)}});
-  const ExportTable& chosen = table == "answers"  ? all.answers
-                              : table == "groups" ? all.groups
-                                                  : all.sessions;
-  net::Response response =
-      net::bytes_response(200, "text/csv; charset=utf-8; header=present", net::share(csv_of(chosen)));
+                                    {"sessions", session::json_of(all.sessions)},
+                                    {"answers", session::json_of(all.answers)},
+                                    {"groups", session::json_of(all.groups)}});
+  const session::ExportTable& chosen = table == "answers"  ? all.answers
+                                       : table == "groups" ? all.groups
+                                                           : all.sessions;
+  net::Response response = net::bytes_response(200, "text/csv; charset=utf-8; header=present",
+                                               net::share(session::csv_of(chosen)));
   response.headers.emplace_back("Content-Disposition",
                                 "attachment; filename=\"" + id_of(request) + "-" + table + ".csv\"");
   return response;
@@ -118,18 +118,18 @@ net::Response export_study(const Desk& desk, const net::Request& request) {
 
 void add_life_routes(net::Router& router, const Desk& desk) {
   const std::string one = base + "/{id}";
-  const auto on = [&](const std::string& word, Study (StudyService::*act)(const std::string&)) {
+  const auto on = [&](const std::string& word, study::Study (study::StudyService::*act)(const std::string&)) {
     router.on("POST", one + "/" + word, [desk, word, act](const net::Request& request) {
-      const Study study = (desk.service().*act)(id_of(request));
+      const study::Study study = (desk.service().*act)(id_of(request));
       desk.audit(request, "study." + word, study.id, study.name);
       return desk.reply(request, 200, study);
     });
   };
-  on("close", &StudyService::close);
-  on("reopen", &StudyService::reopen);
-  on("unblind", &StudyService::unblind);
+  on("close", &study::StudyService::close);
+  on("reopen", &study::StudyService::reopen);
+  on("unblind", &study::StudyService::unblind);
   router.on("PUT", one, [desk](const net::Request& request) {
-    const Study study = desk.service().change(id_of(request), study_wishes_in(request));
+    const study::Study study = desk.service().change(id_of(request), study_wishes_in(request));
     desk.audit(request, "study.change", study.id, study.name);
     return desk.reply(request, 200, study);
   });
@@ -161,7 +161,7 @@ void add_participant_routes(net::Router& router, const Desk& desk) {
 
 }  // namespace
 
-void add_study_routes(net::Router& router, StudyService* service, const Audit& audit) {
+void add_study_routes(net::Router& router, study::StudyService* service, const Audit& audit) {
   const Desk desk{service, audit};
   router.on("GET", base, [desk](const net::Request& request) { return list(desk, request); });
   router.on("POST", base, [desk](const net::Request& request) { return create(desk, request); });

@@ -12,7 +12,7 @@ namespace {
 constexpr double most_bytes = 1e15;
 constexpr size_t longest_name = 200;
 
-nlohmann::json to_json(const Upload& upload) {
+nlohmann::json to_json(const workup::Upload& upload) {
   return {{"id", upload.id}, {"name", upload.name}, {"bytes", upload.bytes}, {"received", upload.received}};
 }
 
@@ -28,19 +28,19 @@ uint64_t offset_of(const net::Request& request) {
   return offset;
 }
 
-net::Response begin(UploadStore& uploads, const net::Request& request) {
+net::Response begin(workup::UploadStore& uploads, const net::Request& request) {
   RequestBody body(request);
   const std::string name = body.words("name", 1, longest_name);
   const auto bytes = body.number_or_none("bytes", 0.0, most_bytes);
   body.finish();
   if (!bytes) throw net::RequestError(422, "'bytes' is missing: the size of the file");
-  const Upload upload = uploads.create(name, static_cast<uint64_t>(*bytes));
+  const workup::Upload upload = uploads.create(name, static_cast<uint64_t>(*bytes));
   net::Response response = net::json_response(201, to_json(upload));
   response.headers.emplace_back("Location", "/api/v1/uploads/" + upload.id);
   return response;
 }
 
-net::Response append(UploadStore& uploads, const net::Request& request) {
+net::Response append(workup::UploadStore& uploads, const net::Request& request) {
   if (request.header("content-type") != "application/octet-stream")
     throw net::RequestError(415, "a piece of a file must be sent as application/octet-stream");
   return net::json_response(
@@ -49,12 +49,12 @@ net::Response append(UploadStore& uploads, const net::Request& request) {
 
 }  // namespace
 
-void add_upload_routes(net::Router& router, UploadStore& uploads) {
+void add_upload_routes(net::Router& router, workup::UploadStore& uploads) {
   router.on("POST", "/api/v1/uploads",
             [&uploads](const net::Request& request) { return begin(uploads, request); });
   router.on("GET", "/api/v1/uploads", [&uploads](const net::Request& request) {
     std::vector<nlohmann::json> all;
-    for (const Upload& upload : uploads.list()) all.push_back(to_json(upload));
+    for (const workup::Upload& upload : uploads.list()) all.push_back(to_json(upload));
     return page_of(request, "uploads", std::move(all), "name");
   });
   router.on("GET", "/api/v1/uploads/{id}", [&uploads](const net::Request& request) {

@@ -1,10 +1,10 @@
 #pragma once
-#include "api/upload_store.hpp"
 #include "net/router.hpp"
+#include "workup/upload_store.hpp"
 
 namespace ream::api {
 
 /// /api/v1/uploads. The store must outlive the router.
-void add_upload_routes(net::Router& router, UploadStore& uploads);
+void add_upload_routes(net::Router& router, workup::UploadStore& uploads);
 
 }  // namespace ream::api

@@ -1,18 +1,18 @@
 #include "api/visibility.hpp"
 
-#include "api/rights.hpp"
+#include "access/role.hpp"
 #include "core/error.hpp"
 
 namespace ream::api {
 
-bool may_see(const net::Caller& caller, const SessionRequest& session) {
-  switch (role_bit(caller.role)) {
-    case operators:
-    case instructors:
+bool may_see(const net::Caller& caller, const session::SessionRequest& session) {
+  switch (access::role_bit(caller.role)) {
+    case access::operators:
+    case access::instructors:
       return true;
-    case trainees:
+    case access::trainees:
       return !caller.user_id.empty() && caller.user_id == session.trainee_id;
-    case viewers:
+    case access::viewers:
       return caller.only_session.empty() || caller.only_session == session.id;
     default:
       return false;
@@ -23,7 +23,7 @@ void refuse_unseen(const std::string& id) {
   throw Error(ErrorKind::not_found, "no session '" + id + "'; GET /api/v1/sessions lists them");
 }
 
-void require_may_see(const net::Caller& caller, const SessionRequest& session) {
+void require_may_see(const net::Caller& caller, const session::SessionRequest& session) {
   if (!may_see(caller, session)) refuse_unseen(session.id);
 }
 

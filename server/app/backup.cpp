@@ -4,11 +4,11 @@
 
 #include "app/backup_manifest.hpp"
 #include "app/data_snapshot.hpp"
-#include "app/version.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/temporary_file.hpp"
 #include "core/utc.hpp"
+#include "core/version.hpp"
 #include "store/table_files.hpp"
 #include "store/zip_archive.hpp"
 

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "api/session_folder.hpp"
 #include "app/restore_backup.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "session/folder/session_folder.hpp"
 
 namespace ream::app {
 namespace {
@@ -79,8 +79,8 @@ std::vector<Seen> hold_all(const fs::path& folder, const fs::path& to) {
 
 bool is_live(const fs::path& session_folder) {
   try {
-    const auto found = api::read_session_folder(session_folder);
-    return !found.lasting && api::is_live(found.record.status.state);
+    const auto found = session::read_session_folder(session_folder);
+    return !found.lasting && session::is_live(found.record.status.state);
   } catch (const Error&) {
     return false;
   }

@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "app/crash_guard.hpp"
-#include "app/interrupt.hpp"
 #include "core/clock.hpp"
+#include "core/interrupt.hpp"
+#include "device/crash_guard.hpp"
 #include "device/device_guard.hpp"
 #include "sim/realtime.hpp"
 #include "sim/watchdogs.hpp"
@@ -143,7 +143,7 @@ std::string rounded(double value, int digits) {
 }  // namespace
 
 DeviceTrial try_out(device::HapticDevice& device, const TrialTimes& times, sim::Realtime realtime) {
-  const CrashWatch crash_watch(device);
+  const device::CrashWatch crash_watch(device);
   device.open();
   const device::DeviceGuard device_guard(device);
   sim::ask_for_realtime(realtime, -1);

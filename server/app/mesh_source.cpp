@@ -2,17 +2,17 @@
 
 #include <atomic>
 
-#include "app/ct_source.hpp"
-#include "app/data_folder.hpp"
-#include "app/export_session.hpp"
-#include "app/find_case.hpp"
-#include "app/recorded_session.hpp"
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "ct/read/gray_volume.hpp"
 #include "fe/element_model.hpp"
 #include "fe/text_rows.hpp"
 #include "record/recorded_bone.hpp"
+#include "session/export/export_session.hpp"
+#include "session/simulation/find_case.hpp"
+#include "session/simulation/recorded_session.hpp"
 #include "voxel/solid_cells.hpp"
+#include "workup/ct_source.hpp"
 
 namespace ream::app {
 namespace fs = std::filesystem;
@@ -104,13 +104,13 @@ fe::ElementModel from_bone(const voxel::BoneModel& bone, const MeshSource& sourc
 }
 
 fe::ElementModel from_session(const MeshSource& source, fe::MemoryBudget& budget, const Progress& progress) {
-  ExportRequest request;
-  request.recording = recording_path(source.name, source.data);
+  session::ExportRequest request;
+  request.recording = session::recording_path(source.name, source.data);
   request.case_name = source.case_name;
   request.data = source.data;
   progress(0.0, "reading the recording");
-  const record::Recording recording = recording_of(request);
-  case_::Case left = case_of(recording, source.case_name, source.data);
+  const record::Recording recording = session::recording_of(request);
+  case_::Case left = session::case_of(recording, source.case_name, source.data);
   record::RecordedBone recorded(recording, left.bone.grid, left.bone.coverage);
   recorded.seek(UINT32_MAX, [](const voxel::BrickImage&) {});
   recorded.write_to(left.bone.coverage);
@@ -124,7 +124,7 @@ fe::ElementModel from_case(const MeshSource& source, fe::MemoryBudget& budget, c
   std::error_code failed;
   const fs::path path(source.name);
   const bool by_path = fs::exists(path / "case.json", failed);
-  const case_::Case c = by_path ? case_::load_case(path) : find_case(source.name, source.data);
+  const case_::Case c = by_path ? case_::load_case(path) : session::find_case(source.name, source.data);
   fe::ElementModel model = from_bone(c.bone, source, budget, part_of(progress, 0.5, 1.0));
   model.source = "case " + c.id + ", " + case_::frame_in_words(c.side);
   return model;
@@ -142,7 +142,7 @@ fe::ElementModel open_mesh_source(const MeshSource& source, fe::MemoryBudget& bu
     case Kind::volume:
       break;
   }
-  const CtSource unpacked(source.name, progress);
+  const workup::CtSource unpacked(source.name, progress);
   return unpacked.read([&](const fs::path& path) {
     if (!is_text(path)) return from_volume(path, source, budget, progress);
     fe::ElementModel model = fe::read_text_rows(path, budget, progress);

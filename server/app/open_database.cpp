@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "app/data_folder.hpp"
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "store/database_url.hpp"
 

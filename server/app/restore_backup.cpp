@@ -7,8 +7,8 @@
 #include <chrono>
 
 #include "app/backup_manifest.hpp"
-#include "app/data_folder.hpp"
 #include "app/data_snapshot.hpp"
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/file_lock.hpp"

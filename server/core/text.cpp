@@ -1,9 +1,12 @@
 #include "core/text.hpp"
 
+#include <algorithm>
+
 namespace ream {
 namespace {
 
 constexpr std::string_view digits = "0123456789abcdef";
+constexpr size_t longest_id = 64;
 
 }  // namespace
 
@@ -33,6 +36,22 @@ std::string bytes_from_hex(std::string_view hex) {
     bytes += static_cast<char>(high * 16 + low);
   }
   return bytes;
+}
+
+size_t characters(const std::string& text) {
+  return static_cast<size_t>(std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+}
+
+std::string pointer_to(const std::string& key) {
+  std::string pointer = "#/";
+  for (const char c : key) pointer += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+  return pointer;
+}
+
+bool is_name(const std::string& text) {
+  return !text.empty() && text.size() <= longest_id &&
+         text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos;
 }
 
 }  // namespace ream

@@ -12,4 +12,13 @@ std::string hex_of(std::string_view bytes);
 /// The bytes of what hex_of() gave; empty for what is no hex.
 std::string bytes_from_hex(std::string_view hex);
 
+/// Of UTF-8: characters, not bytes.
+size_t characters(const std::string& text);
+
+/// The JSON pointer of a key as a URI fragment (RFC 6901): '~' and '/' of the key are escaped.
+std::string pointer_to(const std::string& key);
+
+/// Whether `text` is an id as cases and scripts have: [a-z0-9-], 1 to 64 long.
+bool is_name(const std::string& text);
+
 }  // namespace ream

@@ -3,7 +3,6 @@
 #include <random>
 #include <span>
 
-#include "app/case_shelf.hpp"
 #include "bench/bench.hpp"
 #include "case/case.hpp"
 #include "core/clock.hpp"
@@ -11,6 +10,7 @@
 #include "ct/build/ct_workspace.hpp"
 #include "ct/phantom/phantom_case.hpp"
 #include "ct/segment/shoulder_bones.hpp"
+#include "session/simulation/case_shelf.hpp"
 #include "support/temporary_folder.hpp"
 #include "voxel/upsample.hpp"
 
@@ -54,7 +54,7 @@ void loading_rows(std::vector<Row>& rows) {
   const auto preset = ct::phantom_preset("thesis-5-4-2");
   case_::save_case(ct::make_phantom_case("thesis-5-4-2", preset.params, preset.upsample),
                    folder.path() / "case");
-  app::CaseShelf shelf;
+  session::CaseShelf shelf;
   case_::Case first, second;
   rows.push_back({"case", "thesis-5-4-2 loaded for a first session",
                   median_s(1, [&] { first = shelf.load(folder.path() / "case"); }), 0.0, "s"});

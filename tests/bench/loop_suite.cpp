@@ -20,7 +20,7 @@ struct Measured {
   double missed_percent = 0.0;
   TimingSummary tick, lateness, read, step, write;
 
-  void add(const api::LoopStatus& loop) {
+  void add(const session::LoopStatus& loop) {
     missed_percent += 100.0 * static_cast<double>(loop.missed) /
                       static_cast<double>(std::max<uint64_t>(ticks_a_turn, 1)) / turns;
     add(loop.tick_us, tick);
@@ -42,8 +42,8 @@ struct Measured {
   }
 };
 
-api::LoopStatus status_of(const sim::LoopHealth& health) {
-  api::LoopStatus status;
+session::LoopStatus status_of(const sim::LoopHealth& health) {
+  session::LoopStatus status;
   status.tick_us = health.tick_us;
   status.lateness_us = health.lateness_us;
   status.missed = health.missed;

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/data_folder.hpp"
+#include "core/data_folder.hpp"
 #include "ct/phantom/phantom_case.hpp"
 #include "shell/tool.hpp"
 
@@ -17,7 +17,7 @@ void keep_thesis_case(const std::filesystem::path& data) {
   const ct::PhantomPreset preset = ct::phantom_preset(thesis_case);
   case_::Case bone_case = ct::make_phantom_case(thesis_case, preset.params, preset.upsample);
   bone_case.plan->reamer = shell::thesis_tool;
-  case_::save_case(bone_case, app::cases_folder(data) / thesis_case);
+  case_::save_case(bone_case, cases_folder(data) / thesis_case);
 }
 
 nlohmann::json pecking(double duration_s, double press_n, double specimen_factor) {

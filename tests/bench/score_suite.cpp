@@ -2,12 +2,12 @@
 #include <string>
 #include <vector>
 
-#include "app/data_folder.hpp"
-#include "app/rescoring.hpp"
 #include "bench/bench.hpp"
 #include "bench/pecking.hpp"
 #include "bench/scored_reaming.hpp"
 #include "core/clock.hpp"
+#include "core/data_folder.hpp"
+#include "session/scoring/rescoring.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ream::bench {
@@ -42,7 +42,7 @@ void add_rescoring(const std::string& what, const std::vector<std::string>& name
                    const std::filesystem::path& data, double goal_ms, std::vector<Row>& rows) {
   Calls calls;
   const auto begun = SteadyClock::now();
-  const std::vector<app::Rescored> all = app::rescore(names, {}, data, calls.progress());
+  const std::vector<session::Rescored> all = session::rescore(names, {}, data, calls.progress());
   const double ms = elapsed_us(begun) * 1e-3;
   const auto unscored =
       std::count_if(all.begin(), all.end(), [](const auto& one) { return !one.error.empty(); });
@@ -81,7 +81,7 @@ std::vector<Row> score_suite(const Options&) {
   std::vector<std::string> names;
   for (int i = 0; i < many; ++i) {
     names.push_back("short-" + std::to_string(i));
-    std::filesystem::copy(app::sessions_folder(data) / "short", app::sessions_folder(data) / names.back());
+    std::filesystem::copy(sessions_folder(data) / "short", sessions_folder(data) / names.back());
   }
   add_rescoring("thesis-5-4-2, 100 sessions of ten seconds scored anew", names, data, 0.0, rows);
   return rows;

@@ -5,16 +5,16 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "app/asked_rig.hpp"
-#include "app/data_folder.hpp"
-#include "app/find_case.hpp"
-#include "app/loop_rings.hpp"
-#include "app/measured_glenoid.hpp"
-#include "app/session_files.hpp"
 #include "bench/pecking.hpp"
 #include "core/clock.hpp"
+#include "core/data_folder.hpp"
 #include "core/file.hpp"
 #include "score/live_score.hpp"
+#include "session/live/loop_rings.hpp"
+#include "session/live/session_files.hpp"
+#include "session/simulation/asked_rig.hpp"
+#include "session/simulation/find_case.hpp"
+#include "session/simulation/measured_glenoid.hpp"
 #include "shell/tool.hpp"
 
 namespace ream::bench {
@@ -34,9 +34,9 @@ double thread_cpu_s() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-app::RunRequest request_for(const std::filesystem::path& folder, double duration_s) {
+session::RunRequest request_for(const std::filesystem::path& folder, double duration_s) {
   write_file_atomically(folder / "script.json", pecking(duration_s, press_n, hard).dump());
-  app::RunRequest request;
+  session::RunRequest request;
   request.case_name = thesis_case;
   request.script_name = (folder / "script.json").string();
   request.backend = "cpu";
@@ -47,7 +47,7 @@ app::RunRequest request_for(const std::filesystem::path& folder, double duration
 /// What a server's follower keeps up to date, and what that costs it.
 class LiveScoring {
  public:
-  LiveScoring(const app::Rig& rig, std::vector<uint8_t> start)
+  LiveScoring(const session::Rig& rig, std::vector<uint8_t> start)
       : grid_(rig.bone_case.bone.grid),
         force_scale_(rig.model.settings.force_scale),
         left_(std::move(start)),
@@ -98,11 +98,11 @@ class LiveScoring {
 };
 
 double native_ms_of(const std::filesystem::path& data) {
-  const case_::Case native = app::find_case(thesis_case, data);
-  const case_::Anatomy anatomy = app::find_anatomy(native, thesis_case, data);
+  const case_::Case native = session::find_case(thesis_case, data);
+  const case_::Anatomy anatomy = session::find_anatomy(native, thesis_case, data);
   const shell::Tool reamer = shell::make_tool(native.plan->reamer);
   const auto begun = SteadyClock::now();
-  app::measured_glenoid(native, anatomy, reamer);
+  session::measured_glenoid(native, anatomy, reamer);
   return elapsed_us(begun) * 1e-3;
 }
 
@@ -111,15 +111,15 @@ double native_ms_of(const std::filesystem::path& data) {
 ScoredReaming ream_and_score(const std::filesystem::path& data, const std::string& id, double duration_s) {
   ScoredReaming scored;
   scored.native_ms = native_ms_of(data);
-  const std::filesystem::path folder = app::sessions_folder(data) / id;
+  const std::filesystem::path folder = sessions_folder(data) / id;
   std::filesystem::create_directories(folder);
-  app::Rig rig(app::asked_for(request_for(folder, duration_s), data));
-  app::LoopRings rings(rig.bone_case.bone.grid);
+  session::Rig rig(session::asked_for(request_for(folder, duration_s), data));
+  session::LoopRings rings(rig.bone_case.bone.grid);
   rig.state.brick_sender = &rings.sender;
   rig.state.brick_budget = bricks_a_tick;
   const std::vector<uint8_t> start = rig.bone_case.bone.coverage;
   LiveScoring live(rig, start);
-  app::SessionFiles files(rig, folder, start.data(), app::SessionFiles::Trace::left_out);
+  session::SessionFiles files(rig, folder, start.data(), session::SessionFiles::Trace::left_out);
   sim::HapticLoop loop(rig.model, rig.state, *rig.device, rings.reports, {false, sim::Realtime::off});
   const auto take_brick = [&](const voxel::BrickImage& image) {
     files.add(image);

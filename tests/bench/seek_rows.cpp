@@ -6,10 +6,10 @@
 #include <random>
 #include <thread>
 
-#include "app/replay_picture.hpp"
 #include "bench/seated_reaming.hpp"
 #include "core/clock.hpp"
 #include "record/recorder.hpp"
+#include "session/replay/replay_picture.hpp"
 #include "sim/step.hpp"
 #include "stream/fanout.hpp"
 
@@ -125,11 +125,11 @@ void add_seek_rows(const case_::Case& bone_case, const std::filesystem::path& fo
   add_rows("the bone alone", bone_ms, rows);
 
   stream::Fanout fanout;
-  const app::MetricsTimeline timeline(
+  const session::MetricsTimeline timeline(
       recording, before.bone.grid.world_from_grid,
       {before.bone.grid.voxel_volume_mm3(), sim::world_from_plan(*before.plan).inverse()});
   timeline.wait_for(recording.tick_count(), std::chrono::minutes(10));
-  app::ReplayPicture picture(recording, before, timeline, stream::HelloInfo{}, fanout);
+  session::ReplayPicture picture(recording, before, timeline, stream::HelloInfo{}, fanout);
   const auto viewer = fanout.subscribe({}, 1);
   while (viewer->next()) {
   }

@@ -8,13 +8,13 @@
 
 #include "access/secret.hpp"
 #include "api/server.hpp"
-#include "api/session_folder.hpp"
-#include "app/data_folder.hpp"
-#include "app/reaming_session.hpp"
 #include "bench/many_sessions.hpp"
 #include "bench/pecking.hpp"
 #include "core/clock.hpp"
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
+#include "session/folder/session_folder.hpp"
+#include "session/live/reaming_session.hpp"
 #include "store/database.hpp"
 #include "support/memory_in_use.hpp"
 #include "support/raw_http.hpp"
@@ -36,18 +36,18 @@ struct ServedReaming::House {
   House(sim::Realtime realtime, double turn_s, Surroundings surroundings) {
     keep_thesis_case(folder.path());
     folder.write("scripts/" + std::string(script_name) + ".json", pecking(turn_s, press_n).dump());
-    app::SessionHouse house;
+    session::SessionHouse house;
     house.data = folder.path();
     house.backend = "cpu";
     house.realtime = realtime;
     house.tool_spacing_mm = thesis_spacing_mm;
     api::ServerOptions options;
     options.listen.port = 0;
-    options.cases_folder = app::cases_folder(house.data);
-    options.sessions_folder = app::sessions_folder(house.data);
+    options.cases_folder = cases_folder(house.data);
+    options.sessions_folder = sessions_folder(house.data);
     options.sessions.kept = 1;  // each keeps its bone
-    options.make_session.make = [house](const api::SessionRequest& request) {
-      return std::make_unique<app::ReamingSession>(house, request);
+    options.make_session.make = [house](const session::SessionRequest& request) {
+      return std::make_unique<session::ReamingSession>(house, request);
     };
     if (surroundings == Surroundings::office) {
       write_sessions(folder, office_sessions, "sessions/");
@@ -115,9 +115,9 @@ ServedTurn ServedReaming::run(StreamViewer& viewer, const std::function<void(con
     missed = missed_so_far;
   }
   turn.streamed_mb = static_cast<double>(viewer.stop_watching()) * 1e-6;
-  const api::SessionStatus status =
-      api::read_session_folder(app::sessions_folder(house_->folder.path()) / id).record.status;
-  if (status.state != api::SessionState::finished)
+  const session::SessionStatus status =
+      session::read_session_folder(sessions_folder(house_->folder.path()) / id).record.status;
+  if (status.state != session::SessionState::finished)
     throw Error(ErrorKind::unavailable,
                 "the session ended as " + to_text(status.state) + ": " + status.fault);
   turn.loop = status.loop;

@@ -4,15 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "api/running_session.hpp"
 #include "bench/stream_viewer.hpp"
+#include "session/running_session.hpp"
 #include "sim/realtime.hpp"
 
 namespace ream::bench {
 
 /// How one served session went.
 struct ServedTurn {
-  api::LoopStatus loop;
+  session::LoopStatus loop;
   uint32_t ticks = 0;
   std::vector<uint64_t> missed_in_second;  ///< of the session, from its start on
   double streamed_mb = 0.0;

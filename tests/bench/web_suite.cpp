@@ -4,10 +4,10 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "app/data_folder.hpp"
 #include "bench/bench.hpp"
 #include "bench/machine_rows.hpp"
 #include "bench/pecking.hpp"
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "ct/phantom/phantom_case.hpp"
 #include "support/temporary_folder.hpp"
@@ -29,7 +29,7 @@ constexpr double coarse_mm = 0.5125, fine_mm = 0.379;
 void keep_glenoid(const fs::path& data, const std::string& id, double spacing_mm, int upsample) {
   ct::PhantomPreset preset = ct::phantom_preset("demo");
   preset.params.spacing_mm = Vec3::Constant(spacing_mm);
-  case_::save_case(ct::make_phantom_case(id, preset.params, upsample), app::cases_folder(data) / id);
+  case_::save_case(ct::make_phantom_case(id, preset.params, upsample), cases_folder(data) / id);
 }
 
 std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }

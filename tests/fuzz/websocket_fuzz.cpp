@@ -5,10 +5,10 @@
 
 #include <boost/asio/strand.hpp>
 
-#include "api/viewer_stream.hpp"
 #include "device/device_socket.hpp"
 #include "fuzz_input.hpp"
 #include "net/engine.hpp"
+#include "session/live/viewer_stream.hpp"
 #include "stream/fanout.hpp"
 
 namespace ream::fuzz {
@@ -29,7 +29,7 @@ net::Request handshake() {
 }
 
 std::unique_ptr<net::WebSocketSession> session_of(uint8_t kind) {
-  if (kind % 2 == 0) return api::viewer_stream(std::make_shared<stream::Fanout>(), 1);
+  if (kind % 2 == 0) return session::viewer_stream(std::make_shared<stream::Fanout>(), 1);
   const auto port =
       std::make_shared<device::DevicePort>(std::make_shared<device::RemoteLink>(), device::RemoteKind::handle,
                                            device::DeviceWelcome{"fuzz", "network", 12.0, {}});

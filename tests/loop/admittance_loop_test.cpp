@@ -7,11 +7,11 @@
 #include <fstream>
 #include <thread>
 
-#include "app/device_registry.hpp"
-#include "app/interrupt.hpp"
 #include "core/error.hpp"
+#include "core/interrupt.hpp"
 #include "device/admittance_device.hpp"
 #include "device/admittance_plant.hpp"
+#include "device/device_registry.hpp"
 #include "force/coefficients.hpp"
 #include "sim/haptic_loop.hpp"
 #include "support/small_run.hpp"
@@ -146,7 +146,7 @@ TEST(AdmittanceLoop, SigtermStopsThenDisablesThenCloses) {
     const pid_t child = ::fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
-      app::catch_interrupts();
+      catch_interrupts();
       Machine machine(kind, press_52_n(kind.profile, 1.0, 600.0));
       SpscRing<record::TickReport> reports(1 << 20);
       sim::HapticLoop loop(machine.run.model, machine.run.state, *machine.run.device, reports,
@@ -154,7 +154,7 @@ TEST(AdmittanceLoop, SigtermStopsThenDisablesThenCloses) {
       loop.start();
       wait_until("it to press", [&] { return reports.size() > 500; });
       static_cast<void>(::write(pipe_ends[1], "!", 1));
-      wait_until("the signal", [] { return app::interrupted(); });
+      wait_until("the signal", [] { return interrupted(); });
       loop.stop();
       std::string calls;
       for (const std::string& call : machine.seen->calls) calls += call + " ";
@@ -240,16 +240,16 @@ TEST(AdmittanceLoop, AMachineThatIsClosedInOrderIsNotTakenForALoopThatStandsStil
 TEST(AdmittanceLoop, PlantsAreDevicesThatPeopleCanChoose) {
   for (const PlantKind& kind : plants()) {
     device::Script script = press_52_n("ideal", 1.0, 1.0);
-    app::settle_for_device(kind.plant.name, "", script);
+    device::settle_for_device(kind.plant.name, "", script);
     EXPECT_EQ(script.device_profile, kind.profile);
-    const app::DeviceOffer offer = app::device_kind(kind.plant.name).offer({});
+    const device::DeviceOffer offer = device::device_kind(kind.plant.name).offer({});
     EXPECT_TRUE(offer.usable);
-    const app::MadeDevice made = app::make_device({kind.plant.name, "", &script, Pose{}, 1, {}});
+    const device::MadeDevice made = device::make_device({kind.plant.name, "", &script, Pose{}, 1, {}});
     EXPECT_EQ(made.device->traits().causality, device::Causality::admittance);
     EXPECT_TRUE(made.device->traits().simulated);
     EXPECT_EQ(made.device->traits().force_max_n, offer.force_max_n);
     try {
-      app::make_device({kind.plant.name, "touch", &script, Pose{}, 1, {}});
+      device::make_device({kind.plant.name, "touch", &script, Pose{}, 1, {}});
       FAIL() << "an impedance profile is no machine's";
     } catch (const Error& e) {
       EXPECT_EQ(e.kind(), ErrorKind::invalid_input);

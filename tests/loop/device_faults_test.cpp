@@ -173,8 +173,8 @@ class DeviceFault : public testing::TestWithParam<std::tuple<const char*, size_t
                                       record::Recording::Trust::checked);
     EXPECT_EQ(recording.log().damage(), "");
     expect_no_force_without_a_hand(recording);
-    const app::VerifyResult again = server.reaming().verify(server.folder(id) / "recording.ream");
-    EXPECT_FALSE(again.difference) << app::difference_words(again.ticks, *again.difference);
+    const session::VerifyResult again = server.reaming().verify(server.folder(id) / "recording.ream");
+    EXPECT_FALSE(again.difference) << session::difference_words(again.ticks, *again.difference);
     EXPECT_EQ(again.ticks, recording.tick_count());
     const auto metrics = read_json_file(server.folder(id) / "metrics.json");
     EXPECT_EQ(metrics.at("grid_hash"), to_hex(again.grid_hash));

@@ -47,7 +47,7 @@ TEST_F(DeviceSessions, ABrowserReamsAndComesOut) {
   LiveServer::until("a round trip", [&] { return server.get(id).at("device").at("rtt_ms").is_number(); });
   EXPECT_EQ(server.get(id).at("device").at("state"), "fresh");
   server.post("/" + id + "/stop");
-  const app::VerifyResult again = server.reaming().verify(server.folder(id) / "recording.ream");
+  const session::VerifyResult again = server.reaming().verify(server.folder(id) / "recording.ream");
   EXPECT_FALSE(again.difference);
   EXPECT_EQ(read_json_file(server.folder(id) / "metrics.json").at("grid_hash"), to_hex(again.grid_hash));
 }

@@ -70,8 +70,8 @@ class HardwareSessions : public testing::Test {
   }
   void expect_whole(const std::string& id) {
     EXPECT_EQ(recording(id).log().damage(), "");
-    const app::VerifyResult again = server.reaming().verify(server.folder(id) / "recording.ream");
-    EXPECT_FALSE(again.difference) << app::difference_words(again.ticks, *again.difference);
+    const session::VerifyResult again = server.reaming().verify(server.folder(id) / "recording.ream");
+    EXPECT_FALSE(again.difference) << session::difference_words(again.ticks, *again.difference);
   }
 
   const LiveServer server;

@@ -5,10 +5,10 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "app/cli/case_path.hpp"
-#include "app/recorded_rig.hpp"
-#include "app/verify_replay.hpp"
+#include "core/data_folder.hpp"
 #include "core/hash.hpp"
+#include "session/replay/verify_replay.hpp"
+#include "session/simulation/recorded_rig.hpp"
 
 int main(int argc, char** argv) {
   using namespace ream;
@@ -19,9 +19,9 @@ int main(int argc, char** argv) {
   try {
     const record::Recording recording(std::filesystem::path(argv[1]) / "recording.ream",
                                       record::Recording::Trust::checked);
-    case_::Case bone_case = case_::load_case(app::case_path(recording.header().case_id, {}));
-    const app::VerifyResult found =
-        app::verify_replay(recording, app::case_as_recorded(recording, std::move(bone_case)), {});
+    case_::Case bone_case = case_::load_case(case_path(recording.header().case_id, {}));
+    const session::VerifyResult found =
+        session::verify_replay(recording, session::case_as_recorded(recording, std::move(bone_case)), {});
     nlohmann::json answer = {{"ticks", found.ticks},
                              {"verified", !found.difference},
                              {"session_hash", to_hex(found.session_hash)},

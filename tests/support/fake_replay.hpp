@@ -4,16 +4,16 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "api/running_replay.hpp"
 #include "core/error.hpp"
+#include "session/running_replay.hpp"
 #include "support/fake_session.hpp"
 
 namespace ream::test {
 
 /// A replay of ten seconds without a recording; its clock stands still.
-class FakeReplay final : public api::RunningReplay {
+class FakeReplay final : public session::RunningReplay {
  public:
-  explicit FakeReplay(api::ReplayRequest request) : request_(std::move(request)) {
+  explicit FakeReplay(session::ReplayRequest request) : request_(std::move(request)) {
     status_.duration_s = 10.0;
     status_.force_scale = 26.0;
     status_.unwatched_s = 1.0;
@@ -22,11 +22,11 @@ class FakeReplay final : public api::RunningReplay {
   }
   ~FakeReplay() override { --alive(); }
 
-  api::PlaybackStatus status() const override {
+  session::PlaybackStatus status() const override {
     const std::lock_guard lock(mutex_);
     return status_;
   }
-  std::vector<api::ReplayMark> marks() const override { return {{2.5, "annotation", "too steep here"}}; }
+  std::vector<session::ReplayMark> marks() const override { return {{2.5, "annotation", "too steep here"}}; }
   nlohmann::json metrics() const override {
     {
       const std::lock_guard lock(mutex_);
@@ -34,7 +34,7 @@ class FakeReplay final : public api::RunningReplay {
     }
     return FakeSession({request_.id, "demo", "demo", 26.0}).metrics();
   }
-  void change(const api::PlaybackChange& change) override {
+  void change(const session::PlaybackChange& change) override {
     const std::lock_guard lock(mutex_);
     if (change.position_s && *change.position_s > status_.duration_s)
       throw Error(ErrorKind::invalid_input, "position_s is past the end");
@@ -66,9 +66,9 @@ class FakeReplay final : public api::RunningReplay {
   }
 
  private:
-  const api::ReplayRequest request_;
+  const session::ReplayRequest request_;
   mutable std::mutex mutex_;
-  api::PlaybackStatus status_;
+  session::PlaybackStatus status_;
   std::optional<ErrorKind> metrics_problem_;
 };
 
@@ -78,8 +78,8 @@ class FakeReplayFactory {
   std::function<void()> refuse = [] {};
   double first_unwatched_s = 1.0;  ///< of replays to be made
 
-  api::ReplayFactory function() {
-    return [this](const api::ReplayRequest& request) -> std::unique_ptr<api::RunningReplay> {
+  session::ReplayFactory function() {
+    return [this](const session::ReplayRequest& request) -> std::unique_ptr<session::RunningReplay> {
       refuse();
       auto replay = std::make_unique<FakeReplay>(request);
       replay->set_unwatched_s(first_unwatched_s);

@@ -10,16 +10,16 @@
 #include <string>
 #include <vector>
 
-#include "api/session_service.hpp"
 #include "core/error.hpp"
+#include "session/service/session_service.hpp"
 
 namespace ream::test {
 
 /// A session without a simulation: its states are set by hand, its stream says what it is told to.
-class FakeSession final : public api::RunningSession {
+class FakeSession final : public session::RunningSession {
  public:
   /// The script's name decides what goes wrong: "no-start" refuses to start.
-  explicit FakeSession(api::SessionRequest request) : request_(std::move(request)) {
+  explicit FakeSession(session::SessionRequest request) : request_(std::move(request)) {
     status_.force_scale = request_.force_scale.value_or(26.0);
     ++alive();
   }
@@ -27,31 +27,31 @@ class FakeSession final : public api::RunningSession {
 
   void start() override {
     if (request_.script == "no-start") throw Error(ErrorKind::unavailable, "no haptic device is connected");
-    set(api::SessionState::running);
+    set(session::SessionState::running);
   }
   void pause() override { hold(true); }
   void go_on() override { hold(false); }
-  bool relabel(const api::SessionRequest& request) override {
+  bool relabel(const session::SessionRequest& request) override {
     const std::lock_guard lock(mutex_);
-    if (!api::is_live(status_.state)) return false;
+    if (!session::is_live(status_.state)) return false;
     labels_ = request;
     return true;
   }
-  api::SessionRequest labels() const {
+  session::SessionRequest labels() const {
     const std::lock_guard lock(mutex_);
     return labels_;
   }
   void stop() override {
-    set(api::SessionState::stopped);
+    set(session::SessionState::stopped);
     ++stops();
   }
 
-  api::SessionStatus status() const override {
+  session::SessionStatus status() const override {
     const std::lock_guard lock(mutex_);
     return status_;
   }
   nlohmann::json metrics() const override {
-    const bool ended = !api::is_live(status().state);
+    const bool ended = !session::is_live(status().state);
     return {{"removed_volume_mm3", 12.5},
             {"removed_volume_cortical_mm3", 10.0},
             {"removed_volume_cancellous_mm3", 2.5},
@@ -65,15 +65,16 @@ class FakeSession final : public api::RunningSession {
             {"grid_hash", ended ? nlohmann::json("00112233445566ff") : nlohmann::json(nullptr)},
             {"session_hash", "0123456789abcdef"}};
   }
-  api::Annotation annotate(const api::NewAnnotation& note) override {
-    if (status().state != api::SessionState::running) throw Error(ErrorKind::conflict, "nothing is recorded");
-    const api::Annotation kept{"2025-03-01T12:00:00Z", note.words, note.author, note.at_s.value_or(1.5),
-                               note.place_mm};
+  session::Annotation annotate(const session::NewAnnotation& note) override {
+    if (status().state != session::SessionState::running)
+      throw Error(ErrorKind::conflict, "nothing is recorded");
+    const session::Annotation kept{"2025-03-01T12:00:00Z", note.words, note.author, note.at_s.value_or(1.5),
+                                   note.place_mm};
     const std::lock_guard lock(mutex_);
     annotations_.push_back(kept);
     return kept;
   }
-  std::vector<api::Annotation> annotations() const override {
+  std::vector<session::Annotation> annotations() const override {
     const std::lock_guard lock(mutex_);
     return annotations_;
   }
@@ -86,13 +87,13 @@ class FakeSession final : public api::RunningSession {
   std::unique_ptr<net::WebSocketSession> subscribe(int stride) override;
   std::unique_ptr<net::WebSocketSession> connect_device() override;
 
-  void set(api::SessionState state, const std::string& fault = {}) {
+  void set(session::SessionState state, const std::string& fault = {}) {
     const std::lock_guard lock(mutex_);
     status_.state = state;
-    status_.held &= api::is_live(state);
+    status_.held &= session::is_live(state);
     status_.fault = fault;
   }
-  const api::SessionRequest& request() const { return request_; }
+  const session::SessionRequest& request() const { return request_; }
 
   static std::atomic<int>& alive() {
     static std::atomic<int> count{0};
@@ -105,15 +106,15 @@ class FakeSession final : public api::RunningSession {
 
  private:
   void hold(bool held) {
-    set(held ? api::SessionState::paused : api::SessionState::running);
+    set(held ? session::SessionState::paused : session::SessionState::running);
     const std::lock_guard lock(mutex_);
     status_.held = held;
   }
 
-  api::SessionRequest request_, labels_;
+  session::SessionRequest request_, labels_;
   mutable std::mutex mutex_;
-  api::SessionStatus status_;
-  std::vector<api::Annotation> annotations_;
+  session::SessionStatus status_;
+  std::vector<session::Annotation> annotations_;
 };
 
 /// Sends "hello <session>" and then whatever the viewer sends, back.
@@ -152,8 +153,8 @@ inline std::unique_ptr<net::WebSocketSession> FakeSession::connect_device() {
 /// Makes fake sessions and remembers them; the case's name decides what goes wrong.
 class FakeFactory {
  public:
-  api::SessionFactory function() {
-    return [this](const api::SessionRequest& request) -> std::unique_ptr<api::RunningSession> {
+  session::SessionFactory function() {
+    return [this](const session::SessionRequest& request) -> std::unique_ptr<session::RunningSession> {
       if (request.case_id == "missing") throw Error(ErrorKind::not_found, "no case 'missing'");
       if (request.case_id == "unplanned") throw Error(ErrorKind::conflict, "case 'unplanned' has no plan");
       if (refuse) refuse();
@@ -163,8 +164,8 @@ class FakeFactory {
       return session;
     };
   }
-  api::SessionMakers makers() {
-    return {function(), [this](const api::SessionRequest& request, const std::string& reamer) {
+  session::SessionMakers makers() {
+    return {function(), [this](const session::SessionRequest& request, const std::string& reamer) {
               if (reamer == "spoon") throw Error(ErrorKind::invalid_input, "no reamer 'spoon'");
               if (reamer == "missing") throw Error(ErrorKind::unavailable, "no device");
               return function()(request);

@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "api/server.hpp"
-#include "app/data_folder.hpp"
-#include "app/reaming_session.hpp"
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
+#include "session/live/reaming_session.hpp"
 #include "support/raw_http.hpp"
 #include "support/recorded_reaming.hpp"
 #include "support/wait_until.hpp"
@@ -19,22 +19,22 @@ namespace ream::test {
 class LiveServer {
  public:
   explicit LiveServer(const std::function<void(api::ServerOptions&)>& adjust = {}) {
-    app::SessionHouse house{reaming_.data(), 1, "cpu", sim::Realtime::off};
+    session::SessionHouse house{reaming_.data(), 1, "cpu", sim::Realtime::off};
     house.guard_now_ns = [] { return int64_t{1}; };
-    std::filesystem::create_directories(app::sessions_folder(house.data));
+    std::filesystem::create_directories(sessions_folder(house.data));
     std::filesystem::create_directories(house.data / "scripts");
     api::ServerOptions options;
     options.listen.port = 0;
-    options.cases_folder = app::cases_folder(house.data);
-    options.sessions_folder = app::sessions_folder(house.data);
+    options.cases_folder = cases_folder(house.data);
+    options.sessions_folder = sessions_folder(house.data);
     options.sessions.live = 16;
-    options.make_session.make = [house](const api::SessionRequest& request) {
-      return std::make_unique<app::ReamingSession>(house, request);
+    options.make_session.make = [house](const session::SessionRequest& request) {
+      return std::make_unique<session::ReamingSession>(house, request);
     };
-    options.make_session.resume = [house](const api::SessionRequest& request, const std::string& reamer) {
-      return std::make_unique<app::ReamingSession>(house, request, reamer);
+    options.make_session.resume = [house](const session::SessionRequest& request, const std::string& reamer) {
+      return std::make_unique<session::ReamingSession>(house, request, reamer);
     };
-    options.make_replay = [](const api::ReplayRequest&) -> std::unique_ptr<api::RunningReplay> {
+    options.make_replay = [](const session::ReplayRequest&) -> std::unique_ptr<session::RunningReplay> {
       throw Error(ErrorKind::unavailable, "no replays in this test");
     };
     options.prepare = [] {};
@@ -45,9 +45,7 @@ class LiveServer {
   }
 
   uint16_t port() const { return server_->port(); }
-  std::filesystem::path folder(const std::string& id) const {
-    return app::sessions_folder(reaming_.data()) / id;
-  }
+  std::filesystem::path folder(const std::string& id) const { return sessions_folder(reaming_.data()) / id; }
   const RecordedReaming& reaming() const { return reaming_; }
 
   nlohmann::json post(const std::string& path, const nlohmann::json& body = nullptr) const {

@@ -1,14 +1,14 @@
 #pragma once
 #include <nlohmann/json.hpp>
 
-#include "app/asked_rig.hpp"
-#include "app/headless_run.hpp"
-#include "app/loop_rings.hpp"
-#include "app/recorded_case.hpp"
-#include "app/recording_header.hpp"
-#include "app/verify_replay.hpp"
 #include "core/file.hpp"
 #include "record/recorder.hpp"
+#include "session/live/headless_run.hpp"
+#include "session/live/loop_rings.hpp"
+#include "session/replay/verify_replay.hpp"
+#include "session/simulation/asked_rig.hpp"
+#include "session/simulation/recorded_case.hpp"
+#include "session/simulation/recording_header.hpp"
 #include "sim/step.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_bone.hpp"
@@ -53,9 +53,9 @@ class RecordedReaming {
               {{"t_s", 0.95 * duration_s}, {"spindle", false}}}}};
   }
 
-  app::RunRequest request(const nlohmann::json& script) const {
+  session::RunRequest request(const nlohmann::json& script) const {
     write_file_atomically(folder_.path() / "script.json", script.dump());
-    app::RunRequest request;
+    session::RunRequest request;
     request.case_name = "slab";
     request.script_name = (folder_.path() / "script.json").string();
     request.backend = "cpu";
@@ -64,43 +64,43 @@ class RecordedReaming {
   }
 
   /// Runs it to the end; its recording lies in the returned folder.
-  std::filesystem::path record(app::Rig& rig) {
+  std::filesystem::path record(session::Rig& rig) {
     const std::filesystem::path out = folder_.path() / ("run-" + std::to_string(runs_++));
     std::filesystem::create_directories(out);
     const std::vector<uint8_t> start = rig.bone_case.bone.coverage;
-    app::run_headless(rig, start, out, false);
+    session::run_headless(rig, start, out, false);
     return out / "recording.ream";
   }
   std::filesystem::path record(const nlohmann::json& script) {
-    app::Rig rig(app::asked_for(request(script), data()));
+    session::Rig rig(session::asked_for(request(script), data()));
     return record(rig);
   }
 
   /// Goes on with a recording with the same script and another reamer (words, or a mesh file).
   void go_on(const std::filesystem::path& path, const nlohmann::json& script, const std::string& reamer) {
     const record::Recording recording(path);
-    case_::Case bone_case = app::recorded_case(recording, "", data());
+    case_::Case bone_case = session::recorded_case(recording, "", data());
     case_::cut_pilot_hole(bone_case.bone, *bone_case.plan);
     const std::vector<uint8_t> start = bone_case.bone.coverage;
     record::RecordedBone bone(recording, bone_case.bone.grid, start);
     bone.seek(recording.tick_count(), [](const voxel::BrickImage&) {});
     bone.write_to(bone_case.bone.coverage);
     const uint32_t ticks = recording.tick_count();
-    app::RigParts parts = app::asked_for(request(script), data());
+    session::RigParts parts = session::asked_for(request(script), data());
     parts.bone_case = std::move(bone_case);
-    parts.reamer = app::reamer_asked_for(reamer, std::nullopt);
+    parts.reamer = session::reamer_asked_for(reamer, std::nullopt);
     parts.tool = shell::make_tool(reamer);
     parts.from = {ticks, recording.ticks(ticks - 1, ticks).at(0).session_hash};
-    app::Rig rig(std::move(parts));
+    session::Rig rig(std::move(parts));
     record::Recorder recorder(record::continue_log_file(path, recording.log().whole_bytes()), recording, bone,
-                              app::segment_of(rig, ticks, "reamer"), start.data());
+                              session::segment_of(rig, ticks, "reamer"), start.data());
     run(rig, recorder);
     recorder.finish("finished");
   }
 
   /// One tick after the other, with everything told to the recorder.
-  static void run(app::Rig& rig, record::Recorder& recorder) {
-    app::LoopRings rings(rig.bone_case.bone.grid);
+  static void run(session::Rig& rig, record::Recorder& recorder) {
+    session::LoopRings rings(rig.bone_case.bone.grid);
     rig.state.brick_sender = &rings.sender;
     const auto take_brick = [&](const voxel::BrickImage& image) { recorder.add(image); };
     const auto take_report = [&](const record::TickReport& report) { recorder.add(report); };
@@ -118,12 +118,12 @@ class RecordedReaming {
   }
 
   /// Computed again and compared with every checkpoint.
-  app::VerifyResult verify(const std::filesystem::path& path, const std::string& backend = "cpu") const {
+  session::VerifyResult verify(const std::filesystem::path& path, const std::string& backend = "cpu") const {
     const record::Recording recording(path);
-    app::VerifyRequest request;
+    session::VerifyRequest request;
     request.backend = backend;
     request.ticks_between_grid_hashes = 0;
-    return app::verify_replay(recording, app::recorded_case(recording, "", data()), request);
+    return session::verify_replay(recording, session::recorded_case(recording, "", data()), request);
   }
 
   std::filesystem::path data() const { return folder_.path() / "data"; }

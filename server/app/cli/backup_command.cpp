@@ -7,12 +7,12 @@
 #include "app/backup.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/terminal_progress.hpp"
-#include "app/data_folder.hpp"
-#include "app/interrupt.hpp"
 #include "app/open_database.hpp"
 #include "app/restore_backup.hpp"
 #include "core/atomic_file.hpp"
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
+#include "core/interrupt.hpp"
 #include "core/log.hpp"
 
 namespace ream::app {

@@ -5,15 +5,15 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/terminal_progress.hpp"
-#include "app/data_folder.hpp"
-#include "app/interrupt.hpp"
-#include "app/rescoring.hpp"
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/interrupt.hpp"
 #include "report/number_words.hpp"
 #include "score/benchmark.hpp"
 #include "score/group_cut.hpp"
 #include "score/rubric_store.hpp"
+#include "session/scoring/rescoring.hpp"
 
 namespace ream::app {
 namespace {
@@ -31,7 +31,7 @@ std::vector<score::MeasuredSession> measured(const std::vector<std::string>& nam
                                              const BenchmarkOptions& options, const fs::path& data) {
   const TerminalProgress progress;
   std::vector<score::MeasuredSession> sessions;
-  for (const Rescored& one : rescore(names, options.case_name, data, std::cref(progress))) {
+  for (const session::Rescored& one : session::rescore(names, options.case_name, data, std::cref(progress))) {
     if (!one.error.empty()) throw Error(one.kind, one.name + ": " + one.error);
     sessions.push_back({one.name, one.metrics});
   }

@@ -8,14 +8,14 @@
 #include <thread>
 
 #include "app/cli/commands.hpp"
-#include "app/data_folder.hpp"
 #include "app/device_door.hpp"
-#include "app/device_registry.hpp"
 #include "app/device_trial.hpp"
 #include "app/handle_reader.hpp"
-#include "app/interrupt.hpp"
 #include "app/setup_wizard.hpp"
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
+#include "core/interrupt.hpp"
+#include "device/device_registry.hpp"
 #include "device/profiles.hpp"
 
 namespace ream::app {
@@ -29,8 +29,8 @@ struct DevicesOptions {
 
 void list_devices(const GlobalOptions& global) {
   nlohmann::json rows = nlohmann::json::array();
-  for (const DeviceKind& kind : device_kinds()) {
-    const DeviceOffer offer = kind.offer(data_folder(global.data));
+  for (const device::DeviceKind& kind : device::device_kinds()) {
+    const device::DeviceOffer offer = kind.offer(data_folder(global.data));
     rows.push_back({{"name", offer.name},
                     {"usable", offer.usable},
                     {"reason", offer.reason},
@@ -63,15 +63,15 @@ Pose trial_start(const std::string& name) {
   return {rotation_with_z_along(name == "script" ? Vec3(0, 0, -1) : Vec3(0, 1, 0)), Vec3::Zero()};
 }
 
-MadeDevice trial_device(const DevicesOptions& options, const std::string& name, const device::Script& script,
-                        const GlobalOptions& global) {
+device::MadeDevice trial_device(const DevicesOptions& options, const std::string& name,
+                                const device::Script& script, const GlobalOptions& global) {
   const std::string profile = name == "script" ? "" : options.profile;
-  return make_device({name, profile, &script, trial_start(name), 1, data_folder(global.data)});
+  return device::make_device({name, profile, &script, trial_start(name), 1, data_folder(global.data)});
 }
 
 /// Where a device that connects itself finds us; nothing for others.
 std::optional<DeviceDoor> open_door(const DevicesOptions& options, const std::string& name,
-                                    const MadeDevice& made) {
+                                    const device::MadeDevice& made) {
   std::optional<DeviceDoor> door;
   if (!made.link) return door;
   door.emplace(made.link, name, made.device->traits(), options.port);
@@ -99,13 +99,13 @@ void print_trial(const DeviceTrial& trial) {
 }
 
 void test_device(const DevicesOptions& options, const GlobalOptions& global) {
-  const DeviceOffer offer = device_kind(options.test).offer(data_folder(global.data));
+  const device::DeviceOffer offer = device::device_kind(options.test).offer(data_folder(global.data));
   refuse_browser(options.test, "tried out");
   if (!offer.usable)
     throw Error(ErrorKind::unavailable, "the device '" + offer.name + "' is not usable: " + offer.reason);
   catch_interrupts();
   const device::Script script = trial_script(options.profile);
-  const MadeDevice made = trial_device(options, options.test, script, global);
+  const device::MadeDevice made = trial_device(options, options.test, script, global);
   const auto door = open_door(options, options.test, made);
   std::cerr << "hold the handle loosely; after a second there is a gentle wall 10 mm below it, press against "
                "that; then the force fades\n";
@@ -122,7 +122,7 @@ void test_device(const DevicesOptions& options, const GlobalOptions& global) {
 device::DeviceSetup shown_setup(const DevicesOptions& options, const device::DeviceSetup& before,
                                 const GlobalOptions& global) {
   const device::Script script = trial_script(options.profile);
-  const MadeDevice made = trial_device(options, options.setup, script, global);
+  const device::MadeDevice made = trial_device(options, options.setup, script, global);
   const auto door = open_door(options, options.setup, made);
   HandleReader reader(*made.device, before, trial_start(options.setup));
   for (int waited_ms = 0; !reader.answers(); waited_ms += 50) {
@@ -140,7 +140,7 @@ device::DeviceSetup shown_setup(const DevicesOptions& options, const device::Dev
 }
 
 void set_up_device(const DevicesOptions& options, const GlobalOptions& global) {
-  device_kind(options.setup);
+  device::device_kind(options.setup);
   refuse_browser(options.setup, "steered");
   if (options.setup == "script")
     throw Error(ErrorKind::invalid_input, "the device 'script' has no set-up; its script says where it is");

@@ -6,11 +6,11 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/terminal_progress.hpp"
-#include "app/data_folder.hpp"
-#include "app/export_session.hpp"
-#include "app/recorded_session.hpp"
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "score/rubric_store.hpp"
+#include "session/export/export_session.hpp"
+#include "session/simulation/recorded_session.hpp"
 
 namespace ream::app {
 namespace {
@@ -22,9 +22,9 @@ struct ExportOptions {
   fs::path out;
 };
 
-ExportRequest request_of(const ExportOptions& options, const fs::path& data) {
-  ExportRequest request;
-  request.recording = recording_path(options.session, data);
+session::ExportRequest request_of(const ExportOptions& options, const fs::path& data) {
+  session::ExportRequest request;
+  request.recording = session::recording_path(options.session, data);
   request.case_name = options.case_name;
   request.data = data;
   if (!options.rubric.empty())
@@ -34,8 +34,8 @@ ExportRequest request_of(const ExportOptions& options, const fs::path& data) {
 }
 
 void export_session(const ExportOptions& options, const GlobalOptions& global) {
-  const ExportFormat& format = export_format_of(options.format, options.out);
-  if (format.kind != ExportKind::report && !(options.rubric.empty() && options.benchmark.empty()))
+  const session::FileFormat& format = session::export_format_of(options.format, options.out);
+  if (format.kind != session::ExportKind::report && !(options.rubric.empty() && options.benchmark.empty()))
     throw Error(ErrorKind::usage,
                 "--rubric and --benchmark are for reports, and " + options.out.string() + " will be none");
   catch_interrupts();
@@ -49,15 +49,16 @@ void export_session(const ExportOptions& options, const GlobalOptions& global) {
 
 std::string words_of_formats() {
   std::string words;
-  for (const ExportFormat& format : export_formats())
-    if (&export_format_of({}, "a" + format.extension) == &format)
+  for (const session::FileFormat& format : session::export_formats())
+    if (&session::export_format_of({}, "a" + format.extension) == &format)
       words += (words.empty() ? "FILE" : "; FILE") + format.extension + ": " + format.words;
   return words;
 }
 
 std::string names_of_formats() {
   std::string words;
-  for (const ExportFormat& format : export_formats()) words += (words.empty() ? "" : ", ") + format.name;
+  for (const session::FileFormat& format : session::export_formats())
+    words += (words.empty() ? "" : ", ") + format.name;
   return words;
 }
 

@@ -5,17 +5,16 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/cli/case_path.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/numbers.hpp"
 #include "app/cli/terminal_progress.hpp"
-#include "app/ct_source.hpp"
-#include "app/data_folder.hpp"
-#include "app/interrupt.hpp"
-#include "app/session_bundle.hpp"
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
+#include "core/interrupt.hpp"
 #include "core/log.hpp"
 #include "ct/build/import.hpp"
+#include "session/export/session_bundle.hpp"
+#include "workup/ct_source.hpp"
 
 namespace ream::app {
 namespace {
@@ -62,7 +61,7 @@ ct::ImportOptions parsed(const ImportOptions& options) {
 ct::Imported imported(const ImportOptions& options, const ct::ImportOptions& import,
                       const std::filesystem::path& out) {
   const TerminalProgress progress;
-  const CtSource source(options.path);
+  const workup::CtSource source(options.path);
   return source.read([&](const std::filesystem::path& ct) {
     return ct::import_with_ct(ct, ct::case_id_from(out), import, std::cref(progress));
   });
@@ -97,7 +96,7 @@ void report(const case_::Case& c, const std::filesystem::path& out, bool json) {
 
 void import_bundle(const ImportOptions& options, const GlobalOptions& global) {
   const std::filesystem::path data = data_folder(global.data);
-  const std::string id = import_session_bundle(options.path, data);
+  const std::string id = session::import_session_bundle(options.path, data);
   const std::string folder = (sessions_folder(data) / id).string();
   if (global.json)
     std::cout << nlohmann::json{{"session", id}, {"out", folder}}.dump() << '\n';
@@ -106,7 +105,7 @@ void import_bundle(const ImportOptions& options, const GlobalOptions& global) {
 }
 
 void import_case(const ImportOptions& options, const GlobalOptions& global) {
-  if (is_session_bundle(options.path)) return import_bundle(options, global);
+  if (session::is_session_bundle(options.path)) return import_bundle(options, global);
   if (options.out.empty()) throw Error(ErrorKind::usage, "--out is required: the name of the new case");
   const auto out = case_path(options.out, global.data);
   if (!options.replace && std::filesystem::exists(out / "case.json"))

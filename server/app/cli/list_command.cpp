@@ -4,15 +4,15 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "api/case_json.hpp"
-#include "api/index_upkeep.hpp"
-#include "api/session_archive.hpp"
 #include "app/cli/commands.hpp"
-#include "app/data_folder.hpp"
 #include "app/open_database.hpp"
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"
+#include "session/folder/index_upkeep.hpp"
+#include "session/folder/session_archive.hpp"
+#include "workup/case_json.hpp"
 
 namespace ream::app {
 namespace {
@@ -32,7 +32,7 @@ std::vector<fs::path> folders_in(const fs::path& folder) {
 nlohmann::json listed_cases(const fs::path& data) {
   nlohmann::json rows = nlohmann::json::array();
   for (const fs::path& folder : folders_in(cases_folder(data))) try {
-      if (api::is_case_folder(folder)) rows.push_back(api::case_summary_json(folder));
+      if (workup::is_case_folder(folder)) rows.push_back(workup::case_summary_json(folder));
     } catch (const Error& e) {
       log::warn(e.what());
     }
@@ -41,13 +41,13 @@ nlohmann::json listed_cases(const fs::path& data) {
 
 /// session.json with what the folder adds to it, newest first.
 nlohmann::json listed_sessions(const fs::path& data) {
-  const api::SessionArchive archive(sessions_folder(data));
+  const session::SessionArchive archive(sessions_folder(data));
   nlohmann::json rows = nlohmann::json::array();
-  for (const api::SessionRecord& record : archive.list()) {
+  for (const session::SessionRecord& record : archive.list()) {
     const std::string& id = record.request.id;
-    nlohmann::json row = read_json_file(api::session_json(archive.folder_of(id)));
+    nlohmann::json row = read_json_file(session::session_json(archive.folder_of(id)));
     row["id"] = id;
-    row["state"] = api::to_text(record.status.state);
+    row["state"] = session::to_text(record.status.state);
     row["created_utc"] = record.request.created_utc;
     row["duration_s"] = record.status.duration_s;
     rows.push_back(std::move(row));
@@ -81,8 +81,8 @@ void list(const ListOptions& options, const GlobalOptions& global) {
   if (options.rebuild_index) {
     if (cases)
       throw Error(ErrorKind::usage, "only sessions have an index; give list sessions --rebuild-index");
-    const size_t count =
-        api::rebuild_index(api::SessionArchive(sessions_folder(data)), *open_database(global.db, data));
+    const size_t count = session::rebuild_index(session::SessionArchive(sessions_folder(data)),
+                                                *open_database(global.db, data));
     log::info("the index of sessions is made anew: " + std::to_string(count));
   }
   const nlohmann::json rows = cases ? listed_cases(data) : listed_sessions(data);

@@ -3,19 +3,18 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/cli/case_path.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/numbers.hpp"
-#include "app/data_folder.hpp"
-#include "app/reamer.hpp"
 #include "case/measures.hpp"
 #include "case/plan.hpp"
 #include "case/planning.hpp"
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"
 #include "core/units.hpp"
 #include "ct/phantom/phantom_case.hpp"
+#include "session/simulation/reamer.hpp"
 #include "shell/reamer_library.hpp"
 #include "shell/tool.hpp"
 
@@ -112,7 +111,7 @@ void set_pilot(case_::Plan& plan, const PlanOptions& options) {
 /// a file; a mesh may still need an axis, which `simulate` takes.
 std::string checked_reamer(const std::string& asked_for, const std::filesystem::path& data) {
   if (asked_for.empty()) return asked_for;
-  const std::string reamer = reamer_in_library(asked_for, data);
+  const std::string reamer = session::reamer_in_library(asked_for, data);
   std::error_code failed;
   if (!std::filesystem::is_regular_file(reamer, failed)) shell::make_tool(reamer);
   return reamer;

@@ -6,15 +6,15 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/commands.hpp"
-#include "app/data_folder.hpp"
-#include "app/interrupt.hpp"
-#include "app/recorded_case.hpp"
-#include "app/recorded_session.hpp"
-#include "app/review_recording.hpp"
-#include "app/verify_replay.hpp"
 #include "core/clock.hpp"
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/interrupt.hpp"
+#include "session/replay/review_recording.hpp"
+#include "session/replay/verify_replay.hpp"
+#include "session/simulation/recorded_case.hpp"
+#include "session/simulation/recorded_session.hpp"
 
 namespace ream::app {
 namespace {
@@ -76,12 +76,13 @@ void end_with(uint32_t tick, const std::optional<record::Difference>& difference
               const record::Recording& recording) {
   if (difference)
     throw Error(ErrorKind::invalid_input,
-                recording.log().path().string() + ": " + difference_words(tick, *difference));
+                recording.log().path().string() + ": " + session::difference_words(tick, *difference));
 }
 
 void review(const ReplayOptions& options, const GlobalOptions& global, const record::Recording& recording,
             case_::Case bone_case) {
-  const Review found = review_recording(recording, std::move(bone_case), until_tick(options));
+  const session::Review found =
+      session::review_recording(recording, std::move(bone_case), until_tick(options));
   json answer = about(recording, found.ticks);
   answer["checkpoints"] = found.checkpoints;
   answer["removed_volume_mm3"] = found.removed_volume_mm3;
@@ -97,10 +98,10 @@ void review(const ReplayOptions& options, const GlobalOptions& global, const rec
 
 void verify(const ReplayOptions& options, const GlobalOptions& global, const record::Recording& recording,
             case_::Case bone_case) {
-  VerifyRequest request;
+  session::VerifyRequest request;
   request.backend = options.backend;
   request.until_tick = until_tick(options);
-  const VerifyResult found = verify_replay(recording, std::move(bone_case), request);
+  const session::VerifyResult found = session::verify_replay(recording, std::move(bone_case), request);
   json answer = about(recording, found.ticks);
   answer["verified"] = !found.difference.has_value();
   answer["backend"] = found.backend;
@@ -116,9 +117,9 @@ void replay(const ReplayOptions& options, const GlobalOptions& global) {
   catch_interrupts();
   const auto data = data_folder(global.data);
   // All chunks are looked at first, so that what comes before damage is gone through to its end.
-  const record::Recording recording(recording_path(options.recording, data),
+  const record::Recording recording(session::recording_path(options.recording, data),
                                     record::Recording::Trust::checked);
-  case_::Case bone_case = recorded_case(recording, options.case_name, data);
+  case_::Case bone_case = session::recorded_case(recording, options.case_name, data);
   (options.verify ? verify : review)(options, global, recording, std::move(bone_case));
   if (const std::string& damage = recording.log().damage(); !damage.empty())
     throw Error(ErrorKind::invalid_input, damage);

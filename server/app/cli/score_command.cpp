@@ -3,21 +3,21 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "api/score_table.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/print_score.hpp"
 #include "app/cli/terminal_progress.hpp"
-#include "app/data_folder.hpp"
-#include "app/interrupt.hpp"
-#include "app/kept_sessions.hpp"
-#include "app/recorded_session.hpp"
-#include "app/rescoring.hpp"
-#include "app/score_document.hpp"
-#include "app/session_facts.hpp"
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/interrupt.hpp"
 #include "core/log.hpp"
 #include "score/rubric_store.hpp"
+#include "session/export/session_facts.hpp"
+#include "session/scoring/kept_score.hpp"
+#include "session/scoring/kept_sessions.hpp"
+#include "session/scoring/rescoring.hpp"
+#include "session/scoring/score_table.hpp"
+#include "session/simulation/recorded_session.hpp"
 
 namespace ream::app {
 namespace {
@@ -40,7 +40,7 @@ struct Judge {
 
 /// A session that could be scored.
 struct Judged {
-  api::TableSession table;
+  session::TableSession table;
   nlohmann::json document;
 };
 
@@ -54,10 +54,11 @@ std::vector<std::string> names_of(const ScoreOptions& options, const fs::path& d
   const int ways =
       (options.sessions.empty() ? 0 : 1) + (options.all ? 1 : 0) + (options.trainee.empty() ? 0 : 1);
   if (ways != 1) throw Error(ErrorKind::usage, "name sessions, or say --all, or --trainee: one of these");
-  if (options.all) return recorded_sessions(data);
+  if (options.all) return session::recorded_sessions(data);
   if (options.trainee.empty()) return options.sessions;
   std::vector<std::string> names;
-  for (const KeptSession& session : sessions_of_trainee(kept_sessions(data), options.trainee))
+  for (const session::KeptSession& session :
+       session::sessions_of_trainee(session::kept_sessions(data), options.trainee))
     names.push_back(session.id);
   if (names.empty())
     throw Error(ErrorKind::not_found,
@@ -65,31 +66,32 @@ std::vector<std::string> names_of(const ScoreOptions& options, const fs::path& d
   return names;
 }
 
-std::vector<Rescored> rescored(const ScoreOptions& options, const fs::path& data) {
+std::vector<session::Rescored> rescored(const ScoreOptions& options, const fs::path& data) {
   const std::vector<std::string> names = names_of(options, data);
   catch_interrupts();
   const TerminalProgress progress;
-  return rescore(names, options.case_name, data, std::cref(progress));
+  return session::rescore(names, options.case_name, data, std::cref(progress));
 }
 
-Judged judged(const Rescored& one, const ScoreOptions& options, const Judge& judge, const fs::path& data) {
-  const fs::path recording = recording_path(one.name, data);
+Judged judged(const session::Rescored& one, const ScoreOptions& options, const Judge& judge,
+              const fs::path& data) {
+  const fs::path recording = session::recording_path(one.name, data);
   Judged result;
-  result.table = {one.name, description_of(record::Recording(recording)), one.metrics};
-  result.document = score_document(result.table.session, one.metrics, judge.rubric,
-                                   judge.benchmark ? &*judge.benchmark : nullptr);
-  if (options.save) write_score(recording.parent_path(), result.document);
+  result.table = {one.name, session::description_of(record::Recording(recording)), one.metrics};
+  result.document = session::score_document(result.table.session, one.metrics, judge.rubric,
+                                            judge.benchmark ? &*judge.benchmark : nullptr);
+  if (options.save) session::write_score(recording.parent_path(), result.document);
   return result;
 }
 
 void write_table(const std::vector<Judged>& all, const score::Rubric& rubric, const fs::path& csv) {
-  std::vector<api::TableSession> sessions;
+  std::vector<session::TableSession> sessions;
   for (const Judged& one : all) sessions.push_back(one.table);
-  const api::ExportTable table = api::score_table(sessions, rubric);
+  const session::ExportTable table = session::score_table(sessions, rubric);
   fs::path codebook = csv;
   codebook.replace_filename(csv.stem().string() + "-codebook.csv");
-  write_file_atomically(codebook, api::csv_of(api::score_codebook(table)));
-  write_file_atomically(csv, api::csv_of(table));
+  write_file_atomically(codebook, session::csv_of(session::score_codebook(table)));
+  write_file_atomically(csv, session::csv_of(table));
 }
 
 nlohmann::json answer_of(const Judged& one) {
@@ -102,8 +104,8 @@ nlohmann::json learning_of_all(const std::vector<Judged>& all, const Judge& judg
                                const ScoreOptions& options) {
   std::vector<score::LearningPoint> points;
   for (const Judged& one : all)
-    points.push_back(learning_point(one.table.id, one.table.session,
-                                    score::apply_rubric(judge.rubric, one.table.metrics)));
+    points.push_back(session::learning_point(one.table.id, one.table.session,
+                                             score::apply_rubric(judge.rubric, one.table.metrics)));
   return score::learning_json(score::learning_curve(options.cusum, std::move(points)));
 }
 
@@ -125,10 +127,10 @@ void print_all(const std::vector<Judged>& all, const nlohmann::json& failed, con
 void score_sessions(const ScoreOptions& options, const GlobalOptions& global) {
   const fs::path data = data_folder(global.data);
   const Judge judge = judge_of(options, data);
-  const std::vector<Rescored> scored = rescored(options, data);
+  const std::vector<session::Rescored> scored = rescored(options, data);
   std::vector<Judged> all;
   nlohmann::json failed = nlohmann::json::array();
-  for (const Rescored& one : scored) {
+  for (const session::Rescored& one : scored) {
     if (one.error.empty()) {
       all.push_back(judged(one, options, judge, data));
       continue;

@@ -10,27 +10,27 @@
 
 #include "api/server.hpp"
 #include "app/cli/commands.hpp"
-#include "app/ct_source.hpp"
-#include "app/data_folder.hpp"
-#include "app/device_registry.hpp"
-#include "app/export_session.hpp"
-#include "app/interrupt.hpp"
 #include "app/open_database.hpp"
 #include "app/openigtlink_address.hpp"
-#include "app/reaming_session.hpp"
-#include "app/replay_session.hpp"
-#include "app/score_makers.hpp"
 #include "app/server_address.hpp"
-#include "app/session_recovery.hpp"
 #include "core/clock.hpp"
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/file_lock.hpp"
+#include "core/interrupt.hpp"
 #include "core/log.hpp"
 #include "ct/phantom/phantom_case.hpp"
 #include "ct/read/read_ct.hpp"
+#include "device/device_registry.hpp"
 #include "openigtlink/server.hpp"
+#include "session/export/export_session.hpp"
+#include "session/export/score_makers.hpp"
+#include "session/live/reaming_session.hpp"
+#include "session/live/session_recovery.hpp"
+#include "session/replay/replay_session.hpp"
 #include "store/database_url.hpp"
+#include "workup/ct_source.hpp"
 
 namespace ream::app {
 namespace {
@@ -74,7 +74,7 @@ sim::Realtime realtime_from_text(const std::string& text) {
 
 std::vector<std::string> device_names() {
   std::vector<std::string> names;
-  for (const DeviceKind& kind : device_kinds()) names.push_back(kind.name);
+  for (const device::DeviceKind& kind : device::device_kinds()) names.push_back(kind.name);
   return names;
 }
 
@@ -114,7 +114,7 @@ void tell_address(const std::string& url, const openigtlink::Server* watched,
 }
 
 void serve(const ServeOptions& options, const GlobalOptions& global) {
-  SessionHouse house;
+  session::SessionHouse house;
   house.data = data_folder(global.data);
   house.server_epoch = static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::microseconds>(
                                                  std::chrono::system_clock::now().time_since_epoch())
@@ -134,7 +134,7 @@ void serve(const ServeOptions& options, const GlobalOptions& global) {
     throw Error(ErrorKind::conflict, "a server runs on " + house.data.string() +
                                          "; stop it, or choose another folder with --data");
   make_writable_folder(sessions_folder(house.data));
-  for (const std::string& line : recover_sessions(house.data)) log::warn(line);
+  for (const std::string& line : session::recover_sessions(house.data)) log::warn(line);
   catch_interrupts();
 
   std::optional<openigtlink::Server> watched;
@@ -145,26 +145,26 @@ void serve(const ServeOptions& options, const GlobalOptions& global) {
   server_options.cases_folder = cases_folder(house.data);
   server_options.data_folder = house.data;
   server_options.read_ct = [](const fs::path& file, const std::string& series_uid, const Progress& progress) {
-    const CtSource source(file, part_of(progress, 0.0, unpacking_share), file.parent_path());
+    const workup::CtSource source(file, part_of(progress, 0.0, unpacking_share), file.parent_path());
     return source.read([&](const fs::path& path) {
       return ct::read_ct(path, {series_uid, false}, part_of(progress, unpacking_share, 1.0));
     });
   };
   server_options.sessions_folder = sessions_folder(house.data);
-  server_options.make_session.make = [house](const api::SessionRequest& request) {
-    return std::make_unique<ReamingSession>(house, request);
+  server_options.make_session.make = [house](const session::SessionRequest& request) {
+    return std::make_unique<session::ReamingSession>(house, request);
   };
-  server_options.make_session.resume = [house](const api::SessionRequest& request,
+  server_options.make_session.resume = [house](const session::SessionRequest& request,
                                                const std::string& reamer) {
-    return std::make_unique<ReamingSession>(house, request, reamer);
+    return std::make_unique<session::ReamingSession>(house, request, reamer);
   };
-  server_options.export_formats = served_export_formats(house.data);
-  server_options.scoring = score_makers(house.data);
+  server_options.export_formats = session::served_export_formats(house.data);
+  server_options.scoring = session::score_makers(house.data);
   server_options.usual_device = options.device;
   server_options.retention.keep_sessions_days = options.keep_sessions_days;
   server_options.retention.keep_deleted_days = options.keep_deleted_days;
-  server_options.make_replay = [house](const api::ReplayRequest& request) {
-    return std::make_unique<ReplaySession>(house, request);
+  server_options.make_replay = [house](const session::ReplayRequest& request) {
+    return std::make_unique<session::ReplaySession>(house, request);
   };
   server_options.prepare = [house] { ct::load_or_make_demo_case(house.data); };
   api::Server server(std::move(server_options));

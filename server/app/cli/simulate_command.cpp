@@ -3,18 +3,18 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/asked_rig.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/numbers.hpp"
-#include "app/data_folder.hpp"
-#include "app/headless_run.hpp"
-#include "app/interrupt.hpp"
-#include "app/reamed_pictures.hpp"
-#include "app/score_document.hpp"
 #include "core/atomic_file.hpp"
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/interrupt.hpp"
 #include "force/feed_model.hpp"
+#include "session/live/headless_run.hpp"
+#include "session/scoring/kept_score.hpp"
+#include "session/simulation/asked_rig.hpp"
+#include "session/simulation/reamed_pictures.hpp"
 
 namespace ream::app {
 namespace {
@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct SimulateOptions {
-  RunRequest request;
+  session::RunRequest request;
   std::string tool_axis;
   std::string removal = "profile";
   double force_scale = 0.0;
@@ -53,7 +53,7 @@ fs::path next_output_folder() {
 }
 
 void simulate(const SimulateOptions& options, const GlobalOptions& global) {
-  RunRequest request = options.request;
+  session::RunRequest request = options.request;
   if (options.removal == "decay") request.removal = sim::RemovalLaw::decay;
   if (!options.tool_axis.empty()) {
     const auto v = parse_numbers(options.tool_axis, 6, "--tool-axis");
@@ -64,11 +64,12 @@ void simulate(const SimulateOptions& options, const GlobalOptions& global) {
   const fs::path out = options.out.empty() ? next_output_folder() : options.out;
   AtomicFolder folder(out);
   catch_interrupts();
-  Rig rig(asked_for(request, data_folder(global.data)));
+  session::Rig rig(session::asked_for(request, data_folder(global.data)));
   const std::vector<uint8_t> before = rig.bone_case.bone.coverage;
-  const HeadlessResult result = run_headless(rig, before, folder.path(), options.wall_clock);
-  write_reamed_pictures(rig, before, folder.path());
-  keep_score(folder.path(), data_folder(global.data));
+  const session::HeadlessResult result =
+      session::run_headless(rig, before, folder.path(), options.wall_clock);
+  session::write_reamed_pictures(rig, before, folder.path());
+  session::keep_score(folder.path(), data_folder(global.data));
   throw_if_interrupted();
   folder.commit();
 

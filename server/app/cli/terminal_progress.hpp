@@ -5,7 +5,7 @@
 #include <iostream>
 #include <string_view>
 
-#include "app/interrupt.hpp"
+#include "core/interrupt.hpp"
 
 namespace ream::app {
 

@@ -8,9 +8,9 @@
 #include "access/access_control.hpp"
 #include "api/user_json.hpp"
 #include "app/cli/commands.hpp"
-#include "app/data_folder.hpp"
 #include "app/open_database.hpp"
 #include "app/password_prompt.hpp"
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 

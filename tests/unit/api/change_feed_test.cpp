@@ -15,8 +15,8 @@ net::Caller caller(const std::string& role, const std::string& user_id = "u") {
   return {user_id, "", role, {}, {}};
 }
 
-std::shared_ptr<const SessionRequest> session_of(const std::string& trainee_id) {
-  auto request = std::make_shared<SessionRequest>();
+std::shared_ptr<const session::SessionRequest> session_of(const std::string& trainee_id) {
+  auto request = std::make_shared<session::SessionRequest>();
   request->id = "abcd2345";
   request->trainee_id = trainee_id;
   return request;

@@ -54,9 +54,9 @@ class GateTest : public test::TestDatabase<test::OnSqlite> {
     }
   }
 
-  std::optional<SessionRequest> session(const std::string& id) const {
+  std::optional<session::SessionRequest> session(const std::string& id) const {
     if (id != "toms" && id != "others") return std::nullopt;
-    SessionRequest found;
+    session::SessionRequest found;
     found.id = id;
     found.trainee_id = id == "toms" ? tom : "somebody else";
     return found;

@@ -40,10 +40,10 @@ std::map<std::string, double> read_page(const std::string& text) {
   return samples;
 }
 
-SessionRecord running() {
-  SessionRecord record;
+session::SessionRecord running() {
+  session::SessionRecord record;
   record.request.id = "abc-1";
-  record.status.state = SessionState::running;
+  record.status.state = session::SessionState::running;
   record.status.tick = 61'000;
   record.status.loop.tick_us = {90.0, 80.0, 250.0, 400.0, 900.5, 61'000};
   record.status.loop.lateness_us.p999_us = 70.0;
@@ -54,9 +54,9 @@ SessionRecord running() {
 }
 
 TEST(Prometheus, SaysHowALoopAndItsDeviceAre) {
-  SessionRecord ended;
+  session::SessionRecord ended;
   ended.request.id = "abc-2";
-  ended.status.state = SessionState::finished;
+  ended.status.state = session::SessionState::finished;
   const auto samples = read_page(prometheus_text({running(), ended}));
   const std::string of = "{session=\"abc-1\"";
   EXPECT_EQ(samples.at("ream_sessions{state=\"running\"}"), 1.0);
@@ -84,7 +84,7 @@ TEST(Prometheus, OfNoSessionIsAPageToo) {
 
 // A week's ticks are more than six digits.
 TEST(Prometheus, LosesNoTickOfALongSession) {
-  SessionRecord record = running();
+  session::SessionRecord record = running();
   record.status.tick = 604'800'001;
   EXPECT_EQ(read_page(prometheus_text({record})).at("ream_ticks_total{session=\"abc-1\"}"), 604'800'001.0);
 }

@@ -48,9 +48,9 @@ class RetentionTest : public testing::Test {
   const test::TemporaryFolder folder;
   test::FakeFactory factory;
   test::FakeReplayFactory replay_factory;
-  SessionService service{factory.makers(), {3, 2}, folder.path() / "sessions"};
-  ReplayService replays{replay_factory.function(), {}};
-  JobService jobs;
+  session::SessionService service{factory.makers(), {3, 2}, folder.path() / "sessions"};
+  session::ReplayService replays{replay_factory.function(), {}};
+  jobs::JobService jobs;
   const std::shared_ptr<ChangeFeed> feed = std::make_shared<ChangeFeed>(may_know);
   std::vector<std::string> audited;
 };
@@ -76,7 +76,7 @@ TEST_F(RetentionTest, WhatIsKeptLiveInUseOrOfAStudyThatIsNotOverStays) {
   put("open", 100, {{"study", "open"}});
   put("over", 100, {{"study", "over"}});
   put("used", 100);
-  const auto lock = FileLock::attempt(lock_file(folder.path() / "sessions/used"));
+  const auto lock = FileLock::attempt(session::lock_file(folder.path() / "sessions/used"));
   const std::string live = service.create({{}, "demo", "demo", {}}).request.id;
   look(30, 10, std::chrono::hours(24 * 300));
   for (const char* id : {"kept", "open", "used"}) EXPECT_TRUE(is_there(id)) << id;
@@ -104,15 +104,16 @@ TEST_F(RetentionTest, ManyPagesOfOldSessionsGoAtOnce) {
 
 TEST_F(RetentionTest, OldFilesOfJobsGoToo) {
   std::atomic<UtcMoment> now{machine_clock()()};
-  JobService with_files({folder.path() / "jobs", std::chrono::hours(24), 8, {}, [&] { return now.load(); }});
+  jobs::JobService with_files(
+      {folder.path() / "jobs", std::chrono::hours(24), 8, {}, [&] { return now.load(); }});
   const std::string id = with_files
                              .submit_file({"export", {}, "abcd"},
                                           [](const fs::path& place, const Progress&) {
                                             std::ofstream(place / "a.csv") << "a";
-                                            return JobService::MadeFile{"a.csv", "text/csv"};
+                                            return jobs::JobService::MadeFile{"a.csv", "text/csv"};
                                           })
                              .id;
-  while (is_open(with_files.get(id).state)) std::this_thread::yield();
+  while (jobs::is_open(with_files.get(id).state)) std::this_thread::yield();
   now = now.load() + std::chrono::hours(25);
   Retention retention({}, {service, replays, with_files, *feed, [](const std::string&) { return false; },
                            [](const std::string&, const std::string&, const std::string&) {}});

@@ -7,6 +7,12 @@
 namespace ream::api {
 namespace {
 
+using access::instructors;
+using access::operators;
+using access::role_bit;
+using access::trainees;
+using access::viewers;
+
 TEST(Rights, HaveOneRowARoute) {
   std::set<std::string> seen;
   for (const Right& right : rights())

@@ -12,8 +12,8 @@ net::Caller caller(const std::string& role, const std::string& user_id = {},
   return {user_id, "somebody", role, only_session, "credential"};
 }
 
-SessionRequest session(const std::string& id, const std::string& trainee_id) {
-  SessionRequest request;
+session::SessionRequest session(const std::string& id, const std::string& trainee_id) {
+  session::SessionRequest request;
   request.id = id;
   request.trainee_id = trainee_id;
   return request;

@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "api/session_folder.hpp"
-#include "app/data_folder.hpp"
 #include "app/data_snapshot.hpp"
 #include "app/restore_backup.hpp"
+#include "core/data_folder.hpp"
 #include "core/file.hpp"
 #include "core/file_lock.hpp"
+#include "session/folder/session_folder.hpp"
 #include "store/session_index.hpp"
 #include "store/table_files.hpp"
 #include "store/zip_archive.hpp"
@@ -156,7 +156,7 @@ TYPED_TEST(BackupTest, KeepsLiveSessionsAsFarAsTheyHadCome) {
   fill(house);
   house.write("sessions/live/session.json", R"({"state": "running"})");
   house.write("sessions/live/recording.ream", std::string(1000, 'a'));
-  const auto lock = FileLock::attempt(api::lock_file(house.data() / "sessions/live"));
+  const auto lock = FileLock::attempt(session::lock_file(house.data() / "sessions/live"));
   ASSERT_TRUE(lock);
   bool grown = false;
   const BackupReport report =

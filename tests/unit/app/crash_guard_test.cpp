@@ -1,4 +1,4 @@
-#include "app/crash_guard.hpp"
+#include "device/crash_guard.hpp"
 #include "support/places.hpp"
 
 #include <gtest/gtest.h>
@@ -73,12 +73,12 @@ TEST_F(CrashGuard, ASignalToEndLeavesNoForceAndTheDeviceClosed) {
 TEST(CrashWatch, HasPlacesForSixtyFourAndGivesThemBack) {
   StillDevice device;
   for (int round = 0; round < 3; ++round) {
-    std::vector<std::unique_ptr<app::CrashWatch>> watches;
+    std::vector<std::unique_ptr<device::CrashWatch>> watches;
     for (int i = 0; i < 64; ++i) {
-      watches.push_back(std::make_unique<app::CrashWatch>(device));
+      watches.push_back(std::make_unique<device::CrashWatch>(device));
       EXPECT_TRUE(watches.back()->is_watched());
     }
-    EXPECT_FALSE(app::CrashWatch(device).is_watched());
+    EXPECT_FALSE(device::CrashWatch(device).is_watched());
   }
 }
 

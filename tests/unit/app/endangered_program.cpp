@@ -8,10 +8,10 @@
 #include <map>
 #include <string>
 
-#include "app/asked_rig.hpp"
-#include "app/crash_guard.hpp"
-#include "app/interrupt.hpp"
 #include "core/error.hpp"
+#include "core/interrupt.hpp"
+#include "device/crash_guard.hpp"
+#include "session/simulation/asked_rig.hpp"
 #include "support/recorded_reaming.hpp"
 
 // A program with a device in somebody's hand, told by its argument how to end. What its device is told, last
@@ -73,17 +73,17 @@ const std::map<std::string, void (*)()> ends{
 };
 
 int run(const std::string& how) {
-  app::catch_interrupts();
-  if (how != "unwatched") app::take_force_away_on_crash();
+  catch_interrupts();
+  if (how != "unwatched") device::take_force_away_on_crash();
   const RecordedReaming reaming;
-  app::RigParts parts =
-      app::asked_for(reaming.request(RecordedReaming::push("ideal", 600.0)), reaming.data());
+  session::RigParts parts =
+      session::asked_for(reaming.request(RecordedReaming::push("ideal", 600.0)), reaming.data());
   const int end_at = how == "signal" ? -1 : 700;
   parts.device = std::make_unique<TellingDevice>(std::move(parts.device), end_at, ends.at(how));
-  app::Rig rig(std::move(parts));
+  session::Rig rig(std::move(parts));
   const std::vector<uint8_t> start = rig.bone_case.bone.coverage;
   try {
-    app::run_headless(rig, start, reaming.folder().path(), true);
+    session::run_headless(rig, start, reaming.folder().path(), true);
   } catch (const Error& e) {
     std::fprintf(stderr, "%s\n", e.what());
     return 1;

@@ -19,8 +19,12 @@ using Rooms = std::map<std::string, std::set<std::string>>;
 /// The arrows as the house plan draws them, before following them further.
 const Rooms& drawn_arrows() {
   static const Rooms arrows{
-      {"app", {"api", "openigtlink"}},
-      {"api", {"sim", "stream", "score", "report", "ct", "fe", "render", "access", "net"}},
+      {"app", {"api", "fe"}},
+      {"api", {"study", "workup"}},
+      {"workup", {"jobs"}},
+      {"study", {"session", "access"}},
+      {"jobs", {"session"}},
+      {"session", {"sim", "openigtlink", "report", "ct", "render", "store", "net"}},
       {"sim", {"collide", "force", "record", "case"}},
       {"collide", {"shell"}},
       {"stream", {"surface"}},

@@ -42,7 +42,7 @@ class EveryRouteTest : public PersonaTest {
                                                                            : Answer::who_are_you;
     if (persona.without_csrf && operation.changes()) return Answer::not_you;
     if (operation.right.door == Door::gauges) return Answer::passes;  // asked by this machine itself
-    if (!(operation.right.who & api::role_bit(persona.role))) return Answer::not_you;
+    if (!(operation.right.who & access::role_bit(persona.role))) return Answer::not_you;
     const bool of_a_session = operation.pattern.starts_with(one);
     return of_a_session && !may_see ? Answer::no_such_thing : Answer::passes;
   }

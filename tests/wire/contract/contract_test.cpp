@@ -45,7 +45,7 @@ class ServerContractTest : public ContractTest {
     resetting();
     const std::string stuck = create("no-start");
     expect_post(one + "/start", all + "/" + stuck + "/start", 503);
-    factory.made(6).set(api::SessionState::fault, "the device fell silent");
+    factory.made(6).set(session::SessionState::fault, "the device fell silent");
     expect_get(one, all + "/" + stuck, 200);
     expect_stream(path + "/stream", 101);
     expect_stream(path + "/stream?stride=4", 101);
@@ -79,7 +79,7 @@ class ServerContractTest : public ContractTest {
     expect_request("PATCH", one, path, 413, std::string(options.listen.limits.body_bytes + 1, ' '));
     expect_request("PATCH", one, path, 415, good, {{"Content-Type", "text/plain"}});
     expect_request("PATCH", one, path, 422, R"({"titel": "first try"})");
-    const auto lock = FileLock::attempt(api::lock_file(options.sessions_folder / "earlier"));
+    const auto lock = FileLock::attempt(session::lock_file(options.sessions_folder / "earlier"));
     expect_request("PATCH", one, all + "/earlier", 409, good);
     EXPECT_EQ(json::parse(get(path).body).at("title"), "first try");
   }

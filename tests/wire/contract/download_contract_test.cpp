@@ -19,12 +19,12 @@ class DownloadContractTest : public ContractTest {
     for (const char* name : {"ply", "stl", "glb", "png", "zip"}) add_form(name, media_type_of(name));
     add_form("csv", "text/csv; charset=utf-8").is_table = true;
     add_form("surface", "application/ply").ending = "ply";
-    api::ExportFormat& pdf = add_form("pdf", "application/pdf");
+    session::ExportFormat& pdf = add_form("pdf", "application/pdf");
     pdf.is_report = true;
-    pdf.check = [](const api::ExportOrder& order) {
+    pdf.check = [](const session::ExportOrder& order) {
       if (order.rubric == "nothing") throw Error(ErrorKind::not_found, "no rubric 'nothing'");
     };
-    for (const api::ExportFormat& form : forms_) options.export_formats.add(form);
+    for (const session::ExportFormat& form : forms_) options.export_formats.add(form);
     put_session("ended");
     put_session("other");
     folder.write("sessions/bare/session.json",
@@ -44,15 +44,15 @@ class DownloadContractTest : public ContractTest {
     if (name == "glb") return "model/gltf-binary";
     return name == "png" ? "image/png" : "application/zip";
   }
-  api::ExportFormat& add_form(const std::string& name, const std::string& media_type) {
-    const auto write = [this, name](const api::ExportOrder& order, const fs::path& out,
+  session::ExportFormat& add_form(const std::string& name, const std::string& media_type) {
+    const auto write = [this, name](const session::ExportOrder& order, const fs::path& out,
                                     const Progress& progress) {
       progress(0.5, "writing");
       while (held) std::this_thread::sleep_for(std::chrono::milliseconds(2));
       std::ofstream(out) << name << " of " << order.session.id << " from " << order.part.from_s << " by "
                          << order.part.stride << ", " << order.rubric << " and " << order.benchmark;
     };
-    return forms_.emplace_back(api::ExportFormat{name, media_type, false, write});
+    return forms_.emplace_back(session::ExportFormat{name, media_type, false, write});
   }
   void hold() { held = true; }
   void release() { held = false; }
@@ -178,7 +178,7 @@ class DownloadContractTest : public ContractTest {
   }
 
   std::atomic<bool> held{false};
-  std::list<api::ExportFormat> forms_;
+  std::list<session::ExportFormat> forms_;
   const std::string ended_path = all + "/ended", one_job = "/api/v1/jobs/{id}";
 };
 

@@ -17,7 +17,7 @@ class ScoreTest : public ContractTest {
   ScoreTest() {
     options.data_folder = folder.path();
     options.scoring.scored_by = "ream of a test";
-    options.scoring.make_measure = [this]() -> api::Measure {
+    options.scoring.make_measure = [this]() -> session::Measure {
       return [this](const std::filesystem::path& session, const Progress& progress) {
         progress(0.5, "measuring");
         while (held) std::this_thread::sleep_for(std::chrono::milliseconds(2));

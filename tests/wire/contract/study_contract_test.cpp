@@ -39,7 +39,7 @@ class StudyContractTest : public AccessTest {
   }
   static json all_answers() {
     json answers = json::object();
-    for (const auto& item : api::face_validity_questionnaire().items)
+    for (const auto& item : study::face_validity_questionnaire().items)
       if (item.required) answers[item.id] = 3;
     return answers;
   }

@@ -1,7 +1,0 @@
-#include "app/version.hpp"
-
-namespace ream::app {
-
-std::string version_text() { return "ream " REAM_VERSION; }
-
-}  // namespace ream::app

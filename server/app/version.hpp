@@ -1,9 +1,0 @@
-#pragma once
-#include <string>
-
-namespace ream::app {
-
-/// "ream 0.1.0".
-std::string version_text();
-
-}  // namespace ream::app

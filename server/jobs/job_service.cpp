@@ -1,0 +1,281 @@
+#include "jobs/job_service.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <utility>
+
+#include "core/clock.hpp"
+#include "core/file.hpp"
+#include "core/log.hpp"
+#include "core/new_id.hpp"
+#include "core/thread_pool.hpp"
+
+namespace ream::jobs {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr size_t most_waiting = 16;
+/// Progress is told no more often than this.
+constexpr int64_t told_every_ns = 500'000'000;
+
+void remove_quietly(const fs::path& path) {
+  std::error_code ignored;
+  fs::remove_all(path, ignored);
+}
+
+std::string about(const JobOrder& order) {
+  if (!order.case_id.empty()) return "the work on case '" + order.case_id + "'";
+  if (!order.session_id.empty()) return "the work on session '" + order.session_id + "'";
+  return "the work";
+}
+
+}  // namespace
+
+struct JobService::Job {
+  JobRecord record;
+  Task task;
+  std::atomic<bool> cancel_wanted{false};
+  int64_t told_ns = 0;
+};
+
+std::string to_text(JobState state) {
+  switch (state) {
+    case JobState::waiting:
+      return "waiting";
+    case JobState::running:
+      return "running";
+    case JobState::done:
+      return "done";
+    case JobState::failed:
+      return "failed";
+    case JobState::cancelled:
+      return "cancelled";
+  }
+  return "failed";
+}
+
+bool is_open(JobState state) { return state == JobState::waiting || state == JobState::running; }
+
+JobService::JobService(JobOptions options) : options_(std::move(options)) {
+  if (!options_.folder.empty()) remove_quietly(options_.folder);
+  thread_ = std::thread([this] { work(); });
+}
+
+JobService::~JobService() { shut_down(); }
+
+void JobService::shut_down() {
+  {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+    for (const auto& job : jobs_) job->cancel_wanted = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+fs::path JobService::folder_of(const Job& job) const { return options_.folder / job.record.id; }
+
+void JobService::tell(const JobRecord& record) const {
+  if (options_.on_change) options_.on_change(record);
+}
+
+bool JobService::busy_locked(const std::string& case_id) const {
+  return std::any_of(jobs_.begin(), jobs_.end(), [&](const auto& job) {
+    return job->record.order.case_id == case_id && is_open(job->record.state);
+  });
+}
+
+bool JobService::busy(const std::string& case_id) const {
+  const std::lock_guard lock(mutex_);
+  return busy_locked(case_id);
+}
+
+std::optional<JobRecord> JobService::open_on_session(const std::string& kind,
+                                                     const std::string& session_id) const {
+  const std::lock_guard lock(mutex_);
+  for (const auto& job : jobs_)
+    if (is_open(job->record.state) && job->record.order.kind == kind &&
+        job->record.order.session_id == session_id)
+      return job->record;
+  return std::nullopt;
+}
+
+/// With the mutex held.
+void JobService::forget_surplus() {
+  while (jobs_.size() > options_.most_kept && !is_open(jobs_.front()->record.state)) {
+    if (jobs_.front()->record.result) remove_quietly(folder_of(*jobs_.front()));
+    jobs_.pop_front();
+  }
+}
+
+JobRecord JobService::add(const JobOrder& order, Task task) {
+  JobRecord record;
+  {
+    const std::lock_guard lock(mutex_);
+    if (closed_) throw Error(ErrorKind::unavailable, "the server is stopping");
+    if (!order.case_id.empty() && busy_locked(order.case_id))
+      throw Error(ErrorKind::conflict,
+                  "other work on case '" + order.case_id + "' is not done; wait for it or cancel it");
+    const auto waiting =
+        std::count_if(jobs_.begin(), jobs_.end(), [](const auto& job) { return is_open(job->record.state); });
+    if (waiting >= static_cast<std::ptrdiff_t>(most_waiting))
+      throw Error(ErrorKind::unavailable, "too much work waits already; try again later");
+    const auto job = std::make_shared<Job>();
+    job->record.id = random_id();
+    job->record.number = ++submitted_;
+    job->record.order = order;
+    job->record.step = "waiting for its turn";
+    job->record.created_utc = ream::utc_text(options_.now());
+    job->task = std::move(task);
+    jobs_.push_back(job);
+    forget_surplus();
+    record = job->record;
+  }
+  changed_.notify_all();
+  tell(record);
+  return record;
+}
+
+JobRecord JobService::submit(const JobOrder& order, Work work) {
+  return add(order, [work = std::move(work)](Job&, const Progress& progress) { work(progress); });
+}
+
+JobRecord JobService::submit_session(const JobOrder& order, SessionWork work) {
+  return add(order, [this, work = std::move(work)](Job& job, const Progress& progress) {
+    std::string id = work(progress);
+    const std::lock_guard lock(mutex_);
+    job.record.order.session_id = std::move(id);
+  });
+}
+
+JobRecord JobService::submit_file(const JobOrder& order, FileWork work) {
+  if (options_.folder.empty())
+    throw Error(ErrorKind::unavailable, "this server has no folder for files that work makes");
+  return add(order, [this, work = std::move(work)](Job& job, const Progress& progress) {
+    const fs::path folder = folder_of(job);
+    make_writable_folder(folder);
+    try {
+      const MadeFile made = work(folder, progress);
+      const std::lock_guard lock(mutex_);
+      job.record.result = JobResult{folder / made.name, made.media_type, fs::file_size(folder / made.name)};
+    } catch (...) {
+      remove_quietly(folder);
+      throw;
+    }
+  });
+}
+
+std::shared_ptr<JobService::Job> JobService::find(const std::string& id) const {
+  for (const auto& job : jobs_)
+    if (job->record.id == id) return job;
+  throw Error(ErrorKind::not_found, "no job '" + id + "'; GET /api/v1/jobs lists them");
+}
+
+JobRecord JobService::get(const std::string& id) const {
+  const std::lock_guard lock(mutex_);
+  return find(id)->record;
+}
+
+std::vector<JobRecord> JobService::list() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<JobRecord> records;
+  for (auto job = jobs_.rbegin(); job != jobs_.rend(); ++job) records.push_back((*job)->record);
+  return records;
+}
+
+JobRecord JobService::cancel(const std::string& id) {
+  JobRecord record;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto job = find(id);
+    job->cancel_wanted = true;
+    if (job->record.state != JobState::waiting) return job->record;
+    job->record.state = JobState::cancelled;
+    job->record.ended_utc = ream::utc_text(options_.now());
+    record = job->record;
+  }
+  tell(record);
+  return record;
+}
+
+void JobService::remove_old_results() {
+  const std::string oldest = ream::utc_text(options_.now() - options_.results_kept);
+  const std::lock_guard lock(mutex_);
+  for (const auto& job : jobs_)
+    if (job->record.result && job->record.ended_utc < oldest) {
+      remove_quietly(folder_of(*job));
+      job->record.result.reset();
+    }
+}
+
+void JobService::work() {
+  lower_thread_priority();
+  std::unique_lock lock(mutex_);
+  while (true) {
+    const auto next = std::find_if(jobs_.begin(), jobs_.end(),
+                                   [](const auto& job) { return job->record.state == JobState::waiting; });
+    if (closed_) return;
+    if (next == jobs_.end()) {
+      changed_.wait(lock);
+      continue;
+    }
+    const auto job = *next;
+    job->record.state = JobState::running;
+    lock.unlock();
+    run(job);
+    lock.lock();
+  }
+}
+
+void JobService::note_progress(Job& job, double share, std::string_view step) {
+  const int64_t now_ns = steady_ns();
+  const bool worth_telling = now_ns - job.told_ns > told_every_ns;
+  JobRecord record;
+  {
+    const std::lock_guard lock(mutex_);
+    job.record.share = std::clamp(share, 0.0, 1.0);
+    job.record.step = step;
+    record = job.record;
+  }
+  if (!worth_telling) return;
+  job.told_ns = now_ns;
+  tell(record);
+}
+
+void JobService::end(Job& job, JobState state, ErrorKind kind, const std::string& problem) {
+  JobRecord record;
+  {
+    const std::lock_guard lock(mutex_);
+    job.record.state = state;
+    job.record.problem_kind = kind;
+    job.record.problem = problem;
+    job.record.ended_utc = ream::utc_text(options_.now());
+    if (state == JobState::done) job.record.share = 1.0;
+    record = job.record;
+  }
+  tell(record);
+}
+
+void JobService::run(const std::shared_ptr<Job>& job) {
+  const Progress progress = [this, job](double share, std::string_view step) {
+    if (job->cancel_wanted) throw Error(ErrorKind::cancelled, about(job->record.order) + " was cancelled");
+    note_progress(*job, share, step);
+  };
+  try {
+    progress(0.0, "beginning");
+    const Task task = std::exchange(job->task, {});
+    task(*job, progress);
+    end(*job, JobState::done, ErrorKind::io, {});
+  } catch (const Error& error) {
+    const bool cancelled = error.kind() == ErrorKind::cancelled;
+    end(*job, cancelled ? JobState::cancelled : JobState::failed, error.kind(),
+        cancelled ? "" : error.what());
+  } catch (const std::bad_alloc&) {
+    end(*job, JobState::failed, ErrorKind::unavailable, "there is not enough memory for this work");
+  } catch (const std::exception& failure) {
+    log::warn(about(job->record.order) + " failed: " + failure.what());
+    end(*job, JobState::failed, ErrorKind::io, "the work failed; the server's log says why");
+  }
+}
+
+}  // namespace ream::jobs

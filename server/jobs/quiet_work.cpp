@@ -1,0 +1,40 @@
+#include "jobs/quiet_work.hpp"
+
+#include <future>
+
+#include "core/error.hpp"
+#include "core/thread_pool.hpp"
+
+namespace ream::jobs {
+namespace {
+
+constexpr int most_inside = 2;  // one works, one waits
+
+}  // namespace
+
+void QuietWork::run(const std::function<void()>& work) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (inside_ == most_inside)
+      throw Error(ErrorKind::unavailable,
+                  "other files are being made; try again in a few seconds, or ask for an export");
+    ++inside_;
+  }
+  const auto done = [this] {
+    const std::lock_guard lock(mutex_);
+    --inside_;
+  };
+  try {
+    const std::lock_guard one_at_a_time(working_);
+    std::async(std::launch::async, [&work] {
+      lower_thread_priority();
+      work();
+    }).get();
+  } catch (...) {
+    done();
+    throw;
+  }
+  done();
+}
+
+}  // namespace ream::jobs

@@ -1,0 +1,58 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/progress.hpp"
+#include "record/recording.hpp"
+#include "score/benchmark.hpp"
+#include "score/rubric.hpp"
+#include "session/export/export_formats.hpp"
+
+namespace ream::session {
+
+/// What is to be exported, and what it needs beside the recording.
+struct ExportRequest {
+  std::filesystem::path recording;  ///< recording.ream
+  std::string case_name;            ///< where the case is, as for find_case(); empty: as recorded
+  std::filesystem::path data;
+  std::optional<score::Rubric> rubric;        ///< of reports; none: the newest standard one
+  std::optional<score::Benchmark> benchmark;  ///< of reports
+  TracePart part;                             ///< of tables
+  std::optional<SessionRequest> labels;       ///< trainee, title and so on; none: as in session.json
+};
+
+/// What more can be said of an export.
+enum class ExportKind {
+  plain,
+  table,   ///< of a part of the ticks
+  report,  ///< with a rubric and a benchmark
+  pair     ///< a second file is written beside the first
+};
+
+/// A kind of file that a session can become.
+struct FileFormat {
+  std::string name;       ///< "pdf"
+  std::string extension;  ///< ".pdf"
+  std::string words;      ///< what the file is, for people
+  std::string media_type;
+  ExportKind kind;
+  /// Writes it, atomically. Errors: those of the recording and its case; io; cancelled.
+  void (*write)(const ExportRequest& request, const std::filesystem::path& out, const Progress& progress);
+};
+
+/// All of them. Where several have an ending in common, the first is what it means by itself.
+const std::vector<FileFormat>& export_formats();
+
+/// By its name, or with an empty one by the ending of a file. Error usage names all that there are.
+const FileFormat& export_format_of(const std::string& name, const std::filesystem::path& out);
+
+/// The forms in which a server exports the sessions of a data folder: all that are one file. Whoever asks
+/// names no files of this machine: sessions, rubrics and benchmarks go by their ids.
+ExportFormats served_export_formats(const std::filesystem::path& data);
+
+/// The recording of a request, which may be damaged towards its end; that is logged.
+record::Recording recording_of(const ExportRequest& request);
+
+}  // namespace ream::session

@@ -1,0 +1,123 @@
+#include "session/export/export_surfaces.hpp"
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "geometry/mesh_io.hpp"
+#include "geometry/scene_export.hpp"
+#include "record/recorded_bone.hpp"
+#include "report/deviation_scale.hpp"
+#include "score/deviation.hpp"
+#include "session/export/reamed_bone.hpp"
+#include "session/simulation/reamed_pictures.hpp"
+#include "session/simulation/recorded_session.hpp"
+
+namespace ream::session {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Bone and implant in the world frame.
+struct Surfaces {
+  TriangleMesh bone, implant;  ///< the implant is empty where none can be seated
+  score::DeviationFields deviation;
+  case_::Side side = case_::Side::right;
+
+  std::string remark() const { return case_::frame_in_words(side); }
+};
+
+Surfaces surfaces_of(const ExportRequest& request, const Progress& progress) {
+  const record::Recording recording = recording_of(request);
+  const score::MetricsAccumulator ticks = accumulated(recording, part_of(progress, 0.0, 0.5));
+  progress(0.5, "comparing surfaces");
+  ComparedBone compared = reamed_bone(recording, ticks, request.case_name, request.data);
+  const Pose& world_from_grid = compared.bone.world_from_grid;
+  progress(0.9, "writing");
+  return {compared.bone.after.transformed(world_from_grid),
+          compared.implant.transformed(world_from_grid),
+          {std::move(compared.bone.from_plan), std::move(compared.bone.from_implant)},
+          compared.bone.side};
+}
+
+/// The bone, coloured where there is a plan to compare with, and the implant.
+std::vector<SceneObject> scene_of(const Surfaces& surfaces) {
+  SceneObject bone;
+  bone.name = "bone";
+  bone.mesh = &surfaces.bone;
+  for (const int8_t code : surfaces.deviation.from_plan) {
+    const render::VertexColour colour = report::deviation_colour(code);
+    bone.colours.push_back({colour.red, colour.green, colour.blue});
+  }
+  if (!surfaces.deviation.from_plan.empty())
+    bone.properties.push_back({"deviation_plan", surfaces.deviation.from_plan});
+  if (!surfaces.deviation.from_implant.empty())
+    bone.properties.push_back({"deviation_implant", surfaces.deviation.from_implant});
+  std::vector<SceneObject> objects = {std::move(bone)};
+  if (!surfaces.implant.triangles.empty()) {
+    SceneObject implant;
+    implant.name = "implant";
+    implant.mesh = &surfaces.implant;
+    objects.push_back(std::move(implant));
+  }
+  return objects;
+}
+
+/// The recording's case, its coverage what the session left.
+case_::Case left_case(const ExportRequest& request, std::vector<uint8_t>& before, const Progress& progress) {
+  progress(0.0, "reading the case");
+  const record::Recording recording = recording_of(request);
+  case_::Case bone_case = case_of(recording, request.case_name, request.data);
+  progress(0.2, "reading the recording");
+  voxel::BoneModel& bone = bone_case.bone;
+  before = bone.coverage;
+  record::RecordedBone recorded(recording, bone.grid, bone.coverage);
+  recorded.seek(UINT32_MAX, [](const voxel::BrickImage&) {});
+  recorded.write_to(bone.coverage);
+  progress(0.5, "finding the surface");
+  return bone_case;
+}
+
+}  // namespace
+
+void write_stl_bone(const ExportRequest& request, const fs::path& out, const Progress& progress) {
+  std::vector<uint8_t> before;
+  const case_::Case left = left_case(request, before, progress);
+  write_file_atomically(out,
+                        stl_of(reamed_surface(left), "reamed bone, " + case_::frame_in_words(left.side)));
+}
+
+void write_stl_implant(const ExportRequest& request, const fs::path& out, const Progress& progress) {
+  const Surfaces surfaces = surfaces_of(request, progress);
+  if (surfaces.implant.triangles.empty())
+    throw Error(ErrorKind::conflict,
+                "no implant can be seated: its plan says nothing of an implant, or no bone was reamed");
+  write_file_atomically(out, stl_of(surfaces.implant, "seated implant, " + surfaces.remark()));
+}
+
+void write_ply_scene(const ExportRequest& request, const fs::path& out, const Progress& progress) {
+  const Surfaces surfaces = surfaces_of(request, progress);
+  write_file_atomically(out, ply_of(scene_of(surfaces), surfaces.remark()));
+}
+
+void write_glb_scene(const ExportRequest& request, const fs::path& out, const Progress& progress) {
+  const Surfaces surfaces = surfaces_of(request, progress);
+  write_file_atomically(out, glb_of(scene_of(surfaces), surfaces.remark()));
+}
+
+void write_deviations(const ExportRequest& request, const fs::path& out, const Progress& progress) {
+  const Surfaces surfaces = surfaces_of(request, progress);
+  score::write_deviation(out, "reamed.ply", surfaces.bone.vertices_mm.size(), surfaces.deviation);
+}
+
+void write_surface(const ExportRequest& request, const fs::path& out, const Progress& progress) {
+  std::vector<uint8_t> before;
+  const case_::Case left = left_case(request, before, progress);
+  write_ply(out, reamed_surface(left), case_::frame_in_words(left.side));
+}
+
+void write_snapshot(const ExportRequest& request, const fs::path& out, const Progress& progress) {
+  std::vector<uint8_t> before;
+  const case_::Case left = left_case(request, before, progress);
+  write_picture(left, before, out);
+}
+
+}  // namespace ream::session

@@ -1,0 +1,100 @@
+#include "session/export/reamed_bone.hpp"
+
+#include "core/error.hpp"
+#include "record/recorded_bone.hpp"
+#include "score/deviation.hpp"
+#include "score/placements.hpp"
+#include "session/simulation/measured_glenoid.hpp"
+#include "session/simulation/recorded_case.hpp"
+#include "session/simulation/recorded_rig.hpp"
+#include "sim/model.hpp"
+#include "surface/whole_surface.hpp"
+
+namespace ream::session {
+namespace {
+
+constexpr double implant_thickness_mm = 4.0;
+constexpr int implant_segments = 96;
+
+/// Coverage of one bone at the three moments that matter.
+struct Coverages {
+  std::vector<uint8_t> native, start, left;
+};
+
+Coverages coverages_of(const record::Recording& recording, case_::Case& native_case) {
+  voxel::BoneModel& bone = native_case.bone;
+  Coverages all;
+  all.native = bone.coverage;
+  case_::cut_pilot_hole(bone, *native_case.plan);
+  if (bone.coverage_hash() != recording.header().start_grid_hash)
+    throw Error(ErrorKind::conflict,
+                "the bone of case '" + native_case.id + "' is not that of the recording");
+  all.start = bone.coverage;
+  record::RecordedBone recorded(recording, bone.grid, all.start);
+  recorded.seek(recording.tick_count(), [](const voxel::BrickImage&) {});
+  all.left = bone.coverage;
+  recorded.write_to(all.left);
+  return all;
+}
+
+Aabb box_of_cut(const report::ReamedBone& bone) {
+  Aabb box;
+  for (size_t i = 0; i < bone.cut.size(); ++i)
+    if (bone.cut[i]) box.include(bone.after.vertices_mm[i].cast<double>());
+  return box.empty() ? box : box.grown(score::deviation_range_mm);
+}
+
+score::PlacedFront placed(score::SweptFront front, const score::Placement& at, const voxel::VoxelGrid& grid) {
+  return {std::move(front), at.world_from_body().inverse() * grid.world_from_grid};
+}
+
+void compare(const score::Task& task, const score::Placements& placements, const score::BoneStates& states,
+             ComparedBone& compared) {
+  report::ReamedBone& bone = compared.bone;
+  const double range_mm = 2.0 * score::deviation_range_mm;
+  if (placements.achieved)
+    bone.achieved = report::WorldAxis{placements.achieved->apex_mm, placements.achieved->axis};
+  if (placements.planned) {
+    const Aabb near_cut = box_of_cut(bone);
+    const TriangleTree native(surface::whole_surface(states.grid, states.native), &near_cut);
+    bone.from_plan = score::deviation_from_plan(
+        bone.after.vertices_mm, states,
+        placed({task.reamer, task.plan->depth_mm + range_mm}, *placements.planned, states.grid), native);
+  }
+  if (!placements.implant) return;
+  const score::PlacedFront back =
+      placed(score::implant_back(task, implant_thickness_mm), *placements.implant, states.grid);
+  bone.from_implant = score::deviation_from_implant(bone.after.vertices_mm, states, back);
+  compared.implant =
+      shell::revolve(back.front.profile(), implant_segments).transformed(back.front_from_grid.inverse());
+}
+
+}  // namespace
+
+ComparedBone reamed_bone(const record::Recording& recording, const score::MetricsAccumulator& ticks,
+                         const std::string& case_name, const std::filesystem::path& data) {
+  case_::Case bone_case = recorded_case(recording, case_name, data);
+  const case_::Anatomy anatomy = recorded_anatomy(recording, bone_case, case_name, data);
+  const shell::Tool reamer = tool_of(recorded_reamer(recording, recording.segments().back()));
+  const auto native = measured_glenoid(bone_case, anatomy, reamer);
+  const Coverages coverages = coverages_of(recording, bone_case);
+  const voxel::VoxelGrid& grid = bone_case.bone.grid;
+
+  ComparedBone compared;
+  report::ReamedBone& bone = compared.bone;
+  bone.before = surface::whole_surface(grid, coverages.start.data());
+  bone.after = surface::whole_surface(grid, coverages.left.data());
+  bone.world_from_grid = grid.world_from_grid;
+  bone.plan = *bone_case.plan;
+  bone.side = bone_case.side;
+  bone.glenoid = bone_case.glenoid;
+  const score::BoneStates states{grid, coverages.native.data(), coverages.start.data(),
+                                 coverages.left.data()};
+  bone.cut = score::cut_vertices(bone.after.vertices_mm, states);
+  const score::Placements placements = score::placements_of(
+      *native, {grid, coverages.left.data()}, ticks.cut_line(), sim::world_from_plan(*bone_case.plan));
+  compare(native->task(), placements, states, compared);
+  return compared;
+}
+
+}  // namespace ream::session

@@ -1,0 +1,152 @@
+#include "session/export/session_bundle.hpp"
+#include "session/folder/black_box_files.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "core/data_folder.hpp"
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/hash.hpp"
+#include "core/log.hpp"
+#include "core/temporary_file.hpp"
+#include "session/folder/session_labels.hpp"
+#include "session/simulation/recorded_session.hpp"
+#include "session/simulation/rig.hpp"
+#include "store/zip_archive.hpp"
+
+namespace ream::session {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string format = "ream session bundle";
+constexpr int revision = 1;
+
+/// What may be in a session's or case's folder and is worth taking along.
+const std::set<std::string> session_files{"session.json", "recording.ream", "metrics.json",
+                                          "score.json",   "timing.json",    "trace.csv",
+                                          "reamed.ply",   "snapshot.png",   "black-box.csv"};
+const std::set<std::string> case_files{"case.json", "plan.json", "density.zst", "coverage.zst"};
+
+bool is_id(const std::string& name) {
+  return !name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
+  });
+}
+
+/// A server's session has an id; a run's folder is named by what it holds.
+std::string session_id(const fs::path& folder, const record::Recording& recording) {
+  std::error_code failed;
+  if (fs::is_regular_file(folder / "session.json", failed)) {
+    const nlohmann::json session = read_json_file(folder / "session.json");
+    if (session.is_object() && session.contains("id") && session["id"].is_string() &&
+        is_id(session["id"].get<std::string>()))
+      return session["id"].get<std::string>();
+  }
+  const auto checkpoints = recording.checkpoints();
+  return "run" +
+         to_hex(checkpoints.empty() ? recording.header().start_grid_hash : checkpoints.back().session_hash);
+}
+
+void add_files(const fs::path& folder, const std::set<std::string>& names, const std::string& under,
+               std::vector<store::ArchiveEntry>& entries) {
+  std::error_code failed;
+  for (const std::string& name : names)
+    if (fs::is_regular_file(folder / name, failed)) entries.push_back({folder / name, under + "/" + name});
+}
+
+/// Puts a session.json with these labels in place of the one in the folder.
+void relabel(const fs::path& folder, const SessionRequest& labels, const fs::path& made,
+             std::vector<store::ArchiveEntry>& entries) {
+  nlohmann::json session = read_json_file(folder / "session.json");
+  write_labels(labels, session);
+  write_file_atomically(made / "session.json", session.dump(2) + "\n");
+  for (store::ArchiveEntry& entry : entries)
+    if (entry.name == "session/session.json") entry.file = made / "session.json";
+}
+
+nlohmann::json read_bundle_json(const fs::path& folder, const fs::path& zip) {
+  const nlohmann::json bundle = read_json_file(folder / "bundle.json");
+  const auto refuse = [&](const std::string& why) {
+    return Error(ErrorKind::invalid_input, zip.string() + " is no session bundle: " + why);
+  };
+  if (!bundle.is_object() || bundle.value("format", "") != format) throw refuse("bundle.json says so");
+  if (bundle.value("revision", 0) != revision)
+    throw refuse("it was made by a newer version; update this one");
+  for (const char* key : {"session", "case"})
+    if (!bundle.contains(key) || !bundle[key].is_string() || !is_id(bundle[key].get<std::string>()))
+      throw refuse(std::string("bundle.json has no usable '") + key + "'");
+  return bundle;
+}
+
+}  // namespace
+
+void write_session_bundle(const fs::path& recording_file, const std::string& case_name, const fs::path& data,
+                          const fs::path& zip, const SessionRequest* labels, const Progress& progress) {
+  const record::Recording recording(recording_file, record::Recording::Trust::checked);
+  if (const std::string& damage = recording.log().damage(); !damage.empty()) log::warn(damage);
+  case_of(recording, case_name, data);
+  const fs::path folder = fs::absolute(recording_file).parent_path();
+  const TemporaryFolder made(zip);
+  const nlohmann::json bundle = {{"format", format},
+                                 {"revision", revision},
+                                 {"session", session_id(folder, recording)},
+                                 {"case", recording.header().case_id}};
+  write_file_atomically(made.path() / "bundle.json", bundle.dump(2) + "\n");
+  std::vector<store::ArchiveEntry> entries{{made.path() / "bundle.json", "bundle.json"}};
+  add_files(folder, session_files, "session", entries);
+  if (labels != nullptr && fs::is_regular_file(folder / "session.json"))
+    relabel(folder, *labels, made.path(), entries);
+  for (const fs::path& box : black_boxes_in(folder))
+    entries.push_back({box, "session/" + box.filename().string()});
+  add_files(case_path(case_name.empty() ? recording.header().case_id : case_name, data), case_files, "case",
+            entries);
+  store::write_zip(zip, entries, progress);
+}
+
+bool is_session_bundle(const fs::path& file) {
+  std::error_code failed;
+  if (!fs::is_regular_file(file, failed)) return false;
+  try {
+    const auto names = store::zip_names(file);
+    return std::find(names.begin(), names.end(), "bundle.json") != names.end();
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+std::string import_session_bundle(const fs::path& zip, const fs::path& data) {
+  make_writable_folder(sessions_folder(data));
+  make_writable_folder(cases_folder(data));
+  const TemporaryFolder unpacked(data / ("." + zip.filename().string()));
+  store::unpack_zip(zip, unpacked.path());
+  const nlohmann::json bundle = read_bundle_json(unpacked.path(), zip);
+  const std::string session = bundle["session"], case_id = bundle["case"];
+  const fs::path session_to = sessions_folder(data) / session, case_to = cases_folder(data) / case_id;
+  if (fs::exists(session_to))
+    throw Error(ErrorKind::conflict, "session '" + session + "' is in the data folder already");
+  const record::Recording recording(unpacked.path() / "session" / "recording.ream",
+                                    record::Recording::Trust::checked);
+  const bool known = fs::exists(case_to);
+  const uint64_t hash = case_::case_hash(case_::load_case(known ? case_to : unpacked.path() / "case"));
+  if (hash != recording.header().case_hash || recording.header().case_id != case_id)
+    throw Error(
+        ErrorKind::conflict,
+        known ? "another case '" + case_id + "' is in the data folder; import with --data into one of its own"
+              : zip.string() + " holds a case that is not its session's");
+  if (!known) fs::rename(unpacked.path() / "case", case_to);
+  std::error_code failed;
+  fs::rename(unpacked.path() / "session", session_to, failed);
+  if (failed) {
+    std::error_code ignored;
+    if (!known) fs::rename(case_to, unpacked.path() / "case", ignored);
+    throw Error(ErrorKind::io, "cannot write " + session_to.string() + ": " + failed.message());
+  }
+  sync_folder(cases_folder(data));
+  sync_folder(sessions_folder(data));
+  return session;
+}
+
+}  // namespace ream::session

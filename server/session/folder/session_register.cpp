@@ -1,0 +1,84 @@
+#include "session/folder/session_register.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "session/folder/session_row.hpp"
+#include "store/session_index.hpp"
+
+namespace ream::session {
+
+SessionRegister::SessionRegister(const SessionArchive& archive, std::shared_ptr<store::Database> database)
+    : archive_(archive),
+      database_(std::move(database)),
+      upkeep_(database_ ? std::make_unique<IndexUpkeep>(archive_, *database_) : nullptr) {}
+
+void SessionRegister::changed(const std::string& id) {
+  if (upkeep_) upkeep_->changed(id);
+}
+
+/// None for a damaged folder, too.
+std::optional<SessionRecord> SessionRegister::found(const std::string& id) const {
+  try {
+    return archive_.find(id);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+/// Adds what the index does not tell; returns what is not to be taken from it.
+std::vector<std::string> SessionRegister::add_from_folders(std::vector<SessionRecord>& here) {
+  std::set<std::string> ids;
+  for (const SessionRecord& record : here) ids.insert(record.request.id);
+  if (!upkeep_) {
+    for (SessionRecord& record : archive_.list())
+      if (ids.insert(record.request.id).second) here.push_back(std::move(record));
+    return {};
+  }
+  for (const std::string& id : upkeep_->behind()) {
+    if (!ids.insert(id).second) continue;
+    if (auto record = found(id)) here.push_back(std::move(*record));
+  }
+  return {ids.begin(), ids.end()};
+}
+
+/// Returns how many there are in all.
+size_t SessionRegister::add_from_index(const store::SessionQuery& query,
+                                       const std::vector<std::string>& except, std::vector<Listed>& listed) {
+  auto [rows, total] = store::SessionIndex(*database_).find(query, except);
+  for (store::SessionRow& row : rows) {
+    std::optional<SessionRecord> record;
+    try {
+      record = record_from_text(row.record, archive_.folder_of(row.id)).record;
+    } catch (const Error&) {  // the folder knows better
+      upkeep_->changed(row.id);
+      record = found(row.id);
+    }
+    if (record) listed.push_back({std::move(row), std::move(*record)});
+  }
+  return total;
+}
+
+SessionPage SessionRegister::list(const store::SessionQuery& query, std::vector<SessionRecord> held) {
+  const auto place = store::place_of_cursor(query);
+  const std::vector<std::string> except = add_from_folders(held);
+  SessionPage page;
+  std::vector<Listed> listed;
+  for (SessionRecord& record : held) {
+    store::SessionRow row = row_of(record);
+    if (!store::matches(query, row)) continue;
+    ++page.total;
+    if (!place || store::behind(query, *place, row)) listed.push_back({std::move(row), std::move(record)});
+  }
+  if (database_) page.total += add_from_index(query, except, listed);
+  std::sort(listed.begin(), listed.end(),
+            [&](const Listed& a, const Listed& b) { return store::precedes(query, a.row, b.row); });
+  if (listed.size() > query.limit) {
+    listed.resize(query.limit);
+    if (!listed.empty()) page.next = store::cursor_behind(query, listed.back().row);
+  }
+  for (Listed& each : listed) page.sessions.push_back(std::move(each.record));
+  return page;
+}
+
+}  // namespace ream::session

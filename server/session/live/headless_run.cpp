@@ -1,0 +1,64 @@
+#include "session/live/headless_run.hpp"
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "core/error.hpp"
+#include "core/interrupt.hpp"
+#include "core/log.hpp"
+#include "device/crash_guard.hpp"
+#include "session/live/loop_rings.hpp"
+#include "session/live/session_files.hpp"
+#include "sim/haptic_loop.hpp"
+
+namespace ream::session {
+namespace {
+
+/// A first touch or two is always a little soft; longer than this is worth a word.
+constexpr double told_weakened_s = 2.0;
+
+/// Nobody's tick is late in virtual time, so the recording may have every changed brick at once.
+constexpr int bricks_a_tick_without_hurry = 8192;
+/// Chunks that may wait for the disk before a run in virtual time waits for it.
+constexpr size_t enough_waiting_chunks = 16;
+
+}  // namespace
+
+HeadlessResult run_headless(Rig& rig, std::span<const uint8_t> start_coverage,
+                            const std::filesystem::path& folder, bool wall_clock) {
+  LoopRings rings(rig.bone_case.bone.grid);
+  rig.state.brick_sender = &rings.sender;
+  if (!wall_clock) rig.state.brick_budget = bricks_a_tick_without_hurry;
+  SessionFiles files(rig, folder, start_coverage.data(), SessionFiles::Trace::written);
+  const auto realtime = wall_clock ? sim::Realtime::attempt : sim::Realtime::off;
+  sim::HapticLoop loop(rig.model, rig.state, *rig.device, rings.reports, {wall_clock, realtime});
+  const auto take_brick = [&](const voxel::BrickImage& image) { files.add(image); };
+  const auto take_report = [&](const record::TickReport& report) { files.add(report); };
+  const device::CrashWatch crash_watch(*rig.device);
+  loop.start();
+  while (!loop.ended()) {
+    throw_if_interrupted();
+    const bool late = files.recorder().waiting_chunks() > enough_waiting_chunks;
+    if (late || !rings.drain(take_brick, take_report))
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  loop.stop();
+  rig.state.brick_sender = nullptr;
+  rings.drain_rest(rig.bone_case.bone, rig.state.tick - 1, take_brick, take_report);
+
+  const sim::LoopHealth health = loop.health();
+  if (const std::string fault = message_of(health.end); !fault.empty()) {
+    loop.black_box().write("ream-black-box.csv");
+    throw Error(ErrorKind::unavailable, fault + " The last seconds are in ream-black-box.csv.");
+  }
+  if (health.failed_over_tick >= 0) log::warn(sim::failover_message(health.failed_over_tick));
+  const SessionFiles::Results results = files.finish(health, nlohmann::json::object());
+  if (const double weakened_s = results.metrics.at("weakened_time_s").get<double>();
+      weakened_s > told_weakened_s)
+    log::warn("the hand felt less than it asked for during " + std::to_string(weakened_s) + " s, as " +
+              rig.device->traits().profile + " renders no more; a larger force_scale helps");
+  return {results.metrics, results.timing};
+}
+
+}  // namespace ream::session

@@ -1,0 +1,63 @@
+#include "session/live/stream_words.hpp"
+
+namespace ream::session {
+namespace {
+
+bool is_at_rest(const Pose& world_from_bone_rest) {
+  return world_from_bone_rest.rotation == Mat3::Identity() &&
+         world_from_bone_rest.translation_mm == Vec3::Zero();
+}
+
+}  // namespace
+
+stream::HelloInfo hello_of(const case_::Case& c, const case_::Plan& plan, const shell::Tool& tool) {
+  stream::HelloInfo info;
+  info.case_id = c.id;
+  info.case_name = c.name;
+  info.side = case_::to_text(c.side);
+  info.grid = c.bone.grid;
+  info.tool = tool.mesh;
+  info.tool_name = tool.name;
+  info.axis_entry_mm = plan.entry_mm;
+  info.axis_direction = plan.axis_direction;
+  info.planned_depth_mm = plan.depth_mm;
+  return info;
+}
+
+void fill_in(const record::TickReport& r, stream::TelemetrySample& sample) {
+  sample.tick = r.tick;
+  sample.thrust_n = static_cast<float>(r.thrust_n);
+  sample.hand_force_n = static_cast<float>(r.hand_force_n.norm());
+  sample.torque_n_mm = static_cast<float>(r.torque_n_mm);
+  sample.feed_rate_mm_s = static_cast<float>(r.feed_rate_mm_s);
+  sample.density_g_cc = static_cast<float>(r.density_g_cc);
+  sample.vibration_g = static_cast<float>(r.vibration_g);
+  sample.world_from_tool = r.world_from_tool;
+  sample.world_from_handle = r.world_from_handle;
+  sample.world_from_bone_rest.reset();
+  if (!is_at_rest(r.world_from_bone_rest)) sample.world_from_bone_rest = r.world_from_bone_rest;
+  sample.spindle_on = r.spindle_on;
+  sample.cortical_share = static_cast<float>(r.share[static_cast<size_t>(voxel::BoneClass::cortical)]);
+}
+
+stream::SessionState wire_state(SessionState state) {
+  switch (state) {
+    case SessionState::created:
+      return stream::SessionState::created;
+    case SessionState::running:
+      return stream::SessionState::running;
+    case SessionState::paused:
+      return stream::SessionState::paused;
+    case SessionState::finished:
+      return stream::SessionState::finished;
+    case SessionState::stopped:
+      return stream::SessionState::stopped;
+    case SessionState::fault:
+      return stream::SessionState::fault;
+    case SessionState::interrupted:
+      return stream::SessionState::interrupted;
+  }
+  return stream::SessionState::fault;
+}
+
+}  // namespace ream::session

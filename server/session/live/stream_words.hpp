@@ -1,0 +1,20 @@
+#pragma once
+#include "case/case.hpp"
+#include "record/tick_report.hpp"
+#include "session/running_session.hpp"
+#include "shell/tool.hpp"
+#include "stream/messages.hpp"
+#include "stream/telemetry.hpp"
+
+namespace ream::session {
+
+/// What viewers are told of a case, its plan and the tool in the hand; who sends it fills in the rest.
+stream::HelloInfo hello_of(const case_::Case& c, const case_::Plan& plan, const shell::Tool& tool);
+
+/// What viewers are told of one tick. Where the bone is, is left out where it has not moved.
+void fill_in(const record::TickReport& report, stream::TelemetrySample& sample);
+
+/// The state's number on the wire.
+stream::SessionState wire_state(SessionState state);
+
+}  // namespace ream::session

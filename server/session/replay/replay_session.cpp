@@ -1,0 +1,220 @@
+#include "session/replay/replay_session.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "core/clock.hpp"
+#include "core/data_folder.hpp"
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/log.hpp"
+#include "score/metrics.hpp"
+#include "session/folder/session_folder.hpp"
+#include "session/live/stream_words.hpp"
+#include "session/live/viewer_stream.hpp"
+#include "session/simulation/recorded_session.hpp"
+#include "sim/settings.hpp"
+
+namespace ream::session {
+namespace {
+
+/// A request for metrics waits this long for the recording to be read.
+constexpr auto metrics_patience = std::chrono::seconds(1);
+constexpr auto follower_period = std::chrono::milliseconds(10);
+/// A replay that rests tells its viewers so this often, so that a silent link is a broken one.
+constexpr int64_t heartbeat_ns = 500'000'000;
+
+double recorded_force_max_n(const record::Recording& recording) {
+  const std::string place = "the settings in " + recording.log().path().string();
+  const auto json = nlohmann::json::parse(recording.header().settings, nullptr, false);
+  if (json.is_discarded()) throw Error(ErrorKind::invalid_input, place + " is not JSON");
+  return sim::settings_from_json(json, place).limits.force_max_n;
+}
+
+case_::Case bone_before(const record::Recording& recording, const std::filesystem::path& data) {
+  if (recording.tick_count() == 0)
+    throw Error(ErrorKind::invalid_input, recording.log().path().string() + " holds no tick to show");
+  return case_of(recording, {}, data);
+}
+
+/// What the session said of itself when it ended; null where it left none that can be read.
+nlohmann::json kept_metrics(const std::filesystem::path& session) {
+  const std::filesystem::path file = metrics_json(session);
+  std::error_code unknown;
+  if (!std::filesystem::exists(file, unknown)) return nullptr;
+  try {
+    return read_json_file(file);
+  } catch (const Error& e) {
+    log::warn(e.what());
+    return nullptr;
+  }
+}
+
+/// Whether both were said of the same ticks and the same bone.
+bool same_moment(const nlohmann::json& kept, const nlohmann::json& now) {
+  const auto same = [&](const char* key) {
+    return now.at(key).is_string() && kept.value(key, nlohmann::json()) == now.at(key);
+  };
+  return kept.is_object() && same("session_hash") && same("grid_hash");
+}
+
+score::MetricsAccumulator no_metrics(const case_::Case& c) {
+  return {c.bone.grid.voxel_volume_mm3(), sim::world_from_plan(*c.plan).inverse()};
+}
+
+}  // namespace
+
+ReplaySession::ReplaySession(const SessionHouse& house, const ReplayRequest& request)
+    : house_(house),
+      request_(request),
+      recording_(sessions_folder(house.data) / request.replay_of / "recording.ream"),
+      kept_metrics_(kept_metrics(sessions_folder(house.data) / request.replay_of)),
+      bone_case_(bone_before(recording_, house.data)),
+      timeline_(recording_, bone_case_.bone.grid.world_from_grid, no_metrics(bone_case_)),
+      fanout_(std::make_shared<stream::Fanout>()),
+      picture_(recording_, bone_case_, timeline_, hello(), *fanout_),
+      playhead_(recording_.tick_count()) {
+  bone_hash_ = picture_.bone_hash();
+  last_watched_ns_ = steady_ns();
+  follower_ = std::thread([this] { follow(); });
+}
+
+ReplaySession::~ReplaySession() { stop(); }
+
+stream::HelloInfo ReplaySession::hello() const {
+  stream::HelloInfo info = hello_of(bone_case_, *bone_case_.plan, {});
+  info.session_id = request_.id;
+  info.server_epoch = house_.server_epoch;
+  info.force_scale = recording_.header().force_scale;
+  info.force_max_n = recorded_force_max_n(recording_);
+  info.replay_of = request_.replay_of;
+  info.duration_ticks = recording_.tick_count();
+  return info;
+}
+
+PlaybackStatus ReplaySession::status() const {
+  const std::lock_guard lock(mutex_);
+  PlaybackStatus status;
+  status.position_s = playhead_.position_ticks() * tick_s;
+  status.duration_s = playhead_.duration_ticks() * tick_s;
+  status.speed = playhead_.speed();
+  status.playing = playhead_.playing();
+  status.fault = fault_;
+  if (const std::vector<RecordingDamage> found = damage(); !found.empty())
+    status.warning = found.front().words;
+  status.force_scale = recording_.header().force_scale;
+  if (fanout_->viewers() == 0)
+    status.unwatched_s = static_cast<double>(steady_ns() - last_watched_ns_) * 1e-9;
+  return status;
+}
+
+/// In order of time: among the ticks, and what made the end of the file useless.
+std::vector<RecordingDamage> ReplaySession::damage() const {
+  std::vector<RecordingDamage> found;
+  if (RecordingDamage among_ticks = timeline_.damage(); !among_ticks.words.empty())
+    found.push_back(std::move(among_ticks));
+  if (const std::string& words = recording_.log().damage(); !words.empty())
+    found.push_back({recording_.tick_count(), words});
+  return found;
+}
+
+std::vector<ReplayMark> ReplaySession::marks() const {
+  std::vector<ReplayMark> marks;
+  for (const record::ops::Segment& segment : recording_.segments())
+    if (segment.first_tick > 0) marks.push_back({segment.first_tick * tick_s, segment.reason, segment.tool});
+  for (const record::ops::Event& event : recording_.events())
+    marks.push_back({event.tick * tick_s, event.kind, event.words});
+  for (const record::ops::Annotation& annotation : recording_.annotations())
+    marks.push_back({annotation.tick * tick_s, "annotation", annotation.words});
+  for (const RecordingDamage& damage : damage())
+    marks.push_back({damage.after_ticks * tick_s, "damaged", damage.words});
+  std::stable_sort(marks.begin(), marks.end(), [](const auto& a, const auto& b) { return a.at_s < b.at_s; });
+  return marks;
+}
+
+nlohmann::json ReplaySession::metrics() const {
+  uint32_t ticks = 0;
+  std::optional<uint64_t> grid_hash;
+  {
+    const std::lock_guard lock(mutex_);
+    ticks = playhead_.position_ticks();
+    if (bone_ticks_ == ticks) grid_hash = bone_hash_;
+  }
+  nlohmann::json now = score::session_metrics_json(
+      timeline_.wait_for(ticks, metrics_patience),
+      score::missing_bone_results("the bone is measured at the session's end only"),
+      recording_.header().force_scale, grid_hash ? &*grid_hash : nullptr);
+  return same_moment(kept_metrics_, now) ? kept_metrics_ : now;
+}
+
+void ReplaySession::change(const PlaybackChange& change) {
+  {
+    const std::lock_guard lock(mutex_);
+    playhead_.change(change);
+    fault_.clear();
+  }
+  changed_.notify_all();
+}
+
+void ReplaySession::stop() {
+  const std::lock_guard one_at_a_time(stopping_);
+  {
+    const std::lock_guard lock(mutex_);
+    if (leaving_) return;
+    leaving_ = true;
+  }
+  changed_.notify_all();
+  follower_.join();
+  picture_.tell(stream::SessionState::stopped);
+}
+
+std::unique_ptr<net::WebSocketSession> ReplaySession::subscribe(int stride) {
+  return viewer_stream(fanout_, stride);
+}
+
+void ReplaySession::follow() {
+  int64_t before_ns = steady_ns();
+  for (;;) {
+    ReplayMoment moment;
+    const int64_t now_ns = steady_ns();
+    try {
+      {
+        const std::lock_guard lock(mutex_);
+        if (leaving_) return;
+        playhead_.advance(now_ns - before_ns);
+        moment = {playhead_.position_ticks(), playhead_.jumps(), static_cast<float>(playhead_.speed()),
+                  playhead_.playing(), fault_};
+        if (fanout_->viewers() > 0) last_watched_ns_ = now_ns;
+      }
+      before_ns = now_ns;
+      present(moment, now_ns);
+    } catch (const std::exception& e) {
+      give_up(e.what(), moment.jump);
+    }
+    std::unique_lock lock(mutex_);
+    bone_ticks_ = picture_.bone_ticks();
+    bone_hash_ = picture_.bone_hash();
+    changed_.wait_for(lock, follower_period, [&] { return leaving_ || playhead_.jumps() != moment.jump; });
+  }
+}
+
+void ReplaySession::present(const ReplayMoment& moment, int64_t now_ns) {
+  picture_.show(moment);
+  picture_.poll(steady_ns());
+  if (moment.playing || now_ns - last_told_ns_ <= heartbeat_ns) return;
+  picture_.tell(stream::SessionState::replaying);
+  last_told_ns_ = now_ns;
+}
+
+/// Rests where the picture stands, which could be read; another jump since then stays wanted.
+void ReplaySession::give_up(const std::string& words, uint32_t jump) {
+  if (words != logged_fault_) log::error("replay of session " + request_.replay_of + ": " + words);
+  logged_fault_ = words;
+  const std::lock_guard lock(mutex_);
+  if (playhead_.jumps() != jump) return;
+  playhead_.rest_at(picture_.ticks());
+  fault_ = words;
+}
+
+}  // namespace ream::session

@@ -1,0 +1,109 @@
+#include "session/scoring/score_document.hpp"
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "score/metric_results.hpp"
+#include "session/folder/session_folder.hpp"
+
+namespace ream::session {
+namespace fs = std::filesystem;
+using nlohmann::json;
+namespace {
+
+json text_or_null(std::string_view text) { return text.empty() ? json(nullptr) : json(text); }
+
+/// The rubric's own limits of a metric; null where it says nothing of it.
+json criterion_of(const json& document, std::string_view metric) {
+  for (const json& criterion : document.at("score").at("criteria"))
+    if (criterion.at("metric") == metric) return criterion;
+  return nullptr;
+}
+
+json explained(const score::Metric& metric, const json& document) {
+  const json& metrics = document.at("metrics");
+  const std::string key(metric.key);
+  const auto found = metrics.find(key);
+  const bool said = found != metrics.end() && found->is_number();
+  const json missing = said ? json(nullptr) : json(score::missing_reason(metrics, key));
+  const json criterion = criterion_of(document, metric.key);
+  json verdict;
+  if (criterion.is_object())
+    verdict = criterion.at("verdict");
+  else if (const auto judged =
+               said ? score::verdict(metric.band, found->get<double>()) : std::optional<score::Verdict>())
+    verdict = score::to_text(*judged);
+  return {{"metric", key},
+          {"name", metric.name},
+          {"value", said ? *found : json(nullptr)},
+          {"missing", missing},
+          {"unsaid", missing},  // the key of the version before
+          {"unit", text_or_null(metric.unit)},
+          {"definition", metric.definition},
+          {"source", metric.source},
+          {"evidence", score::to_text(metric.evidence)},
+          {"confidence", metric.confidence},
+          {"band", criterion.is_object() ? criterion.at("band") : score::band_json(metric.band)},
+          {"verdict", std::move(verdict)},
+          {"points", criterion.is_object() ? criterion.at("points") : json(nullptr)},
+          {"weight", criterion.is_object() ? criterion.at("weight") : json(nullptr)},
+          {"critical", criterion.is_object() && criterion.at("critical").get<bool>()}};
+}
+
+/// Empty when it says all that `before` says.
+std::string lost_metric(const json& before, const json& metrics) {
+  for (const auto& [key, value] : before.items())
+    if (value.is_number() && score::find_metric(key) && !metrics.value(key, json()).is_number()) return key;
+  return "";
+}
+
+}  // namespace
+
+json score_document(const std::string& scored_by, const json& session, const json& metrics,
+                    const Judge& judge) {
+  const score::Score score = score::apply_rubric(judge.rubric, metrics);
+  return {{"scored_by", scored_by},
+          {"theatre", session.value("theatre", false)},
+          {"force_scale", metrics.value("force_scale", 1.0)},
+          {"score", score::score_json(judge.rubric, score)},
+          {"rubric", score::rubric_json(judge.rubric)},
+          {"rubric_id", text_or_null(judge.rubric_id)},
+          {"benchmark", judge.benchmark ? score::comparison_json(*judge.benchmark, metrics) : json()},
+          {"metrics", metrics}};
+}
+
+json explained_score(const json& document) {
+  const json& score = document.at("score");
+  json metrics = json::array();
+  for (const score::Metric& metric : score::metric_catalogue())
+    metrics.push_back(explained(metric, document));
+  return {{"scored_by", document.at("scored_by")},
+          {"theatre", document.at("theatre")},
+          {"force_scale", document.at("force_scale")},
+          {"points", score.at("points")},
+          {"said_percent", score.at("said_percent")},
+          {"outcome", score.at("outcome")},
+          {"reasons", score.at("reasons")},
+          {"rubric",
+           {{"id", document.value("rubric_id", json())},
+            {"version", score.at("version")},
+            {"hash", score.at("hash")},
+            {"rubric", document.at("rubric")}}},
+          {"benchmark", document.at("benchmark")},
+          {"metrics", std::move(metrics)}};
+}
+
+void write_results(const fs::path& folder, const json& metrics, const json& document) {
+  std::error_code failed;
+  if (fs::exists(metrics_json(folder), failed)) {
+    const json before = read_json_file(metrics_json(folder));
+    if (const std::string lost = lost_metric(before, metrics); !lost.empty())
+      throw Error(ErrorKind::conflict, "it said " + lost + " before and does not now: " +
+                                           score::missing_reason(metrics, lost) + "; it is left as it was");
+    if (before != metrics) write_file_atomically(metrics_json(folder), metrics.dump(2) + "\n");
+  } else {
+    write_file_atomically(metrics_json(folder), metrics.dump(2) + "\n");
+  }
+  write_file_atomically(score_json(folder), document.dump(2) + "\n");
+}
+
+}  // namespace ream::session

@@ -1,0 +1,132 @@
+#pragma once
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "session/annotation.hpp"
+#include "session/folder/session_archive.hpp"
+#include "session/folder/session_labels.hpp"
+#include "session/folder/session_register.hpp"
+#include "session/folder/session_trash.hpp"
+#include "session/running_session.hpp"
+
+namespace ream::session {
+
+struct SessionLimits {
+  size_t live = 4;   ///< created, running or paused at once
+  size_t kept = 16;  ///< ended ones that can still be looked at; the oldest go first
+};
+
+/// What makes sessions. `resume` makes one that goes on from what an ended one left in its folder.
+struct SessionMakers {
+  SessionFactory make;
+  SessionResumer resume;
+};
+
+/// Owns the sessions of this server and knows all that lie in the data folder. Thread-safe. Unknown ids throw
+/// Error not_found.
+class SessionService {
+ public:
+  /// `sessions_folder`: where sessions keep their folders; empty: nowhere. `database`: has the index of
+  /// sessions; null: lists are made from the folders.
+  SessionService(SessionMakers makers, SessionLimits limits, const std::filesystem::path& sessions_folder,
+                 std::shared_ptr<store::Database> database = nullptr);
+  ~SessionService();
+  SessionService(const SessionService&) = delete;
+  SessionService& operator=(const SessionService&) = delete;
+
+  /// `wanted.id` is chosen here. Errors: unavailable when as many are live as may be; those of the factory.
+  SessionRecord create(SessionRequest wanted);
+  /// Those of this server that are still held in memory, oldest first.
+  std::vector<SessionRecord> held() const;
+  /// Of all in the data folder, as SessionRegister::list().
+  SessionPage list(const store::SessionQuery& query) const;
+  SessionRecord get(const std::string& id) const;
+  /// Starts one that was created, or goes on with one that was paused by pause(). Error conflict otherwise.
+  SessionRecord start(const std::string& id);
+  /// Takes the force away until start(). Error conflict unless it runs, or is paused by its device.
+  SessionRecord pause(const std::string& id);
+  /// Error conflict when it has ended already.
+  SessionRecord stop(const std::string& id);
+  /// Another attempt from intact bone: ends the session, if it has not, and makes a new one with the same
+  /// settings and labels, which runs if the old one did. Those who watch the old one are told where it goes
+  /// on. Errors: conflict when that was done before, or the session lives in another process; those of
+  /// create(), after which the old one is as it was.
+  SessionRecord reset(const std::string& id);
+  /// Errors: those of relabel_folder().
+  SessionRecord change(const std::string& id, const SessionChange& change);
+  /// Goes on with one that was interrupted or stopped, under the same id, and starts it. `reamer`: empty for
+  /// the same as before. Errors: conflict in any other state or when another process has it; those of
+  /// create() and start().
+  SessionRecord resume(const std::string& id, const std::string& reamer);
+  /// Deletes one that has ended: it goes to the trash. Error conflict while it is live or in use, or is to be
+  /// kept for good.
+  SessionRecord remove(const std::string& id);
+  /// Takes it out of the trash. Error conflict when it is not deleted.
+  SessionRecord restore(const std::string& id);
+  /// Those in the trash, lately deleted ones first.
+  std::vector<DeletedSession> deleted() const;
+  /// Takes a deleted one away for good.
+  void erase(const std::string& id);
+  /// Of a live one as they are now, else as metrics.json has them. Error not_found when it left none.
+  nlohmann::json metrics(const std::string& id) const;
+  /// What lies in the folder of one that has ended was written anew.
+  void note_results(const std::string& id);
+  /// Into the running recording, or behind the end of one that has ended. Error conflict before the start
+  /// and while it is being resumed.
+  Annotation annotate(const std::string& id, const NewAnnotation& note);
+  std::vector<Annotation> annotations(const std::string& id) const;
+  /// Where its files lie; there are none before its start.
+  std::filesystem::path folder_of(const std::string& id) const;
+  /// Of a live one, as RunningSession::write_surface and write_picture. Error conflict when it is only in its
+  /// folder.
+  void write_surface(const std::string& id, const std::filesystem::path& ply, int stride) const;
+  void write_picture(const std::string& id, const std::filesystem::path& png) const;
+  /// The session lives on as long as somebody watches it. `stride` as RunningSession::subscribe. Error
+  /// conflict when it is only in its folder.
+  std::unique_ptr<net::WebSocketSession> subscribe(const std::string& id, int stride) const;
+
+  /// A client becomes the session's device, see RunningSession::connect_device. Error conflict when the
+  /// session is only in its folder.
+  std::unique_ptr<net::WebSocketSession> connect_device(const std::string& id) const;
+
+  /// Stops every session that still runs; nothing can be created or started any more.
+  void shut_down();
+
+ private:
+  struct Entry;
+  class Attendance;
+  std::shared_ptr<Entry> find_or_none(const std::string& id) const;
+  std::shared_ptr<Entry> find(const std::string& id) const;
+  SessionRecord archived(const std::string& id) const;
+  SessionRecord with_mark(SessionRecord held) const;
+  std::shared_ptr<Entry> made_again(const SessionRecord& before, const std::string& reamer);
+  std::shared_ptr<Entry> made_anew(SessionRequest wanted, size_t leaving);
+  SessionRequest next_attempt(const SessionRecord& before) const;
+  SessionRecord begin_anew(const SessionRecord& before);
+  void relabel(const std::string& id, const SessionRequest& labels);
+  void reserve_place(size_t leaving = 0);
+  std::string unused_id() const;
+  std::optional<Annotation> annotate_live(const std::string& id, const NewAnnotation& note);
+  std::vector<std::shared_ptr<Entry>> take_surplus();
+
+  const SessionMakers makers_;
+  const SessionLimits limits_;
+  const SessionArchive archive_;
+  SessionTrash trash_;
+  const std::unique_ptr<SessionRegister> register_;
+  std::mutex annotating_;  ///< one remark behind an end at a time; locked before mutex_
+  std::mutex labelling_;   ///< one change of labels at a time; locked before mutex_
+  mutable std::mutex mutex_;
+  std::vector<std::shared_ptr<Entry>> entries_;  ///< oldest first
+  std::set<std::string> being_resumed_, being_reset_;
+  size_t being_made_ = 0;
+  bool closed_ = false;
+};
+
+}  // namespace ream::session

@@ -1,0 +1,69 @@
+#include "session/simulation/asked_rig.hpp"
+
+#include "core/units.hpp"
+#include "device/device_registry.hpp"
+#include "session/simulation/find_case.hpp"
+#include "session/simulation/measured_glenoid.hpp"
+#include "sim/settings.hpp"
+
+namespace ream::session {
+namespace {
+
+force::VibrationSettings vibration_settings(const device::ScriptVibration& script) {
+  force::VibrationSettings settings;
+  settings.source = force::vibration_source_from(script.source);
+  settings.recordings = {script.cortical_file, script.cancellous_file, script.idle_file, script.rate_hz};
+  settings.vibration_n_per_g = script.n_per_g;
+  return settings;
+}
+
+sim::Settings settings_for(const RunRequest& request, const device::Script& script,
+                           const device::DeviceTraits& traits) {
+  sim::Settings settings;
+  settings.backend = request.backend;
+  settings.removal = request.removal;
+  settings.tool_spacing_mm = request.tool_spacing_mm;
+  settings.force_scale = script.force_scale;
+  settings.vibration = vibration_settings(script.vibration);
+  sim::fit_to_device(traits, script.stiffness_n_mm, settings);
+  settings.mount = script.mount;
+  settings.random_seed = request.random_seed;
+  settings.feed.kind =
+      force::feed_kind_from_text(request.feed_model.empty() ? script.feed_model : request.feed_model);
+  settings.feed.spindle_rad_s = rad_s_from_rpm(script.spindle_rpm);
+  settings.feed.specimen_factor = script.specimen_factor;
+  return settings;
+}
+
+}  // namespace
+
+device::Script find_script(const RunRequest& request) {
+  device::Script script = request.script_name == "demo"       ? device::demo_script()
+                          : request.script_name == "practice" ? device::practice_script()
+                                                              : device::load_script(request.script_name);
+  if (request.force_scale) script.force_scale = *request.force_scale;
+  return script;
+}
+
+RigParts asked_for(const RunRequest& request, const std::filesystem::path& data) {
+  RigParts parts;
+  parts.request = request;
+  parts.script = find_script(request);
+  device::settle_for_device(request.device, request.device_profile, parts.script);
+  parts.bone_case = find_case(request.case_name, data);
+  const case_::Plan& plan = plan_of(parts.bone_case);
+  parts.case_hash = case_::case_hash(parts.bone_case);
+  parts.reamer = reamer_asked_for(reamer_in_library(request.tool.empty() ? plan.reamer : request.tool, data),
+                                  request.tool_axis);
+  parts.tool = shell::make_tool(parts.reamer.words, parts.reamer.axis);
+  device::MadeDevice made = device::make_device({request.device, request.device_profile, &parts.script,
+                                                 sim::world_from_plan(plan), request.random_seed, data});
+  parts.device = std::move(made.device);
+  parts.link = std::move(made.link);
+  parts.settings = settings_for(request, parts.script, parts.device->traits());
+  parts.anatomy = find_anatomy(parts.bone_case, request.case_name, data);
+  parts.native = measured_glenoid(parts.bone_case, parts.anatomy, parts.tool);
+  return parts;
+}
+
+}  // namespace ream::session

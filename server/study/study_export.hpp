@@ -1,0 +1,39 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "session/scoring/export_table.hpp"
+#include "study/study.hpp"
+
+namespace ream::study {
+
+/// One session of a study, as an export needs it.
+struct StudyAttempt {
+  std::string participant;
+  std::string case_id, script, device, device_profile;
+  std::string state;        ///< the word of session.json
+  std::string created_utc;  ///< used for order and day only; never told
+  bool given_up = false;    ///< the participant went back to intact bone in a session of its own
+  nlohmann::json metrics;   ///< metrics.json
+};
+
+/// What leaves a study: no names, no ids of users or sessions, no dates; of time only the day since the
+/// participant's first session.
+struct StudyExport {
+  session::ExportTable sessions;  ///< a row a session, by participant and attempt
+  session::ExportTable answers;   ///< a row a participant
+  session::ExportTable groups;    ///< a row an experience level and figure: n, median, quartiles
+};
+
+/// Attempts of participants that are not in the list are left out.
+StudyExport export_of(const Study& study, const std::vector<Participant>& participants,
+                      const std::vector<StudyAttempt>& attempts);
+
+/// What the columns of all tables mean.
+nlohmann::json codebook_of(const Study& study, const StudyExport& all);
+
+/// The quantile `share` of sorted values, linear between neighbours (R's type 7). Not of none.
+double quantile(const std::vector<double>& sorted, double share);
+
+}  // namespace ream::study

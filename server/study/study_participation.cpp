@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <set>
+
+#include "access/role.hpp"
+#include "core/error.hpp"
+#include "study/study_rows.hpp"
+#include "study/study_service.hpp"
+
+namespace ream::study {
+using nlohmann::json;
+namespace {
+
+bool is_staff(const net::Caller& caller) { return (access::role_bit(caller.role) & access::staff) != 0; }
+
+Error unknown_participant(const std::string& id, const std::string& code) {
+  return {ErrorKind::not_found, "no participant '" + code + "' in study '" + id + "'"};
+}
+
+bool is_operator(const net::Caller& caller) { return access::role_bit(caller.role) == access::operators; }
+
+/// Without all that tells participants apart.
+Participant only_code(const Participant& participant) {
+  return {participant.code, "", 0, std::nullopt, participant.has_account};
+}
+
+}  // namespace
+
+std::vector<Participant> StudyService::participants(const net::Caller& caller, const std::string& id) const {
+  const bool hidden = known(id).open && !is_operator(caller);
+  const std::string own = code_of(caller, id);
+  std::set<std::string> with_account;
+  for (const store::PersonRow& person : table_.persons(id))
+    if (!person.user_id.empty()) with_account.insert(person.code);
+  std::vector<Participant> list;
+  for (const store::ParticipantRow& row : table_.participants(id)) {
+    Participant participant = participant_of(row);
+    participant.has_account = with_account.contains(participant.code);
+    list.push_back(hidden && participant.code != own ? only_code(participant) : participant);
+  }
+  return list;
+}
+
+std::string StudyService::code_of(const net::Caller& caller, const std::string& id) const {
+  return table_.code_of(id, caller.user_id);
+}
+
+Participant StudyService::participant(const net::Caller& caller, const std::string& id,
+                                      const std::string& code) const {
+  const auto row = table_.participant(id, code);
+  const bool own = code_of(caller, id) == code;
+  if (!row || (!is_staff(caller) && !own)) throw unknown_participant(id, code);
+  Participant found = participant_of(*row);
+  const auto person = table_.person(id, code);
+  found.has_account = person && !person->user_id.empty();
+  return own || is_operator(caller) || !known(id).open ? found : only_code(found);
+}
+
+std::vector<store::PersonRow> StudyService::persons(const net::Caller& caller, const std::string& id) const {
+  if (known(id).blinded() && !is_operator(caller))
+    throw net::RequestError(403, "who takes part in study '" + id + "' is hidden until it is unblinded");
+  return table_.persons(id);
+}
+
+Participant StudyService::answer(const net::Caller& caller, const std::string& id, const std::string& code,
+                                 const json& answers) {
+  Participant about = participant(caller, id, code);
+  if (about.has_account && code_of(caller, id) != code)
+    throw net::RequestError(403, "participant '" + code + "' has an account and answers there");
+  const Study study = open_one(id);
+  if (!study.questionnaire) throw Error(ErrorKind::conflict, "study '" + id + "' asks nothing");
+  if (const auto faults = faults_of_answers(*study.questionnaire, answers); !faults.empty())
+    throw net::RequestError(422, "the answers cannot be used: " + faults.front().detail, faults);
+  table_.set_answers(id, code, answers.dump());
+  about.answers = answers;
+  return about;
+}
+
+void StudyService::withdraw(const std::string& id, const std::string& code) {
+  known(id);
+  table_.remove_participant(id, code);
+}
+
+StudyExport StudyService::everything(const Study& study) const {
+  std::vector<Participant> all;
+  for (const store::ParticipantRow& row : table_.participants(study.id)) all.push_back(participant_of(row));
+  return export_of(study, all, surroundings_.attempts(study.id));
+}
+
+StudyExport StudyService::export_all(const net::Caller& caller, const std::string& id) const {
+  const Study study = known(id);
+  if (study.open && !is_operator(caller))
+    throw Error(ErrorKind::conflict, "study '" + id +
+                                         "' is open; close it first, for who scores must not know who is how "
+                                         "experienced");
+  return everything(study);
+}
+
+json StudyService::codebook(const std::string& id) const {
+  const Study study = known(id);
+  return codebook_of(study, everything(study));
+}
+
+void StudyService::admit(const net::Caller& caller, session::SessionRequest& wanted) const {
+  const std::string& id = wanted.study;
+  get(caller, id);
+  const Study study = open_one(id);
+  if (!is_staff(caller) || wanted.participant.empty()) {
+    const std::string own = code_of(caller, id);
+    if (!wanted.participant.empty() && wanted.participant != own)
+      throw unknown_participant(id, wanted.participant);
+    if (own.empty())
+      throw Error(ErrorKind::conflict,
+                  "you do not take part in study '" + id + "'; say which participant trains");
+    wanted.participant = own;
+  }
+  participant(caller, id, wanted.participant);
+  if (wanted.case_id.empty()) wanted.case_id = study.settings.cases.front();
+  const auto& cases = study.settings.cases;
+  if (std::find(cases.begin(), cases.end(), wanted.case_id) == cases.end())
+    throw Error(ErrorKind::conflict, "case '" + wanted.case_id + "' is none of study '" + id + "'");
+  wanted.script = study.settings.script;
+  wanted.device = study.settings.device;
+  wanted.device_profile = study.settings.device_profile;
+  const auto person = table_.person(id, wanted.participant);
+  wanted.trainee_id = person ? person->user_id : "";
+  wanted.trainee = person ? person->name : "";
+}
+
+Blinding StudyService::blinding(const net::Caller& caller) const {
+  std::set<std::string> unblinded;
+  if (is_operator(caller)) return {caller, std::move(unblinded)};
+  try {
+    for (const store::StudyRow& row : table_.list())
+      if (!row.unblinded_utc.empty()) unblinded.insert(row.id);
+  } catch (const Error&) {
+    unblinded.clear();  // what cannot be looked up now stays hidden
+  }
+  return {caller, std::move(unblinded)};
+}
+
+Blinding blinding_for(const StudyService* studies, const net::Caller& caller) {
+  return studies ? studies->blinding(caller) : Blinding(caller, {});
+}
+
+session::SessionRequest seen_by(const net::Caller& caller, const StudyService* studies,
+                                session::SessionRequest session) {
+  return session.study.empty() ? session : blinding_for(studies, caller).seen(std::move(session));
+}
+
+}  // namespace ream::study

@@ -1,0 +1,53 @@
+#include "study/study_rows.hpp"
+
+namespace ream::study {
+using nlohmann::json;
+
+store::StudyRow row_of(const Study& study) {
+  const json settings = {{"cases", study.settings.cases},
+                         {"script", study.settings.script},
+                         {"device", study.settings.device},
+                         {"device_profile", study.settings.device_profile}};
+  return {study.id,
+          study.name,
+          study.description,
+          study.open ? "open" : "closed",
+          study.join_code,
+          settings.dump(),
+          study.questionnaire ? to_json(*study.questionnaire).dump() : std::string(),
+          study.created_utc,
+          study.closed_utc,
+          study.unblinded_utc};
+}
+
+Study study_of(const store::StudyRow& row) {
+  Study study;
+  study.id = row.id;
+  study.name = row.name;
+  study.description = row.description;
+  study.open = row.state == "open";
+  study.join_code = row.join_code;
+  const json settings = json::parse(row.settings);
+  settings.at("cases").get_to(study.settings.cases);
+  study.settings.script = settings.value("script", "");
+  study.settings.device = settings.value("device", "");
+  study.settings.device_profile = settings.value("device_profile", "");
+  if (!row.questionnaire.empty()) study.questionnaire = questionnaire_from(json::parse(row.questionnaire));
+  study.created_utc = row.created_utc;
+  study.closed_utc = row.closed_utc;
+  study.unblinded_utc = row.unblinded_utc;
+  return study;
+}
+
+store::ParticipantRow row_of(const std::string& study_id, const Participant& participant) {
+  return {participant.code, study_id, participant.experience, participant.procedures_done,
+          participant.answers ? participant.answers->dump() : std::string()};
+}
+
+Participant participant_of(const store::ParticipantRow& row) {
+  Participant participant{row.code, row.experience, row.procedures_done, std::nullopt, false};
+  if (!row.answers.empty()) participant.answers = json::parse(row.answers);
+  return participant;
+}
+
+}  // namespace ream::study

@@ -1,0 +1,185 @@
+#include "study/study_service.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "access/role.hpp"
+#include "core/error.hpp"
+#include "core/new_id.hpp"
+#include "study/study_rows.hpp"
+
+namespace ream::study {
+using nlohmann::json;
+namespace {
+
+/// A code that is taken is drawn again; that it is taken so often means something else is wrong.
+constexpr int most_draws = 20;
+
+bool is_staff(const net::Caller& caller) { return (access::role_bit(caller.role) & access::staff) != 0; }
+bool is_operator(const net::Caller& caller) { return access::role_bit(caller.role) == access::operators; }
+
+Error unknown_study(const std::string& id) {
+  return {ErrorKind::not_found, "no study '" + id + "'; GET /api/v1/studies lists them"};
+}
+
+}  // namespace
+
+StudyService::StudyService(store::Database& database, StudySurroundings surroundings)
+    : table_(database), surroundings_(std::move(surroundings)) {}
+
+Study StudyService::known(const std::string& id) const {
+  const auto row = table_.find(id);
+  if (!row) throw unknown_study(id);
+  return study_of(*row);
+}
+
+Study StudyService::open_one(const std::string& id) const {
+  Study study = known(id);
+  if (!study.open)
+    throw Error(ErrorKind::conflict, "study '" + id + "' is closed; nothing more can be added to it");
+  return study;
+}
+
+void StudyService::require_settings(const StudySettings& settings) const {
+  for (const std::string& case_id : settings.cases)
+    if (!surroundings_.has_case(case_id))
+      throw Error(ErrorKind::not_found, "no case '" + case_id + "'; GET /api/v1/cases lists them");
+}
+
+Study StudyService::create(const StudyWishes& wishes) {
+  require_settings(wishes.settings);
+  Study study;
+  study.name = wishes.name;
+  study.description = wishes.description;
+  study.settings = wishes.settings;
+  study.questionnaire = wishes.questionnaire;
+  study.id = random_id();
+  study.join_code = random_id();
+  study.created_utc = utc_now();
+  table_.add(row_of(study));
+  return study;
+}
+
+std::vector<Study> StudyService::list(const net::Caller& caller) const {
+  const bool all = is_staff(caller);
+  const auto own = all ? std::map<std::string, std::string>() : table_.codes_of(caller.user_id);
+  std::vector<Study> studies;
+  for (const store::StudyRow& row : table_.list())
+    if (all || own.contains(row.id)) studies.push_back(study_of(row));
+  return studies;
+}
+
+Study StudyService::get(const net::Caller& caller, const std::string& id) const {
+  if (!is_staff(caller) && code_of(caller, id).empty()) throw unknown_study(id);
+  return known(id);
+}
+
+Study StudyService::change(const std::string& id, const StudyWishes& wishes) {
+  Study study = known(id);
+  const Study before = study;
+  study.name = wishes.name;
+  study.description = wishes.description;
+  study.settings = wishes.settings;
+  study.questionnaire = wishes.questionnaire;
+  const store::StudyRow was = row_of(before), is = row_of(study);
+  if (was.settings != is.settings || was.questionnaire != is.questionnaire) {
+    require_settings(wishes.settings);
+    if (!table_.participants(id).empty())
+      throw Error(ErrorKind::conflict, "somebody takes part in study '" + id +
+                                           "'; only its name and description can be changed now");
+  }
+  table_.replace(is);
+  return study;
+}
+
+Study StudyService::close(const std::string& id) {
+  Study study = open_one(id);
+  study.open = false;
+  study.closed_utc = utc_now();
+  table_.replace(row_of(study));
+  return study;
+}
+
+bool StudyService::is_closed(const std::string& id) const {
+  const auto row = table_.find(id);
+  return row && !study_of(*row).open;
+}
+
+Study StudyService::reopen(const std::string& id) {
+  Study study = known(id);
+  if (study.open) throw Error(ErrorKind::conflict, "study '" + id + "' is open");
+  if (!study.blinded())
+    throw Error(ErrorKind::conflict,
+                "study '" + id + "' is unblinded; what is added to it now would not be blind");
+  study.open = true;
+  study.closed_utc.clear();
+  table_.replace(row_of(study));
+  return study;
+}
+
+Study StudyService::unblind(const std::string& id) {
+  Study study = known(id);
+  if (study.open)
+    throw Error(ErrorKind::conflict, "study '" + id + "' is open; close it before its persons are shown");
+  if (!study.blinded()) throw Error(ErrorKind::conflict, "study '" + id + "' is unblinded already");
+  study.unblinded_utc = utc_now();
+  table_.replace(row_of(study));
+  return study;
+}
+
+void StudyService::remove(const std::string& id) {
+  known(id);
+  if (!table_.participants(id).empty())
+    throw Error(ErrorKind::conflict, "somebody takes part in study '" + id + "'; it is kept");
+  table_.remove(id);
+}
+
+Participant StudyService::add_participant(const Study& study, const NewParticipant& wanted,
+                                          const std::optional<store::PersonRow>& person) {
+  Participant participant{"", wanted.experience, wanted.procedures_done, std::nullopt,
+                          person && !person->user_id.empty()};
+  for (int draw = 1;; ++draw) {
+    participant.code = random_participant_code();
+    std::optional<store::PersonRow> linked = person;
+    if (linked) linked->code = participant.code;
+    try {
+      table_.enrol(row_of(study.id, participant), linked);
+      return participant;
+    } catch (const Error& failure) {
+      if (failure.kind() != ErrorKind::conflict || draw == most_draws) throw;
+      if (person && !table_.code_of(study.id, person->user_id).empty())
+        throw Error(ErrorKind::conflict, (person->name.empty() ? "this person" : person->name) +
+                                             " takes part in the study already");
+    }
+  }
+}
+
+Participant StudyService::enrol(const net::Caller& caller, const std::string& id,
+                                const NewParticipant& wanted) {
+  const Study study = open_one(id);
+  if (wanted.user_id.empty() && wanted.name.empty()) return add_participant(study, wanted, std::nullopt);
+  if (!is_operator(caller))
+    throw net::RequestError(403,
+                            "only operators may say who a participant is; give the person the join code");
+  store::PersonRow person{"", wanted.user_id, wanted.name};
+  if (!wanted.user_id.empty()) {
+    const auto name = surroundings_.name_of_user(wanted.user_id);
+    if (!name) throw Error(ErrorKind::not_found, "no user '" + wanted.user_id + "'");
+    person.name = *name;
+  }
+  return add_participant(study, wanted, person);
+}
+
+std::pair<std::string, Participant> StudyService::join(const net::Caller& caller,
+                                                       const NewParticipant& about) {
+  if (caller.user_id.empty())
+    throw Error(ErrorKind::conflict,
+                "only somebody with an account can join a study; others are enrolled by code");
+  const auto row = table_.find_by_join_code(about.join_code);
+  if (!row) throw Error(ErrorKind::not_found, "no study has this join code");
+  const Study study = open_one(row->id);
+  const store::PersonRow person{"", caller.user_id, caller.name};
+  return {study.id, add_participant(study, about, person)};
+}
+
+}  // namespace ream::study

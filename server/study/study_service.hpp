@@ -1,0 +1,114 @@
+#pragma once
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "net/message.hpp"
+#include "store/study_table.hpp"
+#include "study/blinding.hpp"
+#include "study/study_export.hpp"
+
+namespace ream::study {
+
+/// What a study is made of.
+struct StudyWishes {
+  std::string name, description;
+  StudySettings settings;
+  std::optional<Questionnaire> questionnaire;
+};
+
+/// Who is to take part. Both empty: nobody says who it is.
+struct NewParticipant {
+  std::string experience;
+  int64_t procedures_done = 0;
+  std::string user_id;    ///< of somebody with an account
+  std::string name;       ///< for operators, of somebody without
+  std::string join_code;  ///< of who enrols themself
+};
+
+/// What studies ask of the rest of the server.
+struct StudySurroundings {
+  /// Name of a user, none for an unknown id.
+  std::function<std::optional<std::string>(const std::string& user_id)> name_of_user;
+  std::function<bool(const std::string& case_id)> has_case;
+  /// All sessions of a study that have ended and left metrics.
+  std::function<std::vector<StudyAttempt>(const std::string& study_id)> attempts;
+};
+
+/// Studies and who takes part in them. Who a participant is stays hidden from all but operators and the
+/// person until the study is closed and unblinded. Thread-safe. Errors: not_found for what a caller may not
+/// know of too; conflict when the study's state does not allow it; those of the database.
+class StudyService {
+ public:
+  StudyService(store::Database& database, StudySurroundings surroundings);
+
+  Study create(const StudyWishes& wishes);
+  /// Newest first; trainees have those they take part in.
+  std::vector<Study> list(const net::Caller& caller) const;
+  Study get(const net::Caller& caller, const std::string& id) const;
+  /// Only name and description once somebody takes part.
+  Study change(const std::string& id, const StudyWishes& wishes);
+  Study close(const std::string& id);
+  /// Whether it is there and closed.
+  bool is_closed(const std::string& id) const;
+  /// Goes on with one that was closed and not unblinded.
+  Study reopen(const std::string& id);
+  /// Shows who the participants are, for good. Only of a closed one.
+  Study unblind(const std::string& id);
+  /// Only of one that nobody takes part in.
+  void remove(const std::string& id);
+
+  /// Only operators may say who it is; others enrol a person by giving them the join code.
+  Participant enrol(const net::Caller& caller, const std::string& id, const NewParticipant& wanted);
+  /// The caller takes part in the open study with this join code; its id and the participant.
+  std::pair<std::string, Participant> join(const net::Caller& caller, const NewParticipant& about);
+  /// By code. While a study is open only operators learn what else is known of a participant than the code,
+  /// so that who scores does not know who is how experienced.
+  std::vector<Participant> participants(const net::Caller& caller, const std::string& id) const;
+  /// How many take part.
+  int64_t count(const std::string& id) const { return table_.count(id); }
+  /// Trainees have themselves only; of others only the code is told as in the list.
+  Participant participant(const net::Caller& caller, const std::string& id, const std::string& code) const;
+  /// Who takes part, for operators; for others once it is unblinded.
+  std::vector<store::PersonRow> persons(const net::Caller& caller, const std::string& id) const;
+  /// The caller's code; empty when they do not take part.
+  std::string code_of(const net::Caller& caller, const std::string& id) const;
+  /// The participant's own, or, of one without an account, by whoever runs the study. RequestError 422 names
+  /// what is wrong with them, 403 when they are somebody else's.
+  Participant answer(const net::Caller& caller, const std::string& id, const std::string& code,
+                     const nlohmann::json& answers);
+  /// Forgets a participant: person, answers, and their rows in exports.
+  void withdraw(const std::string& id, const std::string& code);
+
+  /// For operators; for others once the study is closed.
+  StudyExport export_all(const net::Caller& caller, const std::string& id) const;
+  /// What the columns of the export mean.
+  nlohmann::json codebook(const std::string& id) const;
+
+  /// Makes a wanted session one of the study that it names: checks that it may be, fills in the participant
+  /// and the study's settings. `wanted.participant` empty: the caller.
+  void admit(const net::Caller& caller, session::SessionRequest& wanted) const;
+  /// What the caller may know of who trained.
+  Blinding blinding(const net::Caller& caller) const;
+
+ private:
+  Study known(const std::string& id) const;
+  Study open_one(const std::string& id) const;
+  StudyExport everything(const Study& study) const;
+  Participant add_participant(const Study& study, const NewParticipant& wanted,
+                              const std::optional<store::PersonRow>& person);
+  void require_settings(const StudySettings& settings) const;
+
+  mutable store::StudyTable table_;
+  const StudySurroundings surroundings_;
+};
+
+/// What the caller may know of who trained; `studies` null: there are none.
+Blinding blinding_for(const StudyService* studies, const net::Caller& caller);
+/// One session as the caller may know it. Only those of studies are looked up.
+session::SessionRequest seen_by(const net::Caller& caller, const StudyService* studies,
+                                session::SessionRequest session);
+
+}  // namespace ream::study

@@ -1,0 +1,258 @@
+#include "workup/case_workshop.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "case/plan.hpp"
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/text.hpp"
+#include "ct/build/ct_workspace.hpp"
+#include "ct/build/import.hpp"
+#include "ct/hu_volume.hpp"
+#include "ct/read/read_ct.hpp"
+#include "ct/read/write_volume.hpp"
+#include "geometry/mesh_io.hpp"
+#include "surface/whole_surface.hpp"
+#include "workup/case_json.hpp"
+
+namespace ream::workup {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double read_share = 0.8;
+constexpr size_t longest_id = 60;
+constexpr double most_fine_voxels = 2.0e7;  // beyond, a surface is sampled every other voxel
+
+template <typename T>
+net::Bytes bytes_of(const std::vector<T>& values) {
+  const auto bytes = std::as_bytes(std::span(values));
+  return {bytes.begin(), bytes.end()};
+}
+
+/// action(), whose errors name the uploaded file as its sender calls it, not by where it lies here.
+template <typename Action>
+auto naming_as_sent(const fs::path& file, Action&& action) {
+  try {
+    return action();
+  } catch (const Error& error) {
+    std::string words = error.what();
+    const std::string folder = file.parent_path().string() + "/";
+    for (size_t at = words.find(folder); at != std::string::npos; at = words.find(folder))
+      words.erase(at, folder.size());
+    throw Error(error.kind(), words);
+  }
+}
+
+/// Goes away with whatever is left of an upload.
+class TakenUpload {
+ public:
+  explicit TakenUpload(fs::path file) : file_(std::move(file)) {}
+  ~TakenUpload() {
+    std::error_code ignored;
+    fs::remove_all(file_.parent_path(), ignored);
+  }
+  TakenUpload(const TakenUpload&) = delete;
+  TakenUpload& operator=(const TakenUpload&) = delete;
+  const fs::path& file() const { return file_; }
+
+ private:
+  fs::path file_;
+};
+
+}  // namespace
+
+CaseWorkshop::CaseWorkshop(fs::path cases_folder, CaseTools tools, jobs::JobService& jobs)
+    : cases_folder_(std::move(cases_folder)), tools_(std::move(tools)), jobs_(jobs) {}
+
+fs::path CaseWorkshop::folder_of(const std::string& id) const {
+  const fs::path folder = cases_folder_ / id;
+  if (!is_name(id) || !is_case_folder(folder))
+    throw Error(ErrorKind::not_found, "no case '" + id + "'; GET /api/v1/cases lists them");
+  return folder;
+}
+
+ct::Workup CaseWorkshop::workup(const std::string& id) const {
+  const fs::path folder = folder_of(id);
+  if (!ct::has_workup(folder))
+    throw Error(ErrorKind::conflict,
+                "case '" + id + "' has no CT beside it; it was made before, or without one");
+  return ct::load_workup(folder);
+}
+
+std::string CaseWorkshop::unused_id(const std::string& wanted) const {
+  const std::string base = wanted.substr(0, longest_id);
+  std::string id = base;
+  for (int n = 2; fs::exists(cases_folder_ / id); ++n) id = base + "-" + std::to_string(n);
+  return id;
+}
+
+jobs::JobRecord CaseWorkshop::import(const NewCase& wanted, UploadStore& uploads) {
+  const Upload upload = uploads.get(wanted.upload_id);
+  const std::string stem = upload.name.substr(0, upload.name.find('.'));
+  if (!wanted.id.empty() && fs::exists(cases_folder_ / wanted.id))
+    throw Error(ErrorKind::conflict, "there is a case '" + wanted.id + "' already; choose another id");
+  const std::string id = wanted.id.empty() ? unused_id(ct::case_id_from(stem)) : wanted.id;
+  const std::string name = wanted.name.empty() ? stem : wanted.name;
+  if (jobs_.busy(id)) throw Error(ErrorKind::conflict, "a case '" + id + "' is being made; wait for it");
+  const auto taken = std::make_shared<TakenUpload>(uploads.take(wanted.upload_id));
+  return jobs_.submit({"import", id}, [this, taken, id, name, wanted](const Progress& progress) {
+    const ct::HuVolume volume = naming_as_sent(taken->file(), [&] {
+      return tools_.read_ct(taken->file(), wanted.series_uid, part_of(progress, 0.0, read_share));
+    });
+    progress(read_share, "writing the CT");
+    ct::create_workup(cases_folder_ / id, id, name, wanted.side, volume);
+  });
+}
+
+jobs::JobRecord CaseWorkshop::copy(const std::string& from, case_::Side side) {
+  const ct::Workup source = workup(from);
+  const std::string id = unused_id(from + "-" + case_::to_text(side));
+  return jobs_.submit({"import", id}, [this, from, id, side, source](const Progress& progress) {
+    progress(0.0, "copying the CT");
+    ct::copy_workup(folder_of(from), cases_folder_ / id, id, source.name, side);
+  });
+}
+
+jobs::JobRecord CaseWorkshop::segment(const std::string& id, ct::SegmentationSettings settings) {
+  settings.side = workup(id).side;
+  return jobs_.submit({"segmentation", id}, [this, id, settings](const Progress& progress) {
+    const fs::path folder = folder_of(id);
+    ct::Workup workup = this->workup(id);
+    ct::HuVolume volume = workup.volume;
+    volume.hu = *shelf_.hu(folder, workup);
+    const ct::Segmentation made = ct::segment_shoulder(volume, settings, progress);
+    const std::lock_guard lock(changing_);
+    workup = this->workup(id);
+    ct::add_segmentation(folder, workup, settings, made);
+  });
+}
+
+void CaseWorkshop::undo_segmentation(const std::string& id) {
+  if (jobs_.busy(id)) throw Error(ErrorKind::conflict, "other work on case '" + id + "' is not done");
+  const std::lock_guard lock(changing_);
+  ct::Workup workup = this->workup(id);
+  ct::undo_segmentation(folder_of(id), workup);
+}
+
+void CaseWorkshop::require_no_sessions(const std::string& id, const std::string& what) const {
+  const size_t count = tools_.sessions_of ? tools_.sessions_of(id) : 0;
+  if (count > 0)
+    throw Error(ErrorKind::conflict, std::to_string(count) + " sessions belong to case '" + id +
+                                         "' and need its bone as it is; it cannot be " + what +
+                                         ". Copy it instead");
+}
+
+jobs::JobRecord CaseWorkshop::build(const std::string& id, const ct::BuildSettings& settings) {
+  if (!workup(id).segmentation()) throw Error(ErrorKind::conflict, "case '" + id + "' is not segmented yet");
+  require_no_sessions(id, "built anew");
+  return jobs_.submit({"build", id}, [this, id, settings](const Progress& progress) {
+    const fs::path folder = folder_of(id);
+    ct::Workup workup = this->workup(id);
+    const auto hu = shelf_.hu(folder, workup);
+    const auto labels = shelf_.labels(folder, workup, workup.segmentation()->revision);
+    case_::Case made =
+        ct::build_from(workup, *hu, *labels, landmarks(id), settings, part_of(progress, 0.0, read_share));
+    progress(read_share, "writing the case");
+    const std::lock_guard lock(changing_);
+    case_::save_bone(made, folder);
+    ct::save_workup(folder, workup);
+    shelf_.forget(id);
+  });
+}
+
+void CaseWorkshop::remove(const std::string& id) {
+  const fs::path folder = folder_of(id);
+  if (jobs_.busy(id)) throw Error(ErrorKind::conflict, "there is work on case '" + id + "'; cancel it first");
+  require_no_sessions(id, "deleted");
+  const std::lock_guard lock(changing_);
+  const fs::path gone = cases_folder_ / ("." + id + ".deleted");
+  std::error_code failed;
+  fs::rename(folder, gone, failed);
+  if (failed) throw Error(ErrorKind::io, "cannot delete " + folder.string() + ": " + failed.message());
+  fs::remove_all(gone, failed);
+  shelf_.forget(id);
+}
+
+case_::Side CaseWorkshop::side_of(const std::string& id) const {
+  const fs::path folder = folder_of(id);
+  return ct::has_workup(folder) ? ct::load_workup(folder).side : case_::load_case_description(folder).side;
+}
+
+case_::Landmarks CaseWorkshop::landmarks(const std::string& id) const {
+  return case_::load_landmarks(folder_of(id)).value_or(case_::Landmarks{});
+}
+
+void CaseWorkshop::set_landmarks(const std::string& id, const case_::Landmarks& landmarks) {
+  const std::lock_guard lock(changing_);
+  case_::save_landmarks(landmarks, folder_of(id));
+}
+
+CtShelf::Bone CaseWorkshop::surface_of(const std::string& id) {
+  const fs::path folder = folder_of(id);
+  if (ct::has_workup(folder)) {
+    const ct::Workup workup = ct::load_workup(folder);
+    if (workup.segmentation()) return shelf_.bone(folder, workup);
+  }
+  if (fs::exists(folder / "case.json"))
+    return std::make_shared<const voxel::BoneModel>(case_::load_case(folder).bone);
+  throw Error(ErrorKind::conflict, "case '" + id + "' is not segmented yet");
+}
+
+case_::Plan CaseWorkshop::propose(const std::string& id, const case_::PlanTargets& targets) {
+  const auto bone = surface_of(id);
+  return case_::propose_plan(targets, landmarks(id), side_of(id), [&](const Vec3& point, const Vec3& way) {
+    return case_::surface_along(*bone, point, way);
+  });
+}
+
+case_::PlanAssessment CaseWorkshop::assess(const std::string& id, const case_::Plan& plan) {
+  const auto bone = surface_of(id);
+  std::optional<case_::GlenoidFrame> glenoid;
+  const fs::path folder = folder_of(id);
+  if (fs::exists(folder / "case.json")) glenoid = case_::load_case_description(folder).glenoid;
+  return case_::assess_plan(plan, landmarks(id), side_of(id), bone.get(), glenoid ? &*glenoid : nullptr);
+}
+
+case_::PlanAssessment CaseWorkshop::set_plan(const std::string& id, const case_::Plan& plan) {
+  const case_::PlanAssessment assessment = assess(id, plan);
+  if (assessment.needs_override) throw Error(ErrorKind::conflict, case_::why_refused(assessment));
+  const std::lock_guard lock(changing_);
+  case_::save_plan(plan, folder_of(id));
+  return assessment;
+}
+
+net::Bytes CaseWorkshop::slice(const std::string& id, int axis, int index, bool of_labels,
+                               std::optional<int> revision) {
+  const fs::path folder = folder_of(id);
+  const ct::Workup workup = this->workup(id);
+  const Vec3i& dims = workup.volume.dims;
+  if (index < 0 || index >= dims[axis])
+    throw Error(ErrorKind::not_found, "case '" + id + "' has the slices 0 to " +
+                                          std::to_string(dims[axis] - 1) + " along that axis");
+  if (!of_labels)
+    return bytes_of(ct::slice_of(std::span<const int16_t>(*shelf_.hu(folder, workup)), dims, axis, index));
+  if (!workup.segmentation()) throw Error(ErrorKind::conflict, "case '" + id + "' is not segmented yet");
+  if (revision && *revision != workup.segmentation()->revision)
+    throw Error(ErrorKind::conflict, "case '" + id + "' has been segmented again or undone since");
+  const auto labels = shelf_.labels(folder, workup, workup.segmentation()->revision);
+  return bytes_of(ct::slice_of(std::span<const uint8_t>(*labels), dims, axis, index));
+}
+
+void CaseWorkshop::write_volume(const std::string& id, const fs::path& file) {
+  const fs::path folder = folder_of(id);
+  const ct::Workup workup = this->workup(id);
+  ct::HuVolume volume = workup.volume;
+  volume.hu = *shelf_.hu(folder, workup);
+  ct::write_volume_file(volume, file);
+}
+
+std::string CaseWorkshop::mesh(const std::string& id) {
+  const auto bone = surface_of(id);
+  const bool coarse = static_cast<double>(bone->grid.voxel_count()) > most_fine_voxels;
+  const TriangleMesh mesh = surface::whole_surface(bone->grid, bone->coverage.data(), 1, coarse ? 2 : 1);
+  return ply_of(mesh.transformed(bone->grid.world_from_grid), case_::frame_in_words(side_of(id)));
+}
+
+}  // namespace ream::workup

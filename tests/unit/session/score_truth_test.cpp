@@ -1,0 +1,116 @@
+// Scores against the truth: seeded reamings of glenoids, run headless, measured by the product in voxels and
+// by support/reaming_truth in formulas.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include "case/landmarks.hpp"
+#include "core/file.hpp"
+#include "session/live/headless_run.hpp"
+#include "session/simulation/asked_rig.hpp"
+#include "support/random_reaming.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace ream::test {
+namespace {
+
+constexpr double voxel_mm = 0.2;
+constexpr double robot_spacing_mm = 0.4;  // of the points that feel; what is cut does not depend on it
+
+/// metrics.json of a reaming, and what must come out.
+struct Scored {
+  nlohmann::json metrics;
+  ReamingTruth truth;
+};
+
+Scored run(const RandomReaming& reaming, const TemporaryFolder& folder) {
+  const auto data = folder.path() / "data", out = folder.path() / "out";
+  case_::Case c;
+  c.id = c.name = "glenoid";
+  c.side = reaming.glenoid.shoulder.side;
+  c.bone = bone_of(reaming.glenoid, voxel_mm);
+  c.plan = reaming.plan;
+  case_::save_case(c, data / "cases/glenoid");
+  case_::save_landmarks(shoulder_landmarks(reaming.glenoid.shoulder), data / "cases/glenoid");
+  write_file_atomically(folder.path() / "script.json", reaming.script.dump());
+  session::RunRequest request;
+  request.case_name = "glenoid";
+  request.script_name = (folder.path() / "script.json").string();
+  request.backend = "cpu";
+  request.tool_spacing_mm = robot_spacing_mm;
+  session::Rig rig(session::asked_for(request, data));
+  std::filesystem::create_directories(out);
+  const std::vector<uint8_t> start = rig.bone_case.bone.coverage;
+  const session::HeadlessResult result = session::run_headless(rig, start, out, false);
+  return {result.metrics, reaming_truth(reaming, out / "trace.csv")};
+}
+
+/// One figure of metrics.json and how far it may be from the truth.
+struct Figure {
+  const char* key;
+  double ReamingTruth::*truth;
+  double tolerance;       ///< in the figure's unit, or
+  double relative = 0.0;  ///< as a share of the truth
+};
+
+constexpr Figure figures[] = {
+    {"version_achieved_deg", &ReamingTruth::version_deg, 0.2},
+    {"inclination_achieved_deg", &ReamingTruth::inclination_deg, 0.2},
+    {"axis_error_deg", &ReamingTruth::axis_error_deg, 0.2},
+    {"version_rim_deg", &ReamingTruth::rim_version_deg, 0.5},
+    {"inclination_rim_deg", &ReamingTruth::rim_inclination_deg, 0.5},
+    {"entry_error_mm", &ReamingTruth::entry_error_mm, 0.1},
+    {"depth_max_mm", &ReamingTruth::depth_max_mm, 0.5 * voxel_mm},
+    {"depth_mean_mm", &ReamingTruth::depth_mean_mm, 0.5 * voxel_mm},
+    {"removed_volume_mm3", &ReamingTruth::volume_mm3, 0.0, 0.005},
+    {"seating_percent", &ReamingTruth::seating_percent, 1.0},
+    {"plate_preserved_percent", &ReamingTruth::plate_percent, 2.0},
+};
+constexpr size_t figure_count = std::size(figures);
+
+class ScoreTruth : public testing::TestWithParam<unsigned> {
+ public:
+  static void TearDownTestSuite() {
+    std::printf("worst of every figure, as a share of what is allowed:\n");
+    for (size_t i = 0; i < figure_count; ++i)
+      std::printf("  %-26s %.3f (seed %u)\n", figures[i].key, worst_[i], worst_seed_[i]);
+  }
+
+ protected:
+  static void remember(size_t figure, double share) {
+    if (!(share > worst_[figure])) return;
+    worst_[figure] = share;
+    worst_seed_[figure] = GetParam();
+  }
+
+ private:
+  inline static double worst_[figure_count] = {};
+  inline static unsigned worst_seed_[figure_count] = {};
+};
+
+TEST_P(ScoreTruth, IsWhatIsSaid) {
+  const RandomReaming reaming = random_reaming(GetParam(), voxel_mm);
+  SCOPED_TRACE("seed " + std::to_string(GetParam()) + ", " + reaming.plan.reamer);
+  const TemporaryFolder folder;
+  const auto [metrics, truth] = run(reaming, folder);
+  for (size_t i = 0; i < figure_count; ++i) {
+    const Figure& figure = figures[i];
+    const double said = metrics.at(figure.key).get<double>(), true_value = truth.*figure.truth;
+    const double allowed = figure.tolerance + figure.relative * true_value;
+    EXPECT_NEAR(said, true_value, allowed) << figure.key;
+    remember(i, std::abs(said - true_value) / allowed);
+  }
+}
+
+/// How many reamings, of the seeds from 0: ten, unless REAM_REAMINGS says otherwise.
+unsigned reamings() {
+  const char* wanted = std::getenv("REAM_REAMINGS");
+  return wanted ? static_cast<unsigned>(std::max(1, std::atoi(wanted))) : 10u;
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, ScoreTruth, testing::Range(0u, reamings()));
+
+}  // namespace
+}  // namespace ream::test
