@@ -8,6 +8,8 @@ export default defineConfig({
   // What is waited for comes late on a busy machine.
   expect: { timeout: 20_000 },
   workers: 1,
+  // A test that passes at the second try has found a fault.
+  retries: 0,
   reporter: [['list']],
   use: {
     viewport: { width: 1280, height: 720 },

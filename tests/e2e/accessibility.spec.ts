@@ -1,10 +1,13 @@
 // Every page in light and dark: axe finds nothing serious, nothing is cut off, and what is touched is large enough.
+import { writeFileSync } from 'node:fs';
+
 import { AxeBuilder } from '@axe-core/playwright';
 import { expect, type Page, test } from '@playwright/test';
 
 import { differsAtMost, difference, expectKeptLook } from './kept_pictures';
 import { goThroughEveryPage, olga, tom } from './every_page';
 import { serverForEachTest } from './server_for_each_test';
+import { settled, stillPicture } from './settled';
 
 test.use({ actionTimeout: 30_000 });
 const here = serverForEachTest([olga, tom]);
@@ -26,7 +29,8 @@ test('axe finds nothing serious on any page, in light and dark, and all look as 
     for (const colorScheme of ['light', 'dark'] as const) {
       await page.emulateMedia({ colorScheme, reducedMotion: 'reduce' });
       await expect(page.locator('html')).toHaveAttribute('data-theme', colorScheme);
-      const png = await page.screenshot({ path: info.outputPath(`${name}-${colorScheme}.png`) });
+      const png = await stillPicture(page);
+      writeFileSync(info.outputPath(`${name}-${colorScheme}.png`), png);
       seen.push(await expectKeptLook(page, `${name}-${colorScheme}`, png));
       expect.soft(await serious(page), `${name} ${colorScheme}`).toEqual([]);
     }
@@ -86,7 +90,7 @@ test.describe('on a tablet', () => {
         [820, 1180],
       ] as const) {
         await page.setViewportSize({ width, height });
-        await page.waitForTimeout(300);
+        await settled(page);
         await page.screenshot({ path: info.outputPath(`${name}-${width}.png`) });
         expect.soft(await misplaced(page), `${name} ${width}x${height}`).toEqual([]);
       }

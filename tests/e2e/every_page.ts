@@ -3,6 +3,7 @@ import { expect, type Page } from '@playwright/test';
 
 import { patch, post, startDemo, untilReady } from './rest_as_page';
 import { logIn, untilLive } from './server_for_each_test';
+import { settled } from './settled';
 import type { TestUser } from './server_process';
 
 export const olga: TestUser = { name: 'olga', role: 'operator', displayName: 'Olga Operator' };
@@ -17,12 +18,16 @@ async function giveTo(page: Page, session: string, { name, displayName }: TestUs
   await patch(page, `sessions/${session}`, { trainee_id: trainee, trainee: displayName });
 }
 
-/** Opens them one after the other; `look` is called with each when it is complete. */
+/** Opens them one after the other; `lookAt` is called with each when it is complete. */
 export async function goThroughEveryPage(
   page: Page,
   url: string,
-  look: (name: string) => Promise<void>,
+  lookAt: (name: string) => Promise<void>,
 ): Promise<void> {
+  const look = async (name: string) => {
+    await settled(page);
+    await lookAt(name);
+  };
   await page.goto(`${url}/#/`);
   await expect(page.getByTestId('login')).toBeVisible();
   await look('login');
@@ -48,11 +53,12 @@ export async function goThroughEveryPage(
   };
   await open('#');
   await untilLive(page);
+  await expect(page.getByTestId('session-labels')).toContainText(tom.displayName);
+  await expect(page.getByTestId('pause-session')).toBeVisible();
   await look('live');
   await page.getByTestId('sections').click();
   await page.getByTestId('slices').click();
   await expect(page.getByTestId('live-slices')).toBeVisible();
-  await page.waitForTimeout(1000);
   await look('live-tools');
   await page.getByTestId('sections').click();
   await page.getByTestId('slices').click();
@@ -81,8 +87,6 @@ export async function goThroughEveryPage(
   await page.getByTestId('leave-replay').click();
   await open(`#/review/${ended}`);
   await expect(page.getByTestId('score')).toBeVisible({ timeout: 60_000 });
-  await expect(page.getByText('Preparing the bone')).toBeHidden({ timeout: 60_000 });
-  await page.waitForTimeout(1000);
   await look('review');
   for (const [name, hash, testId] of [
     ['sessions', '#/sessions', `row-${ended}`],
@@ -96,8 +100,6 @@ export async function goThroughEveryPage(
   ] as const) {
     await open(hash);
     await expect(page.getByTestId(testId).first()).toBeVisible({ timeout: 60_000 });
-    await expect(page.getByText('Loading the surface')).toBeHidden({ timeout: 60_000 });
-    await page.waitForTimeout(500);
     await look(name);
   }
 }

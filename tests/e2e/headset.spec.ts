@@ -94,7 +94,9 @@ test('a recorded session is seen in a headset', async ({ page }, info) => {
   await expect(page.getByTestId('bone-canvas')).toBeVisible({ timeout: 60_000 });
   await page.getByTestId('headset').click();
   await expect(page.getByTestId('headset')).toHaveText('End headset');
-  await page.waitForTimeout(2000);
+  await expect
+    .poll(async () => (await compare(page, await bone(page))).bone, { timeout: 60_000 })
+    .toBeGreaterThan(2000);
   await page.screenshot({ path: info.outputPath('review-worn.png') });
   await takeOff(page);
 });

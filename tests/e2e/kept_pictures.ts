@@ -11,7 +11,7 @@ export const differsAtMost = 0.04;
 const keepsNew = process.env.REAM_NEW_PICTURES === '1';
 
 /** `picture` as base64 PNG, made small. */
-async function small(page: Page, picture: string): Promise<string> {
+export async function small(page: Page, picture: string): Promise<string> {
   return page.evaluate(async (base64) => {
     const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
     const whole = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));

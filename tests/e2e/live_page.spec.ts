@@ -73,7 +73,6 @@ test('says that the link is lost, and recovers by itself when the server is back
   await expect(page.getByTestId('picture')).toHaveAttribute('data-stale', 'true');
   await expect(page.getByTestId('run-demo')).toBeDisabled();
   expect((await readout(page)).blocks).toBe(before.blocks);
-  await page.waitForTimeout(2000);
   await expect(notice).toContainText('Trying again');
 
   await here.server.start();

@@ -3,6 +3,7 @@
 import { expect, type Page, test } from '@playwright/test';
 
 import { CuttableProxy } from './cuttable_proxy';
+import { ticksPass } from './rest_as_page';
 import { readout, serverForEachTest, untilLive } from './server_for_each_test';
 
 const here = serverForEachTest();
@@ -47,9 +48,10 @@ async function untilRemoved(page: Page, mm3: number): Promise<void> {
 
 async function expectNoMoreRemoval(page: Page): Promise<void> {
   await expect.poll(() => figure(page, 'hand-force'), { timeout: 10_000 }).toBeLessThan(0.3);
-  await page.waitForTimeout(400);
+  const session = (await readout(page)).sessionId ?? '';
+  await ticksPass(page, session, 400);
   const before = await figure(page, 'removed-volume');
-  await page.waitForTimeout(1500);
+  await ticksPass(page, session, 1500);
   expect(await figure(page, 'removed-volume')).toBe(before);
 }
 
@@ -93,9 +95,10 @@ test('the keys alone ream, pause and stop', async ({ page }) => {
   await page.keyboard.press('s');
   await expect(page.getByTestId('spindle')).toHaveAttribute('aria-pressed', 'true');
   await page.keyboard.down('ArrowRight');
-  await page.waitForTimeout(300);
+  await expect
+    .poll(async () => parseFloat((await page.getByTestId('off-plan').textContent()) ?? ''))
+    .toBeGreaterThan(0.5);
   await page.keyboard.up('ArrowRight');
-  expect(parseFloat((await page.getByTestId('off-plan').textContent()) ?? '')).toBeGreaterThan(0.5);
   await page.keyboard.press('Home');
   await page.keyboard.down(' ');
   await untilRemoved(page, 5);

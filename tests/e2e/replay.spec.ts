@@ -3,6 +3,7 @@ import { expect, type Page, test } from '@playwright/test';
 
 import { compare, picture } from './pixels';
 import { drawn, readout, serverForEachTest, untilLive } from './server_for_each_test';
+import { settled } from './settled';
 
 const here = serverForEachTest();
 
@@ -26,11 +27,18 @@ async function openReplay(page: Page, sessionId: string): Promise<void> {
   await expect(page.getByTestId('picture')).toHaveAttribute('data-stale', 'false');
 }
 
+/** Until the stream has told how things stand as they are after `ms`. */
+async function toldAgain(page: Page, ms = 0): Promise<void> {
+  const before = (await readout(page)).toldMs ?? 0;
+  await page.waitForFunction((after) => (window.__ream.toldMs ?? 0) > after, before + ms, { timeout: 30_000 });
+}
+
 async function seek(page: Page, seconds: number): Promise<void> {
   await page.getByTestId('seek').fill(String(seconds));
   await page.waitForFunction((ticks) => window.__ream.positionTicks === ticks, Math.round(seconds * 1000));
-  await drawn(page);
-  await page.waitForTimeout(300);
+  // What is told next is of later than all that the jump changed.
+  await toldAgain(page);
+  await settled(page);
 }
 
 test('a recorded session is opened from the list, moved about in, and says that it is no live one', async ({
@@ -80,7 +88,7 @@ test('a recorded session is opened from the list, moved about in, and says that 
   await page.getByTestId('play').click();
   await expect(page.getByTestId('play')).toHaveAttribute('data-playing', 'false');
   const rested = (await readout(page)).positionTicks;
-  await page.waitForTimeout(700);
+  await toldAgain(page, 700);
   expect((await readout(page)).positionTicks).toBe(rested);
 
   await page.getByTestId('leave-replay').click();

@@ -22,6 +22,14 @@ export async function untilReady(page: Page, serverUrl: string): Promise<void> {
   await expect.poll(async () => (await page.request.get(`${serverUrl}/readyz`)).ok(), { timeout: 120_000 }).toBe(true);
 }
 
+/** Until a session's loop has gone on by so many ms; it does also while the session is paused. */
+export async function ticksPass(page: Page, session: string, ticks: number): Promise<void> {
+  const url = new URL(`/api/v1/sessions/${session}`, page.url()).href;
+  const tick = async () => ((await (await page.request.get(url)).json()) as { tick: number }).tick;
+  const until = (await tick()) + ticks;
+  await expect.poll(tick, { timeout: 60_000 }).toBeGreaterThanOrEqual(until);
+}
+
 /** A session in which the scripted hand reams the demo; its id. */
 export async function startDemo(page: Page, serverUrl: string): Promise<string> {
   await untilReady(page, serverUrl);

@@ -2,6 +2,7 @@
 import { expect, type Page, test } from '@playwright/test';
 
 import type { DebugReadout } from '../../web/src/debug_readout';
+import { followRequests } from './settled';
 import { passwordOf, ServerProcess, type TestUser } from './server_process';
 
 class Surroundings {
@@ -11,6 +12,7 @@ class Surroundings {
 
   /** An error in this page fails the test; the test's first page is watched already. */
   watchForErrors(page: Page): void {
+    followRequests(page);
     page.on('pageerror', (error) => this.problems.push(error.message));
   }
 }

@@ -1,6 +1,7 @@
 // Sessions from the page: paused and begun anew while they run, found, named and watched in the list of all.
 import { expect, type Page, test } from '@playwright/test';
 
+import { ticksPass } from './rest_as_page';
 import { drawn, readout, serverForEachTest, untilLive } from './server_for_each_test';
 
 const here = serverForEachTest();
@@ -20,7 +21,7 @@ test('a session is paused, goes on, and begins anew on intact bone as another se
   await expect(state(page)).toHaveAttribute('data-state', 'paused');
   const removed = () => page.getByTestId('removed-volume').textContent();
   const rested = await removed();
-  await page.waitForTimeout(1500);
+  await ticksPass(page, first, 1500);
   expect(await removed()).toBe(rested);
   await page.getByTestId('pause-session').click();
   await expect(state(page)).toHaveAttribute('data-state', 'running');

@@ -1,8 +1,8 @@
 // A slow line between page and server: at 1 Mbit/s the session is seen; where the line is too slow for that the page
 // says how old its news are, and is live again by itself when the line is.
-import { expect, test } from '@playwright/test';
+import { expect, type Page, test } from '@playwright/test';
 
-import { readout, serverForEachTest, untilLive } from './server_for_each_test';
+import { serverForEachTest, untilLive } from './server_for_each_test';
 import { SlowProxy } from './slow_proxy';
 
 const here = serverForEachTest();
@@ -16,6 +16,24 @@ test.beforeEach(async () => {
 });
 test.afterEach(() => line.dispose());
 
+/** How old what is shown as live is in each of the browser's frames while the session goes on by `ticks`, ms. */
+const agesOfNews = (page: Page, ticks: number) =>
+  page.evaluate(
+    (ticks) =>
+      new Promise<number[]>((done) => {
+        const ages: number[] = [];
+        const until = (window.__ream.lastTick ?? 0) + ticks;
+        const look = () => {
+          const { live, behindMs, lastTick } = window.__ream;
+          if (live) ages.push(behindMs);
+          if ((lastTick ?? 0) >= until) done(ages);
+          else requestAnimationFrame(look);
+        };
+        look();
+      }),
+    ticks,
+  );
+
 test('is live at 1 Mbit/s, and says so where it cannot be', async ({ page }, info) => {
   test.setTimeout(300_000);
   await page.goto(line.url, { timeout: 60_000 });
@@ -25,17 +43,9 @@ test('is live at 1 Mbit/s, and says so where it cannot be', async ({ page }, inf
     .poll(async () => Number(await page.getByTestId('removed-volume').textContent()), { timeout: 90_000 })
     .toBeGreaterThan(5);
   // News keeps coming: what is seen is of the last second or two, or is said not to be.
-  const ages: number[] = [];
-  const ticks: number[] = [];
-  for (let i = 0; i < 20; ++i) {
-    const { live, behindMs, lastTick } = await readout(page);
-    if (live) ages.push(behindMs);
-    ticks.push(lastTick ?? 0);
-    await page.waitForTimeout(400);
-  }
+  const ages = await agesOfNews(page, 6000);
   expect(ages.length).toBeGreaterThan(4);
   expect(Math.max(...ages)).toBeLessThanOrEqual(1500);
-  expect((ticks.at(-1) ?? 0) - (ticks[0] ?? 0)).toBeGreaterThan(3000);
 
   line.bitsPerSecond = mebibit / 20;
   await expect(page.getByTestId('picture')).toHaveAttribute('data-stale', 'true', { timeout: 60_000 });

@@ -1,3 +1,4 @@
+import { allDrawn } from './scene/frame_request';
 import type { BoneScene } from './scene/scene';
 import type { Eye } from './scene/shared_eye';
 import type { SoundParameters } from './sound/reaming_sound';
@@ -9,6 +10,7 @@ import type { Store } from './state/store';
 /** What browser tests read as `window.__ream`; a snapshot at each reading. */
 export interface DebugReadout {
   framesDrawn: number;
+  allDrawn: typeof allDrawn;
   blocks: number;
   triangles: number;
   link: string;
@@ -17,6 +19,8 @@ export interface DebugReadout {
   sessionState: string | null;
   serverEpoch: string | null;
   lastTick: number | null;
+  /** When the stream last told how things stand, ms; a replay that rests is told of again and again, too. */
+  toldMs: number | null;
   traceRevision: number;
   /** How old news are beyond what they always are, ms. */
   behindMs: number;
@@ -53,6 +57,7 @@ export function publishDebugReadout({ store, practice, scene, sound, latency }: 
   Object.defineProperty(window, '__ream', {
     get: (): DebugReadout => ({
       framesDrawn: scene.framesDrawn,
+      allDrawn,
       blocks: scene.blockCount,
       triangles: scene.triangleCount,
       link: store.link.value.kind,
@@ -61,6 +66,7 @@ export function publishDebugReadout({ store, practice, scene, sound, latency }: 
       sessionState: store.sessionState.value,
       serverEpoch: store.hello.value?.serverEpoch ?? null,
       lastTick: store.telemetry.value?.tick ?? null,
+      toldMs: store.telemetry.value?.receivedMs ?? null,
       traceRevision: store.traceRevision.value,
       behindMs: store.behindMs.value,
       replayOf: store.hello.value?.replayOf ?? null,

@@ -11,6 +11,7 @@ import type { Store } from '../state/store';
 import { CaseApi } from '../wire/case_api';
 import type { CtDescription } from '../wire/case_types';
 import type { Hello, Pose, Triple } from '../wire/messages';
+import { FrameRequest } from './frame_request';
 import { SlicePicture } from './slice_picture';
 
 /** Half of what a slice shows around the planned entry. */
@@ -29,12 +30,14 @@ interface View {
 export class LiveSlices {
   /** Why a slice is not there; null: it is, or on its way. */
   readonly problem = signal<string | null>(null);
+  /** Some picture is of another slice than the wanted one, or there is none yet. */
+  readonly pending = signal(true);
   readonly planes: Record<PlaneName, SlicePlane>;
   private readonly frame: VolumeFrame;
   private readonly cache: SliceCache;
   private readonly views = new Map<PlaneName, View>();
   private readonly stop: () => void;
-  private drawRequested = false;
+  private readonly drawing = new FrameRequest(() => this.draw());
 
   constructor(
     private readonly store: Store,
@@ -70,16 +73,11 @@ export class LiveSlices {
   dispose(): void {
     this.stop();
     this.cache.clear();
-    this.drawRequested = true;
+    this.drawing.dispose();
   }
 
   private invalidate(): void {
-    if (this.drawRequested) return;
-    this.drawRequested = true;
-    requestAnimationFrame(() => {
-      this.drawRequested = false;
-      this.draw();
-    });
+    this.drawing.request();
   }
 
   private draw(): void {
@@ -87,15 +85,19 @@ export class LiveSlices {
     if (hello === null) return;
     const boneFromTool = toolInBone(this.store);
     const place = this.frame.voxelFromWorld(placeOf(hello, boneFromTool));
-    for (const [name, view] of this.views) this.drawView(this.planes[name], view, hello, boneFromTool, place);
+    let arrived = true;
+    for (const [name, view] of this.views)
+      arrived = this.drawView(this.planes[name], view, hello, boneFromTool, place) && arrived;
+    this.pending.value = !arrived;
     this.problem.value = [...this.views.values()].map(({ picture }) => picture.problem).find((p) => p !== null) ?? null;
   }
 
-  private drawView(plane: SlicePlane, view: View, hello: Hello, boneFromTool: Matrix4 | null, place: Triple): void {
+  /** Whether the slice that is wanted is here. */
+  private drawView(plane: SlicePlane, view: View, hello: Hello, boneFromTool: Matrix4 | null, place: Triple): boolean {
     const { canvas, picture } = view;
     const { clientWidth: width, clientHeight: height } = canvas;
     const onto = canvas.getContext('2d');
-    if (onto === null || width === 0 || height === 0) return;
+    if (onto === null || width === 0 || height === 0) return false;
     const ratio = Math.min(window.devicePixelRatio, 2);
     canvas.width = Math.round(width * ratio);
     canvas.height = Math.round(height * ratio);
@@ -105,7 +107,7 @@ export class LiveSlices {
       pxPerMm: Math.min(width, height) / (2 * fieldMm),
     };
     const layout = new SliceLayout(this.frame, plane, look, width, height);
-    picture.update({
+    const arrived = picture.update({
       ...{ plane, frame: this.frame, index: this.frame.sliceAt(plane.axis, within) },
       ...{ huRevision: this.ct.revision, labelsRevision: null, window: windowPresets.bone, previewFromHu: null },
     });
@@ -116,6 +118,7 @@ export class LiveSlices {
     onto.setTransform(ratio, 0, 0, ratio, 0, 0);
     this.drawPlan(onto, layout, hello);
     if (boneFromTool !== null) this.drawReamer(onto, layout, plane, hello, boneFromTool, within);
+    return arrived;
   }
 
   /** The planned axis as it is seen from in front of the slice; its thick part is the planned depth. */

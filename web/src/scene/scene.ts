@@ -21,6 +21,7 @@ import { BoneView, type InsteadOfBone } from './bone_view';
 import { CameraRig, type ViewName } from './camera_rig';
 import { watchContext } from './context_watch';
 import { planeThroughAxis, sectionPlanes } from './cut_planes';
+import { FrameRequest } from './frame_request';
 import { Headset } from './headset';
 import { OperatingLights } from './lights';
 import type { Eye } from './shared_eye';
@@ -56,7 +57,7 @@ export class BoneScene implements SteeredView {
   private plan: PlanFrame | null = null;
   private toolPose: Pose | null = null;
   private framedCase: string | null = null;
-  private drawRequested = false;
+  private readonly drawing = new FrameRequest(() => this.draw());
   private drawn = 0;
   private drawnAtMs = 0;
   /** Hears of every picture that was drawn. */
@@ -230,12 +231,7 @@ export class BoneScene implements SteeredView {
 
   /** What nobody sees is not drawn; resize() draws it when it is shown again. */
   invalidate(): void {
-    if (this.drawRequested || !this.canvas.isConnected || this.headset.worn.peek()) return;
-    this.drawRequested = true;
-    requestAnimationFrame(() => {
-      this.drawRequested = false;
-      this.draw();
-    });
+    if (this.canvas.isConnected && !this.headset.worn.peek()) this.drawing.request();
   }
 
   private draw(): void {

@@ -8,6 +8,7 @@ import type { CaseController } from '../state/case/case_controller';
 import type { Framed } from '../state/case/case_store';
 import type { PointMark, ViewMarks } from '../state/case/view_marks';
 import type { Triple } from '../wire/case_types';
+import { FrameRequest } from './frame_request';
 import { SliceHand } from './slice_hand';
 import { drawOverlay, markAt, type OverlayWanted } from './slice_overlay';
 import { SlicePicture } from './slice_picture';
@@ -35,7 +36,7 @@ export class SliceView {
   /** What fits the view, also when its size changes, until it is zoomed or moved. */
   private fitted: Framed | null = null;
   private held: PointMark | null = null;
-  private drawRequested = false;
+  private readonly drawing = new FrameRequest(() => this.draw());
   private readonly stops: (() => void)[] = [];
 
   constructor(
@@ -62,7 +63,7 @@ export class SliceView {
 
   dispose(): void {
     for (const stop of this.stops) stop();
-    this.drawRequested = true;
+    this.drawing.dispose();
   }
 
   fit(framed: Framed): void {
@@ -138,12 +139,7 @@ export class SliceView {
   private framedLast: Framed | null = null;
 
   private invalidate(): void {
-    if (this.drawRequested) return;
-    this.drawRequested = true;
-    requestAnimationFrame(() => {
-      this.drawRequested = false;
-      this.draw();
-    });
+    this.drawing.request();
   }
 
   private overlay(): OverlayWanted | null {

@@ -26,6 +26,7 @@ import { MeshLoader } from '../wire/mesh_loader';
 import type { Surface } from '../wire/ply';
 import { CameraRig } from './camera_rig';
 import { type ContextWatch, watchContext } from './context_watch';
+import { FrameRequest } from './frame_request';
 import { OperatingLights } from './lights';
 import { planMeshes } from './plan_meshes';
 import { planeColours } from './slice_view';
@@ -69,9 +70,8 @@ export class SurfaceView {
   private readonly points = new Group();
   private plan: Group | null = null;
   private held: PointMark | null = null;
-  private drawRequested = false;
+  private readonly drawing = new FrameRequest(() => this.draw());
   private drawnAtMs = 0;
-  private soonTimer: ReturnType<typeof setTimeout> | undefined;
   private readonly stops: (() => void)[] = [];
 
   /** Throws where the browser offers no WebGL. */
@@ -111,12 +111,11 @@ export class SurfaceView {
 
   dispose(): void {
     for (const stop of this.stops) stop();
-    clearTimeout(this.soonTimer);
+    this.drawing.dispose();
     this.loader.dispose();
     this.bone?.geometry.dispose();
     this.renderer.dispose();
     this.renderer.forceContextLoss();
-    this.drawRequested = true;
   }
 
   /** From the patient's side, front, or close to the glenoid along the axis of the plan. */
@@ -312,20 +311,12 @@ export class SurfaceView {
 
   /** Once the cross-hair rests, or now and then while it moves: slices go before the surface. */
   private invalidateSoon(): void {
-    clearTimeout(this.soonTimer);
-    const now = performance.now();
-    if (now - this.drawnAtMs > drawAtLeastEveryMs) this.invalidate();
-    else this.soonTimer = setTimeout(() => this.invalidate(), restsAfterMs);
+    if (performance.now() - this.drawnAtMs > drawAtLeastEveryMs) this.invalidate();
+    else this.drawing.requestAfter(restsAfterMs);
   }
 
   private invalidate(): void {
-    clearTimeout(this.soonTimer);
-    if (this.drawRequested) return;
-    this.drawRequested = true;
-    requestAnimationFrame(() => {
-      this.drawRequested = false;
-      this.draw();
-    });
+    this.drawing.request();
   }
 
   private draw(): void {

@@ -15,7 +15,12 @@ export function LiveSlicesPanel({ store, liveCase }: { store: Store; liveCase: L
   const slices = useMemo(() => (ct === null ? null : new LiveSlices(store, ct, caseId)), [store, ct, caseId]);
   useEffect(() => () => slices?.dispose(), [slices]);
   return (
-    <section class="live-slices" aria-label={liveText.slices} data-testid="live-slices">
+    <section
+      class="live-slices"
+      aria-label={liveText.slices}
+      aria-busy={slices?.pending.value ?? false}
+      data-testid="live-slices"
+    >
       {slices === null ? (
         <p class="soft slices-none">{liveCase.known.value ? liveText.noCt : liveText.ctLoading}</p>
       ) : (

@@ -2,6 +2,7 @@ import { effect } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import UPlot from 'uplot';
 
+import { FrameRequest } from '../../scene/frame_request';
 import type { TraceColumn } from '../../state/live_trace';
 import { plotSeconds, type Store } from '../../state/store';
 import { theme } from '../../state/theme';
@@ -49,20 +50,16 @@ export function TracePlot({ store, kind, label, testId }: Parts) {
 /** Draws the trace into `element` as it grows, and anew for another size or colour scheme, until the result is called. */
 export function keepPlotted(element: HTMLElement, store: Store, kind: PlotKind): () => void {
   let plot = createPlot(element, kind);
-  let waiting: number | null = null;
 
   const redraw = () => {
-    if (waiting !== null) cancelAnimationFrame(waiting);
-    waiting = null;
     const { seconds, values } = store.trace.line(kind.column, plotSeconds, mostPoints);
     plot.setData([seconds, values]);
   };
-  const waitFrames = (left: number) => {
-    waiting = requestAnimationFrame(left > 1 ? () => waitFrames(left - 1) : redraw);
-  };
+  const drawing = new FrameRequest(redraw, framesEach);
   const recreate = () => {
     plot.destroy();
     plot = createPlot(element, kind);
+    drawing.cancel();
     redraw();
   };
   const observer = new ResizeObserver(() => plot.setSize({ width: element.clientWidth, height: element.clientHeight }));
@@ -74,12 +71,13 @@ export function keepPlotted(element: HTMLElement, store: Store, kind: PlotKind):
     recreate();
   });
   const stopFollowing = effect(() => {
-    if (store.traceRevision.value >= 0 && waiting === null) waitFrames(framesEach);
+    if (store.traceRevision.value >= 0) drawing.request();
   });
+  drawing.cancel();
   redraw();
   return () => {
     stopFollowing();
-    if (waiting !== null) cancelAnimationFrame(waiting);
+    drawing.dispose();
     observer.disconnect();
     stopFollowingTheme();
     plot.destroy();
