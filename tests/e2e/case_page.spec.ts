@@ -6,7 +6,7 @@ import { join } from 'node:path';
 
 import { expect, type Locator, type Page, test } from '@playwright/test';
 
-import type { CaseDetails, Job, Triple } from '../../web/src/wire/case_types';
+import type { CaseDetails, Job, Triple } from '../../web/src/wire/rest_types';
 import { compare, picture } from './pixels';
 import { drawn, readout, serverForEachTest, untilLive } from './server_for_each_test';
 import { program } from './server_process';
@@ -131,7 +131,7 @@ async function finished(page: Page, url: string, data: object): Promise<string> 
   const state = async () =>
     ((await (await page.request.get(`${here.server.url}/api/v1/jobs/${begun.id}`)).json()) as Job).state;
   await expect.poll(state, { timeout: 120_000 }).toBe('done');
-  return begun.case_id;
+  return begun.case_id ?? '';
 }
 
 async function openCase(page: Page, id: string): Promise<void> {

@@ -160,9 +160,12 @@ void SchemaChecker::check_object(const json& schema, const json& value, const st
         faults.push_back(at + ": lacks " + other.get<std::string>() + ", which " + key + " needs");
   const json properties = schema.value("properties", json::object());
   for (const auto& [key, member] : value.items()) {
+    const json others = schema.value("additionalProperties", json(true));
     if (properties.contains(key))
       check(properties[key], member, at + "/" + key, faults);
-    else if (schema.value("additionalProperties", true) == false)
+    else if (others.is_object())
+      check(others, member, at + "/" + key, faults);
+    else if (others == false)
       faults.push_back(at + ": must not have " + key);
   }
 }

@@ -92,7 +92,13 @@ export class FakeWorkshop {
   }
 
   private job(method: string, id: string, caseId: string | null): Answer {
-    if (id === '') return ok({ jobs: this.jobs.filter((job) => caseId === null || job.case_id === caseId) });
+    if (id === '')
+      return ok(
+        pageOf(
+          'jobs',
+          this.jobs.filter((job) => caseId === null || job.case_id === caseId),
+        ),
+      );
     const job = this.jobs.find((one) => one.id === id);
     if (job === undefined) throw new Refusal(404, `no job '${id}'`);
     if (method === 'DELETE' && job.state === 'running') job.state = 'cancelled';
@@ -100,7 +106,12 @@ export class FakeWorkshop {
   }
 
   private list(): Answer {
-    return ok({ cases: [...this.cases.values()].map((one) => one.summary()) });
+    return ok(
+      pageOf(
+        'cases',
+        [...this.cases.values()].map((one) => one.summary()),
+      ),
+    );
   }
 
   private create(body: Body): Answer {
@@ -233,3 +244,6 @@ function send(response: ServerResponse, { status, body, bytes, type }: Answer): 
   response.writeHead(status, { 'content-type': type ?? json });
   response.end(bytes ?? (body === undefined ? undefined : JSON.stringify(body)));
 }
+
+/** All there is on one page. */
+const pageOf = (name: string, all: unknown[]) => ({ [name]: all, next: null, total: all.length });

@@ -1,4 +1,5 @@
-import type { Triple, VoxelAxis } from '../wire/case_types';
+import type { Triple } from '../wire/rest_types';
+import type { VoxelAxis } from '../wire/case_api';
 import { dot, numberOf, voxelAxes, type VolumeFrame } from './volume_frame';
 
 export type PlaneName = 'axial' | 'coronal' | 'sagittal';

@@ -1,4 +1,4 @@
-import type { VoxelAxis } from '../wire/case_types';
+import type { VoxelAxis } from '../wire/case_api';
 
 export interface SliceKey {
   of: 'hu' | 'labels';

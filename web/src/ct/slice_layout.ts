@@ -1,4 +1,4 @@
-import type { Triple } from '../wire/case_types';
+import type { Triple } from '../wire/rest_types';
 import type { SlicePlane } from './orientation';
 import { numberOf, voxelAxes, type VolumeFrame } from './volume_frame';
 

@@ -1,4 +1,5 @@
-import type { CtDescription, Triple, VoxelAxis } from '../wire/case_types';
+import type { CtDescription, Triple } from '../wire/rest_types';
+import type { VoxelAxis } from '../wire/case_api';
 
 export const voxelAxes: readonly VoxelAxis[] = ['u', 'v', 'w'];
 const axisNumber: Record<VoxelAxis, 0 | 1 | 2> = { u: 0, v: 1, w: 2 };

@@ -7,7 +7,7 @@ import { Remark } from '../panels/common/fields';
 import { NewCasePanel } from '../panels/case/new_case_panel';
 import type { CasesKeeper } from '../state/case/new_case';
 import { addressOfRoute } from '../state/route';
-import type { CaseSummary } from '../wire/case_types';
+import type { CaseSummary } from '../wire/rest_types';
 
 const readAgainMs = 5000;
 

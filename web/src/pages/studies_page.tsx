@@ -10,7 +10,7 @@ import { Remote } from '../state/remote';
 import { addressOfRoute } from '../state/route';
 import { studyText } from '../text/study_text';
 import type { StudyApi } from '../wire/study_api';
-import type { Study } from '../wire/study_types';
+import type { Study } from '../wire/rest_types';
 
 /** All studies that the user may know of, taking part in one, and making one. */
 export function StudiesPage({ api }: { api: StudyApi }) {

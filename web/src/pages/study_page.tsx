@@ -11,7 +11,7 @@ import { Remote } from '../state/remote';
 import { addressOfRoute } from '../state/route';
 import { studyText } from '../text/study_text';
 import type { StudyApi } from '../wire/study_api';
-import type { Participant, Study } from '../wire/study_types';
+import type { Participant, Study } from '../wire/rest_types';
 
 interface Parts {
   api: StudyApi;

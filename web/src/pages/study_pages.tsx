@@ -42,6 +42,6 @@ async function train(
     return said;
   }
   window.location.hash = '';
-  if (session.device?.name === 'browser') practice.steer(session.id);
+  if (session.device.name === 'browser') practice.steer(session.id);
   return null;
 }

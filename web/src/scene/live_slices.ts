@@ -9,7 +9,7 @@ import { numberOf, VolumeFrame } from '../ct/volume_frame';
 import { windowPresets } from '../ct/window_level';
 import type { Store } from '../state/store';
 import { CaseApi } from '../wire/case_api';
-import type { CtDescription } from '../wire/case_types';
+import type { CtDescription } from '../wire/rest_types';
 import type { Hello, Pose, Triple } from '../wire/messages';
 import { FrameRequest } from './frame_request';
 import { SlicePicture } from './slice_picture';

@@ -1,7 +1,7 @@
 import type { PicturePoint, SliceLayout } from '../ct/slice_layout';
 import { add, dot, length, type VolumeFrame } from '../ct/volume_frame';
 import type { PlanMark, PointMark } from '../state/case/view_marks';
-import type { Triple } from '../wire/case_types';
+import type { Triple } from '../wire/rest_types';
 
 /** Marks at most this far off the slice are drawn as lying in it and can be taken hold of, mm. */
 export const inSliceMm = 2;

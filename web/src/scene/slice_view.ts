@@ -7,7 +7,7 @@ import { limitWindow } from '../ct/window_level';
 import type { CaseController } from '../state/case/case_controller';
 import type { Framed } from '../state/case/case_store';
 import type { PointMark, ViewMarks } from '../state/case/view_marks';
-import type { Triple } from '../wire/case_types';
+import type { Triple } from '../wire/rest_types';
 import { FrameRequest } from './frame_request';
 import { SliceHand } from './slice_hand';
 import { drawOverlay, markAt, type OverlayWanted } from './slice_overlay';

@@ -21,7 +21,7 @@ import { planeNames } from '../ct/orientation';
 import { add, subtract } from '../ct/volume_frame';
 import type { CaseController } from '../state/case/case_controller';
 import type { PlanMark, PointMark, ViewMarks } from '../state/case/view_marks';
-import type { Triple } from '../wire/case_types';
+import type { Triple } from '../wire/rest_types';
 import { MeshLoader } from '../wire/mesh_loader';
 import type { Surface } from '../wire/ply';
 import { CameraRig } from './camera_rig';

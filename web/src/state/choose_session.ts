@@ -1,4 +1,4 @@
-import type { Session } from '../wire/api';
+import type { Session } from '../wire/rest_types';
 
 /** Whether a session is under way. */
 export function isActive(session: Pick<Session, 'state'>): boolean {
@@ -27,7 +27,7 @@ export function chooseSession(
   unstreamable: ReadonlySet<string>,
 ): Session | undefined {
   const newestFirst = sessions
-    .filter((s) => s.streamable !== false && !unstreamable.has(s.id))
+    .filter((s) => s.streamable && !unstreamable.has(s.id))
     .sort((a, b) => (a.created_utc < b.created_utc ? 1 : a.created_utc > b.created_utc ? -1 : 0));
   const present = newestFirst.find((s) => s.id === watched.id);
   if (present !== undefined && (watched.chosen || isActive(present))) return present;

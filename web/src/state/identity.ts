@@ -1,10 +1,11 @@
 import { batch, computed, signal } from '@preact/signals';
 
-import type { LoginApi, Visitor } from '../wire/login_api';
+import type { LoginApi } from '../wire/login_api';
 import { ApiError, credentials, messageOf } from '../wire/rest';
 import { appText } from '../text/app_text';
 import { sentence } from '../text/format';
 import { permissionsOf } from './permissions';
+import type { Visitor } from '../wire/rest_types';
 
 /**
  * - asking: the server has not said yet who this is; `problem` says when it does not answer
@@ -50,7 +51,7 @@ export class Identity {
   async find(linkSecret: string | null): Promise<void> {
     for (;;) {
       try {
-        let visitor = await this.ask();
+        let visitor = await this.api.whoAmI();
         this.problem.value = null;
         const needed = visitor.login_needed && (visitor.role === null || visitor.role === 'viewer');
         if (linkSecret !== null && needed) visitor = await this.enterByLink(linkSecret, visitor);
@@ -95,23 +96,6 @@ export class Identity {
   private endedWords(): string {
     if (!this.hasUsers.peek()) return appText.loginNeededNow;
     return this.visitor.peek()?.role === 'viewer' ? appText.linkEnded : appText.loginEnded;
-  }
-
-  /** A server of before there were users knows no logins. */
-  private async ask(): Promise<Visitor> {
-    try {
-      return await this.api.whoAmI();
-    } catch (error) {
-      if (!(error instanceof ApiError) || error.status !== 404) throw error;
-      return {
-        login_needed: false,
-        role: 'operator',
-        user: null,
-        only_session: null,
-        csrf_token: null,
-        expires_utc: null,
-      };
-    }
   }
 
   /** Refused, the visitor is who they were. */

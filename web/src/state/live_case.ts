@@ -1,6 +1,6 @@
 import { batch, effect, signal } from '@preact/signals';
 
-import type { CtDescription } from '../wire/case_types';
+import type { CtDescription } from '../wire/rest_types';
 import { requestJson } from '../wire/rest';
 import type { Store } from './store';
 import type { ScapulaPoints } from './tool_angles';

@@ -1,8 +1,9 @@
 import { computed, effect, signal } from '@preact/signals';
 
-import type { Annotation, ReviewApi } from '../wire/review_api';
+import type { ReviewApi } from '../wire/review_api';
 import { Remote } from './remote';
 import type { Store } from './store';
+import type { Annotation } from '../wire/rest_types';
 
 /** Others may remark on the same session. */
 const readAgainMs = 5000;

@@ -1,4 +1,4 @@
-import type { Role } from '../wire/login_api';
+import type { Role } from '../wire/rest_types';
 
 /** What the page offers somebody; the server holds them to it. */
 export interface Permissions {

@@ -1,4 +1,4 @@
-import type { PlaybackChange } from '../wire/api';
+import type { PlaybackChange } from '../wire/rest_types';
 import type { Scrubber } from './scrubber';
 
 /** What plays a recording. */

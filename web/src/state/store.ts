@@ -1,6 +1,6 @@
 import { computed, signal } from '@preact/signals';
 
-import type { Mark, Metrics, Session } from '../wire/api';
+import type { Mark, Metrics, Session } from '../wire/rest_types';
 import type { LinkState } from '../wire/link';
 import type { Hello, Playback, SessionState, Telemetry } from '../wire/messages';
 import { LiveTrace } from './live_trace';
@@ -51,10 +51,6 @@ export class Store {
     const described = this.details.value;
     return described?.id === id ? described : (this.sessions.value.find((session) => session.id === id) ?? null);
   });
-  /** Whether the server knows of theatre mode. */
-  readonly tellsTheatre = computed(() =>
-    [this.watched.value, ...this.sessions.value].some((s) => s?.theatre !== undefined),
-  );
 
   /** All sessions that the server knows, newest first. */
   readonly sessions = signal<readonly Session[]>([]);

@@ -1,9 +1,10 @@
 import { batch } from '@preact/signals';
 
-import { ApiError, type Api, type Replay, type Session } from '../wire/api';
+import { ApiError, type Api } from '../wire/api';
 import { appText } from '../text/app_text';
 import { chooseSession, type Watched } from './choose_session';
 import type { Store } from './store';
+import type { Replay, Session } from '../wire/rest_types';
 
 /** What the watcher may do, as of now. */
 export interface WatcherPolicy {

@@ -1,6 +1,6 @@
 import { batch } from '@preact/signals';
 
-import { ApiError, type Api, type PlaybackChange, type Session } from '../wire/api';
+import { ApiError, type Api } from '../wire/api';
 import { Link, type LinkState } from '../wire/link';
 import type { Hello, MeshDelta, StreamMessage, Telemetry, ToolMesh } from '../wire/messages';
 import type { StreamSocket } from '../wire/stream_socket';
@@ -11,6 +11,7 @@ import { Lateness } from './lateness';
 import { Scrubber } from './scrubber';
 import type { Store } from './store';
 import { StreamFinder, type WatcherPolicy } from './stream_finder';
+import type { PlaybackChange, Session } from '../wire/rest_types';
 
 /** Where pictures go. */
 export interface Picture {

@@ -2,7 +2,7 @@
 import type { PlaneName } from '../ct/orientation';
 import type { StepName, StepState } from '../state/case/case_steps';
 import type { LandmarkName } from '../state/case/landmark_names';
-import type { Guide, Job, SeedName, Side, Stage, WalchClass } from '../wire/case_types';
+import type { Guide, Job, SeedName, Side, Stage, WalchClass } from '../wire/rest_types';
 
 export const caseText = {
   cases: 'Cases',
@@ -57,11 +57,14 @@ export const caseText = {
   importFailedHint: 'Choose another file, or change what is said above and try again.',
   cancel: 'Cancel',
   jobSilent: 'The simulator does not answer; this is the last that was heard.',
-  jobKinds: {
-    import: 'Reading the CT',
-    segmentation: 'Finding the bones',
-    build: 'Building the bone',
-  } satisfies Record<Job['kind'], string>,
+  jobKind: (kind: Job['kind']): string => {
+    const words: Partial<Record<Job['kind'], string>> = {
+      import: 'Reading the CT',
+      segmentation: 'Finding the bones',
+      build: 'Building the bone',
+    };
+    return words[kind] ?? kind;
+  },
   jobState: (job: Job) =>
     job.state === 'waiting'
       ? 'Waiting for its turn'

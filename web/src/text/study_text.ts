@@ -1,4 +1,4 @@
-import type { Experience } from '../wire/study_types';
+import type { Experience } from '../wire/rest_types';
 
 /** Texts of the pages about studies; loaded with them. */
 export const studyText = {

@@ -1,107 +1,55 @@
-import type { Role } from './login_api';
-import { type Method, request, requestJson } from './rest';
+import { RestClient } from './rest_client';
+import type { NewUser, Token, User, UserChange, ViewerLink } from './rest_types';
 
-export type AccountRole = Exclude<Role, 'viewer'>;
-export const accountRoles: readonly AccountRole[] = ['operator', 'instructor', 'trainee'];
-
-export interface User {
+/** Something made with a secret that is told this once. */
+interface Issued {
   id: string;
-  /** To log in with. */
-  name: string;
-  /** For people. */
-  display_name: string;
-  role: AccountRole;
-  enabled: boolean;
-  created_utc: string;
+  secret: string;
 }
-
-export interface NewUser {
-  name: string;
-  display_name: string;
-  role: AccountRole;
-  password: string;
-}
-
-/** What is absent stays as it is. */
-export interface UserChange {
-  display_name?: string;
-  role?: AccountRole;
-  enabled?: boolean;
-  password?: string;
-}
-
-/** What a program shows in place of a login. */
-export interface Token {
-  id: string;
-  name: string;
-  user_id: string;
-  /** Less than the user's own; null: the user's own. */
-  role: Role | null;
-  created_utc: string;
-  expires_utc: string;
-  /** Null: never. */
-  last_used_utc: string | null;
-}
-
-/** What lets somebody watch without an account. */
-export interface ViewerLink {
-  id: string;
-  name: string;
-  /** Null: all sessions. */
-  session: string | null;
-  created_utc: string;
-  expires_utc: string;
-  last_used_utc: string | null;
-}
-
-/** A secret is told once, when it is made. */
-export type Made<T> = T & { secret: string };
 
 /** Calls of the REST interface about who may do what; `base` is the server's origin. */
 export class AccessApi {
-  constructor(private readonly base: string) {}
+  private readonly rest: RestClient;
+
+  constructor(base: string) {
+    this.rest = new RestClient(base);
+  }
 
   async users(): Promise<User[]> {
-    return (await this.call<{ users: User[] }>('GET', 'users')).users;
+    return (await this.rest.json('get', '/api/v1/users', {})).users;
   }
-  addUser(wanted: NewUser): Promise<User> {
-    return this.call('POST', 'users', wanted);
+  addUser(body: NewUser): Promise<User> {
+    return this.rest.json('post', '/api/v1/users', { body });
   }
-  changeUser(id: string, change: UserChange): Promise<User> {
-    return this.call('PATCH', `users/${encodeURIComponent(id)}`, change);
+  changeUser(id: string, body: UserChange): Promise<User> {
+    return this.rest.json('patch', '/api/v1/users/{id}', { path: { id }, body });
   }
-  removeUser(id: string): Promise<void> {
-    return this.remove(`users/${encodeURIComponent(id)}`);
+  async removeUser(id: string): Promise<void> {
+    await this.rest.request('delete', '/api/v1/users/{id}', { path: { id } });
   }
 
   /** Of one user, or of everybody where the caller may know of them. */
   async tokens(userId: string | null): Promise<Token[]> {
-    const of = userId === null ? '' : `?user_id=${encodeURIComponent(userId)}`;
-    return (await this.call<{ tokens: Token[] }>('GET', `tokens${of}`)).tokens;
+    const query = userId === null ? {} : { user_id: userId };
+    return (await this.rest.json('get', '/api/v1/tokens', { query })).tokens;
   }
-  addToken(name: string, expiresUtc: string): Promise<Made<Token>> {
-    return this.call('POST', 'tokens', { name, expires_utc: expiresUtc });
+  addToken(name: string, expiresUtc: string): Promise<Issued> {
+    return this.rest.json('post', '/api/v1/tokens', { body: { name, expires_utc: expiresUtc } });
   }
-  revokeToken(id: string): Promise<void> {
-    return this.remove(`tokens/${encodeURIComponent(id)}`);
+  async revokeToken(id: string): Promise<void> {
+    await this.rest.request('delete', '/api/v1/tokens/{id}', { path: { id } });
   }
 
   async links(): Promise<ViewerLink[]> {
-    return (await this.call<{ links: ViewerLink[] }>('GET', 'links')).links;
+    return (await this.rest.json('get', '/api/v1/links', {})).links;
   }
   /** `session` null: all sessions. */
-  addLink(name: string, session: string | null, expiresUtc: string): Promise<Made<ViewerLink>> {
-    return this.call('POST', 'links', { name, expires_utc: expiresUtc, ...(session === null ? {} : { session }) });
+  addLink(name: string, session: string | null, expiresUtc: string): Promise<Issued> {
+    const body = { name, expires_utc: expiresUtc, ...(session === null ? {} : { session }) };
+    return this.rest.json('post', '/api/v1/links', { body });
   }
-  revokeLink(id: string): Promise<void> {
-    return this.remove(`links/${encodeURIComponent(id)}`);
-  }
-
-  private async remove(path: string): Promise<void> {
-    await request(`${this.base}/api/v1/${path}`, 'DELETE');
-  }
-  private call<T>(method: Method, path: string, body?: object): Promise<T> {
-    return requestJson(`${this.base}/api/v1/${path}`, method, { body });
+  async revokeLink(id: string): Promise<void> {
+    await this.rest.request('delete', '/api/v1/links/{id}', { path: { id } });
   }
 }
 

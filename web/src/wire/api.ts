@@ -1,183 +1,69 @@
-import type { SessionState } from './messages';
-import { request, requestJson } from './rest';
+import { RestClient } from './rest_client';
+import type { Metrics, PlaybackChange, Replay, Session } from './rest_types';
 
 export { ApiError } from './rest';
 
-/** A session as REST describes it. */
-export interface Session {
-  id: string;
-  case: string;
-  script: string;
-  state: SessionState;
-  created_utc: string;
-  tick: number;
-  duration_s: number;
-  force_scale: number;
-  fault: string | null;
-  loop?: Partial<LoopHealth>;
-  device?: DeviceHealth;
-  /** False for sessions of earlier runs of the server, which are only in their folders; absent means true. */
-  streamable?: boolean;
-  /** Who trains, for people: a name, or a participant's code where the name is not for this user. */
-  trainee?: string | null;
-  /** The user who trains, where there are users and the name is for this one. */
-  trainee_id?: string | null;
-  /** By its kept score; null until it has ended. */
-  score?: SessionMark | null;
-  /** What people call it. */
-  title?: string | null;
-  study?: string | null;
-  participant?: string | null;
-  /** 2 after the first reset, and so on. */
-  attempt?: number;
-  reset_of?: string | null;
-  /** Nothing but the bone is shown to who reams; servers of earlier versions do not tell. */
-  theatre?: boolean;
-  /** Paused by the server's word, so that it goes on by that too. */
-  held?: boolean;
-}
-
-/** undecided: the session says too little; null: the rubric decides nothing. */
-export type Outcome = 'pass' | 'fail' | 'undecided' | null;
-
-/** What a session is worth, in short. */
-export interface SessionMark {
-  /** 0 to 100. */
-  points: number | null;
-  outcome: Outcome;
-  /** Name of the rubric. */
-  rubric: string;
-  version: number;
-}
-
-/** Times of one kind since the session began, us. */
-export interface Timing {
-  p50_us: number;
-  p99_us: number;
-  p999_us: number;
-  max_us: number;
-}
-
-/** How the haptic loop has kept its time; servers of earlier versions tell less. */
-export interface LoopHealth extends Timing {
-  mean_us: number;
-  /** Ticks that began more than a millisecond late. */
-  missed: number;
-  /** Of the ticks' beginnings. */
-  lateness: Timing;
-  realtime: boolean;
-}
-
-/** How the session's device is doing. */
-export interface DeviceHealth {
-  /** script, network, browser, ... */
-  name: string;
-  /** fresh, held, fading or lost; null before the first tick. */
-  state: string | null;
-  rtt_ms: number | null;
-}
-
-/** A recording that is shown on the server for all who watch it. */
-export interface Replay {
-  id: string;
-  /** The session that was recorded. */
-  replay_of: string;
-  playback: { position_s: number; duration_s: number; speed: number; playing: boolean };
-  /** What of the recording is damaged, as far as the server has read it. */
-  warning: string | null;
-  /** Moments worth finding, in order of time. */
-  marks: Mark[];
-}
-
-export interface Mark {
-  at_s: number;
-  /** "annotation", "reamer", "resume", "damaged" or the name of an event. */
-  kind: string;
-  words: string;
-}
-
-/** What is absent stays as it is. */
-export interface PlaybackChange {
-  playing?: boolean;
-  speed?: number;
-  position_s?: number;
-}
-
-/** The figures of a session that the page shows; more are sent. */
-export interface Metrics {
-  removed_volume_mm3: number;
-  removed_volume_cortical_mm3: number;
-  removed_volume_cancellous_mm3: number;
-  reaming_depth_mm: number;
-  axial_thrust_mean_n: number;
-  axial_thrust_peak_n: number;
-  duration_s: number;
-  /** How far pegs would reach through the outer cortex; servers of earlier versions do not tell. */
-  vault_breach_mm?: number | null;
-}
-
-/** Calls of the REST interface under `base` (the page's own server by default). */
+/** Calls of the REST interface about what is watched; `base` is the server's origin. */
 export class Api {
-  constructor(private readonly base: string) {}
+  private readonly rest: RestClient;
+
+  constructor(base: string) {
+    this.rest = new RestClient(base);
+  }
 
   async sessions(): Promise<Session[]> {
-    return (await this.call<{ sessions: Session[] }>('GET', 'sessions')).sessions;
+    return (await this.rest.json('get', '/api/v1/sessions', {})).sessions;
   }
   createDemo(): Promise<Session> {
-    return this.call('POST', 'sessions', { case: 'demo', script: 'demo', device: 'script' });
+    return this.rest.json('post', '/api/v1/sessions', { body: { case: 'demo', script: 'demo', device: 'script' } });
   }
   /** A session on a case that waits for a hand in a browser. */
   createPractice(caseId: string, theatre: boolean): Promise<Session> {
-    return this.call('POST', 'sessions', { case: caseId, device: 'browser', ...(theatre ? { theatre } : {}) });
+    const body = { case: caseId, device: 'browser', ...(theatre ? { theatre } : {}) };
+    return this.rest.json('post', '/api/v1/sessions', { body });
   }
   /** A session of a study; participant null: the user. */
   createInStudy(study: string, participant: string | null, caseId: string): Promise<Session> {
-    return this.call('POST', 'sessions', { study, case: caseId, ...(participant === null ? {} : { participant }) });
+    const body = { study, case: caseId, ...(participant === null ? {} : { participant }) };
+    return this.rest.json('post', '/api/v1/sessions', { body });
   }
   /** Throws, in the server's words, while it still prepares for sessions. */
   async ready(): Promise<void> {
-    await request(`${this.base}/readyz`, 'GET');
+    await this.rest.request('get', '/readyz', {});
   }
+  /** Of a session, not of a replay. */
   session(id: string): Promise<Session> {
-    return this.call('GET', `sessions/${encodeURIComponent(id)}`);
+    return this.rest.json('get', '/api/v1/sessions/{id}', { path: { id } }) as Promise<Session>;
   }
   start(id: string): Promise<Session> {
-    return this.call('POST', `sessions/${encodeURIComponent(id)}/start`);
+    return this.rest.json('post', '/api/v1/sessions/{id}/start', { path: { id } });
   }
   stop(id: string): Promise<Session> {
-    return this.call('POST', `sessions/${encodeURIComponent(id)}/stop`);
+    return this.rest.json('post', '/api/v1/sessions/{id}/stop', { path: { id } }) as Promise<Session>;
   }
   pause(id: string): Promise<Session> {
-    return this.call('POST', `sessions/${encodeURIComponent(id)}/pause`);
+    return this.rest.json('post', '/api/v1/sessions/{id}/pause', { path: { id } });
   }
   /** Another session of the same kind on intact bone; the one before ends. */
   reset(id: string): Promise<Session> {
-    return this.call('POST', `sessions/${encodeURIComponent(id)}/reset`);
+    return this.rest.json('post', '/api/v1/sessions/{id}/reset', { path: { id } });
   }
   openReplay(sessionId: string): Promise<Replay> {
-    return this.call('POST', `sessions/${encodeURIComponent(sessionId)}/replay`);
+    return this.rest.json('post', '/api/v1/sessions/{id}/replay', { path: { id: sessionId } });
   }
   replay(id: string): Promise<Replay> {
-    return this.call('GET', `sessions/${encodeURIComponent(id)}`);
+    return this.rest.json('get', '/api/v1/sessions/{id}', { path: { id } }) as Promise<Replay>;
   }
-  changePlayback(id: string, change: PlaybackChange): Promise<Replay> {
-    return this.call('POST', `sessions/${encodeURIComponent(id)}/playback`, change);
+  changePlayback(id: string, body: PlaybackChange): Promise<Replay> {
+    return this.rest.json('post', '/api/v1/sessions/{id}/playback', { path: { id }, body });
   }
   metrics(id: string): Promise<Metrics> {
-    return this.call('GET', `sessions/${encodeURIComponent(id)}/metrics`);
+    return this.rest.json('get', '/api/v1/sessions/{id}/metrics', { path: { id } });
   }
   streamUrl(id: string): string {
-    return this.socketUrl(id, 'stream');
+    return this.rest.url('/api/v1/sessions/{id}/stream', { path: { id } }).replace(/^http/, 'ws');
   }
   deviceUrl(id: string): string {
-    return this.socketUrl(id, 'device');
-  }
-
-  private socketUrl(id: string, what: string): string {
-    return `${this.base.replace(/^http/, 'ws')}/api/v1/sessions/${encodeURIComponent(id)}/${what}`;
-  }
-
-  private call<T>(method: 'GET' | 'POST', path: string, body?: object): Promise<T> {
-    return requestJson(`${this.base}/api/v1/${path}`, method, { body });
+    return this.rest.url('/api/v1/sessions/{id}/device', { path: { id } }).replace(/^http/, 'ws');
   }
 }

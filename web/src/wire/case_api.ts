@@ -1,3 +1,5 @@
+import { credentials } from './rest';
+import { RestClient } from './rest_client';
 import type {
   AssessedPlan,
   BuildWishes,
@@ -7,65 +9,70 @@ import type {
   Landmarks,
   Measures,
   NewCase,
-  Plan,
+  NewPlan,
   PlanWishes,
   Reamer,
   SegmentationSettings,
   Side,
   Upload,
-  VoxelAxis,
-} from './case_types';
-import { type CallOptions, credentials, type Method, request, requestJson } from './rest';
+} from './rest_types';
+
+/** A voxel axis of the CT, and the slices across it. */
+export type VoxelAxis = 'u' | 'v' | 'w';
 
 /** Calls of the REST interface that make cases of CTs; `base` is the server's origin. */
 export class CaseApi {
-  constructor(private readonly base: string) {}
+  private readonly rest: RestClient;
+
+  constructor(base: string) {
+    this.rest = new RestClient(base);
+  }
 
   /** All of them, page by page. */
   async cases(): Promise<CaseSummary[]> {
     const all: CaseSummary[] = [];
-    for (let cursor: string | null = ''; cursor !== null;) {
-      const after: string = cursor === '' ? '' : `&cursor=${encodeURIComponent(cursor)}`;
-      const page = await this.call<{ cases: CaseSummary[]; next?: string | null }>('GET', `cases?limit=500${after}`);
+    for (let cursor: string | null | undefined; cursor !== null;) {
+      const query: { limit: number; cursor?: string } = { limit: 500, cursor };
+      const page = await this.rest.json('get', '/api/v1/cases', { query });
       all.push(...page.cases);
-      cursor = page.next ?? null;
+      cursor = page.next;
     }
     return all;
   }
   case(id: string): Promise<CaseDetails> {
-    return this.call('GET', this.path(id));
+    return this.rest.json('get', '/api/v1/cases/{id}', { path: { id } });
   }
   async remove(id: string): Promise<void> {
-    await request(this.url(this.path(id)), 'DELETE');
+    await this.rest.request('delete', '/api/v1/cases/{id}', { path: { id } });
   }
 
   beginUpload(name: string, bytes: number): Promise<Upload> {
-    return this.call('POST', 'uploads', { body: { name, bytes } });
+    return this.rest.json('post', '/api/v1/uploads', { body: { name, bytes } });
   }
   upload(id: string): Promise<Upload> {
-    return this.call('GET', `uploads/${encodeURIComponent(id)}`);
+    return this.rest.json('get', '/api/v1/uploads/{id}', { path: { id } });
   }
   sendPiece(id: string, offset: number, body: Uint8Array<ArrayBuffer>, signal: AbortSignal): Promise<Upload> {
-    return this.call('PUT', `uploads/${encodeURIComponent(id)}?offset=${offset}`, { body, signal });
+    return this.rest.json('put', '/api/v1/uploads/{id}', { path: { id }, query: { offset }, body, signal });
   }
   async dropUpload(id: string): Promise<void> {
-    await request(this.url(`uploads/${encodeURIComponent(id)}`), 'DELETE');
+    await this.rest.request('delete', '/api/v1/uploads/{id}', { path: { id } });
   }
 
-  importCase(wanted: NewCase): Promise<Job> {
-    return this.call('POST', 'cases', { body: wanted });
+  importCase(body: NewCase): Promise<Job> {
+    return this.rest.json('post', '/api/v1/cases', { body });
   }
   copyCase(copyOf: string, side: Side): Promise<Job> {
-    return this.call('POST', 'cases', { body: { copy_of: copyOf, side } });
+    return this.rest.json('post', '/api/v1/cases', { body: { copy_of: copyOf, side } });
   }
   job(id: string): Promise<Job> {
-    return this.call('GET', `jobs/${encodeURIComponent(id)}`);
+    return this.rest.json('get', '/api/v1/jobs/{id}', { path: { id } });
   }
   async jobs(caseId: string): Promise<Job[]> {
-    return (await this.call<{ jobs: Job[] }>('GET', `jobs?case_id=${encodeURIComponent(caseId)}`)).jobs;
+    return (await this.rest.json('get', '/api/v1/jobs', { query: { case_id: caseId } })).jobs;
   }
   cancel(jobId: string): Promise<Job> {
-    return this.call('DELETE', `jobs/${encodeURIComponent(jobId)}`);
+    return this.rest.json('delete', '/api/v1/jobs/{id}', { path: { id: jobId } });
   }
 
   /**
@@ -80,54 +87,46 @@ export class CaseApi {
     index: number,
     signal: AbortSignal,
   ): Promise<ArrayBuffer> {
-    const path = `${this.path(id)}/volume/slices/${axis}/${index}?of=${of}&revision=${revision}`;
-    return (await request(this.url(path), 'GET', { signal })).arrayBuffer();
+    const place = { path: { id, axis, index }, query: { of, revision } };
+    return (
+      await this.rest.request('get', '/api/v1/cases/{id}/volume/slices/{axis}/{index}', { ...place, signal })
+    ).arrayBuffer();
   }
   meshUrl(id: string): string {
-    return this.url(`${this.path(id)}/mesh`);
+    return this.rest.url('/api/v1/cases/{id}/mesh', { path: { id } });
   }
 
-  segment(id: string, settings: SegmentationSettings): Promise<Job> {
-    return this.call('POST', `${this.path(id)}/segmentation`, { body: settings });
+  segment(id: string, body: SegmentationSettings): Promise<Job> {
+    return this.rest.json('post', '/api/v1/cases/{id}/segmentation', { path: { id }, body });
   }
   undoSegmentation(id: string): Promise<CaseDetails> {
-    return this.call('POST', `${this.path(id)}/segmentation/undo`);
+    return this.rest.json('post', '/api/v1/cases/{id}/segmentation/undo', { path: { id } });
   }
-  putLandmarks(id: string, landmarks: Landmarks): Promise<CaseDetails> {
-    return this.call('PUT', `${this.path(id)}/landmarks`, { body: landmarks });
+  putLandmarks(id: string, body: Landmarks): Promise<CaseDetails> {
+    return this.rest.json('put', '/api/v1/cases/{id}/landmarks', { path: { id }, body });
   }
   measures(id: string): Promise<Measures> {
-    return this.call('GET', `${this.path(id)}/measures`);
+    return this.rest.json('get', '/api/v1/cases/{id}/measures', { path: { id } });
   }
-  proposePlan(id: string, wishes: PlanWishes): Promise<AssessedPlan> {
-    return this.call('POST', `${this.path(id)}/plan/proposal`, { body: wishes });
+  proposePlan(id: string, body: PlanWishes): Promise<AssessedPlan> {
+    return this.rest.json('post', '/api/v1/cases/{id}/plan/proposal', { path: { id }, body });
   }
-  putPlan(id: string, plan: Plan): Promise<AssessedPlan> {
-    return this.call('PUT', `${this.path(id)}/plan`, { body: plan });
+  putPlan(id: string, body: NewPlan): Promise<AssessedPlan> {
+    return this.rest.json('put', '/api/v1/cases/{id}/plan', { path: { id }, body });
   }
   async reamers(): Promise<Reamer[]> {
-    return (await this.call<{ reamers: Reamer[] }>('GET', 'reamers')).reamers;
+    return (await this.rest.json('get', '/api/v1/reamers', {})).reamers;
   }
-  build(id: string, wishes: BuildWishes): Promise<Job> {
-    return this.call('POST', `${this.path(id)}/build`, { body: wishes });
+  build(id: string, body: BuildWishes): Promise<Job> {
+    return this.rest.json('post', '/api/v1/cases/{id}/build', { path: { id }, body });
   }
   /** Sends what must not be lost although the page goes away now. */
   putLandmarksOnLeaving(id: string, landmarks: Landmarks): void {
-    void fetch(this.url(`${this.path(id)}/landmarks`), {
+    void fetch(this.rest.url('/api/v1/cases/{id}/landmarks', { path: { id } }), {
       method: 'PUT',
       keepalive: true,
       headers: { 'content-type': 'application/json', ...credentials.headers() },
       body: JSON.stringify(landmarks),
     }).catch(() => undefined);
-  }
-
-  private path(id: string): string {
-    return `cases/${encodeURIComponent(id)}`;
-  }
-  private url(path: string): string {
-    return `${this.base}/api/v1/${path}`;
-  }
-  private call<T>(method: Method, path: string, options: CallOptions = {}): Promise<T> {
-    return requestJson(this.url(path), method, options);
   }
 }

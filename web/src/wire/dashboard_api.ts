@@ -1,47 +1,6 @@
-import type { Outcome, Session } from './api';
-import { ApiError, request, requestJson } from './rest';
-
-/** Of a session that is under way: figures so far; more are sent. */
-export interface SoFar {
-  reaming_depth_mm: number;
-  /** Over the time in contact with the spindle on, N. */
-  axial_thrust_mean_n: number;
-  axial_thrust_peak_n: number;
-  /** Integral of thrust beyond 78 N. */
-  axial_thrust_excess_n_s?: number;
-  removed_volume_mm3: number;
-  duration_s: number;
-  /** How far pegs would reach through the outer cortex. */
-  vault_breach_mm?: number | null;
-}
-
-/** What the sums of successes and failures say about somebody. */
-export type Standing = 'going on' | 'proficient' | 'not proficient';
-
-/** A trainee's course of learning; sessions in order of time. */
-export interface Learning {
-  standing: Standing;
-  /** Passed sessions in a row that would prove proficiency from here. */
-  passes_to_go: number;
-  acceptable_rate: number;
-  unacceptable_rate: number;
-  /** At or below, and at or above, the sum decides. */
-  proficient_at: number;
-  not_proficient_at: number;
-  rubric: { id: string; version: number };
-  sessions: LearningSession[];
-}
-
-export interface LearningSession {
-  session: string;
-  created_utc: string;
-  theatre: boolean;
-  points: number | null;
-  outcome: Outcome;
-  /** Null where the session was neither passed nor failed. */
-  cusum: number | null;
-  standing: Standing | null;
-}
+import { ApiError } from './rest';
+import { RestClient } from './rest_client';
+import type { Learning, Metrics, Session } from './rest_types';
 
 /** Whose learning; the user's own where neither is named. */
 export interface Learner {
@@ -55,44 +14,45 @@ const pictureWithinMs = 90_000;
 
 /** Calls of the REST interface that the dashboard makes; `base` is the server's origin. */
 export class DashboardApi {
-  constructor(private readonly base: string) {}
+  private readonly rest: RestClient;
+
+  constructor(base: string) {
+    this.rest = new RestClient(base);
+  }
 
   live(): Promise<Session[]> {
-    return this.list('state=running,paused&limit=60');
+    return this.list('running,paused', 60);
   }
   ended(limit: number): Promise<Session[]> {
-    return this.list(`state=finished,stopped,fault,interrupted&limit=${limit}`);
+    return this.list('finished,stopped,fault,interrupted', limit);
   }
-  soFar(id: string): Promise<SoFar> {
-    return this.get(`sessions/${encodeURIComponent(id)}/metrics`);
+  /** Of a session that is under way. */
+  soFar(id: string): Promise<Metrics> {
+    return this.rest.json('get', '/api/v1/sessions/{id}/metrics', { path: { id } });
   }
   /** The bone as it is now. */
   async picture(id: string): Promise<Blob> {
-    const url = `${this.base}/api/v1/sessions/${encodeURIComponent(id)}/snapshot`;
-    const response = await request(url, 'GET', { timeoutMs: pictureWithinMs });
+    const wait = { timeoutMs: pictureWithinMs };
+    const response = await this.rest.request('get', '/api/v1/sessions/{id}/snapshot', { path: { id }, ...wait });
     if (response.status !== 200) throw new ApiError(response.statusText, response.status);
     return response.blob();
   }
   /** Null for a case without a plan. */
   async plannedDepthMm(caseId: string): Promise<number | null> {
     try {
-      return (await this.get<{ depth_mm: number }>(`cases/${encodeURIComponent(caseId)}/plan`)).depth_mm;
+      return (await this.rest.json('get', '/api/v1/cases/{id}/plan', { path: { id: caseId } })).depth_mm;
     } catch (error) {
       if (error instanceof ApiError && error.status === 404) return null;
       throw error;
     }
   }
   learning({ trainee, participant }: Learner): Promise<Learning> {
-    const of = new URLSearchParams();
-    if (trainee !== undefined) of.set('trainee', trainee);
-    else if (participant !== undefined) of.set('participant', participant);
-    return this.get(`learning?${of.toString()}`);
+    const query = trainee !== undefined ? { trainee } : { participant };
+    return this.rest.json('get', '/api/v1/learning', { query });
   }
 
-  private async list(query: string): Promise<Session[]> {
-    return (await this.get<{ sessions: Session[] }>(`sessions?sort=-created_utc&${query}`)).sessions;
-  }
-  private get<T>(path: string): Promise<T> {
-    return requestJson(`${this.base}/api/v1/${path}`, 'GET');
+  private async list(state: string, limit: number): Promise<Session[]> {
+    const query = { sort: '-created_utc', state, limit } as const;
+    return (await this.rest.json('get', '/api/v1/sessions', { query })).sessions;
   }
 }

@@ -1,14 +1,8 @@
 import { ApiError } from './rest';
+import type { Job } from './rest_types';
 
 /** Work that the server does, as far as waiting for it goes. */
-export interface PendingJob {
-  id: string;
-  state: 'waiting' | 'running' | 'done' | 'failed' | 'cancelled';
-  /** 0 to 1. */
-  share: number;
-  step: string;
-  problem: { status?: number; detail?: string } | null;
-}
+export type PendingJob = Pick<Job, 'id' | 'state' | 'share' | 'step' | 'problem'>;
 
 const askAgainMs = 400;
 

@@ -1,7 +1,6 @@
-import type { Session } from './api';
-import { type PendingJob, fetchOnceReady, waitForJob } from './job_wait';
-import { request, requestJson } from './rest';
-import type { Score } from './score_types';
+import { fetchOnceReady, waitForJob } from './job_wait';
+import { RestClient } from './rest_client';
+import type { Annotation, Score, Session } from './rest_types';
 
 export type MapName = 'plan' | 'implant';
 export const exportFormats = ['html', 'pdf', 'csv', 'stl', 'ply', 'glb'] as const;
@@ -23,47 +22,47 @@ export interface DeviationBytes {
   code: DeviationCode;
 }
 
-export interface Annotation {
-  at_s: number;
-  words: string;
-  /** Empty when nobody signed. */
-  author: string;
-}
-
 type OnProgress = (share: number) => void;
 
 /** Calls of the REST interface about sessions that have ended; `base` is the server's origin. */
 export class ReviewApi {
-  constructor(readonly base: string) {}
+  private readonly rest: RestClient;
+
+  constructor(base: string) {
+    this.rest = new RestClient(base);
+  }
 
   session(id: string): Promise<Session> {
-    return requestJson(this.url(id, ''), 'GET');
+    return this.rest.json('get', '/api/v1/sessions/{id}', { path: { id } }) as Promise<Session>;
   }
   score(id: string): Promise<Score> {
-    return requestJson(this.scoreUrl(id), 'GET');
+    return this.rest.json('get', '/api/v1/sessions/{id}/score', { path: { id } });
   }
   scoreUrl(id: string): string {
-    return this.url(id, '/score');
+    return this.rest.url('/api/v1/sessions/{id}/score', { path: { id } });
   }
   meshUrl(id: string): string {
-    return this.url(id, '/mesh');
+    return this.rest.url('/api/v1/sessions/{id}/mesh', { path: { id } });
   }
   jobsUrl(): string {
-    return `${this.base}/api/v1/jobs/`;
+    return `${this.rest.url('/api/v1/jobs')}/`;
   }
   async trace(id: string, stride: number): Promise<string> {
-    return (await request(this.url(id, `/trace?stride=${stride}`), 'GET')).text();
+    const place = { path: { id }, query: { stride } };
+    return (await this.rest.request('get', '/api/v1/sessions/{id}/trace', place)).text();
   }
   async annotations(id: string): Promise<Annotation[]> {
-    return (await requestJson<{ annotations: Annotation[] }>(this.url(id, '/annotations'), 'GET')).annotations;
+    return (await this.rest.json('get', '/api/v1/sessions/{id}/annotations', { path: { id } })).annotations;
   }
   annotate(id: string, words: string, atS: number): Promise<Annotation> {
-    return requestJson(this.url(id, '/annotations'), 'POST', { body: { words, at_s: atS } });
+    const body = { words, at_s: atS };
+    return this.rest.json('post', '/api/v1/sessions/{id}/annotations', { path: { id }, body });
   }
 
   /** Waits until it is made; throws ApiError 404 where there is nothing to compare the surface with. */
   async deviation(id: string, to: MapName, onProgress: OnProgress, signal: AbortSignal): Promise<DeviationBytes> {
-    const get = () => request(this.url(id, `/deviation?to=${to}`), 'GET', { signal });
+    const get = () =>
+      this.rest.request('get', '/api/v1/sessions/{id}/deviation', { path: { id }, query: { to }, signal });
     const response = await fetchOnceReady(get, this.job, onProgress, signal);
     const header = (name: string) => Number(response.headers.get(name) ?? NaN);
     const bytes = new Int8Array(await response.arrayBuffer());
@@ -79,14 +78,10 @@ export class ReviewApi {
 
   /** Makes a file of a session; where it is when it is done. */
   async exported(id: string, format: ExportFormat, onProgress: OnProgress): Promise<string> {
-    const begun = await requestJson<PendingJob>(this.url(id, '/exports'), 'POST', { body: { format } });
+    const begun = await this.rest.json('post', '/api/v1/sessions/{id}/exports', { path: { id }, body: { format } });
     const done = await waitForJob(begun, this.job, onProgress);
-    return `${this.jobsUrl()}${encodeURIComponent(done.id)}/result`;
+    return this.rest.url('/api/v1/jobs/{id}/result', { path: { id: done.id } });
   }
 
-  private readonly job = (id: string): Promise<PendingJob> =>
-    requestJson(this.jobsUrl() + encodeURIComponent(id), 'GET');
-  private url(id: string, path: string): string {
-    return `${this.base}/api/v1/sessions/${encodeURIComponent(id)}${path}`;
-  }
+  private readonly job = (id: string) => this.rest.json('get', '/api/v1/jobs/{id}', { path: { id } });
 }

@@ -1,6 +1,6 @@
-import type { Session } from './api';
+import { RestClient } from './rest_client';
+import type { Session, SessionChange, SessionPage } from './rest_types';
 import type { SessionState } from './messages';
-import { type Method, request, requestJson } from './rest';
 
 export type SortKey = 'created_utc' | 'duration_s' | 'case' | 'trainee' | 'state';
 
@@ -17,33 +17,21 @@ export interface SessionQuery {
   descending: boolean;
 }
 
-export interface SessionPage {
-  sessions: Session[];
-  /** Cursor of the next page; null: there is none. */
-  next: string | null;
-  /** On all pages. */
-  total: number;
-}
-
-/** What of a session people may change; what is absent stays as it is. */
-export interface SessionChange {
-  title?: string;
-}
-
-/** The query of a page's address, without a cursor for the first page. */
-export function queryText(query: SessionQuery, cursor: string | null, limit: number): string {
-  const parameters = new URLSearchParams({ limit: String(limit), sort: (query.descending ? '-' : '') + query.sort });
-  const add = (name: string, value: string) => {
-    if (value !== '') parameters.set(name, value);
+/** The query of a page, without a cursor for the first page. */
+export function queryOf(query: SessionQuery, cursor: string | null, limit: number) {
+  const set = (text: string) => (text === '' ? undefined : text);
+  const sort = `${query.descending ? '-' : ''}${query.sort}` as const;
+  return {
+    limit,
+    sort,
+    q: set(query.text.trim()),
+    state: set(query.states.join(',')),
+    case: set(query.caseId),
+    study: set(query.study),
+    from: set(query.from),
+    to: set(dayAfter(query.to)),
+    cursor: cursor ?? undefined,
   };
-  add('q', query.text.trim());
-  add('state', query.states.join(','));
-  add('case', query.caseId);
-  add('study', query.study);
-  add('from', query.from);
-  add('to', dayAfter(query.to));
-  add('cursor', cursor ?? '');
-  return parameters.toString();
 }
 
 /** The last day counts in; the server takes the first moment that does not. */
@@ -54,25 +42,22 @@ function dayAfter(day: string): string {
 
 /** Calls of the REST interface about sessions of all times; `base` is the server's origin. */
 export class SessionListApi {
-  constructor(private readonly base: string) {}
+  private readonly rest: RestClient;
+
+  constructor(base: string) {
+    this.rest = new RestClient(base);
+  }
 
   page(query: SessionQuery, cursor: string | null, limit: number): Promise<SessionPage> {
-    return this.call('GET', `?${queryText(query, cursor, limit)}`);
+    return this.rest.json('get', '/api/v1/sessions', { query: queryOf(query, cursor, limit) });
   }
-  change(id: string, change: SessionChange): Promise<Session> {
-    return this.call('PATCH', `/${encodeURIComponent(id)}`, change);
+  change(id: string, body: SessionChange): Promise<Session> {
+    return this.rest.json('patch', '/api/v1/sessions/{id}', { path: { id }, body });
   }
   async remove(id: string): Promise<void> {
-    await request(this.url(`/${encodeURIComponent(id)}`), 'DELETE');
+    await this.rest.request('delete', '/api/v1/sessions/{id}', { path: { id } });
   }
   restore(id: string): Promise<Session> {
-    return this.call('POST', `/${encodeURIComponent(id)}/restore`);
-  }
-
-  private url(path: string): string {
-    return `${this.base}/api/v1/sessions${path}`;
-  }
-  private call<T>(method: Method, path: string, body?: object): Promise<T> {
-    return requestJson(this.url(path), method, { body });
+    return this.rest.json('post', '/api/v1/sessions/{id}/restore', { path: { id } });
   }
 }

@@ -1,71 +1,67 @@
-import { type CallOptions, type Method, request, requestJson } from './rest';
-import type { Answers, ExportTable, NewParticipant, NewStudy, Participant, Person, Study } from './study_types';
+import { RestClient } from './rest_client';
+import type { Answers, NewParticipant, NewStudy, Participant, Person, Study } from './rest_types';
+
+export type ExportTable = 'sessions' | 'answers' | 'groups';
 
 /** Calls of the REST interface about studies; `base` is the server's origin. */
 export class StudyApi {
-  constructor(private readonly base: string) {}
+  private readonly rest: RestClient;
+
+  constructor(base: string) {
+    this.rest = new RestClient(base);
+  }
 
   async studies(): Promise<Study[]> {
-    return (await this.call<{ studies: Study[] }>('GET', '')).studies;
+    return (await this.rest.json('get', '/api/v1/studies', {})).studies;
   }
   study(id: string): Promise<Study> {
-    return this.call('GET', this.path(id));
+    return this.rest.json('get', '/api/v1/studies/{id}', { path: { id } });
   }
-  make(wanted: NewStudy): Promise<Study> {
-    return this.call('POST', '', { body: wanted });
+  make(body: NewStudy): Promise<Study> {
+    return this.rest.json('post', '/api/v1/studies', { body });
   }
   async remove(id: string): Promise<void> {
-    await request(this.url(this.path(id)), 'DELETE');
+    await this.rest.request('delete', '/api/v1/studies/{id}', { path: { id } });
   }
   close(id: string): Promise<Study> {
-    return this.call('POST', `${this.path(id)}/close`);
+    return this.rest.json('post', '/api/v1/studies/{id}/close', { path: { id } });
   }
   reopen(id: string): Promise<Study> {
-    return this.call('POST', `${this.path(id)}/reopen`);
+    return this.rest.json('post', '/api/v1/studies/{id}/reopen', { path: { id } });
   }
   unblind(id: string): Promise<Study> {
-    return this.call('POST', `${this.path(id)}/unblind`);
+    return this.rest.json('post', '/api/v1/studies/{id}/unblind', { path: { id } });
   }
 
   /** The user takes part in the study with that code. */
   join(joinCode: string, about: Pick<NewParticipant, 'experience' | 'procedures_done'>): Promise<{ study: string }> {
-    return this.call('POST', '/join', { body: { join_code: joinCode, ...about } });
+    return this.rest.json('post', '/api/v1/studies/join', { body: { join_code: joinCode, ...about } });
   }
   async participants(id: string): Promise<Participant[]> {
-    return (await this.call<{ participants: Participant[] }>('GET', `${this.path(id)}/participants`)).participants;
+    return (await this.rest.json('get', '/api/v1/studies/{id}/participants', { path: { id } })).participants;
   }
   participant(id: string, code: string): Promise<Participant> {
-    return this.call('GET', `${this.path(id)}/participants/${code}`);
+    return this.rest.json('get', '/api/v1/studies/{id}/participants/{code}', { path: { id, code } });
   }
-  enrol(id: string, wanted: NewParticipant): Promise<Participant> {
-    return this.call('POST', `${this.path(id)}/participants`, { body: wanted });
+  enrol(id: string, body: NewParticipant): Promise<Participant> {
+    return this.rest.json('post', '/api/v1/studies/{id}/participants', { path: { id }, body });
   }
   async withdraw(id: string, code: string): Promise<void> {
-    await request(this.url(`${this.path(id)}/participants/${code}`), 'DELETE');
+    await this.rest.request('delete', '/api/v1/studies/{id}/participants/{code}', { path: { id, code } });
   }
-  answer(id: string, code: string, answers: Answers): Promise<Participant> {
-    return this.call('PUT', `${this.path(id)}/participants/${code}/answers`, { body: answers });
+  answer(id: string, code: string, body: Answers): Promise<Participant> {
+    return this.rest.json('put', '/api/v1/studies/{id}/participants/{code}/answers', { path: { id, code }, body });
   }
   async persons(id: string): Promise<Person[]> {
-    return (await this.call<{ persons: Person[] }>('GET', `${this.path(id)}/persons`)).persons;
+    return (await this.rest.json('get', '/api/v1/studies/{id}/persons', { path: { id } })).persons;
   }
 
   /** A table for statistics, or all of them as JSON. */
   async export(id: string, what: ExportTable | 'json'): Promise<Blob> {
-    const query = what === 'json' ? 'format=json' : `format=csv&table=${what}`;
-    return (await request(this.url(`${this.path(id)}/export?${query}`), 'GET')).blob();
+    const query = what === 'json' ? ({ format: 'json' } as const) : ({ format: 'csv', table: what } as const);
+    return (await this.rest.request('get', '/api/v1/studies/{id}/export', { path: { id }, query })).blob();
   }
   async codebook(id: string): Promise<Blob> {
-    return (await request(this.url(`${this.path(id)}/codebook`), 'GET')).blob();
-  }
-
-  private path(id: string): string {
-    return `/${encodeURIComponent(id)}`;
-  }
-  private url(path: string): string {
-    return `${this.base}/api/v1/studies${path}`;
-  }
-  private call<T>(method: Method, path: string, options: CallOptions = {}): Promise<T> {
-    return requestJson(this.url(path), method, options);
+    return (await this.rest.request('get', '/api/v1/studies/{id}/codebook', { path: { id } })).blob();
   }
 }

@@ -1,5 +1,5 @@
 import { VolumeFrame } from '../../src/ct/volume_frame';
-import type { Triple } from '../../src/wire/case_types';
+import type { Triple } from '../../src/wire/rest_types';
 
 type Rows = [Triple, Triple, Triple];
 

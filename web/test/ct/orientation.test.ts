@@ -3,7 +3,7 @@ import { describe, expect, it } from 'vitest';
 import { directionLetters, planeNames, slicePlanes } from '../../src/ct/orientation';
 import { fittingLook, SliceLayout } from '../../src/ct/slice_layout';
 import { length, subtract } from '../../src/ct/volume_frame';
-import type { Triple } from '../../src/wire/case_types';
+import type { Triple } from '../../src/wire/rest_types';
 import { frameOf, random, straight, turned } from './frames';
 
 describe('directionLetters', () => {

@@ -11,7 +11,7 @@ describe('reamerOutline', () => {
   });
 
   it('is flat where no sphere fits', () => {
-    expect(reamerOutline({ diameter_mm: 40, radius_mm: null }).every(({ behindMm }) => behindMm === 0)).toBe(true);
+    expect(reamerOutline(undefined).every(({ behindMm }) => behindMm === 0)).toBe(true);
     expect(reamerOutline({ diameter_mm: 40, radius_mm: 10 }).every(({ behindMm }) => behindMm === 0)).toBe(true);
   });
 });

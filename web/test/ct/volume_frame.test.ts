@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 
 import { length, subtract } from '../../src/ct/volume_frame';
-import type { Triple } from '../../src/wire/case_types';
+import type { Triple } from '../../src/wire/rest_types';
 import { frameOf, random, straight, turned } from './frames';
 
 describe('VolumeFrame', () => {

@@ -4,6 +4,7 @@ import { Alarms, pastPlanMm, ThrustWatch } from '../../src/state/alarms';
 import { Store } from '../../src/state/store';
 import type { Hello, Telemetry } from '../../src/wire/messages';
 import { hello, telemetry } from '../wire/fake_messages';
+import { someMetrics } from '../wire/some_answers';
 
 const batch = (tick: number, thrust: number[], changes: Partial<Telemetry> = {}): Telemetry => {
   const message = telemetry({
@@ -80,10 +81,7 @@ describe('alarms', () => {
   it('tell of the vault what the score says, and nothing where it says nothing', () => {
     const store = liveStore();
     const alarms = new Alarms(store);
-    const metrics = {
-      ...{ removed_volume_mm3: 1, removed_volume_cortical_mm3: 1, removed_volume_cancellous_mm3: 0 },
-      ...{ reaming_depth_mm: 1, axial_thrust_mean_n: 1, axial_thrust_peak_n: 1, duration_s: 1 },
-    };
+    const metrics = someMetrics();
     store.metrics.value = metrics;
     expect(alarms.now.value).toEqual([]);
     store.metrics.value = { ...metrics, vault_breach_mm: null };

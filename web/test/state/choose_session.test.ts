@@ -1,19 +1,11 @@
 import { describe, expect, it } from 'vitest';
 
 import { canBeReplayed, chooseSession } from '../../src/state/choose_session';
-import type { Session } from '../../src/wire/api';
+import type { Session } from '../../src/wire/rest_types';
+import { someSession } from '../wire/some_answers';
 
-const session = (id: string, state: Session['state'], second: number): Session => ({
-  id,
-  state,
-  created_utc: `2026-01-01T00:00:0${second}Z`,
-  case: 'demo',
-  script: 'demo',
-  tick: 0,
-  duration_s: 0,
-  force_scale: 26,
-  fault: null,
-});
+const session = (id: string, state: Session['state'], second: number) =>
+  someSession({ id, state, created_utc: `2026-01-01T00:00:0${second}Z` });
 const none = new Set<string>();
 const watching = (id: string) => ({ id, chosen: false });
 const nobody = { id: null, chosen: false };

@@ -2,10 +2,11 @@ import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 
 import { LiveRemarks } from '../../src/state/live_remarks';
 import { Store } from '../../src/state/store';
-import type { Annotation } from '../../src/wire/review_api';
+import type { Annotation } from '../../src/wire/rest_types';
 import { telemetry } from '../wire/fake_messages';
+import { someAnnotation } from '../wire/some_answers';
 
-const remark = (at_s: number, words: string): Annotation => ({ at_s, words, author: '' });
+const remark = someAnnotation;
 
 /** Keeps remarks as the server does. */
 class FakeApi {

@@ -5,13 +5,10 @@ import { PracticeStore } from '../../src/state/practice_store';
 import type { Route } from '../../src/state/route';
 import { Store } from '../../src/state/store';
 import { theatreHere } from '../../src/state/theatre';
-import type { Session } from '../../src/wire/api';
+import type { Session } from '../../src/wire/rest_types';
+import { someSession } from '../wire/some_answers';
 
-const session = (changes: Partial<Session> = {}): Session => ({
-  ...{ id: 'a', case: 'demo', script: '', state: 'running', created_utc: '', tick: 0, duration_s: 0 },
-  ...{ force_scale: 1, fault: null },
-  ...changes,
-});
+const session = (changes: Partial<Session> = {}) => someSession({ id: 'a', ...changes });
 
 function place() {
   const store = new Store();
@@ -45,14 +42,11 @@ describe('theatre mode', () => {
     expect(here.value).toBe(false);
   });
 
-  it('is nowhere where the session does not say so, or nothing is told of theatre', () => {
+  it('is nowhere where the session does not say so', () => {
     const { store, practice, here } = place();
     practice.sessionId.value = 'a';
-    for (const theatre of [undefined, false]) {
-      store.sessions.value = [session(theatre === undefined ? {} : { theatre })];
-      expect(here.value).toBe(false);
-      expect(store.tellsTheatre.value).toBe(theatre !== undefined);
-    }
+    store.sessions.value = [session({ theatre: false })];
+    expect(here.value).toBe(false);
     store.sessions.value = [session({ theatre: true })];
     expect(here.value).toBe(true);
   });

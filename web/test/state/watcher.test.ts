@@ -2,9 +2,11 @@ import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 
 import { Store } from '../../src/state/store';
 import { Watcher } from '../../src/state/watcher';
-import { ApiError, type Api, type Metrics, type PlaybackChange, type Replay, type Session } from '../../src/wire/api';
+import { ApiError, type Api } from '../../src/wire/api';
 import { hello, telemetry, wholePicture } from '../wire/fake_messages';
 import { FakeSocket } from '../wire/fake_socket';
+import type { Metrics, PlaybackChange, Replay, Session } from '../../src/wire/rest_types';
+import { someDevice, someReplay, someSession } from '../wire/some_answers';
 
 /** The REST side of a server that the test can restart. */
 class FakeApi {
@@ -25,17 +27,11 @@ class FakeApi {
   ready = () => (this.prepared ? this.answer(undefined) : Promise.reject(new ApiError('still preparing', 503)));
   sessions = () => this.answer(this.list.map((s) => ({ ...s })));
   createDemo = () => {
-    const session: Session = {
+    const session = someSession({
       id: `s${++this.made}`,
-      case: 'demo',
-      script: 'demo',
       state: 'created',
       created_utc: `2026-01-01T00:00:0${this.made}Z`,
-      tick: 0,
-      duration_s: 0,
-      force_scale: 26,
-      fault: null,
-    };
+    });
     this.list.unshift(session);
     return this.answer({ ...session });
   };
@@ -45,7 +41,7 @@ class FakeApi {
   };
   createPractice = async () => {
     const session = await this.createDemo();
-    return { ...session, device: { name: 'browser', state: null, rtt_ms: null } };
+    return { ...session, device: someDevice('browser') };
   };
   start = (id: string) => this.change(id, 'running');
   pause = async (id: string) => ({ ...(await this.change(id, 'paused')), held: true });
@@ -64,13 +60,8 @@ class FakeApi {
   replays: Replay[] = [];
   changes: PlaybackChange[] = [];
   openReplay = (sessionId: string) => {
-    const replay: Replay = {
-      id: `r${sessionId}`,
-      replay_of: sessionId,
-      playback: { position_s: 0, duration_s: 10, speed: 1, playing: false },
-      marks: [{ at_s: 2, kind: 'annotation', words: 'here' }],
-      warning: null,
-    };
+    const marks = [{ at_s: 2, kind: 'annotation', words: 'here' }];
+    const replay = someReplay({ id: `r${sessionId}`, replay_of: sessionId, marks });
     this.replays.push(replay);
     return this.answer(replay);
   };

@@ -2,8 +2,9 @@ import { useSignal } from '@preact/signals';
 
 import { accessText } from '../../text/access_text';
 import type { Remote } from '../../state/remote';
-import { type AccessApi, type AccountRole, accountRoles, type NewUser, type User } from '../../wire/access_api';
+import { type AccessApi } from '../../wire/access_api';
 import { appText } from '../../text/app_text';
+import { type AccountRole, type NewUser, type User, accountRoles } from '../../wire/rest_types';
 
 const blank = (role: AccountRole): NewUser => ({ name: '', display_name: '', role, password: '' });
 

@@ -2,12 +2,13 @@ import { useSignal } from '@preact/signals';
 
 import { accessText } from '../../text/access_text';
 import type { Remote } from '../../state/remote';
-import { type AccessApi, type AccountRole, accountRoles, type User } from '../../wire/access_api';
+import { type AccessApi } from '../../wire/access_api';
 import { appText } from '../../text/app_text';
 import { dayAndTime } from '../../text/format';
 import { useFocusAfter } from '../common/focus_after';
 import { ConfirmButton } from '../common/confirm_dialog';
 import { useIdentity } from '../common/site_nav';
+import { type AccountRole, type User, accountRoles } from '../../wire/rest_types';
 
 interface Parts {
   api: AccessApi;

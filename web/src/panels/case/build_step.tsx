@@ -3,7 +3,7 @@ import { useSignal } from '@preact/signals';
 import { caseText } from '../../text/case_text';
 import type { CaseController } from '../../state/case/case_controller';
 import { isUnderWay } from '../../state/case/job_watch';
-import type { BuildWishes, BuiltBone } from '../../wire/case_types';
+import type { BuiltBone } from '../../wire/rest_types';
 import { fixed } from '../../text/format';
 import { Remark, SelectField, SliderField } from '../common/fields';
 
@@ -15,7 +15,7 @@ export function BuildStep({ keeper }: { keeper: CaseController }) {
   const details = store.details.value;
   const built = details?.built ?? null;
   const upsample = useSignal(built?.upsample ?? 4);
-  const roi = useSignal<BuildWishes['roi']>('glenoid');
+  const roi = useSignal<'glenoid' | 'whole'>('glenoid');
   const cartilageMm = useSignal(built?.cartilage_mm ?? 0);
   const found = details?.segmentation ?? null;
   const hasCentre = keeper.landmarks.landmarks.value.glenoid_centre_mm !== undefined;
@@ -31,7 +31,7 @@ export function BuildStep({ keeper }: { keeper: CaseController }) {
         testId="upsample"
         onChange={(times) => (upsample.value = Number(times))}
       />
-      <SelectField<BuildWishes['roi']>
+      <SelectField<'glenoid' | 'whole'>
         label={caseText.roi}
         value={roi.value}
         options={[

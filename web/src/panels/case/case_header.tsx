@@ -1,5 +1,5 @@
 import { caseText } from '../../text/case_text';
-import type { CaseDetails } from '../../wire/case_types';
+import type { CaseDetails } from '../../wire/rest_types';
 import { appText } from '../../text/app_text';
 import { SiteNav, HeaderEnd } from '../common/site_nav';
 

@@ -1,6 +1,6 @@
 import { caseText } from '../../text/case_text';
 import { isUnderWay } from '../../state/case/job_watch';
-import type { Job } from '../../wire/case_types';
+import type { Job } from '../../wire/rest_types';
 
 interface Parts {
   job: Job;
@@ -23,10 +23,10 @@ export function JobProgress({ job, silent, onCancel, onDismiss }: Parts) {
       data-state={job.state}
     >
       <p>
-        <strong>{caseText.jobKinds[job.kind]}.</strong> {caseText.jobState(job)}
+        <strong>{caseText.jobKind(job.kind)}.</strong> {caseText.jobState(job)}
         {failed && `: ${why}`}
       </p>
-      {underWay && <ProgressBar share={job.share} label={caseText.jobKinds[job.kind]} stale={silent} />}
+      {underWay && <ProgressBar share={job.share} label={caseText.jobKind(job.kind)} stale={silent} />}
       {underWay && silent && <p class="warn-text">{caseText.jobSilent}</p>}
       <button type="button" class="plain-button" data-testid="cancel-job" onClick={underWay ? onCancel : onDismiss}>
         {underWay ? caseText.cancel : caseText.dismiss}

@@ -9,7 +9,7 @@ import {
   pointOf,
 } from '../../state/case/landmark_names';
 import type { SaveState } from '../../state/case/landmark_editor';
-import { type WalchClass, walchClasses } from '../../wire/case_types';
+import { type WalchClass, walchClasses } from '../../wire/rest_types';
 import { SelectField, SliderField } from '../common/fields';
 import { MeasuresPanel } from './measures_panel';
 

@@ -1,7 +1,7 @@
 import { caseText } from '../../text/case_text';
 import type { LandmarkEditor } from '../../state/case/landmark_editor';
 import type { LandmarkName } from '../../state/case/landmark_names';
-import type { Measures, NormalRange } from '../../wire/case_types';
+import type { Measures, NormalRange } from '../../wire/rest_types';
 import { fixed } from '../../text/format';
 import { inclinationText, versionText } from './angle_text';
 import { Remark } from '../common/fields';

@@ -2,7 +2,7 @@ import { useSignal } from '@preact/signals';
 
 import { caseText } from '../../text/case_text';
 import type { CasesKeeper, NewCaseState } from '../../state/case/new_case';
-import type { Side } from '../../wire/case_types';
+import type { Side } from '../../wire/rest_types';
 import { fixed } from '../../text/format';
 import { Remark } from '../common/fields';
 import { JobProgress, ProgressBar } from './job_progress';

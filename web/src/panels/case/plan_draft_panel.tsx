@@ -4,7 +4,7 @@ import { caseText } from '../../text/case_text';
 import type { CaseController } from '../../state/case/case_controller';
 import type { PlanDraft } from '../../state/case/case_store';
 import { add, length } from '../../ct/volume_frame';
-import type { Assessment, Plan, Triple } from '../../wire/case_types';
+import type { Assessment, Plan, Triple } from '../../wire/rest_types';
 import { fixed } from '../../text/format';
 import { inclinationText, versionText } from './angle_text';
 import { NumberBox, NumberField, Remark } from '../common/fields';

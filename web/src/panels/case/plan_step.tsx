@@ -4,7 +4,7 @@ import { useState } from 'preact/hooks';
 import { caseText } from '../../text/case_text';
 import type { CaseController } from '../../state/case/case_controller';
 import { neededNames, pointOf } from '../../state/case/landmark_names';
-import type { Guide, PlanWishes, Reamer } from '../../wire/case_types';
+import type { Guide, PlanWishes, Reamer } from '../../wire/rest_types';
 import { fixed } from '../../text/format';
 import { CheckField, NumberBox, NumberField, Remark, SelectField } from '../common/fields';
 import { PlanDraftPanel } from './plan_draft_panel';

@@ -4,7 +4,7 @@ import { type CaseController, settingsOf } from '../../state/case/case_controlle
 import { isUnderWay } from '../../state/case/job_watch';
 import { addressOfRoute } from '../../state/route';
 import { seedNames } from '../../state/case/view_marks';
-import type { CtDescription, SeedName, Segmentation, SegmentationSettings } from '../../wire/case_types';
+import type { CtDescription, SeedName, Segmentation, WantedSettings } from '../../wire/rest_types';
 import { fixed } from '../../text/format';
 import { CheckField, Remark, SliderField } from '../common/fields';
 
@@ -17,7 +17,7 @@ export function SegmentStep({ keeper }: { keeper: CaseController }) {
   if (settings === null || ct === null) return <Remark kind="soft">{caseText.noCt}</Remark>;
   const found = details?.segmentation ?? null;
   const blocked = store.busy.value || isUnderWay(store.job.value);
-  const change = (part: Partial<SegmentationSettings>) => (store.settings.value = { ...settings, ...part });
+  const change = (part: Partial<WantedSettings>) => (store.settings.value = { ...settings, ...part });
   return (
     <>
       <p class="soft">{caseText.segmentHint}</p>
@@ -112,7 +112,7 @@ function ThresholdField({ ct, value, onChange }: { ct: CtDescription; value: num
   );
 }
 
-function SeedList({ keeper, settings }: { keeper: CaseController; settings: SegmentationSettings }) {
+function SeedList({ keeper, settings }: { keeper: CaseController; settings: WantedSettings }) {
   const { store } = keeper;
   const armed = store.armed.value;
   const remove = (name: SeedName) => {
@@ -195,7 +195,7 @@ function PartList({ keeper, found }: { keeper: CaseController; found: Segmentati
   );
 }
 
-function sameSettings(a: SegmentationSettings, b: SegmentationSettings): boolean {
+function sameSettings(a: WantedSettings, b: WantedSettings): boolean {
   return (
     Math.abs(a.threshold_hu - b.threshold_hu) < 0.5 &&
     Math.abs(a.sigma_mm - b.sigma_mm) < 1e-6 &&

@@ -1,7 +1,7 @@
 import { dashboardText } from '../../text/dashboard_text';
 import { type CurvePoint, curveOfLearning, curveOfSessions, scaleFor } from '../../state/dashboard/curve';
 import type { Dashboard } from '../../state/dashboard/dashboard';
-import type { Learning } from '../../wire/dashboard_api';
+import type { Learning } from '../../wire/rest_types';
 import { dayAndTime, fixed } from '../../text/format';
 import { Remark } from '../common/fields';
 import { CurveChart } from './curve_chart';

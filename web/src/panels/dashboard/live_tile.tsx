@@ -1,7 +1,7 @@
 import { dashboardText } from '../../text/dashboard_text';
 import type { Tile } from '../../state/dashboard/live_board';
 import { alarmsOf, type TileAlarm } from '../../state/dashboard/tile_alarms';
-import type { Session } from '../../wire/api';
+import type { Session } from '../../wire/rest_types';
 import { appText } from '../../text/app_text';
 import { clock, fixed, minutes } from '../../text/format';
 
@@ -10,7 +10,7 @@ export function whoOf({ trainee, participant, device, title }: Session): string 
   if (trainee) return trainee;
   if (participant) return dashboardText.byParticipant(participant);
   if (title) return title;
-  return device?.name === 'script' ? dashboardText.scripted : dashboardText.unnamed;
+  return device.name === 'script' ? dashboardText.scripted : dashboardText.unnamed;
 }
 
 /** One session under way: who, what the bone looks like, the figures that matter, and what is wrong. */
@@ -45,8 +45,8 @@ export function LiveTile({ tile, old, watch }: { tile: Tile; old: boolean; watch
         </div>
         <p class="soft tile-what">
           {session.case}
-          {(session.attempt ?? 1) > 1 && `, ${dashboardText.attempt(session.attempt ?? 1)}`}
-          {session.theatre === true && `, ${dashboardText.theatre}`}
+          {session.attempt > 1 && `, ${dashboardText.attempt(session.attempt)}`}
+          {session.theatre && `, ${dashboardText.theatre}`}
         </p>
         <Figures tile={tile} />
         <AlarmWords alarms={old ? [] : alarmsOf(tile)} />

@@ -1,5 +1,5 @@
 import { dashboardText } from '../../text/dashboard_text';
-import type { Outcome } from '../../wire/api';
+import type { Outcome } from '../../wire/rest_types';
 
 /** In words, with a sign that is told apart without colours. */
 export function OutcomeMark({ outcome }: { outcome: Outcome }) {

@@ -4,7 +4,7 @@ import { dashboardText } from '../../text/dashboard_text';
 import { canBeReplayed } from '../../state/choose_session';
 import type { Remote } from '../../state/remote';
 import { addressOfRoute } from '../../state/route';
-import type { Session } from '../../wire/api';
+import type { Session } from '../../wire/rest_types';
 import { appText } from '../../text/app_text';
 import { dayAndTime, fixed } from '../../text/format';
 import { Remark } from '../common/fields';

@@ -1,6 +1,6 @@
 import type { PracticeStore } from '../../state/practice_store';
 import type { Store } from '../../state/store';
-import type { Session, Timing } from '../../wire/api';
+import type { Session, Timing } from '../../wire/rest_types';
 import { appText } from '../../text/app_text';
 import { Figure } from './figures';
 import { fixed } from '../../text/format';
@@ -13,7 +13,7 @@ export function missedPercent(store: Store): number | null {
   const details = store.details.value;
   const session = details !== null && details.id === store.sessionId.value ? details : null;
   const telemetry = store.reading.value.told;
-  const missed = telemetry?.ticksMissed ?? session?.loop?.missed ?? null;
+  const missed = telemetry?.ticksMissed ?? session?.loop.missed ?? null;
   const ticks = telemetry?.tick ?? session?.tick ?? 0;
   return missed === null || ticks === 0 ? null : (missed / ticks) * 100;
 }
@@ -48,8 +48,8 @@ function Loop({ session }: { session: Session | null }) {
     <>
       <Pair name={appText.tickTimes} id="tick-p99" a={loop?.p50_us} b={loop?.p99_us} />
       <Pair name={appText.tickTail} a={loop?.p999_us} b={loop?.max_us} />
-      {loop?.lateness !== undefined && <Lateness timing={loop.lateness} />}
-      {loop?.realtime !== undefined && (
+      {loop !== undefined && <Lateness timing={loop.lateness} />}
+      {loop !== undefined && (
         <Figure name={appText.realtime} id="realtime">
           {loop.realtime ? appText.granted : appText.notGranted}
         </Figure>

@@ -36,7 +36,7 @@ export function RunPanel({ store, watcher, practice, practiceStore, theatreWante
               class="run-button"
               data-testid="practise"
               disabled={!idle}
-              onClick={() => void practise(watcher, practice, theatreWanted.value && store.tellsTheatre.value)}
+              onClick={() => void practise(watcher, practice, theatreWanted.value)}
             >
               {appText.practise}
             </button>
@@ -64,7 +64,7 @@ export function RunPanel({ store, watcher, practice, practiceStore, theatreWante
           )}
         </div>
       )}
-      {may.ream && !active && store.tellsTheatre.value && <TheatreChoice wanted={theatreWanted} />}
+      {may.ream && !active && <TheatreChoice wanted={theatreWanted} />}
       {may.ream && <SessionControls {...{ store, watcher, practice, practiceStore }} />}
       <StateLine store={store} practiceStore={practiceStore} reachable={reachable} />
       <SessionLabels store={store} />
@@ -96,7 +96,7 @@ function TheatreChoice({ wanted }: { wanted: Signal<boolean> }) {
 function TakeOver({ store, practice, practiceStore }: Omit<Parts, 'watcher' | 'theatreWanted'>) {
   const id = store.sessionId.value;
   const details = store.details.value;
-  if (id === null || details?.id !== id || details.device?.name !== 'browser' || practiceStore.sessionId.value === id)
+  if (id === null || details?.id !== id || details.device.name !== 'browser' || practiceStore.sessionId.value === id)
     return null;
   return (
     <button
@@ -137,7 +137,7 @@ function hint(store: Store, practiceStore: PracticeStore, state: keyof typeof ap
   if (state !== 'running') return appText.stateHint[state];
   if (practiceStore.sessionId.value !== null) return appText.practiceHint;
   const details = store.details.value;
-  const device = details?.id === store.sessionId.value ? details?.device?.name : undefined;
+  const device = details?.id === store.sessionId.value ? details?.device.name : undefined;
   if (device === 'browser') return appText.takeOverHint;
   return device === undefined || device === 'script' ? appText.stateHint.running : appText.deviceHint;
 }

@@ -27,7 +27,7 @@ export function SessionControls({ store, watcher, practice, practiceStore }: Par
   const details = store.details.value;
   if (details === null || details.id !== store.sessionId.value || store.link.value.kind !== 'live') return null;
   const busy = store.busy.value;
-  const held = details.held === true;
+  const held = details.held;
   const reset = async () => {
     asking.value = false;
     const steered = practiceStore.sessionId.value === details.id;
@@ -76,7 +76,7 @@ export function SessionControls({ store, watcher, practice, practiceStore }: Par
           data-testid="reset-session"
           title={appText.resetHint}
           ref={button}
-          disabled={busy || details.device?.name === undefined}
+          disabled={busy}
           onClick={() => (asking.value = true)}
         >
           {appText.resetSession}

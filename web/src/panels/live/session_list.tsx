@@ -2,7 +2,7 @@ import { canBeReplayed, isActive } from '../../state/choose_session';
 import { addressOfRoute } from '../../state/route';
 import type { Store } from '../../state/store';
 import type { Watcher } from '../../state/watcher';
-import type { Session } from '../../wire/api';
+import type { Session } from '../../wire/rest_types';
 import { appText } from '../../text/app_text';
 import { dayAndTime, minutes } from '../../text/format';
 import { useIdentity } from '../common/site_nav';

@@ -2,7 +2,7 @@ import type { ComponentChildren } from 'preact';
 
 import type { Player } from '../../state/player';
 import type { Store } from '../../state/store';
-import type { Mark } from '../../wire/api';
+import type { Mark } from '../../wire/rest_types';
 import { appText } from '../../text/app_text';
 import { minutes } from '../../text/format';
 

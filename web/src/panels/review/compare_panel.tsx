@@ -6,7 +6,7 @@ import { canBeReplayed } from '../../state/choose_session';
 import { Remote } from '../../state/remote';
 import { addressOfRoute } from '../../state/route';
 import { everything } from '../../state/sessions/session_browser';
-import type { Session } from '../../wire/api';
+import type { Session } from '../../wire/rest_types';
 import { SessionListApi } from '../../wire/session_list_api';
 import { Remark } from '../common/fields';
 import { dayAndTime, minutes } from '../../text/format';

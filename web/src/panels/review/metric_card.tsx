@@ -2,7 +2,7 @@ import { useLayoutEffect, useRef } from 'preact/hooks';
 
 import { reviewText } from '../../text/review_text';
 import { bandText, number, unitName, valueText } from '../../state/review/score_text';
-import type { Score } from '../../wire/score_types';
+import type { Score } from '../../wire/rest_types';
 import { sentence } from '../../text/format';
 
 /** The metric that is pointed at or focused, and where its row is in the window. */
@@ -23,7 +23,7 @@ export function MetricCard({ pointed, scores }: { pointed: Pointed; scores: read
   const found = scores.map((score) => score?.metrics.find(({ metric }) => metric === pointed.metric) ?? null);
   const metric = found.find((one) => one !== null);
   if (metric === undefined || metric === null) return null;
-  const unsaid = found.find((one) => one?.unsaid)?.unsaid ?? null;
+  const unsaid = found.find((one) => one?.missing)?.missing ?? null;
   const rows: [string, string][] = [
     [reviewText.definition, sentence(metric.definition)],
     [reviewText.unit, metric.unit === null ? reviewText.noUnit : unitName(metric.unit)],

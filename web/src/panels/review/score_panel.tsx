@@ -4,7 +4,7 @@ import { useMemo } from 'preact/hooks';
 import type { Pane } from './review_workspace';
 import { reviewText } from '../../text/review_text';
 import { groupedMetrics, number, valueText } from '../../state/review/score_text';
-import type { Score, ScoredMetric, Verdict } from '../../wire/score_types';
+import type { Score, ScoredMetric, Verdict } from '../../wire/rest_types';
 import { fixed, sentence } from '../../text/format';
 import { MetricCard, type Pointed } from './metric_card';
 
@@ -101,7 +101,7 @@ function Metrics({ scores, first, pointed }: MetricsParts) {
             {unsaid.map((metric) => (
               <div key={metric.metric}>
                 <dt>{metric.name}</dt>
-                <dd>{sentence(metric.unsaid ?? '')}</dd>
+                <dd>{sentence(metric.missing ?? '')}</dd>
               </div>
             ))}
           </dl>

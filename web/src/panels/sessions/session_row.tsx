@@ -4,7 +4,7 @@ import { sessionText } from '../../text/session_text';
 import { canBeReplayed, isActive } from '../../state/choose_session';
 import { addressOfRoute } from '../../state/route';
 import type { SessionBrowser } from '../../state/sessions/session_browser';
-import type { Session } from '../../wire/api';
+import type { Session } from '../../wire/rest_types';
 import { appText } from '../../text/app_text';
 import { dayAndTime, minutes } from '../../text/format';
 import { useFocusAfter } from '../common/focus_after';
@@ -39,7 +39,7 @@ export function SessionRow({ session, browser, watch, replay }: Parts) {
       </td>
       <td class="number">{minutes(session.duration_s)}</td>
       <td class="deeds">
-        {live && session.streamable !== false && (
+        {live && session.streamable && (
           <button
             type="button"
             class="plain-button"

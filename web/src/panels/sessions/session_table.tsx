@@ -1,6 +1,6 @@
 import { sessionText } from '../../text/session_text';
 import type { SessionBrowser } from '../../state/sessions/session_browser';
-import type { Session } from '../../wire/api';
+import type { Session } from '../../wire/rest_types';
 import type { SortKey } from '../../wire/session_list_api';
 import { SessionRow } from './session_row';
 

@@ -5,7 +5,7 @@ import { Remote } from '../../state/remote';
 import { studyText } from '../../text/study_text';
 import { AccessApi } from '../../wire/access_api';
 import type { StudyApi } from '../../wire/study_api';
-import type { NewParticipant, Participant, Study } from '../../wire/study_types';
+import type { NewParticipant, Participant, Study } from '../../wire/rest_types';
 import { Remark } from '../common/fields';
 import { useIdentity } from '../common/site_nav';
 import { type Background, ExperienceFields } from './experience_fields';

@@ -1,7 +1,7 @@
 import type { Signal } from '@preact/signals';
 
 import { studyText } from '../../text/study_text';
-import { type Experience, experiences } from '../../wire/study_types';
+import { type Experience, experiences } from '../../wire/rest_types';
 
 export interface Background {
   experience: Experience | null;

@@ -1,7 +1,7 @@
 import type { Remote } from '../../state/remote';
 import { studyText } from '../../text/study_text';
 import type { StudyApi } from '../../wire/study_api';
-import type { Study } from '../../wire/study_types';
+import type { Study } from '../../wire/rest_types';
 import { saveBlob } from '../../wire/save_blob';
 import { ConfirmButton } from '../common/confirm_dialog';
 import { useIdentity } from '../common/site_nav';

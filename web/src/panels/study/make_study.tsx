@@ -6,7 +6,7 @@ import { studyText } from '../../text/study_text';
 import { CaseApi } from '../../wire/case_api';
 import { messageOf } from '../../wire/rest';
 import type { StudyApi } from '../../wire/study_api';
-import type { NewStudy } from '../../wire/study_types';
+import type { NewStudy } from '../../wire/rest_types';
 import { Remark } from '../common/fields';
 
 /** The form for another study. */
@@ -14,7 +14,7 @@ export function MakeStudy({ api, onMade }: { api: StudyApi; onMade: (studyId: st
   const cases = useMemo(() => new Remote(() => new CaseApi(window.location.origin).cases()), []);
   useEffect(() => void cases.read(), [cases]);
   const wanted = useSignal({ name: '', description: '', cases: ['demo'], device: 'browser', asking: 'ours' });
-  const file = useSignal<object | null>(null);
+  const file = useSignal<Record<string, unknown> | null>(null);
   const problem = useSignal<string | null>(null);
   const set = (change: Partial<typeof wanted.value>) => (wanted.value = { ...wanted.value, ...change });
   const usable = cases.value.value?.filter((one) => one.stage === 'built' && one.planned) ?? [];
@@ -27,7 +27,7 @@ export function MakeStudy({ api, onMade }: { api: StudyApi; onMade: (studyId: st
     problem.value = null;
     if (picked === undefined) return;
     try {
-      file.value = JSON.parse(await picked.text()) as object;
+      file.value = JSON.parse(await picked.text()) as Record<string, unknown>;
     } catch {
       problem.value = studyText.fileUnreadable;
     }

@@ -5,7 +5,7 @@ import { addressOfRoute } from '../../state/route';
 import { studyText } from '../../text/study_text';
 import { messageOf } from '../../wire/rest';
 import type { StudyApi } from '../../wire/study_api';
-import type { Participant, Person, Study } from '../../wire/study_types';
+import type { Participant, Person, Study } from '../../wire/rest_types';
 import { Remark } from '../common/fields';
 import { ConfirmButton } from '../common/confirm_dialog';
 import { useIdentity } from '../common/site_nav';

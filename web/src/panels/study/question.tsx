@@ -1,6 +1,6 @@
 import type { AnswerSheet } from '../../state/study/answer_sheet';
 import { studyText } from '../../text/study_text';
-import type { ChoiceItem, Item, LikertItem, TextItem } from '../../wire/study_types';
+import type { ChoiceItem, Item, LikertItem, TextItem } from '../../wire/rest_types';
 
 interface Parts<T extends Item> {
   item: T;

@@ -2,7 +2,7 @@ import { useSignal } from '@preact/signals';
 
 import { addressOfRoute } from '../../state/route';
 import { studyText } from '../../text/study_text';
-import type { Study } from '../../wire/study_types';
+import type { Study } from '../../wire/rest_types';
 import { useIdentity } from '../common/site_nav';
 
 interface Parts {

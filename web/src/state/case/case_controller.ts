@@ -7,13 +7,14 @@ import type {
   CaseDetails,
   CtDescription,
   Job,
-  Part,
+  BonePart,
+  NewPlan,
   Plan,
   PlanWishes,
   Segmentation,
-  SegmentationSettings,
+  WantedSettings,
   Triple,
-} from '../../wire/case_types';
+} from '../../wire/rest_types';
 import { ApiError } from '../../wire/rest';
 import { type Armed, CaseStore } from './case_store';
 import { nextStep, stepStates } from './case_steps';
@@ -84,7 +85,7 @@ export class CaseController {
     return this.api.meshUrl(this.caseId);
   }
 
-  segment(settings: SegmentationSettings): Promise<void> {
+  segment(settings: WantedSettings): Promise<void> {
     return this.carryOut(async () => void (await this.follow(await this.api.segment(this.caseId, settings))));
   }
   undoSegmentation(): Promise<void> {
@@ -132,8 +133,9 @@ export class CaseController {
       const draft = this.store.draft.value;
       if (draft === null) return;
       const overriding = override === null ? {} : { override: true, override_reason: override };
-      const asked: Plan = { ...draft.plan, ...overriding };
-      for (const [key, value] of Object.entries(asked)) if (value === null) delete asked[key];
+      const { pilot_diameter_mm: diameter, pilot_depth_mm: depth, ...plan } = draft.plan;
+      const pilot = diameter === null || depth === null ? {} : { pilot_diameter_mm: diameter, pilot_depth_mm: depth };
+      const asked: NewPlan = { ...plan, ...pilot, ...overriding };
       try {
         const { plan, assessment } = await this.api.putPlan(this.caseId, asked);
         batch(() => {
@@ -211,7 +213,7 @@ export class CaseController {
   }
 
   /** The slices show a part of the bones, or (null) the whole CT. */
-  framePart(part: Part | null): void {
+  framePart(part: BonePart | null): void {
     const frame = this.store.frame.value;
     if (frame === null) return;
     const box = part === null ? null : frame.voxelBox(part.low_mm, part.high_mm, partMarginMm);
@@ -292,7 +294,7 @@ export class CaseController {
 }
 
 /** With which the bones were found, or what is suggested before. */
-export function settingsOf(ct: CtDescription, found: Segmentation | null): SegmentationSettings {
+export function settingsOf(ct: CtDescription, found: Segmentation | null): WantedSettings {
   const { settings = {} } = found ?? {};
   const threshold_hu = settings.threshold_hu ?? found?.threshold_hu ?? Math.round(ct.suggested_threshold_hu);
   return { sigma_mm: 0, separate: true, seeds: {}, fill_holes: true, ...settings, threshold_hu };

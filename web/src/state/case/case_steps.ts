@@ -1,4 +1,4 @@
-import type { CaseDetails } from '../../wire/case_types';
+import type { CaseDetails } from '../../wire/rest_types';
 import { neededNames, type PlacedLandmarks, pointOf } from './landmark_names';
 
 export const stepNames = ['segment', 'landmarks', 'plan', 'build', 'ream'] as const;

@@ -11,9 +11,9 @@ import type {
   Plan,
   Reamer,
   SeedName,
-  SegmentationSettings,
+  WantedSettings,
   Triple,
-} from '../../wire/case_types';
+} from '../../wire/rest_types';
 import type { StepName } from './case_steps';
 import type { LandmarkName } from './landmark_names';
 
@@ -64,7 +64,7 @@ export class CaseStore {
   readonly previewShown = signal(true);
 
   /** As the sliders stand; null until the case is known. */
-  readonly settings = signal<SegmentationSettings | null>(null);
+  readonly settings = signal<WantedSettings | null>(null);
 
   readonly reamers = signal<readonly Reamer[]>([]);
   readonly draft = signal<PlanDraft | null>(null);

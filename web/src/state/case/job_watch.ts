@@ -1,5 +1,5 @@
 import type { CaseApi } from '../../wire/case_api';
-import type { Job } from '../../wire/case_types';
+import type { Job } from '../../wire/rest_types';
 import { ApiError } from '../../wire/rest';
 
 const pollMs = 300;

@@ -1,7 +1,7 @@
 import { batch, computed, signal } from '@preact/signals';
 
 import type { CaseApi } from '../../wire/case_api';
-import type { CaseDetails, Landmarks, Measures } from '../../wire/case_types';
+import type { CaseDetails, Landmarks, Measures } from '../../wire/rest_types';
 import { landmarksOf, placedFrom, type PlacedLandmarks, sameLandmarks } from './landmark_names';
 
 const saveAfterMs = 350;

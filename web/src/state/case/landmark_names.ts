@@ -1,4 +1,4 @@
-import type { HumeralHead, Landmarks, PointName, Triple, WalchClass } from '../../wire/case_types';
+import type { HumeralHead, Landmarks, PointName, Triple, WalchClass } from '../../wire/rest_types';
 
 export const biconcavityNames = ['biconcavity_0', 'biconcavity_1', 'biconcavity_2'] as const;
 type BiconcavityName = (typeof biconcavityNames)[number];

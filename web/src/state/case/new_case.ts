@@ -1,7 +1,7 @@
 import { batch, signal } from '@preact/signals';
 
 import type { CaseApi } from '../../wire/case_api';
-import type { CaseSummary, Job, Side } from '../../wire/case_types';
+import type { CaseSummary, Job, Side } from '../../wire/rest_types';
 import { wordsOf } from './case_controller';
 import { followJob, pause } from './job_watch';
 import { dropUpload, forgetUpload, uploadFile, type UploadSource } from './upload';
@@ -99,7 +99,7 @@ export class CasesKeeper {
           this.wishes.value = { name: '', seriesUid: '' };
           this.state.value = { kind: 'idle' };
         });
-        this.onReady(job.case_id);
+        if (job.case_id !== null) this.onReady(job.case_id);
       } else if (job?.state === 'failed') {
         const words = job.problem?.detail ?? job.problem?.title ?? job.step;
         this.state.value = { kind: 'failed', during, words };

@@ -1,5 +1,5 @@
 import type { CaseApi } from '../../wire/case_api';
-import type { Upload } from '../../wire/case_types';
+import type { Upload } from '../../wire/rest_types';
 import { ApiError } from '../../wire/rest';
 
 export const pieceBytes = 1 << 20;

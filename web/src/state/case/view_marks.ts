@@ -1,7 +1,7 @@
 import { computed, type ReadonlySignal } from '@preact/signals';
 
 import { type Outline, reamerOutline } from '../../ct/reamer_shape';
-import type { SeedName, Triple } from '../../wire/case_types';
+import type { SeedName, Triple } from '../../wire/rest_types';
 import type { CaseController } from './case_controller';
 import { landmarkNames, type LandmarkName, pointOf } from './landmark_names';
 

@@ -1,5 +1,4 @@
-import type { Outcome, Session } from '../../wire/api';
-import type { Learning } from '../../wire/dashboard_api';
+import type { Learning, Outcome, Session } from '../../wire/rest_types';
 
 /** One session of a course of learning. */
 export interface CurvePoint {

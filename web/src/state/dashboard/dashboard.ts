@@ -1,8 +1,8 @@
 import { computed, effect, signal } from '@preact/signals';
 
-import type { Session } from '../../wire/api';
+import type { Learning, Session } from '../../wire/rest_types';
 import { type Change, ChangeSocket } from '../../wire/change_socket';
-import type { DashboardApi, Learner, Learning } from '../../wire/dashboard_api';
+import type { DashboardApi, Learner } from '../../wire/dashboard_api';
 import { Remote } from '../remote';
 import { type KnownLearner, learnersIn } from './learners';
 import { LiveBoard } from './live_board';

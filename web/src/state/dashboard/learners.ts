@@ -1,4 +1,4 @@
-import type { Session } from '../../wire/api';
+import type { Session } from '../../wire/rest_types';
 import type { Learner } from '../../wire/dashboard_api';
 
 /** Somebody who has trained, as far as the user may know. */

@@ -1,13 +1,12 @@
 import { batch, computed, signal } from '@preact/signals';
 
-import type { Session } from '../../wire/api';
-import type { SoFar } from '../../wire/dashboard_api';
+import type { Session, Metrics } from '../../wire/rest_types';
 import { messageOf } from '../../wire/rest';
 
 /** What the board asks for. */
 export interface LiveSource {
   live(): Promise<Session[]>;
-  soFar(id: string): Promise<SoFar>;
+  soFar(id: string): Promise<Metrics>;
   picture(id: string): Promise<Blob>;
   plannedDepthMm(caseId: string): Promise<number | null>;
 }
@@ -15,9 +14,9 @@ export interface LiveSource {
 /** A session under way, as it was last heard of. */
 export interface Tile {
   session: Session;
-  soFar: SoFar | null;
+  soFar: Metrics | null;
   /** The reading before that. */
-  before: SoFar | null;
+  before: Metrics | null;
   /** When `soFar` came, ms; null: never. */
   heardMs: number | null;
   plannedDepthMm: number | null;

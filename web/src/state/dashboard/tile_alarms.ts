@@ -1,5 +1,4 @@
-import type { Session } from '../../wire/api';
-import type { SoFar } from '../../wire/dashboard_api';
+import type { Session, Metrics } from '../../wire/rest_types';
 import { farPastMm, pastPlanMm } from '../alarms';
 
 /** A share of missed ticks above this is worth saying, percent. */
@@ -17,8 +16,8 @@ export interface TileAlarm {
 /** One session as it was last read, and as it was read before. */
 export interface Reading {
   session: Session;
-  soFar: SoFar | null;
-  before: SoFar | null;
+  soFar: Metrics | null;
+  before: Metrics | null;
   plannedDepthMm: number | null;
 }
 
@@ -34,8 +33,8 @@ export function alarmsOf({ session, soFar, before, plannedDepthMm }: Reading): T
   if (pastMm !== null) add('depth', pastMm > farPastMm ? 'bad' : 'warn', pastMm);
   const grown = (soFar?.axial_thrust_excess_n_s ?? 0) - (before?.axial_thrust_excess_n_s ?? Infinity);
   if (grown > 0) add('thrust', 'bad', null);
-  const missed = session.loop?.missed;
-  const percent = missed === undefined || session.tick === 0 ? 0 : (missed / session.tick) * 100;
+  const missed = session.loop.missed;
+  const percent = session.tick === 0 ? 0 : (missed / session.tick) * 100;
   if (percent > lateAbovePercent) add('late', 'warn', percent);
   return found.sort((a, b) => Number(b.level === 'bad') - Number(a.level === 'bad'));
 }

@@ -1,6 +1,6 @@
 import { batch, signal } from '@preact/signals';
 
-import { ApiError, type Api, type PlaybackChange, type Replay } from '../../wire/api';
+import { ApiError, type Api } from '../../wire/api';
 import { Link } from '../../wire/link';
 import type { Hello, MeshDelta, StreamMessage, Telemetry, ToolMesh } from '../../wire/messages';
 import { messageOf } from '../../wire/rest';
@@ -8,6 +8,7 @@ import type { StreamSocket } from '../../wire/stream_socket';
 import type { Player } from '../player';
 import { Scrubber } from '../scrubber';
 import type { Store } from '../store';
+import type { PlaybackChange, Replay } from '../../wire/rest_types';
 
 /** Where pictures go. */
 export interface Picture {

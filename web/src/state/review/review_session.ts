@@ -1,6 +1,6 @@
 import { computed, effect, signal } from '@preact/signals';
 
-import type { Api, Mark, Session } from '../../wire/api';
+import type { Api } from '../../wire/api';
 import { ApiError, messageOf } from '../../wire/rest';
 import type { MapName, ReviewApi } from '../../wire/review_api';
 import type { StreamSocket } from '../../wire/stream_socket';
@@ -14,6 +14,7 @@ import { readTrace, type SessionTrace, traceStride } from './session_trace';
 import { SurfaceMap } from './surface_map';
 import { eventsOfTrace, isEnd, mergedMarks, neighbouringMark } from './timeline';
 import { type Trouble, troubleWithSession } from './trouble';
+import type { Mark, Session } from '../../wire/rest_types';
 
 /** A deleted session is noticed after this time. */
 const lookAgainMs = 10_000;

@@ -1,5 +1,5 @@
 import { reviewText } from '../../text/review_text';
-import type { Band, Score, ScoredMetric } from '../../wire/score_types';
+import type { Band, Score, ScoredMetric } from '../../wire/rest_types';
 import { fixed } from '../../text/format';
 
 /** A metric's unit as people write it; empty for a bare number. */
@@ -68,7 +68,7 @@ export function breachText(score: Pick<Score, 'metrics'> | null): { breached: bo
   const metric = score?.metrics.find(({ metric }) => metric === 'vault_breach_mm');
   const value = metric?.value ?? null;
   if (metric === undefined || value === null)
-    return { breached: null, words: reviewText.breachUnsaid(metric?.unsaid ?? reviewText.scoreLoading) };
+    return { breached: null, words: reviewText.breachUnsaid(metric?.missing ?? reviewText.scoreLoading) };
   if (value <= 0) return { breached: false, words: reviewText.breachNone };
   return { breached: true, words: reviewText.breachBy(number(value)) };
 }

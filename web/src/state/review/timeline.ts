@@ -1,4 +1,4 @@
-import type { Mark } from '../../wire/api';
+import type { Mark } from '../../wire/rest_types';
 import type { SessionTrace } from './session_trace';
 
 /** Pressed from so much thrust on, and let go below so much, N: what trembles around one of them is one press. */

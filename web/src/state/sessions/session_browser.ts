@@ -1,7 +1,7 @@
 import { batch, computed, signal } from '@preact/signals';
 
-import type { Session } from '../../wire/api';
-import type { SessionChange, SessionListApi, SessionPage, SessionQuery, SortKey } from '../../wire/session_list_api';
+import type { Session, SessionChange, SessionPage } from '../../wire/rest_types';
+import type { SessionListApi, SessionQuery, SortKey } from '../../wire/session_list_api';
 import { Remote } from '../remote';
 
 export const pageSize = 25;

@@ -1,6 +1,6 @@
 import { computed, signal } from '@preact/signals';
 
-import type { Answer, Answers, Item, Questionnaire } from '../../wire/study_types';
+import type { Answer, Answers, Item, Questionnaire } from '../../wire/rest_types';
 
 /** What one participant answers, while it is filled in. */
 export class AnswerSheet {

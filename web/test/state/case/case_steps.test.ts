@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 
 import { nextStep, type StepFacts, stepStates } from '../../../src/state/case/case_steps';
 import { neededNames, type PlacedLandmarks, withPoint } from '../../../src/state/case/landmark_names';
-import type { CaseDetails } from '../../../src/wire/case_types';
+import type { CaseDetails } from '../../../src/wire/rest_types';
 
 const ct = {} as CaseDetails['ct'];
 const segmentation = (revision: number) => ({ revision }) as CaseDetails['segmentation'];

@@ -2,7 +2,7 @@ import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 
 import { LandmarkEditor } from '../../../src/state/case/landmark_editor';
 import { landmarksOf, nextMissing, placedFrom, sameLandmarks, withPoint } from '../../../src/state/case/landmark_names';
-import type { CaseDetails, Landmarks, Measures } from '../../../src/wire/case_types';
+import type { CaseDetails, Landmarks, Measures } from '../../../src/wire/rest_types';
 import { ApiError } from '../../../src/wire/rest';
 
 class FakeLandmarks {

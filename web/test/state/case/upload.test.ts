@@ -1,7 +1,7 @@
 import { beforeEach, describe, expect, it } from 'vitest';
 
 import { pieceBytes, uploadFile, type UploadDuties, type UploadSource } from '../../../src/state/case/upload';
-import type { Upload } from '../../../src/wire/case_types';
+import type { Upload } from '../../../src/wire/rest_types';
 import { ApiError } from '../../../src/wire/rest';
 
 /** The server's side of uploads, which can lose answers. */

@@ -1,9 +1,9 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 
 import { Dashboard } from '../../../src/state/dashboard/dashboard';
-import type { Session } from '../../../src/wire/api';
+import type { Learning, Session } from '../../../src/wire/rest_types';
 import type { ChangeHandlers } from '../../../src/wire/change_socket';
-import type { DashboardApi, Learner, Learning } from '../../../src/wire/dashboard_api';
+import type { DashboardApi, Learner } from '../../../src/wire/dashboard_api';
 import { ApiError } from '../../../src/wire/rest';
 
 const ended = (id: string, traineeId: string) => ({ id, trainee_id: traineeId, trainee: traineeId }) as Session;

@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 
 import { curveOfSessions, scaleFor } from '../../../src/state/dashboard/curve';
 import { learnersIn } from '../../../src/state/dashboard/learners';
-import type { Session } from '../../../src/wire/api';
+import type { Session } from '../../../src/wire/rest_types';
 
 const of = (id: string, who: Partial<Session>) => ({ id, created_utc: id, ...who }) as Session;
 

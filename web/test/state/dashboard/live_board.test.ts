@@ -7,8 +7,7 @@ import {
   readEveryMs,
   staleAfterMs,
 } from '../../../src/state/dashboard/live_board';
-import type { Session } from '../../../src/wire/api';
-import type { SoFar } from '../../../src/wire/dashboard_api';
+import type { Session, Metrics } from '../../../src/wire/rest_types';
 import { ApiError } from '../../../src/wire/rest';
 
 const session = (id: string, caseId = 'demo') => ({ id, case: caseId, state: 'running', tick: 1 }) as Session;
@@ -22,7 +21,7 @@ class FakeSource implements LiveSource {
   pictureFails = false;
 
   live = (): Promise<Session[]> => this.answer(this.sessions);
-  soFar = (): Promise<SoFar> => this.answer({ reaming_depth_mm: (this.depthMm += 1) } as SoFar);
+  soFar = (): Promise<Metrics> => this.answer({ reaming_depth_mm: (this.depthMm += 1) } as Metrics);
   plannedDepthMm = (caseId: string): Promise<number | null> => {
     this.asked.push(`plan ${caseId}`);
     return this.answer(2.5);

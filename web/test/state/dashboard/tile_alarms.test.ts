@@ -1,19 +1,11 @@
 import { describe, expect, it } from 'vitest';
 
 import { alarmsOf, type Reading } from '../../../src/state/dashboard/tile_alarms';
-import type { Session } from '../../../src/wire/api';
-import type { SoFar } from '../../../src/wire/dashboard_api';
+import { someMetrics, someSession } from '../../wire/some_answers';
 
-const calm: SoFar = {
-  reaming_depth_mm: 1,
-  axial_thrust_mean_n: 50,
-  axial_thrust_peak_n: 60,
-  axial_thrust_excess_n_s: 2,
-  removed_volume_mm3: 10,
-  duration_s: 3,
-  vault_breach_mm: 0,
-};
-const session = { fault: null, tick: 10_000, loop: { missed: 5 } } as Session;
+const calm = someMetrics({ axial_thrust_excess_n_s: 2, vault_breach_mm: 0 });
+const loop = { ...someSession().loop, missed: 5 };
+const session = someSession({ tick: 10_000, loop });
 const kinds = (reading: Partial<Reading>) =>
   alarmsOf({ session, soFar: calm, before: calm, plannedDepthMm: 2, ...reading }).map(
     ({ kind, level }) => `${kind} ${level}`,
@@ -39,7 +31,7 @@ describe('alarmsOf', () => {
   it('tells what is bad before what is not', () => {
     expect(
       kinds({
-        session: { ...session, loop: { missed: 50 }, fault: 'the device is lost' },
+        session: { ...session, loop: { ...loop, missed: 50 }, fault: 'the device is lost' },
         soFar: { ...calm, vault_breach_mm: 0.4 },
       }),
     ).toEqual(['fault bad', 'vault bad', 'late warn']);

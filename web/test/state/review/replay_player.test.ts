@@ -2,9 +2,11 @@ import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 
 import { ReplayPlayer } from '../../../src/state/review/replay_player';
 import { Store } from '../../../src/state/store';
-import { ApiError, type PlaybackChange, type Replay } from '../../../src/wire/api';
+import { ApiError } from '../../../src/wire/api';
 import { hello, telemetry, wholePicture } from '../../wire/fake_messages';
 import { FakeSocket } from '../../wire/fake_socket';
+import type { PlaybackChange, Replay } from '../../../src/wire/rest_types';
+import { someReplay } from '../../wire/some_answers';
 
 /** A server that keeps replays until the test ends them. */
 class FakeReplays {
@@ -15,13 +17,8 @@ class FakeReplays {
 
   openReplay = (sessionId: string): Promise<Replay> => {
     if (this.refuse !== null) return Promise.reject(this.refuse);
-    const replay: Replay = {
-      id: `r${++this.made}`,
-      replay_of: sessionId,
-      playback: { position_s: 0, duration_s: 10, speed: 1, playing: false },
-      marks: [{ at_s: 2, kind: 'annotation', words: 'here' }],
-      warning: null,
-    };
+    const marks = [{ at_s: 2, kind: 'annotation', words: 'here' }];
+    const replay = someReplay({ id: `r${++this.made}`, replay_of: sessionId, marks });
     this.open.set(replay.id, replay);
     return Promise.resolve(replay);
   };

@@ -2,11 +2,12 @@ import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 
 import { reviewText } from '../../../src/text/review_text';
 import { ReviewSession, type ReviewSources } from '../../../src/state/review/review_session';
-import { ApiError, type PlaybackChange, type Session } from '../../../src/wire/api';
-import type { Score } from '../../../src/wire/score_types';
+import { ApiError } from '../../../src/wire/api';
+import type { PlaybackChange, Score, Session } from '../../../src/wire/rest_types';
 import type { SortedSurface } from '../../../src/wire/surface_worker';
 import { hello, telemetry, wholePicture } from '../../wire/fake_messages';
 import { FakeSocket } from '../../wire/fake_socket';
+import { someAnnotation, someReplay } from '../../wire/some_answers';
 
 const code = { stepMm: 1 / 32, rangeMm: 127 / 32, unknown: -128 };
 const corners = 4;
@@ -15,14 +16,8 @@ function begin(change: Partial<ReviewSources['review']> = {}) {
   const socket = new FakeSocket();
   const changes: PlaybackChange[] = [];
   const asked: string[] = [];
-  const remarks = [{ at_s: 5, words: 'here', author: '' }];
-  const replay = {
-    id: 'r1',
-    replay_of: 'abcd',
-    playback: { position_s: 0, duration_s: 10, speed: 1, playing: false },
-    marks: [{ at_s: 5, kind: 'annotation', words: 'here' }],
-    warning: null,
-  };
+  const remarks = [someAnnotation(5, 'here')];
+  const replay = someReplay({ marks: [{ at_s: 5, kind: 'annotation', words: 'here' }] });
   const details = { id: 'abcd', tick: 10_000, duration_s: 10, state: 'finished', case: 'demo' } as Session;
   const sources: ReviewSources = {
     api: {
@@ -47,7 +42,7 @@ function begin(change: Partial<ReviewSources['review']> = {}) {
       },
       annotations: () => Promise.resolve(remarks),
       annotate: (_, words, atS) => {
-        const made = { words, at_s: atS, author: '' };
+        const made = someAnnotation(atS, words);
         remarks.push(made);
         return Promise.resolve(made);
       },

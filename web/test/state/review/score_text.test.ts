@@ -2,12 +2,13 @@ import { describe, expect, it } from 'vitest';
 
 import { bandText, breachText, groupedMetrics, number, valueText } from '../../../src/state/review/score_text';
 import { troubleWithSession } from '../../../src/state/review/trouble';
-import type { ScoredMetric } from '../../../src/wire/score_types';
+import type { ScoredMetric } from '../../../src/wire/rest_types';
 
 const metric = (changes: Partial<ScoredMetric>): ScoredMetric => ({
   metric: 'some_mm',
   name: 'Some',
   value: 1,
+  missing: null,
   unsaid: null,
   unit: 'mm',
   definition: '',
@@ -48,9 +49,9 @@ describe('words of a score', () => {
         metric({ metric: 'a', weight: 1 }),
         metric({ metric: 'b', weight: 3 }),
         metric({ metric: 'c', weight: 0.5, critical: true }),
-        metric({ metric: 'd', weight: 2, value: null, unsaid: 'no plan' }),
+        metric({ metric: 'd', weight: 2, value: null, missing: 'no plan' }),
         metric({ metric: 'e' }),
-        metric({ metric: 'f', value: null, unsaid: 'no contact' }),
+        metric({ metric: 'f', value: null, missing: 'no contact' }),
       ],
     });
     expect(counting.map((each) => each.metric)).toEqual(['c', 'b', 'd', 'a']);
@@ -65,8 +66,8 @@ describe('words of a score', () => {
     expect(breachText(vault({ value: 0 })).breached).toBe(false);
     expect(breachText(vault({ value: 1.234 }))).toMatchObject({ breached: true });
     expect(breachText(vault({ value: 1.234 })).words).toContain('1.23 mm');
-    expect(breachText(vault({ value: null, unsaid: 'no implant can be seated' }))).toMatchObject({ breached: null });
-    expect(breachText(vault({ value: null, unsaid: 'no implant can be seated' })).words).toContain('no implant');
+    expect(breachText(vault({ value: null, missing: 'no implant can be seated' }))).toMatchObject({ breached: null });
+    expect(breachText(vault({ value: null, missing: 'no implant can be seated' })).words).toContain('no implant');
     expect(breachText(null).breached).toBeNull();
   });
 

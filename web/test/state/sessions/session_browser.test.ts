@@ -1,14 +1,9 @@
 import { beforeEach, describe, expect, it } from 'vitest';
 
 import { everything, SessionBrowser } from '../../../src/state/sessions/session_browser';
-import type { Session } from '../../../src/wire/api';
+import type { Session, SessionPage } from '../../../src/wire/rest_types';
 import { ApiError } from '../../../src/wire/rest';
-import {
-  queryText,
-  type SessionListApi,
-  type SessionPage,
-  type SessionQuery,
-} from '../../../src/wire/session_list_api';
+import { queryOf, type SessionListApi, type SessionQuery } from '../../../src/wire/session_list_api';
 
 const session = (id: string) => ({ id }) as Session;
 
@@ -92,9 +87,12 @@ describe('SessionBrowser', () => {
   });
 });
 
-describe('queryText', () => {
+describe('queryOf', () => {
   it('leaves out what lets everything pass, and counts the last day in', () => {
-    expect(queryText(everything, null, 25)).toBe('limit=25&sort=-created_utc');
+    expect(Object.entries(queryOf(everything, null, 25)).filter(([, value]) => value !== undefined)).toEqual([
+      ['limit', 25],
+      ['sort', '-created_utc'],
+    ]);
     const query = {
       ...everything,
       text: ' a&b ',
@@ -102,14 +100,16 @@ describe('queryText', () => {
       from: '2026-01-01',
       to: '2026-01-31',
     };
-    expect(Object.fromEntries(new URLSearchParams(queryText(query, 'c', 10)))).toEqual({
-      limit: '10',
+    expect(queryOf(query, 'c', 10)).toEqual({
+      limit: 10,
       sort: '-created_utc',
       q: 'a&b',
       state: 'running,paused',
       from: '2026-01-01',
       to: '2026-02-01',
       cursor: 'c',
+      case: undefined,
+      study: undefined,
     });
   });
 });

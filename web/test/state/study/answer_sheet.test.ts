@@ -1,7 +1,7 @@
 import { beforeEach, describe, expect, it } from 'vitest';
 
 import { AnswerSheet, sectionsOf } from '../../../src/state/study/answer_sheet';
-import type { Item, Questionnaire } from '../../../src/wire/study_types';
+import type { Item, Questionnaire } from '../../../src/wire/rest_types';
 
 const likert = (id: string, section: string): Item => ({
   kind: 'likert',
