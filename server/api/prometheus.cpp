@@ -4,7 +4,7 @@
 #include <functional>
 #include <sstream>
 
-#include "device/link_state.hpp"
+#include "device/haptic_device.hpp"
 
 namespace ream::api {
 namespace {

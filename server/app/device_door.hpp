@@ -2,7 +2,7 @@
 #include <memory>
 #include <string>
 
-#include "device/device_socket.hpp"
+#include "device/network/device_socket.hpp"
 #include "net/listener.hpp"
 #include "net/router.hpp"
 

@@ -9,7 +9,7 @@
 #include "core/clock.hpp"
 #include "core/interrupt.hpp"
 #include "device/crash_guard.hpp"
-#include "device/device_guard.hpp"
+#include "device/haptic_device.hpp"
 #include "sim/realtime.hpp"
 #include "sim/watchdogs.hpp"
 

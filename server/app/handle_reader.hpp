@@ -5,7 +5,6 @@
 #include <thread>
 
 #include "core/latest_slot.hpp"
-#include "device/device_guard.hpp"
 #include "device/device_setup.hpp"
 #include "device/haptic_device.hpp"
 

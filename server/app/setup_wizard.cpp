@@ -50,8 +50,7 @@ class Wizard {
       if (answer.empty()) return usual;
       char* end = nullptr;
       const double scale = std::strtod(answer.c_str(), &end);
-      if (*end == '\0' && scale >= device::DeviceSetup::least_scale &&
-          scale <= device::DeviceSetup::most_scale)
+      if (*end == '\0' && scale >= device::DeviceSetup::min_scale && scale <= device::DeviceSetup::max_scale)
         return scale;
       out_ << "Please give a number from 0.05 to 20.\n";
     }

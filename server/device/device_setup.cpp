@@ -13,9 +13,23 @@
 namespace ream::device {
 namespace {
 
-constexpr double least_motion_mm = 10.0;
+constexpr const char* vector_word = "vector";
+constexpr const char* values_word = "values";
+constexpr const char* button_word = "button";
+constexpr const char* always_word = "always";
+
+/// Whether the key says `other` rather than `fallback`.
+bool is_alternative(JsonReader& reader, const std::string& key, const std::string& fallback,
+                    const std::string& other) {
+  const std::string value = reader.text_or(key, fallback);
+  if (value != fallback && value != other)
+    reader.refuse(key, "is '" + value + "', must be " + fallback + " or " + other);
+  return value == other;
+}
+
+constexpr double min_motion_mm = 10.0;
 /// Two motions that are closer to each other, or to each other's opposite, than 60 degrees tell no axes.
-constexpr double most_cosine = 0.5;
+constexpr double max_cosine = 0.5;
 constexpr double rotation_tolerance = 1e-6;
 
 /// A planned axis this near to the body's leaves no direction up; cosine.
@@ -25,19 +39,19 @@ const Vec3 superior = Vec3::UnitZ(), anterior = -Vec3::UnitY();  // the world is
 constexpr std::array<const char*, 3> person_axes{"right", "up", "towards"};
 constexpr std::array<const char*, 3> tool_axes{"x", "y", "z"};
 
-[[noreturn]] void refuse(const std::string& words) { throw Error(ErrorKind::invalid_input, words); }
+[[noreturn]] void refuse(const std::string& text) { throw Error(ErrorKind::invalid_input, text); }
 
 Vec3 direction_of(const Vec3& motion_mm, const std::string& name) {
   const double length_mm = motion_mm.norm();
   if (!std::isfinite(length_mm)) refuse("the motion " + name + " is not a number");
-  if (length_mm < least_motion_mm)
+  if (length_mm < min_motion_mm)
     refuse("the motion " + name + " was only " + std::to_string(std::lround(length_mm)) +
            " mm long; move the handle at least 10 mm, better 50");
   return motion_mm / length_mm;
 }
 
 void require_apart(const Vec3& a, const Vec3& b, const std::string& names) {
-  if (std::abs(a.dot(b)) > most_cosine)
+  if (std::abs(a.dot(b)) > max_cosine)
     refuse("the motions " + names + " went almost the same way; move straight, and square to the one before");
 }
 
@@ -77,6 +91,36 @@ const Mat3 person_from_tool = Vec3(1.0, -1.0, -1.0).asDiagonal();
 
 }  // namespace
 
+DeviceConnection read_device_connection(JsonReader reader) {
+  DeviceConnection c;
+  c.host = reader.text_or("host", c.host);
+  if (c.host.empty()) reader.refuse("host", "must not be empty");
+  c.port = static_cast<uint16_t>(reader.integer_or("port", c.port, 1, UINT16_MAX));
+  c.events_port = static_cast<uint16_t>(reader.integer_or("events_port", c.events_port, 0, UINT16_MAX));
+  c.force_form = is_alternative(reader, "force_form", vector_word, values_word) ? HaplyForceForm::values
+                                                                                : HaplyForceForm::vector;
+  c.device_id = reader.text_or("device_id", c.device_id);
+  c.grip_id = reader.text_or("grip_id", c.grip_id);
+  c.library = reader.text_or("library", c.library);
+  c.spindle_by_button = !is_alternative(reader, "spindle", button_word, always_word);
+  reader.finish();
+  return c;
+}
+
+nlohmann::json to_json(const DeviceConnection& c) {
+  const DeviceConnection fallback;
+  nlohmann::json json = nlohmann::json::object();
+  if (c.host != fallback.host) json["host"] = c.host;
+  if (c.port != fallback.port) json["port"] = c.port;
+  if (c.events_port != fallback.events_port) json["events_port"] = c.events_port;
+  if (c.force_form != fallback.force_form) json["force_form"] = values_word;
+  if (!c.device_id.empty()) json["device_id"] = c.device_id;
+  if (!c.grip_id.empty()) json["grip_id"] = c.grip_id;
+  if (!c.library.empty()) json["library"] = c.library;
+  if (!c.spindle_by_button) json["spindle"] = always_word;
+  return json;
+}
+
 const char* to_text(Hand hand) noexcept { return hand == Hand::left ? "left" : "right"; }
 
 Mat3 handle_from_tool(const DeviceSetup& setup) {
@@ -84,7 +128,7 @@ Mat3 handle_from_tool(const DeviceSetup& setup) {
   return setup.hand == Hand::left ? Mat3(mirror * setup.handle_from_tool * mirror) : setup.handle_from_tool;
 }
 
-DeviceSetup usual_device_setup(const std::string& device) {
+DeviceSetup default_device_setup(const std::string& device) {
   DeviceSetup setup;
   // Haply's Inverse3: y away from the person, z up; Force Dimension's: x towards the person, z up; 3D
   // Systems': the person's frame.
@@ -115,25 +159,25 @@ Mat3 person_from_motions(const Vec3& right_mm, const Vec3& up_mm, const Vec3& to
   return (svd.matrixU() * svd.matrixV().transpose()).transpose();
 }
 
-Mat3 person_from_axes(const std::string& words) {
+Mat3 person_from_axes(const std::string& text) {
   Mat3 person_from_device;
   size_t begin = 0;
   for (int row = 0; row < 3; ++row) {
-    const size_t end = row < 2 ? words.find(',', begin) : words.size();
+    const size_t end = row < 2 ? text.find(',', begin) : text.size();
     if (end == std::string::npos || begin > end) break;
-    person_from_device.row(row) = axis_from_word(words.substr(begin, end - begin));
+    person_from_device.row(row) = axis_from_word(text.substr(begin, end - begin));
     begin = end + 1;
     if (row == 2 && person_from_device.determinant() > 0.5) return person_from_device;
   }
-  refuse("axes '" + words +
+  refuse("axes '" + text +
          "' must name the device's axes that go to your right, up and towards you, right-handed, as in "
          "x,y,z or -y,z,-x");
 }
 
 Mat3 world_from_person(const Vec3& axis_direction) {
   const Vec3 towards = -axis_direction.normalized();
-  const Vec3 wanted_up = std::abs(towards.dot(superior)) < along_the_body ? superior : anterior;
-  const Vec3 up = (wanted_up - towards * towards.dot(wanted_up)).normalized();
+  const Vec3 up_hint = std::abs(towards.dot(superior)) < along_the_body ? superior : anterior;
+  const Vec3 up = (up_hint - towards * towards.dot(up_hint)).normalized();
   Mat3 rotation;
   rotation << up.cross(towards), up, towards;
   return rotation;
@@ -143,7 +187,7 @@ DeviceSetup parse_device_setup(const nlohmann::json& json, const std::string& pl
   JsonReader reader(json, place);
   DeviceSetup setup;
   setup.person_from_device = rotation_of(reader, "axes", person_axes);
-  setup.scale = reader.number("scale", DeviceSetup::least_scale, DeviceSetup::most_scale);
+  setup.scale = reader.number("scale", DeviceSetup::min_scale, DeviceSetup::max_scale);
   const std::string hand = reader.text("hand");
   if (hand != "left" && hand != "right") reader.refuse("hand", "is '" + hand + "', must be left or right");
   setup.hand = hand == "left" ? Hand::left : Hand::right;
@@ -168,7 +212,7 @@ std::filesystem::path device_setup_path(const std::filesystem::path& data, const
 
 DeviceSetup load_device_setup(const std::filesystem::path& data, const std::string& device) {
   const std::filesystem::path path = device_setup_path(data, device);
-  if (!std::filesystem::exists(path)) return usual_device_setup(device);
+  if (!std::filesystem::exists(path)) return default_device_setup(device);
   return parse_device_setup(read_json_file(path), path.string());
 }
 

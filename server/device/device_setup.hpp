@@ -1,12 +1,37 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "device/device_connection.hpp"
+#include "core/json_reader.hpp"
 #include "geometry/pose.hpp"
 
 namespace ream::device {
+
+/// How the force is written into a message to Haply's service: "vector" since its version 3.5, "values"
+/// before.
+enum class HaplyForceForm { vector, values };
+
+/// Where a device is and how it is spoken to: `connection` in devices/NAME.json. Each kind of device uses
+/// what concerns it; empty texts: the first or usual one.
+struct DeviceConnection {
+  std::string host = "127.0.0.1";  ///< haply: of the service
+  uint16_t port = 10001;           ///< haply: of the service's simulation channel
+  uint16_t events_port = 10020;    ///< haply: of its events; 0: they are not listened to
+  HaplyForceForm force_form = HaplyForceForm::vector;
+  std::string device_id;  ///< haply: as "049D"; forcedimension: number, from 0; openhaptics: configured name
+  std::string grip_id;    ///< haply: of the grip
+  std::string library;    ///< forcedimension, openhaptics: path of the maker's library
+  bool spindle_by_button = true;  ///< false: the spindle always turns, of handles without a button
+
+  bool operator==(const DeviceConnection&) const = default;
+};
+
+/// Reads it and refuses unknown keys; what is not said is as above.
+DeviceConnection read_device_connection(JsonReader reader);
+/// What differs from the above.
+nlohmann::json to_json(const DeviceConnection& connection);
 
 /// Which hand holds the tool.
 enum class Hand { right, left };
@@ -27,12 +52,12 @@ struct DeviceSetup {
 
   DeviceConnection connection;
 
-  static constexpr double least_scale = 0.05, most_scale = 20.0;
+  static constexpr double min_scale = 0.05, max_scale = 20.0;
 };
 
 /// The set-up that a kind of device is made with: its maker's frame, as it stands before a person, and a
 /// handle whose neutral place points the tool away from the person.
-DeviceSetup usual_device_setup(const std::string& device);
+DeviceSetup default_device_setup(const std::string& device);
 
 /// The orientation to be told of a handle that senses none (device frame), so that the tool keeps the planned
 /// axis.
@@ -48,7 +73,7 @@ Mat3 person_from_motions(const Vec3& right_mm, const Vec3& up_mm, const Vec3& to
 
 /// Axes as people write them, "X,Y,Z": for the person's right, up and towards, the device's axis that goes
 /// there, as in "x,y,z" or "-y,z,-x". Error invalid_input.
-Mat3 person_from_axes(const std::string& words);
+Mat3 person_from_axes(const std::string& axes);
 
 /// The rotation that takes the person's coordinates to the world's, for a planned axis (into the bone, world,
 /// any length but 0): it goes away from the person, and up is towards the patient's head as far as possible,

@@ -1,12 +1,22 @@
 #pragma once
+#include <array>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
 
-#include "device/link_state.hpp"
 #include "geometry/pose.hpp"
 
 namespace ream::device {
+
+/// How far what a device last said may still be trusted; see StaleLimits.
+enum class LinkState : uint8_t { fresh, held, fading, lost };
+
+/// One word for people and REST: "fresh", "held", "fading", "lost".
+inline const char* to_text(LinkState state) noexcept {
+  constexpr std::array<const char*, 4> names{"fresh", "held", "fading", "lost"};
+  return names[static_cast<size_t>(state)];
+}
 
 /// Impedance devices give a pose and take a force; admittance devices give the hand's force and take a pose.
 enum class Causality { impedance, admittance };
@@ -105,6 +115,21 @@ class HapticDevice {
   /// Threads of the device's own that exchange its forces ask for this SCHED_FIFO priority from the next
   /// open() on, and take what they get; 0: for none.
   virtual void use_priority(int fifo) noexcept = 0;
+};
+
+/// Leaves an open device without force and closed, whatever happens in between.
+class DeviceGuard {
+ public:
+  explicit DeviceGuard(HapticDevice& device) : device_(device) {}
+  ~DeviceGuard() {
+    device_.write({});
+    device_.close();
+  }
+  DeviceGuard(const DeviceGuard&) = delete;
+  DeviceGuard& operator=(const DeviceGuard&) = delete;
+
+ private:
+  HapticDevice& device_;
 };
 
 }  // namespace ream::device

@@ -36,9 +36,9 @@ MappedDevice::MappedDevice(std::unique_ptr<HapticDevice> device, const DeviceSet
 
 void MappedDevice::open() {
   device_->open();
-  told_ = {};
+  sensed_ = {};
   world_from_handle_ = world_from_start_;
-  unsaid_ms_ = 0.0;
+  silent_ms_ = 0.0;
   rests_ = turning_ = true;
   session_paused_ = false;
 }
@@ -53,34 +53,34 @@ Vec3 MappedDevice::mapped_mm(const Vec3& device_mm) const noexcept {
 }
 
 DeviceStatus MappedDevice::read(DeviceInput& input) noexcept {
-  DeviceInput told = told_;
-  const DeviceStatus status = device_->read(told);
+  DeviceInput sensed = sensed_;
+  const DeviceStatus status = device_->read(sensed);
   if (status != DeviceStatus::ok) return status;
-  const double since_ms = told_.age_ms + unsaid_ms_ + tick_ms;
-  unsaid_ms_ += tick_ms;
-  if (is_finite(told)) {
-    unsaid_ms_ = 0.0;
-    told_ = told;
+  const double since_ms = sensed_.age_ms + silent_ms_ + tick_ms;
+  silent_ms_ += tick_ms;
+  if (is_finite(sensed)) {
+    silent_ms_ = 0.0;
+    sensed_ = sensed;
   }
-  input.age_ms = told_.age_ms + unsaid_ms_;
-  input.clutch = told_.clutch;
-  input.deadman = told_.deadman;
-  input.paused = told_.paused || session_paused_ || told_.clutch || !told_.deadman ||
+  input.age_ms = sensed_.age_ms + silent_ms_;
+  input.clutch = sensed_.clutch;
+  input.deadman = sensed_.deadman;
+  input.paused = sensed_.paused || session_paused_ || sensed_.clutch || !sensed_.deadman ||
                  input.age_ms >= traits_.stale.lost_ms;
-  input.spindle_on = told_.spindle_on && told_.deadman;
+  input.spindle_on = sensed_.spindle_on && sensed_.deadman;
   follow(input.paused, since_ms);
   input.world_from_handle = world_from_handle_;
-  input.hand_force_n = world_from_device_ * told_.hand_force_n;
-  input.hand_torque_n_mm = world_from_device_ * (scale_ * told_.hand_torque_n_mm);
+  input.hand_force_n = world_from_device_ * sensed_.hand_force_n;
+  input.hand_torque_n_mm = world_from_device_ * (scale_ * sensed_.hand_torque_n_mm);
   return DeviceStatus::ok;
 }
 
 void MappedDevice::follow(bool rests, double since_ms) noexcept {
-  const Vec3 place_mm = told_.world_from_handle.translation_mm;
-  const bool jumped = (place_mm - last_mm_).norm() > fastest_hand_mm_s * 1e-3 * since_ms;
+  const Vec3 place_mm = sensed_.world_from_handle.translation_mm;
+  const bool jumped = (place_mm - last_mm_).norm() > max_hand_speed_mm_s * 1e-3 * since_ms;
   if (rests || rests_ || jumped) offset_mm_ = world_from_handle_.translation_mm - mapped_mm(place_mm);
   world_from_handle_.translation_mm = offset_mm_ + mapped_mm(place_mm);
-  if (!rests) turn_to(world_from_device_ * told_.world_from_handle.rotation * handle_from_tool_);
+  if (!rests) turn_to(world_from_device_ * sensed_.world_from_handle.rotation * handle_from_tool_);
   turning_ |= rests;
   rests_ = rests;
   last_mm_ = place_mm;
@@ -98,19 +98,19 @@ void MappedDevice::turn_to(const Mat3& world_from_tool) noexcept {
 
 DeviceStatus MappedDevice::write(const DeviceOutput& output) noexcept {
   const Mat3 device_from_world = world_from_device_.transpose();
-  DeviceOutput told = output;
-  told.force_n = device_from_world * output.force_n;
-  told.vibration_n = device_from_world * output.vibration_n;
-  told.torque_n_mm = device_from_world * (output.torque_n_mm / scale_);
+  DeviceOutput mapped = output;
+  mapped.force_n = device_from_world * output.force_n;
+  mapped.vibration_n = device_from_world * output.vibration_n;
+  mapped.torque_n_mm = device_from_world * (output.torque_n_mm / scale_);
   if (output.world_from_tool)
-    told.world_from_tool =
+    mapped.world_from_tool =
         Pose{device_from_world * output.world_from_tool->rotation * handle_from_tool_.transpose(),
              device_from_world * (output.world_from_tool->translation_mm - offset_mm_) / scale_};
   if (rests_) {
-    told.force_n = told.torque_n_mm = told.vibration_n = Vec3::Zero();
-    told.world_from_tool.reset();
+    mapped.force_n = mapped.torque_n_mm = mapped.vibration_n = Vec3::Zero();
+    mapped.world_from_tool.reset();
   }
-  return device_->write(told);
+  return device_->write(mapped);
 }
 
 }  // namespace ream::device

@@ -32,7 +32,7 @@ class MappedDevice final : public HapticDevice {
   void use_priority(int fifo) noexcept override { device_->use_priority(fifo); }
 
   /// Faster than any hand, mm/s of the device: what moves more between two reads has not been moved by one.
-  static constexpr double fastest_hand_mm_s = 5000.0;
+  static constexpr double max_hand_speed_mm_s = 5000.0;
   static constexpr double turn_rate_rad_s = 2.0;
 
  private:
@@ -46,11 +46,11 @@ class MappedDevice final : public HapticDevice {
   const double scale_;
   const Pose world_from_start_;
   DeviceTraits traits_;
-  DeviceInput told_;        ///< by the device, its last good word
+  DeviceInput sensed_;      ///< by the device, its last good word
   Pose world_from_handle_;  ///< as the world has it
   Vec3 offset_mm_ = Vec3::Zero();
   Vec3 last_mm_ = Vec3::Zero();  ///< device frame
-  double unsaid_ms_ = 0.0;       ///< since the last good pose
+  double silent_ms_ = 0.0;       ///< since the last good pose
   bool rests_ = true, turning_ = true, session_paused_ = false;
 };
 

@@ -60,9 +60,9 @@ constexpr std::array<Published, 19> table{{
 }};
 
 /// Makers let force rise over this long once the handle is held (CHAI3D's cGenericTool).
-constexpr double usual_ramp_s = 2.0;
+constexpr double default_ramp_s = 2.0;
 /// What a hand takes for texture; drill vibration on top of contact stays within it. Engineering choice.
-constexpr double usual_vibration_max_n = 0.5;
+constexpr double default_vibration_max_n = 0.5;
 
 constexpr double mm_per_m = 1000.0;
 
@@ -80,8 +80,8 @@ DeviceTraits traits_of(const Published& row) {
   traits.angular_stiffness_max_n_mm_rad = angular_n_m_rad * mm_per_m;
   traits.damping_max_n_s_mm = row.damping_n_s_m / mm_per_m;
   traits.workspace_radius_mm = row.workspace_m * mm_per_m;
-  traits.start_up_ramp_s = ideal ? 0.0 : usual_ramp_s;
-  traits.vibration_max_n = usual_vibration_max_n;
+  traits.start_up_ramp_s = ideal ? 0.0 : default_ramp_s;
+  traits.vibration_max_n = default_vibration_max_n;
   traits.energy_guarded = !ideal;
   traits.effective_mass_kg = row.mass_kg;
   traits.degrees_of_freedom = row.sensed;

@@ -63,7 +63,7 @@ CouplingStep couple(const CouplingParameters& p, const Resistance& resistance, c
   // What leaves the bone goes without resistance; the rest meets it.
   Vec6 leaving{}, meeting = delta;
   move_over(resistance.outward, meeting, leaving);
-  const Vec3 asked(meeting[0], meeting[1], meeting[2]), stretched = limited(asked, p.stretch_max_mm);
+  const Vec3 asked(meeting[0], meeting[1], meeting[2]), stretched = clamp_length(asked, p.stretch_max_mm);
   for (size_t i = 0; i < 3; ++i) meeting[i] = stretched[static_cast<Eigen::Index>(i)];
 
   double guiding_trace = 0.0;

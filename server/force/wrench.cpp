@@ -12,20 +12,16 @@ DeviceLimits limits_for(double force_max_n, double torque_max_n_mm, double stiff
           angular_stiffness_n_mm_rad * slew_speed_rad_s * tick_s};
 }
 
-Vec3 limited(const Vec3& v, double limit) noexcept {
-  const double length = v.norm();
-  return length > limit ? Vec3(v * (limit / length)) : v;
-}
-
 Wrench limited(const Wrench& wrench, const DeviceLimits& limits) noexcept {
-  return {limited(wrench.force_n, limits.force_max_n), limited(wrench.torque_n_mm, limits.torque_max_n_mm)};
+  return {clamp_length(wrench.force_n, limits.force_max_n),
+          clamp_length(wrench.torque_n_mm, limits.torque_max_n_mm)};
 }
 
 Vec3 slewed(const Vec3& previous, const Vec3& wanted, double step) noexcept {
   const double squared = previous.squaredNorm();
   const double kept = squared > 0.0 ? std::clamp(previous.dot(wanted) / squared, 0.0, 1.0) : 0.0;
   const Vec3 weakened = kept * previous;
-  return weakened + limited(Vec3(wanted - weakened), step);
+  return weakened + clamp_length(wanted - weakened, step);
 }
 
 Wrench slewed(const Wrench& previous, const Wrench& wanted, const DeviceLimits& limits) noexcept {

@@ -31,9 +31,6 @@ inline constexpr double slew_speed_mm_s = 500.0, slew_speed_rad_s = 5.0;
 DeviceLimits limits_for(double force_max_n, double torque_max_n_mm, double stiffness_n_mm,
                         double angular_stiffness_n_mm_rad) noexcept;
 
-/// `v` shortened to at most `limit`, direction kept.
-Vec3 limited(const Vec3& v, double limit) noexcept;
-
 /// Force and torque each within the device's largest, directions kept.
 Wrench limited(const Wrench& wrench, const DeviceLimits& limits) noexcept;
 

@@ -20,4 +20,10 @@ inline double length_bound(const Vec3& v) {
   return a + 0.4142135624 * b + 0.3178372452 * c;
 }
 
+/// The vector, or one of its direction that is as long as allowed.
+inline Vec3 clamp_length(const Vec3& v, double max_length) noexcept {
+  const double length = v.norm();
+  return length > max_length ? Vec3(v * (max_length / length)) : v;
+}
+
 }  // namespace ream

@@ -48,7 +48,7 @@ void limit_unsent(tcp::socket& socket) {
       ::setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &max_bytes, sizeof max_bytes));
 }
 
-[[noreturn]] void refuse(const boost::system::error_code& failed, const ListenOptions& options) {
+[[noreturn]] void refuse_to_listen(const boost::system::error_code& failed, const ListenOptions& options) {
   const std::string place = "port " + std::to_string(options.port) + " on " + options.host;
   if (failed == asio::error::address_in_use)
     throw Error(ErrorKind::unavailable, place + " is in use; choose another with --port");
@@ -69,7 +69,7 @@ void open(tcp::acceptor& acceptor, const ListenOptions& options) {
   if (!failed) acceptor.set_option(asio::socket_base::reuse_address(true), failed);
   if (!failed) acceptor.bind(endpoint, failed);
   if (!failed) acceptor.listen(asio::socket_base::max_listen_connections, failed);
-  if (failed) refuse(failed, options);
+  if (failed) refuse_to_listen(failed, options);
 }
 
 /// An IPv4 address that came through an IPv6 socket is an IPv4 address.

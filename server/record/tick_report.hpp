@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-#include "device/link_state.hpp"
+#include "device/haptic_device.hpp"
 #include "geometry/pose.hpp"
 
 namespace ream::record {

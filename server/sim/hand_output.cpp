@@ -90,11 +90,11 @@ void render(const Model& model, HandOutput& output, const Pose& world_from_tool,
   if (!model.virtual_mass) {
     output.energy.observe(report.world_from_handle);
     const double risen = report.paused ? 0.0 : output.start_up.next(load.unlimited_force_n);
-    contact.force_n = faded * force::limited(contact.force_n, risen * limits.force_max_n);
-    contact.torque_n_mm = faded * force::limited(contact.torque_n_mm, risen * limits.torque_max_n_mm);
+    contact.force_n = faded * clamp_length(contact.force_n, risen * limits.force_max_n);
+    contact.torque_n_mm = faded * clamp_length(contact.torque_n_mm, risen * limits.torque_max_n_mm);
     if (output.faded_ticks > 0) {  // the hand's last known way leads on for a moment, its force must not
-      contact.force_n = force::limited(contact.force_n, faded * output.fades_n);
-      contact.torque_n_mm = force::limited(contact.torque_n_mm, faded * output.fades_n_mm);
+      contact.force_n = clamp_length(contact.force_n, faded * output.fades_n);
+      contact.torque_n_mm = clamp_length(contact.torque_n_mm, faded * output.fades_n_mm);
     }
     const double gain = faded * risen;
     contact = force::slewed(output.contact, contact, limits);
@@ -103,10 +103,10 @@ void render(const Model& model, HandOutput& output, const Pose& world_from_tool,
     if (renders) shaking_n = gain * vibration_n(model, world_from_tool, report.vibration_g);
   }
   const double torque_left_n_mm = std::max(0.0, limits.torque_max_n_mm - contact.torque_n_mm.norm());
-  spindle_n_mm = force::limited(spindle_n_mm, torque_left_n_mm);
+  spindle_n_mm = clamp_length(spindle_n_mm, torque_left_n_mm);
   output.contact = contact;
   output.spindle_n_mm = spindle_n_mm;
-  report.hand_force_n = force::limited(Vec3(contact.force_n + shaking_n), limits.force_max_n);
+  report.hand_force_n = clamp_length(contact.force_n + shaking_n, limits.force_max_n);
   report.hand_vibration_n = report.hand_force_n - contact.force_n;
   report.hand_torque_n_mm = contact.torque_n_mm + spindle_n_mm;
   report.weakened |= renders && contact.force_n.norm() < felt_share * simulated.force_n.norm();

@@ -3,7 +3,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
-#include "device/device_guard.hpp"
+#include "device/haptic_device.hpp"
 #include "sim/realtime.hpp"
 
 namespace ream::sim {

@@ -7,7 +7,6 @@
 
 #include "core/clock.hpp"
 #include "device/haptic_device.hpp"
-#include "device/link_state.hpp"
 
 namespace ream::sim {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "device/script.hpp"
+#include "device/simulated/scripted_device.hpp"
 #include "sim/model.hpp"
 
 namespace ream::bench {

@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "ct/build/import.hpp"
-#include "device/script.hpp"
+#include "device/simulated/scripted_device.hpp"
 #include "sim/step.hpp"
 #include "support/shared_data.hpp"
 #include "support/swept_voxels.hpp"

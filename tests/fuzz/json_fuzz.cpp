@@ -5,7 +5,7 @@
 #include "case/landmarks.hpp"
 #include "case/plan.hpp"
 #include "core/error.hpp"
-#include "device/script.hpp"
+#include "device/script/script.hpp"
 #include "fuzz_input.hpp"
 
 namespace ream::fuzz {

@@ -5,7 +5,7 @@
 
 #include <boost/asio/strand.hpp>
 
-#include "device/device_socket.hpp"
+#include "device/network/device_socket.hpp"
 #include "fuzz_input.hpp"
 #include "net/engine.hpp"
 #include "session/live/viewer_stream.hpp"

@@ -9,9 +9,9 @@
 
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
-#include "device/admittance_device.hpp"
-#include "device/admittance_plant.hpp"
-#include "device/device_registry.hpp"
+#include "device/admittance/admittance_device.hpp"
+#include "device/simulated/admittance_plant.hpp"
+#include "device/registry/device_registry.hpp"
 #include "force/coefficients.hpp"
 #include "sim/haptic_loop.hpp"
 #include "support/small_run.hpp"

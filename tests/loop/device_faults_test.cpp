@@ -47,24 +47,24 @@ class Presser {
     HandleWords handle;
     handle.sequence = sequence;
     handle.place_mm = {0, 0, -way_mm_};
-    SteeringWords wish;
-    wish.sequence = sequence;
-    return steers_ ? steering_bytes(wish) : handle_bytes(handle);
+    SteeringWords command;
+    command.sequence = sequence;
+    return steers_ ? steering_bytes(command) : handle_bytes(handle);
   }
   std::string no_number() const {
     HandleWords handle;
     handle.place_mm = {std::nan(""), 0, 0};
-    SteeringWords wish;
-    wish.push_n = std::numeric_limits<float>::quiet_NaN();
-    return steers_ ? steering_bytes(wish) : handle_bytes(handle);
+    SteeringWords command;
+    command.push_n = std::numeric_limits<float>::quiet_NaN();
+    return steers_ ? steering_bytes(command) : handle_bytes(handle);
   }
 
  private:
   Felt say() {
     if (steers_) {
-      SteeringWords wish;
-      wish.push_n = 40.0f;
-      return client_->say(wish);
+      SteeringWords command;
+      command.push_n = 40.0f;
+      return client_->say(command);
     }
     // Away from the person is into the bone: on until something holds it, as a hand would.
     if (client_->felt().force() < 20.0) way_mm_ += 0.1;

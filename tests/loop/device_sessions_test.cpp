@@ -18,9 +18,9 @@ class DeviceSessions : public testing::Test {
   void push(FakeDeviceClient& client, float push_n, const std::string& what, Condition done) {
     LiveServer::until(what, [&] {
       std::this_thread::sleep_for(10ms);
-      SteeringWords wish;
-      wish.push_n = push_n;
-      return done(client.say(wish));
+      SteeringWords command;
+      command.push_n = push_n;
+      return done(client.say(command));
     });
   }
   double depth_mm(const std::string& id) const {

@@ -1,6 +1,6 @@
 // What sessions with Force Dimension's devices do not show: which of several is meant, and a force that is
 // switched off at the device.
-#include "device/force_dimension_servo.hpp"
+#include "device/vendors/force_dimension_servo.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +30,7 @@ class ForceDimension : public TickedDevice {
   }
 
   std::unique_ptr<HardwareBench> bench = make_bench("forcedimension");
-  device::DeviceSetup setup = device::usual_device_setup("forcedimension");
+  device::DeviceSetup setup = device::default_device_setup("forcedimension");
 };
 
 TEST_F(ForceDimension, IsAskedUnderTheIdThatOpeningGave) {
@@ -56,13 +56,13 @@ TEST_F(ForceDimension, IsOpenedAnewWhenItsForceWasSwitchedOff) {
 TEST_F(ForceDimension, RefusesADeviceIdThatIsNoNumber) {
   for (const char* wrong : {"a", "-1", "0x0", "0 ", " 0", "1.0", "99999999999999999999"}) {
     setup.connection.device_id = wrong;
-    const std::string why = device::why_no_force_dimension(setup);
+    const std::string why = device::force_dimension_fault(setup);
     EXPECT_NE(why.find("device_id must be a number from 0"), std::string::npos) << wrong << ": " << why;
   }
   setup.connection.device_id = "1";
-  EXPECT_NE(device::why_no_force_dimension(setup).find("finds 1 devices and number 1"), std::string::npos);
+  EXPECT_NE(device::force_dimension_fault(setup).find("finds 1 devices and number 1"), std::string::npos);
   setup.connection.device_id = "0";
-  EXPECT_EQ(device::why_no_force_dimension(setup), "");
+  EXPECT_EQ(device::force_dimension_fault(setup), "");
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <memory>
 
-#include "device/haply_servo.hpp"
 #include "device/profiles.hpp"
+#include "device/vendors/haply_servo.hpp"
 #include "loop/ticked_device.hpp"
 #include "support/fake_haply.hpp"
 
@@ -16,7 +16,7 @@ class Haply : public TickedDevice {
  protected:
   void open(const FakeHaply::Setting& setting, device::HaplyForceForm form = device::HaplyForceForm::vector) {
     fake = std::make_unique<FakeHaply>(setting);
-    device::DeviceSetup setup = device::usual_device_setup("haply");
+    device::DeviceSetup setup = device::default_device_setup("haply");
     setup.connection.port = fake->port();
     setup.connection.events_port = fake->events_port();
     setup.connection.force_form = form;
@@ -56,7 +56,7 @@ TEST_F(Haply, WithoutAGripTurnsItsSpindleAndPointsAsPlanned) {
   until([&] { return feels(2.0); });
   EXPECT_TRUE(input.spindle_on);
   EXPECT_FALSE(input.clutch || input.paused);
-  const device::DeviceSetup setup = device::usual_device_setup("haply");
+  const device::DeviceSetup setup = device::default_device_setup("haply");
   EXPECT_LT((input.world_from_handle.rotation - device::unsensed_rotation(setup)).norm(), 1e-9);
 }
 

@@ -6,8 +6,8 @@
 
 #include "core/file.hpp"
 #include "device/device_setup.hpp"
-#include "device/force_dimension_servo.hpp"
-#include "device/open_haptics_servo.hpp"
+#include "device/vendors/force_dimension_servo.hpp"
+#include "device/vendors/open_haptics_servo.hpp"
 #include "support/fake_haply.hpp"
 #include "support/places.hpp"
 
@@ -88,7 +88,7 @@ class OpenHapticsBench final : public LibraryBench {
   double force_max_n() const override { return 3.3; }
   double stated_ms(HardwareFault fault) const override {
     if (fault == HardwareFault::absent) return 5.0;
-    if (fault == HardwareFault::silent) return device::servo_loop_lost_ms + 10.0;
+    if (fault == HardwareFault::silent) return device::servo_loop_timeout_ms + 10.0;
     // Its poses are new when they come, however seldom: the force falls and comes back between them.
     return fault == HardwareFault::slow ? std::numeric_limits<double>::infinity() : faded_ms;
   }
@@ -97,7 +97,7 @@ class OpenHapticsBench final : public LibraryBench {
 }  // namespace
 
 void HardwareBench::set_up(const std::filesystem::path& data) const {
-  nlohmann::json json = device::to_json(device::usual_device_setup(device()));
+  nlohmann::json json = device::to_json(device::default_device_setup(device()));
   json["connection"] = connection();
   make_writable_folder(data / "devices");
   write_file_atomically(device::device_setup_path(data, device()), json.dump());

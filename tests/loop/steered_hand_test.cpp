@@ -1,5 +1,5 @@
 // The hand of somebody with a mouse, reaming a slab in simulated time.
-#include "device/steered_hand_device.hpp"
+#include "device/simulated/steered_hand_device.hpp"
 
 #include <gtest/gtest.h>
 
@@ -35,11 +35,11 @@ class SteeredHand : public testing::Test {
   record::TickReport tick(bool hears = true) {
     now_ns += tick_ns;
     if (hears && ticks++ % 16 == 0) {
-      wish.arrived_ns = now_ns;
-      wish.connection = 1;
-      wish.steering = true;
-      wish.spindle_on = true;
-      link->input.store(wish);
+      command.arrived_ns = now_ns;
+      command.connection = 1;
+      command.steering = true;
+      command.spindle_on = true;
+      link->input.store(command);
     }
     EXPECT_EQ(hand->read(input), device::DeviceStatus::ok);
     record::TickReport report;
@@ -63,7 +63,7 @@ class SteeredHand : public testing::Test {
   std::shared_ptr<device::RemoteLink> link = std::make_shared<device::RemoteLink>();
   std::unique_ptr<device::HapticDevice> hand =
       device::make_steered_hand_device("ideal", model.world_from_plan, 1.0, link, test_clock);
-  device::RemoteInput wish;
+  device::RemoteInput command;
   device::DeviceInput input;
   int ticks = 0;
 };
@@ -75,7 +75,7 @@ TEST_F(SteeredHand, BeginsBeforeTheEntryAndWaits) {
 }
 
 TEST_F(SteeredHand, PushingReamsAtTheLawsRateAndReleasingStopsIt) {
-  wish.push_n = 52.0;
+  command.push_n = 52.0;
   record::TickReport report;
   for (int i = 0; i < 3000 && !report.engaged; ++i) report = tick();
   ASSERT_TRUE(report.engaged);
@@ -86,13 +86,13 @@ TEST_F(SteeredHand, PushingReamsAtTheLawsRateAndReleasingStopsIt) {
   EXPECT_NEAR(rate_mm_s, 0.42 - 0.34 * density_g_cc, 0.03 * (0.42 - 0.34 * density_g_cc));
   EXPECT_NEAR(to.thrust_n, 52.0, 1.5);
 
-  wish.push_n = 0.0;
+  command.push_n = 0.0;
   const record::TickReport released = run(0.3);
   const record::TickReport later = run(1.0);
   EXPECT_LT(later.thrust_n, 1.0);
   EXPECT_NEAR(depth_mm(later), depth_mm(released), 0.005);
 
-  wish.push_n = -20.0;
+  command.push_n = -20.0;
   const record::TickReport out = run(1.5);
   EXPECT_FALSE(out.engaged);
   EXPECT_LT(depth_mm(out), -5.0);
@@ -106,9 +106,9 @@ TEST_F(SteeredHand, SixtyWishesASecondMakeASmoothMotion) {
   for (int i = 0; i < 2000; ++i) {
     // Wishes that jump from one side to the other.
     const bool there = (i / 250) % 2 == 0;
-    wish.sideways_mm = {there ? 50.0 : -50.0, there ? -20.0 : 30.0, 500.0};
-    wish.lean = {there ? 0.3 : -0.3, 0.2, -1.0};
-    wish.push_n = there ? -25.0 : 10.0;
+    command.sideways_mm = {there ? 50.0 : -50.0, there ? -20.0 : 30.0, 500.0};
+    command.lean = {there ? 0.3 : -0.3, 0.2, -1.0};
+    command.push_n = there ? -25.0 : 10.0;
     tick();
     const Vec3 place = input.world_from_handle.translation_mm;
     const Vec3 speed = (place - before) / tick_s;
@@ -125,22 +125,22 @@ TEST_F(SteeredHand, SixtyWishesASecondMakeASmoothMotion) {
 }
 
 TEST_F(SteeredHand, WishesAreBounded) {
-  wish.sideways_mm = {1000.0, -500.0, 0.0};
-  wish.lean = {1.0, 1.0, 0.2};
-  wish.push_n = -900.0;
+  command.sideways_mm = {1000.0, -500.0, 0.0};
+  command.lean = {1.0, 1.0, 0.2};
+  command.push_n = -900.0;
   run(30.0);
   const Pose plan_from_handle = model.world_from_plan.inverse() * input.world_from_handle;
   const Vec3 place = plan_from_handle.translation_mm;
   const Vec3 axis = plan_from_handle.rotation.col(2);
-  EXPECT_NEAR(std::acos(axis.z()), device::steered_lean_most_rad, 1e-3);
+  EXPECT_NEAR(std::acos(axis.z()), device::SteeringLimits::max_lean_rad, 1e-3);
   // The line stands aslant: at its plan height it is within the bound.
   const Vec3 on_line = place - axis * (place.z() / axis.z());
-  EXPECT_NEAR(on_line.norm(), device::steered_sideways_most_mm, 0.5);
+  EXPECT_NEAR(on_line.norm(), device::SteeringLimits::max_sideways_mm, 0.5);
   EXPECT_GT(place.z(), -70.0);
 }
 
 TEST_F(SteeredHand, WhenWishesStopThePushFallsToNothing) {
-  wish.push_n = 60.0;
+  command.push_n = 60.0;
   record::TickReport report;
   for (int i = 0; i < 3000 && !report.engaged; ++i) report = tick();
   run(0.5);

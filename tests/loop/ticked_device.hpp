@@ -5,7 +5,7 @@
 #include <memory>
 #include <thread>
 
-#include "device/servo_device.hpp"
+#include "device/vendors/servo_device.hpp"
 
 namespace ream::test {
 

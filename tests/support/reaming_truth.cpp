@@ -321,7 +321,7 @@ void fit_rim(const PlannedReaming& planned, const Reamed& reamed, const std::vec
     const double angle = 2.0 * pi * i / 180.0;
     const Vec3 out = std::cos(angle) * turn.col(0) + std::sin(angle) * turn.col(1);
     double last = 0.0;
-    const auto look = [&](double r) {
+    const auto poll_output = [&](double r) {
       Line line;
       line.point = middle + r * out;
       line.direction = along;
@@ -333,11 +333,11 @@ void fit_rim(const PlannedReaming& planned, const Reamed& reamed, const std::vec
       return false;
     };
     for (double r = planned.reamer.outer_mm + 4.0; r > 0.0; r -= 0.2)
-      if (look(r)) break;
+      if (poll_output(r)) break;
     double beyond = last + 0.2;
     for (int halving = 0; halving < 12; ++halving) {
       const double r = 0.5 * (last + beyond);
-      if (!look(r)) beyond = r;
+      if (!poll_output(r)) beyond = r;
     }
     Line inside;
     inside.point = middle + (last - inside_rim_mm) * out;

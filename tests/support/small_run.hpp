@@ -3,7 +3,7 @@
 
 #include "core/units.hpp"
 #include "device/profiles.hpp"
-#include "device/script.hpp"
+#include "device/simulated/scripted_device.hpp"
 #include "sim/settings.hpp"
 #include "sim/step.hpp"
 #include "support/test_bone.hpp"

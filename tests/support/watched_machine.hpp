@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/clock.hpp"
-#include "device/admittance_machine.hpp"
+#include "device/admittance/admittance_machine.hpp"
 
 namespace ream::test {
 

@@ -15,7 +15,7 @@
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
-#include "device/device_registry.hpp"
+#include "device/registry/device_registry.hpp"
 #include "device/profiles.hpp"
 
 namespace ream::app {
@@ -185,7 +185,7 @@ void add_devices_command(CLI::App& app, GlobalOptions& global) {
                    "Device axes that go to your right, up and towards you, as in x,y,z or -y,z,-x")
       ->needs(setup);
   command->add_option("--scale", options->scale, "Tool mm for each mm of the handle")
-      ->check(CLI::Range(device::DeviceSetup::least_scale, device::DeviceSetup::most_scale))
+      ->check(CLI::Range(device::DeviceSetup::min_scale, device::DeviceSetup::max_scale))
       ->needs(setup);
   command->add_option("--hand", options->hand, "Hand that holds the tool")
       ->check(CLI::IsMember({"left", "right"}))

@@ -22,7 +22,7 @@
 #include "core/log.hpp"
 #include "ct/phantom/phantom_case.hpp"
 #include "ct/read/read_ct.hpp"
-#include "device/device_registry.hpp"
+#include "device/registry/device_registry.hpp"
 #include "openigtlink/server.hpp"
 #include "session/export/export_session.hpp"
 #include "session/export/score_makers.hpp"

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "device/crash_guard.hpp"
-#include "device/device_socket.hpp"
+#include "device/network/device_socket.hpp"
 #include "openigtlink/active_session.hpp"
 #include "score/live_score.hpp"
 #include "session/live/loop_rings.hpp"

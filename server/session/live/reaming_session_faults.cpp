@@ -32,7 +32,7 @@ void ReamingSession::note_device() {
 
 /// Both enums are those of the wire.
 void ReamingSession::tell_port() {
-  if (port_) port_->tell(static_cast<device::RemoteSessionState>(sample_.state));
+  if (port_) port_->set_state(static_cast<device::RemoteSessionState>(sample_.state));
 }
 
 void ReamingSession::note_events(const record::TickReport& report) {

@@ -4,7 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/log.hpp"
-#include "device/device_registry.hpp"
+#include "device/registry/device_registry.hpp"
 #include "record/log_sink.hpp"
 #include "session/folder/recorded_annotations.hpp"
 #include "session/folder/session_folder.hpp"

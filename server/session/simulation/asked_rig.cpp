@@ -1,7 +1,7 @@
 #include "session/simulation/asked_rig.hpp"
 
 #include "core/units.hpp"
-#include "device/device_registry.hpp"
+#include "device/registry/device_registry.hpp"
 #include "session/simulation/find_case.hpp"
 #include "session/simulation/measured_glenoid.hpp"
 #include "sim/settings.hpp"

@@ -6,8 +6,8 @@
 
 #include "case/landmarks.hpp"
 #include "device/haptic_device.hpp"
-#include "device/remote_link.hpp"
-#include "device/script.hpp"
+#include "device/network/remote_link.hpp"
+#include "device/script/script.hpp"
 #include "score/native_glenoid.hpp"
 #include "session/simulation/reamer.hpp"
 #include "sim/state.hpp"

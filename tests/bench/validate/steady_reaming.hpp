@@ -1,5 +1,5 @@
 #pragma once
-#include "device/script.hpp"
+#include "device/script/script.hpp"
 #include "support/small_run.hpp"
 
 namespace ream::bench {

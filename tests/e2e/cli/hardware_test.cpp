@@ -37,7 +37,7 @@ class Hardware : public ServeBlock {
     environment_["REAM_HD_LIBRARY"] = fake_library("hd");
   }
   void set_up_haply(const FakeHaply& fake, uint16_t port) {
-    json setup = device::to_json(device::usual_device_setup("haply"));
+    json setup = device::to_json(device::default_device_setup("haply"));
     setup["connection"] = {{"port", port}, {"events_port", fake.events_port()}};
     write("data/devices/haply.json", setup.dump());
   }

@@ -1,7 +1,7 @@
-#include "device/admittance_device.hpp"
+#include "device/admittance/admittance_device.hpp"
 
-#include "device/admittance_plant.hpp"
 #include "device/profiles.hpp"
+#include "device/simulated/admittance_plant.hpp"
 #include "support/expect_error.hpp"
 #include "support/random_pose.hpp"
 #include "support/watched_machine.hpp"

@@ -1,4 +1,4 @@
-#include "device/device_messages.hpp"
+#include "device/network/device_messages.hpp"
 #include "support/places.hpp"
 
 #include <gtest/gtest.h>
@@ -26,14 +26,14 @@ std::vector<std::byte> golden(const std::string& name) {
 template <typename Kind>
 Kind taken(std::span<const std::byte> bytes) {
   const ClientMessage message = read_client_message(bytes);
-  if (const auto* refusal = std::get_if<Refusal>(&message)) ADD_FAILURE() << refusal->words;
+  if (const auto* refusal = std::get_if<Refusal>(&message)) ADD_FAILURE() << refusal->reason;
   return std::get<Kind>(message);
 }
 
 std::string refusal(const std::string& bytes) {
   const ClientMessage message = read_client_message(as_bytes(bytes));
   const auto* refused = std::get_if<Refusal>(&message);
-  return refused ? refused->words : "";
+  return refused ? refused->reason : "";
 }
 
 TEST(DeviceMessages, ReadsTheGoldenGreeting) {

@@ -1,4 +1,4 @@
-#include "device/device_registry.hpp"
+#include "device/registry/device_registry.hpp"
 
 #include <gtest/gtest.h>
 

@@ -109,7 +109,7 @@ TEST(DeviceSetup, AHandleThatSensesNoTurnKeepsThePlannedAxis) {
   std::mt19937 random(11);
   for (const char* device : {"haply", "forcedimension", "openhaptics", "network"})
     for (const Hand hand : {Hand::right, Hand::left}) {
-      const DeviceSetup usual = usual_device_setup(device);
+      const DeviceSetup usual = default_device_setup(device);
       EXPECT_TRUE(is_rotation(usual.person_from_device)) << device;
       EXPECT_TRUE(is_rotation(usual.handle_from_tool)) << device;
       DeviceSetup setup = usual;

@@ -1,4 +1,4 @@
-#include "device/device_socket.hpp"
+#include "device/network/device_socket.hpp"
 
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ class DeviceSocketTest : public testing::Test {
  protected:
   DeviceSocketTest() {
     now_ns = 5'000'000'000;
-    port->tell(RemoteSessionState::running);
+    port->set_state(RemoteSessionState::running);
   }
   void write_force(double force_n, uint64_t connection = 1) {
     RemoteOutput output;
@@ -132,11 +132,11 @@ TEST_F(DeviceSocketTest, NoForceOnceItWasTakenAwayOrTheSessionHasEnded) {
   link->force_taken_away = false;
   for (const RemoteSessionState ended : {RemoteSessionState::finished, RemoteSessionState::stopped,
                                          RemoteSessionState::fault, RemoteSessionState::interrupted}) {
-    port->tell(ended);
+    port->set_state(ended);
     client.say(numbered(2));
     EXPECT_EQ(client.feedback()->force_n()->z(), 0.0f);
   }
-  port->tell(RemoteSessionState::paused);
+  port->set_state(RemoteSessionState::paused);
   client.say(numbered(3));
   EXPECT_EQ(client.feedback()->force_n()->z(), 1.5f);
 }
@@ -170,8 +170,8 @@ TEST_F(DeviceSocketTest, AJumpOfTheNumberDoesNotShutOutWhatFollows) {
 TEST_F(DeviceSocketTest, GarbageIsCountedUnansweredAndInTheEndShownTheDoor) {
   Client client(*port);
   client.answer();
-  for (int i = 1; i < refusals_allowed; ++i) client.say(std::string("garbage"));
-  EXPECT_EQ(link->refused, static_cast<uint64_t>(refusals_allowed - 1));
+  for (int i = 1; i < max_refusals; ++i) client.say(std::string("garbage"));
+  EXPECT_EQ(link->refused, static_cast<uint64_t>(max_refusals - 1));
   EXPECT_EQ(client.answer(), nullptr);
   EXPECT_EQ(client.session->close_reason(), std::nullopt);
   client.say(numbered(1));

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "core/clock.hpp"
-#include "device/script.hpp"
+#include "device/simulated/scripted_device.hpp"
 #include "support/random_pose.hpp"
 
 namespace ream::device {

@@ -1,4 +1,4 @@
-#include "device/hand_model.hpp"
+#include "device/simulated/hand_model.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "device/haply_messages.hpp"
+#include "device/vendors/haply_messages.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,38 +12,38 @@ namespace {
 using nlohmann::json;
 using test::expect_error;
 
-std::string message(const Vec3& force_n, HaplyForceForm form, HaplyWish wish,
+std::string message(const Vec3& force_n, HaplyForceForm form, HaplyRequest command,
                     const std::string& id = "049D") {
   std::string text = "what was there before";
-  write_haply_message(text, id, force_n, form, wish);
+  write_haply_message(text, id, force_n, form, command);
   return text;
 }
 
 /// As docs.haply.co gives the protocol of 3.5, without its spaces.
 TEST(HaplyMessage, IsByteForByteTheDocumentedOne) {
   EXPECT_EQ(
-      message({0, 0, 1.5}, HaplyForceForm::vector, HaplyWish::configure),
+      message({0, 0, 1.5}, HaplyForceForm::vector, HaplyRequest::configure),
       R"({"session":{"configure":{"profile":{"name":"ream.simulator:main"}}},)"
       R"("inverse3":[{"device_id":"049D","commands":{"set_cursor_force":{"vector":{"x":0,"y":0,"z":1.5}}}}]})");
   EXPECT_EQ(
-      message({0.25, -1.5, 1e-3}, HaplyForceForm::vector, HaplyWish::nothing),
+      message({0.25, -1.5, 1e-3}, HaplyForceForm::vector, HaplyRequest::nothing),
       R"({"inverse3":[{"device_id":"049D","commands":{"set_cursor_force":{"vector":{"x":0.25,"y":-1.5,"z":0.001}}}}]})");
   EXPECT_EQ(
-      message({0.25, -1.5, 1e-3}, HaplyForceForm::values, HaplyWish::nothing),
+      message({0.25, -1.5, 1e-3}, HaplyForceForm::values, HaplyRequest::nothing),
       R"({"inverse3":[{"device_id":"049D","commands":{"set_cursor_force":{"values":{"x":0.25,"y":-1.5,"z":0.001}}}}]})");
 }
 
 /// As the maker's examples ask for it.
 TEST(HaplyMessage, AsksForEverythingBesideItsForce) {
   EXPECT_EQ(
-      message({0, 0, 0}, HaplyForceForm::vector, HaplyWish::full_state),
+      message({0, 0, 0}, HaplyForceForm::vector, HaplyRequest::full_state),
       R"({"session":{"force_render_full_state":{}},)"
       R"("inverse3":[{"device_id":"049D","commands":{"set_cursor_force":{"vector":{"x":0,"y":0,"z":0}}}}]})");
 }
 
 TEST(HaplyMessage, RoundsToAMicronewtonAndIsAlwaysJson) {
   const json said =
-      json::parse(message({1.0 / 3.0, -1e-9, 1e-300}, HaplyForceForm::vector, HaplyWish::nothing, "a\"b"));
+      json::parse(message({1.0 / 3.0, -1e-9, 1e-300}, HaplyForceForm::vector, HaplyRequest::nothing, "a\"b"));
   const json& device = said.at("inverse3").at(0);
   EXPECT_EQ(device.at("device_id"), "a\"b");
   const json& force = device.at("commands").at("set_cursor_force").at("vector");
@@ -124,13 +124,13 @@ TEST(HaplyReader, TakesTheScaleOfForcesFromAnyFrameWithAConfiguration) {
 TEST(HaplyReader, KnowsWhetherAFrameTellsOfItsGrip) {
   HaplyReader reader("", "");
   reader.take_inventory(inventory);
-  EXPECT_TRUE(reader.device().grip_told);
+  EXPECT_TRUE(reader.device().grip_reported);
   std::string why;
   const auto told = [&](const char* grips) {
     const std::string state =
         std::string(R"({"inverse3":[{"device_id":"049D","state":{"cursor_position":{}}}])") + grips + "}";
     EXPECT_TRUE(reader.take_state(state, why)) << why;
-    return reader.device().grip_told;
+    return reader.device().grip_reported;
   };
   EXPECT_FALSE(told(""));
   EXPECT_FALSE(told(R"(,"wireless_verse_grip":[])"));
@@ -189,7 +189,7 @@ TEST(HaplyEvent, TellsOfBrakesWarningsAndCables) {
   EXPECT_EQ(event("device-safety-triggered", "ebrake_triggered").kind, Kind::brake_on);
   EXPECT_EQ(event("device-safety-triggered", "ebrake_released").kind, Kind::brake_off);
   EXPECT_EQ(event("device-safety-triggered", "stall_detected").kind, Kind::warning);
-  EXPECT_NE(event("device-safety-triggered", "stall_detected").words.find("stall_detected: words"),
+  EXPECT_NE(event("device-safety-triggered", "stall_detected").text.find("stall_detected: words"),
             std::string::npos);
   EXPECT_EQ(event("device-disconnected", "").kind, Kind::gone);
   EXPECT_EQ(event("device-disconnected", "", "1AB2").kind, Kind::nothing);

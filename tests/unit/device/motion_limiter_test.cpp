@@ -1,4 +1,4 @@
-#include "device/motion_limiter.hpp"
+#include "device/admittance/motion_limiter.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "device/network_device.hpp"
+#include "device/network/network_device.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/clock.hpp"
-#include "device/script.hpp"
+#include "device/simulated/scripted_device.hpp"
 #include "support/expect_error.hpp"
 #include "support/random_pose.hpp"
 

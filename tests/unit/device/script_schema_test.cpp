@@ -5,7 +5,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "device/profiles.hpp"
-#include "device/script.hpp"
+#include "device/script/script.hpp"
 #include "support/json_schema.hpp"
 #include "support/places.hpp"
 

@@ -1,4 +1,4 @@
-#include "device/script.hpp"
+#include "device/script/script.hpp"
 
 #include <gtest/gtest.h>
 

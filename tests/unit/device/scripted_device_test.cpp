@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "device/script.hpp"
+#include "device/simulated/scripted_device.hpp"
 #include "support/random_pose.hpp"
 
 namespace ream::device {

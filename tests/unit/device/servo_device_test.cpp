@@ -1,4 +1,4 @@
-#include "device/servo_device.hpp"
+#include "device/vendors/servo_device.hpp"
 
 #include <gtest/gtest.h>
 #include <pthread.h>
@@ -56,7 +56,7 @@ TEST_F(ServoEndTest, PassesOnWhatAnswersItsOwnPoses) {
   EXPECT_TRUE(servo.force().is_zero());
   answer({1, 2, 3});
   EXPECT_TRUE(servo.force().is_zero()) << "nobody has said a pose yet";
-  EXPECT_TRUE(servo.tell(at(1), now_ns));
+  EXPECT_TRUE(servo.report(at(1), now_ns));
   answer({1, 2, 3}, {4, 0, 0});
   EXPECT_EQ(servo.force().force_n, Vec3(1, 2, 3));
   EXPECT_EQ(servo.force().torque_n_mm, Vec3(4, 0, 0));
@@ -65,7 +65,7 @@ TEST_F(ServoEndTest, PassesOnWhatAnswersItsOwnPoses) {
 }
 
 TEST_F(ServoEndTest, CutsToTheLimitsAndKeepsTheDirection) {
-  servo.tell(at(1), now_ns);
+  servo.report(at(1), now_ns);
   answer({30, 0, 40}, {0, 100, 0});
   EXPECT_LT((servo.force().force_n - Vec3(3, 0, 4)).norm(), 1e-12);
   EXPECT_LT((servo.force().torque_n_mm - Vec3(0, 10, 0)).norm(), 1e-12);
@@ -74,7 +74,7 @@ TEST_F(ServoEndTest, CutsToTheLimitsAndKeepsTheDirection) {
 }
 
 TEST_F(ServoEndTest, TakesAnOldForceBack) {
-  servo.tell(at(1), now_ns);
+  servo.report(at(1), now_ns);
   answer({1, 0, 0});
   now_ns += 20 * ms;
   EXPECT_FALSE(servo.force().is_zero());
@@ -87,14 +87,14 @@ TEST_F(ServoEndTest, TakesAnOldForceBack) {
 }
 
 TEST_F(ServoEndTest, RefusesWhatIsNoPoseOrNoForce) {
-  servo.tell(at(1), now_ns);
+  servo.report(at(1), now_ns);
   for (const double wrong : {std::nan(""), std::numeric_limits<double>::infinity(), 2001.0})
-    EXPECT_FALSE(servo.tell(at(wrong), now_ns)) << wrong;
+    EXPECT_FALSE(servo.report(at(wrong), now_ns)) << wrong;
   ServoState turned = at(1);
   turned.device_from_handle.rotation(0, 0) = 0.5;
-  EXPECT_FALSE(servo.tell(turned, now_ns));
+  EXPECT_FALSE(servo.report(turned, now_ns));
   turned.device_from_handle.rotation = Vec3(1, 1, -1).asDiagonal();
-  EXPECT_FALSE(servo.tell(turned, now_ns)) << "a mirror";
+  EXPECT_FALSE(servo.report(turned, now_ns)) << "a mirror";
   EXPECT_EQ(link->refused, 5u);
   answer({1, std::nan(""), 0});
   EXPECT_TRUE(servo.force().is_zero());
@@ -127,7 +127,7 @@ class RackServo final : public Servo {
     if (!rack_.usable) throw Error(ErrorKind::io, "the rack is broken");
     for (; rack_.stuck; rack_.is_stuck = true) std::this_thread::sleep_for(1ms);
     rack_.force_n = end.force().force_n.norm();
-    end.tell(at(1), end.now_ns());
+    end.report(at(1), end.now_ns());
     ++rack_.turns;
   }
   bool takes_force_elsewhere() const noexcept override { return false; }
@@ -309,7 +309,7 @@ class LoopingServo final : public Servo {
         const Vec3& f = force.force_n;
         if (f.x() != f.y() || f.y() != f.z() || force.torque_n_mm != f) ++torn;
         if (f.x() != 0.0) ++forces;
-        end.tell(at(1), end.now_ns());
+        end.report(at(1), end.now_ns());
       }
     });
   }

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "device/scripted_timeline.hpp"
+#include "device/script/script.hpp"
 
 namespace ream::device {
 namespace {

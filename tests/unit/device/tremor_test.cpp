@@ -1,4 +1,4 @@
-#include "device/tremor.hpp"
+#include "device/simulated/hand_model.hpp"
 
 #include <gtest/gtest.h>
 

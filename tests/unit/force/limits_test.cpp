@@ -10,10 +10,10 @@ namespace ream::force {
 namespace {
 
 TEST(Limits, KeepDirection) {
-  const Vec3 v = limited(Vec3(3, 4, 0), 2.5);
+  const Vec3 v = clamp_length(Vec3(3, 4, 0), 2.5);
   EXPECT_NEAR(v.norm(), 2.5, 1e-12);
   EXPECT_NEAR(v.normalized().dot(Vec3(0.6, 0.8, 0)), 1.0, 1e-12);
-  EXPECT_EQ(limited(Vec3(1, 0, 0), 2.0), Vec3(1, 0, 0));
+  EXPECT_EQ(clamp_length(Vec3(1, 0, 0), 2.0), Vec3(1, 0, 0));
 }
 
 TEST(Limits, ForceAndTorqueHaveTheirOwn) {

@@ -1,0 +1,148 @@
+#include "device/registry/device_registry.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "device/admittance/admittance_device.hpp"
+#include "device/mapped_device.hpp"
+#include "device/network/network_device.hpp"
+#include "device/profiles.hpp"
+#include "device/registry/real_devices.hpp"
+#include "device/simulated/steered_hand_device.hpp"
+
+namespace ream::device {
+namespace {
+
+/// A real device's tool begins this far before the planned entry.
+constexpr double start_before_entry_mm = 30.0;
+
+}  // namespace
+
+DeviceOffer offer_of(const std::string& name, const std::string& about, const std::string& profile) {
+  const DeviceTraits traits = device_profile(profile);
+  return {name, about, true, "", traits.force_max_n, traits.degrees_of_freedom};
+}
+
+std::string profile_of(const DeviceWish& wish, const std::string& usual) {
+  if (!wish.profile.empty()) return wish.profile;
+  const bool said = wish.script->kind == ScriptKind::remote && !wish.script->device_profile.empty();
+  return said ? wish.script->device_profile : usual;
+}
+
+void require_fitting_profile(const std::string& device, const std::vector<std::string>& fitting,
+                             const std::string& profile) {
+  if (std::find(fitting.begin(), fitting.end(), profile) != fitting.end()) return;
+  std::string names;
+  for (const std::string& name : fitting) names += (names.empty() ? "" : ", ") + name;
+  throw Error(ErrorKind::invalid_input, "device_profile '" + profile + "' is not of the device '" + device +
+                                            "'; those that fit it are " + names);
+}
+
+std::unique_ptr<HapticDevice> mapped(const DeviceWish& wish, std::unique_ptr<HapticDevice> device) {
+  const Pose before_entry{Mat3::Identity(), Vec3(0.0, 0.0, -start_before_entry_mm)};
+  return std::make_unique<MappedDevice>(std::move(device), load_device_setup(wish.data, wish.name),
+                                        wish.world_from_plan * before_entry);
+}
+
+namespace {
+
+DeviceKind scripted() {
+  return {"script", "",
+          [](const std::filesystem::path&) {
+            return offer_of("script", "A simulated hand, robot or list of poses that plays a script",
+                            "ideal");
+          },
+          [](const DeviceWish& wish) {
+            return MadeDevice{make_scripted_device(*wish.script, wish.world_from_plan, wish.random_seed),
+                              nullptr};
+          }};
+}
+
+DeviceKind network() {
+  static const std::string usual = "touch";
+  return {
+      "network", usual,
+      [](const std::filesystem::path&) {
+        return offer_of("network", "A haptic device whose own computer connects over the network", usual);
+      },
+      [](const DeviceWish& wish) {
+        auto link = std::make_shared<RemoteLink>();
+        return MadeDevice{mapped(wish, std::make_unique<NetworkDevice>(profile_of(wish, usual), link)), link};
+      }};
+}
+
+DeviceKind browser() {
+  static const std::string usual = "ideal";
+  return {"browser", usual,
+          [](const std::filesystem::path&) {
+            return offer_of("browser", "Mouse, touch screen, keys or gamepad, in the page of the session",
+                            usual);
+          },
+          [](const DeviceWish& wish) {
+            auto link = std::make_shared<RemoteLink>();
+            return MadeDevice{make_steered_hand_device(profile_of(wish, usual), wish.world_from_plan,
+                                                       wish.script->force_scale, link),
+                              link};
+          }};
+}
+
+/// A simulated machine that senses force and moves, in the hand of the script.
+DeviceKind plant(const PlantParameters& parameters, const std::string& usual, const std::string& about) {
+  return {parameters.name, usual,
+          [&parameters, usual, about](const std::filesystem::path&) {
+            return offer_of(parameters.name, about, usual);
+          },
+          [&parameters, usual](const DeviceWish& wish) {
+            const Pose plan_from_start{rotation_from_small_vector(wish.script->hand.tilt_rad),
+                                       wish.script->hand.start_mm};
+            auto machine = make_admittance_plant(parameters, device_profile(profile_of(wish, usual)),
+                                                 *wish.script, wish.random_seed);
+            return MadeDevice{std::make_unique<AdmittanceDevice>(std::move(machine),
+                                                                 wish.world_from_plan * plan_from_start),
+                              nullptr};
+          }};
+}
+
+}  // namespace
+
+const std::vector<DeviceKind>& device_kinds() {
+  static const std::vector<DeviceKind> kinds = [] {
+    std::vector<DeviceKind> all{
+        scripted(), network(), browser(),
+        plant(hapticmaster_plant(), "hapticmaster",
+              "A simulated HapticMaster: senses the script's hand and moves, with its limits and servo"),
+        plant(robot_plant(), "robot-force-mode",
+              "A simulated robot arm with a force sensor, moved by the script's hand")};
+    for (DeviceKind& real : real_device_kinds()) all.push_back(std::move(real));
+    return all;
+  }();
+  return kinds;
+}
+
+const DeviceKind& device_kind(const std::string& name) {
+  const std::vector<DeviceKind>& kinds = device_kinds();
+  const auto kind =
+      std::find_if(kinds.begin(), kinds.end(), [&](const DeviceKind& k) { return k.name == name; });
+  if (kind != kinds.end()) return *kind;
+  std::string names;
+  for (const DeviceKind& known : kinds) names += (names.empty() ? "" : ", ") + known.name;
+  throw Error(ErrorKind::invalid_input,
+              "no device '" + name + "'; there are " + names + " (`ream devices` tells more)");
+}
+
+void settle_for_device(const std::string& device, const std::string& profile, Script& script) {
+  const DeviceKind& kind = device_kind(device);
+  if (kind.usual_profile.empty()) {
+    if (!profile.empty())
+      throw Error(ErrorKind::invalid_input,
+                  "device_profile '" + profile + "' is asked for, but a script says its own");
+    return;
+  }
+  const std::string resolved = profile_of({device, profile, &script, {}, 1, {}}, kind.usual_profile);
+  if (!kind.profiles.empty()) require_fitting_profile(device, kind.profiles, resolved);
+  fit_to_remote(resolved, script);
+}
+
+MadeDevice make_device(const DeviceWish& wish) { return device_kind(wish.name).make(wish); }
+
+}  // namespace ream::device
