@@ -21,6 +21,5 @@ spdlog::logger& logger() {
 void info(const std::string& line) { logger().info(line); }
 void warn(const std::string& line) { logger().warn(line); }
 void error(const std::string& line) { logger().error(line); }
-void set_quiet(bool quiet) { logger().set_level(quiet ? spdlog::level::warn : spdlog::level::info); }
 
 }  // namespace ream::log

@@ -8,7 +8,4 @@ void info(const std::string& line);
 void warn(const std::string& line);
 void error(const std::string& line);
 
-/// Silences info lines (--quiet and tests).
-void set_quiet(bool quiet);
-
 }  // namespace ream::log

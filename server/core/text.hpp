@@ -1,4 +1,6 @@
 #pragma once
+#include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -20,5 +22,8 @@ std::string pointer_to(const std::string& key);
 
 /// Whether `text` is an id as cases and scripts have: [a-z0-9-], 1 to 64 long.
 bool is_name(const std::string& text);
+
+/// RFC 4648, with padding.
+std::string base64(std::span<const std::byte> bytes);
 
 }  // namespace ream

@@ -7,7 +7,6 @@
 #include "openigtlink/messages.hpp"
 #include "surface/block_layout.hpp"
 #include "surface/block_mesh.hpp"
-#include "surface/octahedral.hpp"
 
 namespace ream::openigtlink {
 namespace {

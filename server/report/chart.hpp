@@ -2,6 +2,8 @@
 #include <string>
 #include <vector>
 
+#include "report/canvas.hpp"
+
 namespace ream::report {
 
 /// What lies over one stretch of the x axis: a line where low and high are equal.
@@ -40,7 +42,7 @@ struct Stretch {
 
 struct Chart {
   std::string title;
-  std::string in_words;  ///< what is to be seen, for those who cannot see it
+  std::string alt_text;  ///< what is to be seen, for those who cannot see it
   std::string x_name, y_name;
   double x_min = 0.0, x_max = 1.0, y_min = 0.0, y_max = 1.0;
   std::vector<TargetRange> ranges;
@@ -51,5 +53,12 @@ struct Chart {
   std::string stretches_name;  ///< what the bars are
   bool whole_x = false;        ///< x counts things
 };
+
+/// Draws a chart, without its title, into a box whose top left corner is `at`.
+void draw_chart(const Chart& chart, Canvas& canvas, const Place& at, double width, double height);
+
+/// Round numbers within [min, max], ascending, about `count` of them (1, 2 or 5 times a power of ten apart).
+/// Only whole ones if `whole`. Empty when max <= min or a number is not finite.
+std::vector<double> round_numbers(double min, double max, int count, bool whole = false);
 
 }  // namespace ream::report

@@ -1,15 +1,15 @@
-#include "report/html.hpp"
+#include "report/report.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <report_style.hpp>
 
-#include "report/base64.hpp"
+#include "core/text.hpp"
+#include "report/canvas.hpp"
+#include "report/chart.hpp"
 #include "report/deviation_scale.hpp"
-#include "report/draw_chart.hpp"
-#include "report/number_words.hpp"
-#include "report/svg_canvas.hpp"
+#include "report/number_text.hpp"
 
 namespace ream::report {
 namespace {
@@ -130,7 +130,7 @@ std::string metrics(const Report& report) {
 std::string chart(const Chart& chart, double width, double height) {
   SvgCanvas canvas;
   draw_chart(chart, canvas, {}, width, height);
-  return element("figure", text_element("h3", chart.title) + canvas.svg(width, height, chart.in_words));
+  return element("figure", text_element("h3", chart.title) + canvas.svg(width, height, chart.alt_text));
 }
 
 std::string course(const Report& report) {
@@ -140,7 +140,7 @@ std::string course(const Report& report) {
     std::string rows;
     for (size_t i = 0; i < report.remarks.size(); ++i) {
       const Remark& remark = report.remarks[i];
-      rows += element("tr", cell(std::to_string(i + 1)) + cell(duration_in_words(remark.at_s)) +
+      rows += element("tr", cell(std::to_string(i + 1)) + cell(duration_text(remark.at_s)) +
                                 element("td", escaped(remark.words)) + cell(remark.author));
     }
     content += text_element("h3", "Remarks") +

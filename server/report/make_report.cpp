@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "report/metric_tables.hpp"
-#include "report/number_words.hpp"
+#include "report/number_text.hpp"
 #include "report/report.hpp"
 #include "report/session_charts.hpp"
 
@@ -32,7 +32,7 @@ std::vector<Fact> facts_of(const Material& m) {
   const SessionFacts& s = m.session;
   std::vector<Fact> facts;
   add(facts, s.blinded ? "Participant" : "Trainee", s.trainee.empty() ? "not named" : s.trainee);
-  add(facts, "Date", s.created_utc.empty() ? "not known" : date_in_words(s.created_utc));
+  add(facts, "Date", s.created_utc.empty() ? "not known" : date_text(s.created_utc));
   if (s.attempt > 0) add(facts, "Attempt", std::to_string(s.attempt));
   add(facts, "Case", s.case_name);
   add(facts, "Side", s.side.empty() ? "not known" : s.side + " shoulder");

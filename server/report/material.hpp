@@ -4,13 +4,26 @@
 #include <vector>
 
 #include "core/json.hpp"
-#include "report/picture.hpp"
+#include "render/snapshot.hpp"
 #include "report/trace_summary.hpp"
 #include "score/benchmark.hpp"
 #include "score/learning_curve.hpp"
 #include "score/rubric_score.hpp"
 
 namespace ream::report {
+
+/// Words on a picture; their middle as shares of its width from the left and of its height from the top.
+struct PictureLabel {
+  double x = 0.5, y = 0.5;
+  std::string words;
+};
+
+struct Picture {
+  std::string title, caption;
+  render::Image image;
+  std::vector<PictureLabel> labels;
+  bool is_map = false;  ///< of deviations, which needs their legend
+};
 
 /// Who did what, with what; empty texts where it is not known.
 struct SessionFacts {

@@ -4,7 +4,7 @@
 
 #include "case/measures.hpp"
 #include "core/units.hpp"
-#include "report/number_words.hpp"
+#include "report/number_text.hpp"
 #include "score/metric_results.hpp"
 
 namespace ream::report {

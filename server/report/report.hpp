@@ -62,4 +62,12 @@ Report make_report(const Material& material);
 std::string mark_word(Mark mark);
 std::string mark_sign(Mark mark);
 
+/// One page that holds everything in itself (pictures, charts, style) and runs no scripts; to be read on a
+/// screen or printed.
+std::string html_of(const Report& report);
+
+/// The bytes of a PDF file: A4, fonts embedded, pages numbered. The same report gives the same bytes on the
+/// same machine. Error unavailable when no page can be drawn.
+std::string pdf_of(const Report& report);
+
 }  // namespace ream::report

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/number_words.hpp"
+#include "report/number_text.hpp"
 #include "score/handling.hpp"
 
 namespace ream::report {
@@ -91,8 +91,8 @@ Chart thrust_chart(const TraceSummary& trace, const std::vector<Remark>& remarks
     else
       chart.stretches.push_back({from, to});
   }
-  chart.in_words =
-      "Thrust over " + duration_in_words(trace.duration_s()) + ", at most " + decimal(peak_n, 0) + " N";
+  chart.alt_text =
+      "Thrust over " + duration_text(trace.duration_s()) + ", at most " + decimal(peak_n, 0) + " N";
   return chart;
 }
 
@@ -104,7 +104,7 @@ Chart feed_chart(const TraceSummary& trace, const std::vector<Remark>& remarks) 
     return CurvePoint{0.0, std::max(0.0, bin.feed_low_mm_s), std::max(0.0, bin.feed_high_mm_s)};
   }));
   chart.y_max = std::max(0.1, 1.1 * highest(chart.curves.front()));
-  chart.in_words = "Feed over time, at most " + decimal(highest(chart.curves.front()), 2) + " mm/s";
+  chart.alt_text = "Feed over time, at most " + decimal(highest(chart.curves.front()), 2) + " mm/s";
   return chart;
 }
 
@@ -121,7 +121,7 @@ Chart depth_chart(const TraceSummary& trace, double planned_depth_mm, const std:
   chart.y_min = std::max(1.1 * lowest(chart.curves.front()), -0.5 * chart.y_max);
   if (planned_depth_mm > 0.0)
     chart.levels.push_back({planned_depth_mm, "plan: " + with_unit(planned_depth_mm, "mm")});
-  chart.in_words = "Depth over time, at most " + with_unit(deepest, "mm");
+  chart.alt_text = "Depth over time, at most " + with_unit(deepest, "mm");
   return chart;
 }
 
@@ -169,9 +169,9 @@ std::vector<Chart> learning_charts(const score::LearningCurve& curve,
   sums.y_max = 1.25 * std::max(limits.not_proficient_at, highest(sum));
   sums.curves.push_back(std::move(sum));
   points.curves.push_back(std::move(each));
-  sums.in_words = "CUSUM over " + std::to_string(curve.points.size()) +
+  sums.alt_text = "CUSUM over " + std::to_string(curve.points.size()) +
                   " sessions: " + std::string(score::to_text(curve.standing()));
-  points.in_words = "Points over " + std::to_string(curve.points.size()) + " sessions";
+  points.alt_text = "Points over " + std::to_string(curve.points.size()) + " sessions";
   return {points, sums};
 }
 

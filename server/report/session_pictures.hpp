@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "case/case.hpp"
-#include "report/picture.hpp"
+#include "report/material.hpp"
 
 namespace ream::report {
 

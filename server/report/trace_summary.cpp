@@ -5,7 +5,7 @@
 namespace ream::report {
 
 TraceSummary::TraceSummary(uint32_t ticks, const Pose& plan_from_world)
-    : bin_ticks_(std::max(1u, (ticks + most_bins - 1) / most_bins)), plan_from_world_(plan_from_world) {
+    : bin_ticks_(std::max(1u, (ticks + max_bins - 1) / max_bins)), plan_from_world_(plan_from_world) {
   bins_.reserve(ticks / bin_ticks_ + 1);
 }
 

@@ -19,7 +19,7 @@ struct TraceBin {
 /// A session in little: a few hundred parts whatever its length. Ticks are added in order.
 class TraceSummary {
  public:
-  static constexpr uint32_t most_bins = 720;
+  static constexpr uint32_t max_bins = 720;
 
   /// `ticks`: how many will come. `plan_from_world`: as MetricsAccumulator.
   TraceSummary(uint32_t ticks, const Pose& plan_from_world);

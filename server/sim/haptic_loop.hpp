@@ -88,7 +88,6 @@ class HapticLoop {
   /// Newest health; one reader thread.
   LoopHealth health() noexcept;
   /// Whole histograms and black box; only after ended().
-  const TimingHistogram& tick_times() const { return tick_us_; }
   const BlackBox& black_box() const { return black_box_; }
 
  private:

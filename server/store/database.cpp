@@ -123,8 +123,6 @@ Database::~Database() = default;
 
 const std::string& Database::name() const { return connections_->url().shown; }
 
-bool Database::is_postgresql() const { return connections_->url().postgresql; }
-
 void Database::transact(Access access, const std::function<void(Sql&)>& action) {
   const TransactionGuard guard;
   for (int attempt = 1; !connections_->attempt(access, action, attempt == max_attempts); ++attempt)

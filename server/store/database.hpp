@@ -65,7 +65,6 @@ class Database {
 
   /// For people: "sqlite:FILE" or "postgresql://host:port/name", without user and password.
   const std::string& name() const;
-  bool is_postgresql() const;
 
  private:
   enum class Access { read, write, long_read, long_write };

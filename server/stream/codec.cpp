@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "surface/octahedral.hpp"
+#include "surface/block_mesh.hpp"
 
 namespace ream::stream {
 namespace {

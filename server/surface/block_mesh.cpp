@@ -1,15 +1,28 @@
 #include "surface/block_mesh.hpp"
 
+#include <algorithm>
+#include <atomic>
 #include <bit>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <thread>
 
 #include "core/error.hpp"
+#include "surface/block_layout.hpp"
 #include "surface/marching_cubes.hpp"
-#include "surface/octahedral.hpp"
 
 namespace ream::surface {
 namespace {
+
+/// Folds between the two halves; its own inverse.
+void fold(float& x, float& y) {
+  const float unfolded_x = x;
+  x = std::copysign(1.0f - std::fabs(y), x);
+  y = std::copysign(1.0f - std::fabs(unfolded_x), y);
+}
+
+int8_t signed_byte(float v) { return static_cast<int8_t>(std::floor(v * 127.0f + 0.5f)); }
 
 constexpr int half = units_per_voxel / 2;
 constexpr int row_bytes = BlockVolume::row_bytes, slice_bytes = BlockVolume::slice_bytes;
@@ -80,7 +93,113 @@ int checked(int stride) {
   return stride;
 }
 
+/// Calls work(item) for all items below count, on that many threads.
+template <typename MakeWork>
+void in_parallel(uint32_t count, int threads, MakeWork make_work) {
+  std::atomic<uint32_t> next{0};
+  const auto run = [&] {
+    auto work = make_work();
+    for (uint32_t item = next++; item < count; item = next++) work(item);
+  };
+  std::vector<std::jthread> helpers;
+  for (int i = 1; i < threads; ++i) helpers.emplace_back(run);
+  run();
+}
+
+std::vector<Fill> fills(const voxel::VoxelGrid& grid, const uint8_t* coverage, int threads) {
+  std::vector<Fill> result(grid.brick_count());
+  const auto row = static_cast<uint32_t>(grid.brick_dims().x());
+  in_parallel(static_cast<uint32_t>(grid.brick_count()) / row, threads, [&] {
+    return [&](uint32_t y) {
+      for (uint32_t brick = y * row; brick < (y + 1) * row; ++brick)
+        result[brick] = fill_of(coverage + size_t{brick} * voxel::brick_voxels);
+    };
+  });
+  return result;
+}
+
+/// Sets of axes as bits 0 to 2.
+constexpr size_t axis_sets = 8;
+
+/// The axes along which a vertex lies on the block's first, or behind its last, layer of samples.
+struct Layers {
+  size_t first = 0, behind = 0;
+};
+
+Layers layers_of(const BlockVertex& v, int stride) {
+  const int first = units_per_voxel + stride * units_per_voxel / 2;
+  const int behind = first + block_edge * units_per_voxel;
+  const auto set = [&](int at) {
+    return static_cast<size_t>((v.x == at) | (v.y == at) << 1 | (v.z == at) << 2);
+  };
+  return {set(first), set(behind)};
+}
+
+/// A block's part of the whole surface. Where blocks meet, a vertex is owned by the block of its edge's lower
+/// corner. The others borrow it: those vertices of a block that lie behind it along a set of axes are owned
+/// by its neighbour along these axes, which has them on its first layers, in the same order (BlockExtractor).
+/// So a borrowed vertex is found by counting.
+struct Part {
+  BlockMesh mesh;
+  uint32_t owned = 0;
+  size_t first_vertex = 0, first_triangle = 0;
+  std::array<std::vector<uint32_t>, axis_sets> lent;  ///< by set of axes: which of the owned vertices
+};
+
+void count_owned(Part& part, int stride) {
+  for (const BlockVertex& v : part.mesh.vertices) {
+    const Layers layers = layers_of(v, stride);
+    if (layers.behind != 0) continue;
+    if (layers.first != 0)
+      for (size_t set = 1; set < axis_sets; ++set)
+        if ((set & layers.first) == set) part.lent[set].push_back(part.owned);
+    ++part.owned;
+  }
+}
+
+/// Writes the part into the whole, whose arrays have their sizes already.
+void join(const BlockLayout& layout, const Vec3& spacing_mm, int stride, const std::vector<Part>& parts,
+          const Part& part, TriangleMesh& whole) {
+  const Vec3i block = layout.coordinates(part.mesh.block);
+  std::array<const Part*, axis_sets> owner{};
+  std::array<size_t, axis_sets> borrowed{};
+  size_t next = part.first_vertex;
+  std::vector<uint32_t> number;
+  number.reserve(part.mesh.vertices.size());
+  for (const BlockVertex& v : part.mesh.vertices) {
+    const size_t set = layers_of(v, stride).behind;
+    if (set != 0) {
+      if (owner[set] == nullptr)
+        owner[set] = &parts[layout.index(block + Vec3i(set & 1, set >> 1 & 1, set >> 2 & 1))];
+      number.push_back(
+          static_cast<uint32_t>(owner[set]->first_vertex + owner[set]->lent[set][borrowed[set]++]));
+      continue;
+    }
+    whole.vertices_mm[next] = position_mm(v, block, spacing_mm);
+    whole.normals[next] = direction_from_octahedral(v.ox, v.oy);
+    number.push_back(static_cast<uint32_t>(next++));
+  }
+  auto triangle = whole.triangles.begin() + static_cast<ptrdiff_t>(part.first_triangle);
+  const std::vector<uint32_t>& indices = part.mesh.indices;
+  for (size_t i = 0; i < indices.size(); i += 3)
+    *triangle++ = {number[indices[i]], number[indices[i + 1]], number[indices[i + 2]]};
+}
+
 }  // namespace
+
+std::array<int8_t, 2> octahedral_from_direction(const Vec3f& direction) {
+  const float sum = std::fabs(direction.x()) + std::fabs(direction.y()) + std::fabs(direction.z());
+  float x = direction.x() / sum, y = direction.y() / sum;
+  if (direction.z() < 0.0f) fold(x, y);
+  return {signed_byte(x), signed_byte(y)};
+}
+
+Vec3f direction_from_octahedral(int8_t ox, int8_t oy) {
+  float x = static_cast<float>(ox) / 127.0f, y = static_cast<float>(oy) / 127.0f;
+  const float z = 1.0f - std::fabs(x) - std::fabs(y);
+  if (z < 0.0f) fold(x, y);
+  return Vec3f(x, y, z).normalized();
+}
 
 Vec3f position_mm(const BlockVertex& vertex, const Vec3i& block, const Vec3& spacing_mm) {
   const Vec3 voxels = ((block * block_edge).array() - 1).cast<double>().matrix() +
@@ -170,6 +289,38 @@ void BlockExtractor::add_triangles(int z) {
     });
     index_count_ = static_cast<size_t>(next - indices_.data());
   }
+}
+
+TriangleMesh whole_surface(const voxel::VoxelGrid& grid, const uint8_t* coverage, int threads, int stride) {
+  validate(grid);
+  threads = std::max(1, threads);
+  const BlockLayout layout(grid);
+  const BlockExtractor checks_stride(grid, stride);  // here, where an Error can be caught
+  const std::vector<Fill> bricks = fills(grid, coverage, threads);
+  std::vector<Part> parts(layout.count());
+  in_parallel(layout.count(), threads, [&] {
+    return [&, extractor = BlockExtractor(grid, stride)](uint32_t block) mutable {
+      const auto fill_at = [&](uint32_t brick) { return bricks[brick]; };
+      if (!may_hold_surface(grid, layout.coordinates(block), fill_at)) return;
+      parts[block].mesh = extractor.extract(coverage, block);
+      count_owned(parts[block], stride);
+    };
+  });
+  size_t vertices = 0, triangles = 0;
+  for (Part& part : parts) {
+    part.first_vertex = vertices;
+    part.first_triangle = triangles;
+    vertices += part.owned;
+    triangles += part.mesh.indices.size() / 3;
+  }
+  TriangleMesh whole;
+  whole.vertices_mm.resize(vertices);
+  whole.normals.resize(vertices);
+  whole.triangles.resize(triangles);
+  in_parallel(layout.count(), threads, [&] {
+    return [&](uint32_t block) { join(layout, grid.spacing_mm, stride, parts, parts[block], whole); };
+  });
+  return whole;
 }
 
 }  // namespace ream::surface

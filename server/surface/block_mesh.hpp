@@ -3,7 +3,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/triangle_mesh.hpp"
+#include "geometry/vec.hpp"
 #include "surface/block_volume.hpp"
+#include "voxel/voxel_grid.hpp"
 
 namespace ream::surface {
 
@@ -63,5 +66,18 @@ class BlockExtractor {
   std::vector<uint32_t> indices_;         ///< of the block in progress, the first index_count_
   size_t index_count_ = 0;
 };
+
+/// Octahedral map of a direction (any length but zero) to two signed bytes, and back to a unit vector: the
+/// octahedron |x| + |y| + |z| = 1 seen from +z, its lower half folded over the corners, -1..1 as -127..127.
+/// Error below 1 degree.
+std::array<int8_t, 2> octahedral_from_direction(const Vec3f& direction);
+Vec3f direction_from_octahedral(int8_t ox, int8_t oy);
+
+/// The whole surface at coverage 127.5 as one closed mesh: grid frame, mm, vertices shared between blocks,
+/// outward normals; for files and pictures. `coverage` has grid.voxel_count() bytes in the order of
+/// VoxelGrid::index. `stride` as BlockExtractor. The same for the same coverage, whatever the number of
+/// threads. Throws as validate() and BlockExtractor.
+TriangleMesh whole_surface(const voxel::VoxelGrid& grid, const uint8_t* coverage, int threads = 2,
+                           int stride = 1);
 
 }  // namespace ream::surface

@@ -14,7 +14,7 @@
 #include "ct/read/read_ct.hpp"
 #include "ct/read/write_volume.hpp"
 #include "geometry/mesh_io.hpp"
-#include "surface/whole_surface.hpp"
+#include "surface/block_mesh.hpp"
 #include "workup/case_json.hpp"
 
 namespace ream::workup {

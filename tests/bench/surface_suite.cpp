@@ -11,7 +11,7 @@
 #include "sim/step.hpp"
 #include "stream/mesh_publisher.hpp"
 #include "stream/messages.hpp"
-#include "surface/whole_surface.hpp"
+#include "surface/block_mesh.hpp"
 #include "voxel/bricks.hpp"
 
 namespace ream::bench {

@@ -10,7 +10,7 @@
 #include "render/snapshot.hpp"
 #include "support/places.hpp"
 #include "support/small_run.hpp"
-#include "surface/whole_surface.hpp"
+#include "surface/block_mesh.hpp"
 
 namespace ream::test {
 namespace {

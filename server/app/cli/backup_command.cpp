@@ -30,7 +30,7 @@ size_t count_of(const std::map<std::string, size_t>& counts, const std::string& 
   return found == counts.end() ? 0 : found->second;
 }
 
-std::string in_words(const std::map<std::string, size_t>& counts, uint64_t rows) {
+std::string alt_text(const std::map<std::string, size_t>& counts, uint64_t rows) {
   const auto counted = [](uint64_t count, const std::string& what) {
     return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
   };
@@ -63,7 +63,7 @@ void back_up(const BackupOptions& options, const GlobalOptions& global) {
                      .dump()
               << '\n';
   else
-    std::cout << options.file.string() << ": " << in_words(report.counts, report.rows) << '\n';
+    std::cout << options.file.string() << ": " << alt_text(report.counts, report.rows) << '\n';
 }
 
 void restore(const BackupOptions& options, const GlobalOptions& global) {
@@ -89,7 +89,7 @@ void restore(const BackupOptions& options, const GlobalOptions& global) {
                      .dump()
               << '\n';
   else
-    std::cout << data.string() << ": " << in_words(report.counts, report.rows) << '\n';
+    std::cout << data.string() << ": " << alt_text(report.counts, report.rows) << '\n';
 }
 
 }  // namespace

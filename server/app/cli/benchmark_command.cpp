@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/interrupt.hpp"
-#include "report/number_words.hpp"
+#include "report/number_text.hpp"
 #include "score/benchmark.hpp"
 #include "score/group_cut.hpp"
 #include "score/rubric_store.hpp"

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/metric_tables.hpp"
-#include "report/number_words.hpp"
+#include "report/number_text.hpp"
 #include "score/metric_catalogue.hpp"
 
 namespace ream::app {

@@ -40,7 +40,6 @@ struct ContactSums {
     return (static_cast<int64_t>(height_units) << 32) | (0xffffffffu - point);
   }
   int32_t deepest_height_units() const { return static_cast<int32_t>(deepest >> 32); }
-  uint32_t deepest_point() const { return 0xffffffffu - static_cast<uint32_t>(deepest); }
 
   int64_t engaged() const { return cutting.points + guiding.points; }
   bool operator==(const ContactSums&) const = default;

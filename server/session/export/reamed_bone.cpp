@@ -8,7 +8,7 @@
 #include "session/simulation/recorded_case.hpp"
 #include "session/simulation/recorded_rig.hpp"
 #include "sim/model.hpp"
-#include "surface/whole_surface.hpp"
+#include "surface/block_mesh.hpp"
 
 namespace ream::session {
 namespace {

@@ -9,7 +9,7 @@
 #include "core/hash.hpp"
 #include "core/log.hpp"
 #include "core/version.hpp"
-#include "report/number_words.hpp"
+#include "report/number_text.hpp"
 
 namespace ream::session {
 namespace {

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "geometry/mesh_io.hpp"
-#include "surface/whole_surface.hpp"
+#include "surface/block_mesh.hpp"
 
 namespace ream::session {
 namespace {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <span>
+
 namespace ream::test {
 namespace {
 
@@ -24,6 +26,21 @@ TEST(Hex, OfEveryByteComesBack) {
 TEST(Hex, WhatIsNoneIsNothing) {
   for (const char* wrong : {"", "0", "abc", "0g", "g0", "FF", " 0", "00 "})
     EXPECT_EQ(bytes_from_hex(wrong), "") << wrong;
+}
+
+std::string base64_of(std::string_view text) {
+  return base64(std::as_bytes(std::span(text.data(), text.size())));
+}
+
+TEST(Base64, MatchesTheVectorsOfRfc4648) {
+  EXPECT_EQ(base64_of(""), "");
+  EXPECT_EQ(base64_of("f"), "Zg==");
+  EXPECT_EQ(base64_of("fo"), "Zm8=");
+  EXPECT_EQ(base64_of("foo"), "Zm9v");
+  EXPECT_EQ(base64_of("foob"), "Zm9vYg==");
+  EXPECT_EQ(base64_of("fooba"), "Zm9vYmE=");
+  EXPECT_EQ(base64_of("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(base64_of("\xff\xfe\xfd"), "//79");
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include "ct/build/bone_from_mask.hpp"
 #include "support/expect_error.hpp"
 #include "support/seed.hpp"
-#include "surface/whole_surface.hpp"
+#include "surface/block_mesh.hpp"
 #include "unit/ct/shoulder_phantom.hpp"
 #include "unit/surface/volumes.hpp"
 

@@ -6,7 +6,7 @@
 #include "stream/fanout.hpp"
 #include "stream/mesh_publisher.hpp"
 #include "support/igtl_reading.hpp"
-#include "surface/whole_surface.hpp"
+#include "surface/block_mesh.hpp"
 
 namespace ream::openigtlink {
 

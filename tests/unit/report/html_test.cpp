@@ -1,4 +1,4 @@
-#include "report/html.hpp"
+#include "report/report.hpp"
 
 #include <gtest/gtest.h>
 

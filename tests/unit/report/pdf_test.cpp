@@ -1,4 +1,4 @@
-#include "report/pdf.hpp"
+#include "report/report.hpp"
 
 #include <gtest/gtest.h>
 

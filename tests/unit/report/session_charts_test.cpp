@@ -37,7 +37,7 @@ TEST(SessionCharts, ThrustStandsBeforeItsRangeWithTheTimesOfContact) {
     EXPECT_EQ(chart.moments.at(0).words, "1");
     EXPECT_NEAR(chart.moments.at(0).x, 10.0, 1e-9);
     EXPECT_GT(chart.y_max, chart.y_min);
-    EXPECT_FALSE(chart.in_words.empty());
+    EXPECT_FALSE(chart.alt_text.empty());
   }
 }
 

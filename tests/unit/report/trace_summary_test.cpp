@@ -34,7 +34,7 @@ TEST(TraceSummary, HoldsExtremesOfEveryPart) {
       trace.add(tick(world_from_plan, true, n, mm));
       deepest = std::max(deepest, mm);
     }
-    EXPECT_LE(trace.bins().size(), TraceSummary::most_bins);
+    EXPECT_LE(trace.bins().size(), TraceSummary::max_bins);
     EXPECT_NEAR(trace.duration_s(), ticks * 1e-3, 1e-9);
     EXPECT_GE(static_cast<double>(trace.bins().size()) * trace.bin_s(), trace.duration_s() - 1e-9);
     double high = 0.0, low = 1e9, feed = 0.0;

@@ -10,7 +10,7 @@
 #include "support/expect_error.hpp"
 #include "support/random_pose.hpp"
 #include "support/test_bone.hpp"
-#include "surface/whole_surface.hpp"
+#include "surface/block_mesh.hpp"
 
 namespace ream::score {
 namespace {

@@ -9,7 +9,6 @@
 #include "core/units.hpp"
 #include "support/seed.hpp"
 #include "surface/marching_cubes.hpp"
-#include "surface/octahedral.hpp"
 #include "unit/surface/volumes.hpp"
 
 namespace ream::surface {

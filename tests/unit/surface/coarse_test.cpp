@@ -5,7 +5,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "support/seed.hpp"
-#include "surface/whole_surface.hpp"
+#include "surface/block_mesh.hpp"
 #include "unit/surface/volumes.hpp"
 
 namespace ream::surface {

@@ -5,7 +5,6 @@
 
 #include "support/seed.hpp"
 #include "surface/block_mesh.hpp"
-#include "surface/whole_surface.hpp"
 #include "unit/surface/volumes.hpp"
 
 namespace ream::surface {

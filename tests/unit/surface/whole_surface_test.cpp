@@ -1,4 +1,4 @@
-#include "surface/whole_surface.hpp"
+#include "surface/block_mesh.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "report/number_words.hpp"
+#include "report/number_text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -56,7 +56,7 @@ std::string with_unit(double value, std::string_view unit) {
   return number + (unit == "deg" ? "" : "\u00a0") + printed;
 }
 
-std::string duration_in_words(double seconds) {
+std::string duration_text(double seconds) {
   const auto whole = static_cast<long>(std::floor(seconds + 0.5));
   if (whole < 120) return decimal(seconds, seconds < 10.0 ? 1 : 0) + "\u00a0s";
   std::array<char, 64> text{};
@@ -64,7 +64,7 @@ std::string duration_in_words(double seconds) {
   return text.data();
 }
 
-std::string date_in_words(const std::string& utc) {
+std::string date_text(const std::string& utc) {
   constexpr std::array<const char*, 12> months = {"January",   "February", "March",    "April",
                                                   "May",       "June",     "July",     "August",
                                                   "September", "October",  "November", "December"};

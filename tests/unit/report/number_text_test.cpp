@@ -1,4 +1,4 @@
-#include "report/number_words.hpp"
+#include "report/number_text.hpp"
 
 #include <gtest/gtest.h>
 
@@ -24,12 +24,12 @@ TEST(NumberWords, ArePrintedWithTheirUnit) {
 }
 
 TEST(NumberWords, TellTimesAsPeopleDo) {
-  EXPECT_EQ(duration_in_words(4.06), "4.1\u00a0s");
-  EXPECT_EQ(duration_in_words(37.2), "37\u00a0s");
-  EXPECT_EQ(duration_in_words(125.4), "2\u00a0min 05\u00a0s");
-  EXPECT_EQ(date_in_words("2026-01-31T09:05:59Z"), "31 January 2026, 09:05 UTC");
-  EXPECT_EQ(date_in_words("some day"), "some day");
-  EXPECT_EQ(date_in_words("2026-13-31T09:05:59Z"), "2026-13-31T09:05:59Z");
+  EXPECT_EQ(duration_text(4.06), "4.1\u00a0s");
+  EXPECT_EQ(duration_text(37.2), "37\u00a0s");
+  EXPECT_EQ(duration_text(125.4), "2\u00a0min 05\u00a0s");
+  EXPECT_EQ(date_text("2026-01-31T09:05:59Z"), "31 January 2026, 09:05 UTC");
+  EXPECT_EQ(date_text("some day"), "some day");
+  EXPECT_EQ(date_text("2026-13-31T09:05:59Z"), "2026-13-31T09:05:59Z");
 }
 
 }  // namespace

@@ -19,9 +19,9 @@ std::string with_unit(double value, std::string_view unit);
 std::string printed_unit(std::string_view unit);
 
 /// "83 s", "2 min 05 s".
-std::string duration_in_words(double seconds);
+std::string duration_text(double seconds);
 
 /// "2026-01-31T12:00:00Z" as "31 January 2026, 12:00 UTC"; other words as they are.
-std::string date_in_words(const std::string& utc);
+std::string date_text(const std::string& utc);
 
 }  // namespace ream::report

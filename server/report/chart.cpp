@@ -1,9 +1,9 @@
-#include "report/draw_chart.hpp"
+#include "report/chart.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "report/number_words.hpp"
+#include "report/number_text.hpp"
 
 namespace ream::report {
 namespace {
@@ -131,10 +131,10 @@ void draw_stretches(const Chart& chart, Canvas& canvas, const Scale& scale) {
 
 }  // namespace
 
-std::vector<double> round_numbers(double min, double max, int wanted, bool whole) {
+std::vector<double> round_numbers(double min, double max, int count, bool whole) {
   std::vector<double> numbers;
-  if (!std::isfinite(min) || !std::isfinite(max) || !(max > min) || wanted < 1) return numbers;
-  const double rough = (max - min) / wanted;
+  if (!std::isfinite(min) || !std::isfinite(max) || !(max > min) || count < 1) return numbers;
+  const double rough = (max - min) / count;
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
   double step = 10.0 * power;
   for (const double factor : {1.0, 2.0, 5.0})

@@ -1,4 +1,4 @@
-#include "report/svg_canvas.hpp"
+#include "report/canvas.hpp"
 
 #include <array>
 #include <cmath>
@@ -67,9 +67,9 @@ void SvgCanvas::text(const Place& at, const std::string& words, const Lettering&
                escaped(words) + "</text>\n";
 }
 
-std::string SvgCanvas::svg(double width, double height, const std::string& in_words) const {
+std::string SvgCanvas::svg(double width, double height, const std::string& alt_text) const {
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + number(width) + " " + number(height) +
-         "\" role=\"img\" aria-label=\"" + escaped(in_words) + "\">\n" + elements_ + "</svg>\n";
+         "\" role=\"img\" aria-label=\"" + escaped(alt_text) + "\">\n" + elements_ + "</svg>\n";
 }
 
 }  // namespace ream::report

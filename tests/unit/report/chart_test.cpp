@@ -1,4 +1,4 @@
-#include "report/draw_chart.hpp"
+#include "report/chart.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "report/svg_canvas.hpp"
+#include "report/canvas.hpp"
 
 namespace ream::report {
 namespace {
