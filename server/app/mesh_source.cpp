@@ -6,7 +6,6 @@
 #include "core/error.hpp"
 #include "ct/read/gray_volume.hpp"
 #include "fe/element_model.hpp"
-#include "fe/text_rows.hpp"
 #include "record/recorded_bone.hpp"
 #include "session/export/export_session.hpp"
 #include "session/simulation/find_case.hpp"

@@ -1,12 +1,80 @@
-#include "fe/mesh_writers.hpp"
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string_view>
+#include <vector>
 
+#include "core/atomic_file.hpp"
+#include "core/error.hpp"
+#include "core/progress.hpp"
+#include "core/thread_pool.hpp"
 #include "fe/materials.hpp"
+#include "fe/mesh_writers.hpp"
 #include "fe/node_numbering.hpp"
 #include "fe/number_text.hpp"
-#include "fe/ordered_output.hpp"
 
 namespace ream::fe {
 namespace {
+
+/// Where each piece begins, known once all before it have been made.
+class Places {
+ public:
+  explicit Places(uint64_t begin) : next_begin_(begin) {}
+
+  uint64_t of(size_t i, size_t bytes) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return next_ == i || given_up_; });
+    if (given_up_) throw Error(ErrorKind::cancelled, "given up with the rest of the file");
+    const uint64_t begin = next_begin_;
+    next_begin_ += bytes;
+    ++next_;
+    changed_.notify_all();
+    return begin;
+  }
+  void give_up() {
+    const std::lock_guard lock(mutex_);
+    given_up_ = true;
+    changed_.notify_all();
+  }
+  uint64_t end() const { return next_begin_; }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  size_t next_ = 0;
+  uint64_t next_begin_;
+  bool given_up_ = false;
+};
+
+/// Buffers that are used again, so that their pages are touched for the first time once.
+class Buffers {
+ public:
+  struct Buffer {
+    std::unique_ptr<char[]> bytes;
+    size_t size = 0;
+  };
+  Buffer take(size_t size) {
+    Buffer buffer;
+    {
+      const std::lock_guard lock(mutex_);
+      if (!free_.empty()) {
+        buffer = std::move(free_.back());
+        free_.pop_back();
+      }
+    }
+    if (buffer.size < size) buffer = {std::unique_ptr<char[]>(new char[size]), size};
+    return buffer;
+  }
+  void give_back(Buffer buffer) {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(std::move(buffer));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<Buffer> free_;
+};
 
 /// Nodes that stop a body on a sliding platen from drifting and from turning.
 struct Pins {
@@ -37,6 +105,54 @@ Pins pins_on(const NodeNumbering& numbering, int axis) {
 std::string fixed(const std::string& nodes, int direction, const std::string& value = "0.0") {
   const std::string d = std::to_string(direction + 1);
   return nodes + ", " + d + ", " + d + ", " + value + "\n";
+}
+
+/// Text at the end of a file in progress, made piece by piece on two threads and written in order.
+class OrderedOutput {
+ public:
+  explicit OrderedOutput(const AtomicFile& file) : file_(file) {}
+
+  void append(std::string_view text);
+
+  struct Pieces {
+    size_t count = 0;
+    std::function<size_t(size_t i)> max_bytes;      ///< of piece i
+    std::function<char*(size_t i, char* at)> make;  ///< writes it from `at` on, returns its end
+  };
+  /// Errors: io; what the functions and the progress throw.
+  void append(const Pieces& pieces, const Progress& progress, std::string_view step);
+
+  uint64_t bytes() const { return bytes_; }
+
+ private:
+  const AtomicFile& file_;
+  uint64_t bytes_ = 0;
+};
+
+void OrderedOutput::append(std::string_view text) {
+  file_.write_at(bytes_, std::as_bytes(std::span(text)));
+  bytes_ += text.size();
+}
+
+void OrderedOutput::append(const Pieces& pieces, const Progress& progress, std::string_view step) {
+  Places places(bytes_);
+  Buffers buffers;
+  const auto work = [&](size_t i) {
+    Buffers::Buffer buffer;
+    size_t size = 0;
+    try {
+      buffer = buffers.take(pieces.max_bytes(i));
+      size = static_cast<size_t>(pieces.make(i, buffer.bytes.get()) - buffer.bytes.get());
+    } catch (...) {
+      places.give_up();
+      throw;
+    }
+    const uint64_t begin = places.of(i, size);
+    file_.write_at(begin, std::as_bytes(std::span(buffer.bytes.get(), size)));
+    buffers.give_back(std::move(buffer));
+  };
+  parallel_for(2, pieces.count, work, progress, step);
+  bytes_ = places.end();
 }
 
 }  // namespace

@@ -1,4 +1,3 @@
-#include "fe/largest_component.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,9 +2,9 @@
 
 #include "core/clock.hpp"
 #include "core/error.hpp"
+#include "fe/element_model.hpp"
 #include "fe/mesh_check.hpp"
 #include "fe/mesh_writers.hpp"
-#include "fe/refine.hpp"
 
 namespace ream::fe {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "fe/largest_component.hpp"
+#include "fe/element_model.hpp"
 #include "fe/mesh_writers.hpp"
 
 namespace ream::fe {

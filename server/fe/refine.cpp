@@ -1,4 +1,4 @@
-#include "fe/refine.hpp"
+#include "fe/element_model.hpp"
 
 #include <algorithm>
 #include <array>

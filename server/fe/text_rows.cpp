@@ -1,4 +1,4 @@
-#include "fe/text_rows.hpp"
+#include "fe/element_model.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "sim/remove_bone.hpp"
+#include "sim/step.hpp"
 
 #include "core/hash.hpp"
 #include "sim/state.hpp"

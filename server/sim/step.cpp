@@ -7,7 +7,6 @@
 #include "sim/approach.hpp"
 #include "sim/guided_handle.hpp"
 #include "sim/press.hpp"
-#include "sim/remove_bone.hpp"
 
 namespace ream::sim {
 namespace {

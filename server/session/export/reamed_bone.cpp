@@ -3,7 +3,7 @@
 #include "core/error.hpp"
 #include "record/recorded_bone.hpp"
 #include "score/deviation.hpp"
-#include "score/placements.hpp"
+#include "score/alignment.hpp"
 #include "session/simulation/measured_glenoid.hpp"
 #include "session/simulation/recorded_case.hpp"
 #include "session/simulation/recorded_rig.hpp"

@@ -5,10 +5,8 @@
 #include "core/clock.hpp"
 #include "core/thread_pool.hpp"
 #include "fe/element_model.hpp"
-#include "fe/largest_component.hpp"
 #include "fe/materials.hpp"
 #include "fe/node_numbering.hpp"
-#include "fe/refine.hpp"
 
 namespace ream::bench {
 namespace {

@@ -7,7 +7,7 @@
 #include "sim/guided_handle.hpp"
 #include "sim/hand_output.hpp"
 #include "sim/press.hpp"
-#include "sim/remove_bone.hpp"
+#include "sim/step.hpp"
 #include "support/small_run.hpp"
 
 namespace ream::bench {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "fe/text_rows.hpp"
+#include "fe/element_model.hpp"
 #include "support/expect_error.hpp"
 #include "unit/fe/small_models.hpp"
 

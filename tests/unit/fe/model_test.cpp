@@ -3,8 +3,6 @@
 #include <queue>
 
 #include "fe/element_model.hpp"
-#include "fe/largest_component.hpp"
-#include "fe/refine.hpp"
 #include "support/expect_error.hpp"
 #include "unit/fe/small_models.hpp"
 

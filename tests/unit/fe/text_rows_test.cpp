@@ -1,4 +1,3 @@
-#include "fe/text_rows.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "score/placements.hpp"
+#include "score/alignment.hpp"
 
 #include <gtest/gtest.h>
 

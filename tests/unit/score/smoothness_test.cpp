@@ -1,4 +1,4 @@
-#include "score/smoothness.hpp"
+#include "score/tool_path.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/units.hpp"
-#include "score/smoothness.hpp"
 
 namespace ream::score {
 namespace {
