@@ -2,6 +2,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "core/file_descriptor.hpp"
+
 namespace ream {
 
 /// Holds a lock file for as long as it lives. The system lets go of it when the process ends, however it
@@ -13,13 +15,9 @@ class FileLock {
   /// Whether somebody holds it; false without such a file. Makes nothing.
   static bool held(const std::filesystem::path& path);
 
-  ~FileLock();
-  FileLock(FileLock&& other) noexcept : descriptor_(other.descriptor_) { other.descriptor_ = -1; }
-  FileLock& operator=(FileLock&& other) noexcept;
-
  private:
-  explicit FileLock(int descriptor) : descriptor_(descriptor) {}
-  int descriptor_ = -1;
+  explicit FileLock(FileDescriptor file) : file_(std::move(file)) {}
+  FileDescriptor file_;
 };
 
 }  // namespace ream

@@ -1,7 +1,6 @@
 #include "fe/line_reader.hpp"
 
 #include <fcntl.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <charconv>
@@ -30,12 +29,10 @@ bool pass_comma(const char*& at, const char* end) {
 LineReader::LineReader(const std::filesystem::path& path) : path_(path), text_(piece_bytes) {
   if (!std::filesystem::is_regular_file(path))
     throw Error(ErrorKind::not_found, "no such file: " + path.string());
-  fd_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd_ < 0) throw Error(ErrorKind::io, "cannot read " + path.string() + ": " + std::strerror(errno));
+  file_ = FileDescriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!file_) throw Error(ErrorKind::io, "cannot read " + path.string() + ": " + std::strerror(errno));
   file_bytes_ = std::filesystem::file_size(path);
 }
-
-LineReader::~LineReader() { ::close(fd_); }
 
 void LineReader::seek(uint64_t byte, uint64_t line_number) {
   text_byte_ = byte;
@@ -50,11 +47,8 @@ bool LineReader::fill() {
   filled_ -= at_;
   at_ = 0;
   if (filled_ == text_.size()) text_.resize(2 * text_.size());
-  ssize_t n = 0;
-  do {
-    n = ::pread(fd_, text_.data() + filled_, text_.size() - filled_,
-                static_cast<off_t>(text_byte_ + filled_));
-  } while (n < 0 && errno == EINTR);
+  const ssize_t n =
+      file_.read_at(text_byte_ + filled_, std::as_writable_bytes(std::span(text_).subspan(filled_)));
   if (n < 0) throw Error(ErrorKind::io, "cannot read " + path_.string() + ": " + std::strerror(errno));
   filled_ += static_cast<size_t>(n);
   return n > 0;

@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/file_descriptor.hpp"
+
 namespace ream::fe {
 
 /// A text file line by line, from any place of it, in pieces.
@@ -11,9 +13,6 @@ class LineReader {
  public:
   /// Throws Error not_found or io.
   explicit LineReader(const std::filesystem::path& path);
-  ~LineReader();
-  LineReader(const LineReader&) = delete;
-  LineReader& operator=(const LineReader&) = delete;
 
   /// Goes to a place where a line begins.
   void seek(uint64_t byte, uint64_t line_number);
@@ -28,7 +27,7 @@ class LineReader {
   bool fill();
 
   std::filesystem::path path_;
-  int fd_ = -1;
+  FileDescriptor file_;
   std::vector<char> text_;
   size_t at_ = 0, filled_ = 0;
   uint64_t text_byte_ = 0, file_bytes_ = 0, line_byte_ = 0, number_ = 1;

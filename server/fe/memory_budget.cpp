@@ -42,12 +42,10 @@ void MemoryBudget::give_back(uint64_t bytes) { used_ -= std::min(used_, limit_ =
 
 SpillFile::SpillFile(const std::filesystem::path& folder) : folder_(folder.empty() ? "." : folder) {
   std::string name = (folder_ / ".ream-XXXXXX").string();
-  fd_ = ::mkostemp(name.data(), O_CLOEXEC);
-  if (fd_ < 0) fail();
+  file_ = FileDescriptor(::mkostemp(name.data(), O_CLOEXEC));
+  if (!file_) fail();
   ::unlink(name.c_str());
 }
-
-SpillFile::~SpillFile() { ::close(fd_); }
 
 void SpillFile::fail() const {
   throw Error(ErrorKind::io, "cannot keep what does not fit into memory in " + folder_.string() + ": " +
@@ -55,24 +53,13 @@ void SpillFile::fail() const {
 }
 
 void SpillFile::write_at(uint64_t offset, std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t n = ::pwrite(fd_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail();
-    bytes = bytes.subspan(static_cast<size_t>(n));
-    offset += static_cast<uint64_t>(n);
-  }
+  if (!file_.write_at(offset, bytes)) fail();
 }
 
 void SpillFile::read_at(uint64_t offset, std::span<std::byte> bytes) const {
-  while (!bytes.empty()) {
-    const ssize_t n = ::pread(fd_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
-    if (n < 0 && errno == EINTR) continue;
-    if (n == 0) errno = EIO;
-    if (n <= 0) fail();
-    bytes = bytes.subspan(static_cast<size_t>(n));
-    offset += static_cast<uint64_t>(n);
-  }
+  const ssize_t got = file_.read_at(offset, bytes);
+  if (got >= 0 && static_cast<size_t>(got) < bytes.size()) errno = EIO;
+  if (got < 0 || static_cast<size_t>(got) < bytes.size()) fail();
 }
 
 }  // namespace ream::fe

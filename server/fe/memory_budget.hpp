@@ -5,6 +5,8 @@
 #include <span>
 #include <string>
 
+#include "core/file_descriptor.hpp"
+
 namespace ream::fe {
 
 /// How much memory a mesh may take, and where goes what does not fit. Large things ask before they are made.
@@ -34,9 +36,6 @@ class MemoryBudget {
 class SpillFile {
  public:
   explicit SpillFile(const std::filesystem::path& folder);
-  ~SpillFile();
-  SpillFile(const SpillFile&) = delete;
-  SpillFile& operator=(const SpillFile&) = delete;
 
   void write_at(uint64_t offset, std::span<const std::byte> bytes);
   /// All of `bytes` must have been written.
@@ -46,7 +45,7 @@ class SpillFile {
   [[noreturn]] void fail() const;
 
   std::filesystem::path folder_;
-  int fd_ = -1;
+  FileDescriptor file_;
 };
 
 }  // namespace ream::fe

@@ -1,7 +1,6 @@
 #include "fe/element_model.hpp"
 
 #include <fcntl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -15,6 +14,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/file_descriptor.hpp"
 #include "core/progress.hpp"
 #include "core/thread_pool.hpp"
 #include "fe/memory_budget.hpp"
@@ -59,7 +59,7 @@ class RowStore {
 
   MemoryBudget& budget_;
   std::filesystem::path path_;
-  int fd_ = -1;
+  FileDescriptor file_;
   uint64_t file_bytes_ = 0, size_ = 0;
   std::vector<RowParser> parsers_;
   std::vector<Block> blocks_;
@@ -77,8 +77,8 @@ constexpr size_t readable_behind = 64;
 RowStore::RowStore(const fs::path& path, MemoryBudget& budget, const Progress& progress)
     : budget_(budget), path_(path), parsers_(threads) {
   if (!fs::is_regular_file(path)) throw Error(ErrorKind::not_found, "no such file: " + path.string());
-  fd_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd_ < 0) throw Error(ErrorKind::io, "cannot read " + path.string() + ": " + std::strerror(errno));
+  file_ = FileDescriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!file_) throw Error(ErrorKind::io, "cannot read " + path.string() + ": " + std::strerror(errno));
   file_bytes_ = fs::file_size(path);
   blocks_.resize((file_bytes_ + block_bytes - 1) / block_bytes);
   if (!budget.fits(2 * file_bytes_ / short_row_bytes * sizeof(RowRecord)))
@@ -118,7 +118,6 @@ RowStore::RowStore(const fs::path& path, MemoryBudget& budget, const Progress& p
 
 RowStore::~RowStore() {
   if (!spill_) budget_.give_back(size_ * sizeof(RowRecord));
-  if (fd_ >= 0) ::close(fd_);
 }
 
 /// The lines that begin in the block, the last of them whole.
@@ -127,15 +126,11 @@ void RowStore::read_block(size_t block, std::vector<char>& text, const char*& be
   const uint64_t first = block * block_bytes, from = first == 0 ? 0 : first - 1;
   const uint64_t to = std::min(file_bytes_, first + block_bytes + RowParser::max_line_bytes);
   text.resize(to - from + 1 + readable_behind);
-  for (uint64_t done = 0; done < to - from;) {
-    const ssize_t n = ::pread(fd_, text.data() + done, to - from - done, static_cast<off_t>(from + done));
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0)
-      throw Error(ErrorKind::io,
-                  "cannot read " + path_.string() +
-                      (n < 0 ? std::string(": ") + std::strerror(errno) : ", it was cut short"));
-    done += static_cast<uint64_t>(n);
-  }
+  const ssize_t got = file_.read_at(from, std::as_writable_bytes(std::span(text).first(to - from)));
+  if (got < 0 || static_cast<uint64_t>(got) < to - from)
+    throw Error(ErrorKind::io,
+                "cannot read " + path_.string() +
+                    (got < 0 ? std::string(": ") + std::strerror(errno) : ", it was cut short"));
   const char* const all = text.data() + (to - from);
   text[to - from] = '\n';  // ends the last line, and any search
   begin = text.data();
@@ -181,8 +176,8 @@ uint64_t RowStore::line_of_byte(uint64_t byte) const {
   uint64_t line = 1;
   std::vector<char> text(block_bytes);
   for (uint64_t at = 0; at < byte;) {
-    const ssize_t n =
-        ::pread(fd_, text.data(), std::min<uint64_t>(text.size(), byte - at), static_cast<off_t>(at));
+    const ssize_t n = file_.read_at(
+        at, std::as_writable_bytes(std::span(text).first(std::min<uint64_t>(text.size(), byte - at))));
     if (n <= 0) break;
     line += static_cast<uint64_t>(std::count(text.begin(), text.begin() + n, '\n'));
     at += static_cast<uint64_t>(n);

@@ -1,5 +1,4 @@
 #include <fcntl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/file_descriptor.hpp"
 #include "fe/mesh_file_checks.hpp"
 
 namespace ream::fe {
@@ -19,28 +19,18 @@ constexpr uint64_t elements_of_block = 1 << 16;
 /// A file that is read from any place.
 class ReadFile {
  public:
-  explicit ReadFile(const std::filesystem::path& path) : name_(path.string()) {
-    fd_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (fd_ < 0) throw Error(ErrorKind::io, "cannot read " + name_ + ": " + std::strerror(errno));
+  explicit ReadFile(const std::filesystem::path& path)
+      : name_(path.string()), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+    if (!file_) throw Error(ErrorKind::io, "cannot read " + name_ + ": " + std::strerror(errno));
   }
-  ~ReadFile() { ::close(fd_); }
-  ReadFile(const ReadFile&) = delete;
-  ReadFile& operator=(const ReadFile&) = delete;
 
   [[noreturn]] void refuse(const std::string& why) const {
     throw Error(ErrorKind::invalid_input, name_ + ": " + why);
   }
   size_t read_some(uint64_t at, void* to, size_t bytes) const {
-    size_t done = 0;
-    while (done < bytes) {
-      const ssize_t n =
-          ::pread(fd_, static_cast<char*>(to) + done, bytes - done, static_cast<off_t>(at + done));
-      if (n < 0 && errno == EINTR) continue;
-      if (n < 0) throw Error(ErrorKind::io, "cannot read " + name_ + ": " + std::strerror(errno));
-      if (n == 0) break;
-      done += static_cast<size_t>(n);
-    }
-    return done;
+    const ssize_t got = file_.read_at(at, {static_cast<std::byte*>(to), bytes});
+    if (got < 0) throw Error(ErrorKind::io, "cannot read " + name_ + ": " + std::strerror(errno));
+    return static_cast<size_t>(got);
   }
   template <typename T>
   void read(uint64_t at, std::vector<T>& values, size_t count) const {
@@ -50,7 +40,7 @@ class ReadFile {
 
  private:
   std::string name_;
-  int fd_ = -1;
+  FileDescriptor file_;
 };
 
 /// One array of the appended data.

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -58,38 +57,23 @@ std::optional<uint64_t> number_in(std::string_view text) {
 
 }  // namespace
 
-OpenFile::OpenFile(const std::filesystem::path& path) : path_(path) {
-  // Without O_NONBLOCK a named pipe in place of the file would hold us.
-  descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (descriptor_ < 0 && (errno == ENOENT || errno == ENOTDIR))
+// Without O_NONBLOCK a named pipe in place of the file would hold us.
+OpenFile::OpenFile(const std::filesystem::path& path)
+    : path_(path), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
+  if (!file_ && (errno == ENOENT || errno == ENOTDIR))
     throw Error(ErrorKind::not_found, "no such file: " + path.string());
   struct stat facts {};
-  if (descriptor_ < 0 || ::fstat(descriptor_, &facts) != 0) {
-    const std::string reason = std::strerror(errno);
-    if (descriptor_ >= 0) ::close(descriptor_);
-    throw Error(ErrorKind::io, "cannot read " + path.string() + ": " + reason);
-  }
-  if (!S_ISREG(facts.st_mode)) {
-    ::close(descriptor_);
-    throw Error(ErrorKind::invalid_input, path.string() + " is no file");
-  }
+  if (!file_ || ::fstat(file_.get(), &facts) != 0)
+    throw Error(ErrorKind::io, "cannot read " + path.string() + ": " + std::strerror(errno));
+  if (!S_ISREG(facts.st_mode)) throw Error(ErrorKind::invalid_input, path.string() + " is no file");
   bytes_ = static_cast<uint64_t>(facts.st_size);
   tag_ = tag_of(facts);
 }
 
-OpenFile::~OpenFile() { ::close(descriptor_); }
-
 size_t OpenFile::read(uint64_t offset, std::span<std::byte> into) const {
-  size_t got = 0;
-  while (got < into.size()) {
-    const ssize_t n =
-        ::pread(descriptor_, into.data() + got, into.size() - got, static_cast<off_t>(offset + got));
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw Error(ErrorKind::io, "cannot read " + path_.string() + ": " + std::strerror(errno));
-    if (n == 0) break;
-    got += static_cast<size_t>(n);
-  }
-  return got;
+  const ssize_t got = file_.read_at(offset, into);
+  if (got < 0) throw Error(ErrorKind::io, "cannot read " + path_.string() + ": " + std::strerror(errno));
+  return static_cast<size_t>(got);
 }
 
 Response file_response(const Request& request, const FileBody& body) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/file_descriptor.hpp"
 #include "net/message.hpp"
 
 namespace ream::net {
@@ -15,9 +16,6 @@ class OpenFile {
  public:
   /// Throws Error: not_found when there is no such file, invalid_input when it is a folder, io otherwise.
   explicit OpenFile(const std::filesystem::path& path);
-  ~OpenFile();
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
 
   /// When it was opened.
   uint64_t bytes() const { return bytes_; }
@@ -30,7 +28,7 @@ class OpenFile {
 
  private:
   const std::filesystem::path path_;
-  int descriptor_ = -1;
+  FileDescriptor file_;
   uint64_t bytes_ = 0;
   std::string tag_;
 };

@@ -1,6 +1,5 @@
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -8,6 +7,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/file_descriptor.hpp"
 #include "core/hash.hpp"
 #include "record/chunk.hpp"
 #include "record/op_log.hpp"
@@ -15,28 +15,18 @@
 namespace ream::record {
 namespace {
 
-struct Descriptor {
-  int number = -1;
-  ~Descriptor() {
-    if (number >= 0) ::close(number);
-  }
-};
-
 /// An open file; reads at any place, from any thread.
 class InputFile {
  public:
   explicit InputFile(const std::filesystem::path& path)
-      : path_(path), file_{::open(path.c_str(), O_RDONLY | O_CLOEXEC)} {
-    if (file_.number < 0 && errno == ENOENT)
-      throw Error(ErrorKind::not_found, "no such file: " + path.string());
+      : path_(path), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+    if (!file_ && errno == ENOENT) throw Error(ErrorKind::not_found, "no such file: " + path.string());
     struct stat status {};
-    if (file_.number < 0 || ::fstat(file_.number, &status) != 0) fail();
+    if (!file_ || ::fstat(file_.get(), &status) != 0) fail();
     if (!S_ISREG(status.st_mode))
       throw Error(ErrorKind::invalid_input, path.string() + " is no file; a recording.ream is expected");
     size_ = static_cast<uint64_t>(status.st_size);
   }
-  InputFile(const InputFile&) = delete;
-  InputFile& operator=(const InputFile&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
   uint64_t size() const { return size_; }
@@ -44,15 +34,9 @@ class InputFile {
   /// Fewer bytes than asked for only at the file's end.
   ops::Bytes read(uint64_t at, size_t count) const {
     ops::Bytes bytes(at >= size_ ? 0 : std::min<uint64_t>(count, size_ - at));
-    size_t done = 0;
-    while (done < bytes.size()) {
-      const ssize_t n =
-          ::pread(file_.number, bytes.data() + done, bytes.size() - done, static_cast<off_t>(at + done));
-      if (n < 0 && errno == EINTR) continue;
-      if (n < 0) fail();
-      if (n == 0) bytes.resize(done);
-      done += static_cast<size_t>(n);
-    }
+    const ssize_t got = file_.read_at(at, std::as_writable_bytes(std::span(bytes)));
+    if (got < 0) fail();
+    bytes.resize(static_cast<size_t>(got));
     return bytes;
   }
 
@@ -62,7 +46,7 @@ class InputFile {
   }
 
   const std::filesystem::path path_;
-  const Descriptor file_;
+  const FileDescriptor file_;
   uint64_t size_ = 0;
 };
 

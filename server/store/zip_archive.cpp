@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "core/error.hpp"
+#include "core/file_descriptor.hpp"
 
 namespace ream::store {
 namespace {
@@ -94,10 +95,8 @@ void write_entry(zip_t* archive, const ArchiveEntry& entry, const fs::path& zip)
 }
 
 bool sync_file(const fs::path& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool synced = file >= 0 && ::fsync(file) == 0;
-  if (file >= 0) ::close(file);
-  return synced;
+  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  return file && ::fsync(file.get()) == 0;
 }
 
 Error unusable(const fs::path& zip, const std::string& name, const std::string& why) {
