@@ -36,12 +36,9 @@ std::string role_column(CredentialKind kind, const NewCredential& request) {
 
 std::string to_text(CredentialKind kind) {
   switch (kind) {
-    case CredentialKind::token:
-      return "token";
-    case CredentialKind::cookie:
-      return "cookie";
-    case CredentialKind::link:
-      return "link";
+    case CredentialKind::token: return "token";
+    case CredentialKind::cookie: return "cookie";
+    case CredentialKind::link: return "link";
   }
   return "token";
 }

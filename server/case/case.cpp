@@ -167,12 +167,9 @@ void save_bone(const Case& c, const fs::path& folder) {
 
 std::string to_text(GuideKind guide) {
   switch (guide) {
-    case GuideKind::none:
-      return "none";
-    case GuideKind::nipple:
-      return "nipple";
-    case GuideKind::pin:
-      return "pin";
+    case GuideKind::none: return "none";
+    case GuideKind::nipple: return "nipple";
+    case GuideKind::pin: return "pin";
   }
   return "none";
 }

@@ -124,22 +124,14 @@ class Body {
 
   double next_binary(Type type) {
     switch (type) {
-      case Type::i8:
-        return take<int8_t>();
-      case Type::u8:
-        return take<uint8_t>();
-      case Type::i16:
-        return take<int16_t>();
-      case Type::u16:
-        return take<uint16_t>();
-      case Type::i32:
-        return take<int32_t>();
-      case Type::u32:
-        return take<uint32_t>();
-      case Type::f32:
-        return static_cast<double>(take<float>());
-      case Type::f64:
-        return take<double>();
+      case Type::i8: return take<int8_t>();
+      case Type::u8: return take<uint8_t>();
+      case Type::i16: return take<int16_t>();
+      case Type::u16: return take<uint16_t>();
+      case Type::i32: return take<int32_t>();
+      case Type::u32: return take<uint32_t>();
+      case Type::f32: return static_cast<double>(take<float>());
+      case Type::f64: return take<double>();
     }
     return 0.0;
   }

@@ -19,20 +19,15 @@ struct Status {
 
 Status status_of(SessionState state) {
   switch (state) {
-    case SessionState::created:
-      return {StatusCode::not_ready, "created", "the session has not been started"};
+    case SessionState::created: return {StatusCode::not_ready, "created", "the session has not been started"};
     case SessionState::running:
-    case SessionState::replaying:
-      return {StatusCode::ok, "running", "the session runs"};
-    case SessionState::paused:
-      return {StatusCode::not_ready, "paused", "the session is paused"};
+    case SessionState::replaying: return {StatusCode::ok, "running", "the session runs"};
+    case SessionState::paused: return {StatusCode::not_ready, "paused", "the session is paused"};
     case SessionState::finished:
       return {StatusCode::shut_down, "finished", "the session has come to its end"};
-    case SessionState::stopped:
-      return {StatusCode::shut_down, "stopped", "the session was stopped"};
+    case SessionState::stopped: return {StatusCode::shut_down, "stopped", "the session was stopped"};
     case SessionState::fault:
-    case SessionState::interrupted:
-      break;
+    case SessionState::interrupted: break;
   }
   return {StatusCode::hardware_failure, "fault", "the session ended by a fault"};
 }

@@ -13,27 +13,19 @@ uint32_t unzigzag(uint32_t z) { return (z >> 1) ^ (0u - (z & 1)); }
 /// `before`: the word of the row before, `earlier`: of the row before that.
 uint32_t residual(uint8_t way, uint32_t word, uint32_t before, uint32_t earlier) {
   switch (way) {
-    case difference:
-      return zigzag(word - before);
-    case second_difference:
-      return zigzag(word - 2 * before + earlier);
-    case exclusive_or:
-      return word ^ before;
-    default:
-      return word;
+    case difference: return zigzag(word - before);
+    case second_difference: return zigzag(word - 2 * before + earlier);
+    case exclusive_or: return word ^ before;
+    default: return word;
   }
 }
 
 uint32_t word_of(uint8_t way, uint32_t r, uint32_t before, uint32_t earlier) {
   switch (way) {
-    case difference:
-      return unzigzag(r) + before;
-    case second_difference:
-      return unzigzag(r) + 2 * before - earlier;
-    case exclusive_or:
-      return r ^ before;
-    default:
-      return r;
+    case difference: return unzigzag(r) + before;
+    case second_difference: return unzigzag(r) + 2 * before - earlier;
+    case exclusive_or: return r ^ before;
+    default: return r;
   }
 }
 

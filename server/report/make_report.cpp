@@ -129,31 +129,21 @@ Report make_report(const Material& m) {
 
 std::string mark_word(Mark mark) {
   switch (mark) {
-    case Mark::pass:
-      return "pass";
-    case Mark::warn:
-      return "warn";
-    case Mark::fail:
-      return "fail";
-    case Mark::missing:
-      return "not said";
-    default:
-      return "";
+    case Mark::pass: return "pass";
+    case Mark::warn: return "warn";
+    case Mark::fail: return "fail";
+    case Mark::missing: return "not said";
+    default: return "";
   }
 }
 
 std::string mark_sign(Mark mark) {
   switch (mark) {
-    case Mark::pass:
-      return "\u2713";
-    case Mark::warn:
-      return "!";
-    case Mark::fail:
-      return "\u2717";
-    case Mark::missing:
-      return "\u2013";
-    default:
-      return "";
+    case Mark::pass: return "\u2713";
+    case Mark::warn: return "!";
+    case Mark::fail: return "\u2717";
+    case Mark::missing: return "\u2013";
+    default: return "";
   }
 }
 

@@ -20,12 +20,9 @@ std::optional<double> number_of(const nlohmann::json& metrics, std::string_view 
 
 std::string value_in_words(const score::Metric& metric, double value) {
   switch (metric.style) {
-    case score::Style::version:
-      return case_::version_in_words(radians_from_degrees(value));
-    case score::Style::inclination:
-      return case_::inclination_in_words(radians_from_degrees(value));
-    default:
-      return with_unit(value, metric.unit);
+    case score::Style::version: return case_::version_in_words(radians_from_degrees(value));
+    case score::Style::inclination: return case_::inclination_in_words(radians_from_degrees(value));
+    default: return with_unit(value, metric.unit);
   }
 }
 
@@ -63,11 +60,8 @@ void put_limits(const score::Band& band, std::string_view unit, MetricLine& line
       line.warn = band.warn > 0.0 && band.warn < 1e-3 ? ">\u00a00" : "\u2265\u00a0" + limit(band.warn, unit);
       if (band.warn == band.pass) line.warn.clear();
       break;
-    case Better::between:
-      line.pass = shortest(band.low) + " to " + limit(band.pass, unit);
-      break;
-    default:
-      break;
+    case Better::between: line.pass = shortest(band.low) + " to " + limit(band.pass, unit); break;
+    default: break;
   }
 }
 
@@ -81,14 +75,10 @@ Mark mark_of(const score::Band& band, const std::optional<double>& value) {
 
 std::string words_of(score::Evidence evidence) {
   switch (evidence) {
-    case score::Evidence::published:
-      return "published";
-    case score::Evidence::field:
-      return "common knowledge of the field";
-    case score::Evidence::tested:
-      return "computed and tested here";
-    default:
-      return "engineering judgement";
+    case score::Evidence::published: return "published";
+    case score::Evidence::field: return "common knowledge of the field";
+    case score::Evidence::tested: return "computed and tested here";
+    default: return "engineering judgement";
   }
 }
 

@@ -7,14 +7,12 @@ using nlohmann::json;
 
 std::optional<Verdict> verdict(const Band& band, double value) {
   switch (band.better) {
-    case Better::report_only:
-      return std::nullopt;
+    case Better::report_only: return std::nullopt;
     case Better::less:
       return value <= band.pass ? Verdict::pass : value <= band.warn ? Verdict::warn : Verdict::fail;
     case Better::more:
       return value >= band.pass ? Verdict::pass : value >= band.warn ? Verdict::warn : Verdict::fail;
-    case Better::between:
-      return value >= band.low && value <= band.pass ? Verdict::pass : Verdict::warn;
+    case Better::between: return value >= band.low && value <= band.pass ? Verdict::pass : Verdict::warn;
   }
   return std::nullopt;
 }

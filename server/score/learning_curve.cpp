@@ -59,12 +59,9 @@ std::vector<CusumPoint> cusum(const CusumParameters& parameters, const std::vect
 
 std::string_view to_text(Standing standing) {
   switch (standing) {
-    case Standing::proficient:
-      return "proficient";
-    case Standing::not_proficient:
-      return "not proficient";
-    default:
-      return "going on";
+    case Standing::proficient: return "proficient";
+    case Standing::not_proficient: return "not proficient";
+    default: return "going on";
   }
 }
 

@@ -19,12 +19,9 @@ double microseconds(SteadyClock::duration duration) {
 
 LoopEnd end_of(StepStatus status) {
   switch (status) {
-    case StepStatus::ok:
-      return LoopEnd::running;
-    case StepStatus::collision_failed:
-      return LoopEnd::collision_failed;
-    case StepStatus::not_finite:
-      return LoopEnd::not_finite;
+    case StepStatus::ok: return LoopEnd::running;
+    case StepStatus::collision_failed: return LoopEnd::collision_failed;
+    case StepStatus::not_finite: return LoopEnd::not_finite;
   }
   return LoopEnd::not_finite;
 }
@@ -35,8 +32,7 @@ std::string message_of(LoopEnd end) {
   switch (end) {
     case LoopEnd::device_fault:
       return "The haptic device stopped answering; check its cable and power, then start a new session.";
-    case LoopEnd::collision_failed:
-      return "The OpenCL device failed; start again with --backend cpu.";
+    case LoopEnd::collision_failed: return "The OpenCL device failed; start again with --backend cpu.";
     case LoopEnd::not_finite:
       return "The handle was more than 2 m from the origin, or a force was not a number; the "
              "force was set to zero and the session ended.";
@@ -47,8 +43,7 @@ std::string message_of(LoopEnd end) {
       return "The recording could not keep up with the loop; check the disk, then start a new session.";
     case LoopEnd::running:
     case LoopEnd::finished:
-    case LoopEnd::stopped:
-      return "";
+    case LoopEnd::stopped: return "";
   }
   return "";
 }
@@ -225,26 +220,13 @@ bool HapticLoop::push(const TickReport& report) noexcept {
 /// Looking through a histogram takes a few us, so each has a tick of its own.
 void HapticLoop::summarise(uint32_t which) noexcept {
   switch (which) {
-    case 0:
-      health_.tick_us = tick_us_.summary();
-      break;
-    case 1:
-      health_.lateness_us = lateness_us_.summary();
-      break;
-    case 2:
-      health_.read_us = read_us_.summary();
-      break;
-    case 3:
-      health_.step_us = step_us_.summary();
-      break;
-    case 4:
-      health_.write_us = write_us_.summary();
-      break;
-    case summaries:
-      publish(LoopEnd::running);
-      break;
-    default:
-      break;
+    case 0: health_.tick_us = tick_us_.summary(); break;
+    case 1: health_.lateness_us = lateness_us_.summary(); break;
+    case 2: health_.read_us = read_us_.summary(); break;
+    case 3: health_.step_us = step_us_.summary(); break;
+    case 4: health_.write_us = write_us_.summary(); break;
+    case summaries: publish(LoopEnd::running); break;
+    default: break;
   }
 }
 

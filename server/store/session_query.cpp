@@ -25,18 +25,12 @@ std::string number_text(double number) {
 
 std::string key_of(SessionOrder order, const SessionRow& row) {
   switch (order) {
-    case SessionOrder::created:
-      return row.created_utc;
-    case SessionOrder::duration:
-      return number_text(row.duration_s);
-    case SessionOrder::case_id:
-      return row.case_id;
-    case SessionOrder::trainee:
-      return row.trainee;
-    case SessionOrder::state:
-      return row.state;
-    case SessionOrder::points:
-      return number_text(row.points.value_or(without_points));
+    case SessionOrder::created: return row.created_utc;
+    case SessionOrder::duration: return number_text(row.duration_s);
+    case SessionOrder::case_id: return row.case_id;
+    case SessionOrder::trainee: return row.trainee;
+    case SessionOrder::state: return row.state;
+    case SessionOrder::points: return number_text(row.points.value_or(without_points));
   }
   return {};
 }

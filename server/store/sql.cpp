@@ -71,10 +71,8 @@ SqlFailure sqlite_failure(const soci::sqlite3_soci_error& error, const std::stri
   constexpr int without_detail = 0xff;
   switch (error.result() & without_detail) {
     case SQLITE_BUSY:  // it has been waited for as long as the limits say
-    case SQLITE_LOCKED:
-      return {false, false, busy(database, message)};
-    case SQLITE_CONSTRAINT:
-      return {false, false, contradiction(message)};
+    case SQLITE_LOCKED: return {false, false, busy(database, message)};
+    case SQLITE_CONSTRAINT: return {false, false, contradiction(message)};
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
       return {true,
@@ -82,8 +80,7 @@ SqlFailure sqlite_failure(const soci::sqlite3_soci_error& error, const std::stri
               {ErrorKind::io,
                "the database at " + database + " is damaged (" + message +
                    "); restore a backup, or move the file away (sessions are found again in their folders)"}};
-    default:
-      return {true, false, failed(database, message)};
+    default: return {true, false, failed(database, message)};
   }
 }
 

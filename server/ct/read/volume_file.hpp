@@ -98,30 +98,19 @@ void with_values(itk::IOComponentEnum type, const char* bytes, const std::string
   using Type = itk::IOComponentEnum;
   const auto as = [&]<typename T>(T) { use(reinterpret_cast<const T*>(bytes)); };
   switch (type) {
-    case Type::UCHAR:
-      return as(uint8_t{});
-    case Type::CHAR:
-      return as(int8_t{});
-    case Type::USHORT:
-      return as(uint16_t{});
-    case Type::SHORT:
-      return as(int16_t{});
-    case Type::UINT:
-      return as(uint32_t{});
-    case Type::INT:
-      return as(int32_t{});
+    case Type::UCHAR: return as(uint8_t{});
+    case Type::CHAR: return as(int8_t{});
+    case Type::USHORT: return as(uint16_t{});
+    case Type::SHORT: return as(int16_t{});
+    case Type::UINT: return as(uint32_t{});
+    case Type::INT: return as(int32_t{});
     case Type::ULONG:
-    case Type::ULONGLONG:
-      return as(uint64_t{});
+    case Type::ULONGLONG: return as(uint64_t{});
     case Type::LONG:
-    case Type::LONGLONG:
-      return as(int64_t{});
-    case Type::FLOAT:
-      return as(float{});
-    case Type::DOUBLE:
-      return as(double{});
-    default:
-      throw Error(ErrorKind::invalid_input, name + " holds voxels of an unknown type");
+    case Type::LONGLONG: return as(int64_t{});
+    case Type::FLOAT: return as(float{});
+    case Type::DOUBLE: return as(double{});
+    default: throw Error(ErrorKind::invalid_input, name + " holds voxels of an unknown type");
   }
 }
 

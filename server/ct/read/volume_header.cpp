@@ -165,21 +165,16 @@ void check_nifti_axes(const NiftiHeader& header, const fs::path& path) {
 double nifti_bits(int type) {
   switch (type) {
     case 2:
-    case 256:
-      return 8.0;
+    case 256: return 8.0;
     case 4:
-    case 512:
-      return 16.0;
+    case 512: return 16.0;
     case 8:
     case 16:
-    case 768:
-      return 32.0;
+    case 768: return 32.0;
     case 64:
     case 1024:
-    case 1280:
-      return 64.0;
-    default:
-      return 0.0;
+    case 1280: return 64.0;
+    default: return 0.0;
   }
 }
 

@@ -142,16 +142,11 @@ void warn(Segmentation& result, const HuVolume& volume, const SegmentationSettin
 
 std::string to_text(BoneLabel label) {
   switch (label) {
-    case BoneLabel::none:
-      return "none";
-    case BoneLabel::scapula:
-      return "scapula";
-    case BoneLabel::humerus:
-      return "humerus";
-    case BoneLabel::clavicle:
-      return "clavicle";
-    case BoneLabel::other:
-      return "other";
+    case BoneLabel::none: return "none";
+    case BoneLabel::scapula: return "scapula";
+    case BoneLabel::humerus: return "humerus";
+    case BoneLabel::clavicle: return "clavicle";
+    case BoneLabel::other: return "other";
   }
   return "other";
 }

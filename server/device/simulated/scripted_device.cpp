@@ -139,15 +139,12 @@ DeviceStatus ScriptedDevice::read(DeviceInput& input) noexcept {
 std::unique_ptr<HapticDevice> make_scripted_device(const Script& script, const Pose& world_from_plan,
                                                    uint64_t random_seed) {
   switch (script.kind) {
-    case ScriptKind::poses:
-      return std::make_unique<PoseDevice>(script, world_from_plan);
-    case ScriptKind::robot:
-      return make_robot_device(script, world_from_plan);
+    case ScriptKind::poses: return std::make_unique<PoseDevice>(script, world_from_plan);
+    case ScriptKind::robot: return make_robot_device(script, world_from_plan);
     case ScriptKind::remote:
       throw Error(ErrorKind::invalid_input,
                   "this script plays nothing, it is for somebody with a device; name one, such as 'browser'");
-    case ScriptKind::hand:
-      break;
+    case ScriptKind::hand: break;
   }
   if (device_profile(script.device_profile).causality == Causality::admittance)
     return std::make_unique<GrippingHandDevice>(script, world_from_plan, random_seed);

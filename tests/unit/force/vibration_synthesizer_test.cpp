@@ -1,4 +1,4 @@
-#include "force/vibration/vibration_synthesizer.hpp"
+#include "force/vibration/vibration_tracks.hpp"
 
 #include <gtest/gtest.h>
 
