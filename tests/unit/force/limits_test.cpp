@@ -46,8 +46,8 @@ TEST(SlewLimit, ReachesTheNearestItMay) {
   std::cout << "seed " << seed << '\n';
   std::mt19937 random(seed);
   for (int trial = 0; trial < 2000; ++trial) {
-    const Vec3 previous = limited(test::random_vector(random, 10.0), 8.0);
-    const Vec3 wanted = limited(test::random_vector(random, 10.0), 8.0);
+    const Vec3 previous = clamp_length(test::random_vector(random, 10.0), 8.0);
+    const Vec3 wanted = clamp_length(test::random_vector(random, 10.0), 8.0);
     const double step = 0.7;
     const Vec3 reached = slewed(previous, wanted, step);
     double nearest = 1e9, best = 1e9;

@@ -42,15 +42,15 @@ class Hand {
     will_n -= 2.0 * Vec3(position_mm_.x(), position_mm_.y(), 0.0) +
               0.02 * Vec3(velocity_mm_s_.x(), velocity_mm_s_.y(), 0.0);
     const double most_n = 99.0 * mass_kg_;
-    will_n = force::limited(will_n, most_n);
+    will_n = clamp_length(will_n, most_n);
     const double gain = tick_s * 1000.0 / mass_kg_;
     velocity_mm_s_ += gain * (will_n + felt_n);
     velocity_mm_s_ /= 1.0 + gain * arm_damping_n_s_mm_;
-    velocity_mm_s_ = force::limited(velocity_mm_s_, 1500.0);
+    velocity_mm_s_ = clamp_length(velocity_mm_s_, 1500.0);
     position_mm_ += tick_s * velocity_mm_s_;
-    turn_speed_rad_s_ = force::limited(
+    turn_speed_rad_s_ = clamp_length(
         Vec3(0.98 * turn_speed_rad_s_ - 0.02 * turn_rad_ / tick_s + random_vector(random_, 0.05)), 1.0);
-    turn_rad_ = force::limited(Vec3(turn_rad_ + tick_s * turn_speed_rad_s_), 0.3);
+    turn_rad_ = clamp_length(Vec3(turn_rad_ + tick_s * turn_speed_rad_s_), 0.3);
   }
 
   Pose plan_from_handle() const { return {rotation_from_small_vector(turn_rad_), position_mm_}; }
