@@ -30,7 +30,7 @@ struct InpOutline {
 
   struct ElementBlock {
     FilePlace place;
-    uint64_t elements = 0, least_node = UINT64_MAX, greatest_node = 0;
+    uint64_t elements = 0, min_node = UINT64_MAX, greatest_node = 0;
   };
   std::vector<ElementBlock> element_blocks;  ///< lines that follow each other
 
@@ -187,7 +187,7 @@ class OutlineReader {
         refuse("element " + std::to_string(id) + " names node " + std::to_string(corners[k]) + " twice");
       outline_.used_nodes.insert(corners[k]);
     }
-    block.least_node = std::min(block.least_node, *std::min_element(corners, corners + 8));
+    block.min_node = std::min(block.min_node, *std::min_element(corners, corners + 8));
     block.greatest_node = std::max(block.greatest_node, *std::max_element(corners, corners + 8));
   }
 
@@ -236,7 +236,7 @@ class InpCheck {
     check_sections();
     check_shapes(part_of(progress, 0.5, 1.0));
     return {outline_.nodes.size(), outline_.elements.size(), outline_.materials.size(), sum_.volume_mm3(),
-            sum_.least_jacobian_mm3()};
+            sum_.min_jacobian_mm3()};
   }
 
  private:
@@ -304,10 +304,10 @@ class InpCheck {
     const auto& blocks = outline_.element_blocks;
     for (size_t first = 0; first < blocks.size();) {
       progress(static_cast<double>(first) / static_cast<double>(blocks.size()), "checking");
-      uint64_t least = blocks[first].least_node, greatest = blocks[first].greatest_node;
+      uint64_t least = blocks[first].min_node, greatest = blocks[first].greatest_node;
       size_t end = first + 1;
       for (; end < blocks.size(); ++end) {
-        const uint64_t low = std::min(least, blocks[end].least_node),
+        const uint64_t low = std::min(least, blocks[end].min_node),
                        high = std::max(greatest, blocks[end].greatest_node);
         if (high - low >= max_nodes_at_hand(budget_)) break;
         least = low;

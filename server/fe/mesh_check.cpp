@@ -52,19 +52,19 @@ double volume_of(const HexCorners& p) {
 bool HexSum::add(const HexCorners& p) {
   if (is_parallelepiped(p)) {
     const double volume = spanned(p[1] - p[0], p[3] - p[0], p[4] - p[0]);
-    least_mm3_ = std::min(least_mm3_, volume);
+    min_mm3_ = std::min(min_mm3_, volume);
     volume_mm3_ += volume;
   } else {
     for (const auto& corner : edges) {
       const auto edge = [&](int k) {
         return p[static_cast<size_t>(corner[k][1])] - p[static_cast<size_t>(corner[k][0])];
       };
-      least_mm3_ = std::min(least_mm3_, spanned(edge(0), edge(1), edge(2)));
+      min_mm3_ = std::min(min_mm3_, spanned(edge(0), edge(1), edge(2)));
     }
     volume_mm3_ += volume_of(p);
   }
   if (visit_) visit_(p);
-  return least_mm3_ > 0.0;
+  return min_mm3_ > 0.0;
 }
 
 namespace {

@@ -13,7 +13,7 @@ namespace ream::fe {
 struct MeshFacts {
   uint64_t nodes = 0, elements = 0, materials = 0;
   double volume_mm3 = 0.0;
-  double least_jacobian_mm3 = 0.0;  ///< of all corners of all elements: the volume that one spans there
+  double min_jacobian_mm3 = 0.0;  ///< of all corners of all elements: the volume that one spans there
 };
 
 /// The corners of an element in the order of fig. 2.2, mesh frame, mm.

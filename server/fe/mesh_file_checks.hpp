@@ -16,11 +16,11 @@ class HexSum {
   /// False when its Jacobian is not positive at every corner.
   bool add(const HexCorners& corners);
   double volume_mm3() const { return volume_mm3_; }
-  double least_jacobian_mm3() const { return least_mm3_; }
+  double min_jacobian_mm3() const { return min_mm3_; }
 
  private:
   ElementVisitor visit_;
-  double volume_mm3_ = 0.0, least_mm3_ = std::numeric_limits<double>::infinity();
+  double volume_mm3_ = 0.0, min_mm3_ = std::numeric_limits<double>::infinity();
 };
 
 /// A set of ids, a bit each.

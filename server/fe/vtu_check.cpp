@@ -65,7 +65,7 @@ class VtuCheck {
     else
       file_.refuse("its connectivity is of type " + type);
     check_values();
-    return {nodes_, elements_, materials_.size(), sum_.volume_mm3(), sum_.least_jacobian_mm3()};
+    return {nodes_, elements_, materials_.size(), sum_.volume_mm3(), sum_.min_jacobian_mm3()};
   }
 
  private:

@@ -85,15 +85,15 @@ class BothTouch {
   }
 
   /// Solves for the change of the factors to which the offsets squared react as pushes times `give` times
-  /// offsets, less `wanted`.
-  bool step(double wanted_1, double wanted_2, int halvings) {
+  /// offsets, less `desired`.
+  bool step(double desired_1, double desired_2, int halvings) {
     const double a = (give_.leading + determinant_ * factor_2_) / whole_ * at_1_.squaredNorm();
     const double b = give_.both / whole_ * at_1_.dot(at_2_);
     const double d = (give_.trailing + determinant_ * factor_1_) / whole_ * at_2_.squaredNorm();
     const double determinant = a * d - b * b;
     if (!(determinant > 0.0)) return false;
-    double change_1 = (d * wanted_1 - b * wanted_2) / determinant;
-    double change_2 = (a * wanted_2 - b * wanted_1) / determinant;
+    double change_1 = (d * desired_1 - b * desired_2) / determinant;
+    double change_2 = (a * desired_2 - b * desired_1) / determinant;
     for (int i = 0; i <= halvings; ++i, change_1 *= 0.5, change_2 *= 0.5)
       if (gains_by(change_1, change_2)) return true;
     return false;
@@ -218,7 +218,7 @@ double sought_depth_mm(const Guide& guide, double before_mm, const Seen& handle)
 }
 
 /// The least rotation that takes unit vector `a` to unit vector `b`.
-Mat3 least_rotation(const Vec3& a, const Vec3& b, const Vec3& across_a) {
+Mat3 min_rotation(const Vec3& a, const Vec3& b, const Vec3& across_a) {
   const double cosine = a.dot(b);
   if (cosine < -0.999999) return 2.0 * across_a * across_a.transpose() - Mat3::Identity();
   const Vec3 v = a.cross(b);
@@ -240,19 +240,19 @@ Pose put(const Pose& pose, const BetweenWalls& between, double shift_z_mm) {
   if (steepness > steepest_slope) slope *= steepest_slope / steepness;
   const Vec3 axis(slope.x(), slope.y(), std::sqrt(1.0 - slope.squaredNorm()));
   placed.rotation =
-      orthonormalized(least_rotation(pose.rotation.col(2), axis, pose.rotation.col(0)) * pose.rotation);
+      orthonormalized(min_rotation(pose.rotation.col(2), axis, pose.rotation.col(0)) * pose.rotation);
   return placed;
 }
 
 }  // namespace
 
-BetweenWalls between_walls(const GuideWalls& walls, const AxisSideways& wanted) noexcept {
+BetweenWalls between_walls(const GuideWalls& walls, const AxisSideways& desired) noexcept {
   const double clearance = walls.clearance_mm;
-  const Vec2 leading = wanted.origin_mm + walls.leading_mm * wanted.slope;
-  const Vec2 trailing = wanted.origin_mm + walls.trailing_mm * wanted.slope;
+  const Vec2 leading = desired.origin_mm + walls.leading_mm * desired.slope;
+  const Vec2 trailing = desired.origin_mm + walls.trailing_mm * desired.slope;
   const bool one_wall = walls.leading_mm - walls.trailing_mm < one_wall_mm;
   if (leading.norm() <= clearance + rounding_mm && (one_wall || trailing.norm() <= clearance + rounding_mm))
-    return {wanted, Vec2::Zero(), true};
+    return {desired, Vec2::Zero(), true};
 
   // Of a convex problem every way to satisfy its conditions is the solution: one wall, the other, or both.
   const Compliance give(walls);
@@ -274,9 +274,9 @@ BetweenWalls between_walls(const GuideWalls& walls, const AxisSideways& wanted) 
   }
   BetweenWalls found;
   found.free = false;
-  found.axis.origin_mm = wanted.origin_mm - leading_push - trailing_push;
-  found.axis.slope = wanted.slope - (walls.leading_mm * leading_push + walls.trailing_mm * trailing_push) /
-                                        walls.angular_per_linear_mm2;
+  found.axis.origin_mm = desired.origin_mm - leading_push - trailing_push;
+  found.axis.slope = desired.slope - (walls.leading_mm * leading_push + walls.trailing_mm * trailing_push) /
+                                         walls.angular_per_linear_mm2;
   found.trailing_push_mm = -trailing_push;
   return found;
 }

@@ -80,6 +80,6 @@ struct BetweenWalls {
 
 /// The axis between the walls that is nearest to the wanted one: least |origin shift|^2 +
 /// angular_per_linear_mm2 |slope change|^2. A convex problem with one solution; deterministic, bounded work.
-BetweenWalls between_walls(const GuideWalls& walls, const AxisSideways& wanted) noexcept;
+BetweenWalls between_walls(const GuideWalls& walls, const AxisSideways& desired) noexcept;
 
 }  // namespace ream::force

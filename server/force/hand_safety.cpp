@@ -17,10 +17,10 @@ double max_given_mj(double load, double speed, double speed_gain, double min_mas
 
 }  // namespace
 
-double StartUpRamp::next(double wanted_n) noexcept {
+double StartUpRamp::next(double desired_n) noexcept {
   if (gain_ >= 1.0) return gain_;
   if (small_seen_ < small_ticks && waited_++ < max_wait_ticks)
-    small_seen_ = wanted_n < small_force_n ? small_seen_ + 1 : 0;
+    small_seen_ = desired_n < small_force_n ? small_seen_ + 1 : 0;
   else
     gain_ = std::min(1.0, gain_ + tick_s / ramp_s_);
   return gain_;
@@ -41,16 +41,16 @@ void EnergyGuard::observe(const Pose& world_from_handle) noexcept {
   world_from_handle_ = world_from_handle;
 }
 
-Wrench EnergyGuard::allow(const Wrench& wanted, double stored_mj) noexcept {
+Wrench EnergyGuard::allow(const Wrench& desired, double stored_mj) noexcept {
   using namespace energy_guard;
   saved_mj_ = std::min(saved_mj_, stored_mj + max_saved_mj);
   const double max_given_back_mj =
-      max_given_mj(wanted.force_n.norm(), speed_mm_s_, speed_gain_mm_s, min_mass_kg) +
-      max_given_mj(wanted.torque_n_mm.norm(), speed_rad_s_, speed_gain_rad_s, min_inertia_kg_mm2);
+      max_given_mj(desired.force_n.norm(), speed_mm_s_, speed_gain_mm_s, min_mass_kg) +
+      max_given_mj(desired.torque_n_mm.norm(), speed_rad_s_, speed_gain_rad_s, min_inertia_kg_mm2);
   const double available_mj = std::max(0.0, saved_mj_ + credit_mj);
-  rendered_ = wanted;
+  rendered_ = desired;
   if (max_given_back_mj > available_mj) {
-    rendered_ = wanted.scaled(available_mj / max_given_back_mj);
+    rendered_ = desired.scaled(available_mj / max_given_back_mj);
     ++weakened_ticks_;
   }
   return rendered_;

@@ -23,8 +23,8 @@ class StartUpRamp {
     gain_ = ramp_s_ > 0.0 ? 0.0 : 1.0;
   }
   double gain() const { return gain_; }
-  /// Gain of this tick, 0 to 1. `wanted_n`: hand force that would be rendered.
-  double next(double wanted_n) noexcept;
+  /// Gain of this tick, 0 to 1. `desired_n`: hand force that would be rendered.
+  double next(double desired_n) noexcept;
 
  private:
   double ramp_s_;
@@ -57,9 +57,9 @@ class EnergyGuard {
  public:
   /// Counts the tick that has passed: the handle is now at `world_from_handle`. Call once a tick.
   void observe(const Pose& world_from_handle) noexcept;
-  /// `wanted` (world frame, about the handle's origin), weakened as needed; remembered as what the device
+  /// `desired` (world frame, about the handle's origin), weakened as needed; remembered as what the device
   /// renders until the next observe(). `stored_mj` is what the coupling's spring holds.
-  Wrench allow(const Wrench& wanted, double stored_mj) noexcept;
+  Wrench allow(const Wrench& desired, double stored_mj) noexcept;
 
   /// What the hand has put in and not got back since the start, mJ; never below -1 when the handle keeps
   /// within the assumed acceleration.

@@ -17,16 +17,16 @@ Wrench limited(const Wrench& wrench, const DeviceLimits& limits) noexcept {
           clamp_length(wrench.torque_n_mm, limits.torque_max_n_mm)};
 }
 
-Vec3 slewed(const Vec3& previous, const Vec3& wanted, double step) noexcept {
+Vec3 slewed(const Vec3& previous, const Vec3& desired, double step) noexcept {
   const double squared = previous.squaredNorm();
-  const double kept = squared > 0.0 ? std::clamp(previous.dot(wanted) / squared, 0.0, 1.0) : 0.0;
+  const double kept = squared > 0.0 ? std::clamp(previous.dot(desired) / squared, 0.0, 1.0) : 0.0;
   const Vec3 weakened = kept * previous;
-  return weakened + clamp_length(wanted - weakened, step);
+  return weakened + clamp_length(desired - weakened, step);
 }
 
-Wrench slewed(const Wrench& previous, const Wrench& wanted, const DeviceLimits& limits) noexcept {
-  return {slewed(previous.force_n, wanted.force_n, limits.force_slew_n),
-          slewed(previous.torque_n_mm, wanted.torque_n_mm, limits.torque_slew_n_mm)};
+Wrench slewed(const Wrench& previous, const Wrench& desired, const DeviceLimits& limits) noexcept {
+  return {slewed(previous.force_n, desired.force_n, limits.force_slew_n),
+          slewed(previous.torque_n_mm, desired.torque_n_mm, limits.torque_slew_n_mm)};
 }
 
 }  // namespace ream::force

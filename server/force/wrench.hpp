@@ -34,9 +34,9 @@ DeviceLimits limits_for(double force_max_n, double torque_max_n_mm, double stiff
 /// Force and torque each within the device's largest, directions kept.
 Wrench limited(const Wrench& wrench, const DeviceLimits& limits) noexcept;
 
-/// The nearest to `wanted` that can be reached from `previous` by weakening it as much as one likes and then
+/// The nearest to `desired` that can be reached from `previous` by weakening it as much as one likes and then
 /// changing it by at most `step`: letting go is free, a jump upwards is not.
-Vec3 slewed(const Vec3& previous, const Vec3& wanted, double step) noexcept;
-Wrench slewed(const Wrench& previous, const Wrench& wanted, const DeviceLimits& limits) noexcept;
+Vec3 slewed(const Vec3& previous, const Vec3& desired, double step) noexcept;
+Wrench slewed(const Wrench& previous, const Wrench& desired, const DeviceLimits& limits) noexcept;
 
 }  // namespace ream::force

@@ -69,7 +69,7 @@ void for_each_crossing(const voxel::BoneModel& bone, const Vec3i& brick, Found f
 }
 
 constexpr double surface_layer_mm = 1.5, spongy_from_mm = 4.0, spongy_to_mm = 6.0, thickest_mm = 5.0;
-constexpr double least_contrast_g_cc = 0.25;
+constexpr double min_contrast_g_cc = 0.25;
 constexpr double enough_share = 0.25;  // of the rays must show an end
 
 /// Density of bone along a ray, sampled from the subchondral surface on.
@@ -143,7 +143,7 @@ std::optional<double> limit_density(const DensityProbe& probe, const std::vector
   }
   if (dense.empty() || spongy.empty()) return std::nullopt;
   const double above = median(std::move(dense)), below = median(std::move(spongy));
-  return above - below >= least_contrast_g_cc ? std::optional(0.5 * (above + below)) : std::nullopt;
+  return above - below >= min_contrast_g_cc ? std::optional(0.5 * (above + below)) : std::nullopt;
 }
 
 constexpr double steepest = 1.7320508075688772;  // tan 60 degrees
@@ -190,7 +190,7 @@ OuterCortex::OuterCortex(const voxel::BoneModel& native, const Aabb& world_box_m
       const Vec3 world = grid.world_from_grid.point(point);
       if (!world_box_mm.contains(world) || is_face(world)) return;
       const Vec3 offset = world - origin_mm_;
-      found.emplace_back(key_of(cell_of(offset, finest_mm)), offset.cast<float>());
+      found.emplace_back(key_of(cell_of(offset, min_spacing_mm)), offset.cast<float>());
     });
   }
   const auto by_key = [](const auto& a, const auto& b) { return a.first < b.first; };

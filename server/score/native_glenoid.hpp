@@ -28,7 +28,7 @@ class OuterCortex {
 
  private:
   static constexpr double cell_mm = 2.0;
-  static constexpr double finest_mm = 0.25;  ///< of points nearer to each other one is enough
+  static constexpr double min_spacing_mm = 0.25;  ///< of points nearer to each other one is enough
   static uint64_t key_of(const Vec3i& cell);
 
   std::vector<Vec3f> points_mm_;  ///< cell after cell, relative to origin_mm_

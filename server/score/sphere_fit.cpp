@@ -6,9 +6,9 @@
 namespace ream::score {
 namespace {
 
-constexpr size_t least_points = 12;
-constexpr double largest_radius_mm = 500.0, smallest_radius_mm = 0.1;
-constexpr int most_steps = 50;
+constexpr size_t min_points = 12;
+constexpr double max_radius_mm = 500.0, min_radius_mm = 0.1;
+constexpr int max_steps = 50;
 constexpr double settled_mm = 1e-9;
 constexpr double flat = 1e-10;  // of the greatest spread, squared
 
@@ -42,7 +42,7 @@ FittedSphere algebraic(std::span<const Vec3> points, const Vec3& mean) {
 
 /// Gauss and Newton on distances, from the algebraic sphere on.
 void refine(std::span<const Vec3> points, FittedSphere& sphere) {
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < max_steps; ++step) {
     Eigen::Matrix4d a = Eigen::Matrix4d::Zero();
     Eigen::Vector4d b = Eigen::Vector4d::Zero();
     for (const Vec3& point : points) {
@@ -65,9 +65,9 @@ void refine(std::span<const Vec3> points, FittedSphere& sphere) {
 }  // namespace
 
 std::optional<FittedSphere> fit_sphere(std::span<const Vec3> points) {
-  if (points.size() < least_points) return std::nullopt;
+  if (points.size() < min_points) return std::nullopt;
   const auto usable = [](const FittedSphere& s) {
-    return s.centre_mm.allFinite() && s.radius_mm > smallest_radius_mm && s.radius_mm <= largest_radius_mm;
+    return s.centre_mm.allFinite() && s.radius_mm > min_radius_mm && s.radius_mm <= max_radius_mm;
   };
   const Vec3 mean = mean_of(points);
   const auto axes = spread_of(points, mean);

@@ -9,13 +9,13 @@
 namespace ream::score {
 namespace {
 
-constexpr double highest_hz = 10.0, least_amplitude = 0.05;
+constexpr double max_hz = 10.0, min_amplitude = 0.05;
 constexpr int padding_octaves = 4;
-constexpr size_t least_samples = 3;  // for a second difference
+constexpr size_t min_samples = 3;  // for a second difference
 
 /// Greatest absolute speed; empty for what cannot be judged.
 std::optional<double> peak_of(std::span<const double> speed, double rate_hz) {
-  if (speed.size() < least_samples || !(rate_hz > 0.0)) return std::nullopt;
+  if (speed.size() < min_samples || !(rate_hz > 0.0)) return std::nullopt;
   double peak = 0.0;
   for (const double v : speed) {
     if (!std::isfinite(v)) return std::nullopt;
@@ -50,8 +50,8 @@ std::optional<double> spectral_arc_length(std::span<const double> speed, double 
   const std::vector<double> magnitude = normalized_spectrum(speed, *peak, padded);
   const double step_hz = rate_hz / static_cast<double>(padded);
   size_t first = magnitude.size(), last = 0;
-  for (size_t k = 0; k < magnitude.size() && static_cast<double>(k) * step_hz <= highest_hz; ++k) {
-    if (magnitude[k] < least_amplitude) continue;
+  for (size_t k = 0; k < magnitude.size() && static_cast<double>(k) * step_hz <= max_hz; ++k) {
+    if (magnitude[k] < min_amplitude) continue;
     first = std::min(first, k);
     last = k;
   }
@@ -102,12 +102,12 @@ void Strokes::take_speed(double speed_mm_s) {
   if (!moves && speed_.empty()) return;
   speed_.push_back(speed_mm_s);
   slow_ = moves ? 0 : slow_ + 1;
-  if (slow_ == pause_samples || speed_.size() == most_samples) close();
+  if (slow_ == pause_samples || speed_.size() == max_samples) close();
 }
 
 void Strokes::close() {
   speed_.resize(speed_.size() - slow_);
-  if (speed_.size() >= least_samples) {
+  if (speed_.size() >= min_samples) {
     ++count_;
     if (const auto sparc = spectral_arc_length(speed_, rate_hz)) sparc_sum_ += *sparc, ++sparc_count_;
     if (const auto ldlj = log_dimensionless_jerk(speed_, rate_hz)) ldlj_sum_ += *ldlj, ++ldlj_count_;
@@ -133,7 +133,7 @@ void ToolPath::add(const Vec3& apex_mm, bool engaged, bool paused) {
   if (paused) return forget();
   if (has_before_) {
     const double step_mm = (apex_mm - before_mm_).norm();
-    if (step_mm > longest_step_mm)
+    if (step_mm > max_step_mm)
       forget();
     else
       (engaged ? in_contact_mm_ : in_the_air_mm_) += step_mm;

@@ -16,8 +16,8 @@ class Strokes {
  public:
   static constexpr double rate_hz = 100.0;
   static constexpr double still_mm_s = 1.0;
-  static constexpr size_t least_samples = 20, pause_samples = 10;
-  static constexpr size_t most_samples = 3000;  ///< one that takes longer than half a minute is parted
+  static constexpr size_t min_samples = 20, pause_samples = 10;
+  static constexpr size_t max_samples = 3000;  ///< one that takes longer than half a minute is parted
 
   /// Once a tick.
   void add(const Vec3& position_mm);
@@ -50,7 +50,7 @@ class Strokes {
 /// session that goes on elsewhere.
 class ToolPath {
  public:
-  static constexpr double longest_step_mm = 1.0;
+  static constexpr double max_step_mm = 1.0;
 
   /// Once a tick.
   void add(const Vec3& apex_mm, bool engaged, bool paused);

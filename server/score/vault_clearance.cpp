@@ -55,7 +55,7 @@ bool in_bone(const NativeGlenoid& native, const Vec3& in_lattice_mm) {
 
 /// Least signed distance of points (frame of the lattice) from the outer cortex; max_distance_mm when none is
 /// near.
-double least_distance_mm(const NativeGlenoid& native, const std::vector<Vec3>& points) {
+double min_distance_mm(const NativeGlenoid& native, const std::vector<Vec3>& points) {
   double least = max_distance_mm;
   for (const Vec3& p : points) {
     const bool inside = in_bone(native, p);
@@ -129,16 +129,16 @@ void measure_vault_clearance(const NativeGlenoid& native, const Component& compo
                              MetricResults& results) {
   static const std::vector<Vec3> pegs = surface_points(fixation_named("pegs"));
   static const std::vector<Vec3> keel = surface_points(fixation_named("keel"));
-  results.set("vault_distance_tool_mm", least_distance_mm(native, tip_of_tool(native, line)));
+  results.set("vault_distance_tool_mm", min_distance_mm(native, tip_of_tool(native, line)));
   const char* not_seated = "there is no bone left to seat a component on";
   for (const char* key : {"vault_distance_mm", "vault_distance_keel_mm", "vault_breach_mm"})
     results.set_missing(key, not_seated);
   if (!component.seated()) return;
   const Vec3 superior = superior_across(native, component.axis());
-  const double of_pegs = least_distance_mm(native, placed(pegs, component, superior));
+  const double of_pegs = min_distance_mm(native, placed(pegs, component, superior));
   results.set("vault_distance_mm", of_pegs);
   results.set("vault_breach_mm", std::max(0.0, -of_pegs));
-  results.set("vault_distance_keel_mm", least_distance_mm(native, placed(keel, component, superior)));
+  results.set("vault_distance_keel_mm", min_distance_mm(native, placed(keel, component, superior)));
 }
 
 }  // namespace ream::score

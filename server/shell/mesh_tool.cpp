@@ -48,7 +48,7 @@ double nearest_radius(const Corners& c) {
 }
 
 /// Highest z where the edge crosses the cylinder of that radius; -infinity when it does not.
-double highest_on_edge(const Vec3& a, const Vec3& b, double radius_mm) {
+double max_on_edge(const Vec3& a, const Vec3& b, double radius_mm) {
   const Vec2 from = a.head<2>(), step = b.head<2>() - a.head<2>();
   const double qa = step.squaredNorm(), qb = from.dot(step), qc = from.squaredNorm() - radius_mm * radius_mm;
   const double discriminant = qb * qb - qa * qc;
@@ -61,7 +61,7 @@ double highest_on_edge(const Vec3& a, const Vec3& b, double radius_mm) {
 }
 
 /// On the circle a plane is highest where the circle points along the plane's slope.
-double highest_inside(const Corners& c, double radius_mm) {
+double max_inside(const Corners& c, double radius_mm) {
   constexpr double none = -std::numeric_limits<double>::infinity();
   const Vec3 n = (c[1] - c[0]).cross(c[2] - c[0]);
   if (n.z() == 0.0) return none;
@@ -291,9 +291,8 @@ double MeshEnvelope::extreme_z_mm(double radius_mm, double sign) const {
     if (radius_mm < nearest_radius_mm_[i] || radius_mm > farthest_radius_mm_[i]) continue;
     Corners c = corners_of(mesh_, mesh_.triangles[i]);
     for (Vec3& corner : c) corner.z() *= sign;
-    for (size_t k = 0; k < 3; ++k)
-      highest = std::max(highest, highest_on_edge(c[k], c[(k + 1) % 3], radius_mm));
-    highest = std::max(highest, highest_inside(c, radius_mm));
+    for (size_t k = 0; k < 3; ++k) highest = std::max(highest, max_on_edge(c[k], c[(k + 1) % 3], radius_mm));
+    highest = std::max(highest, max_inside(c, radius_mm));
   }
   return highest;
 }

@@ -25,7 +25,7 @@ void add(force::Mat6& m, const collide::ContactSums::Part& part, double moment_l
 }
 
 /// Largest of the three translational diagonal sums: n_x^2, n_y^2, n_z^2.
-double largest_translational(const collide::ContactSums::Part& part) {
+double max_translational(const collide::ContactSums::Part& part) {
   return static_cast<double>(std::max({part.second[0], part.second[6], part.second[11]}));
 }
 
@@ -57,7 +57,7 @@ force::Resistance contact_resistance(const Model& model, const collide::ContactS
                                      double resistance_n_s_mm, bool cuts) noexcept {
   force::Resistance resistance;
   const double length = model.contact_shell.moment_length_mm;
-  const double axial = largest_translational(sums.cutting);
+  const double axial = max_translational(sums.cutting);
   if (cuts && axial > 0.0) add(resistance.cutting, sums.cutting, length, resistance_n_s_mm / axial);
   if (!cuts) add(resistance.guiding, sums.cutting, length, 1.0);
   add(resistance.guiding, sums.guiding, length, 1.0);

@@ -23,7 +23,7 @@ bool pin_to(int cpu) noexcept {
 }
 
 constexpr int64_t hopeless_ns = 100'000'000;
-constexpr double step_us = 1.0, wanted_in_time = 0.99;
+constexpr double step_us = 1.0, target_in_time = 0.99;
 
 }  // namespace
 
@@ -56,7 +56,7 @@ std::string refusal_message(const RealtimeGrant& grant, Realtime mode, int cpu) 
 
 void WakeMargin::note(double late_us) noexcept {
   // A running estimate of that quantile: in balance when so many wake-ups are not later.
-  const double change_us = late_us > margin_us_ ? wanted_in_time * step_us : (wanted_in_time - 1.0) * step_us;
+  const double change_us = late_us > margin_us_ ? target_in_time * step_us : (target_in_time - 1.0) * step_us;
   margin_us_ = std::clamp(margin_us_ + change_us, min_us, max_us);
 }
 

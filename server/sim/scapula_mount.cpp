@@ -55,21 +55,21 @@ void move_bone(const Model& model, State& state, const ToolLoad& load, bool carr
   const Vec3 torque_n_mm =
       world_from_tool * (load.spring.torque_n_mm + load.spindle_torque_n_mm * Vec3::UnitZ());
   const force::Wrench about_entry{force_n, torque_n_mm + arm_mm.cross(force_n)};
-  const MountState wanted = settled_mount(*model.mount, state.mount, about_entry, tick_s);
+  const MountState target = settled_mount(*model.mount, state.mount, about_entry, tick_s);
   const Pose before = state.world_from_bone_rest;
   const auto settle = [&](double fraction) {
     MountState settled;
-    settled.shift_mm = state.mount.shift_mm + fraction * (wanted.shift_mm - state.mount.shift_mm);
-    settled.turn_rad = state.mount.turn_rad + fraction * (wanted.turn_rad - state.mount.turn_rad);
+    settled.shift_mm = state.mount.shift_mm + fraction * (target.shift_mm - state.mount.shift_mm);
+    settled.turn_rad = state.mount.turn_rad + fraction * (target.turn_rad - state.mount.turn_rad);
     return settled;
   };
-  const Pose there = displacement(wanted, rest_mm);
+  const Pose there = displacement(target, rest_mm);
   // A bone that springs back comes no farther in a tick than a tool may move without looking for contact.
   const double limit_mm = look_every_voxels * model.thin_step_mm;
   const double path_mm = carried ? 0.0
                                  : path_bound_mm(model, before.inverse() * state.world_from_tool,
                                                  there.inverse() * state.world_from_tool);
-  state.mount = path_mm > limit_mm ? settle(limit_mm / path_mm) : wanted;
+  state.mount = path_mm > limit_mm ? settle(limit_mm / path_mm) : target;
   state.world_from_bone_rest = displacement(state.mount, rest_mm);
   state.world_from_grid = state.world_from_bone_rest * state.bone.grid.world_from_grid;
   state.free_path_mm = -1.0;

@@ -40,13 +40,13 @@ TickTrial::TickTrial(const Model& model, const voxel::BoneModel& bone, const vox
     bricks_.push_back(b);
 }
 
-double TickTrial::pressed_depth_mm(collide::NarrowPhase& narrow_phase, double wanted_share) const {
-  const auto wanted = static_cast<int64_t>(wanted_share * static_cast<double>(model_.contact_shell.size()));
+double TickTrial::pressed_depth_mm(collide::NarrowPhase& narrow_phase, double target_share) const {
+  const auto target = static_cast<int64_t>(target_share * static_cast<double>(model_.contact_shell.size()));
   double depth_mm = -deepest_search_mm;
   for (; depth_mm < deepest_search_mm; depth_mm += model_.thin_step_mm) {
     collide::ContactSums sums;
     if (!look(narrow_phase, depth_mm, sums)) break;
-    if (sums.engaged() >= wanted) break;
+    if (sums.engaged() >= target) break;
   }
   return depth_mm;
 }

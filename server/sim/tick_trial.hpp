@@ -12,9 +12,9 @@ class TickTrial {
  public:
   TickTrial(const Model& model, const voxel::BoneModel& bone, const voxel::SolidCells& cells);
 
-  /// How far along the plan's axis the tool has `wanted_share` of its points engaged; the deepest place that
+  /// How far along the plan's axis the tool has `target_share` of its points engaged; the deepest place that
   /// is looked at when it never has.
-  double pressed_depth_mm(collide::NarrowPhase& narrow_phase, double wanted_share) const;
+  double pressed_depth_mm(collide::NarrowPhase& narrow_phase, double target_share) const;
 
   /// One tick's work, `number` creeps past the depth; how long it took, or a negative number when the device
   /// failed.

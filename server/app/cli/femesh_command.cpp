@@ -129,7 +129,7 @@ void check_file(const FemeshOptions& options, const fe::MemoryBudget& budget, co
                                 {"nodes", facts.nodes},
                                 {"materials", facts.materials},
                                 {"volume_mm3", facts.volume_mm3},
-                                {"least_jacobian_mm3", facts.least_jacobian_mm3}}
+                                {"least_jacobian_mm3", facts.min_jacobian_mm3}}
                      .dump()
               << '\n';
   else

@@ -13,8 +13,8 @@
 namespace ream::ct {
 namespace {
 
-constexpr double least_step_mm = 0.3, depth_mm = 10.0, solid = 127.5;
-constexpr double least_cosine = 0.5736;  // 55 degrees
+constexpr double min_step_mm = 0.3, depth_mm = 10.0, solid = 127.5;
+constexpr double min_cosine = 0.5736;  // 55 degrees
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 
 /// The face of a glenoid as a height map: cells `step_mm` wide along superior and anterior, each with how far
@@ -74,7 +74,7 @@ Tilt tilt_at(const ArticularFace& face, const std::vector<double>& heights, int 
 bool keep_sheet(ArticularFace& face, double reach_mm) {
   constexpr double greatest_rise = 1.8;  // of a step, a little over the steepest slope
   const auto on_face = [&](int s, int a) {
-    return std::hypot(s, a) * face.step_mm <= reach_mm && face.cosine[face.index(s, a)] >= least_cosine;
+    return std::hypot(s, a) * face.step_mm <= reach_mm && face.cosine[face.index(s, a)] >= min_cosine;
   };
   Mask kept(face.height_mm.size());
   std::vector<std::pair<int, int>> pending;
@@ -95,7 +95,7 @@ bool keep_sheet(ArticularFace& face, double reach_mm) {
   fill_voids(kept, {face.across(), face.across(), 1});
   for (size_t i = 0; i < kept.size(); ++i) {
     if (!kept[i]) face.height_mm[i] = nowhere;
-    face.cosine[i] = std::max(face.cosine[i], least_cosine);
+    face.cosine[i] = std::max(face.cosine[i], min_cosine);
   }
   return !pending.empty();
 }
@@ -134,7 +134,7 @@ ArticularFace articular_face(const voxel::BoneModel& bone, const case_::GlenoidF
              superior = grid_from_world.direction(glenoid.superior),
              anterior = grid_from_world.direction(glenoid.anterior);
   ArticularFace face;
-  face.step_mm = std::max(least_step_mm, bone.grid.min_spacing_mm());
+  face.step_mm = std::max(min_step_mm, bone.grid.min_spacing_mm());
   face.half_cells = static_cast<int>(std::ceil(reach_mm / face.step_mm)) + 1;
   const size_t cells = static_cast<size_t>(face.across()) * static_cast<size_t>(face.across());
   std::vector<double> heights(cells);

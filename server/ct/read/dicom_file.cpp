@@ -16,14 +16,14 @@ constexpr int max_depth = 16;
 constexpr size_t max_items = 100000;
 constexpr uint32_t max_value_bytes = 4096;
 
-constexpr std::array<uint32_t, 17> wanted_texts = {0x00080005, 0x00080008, 0x00080060, 0x0008103e, 0x00100010,
-                                                   0x00100020, 0x00180050, 0x0020000e, 0x00200013, 0x00200032,
-                                                   0x00200037, 0x00280004, 0x00280008, 0x00280030, 0x00281052,
-                                                   0x00281053, 0x00281054};
-constexpr std::array<uint32_t, 8> wanted_numbers = {0x00280002, 0x00280010, 0x00280011, 0x00280100,
-                                                    0x00280101, 0x00280103, 0x00280120, 0x00280121};
-constexpr std::array<uint32_t, 6> wanted_sequences = {0x52009229, 0x52009230, 0x00209113,
-                                                      0x00209116, 0x00289110, 0x00289145};
+constexpr std::array<uint32_t, 17> text_tags = {0x00080005, 0x00080008, 0x00080060, 0x0008103e, 0x00100010,
+                                                0x00100020, 0x00180050, 0x0020000e, 0x00200013, 0x00200032,
+                                                0x00200037, 0x00280004, 0x00280008, 0x00280030, 0x00281052,
+                                                0x00281053, 0x00281054};
+constexpr std::array<uint32_t, 8> number_tags = {0x00280002, 0x00280010, 0x00280011, 0x00280100,
+                                                 0x00280101, 0x00280103, 0x00280120, 0x00280121};
+constexpr std::array<uint32_t, 6> sequence_tags = {0x52009229, 0x52009230, 0x00209113,
+                                                   0x00209116, 0x00289110, 0x00289145};
 
 template <size_t n>
 bool among(uint32_t tag, const std::array<uint32_t, n>& tags) {
@@ -100,8 +100,8 @@ bool Parser::element(Element& e, bool implicit) {
 }
 
 bool Parser::value(const Element& e, DicomSet& set) {
-  const bool is_number = among(e.tag, wanted_numbers);
-  if ((!is_number && !among(e.tag, wanted_texts)) || e.length > max_value_bytes) return skip(e.length);
+  const bool is_number = among(e.tag, number_tags);
+  if ((!is_number && !among(e.tag, text_tags)) || e.length > max_value_bytes) return skip(e.length);
   std::string bytes(e.length, '\0');
   if (!read(bytes.data(), e.length)) return false;
   if (is_number && result_.big_endian && bytes.size() == 2) std::swap(bytes[0], bytes[1]);
@@ -162,8 +162,8 @@ bool Parser::fragments() {
 }
 
 bool Parser::sequence(const Element& e, DicomSet& set, bool implicit, int depth) {
-  const bool open = e.length == undefined_length, wanted = among(e.tag, wanted_sequences);
-  if (!open && !wanted) return skip(e.length);
+  const bool open = e.length == undefined_length, is_read = among(e.tag, sequence_tags);
+  if (!open && !is_read) return skip(e.length);
   if (depth >= max_depth || (!open && e.length > size_ - position_)) return false;
   const uint64_t end = open ? size_ : position_ + e.length;
   // An unknown element of undefined length is a sequence in implicit encoding (PS3.5, 6.2.2).
@@ -176,17 +176,17 @@ bool Parser::sequence(const Element& e, DicomSet& set, bool implicit, int depth)
     if (next.tag != item) return false;
     const bool open_item = next.length == undefined_length;
     if (!open_item && next.length > end - position_) return false;
-    if (wanted && items.size() >= max_items) return false;
-    if (!wanted && !open_item) {
+    if (is_read && items.size() >= max_items) return false;
+    if (!is_read && !open_item) {
       skip(next.length);
       continue;
     }
     DicomSet inner;
     if (!elements(inner, inner_implicit, open_item ? end : position_ + next.length, open_item, depth + 1))
       return false;
-    if (wanted) items.push_back(std::move(inner));
+    if (is_read) items.push_back(std::move(inner));
   }
-  if (wanted) set.sequences[e.tag] = std::move(items);
+  if (is_read) set.sequences[e.tag] = std::move(items);
   return open || position_ == end;
 }
 
@@ -195,7 +195,7 @@ bool Parser::elements(DicomSet& set, bool implicit, uint64_t end, bool open, int
     Element e;
     if (!element(e, implicit)) return false;
     if (e.tag == item_end && open) return true;
-    const bool is_sequence = e.vr == "SQ" || (implicit && among(e.tag, wanted_sequences));
+    const bool is_sequence = e.vr == "SQ" || (implicit && among(e.tag, sequence_tags));
     if (depth == 0 && e.tag == pixel_data) {
       if (e.length == undefined_length) return fragments();
       result_.pixels.push_back({position_, e.length});

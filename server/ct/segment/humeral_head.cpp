@@ -98,9 +98,9 @@ void blur(std::vector<float>& values, const Vec3i& dims) {
 }
 
 constexpr double coarse_mm = 2.0;
-constexpr double least_gradient_hu_mm = 30.0;
+constexpr double min_gradient_hu_mm = 30.0;
 constexpr double apart_mm = 20.0;
-constexpr size_t most_candidates = 12;
+constexpr size_t max_candidates = 12;
 constexpr int rays = 600;
 
 /// How well each coarse voxel would do as the centre of a head.
@@ -112,9 +112,9 @@ std::vector<float> votes_in(const HuVolume& coarse, double bone_hu) {
         if (coarse.hu[coarse.index(u, v, w)] < bone_hu) continue;
         const Vec3 gradient = gradient_hu_mm(coarse, {u, v, w});
         const double steepness = gradient.norm();
-        if (steepness < least_gradient_hu_mm) continue;
+        if (steepness < min_gradient_hu_mm) continue;
         const Vec3 step = (gradient.array() / (steepness * coarse.spacing_mm.array())).matrix();
-        for (double r = least_head_radius_mm; r <= greatest_head_radius_mm; r += coarse_mm) {
+        for (double r = min_head_radius_mm; r <= greatest_head_radius_mm; r += coarse_mm) {
           const Vec3i o = (Vec3(u + 0.5, v + 0.5, w + 0.5) + r * step).array().floor().cast<int>().matrix();
           if (coarse.contains(o)) votes[coarse.index(o.x(), o.y(), o.z())] += 1.0F;
         }
@@ -133,7 +133,7 @@ std::vector<Vec3> best_places(const HuVolume& coarse, const std::vector<float>& 
                     [&](size_t a, size_t b) { return votes[a] != votes[b] ? votes[a] > votes[b] : a < b; });
   std::vector<Vec3> places;
   const auto nx = static_cast<size_t>(coarse.dims.x()), ny = static_cast<size_t>(coarse.dims.y());
-  for (size_t k = 0; k < kept && places.size() < most_candidates; ++k) {
+  for (size_t k = 0; k < kept && places.size() < max_candidates; ++k) {
     const size_t i = order[k];
     const Vec3 place = coarse.world_of_centre(
         {static_cast<int>(i % nx), static_cast<int>((i / nx) % ny), static_cast<int>(i / (nx * ny))});
@@ -154,9 +154,9 @@ Vec3 ray_direction(int number) {
 /// Where, along a ray, HU falls most steeply from bone to less, between two radii; empty without such a fall.
 std::optional<double> outer_surface_mm(const HuVolume& volume, const Vec3& centre_mm, const Vec3& direction,
                                        double from_mm, double to_mm, double threshold_hu) {
-  constexpr double step_mm = 0.5, reach_mm = 1.0, least_fall_hu = 80.0;
+  constexpr double step_mm = 0.5, reach_mm = 1.0, min_fall_hu = 80.0;
   std::optional<double> best;
-  double best_fall = least_fall_hu;
+  double best_fall = min_fall_hu;
   for (double r = std::max(from_mm, reach_mm); r <= to_mm; r += step_mm) {
     const double within = hu_at_world(volume, centre_mm + (r - reach_mm) * direction);
     if (within < threshold_hu) continue;
@@ -191,7 +191,7 @@ std::optional<HumeralHead> fitted_head(const HuVolume& volume, double threshold_
   constexpr double on_sphere_mm = 1.25;
   HumeralHead head;
   head.centre_mm = near_mm;
-  double low_mm = least_head_radius_mm - 4.0, high_mm = greatest_head_radius_mm + 4.0;
+  double low_mm = min_head_radius_mm - 4.0, high_mm = greatest_head_radius_mm + 4.0;
   for (const double tolerance_mm : {8.0, 6.0, 4.0, 3.0, 2.0, 1.5, 1.5, 1.5}) {
     std::vector<Vec3> points;
     for (int number = 0; number < rays; ++number) {
@@ -210,7 +210,7 @@ std::optional<HumeralHead> fitted_head(const HuVolume& volume, double threshold_
     low_mm = head.radius_mm - tolerance_mm;
     high_mm = head.radius_mm + tolerance_mm;
   }
-  if (head.radius_mm < least_head_radius_mm || head.radius_mm > greatest_head_radius_mm) return std::nullopt;
+  if (head.radius_mm < min_head_radius_mm || head.radius_mm > greatest_head_radius_mm) return std::nullopt;
   return head;
 }
 

@@ -76,7 +76,7 @@ void fill_voids(Mask& mask, const Vec3i& dims) {
   for (uint8_t& m : mask) m = m != 2;
 }
 
-void fill_marrow(Mask& bone, const Vec3i& dims, int least_axes) {
+void fill_marrow(Mask& bone, const Vec3i& dims, int min_axes) {
   Mask closed_across(bone.size());
   for (int axis = 0; axis < 3; ++axis)
     for (int slice = 0; slice < dims[axis]; ++slice) {
@@ -92,7 +92,7 @@ void fill_marrow(Mask& bone, const Vec3i& dims, int least_axes) {
       put_back(closed_across, dims, window, sums);
     }
   for (size_t i = 0; i < bone.size(); ++i)
-    if (closed_across[i] >= least_axes) bone[i] = 1;
+    if (closed_across[i] >= min_axes) bone[i] = 1;
 }
 
 std::optional<Vec3i> nearest_set(const Mask& mask, const HuVolume& volume, const Vec3& world_mm,

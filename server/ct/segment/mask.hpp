@@ -25,9 +25,9 @@ Mask largest_part(const Mask& mask, const Vec3i& dims);
 /// axis of one voxel there is no border: a single slice is filled in its plane.
 void fill_voids(Mask& mask, const Vec3i& dims);
 
-/// Fills what is enclosed within slices across at least `least_axes` of the three voxel axes: marrow whose
+/// Fills what is enclosed within slices across at least `min_axes` of the three voxel axes: marrow whose
 /// wall has a pore somewhere, which is no closed void in space.
-void fill_marrow(Mask& mask, const Vec3i& dims, int least_axes = 2);
+void fill_marrow(Mask& mask, const Vec3i& dims, int min_axes = 2);
 
 /// The set voxel nearest to `world_mm`, within `reach_mm`; empty when there is none.
 std::optional<Vec3i> nearest_set(const Mask& mask, const HuVolume& volume, const Vec3& world_mm,

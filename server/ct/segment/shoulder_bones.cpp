@@ -14,7 +14,7 @@ namespace ream::ct {
 namespace {
 
 constexpr double neck_reach_mm = 18.0;  // a joint's width
-constexpr double thick_slice_mm = 2.5, least_other_mm3 = 50.0;
+constexpr double thick_slice_mm = 2.5, min_other_mm3 = 50.0;
 constexpr auto code = [](BoneLabel label) { return static_cast<uint8_t>(label); };
 
 /// Components of the thresholded bone, each wholly of the first label that has a marker in it.
@@ -79,7 +79,7 @@ void tell_clavicle(std::vector<uint8_t>& labels, const HuVolume& volume,
 
 /// Everything above the threshold that has no label yet, but for flecks.
 void label_the_rest(std::vector<uint8_t>& labels, const HuVolume& volume, double threshold_hu) {
-  const auto least = static_cast<size_t>(std::ceil(least_other_mm3 / volume.spacing_mm.prod()));
+  const auto least = static_cast<size_t>(std::ceil(min_other_mm3 / volume.spacing_mm.prod()));
   Mask pending(labels.size());
   for (size_t i = 0; i < labels.size(); ++i) pending[i] = labels[i] == 0 && volume.hu[i] >= threshold_hu;
   each_part(pending, volume.dims, [&](const std::vector<size_t>& part) {

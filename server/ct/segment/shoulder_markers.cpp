@@ -10,7 +10,7 @@ namespace ream::ct {
 namespace {
 
 // Vertebrae reach a share of 0.39, heads cut off by the field of view 0.5, whole ones up to 0.9.
-constexpr double least_share = 0.42, share_of_best = 0.6;
+constexpr double min_share = 0.42, share_of_best = 0.6;
 constexpr double seed_reach_mm = 5.0, seed_ball_mm = 2.0;
 
 /// World x points left.
@@ -101,7 +101,7 @@ std::optional<HumeralHead> find_head(const HuVolume& volume, double threshold_hu
     return best ? best : fitted_head(volume, threshold_hu, *seeds.humerus_mm);
   }
   for (const HumeralHead& head : heads) {
-    if (head.share < least_share || head.share < share_of_best * heads.front().share) continue;
+    if (head.share < min_share || head.share < share_of_best * heads.front().share) continue;
     const bool farther = best && medial_x(side) * (head.centre_mm.x() - best->centre_mm.x()) < 0.0;
     if (!best || farther) best = head;
   }

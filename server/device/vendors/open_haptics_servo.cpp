@@ -110,10 +110,10 @@ class OpenHapticsServo final : public Servo {
   }
 
   void limit() {
-    double most_n = 0.0;
-    hd().get_doubles(Library::nominal_max_force, &most_n);
+    double max_n = 0.0;
+    hd().get_doubles(Library::nominal_max_force, &max_n);
     hd().get_doubles(Library::nominal_max_continuous_force, &continuous_n_);
-    limit_n_ = most_n > 0.0 ? std::min(most_n, force_max_n_) : force_max_n_;
+    limit_n_ = max_n > 0.0 ? std::min(max_n, force_max_n_) : force_max_n_;
     end_->limit_force(limit_n_);
   }
 

@@ -19,15 +19,15 @@ constexpr uint64_t start_of_kind = 0x100;
 /// The mean of (1 + d cos)^2 is 1 + d^2 / 2.
 const double lips_mean_square_kept = 1.0 / std::sqrt(1.0 + 0.5 * lip_pass_depth * lip_pass_depth);
 
-std::array<double, vibration_kinds> levels_wanted(const VibrationInput& input) noexcept {
-  std::array<double, vibration_kinds> wanted{};
-  if (!input.spindle_on) return wanted;
+std::array<double, vibration_kinds> target_levels(const VibrationInput& input) noexcept {
+  std::array<double, vibration_kinds> desired{};
+  if (!input.spindle_on) return desired;
   if (!input.cutting) {
-    wanted[idle] = 1.0;
-    return wanted;
+    desired[idle] = 1.0;
+    return desired;
   }
-  for (size_t k = 0; k < input.share.size(); ++k) wanted[k] = std::sqrt(std::max(0.0, input.share[k]));
-  return wanted;
+  for (size_t k = 0; k < input.share.size(); ++k) desired[k] = std::sqrt(std::max(0.0, input.share[k]));
+  return desired;
 }
 
 }  // namespace
@@ -35,9 +35,9 @@ std::array<double, vibration_kinds> levels_wanted(const VibrationInput& input) n
 VibrationGains VibrationMix::next(const VibrationInput& input) noexcept {
   if (input.paused) return level_ = {};
   constexpr double max_change = 1.0 / vibration_fade_ticks;
-  const auto wanted = levels_wanted(input);
+  const auto desired = target_levels(input);
   for (size_t k = 0; k < vibration_kinds; ++k)
-    level_[k] += std::clamp(wanted[k] - level_[k], -max_change, max_change);
+    level_[k] += std::clamp(desired[k] - level_[k], -max_change, max_change);
 
   if (input.spindle_on)
     lip_phase_rad_ = std::fmod(lip_phase_rad_ + lip_count * input.spindle_speed_rad_s * tick_s, 2.0 * pi);

@@ -85,10 +85,11 @@ double rate_of(const Columns& columns, const std::string& where) {
   std::vector<double> sorted = steps_s;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
-  const double usual_s = *middle;
-  if (!(usual_s > 0.0)) refuse(where, "has times that do not ascend; give seconds in the order of recording");
+  const double default_s = *middle;
+  if (!(default_s > 0.0))
+    refuse(where, "has times that do not ascend; give seconds in the order of recording");
   for (size_t i = 0; i < steps_s.size(); ++i)
-    if (std::abs(steps_s[i] - usual_s) > 0.5 * usual_s)
+    if (std::abs(steps_s[i] - default_s) > 0.5 * default_s)
       refuse_line(where, columns.lines[i + 1],
                   "breaks the even spacing of times; resample the recording or give one column and rate_hz");
   return static_cast<double>(steps_s.size()) / (times_s.back() - times_s.front());

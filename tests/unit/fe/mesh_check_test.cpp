@@ -37,7 +37,7 @@ TEST_F(MeshCheck, ASoundFileIsMeasured) {
   EXPECT_EQ(facts.nodes, 36u);
   EXPECT_EQ(facts.materials, 2u);
   EXPECT_DOUBLE_EQ(facts.volume_mm3, 1.5);
-  EXPECT_DOUBLE_EQ(facts.least_jacobian_mm3, 0.125);
+  EXPECT_DOUBLE_EQ(facts.min_jacobian_mm3, 0.125);
 }
 
 TEST_F(MeshCheck, FindsWhatSolversRefuseAndWhatTheyPassOver) {
@@ -72,7 +72,7 @@ TEST_F(MeshCheck, LooksAtFilesOfOtherMakersToo) {
   const MeshFacts facts = check(text);
   // One corner is drawn out by 1: its share of the volume is the integral of its shape function.
   EXPECT_NEAR(facts.volume_mm3, 9.0, 1e-12);
-  EXPECT_GT(facts.least_jacobian_mm3, 0.0);
+  EXPECT_GT(facts.min_jacobian_mm3, 0.0);
 }
 
 TEST_F(MeshCheck, VtuFilesAreCheckedByteForByte) {

@@ -41,8 +41,8 @@ class Hand {
     // A person keeps to the place; far aside the bone would end.
     will_n -= 2.0 * Vec3(position_mm_.x(), position_mm_.y(), 0.0) +
               0.02 * Vec3(velocity_mm_s_.x(), velocity_mm_s_.y(), 0.0);
-    const double most_n = 99.0 * mass_kg_;
-    will_n = clamp_length(will_n, most_n);
+    const double max_n = 99.0 * mass_kg_;
+    will_n = clamp_length(will_n, max_n);
     const double gain = tick_s * 1000.0 / mass_kg_;
     velocity_mm_s_ += gain * (will_n + felt_n);
     velocity_mm_s_ /= 1.0 + gain * arm_damping_n_s_mm_;
