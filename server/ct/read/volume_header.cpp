@@ -1,4 +1,4 @@
-#include "ct/read/volume_file.hpp"
+#include "ct/read/volume_header.hpp"
 
 #include <fcntl.h>
 #include <stdlib.h>
