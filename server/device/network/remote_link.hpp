@@ -40,8 +40,8 @@ struct RemoteOutput {
 };
 
 /// What is between the haptic thread and the thread that talks to a device over a network: newest-wins both
-/// ways, nobody waits. The device (device/network_device, device/steered_hand_device) is on one side, the
-/// socket (device/device_socket) on the other.
+/// ways, nobody waits. The device (NetworkDevice, the steered hand) is on one side, the socket
+/// (DeviceSocket) on the other.
 struct RemoteLink {
   LatestSlot<RemoteInput> input;              ///< written by the socket's side, read by the haptic thread
   LatestSlot<RemoteOutput> output;            ///< the other way
