@@ -114,7 +114,7 @@ std::vector<float> votes_in(const HuVolume& coarse, double bone_hu) {
         const double steepness = gradient.norm();
         if (steepness < min_gradient_hu_mm) continue;
         const Vec3 step = (gradient.array() / (steepness * coarse.spacing_mm.array())).matrix();
-        for (double r = min_head_radius_mm; r <= greatest_head_radius_mm; r += coarse_mm) {
+        for (double r = min_head_radius_mm; r <= max_head_radius_mm; r += coarse_mm) {
           const Vec3i o = (Vec3(u + 0.5, v + 0.5, w + 0.5) + r * step).array().floor().cast<int>().matrix();
           if (coarse.contains(o)) votes[coarse.index(o.x(), o.y(), o.z())] += 1.0F;
         }
@@ -191,7 +191,7 @@ std::optional<HumeralHead> fitted_head(const HuVolume& volume, double threshold_
   constexpr double on_sphere_mm = 1.25;
   HumeralHead head;
   head.centre_mm = near_mm;
-  double low_mm = min_head_radius_mm - 4.0, high_mm = greatest_head_radius_mm + 4.0;
+  double low_mm = min_head_radius_mm - 4.0, high_mm = max_head_radius_mm + 4.0;
   for (const double tolerance_mm : {8.0, 6.0, 4.0, 3.0, 2.0, 1.5, 1.5, 1.5}) {
     std::vector<Vec3> points;
     for (int number = 0; number < rays; ++number) {
@@ -210,7 +210,7 @@ std::optional<HumeralHead> fitted_head(const HuVolume& volume, double threshold_
     low_mm = head.radius_mm - tolerance_mm;
     high_mm = head.radius_mm + tolerance_mm;
   }
-  if (head.radius_mm < min_head_radius_mm || head.radius_mm > greatest_head_radius_mm) return std::nullopt;
+  if (head.radius_mm < min_head_radius_mm || head.radius_mm > max_head_radius_mm) return std::nullopt;
   return head;
 }
 

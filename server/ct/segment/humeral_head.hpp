@@ -14,7 +14,7 @@ struct HumeralHead {
 };
 
 /// Humeral heads have radii between these (18 to 32 mm: small women to large men, with room).
-inline constexpr double min_head_radius_mm = 18.0, greatest_head_radius_mm = 32.0;
+inline constexpr double min_head_radius_mm = 18.0, max_head_radius_mm = 32.0;
 
 /// Best spheres in a CT, the best first, at most twelve and 20 mm apart. Places are voted for along the
 /// gradient from where bone borders soft tissue (Ballard's generalised Hough transform, 1981), then the

@@ -27,11 +27,11 @@ std::vector<uint8_t> shoulder_markers(const HuVolume& volume, double threshold_h
 std::optional<Vec3> glenoid_facing(const HumeralHead& head, case_::Side side, const HuVolume& volume,
                                    const std::vector<uint8_t>& labels);
 
-/// Spreads labels (0 is free) over the free voxels of at least `min_hu` that are face-connected to a
+/// Spreads labels (0 is free) over the free voxels of at least `lowest_hu` that are face-connected to a
 /// labelled one, the densest first: a watershed of the HU landscape from markers (Meyer 1994). Two bones
 /// whose surfaces touch part along the valley of lower HU between them; a voxel goes to the label from which
 /// the least deep valley leads to it. Ties go to who came first, so equal inputs give equal labels.
-void flood_by_hu(const HuVolume& volume, double min_hu, std::vector<uint8_t>& labels);
+void flood_by_hu(const HuVolume& volume, double lowest_hu, std::vector<uint8_t>& labels);
 
 /// Moves the border between the scapula and a bone that it touches to where the least bone is cut: the
 /// minimum cut (Boykov and Kolmogorov 2004) of the voxels of both within `reach_mm` of the border, where

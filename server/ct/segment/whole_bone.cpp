@@ -18,10 +18,11 @@ struct Pending {
 /// Voxels that wait, by HU, the densest to be taken first and among equals the one that came first.
 class WaitingByHu {
  public:
-  WaitingByHu(int min_hu, int max_hu) : min_hu_(min_hu), levels_(static_cast<size_t>(max_hu - min_hu + 1)) {}
+  WaitingByHu(int lowest_hu, int highest_hu)
+      : lowest_hu_(lowest_hu), levels_(static_cast<size_t>(highest_hu - lowest_hu + 1)) {}
 
   void add(int hu, Pending pending) {
-    levels_[std::min(current_, static_cast<size_t>(hu - min_hu_))].push_back(pending);
+    levels_[std::min(current_, static_cast<size_t>(hu - lowest_hu_))].push_back(pending);
   }
   /// Takes every pending voxel; what take() adds waits its turn.
   template <typename Take>
@@ -35,20 +36,20 @@ class WaitingByHu {
   }
 
  private:
-  int min_hu_;
+  int lowest_hu_;
   std::vector<std::vector<Pending>> levels_;
   size_t current_ = SIZE_MAX;
 };
 
 /// Pieces larger than this part of the bone are bones of their own.
-constexpr double max_piece_share = 0.25;
+constexpr double largest_piece_share = 0.25;
 
 /// Sets free pieces of dense voxels that come within `reach_mm` of the bone.
 void add_pieces(Mask& bone, const Mask& free_dense, const Vec3i& dims, const Vec3& spacing_mm,
                 double reach_mm) {
   const std::vector<float> distance = distance_to_set_mm(bone, dims, spacing_mm);
   const Steps steps(dims);
-  const auto largest = static_cast<size_t>(max_piece_share * static_cast<double>(count_set(bone)));
+  const auto largest = static_cast<size_t>(largest_piece_share * static_cast<double>(count_set(bone)));
   Mask pending = free_dense;
   std::vector<size_t> piece;
   for (size_t start = 0; start < pending.size(); ++start) {
@@ -70,9 +71,9 @@ void add_pieces(Mask& bone, const Mask& free_dense, const Vec3i& dims, const Vec
 
 }  // namespace
 
-void flood_by_hu(const HuVolume& volume, double min_hu, std::vector<uint8_t>& labels) {
+void flood_by_hu(const HuVolume& volume, double lowest_hu, std::vector<uint8_t>& labels) {
   const Steps steps(volume.dims);
-  const int lowest = static_cast<int>(std::ceil(min_hu));
+  const int lowest = static_cast<int>(std::ceil(lowest_hu));
   const int highest = volume.hu.empty() ? lowest : *std::max_element(volume.hu.begin(), volume.hu.end());
   if (highest < lowest) return;
   WaitingByHu waiting(lowest, highest);
