@@ -58,11 +58,11 @@ inline constexpr Limits server_limits{.header_lines = 250,
                                       .function_lines = 80,
                                       .p90_function_lines = 25,
                                       .folder_cycles = 0,
-                                      .single_function_headers = 82,
-                                      .private_headers = 200,
-                                      .files = 1200,
-                                      .lines = 81000,
-                                      .min_median_file_lines = 45,
+                                      .single_function_headers = 26,
+                                      .private_headers = 34,
+                                      .files = 900,
+                                      .lines = 78000,
+                                      .min_median_file_lines = 60,
                                       .max_median_file_lines = 110};
 
 }  // namespace ream::layering
