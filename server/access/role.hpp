@@ -32,7 +32,7 @@ inline constexpr Roles operators = 1u << 0, instructors = 1u << 1, trainees = 1u
 /// Who teaches; who reams; everybody who is known.
 inline constexpr Roles staff = operators | instructors;
 inline constexpr Roles reamers = staff | trainees;
-inline constexpr Roles known = reamers | viewers;
+inline constexpr Roles all_roles = reamers | viewers;
 
 /// The bit of a role by its word; 0 for others.
 inline Roles role_bit(const std::string& role) {

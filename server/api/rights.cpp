@@ -5,8 +5,8 @@
 namespace ream::api {
 namespace {
 
+using access::all_roles;
 using access::instructors;
-using access::known;
 using access::operators;
 using access::reamers;
 using access::Roles;
@@ -76,9 +76,9 @@ std::vector<Right> case_rows() {
 
 std::vector<Right> session_rows() {
   const std::string sessions = "/api/v1/sessions", one = sessions + "/{id}";
-  return {{"GET", sessions, Door::roles, known},
+  return {{"GET", sessions, Door::roles, all_roles},
           {"POST", sessions, Door::roles, reamers},
-          {"GET", one, Door::roles, known},
+          {"GET", one, Door::roles, all_roles},
           {"PATCH", one, Door::roles, reamers},
           {"DELETE", one, Door::roles, reamers},
           {"POST", one + "/restore", Door::roles, staff},
@@ -88,12 +88,12 @@ std::vector<Right> session_rows() {
           {"POST", one + "/reset", Door::roles, reamers},
           {"POST", one + "/stop", Door::roles, reamers},
           {"POST", one + "/resume", Door::roles, reamers},
-          {"GET", one + "/annotations", Door::roles, known},
+          {"GET", one + "/annotations", Door::roles, all_roles},
           {"POST", one + "/annotations", Door::roles, reamers},
-          {"POST", one + "/replay", Door::roles, known},
-          {"POST", one + "/playback", Door::roles, known},
-          {"GET", one + "/metrics", Door::roles, known},
-          {"GET", one + "/stream", Door::roles, known},
+          {"POST", one + "/replay", Door::roles, all_roles},
+          {"POST", one + "/playback", Door::roles, all_roles},
+          {"GET", one + "/metrics", Door::roles, all_roles},
+          {"GET", one + "/stream", Door::roles, all_roles},
           {"GET", one + "/device", Door::roles, reamers},
           {"GET", one + "/recording", Door::roles, reamers},
           {"GET", one + "/session.json", Door::roles, reamers},
@@ -101,10 +101,10 @@ std::vector<Right> session_rows() {
           {"GET", one + "/mesh", Door::roles, reamers},
           {"GET", one + "/snapshot", Door::roles, reamers},
           {"POST", one + "/exports", Door::roles, reamers},
-          {"GET", one + "/score", Door::roles, known},
+          {"GET", one + "/score", Door::roles, all_roles},
           {"POST", one + "/score", Door::roles, staff},
           {"GET", one + "/deviation", Door::roles, reamers},
-          {"GET", "/api/v1/events", Door::roles, known}};
+          {"GET", "/api/v1/events", Door::roles, all_roles}};
 }
 
 std::vector<Right> study_rows() {

@@ -24,13 +24,13 @@ struct Column {
   double width;
 };
 
-constexpr std::array<Column, 7> columns = {{{"Metric", 126.0},
-                                            {"Planned", 92.0},
-                                            {"Achieved", 92.0},
-                                            {"Passes", 62.0},
-                                            {"Warns", 44.0},
-                                            {"Result", 54.0},
-                                            {"Points \u00d7 weight", 41.0}}};
+constexpr std::array<Column, 7> metric_columns = {{{"Metric", 126.0},
+                                                   {"Planned", 92.0},
+                                                   {"Achieved", 92.0},
+                                                   {"Passes", 62.0},
+                                                   {"Warns", 44.0},
+                                                   {"Result", 54.0},
+                                                   {"Points \u00d7 weight", 41.0}}};
 
 std::string result_in_words(const MetricLine& line) {
   if (line.mark == Mark::none) return "";
@@ -318,7 +318,7 @@ void PdfPages::table(const MetricTable& table) {
 
 void PdfPages::table_heads() {
   double x = margin, height = 0.0;
-  for (const Column& column : columns) {
+  for (const Column& column : metric_columns) {
     height = std::max(height, sheet_.paragraph(x, y_, column.width - 4.0, column.head,
                                                {7.2, grey(0.35), true, Anchor::left}));
     x += column.width;
@@ -339,19 +339,19 @@ void PdfPages::table_line(const MetricLine& line) {
   const double note_width = 12.0;
   double height = 0.0;
   for (size_t i = 0; i < cells.size(); ++i)
-    height =
-        std::max(height, sheet_.height_of(columns[i].width - (i == 0 ? note_width : 4.0), cells[i], type(i)));
+    height = std::max(
+        height, sheet_.height_of(metric_columns[i].width - (i == 0 ? note_width : 4.0), cells[i], type(i)));
   if (y_ + height + 4.0 > PdfSheet::page_height - foot) {
     need(height + 4.0);
     table_heads();
   }
   double x = margin;
   for (size_t i = 0; i < cells.size(); ++i) {
-    sheet_.paragraph(x, y_, columns[i].width - (i == 0 ? note_width : 4.0), cells[i], type(i));
-    x += columns[i].width;
+    sheet_.paragraph(x, y_, metric_columns[i].width - (i == 0 ? note_width : 4.0), cells[i], type(i));
+    x += metric_columns[i].width;
   }
-  sheet_.paragraph(margin + columns[0].width - note_width, y_, note_width - 3.0, std::to_string(line.source),
-                   {5.6, grey(0.45), false, Anchor::left});
+  sheet_.paragraph(margin + metric_columns[0].width - note_width, y_, note_width - 3.0,
+                   std::to_string(line.source), {5.6, grey(0.45), false, Anchor::left});
   y_ += height + 1.0;
   sheet_.straight({margin, y_}, {PdfSheet::page_width - margin, y_}, hair);
   y_ += 1.5;
