@@ -12,6 +12,7 @@ import { SliceView } from '../scene/slice_view';
 import { SurfaceView } from '../scene/surface_view';
 import type { CaseController } from '../state/case/case_controller';
 import { ViewMarks } from '../state/case/view_marks';
+import { Button } from '../panels/common/button';
 
 interface Parts {
   keeper: CaseController;
@@ -36,9 +37,7 @@ export function CasePage({ keeper, startReaming }: Parts) {
           ) : (
             <p role="alert">
               <strong>{caseText.caseFailed}.</strong> {problem}{' '}
-              <button type="button" class="plain-button" onClick={() => void keeper.open()}>
-                {caseText.tryAgain}
-              </button>
+              <Button onClick={() => void keeper.open()}>{caseText.tryAgain}</Button>
             </p>
           )}
         </main>

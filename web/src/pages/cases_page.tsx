@@ -8,6 +8,7 @@ import { NewCasePanel } from '../panels/case/new_case_panel';
 import type { CasesKeeper } from '../state/case/new_case';
 import { addressOfRoute } from '../state/route';
 import type { CaseSummary } from '../wire/rest_types';
+import { Button } from '../panels/common/button';
 
 const readAgainMs = 5000;
 
@@ -94,9 +95,7 @@ function CaseRow({ one, keeper, mayEdit }: { one: CaseSummary; keeper: CasesKeep
             >
               {caseText.removeYes}
             </button>
-            <button type="button" class="plain-button" onClick={() => (asking.value = false)}>
-              {caseText.keep}
-            </button>
+            <Button onClick={() => (asking.value = false)}>{caseText.keep}</Button>
           </span>
         ) : (
           <>

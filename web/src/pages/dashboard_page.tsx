@@ -17,29 +17,30 @@ const dashboard = new Dashboard(new DashboardApi(window.location.origin), window
 
 /** Who reams now, who has reamed, and how they come on. */
 export function DashboardPage({ live }: { live: LivePageParts }) {
-  const { watcher, store } = live;
   const identity = useIdentity();
   const own = identity.hasUsers.value && !identity.may.value.teach;
   useEffect(() => dashboard.follow(own), [own]);
   const watch = (id: string) => {
-    watcher.watch(id);
+    live.watcher.watch(id);
     window.location.hash = '';
-  };
-  const replay = async (id: string) => {
-    await watcher.openReplay(id);
-    const problem = store.problem.value;
-    store.problem.value = null;
-    if (problem === null) window.location.hash = addressOfReplay(store.replayId.value);
-    return problem;
   };
   return (
     <div class="page desk-page">
       <PageHeader here="dashboard" />
       <main class="desk dashboard" data-testid="dashboard">
         <LivePanel board={dashboard.board} watch={watch} />
-        <RecentPanel ended={dashboard.ended} replay={replay} />
+        <RecentPanel ended={dashboard.ended} replay={(id) => replay(live, id)} />
         <LearningPanel dashboard={dashboard} own={own} hasUsers={identity.hasUsers.value} />
       </main>
     </div>
   );
+}
+
+/** Why the recording cannot be shown; null: it is. */
+async function replay({ watcher, store }: LivePageParts, id: string): Promise<string | null> {
+  await watcher.openReplay(id);
+  const problem = store.problem.value;
+  store.problem.value = null;
+  if (problem === null) window.location.hash = addressOfReplay(store.replayId.value);
+  return problem;
 }

@@ -4,6 +4,7 @@ import { useEffect, useRef, useState } from 'preact/hooks';
 import { sentence } from '../text/format';
 import { useIdentity } from '../panels/common/site_nav';
 import { appText } from '../text/app_text';
+import { Button } from '../panels/common/button';
 
 /** Asks for name and password, and says why. */
 export function LoginPage() {
@@ -55,9 +56,9 @@ export function LoginPage() {
           value={password.value}
           onInput={(event) => (password.value = event.currentTarget.value)}
         />
-        <button type="submit" class="main-button" data-testid="log-in" disabled={identity.busy.value || waitS > 0}>
+        <Button submit look="main" testId="log-in" disabled={identity.busy.value || waitS > 0}>
           {identity.busy.value ? appText.loggingIn : waitS > 0 ? appText.tryAgainIn(waitS) : appText.logIn}
-        </button>
+        </Button>
       </form>
     </main>
   );

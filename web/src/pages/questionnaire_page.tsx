@@ -10,6 +10,7 @@ import { AnswerSheet, sectionsOf } from '../state/study/answer_sheet';
 import { studyText } from '../text/study_text';
 import { messageOf } from '../wire/rest';
 import type { StudyApi } from '../wire/study_api';
+import { Button } from '../panels/common/button';
 
 interface Parts {
   api: StudyApi;
@@ -132,9 +133,9 @@ function Sheet({ sheet, code, readOnly, send }: SheetParts) {
               </Remark>
             </div>
           )}
-          <button type="submit" class="main-button" data-testid="send-answers" disabled={busy.value}>
+          <Button submit look="main" testId="send-answers" disabled={busy.value}>
             {busy.value ? studyText.sending : studyText.send}
-          </button>
+          </Button>
         </div>
       </fieldset>
     </form>

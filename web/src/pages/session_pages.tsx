@@ -11,6 +11,7 @@ import { addressOfReplay } from '../state/replay_address';
 import { SessionBrowser } from '../state/sessions/session_browser';
 import { SessionListApi } from '../wire/session_list_api';
 import type { LivePageParts } from './live_page';
+import { Button } from '../panels/common/button';
 
 const readAgainMs = 5000;
 const browser = new SessionBrowser(new SessionListApi(window.location.origin));
@@ -101,27 +102,15 @@ function Pages() {
   if (at === 1 && next === null) return null;
   return (
     <nav class="desk-form pages" aria-label={sessionText.page(at)}>
-      <button
-        type="button"
-        class="plain-button"
-        data-testid="previous-page"
-        disabled={at === 1}
-        onClick={() => void browser.previous()}
-      >
+      <Button testId="previous-page" disabled={at === 1} onClick={() => void browser.previous()}>
         {sessionText.previousPage}
-      </button>
+      </Button>
       <span class="soft" aria-live="polite">
         {sessionText.page(at)}
       </span>
-      <button
-        type="button"
-        class="plain-button"
-        data-testid="next-page"
-        disabled={next === null}
-        onClick={() => void browser.next()}
-      >
+      <Button testId="next-page" disabled={next === null} onClick={() => void browser.next()}>
         {sessionText.nextPage}
-      </button>
+      </Button>
     </nav>
   );
 }

@@ -18,7 +18,11 @@ import { SlicePicture } from './slice_picture';
 const fieldMm = 36;
 /** A reamer that is taken further away than this is not followed any more. */
 const followsMm = 26;
-const reamerColour = '#ffd166';
+/** A dark edge, and the line itself. */
+const reamerStrokes = [
+  ['#10161a', 3.5],
+  ['#ffd166', 1.75],
+] as const;
 const planColour = '#2dd4a7';
 
 interface View {
@@ -163,12 +167,11 @@ export class LiveSlices {
       if (i % 6 === 0) onto.moveTo(x, y);
       else onto.lineTo(x, y);
     }
-    onto.strokeStyle = '#10161a';
-    onto.lineWidth = 3.5;
-    onto.stroke();
-    onto.strokeStyle = reamerColour;
-    onto.lineWidth = 1.75;
-    onto.stroke();
+    for (const [colour, width] of reamerStrokes) {
+      onto.strokeStyle = colour;
+      onto.lineWidth = width;
+      onto.stroke();
+    }
   }
 }
 

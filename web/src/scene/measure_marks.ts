@@ -51,25 +51,33 @@ function numbered(text: string): CanvasTexture {
   canvas.height = texturePx;
   const onto = canvas.getContext('2d');
   if (onto !== null) {
-    const middle = texturePx / 2;
-    for (const [colour, width] of [
-      [ink, 13],
-      [paper, 7],
-    ] as const) {
-      onto.strokeStyle = colour;
-      onto.lineWidth = width;
-      onto.beginPath();
-      onto.arc(middle, middle, 16, 0, Math.PI * 2);
-      onto.stroke();
-    }
-    onto.font = 'bold 44px system-ui, sans-serif';
-    onto.textAlign = 'center';
-    onto.textBaseline = 'middle';
-    onto.lineWidth = 10;
-    onto.strokeStyle = ink;
-    onto.strokeText(text, 98, 30);
-    onto.fillStyle = paper;
-    onto.fillText(text, 98, 30);
+    drawRing(onto);
+    drawNumber(onto, text);
   }
   return new CanvasTexture(canvas);
+}
+
+function drawRing(onto: CanvasRenderingContext2D): void {
+  const middle = texturePx / 2;
+  for (const [colour, width] of [
+    [ink, 13],
+    [paper, 7],
+  ] as const) {
+    onto.strokeStyle = colour;
+    onto.lineWidth = width;
+    onto.beginPath();
+    onto.arc(middle, middle, 16, 0, Math.PI * 2);
+    onto.stroke();
+  }
+}
+
+function drawNumber(onto: CanvasRenderingContext2D, text: string): void {
+  onto.font = 'bold 44px system-ui, sans-serif';
+  onto.textAlign = 'center';
+  onto.textBaseline = 'middle';
+  onto.lineWidth = 10;
+  onto.strokeStyle = ink;
+  onto.strokeText(text, 98, 30);
+  onto.fillStyle = paper;
+  onto.fillText(text, 98, 30);
 }

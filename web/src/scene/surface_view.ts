@@ -34,6 +34,11 @@ import { planeColours } from './slice_view';
 const pixelRatioMax = 2;
 const clickWithinPx = 4;
 const crossHairArmMm = 8;
+const crossHairArms: readonly Triple[] = [
+  [1, 0, 0],
+  [0, 1, 0],
+  [0, 0, 1],
+];
 const restsAfterMs = 60;
 const drawAtLeastEveryMs = 400;
 const pointRadiusMm = 1.4;
@@ -198,12 +203,7 @@ export class SurfaceView {
     empty(this.crossHair);
     if (frame.value !== null && planes.value !== null) {
       const middle = frame.value.worldFromVoxel(crossHair.value);
-      const arms: [Triple, number][] = [
-        [[1, 0, 0], 0],
-        [[0, 1, 0], 1],
-        [[0, 0, 1], 2],
-      ];
-      for (const [direction] of arms) {
+      for (const direction of crossHairArms) {
         const ends = [-crossHairArmMm, crossHairArmMm].map((mm) => new Vector3(...add(middle, direction, mm)));
         this.crossHair.add(onTop(new Line(new BufferGeometry().setFromPoints(ends), lineMaterial('#d6336c'))));
       }

@@ -38,12 +38,7 @@ export class StreamFinder {
     const session =
       this.choose(await this.withWatched(listed)) ??
       (this.policy.makesSession() ? await this.api.createDemo() : undefined);
-    if (session === undefined) {
-      await this.api.ready();
-      this.store.sessionId.value = null;
-      this.store.sessionState.value = null;
-      return null;
-    }
+    if (session === undefined) return this.findNothing();
     batch(() => {
       if (session.id !== this.store.sessionId.value) this.endedWithoutHello = 0;
       this.store.sessionId.value = session.id;
@@ -51,6 +46,14 @@ export class StreamFinder {
     });
     this.awaitingHello = true;
     return this.api.streamUrl(session.id);
+  }
+
+  /** Throws while the server only prepares for sessions. */
+  private async findNothing(): Promise<null> {
+    await this.api.ready();
+    this.store.sessionId.value = null;
+    this.store.sessionState.value = null;
+    return null;
   }
 
   choose(sessions: readonly Session[]): Session | undefined {

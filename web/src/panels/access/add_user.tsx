@@ -4,7 +4,9 @@ import { accessText } from '../../text/access_text';
 import type { Remote } from '../../state/remote';
 import { type AccessApi } from '../../wire/access_api';
 import { appText } from '../../text/app_text';
+import { Choice, TextLine } from '../common/form_fields';
 import { type AccountRole, type NewUser, type User, accountRoles } from '../../wire/rest_types';
+import { Button } from '../common/button';
 
 const blank = (role: AccountRole): NewUser => ({ name: '', display_name: '', role, password: '' });
 
@@ -23,58 +25,29 @@ export function AddUser({ api, users }: { api: AccessApi; users: Remote<User[]> 
   };
   return (
     <form class="desk-form" aria-label={accessText.addUser} onSubmit={(event) => void add(event)}>
-      <label>
-        {accessText.nameColumn}
-        <input
-          type="text"
-          autocomplete="off"
-          autocapitalize="none"
-          spellcheck={false}
-          required
-          data-testid="add-name"
-          value={wanted.value.name}
-          onInput={(event) => set({ name: event.currentTarget.value })}
-        />
-      </label>
-      <label>
-        {accessText.shownColumn}
-        <input
-          type="text"
-          autocomplete="off"
-          data-testid="add-display-name"
-          value={wanted.value.display_name}
-          onInput={(event) => set({ display_name: event.currentTarget.value })}
-        />
-      </label>
-      <label>
-        {accessText.roleColumn}
-        <select
-          data-testid="add-role"
-          value={role}
-          onChange={(event) => set({ role: event.currentTarget.value as AccountRole })}
-        >
-          {roles.map((role) => (
-            <option key={role} value={role}>
-              {appText.roles[role]}
-            </option>
-          ))}
-        </select>
-      </label>
-      <label>
-        {accessText.password}
-        <input
-          type="password"
-          autocomplete="new-password"
-          required
-          aria-describedby="add-password-rule"
-          data-testid="add-password"
-          value={wanted.value.password}
-          onInput={(event) => set({ password: event.currentTarget.value })}
-        />
-      </label>
-      <button type="submit" class="main-button" data-testid="add-user" disabled={users.busy.value}>
+      <TextLine
+        {...{ label: accessText.nameColumn, testId: 'add-name', required: true, value: wanted.value.name }}
+        {...{ autocomplete: 'off', verbatim: true }}
+        onInput={(name) => set({ name })}
+      />
+      <TextLine
+        {...{ label: accessText.shownColumn, testId: 'add-display-name', value: wanted.value.display_name ?? '' }}
+        autocomplete="off"
+        onInput={(display_name) => set({ display_name })}
+      />
+      <Choice
+        {...{ label: accessText.roleColumn, testId: 'add-role', value: role }}
+        options={roles.map((one) => [one, appText.roles[one]])}
+        onChange={(chosen) => set({ role: chosen as AccountRole })}
+      />
+      <TextLine
+        {...{ label: accessText.password, testId: 'add-password', required: true, value: wanted.value.password }}
+        {...{ type: 'password', autocomplete: 'new-password', describedBy: 'add-password-rule' }}
+        onInput={(password) => set({ password })}
+      />
+      <Button submit look="main" testId="add-user" disabled={users.busy.value}>
         {accessText.add}
-      </button>
+      </Button>
       <p id="add-password-rule" class="soft wide">
         {accessText.passwordRule}
       </p>

@@ -6,6 +6,8 @@ import { type AccessApi, utcInDays } from '../../wire/access_api';
 import { messageOf } from '../../wire/rest';
 import { Remark } from '../common/fields';
 import { SecretOnce } from '../common/secret_once';
+import { Choice, Count, TextLine } from '../common/form_fields';
+import { Button } from '../common/button';
 
 const usualDays = 7;
 
@@ -44,44 +46,27 @@ export function MakeLink({ api, session, review, onMade }: Parts) {
   return (
     <>
       <form class="desk-form" onSubmit={(event) => void make(event)}>
-        <label>
-          {accessText.linkName}
-          <input
-            type="text"
-            autocomplete="off"
-            data-testid="link-name"
-            value={name.value}
-            onInput={(event) => (name.value = event.currentTarget.value)}
-          />
-        </label>
-        <label>
-          {accessText.days}
-          <input
-            type="number"
-            min={1}
-            max={365}
-            required
-            data-testid="link-days"
-            value={days.value}
-            onChange={(event) => (days.value = event.currentTarget.valueAsNumber)}
-          />
-        </label>
+        <TextLine
+          {...{ label: accessText.linkName, testId: 'link-name', autocomplete: 'off', value: name.value }}
+          onInput={(typed) => (name.value = typed)}
+        />
+        <Count
+          {...{ label: accessText.days, testId: 'link-days', min: 1, max: 365, value: days.value }}
+          onChange={(count) => (days.value = count)}
+        />
         {session !== null && (
-          <label>
-            {accessText.showsColumn}
-            <select
-              data-testid="link-for"
-              value={all.value ? 'all' : 'this'}
-              onChange={(event) => (all.value = event.currentTarget.value === 'all')}
-            >
-              <option value="this">{accessText.shareThis}</option>
-              <option value="all">{accessText.shareAll}</option>
-            </select>
-          </label>
+          <Choice
+            {...{ label: accessText.showsColumn, testId: 'link-for', value: all.value ? 'all' : 'this' }}
+            options={[
+              ['this', accessText.shareThis],
+              ['all', accessText.shareAll],
+            ]}
+            onChange={(chosen) => (all.value = chosen === 'all')}
+          />
         )}
-        <button type="submit" class="main-button" data-testid="make-link" disabled={busy.value}>
+        <Button submit look="main" testId="make-link" disabled={busy.value}>
           {accessText.makeLink}
-        </button>
+        </Button>
       </form>
       {problem.value !== null && <Remark kind="bad">{problem.value}</Remark>}
       {address.value !== null && <SecretOnce label={accessText.links} text={address.value} testId="link-address" />}

@@ -4,6 +4,8 @@ import { accessText } from '../../text/access_text';
 import type { LoginApi } from '../../wire/login_api';
 import { messageOf } from '../../wire/rest';
 import { Remark } from '../common/fields';
+import { TextLine } from '../common/form_fields';
+import { Button } from '../common/button';
 
 /** Changes one's own password. */
 export function PasswordPanel({ api }: { api: LoginApi }) {
@@ -38,21 +40,16 @@ export function PasswordPanel({ api }: { api: LoginApi }) {
       <p class="soft">{accessText.passwordRule}</p>
       <form class="desk-form" onSubmit={(event) => void change(event)}>
         {rows.map(([key, label, autocomplete]) => (
-          <label key={key}>
-            {label}
-            <input
-              type="password"
-              required
-              autocomplete={autocomplete}
-              data-testid={`password-${key}`}
-              value={fields[key].value}
-              onInput={(event) => (fields[key].value = event.currentTarget.value)}
-            />
-          </label>
+          <TextLine
+            key={key}
+            {...{ label, testId: `password-${key}`, type: 'password', required: true, autocomplete }}
+            value={fields[key].value}
+            onInput={(typed) => (fields[key].value = typed)}
+          />
         ))}
-        <button type="submit" class="main-button" data-testid="change-password" disabled={busy.value}>
+        <Button submit look="main" testId="change-password" disabled={busy.value}>
           {accessText.changePassword}
-        </button>
+        </Button>
       </form>
       {said.value !== null && (
         <Remark kind={said.value.kind} testId="password-said">

@@ -8,6 +8,8 @@ import { dayAndTime } from '../../text/format';
 import { Remark } from '../common/fields';
 import { ConfirmButton } from '../common/confirm_dialog';
 import { SecretOnce } from '../common/secret_once';
+import { Count, TextLine } from '../common/form_fields';
+import { Button } from '../common/button';
 
 const usualDays = 90;
 
@@ -86,32 +88,23 @@ function MakeToken({ api, tokens }: { api: AccessApi; tokens: Remote<unknown> })
   return (
     <>
       <form class="desk-form" onSubmit={(event) => void make(event)}>
-        <label>
-          {accessText.tokenName}
-          <input
-            type="text"
-            required
-            autocomplete="off"
-            data-testid="token-name"
-            value={name.value}
-            onInput={(event) => (name.value = event.currentTarget.value)}
-          />
-        </label>
-        <label>
-          {accessText.days}
-          <input
-            type="number"
-            min={1}
-            max={3650}
-            required
-            data-testid="token-days"
-            value={days.value}
-            onChange={(event) => (days.value = event.currentTarget.valueAsNumber)}
-          />
-        </label>
-        <button type="submit" class="main-button" data-testid="make-token" disabled={tokens.busy.value}>
+        <TextLine
+          {...{
+            label: accessText.tokenName,
+            testId: 'token-name',
+            required: true,
+            autocomplete: 'off',
+            value: name.value,
+          }}
+          onInput={(typed) => (name.value = typed)}
+        />
+        <Count
+          {...{ label: accessText.days, testId: 'token-days', min: 1, max: 3650, value: days.value }}
+          onChange={(count) => (days.value = count)}
+        />
+        <Button submit look="main" testId="make-token" disabled={tokens.busy.value}>
           {accessText.makeToken}
-        </button>
+        </Button>
       </form>
       {secret.value !== null && <SecretOnce label={accessText.tokens} text={secret.value} testId="token-secret" />}
     </>

@@ -9,6 +9,7 @@ import { useFocusAfter } from '../common/focus_after';
 import { ConfirmButton } from '../common/confirm_dialog';
 import { useIdentity } from '../common/site_nav';
 import { type AccountRole, type User, accountRoles } from '../../wire/rest_types';
+import { Button } from '../common/button';
 
 interface Parts {
   api: AccessApi;
@@ -75,16 +76,14 @@ function UserRow({ user, api, users }: Parts & { user: User }) {
       <td>{dayAndTime(user.created_utc)}</td>
       <td class="deeds">
         <NewPassword user={user} busy={busy} onSet={(password) => change({ password })} />
-        <button
-          type="button"
-          class="plain-button"
-          data-testid={`enable-${user.name}`}
+        <Button
+          testId={`enable-${user.name}`}
           disabled={busy}
-          aria-label={user.enabled ? accessText.disableUser(user.name) : accessText.enableUser(user.name)}
+          label={user.enabled ? accessText.disableUser(user.name) : accessText.enableUser(user.name)}
           onClick={() => change({ enabled: !user.enabled })}
         >
           {user.enabled ? accessText.disable : accessText.enable}
-        </button>
+        </Button>
         <ConfirmButton
           label={accessText.remove}
           describe={accessText.removeUser(user.name)}
@@ -140,12 +139,10 @@ function NewPassword({ user, busy, onSet }: { user: User; busy: boolean; onSet: 
         value={password.value}
         onInput={(event) => (password.value = event.currentTarget.value)}
       />
-      <button type="submit" class="plain-button" disabled={busy}>
+      <Button submit disabled={busy}>
         {accessText.setPassword}
-      </button>
-      <button type="button" class="plain-button" onClick={close}>
-        {accessText.cancel}
-      </button>
+      </Button>
+      <Button onClick={close}>{accessText.cancel}</Button>
     </form>
   );
 }

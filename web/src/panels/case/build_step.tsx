@@ -6,6 +6,7 @@ import { isUnderWay } from '../../state/case/job_watch';
 import type { BuiltBone } from '../../wire/rest_types';
 import { fixed } from '../../text/format';
 import { Remark, SelectField, SliderField } from '../common/fields';
+import { Button } from '../common/button';
 
 const finest = 8;
 
@@ -48,10 +49,9 @@ export function BuildStep({ keeper }: { keeper: CaseController }) {
       />
       {lacksCentre && found !== null && <Remark kind="warn">{caseText.buildNeedsCentre}</Remark>}
       <div class="buttons">
-        <button
-          type="button"
-          class="main-button"
-          data-testid="run-build"
+        <Button
+          look="main"
+          testId="run-build"
           disabled={blocked}
           onClick={() =>
             void keeper.landmarks
@@ -60,7 +60,7 @@ export function BuildStep({ keeper }: { keeper: CaseController }) {
           }
         >
           {built === null ? caseText.runBuild : caseText.runBuildAgain}
-        </button>
+        </Button>
       </div>
       {built !== null && <Built built={built} outdated={built.segmentation_revision !== found?.revision} />}
     </>

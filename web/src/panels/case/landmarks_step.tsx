@@ -12,6 +12,7 @@ import type { SaveState } from '../../state/case/landmark_editor';
 import { type WalchClass, walchClasses } from '../../wire/rest_types';
 import { SelectField, SliderField } from '../common/fields';
 import { MeasuresPanel } from './measures_panel';
+import { Button } from '../common/button';
 
 /** The landmarks to be placed, the head's radius, the Walch class, and what is measured from them. */
 export function LandmarksStep({ keeper }: { keeper: CaseController }) {
@@ -134,20 +135,20 @@ function SaveLine({ keeper, state }: { keeper: CaseController; state: SaveState 
       {state.kind === 'failed' && (
         <>
           {caseText.saveFailed(state.words)}
-          <button type="button" class="plain-button" data-testid="save-again" onClick={() => void landmarks.saveNow()}>
+          <Button testId="save-again" onClick={() => void landmarks.saveNow()}>
             {caseText.saveAgain}
-          </button>
+          </Button>
         </>
       )}
       {state.kind === 'conflict' && (
         <>
           {caseText.conflict}
-          <button type="button" class="plain-button" data-testid="keep-mine" onClick={() => void landmarks.keepMine()}>
+          <Button testId="keep-mine" onClick={() => void landmarks.keepMine()}>
             {caseText.keepMine}
-          </button>
-          <button type="button" class="plain-button" data-testid="take-theirs" onClick={() => landmarks.takeTheirs()}>
+          </Button>
+          <Button testId="take-theirs" onClick={() => landmarks.takeTheirs()}>
             {caseText.takeTheirs}
-          </button>
+          </Button>
         </>
       )}
     </div>

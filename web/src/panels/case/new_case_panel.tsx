@@ -6,6 +6,7 @@ import type { Side } from '../../wire/rest_types';
 import { fixed } from '../../text/format';
 import { Remark } from '../common/fields';
 import { JobProgress, ProgressBar } from './job_progress';
+import { Button } from '../common/button';
 
 const accepted = '.zip,.nrrd,.nii,.nii.gz,.gz,.mha,.txt,.dcm';
 const megabytes = (bytes: number) => fixed(bytes / 1e6, 1);
@@ -61,15 +62,14 @@ export function NewCasePanel({ keeper }: { keeper: CasesKeeper }) {
       </details>
       <Progress keeper={keeper} state={state} />
       {!underWay && (
-        <button
-          type="button"
-          class="main-button"
-          data-testid="make-case"
+        <Button
+          look="main"
+          testId="make-case"
           disabled={file === null || side === null}
           onClick={() => void keeper.make()}
         >
           {state.kind === 'failed' && state.during === 'upload' ? caseText.goOn : caseText.make}
-        </button>
+        </Button>
       )}
       {!underWay && file !== null && side === null && <p class="soft">{caseText.sideMustBeChosen}</p>}
     </aside>
@@ -145,9 +145,9 @@ function Progress({ keeper, state }: { keeper: CasesKeeper; state: NewCaseState 
           <p>{text}</p>
           <ProgressBar share={share} label={text} stale={state.waiting} />
           {state.waiting && <p class="warn-text">{caseText.uploadWaiting}</p>}
-          <button type="button" class="plain-button" data-testid="cancel-upload" onClick={() => void keeper.cancel()}>
+          <Button testId="cancel-upload" onClick={() => void keeper.cancel()}>
             {caseText.cancel}
-          </button>
+          </Button>
         </div>
       );
     }

@@ -8,6 +8,7 @@ import type { Assessment, Plan, Triple } from '../../wire/rest_types';
 import { fixed } from '../../text/format';
 import { inclinationText, versionText } from './angle_text';
 import { NumberBox, NumberField, Remark } from '../common/fields';
+import { Button } from '../common/button';
 
 /** The proposed or kept plan by numbers, what it would do, and keeping it. */
 export function PlanDraftPanel({ keeper, draft }: { keeper: CaseController; draft: PlanDraft }) {
@@ -50,15 +51,14 @@ export function PlanDraftPanel({ keeper, draft }: { keeper: CaseController; draf
         <Override keeper={keeper} words={asked} kept={kept} />
       ) : (
         <div class="buttons">
-          <button
-            type="button"
-            class="main-button"
-            data-testid="keep-plan"
+          <Button
+            look="main"
+            testId="keep-plan"
             disabled={(kept && !keeper.store.planBeforeLandmarks.value) || keeper.store.busy.value}
             onClick={() => void keeper.keepPlan(null)}
           >
             {caseText.keepPlan}
-          </button>
+          </Button>
         </div>
       )}
     </section>
@@ -128,15 +128,14 @@ function Override({ keeper, words, kept }: { keeper: CaseController; words: stri
           onInput={(event) => setReason(event.currentTarget.value)}
         />
       </label>
-      <button
-        type="button"
-        class="warn-button"
-        data-testid="override-keep"
+      <Button
+        look="warn"
+        testId="override-keep"
         disabled={reason.trim() === '' || keeper.store.busy.value}
         onClick={() => void keeper.keepPlan(reason.trim())}
       >
         {caseText.overrideKeep}
-      </button>
+      </Button>
     </div>
   );
 }
@@ -160,21 +159,9 @@ function PointField({ label, value, step, decimals, testId, onChange }: PointPar
           <label key={name}>
             <span class="soft">{name}</span>
             <NumberBox
-              {...{
-                label: `${label}, ${name}`,
-                unit: '',
-                value: value[i] ?? 0,
-                low: -5000,
-                high: 5000,
-                step,
-                decimals,
-              }}
-              testId={`${testId}-${i}`}
-              onChange={(number) => {
-                const changed: Triple = [...value];
-                changed[i] = number;
-                onChange(changed);
-              }}
+              {...{ label: `${label}, ${name}`, unit: '', value: value[i] ?? 0, low: -5000, high: 5000 }}
+              {...{ step, decimals, testId: `${testId}-${i}` }}
+              onChange={(number) => onChange(value.map((old, j) => (j === i ? number : old)) as Triple)}
             />
           </label>
         ))}

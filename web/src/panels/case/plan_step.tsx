@@ -8,6 +8,7 @@ import type { Guide, PlanWishes, Reamer } from '../../wire/rest_types';
 import { fixed } from '../../text/format';
 import { CheckField, NumberBox, NumberField, Remark, SelectField } from '../common/fields';
 import { PlanDraftPanel } from './plan_draft_panel';
+import { Button } from '../common/button';
 
 /** What is wished of the plan (null: left to the server); the wishes last as long as the page is open. */
 export class PlanWishesStore {
@@ -50,15 +51,14 @@ export function PlanStep({ keeper, wishes }: { keeper: CaseController; wishes: P
       <p class="soft">{placed ? caseText.planHint : caseText.planNeeds}</p>
       <WishFields wishes={wishes} reamers={store.reamers.value} />
       <div class="buttons">
-        <button
-          type="button"
-          class="main-button"
-          data-testid="propose"
+        <Button
+          look="main"
+          testId="propose"
           disabled={!placed || store.busy.value}
           onClick={() => void keeper.proposePlan(wishes.wishes())}
         >
           {draft === null ? caseText.propose : caseText.proposeAgain}
-        </button>
+        </Button>
       </div>
       {store.planBeforeLandmarks.value && draft?.kept === true && <Remark kind="warn">{caseText.planOutdated}</Remark>}
       {draft !== null && <PlanDraftPanel keeper={keeper} draft={draft} />}
@@ -67,8 +67,27 @@ export function PlanStep({ keeper, wishes }: { keeper: CaseController; wishes: P
 }
 
 function WishFields({ wishes, reamers }: { wishes: PlanWishesStore; reamers: readonly Reamer[] }) {
-  const mm = caseText.mm;
-  const pilot = wishes.pilot.value;
+  return (
+    <>
+      <AngleFields wishes={wishes} />
+      <NumberField
+        {...{ label: caseText.depth, unit: caseText.mm, value: wishes.depthMm.value, low: 0, high: 15, step: 0.5 }}
+        testId="wanted-depth"
+        onChange={(value) => (wishes.depthMm.value = value)}
+      />
+      <GivenNumber
+        label={caseText.implantRadius}
+        value={wishes.implantRadiusMm.value}
+        {...{ low: 20, high: 60, usual: 32, testId: 'implant-radius' }}
+        onChange={(value) => (wishes.implantRadiusMm.value = value)}
+      />
+      <ReamerFields wishes={wishes} reamers={reamers} />
+      <PilotFields wishes={wishes} />
+    </>
+  );
+}
+
+function AngleFields({ wishes }: { wishes: PlanWishesStore }) {
   return (
     <>
       <SignedAngle
@@ -88,17 +107,14 @@ function WishFields({ wishes, reamers }: { wishes: PlanWishesStore; reamers: rea
         testId="wanted-inclination"
         onChange={(degrees) => (wishes.inclinationDeg.value = degrees)}
       />
-      <NumberField
-        {...{ label: caseText.depth, unit: mm, value: wishes.depthMm.value, low: 0, high: 15, step: 0.5 }}
-        testId="wanted-depth"
-        onChange={(value) => (wishes.depthMm.value = value)}
-      />
-      <GivenNumber
-        label={caseText.implantRadius}
-        value={wishes.implantRadiusMm.value}
-        {...{ low: 20, high: 60, usual: 32, testId: 'implant-radius' }}
-        onChange={(value) => (wishes.implantRadiusMm.value = value)}
-      />
+    </>
+  );
+}
+
+/** The reamer and what leads it. */
+function ReamerFields({ wishes, reamers }: { wishes: PlanWishesStore; reamers: readonly Reamer[] }) {
+  return (
+    <>
       <SelectField
         label={caseText.reamer}
         value={wishes.reamer.value ?? ''}
@@ -116,6 +132,15 @@ function WishFields({ wishes, reamers }: { wishes: PlanWishesStore; reamers: rea
         testId="guide"
         onChange={(guide) => (wishes.guide.value = guide === '' ? null : guide)}
       />
+    </>
+  );
+}
+
+function PilotFields({ wishes }: { wishes: PlanWishesStore }) {
+  const mm = caseText.mm;
+  const pilot = wishes.pilot.value;
+  return (
+    <>
       <SelectField<'' | 'given'>
         label={caseText.pilotHole}
         value={pilot === null ? '' : 'given'}

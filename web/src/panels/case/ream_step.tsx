@@ -5,6 +5,7 @@ import { liveText } from '../../text/live_text';
 import { type CaseController, wordsOf } from '../../state/case/case_controller';
 import type { StepName, StepState } from '../../state/case/case_steps';
 import { CheckField, Remark } from '../common/fields';
+import { Button } from '../common/button';
 
 interface Parts {
   keeper: CaseController;
@@ -50,15 +51,14 @@ export function ReamStep({ keeper, states, startReaming }: Parts) {
         onChange={(wanted) => (theatre.value = wanted)}
       />
       <div class="buttons">
-        <button
-          type="button"
-          class="main-button"
-          data-testid="start-reaming"
+        <Button
+          look="main"
+          testId="start-reaming"
           disabled={lacking.length > 0 || starting.value}
           onClick={() => void start()}
         >
           {starting.value ? caseText.reaming : caseText.ream}
-        </button>
+        </Button>
       </div>
     </>
   );

@@ -7,6 +7,7 @@ import { seedNames } from '../../state/case/view_marks';
 import type { CtDescription, SeedName, Segmentation, WantedSettings } from '../../wire/rest_types';
 import { fixed } from '../../text/format';
 import { CheckField, Remark, SliderField } from '../common/fields';
+import { Button } from '../common/button';
 
 /** Threshold, smoothing, joints and seeds; finding the bones, and what was found. */
 export function SegmentStep({ keeper }: { keeper: CaseController }) {
@@ -42,24 +43,16 @@ export function SegmentStep({ keeper }: { keeper: CaseController }) {
       />
       <SeedList keeper={keeper} settings={settings} />
       <div class="buttons">
-        <button
-          type="button"
-          class="main-button"
-          data-testid="run-segmentation"
-          disabled={blocked}
-          onClick={() => void keeper.segment(settings)}
-        >
+        <Button look="main" testId="run-segmentation" disabled={blocked} onClick={() => void keeper.segment(settings)}>
           {found === null ? caseText.runSegment : caseText.runSegmentAgain}
-        </button>
-        <button
-          type="button"
-          class="plain-button"
-          data-testid="undo-segmentation"
+        </Button>
+        <Button
+          testId="undo-segmentation"
           disabled={blocked || found?.can_undo !== true}
           onClick={() => void keeper.undoSegmentation()}
         >
           {caseText.undo}
-        </button>
+        </Button>
       </div>
       {found !== null && !sameSettings(settingsOf(ct, found), settings) && (
         <Remark kind="warn" testId="settings-changed">
@@ -70,15 +63,9 @@ export function SegmentStep({ keeper }: { keeper: CaseController }) {
       <details class="seeds">
         <summary>{caseText.otherSide}</summary>
         <p class="soft">{caseText.otherSideHint}</p>
-        <button
-          type="button"
-          class="plain-button"
-          data-testid="copy-other-side"
-          disabled={blocked}
-          onClick={() => void openOtherSide(keeper)}
-        >
+        <Button testId="copy-other-side" disabled={blocked} onClick={() => void openOtherSide(keeper)}>
           {caseText.copyOtherSide(details?.side === 'left' ? 'right' : 'left')}
-        </button>
+        </Button>
       </details>
     </>
   );

@@ -1,8 +1,9 @@
+import type { ComponentChildren } from 'preact';
 import { useMemo } from 'preact/hooks';
 
 import { caseText } from '../../text/case_text';
 import type { CaseController } from '../../state/case/case_controller';
-import { type StepName, stepNames, stepStates } from '../../state/case/case_steps';
+import { type StepName, type StepState, stepNames, stepStates } from '../../state/case/case_steps';
 import { BuildStep } from './build_step';
 import { Remark } from '../common/fields';
 import { JobProgress } from './job_progress';
@@ -28,60 +29,21 @@ export function StepsPanel({ keeper, startReaming }: Parts) {
     landmarks: keeper.landmarks.landmarks.value,
     planBeforeLandmarks: store.planBeforeLandmarks.value,
   });
-  const content: Record<StepName, () => preact.ComponentChildren> = {
+  const content: Record<StepName, () => ComponentChildren> = {
     segment: () => <SegmentStep keeper={keeper} />,
     landmarks: () => <LandmarksStep keeper={keeper} />,
     plan: () => <PlanStep keeper={keeper} wishes={wishes} />,
     build: () => <BuildStep keeper={keeper} />,
     ream: () => <ReamStep {...{ keeper, states, startReaming }} />,
   };
-  const job = store.job.value;
-  if (!keeper.mayEdit)
-    return (
-      <aside class="steps">
-        <Problem keeper={keeper} />
-        <section class="step open" data-testid="step-ream">
-          <h2 class="step-title">{caseText.steps.ream}</h2>
-          <div class="step-body">
-            {content.ream()}
-            <MeasuresPanel keeper={keeper.landmarks} />
-          </div>
-        </section>
-      </aside>
-    );
+  if (!keeper.mayEdit) return <OnlyReaming keeper={keeper}>{content.ream()}</OnlyReaming>;
   return (
     <aside class="steps">
       <Problem keeper={keeper} />
-      {job !== null && job.state !== 'done' && (
-        <JobProgress
-          job={job}
-          silent={store.jobSilent.value}
-          onCancel={() => void keeper.cancelJob()}
-          onDismiss={() => (store.job.value = null)}
-        />
-      )}
-      {stepNames.map((name, i) => {
-        const open = store.openStep.value === name;
-        return (
-          <section
-            key={name}
-            class={open ? 'step open' : 'step'}
-            data-testid={`step-${name}`}
-            data-state={states[name]}
-          >
-            <h2>
-              <button type="button" aria-expanded={open} onClick={() => openStep(keeper, open ? null : name)}>
-                <span class="step-number" aria-hidden="true">
-                  {states[name] === 'done' ? '✓' : i + 1}
-                </span>
-                {caseText.steps[name]}
-                <span class={`step-state step-${states[name]}`}>{caseText.stepStates[states[name]]}</span>
-              </button>
-            </h2>
-            {open && <div class="step-body">{content[name]()}</div>}
-          </section>
-        );
-      })}
+      <Work keeper={keeper} />
+      {stepNames.map((name, i) => (
+        <Step key={name} {...{ keeper, name, number: i + 1, state: states[name], content: content[name] }} />
+      ))}
       {details.warnings.length > 0 && (
         <details class="case-warnings">
           <summary>{caseText.warnings}</summary>
@@ -93,6 +55,63 @@ export function StepsPanel({ keeper, startReaming }: Parts) {
         </details>
       )}
     </aside>
+  );
+}
+
+/** What is left of the steps for who may not change the case. */
+function OnlyReaming({ keeper, children }: { keeper: CaseController; children: ComponentChildren }) {
+  return (
+    <aside class="steps">
+      <Problem keeper={keeper} />
+      <section class="step open" data-testid="step-ream">
+        <h2 class="step-title">{caseText.steps.ream}</h2>
+        <div class="step-body">
+          {children}
+          <MeasuresPanel keeper={keeper.landmarks} />
+        </div>
+      </section>
+    </aside>
+  );
+}
+
+/** The server's work on the case, until it is done. */
+function Work({ keeper }: { keeper: CaseController }) {
+  const { store } = keeper;
+  const job = store.job.value;
+  if (job === null || job.state === 'done') return null;
+  return (
+    <JobProgress
+      job={job}
+      silent={store.jobSilent.value}
+      onCancel={() => void keeper.cancelJob()}
+      onDismiss={() => (store.job.value = null)}
+    />
+  );
+}
+
+interface StepParts {
+  keeper: CaseController;
+  name: StepName;
+  number: number;
+  state: StepState;
+  content: () => ComponentChildren;
+}
+
+function Step({ keeper, name, number, state, content }: StepParts) {
+  const open = keeper.store.openStep.value === name;
+  return (
+    <section class={open ? 'step open' : 'step'} data-testid={`step-${name}`} data-state={state}>
+      <h2>
+        <button type="button" aria-expanded={open} onClick={() => openStep(keeper, open ? null : name)}>
+          <span class="step-number" aria-hidden="true">
+            {state === 'done' ? '✓' : number}
+          </span>
+          {caseText.steps[name]}
+          <span class={`step-state step-${state}`}>{caseText.stepStates[state]}</span>
+        </button>
+      </h2>
+      {open && <div class="step-body">{content()}</div>}
+    </section>
   );
 }
 

@@ -1,6 +1,7 @@
 import { useSignal } from '@preact/signals';
 
 import { useFocusAfter } from './focus_after';
+import { Button } from './button';
 
 interface Parts {
   /** On the button that asks. */
@@ -55,9 +56,7 @@ export function ConfirmButton({ label, describe, question, yes, no, testId, disa
       >
         {yes}
       </button>
-      <button type="button" class="plain-button" onClick={() => (asking.value = false)}>
-        {no}
-      </button>
+      <Button onClick={() => (asking.value = false)}>{no}</Button>
     </span>
   );
 }

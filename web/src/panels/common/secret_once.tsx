@@ -1,6 +1,7 @@
 import { useSignal } from '@preact/signals';
 
 import { accessText } from '../../text/access_text';
+import { Button } from './button';
 
 /** A secret that is shown once, to be copied. */
 export function SecretOnce({ label, text, testId }: { label: string; text: string; testId: string }) {
@@ -22,9 +23,9 @@ export function SecretOnce({ label, text, testId }: { label: string; text: strin
         value={text}
         onFocus={(event) => event.currentTarget.select()}
       />
-      <button type="button" class="plain-button" onClick={() => void copy()}>
+      <Button onClick={() => void copy()}>
         {copied.value === null ? accessText.copy : copied.value ? accessText.copied : accessText.notCopied}
-      </button>
+      </Button>
     </div>
   );
 }

@@ -2,6 +2,7 @@ import { createContext } from 'preact';
 import { useContext } from 'preact/hooks';
 
 import type { Identity } from '../../state/identity';
+import type { Permissions } from '../../state/permissions';
 import { addressOfRoute, type Route } from '../../state/route';
 import { appText } from '../../text/app_text';
 import { ThemeButton } from './theme_button';
@@ -15,10 +16,7 @@ export function useIdentity(): Identity {
   return identity;
 }
 
-/** The ways to the pages that the user may see. */
-export function SiteNav({ here }: { here: Route['kind'] }) {
-  const identity = useIdentity();
-  const may = identity.may.value;
+function waysFor(may: Permissions): (readonly [Route, string])[] {
   const ways: readonly (readonly [Route, string, boolean])[] = [
     [{ kind: 'dashboard' }, appText.dashboard, may.ream],
     [{ kind: 'live' }, appText.live, true],
@@ -27,7 +25,12 @@ export function SiteNav({ here }: { here: Route['kind'] }) {
     [{ kind: 'studies' }, appText.studies, may.takePart],
     [{ kind: 'users' }, appText.users, may.operate],
   ];
-  const shown = ways.filter(([, , offered]) => offered);
+  return ways.flatMap(([route, text, offered]) => (offered ? [[route, text] as const] : []));
+}
+
+/** The ways to the pages that the user may see. */
+export function SiteNav({ here }: { here: Route['kind'] }) {
+  const shown = waysFor(useIdentity().may.value);
   if (shown.length < 2) return null;
   return (
     <nav class="ways" aria-label={appText.pages}>

@@ -10,6 +10,7 @@ import { dayAndTime, fixed } from '../../text/format';
 import { Remark } from '../common/fields';
 import { whoOf } from './live_tile';
 import { OutcomeMark } from './outcome_mark';
+import { Button } from '../common/button';
 
 const shownAtMost = 8;
 
@@ -97,15 +98,13 @@ function Row({ session, replay }: { session: Session; replay: () => Promise<unkn
       </td>
       <td class="deeds">
         {canBeReplayed(session) && (
-          <button
-            type="button"
-            class="plain-button"
-            data-testid={`recent-replay-${session.id}`}
-            aria-label={appText.replaySession(session.id)}
+          <Button
+            testId={`recent-replay-${session.id}`}
+            label={appText.replaySession(session.id)}
             onClick={() => void replay()}
           >
             {dashboardText.replay}
-          </button>
+          </Button>
         )}
       </td>
     </tr>

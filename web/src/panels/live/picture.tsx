@@ -13,6 +13,7 @@ import { LinkNotice } from './link_notice';
 import { PracticeNotice } from './practice_notice';
 import { useIdentity } from '../common/site_nav';
 import { ViewTools } from '../picture/view_tools';
+import { Button } from '../common/button';
 
 interface Parts {
   store: Store;
@@ -82,9 +83,7 @@ function PictureLost({ steering }: { steering: boolean }) {
       <p>
         {appText.pictureLost} {steering && appText.pictureLostSteering}
       </p>
-      <button type="button" class="plain-button" onClick={() => window.location.reload()}>
-        {appText.reload}
-      </button>
+      <Button onClick={() => window.location.reload()}>{appText.reload}</Button>
     </div>
   );
 }

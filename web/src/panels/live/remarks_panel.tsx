@@ -9,6 +9,8 @@ import type { Store } from '../../state/store';
 import { minutes } from '../../text/format';
 import { useLiveKeys } from '../picture/live_keys';
 import { useIdentity } from '../common/site_nav';
+import { Button } from '../common/button';
+import type { Annotation } from '../../wire/rest_types';
 
 /** More are on the session's review. */
 const shownMost = 5;
@@ -30,6 +32,14 @@ export function RemarksPanel({ store, remarks }: { store: Store; remarks: LiveRe
           {remarks.problem.value}
         </p>
       )}
+      <NewestRemarks all={all} />
+    </section>
+  );
+}
+
+function NewestRemarks({ all }: { all: readonly Annotation[] }) {
+  return (
+    <>
       <ol data-testid="remarks">
         {all.slice(0, shownMost).map((remark, i) => (
           <li key={all.length - i}>
@@ -39,7 +49,7 @@ export function RemarksPanel({ store, remarks }: { store: Store; remarks: LiveRe
         ))}
       </ol>
       {all.length > shownMost && <p class="soft">{liveText.moreRemarks(all.length - shownMost)}</p>}
-    </section>
+    </>
   );
 }
 
@@ -73,14 +83,14 @@ function NewRemark({ remarks }: { remarks: LiveRemarks }) {
           if (event.key === 'Escape') event.currentTarget.blur();
         }}
       />
-      <button
-        type="submit"
-        class="plain-button"
-        data-testid="keep-live-remark"
+      <Button
+        submit
+
+        testId="keep-live-remark"
         disabled={remarks.busy.value || text.value.trim() === ''}
       >
         {at === null ? liveText.keepRemark : liveText.keepRemarkAt(minutes(at))}
-      </button>
+      </Button>
     </form>
   );
 }

@@ -8,6 +8,7 @@ import { appText } from '../../text/app_text';
 import { useFocusAfter } from '../common/focus_after';
 import { lazyPart } from '../common/lazy_part';
 import { useIdentity } from '../common/site_nav';
+import { Button } from '../common/button';
 
 const sharing = lazyPart(() => import('../access/share_panel'));
 
@@ -48,9 +49,7 @@ export function SessionControls({ store, watcher, practice, practiceStore }: Par
         >
           {appText.resetYes}
         </button>
-        <button type="button" class="plain-button" onClick={() => (asking.value = false)}>
-          {appText.no}
-        </button>
+        <Button onClick={() => (asking.value = false)}>{appText.no}</Button>
       </p>
     );
   const mayShare = identity.may.value.teach && identity.hasUsers.value;
@@ -59,15 +58,9 @@ export function SessionControls({ store, watcher, practice, practiceStore }: Par
   return (
     <div class="session-controls">
       {(store.sessionState.value === 'running' || held) && (
-        <button
-          type="button"
-          class="plain-button"
-          data-testid="pause-session"
-          disabled={busy}
-          onClick={() => void watcher.pause(!held)}
-        >
+        <Button testId="pause-session" disabled={busy} onClick={() => void watcher.pause(!held)}>
           {held ? appText.goOn : appText.pauseSession}
-        </button>
+        </Button>
       )}
       {store.sessionState.value !== 'created' && (
         <button
@@ -83,9 +76,9 @@ export function SessionControls({ store, watcher, practice, practiceStore }: Par
         </button>
       )}
       {mayShare && (
-        <button type="button" class="plain-button" data-testid="share" onClick={() => (shared.value = details.id)}>
+        <Button testId="share" onClick={() => (shared.value = details.id)}>
           {appText.share}
-        </button>
+        </Button>
       )}
     </div>
   );

@@ -2,18 +2,15 @@ import { addressOfRoute } from '../../state/route';
 import type { Store } from '../../state/store';
 import { appText } from '../../text/app_text';
 import { useIdentity } from '../common/site_nav';
+import type { Session } from '../../wire/rest_types';
 
 /** Whose session it is, what it is called, and what is left to do after one of a study. */
 export function SessionLabels({ store }: { store: Store }) {
   const identity = useIdentity();
   const details = store.details.value;
   if (details === null || details.id !== store.sessionId.value) return null;
-  const { title, trainee, participant, study, attempt = 1 } = details;
-  const said = [
-    title ? appText.titled(title) : '',
-    trainee || participant ? appText.trainedBy(trainee || participant || '') : '',
-    attempt > 1 ? appText.attempt(attempt) : '',
-  ].filter((text) => text !== '');
+  const { participant, study } = details;
+  const said = labelsOf(details);
   const ended = !store.active.value && details.state !== 'created';
   const answers = identity.may.value.takePart && ended && study && participant;
   if (said.length === 0 && !answers) return null;
@@ -32,4 +29,13 @@ export function SessionLabels({ store }: { store: Store }) {
       )}
     </>
   );
+}
+
+function labelsOf({ title, trainee, participant, attempt }: Session): string[] {
+  const labels = [
+    title ? appText.titled(title) : '',
+    trainee || participant ? appText.trainedBy(trainee || participant || '') : '',
+    attempt > 1 ? appText.attempt(attempt) : '',
+  ];
+  return labels.filter((text) => text !== '');
 }

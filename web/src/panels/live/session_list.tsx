@@ -32,18 +32,7 @@ export function SessionList({ store, watcher }: { store: Store; watcher: Watcher
 function Row({ session, store, watcher }: RowParts) {
   return (
     <li data-testid={`session-${session.id}`} data-state={session.state}>
-      {canBeReplayed(session) ? (
-        <a
-          class="session-when"
-          data-testid={`review-${session.id}`}
-          title={appText.reviewSession(session.id)}
-          href={addressOfRoute({ kind: 'review', id: session.id, beside: null })}
-        >
-          {dayAndTime(session.created_utc)}
-        </a>
-      ) : (
-        <span class="session-when">{dayAndTime(session.created_utc)}</span>
-      )}
+      <When session={session} />
       <span>
         {session.trainee || session.case} <span class="soft">{minutes(session.duration_s)}</span>
       </span>
@@ -54,6 +43,22 @@ function Row({ session, store, watcher }: RowParts) {
         <ReplayButton session={session} store={store} watcher={watcher} />
       )}
     </li>
+  );
+}
+
+/** When it was made; the way to its review where there is one. */
+function When({ session }: { session: Session }) {
+  const when = dayAndTime(session.created_utc);
+  if (!canBeReplayed(session)) return <span class="session-when">{when}</span>;
+  return (
+    <a
+      class="session-when"
+      data-testid={`review-${session.id}`}
+      title={appText.reviewSession(session.id)}
+      href={addressOfRoute({ kind: 'review', id: session.id, beside: null })}
+    >
+      {when}
+    </a>
   );
 }
 

@@ -13,10 +13,7 @@ export function HeadsetButton({ headset, putOn }: { headset: Headset; putOn: () 
         data-testid="headset"
         aria-pressed={worn}
         title={liveText.headsetHint}
-        onClick={() => {
-          if (worn) void headset.takeOff();
-          else putOn();
-        }}
+        onClick={() => (worn ? void headset.takeOff() : putOn())}
       >
         {worn ? liveText.headsetOff : liveText.headset}
       </button>

@@ -41,15 +41,21 @@ export function ViewTools({ scene, view, reamerShown, children }: Parts) {
       <SceneTools view={view} />
       {children}
       <HeadsetButton headset={scene.headset} putOn={() => scene.putOnHeadset()} />
-      <label>
-        <input
-          type="checkbox"
-          data-testid="show-reamer"
-          checked={reamerShown.value}
-          onChange={(event) => (reamerShown.value = event.currentTarget.checked)}
-        />
-        {appText.showReamer}
-      </label>
+      <ReamerChoice shown={reamerShown} />
     </div>
+  );
+}
+
+function ReamerChoice({ shown }: { shown: Signal<boolean> }) {
+  return (
+    <label>
+      <input
+        type="checkbox"
+        data-testid="show-reamer"
+        checked={shown.value}
+        onChange={(event) => (shown.value = event.currentTarget.checked)}
+      />
+      {appText.showReamer}
+    </label>
   );
 }

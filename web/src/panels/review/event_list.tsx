@@ -8,6 +8,7 @@ import { appText } from '../../text/app_text';
 import { Remark } from '../common/fields';
 import { minutes } from '../../text/format';
 import { useIdentity } from '../common/site_nav';
+import { Button } from '../common/button';
 
 /** What happened, to be gone to one by one; and the present moment's remark. */
 export function EventList({ session }: { session: ReviewSession }) {
@@ -80,14 +81,14 @@ function NewRemark({ session }: { session: ReviewSession }) {
         value={text.value}
         onInput={(event) => (text.value = event.currentTarget.value)}
       />
-      <button
-        type="submit"
-        class="plain-button"
-        data-testid="add-remark"
+      <Button
+        submit
+
+        testId="add-remark"
         disabled={busy.value || text.value.trim() === ''}
       >
         {reviewText.addRemark}
-      </button>
+      </Button>
       {problem.value !== null && <Remark kind="bad">{problem.value}</Remark>}
     </form>
   );

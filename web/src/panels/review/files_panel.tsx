@@ -8,6 +8,7 @@ import { Remark } from '../common/fields';
 import { fixed, sentence } from '../../text/format';
 import { lazyPart } from '../common/lazy_part';
 import { useIdentity } from '../common/site_nav';
+import { Button } from '../common/button';
 
 const sharing = lazyPart(() => import('../access/share_panel'));
 
@@ -73,17 +74,10 @@ function ExportButton({ session, review, format }: ExportParts) {
   };
   return (
     <>
-      <button
-        type="button"
-        class="plain-button"
-        data-testid={`export-${format}`}
-        title={hint}
-        disabled={share.value !== null}
-        onClick={() => void make()}
-      >
+      <Button testId={`export-${format}`} title={hint} disabled={share.value !== null} onClick={() => void make()}>
         {label}
         {share.value !== null && <span role="status"> {reviewText.making(fixed(share.value * 100, 0))}</span>}
-      </button>
+      </Button>
       {problem.value !== null && (
         <Remark kind="bad" testId={`export-problem-${format}`}>
           {problem.value}
@@ -121,14 +115,8 @@ function Sharing({ session, mayShare, open }: { session: ReviewSession; mayShare
       <SharePanel session={session.id} review onClose={() => (shown.value = false)} />
     ));
   return (
-    <button
-      type="button"
-      class="plain-button"
-      data-testid="share-review"
-      title={reviewText.linkHint}
-      onClick={() => (shown.value = true)}
-    >
+    <Button testId="share-review" title={reviewText.linkHint} onClick={() => (shown.value = true)}>
       {reviewText.shareHere}
-    </button>
+    </Button>
   );
 }

@@ -1,4 +1,6 @@
-import type { ReviewWorkspace } from './review_workspace';
+import type { Signal } from '@preact/signals';
+
+import type { Pane, ReviewWorkspace } from './review_workspace';
 import { reviewText } from '../../text/review_text';
 import {
   deviationClasses,
@@ -17,95 +19,117 @@ const scales = Object.keys(scaleBoundsMm) as ScaleName[];
 
 /** What the colours of the maps mean, and how much of each surface has which. */
 export function MapPanel({ desk }: { desk: ReviewWorkspace }) {
-  const { settings } = desk;
   const panes = desk.panes.value;
-  const wanted = panes
-    .map(({ session }) => session.map.state.value)
-    .flatMap((state) => (state.kind === 'making' || state.kind === 'ready' ? [state.name] : []));
+  const wanted = panes.flatMap(({ session }) => wantedMap(session.map.state.value) ?? []);
   if (wanted.length === 0) return null;
-  const scale = settings.scale.value;
-  const ready = panes.map(({ session }) => readyMap(session.map.state.value, scale));
+  const scale = desk.settings.scale.value;
+  const maps = panes.map(({ session }) => readyMap(session.map.state.value, scale));
   return (
     <section class="review-panel map-panel" aria-labelledby="map-title" data-testid="map-panel">
       <div class="panel-head">
         <h2 id="map-title">{reviewText.map}</h2>
-        <label>
-          {reviewText.scale}{' '}
-          <select
-            data-testid="map-scale"
-            onChange={(event) => (settings.scale.value = event.currentTarget.value as ScaleName)}
-          >
-            {scales.map((name) => (
-              <option key={name} value={name} selected={name === scale}>
-                {reviewText.scaleName[name]}
-              </option>
-            ))}
-          </select>
-        </label>
+        <ScaleChoice scale={desk.settings.scale} />
       </div>
       {[...new Set<MapName>(wanted)].map((name) => (
         <p key={name} class="soft">
           <strong>{reviewText.mapName[name]}.</strong> {reviewText.mapCaption[name]}
         </p>
       ))}
-      <table class="legend" data-testid="legend">
-        {panes.length > 1 && (
-          <thead>
-            <tr>
-              <td />
-              {panes.map((_, i) => (
-                <th key={i} scope="col">
-                  <span class="pane-number">{i + 1}</span>
-                </th>
-              ))}
-            </tr>
-          </thead>
-        )}
-        <tbody>
-          {[...deviationClasses(scale)].reverse().map((each, i, all) => (
-            <tr key={i}>
-              <th scope="row">
-                <Swatch colour={each.colour} hatched={each.hatched} />
-                {classWords(each)}
-                {each.hatched && <span class="visually-hidden"> {reviewText.hatched}</span>}
-              </th>
-              {ready.map((map, pane) => (
-                <td key={pane} class="number" title={reviewText.shareHint}>
-                  {map === null ? '' : reviewText.share(fixed((map.classes[all.length - 1 - i] ?? 0) * 100, 1))}
-                </td>
-              ))}
-            </tr>
-          ))}
+      <Legend scale={scale} maps={maps} />
+      {panes.map((pane, i) => (
+        <SurfaceFacts key={pane.session.id + String(i)} pane={pane} map={maps[i] ?? null} place={i} of={panes.length} />
+      ))}
+    </section>
+  );
+}
+
+function ScaleChoice({ scale }: { scale: Signal<ScaleName> }) {
+  return (
+    <label>
+      {reviewText.scale}{' '}
+      <select data-testid="map-scale" onChange={(event) => (scale.value = event.currentTarget.value as ScaleName)}>
+        {scales.map((name) => (
+          <option key={name} value={name} selected={name === scale.value}>
+            {reviewText.scaleName[name]}
+          </option>
+        ))}
+      </select>
+    </label>
+  );
+}
+
+const wantedMap = (state: MapState): MapName | null =>
+  state.kind === 'making' || state.kind === 'ready' ? state.name : null;
+
+type ReadyMap = ReturnType<typeof readyMap>;
+
+/** The classes of deviation from the proudest down, and the share of each surface that lies in them. */
+function Legend({ scale, maps }: { scale: ScaleName; maps: readonly ReadyMap[] }) {
+  return (
+    <table class="legend" data-testid="legend">
+      {maps.length > 1 && (
+        <thead>
           <tr>
-            <th scope="row">
-              <Swatch colour={unknownColour} hatched={false} />
-              {reviewText.classUnknown}
-            </th>
-            {ready.map((_, pane) => (
-              <td key={pane} />
+            <td />
+            {maps.map((_, i) => (
+              <th key={i} scope="col">
+                <span class="pane-number">{i + 1}</span>
+              </th>
             ))}
           </tr>
-        </tbody>
-      </table>
-      {panes.map(({ session }, i) => {
-        const { breached, words } = breachText(session.score.value.value);
-        const map = ready[i];
-        return (
-          <div key={session.id + String(i)} class="map-facts">
-            <p class={breached === true ? 'breach breach-bad' : 'breach'} data-testid={`breach-${i}`}>
-              {panes.length > 1 && <span class="pane-number">{i + 1}</span>}
-              <span aria-hidden="true">{breached === true ? '⬣ ' : breached === null ? '? ' : '● '}</span>
-              <strong>{reviewText.breach}:</strong> {words}
-            </p>
-            {map !== null && map !== undefined && map.beyondRange > 0 && (
-              <p class="soft">
-                {reviewText.outOfRange(fixed(map.rangeMm, 1), fixed((map.beyondRange / map.known) * 100, 1))}
-              </p>
-            )}
-          </div>
-        );
-      })}
-    </section>
+        </thead>
+      )}
+      <tbody>
+        {[...deviationClasses(scale)].reverse().map((each, i, all) => (
+          <ClassRow key={i} of={each} shares={maps.map((map) => map && (map.classes[all.length - 1 - i] ?? 0))} />
+        ))}
+        <tr>
+          <th scope="row">
+            <Swatch colour={unknownColour} hatched={false} />
+            {reviewText.classUnknown}
+          </th>
+          {maps.map((_, pane) => (
+            <td key={pane} />
+          ))}
+        </tr>
+      </tbody>
+    </table>
+  );
+}
+
+function ClassRow({ of, shares }: { of: DeviationClass; shares: readonly (number | null)[] }) {
+  return (
+    <tr>
+      <th scope="row">
+        <Swatch colour={of.colour} hatched={of.hatched} />
+        {classWords(of)}
+        {of.hatched && <span class="visually-hidden"> {reviewText.hatched}</span>}
+      </th>
+      {shares.map((share, pane) => (
+        <td key={pane} class="number" title={reviewText.shareHint}>
+          {share === null ? '' : reviewText.share(fixed(share * 100, 1))}
+        </td>
+      ))}
+    </tr>
+  );
+}
+
+/** Of one surface: whether pegs would breach the vault, and what is beyond the map's range. */
+function SurfaceFacts({ pane, map, place, of }: { pane: Pane; map: ReadyMap; place: number; of: number }) {
+  const { breached, words } = breachText(pane.session.score.value.value);
+  return (
+    <div class="map-facts">
+      <p class={breached === true ? 'breach breach-bad' : 'breach'} data-testid={`breach-${place}`}>
+        {of > 1 && <span class="pane-number">{place + 1}</span>}
+        <span aria-hidden="true">{breached === true ? '⬣ ' : breached === null ? '? ' : '● '}</span>
+        <strong>{reviewText.breach}:</strong> {words}
+      </p>
+      {map !== null && map.beyondRange > 0 && (
+        <p class="soft">
+          {reviewText.outOfRange(fixed(map.rangeMm, 1), fixed((map.beyondRange / map.known) * 100, 1))}
+        </p>
+      )}
+    </div>
   );
 }
 

@@ -4,6 +4,7 @@ import { reviewText } from '../../text/review_text';
 import { depthMm, measured } from '../../state/review/measuring';
 import type { MeasuredPlace } from '../../state/review/review_session';
 import { fixed } from '../../text/format';
+import { Button } from '../common/button';
 
 /** What was measured on each session, and how to. */
 export function MeasurePanel({ desk }: { desk: ReviewWorkspace }) {
@@ -52,14 +53,9 @@ function Measures({ pane, number, measuring }: { pane: Pane; number: number | nu
       )}
       {measuring && step !== '' && <p class="soft">{step}</p>}
       {places.length > 0 && (
-        <button
-          type="button"
-          class="plain-button"
-          data-testid="clear-measure"
-          onClick={() => (session.places.value = [])}
-        >
+        <Button testId="clear-measure" onClick={() => (session.places.value = [])}>
           {reviewText.measureClear}
-        </button>
+        </Button>
       )}
     </div>
   );

@@ -13,6 +13,7 @@ import { ProblemBanner } from '../common/problem_banner';
 import { EventList } from './event_list';
 import { MomentBar } from './moment_bar';
 import { ThrustChart } from './thrust_chart';
+import { Button } from '../common/button';
 
 const slices = lazyPart(() => import('../picture/live_slices'));
 
@@ -153,9 +154,7 @@ function TroubleNotice({ session }: { session: ReviewSession }) {
       <p class="notice-title">{trouble.title}</p>
       <p>{trouble.text}</p>
       <p class="notice-deeds">
-        <button type="button" class="plain-button" onClick={() => session.tryAgain()}>
-          {reviewText.tryAgain}
-        </button>
+        <Button onClick={() => session.tryAgain()}>{reviewText.tryAgain}</Button>
         <a href={addressOfRoute(away ? { kind: 'live' } : { kind: 'sessions' })}>
           {away ? reviewText.toLive : reviewText.toSessions}
         </a>

@@ -94,20 +94,25 @@ function Metrics({ scores, first, pointed }: MetricsParts) {
         <summary data-testid="measured-too">{reviewText.measuredToo(measured.length)}</summary>
         <MetricTable {...parts} title={reviewText.measuredToo(measured.length)} metrics={measured} />
       </details>
-      {unsaid.length > 0 && (
-        <details>
-          <summary data-testid="unsaid">{reviewText.unsaid(unsaid.length)}</summary>
-          <dl class="unsaid-list">
-            {unsaid.map((metric) => (
-              <div key={metric.metric}>
-                <dt>{metric.name}</dt>
-                <dd>{sentence(metric.missing ?? '')}</dd>
-              </div>
-            ))}
-          </dl>
-        </details>
-      )}
+      {unsaid.length > 0 && <MissingMetrics metrics={unsaid} />}
     </>
+  );
+}
+
+/** What has no value, and why. */
+function MissingMetrics({ metrics }: { metrics: readonly ScoredMetric[] }) {
+  return (
+    <details>
+      <summary data-testid="unsaid">{reviewText.unsaid(metrics.length)}</summary>
+      <dl class="unsaid-list">
+        {metrics.map((metric) => (
+          <div key={metric.metric}>
+            <dt>{metric.name}</dt>
+            <dd>{sentence(metric.missing ?? '')}</dd>
+          </div>
+        ))}
+      </dl>
+    </details>
   );
 }
 

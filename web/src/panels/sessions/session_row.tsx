@@ -10,6 +10,7 @@ import { dayAndTime, minutes } from '../../text/format';
 import { useFocusAfter } from '../common/focus_after';
 import { ConfirmButton } from '../common/confirm_dialog';
 import { useIdentity } from '../common/site_nav';
+import { Button } from '../common/button';
 
 interface Parts {
   session: Session;
@@ -40,15 +41,13 @@ export function SessionRow({ session, browser, watch, replay }: Parts) {
       <td class="number">{minutes(session.duration_s)}</td>
       <td class="deeds">
         {live && session.streamable && (
-          <button
-            type="button"
-            class="plain-button"
-            data-testid={`watch-${session.id}`}
-            aria-label={appText.watchSession(session.id)}
+          <Button
+            testId={`watch-${session.id}`}
+            label={appText.watchSession(session.id)}
             onClick={() => watch(session)}
           >
             {sessionText.watch}
-          </button>
+          </Button>
         )}
         {canBeReplayed(session) && (
           <a
@@ -61,15 +60,13 @@ export function SessionRow({ session, browser, watch, replay }: Parts) {
           </a>
         )}
         {canBeReplayed(session) && (
-          <button
-            type="button"
-            class="plain-button"
-            data-testid={`replay-${session.id}`}
-            aria-label={appText.replaySession(session.id)}
+          <Button
+            testId={`replay-${session.id}`}
+            label={appText.replaySession(session.id)}
             onClick={() => replay(session)}
           >
             {sessionText.replay}
-          </button>
+          </Button>
         )}
         {may.deleteSessions && !live && (
           <ConfirmButton
@@ -123,12 +120,10 @@ function Title({ session, browser }: Pick<Parts, 'session' | 'browser'>) {
           if (event.key === 'Escape') draft.value = null;
         }}
       />
-      <button type="submit" class="plain-button" data-testid={`save-title-${session.id}`}>
+      <Button submit testId={`save-title-${session.id}`}>
         {sessionText.save}
-      </button>
-      <button type="button" class="plain-button" onClick={() => (draft.value = null)}>
-        {sessionText.cancel}
-      </button>
+      </Button>
+      <Button onClick={() => (draft.value = null)}>{sessionText.cancel}</Button>
     </form>
   );
 }

@@ -1,14 +1,16 @@
-import { useSignal } from '@preact/signals';
-import { useEffect, useMemo } from 'preact/hooks';
+import { type Signal, useSignal } from '@preact/signals';
 
-import { Remote } from '../../state/remote';
+import type { Remote } from '../../state/remote';
 import { studyText } from '../../text/study_text';
 import { AccessApi } from '../../wire/access_api';
 import type { StudyApi } from '../../wire/study_api';
 import type { NewParticipant, Participant, Study } from '../../wire/rest_types';
 import { Remark } from '../common/fields';
+import { Choice, TextLine } from '../common/form_fields';
+import { useRemote } from '../common/use_remote';
 import { useIdentity } from '../common/site_nav';
 import { type Background, ExperienceFields } from './experience_fields';
+import { Button } from '../common/button';
 
 interface Parts {
   api: StudyApi;
@@ -17,32 +19,29 @@ interface Parts {
 }
 
 const guest = '-';
+const nobodys: Background = { experience: null, proceduresDone: 0 };
+
+interface Person {
+  /** A user's id, `guest`, or empty. */
+  who: string;
+  guestName: string;
+}
 
 /** Enrolling somebody; only operators may say who it is. */
 export function EnrolPanel({ api, study, participants }: Parts) {
   const identity = useIdentity();
-  const operate = identity.may.value.operate;
-  const users = useMemo(() => new Remote(() => new AccessApi(window.location.origin).users()), []);
-  useEffect(() => {
-    if (operate && identity.hasUsers.value) void users.read();
-  }, [users, operate]);
-  const background = useSignal<Background>({ experience: null, proceduresDone: 0 });
-  const who = useSignal('');
-  const name = useSignal('');
+  const background = useSignal<Background>(nobodys);
+  const person = useSignal<Person>({ who: '', guestName: '' });
   const made = useSignal<string | null>(null);
   const enrol = async (event: Event) => {
     event.preventDefault();
-    const { experience, proceduresDone } = background.value;
-    if (experience === null) return;
-    const wanted: NewParticipant = { experience, procedures_done: proceduresDone };
-    if (who.value === guest) wanted.name = name.value.trim();
-    else if (who.value !== '') wanted.user_id = who.value;
+    const wanted = newParticipant(background.value, person.value);
+    if (wanted === null) return;
     const participant = await participants.act(() => api.enrol(study.id, wanted));
     if (participant === null) return;
     made.value = participant.code;
-    who.value = '';
-    name.value = '';
-    background.value = { experience: null, proceduresDone: 0 };
+    person.value = { who: '', guestName: '' };
+    background.value = nobodys;
   };
   return (
     <section class="desk-panel" aria-labelledby="enrol-title">
@@ -53,41 +52,11 @@ export function EnrolPanel({ api, study, participants }: Parts) {
         </p>
       )}
       <form class="desk-form" onSubmit={(event) => void enrol(event)}>
-        {operate && (
-          <label>
-            {studyText.enrolPerson}
-            <select
-              data-testid="enrol-who"
-              value={who.value}
-              onChange={(event) => (who.value = event.currentTarget.value)}
-            >
-              <option value="">{studyText.enrolNobody}</option>
-              <option value={guest}>{studyText.enrolGuest}</option>
-              {users.value.value?.map((user) => (
-                <option key={user.id} value={user.id}>
-                  {user.display_name || user.name}
-                </option>
-              ))}
-            </select>
-          </label>
-        )}
-        {who.value === guest && (
-          <label>
-            {studyText.guestName}
-            <input
-              type="text"
-              required
-              maxLength={200}
-              data-testid="enrol-name"
-              value={name.value}
-              onInput={(event) => (name.value = event.currentTarget.value)}
-            />
-          </label>
-        )}
+        <PersonFields person={person} />
         <ExperienceFields background={background} />
-        <button type="submit" class="main-button" data-testid="enrol" disabled={participants.busy.value}>
+        <Button submit look="main" testId="enrol" disabled={participants.busy.value}>
           {studyText.enrolButton}
-        </button>
+        </Button>
       </form>
       {made.value !== null && (
         <div role="status">
@@ -97,5 +66,39 @@ export function EnrolPanel({ api, study, participants }: Parts) {
         </div>
       )}
     </section>
+  );
+}
+
+/** Null while it is not known how experienced they are. */
+function newParticipant({ experience, proceduresDone }: Background, person: Person): NewParticipant | null {
+  if (experience === null) return null;
+  const wanted = { experience, procedures_done: proceduresDone };
+  if (person.who === guest) return { ...wanted, name: person.guestName.trim() };
+  return person.who === '' ? wanted : { ...wanted, user_id: person.who };
+}
+
+/** Who it is: nobody in particular, a user, or a guest by name. */
+function PersonFields({ person }: { person: Signal<Person> }) {
+  const identity = useIdentity();
+  const operate = identity.may.value.operate;
+  const users = useRemote(() => new AccessApi(window.location.origin).users(), operate && identity.hasUsers.value);
+  const { who, guestName } = person.value;
+  const known = users.value.value?.map((user) => [user.id, user.display_name || user.name] as const) ?? [];
+  return (
+    <>
+      {operate && (
+        <Choice
+          {...{ label: studyText.enrolPerson, testId: 'enrol-who', value: who }}
+          options={[['', studyText.enrolNobody], [guest, studyText.enrolGuest], ...known]}
+          onChange={(chosen) => (person.value = { who: chosen, guestName })}
+        />
+      )}
+      {who === guest && (
+        <TextLine
+          {...{ label: studyText.guestName, testId: 'enrol-name', required: true, maxLength: 200, value: guestName }}
+          onInput={(name) => (person.value = { who, guestName: name })}
+        />
+      )}
+    </>
   );
 }

@@ -2,6 +2,7 @@ import type { Signal } from '@preact/signals';
 
 import { studyText } from '../../text/study_text';
 import { type Experience, experiences } from '../../wire/rest_types';
+import { Choice, Count } from '../common/form_fields';
 
 export interface Background {
   experience: Experience | null;
@@ -13,37 +14,17 @@ export function ExperienceFields({ background }: { background: Signal<Background
   const set = (change: Partial<Background>) => (background.value = { ...background.value, ...change });
   return (
     <>
-      <label>
-        {studyText.experience}
-        <select
-          required
-          data-testid="experience"
-          value={background.value.experience ?? ''}
-          onChange={(event) =>
-            set({ experience: experiences.find((one) => one === event.currentTarget.value) ?? null })
-          }
-        >
-          <option value="" />
-          {experiences.map((level) => (
-            <option key={level} value={level}>
-              {studyText.experienceNames[level]}
-            </option>
-          ))}
-        </select>
-      </label>
-      <label>
-        {studyText.procedures}
-        <input
-          type="number"
-          min={0}
-          max={100000}
-          step={1}
-          required
-          data-testid="procedures"
-          value={background.value.proceduresDone}
-          onChange={(event) => set({ proceduresDone: event.currentTarget.valueAsNumber })}
-        />
-      </label>
+      <Choice
+        {...{ label: studyText.experience, testId: 'experience', required: true }}
+        value={background.value.experience ?? ''}
+        options={[['', ''], ...experiences.map((level) => [level, studyText.experienceNames[level]] as const)]}
+        onChange={(chosen) => set({ experience: experiences.find((one) => one === chosen) ?? null })}
+      />
+      <Count
+        {...{ label: studyText.procedures, testId: 'procedures', min: 0, max: 100000 }}
+        value={background.value.proceduresDone}
+        onChange={(proceduresDone) => set({ proceduresDone })}
+      />
     </>
   );
 }

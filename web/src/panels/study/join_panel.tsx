@@ -5,6 +5,8 @@ import { messageOf } from '../../wire/rest';
 import type { StudyApi } from '../../wire/study_api';
 import { Remark } from '../common/fields';
 import { type Background, ExperienceFields } from './experience_fields';
+import { TextLine } from '../common/form_fields';
+import { Button } from '../common/button';
 
 /** Taking part in a study by its join code. */
 export function JoinPanel({ api, onJoined }: { api: StudyApi; onJoined: (studyId: string) => void }) {
@@ -28,23 +30,15 @@ export function JoinPanel({ api, onJoined }: { api: StudyApi; onJoined: (studyId
       <h2 id="join-title">{studyText.join}</h2>
       <p class="soft">{studyText.joinHint}</p>
       <form class="desk-form" onSubmit={(event) => void join(event)}>
-        <label>
-          {studyText.joinCode}
-          <input
-            type="text"
-            required
-            autocomplete="off"
-            autocapitalize="none"
-            spellcheck={false}
-            data-testid="join-code"
-            value={code.value}
-            onInput={(event) => (code.value = event.currentTarget.value)}
-          />
-        </label>
+        <TextLine
+          {...{ label: studyText.joinCode, testId: 'join-code', required: true, value: code.value }}
+          {...{ autocomplete: 'off', verbatim: true }}
+          onInput={(typed) => (code.value = typed)}
+        />
         <ExperienceFields background={background} />
-        <button type="submit" class="main-button" data-testid="join">
+        <Button submit look="main" testId="join">
           {studyText.joinButton}
-        </button>
+        </Button>
       </form>
       {problem.value !== null && (
         <Remark kind="bad" testId="join-problem">

@@ -5,6 +5,7 @@ import type { Study } from '../../wire/rest_types';
 import { saveBlob } from '../../wire/save_blob';
 import { ConfirmButton } from '../common/confirm_dialog';
 import { useIdentity } from '../common/site_nav';
+import { Button } from '../common/button';
 
 interface Parts {
   api: StudyApi;
@@ -38,15 +39,9 @@ export function LifePanel({ api, study, studies, empty, onRemoved }: Parts) {
         />
       )}
       {closed && study.blinded && (
-        <button
-          type="button"
-          class="plain-button"
-          data-testid="reopen-study"
-          disabled={busy}
-          onClick={() => act(() => api.reopen(study.id))}
-        >
+        <Button testId="reopen-study" disabled={busy} onClick={() => act(() => api.reopen(study.id))}>
           {studyText.reopen}
-        </button>
+        </Button>
       )}
       {closed && study.blinded && may.operate && (
         <ConfirmButton
@@ -102,15 +97,13 @@ export function ExportPanel({ api, study, studies }: Pick<Parts, 'api' | 'study'
             {label}
           </button>
         ))}
-        <button
-          type="button"
-          class="plain-button"
-          data-testid="export-codebook"
+        <Button
+          testId="export-codebook"
           disabled={studies.busy.value}
           onClick={() => save('codebook.json', () => api.codebook(study.id))}
         >
           {studyText.exportCodebook}
-        </button>
+        </Button>
       </div>
     </section>
   );

@@ -9,6 +9,7 @@ import type { Participant, Person, Study } from '../../wire/rest_types';
 import { Remark } from '../common/fields';
 import { ConfirmButton } from '../common/confirm_dialog';
 import { useIdentity } from '../common/site_nav';
+import { Button } from '../common/button';
 
 interface Parts {
   api: StudyApi;
@@ -37,15 +38,9 @@ export function ParticipantTable({ api, study, participants }: Parts) {
       <div class="desk-head">
         <h2 id="participants-title">{studyText.participants}</h2>
         {mayKnow && persons.value === null && list !== null && list.length > 0 && (
-          <button
-            type="button"
-            class="plain-button"
-            data-testid="show-persons"
-            title={studyText.personsHint}
-            onClick={() => void look()}
-          >
+          <Button testId="show-persons" title={studyText.personsHint} onClick={() => void look()}>
             {studyText.showPersons}
-          </button>
+          </Button>
         )}
       </div>
       {(problem.value ?? participants.problem.value) !== null && (

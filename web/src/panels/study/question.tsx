@@ -21,19 +21,29 @@ export function Question({ item, sheet }: Parts<Item>) {
       aria-describedby={bad ? `${id}-fault` : undefined}
     >
       <legend>
-        {item.words} {!item.required && <span class="soft">({studyText.optional})</span>}
+        <Words item={item} />
       </legend>
-      {item.kind === 'likert' ? (
-        <LikertAnswers item={item} sheet={sheet} />
-      ) : (
-        <ChoiceAnswers item={item} sheet={sheet} />
-      )}
-      {bad && (
-        <p id={`${id}-fault`} class="question-fault">
-          {studyText.needed}
-        </p>
-      )}
+      {item.kind === 'likert' && <LikertAnswers item={item} sheet={sheet} />}
+      {item.kind === 'choice' && <ChoiceAnswers item={item} sheet={sheet} />}
+      {bad && <Fault of={id} words={studyText.needed} />}
     </fieldset>
+  );
+}
+
+function Words({ item }: { item: Item }) {
+  return (
+    <>
+      {item.words} {!item.required && <span class="soft">({studyText.optional})</span>}
+    </>
+  );
+}
+
+/** What is wrong with an answer. */
+function Fault({ of, words }: { of: string; words: string }) {
+  return (
+    <p id={`${of}-fault`} class="question-fault">
+      {words}
+    </p>
   );
 }
 
@@ -119,7 +129,7 @@ function TextQuestion({ item, sheet, bad }: Parts<TextItem> & { bad: boolean }) 
   return (
     <div class={bad ? 'question question-bad' : 'question'} data-testid={`question-${item.id}`}>
       <label for={id}>
-        {item.words} {!item.required && <span class="soft">({studyText.optional})</span>}
+        <Words item={item} />
       </label>
       <textarea
         id={id}
@@ -128,16 +138,9 @@ function TextQuestion({ item, sheet, bad }: Parts<TextItem> & { bad: boolean }) 
         aria-invalid={bad}
         aria-describedby={bad || tooLong ? `${id}-fault` : undefined}
         value={text}
-        onInput={(event) => {
-          const now = event.currentTarget.value;
-          sheet.set(item.id, now === '' ? undefined : now);
-        }}
+        onInput={(event) => sheet.set(item.id, event.currentTarget.value || undefined)}
       />
-      {(bad || tooLong) && (
-        <p id={`${id}-fault`} class="question-fault">
-          {tooLong ? studyText.tooLong(item.longest) : studyText.needed}
-        </p>
-      )}
+      {(bad || tooLong) && <Fault of={id} words={tooLong ? studyText.tooLong(item.longest) : studyText.needed} />}
     </div>
   );
 }

@@ -3,7 +3,9 @@ import { useSignal } from '@preact/signals';
 import { addressOfRoute } from '../../state/route';
 import { studyText } from '../../text/study_text';
 import type { Study } from '../../wire/rest_types';
+import { Choice } from '../common/form_fields';
 import { useIdentity } from '../common/site_nav';
+import { Button } from '../common/button';
 
 interface Parts {
   study: Study;
@@ -38,48 +40,28 @@ export function TrainPanel({ study, codes, train }: Parts) {
       )}
       <form class="desk-form" onSubmit={(event) => void start(event)}>
         {may.teach && codes.length > 0 && (
-          <label>
-            {studyText.trainsAs}
-            <select
-              required
-              data-testid="train-as"
-              value={participant ?? ''}
-              onChange={(event) => (choice.value = event.currentTarget.value)}
-            >
-              <option value="" />
-              {codes.map((code) => (
-                <option key={code} value={code}>
-                  {code}
-                </option>
-              ))}
-            </select>
-          </label>
+          <Choice
+            {...{ label: studyText.trainsAs, testId: 'train-as', required: true, value: participant ?? '' }}
+            options={[['', ''], ...codes.map((code) => [code, code] as const)]}
+            onChange={(code) => (choice.value = code)}
+          />
         )}
         {study.cases.length > 1 && (
-          <label>
-            {studyText.onCase}
-            <select
-              data-testid="train-on"
-              value={caseId.value}
-              onChange={(event) => (caseId.value = event.currentTarget.value)}
-            >
-              {study.cases.map((id) => (
-                <option key={id} value={id}>
-                  {id}
-                </option>
-              ))}
-            </select>
-          </label>
+          <Choice
+            {...{ label: studyText.onCase, testId: 'train-on', value: caseId.value }}
+            options={study.cases.map((id) => [id, id])}
+            onChange={(id) => (caseId.value = id)}
+          />
         )}
-        <button
-          type="submit"
-          class="main-button"
+        <Button
+          submit
+          look="main"
           title={studyText.trainHint}
-          data-testid="train"
+          testId="train"
           disabled={busy.value || participant === null}
         >
           {busy.value ? studyText.starting : studyText.start}
-        </button>
+        </Button>
         {own !== null && study.questionnaire && (
           <a
             class="plain-button"

@@ -1,7 +1,7 @@
 import { batch, signal } from '@preact/signals';
 
 import { ApiError, type Api } from '../../wire/api';
-import { Link } from '../../wire/link';
+import { Link, type LinkState } from '../../wire/link';
 import type { Hello, MeshDelta, StreamMessage, Telemetry, ToolMesh } from '../../wire/messages';
 import { messageOf } from '../../wire/rest';
 import type { StreamSocket } from '../../wire/stream_socket';
@@ -40,21 +40,23 @@ export class ReplayPlayer implements Player {
     this.link = new Link({
       socket,
       findStream: () => this.findStream(),
-      onState: (state) => {
-        batch(() => {
-          if (state.kind === 'lost') {
-            store.pictureComplete.value = false;
-            store.metWithLoss.value = true;
-          }
-          store.link.value = state;
-        });
-      },
+      onState: (state) => this.onLink(state),
       onMessage: (message) => this.onMessage(message),
     });
     this.scrubber = new Scrubber(
       (positionS) => this.change({ position_s: positionS }),
       (error) => this.tell(error),
     );
+  }
+
+  private onLink(state: LinkState): void {
+    batch(() => {
+      if (state.kind === 'lost') {
+        this.store.pictureComplete.value = false;
+        this.store.metWithLoss.value = true;
+      }
+      this.store.link.value = state;
+    });
   }
 
   start(): void {

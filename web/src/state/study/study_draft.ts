@@ -1,0 +1,52 @@
+import { signal } from '@preact/signals';
+
+import { studyText } from '../../text/study_text';
+import type { NewStudy } from '../../wire/rest_types';
+
+/** Whose questionnaire a study asks. */
+export type Asking = 'ours' | 'none' | 'file';
+
+/** A study as it is being filled in. */
+export class StudyDraft {
+  readonly name = signal('');
+  readonly description = signal('');
+  readonly cases = signal<readonly string[]>(['demo']);
+  /** Empty: the server's usual one. */
+  readonly device = signal('browser');
+  readonly asking = signal<Asking>('ours');
+  readonly questionnaire = signal<Record<string, unknown> | null>(null);
+  /** Why the questionnaire's file cannot be used, or the study not be made. */
+  readonly problem = signal<string | null>(null);
+
+  get complete(): boolean {
+    return this.cases.value.length > 0 && (this.asking.value !== 'file' || this.questionnaire.value !== null);
+  }
+
+  toggleCase(id: string): void {
+    const chosen = this.cases.value;
+    this.cases.value = chosen.includes(id) ? chosen.filter((one) => one !== id) : [...chosen, id];
+  }
+
+  async readQuestionnaire(file: File | undefined): Promise<void> {
+    this.questionnaire.value = null;
+    this.problem.value = null;
+    if (file === undefined) return;
+    try {
+      this.questionnaire.value = JSON.parse(await file.text()) as Record<string, unknown>;
+    } catch {
+      this.problem.value = studyText.fileUnreadable;
+    }
+  }
+
+  /** What the server is asked for. */
+  study(): NewStudy {
+    const asking = this.asking.value;
+    return {
+      name: this.name.value.trim(),
+      description: this.description.value.trim(),
+      cases: [...this.cases.value],
+      ...(this.device.value === '' ? {} : { device: this.device.value }),
+      ...(asking === 'ours' ? {} : { questionnaire: asking === 'none' ? null : this.questionnaire.value }),
+    };
+  }
+}
