@@ -15,16 +15,16 @@ import { ViewMarks } from '../state/case/view_marks';
 import { Button } from '../panels/common/button';
 
 interface Parts {
-  keeper: CaseController;
+  controller: CaseController;
   startReaming: (caseId: string, theatre: boolean) => Promise<void>;
 }
 
 /** One case: its slices and surface, and the steps from the CT to the reamer. */
-export function CasePage({ keeper, startReaming }: Parts) {
-  const views = useMemo(() => new CaseViews(keeper), [keeper]);
+export function CasePage({ controller, startReaming }: Parts) {
+  const views = useMemo(() => new CaseViews(controller), [controller]);
   useEffect(() => () => views.dispose(), [views]);
   const enlarged = useSignal<ViewId | null>(null);
-  const { store } = keeper;
+  const { store } = controller;
   const details = store.details.value;
   const problem = store.loadProblem.value;
   if (problem !== null || details === null)
@@ -37,7 +37,7 @@ export function CasePage({ keeper, startReaming }: Parts) {
           ) : (
             <p role="alert">
               <strong>{caseText.caseFailed}.</strong> {problem}{' '}
-              <Button onClick={() => void keeper.open()}>{caseText.tryAgain}</Button>
+              <Button onClick={() => void controller.open()}>{caseText.tryAgain}</Button>
             </p>
           )}
         </main>
@@ -58,8 +58,8 @@ export function CasePage({ keeper, startReaming }: Parts) {
           <SurfacePanel view={views.surface} store={store} enlarged={enlarged} />
         )}
       </main>
-      {details.ct !== null && <WindowBar keeper={keeper} />}
-      <StepsPanel keeper={keeper} startReaming={startReaming} />
+      {details.ct !== null && <WindowBar controller={controller} />}
+      <StepsPanel controller={controller} startReaming={startReaming} />
     </div>
   );
 }
@@ -70,11 +70,11 @@ class CaseViews {
   /** Null where the browser has no WebGL. */
   readonly surface: SurfaceView | null;
 
-  constructor(private readonly keeper: CaseController) {
-    const marks = new ViewMarks(keeper);
-    const view = (name: (typeof planeNames)[number]) => new SliceView(keeper, marks, name);
+  constructor(private readonly controller: CaseController) {
+    const marks = new ViewMarks(controller);
+    const view = (name: (typeof planeNames)[number]) => new SliceView(controller, marks, name);
     this.slices = { axial: view('axial'), coronal: view('coronal'), sagittal: view('sagittal') };
-    this.surface = surfaceView(keeper, marks);
+    this.surface = surfaceView(controller, marks);
   }
 
   dispose(): void {
@@ -92,21 +92,21 @@ class CaseViews {
 
   private landmarkKey(event: KeyboardEvent, inView: boolean): boolean {
     if (event.ctrlKey || event.altKey || event.metaKey) return false;
-    const { store } = this.keeper;
+    const { store } = this.controller;
     const armed = store.armed.value;
     const at = store.crossHairMm.value;
-    if (/^[1-9]$/.test(event.key)) this.keeper.chooseByNumber(Number(event.key));
-    else if (event.key === 'Enter' && inView && armed !== null && at !== null) this.keeper.placeArmed(at);
-    else if (event.key === 'Delete' && armed?.kind === 'landmark') this.keeper.place(armed.name, null);
+    if (/^[1-9]$/.test(event.key)) this.controller.chooseByNumber(Number(event.key));
+    else if (event.key === 'Enter' && inView && armed !== null && at !== null) this.controller.placeArmed(at);
+    else if (event.key === 'Delete' && armed?.kind === 'landmark') this.controller.place(armed.name, null);
     else if (event.key === 'Escape' && armed !== null) store.armed.value = null;
     else return false;
     return true;
   }
 }
 
-function surfaceView(keeper: CaseController, marks: ViewMarks): SurfaceView | null {
+function surfaceView(controller: CaseController, marks: ViewMarks): SurfaceView | null {
   try {
-    return new SurfaceView(keeper, marks);
+    return new SurfaceView(controller, marks);
   } catch {
     return null;
   }

@@ -4,7 +4,7 @@ import { useEffect, useMemo } from 'preact/hooks';
 
 import { useIdentity } from '../panels/common/site_nav';
 import { CaseController } from '../state/case/case_controller';
-import { CasesKeeper } from '../state/case/new_case';
+import { CaseListController } from '../state/case/new_case';
 import { addressOfRoute, type Route } from '../state/route';
 import { CaseApi } from '../wire/case_api';
 import { CasePage } from './case_page';
@@ -12,7 +12,7 @@ import { CasesPage } from './cases_page';
 
 const api = new CaseApi(window.location.origin);
 /** Lives as long as the page, so that an upload goes on while a case is looked at. */
-const cases = new CasesKeeper(api, window.localStorage, (caseId) => {
+const cases = new CaseListController(api, window.localStorage, (caseId) => {
   if (window.location.hash === addressOfRoute({ kind: 'cases' }))
     window.location.hash = addressOfRoute({ kind: 'case', id: caseId });
 });
@@ -28,21 +28,21 @@ export function CasePages({ route, startReaming }: Parts) {
   const { editCases } = useIdentity().may.value;
   if (route.kind === 'case')
     return <OneCase key={route.id} id={route.id} mayEdit={editCases} startReaming={startReaming} />;
-  return <CasesPage keeper={cases} mayEdit={editCases} />;
+  return <CasesPage controller={cases} mayEdit={editCases} />;
 }
 
 type OneCaseParts = { id: string; mayEdit: boolean; startReaming: Parts['startReaming'] };
 
 function OneCase({ id, mayEdit, startReaming }: OneCaseParts) {
-  const keeper = useMemo(() => new CaseController(api, id, mayEdit), [id, mayEdit]);
+  const controller = useMemo(() => new CaseController(api, id, mayEdit), [id, mayEdit]);
   useEffect(() => {
-    void keeper.open();
-    const leave = () => keeper.landmarks.leave();
+    void controller.open();
+    const leave = () => controller.landmarks.leave();
     window.addEventListener('pagehide', leave);
     return () => {
       window.removeEventListener('pagehide', leave);
-      keeper.leave();
+      controller.leave();
     };
-  }, [keeper]);
-  return <CasePage keeper={keeper} startReaming={startReaming} />;
+  }, [controller]);
+  return <CasePage controller={controller} startReaming={startReaming} />;
 }

@@ -5,7 +5,7 @@ import { caseText } from '../text/case_text';
 import { CaseHeader } from '../panels/case/case_header';
 import { Remark } from '../panels/common/fields';
 import { NewCasePanel } from '../panels/case/new_case_panel';
-import type { CasesKeeper } from '../state/case/new_case';
+import type { CaseListController } from '../state/case/new_case';
 import { addressOfRoute } from '../state/route';
 import type { CaseSummary } from '../wire/rest_types';
 import { Button } from '../panels/common/button';
@@ -13,15 +13,15 @@ import { Button } from '../panels/common/button';
 const readAgainMs = 5000;
 
 /** All cases, and the making of a new one. */
-export function CasesPage({ keeper, mayEdit }: { keeper: CasesKeeper; mayEdit: boolean }) {
+export function CasesPage({ controller, mayEdit }: { controller: CaseListController; mayEdit: boolean }) {
   useEffect(() => {
-    keeper.listFresh.value = false;
-    void keeper.readCases();
-    const timer = setInterval(() => void keeper.readCases(), readAgainMs);
+    controller.listFresh.value = false;
+    void controller.readCases();
+    const timer = setInterval(() => void controller.readCases(), readAgainMs);
     return () => clearInterval(timer);
-  }, [keeper]);
-  const cases = keeper.cases.value;
-  const problem = keeper.listProblem.value;
+  }, [controller]);
+  const cases = controller.cases.value;
+  const problem = controller.listProblem.value;
   return (
     <div class={mayEdit ? 'page cases-page' : 'page cases-page read-only'}>
       <CaseHeader details={null} />
@@ -35,7 +35,7 @@ export function CasesPage({ keeper, mayEdit }: { keeper: CasesKeeper; mayEdit: b
         {cases === null && problem === null && <p class="soft">{caseText.loadingCases}</p>}
         {cases?.length === 0 && <p class="soft">{caseText.noCases}</p>}
         {cases !== null && cases.length > 0 && (
-          <table data-testid="cases" class={problem === null && keeper.listFresh.value ? '' : 'stale'}>
+          <table data-testid="cases" class={problem === null && controller.listFresh.value ? '' : 'stale'}>
             <thead>
               <tr>
                 <th scope="col">{caseText.caseColumn}</th>
@@ -47,18 +47,18 @@ export function CasesPage({ keeper, mayEdit }: { keeper: CasesKeeper; mayEdit: b
             </thead>
             <tbody>
               {cases.map((one) => (
-                <CaseRow key={one.id} one={one} keeper={keeper} mayEdit={mayEdit} />
+                <CaseRow key={one.id} one={one} controller={controller} mayEdit={mayEdit} />
               ))}
             </tbody>
           </table>
         )}
       </main>
-      {mayEdit && <NewCasePanel keeper={keeper} />}
+      {mayEdit && <NewCasePanel controller={controller} />}
     </div>
   );
 }
 
-function CaseRow({ one, keeper, mayEdit }: { one: CaseSummary; keeper: CasesKeeper; mayEdit: boolean }) {
+function CaseRow({ one, controller, mayEdit }: { one: CaseSummary; controller: CaseListController; mayEdit: boolean }) {
   const asking = useSignal(false);
   const name = one.name || one.id;
   const ready = one.stage === 'built' && one.planned;
@@ -90,7 +90,7 @@ function CaseRow({ one, keeper, mayEdit }: { one: CaseSummary; keeper: CasesKeep
               data-testid={`really-remove-${one.id}`}
               onClick={() => {
                 asking.value = false;
-                void keeper.remove(one.id);
+                void controller.remove(one.id);
               }}
             >
               {caseText.removeYes}

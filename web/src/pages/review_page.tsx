@@ -21,33 +21,33 @@ import { ReviewWorkspace } from '../panels/review/review_workspace';
 export function ReviewPage({ route }: { route: Route & { kind: 'review' } }) {
   const identity = useIdentity();
   const may = identity.may.value;
-  const desk = useMemo(() => new ReviewWorkspace(window.location.origin, may), [may]);
-  useEffect(() => () => desk.dispose(), [desk]);
+  const workspace = useMemo(() => new ReviewWorkspace(window.location.origin, may), [may]);
+  useEffect(() => () => workspace.dispose(), [workspace]);
   useEffect(() => {
-    desk.show(route.beside === null ? [route.id] : [route.id, route.beside]);
-  }, [desk, route.id, route.beside]);
+    workspace.show(route.beside === null ? [route.id] : [route.id, route.beside]);
+  }, [workspace, route.id, route.beside]);
   const person = identity.userId.value ?? 'anyone';
-  useEffect(() => desk.settings.view.keepFor(`${person}.review`, window.localStorage), [desk, person]);
-  useLiveKeys(useMemo(() => keysOf(desk), [desk]));
-  const panes = desk.panes.value;
+  useEffect(() => workspace.settings.view.keepFor(`${person}.review`, window.localStorage), [workspace, person]);
+  useLiveKeys(useMemo(() => keysOf(workspace), [workspace]));
+  const panes = workspace.panes.value;
   return (
     <div class={`page review-page review-of-${panes.length}`}>
       <PageHeader here="review" />
       <main class="review-main">
         <div class="review-panes">
           {panes.map((pane, i) => (
-            <ReviewPane key={pane.session.id + String(i)} pane={pane} place={i} desk={desk} />
+            <ReviewPane key={pane.session.id + String(i)} pane={pane} place={i} workspace={workspace} />
           ))}
         </div>
-        <ReviewTools desk={desk} />
+        <ReviewTools workspace={workspace} />
       </main>
       <aside class="side review-side">
         <FactsPanel panes={panes} />
-        <MeasurePanel desk={desk} />
-        <MapPanel desk={desk} />
+        <MeasurePanel workspace={workspace} />
+        <MapPanel workspace={workspace} />
         <ScorePanel panes={panes} />
         {panes.map(({ session }, i) => (
-          <FilesPanel key={session.id + String(i)} session={session} review={desk.review} />
+          <FilesPanel key={session.id + String(i)} session={session} review={workspace.review} />
         ))}
         <ComparePanel panes={panes} />
         <KeysPanel />
@@ -56,9 +56,9 @@ export function ReviewPage({ route }: { route: Route & { kind: 'review' } }) {
   );
 }
 
-function keysOf(desk: ReviewWorkspace): Record<string, () => void> {
-  const { settings } = desk;
-  const session = () => desk.panes.peek()[settings.active.peek()]?.session;
+function keysOf(workspace: ReviewWorkspace): Record<string, () => void> {
+  const { settings } = workspace;
+  const session = () => workspace.panes.peek()[settings.active.peek()]?.session;
   return {
     k: () => session()?.togglePlay(),
     ',': () => session()?.seekEvent(false),
@@ -67,6 +67,6 @@ function keysOf(desk: ReviewWorkspace): Record<string, () => void> {
     d: () => session()?.nextMap(),
     e: () => (settings.measuring.value = !settings.measuring.peek()),
     t: () => (settings.slicesOpen.value = !settings.slicesOpen.peek()),
-    q: () => (settings.active.value = desk.panes.peek().length - 1 - settings.active.peek()),
+    q: () => (settings.active.value = workspace.panes.peek().length - 1 - settings.active.peek()),
   };
 }

@@ -40,15 +40,15 @@ export function SessionsPage({ live }: { live: LivePageParts }) {
     return () => clearInterval(timer);
   }, []);
   // Another page of the list is read from its beginning.
-  const desk = useRef<HTMLElement>(null);
+  const workspace = useRef<HTMLElement>(null);
   const cursors = browser.cursors.value;
-  useEffect(() => desk.current?.scrollTo({ top: 0 }), [cursors]);
+  useEffect(() => workspace.current?.scrollTo({ top: 0 }), [cursors]);
   const page = browser.page.value.value;
   const problem = browser.page.problem.value;
   return (
     <div class="page desk-page">
       <PageHeader here="sessions" />
-      <main class="desk" ref={desk}>
+      <main class="desk" ref={workspace}>
         <section class="desk-panel" aria-labelledby="sessions-title">
           <div class="desk-head">
             <h2 id="sessions-title">{sessionText.sessions}</h2>

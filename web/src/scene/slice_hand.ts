@@ -1,7 +1,7 @@
 import type { PicturePoint } from '../ct/slice_layout';
 
 /** What pointer, wheel and keys do in a slice; places are in px of the picture. */
-export interface SliceDeeds {
+export interface SliceActions {
   /** Whether a mark that may be dragged is under the place; if so it is the one that is moved from here on. */
   takeHold(at: PicturePoint): boolean;
   moveHeld(at: PicturePoint): void;
@@ -35,7 +35,7 @@ export class SliceHand {
 
   constructor(
     private readonly surface: HTMLElement,
-    private readonly deeds: SliceDeeds,
+    private readonly deeds: SliceActions,
   ) {
     surface.addEventListener('pointerdown', (event) => this.onDown(event));
     surface.addEventListener('pointermove', (event) => this.onMove(event));

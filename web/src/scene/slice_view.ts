@@ -40,11 +40,11 @@ export class SliceView {
   private readonly stops: (() => void)[] = [];
 
   constructor(
-    private readonly keeper: CaseController,
+    private readonly controller: CaseController,
     private readonly marks: ViewMarks,
     private readonly name: PlaneName,
   ) {
-    this.picture = new SlicePicture(keeper.slices, () => this.invalidate());
+    this.picture = new SlicePicture(controller.slices, () => this.invalidate());
     this.canvas.tabIndex = 0;
     this.listen();
     const resizes = new ResizeObserver(() => {
@@ -110,7 +110,7 @@ export class SliceView {
 
   /** Everything that the picture depends on. */
   private watched(): unknown {
-    const { store } = this.keeper;
+    const { store } = this.controller;
     return [
       [this.size.value, this.look.value, store.crossHair.value, store.window.value, store.labelsShown.value],
       [store.previewFromHu.value, store.details.value, this.marks.points.value, this.marks.plan.value],
@@ -118,16 +118,16 @@ export class SliceView {
   }
 
   private geometry(): { frame: VolumeFrame | null; plane: SlicePlane | null } {
-    return { frame: this.keeper.store.frame.value, plane: this.plane() };
+    return { frame: this.controller.store.frame.value, plane: this.plane() };
   }
   private plane(): SlicePlane | null {
-    return this.keeper.store.planes.value?.[this.name] ?? null;
+    return this.controller.store.planes.value?.[this.name] ?? null;
   }
 
   /** A new CT, or what is to be framed anew, fills the view. */
   private frameNew(): void {
-    const revision = this.keeper.store.details.value?.ct?.revision ?? null;
-    const framed = this.keeper.store.framed.value;
+    const revision = this.controller.store.details.value?.ct?.revision ?? null;
+    const framed = this.controller.store.framed.value;
     if (this.size.value.width === 0 || revision === null) return;
     if (revision !== this.lookedAtRevision) this.picture.forget();
     const isNew = revision !== this.lookedAtRevision || framed !== this.framedLast;
@@ -149,11 +149,11 @@ export class SliceView {
     if (frame === null || plane === null || look === null) return null;
     const layout = new SliceLayout(frame, plane, look, widthPx, heightPx);
     const { points, plan } = this.marks;
-    const planes = this.keeper.store.planes.value;
+    const planes = this.controller.store.planes.value;
     const colourOf = (axis: string) =>
       planeColours[Object.values(planes ?? {}).find((other) => other.axis === axis)?.name ?? this.name];
     return {
-      ...{ frame, layout, crossHair: this.keeper.store.crossHair.value, widthPx, heightPx },
+      ...{ frame, layout, crossHair: this.controller.store.crossHair.value, widthPx, heightPx },
       points: points.value,
       plan: plan.value,
       crossHairColours: { across: colourOf(plane.down.axis), along: colourOf(plane.right.axis) },
@@ -162,7 +162,7 @@ export class SliceView {
 
   private draw(): void {
     const { canvas, context } = this;
-    const { store } = this.keeper;
+    const { store } = this.controller;
     const { width, height } = this.size.value;
     const details = store.details.value;
     const overlay = this.overlay();
@@ -190,18 +190,18 @@ export class SliceView {
   }
 
   private huAtCrossHair({ frame, crossHair }: OverlayWanted): number | null {
-    const { planes, details } = this.keeper.store;
+    const { planes, details } = this.controller.store;
     const axis = planes.value?.[this.name].axis;
     const revision = details.value?.ct?.revision;
     if (axis === undefined || revision === undefined) return null;
-    const bytes = this.keeper.slices.peek({ of: 'hu', revision, axis, index: frame.sliceAt(axis, crossHair) });
+    const bytes = this.controller.slices.peek({ of: 'hu', revision, axis, index: frame.sliceAt(axis, crossHair) });
     const [first = 'u', second = 'v'] = voxelAxes.filter((other) => other !== axis);
     const at = frame.sliceAt(first, crossHair) + frame.dims[numberOf(first)] * frame.sliceAt(second, crossHair);
     return bytes === null ? null : (new Int16Array(bytes)[at] ?? null);
   }
 
   private listen(): void {
-    const { store } = this.keeper;
+    const { store } = this.controller;
     new SliceHand(this.canvas, {
       takeHold: (at) => this.takeHold(at),
       moveHeld: (at) => this.held !== null && this.moveHeld(this.held, at),
@@ -236,8 +236,8 @@ export class SliceView {
 
   /** Places what is to be placed, even close to a mark; where nothing is, a click on a mark chooses it. */
   private click(at: PicturePoint): void {
-    if (this.held !== null && !this.keeper.placesNew()) this.keeper.chooseMark(this.held.of);
-    else this.withVoxel(at, (voxel, frame) => this.keeper.placeArmed(frame.worldFromVoxel(voxel)));
+    if (this.held !== null && !this.controller.placesNew()) this.controller.chooseMark(this.held.of);
+    else this.withVoxel(at, (voxel, frame) => this.controller.placeArmed(frame.worldFromVoxel(voxel)));
   }
 
   /** Along the plane's axis the point stays where it is. */
@@ -245,7 +245,7 @@ export class SliceView {
     const overlay = this.overlay();
     if (overlay === null) return;
     const { frame, layout } = overlay;
-    this.keeper.chooseMark(held.of);
+    this.controller.chooseMark(held.of);
     const voxel = frame.clampVoxel(layout.toVoxel(at, frame.voxelFromWorld(held.point)));
     this.marks.move(held, frame.worldFromVoxel(voxel));
   }
@@ -276,7 +276,7 @@ export class SliceView {
   }
 
   private moveCrossHair(axis: SlicePlane['axis'] | undefined, voxels: number): void {
-    const { store } = this.keeper;
+    const { store } = this.controller;
     const frame = store.frame.value;
     if (frame === null || axis === undefined) return;
     const moved: Triple = [...store.crossHair.value];

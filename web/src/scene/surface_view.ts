@@ -81,7 +81,7 @@ export class SurfaceView {
 
   /** Throws where the browser offers no WebGL. */
   constructor(
-    private readonly keeper: CaseController,
+    private readonly controller: CaseController,
     private readonly marks: ViewMarks,
   ) {
     this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: true, alpha: true });
@@ -141,34 +141,34 @@ export class SurfaceView {
 
   /** Where the views that go close to the glenoid look, or null while it is not known. */
   glenoid(): { axisEntryMm: Triple; axisDirection: Triple } | null {
-    const plan = this.keeper.store.draft.value?.plan;
+    const plan = this.controller.store.draft.value?.plan;
     if (plan !== undefined) return { axisEntryMm: plan.entry_mm, axisDirection: plan.axis_direction };
-    const { glenoid_centre_mm: centre, trigonum_mm: root } = this.keeper.landmarks.landmarks.value;
+    const { glenoid_centre_mm: centre, trigonum_mm: root } = this.controller.landmarks.landmarks.value;
     if (centre === undefined) return null;
     return { axisEntryMm: centre, axisDirection: root === undefined ? this.medial() : subtract(root, centre) };
   }
 
   private medial(): Triple {
-    return this.keeper.store.details.value?.side === 'left' ? [-1, 0, 0] : [1, 0, 0];
+    return this.controller.store.details.value?.side === 'left' ? [-1, 0, 0] : [1, 0, 0];
   }
 
   /** Loads the surface whenever the server has another one. */
   private followSurface(): void {
-    const details = this.keeper.store.details.value;
+    const details = this.controller.store.details.value;
     const of = [details?.stage, details?.segmentation?.revision, details?.built?.segmentation_revision].join();
     if (details === null || of === this.loadedOf) return;
     this.loadedOf = of;
     if (details.stage === 'ct') {
       this.show(null);
-      this.keeper.store.surface.value = { kind: 'none' };
+      this.controller.store.surface.value = { kind: 'none' };
     } else void this.load();
   }
 
   private async load(): Promise<void> {
-    const { store } = this.keeper;
+    const { store } = this.controller;
     store.surface.value = { kind: 'loading' };
     try {
-      const surface = await this.loader.load(this.keeper.meshUrl());
+      const surface = await this.loader.load(this.controller.meshUrl());
       if (surface === null) return;
       this.show(surface);
       store.surface.value = { kind: 'shown' };
@@ -199,7 +199,7 @@ export class SurfaceView {
   }
 
   private showCrossHair(): void {
-    const { frame, crossHair, planes } = this.keeper.store;
+    const { frame, crossHair, planes } = this.controller.store;
     empty(this.crossHair);
     if (frame.value !== null && planes.value !== null) {
       const middle = frame.value.worldFromVoxel(crossHair.value);
@@ -263,7 +263,7 @@ export class SurfaceView {
       if (this.held === null || start === null || isNear(event, start)) return;
       const point = this.pick(event);
       if (point === null) return;
-      this.keeper.chooseMark(this.held.of);
+      this.controller.chooseMark(this.held.of);
       this.marks.move(this.held, point);
     });
     this.canvas.addEventListener('pointerup', (event) => {
@@ -273,7 +273,7 @@ export class SurfaceView {
       const still = start !== null && isNear(event, start);
       start = null;
       if (!still || event.button !== 0) return;
-      if (held !== null && !this.keeper.placesNew()) this.keeper.chooseMark(held.of);
+      if (held !== null && !this.controller.placesNew()) this.controller.chooseMark(held.of);
       else this.click(event);
     });
     this.canvas.addEventListener('pointercancel', () => {
@@ -285,9 +285,9 @@ export class SurfaceView {
   private click(event: MouseEvent): void {
     const point = this.pick(event);
     if (point === null) return;
-    const { store } = this.keeper;
-    this.keeper.lookAt(point);
-    if (store.openStep.value === 'landmarks' || store.openStep.value === 'segment') this.keeper.placeArmed(point);
+    const { store } = this.controller;
+    this.controller.lookAt(point);
+    if (store.openStep.value === 'landmarks' || store.openStep.value === 'segment') this.controller.placeArmed(point);
   }
 
   /** The surface under a place of the window. */

@@ -11,7 +11,7 @@ export class Remote<T> {
   readonly stale = signal(false);
   readonly busy = signal(false);
   private asked = 0;
-  private deedFailed = false;
+  private actionFailed = false;
 
   constructor(private readonly ask: () => Promise<T>) {}
 
@@ -24,7 +24,7 @@ export class Remote<T> {
       batch(() => {
         this.value.value = value;
         this.stale.value = false;
-        if (!this.deedFailed) this.problem.value = null;
+        if (!this.actionFailed) this.problem.value = null;
       });
     } catch (error) {
       if (number === this.asked) {
@@ -39,7 +39,7 @@ export class Remote<T> {
     if (this.busy.value) return null;
     this.busy.value = true;
     this.problem.value = null;
-    this.deedFailed = false;
+    this.actionFailed = false;
     try {
       const result = await action();
       await this.read();
@@ -54,6 +54,6 @@ export class Remote<T> {
 
   private fail(error: unknown, deed: boolean): void {
     this.problem.value = messageOf(error);
-    this.deedFailed = deed;
+    this.actionFailed = deed;
   }
 }

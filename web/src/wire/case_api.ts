@@ -2,7 +2,7 @@ import { credentials } from './rest';
 import { RestClient } from './rest_client';
 import type {
   AssessedPlan,
-  BuildWishes,
+  BuildSettings,
   CaseDetails,
   CaseSummary,
   Job,
@@ -10,7 +10,7 @@ import type {
   Measures,
   NewCase,
   NewPlan,
-  PlanWishes,
+  PlanTargets,
   Reamer,
   SegmentationSettings,
   Side,
@@ -108,7 +108,7 @@ export class CaseApi {
   measures(id: string): Promise<Measures> {
     return this.rest.json('get', '/api/v1/cases/{id}/measures', { path: { id } });
   }
-  proposePlan(id: string, body: PlanWishes): Promise<AssessedPlan> {
+  proposePlan(id: string, body: PlanTargets): Promise<AssessedPlan> {
     return this.rest.json('post', '/api/v1/cases/{id}/plan/proposal', { path: { id }, body });
   }
   putPlan(id: string, body: NewPlan): Promise<AssessedPlan> {
@@ -117,7 +117,7 @@ export class CaseApi {
   async reamers(): Promise<Reamer[]> {
     return (await this.rest.json('get', '/api/v1/reamers', {})).reamers;
   }
-  build(id: string, body: BuildWishes): Promise<Job> {
+  build(id: string, body: BuildSettings): Promise<Job> {
     return this.rest.json('post', '/api/v1/cases/{id}/build', { path: { id }, body });
   }
   /** Sends what must not be lost although the page goes away now. */

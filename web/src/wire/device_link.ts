@@ -16,7 +16,7 @@ export type DeviceLinkState =
   | { kind: 'lost'; retryAtMs: number | null }
   | { kind: 'ended'; reason: string };
 
-export interface DeviceLinkDuties {
+export interface DeviceLinkCallbacks {
   socket: DeviceSocket;
   onState(state: DeviceLinkState): void;
   onFeedback(feedback: Feedback): void;
@@ -36,7 +36,7 @@ export class DeviceLink {
   private retryTimer: ReturnType<typeof setTimeout> | undefined;
   private silenceTimer: ReturnType<typeof setTimeout> | undefined;
 
-  constructor(private readonly duties: DeviceLinkDuties) {}
+  constructor(private readonly callbacks: DeviceLinkCallbacks) {}
 
   connect(url: string): void {
     this.disconnect();
@@ -49,13 +49,13 @@ export class DeviceLink {
   disconnect(): void {
     this.stopTimers();
     this.url = null;
-    this.duties.socket.close();
+    this.callbacks.socket.close();
   }
 
   private tryOnce(): void {
     if (this.url === null) return;
     if (this.state.kind === 'lost') this.set({ kind: 'lost', retryAtMs: null });
-    this.duties.socket.open(this.url, {
+    this.callbacks.socket.open(this.url, {
       onReport: (report) => this.hear(report),
       onClosed: (code, reason) => this.onClosed(code, reason),
     });
@@ -71,7 +71,7 @@ export class DeviceLink {
       this.backoff.reset();
     } else {
       if (this.state.kind !== 'holding') this.set({ kind: 'holding' });
-      this.duties.onFeedback(report.feedback);
+      this.callbacks.onFeedback(report.feedback);
     }
     this.listen();
   }
@@ -100,7 +100,7 @@ export class DeviceLink {
 
   private lose(): void {
     this.stopTimers();
-    this.duties.socket.close();
+    this.callbacks.socket.close();
     const pauseMs = this.backoff.take();
     this.set({ kind: 'lost', retryAtMs: Date.now() + pauseMs });
     this.retryTimer = setTimeout(() => this.tryOnce(), pauseMs);
@@ -113,6 +113,6 @@ export class DeviceLink {
 
   private set(state: DeviceLinkState): void {
     this.state = state;
-    this.duties.onState(state);
+    this.callbacks.onState(state);
   }
 }

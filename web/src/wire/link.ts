@@ -18,7 +18,7 @@ export type LinkState =
   | { kind: 'lost'; sinceMs: number; retryAtMs: number | null; reason: string }
   | { kind: 'refused'; serverRevision: number };
 
-export interface LinkDuties {
+export interface LinkCallbacks {
   socket: StreamSocket;
   /** Finds the session to watch and gives its stream's address, null where there is none; asked for each attempt. */
   findStream(): Promise<string | null>;
@@ -45,12 +45,12 @@ export class Link {
   private lastHeardMs = 0;
   private trafficExpected = false;
 
-  constructor(private readonly duties: LinkDuties) {}
+  constructor(private readonly callbacks: LinkCallbacks) {}
 
   /** Connects, or leaves the present stream for the one that findStream names now. */
   connect(): void {
     this.stopTimers();
-    this.duties.socket.close();
+    this.callbacks.socket.close();
     void this.tryOnce(++this.attempt);
   }
 
@@ -58,7 +58,7 @@ export class Link {
   stop(): void {
     this.stopTimers();
     ++this.attempt;
-    this.duties.socket.close();
+    this.callbacks.socket.close();
     this.set({ kind: 'connecting' });
   }
 
@@ -80,7 +80,7 @@ export class Link {
   private async tryOnce(attempt: number): Promise<void> {
     if (this.state.kind === 'lost') this.set({ ...this.state, retryAtMs: null });
     try {
-      const url = await this.duties.findStream();
+      const url = await this.callbacks.findStream();
       if (attempt !== this.attempt) return;
       if (url === null) {
         this.backoff.reset();
@@ -89,7 +89,7 @@ export class Link {
         return;
       }
       this.silenceTimer = setTimeout(() => this.lose('no hello from the server'), helloWithinMs);
-      this.duties.socket.open(url, {
+      this.callbacks.socket.open(url, {
         onMessage: (message) => this.hear(message),
         onClosed: (reason) => this.lose(reason),
       });
@@ -110,7 +110,7 @@ export class Link {
     this.lastHeardMs = Date.now();
     if (this.state.kind !== 'live') this.set({ kind: 'live' });
     this.listen();
-    this.duties.onMessage(message);
+    this.callbacks.onMessage(message);
   }
 
   private listen(): void {
@@ -125,7 +125,7 @@ export class Link {
   private lose(reason: string): void {
     this.stopTimers();
     const attempt = ++this.attempt;
-    this.duties.socket.close();
+    this.callbacks.socket.close();
     const pauseMs = this.backoff.take();
     const sinceMs = this.state.kind === 'lost' || this.state.kind === 'silent' ? this.state.sinceMs : Date.now();
     this.set({ kind: 'lost', sinceMs, retryAtMs: Date.now() + pauseMs, reason });
@@ -139,6 +139,6 @@ export class Link {
 
   private set(state: LinkState): void {
     this.state = state;
-    this.duties.onState(state);
+    this.callbacks.onState(state);
   }
 }

@@ -47,7 +47,7 @@ export type {
 } from './generated/openapi';
 export type {
   BonePart,
-  BuildSettings as BuildWishes,
+  BuildSettings as BuildSettings,
   Case as CaseDetails,
   CaseBuilt as BuiltBone,
   CaseCt as CtDescription,
@@ -59,7 +59,7 @@ export type {
   Login as Visitor,
   NormalValue as NormalRange,
   PlanAssessment as Assessment,
-  PlanTargets as PlanWishes,
+  PlanTargets as PlanTargets,
   Point as Triple,
   QuestionnaireItem as Item,
   Times as Timing,

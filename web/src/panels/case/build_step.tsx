@@ -11,15 +11,15 @@ import { Button } from '../common/button';
 const finest = 8;
 
 /** How fine and how much, cartilage, and building the bone that is reamed. */
-export function BuildStep({ keeper }: { keeper: CaseController }) {
-  const { store } = keeper;
+export function BuildStep({ controller }: { controller: CaseController }) {
+  const { store } = controller;
   const details = store.details.value;
   const built = details?.built ?? null;
   const upsample = useSignal(built?.upsample ?? 4);
   const roi = useSignal<'glenoid' | 'whole'>('glenoid');
   const cartilageMm = useSignal(built?.cartilage_mm ?? 0);
   const found = details?.segmentation ?? null;
-  const hasCentre = keeper.landmarks.landmarks.value.glenoid_centre_mm !== undefined;
+  const hasCentre = controller.landmarks.landmarks.value.glenoid_centre_mm !== undefined;
   const lacksCentre = !hasCentre && (roi.value === 'glenoid' || cartilageMm.value > 0);
   const blocked = found === null || lacksCentre || store.busy.value || isUnderWay(store.job.value);
   return (
@@ -54,9 +54,11 @@ export function BuildStep({ keeper }: { keeper: CaseController }) {
           testId="run-build"
           disabled={blocked}
           onClick={() =>
-            void keeper.landmarks
+            void controller.landmarks
               .saveNow()
-              .then(() => keeper.build({ upsample: upsample.value, roi: roi.value, cartilage_mm: cartilageMm.value }))
+              .then(() =>
+                controller.build({ upsample: upsample.value, roi: roi.value, cartilage_mm: cartilageMm.value }),
+              )
           }
         >
           {built === null ? caseText.runBuild : caseText.runBuildAgain}

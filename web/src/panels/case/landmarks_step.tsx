@@ -15,9 +15,9 @@ import { MeasuresPanel } from './measures_panel';
 import { Button } from '../common/button';
 
 /** The landmarks to be placed, the head's radius, the Walch class, and what is measured from them. */
-export function LandmarksStep({ keeper }: { keeper: CaseController }) {
-  const armed = keeper.store.armed.value;
-  const landmarks = keeper.landmarks.landmarks.value;
+export function LandmarksStep({ controller }: { controller: CaseController }) {
+  const armed = controller.store.armed.value;
+  const landmarks = controller.landmarks.landmarks.value;
   const head = landmarks.humeral_head;
   const chosen = armed?.kind === 'landmark' ? armed.name : null;
   const { low, high } = headRadiusLimitsMm;
@@ -28,14 +28,14 @@ export function LandmarksStep({ keeper }: { keeper: CaseController }) {
         {landmarkNames
           .filter((name) => !isOptional(name))
           .map((name) => (
-            <LandmarkRow key={name} {...{ keeper, name, chosen: name === chosen }} />
+            <LandmarkRow key={name} {...{ controller, name, chosen: name === chosen }} />
           ))}
       </ol>
       {head !== undefined && (
         <SliderField
           {...{ label: caseText.headRadius, unit: caseText.mm, value: head.radius_mm, low, high, step: 0.5 }}
           testId="head-radius"
-          onChange={(radius_mm) => keeper.landmarks.change({ ...landmarks, humeral_head: { ...head, radius_mm } })}
+          onChange={(radius_mm) => controller.landmarks.change({ ...landmarks, humeral_head: { ...head, radius_mm } })}
         />
       )}
       <SelectField<WalchClass | ''>
@@ -48,19 +48,19 @@ export function LandmarksStep({ keeper }: { keeper: CaseController }) {
         testId="walch"
         onChange={(walch) => {
           const { walch: before, ...others } = landmarks;
-          if (walch !== (before ?? '')) keeper.landmarks.change(walch === '' ? others : { ...others, walch });
+          if (walch !== (before ?? '')) controller.landmarks.change(walch === '' ? others : { ...others, walch });
         }}
       />
-      <Biconcavity keeper={keeper} chosen={chosen} />
-      <SaveLine keeper={keeper} state={keeper.landmarks.save.value} />
-      <MeasuresPanel keeper={keeper.landmarks} />
+      <Biconcavity controller={controller} chosen={chosen} />
+      <SaveLine controller={controller} state={controller.landmarks.save.value} />
+      <MeasuresPanel controller={controller.landmarks} />
     </>
   );
 }
 
 /** The points of a biconcave face, open where the class says so or one is placed. */
-function Biconcavity({ keeper, chosen }: { keeper: CaseController; chosen: LandmarkName | null }) {
-  const landmarks = keeper.landmarks.landmarks.value;
+function Biconcavity({ controller, chosen }: { controller: CaseController; chosen: LandmarkName | null }) {
+  const landmarks = controller.landmarks.landmarks.value;
   const named = landmarks.walch === 'B2' || landmarks.walch === 'C2';
   const begun = biconcavityNames.some((name) => name === chosen || pointOf(landmarks, name) !== null);
   return (
@@ -69,7 +69,7 @@ function Biconcavity({ keeper, chosen }: { keeper: CaseController; chosen: Landm
       <p class="soft">{caseText.biconcavityHint}</p>
       <ol class="pick-list landmarks">
         {biconcavityNames.map((name) => (
-          <LandmarkRow key={name} {...{ keeper, name, chosen: name === chosen }} />
+          <LandmarkRow key={name} {...{ controller, name, chosen: name === chosen }} />
         ))}
       </ol>
     </details>
@@ -77,13 +77,13 @@ function Biconcavity({ keeper, chosen }: { keeper: CaseController; chosen: Landm
 }
 
 interface RowParts {
-  keeper: CaseController;
+  controller: CaseController;
   name: LandmarkName;
   chosen: boolean;
 }
 
-function LandmarkRow({ keeper, name, chosen }: RowParts) {
-  const isPlaced = pointOf(keeper.landmarks.landmarks.value, name) !== null;
+function LandmarkRow({ controller, name, chosen }: RowParts) {
+  const isPlaced = pointOf(controller.landmarks.landmarks.value, name) !== null;
   const title = caseText.landmarkNames[name];
   return (
     <li>
@@ -94,7 +94,7 @@ function LandmarkRow({ keeper, name, chosen }: RowParts) {
         data-placed={isPlaced}
         aria-pressed={chosen}
         title={caseText.landmarkHints[name]}
-        onClick={() => (chosen ? (keeper.store.armed.value = null) : keeper.choose(name))}
+        onClick={() => (chosen ? (controller.store.armed.value = null) : controller.choose(name))}
       >
         <kbd>{landmarkNames.indexOf(name) + 1}</kbd>
         {title}
@@ -110,7 +110,7 @@ function LandmarkRow({ keeper, name, chosen }: RowParts) {
           data-testid={`remove-${name}`}
           aria-label={caseText.removeLandmark(title)}
           title={caseText.removeLandmark(title)}
-          onClick={() => keeper.place(name, null)}
+          onClick={() => controller.place(name, null)}
         >
           ×
         </button>
@@ -120,8 +120,8 @@ function LandmarkRow({ keeper, name, chosen }: RowParts) {
 }
 
 /** Whether the server has what is shown. */
-function SaveLine({ keeper, state }: { keeper: CaseController; state: SaveState }) {
-  const { landmarks } = keeper;
+function SaveLine({ controller, state }: { controller: CaseController; state: SaveState }) {
+  const { landmarks } = controller;
   return (
     <div
       class={`save save-${state.kind}`}

@@ -7,10 +7,10 @@ import { inclinationText, versionText } from './angle_text';
 import { Remark } from '../common/fields';
 
 /** What the server measures from the saved landmarks, beside what is normal; dimmed while it is of older ones. */
-export function MeasuresPanel({ keeper }: { keeper: LandmarkEditor }) {
-  const measures = keeper.measures.value;
-  const problem = keeper.measuresProblem.value;
-  const isFresh = keeper.measured.value;
+export function MeasuresPanel({ controller }: { controller: LandmarkEditor }) {
+  const measures = controller.measures.value;
+  const problem = controller.measuresProblem.value;
+  const isFresh = controller.measured.value;
   if (measures === null)
     return problem === null ? null : <Remark kind="bad">{caseText.measuresFailed(problem)}</Remark>;
   return (

@@ -1,7 +1,7 @@
 import { useSignal } from '@preact/signals';
 
 import { caseText } from '../../text/case_text';
-import type { CasesKeeper, NewCaseState } from '../../state/case/new_case';
+import type { CaseListController, NewCaseState } from '../../state/case/new_case';
 import type { Side } from '../../wire/rest_types';
 import { fixed } from '../../text/format';
 import { Remark } from '../common/fields';
@@ -12,15 +12,15 @@ const accepted = '.zip,.nrrd,.nii,.nii.gz,.gz,.mha,.txt,.dcm';
 const megabytes = (bytes: number) => fixed(bytes / 1e6, 1);
 
 /** A CT's file, whose shoulder it is, and how far its upload and reading are. */
-export function NewCasePanel({ keeper }: { keeper: CasesKeeper }) {
-  const state = keeper.state.value;
+export function NewCasePanel({ controller }: { controller: CaseListController }) {
+  const state = controller.state.value;
   const underWay = state.kind === 'uploading' || state.kind === 'importing';
-  const file = keeper.file.value;
-  const side = keeper.side.value;
+  const file = controller.file.value;
+  const side = controller.side.value;
   return (
     <aside class="new-case" aria-label={caseText.newCase}>
       <h2>{caseText.newCase}</h2>
-      <FilePlace keeper={keeper} disabled={underWay} />
+      <FilePlace controller={controller} disabled={underWay} />
       <p class="soft">{caseText.newCaseHint}</p>
       <fieldset class="side-choice" disabled={underWay}>
         <legend>{caseText.whichSide}</legend>
@@ -29,7 +29,7 @@ export function NewCasePanel({ keeper }: { keeper: CasesKeeper }) {
             key={option}
             side={option}
             chosen={side === option}
-            onChoose={() => (keeper.side.value = option)}
+            onChoose={() => (controller.side.value = option)}
           />
         ))}
       </fieldset>
@@ -41,11 +41,13 @@ export function NewCasePanel({ keeper }: { keeper: CasesKeeper }) {
           placeholder={caseText.caseNameHint}
           data-testid="case-name"
           disabled={underWay}
-          value={keeper.wishes.value.name}
-          onInput={(event) => (keeper.wishes.value = { ...keeper.wishes.value, name: event.currentTarget.value })}
+          value={controller.wishes.value.name}
+          onInput={(event) =>
+            (controller.wishes.value = { ...controller.wishes.value, name: event.currentTarget.value })
+          }
         />
       </label>
-      <details class="more" open={keeper.wishes.value.seriesUid !== ''}>
+      <details class="more" open={controller.wishes.value.seriesUid !== ''}>
         <summary>{caseText.moreChoices}</summary>
         <label class="field">
           {caseText.seriesUid}
@@ -53,20 +55,20 @@ export function NewCasePanel({ keeper }: { keeper: CasesKeeper }) {
             type="text"
             data-testid="series-uid"
             disabled={underWay}
-            value={keeper.wishes.value.seriesUid}
+            value={controller.wishes.value.seriesUid}
             onInput={(event) =>
-              (keeper.wishes.value = { ...keeper.wishes.value, seriesUid: event.currentTarget.value })
+              (controller.wishes.value = { ...controller.wishes.value, seriesUid: event.currentTarget.value })
             }
           />
         </label>
       </details>
-      <Progress keeper={keeper} state={state} />
+      <Progress controller={controller} state={state} />
       {!underWay && (
         <Button
           look="main"
           testId="make-case"
           disabled={file === null || side === null}
-          onClick={() => void keeper.make()}
+          onClick={() => void controller.make()}
         >
           {state.kind === 'failed' && state.during === 'upload' ? caseText.goOn : caseText.make}
         </Button>
@@ -86,12 +88,12 @@ function SideOption({ side, chosen, onChoose }: { side: Side; chosen: boolean; o
 }
 
 /** Where a file is dropped, or chosen. */
-function FilePlace({ keeper, disabled }: { keeper: CasesKeeper; disabled: boolean }) {
+function FilePlace({ controller, disabled }: { controller: CaseListController; disabled: boolean }) {
   const over = useSignal(false);
-  const file = keeper.file.value;
+  const file = controller.file.value;
   const take = (files: FileList | null | undefined) => {
     const first = files?.[0];
-    if (first !== undefined && !disabled) keeper.choose(first);
+    if (first !== undefined && !disabled) controller.choose(first);
   };
   return (
     <div
@@ -133,7 +135,7 @@ function FilePlace({ keeper, disabled }: { keeper: CasesKeeper; disabled: boolea
   );
 }
 
-function Progress({ keeper, state }: { keeper: CasesKeeper; state: NewCaseState }) {
+function Progress({ controller, state }: { controller: CaseListController; state: NewCaseState }) {
   switch (state.kind) {
     case 'idle':
       return null;
@@ -145,7 +147,7 @@ function Progress({ keeper, state }: { keeper: CasesKeeper; state: NewCaseState 
           <p>{text}</p>
           <ProgressBar share={share} label={text} stale={state.waiting} />
           {state.waiting && <p class="warn-text">{caseText.uploadWaiting}</p>}
-          <Button testId="cancel-upload" onClick={() => void keeper.cancel()}>
+          <Button testId="cancel-upload" onClick={() => void controller.cancel()}>
             {caseText.cancel}
           </Button>
         </div>
@@ -156,8 +158,8 @@ function Progress({ keeper, state }: { keeper: CasesKeeper; state: NewCaseState 
         <JobProgress
           job={state.job}
           silent={state.silent}
-          onCancel={() => void keeper.cancel()}
-          onDismiss={() => (keeper.state.value = { kind: 'idle' })}
+          onCancel={() => void controller.cancel()}
+          onDismiss={() => (controller.state.value = { kind: 'idle' })}
         />
       );
     case 'failed': {

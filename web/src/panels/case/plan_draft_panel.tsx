@@ -11,10 +11,10 @@ import { NumberBox, NumberField, Remark } from '../common/fields';
 import { Button } from '../common/button';
 
 /** The proposed or kept plan by numbers, what it would do, and keeping it. */
-export function PlanDraftPanel({ keeper, draft }: { keeper: CaseController; draft: PlanDraft }) {
+export function PlanDraftPanel({ controller, draft }: { controller: CaseController; draft: PlanDraft }) {
   const { plan, assessment, isAssessed, kept } = draft;
-  const change = (part: Partial<Plan>) => keeper.draftPlan({ ...plan, ...part });
-  const asked = keeper.store.overrideAsked.value;
+  const change = (part: Partial<Plan>) => controller.draftPlan({ ...plan, ...part });
+  const asked = controller.store.overrideAsked.value;
   return (
     <section class="plan-draft" data-testid="plan-draft" data-kept={kept}>
       <p class={kept ? 'good' : 'warn-text'} data-testid="plan-state">
@@ -48,14 +48,14 @@ export function PlanDraftPanel({ keeper, draft }: { keeper: CaseController; draf
       {assessment !== null && !isAssessed && <Remark kind="warn">{caseText.planChanged}</Remark>}
       {assessment !== null && <AssessmentFigures assessment={assessment} stale={!isAssessed} />}
       {asked !== null || (isAssessed && assessment?.needs_override === true) ? (
-        <Override keeper={keeper} words={asked} kept={kept} />
+        <Override controller={controller} words={asked} kept={kept} />
       ) : (
         <div class="buttons">
           <Button
             look="main"
             testId="keep-plan"
-            disabled={(kept && !keeper.store.planBeforeLandmarks.value) || keeper.store.busy.value}
-            onClick={() => void keeper.keepPlan(null)}
+            disabled={(kept && !controller.store.planBeforeLandmarks.value) || controller.store.busy.value}
+            onClick={() => void controller.keepPlan(null)}
           >
             {caseText.keepPlan}
           </Button>
@@ -111,7 +111,7 @@ function AssessmentFigures({ assessment, stale }: { assessment: Assessment; stal
 }
 
 /** Keeping what is refused without a reason. */
-function Override({ keeper, words, kept }: { keeper: CaseController; words: string | null; kept: boolean }) {
+function Override({ controller, words, kept }: { controller: CaseController; words: string | null; kept: boolean }) {
   const [reason, setReason] = useState('');
   if (kept) return null;
   return (
@@ -131,8 +131,8 @@ function Override({ keeper, words, kept }: { keeper: CaseController; words: stri
       <Button
         look="warn"
         testId="override-keep"
-        disabled={reason.trim() === '' || keeper.store.busy.value}
-        onClick={() => void keeper.keepPlan(reason.trim())}
+        disabled={reason.trim() === '' || controller.store.busy.value}
+        onClick={() => void controller.keepPlan(reason.trim())}
       >
         {caseText.overrideKeep}
       </Button>

@@ -4,14 +4,14 @@ import { useState } from 'preact/hooks';
 import { caseText } from '../../text/case_text';
 import type { CaseController } from '../../state/case/case_controller';
 import { neededNames, pointOf } from '../../state/case/landmark_names';
-import type { Guide, PlanWishes, Reamer } from '../../wire/rest_types';
+import type { Guide, PlanTargets, Reamer } from '../../wire/rest_types';
 import { fixed } from '../../text/format';
 import { CheckField, NumberBox, NumberField, Remark, SelectField } from '../common/fields';
 import { PlanDraftPanel } from './plan_draft_panel';
 import { Button } from '../common/button';
 
 /** What is wished of the plan (null: left to the server); the wishes last as long as the page is open. */
-export class PlanWishesStore {
+export class PlanTargetsStore {
   readonly versionDeg = signal<number | null>(0);
   /** Null: as it is, within 10 degrees. */
   readonly inclinationDeg = signal<number | null>(null);
@@ -24,7 +24,7 @@ export class PlanWishesStore {
   readonly pilot = signal<{ diameterMm: number; depthMm: number } | null>(null);
   readonly guide = signal<Guide | null>(null);
 
-  wishes(): PlanWishes {
+  wishes(): PlanTargets {
     const pilot = this.pilot.value;
     const all = {
       version_deg: this.versionDeg.value,
@@ -41,32 +41,32 @@ export class PlanWishesStore {
 }
 
 /** A proposal from what is wished, the plan by numbers, and keeping it. */
-export function PlanStep({ keeper, wishes }: { keeper: CaseController; wishes: PlanWishesStore }) {
-  const { store } = keeper;
-  const landmarks = keeper.landmarks.landmarks.value;
+export function PlanStep({ controller, wishes }: { controller: CaseController; wishes: PlanTargetsStore }) {
+  const { store } = controller;
+  const landmarks = controller.landmarks.landmarks.value;
   const placed = neededNames.every((name) => pointOf(landmarks, name) !== null);
   const draft = store.draft.value;
   return (
     <>
       <p class="soft">{placed ? caseText.planHint : caseText.planNeeds}</p>
-      <WishFields wishes={wishes} reamers={store.reamers.value} />
+      <TargetFields wishes={wishes} reamers={store.reamers.value} />
       <div class="buttons">
         <Button
           look="main"
           testId="propose"
           disabled={!placed || store.busy.value}
-          onClick={() => void keeper.proposePlan(wishes.wishes())}
+          onClick={() => void controller.proposePlan(wishes.wishes())}
         >
           {draft === null ? caseText.propose : caseText.proposeAgain}
         </Button>
       </div>
       {store.planBeforeLandmarks.value && draft?.kept === true && <Remark kind="warn">{caseText.planOutdated}</Remark>}
-      {draft !== null && <PlanDraftPanel keeper={keeper} draft={draft} />}
+      {draft !== null && <PlanDraftPanel controller={controller} draft={draft} />}
     </>
   );
 }
 
-function WishFields({ wishes, reamers }: { wishes: PlanWishesStore; reamers: readonly Reamer[] }) {
+function TargetFields({ wishes, reamers }: { wishes: PlanTargetsStore; reamers: readonly Reamer[] }) {
   return (
     <>
       <AngleFields wishes={wishes} />
@@ -87,7 +87,7 @@ function WishFields({ wishes, reamers }: { wishes: PlanWishesStore; reamers: rea
   );
 }
 
-function AngleFields({ wishes }: { wishes: PlanWishesStore }) {
+function AngleFields({ wishes }: { wishes: PlanTargetsStore }) {
   return (
     <>
       <SignedAngle
@@ -112,7 +112,7 @@ function AngleFields({ wishes }: { wishes: PlanWishesStore }) {
 }
 
 /** The reamer and what leads it. */
-function ReamerFields({ wishes, reamers }: { wishes: PlanWishesStore; reamers: readonly Reamer[] }) {
+function ReamerFields({ wishes, reamers }: { wishes: PlanTargetsStore; reamers: readonly Reamer[] }) {
   return (
     <>
       <SelectField
@@ -136,7 +136,7 @@ function ReamerFields({ wishes, reamers }: { wishes: PlanWishesStore; reamers: r
   );
 }
 
-function PilotFields({ wishes }: { wishes: PlanWishesStore }) {
+function PilotFields({ wishes }: { wishes: PlanTargetsStore }) {
   const mm = caseText.mm;
   const pilot = wishes.pilot.value;
   return (

@@ -8,16 +8,16 @@ import { CheckField, Remark } from '../common/fields';
 import { Button } from '../common/button';
 
 interface Parts {
-  keeper: CaseController;
+  controller: CaseController;
   states: Record<StepName, StepState>;
   startReaming: (caseId: string, theatre: boolean) => Promise<void>;
 }
 
 /** Opens the simulator on this case, with the reamer in the user's hand. */
-export function ReamStep({ keeper, states, startReaming }: Parts) {
+export function ReamStep({ controller, states, startReaming }: Parts) {
   const starting = useSignal(false);
   const theatre = useSignal(false);
-  const { store } = keeper;
+  const { store } = controller;
   const details = store.details.value;
   const lacking = (['build', 'plan'] as const).filter((name) =>
     name === 'build' ? details?.stage !== 'built' : details?.plan === null,
@@ -27,8 +27,8 @@ export function ReamStep({ keeper, states, startReaming }: Parts) {
     starting.value = true;
     store.problem.value = null;
     try {
-      await keeper.landmarks.saveNow();
-      await startReaming(keeper.caseId, theatre.value);
+      await controller.landmarks.saveNow();
+      await startReaming(controller.caseId, theatre.value);
     } catch (error) {
       store.problem.value = wordsOf(error);
     } finally {

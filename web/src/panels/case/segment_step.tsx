@@ -10,8 +10,8 @@ import { CheckField, Remark, SliderField } from '../common/fields';
 import { Button } from '../common/button';
 
 /** Threshold, smoothing, joints and seeds; finding the bones, and what was found. */
-export function SegmentStep({ keeper }: { keeper: CaseController }) {
-  const { store } = keeper;
+export function SegmentStep({ controller }: { controller: CaseController }) {
+  const { store } = controller;
   const details = store.details.value;
   const settings = store.settings.value;
   const ct = details?.ct ?? null;
@@ -41,15 +41,20 @@ export function SegmentStep({ keeper }: { keeper: CaseController }) {
         testId="fill-holes"
         onChange={(fill_holes) => change({ fill_holes })}
       />
-      <SeedList keeper={keeper} settings={settings} />
+      <SeedList controller={controller} settings={settings} />
       <div class="buttons">
-        <Button look="main" testId="run-segmentation" disabled={blocked} onClick={() => void keeper.segment(settings)}>
+        <Button
+          look="main"
+          testId="run-segmentation"
+          disabled={blocked}
+          onClick={() => void controller.segment(settings)}
+        >
           {found === null ? caseText.runSegment : caseText.runSegmentAgain}
         </Button>
         <Button
           testId="undo-segmentation"
           disabled={blocked || found?.can_undo !== true}
-          onClick={() => void keeper.undoSegmentation()}
+          onClick={() => void controller.undoSegmentation()}
         >
           {caseText.undo}
         </Button>
@@ -59,11 +64,11 @@ export function SegmentStep({ keeper }: { keeper: CaseController }) {
           {caseText.settingsChanged}
         </Remark>
       )}
-      {found !== null && <PartList keeper={keeper} found={found} />}
+      {found !== null && <PartList controller={controller} found={found} />}
       <details class="seeds">
         <summary>{caseText.otherSide}</summary>
         <p class="soft">{caseText.otherSideHint}</p>
-        <Button testId="copy-other-side" disabled={blocked} onClick={() => void openOtherSide(keeper)}>
+        <Button testId="copy-other-side" disabled={blocked} onClick={() => void openOtherSide(controller)}>
           {caseText.copyOtherSide(details?.side === 'left' ? 'right' : 'left')}
         </Button>
       </details>
@@ -71,8 +76,8 @@ export function SegmentStep({ keeper }: { keeper: CaseController }) {
   );
 }
 
-async function openOtherSide(keeper: CaseController): Promise<void> {
-  const id = await keeper.copyForOtherSide();
+async function openOtherSide(controller: CaseController): Promise<void> {
+  const id = await controller.copyForOtherSide();
   if (id !== null) window.location.hash = addressOfRoute({ kind: 'case', id });
 }
 
@@ -99,8 +104,8 @@ function ThresholdField({ ct, value, onChange }: { ct: CtDescription; value: num
   );
 }
 
-function SeedList({ keeper, settings }: { keeper: CaseController; settings: WantedSettings }) {
-  const { store } = keeper;
+function SeedList({ controller, settings }: { controller: CaseController; settings: WantedSettings }) {
+  const { store } = controller;
   const armed = store.armed.value;
   const remove = (name: SeedName) => {
     const seeds = { ...settings.seeds };
@@ -146,7 +151,7 @@ function SeedList({ keeper, settings }: { keeper: CaseController; settings: Want
   );
 }
 
-function PartList({ keeper, found }: { keeper: CaseController; found: Segmentation }) {
+function PartList({ controller, found }: { controller: CaseController; found: Segmentation }) {
   return (
     <>
       <h3>{caseText.parts}</h3>
@@ -161,8 +166,8 @@ function PartList({ keeper, found }: { keeper: CaseController; found: Segmentati
                 data-testid={`part-${part.label}`}
                 aria-label={caseText.goToPart(name)}
                 onClick={() => {
-                  keeper.lookAt(part.centre_mm);
-                  keeper.framePart(part);
+                  controller.lookAt(part.centre_mm);
+                  controller.framePart(part);
                 }}
               >
                 <span class="swatch" style={{ background: cssColour(part.label) }} aria-hidden="true" />

@@ -9,40 +9,40 @@ import { Remark } from '../common/fields';
 import { JobProgress } from './job_progress';
 import { LandmarksStep } from './landmarks_step';
 import { MeasuresPanel } from './measures_panel';
-import { PlanStep, PlanWishesStore } from './plan_step';
+import { PlanStep, PlanTargetsStore } from './plan_step';
 import { ReamStep } from './ream_step';
 import { SegmentStep } from './segment_step';
 
 interface Parts {
-  keeper: CaseController;
+  controller: CaseController;
   startReaming: (caseId: string, theatre: boolean) => Promise<void>;
 }
 
 /** The steps from a CT to a reamed bone, one of them open. */
-export function StepsPanel({ keeper, startReaming }: Parts) {
-  const wishes = useMemo(() => new PlanWishesStore(), []);
-  const { store } = keeper;
+export function StepsPanel({ controller, startReaming }: Parts) {
+  const wishes = useMemo(() => new PlanTargetsStore(), []);
+  const { store } = controller;
   const details = store.details.value;
   if (details === null) return null;
   const states = stepStates({
     details,
-    landmarks: keeper.landmarks.landmarks.value,
+    landmarks: controller.landmarks.landmarks.value,
     planBeforeLandmarks: store.planBeforeLandmarks.value,
   });
   const content: Record<StepName, () => ComponentChildren> = {
-    segment: () => <SegmentStep keeper={keeper} />,
-    landmarks: () => <LandmarksStep keeper={keeper} />,
-    plan: () => <PlanStep keeper={keeper} wishes={wishes} />,
-    build: () => <BuildStep keeper={keeper} />,
-    ream: () => <ReamStep {...{ keeper, states, startReaming }} />,
+    segment: () => <SegmentStep controller={controller} />,
+    landmarks: () => <LandmarksStep controller={controller} />,
+    plan: () => <PlanStep controller={controller} wishes={wishes} />,
+    build: () => <BuildStep controller={controller} />,
+    ream: () => <ReamStep {...{ controller, states, startReaming }} />,
   };
-  if (!keeper.mayEdit) return <OnlyReaming keeper={keeper}>{content.ream()}</OnlyReaming>;
+  if (!controller.mayEdit) return <OnlyReaming controller={controller}>{content.ream()}</OnlyReaming>;
   return (
     <aside class="steps">
-      <Problem keeper={keeper} />
-      <Work keeper={keeper} />
+      <Problem controller={controller} />
+      <Work controller={controller} />
       {stepNames.map((name, i) => (
-        <Step key={name} {...{ keeper, name, number: i + 1, state: states[name], content: content[name] }} />
+        <Step key={name} {...{ controller, name, number: i + 1, state: states[name], content: content[name] }} />
       ))}
       {details.warnings.length > 0 && (
         <details class="case-warnings">
@@ -59,15 +59,15 @@ export function StepsPanel({ keeper, startReaming }: Parts) {
 }
 
 /** What is left of the steps for who may not change the case. */
-function OnlyReaming({ keeper, children }: { keeper: CaseController; children: ComponentChildren }) {
+function OnlyReaming({ controller, children }: { controller: CaseController; children: ComponentChildren }) {
   return (
     <aside class="steps">
-      <Problem keeper={keeper} />
+      <Problem controller={controller} />
       <section class="step open" data-testid="step-ream">
         <h2 class="step-title">{caseText.steps.ream}</h2>
         <div class="step-body">
           {children}
-          <MeasuresPanel keeper={keeper.landmarks} />
+          <MeasuresPanel controller={controller.landmarks} />
         </div>
       </section>
     </aside>
@@ -75,34 +75,34 @@ function OnlyReaming({ keeper, children }: { keeper: CaseController; children: C
 }
 
 /** The server's work on the case, until it is done. */
-function Work({ keeper }: { keeper: CaseController }) {
-  const { store } = keeper;
+function Work({ controller }: { controller: CaseController }) {
+  const { store } = controller;
   const job = store.job.value;
   if (job === null || job.state === 'done') return null;
   return (
     <JobProgress
       job={job}
       silent={store.jobSilent.value}
-      onCancel={() => void keeper.cancelJob()}
+      onCancel={() => void controller.cancelJob()}
       onDismiss={() => (store.job.value = null)}
     />
   );
 }
 
 interface StepParts {
-  keeper: CaseController;
+  controller: CaseController;
   name: StepName;
   number: number;
   state: StepState;
   content: () => ComponentChildren;
 }
 
-function Step({ keeper, name, number, state, content }: StepParts) {
-  const open = keeper.store.openStep.value === name;
+function Step({ controller, name, number, state, content }: StepParts) {
+  const open = controller.store.openStep.value === name;
   return (
     <section class={open ? 'step open' : 'step'} data-testid={`step-${name}`} data-state={state}>
       <h2>
-        <button type="button" aria-expanded={open} onClick={() => openStep(keeper, open ? null : name)}>
+        <button type="button" aria-expanded={open} onClick={() => openStep(controller, open ? null : name)}>
           <span class="step-number" aria-hidden="true">
             {state === 'done' ? '✓' : number}
           </span>
@@ -115,16 +115,16 @@ function Step({ keeper, name, number, state, content }: StepParts) {
   );
 }
 
-function openStep(keeper: CaseController, name: StepName | null): void {
-  const { store } = keeper;
+function openStep(controller: CaseController, name: StepName | null): void {
+  const { store } = controller;
   store.openStep.value = name;
   const fits = store.armed.value?.kind === (name === 'segment' ? 'seed' : 'landmark');
-  if (name === 'landmarks') keeper.armFirstMissing();
+  if (name === 'landmarks') controller.armFirstMissing();
   else if (!fits || name !== 'segment') store.armed.value = null;
 }
 
-function Problem({ keeper }: { keeper: CaseController }) {
-  const { problem } = keeper.store;
+function Problem({ controller }: { controller: CaseController }) {
+  const { problem } = controller.store;
   if (problem.value === null) return null;
   return (
     <div class="problem" role="alert" data-testid="case-problem">

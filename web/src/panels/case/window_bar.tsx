@@ -9,8 +9,8 @@ const presets: readonly (readonly [string, string, WindowLevel])[] = [
 ];
 
 /** Brightness of the slices and what lies over them. */
-export function WindowBar({ keeper }: { keeper: CaseController }) {
-  const { store } = keeper;
+export function WindowBar({ controller }: { controller: CaseController }) {
+  const { store } = controller;
   const scapula = store.details.value?.segmentation?.parts.find(({ label }) => label === 1);
   const { widthHu, levelHu } = store.window.value;
   const { widthMin, widthMax, levelMin, levelMax } = windowLimits;
@@ -56,11 +56,11 @@ export function WindowBar({ keeper }: { keeper: CaseController }) {
       )}
       <div class="window-group framing">
         {scapula !== undefined && (
-          <button type="button" class="chip" data-testid="frame-scapula" onClick={() => keeper.framePart(scapula)}>
+          <button type="button" class="chip" data-testid="frame-scapula" onClick={() => controller.framePart(scapula)}>
             {caseText.partNames[1]}
           </button>
         )}
-        <button type="button" class="chip" data-testid="frame-ct" onClick={() => keeper.framePart(null)}>
+        <button type="button" class="chip" data-testid="frame-ct" onClick={() => controller.framePart(null)}>
           {caseText.wholeCt}
         </button>
       </div>

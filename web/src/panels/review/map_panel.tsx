@@ -18,17 +18,17 @@ import { fixed } from '../../text/format';
 const scales = Object.keys(scaleBoundsMm) as ScaleName[];
 
 /** What the colours of the maps mean, and how much of each surface has which. */
-export function MapPanel({ desk }: { desk: ReviewWorkspace }) {
-  const panes = desk.panes.value;
+export function MapPanel({ workspace }: { workspace: ReviewWorkspace }) {
+  const panes = workspace.panes.value;
   const wanted = panes.flatMap(({ session }) => wantedMap(session.map.state.value) ?? []);
   if (wanted.length === 0) return null;
-  const scale = desk.settings.scale.value;
+  const scale = workspace.settings.scale.value;
   const maps = panes.map(({ session }) => readyMap(session.map.state.value, scale));
   return (
     <section class="review-panel map-panel" aria-labelledby="map-title" data-testid="map-panel">
       <div class="panel-head">
         <h2 id="map-title">{reviewText.map}</h2>
-        <ScaleChoice scale={desk.settings.scale} />
+        <ScaleChoice scale={workspace.settings.scale} />
       </div>
       {[...new Set<MapName>(wanted)].map((name) => (
         <p key={name} class="soft">

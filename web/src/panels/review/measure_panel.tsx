@@ -7,9 +7,9 @@ import { fixed } from '../../text/format';
 import { Button } from '../common/button';
 
 /** What was measured on each session, and how to. */
-export function MeasurePanel({ desk }: { desk: ReviewWorkspace }) {
-  const panes = desk.panes.value;
-  const measuring = desk.settings.measuring.value;
+export function MeasurePanel({ workspace }: { workspace: ReviewWorkspace }) {
+  const panes = workspace.panes.value;
+  const measuring = workspace.settings.measuring.value;
   if (!measuring && panes.every(({ session }) => session.places.value.length === 0)) return null;
   return (
     <section class="review-panel" aria-labelledby="measure-title" data-testid="measure-panel">

@@ -20,14 +20,14 @@ const slices = lazyPart(() => import('../picture/live_slices'));
 interface Parts {
   pane: Pane;
   place: number;
-  desk: ReviewWorkspace;
+  workspace: ReviewWorkspace;
 }
 
 /** One session: its picture, its timeline, and what of both is chosen. */
-export function ReviewPane({ pane, place, desk }: Parts) {
+export function ReviewPane({ pane, place, workspace }: Parts) {
   const { session } = pane;
-  const { settings } = desk;
-  const several = desk.panes.value.length > 1;
+  const { settings } = workspace;
+  const several = workspace.panes.value.length > 1;
   const active = several && settings.active.value === place;
   const take = () => (settings.active.value = place);
   return (
@@ -41,11 +41,11 @@ export function ReviewPane({ pane, place, desk }: Parts) {
       onFocusCapture={take}
     >
       <div class="pane-head">
-        {several && <PaneTitle place={place} desk={desk} />}
+        {several && <PaneTitle place={place} workspace={workspace} />}
         <MomentBar session={session} />
         <EventList session={session} />
       </div>
-      <PanePicture pane={pane} desk={desk} />
+      <PanePicture pane={pane} workspace={workspace} />
       <PlaybackBar store={session.store} player={session.player} marks={session.marks.value}>
         <ThrustChart session={session} />
       </PlaybackBar>
@@ -54,8 +54,8 @@ export function ReviewPane({ pane, place, desk }: Parts) {
 }
 
 /** Which of two it is, and the way to the other alone. */
-function PaneTitle({ place, desk }: { place: number; desk: ReviewWorkspace }) {
-  const panes = desk.panes.value;
+function PaneTitle({ place, workspace }: { place: number; workspace: ReviewWorkspace }) {
+  const panes = workspace.panes.value;
   const session = panes[place]?.session;
   const other = panes[1 - place]?.session.id;
   if (session === undefined || other === undefined) return null;
@@ -84,7 +84,7 @@ function momentWords({ store }: ReviewSession): string {
   return reviewText.momentSays(fixed(now?.depthMm, 2), fixed(thrust, 1), fixed(now?.removedVolumeMm3, 0));
 }
 
-function PanePicture({ pane, desk }: { pane: Pane; desk: ReviewWorkspace }) {
+function PanePicture({ pane, workspace }: { pane: Pane; workspace: ReviewWorkspace }) {
   const { session, view, liveCase } = pane;
   const { store } = session;
   const place = useRef<HTMLDivElement>(null);
@@ -97,7 +97,7 @@ function PanePicture({ pane, desk }: { pane: Pane; desk: ReviewWorkspace }) {
     place.current?.prepend(canvas);
     return () => canvas.remove();
   }, [view]);
-  const measuring = desk.settings.measuring.value;
+  const measuring = workspace.settings.measuring.value;
   const trouble = session.trouble.value;
   const stale = store.hasPicture.value && !store.upToDate.value;
   const map = session.map.state.value;
@@ -139,7 +139,7 @@ function PanePicture({ pane, desk }: { pane: Pane; desk: ReviewWorkspace }) {
           </button>
         </p>
       )}
-      {desk.settings.slicesOpen.value &&
+      {workspace.settings.slicesOpen.value &&
         slices.show(({ LiveSlicesPanel }) => <LiveSlicesPanel store={store} liveCase={liveCase} />)}
     </div>
   );

@@ -7,10 +7,10 @@ import { ViewToggle } from '../common/view_toggle';
 import { ViewTools } from '../picture/view_tools';
 
 /** From where the bones are seen and what is seen of them, for all sessions at once. */
-export function ReviewTools({ desk }: { desk: ReviewWorkspace }) {
-  const { settings } = desk;
+export function ReviewTools({ workspace }: { workspace: ReviewWorkspace }) {
+  const { settings } = workspace;
   // The other is seen from where the first one is.
-  const scene = desk.panes.value[0]?.view.scene;
+  const scene = workspace.panes.value[0]?.view.scene;
   if (scene === undefined) return null;
   return (
     <div class="review-tools">

@@ -3,14 +3,14 @@ import { batch } from '@preact/signals';
 import { SliceCache } from '../../ct/slice_cache';
 import type { CaseApi } from '../../wire/case_api';
 import type {
-  BuildWishes,
+  BuildSettings,
   CaseDetails,
   CtDescription,
   Job,
   BonePart,
   NewPlan,
   Plan,
-  PlanWishes,
+  PlanTargets,
   Segmentation,
   WantedSettings,
   Triple,
@@ -95,7 +95,7 @@ export class CaseController {
       if (details.ct !== null) this.store.settings.value = settingsOf(details.ct, details.segmentation);
     });
   }
-  build(wishes: BuildWishes): Promise<void> {
+  build(wishes: BuildSettings): Promise<void> {
     return this.carryOut(async () => void (await this.follow(await this.api.build(this.caseId, wishes))));
   }
   cancelJob(): Promise<void> {
@@ -105,7 +105,7 @@ export class CaseController {
     });
   }
 
-  proposePlan(wishes: PlanWishes): Promise<void> {
+  proposePlan(wishes: PlanTargets): Promise<void> {
     return this.carryOut(async () => {
       await this.landmarks.saveNow();
       const { plan, assessment } = await this.api.proposePlan(this.caseId, wishes);

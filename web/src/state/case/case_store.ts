@@ -37,7 +37,7 @@ export interface Framed {
 export type SurfaceState =
   { kind: 'none' } | { kind: 'loading' } | { kind: 'shown' } | { kind: 'failed'; words: string };
 
-/** What the Case page knows of its case. Written by the keeper and by what the user's hand does to the views. */
+/** What the Case page knows of its case. Written by the controller and by what the user's hand does to the views. */
 export class CaseStore {
   readonly details = signal<CaseDetails | null>(null);
   /** Why the case cannot be shown. */

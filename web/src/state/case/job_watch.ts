@@ -7,7 +7,7 @@ const pollWhileLostMs = 1500;
 
 export const isUnderWay = (job: Job | null): boolean => job?.state === 'waiting' || job?.state === 'running';
 
-export interface JobDuties {
+export interface JobCallbacks {
   api: Pick<CaseApi, 'job'>;
   onJob: (job: Job) => void;
   /** Whether the server does not answer; what was last told may be old. */
@@ -16,24 +16,24 @@ export interface JobDuties {
 }
 
 /** Follows a job until it ends, through breaks of the link; the ended job, or null when `signal` ended the watch. */
-export async function followJob(first: Job, duties: JobDuties, signal: AbortSignal): Promise<Job | null> {
+export async function followJob(first: Job, callbacks: JobCallbacks, signal: AbortSignal): Promise<Job | null> {
   let job = first;
   let silent = false;
-  duties.onJob(job);
+  callbacks.onJob(job);
   while (isUnderWay(job)) {
-    await duties.pause(silent ? pollWhileLostMs : pollMs);
+    await callbacks.pause(silent ? pollWhileLostMs : pollMs);
     if (signal.aborted) return null;
     try {
-      job = await duties.api.job(job.id);
-      if (silent) duties.onSilence(false);
+      job = await callbacks.api.job(job.id);
+      if (silent) callbacks.onSilence(false);
       silent = false;
     } catch (error) {
       if (error instanceof ApiError && error.status === 404) throw error;
-      if (!silent) duties.onSilence(true);
+      if (!silent) callbacks.onSilence(true);
       silent = true;
     }
     if (signal.aborted) return null;
-    duties.onJob(job);
+    callbacks.onJob(job);
   }
   return job;
 }

@@ -18,13 +18,13 @@ export type NewCaseState =
   | { kind: 'importing'; job: Job; silent: boolean }
   | { kind: 'failed'; during: 'upload' | 'import'; words: string };
 
-export interface NewCaseWishes {
+export interface NewCaseOptions {
   name: string;
   seriesUid: string;
 }
 
 /** All cases, and the making of a new one from a file; lives as long as the page is open. */
-export class CasesKeeper {
+export class CaseListController {
   readonly cases = signal<readonly CaseSummary[] | null>(null);
   /** Whether the list was read since the page of cases was opened. */
   readonly listFresh = signal(false);
@@ -32,7 +32,7 @@ export class CasesKeeper {
   readonly file = signal<UploadSource | null>(null);
   /** Never guessed: the user says which shoulder it is. */
   readonly side = signal<Side | null>(null);
-  readonly wishes = signal<NewCaseWishes>({ name: '', seriesUid: '' });
+  readonly wishes = signal<NewCaseOptions>({ name: '', seriesUid: '' });
   readonly state = signal<NewCaseState>({ kind: 'idle' });
   private abort = new AbortController();
 

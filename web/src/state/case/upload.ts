@@ -16,7 +16,7 @@ export interface UploadSource {
   slice(from: number, to: number): { arrayBuffer(): Promise<ArrayBuffer> };
 }
 
-export interface UploadDuties {
+export interface UploadCallbacks {
   api: UploadApi;
   /** Remembers which upload is of which file, so that a page loaded anew goes on where it was. */
   remembered: Pick<Storage, 'getItem' | 'setItem' | 'removeItem'>;
@@ -32,40 +32,40 @@ const nameOf = (file: UploadSource) => `ream.upload.${file.name}.${file.size}.${
  * Sends a file in pieces and gives its upload, going on where the server is after a break. Throws ApiError when the
  * server refuses it or does not come back, and AbortError when `signal` ends it.
  */
-export async function uploadFile(file: UploadSource, duties: UploadDuties, signal: AbortSignal): Promise<Upload> {
-  let upload = await begin(file, duties);
+export async function uploadFile(file: UploadSource, callbacks: UploadCallbacks, signal: AbortSignal): Promise<Upload> {
+  let upload = await begin(file, callbacks);
   let failures = 0;
   while (upload.received < file.size) {
-    duties.onProgress(upload.received, file.size);
+    callbacks.onProgress(upload.received, file.size);
     signal.throwIfAborted();
     try {
       const to = Math.min(upload.received + pieceBytes, file.size);
       const piece = new Uint8Array(await file.slice(upload.received, to).arrayBuffer());
-      upload = await duties.api.sendPiece(upload.id, upload.received, piece, signal);
-      if (failures > 0) duties.onWaiting(false);
+      upload = await callbacks.api.sendPiece(upload.id, upload.received, piece, signal);
+      if (failures > 0) callbacks.onWaiting(false);
       failures = 0;
     } catch (error) {
       signal.throwIfAborted();
-      upload = await recover(error, upload, failures++, duties, signal);
+      upload = await recover(error, upload, failures++, callbacks, signal);
     }
   }
-  duties.onProgress(file.size, file.size);
+  callbacks.onProgress(file.size, file.size);
   return upload;
 }
 
 /** The upload is no longer of use, because it became a case or is not wanted. */
-export function forgetUpload(file: UploadSource, remembered: UploadDuties['remembered']): void {
+export function forgetUpload(file: UploadSource, remembered: UploadCallbacks['remembered']): void {
   remembered.removeItem(nameOf(file));
 }
 
 /** What has arrived of a file is not wanted any more. */
-export async function dropUpload(file: UploadSource, { api, remembered }: Pick<UploadDuties, 'api' | 'remembered'>) {
+export async function dropUpload(file: UploadSource, { api, remembered }: Pick<UploadCallbacks, 'api' | 'remembered'>) {
   const id = remembered.getItem(nameOf(file));
   forgetUpload(file, remembered);
   if (id !== null) await api.dropUpload(id).catch(() => undefined);
 }
 
-async function begin(file: UploadSource, { api, remembered }: UploadDuties): Promise<Upload> {
+async function begin(file: UploadSource, { api, remembered }: UploadCallbacks): Promise<Upload> {
   const earlier = remembered.getItem(nameOf(file));
   if (earlier !== null) {
     const known = await api.upload(earlier).catch((error: unknown) => {
@@ -84,7 +84,7 @@ async function recover(
   error: unknown,
   upload: Upload,
   failures: number,
-  { api, onWaiting, pause }: UploadDuties,
+  { api, onWaiting, pause }: UploadCallbacks,
   signal: AbortSignal,
 ): Promise<Upload> {
   const passing = error instanceof ApiError && (error.status === 0 || error.status === 409 || error.status >= 500);

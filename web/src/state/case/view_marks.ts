@@ -33,8 +33,8 @@ export class ViewMarks {
   readonly points: ReadonlySignal<readonly PointMark[]>;
   readonly plan: ReadonlySignal<PlanMark | null>;
 
-  constructor(private readonly keeper: CaseController) {
-    const { store } = keeper;
+  constructor(private readonly controller: CaseController) {
+    const { store } = controller;
     this.points = computed(() => {
       if (store.openStep.value === 'segment') return this.seeds();
       const entry = store.draft.value?.plan.entry_mm;
@@ -60,26 +60,26 @@ export class ViewMarks {
 
   /** Whether a mark moves when it is dragged in the step that is open. */
   draggable({ of }: PointMark): boolean {
-    const step = this.keeper.store.openStep.value;
+    const step = this.controller.store.openStep.value;
     return of.kind === 'entry' ? step === 'plan' : of.kind === 'seed' ? step === 'segment' : step === 'landmarks';
   }
 
   move({ of }: PointMark, point: Triple): void {
-    const { store } = this.keeper;
+    const { store } = this.controller;
     if (of.kind === 'landmark') {
-      this.keeper.place(of.name, point);
+      this.controller.place(of.name, point);
     } else if (of.kind === 'seed') {
       const settings = store.settings.value;
       if (settings !== null) store.settings.value = { ...settings, seeds: { ...settings.seeds, [of.name]: point } };
     } else {
       const plan = store.draft.value?.plan;
-      if (plan !== undefined) this.keeper.draftPlan({ ...plan, entry_mm: point });
+      if (plan !== undefined) this.controller.draftPlan({ ...plan, entry_mm: point });
     }
   }
 
   private landmarks(): PointMark[] {
-    const landmarks = this.keeper.landmarks.landmarks.value;
-    const armed = this.keeper.store.armed.value;
+    const landmarks = this.controller.landmarks.landmarks.value;
+    const armed = this.controller.store.armed.value;
     return landmarkNames.flatMap((name, i) => {
       const point = pointOf(landmarks, name);
       if (point === null) return [];
@@ -90,7 +90,7 @@ export class ViewMarks {
   }
 
   private seeds(): PointMark[] {
-    const { settings, armed } = this.keeper.store;
+    const { settings, armed } = this.controller.store;
     const seeds = settings.value?.seeds ?? {};
     return seedNames.flatMap((name) => {
       const point = seeds[name];

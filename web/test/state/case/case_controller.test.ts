@@ -5,13 +5,13 @@ import { truth } from '../../../../tests/support/fake_case/ct';
 import { serve } from '../../../../tests/support/fake_stream/server';
 import { CaseController } from '../../../src/state/case/case_controller';
 import { landmarkNames, neededNames } from '../../../src/state/case/landmark_names';
-import { CasesKeeper } from '../../../src/state/case/new_case';
+import { CaseListController } from '../../../src/state/case/new_case';
 import { CaseApi } from '../../../src/wire/case_api';
 
 let api: CaseApi;
 let memory: Map<string, string>;
 let ready: string[];
-let cases: CasesKeeper;
+let cases: CaseListController;
 
 const file = (name: string, bytes: number) => ({
   name,
@@ -30,7 +30,7 @@ beforeAll(async () => {
     setItem: (key: string, value: string) => void memory.set(key, value),
     removeItem: (key: string) => void memory.delete(key),
   };
-  cases = new CasesKeeper(api, remembered, (id) => ready.push(id));
+  cases = new CaseListController(api, remembered, (id) => ready.push(id));
 });
 afterAll(() => cases.cancel());
 
@@ -38,9 +38,9 @@ async function newCase(): Promise<CaseController> {
   cases.choose(file('shoulder.zip', 2_500_000));
   cases.side.value = 'right';
   await cases.make();
-  const keeper = new CaseController(api, ready.at(-1) ?? '');
-  await keeper.open();
-  return keeper;
+  const controller = new CaseController(api, ready.at(-1) ?? '');
+  await controller.open();
+  return controller;
 }
 
 describe('CasesKeeper', () => {
@@ -52,12 +52,12 @@ describe('CasesKeeper', () => {
   });
 
   it('makes a case of a file and lists it', async () => {
-    const keeper = await newCase();
-    expect(cases.cases.value?.map(({ id }) => id)).toContain(keeper.caseId);
+    const controller = await newCase();
+    expect(cases.cases.value?.map(({ id }) => id)).toContain(controller.caseId);
     expect(cases.file.value).toBeNull();
     expect(cases.side.value).toBeNull();
     expect(memory.size).toBe(0);
-    keeper.leave();
+    controller.leave();
   });
 
   it('says why a file became no case', async () => {
@@ -83,82 +83,82 @@ describe('CasesKeeper', () => {
 
 describe('CaseController', () => {
   it('leads a case from its CT to a bone that can be reamed', async () => {
-    const keeper = await newCase();
-    const { store } = keeper;
+    const controller = await newCase();
+    const { store } = controller;
     expect(store.openStep.value).toBe('segment');
     expect(store.settings.value?.threshold_hu).toBe(226);
     expect(store.previewFromHu.value).toBe(226);
 
-    await keeper.segment({ sigma_mm: 0, separate: true, seeds: {}, fill_holes: true, threshold_hu: 300 });
+    await controller.segment({ sigma_mm: 0, separate: true, seeds: {}, fill_holes: true, threshold_hu: 300 });
     expect(store.job.value).toBeNull();
     expect(store.details.value?.segmentation?.parts[0]?.name).toBe('scapula');
     expect(store.framed.value.box).not.toBeNull();
 
-    keeper.choose('glenoid_centre_mm');
+    controller.choose('glenoid_centre_mm');
     for (const name of neededNames) {
       expect(store.armed.value).toEqual({ kind: 'landmark', name });
       const point = truth[name];
-      if (point !== undefined) keeper.placeArmed(point);
+      if (point !== undefined) controller.placeArmed(point);
     }
     expect(store.armed.value).toEqual({ kind: 'landmark', name: 'humeral_head' });
-    await until(() => keeper.landmarks.measured.value);
-    expect(keeper.landmarks.measures.value?.version_3d_deg).toBeCloseTo(-8.1, 6);
+    await until(() => controller.landmarks.measured.value);
+    expect(controller.landmarks.measures.value?.version_3d_deg).toBeCloseTo(-8.1, 6);
 
-    await keeper.proposePlan({ version_deg: 12 });
+    await controller.proposePlan({ version_deg: 12 });
     expect(store.draft.value).toMatchObject({ kept: false, isAssessed: true });
-    await keeper.keepPlan(null);
+    await controller.keepPlan(null);
     expect(store.overrideAsked.value).toContain('override');
     expect(store.draft.value?.kept).toBe(false);
-    await keeper.keepPlan('for teaching');
+    await controller.keepPlan('for teaching');
     expect(store.draft.value?.kept).toBe(true);
     expect(store.details.value?.plan).toMatchObject({ override: true, override_reason: 'for teaching' });
 
     const kept = store.draft.value?.plan;
     if (kept === undefined) throw new Error('no plan');
-    keeper.draftPlan({ ...kept, depth_mm: 3 });
+    controller.draftPlan({ ...kept, depth_mm: 3 });
     expect(store.draft.value).toMatchObject({ kept: false, isAssessed: false });
     expect(store.draft.value?.plan).not.toHaveProperty('override');
 
-    await keeper.build({ upsample: 4, roi: 'glenoid', cartilage_mm: 0 });
+    await controller.build({ upsample: 4, roi: 'glenoid', cartilage_mm: 0 });
     expect(store.details.value?.stage).toBe('built');
-    await keeper.segment({ sigma_mm: 0, separate: true, seeds: {}, fill_holes: true, threshold_hu: 250 });
+    await controller.segment({ sigma_mm: 0, separate: true, seeds: {}, fill_holes: true, threshold_hu: 250 });
     const { built, segmentation } = store.details.value ?? {};
     expect(built?.segmentation_revision).not.toBe(segmentation?.revision);
-    await keeper.undoSegmentation();
+    await controller.undoSegmentation();
     expect(store.settings.value?.threshold_hu).toBe(300);
-    keeper.leave();
+    controller.leave();
   });
 
   it('chooses landmarks by number and shows where they are', async () => {
-    const keeper = await newCase();
-    const { store } = keeper;
-    keeper.chooseByNumber(6);
+    const controller = await newCase();
+    const { store } = controller;
+    controller.chooseByNumber(6);
     expect(store.armed.value).toEqual({ kind: 'landmark', name: landmarkNames[5] });
-    expect(keeper.placesNew()).toBe(true);
-    keeper.placeArmed([-57, 10, -8]);
+    expect(controller.placesNew()).toBe(true);
+    controller.placeArmed([-57, 10, -8]);
     store.crossHair.value = [1, 1, 1];
-    keeper.chooseByNumber(6);
-    expect(keeper.placesNew()).toBe(false);
+    controller.chooseByNumber(6);
+    expect(controller.placesNew()).toBe(false);
     store.crossHairMm.value?.forEach((value, i) => expect(value).toBeCloseTo([-57, 10, -8][i] ?? 0, 9));
-    keeper.leave();
+    controller.leave();
   });
 
   it('says that a case cannot be opened', async () => {
-    const keeper = new CaseController(api, 'nowhere');
-    await keeper.open();
-    expect(keeper.store.loadProblem.value).toContain("no case 'nowhere'");
+    const controller = new CaseController(api, 'nowhere');
+    await controller.open();
+    expect(controller.store.loadProblem.value).toContain("no case 'nowhere'");
   });
 
   it('only looks at a case where the user may not edit it', async () => {
     const made = await newCase();
     made.leave();
-    const keeper = new CaseController(api, made.caseId, false);
-    await keeper.open();
-    expect(keeper.store.openStep.value).toBe('ream');
-    keeper.chooseByNumber(1);
-    keeper.chooseMark({ kind: 'landmark', name: 'glenoid_centre_mm' });
-    expect(keeper.store.openStep.value).toBe('ream');
-    expect(keeper.store.armed.value).toBeNull();
-    keeper.leave();
+    const controller = new CaseController(api, made.caseId, false);
+    await controller.open();
+    expect(controller.store.openStep.value).toBe('ream');
+    controller.chooseByNumber(1);
+    controller.chooseMark({ kind: 'landmark', name: 'glenoid_centre_mm' });
+    expect(controller.store.openStep.value).toBe('ream');
+    expect(controller.store.armed.value).toBeNull();
+    controller.leave();
   });
 });

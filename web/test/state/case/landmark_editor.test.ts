@@ -29,15 +29,15 @@ class FakeLandmarks {
 }
 
 let api: FakeLandmarks;
-let keeper: LandmarkEditor;
+let controller: LandmarkEditor;
 const settle = () => vi.advanceTimersByTimeAsync(1000);
-const place = (y: number) => keeper.change(withPoint(keeper.landmarks.value, 'glenoid_centre_mm', [0, y, 0]));
+const place = (y: number) => controller.change(withPoint(controller.landmarks.value, 'glenoid_centre_mm', [0, y, 0]));
 
 beforeEach(async () => {
   vi.useFakeTimers();
   api = new FakeLandmarks();
-  keeper = new LandmarkEditor(api, 'c', () => undefined);
-  keeper.take(null);
+  controller = new LandmarkEditor(api, 'c', () => undefined);
+  controller.take(null);
   await settle();
 });
 afterEach(() => vi.useRealTimers());
@@ -45,24 +45,24 @@ afterEach(() => vi.useRealTimers());
 describe('LandmarkEditor', () => {
   it('saves once after a burst of changes, and measures what was saved', async () => {
     for (let y = 0; y < 10; ++y) place(y);
-    expect(keeper.save.value.kind).toBe('unsaved');
-    expect(keeper.measured.value).toBe(false);
+    expect(controller.save.value.kind).toBe('unsaved');
+    expect(controller.measured.value).toBe(false);
     await settle();
     expect(api.puts).toEqual([{ glenoid_centre_mm: [0, 9, 0] }]);
-    expect(keeper.save.value.kind).toBe('saved');
-    expect(keeper.measured.value).toBe(true);
-    expect(keeper.measures.value?.version_3d_deg).toBe(api.measured);
+    expect(controller.save.value.kind).toBe('saved');
+    expect(controller.measured.value).toBe(true);
+    expect(controller.measures.value?.version_3d_deg).toBe(api.measured);
   });
 
   it('says that it could not save, keeps what was placed, and saves it later', async () => {
     api.down = true;
     place(1);
     await settle();
-    expect(keeper.save.value).toEqual({ kind: 'failed', words: 'no answer' });
-    expect(keeper.measured.value).toBe(false);
+    expect(controller.save.value).toEqual({ kind: 'failed', words: 'no answer' });
+    expect(controller.measured.value).toBe(false);
     api.down = false;
-    await keeper.saveNow();
-    expect(keeper.save.value.kind).toBe('saved');
+    await controller.saveNow();
+    expect(controller.save.value.kind).toBe('saved');
     expect(api.onServer).toEqual({ glenoid_centre_mm: [0, 1, 0] });
   });
 
@@ -72,12 +72,12 @@ describe('LandmarkEditor', () => {
     api.onServer = { trigonum_mm: [7, 7, 7] };
     place(2);
     await settle();
-    expect(keeper.save.value.kind).toBe('conflict');
+    expect(controller.save.value.kind).toBe('conflict');
     expect(api.onServer).toEqual({ trigonum_mm: [7, 7, 7] });
     place(3);
     await settle();
-    expect(keeper.save.value.kind).toBe('conflict');
-    await keeper.keepMine();
+    expect(controller.save.value.kind).toBe('conflict');
+    await controller.keepMine();
     expect(api.onServer).toEqual({ glenoid_centre_mm: [0, 3, 0] });
   });
 
@@ -85,17 +85,17 @@ describe('LandmarkEditor', () => {
     api.onServer = { trigonum_mm: [7, 7, 7] };
     place(2);
     await settle();
-    keeper.takeTheirs();
+    controller.takeTheirs();
     await settle();
-    expect(keeper.landmarks.value).toEqual({ trigonum_mm: [7, 7, 7] });
-    expect(keeper.measured.value).toBe(true);
+    expect(controller.landmarks.value).toEqual({ trigonum_mm: [7, 7, 7] });
+    expect(controller.measured.value).toBe(true);
   });
 
   it('sends what is unsaved when the page is left, and nothing when all is saved', async () => {
-    keeper.leave();
+    controller.leave();
     expect(api.left).toBeNull();
     place(4);
-    keeper.leave();
+    controller.leave();
     expect(api.left).toEqual({ glenoid_centre_mm: [0, 4, 0] });
     await settle();
     expect(api.puts).toEqual([]);
@@ -108,7 +108,7 @@ describe('LandmarkEditor', () => {
     await settle();
     await settle();
     expect(api.onServer).toEqual({ glenoid_centre_mm: [0, 2, 0] });
-    expect(keeper.save.value.kind).toBe('saved');
+    expect(controller.save.value.kind).toBe('saved');
   });
 });
 

@@ -1,6 +1,6 @@
 import { beforeEach, describe, expect, it } from 'vitest';
 
-import { pieceBytes, uploadFile, type UploadDuties, type UploadSource } from '../../../src/state/case/upload';
+import { pieceBytes, uploadFile, type UploadCallbacks, type UploadSource } from '../../../src/state/case/upload';
 import type { Upload } from '../../../src/wire/rest_types';
 import { ApiError } from '../../../src/wire/rest';
 
@@ -51,14 +51,14 @@ let api: FakeUploads;
 let told: number[];
 let waits: boolean[];
 let memory: Map<string, string>;
-let duties: UploadDuties;
+let callbacks: UploadCallbacks;
 
 beforeEach(() => {
   api = new FakeUploads();
   told = [];
   waits = [];
   memory = new Map();
-  duties = {
+  callbacks = {
     api,
     remembered: {
       getItem: (key) => memory.get(key) ?? null,
@@ -75,7 +75,7 @@ const never = new AbortController().signal;
 
 describe('uploadFile', () => {
   it('sends a file in pieces, in order, and tells how far it is', async () => {
-    const upload = await uploadFile(file, duties, never);
+    const upload = await uploadFile(file, callbacks, never);
     expect(upload.received).toBe(size);
     expect(api.pieces).toBe(3);
     expect(told).toEqual([0, pieceBytes, 2 * pieceBytes, size]);
@@ -84,7 +84,7 @@ describe('uploadFile', () => {
 
   it('goes on after pieces and answers were lost, sending nothing twice', async () => {
     api.mishaps.push(null, 'lost', 'unanswered', null);
-    const upload = await uploadFile(file, duties, never);
+    const upload = await uploadFile(file, callbacks, never);
     expect(upload.received).toBe(size);
     expect(waits[0]).toBe(true);
     expect(waits.at(-1)).toBe(false);
@@ -93,35 +93,35 @@ describe('uploadFile', () => {
 
   it('gives up after a while, and goes on from there when tried again', async () => {
     api.mishaps.push(null, ...Array.from({ length: 6 }, () => 'lost' as const));
-    await expect(uploadFile(file, duties, never)).rejects.toThrow('no answer');
+    await expect(uploadFile(file, callbacks, never)).rejects.toThrow('no answer');
     told = [];
-    await uploadFile(file, duties, never);
+    await uploadFile(file, callbacks, never);
     expect(told[0]).toBe(pieceBytes);
     expect(api.kept.size).toBe(1);
   });
 
   it('does not repeat what the server refuses', async () => {
     api.mishaps.push('refused');
-    await expect(uploadFile(file, duties, never)).rejects.toThrow('too large');
+    await expect(uploadFile(file, callbacks, never)).rejects.toThrow('too large');
     expect(api.pieces).toBe(1);
   });
 
   it('begins anew when the server has forgotten the upload', async () => {
-    duties.remembered.setItem('ream.upload.shoulder.zip.2621440.5', 'gone');
-    const upload = await uploadFile(file, duties, never);
+    callbacks.remembered.setItem('ream.upload.shoulder.zip.2621440.5', 'gone');
+    const upload = await uploadFile(file, callbacks, never);
     expect(upload.id).toBe('u1');
   });
 
   it('does not take another file of the same name for it', async () => {
-    await uploadFile(file, duties, never);
-    await uploadFile({ ...file, lastModified: 6 }, duties, never);
+    await uploadFile(file, callbacks, never);
+    await uploadFile({ ...file, lastModified: 6 }, callbacks, never);
     expect(api.kept.size).toBe(2);
   });
 
   it('ends at once when it is not wanted any more', async () => {
     const abort = new AbortController();
-    duties.onProgress = (received) => received > 0 && abort.abort();
-    await expect(uploadFile(file, duties, abort.signal)).rejects.toThrow();
+    callbacks.onProgress = (received) => received > 0 && abort.abort();
+    await expect(uploadFile(file, callbacks, abort.signal)).rejects.toThrow();
     expect(api.pieces).toBe(1);
   });
 });
