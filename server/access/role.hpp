@@ -42,4 +42,7 @@ inline Roles role_bit(const std::string& role) {
   return role == "viewer" ? viewers : 0u;
 }
 
+inline bool is_staff(const std::string& role) { return (role_bit(role) & staff) != 0; }
+inline bool is_operator(const std::string& role) { return role_bit(role) == operators; }
+
 }  // namespace ream::access

@@ -11,7 +11,7 @@ namespace {
 constexpr size_t longest_words = 4000, longest_author = 100;
 constexpr double longest_session_s = 4e6, farthest_mm = 1e6;
 
-json to_json(const session::Annotation& annotation) {
+json annotation_json(const session::Annotation& annotation) {
   json place;
   if (const auto& p = annotation.place_mm) place = {p->x(), p->y(), p->z()};
   return {{"utc", annotation.utc},
@@ -35,13 +35,13 @@ net::Response annotate(session::SessionService& service, const net::Request& req
       !session.participant.empty() && !request.caller.user_id.empty() &&
       request.caller.user_id == session.trainee_id)
     note.author = session.participant;
-  return net::json_response(201, to_json(service.annotate(id, note)));
+  return net::json_response(201, annotation_json(service.annotate(id, note)));
 }
 
 net::Response list(const session::SessionService& service, const net::Request& request) {
   json annotations = json::array();
   for (const session::Annotation& annotation : service.annotations(request.parameters.at("id")))
-    annotations.push_back(to_json(annotation));
+    annotations.push_back(annotation_json(annotation));
   return net::json_response(200, {{"annotations", std::move(annotations)}});
 }
 

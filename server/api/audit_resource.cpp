@@ -23,7 +23,7 @@ int64_t number_in(const net::Request& request, const std::string& key, int64_t m
   return number;
 }
 
-json to_json(const store::AuditRow& row) {
+json audit_json(const store::AuditRow& row) {
   return {{"number", row.number},   {"at_utc", row.at_utc}, {"user_id", row.user_id},
           {"name", row.name},       {"role", row.role},     {"credential", row.credential},
           {"address", row.address}, {"action", row.action}, {"object", row.object},
@@ -41,7 +41,7 @@ net::Response list(const AccessTools& tools, const net::Request& request) {
       rows.pop_back();
       next = rows.back().number;
     }
-    for (const auto& row : rows) entries.push_back(to_json(row));
+    for (const auto& row : rows) entries.push_back(audit_json(row));
   }
   return net::json_response(200, {{"entries", std::move(entries)}, {"next", std::move(next)}});
 }

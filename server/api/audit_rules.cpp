@@ -6,23 +6,24 @@
 namespace ream::api {
 namespace {
 
-struct Rule {
+struct AuditRule {
   std::string_view method, pattern, action;
 };
 
-constexpr std::array<Rule, 6> rules = {{{"DELETE", "/api/v1/sessions/{id}", "session.delete"},
-                                        {"POST", "/api/v1/sessions/{id}/restore", "session.restore"},
-                                        {"GET", "/api/v1/sessions/{id}/recording", "session.download"},
-                                        {"POST", "/api/v1/sessions/{id}/exports", "session.export"},
-                                        {"POST", "/api/v1/sessions/{id}/score", "session.score"},
-                                        {"DELETE", "/api/v1/cases/{id}", "case.delete"}}};
+constexpr std::array<AuditRule, 6> audit_rules = {
+    {{"DELETE", "/api/v1/sessions/{id}", "session.delete"},
+     {"POST", "/api/v1/sessions/{id}/restore", "session.restore"},
+     {"GET", "/api/v1/sessions/{id}/recording", "session.download"},
+     {"POST", "/api/v1/sessions/{id}/exports", "session.export"},
+     {"POST", "/api/v1/sessions/{id}/score", "session.score"},
+     {"DELETE", "/api/v1/cases/{id}", "case.delete"}}};
 
 }  // namespace
 
 void audit_change(const Audit& audit, const net::Request& request, const std::string& pattern,
                   const net::Response& response) {
   if (response.status < 200 || response.status >= 300) return;
-  for (const Rule& rule : rules)
+  for (const AuditRule& rule : audit_rules)
     if (request.method == rule.method && pattern == rule.pattern)
       audit(request, std::string(rule.action), request.parameters.at("id"), "");
 }

@@ -11,7 +11,7 @@ using nlohmann::json;
 namespace {
 
 const std::string base = "/api/v1/benchmarks";
-constexpr size_t longest_name = 200, longest_rubric = 72, most_sessions = 1000, fewest_to_contrast = 3;
+constexpr size_t max_benchmark_name = 200, longest_rubric = 72, most_sessions = 1000, fewest_to_contrast = 3;
 
 json text_or_null(const std::string& text) { return text.empty() ? json(nullptr) : json(text); }
 
@@ -25,7 +25,7 @@ json summary_json(const score::KeptBenchmark& kept) {
 }
 
 /// Trainees get no ids of others' sessions.
-json to_json(const score::KeptBenchmark& kept, const net::Caller& caller) {
+json benchmark_json(const score::KeptBenchmark& kept, const net::Caller& caller) {
   const bool to_staff = (access::role_bit(caller.role) & access::staff) != 0;
   json lines = score::benchmark_json(kept.benchmark).at("metrics");
   for (json& line : lines)
@@ -71,7 +71,7 @@ struct Wishes {
 Wishes wishes_in(const net::Request& request) {
   RequestBody body(request);
   Wishes wishes;
-  wishes.name = body.words("name", 1, longest_name);
+  wishes.name = body.words("name", 1, max_benchmark_name);
   wishes.experts = body.names("experts", 1, most_sessions);
   const bool contrasted = body.value_or_none("novices").has_value();
   if (contrasted) wishes.novices = body.names("novices", fewest_to_contrast, most_sessions);
@@ -105,7 +105,7 @@ net::Response create(const ScoreTools& tools, const net::Request& request) {
                             {{"#/experts", "say no metric that has an aim"}});
   const score::KeptBenchmark kept = tools.stores.benchmarks.keep(std::move(made));
   tools.audit(request, "benchmark.create", kept.id, kept.benchmark.name);
-  net::Response response = net::json_response(201, to_json(kept, request.caller));
+  net::Response response = net::json_response(201, benchmark_json(kept, request.caller));
   response.headers.emplace_back("Location", base + "/" + kept.id);
   return response;
 }
@@ -122,7 +122,7 @@ void add_benchmark_routes(net::Router& router, const ScoreTools& tools) {
   router.on("POST", base, [tools](const net::Request& request) { return create(tools, request); });
   router.on("GET", base + "/{id}", [tools](const net::Request& request) {
     return net::json_response(
-        200, to_json(tools.stores.benchmarks.get(request.parameters.at("id")), request.caller));
+        200, benchmark_json(tools.stores.benchmarks.get(request.parameters.at("id")), request.caller));
   });
 }
 

@@ -13,7 +13,7 @@ namespace ream::api {
 using nlohmann::json;
 namespace {
 
-const std::string one = "/api/v1/cases/{id}";
+const std::string case_path = "/api/v1/cases/{id}";
 const std::string place = "the request body";
 
 net::Response measures(workup::CaseWorkshop& workshop, const net::Request& request) {
@@ -69,7 +69,7 @@ net::Response set_plan(workup::CaseWorkshop& workshop, const std::filesystem::pa
                             {{"plan", workup::plan_json(plan)}, {"assessment", case_::to_json(assessment)}});
 }
 
-json to_json(const shell::LibraryReamer& reamer) {
+json reamer_json(const shell::LibraryReamer& reamer) {
   json nipple;
   if (reamer.nipple)
     nipple = {{"radius_mm", reamer.nipple->radius_mm}, {"height_mm", reamer.nipple->height_mm}};
@@ -86,7 +86,7 @@ net::Response reamers_response(const std::filesystem::path& data_folder) {
   std::vector<std::string> warnings;
   json list = json::array();
   for (const shell::LibraryReamer& reamer : shell::reamers_of(data_folder, &warnings))
-    list.push_back(to_json(reamer));
+    list.push_back(reamer_json(reamer));
   for (const std::string& warning : warnings) log::warn(warning);
   return net::json_response(200, {{"reamers", std::move(list)}});
 }
@@ -95,18 +95,18 @@ net::Response reamers_response(const std::filesystem::path& data_folder) {
 
 void add_case_plan_routes(net::Router& router, workup::CaseWorkshop& workshop,
                           const std::filesystem::path& data_folder) {
-  router.on("GET", one + "/measures",
+  router.on("GET", case_path + "/measures",
             [&workshop](const net::Request& request) { return measures(workshop, request); });
-  router.on("GET", one + "/landmarks",
+  router.on("GET", case_path + "/landmarks",
             [&workshop](const net::Request& request) { return landmarks(workshop, request); });
-  router.on("GET", one + "/plan",
+  router.on("GET", case_path + "/plan",
             [&workshop](const net::Request& request) { return plan(workshop, request); });
-  router.on("PUT", one + "/landmarks",
+  router.on("PUT", case_path + "/landmarks",
             [&workshop](const net::Request& request) { return set_landmarks(workshop, request); });
-  router.on("POST", one + "/plan/proposal", [&workshop, data_folder](const net::Request& request) {
+  router.on("POST", case_path + "/plan/proposal", [&workshop, data_folder](const net::Request& request) {
     return propose(workshop, data_folder, request);
   });
-  router.on("PUT", one + "/plan", [&workshop, data_folder](const net::Request& request) {
+  router.on("PUT", case_path + "/plan", [&workshop, data_folder](const net::Request& request) {
     return set_plan(workshop, data_folder, request);
   });
   router.on("GET", "/api/v1/reamers",

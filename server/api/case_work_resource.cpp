@@ -12,7 +12,7 @@ namespace ream::api {
 using nlohmann::json;
 namespace {
 
-constexpr size_t longest_name = 200, longest_uid = 64;
+constexpr size_t max_case_name = 200, longest_uid = 64;
 
 case_::Side side_in(RequestBody& body) {
   const std::string side = body.words("side", 1, 10);
@@ -33,7 +33,7 @@ net::Response create(workup::CaseWorkshop& workshop, workup::UploadStore& upload
   }
   wanted.upload_id = body.name("upload_id");
   wanted.id = body.name_or("id", "");
-  wanted.name = body.words("name", 0, longest_name);
+  wanted.name = body.words("name", 0, max_case_name);
   wanted.series_uid = body.words("series_uid", 0, longest_uid);
   body.finish();
   return accepted(workshop.import(wanted, uploads));

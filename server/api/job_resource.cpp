@@ -15,7 +15,7 @@ namespace {
 
 json or_null(const std::string& text) { return text.empty() ? json(nullptr) : json(text); }
 
-json to_json(const jobs::JobRecord& job) {
+json job_json(const jobs::JobRecord& job) {
   json problem, result;
   if (job.state == jobs::JobState::failed) {
     const int status = net::http_status(job.problem_kind);
@@ -50,7 +50,7 @@ net::Response list(const jobs::JobService& jobs, const net::Request& request) {
     if (may_see(request.caller, job) && fits(request, "case_id", job.order.case_id) &&
         fits(request, "session_id", job.order.session_id) && fits(request, "kind", job.order.kind) &&
         fits(request, "state", to_text(job.state)))
-      list.push_back(to_json(job));
+      list.push_back(job_json(job));
   return page_of(request, "jobs", std::move(list), "-number");
 }
 
@@ -79,7 +79,7 @@ bool may_see(const net::Caller& caller, const jobs::JobRecord& job) {
 }
 
 net::Response accepted(const jobs::JobRecord& job) {
-  net::Response response = net::json_response(202, to_json(job));
+  net::Response response = net::json_response(202, job_json(job));
   response.headers.emplace_back("Location", "/api/v1/jobs/" + job.id);
   return response;
 }
@@ -88,10 +88,10 @@ void add_job_routes(net::Router& router, jobs::JobService& jobs) {
   const std::string all = "/api/v1/jobs", one = all + "/{id}";
   router.on("GET", all, [&jobs](const net::Request& request) { return list(jobs, request); });
   router.on("GET", one, [&jobs](const net::Request& request) {
-    return net::json_response(200, to_json(seen(jobs, request)));
+    return net::json_response(200, job_json(seen(jobs, request)));
   });
   router.on("DELETE", one, [&jobs](const net::Request& request) {
-    return net::json_response(202, to_json(jobs.cancel(seen(jobs, request).id)));
+    return net::json_response(202, job_json(jobs.cancel(seen(jobs, request).id)));
   });
   router.on("GET", one + "/result", [&jobs](const net::Request& request) { return result(jobs, request); });
 }

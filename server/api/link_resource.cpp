@@ -9,10 +9,10 @@ using access::CredentialKind;
 using nlohmann::json;
 namespace {
 
-constexpr size_t longest_name = 100, longest_moment = 40;
-const std::string path = "/api/v1/links";
+constexpr size_t max_link_name = 100, longest_moment = 40;
+const std::string links_path = "/api/v1/links";
 
-json to_json(const store::CredentialRow& row) {
+json link_json(const store::CredentialRow& row) {
   return {{"id", row.id},
           {"name", row.name},
           {"session", row.session_id.empty() ? json(nullptr) : json(row.session_id)},
@@ -29,14 +29,14 @@ net::Response list(const AccessTools& tools, const net::Request& request) {
   json links = json::array();
   if (tools.gatehouse)
     for (const auto& row : tools.gatehouse->credentials.list(CredentialKind::link, maker_for(request.caller)))
-      links.push_back(to_json(row));
+      links.push_back(link_json(row));
   return net::json_response(200, {{"links", std::move(links)}});
 }
 
 net::Response add(const AccessTools& tools, const net::Request& request) {
   RequestBody body(request);
   access::NewCredential wanted;
-  wanted.name = body.words("name", 0, longest_name);
+  wanted.name = body.words("name", 0, max_link_name);
   wanted.only_session = body.name_or("session", "");
   wanted.expires_utc = body.words("expires_utc", 0, longest_moment);
   body.finish();
@@ -48,7 +48,7 @@ net::Response add(const AccessTools& tools, const net::Request& request) {
   const access::IssuedCredential issued = gatehouse.credentials.issue(CredentialKind::link, wanted);
   audit_in (&gatehouse)(request, "link.add", issued.row.id,
                         issued.row.session_id.empty() ? "all sessions" : "session " + issued.row.session_id);
-  json told = to_json(issued.row);
+  json told = link_json(issued.row);
   told["secret"] = issued.secret.reveal();
   return net::json_response(201, told);
 }
@@ -68,9 +68,9 @@ net::Response revoke(const AccessTools& tools, const net::Request& request) {
 }  // namespace
 
 void add_link_routes(net::Router& router, const AccessTools& tools) {
-  router.on("GET", path, [tools](const net::Request& request) { return list(tools, request); });
-  router.on("POST", path, [tools](const net::Request& request) { return add(tools, request); });
-  router.on("DELETE", path + "/{id}",
+  router.on("GET", links_path, [tools](const net::Request& request) { return list(tools, request); });
+  router.on("POST", links_path, [tools](const net::Request& request) { return add(tools, request); });
+  router.on("DELETE", links_path + "/{id}",
             [tools](const net::Request& request) { return revoke(tools, request); });
 }
 

@@ -7,7 +7,7 @@
 namespace ream::api {
 namespace {
 
-constexpr std::string_view name = "ream_session", spaces = " \t";
+constexpr std::string_view cookie_name = "ream_session", spaces = " \t";
 
 std::string_view trimmed(std::string_view text) {
   const size_t begin = text.find_first_not_of(spaces);
@@ -16,7 +16,7 @@ std::string_view trimmed(std::string_view text) {
 }
 
 std::string cookie_line(std::string_view value, int64_t lifetime_s, bool encrypted) {
-  return std::string(name) + "=" + std::string(value) +
+  return std::string(cookie_name) + "=" + std::string(value) +
          "; Path=/; HttpOnly; SameSite=Strict; Max-Age=" + std::to_string(lifetime_s) +
          (encrypted ? "; Secure" : "");
 }
@@ -40,8 +40,8 @@ access::Secret cookie_of(const net::Request& request) {
   while (!rest.empty()) {
     const size_t end = std::min(rest.find(';'), rest.size());
     const std::string_view pair = trimmed(rest.substr(0, end));
-    if (pair.starts_with(name) && pair.substr(name.size()).starts_with('='))
-      return access::Secret(pair.substr(name.size() + 1));
+    if (pair.starts_with(cookie_name) && pair.substr(cookie_name.size()).starts_with('='))
+      return access::Secret(pair.substr(cookie_name.size() + 1));
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   return {};

@@ -14,15 +14,15 @@ using access::Secret;
 using nlohmann::json;
 namespace {
 
-constexpr size_t longest_name = 200, longest_secret = access::max_password_bytes;
-const std::string path = "/api/v1/login";
+constexpr size_t max_login_name = 200, longest_secret = access::max_password_bytes;
+const std::string login_path = "/api/v1/login";
 
 Secret secret_in(RequestBody& body, const std::string& key) {
   std::string text = body.words(key, 1, longest_secret);
   return Secret(std::move(text));
 }
 
-json to_json(const Visitor& visitor, bool open) {
+json visitor_json(const Visitor& visitor, bool open) {
   const auto& identity = visitor.identity;
   json user;
   if (identity && !identity->user_id.empty())
@@ -37,7 +37,7 @@ json to_json(const Visitor& visitor, bool open) {
 }
 
 net::Response who_am_i(const AccessTools& tools, const net::Request& request) {
-  return net::json_response(200, to_json(tools.gate.visitor(request), tools.gate.is_open()));
+  return net::json_response(200, visitor_json(tools.gate.visitor(request), tools.gate.is_open()));
 }
 
 /// Gives the page a cookie and tells who it is now.
@@ -51,7 +51,7 @@ net::Response let_in(const AccessTools& tools, const net::Request& request,
   const Visitor visitor = tools.gate.visitor(with_cookie);
   with_cookie.caller = visitor.caller;
   audit_in (&gatehouse)(with_cookie, action, wanted.user_id, "");
-  net::Response response = net::json_response(200, to_json(visitor, tools.gate.is_open()));
+  net::Response response = net::json_response(200, visitor_json(visitor, tools.gate.is_open()));
   const auto lifetime = utc_moment(cookie.row.expires_utc) - utc_moment(cookie.row.created_utc);
   response.headers.emplace_back(
       "Set-Cookie", login_cookie(cookie.secret, std::chrono::duration_cast<std::chrono::seconds>(lifetime),
@@ -61,7 +61,7 @@ net::Response let_in(const AccessTools& tools, const net::Request& request,
 
 net::Response log_in(const AccessTools& tools, const net::Request& request) {
   RequestBody body(request);
-  const std::string name = body.words("name", 1, longest_name);
+  const std::string name = body.words("name", 1, max_login_name);
   const Secret password = secret_in(body, "password");
   body.finish();
   access::AccessControl& gatehouse = gatehouse_of(tools);
@@ -124,14 +124,14 @@ net::Response change_password(const AccessTools& tools, const net::Request& requ
 }  // namespace
 
 void add_login_routes(net::Router& router, const AccessTools& tools) {
-  router.on("GET", path, [tools](const net::Request& request) { return who_am_i(tools, request); });
-  router.on("POST", path, [tools](const net::Request& request) {
+  router.on("GET", login_path, [tools](const net::Request& request) { return who_am_i(tools, request); });
+  router.on("POST", login_path, [tools](const net::Request& request) {
     return patiently([&] { return log_in(tools, request); });
   });
-  router.on("DELETE", path, [tools](const net::Request& request) { return log_out(tools, request); });
-  router.on("POST", path + "/link",
+  router.on("DELETE", login_path, [tools](const net::Request& request) { return log_out(tools, request); });
+  router.on("POST", login_path + "/link",
             [tools](const net::Request& request) { return log_in_by_link(tools, request); });
-  router.on("POST", path + "/password", [tools](const net::Request& request) {
+  router.on("POST", login_path + "/password", [tools](const net::Request& request) {
     return patiently([&] { return change_password(tools, request); });
   });
 }

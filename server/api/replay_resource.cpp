@@ -10,7 +10,7 @@ namespace ream::api {
 using nlohmann::json;
 namespace {
 
-const std::string base = "/api/v1/sessions";
+const std::string sessions_path = "/api/v1/sessions";
 constexpr double ticks_per_s = 1000.0;
 /// Longer than any recording; the replay itself knows its duration.
 constexpr double longest_s = 1e7;
@@ -24,7 +24,7 @@ net::Response create(const session::SessionService& sessions, session::ReplaySer
                                          "; it can be replayed when it has ended");
   const session::ReplayRecord record = replays.create({{}, id, of.request.case_id, of.request.script});
   net::Response response = net::json_response(201, to_json(record));
-  response.headers.emplace_back("Location", base + "/" + record.request.id);
+  response.headers.emplace_back("Location", sessions_path + "/" + record.request.id);
   return response;
 }
 
@@ -68,11 +68,11 @@ json to_json(const session::ReplayRecord& record) {
 
 void add_replay_routes(net::Router& router, const session::SessionService& sessions,
                        session::ReplayService& replays, const Readiness& readiness) {
-  router.on("POST", base + "/{id}/replay", [&](const net::Request& request) {
+  router.on("POST", sessions_path + "/{id}/replay", [&](const net::Request& request) {
     readiness.require_prepared();
     return create(sessions, replays, request);
   });
-  router.on("POST", base + "/{id}/playback",
+  router.on("POST", sessions_path + "/{id}/playback",
             [&replays](const net::Request& request) { return change(replays, request); });
 }
 

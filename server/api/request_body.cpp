@@ -6,7 +6,7 @@
 namespace ream::api {
 namespace {
 
-constexpr size_t longest_name = 64;
+constexpr size_t max_plain_name = 64;
 
 std::string plain_number(double value) {
   const std::string text = nlohmann::json(value).dump();
@@ -45,8 +45,9 @@ void RequestBody::complain(const std::string& key, const std::string& what) {
 }
 
 std::string RequestBody::name(const std::string& key) {
-  return text_that(key, is_name,
-                   "may hold only a-z, 0-9 and -, and at most " + std::to_string(longest_name) + " of them");
+  return text_that(
+      key, is_name,
+      "may hold only a-z, 0-9 and -, and at most " + std::to_string(max_plain_name) + " of them");
 }
 
 std::string RequestBody::name_or(const std::string& key, const std::string& otherwise) {

@@ -8,6 +8,7 @@
 
 #include "core/text.hpp"
 #include "geometry/vec.hpp"
+#include "net/message.hpp"
 #include "net/problem.hpp"
 
 namespace ream::api {
@@ -69,5 +70,8 @@ class RequestBody {
 /// The JSON value of a body, for readers that files and requests share.
 /// Throws RequestError: 415 when it is not sent as JSON, 400 when it is not JSON.
 nlohmann::json json_object_in(const net::Request& request);
+
+/// The part {id} of a route's path.
+inline const std::string& id_of(const net::Request& request) { return request.parameters.at("id"); }
 
 }  // namespace ream::api

@@ -11,10 +11,8 @@ namespace ream::api {
 using nlohmann::json;
 namespace {
 
-const std::string base = "/api/v1/rubrics";
-const std::string place = "the request body";
-
-const std::string& id_of(const net::Request& request) { return request.parameters.at("id"); }
+const std::string rubrics_path = "/api/v1/rubrics";
+const std::string body_place = "the request body";
 
 /// Rubrics as requests read and edit them.
 class Desk {
@@ -53,7 +51,7 @@ class Desk {
     const score::Rubric kept = store().save(id, std::move(rubric));
     tools_.audit(request, "rubric.create", id, kept.name);
     net::Response response = net::json_response(201, told(id, kept));
-    response.headers.emplace_back("Location", base + "/" + id);
+    response.headers.emplace_back("Location", rubrics_path + "/" + id);
     return response;
   }
 
@@ -85,14 +83,15 @@ class Desk {
     return std::find(ids.begin(), ids.end(), id) != ids.end();
   }
   void require(const std::string& id) const {
-    if (!has(id)) throw Error(ErrorKind::not_found, "no rubric '" + id + "'; GET " + base + " lists them");
+    if (!has(id))
+      throw Error(ErrorKind::not_found, "no rubric '" + id + "'; GET " + rubrics_path + " lists them");
   }
   void require_place() const {
     if (!tools_.stores.writable) throw Error(ErrorKind::unavailable, "this server keeps no rubrics");
   }
   /// Over the network a rubric asks only for what every session can say.
   static score::Rubric rubric_from(const json& value) {
-    score::Rubric rubric = score::rubric_from_json(value, place);
+    score::Rubric rubric = score::rubric_from_json(value, body_place);
     for (size_t i = 0; i < rubric.criteria.size(); ++i)
       if (const std::string& metric = rubric.criteria[i].metric; !score::find_metric(metric))
         throw net::RequestError(422, "there is no metric '" + metric + "'; a session's score names them",
@@ -119,11 +118,12 @@ int version_in(const net::Request& request) {
 
 void add_rubric_routes(net::Router& router, const ScoreTools& tools) {
   const auto desk = std::make_shared<Desk>(tools);
-  router.on("GET", base, [desk](const net::Request&) { return desk->list(); });
-  router.on("POST", base, [desk](const net::Request& request) { return desk->create(request); });
-  router.on("GET", base + "/{id}",
+  router.on("GET", rubrics_path, [desk](const net::Request&) { return desk->list(); });
+  router.on("POST", rubrics_path, [desk](const net::Request& request) { return desk->create(request); });
+  router.on("GET", rubrics_path + "/{id}",
             [desk](const net::Request& request) { return desk->one(id_of(request), version_in(request)); });
-  router.on("PUT", base + "/{id}", [desk](const net::Request& request) { return desk->edit(request); });
+  router.on("PUT", rubrics_path + "/{id}",
+            [desk](const net::Request& request) { return desk->edit(request); });
 }
 
 }  // namespace ream::api

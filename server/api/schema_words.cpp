@@ -6,7 +6,7 @@ namespace ream::api {
 using nlohmann::json;
 namespace {
 
-const json& resolved(const json& document, const json& schema) {
+const json& followed(const json& document, const json& schema) {
   const json* found = &schema;
   while (found->is_object() && found->contains("$ref"))
     found = &document.at(json::json_pointer(found->at("$ref").get<std::string>().substr(1)));
@@ -65,7 +65,7 @@ std::string joined(const std::vector<std::string>& words) {
 }
 
 std::string kind_words(const json& document, const json& unresolved) {
-  const json& schema = resolved(document, unresolved);
+  const json& schema = followed(document, unresolved);
   std::vector<std::string> words;
   if (schema.contains("const")) return schema["const"].dump();
   for (const json& value : schema.value("enum", json::array())) words.push_back(value.dump());
@@ -81,7 +81,7 @@ std::string kind_words(const json& document, const json& unresolved) {
 }  // namespace
 
 const json* schema_at(const json& document, const json& unresolved, const std::vector<std::string>& place) {
-  const json& schema = resolved(document, unresolved);
+  const json& schema = followed(document, unresolved);
   if (place.empty()) return &schema;
   if (const json* part = part_of(schema, place.front()))
     return schema_at(document, *part, {place.begin() + 1, place.end()});

@@ -13,10 +13,8 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 namespace {
 
-const std::string one = "/api/v1/sessions/{id}";
+const std::string session_path = "/api/v1/sessions/{id}";
 constexpr size_t longest_rubric = 72;
-
-const std::string& id_of(const net::Request& request) { return request.parameters.at("id"); }
 
 std::string asked(const net::Request& request, const std::string& name) {
   const auto given = request.query.find(name);
@@ -110,8 +108,9 @@ net::Response scores(const ScoreTools& tools, const net::Request& request) {
 }  // namespace
 
 void add_score_routes(net::Router& router, const ScoreTools& tools) {
-  router.on("GET", one + "/score", [tools](const net::Request& request) { return score(tools, request); });
-  router.on("POST", one + "/score",
+  router.on("GET", session_path + "/score",
+            [tools](const net::Request& request) { return score(tools, request); });
+  router.on("POST", session_path + "/score",
             [tools](const net::Request& request) { return score_anew(tools, request); });
   router.on("GET", "/api/v1/scores", [tools](const net::Request& request) { return scores(tools, request); });
 }

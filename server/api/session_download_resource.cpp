@@ -22,8 +22,6 @@ constexpr int largest_stride = 1'000'000;
 constexpr double most_rows_at_once = 1e6;
 constexpr size_t longest_rubric_name = 80;
 
-const std::string& id_of(const net::Request& request) { return request.parameters.at("id"); }
-
 /// The session as the caller may know it.
 session::SessionRecord seen(const DownloadTools& tools, const net::Request& request) {
   session::SessionRecord record = tools.sessions.get(id_of(request));
@@ -110,14 +108,16 @@ net::Response kept_or_made(const DownloadTools& tools, const net::Request& reque
       [=](const fs::path& place, const Progress& progress) { write(order, place / name, progress); }));
 }
 
-int stride_of(const net::Request& request) { return static_cast<int>(number_or(request, "stride", 1.0)); }
+int export_stride_of(const net::Request& request) {
+  return static_cast<int>(number_or(request, "stride", 1.0));
+}
 
 net::Response mesh(const DownloadTools& tools, const net::Request& request) {
   const session::SessionRecord record = seen(tools, request);
   if (!session::is_live(record.status.state))
     return kept_or_made(tools, request, record, "mesh", "surface", "reamed.ply");
   return made_now(tools, request, "ply", "application/ply", [&](const fs::path& out) {
-    tools.sessions.write_surface(id_of(request), out, stride_of(request));
+    tools.sessions.write_surface(id_of(request), out, export_stride_of(request));
   });
 }
 

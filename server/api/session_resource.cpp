@@ -82,8 +82,6 @@ net::Response create(session::SessionService& service, const study::StudyService
   return created(studies, request, service.create(std::move(wanted)));
 }
 
-const std::string& id_of(const net::Request& request) { return request.parameters.at("id"); }
-
 net::Response resume(session::SessionService& service, const study::StudyService* studies,
                      const Readiness& readiness, const net::Request& request) {
   std::string reamer;

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "api/json_page.hpp"
+#include "api/request_body.hpp"
 #include "api/session_json.hpp"
 #include "core/error.hpp"
 #include "net/problem.hpp"
@@ -11,9 +12,7 @@ namespace ream::api {
 using nlohmann::json;
 namespace {
 
-const std::string base = "/api/v1/sessions";
-
-const std::string& id_of(const net::Request& request) { return request.parameters.at("id"); }
+const std::string trash_path = "/api/v1/sessions";
 
 void tell(const TrashTools& tools, const session::SessionRecord& record, const char* change) {
   tools.feed.tell({"session", record.request.id, change,
@@ -32,7 +31,7 @@ net::Response remove(const TrashTools& tools, const net::Request& request) {
   return {204, {}, nullptr, {}};
 }
 
-json to_json(const TrashTools& tools, const study::Blinding& blinding, session::DeletedSession deleted) {
+json deleted_json(const TrashTools& tools, const study::Blinding& blinding, session::DeletedSession deleted) {
   json session;
   if (deleted.record) {
     deleted.record->request = blinding.seen(std::move(deleted.record->request));
@@ -55,16 +54,16 @@ net::Response list(const TrashTools& tools, const net::Request& request) {
   const study::Blinding blinding = study::blinding_for(tools.studies, request.caller);
   std::vector<json> items;
   for (session::DeletedSession& deleted : tools.sessions.deleted())
-    items.push_back(to_json(tools, blinding, std::move(deleted)));
+    items.push_back(deleted_json(tools, blinding, std::move(deleted)));
   return page_of(request, "deleted", std::move(items), "-deleted_utc");
 }
 
 }  // namespace
 
 void add_trash_routes(net::Router& router, const TrashTools& tools) {
-  router.on("DELETE", base + "/{id}",
+  router.on("DELETE", trash_path + "/{id}",
             [tools](const net::Request& request) { return remove(tools, request); });
-  router.on("POST", base + "/{id}/restore",
+  router.on("POST", trash_path + "/{id}/restore",
             [tools](const net::Request& request) { return restore(tools, request); });
   router.on("GET", "/api/v1/trash", [tools](const net::Request& request) { return list(tools, request); });
 }

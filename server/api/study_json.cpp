@@ -6,7 +6,7 @@ namespace ream::api {
 using nlohmann::json;
 namespace {
 
-constexpr size_t longest_name = 200, longest_description = 4000, longest_profile = 64, most_cases = 50;
+constexpr size_t max_study_name = 200, longest_description = 4000, max_profile = 64, most_cases = 50;
 constexpr int64_t most_procedures = 100'000;
 
 json text_or_null(const std::string& text) { return text.empty() ? json(nullptr) : json(text); }
@@ -54,12 +54,12 @@ json to_json(const store::PersonRow& person) {
 study::StudyWishes study_wishes_in(const net::Request& request) {
   RequestBody body(request);
   study::StudyWishes wishes;
-  wishes.name = body.words("name", 1, longest_name);
+  wishes.name = body.words("name", 1, max_study_name);
   wishes.description = body.words("description", 0, longest_description);
   wishes.settings.cases = body.names("cases", 1, most_cases);
   wishes.settings.script = body.name_or("script", "");
   wishes.settings.device = body.name_or("device", "");
-  wishes.settings.device_profile = body.words("device_profile", 0, longest_profile);
+  wishes.settings.device_profile = body.words("device_profile", 0, max_profile);
   const std::optional<json> questionnaire = body.value_or_none("questionnaire");
   body.finish();
   if (!questionnaire)
@@ -76,7 +76,7 @@ study::NewParticipant new_participant_in(const net::Request& request, bool perso
   wanted.procedures_done = body.count("procedures_done", most_procedures);
   if (person) {
     wanted.user_id = body.name_or("user_id", "");
-    wanted.name = body.words("name", 0, longest_name);
+    wanted.name = body.words("name", 0, max_study_name);
   } else {
     wanted.join_code = body.name("join_code");
   }

@@ -11,9 +11,8 @@ namespace ream::api {
 using nlohmann::json;
 namespace {
 
-const std::string base = "/api/v1/studies";
+const std::string studies_path = "/api/v1/studies";
 
-const std::string& id_of(const net::Request& request) { return request.parameters.at("id"); }
 const std::string& code_of(const net::Request& request) { return request.parameters.at("code"); }
 
 /// What all routes of studies need.
@@ -51,7 +50,7 @@ net::Response list(const Desk& desk, const net::Request& request) {
 net::Response create(const Desk& desk, const net::Request& request) {
   const study::Study study = desk.service().create(study_wishes_in(request));
   desk.audit(request, "study.create", study.id, study.name);
-  return desk.created(base + "/" + study.id, to_json(desk.told(request, study)));
+  return desk.created(studies_path + "/" + study.id, to_json(desk.told(request, study)));
 }
 
 net::Response join(const Desk& desk, const net::Request& request) {
@@ -60,14 +59,14 @@ net::Response join(const Desk& desk, const net::Request& request) {
   desk.audit(request, "study.join", id, "");
   json told = to_json(participant);
   told["study"] = id;
-  return desk.created(base + "/" + id + "/participants/" + participant.code, told);
+  return desk.created(studies_path + "/" + id + "/participants/" + participant.code, told);
 }
 
 net::Response enrol(const Desk& desk, const net::Request& request) {
   const study::Participant participant =
       desk.service().enrol(request.caller, id_of(request), new_participant_in(request, true));
   desk.audit(request, "study.enrol", id_of(request), participant.code);
-  return desk.created(base + "/" + id_of(request) + "/participants/" + participant.code,
+  return desk.created(studies_path + "/" + id_of(request) + "/participants/" + participant.code,
                       to_json(participant));
 }
 
@@ -117,7 +116,7 @@ net::Response export_study(const Desk& desk, const net::Request& request) {
 }
 
 void add_life_routes(net::Router& router, const Desk& desk) {
-  const std::string one = base + "/{id}";
+  const std::string one = studies_path + "/{id}";
   const auto on = [&](const std::string& word, study::Study (study::StudyService::*act)(const std::string&)) {
     router.on("POST", one + "/" + word, [desk, word, act](const net::Request& request) {
       const study::Study study = (desk.service().*act)(id_of(request));
@@ -141,7 +140,7 @@ void add_life_routes(net::Router& router, const Desk& desk) {
 }
 
 void add_participant_routes(net::Router& router, const Desk& desk) {
-  const std::string all = base + "/{id}/participants", one = all + "/{code}";
+  const std::string all = studies_path + "/{id}/participants", one = all + "/{code}";
   router.on("GET", all, [desk](const net::Request& request) { return participants(desk, request); });
   router.on("POST", all, [desk](const net::Request& request) { return enrol(desk, request); });
   router.on("GET", one, [desk](const net::Request& request) {
@@ -163,20 +162,21 @@ void add_participant_routes(net::Router& router, const Desk& desk) {
 
 void add_study_routes(net::Router& router, study::StudyService* service, const Audit& audit) {
   const Desk desk{service, audit};
-  router.on("GET", base, [desk](const net::Request& request) { return list(desk, request); });
-  router.on("POST", base, [desk](const net::Request& request) { return create(desk, request); });
-  router.on("POST", base + "/join", [desk](const net::Request& request) { return join(desk, request); });
-  router.on("GET", base + "/{id}", [desk](const net::Request& request) {
+  router.on("GET", studies_path, [desk](const net::Request& request) { return list(desk, request); });
+  router.on("POST", studies_path, [desk](const net::Request& request) { return create(desk, request); });
+  router.on("POST", studies_path + "/join",
+            [desk](const net::Request& request) { return join(desk, request); });
+  router.on("GET", studies_path + "/{id}", [desk](const net::Request& request) {
     return desk.reply(request, 200, desk.service().get(request.caller, id_of(request)));
   });
   add_life_routes(router, desk);
   add_participant_routes(router, desk);
-  router.on("GET", base + "/{id}/persons",
+  router.on("GET", studies_path + "/{id}/persons",
             [desk](const net::Request& request) { return persons(desk, request); });
-  router.on("GET", base + "/{id}/codebook", [desk](const net::Request& request) {
+  router.on("GET", studies_path + "/{id}/codebook", [desk](const net::Request& request) {
     return net::json_response(200, desk.service().codebook(id_of(request)));
   });
-  router.on("GET", base + "/{id}/export",
+  router.on("GET", studies_path + "/{id}/export",
             [desk](const net::Request& request) { return export_study(desk, request); });
 }
 

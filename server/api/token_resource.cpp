@@ -10,10 +10,10 @@ using access::Role;
 using nlohmann::json;
 namespace {
 
-constexpr size_t longest_name = 100, longest_moment = 40;
+constexpr size_t max_token_name = 100, max_token_moment = 40;
 const std::string path = "/api/v1/tokens";
 
-json to_json(const store::CredentialRow& row) {
+json token_json(const store::CredentialRow& row) {
   return {{"id", row.id},
           {"name", row.name},
           {"user_id", row.user_id},
@@ -31,7 +31,7 @@ net::Response list(const AccessTools& tools, const net::Request& request) {
   json tokens = json::array();
   if (tools.gatehouse && (user_id.empty() || is_name(user_id)))
     for (const auto& row : tools.gatehouse->credentials.list(CredentialKind::token, user_id))
-      tokens.push_back(to_json(row));
+      tokens.push_back(token_json(row));
   return net::json_response(200, {{"tokens", std::move(tokens)}});
 }
 
@@ -51,12 +51,12 @@ void limit_by_maker(const access::Identity& maker, access::NewCredential& wanted
 net::Response add(const AccessTools& tools, const net::Request& request) {
   RequestBody body(request);
   access::NewCredential wanted;
-  wanted.name = body.words("name", 1, longest_name);
-  if (const auto role = body.words_or_none("role", longest_name)) {
+  wanted.name = body.words("name", 1, max_token_name);
+  if (const auto role = body.words_or_none("role", max_token_name)) {
     wanted.limit = access::role_from(*role);
     if (!wanted.limit) body.one_of("role", {"operator", "instructor", "trainee", "viewer"});
   }
-  wanted.expires_utc = body.words("expires_utc", 0, longest_moment);
+  wanted.expires_utc = body.words("expires_utc", 0, max_token_moment);
   body.finish();
   access::AccessControl& gatehouse = gatehouse_of(tools);
   const auto maker = gatehouse.credentials.identify_again(request.caller.credential);
@@ -68,7 +68,7 @@ net::Response add(const AccessTools& tools, const net::Request& request) {
   limit_by_maker(*maker, wanted);
   const access::IssuedCredential issued = gatehouse.credentials.issue(CredentialKind::token, wanted);
   audit_in (&gatehouse)(request, "token.add", issued.row.id, issued.row.name);
-  json told = to_json(issued.row);
+  json told = token_json(issued.row);
   told["secret"] = issued.secret.reveal();
   return net::json_response(201, told);
 }

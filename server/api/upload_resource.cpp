@@ -10,7 +10,7 @@ namespace ream::api {
 namespace {
 
 constexpr double most_bytes = 1e15;
-constexpr size_t longest_name = 200;
+constexpr size_t max_upload_name = 200;
 
 nlohmann::json to_json(const workup::Upload& upload) {
   return {{"id", upload.id}, {"name", upload.name}, {"bytes", upload.bytes}, {"received", upload.received}};
@@ -30,7 +30,7 @@ uint64_t offset_of(const net::Request& request) {
 
 net::Response begin(workup::UploadStore& uploads, const net::Request& request) {
   RequestBody body(request);
-  const std::string name = body.words("name", 1, longest_name);
+  const std::string name = body.words("name", 1, max_upload_name);
   const auto bytes = body.number_or_none("bytes", 0.0, most_bytes);
   body.finish();
   if (!bytes) throw net::RequestError(422, "'bytes' is missing: the size of the file");

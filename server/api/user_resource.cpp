@@ -11,7 +11,7 @@ using access::Role;
 using nlohmann::json;
 namespace {
 
-constexpr size_t longest_name = 64, longest_display_name = 100;
+constexpr size_t max_user_name = 64, longest_display_name = 100;
 const std::string path = "/api/v1/users";
 const std::vector<std::string> account_roles = {"operator", "instructor", "trainee"};
 
@@ -30,7 +30,7 @@ net::Response list(const AccessTools& tools) {
 net::Response add(const AccessTools& tools, const net::Request& request) {
   RequestBody body(request);
   access::NewUser wanted;
-  wanted.name = body.words("name", 1, longest_name);
+  wanted.name = body.words("name", 1, max_user_name);
   wanted.display_name = body.words("display_name", 0, longest_display_name);
   wanted.role = access::role_from(body.one_of("role", account_roles)).value_or(Role::trainee);
   std::string password = body.words("password", access::min_password_length, access::max_password_bytes);
@@ -59,7 +59,7 @@ net::Response change(const AccessTools& tools, const net::Request& request) {
   RequestBody body(request);
   access::UserChange wanted;
   wanted.display_name = body.words_or_none("display_name", longest_display_name);
-  if (const auto role = body.words_or_none("role", longest_name)) {
+  if (const auto role = body.words_or_none("role", max_user_name)) {
     wanted.role = access::role_from(*role);
     if (!wanted.role) body.one_of("role", account_roles);
   }

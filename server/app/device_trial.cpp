@@ -18,7 +18,7 @@ namespace {
 
 using device::LinkState;
 
-const Vec3 up = Vec3::UnitZ();  // the world is LPS
+const Vec3 world_up = Vec3::UnitZ();  // the world is LPS
 constexpr double wall_below_mm = 10.0;
 constexpr double wall_stiffness_n_mm = 0.2, share_of_stiffness = 0.25;
 constexpr double most_force_n = 1.0, share_of_force = 0.1;
@@ -101,16 +101,16 @@ class Trial {
       return;
     }
     range_mm_.extend(place_mm);
-    if (since_first_s() <= times_.still_s) wall_mm_ = place_mm.dot(up) - wall_below_mm;
+    if (since_first_s() <= times_.still_s) wall_mm_ = place_mm.dot(world_up) - wall_below_mm;
   }
 
   Vec3 force_n(const device::DeviceInput& input) {
     const double t_s = since_first_s() - times_.still_s;
-    const double depth_mm = wall_mm_ - input.world_from_handle.translation_mm.dot(up);
+    const double depth_mm = wall_mm_ - input.world_from_handle.translation_mm.dot(world_up);
     if (t_s <= 0.0 || input.paused || !(depth_mm > 0.0)) return Vec3::Zero();
     seen_.wall_s += tick_s;
     const double gain = std::clamp((times_.wall_s + times_.ramp_down_s - t_s) / times_.ramp_down_s, 0.0, 1.0);
-    return gain * std::min(stiffness_n_mm_ * depth_mm, force_max_n_) * up;
+    return gain * std::min(stiffness_n_mm_ * depth_mm, force_max_n_) * world_up;
   }
 
   DeviceTrial result() const {
@@ -129,7 +129,7 @@ class Trial {
   device::DeviceInput input_;
   DeviceTrial seen_;
   uint64_t ticks_since_first_ = 0;
-  double last_age_ms_ = 0.0, wall_mm_ = 0.0;  ///< height of the wall along `up`
+  double last_age_ms_ = 0.0, wall_mm_ = 0.0;  ///< height of the wall along `world_up`
   TimingHistogram lateness_us_, ages_us_;
   Eigen::AlignedBox3d range_mm_;
 };

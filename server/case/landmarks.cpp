@@ -14,7 +14,7 @@ namespace ream::case_ {
 using nlohmann::json;
 namespace {
 
-constexpr double max_coordinate_mm = 1e5;
+constexpr double max_landmark_coordinate_mm = 1e5;
 constexpr double min_head_radius_mm = 5.0, max_head_radius_mm = 60.0;
 constexpr size_t biconcavity_points = 3;
 constexpr std::array walch_classes = {"A1", "A2", "B1", "B2", "B3", "C1", "C2", "D"};
@@ -33,7 +33,7 @@ constexpr std::array named_points = {NamedPoint{"glenoid_centre_mm", &Landmarks:
 
 Vec3 read_point(JsonReader& reader, const std::string& key) {
   const Vec3 point = read_vec3(reader, key);
-  if (!(point.cwiseAbs().maxCoeff() <= max_coordinate_mm))
+  if (!(point.cwiseAbs().maxCoeff() <= max_landmark_coordinate_mm))
     reader.refuse(key, "must be coordinates of at most 100 m, in mm");
   return point;
 }

@@ -151,8 +151,8 @@ json to_json(const PlanAssessment& a) {
 
 namespace {
 
-constexpr double max_target_deg = 40.0;
-constexpr double max_length_mm = 100.0;
+constexpr double max_proposed_target_deg = 40.0;
+constexpr double max_proposed_length_mm = 100.0;
 
 /// Inclination beyond this is worth correcting; within it, a proposal leaves it as it is.
 constexpr double kept_inclination_deg = 10.0;
@@ -168,12 +168,12 @@ constexpr double search_from_mm = 60.0;
 
 std::optional<double> angle(JsonReader& reader, const char* key) {
   if (!reader.has(key)) return std::nullopt;
-  return radians_from_degrees(reader.number(key, -max_target_deg, max_target_deg));
+  return radians_from_degrees(reader.number(key, -max_proposed_target_deg, max_proposed_target_deg));
 }
 
 std::optional<double> length(JsonReader& reader, const char* key) {
   if (!reader.has(key)) return std::nullopt;
-  return reader.number(key, 0.0, max_length_mm);
+  return reader.number(key, 0.0, max_proposed_length_mm);
 }
 
 ScapularFrame frame_for_plan(const Landmarks& l) {
@@ -214,8 +214,8 @@ PlanTargets plan_targets_from_json(const json& value, const std::string& place) 
   targets.implant_size = reader.text_or("implant_size", "");
   targets.reamer = reader.text_or("reamer", "");
   if (reader.has("pilot_diameter_mm") || reader.has("pilot_depth_mm"))
-    targets.pilot_hole = PilotHole{reader.number("pilot_diameter_mm", 0.1, max_length_mm),
-                                   reader.number("pilot_depth_mm", 0.1, max_length_mm)};
+    targets.pilot_hole = PilotHole{reader.number("pilot_diameter_mm", 0.1, max_proposed_length_mm),
+                                   reader.number("pilot_depth_mm", 0.1, max_proposed_length_mm)};
   if (reader.has("guide")) targets.guide = guide_from_json(reader);
   reader.finish();
   return targets;

@@ -52,7 +52,7 @@ const NamedLaw& default_density_law() { return named_laws()[0]; }
 
 namespace {
 
-constexpr size_t block = size_t{1} << 20;
+constexpr size_t block_rows = size_t{1} << 20;
 
 void check(const MaterialRule& rule) {
   if (!(rule.poisson > -1.0 && rule.poisson < 0.5))
@@ -75,13 +75,13 @@ void check(const MaterialRule& rule) {
 CodeHistogram histogram_of(const ElementCodes& codes) {
   CodeHistogram sum(code_count);
   std::mutex mutex;
-  const uint64_t blocks = (codes.size() + block - 1) / block;
+  const uint64_t blocks = (codes.size() + block_rows - 1) / block_rows;
   parallel_for(2, std::min<uint64_t>(blocks, 2), [&](size_t part) {
     CodeHistogram own(code_count);
     std::vector<uint16_t> scratch;
     for (uint64_t i = part; i < blocks; i += 2) {
-      const size_t count = std::min<uint64_t>(block, codes.size() - i * block);
-      for (const uint16_t code : codes.read(i * block, count, scratch)) ++own[code];
+      const size_t count = std::min<uint64_t>(block_rows, codes.size() - i * block_rows);
+      for (const uint16_t code : codes.read(i * block_rows, count, scratch)) ++own[code];
     }
     const std::lock_guard lock(mutex);
     for (size_t code = 0; code < code_count; ++code) sum[code] += own[code];
@@ -129,9 +129,9 @@ void for_each_of_half(const ElementCodes& codes, const Materials& materials, siz
   const uint64_t middle = codes.size() / 2;
   const uint64_t begin = half == 0 ? 0 : middle, end = half == 0 ? middle : codes.size();
   std::vector<uint16_t> scratch;
-  for (uint64_t first = begin; first < end; first += block) {
+  for (uint64_t first = begin; first < end; first += block_rows) {
     uint64_t id = first + 1;
-    for (const uint16_t code : codes.read(first, std::min<uint64_t>(block, end - first), scratch))
+    for (const uint16_t code : codes.read(first, std::min<uint64_t>(block_rows, end - first), scratch))
       use(id++, materials.of_code[code]);
   }
 }

@@ -44,7 +44,7 @@ class ReadFile {
 };
 
 /// One array of the appended data.
-struct Array {
+struct FileArray {
   std::string type;
   uint64_t begin = 0, bytes = 0;
 };
@@ -98,17 +98,17 @@ class VtuCheck {
     return head_.substr(begin, head_.find('>', at) - begin);
   }
 
-  Array array(const std::string& name) const {
+  FileArray array(const std::string& name) const {
     const std::string tag = tag_with("Name=\"" + name + "\"", 0);
-    Array result{attribute(tag, "type"), data_ + number(tag, "offset"), 0};
+    FileArray result{attribute(tag, "type"), data_ + number(tag, "offset"), 0};
     std::vector<uint64_t> bytes;
     file_.read(result.begin, bytes, 1);
     result.begin += sizeof(uint64_t);
     result.bytes = bytes[0];
     return result;
   }
-  Array array(const std::string& name, const std::string& type, uint64_t bytes) const {
-    const Array result = array(name);
+  FileArray array(const std::string& name, const std::string& type, uint64_t bytes) const {
+    const FileArray result = array(name);
     if (result.type != type || result.bytes != bytes)
       file_.refuse("its array " + name + " is not of " + type + " for each node or cell");
     return result;
@@ -117,9 +117,9 @@ class VtuCheck {
   template <typename Index>
   void check_cells(const Progress& progress) {
     const std::string type = sizeof(Index) == 4 ? "Int32" : "Int64";
-    const Array corners = array("connectivity", type, 8 * elements_ * sizeof(Index)),
-                ends = array("offsets", type, elements_ * sizeof(Index)),
-                kinds = array("types", "UInt8", elements_);
+    const FileArray corners = array("connectivity", type, 8 * elements_ * sizeof(Index)),
+                    ends = array("offsets", type, elements_ * sizeof(Index)),
+                    kinds = array("types", "UInt8", elements_);
     IdSet used;
     std::vector<Index> ids, end_of;
     std::vector<uint8_t> kind;
@@ -160,7 +160,7 @@ class VtuCheck {
     const auto low = static_cast<uint64_t>(*least), high = static_cast<uint64_t>(*greatest);
     if (high - low >= max_nodes_at_hand(budget_))
       file_.refuse("cells name points too far apart to be checked within --memory-mb");
-    const Array points = array("Points", "Float64", nodes_ * sizeof(Vec3));
+    const FileArray points = array("Points", "Float64", nodes_ * sizeof(Vec3));
     std::vector<double> at;
     file_.read(points.begin + low * sizeof(Vec3), at, 3 * (high - low + 1));
     for (size_t i = 0; i < ids.size(); i += 8) {
@@ -175,9 +175,9 @@ class VtuCheck {
   }
 
   void check_values() {
-    const Array grays = array("gray", "Float32", elements_ * 4),
-                moduli = array("modulus_MPa", "Float32", elements_ * 4),
-                numbers = array("material", "Int32", elements_ * 4);
+    const FileArray grays = array("gray", "Float32", elements_ * 4),
+                    moduli = array("modulus_MPa", "Float32", elements_ * 4),
+                    numbers = array("material", "Int32", elements_ * 4);
     std::vector<float> gray, modulus;
     std::vector<int32_t> material;
     for (uint64_t first = 0; first < elements_; first += elements_of_block) {

@@ -23,7 +23,7 @@ bool small(const NumberedMesh& mesh) {
   return mesh.numbering.elements() * corners_of_element < uint64_t{1} << 31;
 }
 
-enum Array { points, connectivity, offsets, types, gray, modulus, material, array_count };
+enum ArrayId { points, connectivity, offsets, types, gray, modulus, material, array_count };
 
 std::array<Block, array_count> blocks_of(const NumberedMesh& mesh) {
   const uint64_t n = mesh.numbering.elements(), index = small(mesh) ? 4 : 8;
@@ -46,7 +46,7 @@ std::array<Block, array_count> blocks_of(const NumberedMesh& mesh) {
 }
 
 std::string head_of(const NumberedMesh& mesh, const std::array<Block, array_count>& blocks) {
-  const auto array = [&](Array which) {
+  const auto array = [&](ArrayId which) {
     const Block& b = blocks[which];
     return "<DataArray type=\"" + std::string(b.type) + "\" " + b.attributes +
            " format=\"appended\" offset=\"" + std::to_string(b.offset) + "\"/>\n";
@@ -151,7 +151,7 @@ uint64_t write_vtu(const NumberedMesh& mesh, const AtomicFile& file, const Progr
   const auto blocks = blocks_of(mesh);
   const std::string head = head_of(mesh, blocks), tail = "\n</AppendedData>\n</VTKFile>\n";
   file.write_at(0, std::as_bytes(std::span(head)));
-  const auto out = [&](Array which) { return ArrayWriter(file, head.size(), blocks[which]); };
+  const auto out = [&](ArrayId which) { return ArrayWriter(file, head.size(), blocks[which]); };
   write_points(mesh, out(points), part_of(progress, 0.0, 0.4));
   const Progress cells = part_of(progress, 0.4, 0.9);
   if (small(mesh))

@@ -37,7 +37,7 @@ struct Header {
 };
 
 /// What is wrong with the file; parse_ply adds its name.
-struct Fault {
+struct PlyFault {
   std::string what;
 };
 
@@ -48,14 +48,14 @@ Type type_of(const std::string& word) {
                {"int", "int32"}, {"uint", "uint32"}, {"float", "float32"}, {"double", "float64"}};
   for (int i = 0; i < 8; ++i)
     if (word == names[i].name || word == names[i].other_name) return static_cast<Type>(i);
-  throw Fault{"its header names an unknown type '" + word + "'"};
+  throw PlyFault{"its header names an unknown type '" + word + "'"};
 }
 
 Encoding encoding_of(const std::string& word) {
   if (word == "ascii") return Encoding::text;
   if (word == "binary_little_endian") return Encoding::little_endian;
   if (word == "binary_big_endian") return Encoding::big_endian;
-  throw Fault{"its header names an unknown format '" + word + "'"};
+  throw PlyFault{"its header names an unknown format '" + word + "'"};
 }
 
 Property property_of(std::istringstream& words) {
@@ -77,11 +77,11 @@ Header parse_header(std::string_view bytes) {
   bool has_format = false;
   for (size_t begin = 0;;) {
     const size_t end = bytes.find('\n', begin);
-    if (end == std::string_view::npos) throw Fault{"it ends inside its header"};
+    if (end == std::string_view::npos) throw PlyFault{"it ends inside its header"};
     std::istringstream words{std::string(bytes.substr(begin, end - begin))};
     std::string keyword, word;
     words >> keyword;
-    if (begin == 0 && keyword != "ply") throw Fault{"it does not begin as a PLY file"};
+    if (begin == 0 && keyword != "ply") throw PlyFault{"it does not begin as a PLY file"};
     begin = end + 1;
     if (keyword == "format") {
       words >> word;
@@ -89,16 +89,17 @@ Header parse_header(std::string_view bytes) {
       has_format = true;
     } else if (keyword == "element") {
       Element& element = header.elements.emplace_back();
-      if (!(words >> element.name >> element.count)) throw Fault{"its header has an element without a count"};
+      if (!(words >> element.name >> element.count))
+        throw PlyFault{"its header has an element without a count"};
     } else if (keyword == "property") {
-      if (header.elements.empty()) throw Fault{"its header has a property before any element"};
+      if (header.elements.empty()) throw PlyFault{"its header has a property before any element"};
       header.elements.back().properties.push_back(property_of(words));
     } else if (keyword == "end_header") {
       header.size = begin;
       break;
     }
   }
-  if (!has_format) throw Fault{"its header names no format"};
+  if (!has_format) throw PlyFault{"its header names no format"};
   return header;
 }
 
@@ -113,11 +114,11 @@ class Body {
  private:
   double next_word() {
     const size_t begin = rest_.find_first_not_of(" \t\r\n");
-    if (begin == std::string_view::npos) throw Fault{"it is cut off"};
+    if (begin == std::string_view::npos) throw PlyFault{"it is cut off"};
     rest_.remove_prefix(begin);
     double value = 0.0;
     const auto [end, failed] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
-    if (failed != std::errc{}) throw Fault{"it has a word where a number is expected"};
+    if (failed != std::errc{}) throw PlyFault{"it has a word where a number is expected"};
     rest_.remove_prefix(static_cast<size_t>(end - rest_.data()));
     return value;
   }
@@ -138,7 +139,7 @@ class Body {
 
   template <typename T>
   T take() {
-    if (rest_.size() < sizeof(T)) throw Fault{"it is cut off"};
+    if (rest_.size() < sizeof(T)) throw PlyFault{"it is cut off"};
     char bytes[sizeof(T)];
     std::memcpy(bytes, rest_.data(), sizeof(T));
     rest_.remove_prefix(sizeof(T));
@@ -154,16 +155,16 @@ class Body {
   Encoding encoding_;
 };
 
-/// A whole number in [0, end) or a Fault.
+/// A whole number in [0, end) or a PlyFault.
 uint32_t whole_number(double value, double end, const char* what) {
-  if (!(value >= 0.0 && value < end) || value != std::floor(value)) throw Fault{what};
+  if (!(value >= 0.0 && value < end) || value != std::floor(value)) throw PlyFault{what};
   return static_cast<uint32_t>(value);
 }
 
 std::vector<double> next_list(const Property& property, Body& body) {
   const uint32_t count =
       whole_number(body.next(property.count_type), 4294967296.0, "it has a list of impossible length");
-  if (count > body.bytes_left()) throw Fault{"it is cut off"};
+  if (count > body.bytes_left()) throw PlyFault{"it is cut off"};
   std::vector<double> values(count);
   for (double& value : values) value = body.next(property.type);
   return values;
@@ -207,7 +208,7 @@ TriangleMesh parse_ply(std::string_view bytes, const std::filesystem::path& path
     TriangleMesh mesh;
     for (const Element& element : header.elements) read_element(element, body, mesh);
     return mesh;
-  } catch (const Fault& fault) {
+  } catch (const PlyFault& fault) {
     throw Error(ErrorKind::invalid_input, "mesh " + path.string() + " cannot be used: " + fault.what);
   }
 }

@@ -17,6 +17,7 @@ struct Pose {
   Vec3 point(const Vec3& p) const { return rotation * p + translation_mm; }
   Vec3 direction(const Vec3& d) const { return rotation * d; }
   Pose inverse() const;
+  bool operator==(const Pose&) const = default;
 };
 
 /// a_from_c = a_from_b * b_from_c.

@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view line_end = "\r\n", head_end = "\r\n\r\n";
 constexpr size_t chunk_line_bytes = 4096;  ///< of a chunk's line, and of all trailer lines together
 
-[[noreturn]] void refuse(const std::string& what) {
+[[noreturn]] void refuse_request(const std::string& what) {
   throw RequestError(400, "not a plain HTTP/1.1 request: " + what);
 }
 
@@ -32,31 +32,31 @@ struct Framing {
 
   void take(const std::string& name, std::string_view value) {
     if (name == "content-length") {
-      if (length) refuse("Content-Length comes twice");
+      if (length) refuse_request("Content-Length comes twice");
       if (value.empty() || value.find_first_not_of("0123456789") != std::string_view::npos)
-        refuse("Content-Length is no number");
+        refuse_request("Content-Length is no number");
       length = true;
     } else if (name == "transfer-encoding") {
-      if (coding) refuse("Transfer-Encoding comes twice");
-      if (lower(value) != "chunked") refuse("the only transfer coding is chunked");
+      if (coding) refuse_request("Transfer-Encoding comes twice");
+      if (lower(value) != "chunked") refuse_request("the only transfer coding is chunked");
       coding = true;
     } else if (name == "host") {
-      if (host) refuse("Host comes twice");
+      if (host) refuse_request("Host comes twice");
       host = true;
     }
-    if (length && coding) refuse("Content-Length and Transfer-Encoding exclude each other");
+    if (length && coding) refuse_request("Content-Length and Transfer-Encoding exclude each other");
   }
 };
 
 void take_line(std::string_view line, const Limits& limits, Framing& framing) {
   if (line.size() > limits.header_line_bytes)
     throw RequestError(431, "a header line is over " + std::to_string(limits.header_line_bytes) + " bytes");
-  if (line.front() == ' ' || line.front() == '\t') refuse("a header goes on in a second line");
+  if (line.front() == ' ' || line.front() == '\t') refuse_request("a header goes on in a second line");
   const size_t colon = line.find(':');
-  if (colon == std::string_view::npos) refuse("a header line has no colon");
+  if (colon == std::string_view::npos) refuse_request("a header line has no colon");
   const std::string_view name = line.substr(0, colon);
   if (name.empty() || name.find_first_of(" \t") != std::string_view::npos)
-    refuse("white space in a header's name");
+    refuse_request("white space in a header's name");
   framing.take(lower(name), trimmed(line.substr(colon + 1)));
 }
 
@@ -68,11 +68,11 @@ void require_plain_beginning(std::string_view beginning, size_t from, const Limi
   for (size_t i = from; i < beginning.size(); ++i) {
     const auto c = static_cast<unsigned char>(beginning[i]);
     if (c == '\r') {
-      if (i + 1 < beginning.size() && beginning[i + 1] != '\n') refuse("a stray CR");
+      if (i + 1 < beginning.size() && beginning[i + 1] != '\n') refuse_request("a stray CR");
     } else if (c == '\n') {
-      if (i == 0 || beginning[i - 1] != '\r') refuse("a stray LF");
+      if (i == 0 || beginning[i - 1] != '\r') refuse_request("a stray LF");
     } else if ((c < 32 && c != '\t') || c == 127) {
-      refuse("a control character in its header");
+      refuse_request("a control character in its header");
     }
   }
 }

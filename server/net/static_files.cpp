@@ -12,7 +12,7 @@ namespace ream::net {
 namespace fs = std::filesystem;
 namespace {
 
-[[noreturn]] void refuse(const std::string& path) {
+[[noreturn]] void refuse_page(const std::string& path) {
   throw Error(ErrorKind::not_found, "no such page: " + path);
 }
 
@@ -24,7 +24,7 @@ fs::path safe_relative(const std::string& path) {
     const std::string segment = path.substr(begin, end - begin);
     const bool trailing = segment.empty() && end == path.size();
     if (!trailing && (segment.empty() || segment.front() == '.' || segment.find('\0') != std::string::npos))
-      refuse(path);
+      refuse_page(path);
     relative /= trailing ? "index.html" : segment;
     begin = end + 1;
   }
@@ -56,7 +56,7 @@ StaticFiles::StaticFiles(fs::path root) : root_(fs::weakly_canonical(root)) {}
 Response StaticFiles::respond(const Request& request) const {
   std::error_code failed;
   const fs::path file = fs::weakly_canonical(file_of(root_ / safe_relative(request.path)), failed);
-  if (failed || !is_inside(file, root_) || !fs::is_regular_file(file, failed)) refuse(request.path);
+  if (failed || !is_inside(file, root_) || !fs::is_regular_file(file, failed)) refuse_page(request.path);
   const std::string tag = entity_tag(file, fs::file_size(file));
   const bool hashed_name = request.path.rfind("/assets/", 0) == 0;
   Response response;

@@ -26,9 +26,10 @@ constexpr std::array<Column<QuantisedPose>, 3> poses{
      {"pose", "grid_from_tool", &Tick::grid_from_tool},
      {"pose", "world_from_bone_rest", &Tick::world_from_bone_rest}}};
 
-constexpr std::array<Column<int32_t>, 3> removed{{{"bone", "removed_cancellous", &Tick::removed_cancellous},
-                                                  {"bone", "removed_cortical", &Tick::removed_cortical},
-                                                  {"bone", "removed_cartilage", &Tick::removed_cartilage}}};
+constexpr std::array<Column<int32_t>, 3> removed_columns{
+    {{"bone", "removed_cancellous", &Tick::removed_cancellous},
+     {"bone", "removed_cortical", &Tick::removed_cortical},
+     {"bone", "removed_cartilage", &Tick::removed_cartilage}}};
 
 constexpr std::array<Column<uint32_t>, 2> counts{{{"bone", "changed_bricks", &Tick::changed_bricks},
                                                   {"contact", "engaged_points", &Tick::engaged_points}}};
@@ -97,7 +98,7 @@ std::optional<Difference> first_difference(const Tick& recorded, const Tick& fou
   for (const auto& column : poses)
     if (const auto& a = recorded.*column.value, &b = found.*column.value; a != b)
       return pose_difference(column, a, b);
-  if (auto difference = number_difference(removed, recorded, found, columns)) return difference;
+  if (auto difference = number_difference(removed_columns, recorded, found, columns)) return difference;
   if (auto difference = number_difference(counts, recorded, found, columns)) return difference;
   if (recorded.session_hash != found.session_hash)
     return Difference{"bone", "session_hash", to_hex(recorded.session_hash), to_hex(found.session_hash)};

@@ -44,7 +44,7 @@ class Row {
   char* end_ = buffer_;
 };
 
-[[noreturn]] void fail(const std::filesystem::path& path) {
+[[noreturn]] void fail_to_write_trace(const std::filesystem::path& path) {
   throw Error(ErrorKind::io, "cannot write " + path.string() + ": " + std::strerror(errno));
 }
 
@@ -65,7 +65,7 @@ const std::string& TraceCsv::header_line() {
 TraceCsv::TraceCsv(const std::filesystem::path& path, double voxel_volume_mm3)
     : path_(path), temporary_(path.string() + ".tmp"), voxel_volume_mm3_(voxel_volume_mm3) {
   file_ = std::fopen(temporary_.c_str(), "wb");
-  if (file_ == nullptr) fail(path_);
+  if (file_ == nullptr) fail_to_write_trace(path_);
   std::fprintf(file_, "%s\n", header_line().c_str());
 }
 
@@ -94,14 +94,15 @@ void TraceCsv::add(const TickReport& r) {
 }
 
 void TraceCsv::finish() {
-  if (std::ferror(file_) || std::fflush(file_) != 0 || ::fsync(fileno(file_)) != 0) fail(path_);
+  if (std::ferror(file_) || std::fflush(file_) != 0 || ::fsync(fileno(file_)) != 0)
+    fail_to_write_trace(path_);
   std::fclose(file_);
   file_ = nullptr;
   if (std::rename(temporary_.c_str(), path_.c_str()) == 0) return;
   const int why = errno;
   ::unlink(temporary_.c_str());
   errno = why;
-  fail(path_);
+  fail_to_write_trace(path_);
 }
 
 }  // namespace ream::record

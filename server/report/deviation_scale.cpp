@@ -5,7 +5,7 @@
 namespace ream::report {
 namespace {
 
-constexpr render::VertexColour bone{189, 183, 172, 0};
+constexpr render::VertexColour bone_colour{189, 183, 172, 0};
 
 }  // namespace
 
@@ -20,11 +20,11 @@ const std::vector<DeviationClass>& deviation_classes() {
 }
 
 render::VertexColour deviation_colour(int8_t code) {
-  if (code == score::deviation_unknown) return bone;
+  if (code == score::deviation_unknown) return bone_colour;
   const double mm = score::deviation_mm(code);
   for (const DeviationClass& each : deviation_classes())
     if (mm <= each.up_to_mm) return each.colour;
-  return bone;
+  return bone_colour;
 }
 
 std::vector<render::VertexColour> deviation_colours(std::span<const int8_t> codes) {

@@ -10,8 +10,8 @@
 namespace ream::report {
 namespace {
 
-constexpr int width = 960, height = 720;
-constexpr double aspect = static_cast<double>(width) / height;
+constexpr int picture_width = 960, picture_height = 720;
+constexpr double aspect = static_cast<double>(picture_width) / picture_height;
 constexpr double distance_mm = 420.0;
 constexpr double face_half_height_mm = 25.0, axis_half_height_mm = 30.0, oblique_half_height_mm = 32.0;
 constexpr double rod_radius_mm = 0.7, rod_outside_mm = 34.0, rod_inside_mm = 18.0, dash_mm = 3.0;
@@ -73,7 +73,7 @@ Picture oblique(const ReamedBone& bone, const std::vector<render::Layer>& layers
   const Vec3 eye = -0.86 * d.medial + 0.30 * d.superior + 0.41 * d.anterior;
   const render::Camera camera = camera_from(bone.plan.entry_mm, eye, d.superior, oblique_half_height_mm);
   Picture picture;
-  picture.image = render::draw(layers, camera, width, height);
+  picture.image = render::draw(layers, camera, picture_width, picture_height);
   return picture;
 }
 
@@ -105,7 +105,7 @@ Picture face_map(const ReamedBone& bone, const std::vector<int8_t>& codes, const
   const render::Camera camera = camera_from(bone.plan.entry_mm, -d.medial, d.superior, face_half_height_mm);
   const auto colours = deviation_colours(codes);
   Picture picture;
-  picture.image = render::draw({layer_of(bone.after, bone, &colours)}, camera, width, height);
+  picture.image = render::draw({layer_of(bone.after, bone, &colours)}, camera, picture_width, picture_height);
   add_face_labels(picture, camera, d);
   picture.is_map = true;
   return picture;
@@ -144,7 +144,7 @@ Picture axes(const ReamedBone& bone, const Directions& d, const render::Camera& 
   glass.opacity = 0.45f;
   layers.push_back(glass);
   Picture picture;
-  picture.image = render::draw(layers, camera, width, height);
+  picture.image = render::draw(layers, camera, picture_width, picture_height);
   return picture;
 }
 

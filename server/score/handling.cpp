@@ -10,7 +10,7 @@ namespace {
 
 bool presses(const record::TickReport& r) { return r.engaged && r.spindle_on && r.thrust_n >= pressing_n; }
 
-double share(const record::TickReport& r, voxel::BoneClass bone_class) {
+double share_of(const record::TickReport& r, voxel::BoneClass bone_class) {
   return r.share[static_cast<size_t>(bone_class)];
 }
 
@@ -32,15 +32,15 @@ void AdvanceUntilRelease::add(const record::TickReport& r, double axial_mm) {
 void Breakthrough::add(const record::TickReport& r, double axial_mm) {
   if (inside_.begun())
     inside_.add(r, axial_mm);
-  else if (presses(r) && share(r, voxel::BoneClass::cancellous) >= reached_share)
+  else if (presses(r) && share_of(r, voxel::BoneClass::cancellous) >= reached_share)
     inside_.begin(axial_mm);
 }
 
 void PlateStop::add(const record::TickReport& r, double axial_mm) {
   if (beyond_.begun()) return beyond_.add(r, axial_mm);
   if (!presses(r)) return;
-  cartilage_ = cartilage_ || share(r, voxel::BoneClass::cartilage) >= reached_share;
-  const double bone = share(r, voxel::BoneClass::cancellous) + share(r, voxel::BoneClass::cortical);
+  cartilage_ = cartilage_ || share_of(r, voxel::BoneClass::cartilage) >= reached_share;
+  const double bone = share_of(r, voxel::BoneClass::cancellous) + share_of(r, voxel::BoneClass::cortical);
   if (cartilage_ && bone >= reached_share) beyond_.begin(axial_mm);
 }
 

@@ -11,7 +11,7 @@ using enum Basis;
 using enum Style;
 
 constexpr Range any{}, positive{.min = 0.0, .min_excluded = true}, not_negative{.min = 0.0};
-constexpr Range share{0.0, 100.0}, any_angle{-180.0, 180.0}, angle_size{0.0, 180.0};
+constexpr Range percent_range{0.0, 100.0}, any_angle{-180.0, 180.0}, angle_size{0.0, 180.0};
 
 constexpr std::optional<Better> no_aim;
 constexpr Band only_reported{};
@@ -49,7 +49,7 @@ constexpr std::string_view nigam =
     "and 10.0 s)";
 constexpr std::string_view compare = "to be compared with experts on the same simulator";
 
-constexpr Metric metrics[] = {
+constexpr Metric catalogue[] = {
     {"version_planned_deg", "Version planned", "deg",
      "Version of a face across the planned axis, retroversion negative.", scapular_plane, judgement,
      of_the_plan, alignment, plan, any_angle, only_reported, no_aim, version},
@@ -142,9 +142,9 @@ constexpr Metric metrics[] = {
      "implant's radius (without one, the reamer's own shape), half a millimetre narrower all around than the "
      "reamer, trimmed to the native face and without the pilot hole; pressed along the achieved axis until 1 "
      "% of it would have to sink in.",
-     "Lazarus 2002 (share supported by bone); 0.5 mm, 80 % and 90 % are ours", judgement,
+     "Lazarus 2002 (percent_range supported by bone); 0.5 mm, 80 % and 90 % are ours", judgement,
      "within 1 point of the truth in 100 seeded reamings; limits are engineering judgement", bone,
-     reamed_bone, share, at_least(90.0, 80.0)},
+     reamed_bone, percent_range, at_least(90.0, 80.0)},
     {"congruity_mm", "Congruity", "mm",
      "Mean distance of the reamed surface from the sphere that fits it best; not said where less than a "
      "tenth of it still has bone.",
@@ -158,7 +158,7 @@ constexpr Metric metrics[] = {
      "the plate is found by density, or taken as 1.9 mm thick where density does not show it.",
      "readbyqxmd 29974217: removal increases micromotion (p = 0.043)", published,
      "within 2 points of the truth in 100 seeded reamings; limits are engineering judgement", bone,
-     reamed_bone, share, at_least(80.0, 60.0)},
+     reamed_bone, percent_range, at_least(80.0, 60.0)},
     {"plate_thickness_mm", "Subchondral plate thickness", "mm",
      "Median thickness of the plate under the native face, along the planned axis.",
      "Frich 1998: 1.9 mm (1.2 to 2.9)", published, "as sharp as the scan", bone, untouched_bone, not_negative,
@@ -225,18 +225,18 @@ constexpr Metric metrics[] = {
 
 }  // namespace
 
-std::span<const Metric> metric_catalogue() { return metrics; }
+std::span<const Metric> metric_catalogue() { return catalogue; }
 
 std::span<const Metric> metrics_of(MetricGroup group) {
   const auto is_of_group = [&](const Metric& m) { return m.group == group; };
-  const auto* first = std::find_if(std::begin(metrics), std::end(metrics), is_of_group);
-  return {first, std::find_if_not(first, std::end(metrics), is_of_group)};
+  const auto* first = std::find_if(std::begin(catalogue), std::end(catalogue), is_of_group);
+  return {first, std::find_if_not(first, std::end(catalogue), is_of_group)};
 }
 
 const Metric* find_metric(std::string_view key) {
   const auto* found =
-      std::find_if(std::begin(metrics), std::end(metrics), [&](const Metric& m) { return m.key == key; });
-  return found == std::end(metrics) ? nullptr : found;
+      std::find_if(std::begin(catalogue), std::end(catalogue), [&](const Metric& m) { return m.key == key; });
+  return found == std::end(catalogue) ? nullptr : found;
 }
 
 std::optional<Better> aim_of(const Metric& metric) {

@@ -9,7 +9,7 @@ namespace ream::shell {
 namespace {
 
 constexpr double coincident_mm = 1e-9;
-constexpr int max_cells_per_side = 64;
+constexpr int max_grid_cells_per_side = 64;
 
 struct Direction {
   double radial = 0, z = 1;
@@ -113,7 +113,7 @@ Meridian::Meridian(ToolProfile profile, double reach_mm) : profile_(std::move(pr
   min_z_mm_ = profile_.min_z_mm() - reach_mm;
   const double height = profile_.max_z_mm() + reach_mm - min_z_mm_;
   const double width = profile_.max_radius_mm() + reach_mm;
-  cell_mm_ = std::max(height, width) / max_cells_per_side;
+  cell_mm_ = std::max(height, width) / max_grid_cells_per_side;
   radius_cells_ = static_cast<int>(std::ceil(width / cell_mm_));
   z_cells_ = static_cast<int>(std::ceil(height / cell_mm_));
   first_candidate_.push_back(0);

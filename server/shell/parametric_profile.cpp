@@ -26,7 +26,7 @@ struct Shape {
   double back_mm = default_back_mm;
 };
 
-[[noreturn]] void refuse(const std::string& description, const std::string& why) {
+[[noreturn]] void refuse_description(const std::string& description, const std::string& why) {
   throw Error(ErrorKind::usage, "tool \"" + description + "\": " + why + "; " + tool_forms);
 }
 
@@ -46,9 +46,10 @@ std::vector<double> lengths_mm(const std::string& description, const std::string
     double value = 0.0;
     const auto [rest, error] = std::from_chars(at, end, value);
     if (error != std::errc{} || (rest != end && *rest != ','))
-      refuse(description, "\"" + list + "\" after \"" + keyword + "\" is not a list of numbers");
+      refuse_description(description, "\"" + list + "\" after \"" + keyword + "\" is not a list of numbers");
     if (!(value > 0.0) || !(value <= max_length_mm))
-      refuse(description, "each length after \"" + keyword + "\" must be over 0 and at most 1000 mm");
+      refuse_description(description,
+                         "each length after \"" + keyword + "\" must be over 0 and at most 1000 mm");
     values.push_back(value);
     if (rest == end) return values;
     at = rest + 1;
@@ -59,13 +60,14 @@ void read_part(const std::string& description, const std::string& keyword, const
                Shape& shape) {
   const auto expect = [&](size_t least, size_t most) {
     if (mm.size() < least || mm.size() > most)
-      refuse(description, "wrong count of numbers after \"" + keyword + "\"");
+      refuse_description(description, "wrong count of numbers after \"" + keyword + "\"");
   };
   if (keyword == "sphere") {
     expect(1, 2);
     shape.across_mm = shape.along_mm = mm[0];
     shape.outer_radius_mm = mm.size() == 2 ? mm[1] : std::min(mm[0], default_outer_radius_mm);
-    if (shape.outer_radius_mm > mm[0]) refuse(description, "the outer radius is larger than the sphere");
+    if (shape.outer_radius_mm > mm[0])
+      refuse_description(description, "the outer radius is larger than the sphere");
   } else if (keyword == "ellipse") {
     expect(2, 2);
     shape.across_mm = shape.outer_radius_mm = mm[0];
@@ -74,7 +76,7 @@ void read_part(const std::string& description, const std::string& keyword, const
     expect(2, 2);
     shape.nipple_radius_mm = mm[0];
     shape.nipple_height_mm = mm[1];
-    if (mm[0] >= shape.outer_radius_mm) refuse(description, "the nipple is as wide as the tool");
+    if (mm[0] >= shape.outer_radius_mm) refuse_description(description, "the nipple is as wide as the tool");
   } else {
     expect(1, 1);
     shape.back_mm = mm[0];
@@ -92,10 +94,11 @@ Shape read_shape(const std::string& description) {
                         : keyword == "nipple"                       ? 1
                         : keyword == "back"                         ? 2
                                                                     : 3;
-    if (rank == 3) refuse(description, "unknown word \"" + keyword + "\"");
+    if (rank == 3) refuse_description(description, "unknown word \"" + keyword + "\"");
     if (rank < next_allowed || (i == 0) != (rank == 0))
-      refuse(description, "\"" + keyword + "\" is misplaced");
-    if (i + 1 == words.size()) refuse(description, "numbers are missing after \"" + keyword + "\"");
+      refuse_description(description, "\"" + keyword + "\" is misplaced");
+    if (i + 1 == words.size())
+      refuse_description(description, "numbers are missing after \"" + keyword + "\"");
     read_part(description, keyword, lengths_mm(description, keyword, words[i + 1]), shape);
     next_allowed = rank + 1;
   }

@@ -14,7 +14,7 @@ namespace {
 
 /// Cells along one side, and bytes of bits altogether, beyond which a request is a mistake rather than a
 /// wish.
-constexpr double max_cells_per_side = 1 << 20;
+constexpr double max_volume_cells_per_side = 1 << 20;
 constexpr double max_bytes = 16.0 * 1024 * 1024 * 1024;
 
 constexpr float edge_margin = REAM_VOXELIZER_EDGE_MARGIN;
@@ -142,7 +142,7 @@ SurfaceVoxels surface_grid(const TriangleMesh& mesh, double size_mm) {
   constexpr double rounding_cells = 1e-6;
   const Vec3 cells = ((box.max - box.min) / size_mm).array() + (1.0 - rounding_cells);
   const double bytes = cells.x() / 8.0 * cells.y() * cells.z();
-  if (!(cells.maxCoeff() < max_cells_per_side) || !(bytes < max_bytes)) {
+  if (!(cells.maxCoeff() < max_volume_cells_per_side) || !(bytes < max_bytes)) {
     std::ostringstream text;
     text << "voxels of " << size_mm << " mm would make a grid of " << std::ceil(cells.x()) << " x "
          << std::ceil(cells.y()) << " x " << std::ceil(cells.z()) << " cells; use larger voxels";

@@ -32,10 +32,6 @@ double clearance_mm(const Model& model, State& state) noexcept {
   return std::max(0.0, static_cast<double>(nearest - slack_voxels)) * grid.min_spacing_mm();
 }
 
-bool same(const Pose& a, const Pose& b) {
-  return a.translation_mm == b.translation_mm && a.rotation == b.rotation;
-}
-
 /// Contact of the tool as it stands; remembers when there is none.
 Approach look(const Model& model, State& state) noexcept {
   Approach found;
@@ -69,7 +65,7 @@ Approach approach(const Model& model, State& state, const Pose& world_from_handl
   Approach found;
   if (state.free_path_mm < 0.0) found = look(model, state);
   for (int i = 0; i < max_moves && found.ok && found.sums.engaged() == 0; ++i) {
-    if (same(state.world_from_tool, world_from_handle)) break;
+    if (state.world_from_tool == world_from_handle) break;
     const double left_mm = path_bound_mm(model, state.world_from_tool, world_from_handle);
     if (left_mm > state.free_path_mm)
       state.free_path_mm = std::max(state.free_path_mm, clearance_mm(model, state));

@@ -12,10 +12,6 @@ Pose world_from_guide(const Model& model, const State& state) {
   return state.world_from_bone_rest * model.world_from_plan;
 }
 
-bool same(const Pose& a, const Pose& b) {
-  return a.translation_mm == b.translation_mm && a.rotation == b.rotation;
-}
-
 force::Guide nipple_of(const shell::Tool& tool, const case_::PilotHole& hole) {
   const shell::ToolProfile& profile = tool.profile;
   double radius_mm = 0.0, height_mm = 0.0;
@@ -50,7 +46,7 @@ Pose guided(const Model& model, State& state, const Pose& world_from_handle) noe
   const Pose world_from_guide_now = world_from_guide(model, state);
   const Pose guide_from_handle = world_from_guide_now.inverse() * world_from_handle;
   const Pose allowed = force::constrained(*model.guide, state.guide, guide_from_handle);
-  return same(allowed, guide_from_handle) ? world_from_handle : world_from_guide_now * allowed;
+  return allowed == guide_from_handle ? world_from_handle : world_from_guide_now * allowed;
 }
 
 void add_guide(const Model& model, const State& state, const Pose& world_from_handle,
@@ -72,7 +68,7 @@ void keep_in_guide(const Model& model, State& state) noexcept {
   const Pose world_from_guide_now = world_from_guide(model, state);
   const Pose guide_from_tool = world_from_guide_now.inverse() * state.world_from_tool;
   const Pose kept = force::held(*model.guide, state.guide, guide_from_tool);
-  if (!same(kept, guide_from_tool)) {
+  if (!(kept == guide_from_tool)) {
     state.world_from_tool = world_from_guide_now * kept;
     state.free_path_mm = -1.0;
   }

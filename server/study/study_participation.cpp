@@ -10,13 +10,9 @@ namespace ream::study {
 using nlohmann::json;
 namespace {
 
-bool is_staff(const net::Caller& caller) { return (access::role_bit(caller.role) & access::staff) != 0; }
-
 Error unknown_participant(const std::string& id, const std::string& code) {
   return {ErrorKind::not_found, "no participant '" + code + "' in study '" + id + "'"};
 }
-
-bool is_operator(const net::Caller& caller) { return access::role_bit(caller.role) == access::operators; }
 
 /// Without all that tells participants apart.
 Participant only_code(const Participant& participant) {
@@ -26,7 +22,7 @@ Participant only_code(const Participant& participant) {
 }  // namespace
 
 std::vector<Participant> StudyService::participants(const net::Caller& caller, const std::string& id) const {
-  const bool hidden = known(id).open && !is_operator(caller);
+  const bool hidden = known(id).open && !access::is_operator(caller.role);
   const std::string own = code_of(caller, id);
   std::set<std::string> with_account;
   for (const store::PersonRow& person : table_.persons(id))
@@ -48,15 +44,15 @@ Participant StudyService::participant(const net::Caller& caller, const std::stri
                                       const std::string& code) const {
   const auto row = table_.participant(id, code);
   const bool own = code_of(caller, id) == code;
-  if (!row || (!is_staff(caller) && !own)) throw unknown_participant(id, code);
+  if (!row || (!access::is_staff(caller.role) && !own)) throw unknown_participant(id, code);
   Participant found = participant_of(*row);
   const auto person = table_.person(id, code);
   found.has_account = person && !person->user_id.empty();
-  return own || is_operator(caller) || !known(id).open ? found : only_code(found);
+  return own || access::is_operator(caller.role) || !known(id).open ? found : only_code(found);
 }
 
 std::vector<store::PersonRow> StudyService::persons(const net::Caller& caller, const std::string& id) const {
-  if (known(id).blinded() && !is_operator(caller))
+  if (known(id).blinded() && !access::is_operator(caller.role))
     throw net::RequestError(403, "who takes part in study '" + id + "' is hidden until it is unblinded");
   return table_.persons(id);
 }
@@ -88,7 +84,7 @@ StudyExport StudyService::everything(const Study& study) const {
 
 StudyExport StudyService::export_all(const net::Caller& caller, const std::string& id) const {
   const Study study = known(id);
-  if (study.open && !is_operator(caller))
+  if (study.open && !access::is_operator(caller.role))
     throw Error(ErrorKind::conflict, "study '" + id +
                                          "' is open; close it first, for who scores must not know who is how "
                                          "experienced");
@@ -104,7 +100,7 @@ void StudyService::admit(const net::Caller& caller, session::SessionRequest& wan
   const std::string& id = wanted.study;
   get(caller, id);
   const Study study = open_one(id);
-  if (!is_staff(caller) || wanted.participant.empty()) {
+  if (!access::is_staff(caller.role) || wanted.participant.empty()) {
     const std::string own = code_of(caller, id);
     if (!wanted.participant.empty() && wanted.participant != own)
       throw unknown_participant(id, wanted.participant);
@@ -128,7 +124,7 @@ void StudyService::admit(const net::Caller& caller, session::SessionRequest& wan
 
 Blinding StudyService::blinding(const net::Caller& caller) const {
   std::set<std::string> unblinded;
-  if (is_operator(caller)) return {caller, std::move(unblinded)};
+  if (access::is_operator(caller.role)) return {caller, std::move(unblinded)};
   try {
     for (const store::StudyRow& row : table_.list())
       if (!row.unblinded_utc.empty()) unblinded.insert(row.id);

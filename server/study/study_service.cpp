@@ -15,9 +15,6 @@ namespace {
 /// A code that is taken is drawn again; that it is taken so often means something else is wrong.
 constexpr int most_draws = 20;
 
-bool is_staff(const net::Caller& caller) { return (access::role_bit(caller.role) & access::staff) != 0; }
-bool is_operator(const net::Caller& caller) { return access::role_bit(caller.role) == access::operators; }
-
 Error unknown_study(const std::string& id) {
   return {ErrorKind::not_found, "no study '" + id + "'; GET /api/v1/studies lists them"};
 }
@@ -61,7 +58,7 @@ Study StudyService::create(const StudyWishes& wishes) {
 }
 
 std::vector<Study> StudyService::list(const net::Caller& caller) const {
-  const bool all = is_staff(caller);
+  const bool all = access::is_staff(caller.role);
   const auto own = all ? std::map<std::string, std::string>() : table_.codes_of(caller.user_id);
   std::vector<Study> studies;
   for (const store::StudyRow& row : table_.list())
@@ -70,7 +67,7 @@ std::vector<Study> StudyService::list(const net::Caller& caller) const {
 }
 
 Study StudyService::get(const net::Caller& caller, const std::string& id) const {
-  if (!is_staff(caller) && code_of(caller, id).empty()) throw unknown_study(id);
+  if (!access::is_staff(caller.role) && code_of(caller, id).empty()) throw unknown_study(id);
   return known(id);
 }
 
@@ -158,7 +155,7 @@ Participant StudyService::enrol(const net::Caller& caller, const std::string& id
                                 const NewParticipant& wanted) {
   const Study study = open_one(id);
   if (wanted.user_id.empty() && wanted.name.empty()) return add_participant(study, wanted, std::nullopt);
-  if (!is_operator(caller))
+  if (!access::is_operator(caller.role))
     throw net::RequestError(403,
                             "only operators may say who a participant is; give the person the join code");
   store::PersonRow person{"", wanted.user_id, wanted.name};

@@ -14,7 +14,7 @@ namespace {
 using voxel::brick_edge;
 using voxel::brick_voxels;
 
-constexpr uint8_t filled = 128;
+constexpr uint8_t filled_level = 128;
 
 /// Mean and fullest voxel of the samples of a region, one sample wider on all sides than what is asked for.
 struct Region {
@@ -91,7 +91,7 @@ bool has_filled_neighbour(const Region& region, int i) {
   for (int z = -slice; z <= slice; z += slice)
     for (int y = -row; y <= row; y += row)
       for (int x = -1; x <= 1; ++x)
-        if (region.mean[static_cast<size_t>(i + z + y + x)] >= filled) return true;
+        if (region.mean[static_cast<size_t>(i + z + y + x)] >= filled_level) return true;
   return false;
 }
 
@@ -131,7 +131,8 @@ void coarse_samples(const voxel::VoxelGrid& grid, const uint8_t* coverage, const
       int i = 1 + region.edge * (y + 1 + region.edge * (z + 1));
       for (int x = 0; x < edge; ++x, ++i) {
         const uint8_t mean = region.mean[static_cast<size_t>(i)], peak = region.peak[static_cast<size_t>(i)];
-        const bool thin_wall = mean < filled && peak >= filled && !has_filled_neighbour(region, i);
+        const bool thin_wall =
+            mean < filled_level && peak >= filled_level && !has_filled_neighbour(region, i);
         to[x] = thin_wall ? peak : mean;
       }
     }
@@ -195,10 +196,10 @@ bool BlockVolume::find_filled() {
   uint64_t any = 0, all = corners;
   for (int z = low_.z(); z <= last_.z(); ++z)
     for (int y = low_.y(); y <= last_.y(); ++y) {
-      const uint64_t filled = top_bits(row(y, z));
-      filled_[static_cast<size_t>(z * edge + y)] = filled;
-      any |= filled & corners;
-      all &= filled;
+      const uint64_t filled_level = top_bits(row(y, z));
+      filled_[static_cast<size_t>(z * edge + y)] = filled_level;
+      any |= filled_level & corners;
+      all &= filled_level;
     }
   return any != 0 && all != corners;
 }

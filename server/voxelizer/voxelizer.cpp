@@ -60,14 +60,14 @@ void require_closed(const TriangleMesh& mesh, double scale) {
 
 namespace {
 
-constexpr size_t tile_bytes = size_t{1} << 20;
+constexpr size_t dense_tile_bytes = size_t{1} << 20;
 constexpr size_t sparse_tile_bytes = size_t{2} << 20;
 constexpr size_t tiles_a_thread = 3;
 
 }  // namespace
 
 TilePlan default_tiles(const VoxelSet& set, int threads) {
-  return plan_tiles(set.grid(), set.sparse() ? sparse_tile_bytes : tile_bytes,
+  return plan_tiles(set.grid(), set.sparse() ? sparse_tile_bytes : dense_tile_bytes,
                     tiles_a_thread * static_cast<size_t>(threads));
 }
 

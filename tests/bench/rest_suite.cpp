@@ -10,9 +10,9 @@
 namespace ream::bench {
 namespace {
 
-constexpr int turns = 6;
+constexpr int rest_turns = 6;
 constexpr double turn_s = 10.0, requests_per_s = 200.0;
-constexpr double more_misses_goal_points = 0.1, more_memory_goal_mb = 64.0;
+constexpr double rest_misses_goal_points = 0.1, more_memory_goal_mb = 64.0;
 
 /// Means of sessions of one kind; sums of refusals.
 struct Loop {
@@ -20,14 +20,14 @@ struct Loop {
   int refusals = 0;
 
   void add(const ServedTurn& turn) {
-    missed_percent += 100.0 * static_cast<double>(turn.loop.missed) * tick_s / turn_s / turns;
-    p99_us += turn.loop.tick_us.p99_us / turns;
+    missed_percent += 100.0 * static_cast<double>(turn.loop.missed) * tick_s / turn_s / rest_turns;
+    p99_us += turn.loop.tick_us.p99_us / rest_turns;
     peak_memory_mb = std::max(peak_memory_mb, turn.peak_memory_mb);
     refusals += turn.refusals;
   }
 };
 
-/// Sums and means of the turns with requests.
+/// Sums and means of the rest_turns with requests.
 struct Asked {
   double asked = 0.0, failed = 0.0, duration_s = 0.0, p50_ms = 0.0, p95_ms = 0.0, p99_ms = 0.0;
 
@@ -35,9 +35,9 @@ struct Asked {
     asked += static_cast<double>(one.asked);
     failed += static_cast<double>(one.failed);
     duration_s += one.duration_s;
-    p50_ms += one.p50_ms / turns;
-    p95_ms += one.p95_ms / turns;
-    p99_ms += one.p99_ms / turns;
+    p50_ms += one.p50_ms / rest_turns;
+    p95_ms += one.p95_ms / rest_turns;
+    p99_ms += one.p99_ms / rest_turns;
   }
 };
 
@@ -55,7 +55,7 @@ struct Besieged {
 void add_loop_rows(const std::string& beside, const Loop& ours, const Loop& alone, std::vector<Row>& rows) {
   const std::string name = "thesis-5-4-2 served for a minute beside " + beside + " and (baseline) alone, ";
   rows.push_back({"rest", name + "ticks missed", ours.missed_percent, alone.missed_percent, "%",
-                  alone.missed_percent + more_misses_goal_points});
+                  alone.missed_percent + rest_misses_goal_points});
   rows.push_back({"rest", name + "tick p99", ours.p99_us, alone.p99_us, "us"});
   rows.push_back({"rest", name + "memory at the most", ours.peak_memory_mb, alone.peak_memory_mb, "MB",
                   alone.peak_memory_mb + more_memory_goal_mb});
@@ -89,7 +89,7 @@ std::vector<Row> rest_suite(const Options&) {
   Loop alone, with_requests, with_crowd;
   Asked asked;
   Besieged besieged;
-  for (int turn = 0; turn < turns; ++turn) {
+  for (int turn = 0; turn < rest_turns; ++turn) {
     alone.add(served.run(viewer));
     with_requests.add(
         served.run(viewer, [&](const Door& door) { requests.begin(door, requests_per_s, turn_s); }));

@@ -20,8 +20,8 @@ constexpr double moment_goal_ms = 300.0;
 constexpr uint32_t hour_ticks = 3'600'000, simulated_ticks = 30'000;
 constexpr uint32_t stretch = hour_ticks / simulated_ticks;
 constexpr int moments = 50;
-constexpr unsigned seed = 11;
-constexpr size_t enough_waiting_chunks = 16;
+constexpr unsigned seek_seed = 11;
+constexpr size_t max_waiting_chunks = 16;
 
 /// What half a minute of reaming did: every tick's report, and of every chunk the bricks that it changed.
 struct Reaming {
@@ -76,7 +76,7 @@ void write_hour(const Reaming& reaming, const voxel::BoneModel& bone, const std:
         image.tick = tick;
         recorder.add(image);
       }
-      while (recorder.waiting_chunks() > enough_waiting_chunks)
+      while (recorder.waiting_chunks() > max_waiting_chunks)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     record::TickReport report = reaming.reports[tick % reaming.reports.size()];
@@ -86,15 +86,15 @@ void write_hour(const Reaming& reaming, const voxel::BoneModel& bone, const std:
   recorder.finish("finished");
 }
 
-double percentile(std::vector<double> values, double share) {
+double value_at_share(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
   return values[static_cast<size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
 void add_rows(const std::string& what, const std::vector<double>& ms, std::vector<Row>& rows) {
   const std::string name = "seek, an hour of thesis-5-4-2, " + what;
-  rows.push_back({"record", name + ", median", percentile(ms, 0.5), 0.0, "ms", 0.0});
-  rows.push_back({"record", name + ", slowest of 50", percentile(ms, 1.0), 0.0, "ms", moment_goal_ms});
+  rows.push_back({"record", name + ", median", value_at_share(ms, 0.5), 0.0, "ms", 0.0});
+  rows.push_back({"record", name + ", slowest of 50", value_at_share(ms, 1.0), 0.0, "ms", moment_goal_ms});
 }
 
 }  // namespace
@@ -113,7 +113,7 @@ void add_seek_rows(const case_::Case& bone_case, const std::filesystem::path& fo
   rows.push_back({"record", "seek, an hour of thesis-5-4-2, size of the file",
                   static_cast<double>(std::filesystem::file_size(file)) * 1e-6, 0.0, "MB", 0.0});
 
-  std::mt19937 random(seed);
+  std::mt19937 random(seek_seed);
   std::uniform_int_distribution<uint32_t> any_moment(0, recording.tick_count());
   std::vector<double> bone_ms, viewer_ms;
   record::RecordedBone bone(recording, before.bone.grid, before.bone.coverage);

@@ -13,9 +13,9 @@
 namespace ream::bench {
 namespace {
 
-constexpr unsigned seed = 42;
-constexpr int pose_count = 300, rounds = 5;
-constexpr double shell_spacing_mm = 0.1;
+constexpr unsigned pose_seed = 42;
+constexpr int inside_pose_count = 300, rounds = 5;
+constexpr double inside_shell_spacing_mm = 0.1;
 
 /// What the issue asks of one share of points inside; 0: nothing.
 struct Goals {
@@ -46,11 +46,11 @@ QuantisedPose planned_pose(const case_::Case& c, const Approach& approach, doubl
 std::vector<QuantisedPose> creeping_poses(const case_::Case& c, const Approach& approach, double depth_mm) {
   constexpr double creep_mm = 1e-4, tilt_step_rad = 5e-6, tilt_limit_rad = 1e-4;
   constexpr int stroke = 25;
-  std::mt19937 random(seed);
+  std::mt19937 random(pose_seed);
   std::uniform_real_distribution<double> one(-tilt_step_rad, tilt_step_rad);
   std::vector<QuantisedPose> poses;
   Vec3 tilt = Vec3::Zero();
-  for (int i = 0; i < pose_count; ++i) {
+  for (int i = 0; i < inside_pose_count; ++i) {
     for (int axis = 0; axis < 2; ++axis)
       tilt[axis] = std::clamp(tilt[axis] + one(random), -tilt_limit_rad, tilt_limit_rad);
     const int phase = i % (2 * stroke);
@@ -73,7 +73,7 @@ struct Contenders {
 
   explicit Contenders(case_::Case c)
       : bone_case(std::move(c)),
-        point_shell(shell::make_point_shell(shell::make_tool(shell::thesis_tool), shell_spacing_mm)),
+        point_shell(shell::make_point_shell(shell::make_tool(shell::thesis_tool), inside_shell_spacing_mm)),
         codes(morton_shell(point_shell)),
         voxmap(voxmap_of(bone_case.bone)),
         bone(bone_case.bone),

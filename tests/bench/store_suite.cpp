@@ -20,7 +20,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int session_count = 10'000, rounds = 40;
+constexpr int session_count = 10'000, store_rounds = 40;
 constexpr size_t page_rows = 50;
 constexpr double p95_goal_ms = 50.0;
 
@@ -96,7 +96,7 @@ using Ask = std::function<Answer(const Question&, const std::string& cursor)>;
 /// The first page of each question and the one behind it, again and again; times in ms, sorted.
 std::vector<double> measure(const std::vector<Question>& questions, const Ask& ask) {
   std::vector<double> times_ms;
-  for (int round = 0; round < rounds + 2; ++round)
+  for (int round = 0; round < store_rounds + 2; ++round)
     for (const Question& question : questions) {
       std::string cursor;
       for (int page = 0; page < 2; ++page) {

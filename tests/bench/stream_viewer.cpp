@@ -14,7 +14,7 @@ namespace {
 
 constexpr int binary = 2, closed = 8;
 
-struct Answer {
+struct ViewerAnswer {
   bool good = false;
   uint64_t bytes = 0;
 };
@@ -36,7 +36,7 @@ uint64_t receive_until_told(test::RawWebSocket& stream, int in) {
   return bytes;
 }
 
-void answer(int out, const Answer& answer) {
+void answer(int out, const ViewerAnswer& answer) {
   if (::write(out, &answer, sizeof answer) != sizeof answer) ::_exit(1);
 }
 
@@ -56,20 +56,20 @@ void serve_order(const Door& door, int in, int out) {
   }
 }
 
-void serve_orders(int in, int out) {
+void serve_viewer_orders(int in, int out) {
   Door door;
   while (::read(in, &door, sizeof door) == sizeof door) serve_order(door, in, out);
 }
 
-Answer good_answer(const SideProcess& process) {
-  const Answer answer = process.receive<Answer>();
+ViewerAnswer good_answer(const SideProcess& process) {
+  const ViewerAnswer answer = process.receive<ViewerAnswer>();
   if (!answer.good) throw Error(ErrorKind::unavailable, "the viewer lost the session's stream");
   return answer;
 }
 
 }  // namespace
 
-StreamViewer::StreamViewer() : process_(serve_orders) {}
+StreamViewer::StreamViewer() : process_(serve_viewer_orders) {}
 
 void StreamViewer::watch(const Door& door) {
   process_.send(door);

@@ -25,7 +25,7 @@ bool fits(const DicomSlice& a, const DicomSlice& b) {
          (a.spacing_mm - b.spacing_mm).head<2>().cwiseAbs().maxCoeff() < same_orientation * a.spacing_mm.x();
 }
 
-std::string number_text(double v, const char* format = "%.4g") {
+std::string rounded_text(double v, const char* format = "%.4g") {
   char text[32];
   std::snprintf(text, sizeof text, format, v + 0.0);
   return text;
@@ -96,8 +96,8 @@ void drop_strays(std::vector<DicomSlice>& slices, SliceStack& stack, const std::
   if (strays == 0) return;
   if (static_cast<double>(strays) > stray_share * static_cast<double>(slices.size()) || best_end - best < 2)
     throw Error(ErrorKind::invalid_input, place + ": slices are missing between " +
-                                              number_text(slices[gap_at - 1].position_mm, "%.0f") + " and " +
-                                              number_text(slices[gap_at].position_mm, "%.0f") +
+                                              rounded_text(slices[gap_at - 1].position_mm, "%.0f") + " and " +
+                                              rounded_text(slices[gap_at].position_mm, "%.0f") +
                                               " mm; give a complete series");
   slices = {slices.begin() + static_cast<std::ptrdiff_t>(best),
             slices.begin() + static_cast<std::ptrdiff_t>(best_end)};
@@ -122,8 +122,8 @@ void choose_grid(SliceStack& stack) {
     narrowest = std::min(narrowest, gap);
     widest = std::max(widest, gap);
     if (steps > 1.0 && gaps.empty())
-      gaps = " (first between " + number_text(slices[i - 1].position_mm, "%.0f") + " and " +
-             number_text(slices[i].position_mm, "%.0f") + " mm)";
+      gaps = " (first between " + rounded_text(slices[i - 1].position_mm, "%.0f") + " and " +
+             rounded_text(slices[i].position_mm, "%.0f") + " mm)";
   }
   const double fitted = places.back() > 0.0 ? length / places.back() : 0.0;
   stack.even = fitted > 0.0;
@@ -135,9 +135,9 @@ void choose_grid(SliceStack& stack) {
   if (stack.even && missing > 0)
     stack.warnings.push_back(std::to_string(missing) + " missing slices were interpolated" + gaps);
   if (!stack.even)
-    stack.warnings.push_back("the slices are " + number_text(narrowest) + " to " + number_text(widest) +
+    stack.warnings.push_back("the slices are " + rounded_text(narrowest) + " to " + rounded_text(widest) +
                              " mm apart; they were resampled linearly to the median distance of " +
-                             number_text(median) + " mm");
+                             rounded_text(median) + " mm");
 }
 
 void measure_shear(SliceStack& stack) {
@@ -153,8 +153,8 @@ void measure_shear(SliceStack& stack) {
   const double along = way.dot(first.normal());
   const double tilt_deg = std::atan2((way - along * first.normal()).norm(), along) * 180.0 / 3.14159265358979;
   stack.warnings.push_back("the slices are shifted against each other by up to " +
-                           number_text(largest, "%.1f") + " mm (gantry tilted by " +
-                           number_text(tilt_deg, "%.1f") +
+                           rounded_text(largest, "%.1f") + " mm (gantry tilted by " +
+                           rounded_text(tilt_deg, "%.1f") +
                            " degrees); they were resampled on an orthogonal grid");
 }
 

@@ -6,16 +6,18 @@
 namespace ream::ct {
 namespace {
 
-constexpr int bin_hu = 8, lowest_hu = 0, highest_hu = 2000, bins = (highest_hu - lowest_hu) / bin_hu;
+constexpr int bin_hu = 8, histogram_lowest_hu = 0, histogram_highest_hu = 2000,
+              bin_count = (histogram_highest_hu - histogram_lowest_hu) / bin_hu;
 constexpr int soft_tissue_bins = 150 / bin_hu;
 constexpr double half_width_per_deviation = 1.1774;  // sqrt(2 ln 2), of a normal distribution
 constexpr double customary_threshold_hu = 226.0, least_threshold_hu = 100.0, greatest_threshold_hu = 500.0;
 constexpr double deviations_of_noise = 4.0;
 
 std::vector<size_t> histogram_of(const HuVolume& volume) {
-  std::vector<size_t> counts(bins);
+  std::vector<size_t> counts(bin_count);
   for (const int16_t hu : volume.hu)
-    if (hu >= lowest_hu && hu < highest_hu) ++counts[static_cast<size_t>((hu - lowest_hu) / bin_hu)];
+    if (hu >= histogram_lowest_hu && hu < histogram_highest_hu)
+      ++counts[static_cast<size_t>((hu - histogram_lowest_hu) / bin_hu)];
   return counts;
 }
 
@@ -27,7 +29,7 @@ SoftTissue soft_tissue_in(const std::vector<size_t>& counts) {
   const double excess = static_cast<double>(*(half - 1)) - 0.5 * static_cast<double>(*peak);
   const double fall = static_cast<double>(*(half - 1)) - static_cast<double>(*half);
   const double width_hu = bin_hu * (static_cast<double>(half - 1 - peak) + excess / fall);
-  return {lowest_hu + bin_hu * (static_cast<double>(peak - counts.begin()) + 0.5),
+  return {histogram_lowest_hu + bin_hu * (static_cast<double>(peak - counts.begin()) + 0.5),
           width_hu / half_width_per_deviation};
 }
 
@@ -58,8 +60,8 @@ SoftTissue soft_tissue_of(const HuVolume& volume) { return soft_tissue_in(histog
 
 double suggested_threshold_hu(const HuVolume& volume) {
   const std::vector<size_t> counts = histogram_of(volume);
-  if (std::count(counts.begin(), counts.end(), size_t{0}) > bins - 3) return customary_threshold_hu;
-  const double otsu = lowest_hu + bin_hu * static_cast<double>(three_class_limits(counts)[0]);
+  if (std::count(counts.begin(), counts.end(), size_t{0}) > bin_count - 3) return customary_threshold_hu;
+  const double otsu = histogram_lowest_hu + bin_hu * static_cast<double>(three_class_limits(counts)[0]);
   const SoftTissue soft = soft_tissue_in(counts);
   const double above_noise = soft.hu + deviations_of_noise * soft.deviation_hu;
   return std::floor(std::clamp(std::max(otsu, above_noise), least_threshold_hu, greatest_threshold_hu) + 0.5);

@@ -21,9 +21,9 @@ namespace {
 
 /// A request for metrics waits this long for the recording to be read.
 constexpr auto metrics_patience = std::chrono::seconds(1);
-constexpr auto follower_period = std::chrono::milliseconds(10);
+constexpr auto replay_period = std::chrono::milliseconds(10);
 /// A replay that rests tells its viewers so this often, so that a silent link is a broken one.
-constexpr int64_t heartbeat_ns = 500'000'000;
+constexpr int64_t replay_heartbeat_ns = 500'000'000;
 
 double recorded_force_max_n(const record::Recording& recording) {
   const std::string place = "the settings in " + recording.log().path().string();
@@ -195,14 +195,14 @@ void ReplaySession::follow() {
     std::unique_lock lock(mutex_);
     bone_ticks_ = picture_.bone_ticks();
     bone_hash_ = picture_.bone_hash();
-    changed_.wait_for(lock, follower_period, [&] { return leaving_ || playhead_.jumps() != moment.jump; });
+    changed_.wait_for(lock, replay_period, [&] { return leaving_ || playhead_.jumps() != moment.jump; });
   }
 }
 
 void ReplaySession::present(const ReplayMoment& moment, int64_t now_ns) {
   picture_.show(moment);
   picture_.poll(steady_ns());
-  if (moment.playing || now_ns - last_told_ns_ <= heartbeat_ns) return;
+  if (moment.playing || now_ns - last_told_ns_ <= replay_heartbeat_ns) return;
   picture_.tell(stream::SessionState::replaying);
   last_told_ns_ = now_ns;
 }

@@ -18,21 +18,21 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A folder in the system's place for temporary things; removed with all that is in it.
-class TemporaryFolder {
+class SystemTemporaryFolder {
  public:
-  TemporaryFolder() {
+  SystemTemporaryFolder() {
     std::string pattern = (fs::temp_directory_path() / "ream-reamer-XXXXXX").string();
     if (::mkdtemp(pattern.data()) == nullptr)
       throw Error(ErrorKind::io,
                   "cannot make a folder for a reamer's mesh in " + fs::temp_directory_path().string());
     path_ = pattern;
   }
-  ~TemporaryFolder() {
+  ~SystemTemporaryFolder() {
     std::error_code ignored;
     fs::remove_all(path_, ignored);
   }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  SystemTemporaryFolder(const SystemTemporaryFolder&) = delete;
+  SystemTemporaryFolder& operator=(const SystemTemporaryFolder&) = delete;
   const fs::path& path() const { return path_; }
 
  private:
@@ -56,7 +56,7 @@ std::string reamer_in_library(const std::string& asked_for, const fs::path& data
 
 shell::Tool tool_of(const Reamer& reamer) {
   if (reamer.mesh_file.empty()) return shell::make_tool(reamer.words, reamer.axis);
-  const TemporaryFolder folder;
+  const SystemTemporaryFolder folder;
   const fs::path file = folder.path() / ("reamer" + fs::path(reamer.words).extension().string());
   write_file_atomically(file, std::span<const std::byte>(reamer.mesh_file));
   try {

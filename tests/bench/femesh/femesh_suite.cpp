@@ -14,7 +14,7 @@ namespace {
 constexpr double bin_width_mpa = 10.0;  // section 2.5.1
 constexpr double goal_over_hash_map = 20.0, goal_seconds_from_rows = 4.0, goal_share_of_plain_write = 0.5;
 constexpr double baseline_bytes_an_element = 400.0;  // of the thesis' pipeline, nodes and hash map together
-constexpr int runs = 3;
+constexpr int femesh_runs = 3;
 constexpr const char* phase_names[] = {"create grid",        "create hexahedra", "nodes indexing",
                                        "calculate material", "material binning", "material indexing"};
 
@@ -25,7 +25,7 @@ double median(std::vector<double> values) {
 
 OurMesh median_mesh(const Foam& foam, int upsample, double bin_width) {
   std::vector<OurMesh> all;
-  for (int i = 0; i < runs; ++i) all.push_back(our_mesh(foam, upsample, bin_width));
+  for (int i = 0; i < femesh_runs; ++i) all.push_back(our_mesh(foam, upsample, bin_width));
   std::sort(all.begin(), all.end(),
             [](const OurMesh& a, const OurMesh& b) { return a.sum_ms() < b.sum_ms(); });
   return all[all.size() / 2];
@@ -115,7 +115,7 @@ void add_model(const ThesisModel& model, const Options& options, const BenchFold
   foam.write_rows(text);
   std::vector<double> total_s, share, write_mb_s;
   double peak_mb = 0.0;
-  for (int i = 0; i < runs; ++i) {
+  for (int i = 0; i < femesh_runs; ++i) {
     const auto report = run_femesh(text.string() + " --modulus 0,1 --bins 10 --out " + inp.string());
     const auto bytes = report["bytes"].get<uint64_t>();
     const double write_s = report["phases_ms"]["write"].get<double>() * 1e-3;

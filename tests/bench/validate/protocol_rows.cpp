@@ -12,11 +12,11 @@
 namespace ream::bench {
 namespace {
 
-constexpr size_t specimens = 6;
+constexpr size_t protocol_specimens = 6;
 /// Of the ideal device's coupling, through which a handle that advances feels the bone. The experiments'
 /// robot and fixture gave way too, by how much is not published.
 constexpr double handle_spring_n_mm = 100.0;
-using Phases = std::array<Phase, specimens>;
+using Phases = std::array<Phase, protocol_specimens>;
 
 /// Twenty times a second, as long as all six ream: time, mean and deviation of thrust, then of advance; from
 /// the moment of full force on also what the thesis gives: thrust, and advance at its feed.
@@ -28,8 +28,8 @@ std::vector<std::vector<double>> curves(const PublishedBone& bone, const Phases&
   std::vector<std::vector<double>> rows;
   double held_since_s = 0.0, held_from_mm = nothing;
   for (size_t i = 0; i < shortest; i += every_ticks) {
-    std::array<double, specimens> thrust, advance;
-    for (size_t s = 0; s < specimens; ++s) {
+    std::array<double, protocol_specimens> thrust, advance;
+    for (size_t s = 0; s < protocol_specimens; ++s) {
       thrust[s] = phases[s].ticks[i].thrust_n;
       advance[s] = phases[s].ticks[i].advance_mm;
     }
@@ -70,20 +70,20 @@ void plot(const PublishedBone& bone, const Phases& phases, Plots& plots) {
 }
 
 std::vector<Row> rows_of(const PublishedBone& bone, const Phases& phases, const Options& options) {
-  std::array<double, specimens> thrust, feed;
+  std::array<double, protocol_specimens> thrust, feed;
   TextTable stiffness;
   stiffness.title = "Apparent machining stiffness, " + std::string(bone.name) +
                     ", N/mm: thrust gained per mm of the tool's advance (and of a handle's\nbefore a spring "
                     "of 100 N/mm) on the way to 90 % of 52 N";
   stiffness.corner = "specimen";
   stiffness.columns = {"ours", "at the handle", "thesis"};
-  for (size_t s = 0; s < specimens; ++s) {
+  for (size_t s = 0; s < protocol_specimens; ++s) {
     thrust[s] = phases[s].held_thrust_n;
     feed[s] = phases[s].held_feed_mm_s;
     const double ours = phases[s].stiffness_n_mm;
-    stiffness.lines.push_back(
-        {std::to_string(s + 1),
-         {ours, ours * handle_spring_n_mm / (ours + handle_spring_n_mm), bone.specimens[s].stiffness_n_mm}});
+    stiffness.lines.push_back({std::to_string(s + 1),
+                               {ours, ours * handle_spring_n_mm / (ours + handle_spring_n_mm),
+                                bone.specimens[s].stiffness_n_mm}});
   }
   stiffness.print(options.tables, 1);
   const std::string name = std::string("robot protocol, ") + bone.name;
@@ -98,7 +98,7 @@ std::vector<Row> rows_of(const PublishedBone& bone, const Phases& phases, const 
 
 std::vector<Row> protocol_rows(const Options& options, Plots& plots) {
   Phases cortical, cancellous;
-  in_parallel(specimens, [&](size_t s) {
+  in_parallel(protocol_specimens, [&](size_t s) {
     SpecimenRun run = run_protocol(s);
     cortical[s] = std::move(run.cortical);
     cancellous[s] = std::move(run.cancellous);

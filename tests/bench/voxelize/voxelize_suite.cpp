@@ -17,7 +17,7 @@ namespace {
 using voxelizer::RasterGrid;
 using voxelizer::VoxelSet;
 
-constexpr int rounds = 15, slow_rounds = 3, threads = 2;
+constexpr int voxelize_rounds = 15, slow_rounds = 3, threads = 2;
 constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 
 /// What the issue asks at 0.1 mm, how many times faster: than the kernel by voxel, by column.
@@ -36,7 +36,7 @@ constexpr double goal_single_thread = 30.0, goal_solid = 5.0, goal_reamer_ms = 3
 struct Contender {
   std::function<void()> prepare, work;  ///< only the work is timed
   std::vector<double> ms;
-  int rounds = bench::rounds;
+  int voxelize_rounds = bench::voxelize_rounds;
 
   /// Lower quartile: what else the machine does only adds time.
   double time_ms() {
@@ -47,9 +47,9 @@ struct Contender {
 };
 
 void measure_in_turns(std::vector<Contender*> contenders) {
-  for (int round = 0; round < rounds; ++round)
+  for (int round = 0; round < voxelize_rounds; ++round)
     for (Contender* c : contenders) {
-      if (round >= c->rounds || !c->work) continue;
+      if (round >= c->voxelize_rounds || !c->work) continue;
       if (c->prepare) c->prepare();
       const auto start = SteadyClock::now();
       c->work();

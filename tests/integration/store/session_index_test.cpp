@@ -10,7 +10,7 @@
 namespace ream::store {
 namespace {
 
-SessionRow row(const std::string& id) {
+SessionRow session_row(const std::string& id) {
   SessionRow made;
   made.id = id;
   made.case_id = "demo";
@@ -37,9 +37,9 @@ TYPED_TEST_SUITE(SessionIndexTest, test::BothStores, test::StoreNames);
 
 TYPED_TEST(SessionIndexTest, GivesBackEveryColumn) {
   SessionIndex index(this->database());
-  index.put({row("a"), row("b")});
-  EXPECT_EQ(index.get("b"), row("b"));
-  SessionRow unjudged = row("d");
+  index.put({session_row("a"), session_row("b")});
+  EXPECT_EQ(index.get("b"), session_row("b"));
+  SessionRow unjudged = session_row("d");
   unjudged.points.reset();
   unjudged.outcome.clear();
   index.put({unjudged});
@@ -49,8 +49,8 @@ TYPED_TEST(SessionIndexTest, GivesBackEveryColumn) {
 
 TYPED_TEST(SessionIndexTest, ReplacesAndRemoves) {
   SessionIndex index(this->database());
-  index.put({row("a"), row("b")});
-  SessionRow changed = row("a");
+  index.put({session_row("a"), session_row("b")});
+  SessionRow changed = session_row("a");
   changed.state = "running";
   changed.record = "other";
   changed.stamp = -5;
@@ -67,9 +67,9 @@ TYPED_TEST(SessionIndexTest, RefusesTextThatNoDatabaseHolds) {
   SessionIndex index(this->database());
   for (const std::string& text :
        {std::string("a\0b", 3), std::string("\xff"), std::string("\xc0\x80"), std::string("\xed\xa0\x80")}) {
-    SessionRow bad = row("a");
+    SessionRow bad = session_row("a");
     bad.trainee = text;
-    test::expect_error(ErrorKind::invalid_input, "UTF-8", [&] { index.put({row("b"), bad}); });
+    test::expect_error(ErrorKind::invalid_input, "UTF-8", [&] { index.put({session_row("b"), bad}); });
     SessionQuery query;
     query.study = text;
     test::expect_error(ErrorKind::invalid_input, "UTF-8", [&] { index.find(query); });
@@ -79,14 +79,14 @@ TYPED_TEST(SessionIndexTest, RefusesTextThatNoDatabaseHolds) {
 
 TYPED_TEST(SessionIndexTest, IsMadeAnewAsAWhole) {
   SessionIndex index(this->database());
-  index.put({row("a"), row("b")});
-  SessionRow bad = row("d");
+  index.put({session_row("a"), session_row("b")});
+  SessionRow bad = session_row("d");
   bad.title = "\xff";
-  test::expect_error(ErrorKind::invalid_input, "UTF-8", [&] { index.replace_all({row("c"), bad}); });
+  test::expect_error(ErrorKind::invalid_input, "UTF-8", [&] { index.replace_all({session_row("c"), bad}); });
   EXPECT_EQ(index.marks().size(), 2u);
-  index.replace_all({row("c")});
+  index.replace_all({session_row("c")});
   EXPECT_EQ(index.get("a"), std::nullopt);
-  EXPECT_EQ(index.get("c"), row("c"));
+  EXPECT_EQ(index.get("c"), session_row("c"));
 }
 
 /// Few different values, so that filters let some pass and sorting meets equals.

@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-net::Caller caller(const std::string& role, const std::string& user_id = "u") {
+net::Caller caller_of(const std::string& role, const std::string& user_id = "u") {
   return {user_id, "", role, {}, {}};
 }
 
@@ -39,7 +39,7 @@ class ChangeFeedTest : public testing::Test {
 
 TEST_F(ChangeFeedTest, GreetsAndTellsInOrderAndWakesWhoListens) {
   feed->tell({"case", "before", "changed"});
-  const auto listener = feed->listen(caller("operator"), {});
+  const auto listener = feed->listen(caller_of("operator"), {});
   EXPECT_TRUE(listener->sends_text());
   int woken = 0;
   listener->on_open([&] { ++woken; });
@@ -62,26 +62,26 @@ TEST_F(ChangeFeedTest, GreetsAndTellsInOrderAndWakesWhoListens) {
 }
 
 TEST_F(ChangeFeedTest, WhoComesBackMissesNothingOrIsToldSo) {
-  const auto first = feed->listen(caller("operator"), {});
+  const auto first = feed->listen(caller_of("operator"), {});
   const uint64_t number = heard(*first).at(0).at("number");
   for (const char* id : {"a", "b", "c"}) feed->tell({"case", id, "changed"});
-  const auto told = heard(*feed->listen(caller("operator"), number + 1));
+  const auto told = heard(*feed->listen(caller_of("operator"), number + 1));
   ASSERT_EQ(told.size(), 3u);
   EXPECT_EQ(told[0].at("missed"), false);
   EXPECT_EQ(told[1].at("id"), "b");
   EXPECT_EQ(told[2].at("id"), "c");
   for (const char* id : {"d", "e", "f"}) feed->tell({"case", id, "changed"});
-  const auto late = heard(*feed->listen(caller("operator"), number));
+  const auto late = heard(*feed->listen(caller_of("operator"), number));
   ASSERT_EQ(late.size(), 1u);
   EXPECT_EQ(late[0].at("missed"), true);
-  const auto whole = heard(*feed->listen(caller("operator"), number + 2));
+  const auto whole = heard(*feed->listen(caller_of("operator"), number + 2));
   EXPECT_EQ(whole.size(), 5u) << "the oldest that is kept is the next of what was seen";
-  const auto stranger = heard(*feed->listen(caller("operator"), number + 1'000'000'000'000));
+  const auto stranger = heard(*feed->listen(caller_of("operator"), number + 1'000'000'000'000));
   EXPECT_EQ(stranger.at(0).at("missed"), true) << "a number that this server has never given";
 }
 
 TEST_F(ChangeFeedTest, WhoIsTooSlowIsToldToReadAgain) {
-  const auto listener = feed->listen(caller("operator"), {});
+  const auto listener = feed->listen(caller_of("operator"), {});
   heard(*listener);
   for (int i = 0; i < 10; ++i) feed->tell({"case", std::to_string(i), "changed"});
   const auto told = heard(*listener);
@@ -92,10 +92,10 @@ TEST_F(ChangeFeedTest, WhoIsTooSlowIsToldToReadAgain) {
 }
 
 TEST_F(ChangeFeedTest, EverybodyHearsWhatTheyMayKnow) {
-  const auto anna = feed->listen(caller("trainee", "anna"), {}),
-             ben = feed->listen(caller("trainee", "ben"), {}),
-             teacher = feed->listen(caller("instructor"), {}),
-             watcher = feed->listen(caller("viewer", ""), {});
+  const auto anna = feed->listen(caller_of("trainee", "anna"), {}),
+             ben = feed->listen(caller_of("trainee", "ben"), {}),
+             teacher = feed->listen(caller_of("instructor"), {}),
+             watcher = feed->listen(caller_of("viewer", ""), {});
   for (const auto& each : {&anna, &ben, &teacher, &watcher}) heard(**each);
   feed->tell({"session", "abcd2345", "running", session_of("anna")});
   feed->tell({"user", "anna", "changed"});

@@ -12,8 +12,8 @@
 namespace ream::test {
 namespace {
 
-struct Scene {
-  explicit Scene(const std::string& tool_text)
+struct ContactScene {
+  explicit ContactScene(const std::string& tool_text)
       : bone(slab({64, 64, 64}, 0.25, 8.0, 1.4)),
         tool(shell::make_tool(tool_text)),
         shell(collide::make_contact_shell(shell::make_point_shell(tool, 0.3), 0.25)),
@@ -48,7 +48,7 @@ void add(collide::ContactSums::Part& part, const collide::ContactVector& v) {
 }
 
 /// Independent reference: every point, no culling, no cells, positions in doubles.
-collide::ContactSums reference(const Scene& s, const QuantisedPose& pose) {
+collide::ContactSums reference(const ContactScene& s, const QuantisedPose& pose) {
   collide::ContactSums sums;
   const Pose grid_from_tool = dequantised(pose);
   const auto classes = voxel::class_table(s.bone.cortical_threshold_g_cc);
@@ -75,7 +75,7 @@ collide::ContactSums reference(const Scene& s, const QuantisedPose& pose) {
 TEST(NarrowPhase, CulledWholeNumberSumsMatchAFullSearchInDoubles) {
   constexpr unsigned seed = 42;
   std::mt19937 random(seed);
-  Scene s("ellipse 6,3 nipple 1,2");
+  ContactScene s("ellipse 6,3 nipple 1,2");
   const auto phase = collide::make_narrow_phase_cpu(s.input());
   int64_t engaged = 0;
   int equal = 0;
@@ -104,7 +104,7 @@ TEST(NarrowPhase, CulledWholeNumberSumsMatchAFullSearchInDoubles) {
 TEST(NarrowPhase, PortableAndBestInstructionsGiveTheSameBits) {
   constexpr unsigned seed = 43;
   std::mt19937 random(seed);
-  Scene s("ellipse 6,3 nipple 1,2");
+  ContactScene s("ellipse 6,3 nipple 1,2");
   std::uniform_int_distribution<int> any_byte(0, 255);
   for (auto& code : s.bone.density.writable()) code = static_cast<uint8_t>(any_byte(random));
   const auto best = collide::make_narrow_phase_cpu(s.input());
@@ -154,7 +154,7 @@ TEST(NarrowPhase, WideGridsGiveTheSameBitsToo) {
 }
 
 TEST(NarrowPhase, SumsOfAFlatContactAreThoseOfTheGeometry) {
-  Scene s("sphere 6,4");
+  ContactScene s("sphere 6,4");
   const auto phase = collide::make_narrow_phase_cpu(s.input());
   Pose grid_from_tool{rotation_with_z_along(-Vec3::UnitZ()), Vec3(8.0, 8.0, 7.0)};
   const collide::ContactSums sums = s.contact(*phase, quantised(grid_from_tool));
@@ -174,7 +174,7 @@ TEST(NarrowPhase, SumsOfAFlatContactAreThoseOfTheGeometry) {
 }
 
 TEST(NarrowPhase, FarAwayNothingTouches) {
-  Scene s("sphere 6,4");
+  ContactScene s("sphere 6,4");
   const auto phase = collide::make_narrow_phase_cpu(s.input());
   EXPECT_EQ(s.contact(*phase, quantised({Mat3::Identity(), Vec3(8, 8, 500)})).engaged(), 0);
 }

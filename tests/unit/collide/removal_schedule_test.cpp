@@ -14,8 +14,8 @@ namespace ream::test {
 namespace {
 
 /// Fine bone and a broad tool: thousands of bricks are due at a first contact.
-struct Scene {
-  Scene()
+struct ScheduleScene {
+  ScheduleScene()
       : bone(slab({160, 160, 80}, 0.1, 6.0, 0.6)),
         profile(shell::swept_profile(shell::make_tool("sphere 12,7").profile,
                                      collide::RemovalSchedule::needed_margin_mm(bone.grid))),
@@ -55,7 +55,7 @@ Pose above(double z_mm, const Vec3& shift = Vec3::Zero()) {
 }
 
 TEST(RemovalSchedule, ASuddenDeepContactIsWorkedOffInTurnAndBounded) {
-  Scene s;
+  ScheduleScene s;
   const QuantisedPose pose = quantised(above(3.0));
   const size_t bricks = s.unfinished(pose);
   ASSERT_GT(bricks, 4 * collide::RemovalSchedule::max_bricks_per_tick);
@@ -76,7 +76,7 @@ TEST(RemovalSchedule, WhileTheToolGoesOnNoBrickWaitsLongerThanItsTurn) {
   constexpr unsigned seed = 71;
   std::cout << "seed " << seed << '\n';
   std::mt19937 random(seed);
-  Scene s;
+  ScheduleScene s;
   Vec3 shift = Vec3::Zero();
   double z = 5.2;
   for (int t = 0; t < 400; ++t) {
@@ -100,7 +100,7 @@ TEST(RemovalSchedule, WhileTheToolGoesOnNoBrickWaitsLongerThanItsTurn) {
 }
 
 TEST(RemovalSchedule, BricksBehindASlackAreLeftAloneUntilTheToolHasMovedAsFar) {
-  Scene s;
+  ScheduleScene s;
   const QuantisedPose pose = quantised(above(5.3));
   while (s.tick(pose) != 0) {
   }

@@ -16,8 +16,8 @@
 namespace ream::test {
 namespace {
 
-struct Scene {
-  Scene()
+struct RemovalScene {
+  RemovalScene()
       : bone(slab({64, 64, 64}, 0.25, 8.0, 0.6)),
         tool(shell::make_tool("ellipse 5,3")),
         profile(shell::swept_profile(tool.profile, collide::RemovalSchedule::needed_margin_mm(bone.grid))),
@@ -41,7 +41,7 @@ struct Scene {
 Pose at(double x, double y, double z) { return {rotation_with_z_along(-Vec3::UnitZ()), Vec3(x, y, z)}; }
 
 TEST(Removal, EveryVoxelKeepsWhatItsDistanceToTheSweptBodySays) {
-  Scene s;
+  RemovalScene s;
   const voxel::BoneModel before = s.bone;
   const Pose pose = at(8.1, 7.9, 6.3);
   s.cut(quantised(pose), s.all_bricks());
@@ -62,7 +62,7 @@ TEST(Removal, IsIdempotentAndOrderFree) {
   for (int i = 0; i < 12; ++i)
     poses.push_back(quantised(Pose{rotation_about(random_direction(random), 0.3), Vec3::Zero()} *
                               at(8 + random_vector(random, 3).x(), 8, 6.5)));
-  Scene forwards, backwards;
+  RemovalScene forwards, backwards;
   std::vector<uint32_t> bricks = forwards.all_bricks();
   for (const auto& pose : poses) forwards.cut(pose, bricks);
   std::shuffle(bricks.begin(), bricks.end(), random);
@@ -74,7 +74,7 @@ TEST(Removal, IsIdempotentAndOrderFree) {
 }
 
 TEST(Removal, SumsAndHashAreThoseOfTheChangedVoxels) {
-  Scene s;
+  RemovalScene s;
   const auto before = s.bone.coverage;
   const collide::RemovalSums sums = s.cut(quantised(at(8, 8, 6)), s.all_bricks());
   int64_t removed = 0;
@@ -91,7 +91,7 @@ TEST(Removal, SumsAndHashAreThoseOfTheChangedVoxels) {
 }
 
 TEST(RemovalSchedule, AScheduledPlungeEndsWithinAThirtySecondVoxelOfCuttingEverything) {
-  Scene scheduled, full;
+  RemovalScene scheduled, full;
   collide::RemovalSchedule schedule(scheduled.profile, scheduled.bone);
   size_t visited = 0, ticks = 0;
   for (double z = 8.3; z > 5.5; z -= 0.002, ++ticks) {

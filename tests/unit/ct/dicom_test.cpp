@@ -31,7 +31,7 @@ fs::path slice(const fs::path& folder, int number) {
   return folder / name;
 }
 
-bool mentions(const HuVolume& volume, const std::string& words) {
+bool mentions_warning(const HuVolume& volume, const std::string& words) {
   for (const auto& warning : volume.warnings)
     if (warning.find(words) != std::string::npos) return true;
   return false;
@@ -53,7 +53,7 @@ TEST(Dicom, AMissingSliceIsInterpolatedAndSaid) {
   fs::remove(slice(folder.path(), 4));
   const HuVolume volume = read_dicom_folder(folder.path());
   EXPECT_EQ(volume.hu, stack(8).hu);
-  EXPECT_TRUE(mentions(volume, "1 missing slices"));
+  EXPECT_TRUE(mentions_warning(volume, "1 missing slices"));
 }
 
 TEST(Dicom, AWideGapIsRefused) {
@@ -73,7 +73,7 @@ TEST(Dicom, TheLargestSeriesIsTakenAndSaid) {
   }
   const HuVolume volume = read_dicom_folder(folder.path());
   EXPECT_EQ(volume.dims.z(), 7);
-  EXPECT_TRUE(mentions(volume, "3 CT series"));
+  EXPECT_TRUE(mentions_warning(volume, "3 CT series"));
 }
 
 TEST(Dicom, DuplicatesAndOtherOrientationsAreLeftOut) {
@@ -86,8 +86,8 @@ TEST(Dicom, DuplicatesAndOtherOrientationsAreLeftOut) {
   write_dicom_folder(scout, folder.path() / "scout", 1);
   const HuVolume volume = read_dicom_folder(folder.path());
   EXPECT_EQ(volume.hu, stack(6).hu);
-  EXPECT_TRUE(mentions(volume, "1 slices at the place of another"));
-  EXPECT_TRUE(mentions(volume, "2 slices of another orientation"));
+  EXPECT_TRUE(mentions_warning(volume, "1 slices at the place of another"));
+  EXPECT_TRUE(mentions_warning(volume, "2 slices of another orientation"));
 }
 
 TEST(Dicom, EveryTruncationIsNoticed) {
@@ -130,7 +130,7 @@ TEST(Dicom, PaddingBecomesAirAndIsSaid) {
   write_dicom_folder(volume, folder.path(), 1);
   const HuVolume back = read_ct(folder.path());
   EXPECT_EQ(back.hu[5], min_hu);
-  EXPECT_TRUE(mentions(back, "1 voxels below -1024 HU"));
+  EXPECT_TRUE(mentions_warning(back, "1 voxels below -1024 HU"));
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ using test::mentions, test::slice_file;
 using Syntax = gdcm::TransferSyntax;
 
 /// Air, bone and everything between, different in every slice; slices divisible by their number.
-HuVolume stack(int slices = 4) {
+HuVolume stack_of_variants(int slices = 4) {
   HuVolume volume;
   volume.dims = {40, 24, slices};
   volume.spacing_mm = {0.7, 0.8, 1.25};
@@ -40,17 +40,17 @@ class TransferSyntaxes : public testing::TestWithParam<Syntax::TSType> {};
 
 TEST_P(TransferSyntaxes, GiveBackTheVolume) {
   const test::TemporaryFolder folder;
-  write_dicom_folder(stack(), folder.path(), 1);
+  write_dicom_folder(stack_of_variants(), folder.path(), 1);
   for (int i = 1; i <= 4; ++i) test::transcode(slice_file(folder.path(), i), GetParam());
   const HuVolume back = read_ct(folder.path());
-  expect_same(back, stack());
+  expect_same(back, stack_of_variants());
   EXPECT_TRUE(back.warnings.empty());
 }
 
 TEST_P(TransferSyntaxes, ATruncatedSliceIsNamed) {
   for (const double share : {0.999, 0.8, 0.5, 0.2, 0.05}) {
     const test::TemporaryFolder folder;
-    write_dicom_folder(stack(), folder.path(), 1);
+    write_dicom_folder(stack_of_variants(), folder.path(), 1);
     for (int i = 1; i <= 4; ++i) test::transcode(slice_file(folder.path(), i), GetParam());
     const fs::path file = slice_file(folder.path(), 3);
     fs::resize_file(file, static_cast<uintmax_t>(static_cast<double>(fs::file_size(file)) * share));
@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(Dicom, TransferSyntaxes,
 
 TEST(DicomVariants, RescalingIsEachSlicesOwn) {
   const test::TemporaryFolder folder;
-  HuVolume volume = stack();
+  HuVolume volume = stack_of_variants();
   write_dicom_folder(volume, folder.path(), 1);
   const size_t pixels = volume.voxel_count() / 4;
   for (int i = 1; i <= 4; ++i) {
@@ -88,7 +88,7 @@ TEST(DicomVariants, RescalingIsEachSlicesOwn) {
 
 TEST(DicomVariants, PaddingBecomesAirAlsoAsARange) {
   const test::TemporaryFolder folder;
-  HuVolume volume = stack(2);
+  HuVolume volume = stack_of_variants(2);
   volume.hu[3] = -2000;
   volume.hu[4] = 3000;
   volume.hu[5] = 3010;
@@ -107,16 +107,16 @@ TEST(DicomVariants, PaddingBecomesAirAlsoAsARange) {
 
 TEST(DicomVariants, PaddingThatCannotBeToldFromTissueStays) {
   const test::TemporaryFolder folder;
-  write_dicom_folder(stack(2), folder.path(), 1);
+  write_dicom_folder(stack_of_variants(2), folder.path(), 1);
   for (int i = 1; i <= 2; ++i)
     test::change_dicom(slice_file(folder.path(), i),
                        [](gdcm::DataSet& set) { test::put_number(set, 0x0028, 0x0120, 0); });
-  EXPECT_EQ(read_ct(folder.path()).hu, stack(2).hu);
+  EXPECT_EQ(read_ct(folder.path()).hu, stack_of_variants(2).hu);
 }
 
 TEST(DicomVariants, NamesAreKeptOnlyWhenAskedFor) {
   const test::TemporaryFolder folder;
-  write_dicom_folder(stack(2), folder.path(), 1);
+  write_dicom_folder(stack_of_variants(2), folder.path(), 1);
   for (int i = 1; i <= 2; ++i) {
     test::set_text(slice_file(folder.path(), i), 0x0008, 0x0005, "ISO_IR 100");
     test::set_text(slice_file(folder.path(), i), 0x0010, 0x0010, "M\xfcller^Eva");
@@ -134,7 +134,7 @@ TEST(DicomVariants, NamesAreKeptOnlyWhenAskedFor) {
 
 TEST(DicomVariants, AFilesNameIsKeptOnlyWhenAskedFor) {
   const test::TemporaryFolder folder;
-  write_volume_file(stack(), folder.path() / "Mueller_Eva.nrrd");
+  write_volume_file(stack_of_variants(), folder.path() / "Mueller_Eva.nrrd");
   EXPECT_EQ(read_ct(folder.path() / "Mueller_Eva.nrrd").source, "volume file (.nrrd)");
   EXPECT_NE(read_ct(folder.path() / "Mueller_Eva.nrrd", {.series_uid = "", .keep_names = true})
                 .source.find("Mueller_Eva"),
@@ -144,7 +144,7 @@ TEST(DicomVariants, AFilesNameIsKeptOnlyWhenAskedFor) {
 TEST(DicomVariants, OldFilesWithoutPreambleAreRead) {
   for (const auto syntax : {Syntax::ImplicitVRLittleEndian, Syntax::ExplicitVRLittleEndian}) {
     const test::TemporaryFolder folder;
-    write_dicom_folder(stack(), folder.path(), 1);
+    write_dicom_folder(stack_of_variants(), folder.path(), 1);
     for (int i = 1; i <= 4; ++i) {
       const fs::path file = slice_file(folder.path(), i);
       test::transcode(file, syntax);
@@ -155,7 +155,7 @@ TEST(DicomVariants, OldFilesWithoutPreambleAreRead) {
       std::memcpy(&meta_bytes, bytes.data() + 140, 4);
       std::ofstream(file, std::ios::binary) << bytes.substr(144 + meta_bytes);
     }
-    expect_same(read_ct(folder.path()), stack());
+    expect_same(read_ct(folder.path()), stack_of_variants());
     fs::resize_file(slice_file(folder.path(), 2), fs::file_size(slice_file(folder.path(), 2)) - 100);
     test::expect_error(ErrorKind::invalid_input, "slice_0002.dcm", [&] { read_ct(folder.path()); });
   }
@@ -164,19 +164,20 @@ TEST(DicomVariants, OldFilesWithoutPreambleAreRead) {
 TEST(DicomVariants, AnEnhancedFileIsReadFrameByFrame) {
   const test::TemporaryFolder folder;
   const fs::path file = folder.path() / "enhanced";
-  test::write_enhanced(stack(), file);
+  test::write_enhanced(stack_of_variants(), file);
   for (const fs::path& given : {file, folder.path()}) {
     const HuVolume back = read_ct(given);
-    EXPECT_EQ(back.hu, stack().hu);
-    EXPECT_EQ(back.dims, stack().dims);
-    EXPECT_LT((back.world_of_centre({3, 2, 1}) - stack().world_of_centre({3, 2, 1})).norm(), 1e-3);
+    EXPECT_EQ(back.hu, stack_of_variants().hu);
+    EXPECT_EQ(back.dims, stack_of_variants().dims);
+    EXPECT_LT((back.world_of_centre({3, 2, 1}) - stack_of_variants().world_of_centre({3, 2, 1})).norm(),
+              1e-3);
   }
 }
 
 TEST(DicomVariants, ManyFramesWithoutPlacesAreRefused) {
   const test::TemporaryFolder folder;
   const fs::path file = folder.path() / "frames.dcm";
-  test::write_enhanced(stack(), file);
+  test::write_enhanced(stack_of_variants(), file);
   test::change_dicom(file, [](gdcm::DataSet& set) {
     set.Remove(gdcm::Tag(0x5200, 0x9230));
     set.Remove(gdcm::Tag(0x5200, 0x9229));
@@ -186,7 +187,7 @@ TEST(DicomVariants, ManyFramesWithoutPlacesAreRefused) {
 
 TEST(DicomVariants, ProgressGrowsAndMayCancel) {
   const test::TemporaryFolder folder;
-  write_dicom_folder(stack(), folder.path(), 1);
+  write_dicom_folder(stack_of_variants(), folder.path(), 1);
   double last = 0.0;
   read_ct(folder.path(), {}, [&](double share, std::string_view step) {
     EXPECT_GE(share, last);

@@ -8,7 +8,7 @@
 namespace ream::ct {
 namespace {
 
-SegmentationSettings of_side(case_::Side side) {
+SegmentationSettings bone_of_side(case_::Side side) {
   SegmentationSettings settings;
   settings.side = side;
   return settings;
@@ -27,7 +27,7 @@ TEST_P(PhantomShoulder, ScapulaComesApartFromTheHumerus) {
   HuVolume volume = make_phantom(params).volume;
   const std::vector<uint8_t> truth = true_labels(volume, params);
   smooth(volume, joint.blur_mm);
-  const Segmentation made = segment_shoulder(volume, of_side(joint.side));
+  const Segmentation made = segment_shoulder(volume, bone_of_side(joint.side));
   EXPECT_TRUE(made.warnings.empty());
   const auto scapula = count_both(truth, 1, truth, 1), humerus = count_both(truth, 2, truth, 2);
   // Where they touch, the cut may lie half a voxel off over all of the face.
@@ -49,8 +49,8 @@ INSTANTIATE_TEST_SUITE_P(Joints, PhantomShoulder,
 TEST(ShoulderBones, AMirroredShoulderGivesMirroredLabels) {
   const HuVolume right = make_phantom(shoulder_params(case_::Side::right)).volume,
                  left = make_phantom(shoulder_params(case_::Side::left)).volume;
-  const Segmentation a = segment_shoulder(right, of_side(case_::Side::right)),
-                     b = segment_shoulder(left, of_side(case_::Side::left));
+  const Segmentation a = segment_shoulder(right, bone_of_side(case_::Side::right)),
+                     b = segment_shoulder(left, bone_of_side(case_::Side::left));
   ASSERT_EQ(a.parts.size(), b.parts.size());
   for (size_t i = 0; i < a.parts.size(); ++i) {
     EXPECT_NEAR(static_cast<double>(a.parts[i].voxels) / static_cast<double>(b.parts[i].voxels), 1.0, 1e-3);
@@ -62,7 +62,7 @@ TEST(ShoulderBones, AMirroredShoulderGivesMirroredLabels) {
 
 TEST(ShoulderBones, FindsTheHeadAndTheGlenoid) {
   const Phantom phantom = make_phantom(shoulder_params(case_::Side::left));
-  const Segmentation made = segment_shoulder(phantom.volume, of_side(case_::Side::left));
+  const Segmentation made = segment_shoulder(phantom.volume, bone_of_side(case_::Side::left));
   ASSERT_TRUE(made.head);
   EXPECT_LT((made.head->centre_mm - phantom.truth.humeral_head_centre_mm).norm(), 1.0);
   EXPECT_NEAR(made.head->radius_mm, phantom.truth.humeral_head_radius_mm, 1.0);
@@ -72,14 +72,14 @@ TEST(ShoulderBones, FindsTheHeadAndTheGlenoid) {
 
 TEST(ShoulderBones, SameVolumeSameLabels) {
   const HuVolume volume = make_phantom(shoulder_params(case_::Side::right)).volume;
-  const Segmentation a = segment_shoulder(volume, of_side(case_::Side::right)),
-                     b = segment_shoulder(volume, of_side(case_::Side::right));
+  const Segmentation a = segment_shoulder(volume, bone_of_side(case_::Side::right)),
+                     b = segment_shoulder(volume, bone_of_side(case_::Side::right));
   EXPECT_EQ(a.labels, b.labels);
 }
 
 TEST(ShoulderBones, PartsSumUpTheLabels) {
   const HuVolume volume = make_phantom(shoulder_params(case_::Side::right)).volume;
-  const Segmentation made = segment_shoulder(volume, of_side(case_::Side::right));
+  const Segmentation made = segment_shoulder(volume, bone_of_side(case_::Side::right));
   for (const BonePart& part : made.parts) {
     const int label = static_cast<int>(part.label);
     EXPECT_EQ(part.voxels, count_both(made.labels, label, made.labels, label));
@@ -92,7 +92,7 @@ TEST(ShoulderBones, TheWrongSideIsRefused) {
   // The phantom's humerus is lateral of its scapula: taken for a left shoulder there is no bone medial of it.
   const HuVolume right = make_phantom(shoulder_params(case_::Side::right)).volume;
   test::expect_error(ErrorKind::invalid_input, "check the side",
-                     [&] { segment_shoulder(right, of_side(case_::Side::left)); });
+                     [&] { segment_shoulder(right, bone_of_side(case_::Side::left)); });
 }
 
 TEST(ShoulderBones, SeedsReplaceWhatIsFound) {
@@ -102,7 +102,7 @@ TEST(ShoulderBones, SeedsReplaceWhatIsFound) {
   // Only the glenoid and a slice of the head: no sphere to be found.
   const HuVolume part =
       cropped(phantom.volume, {glenoid.centre_mm - Vec3(12, 18, 18), glenoid.centre_mm + Vec3(30, 18, 18)});
-  SegmentationSettings settings = of_side(case_::Side::right);
+  SegmentationSettings settings = bone_of_side(case_::Side::right);
   const Segmentation unaided = segment_shoulder(part, settings);
   ASSERT_EQ(unaided.warnings.size(), 1u);
   EXPECT_NE(unaided.warnings[0].find("no humeral head"), std::string::npos);
@@ -121,7 +121,7 @@ TEST(ShoulderBones, UnseparatedTouchingBonesStayTogether) {
   HuVolume volume = make_phantom(shoulder_params(case_::Side::right, 1.0)).volume;
   const std::vector<uint8_t> truth = true_labels(volume, shoulder_params(case_::Side::right, 1.0));
   smooth(volume, 1.2);
-  SegmentationSettings settings = of_side(case_::Side::right);
+  SegmentationSettings settings = bone_of_side(case_::Side::right);
   settings.separate = false;
   const Segmentation made = segment_shoulder(volume, settings);
   EXPECT_GT(count_both(made.labels, 1, truth, 2), count_both(truth, 2, truth, 2) / 2);
@@ -130,7 +130,7 @@ TEST(ShoulderBones, UnseparatedTouchingBonesStayTogether) {
 TEST(ShoulderBones, ProgressRisesAndCancelsWithoutHarm) {
   const HuVolume volume = make_phantom(shoulder_params(case_::Side::right)).volume;
   double last = 0.0;
-  segment_shoulder(volume, of_side(case_::Side::right), [&](double share, std::string_view step) {
+  segment_shoulder(volume, bone_of_side(case_::Side::right), [&](double share, std::string_view step) {
     EXPECT_GE(share, last);
     EXPECT_LE(share, 1.0);
     EXPECT_FALSE(step.empty());
@@ -138,7 +138,7 @@ TEST(ShoulderBones, ProgressRisesAndCancelsWithoutHarm) {
   });
   EXPECT_EQ(last, 1.0);
   test::expect_error(ErrorKind::cancelled, "enough", [&] {
-    segment_shoulder(volume, of_side(case_::Side::right), [](double share, std::string_view) {
+    segment_shoulder(volume, bone_of_side(case_::Side::right), [](double share, std::string_view) {
       if (share > 0.4) throw Error(ErrorKind::cancelled, "enough");
     });
   });
@@ -146,7 +146,7 @@ TEST(ShoulderBones, ProgressRisesAndCancelsWithoutHarm) {
 
 TEST(ShoulderBones, AThresholdAboveEverythingIsRefused) {
   const HuVolume volume = make_phantom(shoulder_params(case_::Side::right)).volume;
-  SegmentationSettings settings = of_side(case_::Side::right);
+  SegmentationSettings settings = bone_of_side(case_::Side::right);
   settings.threshold_hu = 3500.0;
   test::expect_error(ErrorKind::invalid_input, "3500 HU", [&] { segment_shoulder(volume, settings); });
 }

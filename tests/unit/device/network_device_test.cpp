@@ -10,19 +10,19 @@
 namespace ream::device {
 namespace {
 
-int64_t now_ns = 0;
-int64_t test_clock() { return now_ns; }
+int64_t network_now_ns = 0;
+int64_t network_clock() { return network_now_ns; }
 constexpr int64_t ms = 1'000'000;
 
 class NetworkDeviceTest : public testing::Test {
  protected:
   NetworkDeviceTest() {
-    now_ns = 1'000 * ms;
+    network_now_ns = 1'000 * ms;
     device.open();
   }
   void arrive(double x_mm, uint64_t connection = 1) {
     RemoteInput input;
-    input.arrived_ns = now_ns;
+    input.arrived_ns = network_now_ns;
     input.connection = connection;
     input.place_mm = {x_mm, 0, 0};
     link->input.store(input);
@@ -39,9 +39,9 @@ class NetworkDeviceTest : public testing::Test {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> jitter(-jitter_ms, jitter_ms);
     double next_ms = 0.0, sent = 0.0, before = std::nan(""), largest = 0.0;
-    const int64_t start = now_ns;
+    const int64_t start = network_now_ns;
     for (int t = 0; t < 2000; ++t) {
-      now_ns = start + t * ms;
+      network_now_ns = start + t * ms;
       while (t >= next_ms) {
         arrive(0.1 * sent * period_ms);
         next_ms = ++sent * period_ms + jitter(random);
@@ -55,7 +55,7 @@ class NetworkDeviceTest : public testing::Test {
   }
 
   std::shared_ptr<RemoteLink> link = std::make_shared<RemoteLink>();
-  NetworkDevice device{"touch", link, test_clock};
+  NetworkDevice device{"touch", link, network_clock};
 };
 
 TEST_F(NetworkDeviceTest, HasNeverSpokenAtFirst) { EXPECT_TRUE(std::isinf(read().age_ms)); }
@@ -63,14 +63,14 @@ TEST_F(NetworkDeviceTest, HasNeverSpokenAtFirst) { EXPECT_TRUE(std::isinf(read()
 TEST_F(NetworkDeviceTest, AConnectionCountsAsABreakAndThenAsItsPose) {
   arrive(5.0);
   EXPECT_TRUE(std::isinf(read().age_ms));
-  now_ns += ms;
+  network_now_ns += ms;
   const DeviceInput input = read();
   EXPECT_DOUBLE_EQ(input.age_ms, 1.0);
   EXPECT_DOUBLE_EQ(input.world_from_handle.translation_mm.x(), 5.0);
   // Another one holds its device elsewhere, and its first message may have been overtaken by its second.
   arrive(80.0, 2);
   arrive(81.0, 2);
-  now_ns += ms;
+  network_now_ns += ms;
   EXPECT_TRUE(std::isinf(read().age_ms));
   EXPECT_DOUBLE_EQ(read_x(), 81.0);
 }
@@ -79,7 +79,7 @@ TEST_F(NetworkDeviceTest, AgeCountsFromTheArrival) {
   arrive(0.0);
   read();
   for (const double age_ms : {0.0, 4.9, 50.0, 3600.0e3}) {
-    now_ns = 1'000 * ms + static_cast<int64_t>(age_ms * ms);
+    network_now_ns = 1'000 * ms + static_cast<int64_t>(age_ms * ms);
     EXPECT_NEAR(read().age_ms, age_ms, 1e-6);
   }
 }
@@ -87,9 +87,9 @@ TEST_F(NetworkDeviceTest, AgeCountsFromTheArrival) {
 TEST_F(NetworkDeviceTest, AfterALongSilenceItIsWhereTheHandIsNow) {
   arrive(0.0);
   read();
-  now_ns += ms;
+  network_now_ns += ms;
   read();
-  now_ns += 60 * ms;
+  network_now_ns += 60 * ms;
   arrive(40.0);
   EXPECT_DOUBLE_EQ(read_x(), 40.0);
 }
@@ -97,13 +97,13 @@ TEST_F(NetworkDeviceTest, AfterALongSilenceItIsWhereTheHandIsNow) {
 TEST_F(NetworkDeviceTest, AQuickSenderIsDelayedByNoMoreThanOneMessage) {
   double delay_mm = 0.0;
   for (int t = 0; t < 500; ++t) {
-    now_ns += ms;
+    network_now_ns += ms;
     arrive(0.1 * t);
     const double x = read_x();
     if (t > 10) delay_mm = std::max(delay_mm, 0.1 * t - x);
   }
   EXPECT_LE(delay_mm, 0.1 + 1e-9);
-  now_ns += ms;
+  network_now_ns += ms;
   EXPECT_DOUBLE_EQ(read_x(), 0.1 * 499);
 }
 
@@ -120,18 +120,18 @@ TEST_F(NetworkDeviceTest, AGlideTurnsToo) {
   arrive(0.0);
   read();
   for (int message = 0; message < 30; ++message) {
-    now_ns += 10 * ms;
+    network_now_ns += 10 * ms;
     arrive(0.0);
     read();
   }
   RemoteInput turned;
   turned.connection = 1;
-  now_ns += 10 * ms;
-  turned.arrived_ns = now_ns;
+  network_now_ns += 10 * ms;
+  turned.arrived_ns = network_now_ns;
   turned.rotation_wxyz = {std::cos(0.1), 0, 0, std::sin(0.1)};
   link->input.store(turned);
   double before = 0.0;
-  for (int t = 0; t <= 11; ++t, now_ns += ms) {
+  for (int t = 0; t <= 11; ++t, network_now_ns += ms) {
     const Mat3 r = read().world_from_handle.rotation;
     const double angle = std::atan2(r(1, 0), r(0, 0));
     EXPECT_LT(angle - before, 0.03);
@@ -144,7 +144,7 @@ TEST_F(NetworkDeviceTest, AGlideTurnsToo) {
 TEST_F(NetworkDeviceTest, WhatItWritesGoesOutWithItsState) {
   arrive(0.0);
   read();
-  now_ns += ms;
+  network_now_ns += ms;
   read();
   DeviceOutput output;
   output.force_n = Vec3(1, 2, 3);
@@ -161,7 +161,7 @@ TEST_F(NetworkDeviceTest, WhatItWritesGoesOutWithItsState) {
   EXPECT_EQ(out.tick, 9u);
   EXPECT_EQ(out.link, LinkState::held);
   EXPECT_EQ(out.connection, 1u);
-  EXPECT_EQ(out.written_ns, now_ns);
+  EXPECT_EQ(out.written_ns, network_now_ns);
   EXPECT_TRUE(out.engaged);
   device.close();
   ASSERT_TRUE(link->output.take(out));

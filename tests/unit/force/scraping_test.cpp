@@ -12,7 +12,7 @@ std::unique_ptr<FeedModel> make_scraping(FeedSettings settings, double seated_ar
   return make_feed_model(settings, {{}, seated_area_mm2});
 }
 
-EngagedBone cortical(double area_mm2) {
+EngagedBone cortical_bone(double area_mm2) {
   EngagedBone bone;
   bone.share = {0, 1, 0};
   bone.density_g_cc = {0, 1.5, 0};
@@ -22,11 +22,11 @@ EngagedBone cortical(double area_mm2) {
 
 TEST(Scraping, ResistanceGrowsWithTheRootOfTheArea) {
   const auto model = make_scraping({}, 100.0);
-  const double seated = model->load(cortical(100.0), 52.0).resistance_n_s_mm;
+  const double seated = model->load(cortical_bone(100.0), 52.0).resistance_n_s_mm;
   EXPECT_NEAR(seated, 52.0 / 0.035, 1e-9);
-  EXPECT_NEAR(model->load(cortical(400.0), 52.0).resistance_n_s_mm, 2.0 * seated, 1e-9);
-  EXPECT_NEAR(model->load(cortical(25.0), 52.0).resistance_n_s_mm, 0.5 * seated, 1e-9);
-  EXPECT_EQ(model->load(cortical(0.0), 52.0).resistance_n_s_mm, 0.0);
+  EXPECT_NEAR(model->load(cortical_bone(400.0), 52.0).resistance_n_s_mm, 2.0 * seated, 1e-9);
+  EXPECT_NEAR(model->load(cortical_bone(25.0), 52.0).resistance_n_s_mm, 0.5 * seated, 1e-9);
+  EXPECT_EQ(model->load(cortical_bone(0.0), 52.0).resistance_n_s_mm, 0.0);
 }
 
 TEST(Scraping, IsTheIntegralOfWearOverTheFootprint) {
@@ -49,7 +49,7 @@ TEST(Scraping, IsTheIntegralOfWearOverTheFootprint) {
   };
   const auto model = make_scraping(settings, pi * 36.0);
   for (const double radius_mm : {1.0, 6.0, 13.0}) {
-    const CuttingLoad load = model->load(cortical(pi * radius_mm * radius_mm), 52.0);
+    const CuttingLoad load = model->load(cortical_bone(pi * radius_mm * radius_mm), 52.0);
     const auto here = integral(radius_mm), seated = integral(6.0);
     EXPECT_NEAR(load.torque_arm_mm, here.torque / here.thrust, 1e-9);
     EXPECT_NEAR(load.resistance_n_s_mm * 0.035 / 52.0, here.thrust / seated.thrust, 1e-9);

@@ -20,7 +20,7 @@ using test::AnalyticGlenoid;
 
 constexpr double voxel_mm = 0.5;
 
-Task task_on(const AnalyticGlenoid& glenoid) {
+Task degenerate_task_on(const AnalyticGlenoid& glenoid) {
   Task task;
   task.anatomy.side = glenoid.shoulder.side;
   task.anatomy.landmarks = test::shoulder_landmarks(glenoid.shoulder);
@@ -85,7 +85,7 @@ MetricsAccumulator straight_cut(const Task& task, double depth_mm, const Vec3& t
 TEST(DegenerateSession, ThatNeverTouchedBoneSaysSo) {
   const AnalyticGlenoid glenoid;
   const voxel::BoneModel bone = test::bone_of(glenoid, voxel_mm);
-  const Task task = task_on(glenoid);
+  const Task task = degenerate_task_on(glenoid);
   const nlohmann::json metrics = scored(task, bone, bone.coverage, no_ticks(task));
   expect_sound(metrics, "untouched");
   for (const char* key :
@@ -97,7 +97,7 @@ TEST(DegenerateSession, ThatNeverTouchedBoneSaysSo) {
 TEST(DegenerateSession, ThatLeftNoBoneSaysSo) {
   const AnalyticGlenoid glenoid;
   const voxel::BoneModel bone = test::bone_of(glenoid, voxel_mm);
-  const Task task = task_on(glenoid);
+  const Task task = degenerate_task_on(glenoid);
   const nlohmann::json metrics =
       scored(task, bone, std::vector<uint8_t>(bone.coverage.size(), 0), straight_cut(task, 20.0));
   expect_sound(metrics, "all gone");
@@ -110,7 +110,7 @@ TEST(DegenerateSession, ThatLeftNoBoneSaysSo) {
 TEST(DegenerateSession, AbortedInItsFirstTicksSaysWhatItCan) {
   const AnalyticGlenoid glenoid;
   const voxel::BoneModel bone = test::bone_of(glenoid, voxel_mm);
-  const Task task = task_on(glenoid);
+  const Task task = degenerate_task_on(glenoid);
   MetricsAccumulator ticks = no_ticks(task);
   record::TickReport r;
   r.engaged = r.spindle_on = true;
@@ -124,7 +124,7 @@ TEST(DegenerateSession, AbortedInItsFirstTicksSaysWhatItCan) {
 TEST(DegenerateSession, WithoutLandmarksOrPlanSaysWhatItCan) {
   const AnalyticGlenoid glenoid;
   const voxel::BoneModel bone = test::bone_of(glenoid, voxel_mm);
-  Task task = task_on(glenoid);
+  Task task = degenerate_task_on(glenoid);
   task.anatomy.landmarks.reset();
   nlohmann::json metrics = scored(task, bone, bone.coverage, straight_cut(task, 1.0));
   expect_sound(metrics, "no landmarks");
@@ -135,7 +135,7 @@ TEST(DegenerateSession, WithoutLandmarksOrPlanSaysWhatItCan) {
   expect_sound(metrics, "no glenoid frame");
   EXPECT_TRUE(metrics["plan_correction_deg"].is_null());
 
-  Task planless = task_on(glenoid);
+  Task planless = degenerate_task_on(glenoid);
   planless.plan.reset();
   metrics = scored(planless, bone, bone.coverage, straight_cut(planless, 1.0));
   expect_sound(metrics, "no plan");
@@ -145,7 +145,7 @@ TEST(DegenerateSession, WithoutLandmarksOrPlanSaysWhatItCan) {
 TEST(DegenerateSession, OfAPlanBesideTheBoneSaysSo) {
   const AnalyticGlenoid glenoid;
   const voxel::BoneModel bone = test::bone_of(glenoid, voxel_mm);
-  Task task = task_on(glenoid);
+  Task task = degenerate_task_on(glenoid);
   task.plan->entry_mm += 60.0 * Vec3::UnitZ();
   const nlohmann::json metrics = scored(task, bone, bone.coverage, straight_cut(task, 1.0));
   expect_sound(metrics, "beside");
@@ -160,7 +160,7 @@ TEST(DegenerateSession, AnythingAtAllIsSound) {
     AnalyticGlenoid glenoid;
     glenoid.shoulder.side = seed % 2 == 0 ? case_::Side::right : case_::Side::left;
     voxel::BoneModel bone = test::bone_of(glenoid, 0.8);
-    Task task = task_on(glenoid);
+    Task task = degenerate_task_on(glenoid);
     if (seed % 3 == 0)
       for (uint8_t& c : bone.coverage) c = random() % 2 == 0 ? static_cast<uint8_t>(random()) : 0;
     std::vector<uint8_t> left = bone.coverage;
@@ -197,9 +197,9 @@ TEST(MirroredCase, HasIdenticalScores) {
       AnalyticGlenoid glenoid = right;
       glenoid.shoulder.side = side;
       voxel::BoneModel bone = test::bone_of(glenoid, voxel_mm);
-      Task task = task_on(glenoid);
+      Task task = degenerate_task_on(glenoid);
       // The tool's deepest pose, in the right shoulder's plan frame; a left one's is its mirror image.
-      Task right_task = task_on(right);
+      Task right_task = degenerate_task_on(right);
       const Pose pose = world_from_plan(right_task) * Pose{rotation_from_small_vector(tilt), aside};
       const auto mirror = [&](const Vec3& v) { return glenoid.mirrored(v); };
       const Vec3 apex = mirror(pose.translation_mm), axis = mirror(pose.rotation.col(2));

@@ -11,12 +11,12 @@
 namespace ream::score {
 namespace {
 
-constexpr double surface_mm = 9.0, voxel_mm = 0.2, depth_mm = 2.0;
+constexpr double surface_mm = 9.0, placement_voxel_mm = 0.2, depth_mm = 2.0;
 
 /// A slab that is to be reamed straight down with a sphere of 9 mm, 6 mm wide.
 class Placing : public testing::Test {
  protected:
-  Placing() : bone_(test::slab(Vec3i(120, 120, 72), voxel_mm, surface_mm, 1.0)) {
+  Placing() : bone_(test::slab(Vec3i(120, 120, 72), placement_voxel_mm, surface_mm, 1.0)) {
     task_.plan = test::slab_plan(bone_, surface_mm);
     task_.plan->depth_mm = depth_mm;
     task_.reamer = shell::parametric_profile("sphere 9,6");
@@ -30,7 +30,7 @@ class Placing : public testing::Test {
     for (size_t i = 0; i < left.size(); ++i) {
       const Vec3 p = bone_.grid.centre_mm(bone_.grid.coordinates(i));
       if ((p - centre).head<2>().norm() > 6.0) continue;
-      const double d = ((p - centre).norm() - 9.0) / voxel_mm;
+      const double d = ((p - centre).norm() - 9.0) / placement_voxel_mm;
       left[i] = std::min(left[i], static_cast<uint8_t>(std::clamp(128.0 + 255.0 * d, 0.0, 255.0)));
     }
     return left;
@@ -64,7 +64,7 @@ TEST_F(Placing, TheImplantSitsInWhatWasReamed) {
   ASSERT_TRUE(p.achieved);
   EXPECT_LT((p.achieved->apex_mm - (task_.plan->entry_mm - Vec3(0, 0, 1.6))).norm(), 1e-6);
   ASSERT_TRUE(p.implant);
-  EXPECT_LT((p.implant->apex_mm - (task_.plan->entry_mm - Vec3(0, 0, 1.6))).norm(), 0.5 * voxel_mm);
+  EXPECT_LT((p.implant->apex_mm - (task_.plan->entry_mm - Vec3(0, 0, 1.6))).norm(), 0.5 * placement_voxel_mm);
   const Pose body = p.implant->world_from_body();
   EXPECT_LT((body.direction(Vec3::UnitZ()) - Vec3(0, 0, -1)).norm(), 1e-6);
 }

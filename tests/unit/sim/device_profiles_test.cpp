@@ -5,7 +5,7 @@
 namespace ream::test {
 namespace {
 
-constexpr double surface_mm = 9.0, thrust_n = 52.0;
+constexpr double profile_surface_mm = 9.0, thrust_n = 52.0;
 
 /// A hand that waits out the start-up ramp in the air, then leans on the bone; the force scale is such that
 /// the thrust takes most of what the device can do.
@@ -29,8 +29,8 @@ TEST_P(EveryDevice, LetsAHandReamWithinItsLimits) {
   const device::Script script = leaning(traits);
   sim::Settings settings = SmallRun::settings(script, "cpu");
   sim::fit_to_device(traits, 0.0, settings);
-  voxel::BoneModel bone = slab({96, 96, 96}, 0.15, surface_mm, 0.5);
-  const case_::Plan plan = slab_plan(bone, surface_mm);
+  voxel::BoneModel bone = slab({96, 96, 96}, 0.15, profile_surface_mm, 0.5);
+  const case_::Plan plan = slab_plan(bone, profile_surface_mm);
   SmallRun run(std::move(bone), plan, "sphere 8,5", script, settings);
   const auto reports = run.run();
   ASSERT_EQ(reports.size(), 6000u);
@@ -62,12 +62,12 @@ INSTANTIATE_TEST_SUITE_P(Profiles, EveryDevice, testing::ValuesIn(device::device
 TEST(HandInBone, WristYieldsToOffCentreContact) {
   device::Script script = steady_push(52.0, 2.0);
   script.hand.wrist = device::Wrist{2.0e4, 400.0, 1.0e4};
-  voxel::BoneModel bone = slab({96, 96, 96}, 0.15, surface_mm, 1.5);
+  voxel::BoneModel bone = slab({96, 96, 96}, 0.15, profile_surface_mm, 1.5);
   // Half of the slab is missing: the reamer's cap touches with one side only.
   for (int w = 0; w < 96; ++w)
     for (int v = 0; v < 96; ++v)
       for (int u = 0; u < 49; ++u) bone.coverage[bone.grid.index(u, v, w)] = 0;
-  const case_::Plan plan = slab_plan(bone, surface_mm);
+  const case_::Plan plan = slab_plan(bone, profile_surface_mm);
   SmallRun run(std::move(bone), plan, "sphere 8,5", script);
   const auto reports = run.run();
   ASSERT_EQ(reports.size(), 2000u);

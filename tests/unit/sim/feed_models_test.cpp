@@ -10,7 +10,7 @@
 namespace ream::test {
 namespace {
 
-constexpr double surface_mm = 9.0;
+constexpr double feed_surface_mm = 9.0;
 /// Depth at which the whole cutting surface of "sphere 8,5" (1.76 mm high) is in the bone.
 constexpr double seated_mm = 1.9;
 
@@ -18,12 +18,12 @@ struct Specimen {
   double density_g_cc, slope, intercept;
   double law_mm_s(double thrust_n) const { return thrust_n / 52.0 * (slope * density_g_cc + intercept); }
 };
-constexpr Specimen cortical{1.5, -0.05, 0.11}, cancellous{0.55, -0.34, 0.42};
+constexpr Specimen cortical_specimen{1.5, -0.05, 0.11}, cancellous{0.55, -0.34, 0.42};
 
 /// A slab that has the shape of the seated tool at the plan's entry.
 voxel::BoneModel seat(const Specimen& specimen, const shell::ToolProfile& profile) {
-  voxel::BoneModel bone = slab({56, 56, 64}, 0.2, surface_mm, specimen.density_g_cc);
-  const Vec3 entry_mm = slab_plan(bone, surface_mm).entry_mm;
+  voxel::BoneModel bone = slab({56, 56, 64}, 0.2, feed_surface_mm, specimen.density_g_cc);
+  const Vec3 entry_mm = slab_plan(bone, feed_surface_mm).entry_mm;
   for (int w = 0; w < 64; ++w)
     for (int v = 0; v < 56; ++v)
       for (int u = 0; u < 56; ++u) {
@@ -46,7 +46,7 @@ struct Steady {
 Steady full_contact(const force::FeedSettings& feed, const Specimen& specimen, double thrust_n) {
   const shell::ToolProfile profile = shell::make_tool("sphere 8,5").profile;
   voxel::BoneModel bone = seat(specimen, profile);
-  const case_::Plan plan = slab_plan(bone, surface_mm);
+  const case_::Plan plan = slab_plan(bone, feed_surface_mm);
   device::Script script = steady_push(thrust_n, 2.0);
   script.hand.start_mm = Vec3(0, 0, seated_mm);
   SmallRun run(std::move(bone), plan, "sphere 8,5", script);
@@ -74,7 +74,7 @@ class FeedModels : public testing::TestWithParam<force::FeedKind> {
 };
 
 TEST_P(FeedModels, FeedByTheLawInFullContact) {
-  for (const Specimen& specimen : {cortical, cancellous})
+  for (const Specimen& specimen : {cortical_specimen, cancellous})
     for (const double thrust_n : {20.0, 35.0, 52.0, 78.0}) {
       const double law = specimen.law_mm_s(thrust_n);
       const Steady steady = full_contact(settings(), specimen, thrust_n);
@@ -88,8 +88,8 @@ TEST_P(FeedModels, FeedAsTheSpindleTurnsAndTheSpecimenYields) {
   force::FeedSettings fast = settings();
   fast.spindle_rad_s = 2.5 * force::reference_spindle_rad_s;
   fast.specimen_factor = 0.712;
-  const double expected = 2.5 * 0.712 * cortical.law_mm_s(52.0);
-  EXPECT_NEAR(full_contact(fast, cortical, 52.0).feed_mm_s, expected, 0.02 * expected);
+  const double expected = 2.5 * 0.712 * cortical_specimen.law_mm_s(52.0);
+  EXPECT_NEAR(full_contact(fast, cortical_specimen, 52.0).feed_mm_s, expected, 0.02 * expected);
 }
 
 TEST(BentFeedLaw, SettlesOnItsOwnCurve) {
@@ -113,14 +113,14 @@ INSTANTIATE_TEST_SUITE_P(Models, FeedModels,
 
 TEST(ScrapingInSmallContact, FeedsFasterThanTheLaw) {
   // First contact of a ball with a flat: the footprint is far smaller than the planned seating's.
-  voxel::BoneModel bone = slab({56, 56, 64}, 0.2, surface_mm, cortical.density_g_cc);
-  const case_::Plan plan = slab_plan(bone, surface_mm);
+  voxel::BoneModel bone = slab({56, 56, 64}, 0.2, feed_surface_mm, cortical_specimen.density_g_cc);
+  const case_::Plan plan = slab_plan(bone, feed_surface_mm);
   SmallRun run(std::move(bone), plan, "sphere 8,5", steady_push(52.0, 2.0), "cpu", sim::RemovalLaw::profile,
                force::FeedKind::scraping);
   const auto reports = run.run();
   const double advance_mm =
       (reports.back().world_from_tool.translation_mm - reports[1000].world_from_tool.translation_mm).norm();
-  EXPECT_GT(advance_mm, 1.5 * cortical.law_mm_s(52.0));
+  EXPECT_GT(advance_mm, 1.5 * cortical_specimen.law_mm_s(52.0));
 }
 
 TEST(ApparentStiffness, IsMeasuredBetweenTheForceModelsThrusts) {

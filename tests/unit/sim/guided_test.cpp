@@ -11,11 +11,11 @@
 namespace ream::test {
 namespace {
 
-constexpr double surface_mm = 12.0, stiffness_n_mm = 100.0, clearance_mm = 0.1;
+constexpr double guided_surface_mm = 12.0, stiffness_n_mm = 100.0, clearance_mm = 0.1;
 constexpr const char* nippled = "sphere 8,5 nipple 1.5,4";
 
 case_::Plan guided_plan(const voxel::BoneModel& bone, case_::GuideKind kind, double hole_depth_mm = 8.0) {
-  case_::Plan plan = slab_plan(bone, surface_mm);
+  case_::Plan plan = slab_plan(bone, guided_surface_mm);
   plan.pilot_hole = case_::PilotHole{3.2, hole_depth_mm};
   plan.guide = kind;
   return plan;
@@ -23,7 +23,7 @@ case_::Plan guided_plan(const voxel::BoneModel& bone, case_::GuideKind kind, dou
 
 SmallRun guided_run(const device::Script& script, case_::GuideKind kind = case_::GuideKind::nipple,
                     const std::string& tool = nippled, double hole_depth_mm = 8.0) {
-  voxel::BoneModel bone = slab({96, 96, 96}, 0.15, surface_mm, 0.6);
+  voxel::BoneModel bone = slab({96, 96, 96}, 0.15, guided_surface_mm, 0.6);
   const case_::Plan plan = guided_plan(bone, kind, hole_depth_mm);
   return SmallRun(std::move(bone), plan, tool, script);
 }
@@ -131,7 +131,7 @@ TEST(Guided, ALeaningHandKeepsToTheAxis) {
 }
 
 TEST(Guided, NippleWithoutAHoleIsRefused) {
-  voxel::BoneModel bone = slab({96, 96, 96}, 0.15, surface_mm, 0.6);
+  voxel::BoneModel bone = slab({96, 96, 96}, 0.15, guided_surface_mm, 0.6);
   case_::Plan plan = guided_plan(bone, case_::GuideKind::nipple);
   sim::Settings settings;
   settings.vibration.source = force::VibrationSource::off;
@@ -159,7 +159,7 @@ TEST(Guided, APinGuidesAToolWithoutANipple) {
 }
 
 TEST(Guided, AnAdmittanceDeviceIsLedToo) {
-  voxel::BoneModel bone = slab({96, 96, 96}, 0.15, surface_mm, 0.6);
+  voxel::BoneModel bone = slab({96, 96, 96}, 0.15, guided_surface_mm, 0.6);
   const case_::Plan plan = guided_plan(bone, case_::GuideKind::nipple);
   sim::Settings settings;
   settings.tool_spacing_mm = 0.25;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr unsigned seed = 20260;
 constexpr int hands = 10000, ticks_a_hand = 300;
-constexpr double surface_mm = 6.0;
+constexpr double passivity_surface_mm = 6.0;
 
 /// How somebody holds the handle: a mass that a controller of its own kind moves. Every one keeps within the
 /// acceleration of a real arm, 100 m/s^2 besides what the device does to half a kilogram or more.
@@ -121,8 +121,8 @@ class Witness {
 
 struct Bench {
   Bench()
-      : whole(slab({48, 48, 32}, 0.25, surface_mm, 0.6)),
-        run(whole, slab_plan(whole, surface_mm), "sphere 6,4", settings_script()) {}
+      : whole(slab({48, 48, 32}, 0.25, passivity_surface_mm, 0.6)),
+        run(whole, slab_plan(whole, passivity_surface_mm), "sphere 6,4", settings_script()) {}
 
   static device::Script settings_script() {
     device::Script script = steady_push(1.0, 1.0);

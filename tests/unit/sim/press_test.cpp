@@ -9,12 +9,12 @@
 namespace ream::test {
 namespace {
 
-constexpr double spacing_mm = 0.15, surface_mm = 9.0;
+constexpr double spacing_mm = 0.15, press_surface_mm = 9.0;
 
 /// A column of bone, 0.9 mm wide, under the point of the plan frame given by `aside_mm`; nothing else.
 voxel::BoneModel column(const Vec3& aside_mm) {
-  voxel::BoneModel bone = slab({96, 96, 96}, spacing_mm, surface_mm, 1.5);
-  const Pose plan_from_grid = sim::world_from_plan(slab_plan(bone, surface_mm)).inverse();
+  voxel::BoneModel bone = slab({96, 96, 96}, spacing_mm, press_surface_mm, 1.5);
+  const Pose plan_from_grid = sim::world_from_plan(slab_plan(bone, press_surface_mm)).inverse();
   for (int w = 0; w < 96; ++w)
     for (int v = 0; v < 96; ++v)
       for (int u = 0; u < 96; ++u) {
@@ -40,7 +40,7 @@ device::Script press_and_hold(double depth_mm) {
 TEST(Press, OffCentreContactTurnsTheToolByItsArm) {
   for (const Vec3& aside_mm : {Vec3(3, 0, 0), Vec3(0, 3, 0), Vec3(-2, -2, 0)}) {
     voxel::BoneModel bone = column(aside_mm);
-    const case_::Plan plan = slab_plan(bone, surface_mm);
+    const case_::Plan plan = slab_plan(bone, press_surface_mm);
     SmallRun run(std::move(bone), plan, "sphere 8,5", press_and_hold(1.5));
     const auto last = run.run().back();
     ASSERT_TRUE(last.engaged);
@@ -82,8 +82,8 @@ struct GaveWay {
 };
 
 GaveWay seated(const Vec3& aside_mm, const Vec3& tilt_rad) {
-  voxel::BoneModel bone = slab({96, 96, 96}, spacing_mm, surface_mm, 0.5);
-  const case_::Plan plan = slab_plan(bone, surface_mm);
+  voxel::BoneModel bone = slab({96, 96, 96}, spacing_mm, press_surface_mm, 0.5);
+  const case_::Plan plan = slab_plan(bone, press_surface_mm);
   SmallRun run(std::move(bone), plan, "ellipse 6,2", seat_then(aside_mm, tilt_rad));
   const auto reports = run.run();
   const Pose plan_from_world = run.model.world_from_plan.inverse();
@@ -111,8 +111,8 @@ TEST(Press, ASeatedCapResistsTilting) {
 
 TEST(Press, TheHandHoldsTheDriveAgainstTheSpindle) {
   const auto torque_at_52_n = [](bool spindle_on) {
-    voxel::BoneModel bone = slab({96, 96, 96}, spacing_mm, surface_mm, 1.5);
-    const case_::Plan plan = slab_plan(bone, surface_mm);
+    voxel::BoneModel bone = slab({96, 96, 96}, spacing_mm, press_surface_mm, 1.5);
+    const case_::Plan plan = slab_plan(bone, press_surface_mm);
     device::Script script = steady_push(52.0, 1.5);
     script.buttons = {{0.0, spindle_on, false}};
     SmallRun run(std::move(bone), plan, "ellipse 6,4", script);
@@ -131,8 +131,8 @@ TEST(Press, TheHandHoldsTheDriveAgainstTheSpindle) {
 
 TEST(Press, ABoneThatStandsStillHoldsAReamerThatStandsStill) {
   // Pressed on a flat slab with 52 N, drawn aside by 5 N: below friction's 10.4 N it stays.
-  voxel::BoneModel bone = slab({96, 96, 96}, spacing_mm, surface_mm, 1.5);
-  const case_::Plan plan = slab_plan(bone, surface_mm);
+  voxel::BoneModel bone = slab({96, 96, 96}, spacing_mm, press_surface_mm, 1.5);
+  const case_::Plan plan = slab_plan(bone, press_surface_mm);
   device::Script script;
   script.kind = device::ScriptKind::poses;
   script.duration_s = 2.0;
@@ -152,8 +152,8 @@ TEST(Press, ABoneThatStandsStillHoldsAReamerThatStandsStill) {
 TEST(Press, WhatCutsIsNoMoreThanTheDeviceLetsTheHandFeel) {
   // A hand far stronger than its device runs ahead of the tool; the tool does not follow with its spring's
   // force.
-  voxel::BoneModel bone = slab({96, 96, 96}, spacing_mm, surface_mm, 0.5);
-  const case_::Plan plan = slab_plan(bone, surface_mm);
+  voxel::BoneModel bone = slab({96, 96, 96}, spacing_mm, press_surface_mm, 0.5);
+  const case_::Plan plan = slab_plan(bone, press_surface_mm);
   device::Script script = steady_push(20.0, 1.0);
   script.stiffness_n_mm = 0.4;
   sim::Settings settings = SmallRun::settings(script, "cpu");
@@ -167,8 +167,8 @@ TEST(Press, WhatCutsIsNoMoreThanTheDeviceLetsTheHandFeel) {
 }
 
 TEST(Press, NothingIsPressedBeforeTheStartUpRampOpens) {
-  voxel::BoneModel bone = slab({96, 96, 96}, spacing_mm, surface_mm, 0.5);
-  const case_::Plan plan = slab_plan(bone, surface_mm);
+  voxel::BoneModel bone = slab({96, 96, 96}, spacing_mm, press_surface_mm, 0.5);
+  const case_::Plan plan = slab_plan(bone, press_surface_mm);
   device::Script script;
   script.kind = device::ScriptKind::poses;
   script.duration_s = 0.5;

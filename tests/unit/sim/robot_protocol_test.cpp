@@ -6,11 +6,11 @@
 namespace ream::test {
 namespace {
 
-constexpr double surface_mm = 9.0;
+constexpr double robot_surface_mm = 9.0;
 
 SmallRun on_slab(const device::Script& script, double density_g_cc) {
-  voxel::BoneModel bone = slab({96, 96, 96}, 0.15, surface_mm, density_g_cc);
-  const case_::Plan plan = slab_plan(bone, surface_mm);
+  voxel::BoneModel bone = slab({96, 96, 96}, 0.15, robot_surface_mm, density_g_cc);
+  const case_::Plan plan = slab_plan(bone, robot_surface_mm);
   return SmallRun(std::move(bone), plan, "sphere 8,5", script);
 }
 

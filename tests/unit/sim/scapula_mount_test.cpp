@@ -13,7 +13,7 @@
 namespace ream::test {
 namespace {
 
-constexpr double surface_mm = 9.0;
+constexpr double mount_surface_mm = 9.0;
 
 device::ScapulaMount mount_of(double stiffness_n_mm, double time_constant_s = 0.1) {
   device::ScapulaMount m;
@@ -26,8 +26,8 @@ device::ScapulaMount mount_of(double stiffness_n_mm, double time_constant_s = 0.
 
 SmallRun pressed(const std::optional<device::ScapulaMount>& mount, double force_n = 52.0,
                  double duration_s = 3.0, bool spindle = true) {
-  voxel::BoneModel bone = slab({96, 96, 96}, 0.15, surface_mm, 0.6);
-  const case_::Plan plan = slab_plan(bone, surface_mm);
+  voxel::BoneModel bone = slab({96, 96, 96}, 0.15, mount_surface_mm, 0.6);
+  const case_::Plan plan = slab_plan(bone, mount_surface_mm);
   device::Script script = steady_push(force_n, duration_s);
   script.mount = mount;
   script.buttons = {{0.0, spindle, false}};
@@ -92,8 +92,8 @@ TEST(ScapulaMount, GivesWayUnderASteadyPush) {
 }
 
 TEST(ScapulaMount, AnOffCentreLoadTurnsTheBone) {
-  voxel::BoneModel bone = slab({96, 96, 96}, 0.15, surface_mm, 1.5);
-  const case_::Plan plan = slab_plan(bone, surface_mm);
+  voxel::BoneModel bone = slab({96, 96, 96}, 0.15, mount_surface_mm, 1.5);
+  const case_::Plan plan = slab_plan(bone, mount_surface_mm);
   device::Script script = steady_push(52.0, 2.0);
   script.hand.start_mm = Vec3(3.0, 0.0, -0.6);
   script.buttons = {{0.0, false, false}};
@@ -141,8 +141,8 @@ TEST(ScapulaMount, AVeryStiffMountIsRigid) {
 }
 
 TEST(ScapulaMount, ItSpringsBackWhenTheToolIsGone) {
-  voxel::BoneModel bone = slab({96, 96, 96}, 0.15, surface_mm, 0.6);
-  const case_::Plan plan = slab_plan(bone, surface_mm);
+  voxel::BoneModel bone = slab({96, 96, 96}, 0.15, mount_surface_mm, 0.6);
+  const case_::Plan plan = slab_plan(bone, mount_surface_mm);
   device::Script script = steady_push(52.0, 4.0);
   script.hand.force_profile = {{0.0, 52.0}, {1.5, 52.0}, {1.6, -20.0}};
   script.mount = device::chest_wall_mount;

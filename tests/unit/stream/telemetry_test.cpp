@@ -7,7 +7,7 @@
 namespace ream::stream {
 namespace {
 
-constexpr int64_t ms = 1'000'000;
+constexpr int64_t ns_per_ms = 1'000'000;
 
 TelemetrySample at_tick(uint32_t tick) {
   TelemetrySample sample;
@@ -22,7 +22,7 @@ TEST(Telemetry, AboutSixtyMessagesASecondAndNoSampleLost) {
   Viewer viewer;
   for (uint32_t tick = 0; tick < 1000; ++tick) {
     batcher.add(at_tick(tick));
-    batcher.publish_if_due(tick * ms);
+    batcher.publish_if_due(tick * ns_per_ms);
     viewer.pull(*mailbox);
   }
   batcher.flush();
@@ -39,7 +39,7 @@ Viewer viewer_after_ms(uint32_t unread_ms) {
   TelemetryBatcher batcher(fanout);
   for (uint32_t tick = 0; tick < unread_ms; ++tick) {
     batcher.add(at_tick(tick));
-    if (tick % 5 == 0) batcher.publish_if_due(tick * ms);
+    if (tick % 5 == 0) batcher.publish_if_due(tick * ns_per_ms);
   }
   batcher.flush();
   Viewer viewer;
@@ -92,7 +92,7 @@ TEST(Telemetry, TicksThatNeverCameAreSeenAsLoss) {
   Viewer viewer;
   for (uint32_t tick = 0; tick < 96; ++tick) {
     if (tick % 40 < 16) batcher.add(at_tick(tick));
-    batcher.publish_if_due(tick * ms);
+    batcher.publish_if_due(tick * ns_per_ms);
   }
   batcher.flush();
   viewer.pull(*mailbox);
