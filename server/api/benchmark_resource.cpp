@@ -50,7 +50,7 @@ std::vector<score::MeasuredSession> measured(const ScoreTools& tools, const std:
                               {{pointer_to(key) + "/" + std::to_string(i), why}});
     };
     try {
-      if (session::is_live(tools.sessions.get(ids[i]).status.state)) refuse("has not ended");
+      if (is_live(tools.sessions.get(ids[i]).status.state)) refuse("has not ended");
       sessions.push_back({ids[i], tools.sessions.metrics(ids[i])});
     } catch (const net::RequestError&) {
       throw;

@@ -42,7 +42,7 @@ net::Response field(const std::string& id, const fs::path& folder, const std::st
 net::Response deviation(const ScoreTools& tools, const net::Request& request) {
   const std::string& id = request.parameters.at("id");
   const session::SessionRecord record = tools.sessions.get(id);
-  if (session::is_live(record.status.state))
+  if (is_live(record.status.state))
     throw Error(ErrorKind::conflict, "session '" + id + "' is " + to_text(record.status.state) +
                                          "; its surface is compared when it has ended");
   const fs::path folder = tools.sessions.folder_of(id);
@@ -51,12 +51,10 @@ net::Response deviation(const ScoreTools& tools, const net::Request& request) {
     return field(id, folder, request.query.at("to"));
   if (!fs::is_regular_file(session::recording_file(folder), failed))
     throw Error(ErrorKind::not_found, "session '" + id + "' left no recording; it was never started");
-  if (!tools.makers.write_deviation) throw Error(ErrorKind::unavailable, "this server compares no surfaces");
-  return accepted(
-      work_in_folder(tools.jobs, "deviation", record, folder,
-                     [write = tools.makers.write_deviation](const fs::path& place, const Progress& progress) {
-                       write(place, place / description_name, progress);
-                     }));
+  return accepted(work_in_folder(tools.jobs, "deviation", record, folder,
+                                 [&engine = tools.engine](const fs::path& place, const Progress& progress) {
+                                   engine.write_deviations(place, place / description_name, progress);
+                                 }));
 }
 
 }  // namespace

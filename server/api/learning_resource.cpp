@@ -67,7 +67,7 @@ std::vector<Attempt> attempts_of(const ScoreTools& tools, const net::Request& re
     const std::string& id = record.request.id;
     const fs::path folder = tools.sessions.folder_of(id);
     std::error_code failed;
-    if (session::is_live(record.status.state) || !fs::exists(session::metrics_json(folder), failed)) continue;
+    if (is_live(record.status.state) || !fs::exists(session::metrics_json(folder), failed)) continue;
     Attempt attempt;
     attempt.metrics = read_json_file(session::metrics_json(folder));
     const score::Score score = score::apply_rubric(rubric, attempt.metrics);

@@ -38,9 +38,8 @@ using Records = std::vector<session::SessionRecord>;
 
 void counts_by_state(const Records& records, Page& page) {
   page.head("ream_sessions", "gauge", "Sessions of this server by state.");
-  for (const session::SessionState state :
-       {session::SessionState::created, session::SessionState::running, session::SessionState::paused,
-        session::SessionState::finished, session::SessionState::stopped, session::SessionState::fault}) {
+  for (const SessionState state : {SessionState::created, SessionState::running, SessionState::paused,
+                                   SessionState::finished, SessionState::stopped, SessionState::fault}) {
     size_t count = 0;
     for (const session::SessionRecord& record : records) count += record.status.state == state;
     page.sample("ream_sessions", "state=\"" + to_text(state) + "\"", count);
@@ -48,7 +47,7 @@ void counts_by_state(const Records& records, Page& page) {
 }
 
 void summaries(const Records& records, const std::string& name, const char* help,
-               TimingSummary session::LoopStatus::*which, Page& page) {
+               TimingSummary sim::LoopHealth::*which, Page& page) {
   page.head(name, "summary", help);
   for (const session::SessionRecord& record : records) {
     const TimingSummary& t = record.status.loop.*which;
@@ -70,15 +69,15 @@ void per_session(const Records& records, const std::string& name, const char* ty
 }
 
 void loops(const Records& records, Page& page) {
-  summaries(records, "ream_tick_seconds", "Wall time of ticks.", &session::LoopStatus::tick_us, page);
-  summaries(records, "ream_tick_lateness_seconds", "How late ticks began.", &session::LoopStatus::lateness_us,
+  summaries(records, "ream_tick_seconds", "Wall time of ticks.", &sim::LoopHealth::tick_us, page);
+  summaries(records, "ream_tick_lateness_seconds", "How late ticks began.", &sim::LoopHealth::lateness_us,
             page);
-  summaries(records, "ream_tick_read_seconds", "Reading the device, in ticks.", &session::LoopStatus::read_us,
+  summaries(records, "ream_tick_read_seconds", "Reading the device, in ticks.", &sim::LoopHealth::read_us,
             page);
   summaries(records, "ream_tick_step_seconds", "Contact, force and removal, in ticks.",
-            &session::LoopStatus::step_us, page);
-  summaries(records, "ream_tick_write_seconds", "Writing the device, in ticks.",
-            &session::LoopStatus::write_us, page);
+            &sim::LoopHealth::step_us, page);
+  summaries(records, "ream_tick_write_seconds", "Writing the device, in ticks.", &sim::LoopHealth::write_us,
+            page);
   per_session(
       records, "ream_ticks_total", "counter", "Ticks of the session, 1 ms of its time each.",
       [](const session::SessionStatus& s) { return s.tick; }, page);
@@ -87,7 +86,7 @@ void loops(const Records& records, Page& page) {
       [](const session::SessionStatus& s) { return static_cast<double>(s.loop.missed); }, page);
   per_session(
       records, "ream_loop_realtime", "gauge", "1 where the loop has real-time priority.",
-      [](const session::SessionStatus& s) { return s.loop.realtime ? 1.0 : 0.0; }, page);
+      [](const session::SessionStatus& s) { return s.loop.realtime.fifo ? 1.0 : 0.0; }, page);
 }
 
 void devices(const Records& records, Page& page) {

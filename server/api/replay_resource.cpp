@@ -19,7 +19,7 @@ net::Response create(const session::SessionService& sessions, session::ReplaySer
                      const net::Request& request) {
   const std::string& id = request.parameters.at("id");
   const session::SessionRecord of = sessions.get(id);
-  if (session::is_live(of.status.state))
+  if (is_live(of.status.state))
     throw Error(ErrorKind::conflict, "session '" + id + "' is " + to_text(of.status.state) +
                                          "; it can be replayed when it has ended");
   const session::ReplayRecord record = replays.create({{}, id, of.request.case_id, of.request.script});

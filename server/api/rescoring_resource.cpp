@@ -19,7 +19,7 @@ constexpr size_t longest_rubric = 72, most_named = 1000;
 struct Rescoring {
   session::SessionService* sessions;
   ChangeFeed* feed;
-  session::ScoreMakers makers;
+  session::SessionEngine* engine;
   session::Judge judge;
   std::vector<std::string> ids;
 };
@@ -35,28 +35,28 @@ std::vector<std::string> ids_by_filter(const ScoreTools& tools, const net::Reque
   query.limit = SIZE_MAX;
   std::vector<std::string> ids;
   for (const session::SessionRecord& record : sessions_for(request.caller, tools.sessions, query).sessions)
-    if (!session::is_live(record.status.state)) ids.push_back(record.request.id);
+    if (!is_live(record.status.state)) ids.push_back(record.request.id);
   return ids;
 }
 
 std::vector<std::string> ids_named(const ScoreTools& tools, const std::vector<std::string>& named) {
   for (size_t i = 0; i < named.size(); ++i) {
     const session::SessionRecord record = tools.sessions.get(named[i]);
-    if (session::is_live(record.status.state))
+    if (is_live(record.status.state))
       throw Error(ErrorKind::conflict, "session '" + named[i] + "' is " + to_text(record.status.state) +
                                            "; it can be scored anew when it has ended");
   }
   return named;
 }
 
-json rescored(const Rescoring& all, const std::string& id, const session::Measure& measure,
+json rescored(const Rescoring& all, const std::string& id, session::SessionMeasurer& measurer,
               const Progress& progress) {
   const session::SessionRecord record = all.sessions->get(id);
   const fs::path folder = all.sessions->folder_of(id);
   const FileLock lock = lock_of_ended(folder);
-  const json metrics = measure(folder, progress);
+  const json metrics = measurer.metrics(folder, progress);
   const json document = session::score_document(
-      all.makers.scored_by, read_json_file(session::session_json(folder)), metrics, all.judge);
+      all.engine->program(), read_json_file(session::session_json(folder)), metrics, all.judge);
   session::write_results(folder, metrics, document);
   all.sessions->note_results(id);
   all.feed->tell({"session", id, "scored", std::make_shared<const session::SessionRequest>(record.request)});
@@ -66,7 +66,7 @@ json rescored(const Rescoring& all, const std::string& id, const session::Measur
 
 /// A session that cannot be scored does not stop the others.
 json rescore_all(const Rescoring& all, const Progress& progress) {
-  const session::Measure measure = all.makers.make_measure();
+  const auto measurer = all.engine->measurer();
   json scored = json::array(), failed = json::array();
   const double step = 1.0 / static_cast<double>(all.ids.size());
   for (const std::string& id : all.ids) {
@@ -76,7 +76,7 @@ json rescore_all(const Rescoring& all, const Progress& progress) {
     const Progress of_this = [&](double share, std::string_view) { progress(begun + share * step, words); };
     of_this(0.0, {});
     try {
-      scored.push_back(rescored(all, id, measure, of_this));
+      scored.push_back(rescored(all, id, *measurer, of_this));
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::cancelled) throw;
       failed.push_back({{"session", id}, {"error", error.what()}});
@@ -100,11 +100,10 @@ net::Response begin(const ScoreTools& tools, const net::Request& request) {
   if (by_name == filter.has_value())
     throw net::RequestError(422, "say either 'sessions' or 'filter'; an empty filter means all sessions",
                             {{"#/sessions", "or filter: one of them"}});
-  Rescoring all{&tools.sessions, &tools.feed, tools.makers, tools.stores.judge_by(rubric, benchmark),
+  Rescoring all{&tools.sessions, &tools.feed, &tools.engine, tools.stores.judge_by(rubric, benchmark),
                 by_name ? ids_named(tools, named) : ids_by_filter(tools, request, *filter)};
   if (all.ids.empty())
     throw net::RequestError(422, "no session that has ended fits the filter", {{"#/filter", "fits nothing"}});
-  if (!all.makers.make_measure) throw Error(ErrorKind::unavailable, "this server measures no recordings");
   tools.audit(request, "session.rescore", "",
               std::to_string(all.ids.size()) + " sessions by " + all.judge.rubric_id + "@" +
                   std::to_string(all.judge.rubric.version));

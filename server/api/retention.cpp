@@ -94,7 +94,7 @@ void Retention::delete_old_sessions() {
     for (const session::SessionRecord& record : old.sessions) {
       if (stopping()) return;
       const session::SessionRequest& session = record.request;
-      if (session::is_live(record.status.state) || session.keep) continue;
+      if (is_live(record.status.state) || session.keep) continue;
       if (session.study.empty() || tools_.is_over(session.study)) delete_by_rule(record);
     }
     query.cursor = old.next;

@@ -36,7 +36,7 @@ net::Response score(const ScoreTools& tools, const net::Request& request) {
   const std::string& id = id_of(request);
   const session::SessionRecord record = tools.sessions.get(id);
   const fs::path folder = tools.sessions.folder_of(id);
-  const bool live = session::is_live(record.status.state);
+  const bool live = is_live(record.status.state);
   const std::string rubric = asked(request, "rubric"), benchmark = asked(request, "benchmark");
   std::error_code failed;
   if (!live && rubric.empty() && benchmark.empty() && fs::exists(session::score_json(folder), failed))
@@ -44,7 +44,7 @@ net::Response score(const ScoreTools& tools, const net::Request& request) {
   const session::Judge judge = tools.stores.judge_by(rubric, benchmark);
   const json metrics = tools.sessions.metrics(id);
   return told(id, live ? "live" : "computed",
-              session::score_document(tools.makers.scored_by, about(record), metrics, judge));
+              session::score_document(tools.engine.program(), about(record), metrics, judge));
 }
 
 net::Response score_anew(const ScoreTools& tools, const net::Request& request) {
@@ -54,14 +54,14 @@ net::Response score_anew(const ScoreTools& tools, const net::Request& request) {
   body.finish();
   const std::string& id = id_of(request);
   const session::SessionRecord record = tools.sessions.get(id);
-  if (session::is_live(record.status.state))
+  if (is_live(record.status.state))
     throw Error(ErrorKind::conflict, "session '" + id + "' is " + to_text(record.status.state) +
                                          "; its score can be kept when it has ended");
   const fs::path folder = tools.sessions.folder_of(id);
   const json metrics = tools.sessions.metrics(id);
   const session::Judge judge = tools.stores.judge_by(rubric, benchmark);
   const FileLock lock = lock_of_ended(folder);
-  const json document = session::score_document(tools.makers.scored_by, about(record), metrics, judge);
+  const json document = session::score_document(tools.engine.program(), about(record), metrics, judge);
   session::write_results(folder, metrics, document);
   tools.sessions.note_results(id);
   return told(id, "kept", document);
@@ -73,7 +73,7 @@ std::vector<session::TableSession> table_sessions(const ScoreTools& tools, const
   query.limit = SIZE_MAX;
   std::vector<session::TableSession> sessions;
   for (const session::SessionRecord& record : sessions_for(request.caller, tools.sessions, query).sessions) {
-    if (session::is_live(record.status.state)) continue;
+    if (is_live(record.status.state)) continue;
     const fs::path folder = tools.sessions.folder_of(record.request.id);
     std::error_code failed;
     if (!fs::exists(session::metrics_json(folder), failed)) continue;

@@ -9,7 +9,6 @@
 #include "net/router.hpp"
 #include "score/benchmark_store.hpp"
 #include "score/rubric_store.hpp"
-#include "session/export/score_makers.hpp"
 #include "session/scoring/score_document.hpp"
 #include "session/service/replay_service.hpp"
 #include "session/service/session_service.hpp"
@@ -37,7 +36,7 @@ struct ScoreTools {
   jobs::QuietWork& quiet;
   ChangeFeed& feed;
   const ScoreStores& stores;
-  const session::ScoreMakers& makers;
+  session::SessionEngine& engine;
   Audit audit;
 };
 

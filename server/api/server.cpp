@@ -52,15 +52,6 @@ std::filesystem::path under(const std::filesystem::path& data_folder, const char
   return data_folder.empty() ? std::filesystem::path() : data_folder / name;
 }
 
-workup::CaseTools tools_of(const ServerOptions& options, const session::SessionService& sessions) {
-  return {options.read_ct, [&sessions](const std::string& case_id) {
-            store::SessionQuery query;
-            query.case_id = case_id;
-            query.limit = 0;
-            return sessions.list(query).total;
-          }};
-}
-
 void add_all_access_routes(net::Router& router, const AccessTools& tools) {
   add_login_routes(router, tools);
   add_user_routes(router, tools);
@@ -130,12 +121,12 @@ net::Router Server::routes_of(const ServerOptions& options) {
   add_session_routes(router, sessions_, replays_, readiness_, options.usual_device, studies_.get());
   add_trash_routes(router, {sessions_, replays_, studies_.get(), retention_, *feed_});
   add_annotation_routes(router, sessions_);
-  add_download_routes(router, {sessions_, studies_.get(), jobs_, export_formats_, quiet_,
-                               under(options.data_folder, "passing")});
+  add_download_routes(
+      router, {sessions_, studies_.get(), jobs_, *engine_, quiet_, under(options.data_folder, "passing")});
   add_job_routes(router, jobs_);
   add_replay_routes(router, sessions_, replays_, readiness_);
   add_study_routes(router, studies_.get(), audit_in(gatehouse_.get()));
-  add_all_score_routes(router, {sessions_, replays_, studies_.get(), jobs_, quiet_, *feed_, stores_, scoring_,
+  add_all_score_routes(router, {sessions_, replays_, studies_.get(), jobs_, quiet_, *feed_, stores_, *engine_,
                                 audit_in(gatehouse_.get())});
   router.otherwise([files = net::StaticFiles(options.web_folder)](const net::Request& request) {
     return files.respond(request);
@@ -154,8 +145,7 @@ Server::Server(ServerOptions options)
       feed_(std::make_shared<ChangeFeed>(may_know)),
       contract_(std::string(embedded::contract::find("openapi.yaml"))),
       idempotency_(options.database),
-      export_formats_(std::move(options.export_formats)),
-      scoring_(std::move(options.scoring)),
+      engine_(std::move(options.engine)),
       stores_({score::RubricStore(under(options.data_folder, "rubrics")),
                score::BenchmarkStore(under(options.data_folder, "benchmarks")),
                !options.data_folder.empty()}),
@@ -164,14 +154,14 @@ Server::Server(ServerOptions options)
       gatehouse_(database_ ? std::make_unique<access::AccessControl>(*database_, options.gatehouse)
                            : nullptr),
       stream_watch_(gatehouse_ ? std::make_unique<StreamWatch>(gatehouse_->credentials) : nullptr),
-      sessions_(std::move(options.make_session), options.sessions, options.sessions_folder, options.database),
+      sessions_(*engine_, options.sessions, options.sessions_folder, options.database),
       studies_(database_ ? std::make_unique<study::StudyService>(
                                *database_, study_surroundings(options.cases_folder, sessions_, *gatehouse_))
                          : nullptr),
-      replays_(std::move(options.make_replay), options.replays),
+      replays_(*engine_, options.replays),
       retention_(options.retention, retention_tools()),
       uploads_(under(options.data_folder, "uploads")),
-      workshop_(options.cases_folder, tools_of(options, sessions_), jobs_),
+      workshop_(options.cases_folder, sessions_, jobs_),
       gate_(gatehouse_.get(), [this](const std::string& id) { return session_of(id); }),
       frame_(
           contract_, idempotency_, *feed_, [this](const std::string& id) { return session_of(id); },

@@ -17,7 +17,6 @@
 #include "jobs/job_service.hpp"
 #include "jobs/quiet_work.hpp"
 #include "net/listener.hpp"
-#include "session/export/export_formats.hpp"
 #include "session/service/replay_service.hpp"
 #include "session/service/session_service.hpp"
 #include "study/study_service.hpp"
@@ -28,16 +27,12 @@ namespace ream::api {
 struct ServerOptions {
   net::ListenOptions listen;
   std::filesystem::path cases_folder;
-  std::filesystem::path data_folder;      ///< uploads, and users' reamers
-  std::filesystem::path web_folder;       ///< the built page; served under "/"
-  std::filesystem::path sessions_folder;  ///< where sessions keep their folders
-  session::SessionMakers make_session;
+  std::filesystem::path data_folder;               ///< uploads, and users' reamers
+  std::filesystem::path web_folder;                ///< the built page; served under "/"
+  std::filesystem::path sessions_folder;           ///< where sessions keep their folders
+  std::shared_ptr<session::SessionEngine> engine;  ///< what makes sessions, replays, scores and exports
   session::SessionLimits sessions;
-  std::string usual_device = "script";    ///< of sessions that name none
-  workup::CtReader read_ct;               ///< of uploaded files
-  session::ExportFormats export_formats;  ///< of sessions
-  session::ScoreMakers scoring;
-  session::ReplayFactory make_replay;
+  std::string usual_device = "script";  ///< of sessions that name none
   session::ReplayLimits replays;
   RetentionRules retention;
   /// Has users and what they did, the index of sessions, and answers to repeat. Null: everybody may do
@@ -86,8 +81,7 @@ class Server {
   const std::shared_ptr<ChangeFeed> feed_;
   const Contract contract_;
   Idempotency idempotency_;
-  const session::ExportFormats export_formats_;
-  const session::ScoreMakers scoring_;
+  const std::shared_ptr<session::SessionEngine> engine_;
   const ScoreStores stores_;
   jobs::JobService jobs_;
   jobs::QuietWork quiet_;

@@ -82,12 +82,12 @@ net::Response made_now(const DownloadTools& tools, const net::Request& request, 
 net::Response trace(const DownloadTools& tools, const net::Request& request) {
   const session::SessionRecord record = seen(tools, request);
   const session::ExportOrder order{record.request, part_of(request)};
-  const session::ExportFormat& format = tools.formats.find("csv");
+  const session::ExportFormat& format = session::served_export_format("csv");
   existing(session::recording_file(tools.sessions.folder_of(order.session.id)), order.session.id,
            "recording");
   require_few_rows(order.part, record.status.duration_s);
-  return made_now(tools, request, format.file_ending(), format.media_type,
-                  [&](const fs::path& out) { format.write(order, out, no_progress); });
+  return made_now(tools, request, format.ending(), format.media_type,
+                  [&](const fs::path& out) { tools.engine.write_export(format, order, out, no_progress); });
 }
 
 /// What every ended session can have in its folder: given where it is there, else made by a job.
@@ -96,16 +96,17 @@ net::Response kept_or_made(const DownloadTools& tools, const net::Request& reque
                            const char* name) {
   const fs::path folder = tools.sessions.folder_of(record.request.id);
   existing(session::recording_file(folder), record.request.id, "recording");
-  const session::ExportFormat& format = tools.formats.find(format_name);
+  const session::ExportFormat& format = session::served_export_format(format_name);
   std::error_code failed;
   if (fs::is_regular_file(folder / name, failed))
-    return net::file_response(
-        request, {folder / name, format.media_type, record.request.id + "." + format.file_ending()});
+    return net::file_response(request,
+                              {folder / name, format.media_type, record.request.id + "." + format.ending()});
   const session::ExportOrder order{record.request};
-  const auto write = format.write;
   return accepted(work_in_folder(
       tools.jobs, kind, record, folder,
-      [=](const fs::path& place, const Progress& progress) { write(order, place / name, progress); }));
+      [&engine = tools.engine, &format, order, name](const fs::path& place, const Progress& progress) {
+        engine.write_export(format, order, place / name, progress);
+      }));
 }
 
 int export_stride_of(const net::Request& request) {
@@ -114,7 +115,7 @@ int export_stride_of(const net::Request& request) {
 
 net::Response mesh(const DownloadTools& tools, const net::Request& request) {
   const session::SessionRecord record = seen(tools, request);
-  if (!session::is_live(record.status.state))
+  if (!is_live(record.status.state))
     return kept_or_made(tools, request, record, "mesh", "surface", "reamed.ply");
   return made_now(tools, request, "ply", "application/ply", [&](const fs::path& out) {
     tools.sessions.write_surface(id_of(request), out, export_stride_of(request));
@@ -123,7 +124,7 @@ net::Response mesh(const DownloadTools& tools, const net::Request& request) {
 
 net::Response snapshot(const DownloadTools& tools, const net::Request& request) {
   const session::SessionRecord record = seen(tools, request);
-  if (!session::is_live(record.status.state))
+  if (!is_live(record.status.state))
     return kept_or_made(tools, request, record, "snapshot", "png", "snapshot.png");
   return made_now(tools, request, "png", "image/png",
                   [&](const fs::path& out) { tools.sessions.write_picture(id_of(request), out); });
@@ -138,11 +139,11 @@ session::ExportOrder order_in(RequestBody& body, const session::ExportFormat& fo
   const auto rubric = body.words_or_none("rubric", longest_rubric_name);
   const auto benchmark = body.value_or_none("benchmark") ? body.name("benchmark") : std::string();
   body.finish();
-  if (!format.is_table && (from_s || order.part.to_s || stride))
+  if (!format.is_table() && (from_s || order.part.to_s || stride))
     throw net::RequestError(422,
                             "only a table has a part from_s, to_s, stride; '" + format.name + "' is none",
                             {{"#/format", "is no table"}});
-  if (!format.is_report && (rubric || !benchmark.empty()))
+  if (!format.is_report() && (rubric || !benchmark.empty()))
     throw net::RequestError(422, "only a report has a rubric and a benchmark; '" + format.name + "' is none",
                             {{"#/format", "is no report"}});
   order.part.from_s = from_s.value_or(0.0);
@@ -154,21 +155,21 @@ session::ExportOrder order_in(RequestBody& body, const session::ExportFormat& fo
 
 net::Response export_session(const DownloadTools& tools, const net::Request& request) {
   RequestBody body(request);
-  const session::ExportFormat& format = tools.formats.find(body.name("format"));
+  const session::ExportFormat& format = session::served_export_format(body.name("format"));
   session::ExportOrder order = order_in(body, format);
   const session::SessionRecord record = seen(tools, request);
   const std::string id = record.request.id;
-  if (session::is_live(record.status.state))
+  if (is_live(record.status.state))
     throw Error(ErrorKind::conflict, "session '" + id + "' is " + to_text(record.status.state) +
                                          "; it can be exported when it has ended");
   existing(session::recording_file(tools.sessions.folder_of(id)), id, "recording");
   order.session = record.request;
-  if (format.check) format.check(order);
+  tools.engine.check_export(format, order);
   const jobs::JobOrder job{"export", {}, id, std::make_shared<const session::SessionRequest>(record.request)};
-  return accepted(
-      tools.jobs.submit_file(job, [format, order](const fs::path& folder, const Progress& progress) {
-        const std::string name = order.session.id + "." + format.file_ending();
-        format.write(order, folder / name, progress);
+  return accepted(tools.jobs.submit_file(
+      job, [&engine = tools.engine, &format, order](const fs::path& folder, const Progress& progress) {
+        const std::string name = order.session.id + "." + format.ending();
+        engine.write_export(format, order, folder / name, progress);
         return jobs::JobService::MadeFile{name, format.media_type};
       }));
 }

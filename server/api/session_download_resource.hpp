@@ -4,7 +4,6 @@
 #include "jobs/job_service.hpp"
 #include "jobs/quiet_work.hpp"
 #include "net/router.hpp"
-#include "session/export/export_formats.hpp"
 #include "session/service/session_service.hpp"
 #include "study/study_service.hpp"
 
@@ -15,7 +14,7 @@ struct DownloadTools {
   session::SessionService& sessions;
   const study::StudyService* studies;  ///< null: there are none
   jobs::JobService& jobs;
-  const session::ExportFormats& formats;
+  session::SessionEngine& engine;
   jobs::QuietWork& quiet;
   std::filesystem::path temporary_folder;  ///< for files that are made to be sent once
 };

@@ -2,30 +2,26 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/timing_json.hpp"
 #include "session/folder/session_labels.hpp"
 
 namespace ream::api {
 using nlohmann::json;
 namespace {
 
-json to_json(const TimingSummary& times) {
-  return {{"mean_us", times.mean_us},
-          {"p50_us", times.p50_us},
-          {"p99_us", times.p99_us},
-          {"p999_us", times.p999_us},
-          {"max_us", times.max_us}};
-}
+json to_json(const TimingSummary& times) { return timing_json(times, TimingKeys::with_unit); }
 
-json to_json(const session::LoopStatus& loop) {
+json to_json(const sim::LoopHealth& loop) {
+  const sim::RealtimeGrant& grant = loop.realtime;
   json told = to_json(loop.tick_us);
   told.update({{"missed", loop.missed},
                {"lateness", to_json(loop.lateness_us)},
                {"read", to_json(loop.read_us)},
                {"step", to_json(loop.step_us)},
                {"write", to_json(loop.write_us)},
-               {"realtime", loop.realtime},
-               {"memory_locked", loop.locked},
-               {"cpu", loop.cpu < 0 ? json(nullptr) : json(loop.cpu)}});
+               {"realtime", grant.fifo},
+               {"memory_locked", grant.locked},
+               {"cpu", grant.cpu < 0 ? json(nullptr) : json(grant.cpu)}});
   return told;
 }
 

@@ -31,10 +31,10 @@ void SessionWatch::stop() {
 }
 
 void SessionWatch::look() {
-  std::map<std::string, session::SessionState> now;
+  std::map<std::string, SessionState> now;
   for (const session::SessionRecord& record : sessions_.held()) {
     const std::string& id = record.request.id;
-    const session::SessionState state = record.status.state;
+    const SessionState state = record.status.state;
     now[id] = state;
     const auto before = known_.find(id);
     if (before != known_.end() && before->second == state) continue;

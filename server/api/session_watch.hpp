@@ -28,7 +28,7 @@ class SessionWatch {
 
   const session::SessionService& sessions_;
   ChangeFeed& feed_;
-  std::map<std::string, session::SessionState> known_;
+  std::map<std::string, SessionState> known_;
   std::mutex mutex_;
   std::condition_variable leaving_changed_;
   bool leaving_ = false;

@@ -12,7 +12,7 @@ namespace {
 std::optional<study::StudyAttempt> attempt_of(const session::SessionService& sessions,
                                               const session::SessionRecord& record) {
   const session::SessionRequest& request = record.request;
-  if (session::is_live(record.status.state) || record.status.tick == 0) return std::nullopt;
+  if (is_live(record.status.state) || record.status.tick == 0) return std::nullopt;
   study::StudyAttempt attempt{request.participant,
                               request.case_id,
                               request.script,

@@ -18,7 +18,7 @@ DeviceDoor::DeviceDoor(std::shared_ptr<device::RemoteLink> link, const std::stri
   options.port = port;
   options.worker_threads = 1;
   listener_ = std::make_unique<net::Listener>(router_, options);
-  device_port_->set_state(device::RemoteSessionState::running);
+  device_port_->set_state(SessionState::running);
   listener_->start();
 }
 

@@ -7,7 +7,7 @@
 #include "ct/read/gray_volume.hpp"
 #include "fe/element_model.hpp"
 #include "record/recorded_bone.hpp"
-#include "session/export/export_session.hpp"
+#include "session/export/export_formats.hpp"
 #include "session/simulation/find_case.hpp"
 #include "session/simulation/recorded_session.hpp"
 #include "voxel/solid_cells.hpp"

@@ -7,8 +7,6 @@
 namespace ream::openigtlink {
 namespace {
 
-using stream::SessionState;
-
 constexpr double m_per_mm = 1.0e-3;
 
 struct Status {

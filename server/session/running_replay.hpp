@@ -1,5 +1,4 @@
 #pragma once
-#include <functional>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -67,9 +66,5 @@ class RunningReplay {
   /// As RunningSession::subscribe.
   virtual std::unique_ptr<net::WebSocketSession> subscribe(int stride) = 0;
 };
-
-/// Opens a recording, which may take seconds. Called on worker threads, several at once. Errors: not_found
-/// (recording, case), invalid_input, conflict (the case has changed since).
-using ReplayFactory = std::function<std::unique_ptr<RunningReplay>(const ReplayRequest&)>;
 
 }  // namespace ream::session

@@ -1,27 +1,17 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
-#include "core/timing_histogram.hpp"
+#include "core/session_state.hpp"
 #include "net/websocket.hpp"
 #include "session/annotation.hpp"
+#include "sim/loop_health.hpp"
 
 namespace ream::session {
-
-enum class SessionState { created, running, paused, finished, stopped, fault, interrupted };
-
-/// The word of REST and session.json: "created", "running", ...
-std::string to_text(SessionState state);
-/// Empty for other words.
-std::optional<SessionState> session_state_from(const std::string& text);
-
-/// Whether it still runs or can: created, running or paused.
-bool is_live(SessionState state);
 
 /// What somebody asked for. Names are plain ids ([a-z0-9-]), never paths.
 struct SessionRequest {
@@ -43,15 +33,6 @@ struct SessionRequest {
   bool theatre = false;               ///< nothing but the bone is shown while reaming
 };
 
-/// Health of the haptic loop since the session began.
-struct LoopStatus {
-  TimingSummary tick_us, lateness_us;
-  TimingSummary read_us, step_us, write_us;  ///< the parts of a tick
-  uint64_t missed = 0;                       ///< ticks that began more than a millisecond late
-  bool realtime = false, locked = false;     ///< real-time priority, memory locked
-  int cpu = -1;                              ///< that the loop is pinned to; -1: to none
-};
-
 /// How the session's device is doing.
 struct DeviceLinkStatus {
   std::string name;              ///< as asked for
@@ -70,8 +51,8 @@ struct SessionStatus {
   /// Words for people: why state is fault or interrupted, or what keeps a live session from going on now (its
   /// device is lost); else empty.
   std::string fault;
-  bool held = false;  ///< paused by pause(), whatever its device says
-  LoopStatus loop;
+  bool held = false;     ///< paused by pause(), whatever its device says
+  sim::LoopHealth loop;  ///< since the session began
   DeviceLinkStatus device;
 };
 
@@ -118,15 +99,5 @@ class RunningSession {
   /// outlive stop(), not the session. Error conflict when the session's device is none that connects itself.
   virtual std::unique_ptr<net::WebSocketSession> connect_device() = 0;
 };
-
-/// Makes a session ready to start, which may take seconds. Called on worker threads, several at once.
-/// Errors: not_found (case, script), conflict (case without a plan), invalid_input, unavailable.
-using SessionFactory = std::function<std::unique_ptr<RunningSession>(const SessionRequest&)>;
-
-/// Makes a session ready to go on from what lies in the folder of `request.id`; `reamer` empty: the same.
-/// Writes nothing yet. Errors: those of a factory; conflict when another process has the session; not_found
-/// and invalid_input when there is no recording to go on from.
-using SessionResumer =
-    std::function<std::unique_ptr<RunningSession>(const SessionRequest& request, const std::string& reamer)>;
 
 }  // namespace ream::session

@@ -5,23 +5,12 @@
 #include <optional>
 #include <vector>
 
+#include "core/session_state.hpp"
 #include "geometry/pose.hpp"
 
 namespace ream::stream {
 
 class Fanout;
-
-/// As SessionState of proto/stream.fbs.
-enum class SessionState : uint8_t {
-  created = 0,
-  running = 1,
-  paused = 2,
-  finished = 3,
-  stopped = 4,
-  fault = 5,
-  interrupted = 6,
-  replaying = 7
-};
 
 /// As Playback of proto/stream.fbs.
 struct Playback {

@@ -16,12 +16,13 @@
 #include "geometry/mesh_io.hpp"
 #include "surface/block_mesh.hpp"
 #include "workup/case_json.hpp"
+#include "workup/ct_source.hpp"
 
 namespace ream::workup {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double read_share = 0.8;
+constexpr double read_share = 0.8, unpacking_share = 0.2;
 constexpr size_t longest_id = 60;
 constexpr double most_fine_voxels = 2.0e7;  // beyond, a surface is sampled every other voxel
 
@@ -45,6 +46,14 @@ auto naming_as_sent(const fs::path& file, Action&& action) {
   }
 }
 
+/// A zip is unpacked beside it; `series_uid` empty: the largest series.
+ct::HuVolume read_upload(const fs::path& file, const std::string& series_uid, const Progress& progress) {
+  const CtSource source(file, part_of(progress, 0.0, unpacking_share), file.parent_path());
+  return source.read([&](const fs::path& path) {
+    return ct::read_ct(path, {series_uid, false}, part_of(progress, unpacking_share, 1.0));
+  });
+}
+
 /// Goes away with whatever is left of an upload.
 class TakenUpload {
  public:
@@ -63,8 +72,9 @@ class TakenUpload {
 
 }  // namespace
 
-CaseWorkshop::CaseWorkshop(fs::path cases_folder, CaseTools tools, jobs::JobService& jobs)
-    : cases_folder_(std::move(cases_folder)), tools_(std::move(tools)), jobs_(jobs) {}
+CaseWorkshop::CaseWorkshop(fs::path cases_folder, const session::SessionService& sessions,
+                           jobs::JobService& jobs)
+    : cases_folder_(std::move(cases_folder)), sessions_(sessions), jobs_(jobs) {}
 
 fs::path CaseWorkshop::folder_of(const std::string& id) const {
   const fs::path folder = cases_folder_ / id;
@@ -99,7 +109,7 @@ jobs::JobRecord CaseWorkshop::import(const NewCase& wanted, UploadStore& uploads
   const auto taken = std::make_shared<TakenUpload>(uploads.take(wanted.upload_id));
   return jobs_.submit({"import", id}, [this, taken, id, name, wanted](const Progress& progress) {
     const ct::HuVolume volume = naming_as_sent(taken->file(), [&] {
-      return tools_.read_ct(taken->file(), wanted.series_uid, part_of(progress, 0.0, read_share));
+      return read_upload(taken->file(), wanted.series_uid, part_of(progress, 0.0, read_share));
     });
     progress(read_share, "writing the CT");
     ct::create_workup(cases_folder_ / id, id, name, wanted.side, volume);
@@ -137,7 +147,10 @@ void CaseWorkshop::undo_segmentation(const std::string& id) {
 }
 
 void CaseWorkshop::require_no_sessions(const std::string& id, const std::string& what) const {
-  const size_t count = tools_.sessions_of ? tools_.sessions_of(id) : 0;
+  store::SessionQuery query;
+  query.case_id = id;
+  query.limit = 0;
+  const size_t count = sessions_.list(query).total;
   if (count > 0)
     throw Error(ErrorKind::conflict, std::to_string(count) + " sessions belong to case '" + id +
                                          "' and need its bone as it is; it cannot be " + what +

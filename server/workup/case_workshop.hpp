@@ -1,6 +1,5 @@
 #pragma once
 #include <filesystem>
-#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -10,21 +9,11 @@
 #include "ct/build/ct_workspace.hpp"
 #include "jobs/job_service.hpp"
 #include "net/message.hpp"
+#include "session/service/session_service.hpp"
 #include "workup/ct_shelf.hpp"
 #include "workup/upload_store.hpp"
 
 namespace ream::workup {
-
-/// Reads a CT out of a file that was uploaded (a zip is unpacked); `series_uid` empty: the largest series.
-using CtReader = std::function<ct::HuVolume(const std::filesystem::path& file, const std::string& series_uid,
-                                            const Progress& progress)>;
-
-/// What the workshop needs from outside this room.
-struct CaseTools {
-  CtReader read_ct;
-  /// How many sessions, live or ended, belong to a case.
-  std::function<size_t(const std::string& case_id)> sessions_of;
-};
 
 /// A case that is to be made of an upload.
 struct NewCase {
@@ -37,8 +26,9 @@ struct NewCase {
 /// one conflict.
 class CaseWorkshop {
  public:
-  /// `jobs` does the long work; it is shut down before the workshop goes.
-  CaseWorkshop(std::filesystem::path cases_folder, CaseTools tools, jobs::JobService& jobs);
+  /// `jobs` does the long work; it is shut down before the workshop goes. `sessions` outlives it.
+  CaseWorkshop(std::filesystem::path cases_folder, const session::SessionService& sessions,
+               jobs::JobService& jobs);
 
   std::filesystem::path folder_of(const std::string& id) const;
   ct::Workup workup(const std::string& id) const;
@@ -74,7 +64,7 @@ class CaseWorkshop {
   CtShelf::Bone surface_of(const std::string& id);
 
   const std::filesystem::path cases_folder_;
-  const CaseTools tools_;
+  const session::SessionService& sessions_;
   CtShelf shelf_;
   std::mutex changing_;  ///< one writer of a case's small files at a time
   jobs::JobService& jobs_;

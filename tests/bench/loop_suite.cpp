@@ -20,7 +20,7 @@ struct Measured {
   double missed_percent = 0.0;
   TimingSummary tick, lateness, read, step, write;
 
-  void add(const session::LoopStatus& loop) {
+  void add(const sim::LoopHealth& loop) {
     missed_percent += 100.0 * static_cast<double>(loop.missed) /
                       static_cast<double>(std::max<uint64_t>(ticks_a_turn, 1)) / turns;
     add(loop.tick_us, tick);
@@ -41,14 +41,6 @@ struct Measured {
     sum.max_us = std::max(sum.max_us, one.max_us);
   }
 };
-
-session::LoopStatus status_of(const sim::LoopHealth& health) {
-  session::LoopStatus status;
-  status.tick_us = health.tick_us;
-  status.lateness_us = health.lateness_us;
-  status.missed = health.missed;
-  return status;
-}
 
 void add_lateness_rows(const Measured& reaming, const Measured& empty, std::vector<Row>& rows) {
   const TimingSummary &ours = reaming.lateness, &base = empty.lateness;
@@ -92,7 +84,7 @@ std::vector<Row> loop_suite(const Options& options) {
   for (int turn = 0; turn < turns; ++turn) {
     const ServedTurn one = served.run(viewer);
     const auto loop_beside = [&](double busy_us) {
-      return status_of(run_empty_loop(turn_s, sim::Realtime::attempt, one.loop.cpu, busy_us));
+      return run_empty_loop(turn_s, sim::Realtime::attempt, one.loop.realtime.cpu, busy_us);
     };
     empty.add(loop_beside(0.0));
     busy.add(loop_beside(one.loop.tick_us.mean_us));

@@ -14,7 +14,7 @@
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "session/folder/session_folder.hpp"
-#include "session/live/reaming_session.hpp"
+#include "session/service/simulation_engine.hpp"
 #include "store/database.hpp"
 #include "support/memory_in_use.hpp"
 #include "support/raw_http.hpp"
@@ -46,9 +46,7 @@ struct ServedReaming::House {
     options.cases_folder = cases_folder(house.data);
     options.sessions_folder = sessions_folder(house.data);
     options.sessions.kept = 1;  // each keeps its bone
-    options.make_session.make = [house](const session::SessionRequest& request) {
-      return std::make_unique<session::ReamingSession>(house, request);
-    };
+    options.engine = std::make_shared<session::SimulationEngine>(house);
     if (surroundings == Surroundings::office) {
       write_sessions(folder, office_sessions, "sessions/");
       options.database = std::make_shared<store::Database>("sqlite:" + (folder.path() / "ream.db").string());
@@ -117,7 +115,7 @@ ServedTurn ServedReaming::run(StreamViewer& viewer, const std::function<void(con
   turn.streamed_mb = static_cast<double>(viewer.stop_watching()) * 1e-6;
   const session::SessionStatus status =
       session::read_session_folder(sessions_folder(house_->folder.path()) / id).record.status;
-  if (status.state != session::SessionState::finished)
+  if (status.state != SessionState::finished)
     throw Error(ErrorKind::unavailable,
                 "the session ended as " + to_text(status.state) + ": " + status.fault);
   turn.loop = status.loop;

@@ -12,7 +12,7 @@ namespace ream::bench {
 
 /// How one served session went.
 struct ServedTurn {
-  session::LoopStatus loop;
+  sim::LoopHealth loop;
   uint32_t ticks = 0;
   std::vector<uint64_t> missed_in_second;  ///< of the session, from its start on
   double streamed_mb = 0.0;

@@ -11,6 +11,7 @@
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "store/session_index.hpp"
+#include "support/fake_engine.hpp"
 #include "support/postgres_server.hpp"
 #include "support/raw_http.hpp"
 #include "support/temporary_folder.hpp"
@@ -166,6 +167,7 @@ std::unique_ptr<api::Server> server_on(const test::TemporaryFolder& sessions,
   options.listen.port = 0;
   options.sessions_folder = sessions.path();
   options.database = std::move(database);
+  options.engine = std::make_shared<test::FakeEngine>();
   options.prepare = [] {};
   return std::make_unique<api::Server>(std::move(options));
 }

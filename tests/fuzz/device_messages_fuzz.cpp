@@ -39,7 +39,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const auto link = std::make_shared<device::RemoteLink>();
   const auto port = std::make_shared<device::DevicePort>(
       link, kind, device::DeviceWelcome{"fuzz", "network", 12.0, {}}, [] { return fuzz::now_ns; });
-  port->set_state(device::RemoteSessionState::running);
+  port->set_state(SessionState::running);
   device::RemoteEnd end(link, [] { return fuzz::now_ns; });
   end.open();
   const std::unique_ptr<net::WebSocketSession> clients[] = {port->connect(), port->connect()};

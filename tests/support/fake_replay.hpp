@@ -72,31 +72,4 @@ class FakeReplay final : public session::RunningReplay {
   std::optional<ErrorKind> metrics_problem_;
 };
 
-/// Makes fake replays and remembers them; what goes wrong is said by `refuse`.
-class FakeReplayFactory {
- public:
-  std::function<void()> refuse = [] {};
-  double first_unwatched_s = 1.0;  ///< of replays to be made
-
-  session::ReplayFactory function() {
-    return [this](const session::ReplayRequest& request) -> std::unique_ptr<session::RunningReplay> {
-      refuse();
-      auto replay = std::make_unique<FakeReplay>(request);
-      replay->set_unwatched_s(first_unwatched_s);
-      const std::lock_guard lock(mutex_);
-      made_.push_back(replay.get());
-      return replay;
-    };
-  }
-  /// In order of making; the caller knows which still live.
-  FakeReplay& made(size_t index) {
-    const std::lock_guard lock(mutex_);
-    return *made_.at(index);
-  }
-
- private:
-  std::mutex mutex_;
-  std::vector<FakeReplay*> made_;
-};
-
 }  // namespace ream::test

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "session/service/session_service.hpp"
+#include "session/running_session.hpp"
 
 namespace ream::test {
 
@@ -27,13 +27,13 @@ class FakeSession final : public session::RunningSession {
 
   void start() override {
     if (request_.script == "no-start") throw Error(ErrorKind::unavailable, "no haptic device is connected");
-    set(session::SessionState::running);
+    set(SessionState::running);
   }
   void pause() override { hold(true); }
   void go_on() override { hold(false); }
   bool relabel(const session::SessionRequest& request) override {
     const std::lock_guard lock(mutex_);
-    if (!session::is_live(status_.state)) return false;
+    if (!is_live(status_.state)) return false;
     labels_ = request;
     return true;
   }
@@ -42,7 +42,7 @@ class FakeSession final : public session::RunningSession {
     return labels_;
   }
   void stop() override {
-    set(session::SessionState::stopped);
+    set(SessionState::stopped);
     ++stops();
   }
 
@@ -51,7 +51,7 @@ class FakeSession final : public session::RunningSession {
     return status_;
   }
   nlohmann::json metrics() const override {
-    const bool ended = !session::is_live(status().state);
+    const bool ended = !is_live(status().state);
     return {{"removed_volume_mm3", 12.5},
             {"removed_volume_cortical_mm3", 10.0},
             {"removed_volume_cancellous_mm3", 2.5},
@@ -66,8 +66,7 @@ class FakeSession final : public session::RunningSession {
             {"session_hash", "0123456789abcdef"}};
   }
   session::Annotation annotate(const session::NewAnnotation& note) override {
-    if (status().state != session::SessionState::running)
-      throw Error(ErrorKind::conflict, "nothing is recorded");
+    if (status().state != SessionState::running) throw Error(ErrorKind::conflict, "nothing is recorded");
     const session::Annotation kept{"2025-03-01T12:00:00Z", note.words, note.author, note.at_s.value_or(1.5),
                                    note.place_mm};
     const std::lock_guard lock(mutex_);
@@ -87,10 +86,10 @@ class FakeSession final : public session::RunningSession {
   std::unique_ptr<net::WebSocketSession> subscribe(int stride) override;
   std::unique_ptr<net::WebSocketSession> connect_device() override;
 
-  void set(session::SessionState state, const std::string& fault = {}) {
+  void set(SessionState state, const std::string& fault = {}) {
     const std::lock_guard lock(mutex_);
     status_.state = state;
-    status_.held &= session::is_live(state);
+    status_.held &= is_live(state);
     status_.fault = fault;
   }
   const session::SessionRequest& request() const { return request_; }
@@ -106,7 +105,7 @@ class FakeSession final : public session::RunningSession {
 
  private:
   void hold(bool held) {
-    set(held ? session::SessionState::paused : session::SessionState::running);
+    set(held ? SessionState::paused : SessionState::running);
     const std::lock_guard lock(mutex_);
     status_.held = held;
   }
@@ -149,39 +148,5 @@ inline std::unique_ptr<net::WebSocketSession> FakeSession::connect_device() {
                 "session '" + request_.id + "' plays a script; no device connects to it");
   return std::make_unique<FakeViewer>("device of " + request_.id);
 }
-
-/// Makes fake sessions and remembers them; the case's name decides what goes wrong.
-class FakeFactory {
- public:
-  session::SessionFactory function() {
-    return [this](const session::SessionRequest& request) -> std::unique_ptr<session::RunningSession> {
-      if (request.case_id == "missing") throw Error(ErrorKind::not_found, "no case 'missing'");
-      if (request.case_id == "unplanned") throw Error(ErrorKind::conflict, "case 'unplanned' has no plan");
-      if (refuse) refuse();
-      auto session = std::make_unique<FakeSession>(request);
-      const std::lock_guard lock(mutex_);
-      made_.push_back(session.get());
-      return session;
-    };
-  }
-  session::SessionMakers makers() {
-    return {function(), [this](const session::SessionRequest& request, const std::string& reamer) {
-              if (reamer == "spoon") throw Error(ErrorKind::invalid_input, "no reamer 'spoon'");
-              if (reamer == "missing") throw Error(ErrorKind::unavailable, "no device");
-              return function()(request);
-            }};
-  }
-  /// In order of making; the caller knows which still live.
-  FakeSession& made(size_t index) {
-    const std::lock_guard lock(mutex_);
-    return *made_.at(index);
-  }
-
-  std::function<void()> refuse;  ///< called before each is made
-
- private:
-  std::mutex mutex_;
-  std::vector<FakeSession*> made_;
-};
 
 }  // namespace ream::test

@@ -6,7 +6,7 @@
 #include "api/server.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
-#include "session/live/reaming_session.hpp"
+#include "session/service/simulation_engine.hpp"
 #include "support/raw_http.hpp"
 #include "support/recorded_reaming.hpp"
 #include "support/wait_until.hpp"
@@ -28,15 +28,7 @@ class LiveServer {
     options.cases_folder = cases_folder(house.data);
     options.sessions_folder = sessions_folder(house.data);
     options.sessions.live = 16;
-    options.make_session.make = [house](const session::SessionRequest& request) {
-      return std::make_unique<session::ReamingSession>(house, request);
-    };
-    options.make_session.resume = [house](const session::SessionRequest& request, const std::string& reamer) {
-      return std::make_unique<session::ReamingSession>(house, request, reamer);
-    };
-    options.make_replay = [](const session::ReplayRequest&) -> std::unique_ptr<session::RunningReplay> {
-      throw Error(ErrorKind::unavailable, "no replays in this test");
-    };
+    options.engine = std::make_shared<session::SimulationEngine>(house);
     options.prepare = [] {};
     if (adjust) adjust(options);
     server_ = std::make_unique<api::Server>(std::move(options));

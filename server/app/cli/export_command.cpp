@@ -9,7 +9,7 @@
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "score/rubric_store.hpp"
-#include "session/export/export_session.hpp"
+#include "session/export/export_formats.hpp"
 #include "session/simulation/recorded_session.hpp"
 
 namespace ream::app {
@@ -34,7 +34,7 @@ session::ExportRequest request_of(const ExportOptions& options, const fs::path& 
 }
 
 void export_session(const ExportOptions& options, const GlobalOptions& global) {
-  const session::FileFormat& format = session::export_format_of(options.format, options.out);
+  const session::ExportFormat& format = session::export_format_of(options.format, options.out);
   if (format.kind != session::ExportKind::report && !(options.rubric.empty() && options.benchmark.empty()))
     throw Error(ErrorKind::usage,
                 "--rubric and --benchmark are for reports, and " + options.out.string() + " will be none");
@@ -49,7 +49,7 @@ void export_session(const ExportOptions& options, const GlobalOptions& global) {
 
 std::string words_of_formats() {
   std::string words;
-  for (const session::FileFormat& format : session::export_formats())
+  for (const session::ExportFormat& format : session::export_formats())
     if (&session::export_format_of({}, "a" + format.extension) == &format)
       words += (words.empty() ? "FILE" : "; FILE") + format.extension + ": " + format.words;
   return words;
@@ -57,7 +57,7 @@ std::string words_of_formats() {
 
 std::string names_of_formats() {
   std::string words;
-  for (const session::FileFormat& format : session::export_formats())
+  for (const session::ExportFormat& format : session::export_formats())
     words += (words.empty() ? "" : ", ") + format.name;
   return words;
 }

@@ -47,7 +47,7 @@ nlohmann::json listed_sessions(const fs::path& data) {
     const std::string& id = record.request.id;
     nlohmann::json row = read_json_file(session::session_json(archive.folder_of(id)));
     row["id"] = id;
-    row["state"] = session::to_text(record.status.state);
+    row["state"] = to_text(record.status.state);
     row["created_utc"] = record.request.created_utc;
     row["duration_s"] = record.status.duration_s;
     rows.push_back(std::move(row));

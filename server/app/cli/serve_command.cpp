@@ -21,23 +21,17 @@
 #include "core/interrupt.hpp"
 #include "core/log.hpp"
 #include "ct/phantom/phantom_case.hpp"
-#include "ct/read/read_ct.hpp"
 #include "device/registry/device_registry.hpp"
 #include "openigtlink/server.hpp"
-#include "session/export/export_session.hpp"
-#include "session/export/score_makers.hpp"
-#include "session/live/reaming_session.hpp"
 #include "session/live/session_recovery.hpp"
-#include "session/replay/replay_session.hpp"
+#include "session/service/simulation_engine.hpp"
 #include "store/database_url.hpp"
-#include "workup/ct_source.hpp"
 
 namespace ream::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double unpacking_share = 0.2;
 constexpr int most_days = 36500;
 
 struct ServeOptions {
@@ -144,28 +138,11 @@ void serve(const ServeOptions& options, const GlobalOptions& global) {
   }
   server_options.cases_folder = cases_folder(house.data);
   server_options.data_folder = house.data;
-  server_options.read_ct = [](const fs::path& file, const std::string& series_uid, const Progress& progress) {
-    const workup::CtSource source(file, part_of(progress, 0.0, unpacking_share), file.parent_path());
-    return source.read([&](const fs::path& path) {
-      return ct::read_ct(path, {series_uid, false}, part_of(progress, unpacking_share, 1.0));
-    });
-  };
   server_options.sessions_folder = sessions_folder(house.data);
-  server_options.make_session.make = [house](const session::SessionRequest& request) {
-    return std::make_unique<session::ReamingSession>(house, request);
-  };
-  server_options.make_session.resume = [house](const session::SessionRequest& request,
-                                               const std::string& reamer) {
-    return std::make_unique<session::ReamingSession>(house, request, reamer);
-  };
-  server_options.export_formats = session::served_export_formats(house.data);
-  server_options.scoring = session::score_makers(house.data);
+  server_options.engine = std::make_shared<session::SimulationEngine>(house);
   server_options.usual_device = options.device;
   server_options.retention.keep_sessions_days = options.keep_sessions_days;
   server_options.retention.keep_deleted_days = options.keep_deleted_days;
-  server_options.make_replay = [house](const session::ReplayRequest& request) {
-    return std::make_unique<session::ReplaySession>(house, request);
-  };
   server_options.prepare = [house] { ct::load_or_make_demo_case(house.data); };
   api::Server server(std::move(server_options));
   server.start();

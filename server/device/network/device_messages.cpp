@@ -98,8 +98,8 @@ constexpr bool same(Ours ours, Wire theirs) {
   return static_cast<int>(ours) == static_cast<int>(theirs);
 }
 static_assert(same(LinkState::fresh, wire::LinkState::fresh) && same(LinkState::lost, wire::LinkState::lost));
-static_assert(same(RemoteSessionState::created, wire::SessionState::created) &&
-              same(RemoteSessionState::interrupted, wire::SessionState::interrupted));
+static_assert(same(SessionState::created, wire::SessionState::created) &&
+              same(SessionState::interrupted, wire::SessionState::interrupted));
 
 }  // namespace
 

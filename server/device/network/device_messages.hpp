@@ -5,6 +5,7 @@
 #include <string>
 #include <variant>
 
+#include "core/session_state.hpp"
 #include "device/haptic_device.hpp"
 #include "device/network/remote_link.hpp"
 #include "net/message.hpp"
@@ -13,9 +14,6 @@ namespace ream::device {
 
 /// Revision of proto/device.fbs that client and server must share.
 inline constexpr uint32_t device_protocol_revision = 1;
-
-/// A session's state as devices are told it (proto/stream.fbs).
-enum class RemoteSessionState : uint8_t { created, running, paused, finished, stopped, fault, interrupted };
 
 struct DeviceGreeting {
   uint32_t protocol_revision = 0;
@@ -53,7 +51,7 @@ net::SharedBytes welcome_message(const DeviceWelcome& welcome);
 struct DeviceFeedback {
   uint32_t sequence = 0;
   uint64_t stamp_us = 0;
-  RemoteSessionState state = RemoteSessionState::created;
+  SessionState state = SessionState::created;
   double rtt_ms = -1.0;
   RemoteOutput output;
 };

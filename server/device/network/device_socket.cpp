@@ -14,11 +14,6 @@ constexpr int64_t rtt_share = 8;
 
 constexpr const char* replaced_text = "another client has become the device of this session";
 
-bool has_ended(RemoteSessionState state) {
-  return state != RemoteSessionState::created && state != RemoteSessionState::running &&
-         state != RemoteSessionState::paused;
-}
-
 }  // namespace
 
 /// The server's side of one connection of a device's client.
@@ -180,7 +175,7 @@ RemoteOutput DevicePort::newest_output(uint64_t number) {
   link_->output.take(output_);
   RemoteOutput output = output_;
   const bool too_old = now_ns_() - output.written_ns > output_too_old_ns;
-  if (too_old || output.connection != number || has_ended(state_) ||
+  if (too_old || output.connection != number || !is_live(state_) ||
       link_->force_taken_away.load(std::memory_order_acquire)) {
     output.force_n = output.torque_n_mm = {};
     output.vibration_g = 0.0;

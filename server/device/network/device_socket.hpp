@@ -37,7 +37,7 @@ class DevicePort : public std::enable_shared_from_this<DevicePort> {
   std::unique_ptr<net::WebSocketSession> connect();
 
   /// What the session has come to; from any thread. Once it has ended no force goes out any more.
-  void set_state(RemoteSessionState state) noexcept { state_ = state; }
+  void set_state(SessionState state) noexcept { state_ = state; }
 
  private:
   friend class DeviceSocket;
@@ -55,7 +55,7 @@ class DevicePort : public std::enable_shared_from_this<DevicePort> {
   const RemoteKind kind_;
   const DeviceWelcome welcome_;
   int64_t (*const now_ns_)();
-  std::atomic<RemoteSessionState> state_{RemoteSessionState::created};
+  std::atomic<SessionState> state_{SessionState::created};
   mutable std::mutex mutex_;  ///< guards what follows, and the sockets' ends of the link's slots
   uint64_t newest_ = 0, owner_ = 0;
   std::function<void()> wake_owner_;

@@ -1,11 +1,13 @@
 #pragma once
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/progress.hpp"
+#include "record/recording.hpp"
+#include "score/benchmark.hpp"
+#include "score/rubric.hpp"
 #include "session/running_session.hpp"
 
 namespace ream::session {
@@ -17,7 +19,8 @@ struct TracePart {
   int stride = 1;              ///< every so many ticks
 };
 
-/// What is to be exported.
+/// What somebody who names no files of this machine wants exported: sessions, rubrics and benchmarks go by
+/// their ids.
 struct ExportOrder {
   SessionRequest session;           ///< with the labels that whoever asked may know
   TracePart part = {};              ///< of tables
@@ -25,33 +28,52 @@ struct ExportOrder {
   std::string benchmark = {};       ///< of reports: id; empty: none
 };
 
-/// A form in which a session can be had as a file.
+/// What is to be exported, and what it needs beside the recording.
+struct ExportRequest {
+  std::filesystem::path recording;  ///< recording.ream
+  std::string case_name;            ///< where the case is, as for find_case(); empty: as recorded
+  std::filesystem::path data;
+  std::optional<score::Rubric> rubric;        ///< of reports; none: the newest standard one
+  std::optional<score::Benchmark> benchmark;  ///< of reports
+  TracePart part;                             ///< of tables
+  std::optional<SessionRequest> labels;       ///< trainee, title and so on; none: as in session.json
+};
+
+/// What more can be said of an export.
+enum class ExportKind {
+  plain,
+  table,   ///< of a part of the ticks
+  report,  ///< with a rubric and a benchmark
+  pair     ///< a second file is written beside the first
+};
+
+/// A kind of file that a session can become.
 struct ExportFormat {
-  std::string name;  ///< what it is asked for by
+  std::string name;       ///< "pdf"
+  std::string extension;  ///< ".pdf"
+  std::string words;      ///< what the file is, for people
   std::string media_type;
-  bool is_table = false;  ///< rows of ticks, of which a part can be asked for
-  /// Writes the file atomically from what lies in the session's folder. Errors: those of the recording and
-  /// its case; io; cancelled.
-  std::function<void(const ExportOrder& order, const std::filesystem::path& out, const Progress& progress)>
-      write;
-  std::string ending = {};  ///< of the file, without its dot; empty: the name
-  bool is_report = false;   ///< judged by a rubric and compared with a benchmark
-  /// Finds out in a moment what would make `write` fail at once; null: nothing would. Errors: not_found,
-  /// invalid_input.
-  std::function<void(const ExportOrder& order)> check = {};
+  ExportKind kind;
+  /// Writes it, atomically. Errors: those of the recording and its case; io; cancelled.
+  void (*write)(const ExportRequest& request, const std::filesystem::path& out, const Progress& progress);
 
-  const std::string& file_ending() const { return ending.empty() ? name : ending; }
+  /// Of the file, without its dot.
+  std::string ending() const { return extension.substr(1); }
+  bool is_table() const { return kind == ExportKind::table; }
+  bool is_report() const { return kind == ExportKind::report; }
 };
 
-/// All forms of this server. Filled once, then only read.
-class ExportFormats {
- public:
-  void add(ExportFormat format) { formats_.push_back(std::move(format)); }
-  /// Throws net::RequestError 422 that names those there are.
-  const ExportFormat& find(const std::string& name) const;
+/// All of them. Where several have an ending in common, the first is what it means by itself.
+const std::vector<ExportFormat>& export_formats();
 
- private:
-  std::vector<ExportFormat> formats_;
-};
+/// By its name, or with an empty one by the ending of a file. Error usage names all that there are.
+const ExportFormat& export_format_of(const std::string& name, const std::filesystem::path& out);
+
+/// By its name, of those that are one file, which a server can send. Throws net::RequestError 422 that names
+/// those there are.
+const ExportFormat& served_export_format(const std::string& name);
+
+/// The recording of a request, which may be damaged towards its end; that is logged.
+record::Recording recording_of(const ExportRequest& request);
 
 }  // namespace ream::session

@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 
-#include "session/export/export_session.hpp"
+#include "session/export/export_formats.hpp"
 
 namespace ream::session {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include "core/progress.hpp"
 #include "report/report.hpp"
-#include "session/export/export_session.hpp"
+#include "session/export/export_formats.hpp"
 
 namespace ream::session {
 

@@ -11,6 +11,7 @@
 #include "core/new_id.hpp"
 #include "core/text.hpp"
 #include "session/folder/session_labels.hpp"
+#include "session/folder/timing_file.hpp"
 
 namespace ream::session {
 namespace fs = std::filesystem;
@@ -28,32 +29,6 @@ std::string plain_name(const std::string& text) {
   if (is_name(text)) return text;
   const std::string stem = fs::path(text).stem().string();
   return is_name(stem) ? stem : "unnamed";
-}
-
-TimingSummary summary_of(const json& timing, const char* what) {
-  const json times = timing.value(what, json::object());
-  TimingSummary summary;
-  summary.mean_us = times.value("mean", 0.0);
-  summary.p50_us = times.value("p50", 0.0);
-  summary.p99_us = times.value("p99", 0.0);
-  summary.p999_us = times.value("p999", 0.0);
-  summary.max_us = times.value("max", 0.0);
-  return summary;
-}
-
-/// Sessions of earlier builds have fewer of them.
-LoopStatus loop_of(const json& timing) {
-  LoopStatus loop;
-  loop.tick_us = summary_of(timing, "tick_us");
-  loop.lateness_us = summary_of(timing, "lateness_us");
-  loop.read_us = summary_of(timing, "read_us");
-  loop.step_us = summary_of(timing, "step_us");
-  loop.write_us = summary_of(timing, "write_us");
-  loop.missed = timing.value("missed", uint64_t{0});
-  loop.realtime = timing.value("realtime", false);
-  loop.locked = timing.value("locked", false);
-  loop.cpu = timing.value("cpu", -1);
-  return loop;
 }
 
 SessionState state_of(const json& session, const fs::path& folder) {
@@ -115,7 +90,7 @@ FolderRecord record_of(const json& session, const json& timing, const json& mark
   status.fault = session.value("fault", "");
   status.tick = session.value("ticks", 0u);
   if (timing.is_object()) {
-    status.loop = loop_of(timing);
+    status.loop = loop_health_from(timing);
     if (!session.contains("ticks")) status.tick = timing.value("ticks", 0u);
   }
   status.duration_s = status.tick * tick_s;

@@ -38,11 +38,6 @@ RunRequest run_request(const SessionHouse& house, const SessionRequest& request)
   return run;
 }
 
-LoopStatus loop_status(const sim::LoopHealth& health) {
-  return {health.tick_us, health.lateness_us,   health.read_us,         health.step_us,     health.write_us,
-          health.missed,  health.realtime.fifo, health.realtime.locked, health.realtime.cpu};
-}
-
 }  // namespace
 
 ReamingSession::ReamingSession(const SessionHouse& house, const SessionRequest& request)
@@ -335,7 +330,7 @@ void ReamingSession::take(bool ended) {
 
 void ReamingSession::take_report(const record::TickReport& r) {
   fill_in(r, sample_);
-  sample_.state = r.paused ? stream::SessionState::paused : stream::SessionState::running;
+  sample_.state = r.paused ? SessionState::paused : SessionState::running;
   batcher_.add(sample_);
 }
 
@@ -366,17 +361,16 @@ void ReamingSession::note_health() {
   }
   status_.tick = sample_.tick + 1;
   status_.duration_s = metrics.duration_s();
-  status_.loop = loop_status(health);
+  status_.loop = health;
   note_device();
   if (status_.state == SessionState::running || status_.state == SessionState::paused)
-    status_.state =
-        sample_.state == stream::SessionState::paused ? SessionState::paused : SessionState::running;
+    status_.state = sample_.state == SessionState::paused ? SessionState::paused : SessionState::running;
   status_.held = held_;
   if (held_or_let_go) changed_.notify_all();
 }
 
 void ReamingSession::publish_state(SessionState state) {
-  sample_.state = wire_state(state);
+  sample_.state = state;
   tell_port();
   if (!is_live(state)) sample_.spindle_on = false;
   tell_fault(status().fault);

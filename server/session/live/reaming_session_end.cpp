@@ -81,7 +81,7 @@ void ReamingSession::close(SessionState state, const std::string& fault, const n
     status_.fault = fault;
     status_.held = false;
     metrics_ = metrics;
-    sample_.state = wire_state(state);
+    sample_.state = state;
     tell_port();  // before anybody who waits for the end goes on
     lock_.reset();
     place_.reset();

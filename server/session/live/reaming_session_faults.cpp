@@ -30,9 +30,8 @@ void ReamingSession::note_device() {
   tell_port();
 }
 
-/// Both enums are those of the wire.
 void ReamingSession::tell_port() {
-  if (port_) port_->set_state(static_cast<device::RemoteSessionState>(sample_.state));
+  if (port_) port_->set_state(sample_.state);
 }
 
 void ReamingSession::note_events(const record::TickReport& report) {

@@ -8,27 +8,11 @@
 #include "core/log.hpp"
 #include "score/bone_results.hpp"
 #include "score/metrics.hpp"
+#include "session/folder/timing_file.hpp"
 #include "session/simulation/recording_header.hpp"
 
 namespace ream::session {
 namespace {
-
-nlohmann::json summary_json(const TimingSummary& t) {
-  return {{"mean", t.mean_us}, {"p50", t.p50_us}, {"p99", t.p99_us}, {"p999", t.p999_us}, {"max", t.max_us}};
-}
-
-nlohmann::json timing_json(const sim::LoopHealth& health) {
-  return {{"tick_us", summary_json(health.tick_us)},
-          {"lateness_us", summary_json(health.lateness_us)},
-          {"read_us", summary_json(health.read_us)},
-          {"step_us", summary_json(health.step_us)},
-          {"write_us", summary_json(health.write_us)},
-          {"missed", health.missed},
-          {"ticks", health.tick_us.count},
-          {"realtime", health.realtime.fifo},
-          {"locked", health.realtime.locked},
-          {"cpu", health.realtime.cpu}};
-}
 
 void write_json(const std::filesystem::path& path, const nlohmann::json& json) {
   write_file_atomically(path, json.dump(2) + "\n");
@@ -112,7 +96,7 @@ SessionFiles::Results SessionFiles::finish(const sim::LoopHealth& health, const 
   const uint64_t grid_hash = rig_.bone_case.bone.coverage_hash();
   Results results{
       score::session_metrics_json(metrics_, bone_results(), rig_.model.settings.force_scale, &grid_hash),
-      timing_json(health)};
+      timing_file_json(health)};
   write_json(folder_ / "metrics.json", results.metrics);
   write_json(folder_ / "timing.json", results.timing);
   nlohmann::json session = description_;

@@ -40,24 +40,4 @@ void fill_in(const record::TickReport& r, stream::TelemetrySample& sample) {
   sample.cortical_share = static_cast<float>(r.share[static_cast<size_t>(voxel::BoneClass::cortical)]);
 }
 
-stream::SessionState wire_state(SessionState state) {
-  switch (state) {
-    case SessionState::created:
-      return stream::SessionState::created;
-    case SessionState::running:
-      return stream::SessionState::running;
-    case SessionState::paused:
-      return stream::SessionState::paused;
-    case SessionState::finished:
-      return stream::SessionState::finished;
-    case SessionState::stopped:
-      return stream::SessionState::stopped;
-    case SessionState::fault:
-      return stream::SessionState::fault;
-    case SessionState::interrupted:
-      return stream::SessionState::interrupted;
-  }
-  return stream::SessionState::fault;
-}
-
 }  // namespace ream::session

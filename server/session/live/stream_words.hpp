@@ -1,7 +1,6 @@
 #pragma once
 #include "case/case.hpp"
 #include "record/tick_report.hpp"
-#include "session/running_session.hpp"
 #include "shell/tool.hpp"
 #include "stream/messages.hpp"
 #include "stream/telemetry.hpp"
@@ -13,8 +12,5 @@ stream::HelloInfo hello_of(const case_::Case& c, const case_::Plan& plan, const 
 
 /// What viewers are told of one tick. Where the bone is, is left out where it has not moved.
 void fill_in(const record::TickReport& report, stream::TelemetrySample& sample);
-
-/// The state's number on the wire.
-stream::SessionState wire_state(SessionState state);
 
 }  // namespace ream::session

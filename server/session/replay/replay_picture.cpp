@@ -33,7 +33,7 @@ ReplayPicture::ReplayPicture(const record::Recording& recording, const case_::Ca
   fanout_.publish_hello(stream::hello_message(hello_));
   publisher_.publish_all();
   jump_to({});
-  tell(stream::SessionState::replaying);
+  tell(SessionState::replaying);
 }
 
 void ReplayPicture::show(const ReplayMoment& moment) {
@@ -50,13 +50,13 @@ void ReplayPicture::show(const ReplayMoment& moment) {
   show_tool();
   catch_up_metrics();
   // Ticks that were played have told of changes themselves.
-  if (jumped || (changed && !moved)) tell(stream::SessionState::replaying);
+  if (jumped || (changed && !moved)) tell(SessionState::replaying);
 }
 
 void ReplayPicture::settle(const ReplayMoment& moment, uint32_t position_ticks) {
   shown_ = moment;
   shown_.position_ticks = position_ticks;
-  sample_.state = stream::SessionState::replaying;
+  sample_.state = SessionState::replaying;
   sample_.playback = {position_ticks, moment.speed, moment.playing, moment.jump};
   sample_.fault.fill('\0');
   std::memcpy(sample_.fault.data(), moment.fault.data(),
@@ -196,7 +196,7 @@ void ReplayPicture::poll(int64_t now_ns) {
   batcher_.publish_if_due(now_ns);
 }
 
-void ReplayPicture::tell(stream::SessionState state) {
+void ReplayPicture::tell(SessionState state) {
   sample_.state = state;
   batcher_.add(sample_);
   batcher_.flush();

@@ -166,7 +166,7 @@ void ReplaySession::stop() {
   }
   changed_.notify_all();
   follower_.join();
-  picture_.tell(stream::SessionState::stopped);
+  picture_.tell(SessionState::stopped);
 }
 
 std::unique_ptr<net::WebSocketSession> ReplaySession::subscribe(int stride) {
@@ -203,7 +203,7 @@ void ReplaySession::present(const ReplayMoment& moment, int64_t now_ns) {
   picture_.show(moment);
   picture_.poll(steady_ns());
   if (moment.playing || now_ns - last_told_ns_ <= replay_heartbeat_ns) return;
-  picture_.tell(stream::SessionState::replaying);
+  picture_.tell(SessionState::replaying);
   last_told_ns_ = now_ns;
 }
 

@@ -27,8 +27,7 @@ struct ReplayService::Entry {
   }
 };
 
-ReplayService::ReplayService(ReplayFactory factory, ReplayLimits limits)
-    : factory_(std::move(factory)), limits_(limits) {
+ReplayService::ReplayService(SessionEngine& engine, ReplayLimits limits) : engine_(engine), limits_(limits) {
   caretaker_ = std::thread([this] { end_unattended(); });
 }
 
@@ -95,7 +94,7 @@ ReplayRecord ReplayService::create(ReplayRequest wanted) {
     wanted.id = "r" + random_id();  // longer than any session's, so that it is none's
     entry->request = std::move(wanted);
     entry->created_utc = utc_now();
-    entry->running = factory_(entry->request);
+    entry->running = engine_.replay(entry->request);
   } catch (...) {
     const std::lock_guard lock(mutex_);
     --being_made_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "session/running_replay.hpp"
+#include "session/service/session_engine.hpp"
 
 namespace ream::session {
 
@@ -29,13 +30,14 @@ struct ReplayRecord {
 /// Owns the replays of this server. Thread-safe. Unknown ids throw Error not_found.
 class ReplayService {
  public:
-  ReplayService(ReplayFactory factory, ReplayLimits limits);
+  /// `engine` outlives it.
+  ReplayService(SessionEngine& engine, ReplayLimits limits);
   ~ReplayService();
   ReplayService(const ReplayService&) = delete;
   ReplayService& operator=(const ReplayService&) = delete;
 
   /// `wanted.id` is chosen here. When as many are open as may be, the one that has gone unwatched for longest
-  /// is ended. Errors: unavailable when all are watched; those of the factory.
+  /// is ended. Errors: unavailable when all are watched; those of the engine.
   ReplayRecord create(ReplayRequest wanted);
   bool has(const std::string& id) const;
   /// Newest first.
@@ -61,7 +63,7 @@ class ReplayService {
   void end_unattended();
   Entries take_unattended();
 
-  const ReplayFactory factory_;
+  SessionEngine& engine_;
   const ReplayLimits limits_;
   mutable std::mutex mutex_;
   Entries entries_;  ///< oldest first

@@ -143,7 +143,7 @@ std::shared_ptr<SessionService::Entry> SessionService::made_again(const SessionR
                                                                   const std::string& reamer) {
   auto entry = std::make_shared<Entry>();
   entry->label(before.request);
-  entry->running = makers_.resume(before.request, reamer);
+  entry->running = engine_.resume(before.request, reamer);
   entry->running->start();
   return entry;
 }

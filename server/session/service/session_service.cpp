@@ -11,10 +11,10 @@
 
 namespace ream::session {
 
-SessionService::SessionService(SessionMakers makers, SessionLimits limits,
+SessionService::SessionService(SessionEngine& engine, SessionLimits limits,
                                const std::filesystem::path& sessions_folder,
                                std::shared_ptr<store::Database> database)
-    : makers_(std::move(makers)),
+    : engine_(engine),
       limits_(limits),
       archive_(sessions_folder),
       trash_(sessions_folder),
@@ -75,7 +75,7 @@ std::shared_ptr<SessionService::Entry> SessionService::made_anew(SessionRequest 
     }
     wanted.created_utc = utc_now_in_order();
     entry->label(std::move(wanted));
-    entry->running = makers_.make(entry->request());
+    entry->running = engine_.make(entry->request());
   } catch (...) {
     const std::lock_guard lock(mutex_);
     --being_made_;

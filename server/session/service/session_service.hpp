@@ -14,6 +14,7 @@
 #include "session/folder/session_register.hpp"
 #include "session/folder/session_trash.hpp"
 #include "session/running_session.hpp"
+#include "session/service/session_engine.hpp"
 
 namespace ream::session {
 
@@ -22,25 +23,19 @@ struct SessionLimits {
   size_t kept = 16;  ///< ended ones that can still be looked at; the oldest go first
 };
 
-/// What makes sessions. `resume` makes one that goes on from what an ended one left in its folder.
-struct SessionMakers {
-  SessionFactory make;
-  SessionResumer resume;
-};
-
 /// Owns the sessions of this server and knows all that lie in the data folder. Thread-safe. Unknown ids throw
 /// Error not_found.
 class SessionService {
  public:
-  /// `sessions_folder`: where sessions keep their folders; empty: nowhere. `database`: has the index of
-  /// sessions; null: lists are made from the folders.
-  SessionService(SessionMakers makers, SessionLimits limits, const std::filesystem::path& sessions_folder,
+  /// `engine` outlives it. `sessions_folder`: where sessions keep their folders; empty: nowhere. `database`:
+  /// has the index of sessions; null: lists are made from the folders.
+  SessionService(SessionEngine& engine, SessionLimits limits, const std::filesystem::path& sessions_folder,
                  std::shared_ptr<store::Database> database = nullptr);
   ~SessionService();
   SessionService(const SessionService&) = delete;
   SessionService& operator=(const SessionService&) = delete;
 
-  /// `wanted.id` is chosen here. Errors: unavailable when as many are live as may be; those of the factory.
+  /// `wanted.id` is chosen here. Errors: unavailable when as many are live as may be; those of the engine.
   SessionRecord create(SessionRequest wanted);
   /// Those of this server that are still held in memory, oldest first.
   std::vector<SessionRecord> held() const;
@@ -115,7 +110,7 @@ class SessionService {
   std::optional<Annotation> annotate_live(const std::string& id, const NewAnnotation& note);
   std::vector<std::shared_ptr<Entry>> take_surplus();
 
-  const SessionMakers makers_;
+  SessionEngine& engine_;
   const SessionLimits limits_;
   const SessionArchive archive_;
   SessionTrash trash_;

@@ -66,7 +66,7 @@ TEST_F(OpenIgtlinkServer, WhoComesGetsEverythingAndThenWhatChanges) {
   EXPECT_EQ(client.hear("Torque").values, std::vector<double>{0.25});
   ball.cut(17);
   EXPECT_TRUE(corners_of(client.hear("Bone")) == corners_of(ball.surface()));
-  ball.tell(11.0, stream::SessionState::paused);
+  ball.tell(11.0, SessionState::paused);
   EXPECT_EQ(
       client.hear_until("a pause", [](const IgtlReading& r) { return r.name == "Simulator" && r.code != 1; })
           .text,

@@ -43,12 +43,12 @@ std::map<std::string, double> read_page(const std::string& text) {
 session::SessionRecord running() {
   session::SessionRecord record;
   record.request.id = "abc-1";
-  record.status.state = session::SessionState::running;
+  record.status.state = SessionState::running;
   record.status.tick = 61'000;
   record.status.loop.tick_us = {90.0, 80.0, 250.0, 400.0, 900.5, 61'000};
   record.status.loop.lateness_us.p999_us = 70.0;
   record.status.loop.missed = 12;
-  record.status.loop.realtime = true;
+  record.status.loop.realtime.fifo = true;
   record.status.device = {"network", "touch", "fading", 3.5, 1000, 3, 2, 1};
   return record;
 }
@@ -56,7 +56,7 @@ session::SessionRecord running() {
 TEST(Prometheus, SaysHowALoopAndItsDeviceAre) {
   session::SessionRecord ended;
   ended.request.id = "abc-2";
-  ended.status.state = session::SessionState::finished;
+  ended.status.state = SessionState::finished;
   const auto samples = read_page(prometheus_text({running(), ended}));
   const std::string of = "{session=\"abc-1\"";
   EXPECT_EQ(samples.at("ream_sessions{state=\"running\"}"), 1.0);

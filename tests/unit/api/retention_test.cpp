@@ -5,8 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "support/fake_replay.hpp"
-#include "support/fake_session.hpp"
+#include "support/fake_engine.hpp"
 #include "support/hand_clock.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -46,10 +45,9 @@ class RetentionTest : public testing::Test {
   }
 
   const test::TemporaryFolder folder;
-  test::FakeFactory factory;
-  test::FakeReplayFactory replay_factory;
-  session::SessionService service{factory.makers(), {3, 2}, folder.path() / "sessions"};
-  session::ReplayService replays{replay_factory.function(), {}};
+  test::FakeEngine engine;
+  session::SessionService service{engine, {3, 2}, folder.path() / "sessions"};
+  session::ReplayService replays{engine, {}};
   jobs::JobService jobs;
   const std::shared_ptr<ChangeFeed> feed = std::make_shared<ChangeFeed>(may_know);
   std::vector<std::string> audited;

@@ -84,7 +84,7 @@ TEST(DeviceMessages, TheGoldenAnswersSayWhatOursSay) {
   DeviceFeedback feedback;
   feedback.sequence = 42;
   feedback.stamp_us = 1234567890123;
-  feedback.state = RemoteSessionState::running;
+  feedback.state = SessionState::running;
   feedback.rtt_ms = 1.5;
   feedback.output = {1, 1, 61234, LinkState::fading, true, {0.5, -1.25, 2}, {10, -20, 30.5}, 52.5, -0.75};
   const net::SharedBytes our_feedback = feedback_message(feedback);

@@ -46,7 +46,7 @@ class DeviceSocketTest : public testing::Test {
  protected:
   DeviceSocketTest() {
     now_ns = 5'000'000'000;
-    port->set_state(RemoteSessionState::running);
+    port->set_state(SessionState::running);
   }
   void write_force(double force_n, uint64_t connection = 1) {
     RemoteOutput output;
@@ -130,13 +130,13 @@ TEST_F(DeviceSocketTest, NoForceOnceItWasTakenAwayOrTheSessionHasEnded) {
   client.say(numbered(1));
   EXPECT_EQ(client.feedback()->force_n()->z(), 0.0f);
   link->force_taken_away = false;
-  for (const RemoteSessionState ended : {RemoteSessionState::finished, RemoteSessionState::stopped,
-                                         RemoteSessionState::fault, RemoteSessionState::interrupted}) {
+  for (const SessionState ended :
+       {SessionState::finished, SessionState::stopped, SessionState::fault, SessionState::interrupted}) {
     port->set_state(ended);
     client.say(numbered(2));
     EXPECT_EQ(client.feedback()->force_n()->z(), 0.0f);
   }
-  port->set_state(RemoteSessionState::paused);
+  port->set_state(SessionState::paused);
   client.say(numbered(3));
   EXPECT_EQ(client.feedback()->force_n()->z(), 1.5f);
 }

@@ -46,7 +46,7 @@ class WatchedBall {
   }
 
   /// Tells of a tick in which the tool stands at x.
-  void tell(double x_mm, stream::SessionState state = stream::SessionState::running) {
+  void tell(double x_mm, SessionState state = SessionState::running) {
     stream::TelemetrySample sample;
     sample.tick = ++tick_;
     sample.thrust_n = 52.0f;

@@ -1,4 +1,4 @@
-#include "session/live/reaming_session.hpp"
+#include "session/service/simulation_engine.hpp"
 
 #include <gtest/gtest.h>
 #include <linux/capability.h>
@@ -57,13 +57,6 @@ class ReamingSessionTest : public testing::Test {
                           test::RecordedReaming::push("ideal-admittance", 20.0).dump());
     fs::create_directories(sessions_folder(reaming.data()));
   }
-  SessionMakers makers() {
-    return {
-        [this](const SessionRequest& request) { return std::make_unique<ReamingSession>(house(), request); },
-        [this](const SessionRequest& request, const std::string& reamer) {
-          return std::make_unique<ReamingSession>(house(), request, reamer);
-        }};
-  }
   SessionHouse house() const { return {reaming.data(), 1, "cpu", sim::Realtime::off, places}; }
   static SessionRequest wanted() { return {{}, "slab", "push", {}}; }
   fs::path folder(const std::string& id) const { return sessions_folder(reaming.data()) / id; }
@@ -82,7 +75,8 @@ class ReamingSessionTest : public testing::Test {
   const test::RecordedReaming reaming;
   const std::shared_ptr<sim::CpuAllocator> places =
       std::make_shared<sim::CpuAllocator>(std::vector{sim::allowed_cpus().front()});
-  SessionService service{makers(), {4, 4}, sessions_folder(reaming.data())};
+  SimulationEngine engine{house()};
+  SessionService service{engine, {4, 4}, sessions_folder(reaming.data())};
 };
 
 TEST_F(ReamingSessionTest, NoAcceptedRemarkIsLostAtTheEnd) {

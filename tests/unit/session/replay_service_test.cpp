@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "support/expect_error.hpp"
-#include "support/fake_replay.hpp"
+#include "support/fake_engine.hpp"
 
 namespace ream::session {
 namespace {
@@ -15,11 +15,11 @@ using test::FakeReplay;
 
 class ReplayServiceTest : public testing::Test {
  protected:
-  ReplayServiceTest() : service(factory.function(), ReplayLimits{.open = 2}) {}
+  ReplayServiceTest() : service(engine, ReplayLimits{.open = 2}) {}
   std::string create() { return service.create({{}, "abcdefgh", "demo", "demo"}).request.id; }
 
   const int alive_before = FakeReplay::alive();
-  test::FakeReplayFactory factory;
+  test::FakeEngine engine;
   ReplayService service;
 };
 
@@ -50,8 +50,8 @@ TEST_F(ReplayServiceTest, StoppedReplaysAreGone) {
 
 TEST_F(ReplayServiceTest, TheOneUnwatchedForLongestGivesWay) {
   const std::string first = create(), second = create();
-  factory.made(0).set_unwatched_s(3.0);
-  factory.made(1).set_unwatched_s(5.0);
+  engine.made_replay(0).set_unwatched_s(3.0);
+  engine.made_replay(1).set_unwatched_s(5.0);
   const std::string third = create();
   EXPECT_TRUE(service.has(first));
   EXPECT_FALSE(service.has(second));
@@ -60,16 +60,16 @@ TEST_F(ReplayServiceTest, TheOneUnwatchedForLongestGivesWay) {
 
 TEST_F(ReplayServiceTest, WatchedReplaysStay) {
   create(), create();
-  factory.made(0).set_unwatched_s(0.0);
-  factory.made(1).set_unwatched_s(0.0);
+  engine.made_replay(0).set_unwatched_s(0.0);
+  engine.made_replay(1).set_unwatched_s(0.0);
   expect_error(ErrorKind::unavailable, "2 replays are watched", [&] { create(); });
   EXPECT_EQ(service.list().size(), 2u);
 }
 
 TEST_F(ReplayServiceTest, ARecordingThatCannotBeOpenedTakesNoPlace) {
-  factory.refuse = [] { throw Error(ErrorKind::invalid_input, "damaged"); };
+  engine.refuse_replay = [] { throw Error(ErrorKind::invalid_input, "damaged"); };
   for (int i = 0; i < 5; ++i) expect_error(ErrorKind::invalid_input, "damaged", [&] { create(); });
-  factory.refuse = [] {};
+  engine.refuse_replay = [] {};
   create(), create();
   EXPECT_EQ(service.list().size(), 2u);
 }
@@ -94,11 +94,10 @@ TEST_F(ReplayServiceTest, NothingIsOpenedAfterShutDown) {
 
 TEST_F(ReplayServiceTest, WhatIsNobodysEndsByItself) {
   const auto moment = std::chrono::milliseconds(1);
-  ReplayService patient(factory.function(),
-                        {.open = 3, .unattended = std::chrono::hours(1), .look_every = moment});
-  ReplayService brief(factory.function(), {.open = 3, .unattended = moment, .look_every = moment});
+  ReplayService patient(engine, {.open = 3, .unattended = std::chrono::hours(1), .look_every = moment});
+  ReplayService brief(engine, {.open = 3, .unattended = moment, .look_every = moment});
   const std::string kept = patient.create({{}, "abcdefgh", "demo", "demo"}).request.id;
-  factory.made(0).set_unwatched_s(7200.0);  // asked for a moment ago
+  engine.made_replay(0).set_unwatched_s(7200.0);  // asked for a moment ago
   const int stops = FakeReplay::stops();
   const std::string left = brief.create({{}, "abcdefgh", "demo", "demo"}).request.id;
   while (brief.has(left)) std::this_thread::sleep_for(moment);
@@ -109,10 +108,10 @@ TEST_F(ReplayServiceTest, WhatIsNobodysEndsByItself) {
 
 TEST_F(ReplayServiceTest, WatchedReplaysDoNotEndByThemselves) {
   const auto moment = std::chrono::milliseconds(1);
-  factory.first_unwatched_s = 0.0;
-  ReplayService brief(factory.function(), {.open = 2, .unattended = moment, .look_every = moment});
+  engine.first_unwatched_s = 0.0;
+  ReplayService brief(engine, {.open = 2, .unattended = moment, .look_every = moment});
   const std::string watched = brief.create({{}, "abcdefgh", "demo", "demo"}).request.id;
-  factory.first_unwatched_s = 1.0;
+  engine.first_unwatched_s = 1.0;
   const std::string left = brief.create({{}, "abcdefgh", "demo", "demo"}).request.id;
   while (brief.has(left)) std::this_thread::sleep_for(moment);
   EXPECT_TRUE(brief.has(watched));

@@ -7,7 +7,7 @@
 #include "core/utc.hpp"
 #include "session/service/session_service.hpp"
 #include "support/expect_error.hpp"
-#include "support/fake_session.hpp"
+#include "support/fake_engine.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ream::session {
@@ -29,8 +29,8 @@ class SessionRemovalTest : public testing::Test {
 
   const test::TemporaryFolder folder;
   const fs::path sessions = folder.path() / "sessions";
-  test::FakeFactory factory;
-  SessionService service{factory.makers(), {3, 2}, sessions};
+  test::FakeEngine engine;
+  SessionService service{engine, {3, 2}, sessions};
 };
 
 TEST_F(SessionRemovalTest, GoesToTheTrashWholeAndComesBackWhole) {
@@ -98,7 +98,7 @@ TEST_F(SessionRemovalTest, AServerThatWasEndedMeanwhileLeavesOneOrTheOther) {
   folder.write("sessions/noted/deleted.json", R"({"deleted_utc": "2026-01-31T12:00:00Z"})");
   folder.write("trash/.erased-gone-abc/recording.ream", "half gone");
   folder.write("trash/unnoted/session.json", R"({"case": "demo", "script": "demo"})");
-  const SessionService again(factory.makers(), {3, 2}, sessions);
+  const SessionService again(engine, {3, 2}, sessions);
   EXPECT_EQ(again.get("noted").status.state, SessionState::finished);
   EXPECT_FALSE(fs::exists(folder.path() / "trash/.erased-gone-abc"));
   ASSERT_EQ(again.deleted().size(), 1u);

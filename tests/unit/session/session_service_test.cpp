@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "support/expect_error.hpp"
-#include "support/fake_session.hpp"
+#include "support/fake_engine.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ream::session {
@@ -19,12 +19,12 @@ SessionRequest demo() { return {{}, "demo", "demo", {}}; }
 
 class SessionServiceTest : public testing::Test {
  protected:
-  SessionServiceTest() : service(factory.makers(), {3, 2}, folder.path()) {}
+  SessionServiceTest() : service(engine, {3, 2}, folder.path()) {}
   std::string create() { return service.create(demo()).request.id; }
 
   const int alive_before = FakeSession::alive();
   const test::TemporaryFolder folder;
-  test::FakeFactory factory;
+  test::FakeEngine engine;
   SessionService service;
 };
 
@@ -32,7 +32,7 @@ TEST_F(SessionServiceTest, GoesThroughItsStates) {
   const SessionRecord made = service.create({{}, "demo", "demo", 13.0});
   EXPECT_EQ(made.status.state, SessionState::created);
   EXPECT_EQ(made.status.force_scale, 13.0);
-  EXPECT_EQ(factory.made(0).request().id, made.request.id);
+  EXPECT_EQ(engine.made(0).request().id, made.request.id);
   EXPECT_EQ(service.start(made.request.id).status.state, SessionState::running);
   expect_error(ErrorKind::conflict, "is running", [&] { service.start(made.request.id); });
   EXPECT_EQ(service.stop(made.request.id).status.state, SessionState::stopped);
@@ -173,7 +173,7 @@ TEST_F(SessionServiceTest, ResetIsAnotherAttemptThatRunsIfTheOldOneDid) {
 TEST_F(SessionServiceTest, AResetThatCannotBeMadeLeavesTheSessionAsItWas) {
   const std::string id = create();
   service.start(id);
-  factory.refuse = [&] {
+  engine.refuse = [&] {
     EXPECT_TRUE(service.get(id).status.held) << "the hand holds nothing meanwhile";
     throw Error(ErrorKind::unavailable, "no memory");
   };
@@ -182,7 +182,7 @@ TEST_F(SessionServiceTest, AResetThatCannotBeMadeLeavesTheSessionAsItWas) {
   service.pause(id);
   expect_error(ErrorKind::unavailable, "no memory", [&] { service.reset(id); });
   EXPECT_TRUE(service.get(id).status.held);
-  factory.refuse = nullptr;
+  engine.refuse = nullptr;
   EXPECT_EQ(service.reset(id).status.state, SessionState::running);
 }
 
@@ -190,7 +190,7 @@ TEST_F(SessionServiceTest, PausesOnlyWhatIsUnderWay) {
   const std::string id = create();
   expect_error(ErrorKind::conflict, "only a running session", [&] { service.pause(id); });
   service.start(id);
-  factory.made(0).set(SessionState::paused);
+  engine.made(0).set(SessionState::paused);
   expect_error(ErrorKind::conflict, "by its own device", [&] { service.start(id); });
   EXPECT_TRUE(service.pause(id).status.held);
   EXPECT_FALSE(service.start(id).status.held);

@@ -33,9 +33,6 @@ class PersonaTest : public AccessTest {
     options.sessions.kept = 100'000;
     options.replays.open = 100'000;
     options.data_folder = folder.path() / "data";
-    options.export_formats.add({"csv", "text/csv; charset=utf-8", true,
-                                [](const session::ExportOrder&, const std::filesystem::path& out,
-                                   const Progress&) { std::ofstream(out) << "t_s"; }});
     start();
     operator_id = add_user("olga", access::Role::operator_);
     instructor_id = add_user("ina", access::Role::instructor);

@@ -23,10 +23,6 @@ class CaseContractTest : public ContractTest {
  protected:
   CaseContractTest() {
     options.data_folder = folder.path();
-    options.read_ct = [](const std::filesystem::path& path, const std::string& uid,
-                         const Progress& progress) {
-      return ct::read_ct(path, {uid, false}, progress);
-    };
     ct::PhantomParams params;
     params.spacing_mm = Vec3::Constant(2.0);
     phantom = ct::make_phantom(params);

@@ -45,7 +45,7 @@ class ServerContractTest : public ContractTest {
     resetting();
     const std::string stuck = create("no-start");
     expect_post(one + "/start", all + "/" + stuck + "/start", 503);
-    factory.made(6).set(session::SessionState::fault, "the device fell silent");
+    engine->made(6).set(SessionState::fault, "the device fell silent");
     expect_get(one, all + "/" + stuck, 200);
     expect_stream(path + "/stream", 101);
     expect_stream(path + "/stream?stride=4", 101);
@@ -123,17 +123,17 @@ class ServerContractTest : public ContractTest {
     expect_post(one + "/replay", path, 403, "", foreign);
     expect_post(one + "/replay", all + "/nobody/replay", 404);
     expect_post(one + "/replay", live + "/replay", 409);
-    replays.refuse = [] { throw Error(ErrorKind::invalid_input, "recording.ream is damaged"); };
+    engine->refuse_replay = [] { throw Error(ErrorKind::invalid_input, "recording.ream is damaged"); };
     expect_post(one + "/replay", path, 422);
-    replays.refuse = [] {};
+    engine->refuse_replay = [] {};
     expect_repeatable(one + "/replay", path, 201);
     const std::string id = json::parse(get(all).body).at("replays").at(0).at("id"), open = all + "/" + id;
     expect_get(all, all, 200);
     expect_get(one, open, 200);
     expect_get(one + "/metrics", open + "/metrics", 200);
-    replays.made(0).refuse_metrics(ErrorKind::unavailable);
+    engine->made_replay(0).refuse_metrics(ErrorKind::unavailable);
     expect_get(one + "/metrics", open + "/metrics", 503);
-    replays.made(0).refuse_metrics(ErrorKind::invalid_input);
+    engine->made_replay(0).refuse_metrics(ErrorKind::invalid_input);
     expect_get(one + "/metrics", open + "/metrics", 422);
     expect_stream(open + "/stream", 101);
     expect_post(one + "/playback", open + "/playback", 200,
@@ -148,7 +148,7 @@ class ServerContractTest : public ContractTest {
     expect_post(one + "/playback", open + "/playback", 422, R"({"position_s": 11})");
     for (size_t i = 0; i < options.replays.open; ++i) {
       expect_post(one + "/replay", path, 201);
-      replays.made(i + 1).set_unwatched_s(0.0);
+      engine->made_replay(i + 1).set_unwatched_s(0.0);
     }
     expect_get(one, open, 404);
     expect_post(one + "/replay", path, 503);

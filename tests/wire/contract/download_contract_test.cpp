@@ -1,6 +1,5 @@
 #include <fstream>
 #include <future>
-#include <list>
 #include <thread>
 
 #include "contract_fixture.hpp"
@@ -16,15 +15,6 @@ class DownloadContractTest : public ContractTest {
  protected:
   DownloadContractTest() {
     options.data_folder = folder.path();
-    for (const char* name : {"ply", "stl", "glb", "png", "zip"}) add_form(name, media_type_of(name));
-    add_form("csv", "text/csv; charset=utf-8").is_table = true;
-    add_form("surface", "application/ply").ending = "ply";
-    session::ExportFormat& pdf = add_form("pdf", "application/pdf");
-    pdf.is_report = true;
-    pdf.check = [](const session::ExportOrder& order) {
-      if (order.rubric == "nothing") throw Error(ErrorKind::not_found, "no rubric 'nothing'");
-    };
-    for (const session::ExportFormat& form : forms_) options.export_formats.add(form);
     put_session("ended");
     put_session("other");
     folder.write("sessions/bare/session.json",
@@ -38,24 +28,8 @@ class DownloadContractTest : public ContractTest {
         R"({"case": "planned", "script": "demo", "state": "stopped", "ticks": 5000, "trainee": "Anna"})");
     folder.write("sessions/" + id + "/recording.ream", "0123456789");
   }
-  static std::string media_type_of(const std::string& name) {
-    if (name == "ply") return "application/ply";
-    if (name == "stl") return "model/stl";
-    if (name == "glb") return "model/gltf-binary";
-    return name == "png" ? "image/png" : "application/zip";
-  }
-  session::ExportFormat& add_form(const std::string& name, const std::string& media_type) {
-    const auto write = [this, name](const session::ExportOrder& order, const fs::path& out,
-                                    const Progress& progress) {
-      progress(0.5, "writing");
-      while (held) std::this_thread::sleep_for(std::chrono::milliseconds(2));
-      std::ofstream(out) << name << " of " << order.session.id << " from " << order.part.from_s << " by "
-                         << order.part.stride << ", " << order.rubric << " and " << order.benchmark;
-    };
-    return forms_.emplace_back(session::ExportFormat{name, media_type, false, write});
-  }
-  void hold() { held = true; }
-  void release() { held = false; }
+  void hold() { engine->held = true; }
+  void release() { engine->held = false; }
 
   json job(const std::string& id) { return json::parse(get("/api/v1/jobs/" + id).body); }
   json ended(const HttpReply& reply) {
@@ -177,8 +151,6 @@ class DownloadContractTest : public ContractTest {
         expect_as_described("GET", one + "/trace", 503, reply);
   }
 
-  std::atomic<bool> held{false};
-  std::list<session::ExportFormat> forms_;
   const std::string ended_path = all + "/ended", one_job = "/api/v1/jobs/{id}";
 };
 

@@ -57,7 +57,7 @@ TEST_F(EventContractTest, TheLifeOfASessionIsTold) {
   next_about(listener, id, "paused");
   http_request(server->port(), "PATCH", path, R"({"title": "first try"})");
   next_about(listener, id, "changed");
-  factory.made(0).set(session::SessionState::fault, "the device fell silent");
+  engine->made(0).set(SessionState::fault, "the device fell silent");
   const json last = next_about(listener, id, "fault");
 
   RawWebSocket again(server->port(), events + "?since=" + hello.at("number").dump());

@@ -1,10 +1,8 @@
 #pragma once
-#include <atomic>
 #include <thread>
 
 #include "contract_fixture.hpp"
 #include "core/file.hpp"
-#include "score/deviation.hpp"
 #include "score/rubric_store.hpp"
 #include "support/some_metrics.hpp"
 
@@ -14,28 +12,7 @@ namespace ream::test {
 /// and twice the time.
 class ScoreTest : public ContractTest {
  protected:
-  ScoreTest() {
-    options.data_folder = folder.path();
-    options.scoring.scored_by = "ream of a test";
-    options.scoring.make_measure = [this]() -> session::Measure {
-      return [this](const std::filesystem::path& session, const Progress& progress) {
-        progress(0.5, "measuring");
-        while (held) std::this_thread::sleep_for(std::chrono::milliseconds(2));
-        progress(0.9, "measuring");
-        if (!std::filesystem::exists(session / "recording.ream"))
-          throw Error(ErrorKind::not_found, "it left no recording");
-        json metrics = read_json_file(session / "metrics.json");
-        metrics["duration_s"] = 2.0 * metrics.at("duration_s").get<double>();
-        if (session.filename() == "poorer") metrics["contact_time_s"] = nullptr;
-        return metrics;
-      };
-    };
-    options.scoring.write_deviation = [this](const std::filesystem::path&, const std::filesystem::path& to,
-                                             const Progress&) {
-      while (held) std::this_thread::sleep_for(std::chrono::milliseconds(2));
-      score::write_deviation(to, "reamed.ply", 4, {{-128, -1, 0, 127}, {}});
-    };
-  }
+  ScoreTest() { options.data_folder = folder.path(); }
   ~ScoreTest() override { release(); }
 
   /// `size`: of what its metrics say; created on that day of January.
@@ -52,8 +29,8 @@ class ScoreTest : public ContractTest {
   json kept(const std::string& id, const std::string& file) {
     return read_json_file(folder.path() / "sessions" / id / file);
   }
-  void hold() { held = true; }
-  void release() { held = false; }
+  void hold() { engine->held = true; }
+  void release() { engine->held = false; }
 
   json told(const std::string& path) {
     const HttpReply reply = get(path);
@@ -87,7 +64,6 @@ class ScoreTest : public ContractTest {
     EXPECT_EQ(post(rubrics, wanted.dump()).status, 201);
   }
 
-  std::atomic<bool> held{false};
   const std::string rubrics = "/api/v1/rubrics", one_rubric = rubrics + "/{id}",
                     benchmarks = "/api/v1/benchmarks", one_benchmark = benchmarks + "/{id}",
                     learning = "/api/v1/learning", scores = "/api/v1/scores",

@@ -5,8 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "api/server.hpp"
-#include "support/fake_replay.hpp"
-#include "support/fake_session.hpp"
+#include "support/fake_engine.hpp"
 #include "support/raw_http.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_bone.hpp"
@@ -36,9 +35,8 @@ class ServerTest : public testing::Test {
     options.listen.port = 0;
     options.cases_folder = folder.path() / "cases";
     options.web_folder = folder.path() / "web";
-    options.make_session = factory.makers();
+    options.engine = engine;
     options.sessions_folder = folder.path() / "sessions";
-    options.make_replay = replays.function();
   }
 
   void start() {
@@ -56,8 +54,7 @@ class ServerTest : public testing::Test {
   }
 
   TemporaryFolder folder;
-  FakeFactory factory;
-  FakeReplayFactory replays;
+  const std::shared_ptr<FakeEngine> engine = std::make_shared<FakeEngine>();
   api::ServerOptions options;
   std::unique_ptr<api::Server> server;
 };
