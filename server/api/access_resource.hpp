@@ -4,14 +4,14 @@
 
 #include "access/access_control.hpp"
 #include "api/audit.hpp"
-#include "api/gate.hpp"
+#include "api/authorizer.hpp"
 #include "net/router.hpp"
 
 namespace ream::api {
 
 /// What the resources of access share. All outlive the router.
 struct AccessTools {
-  const Gate& gate;
+  const Authorizer& authorizer;
   access::AccessControl* gatehouse;  ///< null: there are never users
   /// Error not_found unless there is such a session.
   std::function<void(const std::string& id)> require_session;

@@ -90,7 +90,7 @@ net::Response create(const ScoreTools& tools, const net::Request& request) {
   const Wishes wishes = wishes_in(request);
   const session::Judge judge = tools.stores.judge_by(wishes.rubric);
   score::KeptBenchmark made;
-  tools.quiet.run([&] {
+  tools.executor.run([&] {
     const auto experts = measured(tools, wishes.experts, "experts");
     const auto novices = measured(tools, wishes.novices, "novices");
     made.benchmark = score::make_benchmark(wishes.name, experts);

@@ -16,27 +16,27 @@ namespace {
 const std::string case_path = "/api/v1/cases/{id}";
 const std::string place = "the request body";
 
-net::Response measures(workup::CaseWorkshop& workshop, const net::Request& request) {
+net::Response measures(workup::CaseService& case_service, const net::Request& request) {
   const std::string& id = request.parameters.at("id");
-  const case_::Side side = workshop.side_of(id);
-  return net::json_response(200, case_::to_json(case_::measure(workshop.landmarks(id), side)));
+  const case_::Side side = case_service.side_of(id);
+  return net::json_response(200, case_::to_json(case_::measure(case_service.landmarks(id), side)));
 }
 
-net::Response landmarks(workup::CaseWorkshop& workshop, const net::Request& request) {
-  return net::json_response(200, case_::to_json(workshop.landmarks(request.parameters.at("id"))));
+net::Response landmarks(workup::CaseService& case_service, const net::Request& request) {
+  return net::json_response(200, case_::to_json(case_service.landmarks(request.parameters.at("id"))));
 }
 
-net::Response plan(workup::CaseWorkshop& workshop, const net::Request& request) {
+net::Response plan(workup::CaseService& case_service, const net::Request& request) {
   const std::string& id = request.parameters.at("id");
-  json plan = workup::case_json(workshop.folder_of(id)).at("plan");
+  json plan = workup::case_json(case_service.folder_of(id)).at("plan");
   if (plan.is_null()) throw Error(ErrorKind::not_found, "case '" + id + "' has no plan yet; PUT one");
   return net::json_response(200, plan);
 }
 
-net::Response set_landmarks(workup::CaseWorkshop& workshop, const net::Request& request) {
+net::Response set_landmarks(workup::CaseService& case_service, const net::Request& request) {
   const std::string& id = request.parameters.at("id");
-  workshop.set_landmarks(id, case_::landmarks_from_json(json_object_in(request), place));
-  return net::json_response(200, workup::case_json(workshop.folder_of(id)));
+  case_service.set_landmarks(id, case_::landmarks_from_json(json_object_in(request), place));
+  return net::json_response(200, workup::case_json(case_service.folder_of(id)));
 }
 
 /// Over the network a reamer has a name or words; a path would open the server's files.
@@ -49,22 +49,22 @@ void check_reamer(const std::string& reamer, const std::filesystem::path& data_f
   }
 }
 
-net::Response propose(workup::CaseWorkshop& workshop, const std::filesystem::path& data_folder,
+net::Response propose(workup::CaseService& case_service, const std::filesystem::path& data_folder,
                       const net::Request& request) {
   const std::string& id = request.parameters.at("id");
   const auto targets = case_::plan_targets_from_json(json_object_in(request), place);
   check_reamer(targets.reamer, data_folder);
-  const case_::Plan plan = workshop.propose(id, targets);
-  return net::json_response(
-      200, {{"plan", workup::plan_json(plan)}, {"assessment", case_::to_json(workshop.assess(id, plan))}});
+  const case_::Plan plan = case_service.propose(id, targets);
+  return net::json_response(200, {{"plan", workup::plan_json(plan)},
+                                  {"assessment", case_::to_json(case_service.assess(id, plan))}});
 }
 
-net::Response set_plan(workup::CaseWorkshop& workshop, const std::filesystem::path& data_folder,
+net::Response set_plan(workup::CaseService& case_service, const std::filesystem::path& data_folder,
                        const net::Request& request) {
   const std::string& id = request.parameters.at("id");
   const case_::Plan plan = case_::plan_from_json(json_object_in(request), place);
   check_reamer(plan.reamer, data_folder);
-  const case_::PlanAssessment assessment = workshop.set_plan(id, plan);
+  const case_::PlanAssessment assessment = case_service.set_plan(id, plan);
   return net::json_response(200,
                             {{"plan", workup::plan_json(plan)}, {"assessment", case_::to_json(assessment)}});
 }
@@ -93,21 +93,21 @@ net::Response reamers_response(const std::filesystem::path& data_folder) {
 
 }  // namespace
 
-void add_case_plan_routes(net::Router& router, workup::CaseWorkshop& workshop,
+void add_case_plan_routes(net::Router& router, workup::CaseService& case_service,
                           const std::filesystem::path& data_folder) {
   router.on("GET", case_path + "/measures",
-            [&workshop](const net::Request& request) { return measures(workshop, request); });
+            [&case_service](const net::Request& request) { return measures(case_service, request); });
   router.on("GET", case_path + "/landmarks",
-            [&workshop](const net::Request& request) { return landmarks(workshop, request); });
+            [&case_service](const net::Request& request) { return landmarks(case_service, request); });
   router.on("GET", case_path + "/plan",
-            [&workshop](const net::Request& request) { return plan(workshop, request); });
+            [&case_service](const net::Request& request) { return plan(case_service, request); });
   router.on("PUT", case_path + "/landmarks",
-            [&workshop](const net::Request& request) { return set_landmarks(workshop, request); });
-  router.on("POST", case_path + "/plan/proposal", [&workshop, data_folder](const net::Request& request) {
-    return propose(workshop, data_folder, request);
+            [&case_service](const net::Request& request) { return set_landmarks(case_service, request); });
+  router.on("POST", case_path + "/plan/proposal", [&case_service, data_folder](const net::Request& request) {
+    return propose(case_service, data_folder, request);
   });
-  router.on("PUT", case_path + "/plan", [&workshop, data_folder](const net::Request& request) {
-    return set_plan(workshop, data_folder, request);
+  router.on("PUT", case_path + "/plan", [&case_service, data_folder](const net::Request& request) {
+    return set_plan(case_service, data_folder, request);
   });
   router.on("GET", "/api/v1/reamers",
             [data_folder](const net::Request&) { return reamers_response(data_folder); });

@@ -41,44 +41,45 @@ std::optional<int> revision_of(const net::Request& request) {
 net::SharedBytes shared(net::Bytes bytes) { return std::make_shared<const net::Bytes>(std::move(bytes)); }
 
 /// Kept by no cache: what an address shows changes when its case is made anew.
-net::Response slice(workup::CaseWorkshop& workshop, const net::Request& request) {
+net::Response slice(workup::CaseService& case_service, const net::Request& request) {
   const auto& parameters = request.parameters;
   net::Bytes bytes =
-      workshop.slice(parameters.at("id"), axis_of(parameters.at("axis")), index_of(parameters.at("index")),
-                     wants_labels(request), revision_of(request));
+      case_service.slice(parameters.at("id"), axis_of(parameters.at("axis")),
+                         index_of(parameters.at("index")), wants_labels(request), revision_of(request));
   net::Response response = net::bytes_response(200, "application/octet-stream", shared(std::move(bytes)));
   response.headers.emplace_back("Cache-Control", "no-store");
   return response;
 }
 
 /// Made now, sent, and gone.
-net::Response volume(workup::CaseWorkshop& workshop, jobs::QuietWork& quiet,
+net::Response volume(workup::CaseService& case_service, jobs::LowPriorityExecutor& executor,
                      const std::filesystem::path& temporary_folder, const net::Request& request) {
   const std::string& id = request.parameters.at("id");
-  workshop.workup(id);
+  case_service.workup(id);
   const TemporaryFile file(temporary_folder, ".nrrd");
-  quiet.run([&] { workshop.write_volume(id, file.path()); });
+  executor.run([&] { case_service.write_volume(id, file.path()); });
   return net::file_response(request, {file.path(), "application/octet-stream", id + ".nrrd"});
 }
 
-net::Response mesh(workup::CaseWorkshop& workshop, const net::Request& request) {
+net::Response mesh(workup::CaseService& case_service, const net::Request& request) {
   net::Response response =
-      net::bytes_response(200, "application/ply", net::share(workshop.mesh(request.parameters.at("id"))));
+      net::bytes_response(200, "application/ply", net::share(case_service.mesh(request.parameters.at("id"))));
   response.headers.emplace_back("Cache-Control", "no-store");
   return response;
 }
 
 }  // namespace
 
-void add_case_volume_routes(net::Router& router, workup::CaseWorkshop& workshop, jobs::QuietWork& quiet,
+void add_case_volume_routes(net::Router& router, workup::CaseService& case_service,
+                            jobs::LowPriorityExecutor& executor,
                             const std::filesystem::path& temporary_folder) {
   router.on("GET", "/api/v1/cases/{id}/volume", [&, temporary_folder](const net::Request& request) {
-    return volume(workshop, quiet, temporary_folder, request);
+    return volume(case_service, executor, temporary_folder, request);
   });
   router.on("GET", "/api/v1/cases/{id}/volume/slices/{axis}/{index}",
-            [&workshop](const net::Request& request) { return slice(workshop, request); });
+            [&case_service](const net::Request& request) { return slice(case_service, request); });
   router.on("GET", "/api/v1/cases/{id}/mesh",
-            [&workshop](const net::Request& request) { return mesh(workshop, request); });
+            [&case_service](const net::Request& request) { return mesh(case_service, request); });
 }
 
 }  // namespace ream::api

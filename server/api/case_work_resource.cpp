@@ -21,7 +21,7 @@ case_::Side side_in(RequestBody& body) {
   return side == "left" ? case_::Side::left : case_::Side::right;
 }
 
-net::Response create(workup::CaseWorkshop& workshop, workup::UploadStore& uploads,
+net::Response create(workup::CaseService& case_service, workup::UploadStore& uploads,
                      const net::Request& request) {
   RequestBody body(request);
   const std::string copy_of = body.name_or("copy_of", "");
@@ -29,48 +29,49 @@ net::Response create(workup::CaseWorkshop& workshop, workup::UploadStore& upload
   wanted.side = side_in(body);
   if (!copy_of.empty()) {
     body.finish();
-    return accepted(workshop.copy(copy_of, wanted.side));
+    return accepted(case_service.copy(copy_of, wanted.side));
   }
   wanted.upload_id = body.name("upload_id");
   wanted.id = body.name_or("id", "");
   wanted.name = body.words("name", 0, max_case_name);
   wanted.series_uid = body.words("series_uid", 0, longest_uid);
   body.finish();
-  return accepted(workshop.import(wanted, uploads));
+  return accepted(case_service.import(wanted, uploads));
 }
 
-net::Response segment(workup::CaseWorkshop& workshop, const net::Request& request) {
+net::Response segment(workup::CaseService& case_service, const net::Request& request) {
   const auto settings = ct::segmentation_settings_from_json(json_object_in(request), "the request body");
-  return accepted(workshop.segment(request.parameters.at("id"), settings));
+  return accepted(case_service.segment(request.parameters.at("id"), settings));
 }
 
-net::Response build(workup::CaseWorkshop& workshop, const net::Request& request) {
+net::Response build(workup::CaseService& case_service, const net::Request& request) {
   const auto settings = ct::build_settings_from_json(json_object_in(request), "the request body");
-  return accepted(workshop.build(request.parameters.at("id"), settings));
+  return accepted(case_service.build(request.parameters.at("id"), settings));
 }
 
-net::Response undo(workup::CaseWorkshop& workshop, const net::Request& request) {
+net::Response undo(workup::CaseService& case_service, const net::Request& request) {
   const std::string& id = request.parameters.at("id");
-  workshop.undo_segmentation(id);
-  return net::json_response(200, workup::case_json(workshop.folder_of(id)));
+  case_service.undo_segmentation(id);
+  return net::json_response(200, workup::case_json(case_service.folder_of(id)));
 }
 
 }  // namespace
 
-void add_case_work_routes(net::Router& router, workup::CaseWorkshop& workshop, workup::UploadStore& uploads) {
-  router.on("POST", "/api/v1/cases", [&workshop, &uploads](const net::Request& request) {
-    return create(workshop, uploads, request);
+void add_case_work_routes(net::Router& router, workup::CaseService& case_service,
+                          workup::UploadStore& uploads) {
+  router.on("POST", "/api/v1/cases", [&case_service, &uploads](const net::Request& request) {
+    return create(case_service, uploads, request);
   });
-  router.on("DELETE", "/api/v1/cases/{id}", [&workshop](const net::Request& request) {
-    workshop.remove(request.parameters.at("id"));
+  router.on("DELETE", "/api/v1/cases/{id}", [&case_service](const net::Request& request) {
+    case_service.remove(request.parameters.at("id"));
     return net::Response{204, {}, nullptr, {}};
   });
   router.on("POST", "/api/v1/cases/{id}/segmentation",
-            [&workshop](const net::Request& request) { return segment(workshop, request); });
+            [&case_service](const net::Request& request) { return segment(case_service, request); });
   router.on("POST", "/api/v1/cases/{id}/segmentation/undo",
-            [&workshop](const net::Request& request) { return undo(workshop, request); });
+            [&case_service](const net::Request& request) { return undo(case_service, request); });
   router.on("POST", "/api/v1/cases/{id}/build",
-            [&workshop](const net::Request& request) { return build(workshop, request); });
+            [&case_service](const net::Request& request) { return build(case_service, request); });
 }
 
 }  // namespace ream::api

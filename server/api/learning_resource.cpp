@@ -110,7 +110,7 @@ net::Response learning(const ScoreTools& tools, const net::Request& request) {
   cusum.beta = asked_or(request, "beta", cusum.beta);
   score::cusum_limits(cusum);
   std::vector<Attempt> attempts;
-  tools.quiet.run([&] { attempts = attempts_of(tools, request, judge.rubric); });
+  tools.executor.run([&] { attempts = attempts_of(tools, request, judge.rubric); });
   std::vector<score::LearningPoint> points;
   for (const Attempt& attempt : attempts) points.push_back(attempt.point);
   json told = score::learning_json(score::learning_curve(cusum, std::move(points)));

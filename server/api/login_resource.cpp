@@ -37,7 +37,7 @@ json visitor_json(const Visitor& visitor, bool open) {
 }
 
 net::Response who_am_i(const AccessTools& tools, const net::Request& request) {
-  return net::json_response(200, visitor_json(tools.gate.visitor(request), tools.gate.is_open()));
+  return net::json_response(200, visitor_json(tools.authorizer.visitor(request), tools.authorizer.is_open()));
 }
 
 /// Gives the page a cookie and tells who it is now.
@@ -48,10 +48,10 @@ net::Response let_in(const AccessTools& tools, const net::Request& request,
   net::Request with_cookie = request;
   with_cookie.headers.erase("authorization");
   with_cookie.headers["cookie"] = login_cookie(cookie.secret, {}, false);
-  const Visitor visitor = tools.gate.visitor(with_cookie);
+  const Visitor visitor = tools.authorizer.visitor(with_cookie);
   with_cookie.caller = visitor.caller;
   audit_in (&gatehouse)(with_cookie, action, wanted.user_id, "");
-  net::Response response = net::json_response(200, visitor_json(visitor, tools.gate.is_open()));
+  net::Response response = net::json_response(200, visitor_json(visitor, tools.authorizer.is_open()));
   const auto lifetime = utc_moment(cookie.row.expires_utc) - utc_moment(cookie.row.created_utc);
   response.headers.emplace_back(
       "Set-Cookie", login_cookie(cookie.secret, std::chrono::duration_cast<std::chrono::seconds>(lifetime),
@@ -95,7 +95,7 @@ net::Response log_in_by_link(const AccessTools& tools, const net::Request& reque
 net::Response log_out(const AccessTools& tools, const net::Request& request) {
   net::Response response{204, {}, nullptr, {}};
   response.headers.emplace_back("Set-Cookie", no_login_cookie(request.encrypted));
-  const Visitor visitor = tools.gate.visitor(request);
+  const Visitor visitor = tools.authorizer.visitor(request);
   if (!visitor.identity) return response;
   if (visitor.identity->kind == CredentialKind::token)
     throw Error(ErrorKind::conflict, "a token is not logged out; revoke it at /api/v1/tokens");

@@ -17,130 +17,130 @@ using access::viewers;
 std::vector<Right> open_rows() {
   std::vector<Right> rows;
   for (const char* pattern : {"/healthz", "/readyz", "/api/v1/openapi.yaml", "/api/v1/login"})
-    rows.push_back({"GET", pattern, Door::anybody});
-  rows.push_back({"POST", "/api/v1/login", Door::anybody});
-  rows.push_back({"DELETE", "/api/v1/login", Door::anybody});
-  rows.push_back({"POST", "/api/v1/login/link", Door::anybody});
-  rows.push_back({"GET", "/metrics", Door::gauges, operators});
+    rows.push_back({"GET", pattern, RouteAccess::anybody});
+  rows.push_back({"POST", "/api/v1/login", RouteAccess::anybody});
+  rows.push_back({"DELETE", "/api/v1/login", RouteAccess::anybody});
+  rows.push_back({"POST", "/api/v1/login/link", RouteAccess::anybody});
+  rows.push_back({"GET", "/metrics", RouteAccess::monitoring, operators});
   return rows;
 }
 
 std::vector<Right> access_rows() {
   const std::string users = "/api/v1/users", user = users + "/{id}";
   const std::string tokens = "/api/v1/tokens", links = "/api/v1/links";
-  return {{"POST", "/api/v1/login/password", Door::roles, reamers},
-          {"GET", users, Door::roles, staff},
-          {"POST", users, Door::roles, operators},
-          {"GET", user, Door::roles, staff},
-          {"PATCH", user, Door::roles, operators},
-          {"DELETE", user, Door::roles, operators},
-          {"GET", tokens, Door::roles, reamers},
-          {"POST", tokens, Door::roles, reamers},
-          {"DELETE", tokens + "/{id}", Door::roles, reamers},
-          {"GET", links, Door::roles, staff},
-          {"POST", links, Door::roles, staff},
-          {"DELETE", links + "/{id}", Door::roles, staff},
-          {"GET", "/api/v1/audit", Door::roles, operators}};
+  return {{"POST", "/api/v1/login/password", RouteAccess::roles, reamers},
+          {"GET", users, RouteAccess::roles, staff},
+          {"POST", users, RouteAccess::roles, operators},
+          {"GET", user, RouteAccess::roles, staff},
+          {"PATCH", user, RouteAccess::roles, operators},
+          {"DELETE", user, RouteAccess::roles, operators},
+          {"GET", tokens, RouteAccess::roles, reamers},
+          {"POST", tokens, RouteAccess::roles, reamers},
+          {"DELETE", tokens + "/{id}", RouteAccess::roles, reamers},
+          {"GET", links, RouteAccess::roles, staff},
+          {"POST", links, RouteAccess::roles, staff},
+          {"DELETE", links + "/{id}", RouteAccess::roles, staff},
+          {"GET", "/api/v1/audit", RouteAccess::roles, operators}};
 }
 
 std::vector<Right> case_rows() {
   const std::string uploads = "/api/v1/uploads", upload = uploads + "/{id}";
   const std::string jobs = "/api/v1/jobs", cases = "/api/v1/cases", one = cases + "/{id}";
-  return {{"GET", uploads, Door::roles, staff},
-          {"POST", uploads, Door::roles, staff},
-          {"GET", upload, Door::roles, staff},
-          {"PUT", upload, Door::roles, staff},
-          {"DELETE", upload, Door::roles, staff},
-          {"GET", jobs, Door::roles, reamers},
-          {"GET", jobs + "/{id}", Door::roles, reamers},
-          {"GET", jobs + "/{id}/result", Door::roles, reamers},
-          {"DELETE", jobs + "/{id}", Door::roles, reamers},
-          {"GET", cases, Door::roles, reamers},
-          {"POST", cases, Door::roles, staff},
-          {"GET", one, Door::roles, reamers},
-          {"DELETE", one, Door::roles, staff},
-          {"GET", one + "/volume", Door::roles, reamers},
-          {"GET", one + "/landmarks", Door::roles, reamers},
-          {"GET", one + "/plan", Door::roles, reamers},
-          {"GET", one + "/volume/slices/{axis}/{index}", Door::roles, reamers},
-          {"GET", one + "/mesh", Door::roles, reamers},
-          {"POST", one + "/segmentation", Door::roles, staff},
-          {"POST", one + "/segmentation/undo", Door::roles, staff},
-          {"POST", one + "/build", Door::roles, staff},
-          {"PUT", one + "/landmarks", Door::roles, staff},
-          {"GET", one + "/measures", Door::roles, reamers},
-          {"PUT", one + "/plan", Door::roles, staff},
-          {"POST", one + "/plan/proposal", Door::roles, staff},
-          {"GET", "/api/v1/reamers", Door::roles, reamers}};
+  return {{"GET", uploads, RouteAccess::roles, staff},
+          {"POST", uploads, RouteAccess::roles, staff},
+          {"GET", upload, RouteAccess::roles, staff},
+          {"PUT", upload, RouteAccess::roles, staff},
+          {"DELETE", upload, RouteAccess::roles, staff},
+          {"GET", jobs, RouteAccess::roles, reamers},
+          {"GET", jobs + "/{id}", RouteAccess::roles, reamers},
+          {"GET", jobs + "/{id}/result", RouteAccess::roles, reamers},
+          {"DELETE", jobs + "/{id}", RouteAccess::roles, reamers},
+          {"GET", cases, RouteAccess::roles, reamers},
+          {"POST", cases, RouteAccess::roles, staff},
+          {"GET", one, RouteAccess::roles, reamers},
+          {"DELETE", one, RouteAccess::roles, staff},
+          {"GET", one + "/volume", RouteAccess::roles, reamers},
+          {"GET", one + "/landmarks", RouteAccess::roles, reamers},
+          {"GET", one + "/plan", RouteAccess::roles, reamers},
+          {"GET", one + "/volume/slices/{axis}/{index}", RouteAccess::roles, reamers},
+          {"GET", one + "/mesh", RouteAccess::roles, reamers},
+          {"POST", one + "/segmentation", RouteAccess::roles, staff},
+          {"POST", one + "/segmentation/undo", RouteAccess::roles, staff},
+          {"POST", one + "/build", RouteAccess::roles, staff},
+          {"PUT", one + "/landmarks", RouteAccess::roles, staff},
+          {"GET", one + "/measures", RouteAccess::roles, reamers},
+          {"PUT", one + "/plan", RouteAccess::roles, staff},
+          {"POST", one + "/plan/proposal", RouteAccess::roles, staff},
+          {"GET", "/api/v1/reamers", RouteAccess::roles, reamers}};
 }
 
 std::vector<Right> session_rows() {
   const std::string sessions = "/api/v1/sessions", one = sessions + "/{id}";
-  return {{"GET", sessions, Door::roles, all_roles},
-          {"POST", sessions, Door::roles, reamers},
-          {"GET", one, Door::roles, all_roles},
-          {"PATCH", one, Door::roles, reamers},
-          {"DELETE", one, Door::roles, reamers},
-          {"POST", one + "/restore", Door::roles, staff},
-          {"GET", "/api/v1/trash", Door::roles, staff},
-          {"POST", one + "/start", Door::roles, reamers},
-          {"POST", one + "/pause", Door::roles, reamers},
-          {"POST", one + "/reset", Door::roles, reamers},
-          {"POST", one + "/stop", Door::roles, reamers},
-          {"POST", one + "/resume", Door::roles, reamers},
-          {"GET", one + "/annotations", Door::roles, all_roles},
-          {"POST", one + "/annotations", Door::roles, reamers},
-          {"POST", one + "/replay", Door::roles, all_roles},
-          {"POST", one + "/playback", Door::roles, all_roles},
-          {"GET", one + "/metrics", Door::roles, all_roles},
-          {"GET", one + "/stream", Door::roles, all_roles},
-          {"GET", one + "/device", Door::roles, reamers},
-          {"GET", one + "/recording", Door::roles, reamers},
-          {"GET", one + "/session.json", Door::roles, reamers},
-          {"GET", one + "/trace", Door::roles, reamers},
-          {"GET", one + "/mesh", Door::roles, reamers},
-          {"GET", one + "/snapshot", Door::roles, reamers},
-          {"POST", one + "/exports", Door::roles, reamers},
-          {"GET", one + "/score", Door::roles, all_roles},
-          {"POST", one + "/score", Door::roles, staff},
-          {"GET", one + "/deviation", Door::roles, reamers},
-          {"GET", "/api/v1/events", Door::roles, all_roles}};
+  return {{"GET", sessions, RouteAccess::roles, all_roles},
+          {"POST", sessions, RouteAccess::roles, reamers},
+          {"GET", one, RouteAccess::roles, all_roles},
+          {"PATCH", one, RouteAccess::roles, reamers},
+          {"DELETE", one, RouteAccess::roles, reamers},
+          {"POST", one + "/restore", RouteAccess::roles, staff},
+          {"GET", "/api/v1/trash", RouteAccess::roles, staff},
+          {"POST", one + "/start", RouteAccess::roles, reamers},
+          {"POST", one + "/pause", RouteAccess::roles, reamers},
+          {"POST", one + "/reset", RouteAccess::roles, reamers},
+          {"POST", one + "/stop", RouteAccess::roles, reamers},
+          {"POST", one + "/resume", RouteAccess::roles, reamers},
+          {"GET", one + "/annotations", RouteAccess::roles, all_roles},
+          {"POST", one + "/annotations", RouteAccess::roles, reamers},
+          {"POST", one + "/replay", RouteAccess::roles, all_roles},
+          {"POST", one + "/playback", RouteAccess::roles, all_roles},
+          {"GET", one + "/metrics", RouteAccess::roles, all_roles},
+          {"GET", one + "/stream", RouteAccess::roles, all_roles},
+          {"GET", one + "/device", RouteAccess::roles, reamers},
+          {"GET", one + "/recording", RouteAccess::roles, reamers},
+          {"GET", one + "/session.json", RouteAccess::roles, reamers},
+          {"GET", one + "/trace", RouteAccess::roles, reamers},
+          {"GET", one + "/mesh", RouteAccess::roles, reamers},
+          {"GET", one + "/snapshot", RouteAccess::roles, reamers},
+          {"POST", one + "/exports", RouteAccess::roles, reamers},
+          {"GET", one + "/score", RouteAccess::roles, all_roles},
+          {"POST", one + "/score", RouteAccess::roles, staff},
+          {"GET", one + "/deviation", RouteAccess::roles, reamers},
+          {"GET", "/api/v1/events", RouteAccess::roles, all_roles}};
 }
 
 std::vector<Right> study_rows() {
   const std::string studies = "/api/v1/studies", one = studies + "/{id}";
   const std::string participants = one + "/participants", participant = participants + "/{code}";
-  return {{"GET", studies, Door::roles, reamers},
-          {"POST", studies, Door::roles, staff},
-          {"POST", studies + "/join", Door::roles, reamers},
-          {"GET", one, Door::roles, reamers},
-          {"PUT", one, Door::roles, staff},
-          {"DELETE", one, Door::roles, operators},
-          {"POST", one + "/close", Door::roles, staff},
-          {"POST", one + "/reopen", Door::roles, staff},
-          {"POST", one + "/unblind", Door::roles, operators},
-          {"GET", participants, Door::roles, staff},
-          {"POST", participants, Door::roles, staff},
-          {"GET", participant, Door::roles, reamers},
-          {"DELETE", participant, Door::roles, operators},
-          {"PUT", participant + "/answers", Door::roles, reamers},
-          {"GET", one + "/persons", Door::roles, staff},
-          {"GET", one + "/codebook", Door::roles, staff},
-          {"GET", one + "/export", Door::roles, staff}};
+  return {{"GET", studies, RouteAccess::roles, reamers},
+          {"POST", studies, RouteAccess::roles, staff},
+          {"POST", studies + "/join", RouteAccess::roles, reamers},
+          {"GET", one, RouteAccess::roles, reamers},
+          {"PUT", one, RouteAccess::roles, staff},
+          {"DELETE", one, RouteAccess::roles, operators},
+          {"POST", one + "/close", RouteAccess::roles, staff},
+          {"POST", one + "/reopen", RouteAccess::roles, staff},
+          {"POST", one + "/unblind", RouteAccess::roles, operators},
+          {"GET", participants, RouteAccess::roles, staff},
+          {"POST", participants, RouteAccess::roles, staff},
+          {"GET", participant, RouteAccess::roles, reamers},
+          {"DELETE", participant, RouteAccess::roles, operators},
+          {"PUT", participant + "/answers", RouteAccess::roles, reamers},
+          {"GET", one + "/persons", RouteAccess::roles, staff},
+          {"GET", one + "/codebook", RouteAccess::roles, staff},
+          {"GET", one + "/export", RouteAccess::roles, staff}};
 }
 
 std::vector<Right> score_rows() {
   const std::string rubrics = "/api/v1/rubrics", benchmarks = "/api/v1/benchmarks";
-  return {{"GET", rubrics, Door::roles, reamers},
-          {"POST", rubrics, Door::roles, staff},
-          {"GET", rubrics + "/{id}", Door::roles, reamers},
-          {"PUT", rubrics + "/{id}", Door::roles, staff},
-          {"GET", benchmarks, Door::roles, reamers},
-          {"POST", benchmarks, Door::roles, staff},
-          {"GET", benchmarks + "/{id}", Door::roles, reamers},
-          {"GET", "/api/v1/scores", Door::roles, reamers},
-          {"POST", "/api/v1/rescorings", Door::roles, staff},
-          {"GET", "/api/v1/learning", Door::roles, reamers}};
+  return {{"GET", rubrics, RouteAccess::roles, reamers},
+          {"POST", rubrics, RouteAccess::roles, staff},
+          {"GET", rubrics + "/{id}", RouteAccess::roles, reamers},
+          {"PUT", rubrics + "/{id}", RouteAccess::roles, staff},
+          {"GET", benchmarks, RouteAccess::roles, reamers},
+          {"POST", benchmarks, RouteAccess::roles, staff},
+          {"GET", benchmarks + "/{id}", RouteAccess::roles, reamers},
+          {"GET", "/api/v1/scores", RouteAccess::roles, reamers},
+          {"POST", "/api/v1/rescorings", RouteAccess::roles, staff},
+          {"GET", "/api/v1/learning", RouteAccess::roles, reamers}};
 }
 
 }  // namespace

@@ -6,17 +6,17 @@
 
 namespace ream::api {
 
-enum class Door {
-  anybody,  ///< without asking who it is
-  roles,    ///< whoever has one of the roles
-  gauges,   ///< one of the roles, any bearer token, and this machine itself: for programs that watch the
-            ///< server
+enum class RouteAccess {
+  anybody,     ///< without asking who it is
+  roles,       ///< whoever has one of the roles
+  monitoring,  ///< one of the roles, any bearer token, and this machine itself: for programs that watch the
+               ///< server
 };
 
 /// Who may use one route. Which sessions somebody sees there is a finer matter (visibility.hpp).
 struct Right {
   std::string method, pattern;  ///< as added to the router; WebSockets are GET
-  Door door = Door::roles;
+  RouteAccess route_access = RouteAccess::roles;
   access::Roles who = 0;
 };
 

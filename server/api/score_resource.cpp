@@ -68,10 +68,10 @@ net::Response score_anew(const ScoreTools& tools, const net::Request& request) {
 }
 
 /// Those with metrics, of all that the caller may see.
-std::vector<session::TableSession> table_sessions(const ScoreTools& tools, const net::Request& request) {
+std::vector<session::EndedSession> table_sessions(const ScoreTools& tools, const net::Request& request) {
   store::SessionQuery query = session_query(request);
   query.limit = SIZE_MAX;
-  std::vector<session::TableSession> sessions;
+  std::vector<session::EndedSession> sessions;
   for (const session::SessionRecord& record : sessions_for(request.caller, tools.sessions, query).sessions) {
     if (is_live(record.status.state)) continue;
     const fs::path folder = tools.sessions.folder_of(record.request.id);
@@ -93,7 +93,7 @@ net::Response csv_response(const session::ExportTable& table) {
 net::Response scores(const ScoreTools& tools, const net::Request& request) {
   const session::Judge judge = tools.stores.judge_by(asked(request, "rubric"));
   session::ExportTable table, codebook;
-  tools.quiet.run([&] {
+  tools.executor.run([&] {
     table = session::score_table(table_sessions(tools, request), judge.rubric);
     codebook = session::score_codebook(table);
   });

@@ -5,7 +5,7 @@
 #include "api/audit.hpp"
 #include "api/change_feed.hpp"
 #include "jobs/job_service.hpp"
-#include "jobs/quiet_work.hpp"
+#include "jobs/low_priority_executor.hpp"
 #include "net/router.hpp"
 #include "score/benchmark_store.hpp"
 #include "score/rubric_store.hpp"
@@ -33,7 +33,7 @@ struct ScoreTools {
   const session::ReplayService& replays;
   const study::StudyService* studies;  ///< null: there are none
   jobs::JobService& jobs;
-  jobs::QuietWork& quiet;
+  jobs::LowPriorityExecutor& executor;
   ChangeFeed& feed;
   const ScoreStores& stores;
   session::SessionEngine& engine;

@@ -15,8 +15,8 @@
 #include "api/session_download_resource.hpp"
 #include "api/session_resource.hpp"
 #include "api/session_trash_resource.hpp"
+#include "api/study_dependencies.hpp"
 #include "api/study_resource.hpp"
-#include "api/study_surroundings.hpp"
 #include "api/upload_resource.hpp"
 #include "core/error.hpp"
 #include "net/static_files.hpp"
@@ -60,12 +60,12 @@ void add_all_access_routes(net::Router& router, const AccessTools& tools) {
   add_audit_routes(router, tools);
 }
 
-void add_all_case_routes(net::Router& router, const ServerOptions& options, workup::CaseWorkshop& workshop,
-                         workup::UploadStore& uploads, jobs::QuietWork& quiet) {
+void add_all_case_routes(net::Router& router, const ServerOptions& options, workup::CaseService& case_service,
+                         workup::UploadStore& uploads, jobs::LowPriorityExecutor& executor) {
   add_case_routes(router, options.cases_folder);
-  add_case_work_routes(router, workshop, uploads);
-  add_case_volume_routes(router, workshop, quiet, under(options.data_folder, "passing"));
-  add_case_plan_routes(router, workshop, options.data_folder);
+  add_case_work_routes(router, case_service, uploads);
+  add_case_volume_routes(router, case_service, executor, under(options.data_folder, "passing"));
+  add_case_plan_routes(router, case_service, options.data_folder);
   add_upload_routes(router, uploads);
 }
 
@@ -110,28 +110,29 @@ RetentionTools Server::retention_tools() {
 net::Router Server::routes_of(const ServerOptions& options) {
   net::Router router;
   router.pace_callers(options.listen.limits.requests_per_caller);
-  frame_.put_around(router);
+  middleware_.install(router);
   add_event_routes(router, feed_);
   add_health_routes(router, readiness_);
   add_metrics_route(router, sessions_);
   add_contract_route(router);
-  add_all_access_routes(router,
-                        {gate_, gatehouse_.get(), [this](const std::string& id) { sessions_.get(id); }});
-  add_all_case_routes(router, options, workshop_, uploads_, quiet_);
-  add_session_routes(router, sessions_, replays_, readiness_, options.usual_device, studies_.get());
+  add_all_access_routes(
+      router, {authorizer_, gatehouse_.get(), [this](const std::string& id) { sessions_.get(id); }});
+  add_all_case_routes(router, options, case_service_, uploads_, executor_);
+  add_session_routes(router, sessions_, replays_, readiness_, options.default_device, studies_.get());
   add_trash_routes(router, {sessions_, replays_, studies_.get(), retention_, *feed_});
   add_annotation_routes(router, sessions_);
   add_download_routes(
-      router, {sessions_, studies_.get(), jobs_, *engine_, quiet_, under(options.data_folder, "passing")});
+      router, {sessions_, studies_.get(), jobs_, *engine_, executor_, under(options.data_folder, "passing")});
   add_job_routes(router, jobs_);
   add_replay_routes(router, sessions_, replays_, readiness_);
   add_study_routes(router, studies_.get(), audit_in(gatehouse_.get()));
-  add_all_score_routes(router, {sessions_, replays_, studies_.get(), jobs_, quiet_, *feed_, stores_, *engine_,
-                                audit_in(gatehouse_.get())});
+  add_all_score_routes(router, {sessions_, replays_, studies_.get(), jobs_, executor_, *feed_, stores_,
+                                *engine_, audit_in(gatehouse_.get())});
   router.otherwise([files = net::StaticFiles(options.web_folder)](const net::Request& request) {
     return files.respond(request);
   });
-  router.guard([this](net::Request& request, const std::string& pattern) { gate_.admit(request, pattern); });
+  router.guard(
+      [this](net::Request& request, const std::string& pattern) { authorizer_.authorize(request, pattern); });
   if (stream_watch_)
     router.wrap_websockets(
         [this](const net::Request& request, std::unique_ptr<net::WebSocketSession> session) {
@@ -156,14 +157,14 @@ Server::Server(ServerOptions options)
       stream_watch_(gatehouse_ ? std::make_unique<StreamWatch>(gatehouse_->credentials) : nullptr),
       sessions_(*engine_, options.sessions, options.sessions_folder, options.database),
       studies_(database_ ? std::make_unique<study::StudyService>(
-                               *database_, study_surroundings(options.cases_folder, sessions_, *gatehouse_))
+                               *database_, study_dependencies(options.cases_folder, sessions_, *gatehouse_))
                          : nullptr),
       replays_(*engine_, options.replays),
       retention_(options.retention, retention_tools()),
       uploads_(under(options.data_folder, "uploads")),
-      workshop_(options.cases_folder, sessions_, jobs_),
-      gate_(gatehouse_.get(), [this](const std::string& id) { return session_of(id); }),
-      frame_(
+      case_service_(options.cases_folder, sessions_, jobs_),
+      authorizer_(gatehouse_.get(), [this](const std::string& id) { return session_of(id); }),
+      middleware_(
           contract_, idempotency_, *feed_, [this](const std::string& id) { return session_of(id); },
           audit_in(gatehouse_.get())),
       router_(routes_of(options)),
@@ -176,23 +177,6 @@ Server::~Server() { stop(); }
 void Server::start() {
   listener_.start();
   retention_.begin();
-}
-
-void Server::run() {
-  start();
-  {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return stop_wanted_; });
-  }
-  stop();
-}
-
-void Server::request_stop() {
-  {
-    const std::lock_guard lock(mutex_);
-    stop_wanted_ = true;
-  }
-  changed_.notify_all();
 }
 
 void Server::stop() {

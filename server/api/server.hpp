@@ -1,26 +1,24 @@
 #pragma once
-#include <condition_variable>
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <string>
 
 #include "access/access_control.hpp"
-#include "api/gate.hpp"
+#include "api/authorizer.hpp"
 #include "api/readiness.hpp"
-#include "api/request_frame.hpp"
+#include "api/request_middleware.hpp"
 #include "api/retention.hpp"
 #include "api/score_tools.hpp"
 #include "api/session_watch.hpp"
 #include "api/stream_watch.hpp"
 #include "jobs/job_service.hpp"
-#include "jobs/quiet_work.hpp"
+#include "jobs/low_priority_executor.hpp"
 #include "net/listener.hpp"
 #include "session/service/replay_service.hpp"
 #include "session/service/session_service.hpp"
 #include "study/study_service.hpp"
-#include "workup/case_workshop.hpp"
+#include "workup/case_service.hpp"
 
 namespace ream::api {
 
@@ -32,7 +30,7 @@ struct ServerOptions {
   std::filesystem::path sessions_folder;           ///< where sessions keep their folders
   std::shared_ptr<session::SessionEngine> engine;  ///< what makes sessions, replays, scores and exports
   session::SessionLimits sessions;
-  std::string usual_device = "script";  ///< of sessions that name none
+  std::string default_device = "script";  ///< of sessions that name none
   session::ReplayLimits replays;
   RetentionRules retention;
   /// Has users and what they did, the index of sessions, and answers to repeat. Null: everybody may do
@@ -56,10 +54,6 @@ class Server {
 
   /// Begins to answer and returns.
   void start();
-  /// start(), then waits until request_stop() was called from another thread, then stop().
-  void run();
-  /// Ends run(); from any thread but not from a signal handler.
-  void request_stop();
   /// Ends connections, then sessions. May be called twice.
   void stop();
 
@@ -84,7 +78,7 @@ class Server {
   const std::shared_ptr<session::SessionEngine> engine_;
   const ScoreStores stores_;
   jobs::JobService jobs_;
-  jobs::QuietWork quiet_;
+  jobs::LowPriorityExecutor executor_;
   const std::unique_ptr<access::AccessControl> gatehouse_;
   const std::unique_ptr<StreamWatch> stream_watch_;  ///< null without a database
   session::SessionService sessions_;
@@ -92,16 +86,13 @@ class Server {
   session::ReplayService replays_;
   Retention retention_;
   workup::UploadStore uploads_;
-  workup::CaseWorkshop workshop_;
-  const Gate gate_;
-  RequestFrame frame_;
+  workup::CaseService case_service_;
+  const Authorizer authorizer_;
+  RequestMiddleware middleware_;
   net::Router router_;
   net::Listener listener_;
   Readiness readiness_;
   SessionWatch watch_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  bool stop_wanted_ = false;
 };
 
 }  // namespace ream::api

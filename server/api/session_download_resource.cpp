@@ -75,7 +75,7 @@ template <typename Write>
 net::Response made_now(const DownloadTools& tools, const net::Request& request, const std::string& ending,
                        const std::string& media_type, Write&& write) {
   const TemporaryFile file(tools.temporary_folder, "." + ending);
-  tools.quiet.run([&] { write(file.path()); });
+  tools.executor.run([&] { write(file.path()); });
   return net::file_response(request, {file.path(), media_type, id_of(request) + "." + ending});
 }
 

@@ -2,7 +2,7 @@
 #include <filesystem>
 
 #include "jobs/job_service.hpp"
-#include "jobs/quiet_work.hpp"
+#include "jobs/low_priority_executor.hpp"
 #include "net/router.hpp"
 #include "session/service/session_service.hpp"
 #include "study/study_service.hpp"
@@ -15,7 +15,7 @@ struct DownloadTools {
   const study::StudyService* studies;  ///< null: there are none
   jobs::JobService& jobs;
   session::SessionEngine& engine;
-  jobs::QuietWork& quiet;
+  jobs::LowPriorityExecutor& executor;
   std::filesystem::path temporary_folder;  ///< for files that are made to be sent once
 };
 

@@ -58,7 +58,7 @@ void take_study(const study::StudyService* studies, const net::Request& request,
 }
 
 net::Response create(session::SessionService& service, const study::StudyService* studies,
-                     const Readiness& readiness, const std::string& usual_device,
+                     const Readiness& readiness, const std::string& default_device,
                      const net::Request& request) {
   RequestBody body(request);
   session::SessionRequest wanted;
@@ -77,7 +77,7 @@ net::Response create(session::SessionService& service, const study::StudyService
   readiness.require_prepared();
   take_study(studies, request, wanted);
   if (wanted.study.empty()) name_trainee(request.caller, wanted);
-  if (wanted.device.empty()) wanted.device = usual_device;
+  if (wanted.device.empty()) wanted.device = default_device;
   if (wanted.script.empty()) wanted.script = wanted.device == "script" ? "demo" : "practice";
   return created(studies, request, service.create(std::move(wanted)));
 }
@@ -123,12 +123,12 @@ int stride_of(const net::Request& request) {
 
 void add_session_routes(net::Router& router, session::SessionService& service,
                         session::ReplayService& replays, const Readiness& readiness,
-                        const std::string& usual_device, const study::StudyService* studies) {
+                        const std::string& default_device, const study::StudyService* studies) {
   router.on("GET", base, [&, studies](const net::Request& request) {
     return list_sessions(service, studies, replays, request);
   });
-  router.on("POST", base, [&, studies, usual_device](const net::Request& request) {
-    return create(service, studies, readiness, usual_device, request);
+  router.on("POST", base, [&, studies, default_device](const net::Request& request) {
+    return create(service, studies, readiness, default_device, request);
   });
   router.on("GET", base + "/{id}", [&, studies](const net::Request& request) {
     const std::string& id = id_of(request);

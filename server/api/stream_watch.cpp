@@ -86,7 +86,7 @@ std::unique_ptr<net::WebSocketSession> StreamWatch::watched(const net::Request& 
     std::erase_if(streams_, [](const auto& gone) { return gone.expired(); });
     streams_.push_back(stream);
   }
-  // Revoked between the gate and here: nobody would tell.
+  // Revoked between its check and here: nobody would tell.
   if (!credentials_.identify_again(request.caller.credential)) stream->end();
   return std::make_unique<WatchedSession>(std::move(stream), std::move(inner));
 }

@@ -13,7 +13,7 @@ json text_or_null(const std::string& text) { return text.empty() ? json(nullptr)
 
 }  // namespace
 
-json summary_json(const ToldStudy& told) {
+json summary_json(const StudyView& told) {
   const study::Study& study = told.study;
   return {{"id", study.id},
           {"name", study.name},
@@ -32,7 +32,7 @@ json summary_json(const ToldStudy& told) {
           {"participant", text_or_null(told.own_code)}};
 }
 
-json to_json(const ToldStudy& told) {
+json to_json(const StudyView& told) {
   json all = summary_json(told);
   all["questionnaire"] = told.study.questionnaire ? to_json(*told.study.questionnaire) : json(nullptr);
   return all;
@@ -51,22 +51,22 @@ json to_json(const store::PersonRow& person) {
   return {{"code", person.code}, {"user_id", text_or_null(person.user_id)}, {"name", person.name}};
 }
 
-study::StudyWishes study_wishes_in(const net::Request& request) {
+study::StudyDraft study_draft_in(const net::Request& request) {
   RequestBody body(request);
-  study::StudyWishes wishes;
-  wishes.name = body.words("name", 1, max_study_name);
-  wishes.description = body.words("description", 0, longest_description);
-  wishes.settings.cases = body.names("cases", 1, most_cases);
-  wishes.settings.script = body.name_or("script", "");
-  wishes.settings.device = body.name_or("device", "");
-  wishes.settings.device_profile = body.words("device_profile", 0, max_profile);
+  study::StudyDraft draft;
+  draft.name = body.words("name", 1, max_study_name);
+  draft.description = body.words("description", 0, longest_description);
+  draft.settings.cases = body.names("cases", 1, most_cases);
+  draft.settings.script = body.name_or("script", "");
+  draft.settings.device = body.name_or("device", "");
+  draft.settings.device_profile = body.words("device_profile", 0, max_profile);
   const std::optional<json> questionnaire = body.value_or_none("questionnaire");
   body.finish();
   if (!questionnaire)
-    wishes.questionnaire = study::face_validity_questionnaire();
+    draft.questionnaire = study::face_validity_questionnaire();
   else if (!questionnaire->is_null())
-    wishes.questionnaire = study::questionnaire_from(*questionnaire);
-  return wishes;
+    draft.questionnaire = study::questionnaire_from(*questionnaire);
+  return draft;
 }
 
 study::NewParticipant new_participant_in(const net::Request& request, bool person) {

@@ -7,21 +7,21 @@
 namespace ream::api {
 
 /// What REST says of a study to its staff and to those who take part.
-struct ToldStudy {
+struct StudyView {
   const study::Study& study;
   bool to_staff = false;
   int64_t participants = 0;  ///< told to staff
   std::string own_code;      ///< of the caller; empty: does not take part
 };
 
-nlohmann::json to_json(const ToldStudy& told);
+nlohmann::json to_json(const StudyView& told);
 /// The same without the questionnaire.
-nlohmann::json summary_json(const ToldStudy& told);
+nlohmann::json summary_json(const StudyView& told);
 nlohmann::json to_json(const study::Participant& participant);
 nlohmann::json to_json(const store::PersonRow& person);
 
 /// Bodies of requests. Throw RequestError as RequestBody does.
-study::StudyWishes study_wishes_in(const net::Request& request);
+study::StudyDraft study_draft_in(const net::Request& request);
 /// With `person`, a person may be named (user_id or name, not both).
 study::NewParticipant new_participant_in(const net::Request& request, bool person);
 

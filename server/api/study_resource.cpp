@@ -26,7 +26,7 @@ struct Desk {
     return *service_or_none;
   }
 
-  ToldStudy told(const net::Request& request, const study::Study& study) const {
+  StudyView told(const net::Request& request, const study::Study& study) const {
     return {study, (access::role_bit(request.caller.role) & access::staff) != 0, service().count(study.id),
             service().code_of(request.caller, study.id)};
   }
@@ -48,7 +48,7 @@ net::Response list(const Desk& desk, const net::Request& request) {
 }
 
 net::Response create(const Desk& desk, const net::Request& request) {
-  const study::Study study = desk.service().create(study_wishes_in(request));
+  const study::Study study = desk.service().create(study_draft_in(request));
   desk.audit(request, "study.create", study.id, study.name);
   return desk.created(studies_path + "/" + study.id, to_json(desk.told(request, study)));
 }
@@ -128,7 +128,7 @@ void add_life_routes(net::Router& router, const Desk& desk) {
   on("reopen", &study::StudyService::reopen);
   on("unblind", &study::StudyService::unblind);
   router.on("PUT", one, [desk](const net::Request& request) {
-    const study::Study study = desk.service().change(id_of(request), study_wishes_in(request));
+    const study::Study study = desk.service().change(id_of(request), study_draft_in(request));
     desk.audit(request, "study.change", study.id, study.name);
     return desk.reply(request, 200, study);
   });

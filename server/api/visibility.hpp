@@ -1,8 +1,15 @@
 #pragma once
+#include <functional>
+#include <optional>
+#include <string>
+
 #include "net/message.hpp"
 #include "session/running_session.hpp"
 
 namespace ream::api {
+
+/// What a session or replay with that id is; none when there is none.
+using SessionFinder = std::function<std::optional<session::SessionRequest>(const std::string& id)>;
 
 /// Whether a caller may know of a session: operators and instructors of all, trainees of their own, viewers
 /// of the one their link is for or, when it is for none in particular, of all.

@@ -134,12 +134,9 @@ fe::ElementModel from_case(const MeshSource& source, fe::MemoryBudget& budget, c
 fe::ElementModel open_mesh_source(const MeshSource& source, fe::MemoryBudget& budget,
                                   const Progress& progress) {
   switch (kind_of(source)) {
-    case Kind::case_folder:
-      return from_case(source, budget, progress);
-    case Kind::session:
-      return from_session(source, budget, progress);
-    case Kind::volume:
-      break;
+    case Kind::case_folder: return from_case(source, budget, progress);
+    case Kind::session: return from_session(source, budget, progress);
+    case Kind::volume: break;
   }
   const workup::CtSource unpacked(source.name, progress);
   return unpacked.read([&](const fs::path& path) {

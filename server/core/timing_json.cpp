@@ -8,26 +8,27 @@
 namespace ream {
 namespace {
 
-struct Figure {
+struct TimingFigure {
   const char* name;
   double TimingSummary::*value;
 };
-constexpr std::array figures{Figure{"mean", &TimingSummary::mean_us}, Figure{"p50", &TimingSummary::p50_us},
-                             Figure{"p99", &TimingSummary::p99_us}, Figure{"p999", &TimingSummary::p999_us},
-                             Figure{"max", &TimingSummary::max_us}};
+constexpr std::array timing_figures{
+    TimingFigure{"mean", &TimingSummary::mean_us}, TimingFigure{"p50", &TimingSummary::p50_us},
+    TimingFigure{"p99", &TimingSummary::p99_us}, TimingFigure{"p999", &TimingSummary::p999_us},
+    TimingFigure{"max", &TimingSummary::max_us}};
 
 }  // namespace
 
 nlohmann::json timing_json(const TimingSummary& times, TimingKeys keys) {
   nlohmann::json json = nlohmann::json::object();
-  for (const Figure& figure : figures)
+  for (const TimingFigure& figure : timing_figures)
     json[std::string(figure.name) + (keys == TimingKeys::bare ? "" : "_us")] = times.*figure.value;
   return json;
 }
 
 TimingSummary timing_from(const nlohmann::json& times) {
   TimingSummary summary;
-  for (const Figure& figure : figures) summary.*figure.value = times.value(figure.name, 0.0);
+  for (const TimingFigure& figure : timing_figures) summary.*figure.value = times.value(figure.name, 0.0);
   return summary;
 }
 

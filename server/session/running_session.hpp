@@ -69,7 +69,7 @@ class RunningSession {
   /// returns when that tick has been. Only while it runs or is paused by its device; the service has checked.
   virtual void pause() = 0;
   /// Goes on after pause(), where the device lets it. Only while it is held.
-  virtual void go_on() = 0;
+  virtual void unpause() = 0;
   /// Ends it and waits for the loop (zero force on the way out). Harmless when it has ended already.
   virtual void stop() = 0;
 

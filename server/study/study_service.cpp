@@ -21,8 +21,8 @@ Error unknown_study(const std::string& id) {
 
 }  // namespace
 
-StudyService::StudyService(store::Database& database, StudySurroundings surroundings)
-    : table_(database), surroundings_(std::move(surroundings)) {}
+StudyService::StudyService(store::Database& database, StudyDependencies dependencies)
+    : table_(database), dependencies_(std::move(dependencies)) {}
 
 Study StudyService::known(const std::string& id) const {
   const auto row = table_.find(id);
@@ -39,17 +39,17 @@ Study StudyService::open_one(const std::string& id) const {
 
 void StudyService::require_settings(const StudySettings& settings) const {
   for (const std::string& case_id : settings.cases)
-    if (!surroundings_.has_case(case_id))
+    if (!dependencies_.has_case(case_id))
       throw Error(ErrorKind::not_found, "no case '" + case_id + "'; GET /api/v1/cases lists them");
 }
 
-Study StudyService::create(const StudyWishes& wishes) {
-  require_settings(wishes.settings);
+Study StudyService::create(const StudyDraft& draft) {
+  require_settings(draft.settings);
   Study study;
-  study.name = wishes.name;
-  study.description = wishes.description;
-  study.settings = wishes.settings;
-  study.questionnaire = wishes.questionnaire;
+  study.name = draft.name;
+  study.description = draft.description;
+  study.settings = draft.settings;
+  study.questionnaire = draft.questionnaire;
   study.id = random_id();
   study.join_code = random_id();
   study.created_utc = utc_now();
@@ -71,16 +71,16 @@ Study StudyService::get(const net::Caller& caller, const std::string& id) const 
   return known(id);
 }
 
-Study StudyService::change(const std::string& id, const StudyWishes& wishes) {
+Study StudyService::change(const std::string& id, const StudyDraft& draft) {
   Study study = known(id);
   const Study before = study;
-  study.name = wishes.name;
-  study.description = wishes.description;
-  study.settings = wishes.settings;
-  study.questionnaire = wishes.questionnaire;
+  study.name = draft.name;
+  study.description = draft.description;
+  study.settings = draft.settings;
+  study.questionnaire = draft.questionnaire;
   const store::StudyRow was = row_of(before), is = row_of(study);
   if (was.settings != is.settings || was.questionnaire != is.questionnaire) {
-    require_settings(wishes.settings);
+    require_settings(draft.settings);
     if (!table_.participants(id).empty())
       throw Error(ErrorKind::conflict, "somebody takes part in study '" + id +
                                            "'; only its name and description can be changed now");
@@ -160,7 +160,7 @@ Participant StudyService::enrol(const net::Caller& caller, const std::string& id
                             "only operators may say who a participant is; give the person the join code");
   store::PersonRow person{"", wanted.user_id, wanted.name};
   if (!wanted.user_id.empty()) {
-    const auto name = surroundings_.name_of_user(wanted.user_id);
+    const auto name = dependencies_.name_of_user(wanted.user_id);
     if (!name) throw Error(ErrorKind::not_found, "no user '" + wanted.user_id + "'");
     person.name = *name;
   }

@@ -13,7 +13,7 @@
 namespace ream::study {
 
 /// What a study is made of.
-struct StudyWishes {
+struct StudyDraft {
   std::string name, description;
   StudySettings settings;
   std::optional<Questionnaire> questionnaire;
@@ -29,7 +29,7 @@ struct NewParticipant {
 };
 
 /// What studies ask of the rest of the server.
-struct StudySurroundings {
+struct StudyDependencies {
   /// Name of a user, none for an unknown id.
   std::function<std::optional<std::string>(const std::string& user_id)> name_of_user;
   std::function<bool(const std::string& case_id)> has_case;
@@ -42,14 +42,14 @@ struct StudySurroundings {
 /// know of too; conflict when the study's state does not allow it; those of the database.
 class StudyService {
  public:
-  StudyService(store::Database& database, StudySurroundings surroundings);
+  StudyService(store::Database& database, StudyDependencies dependencies);
 
-  Study create(const StudyWishes& wishes);
+  Study create(const StudyDraft& draft);
   /// Newest first; trainees have those they take part in.
   std::vector<Study> list(const net::Caller& caller) const;
   Study get(const net::Caller& caller, const std::string& id) const;
   /// Only name and description once somebody takes part.
-  Study change(const std::string& id, const StudyWishes& wishes);
+  Study change(const std::string& id, const StudyDraft& draft);
   Study close(const std::string& id);
   /// Whether it is there and closed.
   bool is_closed(const std::string& id) const;
@@ -102,7 +102,7 @@ class StudyService {
   void require_settings(const StudySettings& settings) const;
 
   mutable store::StudyTable table_;
-  const StudySurroundings surroundings_;
+  const StudyDependencies dependencies_;
 };
 
 /// What the caller may know of who trained; `studies` null: there are none.

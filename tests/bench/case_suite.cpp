@@ -10,7 +10,7 @@
 #include "ct/build/ct_workspace.hpp"
 #include "ct/phantom/phantom_case.hpp"
 #include "ct/segment/shoulder_bones.hpp"
-#include "session/simulation/case_shelf.hpp"
+#include "session/simulation/case_cache.hpp"
 #include "support/temporary_folder.hpp"
 #include "voxel/upsample.hpp"
 
@@ -54,12 +54,12 @@ void loading_rows(std::vector<Row>& rows) {
   const auto preset = ct::phantom_preset("thesis-5-4-2");
   case_::save_case(ct::make_phantom_case("thesis-5-4-2", preset.params, preset.upsample),
                    folder.path() / "case");
-  session::CaseShelf shelf;
+  session::CaseCache cache;
   case_::Case first, second;
   rows.push_back({"case", "thesis-5-4-2 loaded for a first session",
-                  median_s(1, [&] { first = shelf.load(folder.path() / "case"); }), 0.0, "s"});
+                  median_s(1, [&] { first = cache.load(folder.path() / "case"); }), 0.0, "s"});
   rows.push_back({"case", "the same for a second one beside it",
-                  median_s(1, [&] { second = shelf.load(folder.path() / "case"); }), 0.0, "s"});
+                  median_s(1, [&] { second = cache.load(folder.path() / "case"); }), 0.0, "s"});
   const bool shared = first.bone.density.shares_with(second.bone.density);
   const double voxels = static_cast<double>(first.bone.grid.voxel_count());
   rows.push_back({"case", "memory of the second one's voxels", (shared ? 1.0 : 2.0) * voxels / 1e6,

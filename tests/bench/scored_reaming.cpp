@@ -12,9 +12,9 @@
 #include "score/live_score.hpp"
 #include "session/live/loop_rings.hpp"
 #include "session/live/session_files.hpp"
-#include "session/simulation/asked_rig.hpp"
 #include "session/simulation/find_case.hpp"
 #include "session/simulation/measured_glenoid.hpp"
+#include "session/simulation/session_setup.hpp"
 #include "shell/tool.hpp"
 
 namespace ream::bench {
@@ -47,12 +47,12 @@ session::RunRequest request_for(const std::filesystem::path& folder, double dura
 /// What a server's follower keeps up to date, and what that costs it.
 class LiveScoring {
  public:
-  LiveScoring(const session::Rig& rig, std::vector<uint8_t> start)
-      : grid_(rig.bone_case.bone.grid),
-        force_scale_(rig.model.settings.force_scale),
+  LiveScoring(const session::Simulation& simulation, std::vector<uint8_t> start)
+      : grid_(simulation.bone_case.bone.grid),
+        force_scale_(simulation.model.settings.force_scale),
         left_(std::move(start)),
-        ticks_(grid_.voxel_volume_mm3(), rig.model.world_from_plan.inverse()),
-        live_(*rig.native, rig.model.world_from_plan) {}
+        ticks_(grid_.voxel_volume_mm3(), simulation.model.world_from_plan.inverse()),
+        live_(*simulation.native, simulation.model.world_from_plan) {}
 
   void take(const voxel::BrickImage& image) {
     voxel::write_brick(grid_, left_.data(), image.brick, image.coverage);
@@ -113,14 +113,15 @@ ScoredReaming ream_and_score(const std::filesystem::path& data, const std::strin
   scored.native_ms = native_ms_of(data);
   const std::filesystem::path folder = sessions_folder(data) / id;
   std::filesystem::create_directories(folder);
-  session::Rig rig(session::asked_for(request_for(folder, duration_s), data));
-  session::LoopRings rings(rig.bone_case.bone.grid);
-  rig.state.brick_sender = &rings.sender;
-  rig.state.brick_budget = bricks_a_tick;
-  const std::vector<uint8_t> start = rig.bone_case.bone.coverage;
-  LiveScoring live(rig, start);
-  session::SessionFiles files(rig, folder, start.data(), session::SessionFiles::Trace::left_out);
-  sim::HapticLoop loop(rig.model, rig.state, *rig.device, rings.reports, {false, sim::Realtime::off});
+  session::Simulation simulation(session::build_setup(request_for(folder, duration_s), data));
+  session::LoopRings rings(simulation.bone_case.bone.grid);
+  simulation.state.brick_sender = &rings.sender;
+  simulation.state.brick_budget = bricks_a_tick;
+  const std::vector<uint8_t> start = simulation.bone_case.bone.coverage;
+  LiveScoring live(simulation, start);
+  session::SessionFiles files(simulation, folder, start.data(), session::SessionFiles::Trace::left_out);
+  sim::HapticLoop loop(simulation.model, simulation.state, *simulation.device, rings.reports,
+                       {false, sim::Realtime::off});
   const auto take_brick = [&](const voxel::BrickImage& image) {
     files.add(image);
     live.take(image);
@@ -133,8 +134,8 @@ ScoredReaming ream_and_score(const std::filesystem::path& data, const std::strin
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   loop.stop();
-  rig.state.brick_sender = nullptr;
-  rings.drain_rest(rig.bone_case.bone, rig.state.tick - 1, take_brick, take_report);
+  simulation.state.brick_sender = nullptr;
+  rings.drain_rest(simulation.bone_case.bone, simulation.state.tick - 1, take_brick, take_report);
   const auto ended = SteadyClock::now();
   const nlohmann::json metrics = files.finish(loop.health(), nlohmann::json::object()).metrics;
   scored.final_ms = elapsed_us(ended) * 1e-3;

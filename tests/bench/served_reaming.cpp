@@ -36,17 +36,17 @@ struct ServedReaming::House {
   House(sim::Realtime realtime, double turn_s, Surroundings surroundings) {
     keep_thesis_case(folder.path());
     folder.write("scripts/" + std::string(script_name) + ".json", pecking(turn_s, press_n).dump());
-    session::SessionHouse house;
-    house.data = folder.path();
-    house.backend = "cpu";
-    house.realtime = realtime;
-    house.tool_spacing_mm = thesis_spacing_mm;
+    session::SessionContext context;
+    context.data = folder.path();
+    context.backend = "cpu";
+    context.realtime = realtime;
+    context.tool_spacing_mm = thesis_spacing_mm;
     api::ServerOptions options;
     options.listen.port = 0;
-    options.cases_folder = cases_folder(house.data);
-    options.sessions_folder = sessions_folder(house.data);
+    options.cases_folder = cases_folder(context.data);
+    options.sessions_folder = sessions_folder(context.data);
     options.sessions.kept = 1;  // each keeps its bone
-    options.engine = std::make_shared<session::SimulationEngine>(house);
+    options.engine = std::make_shared<session::SimulationEngine>(context);
     if (surroundings == Surroundings::office) {
       write_sessions(folder, office_sessions, "sessions/");
       options.database = std::make_shared<store::Database>("sqlite:" + (folder.path() / "ream.db").string());

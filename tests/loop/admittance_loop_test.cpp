@@ -10,8 +10,8 @@
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "device/admittance/admittance_device.hpp"
-#include "device/simulated/admittance_plant.hpp"
 #include "device/registry/device_registry.hpp"
+#include "device/simulated/admittance_plant.hpp"
 #include "force/coefficients.hpp"
 #include "sim/haptic_loop.hpp"
 #include "support/small_run.hpp"
@@ -242,7 +242,7 @@ TEST(AdmittanceLoop, PlantsAreDevicesThatPeopleCanChoose) {
     device::Script script = press_52_n("ideal", 1.0, 1.0);
     device::settle_for_device(kind.plant.name, "", script);
     EXPECT_EQ(script.device_profile, kind.profile);
-    const device::DeviceOffer offer = device::device_kind(kind.plant.name).offer({});
+    const device::DeviceInfo offer = device::device_kind(kind.plant.name).offer({});
     EXPECT_TRUE(offer.usable);
     const device::MadeDevice made = device::make_device({kind.plant.name, "", &script, Pose{}, 1, {}});
     EXPECT_EQ(made.device->traits().causality, device::Causality::admittance);

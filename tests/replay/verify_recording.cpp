@@ -8,7 +8,7 @@
 #include "core/data_folder.hpp"
 #include "core/hash.hpp"
 #include "session/replay/verify_replay.hpp"
-#include "session/simulation/recorded_rig.hpp"
+#include "session/simulation/recorded_setup.hpp"
 
 int main(int argc, char** argv) {
   using namespace ream;

@@ -30,7 +30,7 @@ class FakeSession final : public session::RunningSession {
     set(SessionState::running);
   }
   void pause() override { hold(true); }
-  void go_on() override { hold(false); }
+  void unpause() override { hold(false); }
   bool relabel(const session::SessionRequest& request) override {
     const std::lock_guard lock(mutex_);
     if (!is_live(status_.state)) return false;

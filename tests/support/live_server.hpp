@@ -19,16 +19,16 @@ namespace ream::test {
 class LiveServer {
  public:
   explicit LiveServer(const std::function<void(api::ServerOptions&)>& adjust = {}) {
-    session::SessionHouse house{reaming_.data(), 1, "cpu", sim::Realtime::off};
-    house.guard_now_ns = [] { return int64_t{1}; };
-    std::filesystem::create_directories(sessions_folder(house.data));
-    std::filesystem::create_directories(house.data / "scripts");
+    session::SessionContext context{reaming_.data(), 1, "cpu", sim::Realtime::off};
+    context.guard_now_ns = [] { return int64_t{1}; };
+    std::filesystem::create_directories(sessions_folder(context.data));
+    std::filesystem::create_directories(context.data / "scripts");
     api::ServerOptions options;
     options.listen.port = 0;
-    options.cases_folder = cases_folder(house.data);
-    options.sessions_folder = sessions_folder(house.data);
+    options.cases_folder = cases_folder(context.data);
+    options.sessions_folder = sessions_folder(context.data);
     options.sessions.live = 16;
-    options.engine = std::make_shared<session::SimulationEngine>(house);
+    options.engine = std::make_shared<session::SimulationEngine>(context);
     options.prepare = [] {};
     if (adjust) adjust(options);
     server_ = std::make_unique<api::Server>(std::move(options));

@@ -6,9 +6,9 @@
 #include "session/live/headless_run.hpp"
 #include "session/live/loop_rings.hpp"
 #include "session/replay/verify_replay.hpp"
-#include "session/simulation/asked_rig.hpp"
 #include "session/simulation/recorded_case.hpp"
 #include "session/simulation/recording_header.hpp"
+#include "session/simulation/session_setup.hpp"
 #include "sim/step.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_bone.hpp"
@@ -64,16 +64,16 @@ class RecordedReaming {
   }
 
   /// Runs it to the end; its recording lies in the returned folder.
-  std::filesystem::path record(session::Rig& rig) {
+  std::filesystem::path record(session::Simulation& simulation) {
     const std::filesystem::path out = folder_.path() / ("run-" + std::to_string(runs_++));
     std::filesystem::create_directories(out);
-    const std::vector<uint8_t> start = rig.bone_case.bone.coverage;
-    session::run_headless(rig, start, out, false);
+    const std::vector<uint8_t> start = simulation.bone_case.bone.coverage;
+    session::run_headless(simulation, start, out, false);
     return out / "recording.ream";
   }
   std::filesystem::path record(const nlohmann::json& script) {
-    session::Rig rig(session::asked_for(request(script), data()));
-    return record(rig);
+    session::Simulation simulation(session::build_setup(request(script), data()));
+    return record(simulation);
   }
 
   /// Goes on with a recording with the same script and another reamer (words, or a mesh file).
@@ -86,35 +86,35 @@ class RecordedReaming {
     bone.seek(recording.tick_count(), [](const voxel::BrickImage&) {});
     bone.write_to(bone_case.bone.coverage);
     const uint32_t ticks = recording.tick_count();
-    session::RigParts parts = session::asked_for(request(script), data());
+    session::SimulationSetup parts = session::build_setup(request(script), data());
     parts.bone_case = std::move(bone_case);
     parts.reamer = session::reamer_asked_for(reamer, std::nullopt);
     parts.tool = shell::make_tool(reamer);
     parts.from = {ticks, recording.ticks(ticks - 1, ticks).at(0).session_hash};
-    session::Rig rig(std::move(parts));
+    session::Simulation simulation(std::move(parts));
     record::Recorder recorder(record::continue_log_file(path, recording.log().whole_bytes()), recording, bone,
-                              session::segment_of(rig, ticks, "reamer"), start.data());
-    run(rig, recorder);
+                              session::segment_of(simulation, ticks, "reamer"), start.data());
+    run(simulation, recorder);
     recorder.finish("finished");
   }
 
   /// One tick after the other, with everything told to the recorder.
-  static void run(session::Rig& rig, record::Recorder& recorder) {
-    session::LoopRings rings(rig.bone_case.bone.grid);
-    rig.state.brick_sender = &rings.sender;
+  static void run(session::Simulation& simulation, record::Recorder& recorder) {
+    session::LoopRings rings(simulation.bone_case.bone.grid);
+    simulation.state.brick_sender = &rings.sender;
     const auto take_brick = [&](const voxel::BrickImage& image) { recorder.add(image); };
     const auto take_report = [&](const record::TickReport& report) { recorder.add(report); };
     device::DeviceInput input;
-    rig.device->open();
-    while (rig.device->read(input) == device::DeviceStatus::ok) {
+    simulation.device->open();
+    while (simulation.device->read(input) == device::DeviceStatus::ok) {
       record::TickReport report;
-      if (sim::step(rig.model, rig.state, input, report) != sim::StepStatus::ok) break;
-      rig.device->write(sim::output_of(report));
+      if (sim::step(simulation.model, simulation.state, input, report) != sim::StepStatus::ok) break;
+      simulation.device->write(sim::output_of(report));
       rings.reports.try_push(report);
       rings.drain(take_brick, take_report);
     }
-    rig.state.brick_sender = nullptr;
-    rings.drain_rest(rig.bone_case.bone, rig.state.tick - 1, take_brick, take_report);
+    simulation.state.brick_sender = nullptr;
+    rings.drain_rest(simulation.bone_case.bone, simulation.state.tick - 1, take_brick, take_report);
   }
 
   /// Computed again and compared with every checkpoint.

@@ -8,15 +8,15 @@
 #include <thread>
 
 #include "app/cli/commands.hpp"
-#include "app/device_door.hpp"
 #include "app/device_trial.hpp"
 #include "app/handle_reader.hpp"
 #include "app/setup_wizard.hpp"
+#include "app/standalone_device_server.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
-#include "device/registry/device_registry.hpp"
 #include "device/profiles.hpp"
+#include "device/registry/device_registry.hpp"
 
 namespace ream::app {
 namespace {
@@ -30,7 +30,7 @@ struct DevicesOptions {
 void list_devices(const GlobalOptions& global) {
   nlohmann::json rows = nlohmann::json::array();
   for (const device::DeviceKind& kind : device::device_kinds()) {
-    const device::DeviceOffer offer = kind.offer(data_folder(global.data));
+    const device::DeviceInfo offer = kind.offer(data_folder(global.data));
     rows.push_back({{"name", offer.name},
                     {"usable", offer.usable},
                     {"reason", offer.reason},
@@ -70,9 +70,9 @@ device::MadeDevice trial_device(const DevicesOptions& options, const std::string
 }
 
 /// Where a device that connects itself finds us; nothing for others.
-std::optional<DeviceDoor> open_door(const DevicesOptions& options, const std::string& name,
-                                    const device::MadeDevice& made) {
-  std::optional<DeviceDoor> door;
+std::optional<StandaloneDeviceServer> open_door(const DevicesOptions& options, const std::string& name,
+                                                const device::MadeDevice& made) {
+  std::optional<StandaloneDeviceServer> door;
   if (!made.link) return door;
   door.emplace(made.link, name, made.device->traits(), options.port);
   std::cerr << "connect the device to " << door->url() << "  (Ctrl-C ends it)" << std::endl;
@@ -99,7 +99,7 @@ void print_trial(const DeviceTrial& trial) {
 }
 
 void test_device(const DevicesOptions& options, const GlobalOptions& global) {
-  const device::DeviceOffer offer = device::device_kind(options.test).offer(data_folder(global.data));
+  const device::DeviceInfo offer = device::device_kind(options.test).offer(data_folder(global.data));
   refuse_browser(options.test, "tried out");
   if (!offer.usable)
     throw Error(ErrorKind::unavailable, "the device '" + offer.name + "' is not usable: " + offer.reason);

@@ -13,8 +13,8 @@
 #include "core/log.hpp"
 #include "score/rubric_store.hpp"
 #include "session/export/session_facts.hpp"
+#include "session/scoring/ended_sessions.hpp"
 #include "session/scoring/kept_score.hpp"
-#include "session/scoring/kept_sessions.hpp"
 #include "session/scoring/rescoring.hpp"
 #include "session/scoring/score_table.hpp"
 #include "session/simulation/recorded_session.hpp"
@@ -40,7 +40,7 @@ struct Judge {
 
 /// A session that could be scored.
 struct Judged {
-  session::TableSession table;
+  session::EndedSession table;
   nlohmann::json document;
 };
 
@@ -57,8 +57,8 @@ std::vector<std::string> names_of(const ScoreOptions& options, const fs::path& d
   if (options.all) return session::recorded_sessions(data);
   if (options.trainee.empty()) return options.sessions;
   std::vector<std::string> names;
-  for (const session::KeptSession& session :
-       session::sessions_of_trainee(session::kept_sessions(data), options.trainee))
+  for (const session::EndedSession& session :
+       session::sessions_of_trainee(session::ended_sessions(data), options.trainee))
     names.push_back(session.id);
   if (names.empty())
     throw Error(ErrorKind::not_found,
@@ -85,7 +85,7 @@ Judged judged(const session::Rescored& one, const ScoreOptions& options, const J
 }
 
 void write_table(const std::vector<Judged>& all, const score::Rubric& rubric, const fs::path& csv) {
-  std::vector<session::TableSession> sessions;
+  std::vector<session::EndedSession> sessions;
   for (const Judged& one : all) sessions.push_back(one.table);
   const session::ExportTable table = session::score_table(sessions, rubric);
   fs::path codebook = csv;
@@ -104,8 +104,8 @@ nlohmann::json learning_of_all(const std::vector<Judged>& all, const Judge& judg
                                const ScoreOptions& options) {
   std::vector<score::LearningPoint> points;
   for (const Judged& one : all)
-    points.push_back(session::learning_point(one.table.id, one.table.session,
-                                             score::apply_rubric(judge.rubric, one.table.metrics)));
+    points.push_back(
+        session::learning_point(one.table, score::apply_rubric(judge.rubric, one.table.metrics)));
   return score::learning_json(score::learning_curve(options.cusum, std::move(points)));
 }
 

@@ -108,42 +108,42 @@ void tell_address(const std::string& url, const openigtlink::Server* watched,
 }
 
 void serve(const ServeOptions& options, const GlobalOptions& global) {
-  session::SessionHouse house;
-  house.data = data_folder(global.data);
-  house.server_epoch = static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::microseconds>(
-                                                 std::chrono::system_clock::now().time_since_epoch())
-                                                 .count());
-  house.backend = options.backend;
-  house.realtime = realtime_from_text(options.realtime);
+  session::SessionContext context;
+  context.data = data_folder(global.data);
+  context.server_epoch = static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::microseconds>(
+                                                   std::chrono::system_clock::now().time_since_epoch())
+                                                   .count());
+  context.backend = options.backend;
+  context.realtime = realtime_from_text(options.realtime);
   api::ServerOptions server_options;
   server_options.web_folder = web_folder(options.web);
-  server_options.listen = listen_options(options.address, has_users(global.db, house.data));
+  server_options.listen = listen_options(options.address, has_users(global.db, context.data));
   std::optional<openigtlink::ServerOptions> openigtlink_options;
   if (!options.openigtlink.empty())
     openigtlink_options = openigtlink_address(options.openigtlink, options.address);
-  server_options.database = open_database(global.db, house.data);
-  make_data_folder(house.data);
-  const auto alone = FileLock::attempt(serving_lock(house.data));
+  server_options.database = open_database(global.db, context.data);
+  make_data_folder(context.data);
+  const auto alone = FileLock::attempt(serving_lock(context.data));
   if (!alone)
-    throw Error(ErrorKind::conflict, "a server runs on " + house.data.string() +
+    throw Error(ErrorKind::conflict, "a server runs on " + context.data.string() +
                                          "; stop it, or choose another folder with --data");
-  make_writable_folder(sessions_folder(house.data));
-  for (const std::string& line : session::recover_sessions(house.data)) log::warn(line);
+  make_writable_folder(sessions_folder(context.data));
+  for (const std::string& line : session::recover_sessions(context.data)) log::warn(line);
   catch_interrupts();
 
   std::optional<openigtlink::Server> watched;
   if (openigtlink_options) {
-    house.showcase = std::make_shared<openigtlink::ActiveSession>();
-    watched.emplace(*openigtlink_options, house.showcase);
+    context.showcase = std::make_shared<openigtlink::ActiveSession>();
+    watched.emplace(*openigtlink_options, context.showcase);
   }
-  server_options.cases_folder = cases_folder(house.data);
-  server_options.data_folder = house.data;
-  server_options.sessions_folder = sessions_folder(house.data);
-  server_options.engine = std::make_shared<session::SimulationEngine>(house);
-  server_options.usual_device = options.device;
+  server_options.cases_folder = cases_folder(context.data);
+  server_options.data_folder = context.data;
+  server_options.sessions_folder = sessions_folder(context.data);
+  server_options.engine = std::make_shared<session::SimulationEngine>(context);
+  server_options.default_device = options.device;
   server_options.retention.keep_sessions_days = options.keep_sessions_days;
   server_options.retention.keep_deleted_days = options.keep_deleted_days;
-  server_options.prepare = [house] { ct::load_or_make_demo_case(house.data); };
+  server_options.prepare = [context] { ct::load_or_make_demo_case(context.data); };
   api::Server server(std::move(server_options));
   server.start();
 

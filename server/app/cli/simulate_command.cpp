@@ -13,8 +13,8 @@
 #include "force/feed_model.hpp"
 #include "session/live/headless_run.hpp"
 #include "session/scoring/kept_score.hpp"
-#include "session/simulation/asked_rig.hpp"
 #include "session/simulation/reamed_pictures.hpp"
+#include "session/simulation/session_setup.hpp"
 
 namespace ream::app {
 namespace {
@@ -64,11 +64,11 @@ void simulate(const SimulateOptions& options, const GlobalOptions& global) {
   const fs::path out = options.out.empty() ? next_output_folder() : options.out;
   AtomicFolder folder(out);
   catch_interrupts();
-  session::Rig rig(session::asked_for(request, data_folder(global.data)));
-  const std::vector<uint8_t> before = rig.bone_case.bone.coverage;
+  session::Simulation simulation(session::build_setup(request, data_folder(global.data)));
+  const std::vector<uint8_t> before = simulation.bone_case.bone.coverage;
   const session::HeadlessResult result =
-      session::run_headless(rig, before, folder.path(), options.wall_clock);
-  session::write_reamed_pictures(rig, before, folder.path());
+      session::run_headless(simulation, before, folder.path(), options.wall_clock);
+  session::write_reamed_pictures(simulation, before, folder.path());
   session::keep_score(folder.path(), data_folder(global.data));
   throw_if_interrupted();
   folder.commit();
@@ -84,8 +84,9 @@ void simulate(const SimulateOptions& options, const GlobalOptions& global) {
             << " mm deep, thrust " << number("axial_thrust_mean_n") << " N mean and "
             << number("axial_thrust_peak_n") << " N peak\n"
             << "tick mean " << result.timing.at("tick_us").at("mean").get<double>() << " us on "
-            << rig.state.backend.name
-            << (rig.state.backend.choice.empty() ? "" : " (" + rig.state.backend.choice + ")") << '\n'
+            << simulation.state.backend.name
+            << (simulation.state.backend.choice.empty() ? "" : " (" + simulation.state.backend.choice + ")")
+            << '\n'
             << out.string() << '\n';
 }
 

@@ -20,15 +20,15 @@ constexpr double start_before_entry_mm = 30.0;
 
 }  // namespace
 
-DeviceOffer offer_of(const std::string& name, const std::string& about, const std::string& profile) {
+DeviceInfo offer_of(const std::string& name, const std::string& about, const std::string& profile) {
   const DeviceTraits traits = device_profile(profile);
   return {name, about, true, "", traits.force_max_n, traits.degrees_of_freedom};
 }
 
-std::string profile_of(const DeviceWish& wish, const std::string& usual) {
-  if (!wish.profile.empty()) return wish.profile;
-  const bool said = wish.script->kind == ScriptKind::remote && !wish.script->device_profile.empty();
-  return said ? wish.script->device_profile : usual;
+std::string profile_of(const DeviceRequest& request, const std::string& usual) {
+  if (!request.profile.empty()) return request.profile;
+  const bool said = request.script->kind == ScriptKind::remote && !request.script->device_profile.empty();
+  return said ? request.script->device_profile : usual;
 }
 
 void require_fitting_profile(const std::string& device, const std::vector<std::string>& fitting,
@@ -40,10 +40,10 @@ void require_fitting_profile(const std::string& device, const std::vector<std::s
                                             "'; those that fit it are " + names);
 }
 
-std::unique_ptr<HapticDevice> mapped(const DeviceWish& wish, std::unique_ptr<HapticDevice> device) {
+std::unique_ptr<HapticDevice> mapped(const DeviceRequest& request, std::unique_ptr<HapticDevice> device) {
   const Pose before_entry{Mat3::Identity(), Vec3(0.0, 0.0, -start_before_entry_mm)};
-  return std::make_unique<MappedDevice>(std::move(device), load_device_setup(wish.data, wish.name),
-                                        wish.world_from_plan * before_entry);
+  return std::make_unique<MappedDevice>(std::move(device), load_device_setup(request.data, request.name),
+                                        request.world_from_plan * before_entry);
 }
 
 namespace {
@@ -54,23 +54,23 @@ DeviceKind scripted() {
             return offer_of("script", "A simulated hand, robot or list of poses that plays a script",
                             "ideal");
           },
-          [](const DeviceWish& wish) {
-            return MadeDevice{make_scripted_device(*wish.script, wish.world_from_plan, wish.random_seed),
-                              nullptr};
+          [](const DeviceRequest& request) {
+            return MadeDevice{
+                make_scripted_device(*request.script, request.world_from_plan, request.random_seed), nullptr};
           }};
 }
 
 DeviceKind network() {
   static const std::string usual = "touch";
-  return {
-      "network", usual,
-      [](const std::filesystem::path&) {
-        return offer_of("network", "A haptic device whose own computer connects over the network", usual);
-      },
-      [](const DeviceWish& wish) {
-        auto link = std::make_shared<RemoteLink>();
-        return MadeDevice{mapped(wish, std::make_unique<NetworkDevice>(profile_of(wish, usual), link)), link};
-      }};
+  return {"network", usual,
+          [](const std::filesystem::path&) {
+            return offer_of("network", "A haptic device whose own computer connects over the network", usual);
+          },
+          [](const DeviceRequest& request) {
+            auto link = std::make_shared<RemoteLink>();
+            return MadeDevice{
+                mapped(request, std::make_unique<NetworkDevice>(profile_of(request, usual), link)), link};
+          }};
 }
 
 DeviceKind browser() {
@@ -80,10 +80,10 @@ DeviceKind browser() {
             return offer_of("browser", "Mouse, touch screen, keys or gamepad, in the page of the session",
                             usual);
           },
-          [](const DeviceWish& wish) {
+          [](const DeviceRequest& request) {
             auto link = std::make_shared<RemoteLink>();
-            return MadeDevice{make_steered_hand_device(profile_of(wish, usual), wish.world_from_plan,
-                                                       wish.script->force_scale, link),
+            return MadeDevice{make_steered_hand_device(profile_of(request, usual), request.world_from_plan,
+                                                       request.script->force_scale, link),
                               link};
           }};
 }
@@ -94,13 +94,13 @@ DeviceKind plant(const PlantParameters& parameters, const std::string& usual, co
           [&parameters, usual, about](const std::filesystem::path&) {
             return offer_of(parameters.name, about, usual);
           },
-          [&parameters, usual](const DeviceWish& wish) {
-            const Pose plan_from_start{rotation_from_small_vector(wish.script->hand.tilt_rad),
-                                       wish.script->hand.start_mm};
-            auto machine = make_admittance_plant(parameters, device_profile(profile_of(wish, usual)),
-                                                 *wish.script, wish.random_seed);
+          [&parameters, usual](const DeviceRequest& request) {
+            const Pose plan_from_start{rotation_from_small_vector(request.script->hand.tilt_rad),
+                                       request.script->hand.start_mm};
+            auto machine = make_admittance_plant(parameters, device_profile(profile_of(request, usual)),
+                                                 *request.script, request.random_seed);
             return MadeDevice{std::make_unique<AdmittanceDevice>(std::move(machine),
-                                                                 wish.world_from_plan * plan_from_start),
+                                                                 request.world_from_plan * plan_from_start),
                               nullptr};
           }};
 }
@@ -145,6 +145,6 @@ void settle_for_device(const std::string& device, const std::string& profile, Sc
   fit_to_remote(resolved, script);
 }
 
-MadeDevice make_device(const DeviceWish& wish) { return device_kind(wish.name).make(wish); }
+MadeDevice make_device(const DeviceRequest& request) { return device_kind(request.name).make(request); }
 
 }  // namespace ream::device

@@ -11,7 +11,7 @@
 namespace ream::device {
 
 /// What a device is made for.
-struct DeviceWish {
+struct DeviceRequest {
   std::string name = "script";
   std::string profile;  ///< what it can render (device/profiles.hpp); empty: the script's
   const Script* script = nullptr;
@@ -26,7 +26,7 @@ struct MadeDevice {
 };
 
 /// What is known of a device without opening it.
-struct DeviceOffer {
+struct DeviceInfo {
   std::string name;
   std::string about;  ///< one line for people
   bool usable = true;
@@ -41,8 +41,8 @@ struct DeviceKind {
   /// What it renders with (device/profiles.hpp) unless somebody says otherwise; empty: scripts say.
   std::string usual_profile;
   /// `data`: where set-ups of devices are kept.
-  std::function<DeviceOffer(const std::filesystem::path& data)> offer;
-  std::function<MadeDevice(const DeviceWish&)> make;
+  std::function<DeviceInfo(const std::filesystem::path& data)> offer;
+  std::function<MadeDevice(const DeviceRequest&)> make;
   /// Of the models that it can be; empty: any. What a profile says is what its hardware is made to render.
   std::vector<std::string> profiles = {};
 };
@@ -51,17 +51,17 @@ struct DeviceKind {
 const std::vector<DeviceKind>& device_kinds();
 
 /// What is known of it that its profile says; usable.
-DeviceOffer offer_of(const std::string& name, const std::string& about, const std::string& profile);
+DeviceInfo offer_of(const std::string& name, const std::string& about, const std::string& profile);
 
 /// Whose limits a device that renders somebody's own hand has: asked for, or the script's, or `usual`.
-std::string profile_of(const DeviceWish& wish, const std::string& usual);
+std::string profile_of(const DeviceRequest& request, const std::string& usual);
 
 /// Error invalid_input, saying which fit, for a profile that is none of `fitting`.
 void require_fitting_profile(const std::string& device, const std::vector<std::string>& fitting,
                              const std::string& profile);
 
 /// A device that speaks of its own frame, made one of the world that begins before the planned entry.
-std::unique_ptr<HapticDevice> mapped(const DeviceWish& wish, std::unique_ptr<HapticDevice> device);
+std::unique_ptr<HapticDevice> mapped(const DeviceRequest& request, std::unique_ptr<HapticDevice> device);
 
 /// Error invalid_input, listing the names, for an unknown one.
 const DeviceKind& device_kind(const std::string& name);
@@ -73,6 +73,6 @@ const DeviceKind& device_kind(const std::string& name);
 void settle_for_device(const std::string& device, const std::string& profile, Script& script);
 
 /// Errors: those of device_kind and of the kind.
-MadeDevice make_device(const DeviceWish& wish);
+MadeDevice make_device(const DeviceRequest& request);
 
 }  // namespace ream::device

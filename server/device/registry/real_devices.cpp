@@ -21,8 +21,8 @@ struct Driver {
   std::string (*why_not)(const DeviceSetup& setup);
 };
 
-DeviceOffer offer(const Driver& driver, const fs::path& data) {
-  DeviceOffer offer = offer_of(driver.name, driver.about, driver.profiles.front());
+DeviceInfo offer(const Driver& driver, const fs::path& data) {
+  DeviceInfo offer = offer_of(driver.name, driver.about, driver.profiles.front());
   try {
     offer.reason = driver.why_not(load_device_setup(data, driver.name));
   } catch (const Error& e) {
@@ -32,19 +32,19 @@ DeviceOffer offer(const Driver& driver, const fs::path& data) {
   return offer;
 }
 
-MadeDevice make(const Driver& driver, const DeviceWish& wish) {
-  const std::string profile = profile_of(wish, driver.profiles.front());
+MadeDevice make(const Driver& driver, const DeviceRequest& request) {
+  const std::string profile = profile_of(request, driver.profiles.front());
   require_fitting_profile(driver.name, driver.profiles, profile);
   DeviceTraits traits = device_profile(profile);
   traits.name = driver.name;
-  auto servo = driver.make(load_device_setup(wish.data, driver.name), traits);
-  return {mapped(wish, std::make_unique<ServoDevice>(std::move(traits), std::move(servo))), nullptr};
+  auto servo = driver.make(load_device_setup(request.data, driver.name), traits);
+  return {mapped(request, std::make_unique<ServoDevice>(std::move(traits), std::move(servo))), nullptr};
 }
 
 DeviceKind kind_of(const Driver& driver) {
   return {driver.name, driver.profiles.front(),
           [driver](const fs::path& data) { return offer(driver, data); },
-          [driver](const DeviceWish& wish) { return make(driver, wish); }, driver.profiles};
+          [driver](const DeviceRequest& request) { return make(driver, request); }, driver.profiles};
 }
 
 }  // namespace

@@ -2,11 +2,11 @@
 
 #include "core/error.hpp"
 #include "record/recorded_bone.hpp"
-#include "score/deviation.hpp"
 #include "score/alignment.hpp"
+#include "score/deviation.hpp"
 #include "session/simulation/measured_glenoid.hpp"
 #include "session/simulation/recorded_case.hpp"
-#include "session/simulation/recorded_rig.hpp"
+#include "session/simulation/recorded_setup.hpp"
 #include "sim/model.hpp"
 #include "surface/block_mesh.hpp"
 

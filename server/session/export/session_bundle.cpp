@@ -13,7 +13,7 @@
 #include "core/temporary_file.hpp"
 #include "session/folder/session_labels.hpp"
 #include "session/simulation/recorded_session.hpp"
-#include "session/simulation/rig.hpp"
+#include "session/simulation/simulation.hpp"
 #include "store/zip_archive.hpp"
 
 namespace ream::session {

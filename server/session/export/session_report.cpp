@@ -9,9 +9,9 @@
 #include "session/export/reamed_bone.hpp"
 #include "session/export/session_facts.hpp"
 #include "session/folder/session_labels.hpp"
-#include "session/scoring/kept_sessions.hpp"
+#include "session/scoring/ended_sessions.hpp"
 #include "session/scoring/rescoring.hpp"
-#include "session/simulation/recorded_rig.hpp"
+#include "session/simulation/recorded_setup.hpp"
 #include "sim/model.hpp"
 
 namespace ream::session {
@@ -39,9 +39,9 @@ Course course_of(const record::Recording& recording, const case_::Plan& plan) {
 score::LearningCurve learning_up_to(const nlohmann::json& session, const ExportRequest& request,
                                     const score::Rubric& rubric) {
   const std::string trainee = trainee_of(session), id = session.value("id", "");
-  std::vector<KeptSession> theirs = sessions_of_trainee(kept_sessions(request.data), trainee);
+  std::vector<EndedSession> theirs = sessions_of_trainee(ended_sessions(request.data), trainee);
   const auto here =
-      std::find_if(theirs.begin(), theirs.end(), [&](const KeptSession& each) { return each.id == id; });
+      std::find_if(theirs.begin(), theirs.end(), [&](const EndedSession& each) { return each.id == id; });
   if (here == theirs.end()) return {};
   theirs.erase(here + 1, theirs.end());
   return learning_of(theirs, rubric, {});

@@ -8,14 +8,14 @@
 namespace ream::session {
 namespace {
 
-struct Times {
+struct LoopTimes {
   const char* key;
   TimingSummary sim::LoopHealth::*times;
 };
-constexpr std::array all_times{
-    Times{"tick_us", &sim::LoopHealth::tick_us}, Times{"lateness_us", &sim::LoopHealth::lateness_us},
-    Times{"read_us", &sim::LoopHealth::read_us}, Times{"step_us", &sim::LoopHealth::step_us},
-    Times{"write_us", &sim::LoopHealth::write_us}};
+constexpr std::array loop_times{
+    LoopTimes{"tick_us", &sim::LoopHealth::tick_us}, LoopTimes{"lateness_us", &sim::LoopHealth::lateness_us},
+    LoopTimes{"read_us", &sim::LoopHealth::read_us}, LoopTimes{"step_us", &sim::LoopHealth::step_us},
+    LoopTimes{"write_us", &sim::LoopHealth::write_us}};
 
 }  // namespace
 
@@ -25,13 +25,14 @@ nlohmann::json timing_file_json(const sim::LoopHealth& health) {
                         {"realtime", health.realtime.fifo},
                         {"locked", health.realtime.locked},
                         {"cpu", health.realtime.cpu}};
-  for (const Times& part : all_times) timing[part.key] = timing_json(health.*part.times, TimingKeys::bare);
+  for (const LoopTimes& part : loop_times)
+    timing[part.key] = timing_json(health.*part.times, TimingKeys::bare);
   return timing;
 }
 
 sim::LoopHealth loop_health_from(const nlohmann::json& timing) {
   sim::LoopHealth health;
-  for (const Times& part : all_times)
+  for (const LoopTimes& part : loop_times)
     health.*part.times = timing_from(timing.value(part.key, nlohmann::json::object()));
   health.missed = timing.value("missed", uint64_t{0});
   health.realtime.fifo = timing.value("realtime", false);

@@ -25,17 +25,18 @@ constexpr size_t enough_waiting_chunks = 16;
 
 }  // namespace
 
-HeadlessResult run_headless(Rig& rig, std::span<const uint8_t> start_coverage,
+HeadlessResult run_headless(Simulation& simulation, std::span<const uint8_t> start_coverage,
                             const std::filesystem::path& folder, bool wall_clock) {
-  LoopRings rings(rig.bone_case.bone.grid);
-  rig.state.brick_sender = &rings.sender;
-  if (!wall_clock) rig.state.brick_budget = bricks_a_tick_without_hurry;
-  SessionFiles files(rig, folder, start_coverage.data(), SessionFiles::Trace::written);
+  LoopRings rings(simulation.bone_case.bone.grid);
+  simulation.state.brick_sender = &rings.sender;
+  if (!wall_clock) simulation.state.brick_budget = bricks_a_tick_without_hurry;
+  SessionFiles files(simulation, folder, start_coverage.data(), SessionFiles::Trace::written);
   const auto realtime = wall_clock ? sim::Realtime::attempt : sim::Realtime::off;
-  sim::HapticLoop loop(rig.model, rig.state, *rig.device, rings.reports, {wall_clock, realtime});
+  sim::HapticLoop loop(simulation.model, simulation.state, *simulation.device, rings.reports,
+                       {wall_clock, realtime});
   const auto take_brick = [&](const voxel::BrickImage& image) { files.add(image); };
   const auto take_report = [&](const record::TickReport& report) { files.add(report); };
-  const device::CrashWatch crash_watch(*rig.device);
+  const device::CrashWatch crash_watch(*simulation.device);
   loop.start();
   while (!loop.ended()) {
     throw_if_interrupted();
@@ -44,8 +45,8 @@ HeadlessResult run_headless(Rig& rig, std::span<const uint8_t> start_coverage,
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   loop.stop();
-  rig.state.brick_sender = nullptr;
-  rings.drain_rest(rig.bone_case.bone, rig.state.tick - 1, take_brick, take_report);
+  simulation.state.brick_sender = nullptr;
+  rings.drain_rest(simulation.bone_case.bone, simulation.state.tick - 1, take_brick, take_report);
 
   const sim::LoopHealth health = loop.health();
   if (const std::string fault = message_of(health.end); !fault.empty()) {
@@ -57,7 +58,7 @@ HeadlessResult run_headless(Rig& rig, std::span<const uint8_t> start_coverage,
   if (const double weakened_s = results.metrics.at("weakened_time_s").get<double>();
       weakened_s > told_weakened_s)
     log::warn("the hand felt less than it asked for during " + std::to_string(weakened_s) + " s, as " +
-              rig.device->traits().profile + " renders no more; a larger force_scale helps");
+              simulation.device->traits().profile + " renders no more; a larger force_scale helps");
   return {results.metrics, results.timing};
 }
 

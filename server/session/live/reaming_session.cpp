@@ -13,8 +13,8 @@
 #include "core/log.hpp"
 #include "session/folder/session_folder.hpp"
 #include "session/folder/session_labels.hpp"
-#include "session/live/stream_words.hpp"
-#include "session/simulation/asked_rig.hpp"
+#include "session/live/stream_messages.hpp"
+#include "session/simulation/session_setup.hpp"
 #include "sim/tick_trial.hpp"
 
 namespace ream::session {
@@ -24,14 +24,14 @@ constexpr auto follower_period = std::chrono::milliseconds(5);
 /// A session that rests tells its viewers so this often, so that a silent link is a broken one.
 constexpr int64_t heartbeat_ns = 500'000'000;
 
-RunRequest run_request(const SessionHouse& house, const SessionRequest& request) {
+RunRequest run_request(const SessionContext& context, const SessionRequest& request) {
   RunRequest run;
   run.case_name = request.case_id;
   const bool built_in = request.script == "demo" || request.script == "practice";
   run.script_name =
-      built_in ? request.script : (house.data / "scripts" / (request.script + ".json")).string();
-  run.backend = house.backend;
-  run.tool_spacing_mm = house.tool_spacing_mm;
+      built_in ? request.script : (context.data / "scripts" / (request.script + ".json")).string();
+  run.backend = context.backend;
+  run.tool_spacing_mm = context.tool_spacing_mm;
   run.force_scale = request.force_scale;
   run.device = request.device;
   run.device_profile = request.device_profile;
@@ -40,56 +40,57 @@ RunRequest run_request(const SessionHouse& house, const SessionRequest& request)
 
 }  // namespace
 
-ReamingSession::ReamingSession(const SessionHouse& house, const SessionRequest& request)
-    : ReamingSession(house, request,
+ReamingSession::ReamingSession(const SessionContext& context, const SessionRequest& request)
+    : ReamingSession(context, request,
                      Beginning{nullptr, false, SessionState::fault,
-                               asked_for(run_request(house, request), house.data)}) {}
+                               build_setup(run_request(context, request), context.data)}) {}
 
-ReamingSession::ReamingSession(const SessionHouse& house, const SessionRequest& request,
+ReamingSession::ReamingSession(const SessionContext& context, const SessionRequest& request,
                                const std::string& reamer)
-    : ReamingSession(house, request, resumed(house, request, reamer)) {}
+    : ReamingSession(context, request, resumed(context, request, reamer)) {}
 
-ReamingSession::Beginning ReamingSession::resumed(const SessionHouse& house, const SessionRequest& request,
-                                                  const std::string& reamer) {
+ReamingSession::Beginning ReamingSession::resumed(const SessionContext& context,
+                                                  const SessionRequest& request, const std::string& reamer) {
   Beginning beginning;
-  const std::filesystem::path folder = sessions_folder(house.data) / request.id;
-  beginning.from = std::make_unique<ResumePoint>(folder, house.data);
+  const std::filesystem::path folder = sessions_folder(context.data) / request.id;
+  beginning.from = std::make_unique<ResumePoint>(folder, context.data);
   beginning.before = read_session_folder(folder).record.status.state;
-  beginning.parts = beginning.from->parts(run_request(house, request), reamer);
+  beginning.parts = beginning.from->parts(run_request(context, request), reamer);
   beginning.changed_tool = beginning.parts.reamer.words != beginning.from->recording().segments().back().tool;
   return beginning;
 }
 
-ReamingSession::ReamingSession(const SessionHouse& house, const SessionRequest& request, Beginning beginning)
-    : house_(house),
+ReamingSession::ReamingSession(const SessionContext& context, const SessionRequest& request,
+                               Beginning beginning)
+    : context_(context),
       request_(request),
       id_(request.id),
-      folder_(sessions_folder(house.data) / id_),
+      folder_(sessions_folder(context.data) / id_),
       from_(std::move(beginning.from)),
       changed_tool_(beginning.changed_tool),
       state_without_start_(beginning.before),
-      rig_(std::move(beginning.parts)),
-      rings_(rig_.bone_case.bone.grid),
-      rehearsed_us_(sim::rehearsed_tick_us(rig_.model, rig_.state)),
-      loop_(rig_.model, rig_.state, *rig_.device, rings_.reports,
-            {true, house.realtime, -1, house.guard_now_ns}),
+      simulation_(std::move(beginning.parts)),
+      rings_(simulation_.bone_case.bone.grid),
+      rehearsed_us_(sim::rehearsed_tick_us(simulation_.model, simulation_.state)),
+      loop_(simulation_.model, simulation_.state, *simulation_.device, rings_.reports,
+            {true, context.realtime, -1, context.guard_now_ns}),
       port_(port_of_device()),
       fanout_(std::make_shared<stream::Fanout>()),
-      publisher_(rig_.bone_case.bone, *fanout_),
-      live_score_(*rig_.native, rig_.model.world_from_plan),
+      publisher_(simulation_.bone_case.bone, *fanout_),
+      live_score_(*simulation_.native, simulation_.model.world_from_plan),
       batcher_(*fanout_),
-      crash_watch_(*rig_.device) {
-  rig_.state.brick_sender = &rings_.sender;
-  const sim::Backend& backend = rig_.state.backend;
+      crash_watch_(*simulation_.device) {
+  simulation_.state.brick_sender = &rings_.sender;
+  const sim::Backend& backend = simulation_.state.backend;
   log::info("session " + id_ + ": contact and removal on " + backend.name +
             (backend.choice.empty() ? "" : " (" + backend.choice + ")") + ", slow ticks take " +
             std::to_string(std::lround(rehearsed_us_)) + " us");
   labels_ = request_;
   status_.device.name = request_.device;
-  status_.device.profile = rig_.device->traits().profile;
-  status_.force_scale = rig_.model.settings.force_scale;
-  score::MetricsAccumulator metrics(rig_.bone_case.bone.grid.voxel_volume_mm3(),
-                                    rig_.model.world_from_plan.inverse());
+  status_.device.profile = simulation_.device->traits().profile;
+  status_.force_scale = simulation_.model.settings.force_scale;
+  score::MetricsAccumulator metrics(simulation_.bone_case.bone.grid.voxel_volume_mm3(),
+                                    simulation_.model.world_from_plan.inverse());
   if (from_) {
     metrics = from_->metrics();
     status_.tick = sample_.tick = from_->ticks();
@@ -98,7 +99,7 @@ ReamingSession::ReamingSession(const SessionHouse& house, const SessionRequest& 
   status_.duration_s = metrics.duration_s();
   metrics_ = score::session_metrics_json(metrics, live_score_.results(), status_.force_scale, nullptr);
   sample_.world_from_tool = sample_.world_from_handle =
-      rig_.model.world_from_plan * Pose{Mat3::Identity(), rig_.script.hand.start_mm};
+      simulation_.model.world_from_plan * Pose{Mat3::Identity(), simulation_.script.hand.start_mm};
   fanout_->publish_hello(stream::hello_message(hello()));
   publisher_.publish_all();
   follower_ = std::thread([this] { follow_to_the_end(); });
@@ -114,21 +115,21 @@ ReamingSession::~ReamingSession() {
 }
 
 stream::HelloInfo ReamingSession::hello() const {
-  stream::HelloInfo info = hello_of(rig_.bone_case, rig_.model.plan, rig_.model.tool);
+  stream::HelloInfo info = make_hello(simulation_.bone_case, simulation_.model.plan, simulation_.model.tool);
   info.session_id = id_;
-  info.server_epoch = house_.server_epoch;
-  info.force_scale = rig_.model.settings.force_scale;
-  info.force_max_n = rig_.model.settings.limits.force_max_n;
+  info.server_epoch = context_.server_epoch;
+  info.force_scale = simulation_.model.settings.force_scale;
+  info.force_max_n = simulation_.model.settings.limits.force_max_n;
   return info;
 }
 
 void ReamingSession::show() const {
-  if (!house_.showcase) return;
-  const case_::Case& c = rig_.bone_case;
-  const std::string words =
-      (c.name.empty() ? c.id : c.name) + ", " + case_::to_text(c.side) + ", reamer " + rig_.model.tool.name;
-  house_.showcase->set(std::make_shared<const openigtlink::SessionView>(
-      openigtlink::SessionView{id_, words, c.bone.grid, rig_.model.tool.mesh, fanout_}));
+  if (!context_.showcase) return;
+  const case_::Case& c = simulation_.bone_case;
+  const std::string words = (c.name.empty() ? c.id : c.name) + ", " + case_::to_text(c.side) + ", reamer " +
+                            simulation_.model.tool.name;
+  context_.showcase->set(std::make_shared<const openigtlink::SessionView>(
+      openigtlink::SessionView{id_, words, c.bone.grid, simulation_.model.tool.mesh, fanout_}));
 }
 
 /// session.json beside what describes the run.
@@ -159,8 +160,9 @@ void ReamingSession::open_files() {
   const uint8_t* coverage = publisher_.replica().coverage().data();
   std::unique_ptr<SessionFiles> files;
   try {
-    files = from_ ? std::make_unique<SessionFiles>(rig_, folder_, coverage, *from_, changed_tool_)
-                  : std::make_unique<SessionFiles>(rig_, folder_, coverage, SessionFiles::Trace::left_out);
+    files =
+        from_ ? std::make_unique<SessionFiles>(simulation_, folder_, coverage, *from_, changed_tool_)
+              : std::make_unique<SessionFiles>(simulation_, folder_, coverage, SessionFiles::Trace::left_out);
     write_running(*files);
     std::error_code ignored;
     for (const char* result : {"reamed.ply", "snapshot.png", "deviation.json", "deviation.bin"})
@@ -178,7 +180,7 @@ void ReamingSession::open_files() {
 void ReamingSession::start() {
   if (status().state != SessionState::created)
     throw Error(ErrorKind::conflict, "session " + id_ + " has been started already");
-  place_ = house_.places->reserve(id_, rehearsed_us_);
+  place_ = context_.places->reserve(id_, rehearsed_us_);
   try {
     open_files();
   } catch (const std::exception& e) {
@@ -226,12 +228,13 @@ nlohmann::json ReamingSession::metrics() const {
 }
 
 std::shared_ptr<device::DevicePort> ReamingSession::port_of_device() const {
-  if (!rig_.link) return nullptr;
-  const device::DeviceTraits& traits = rig_.device->traits();
+  if (!simulation_.link) return nullptr;
+  const device::DeviceTraits& traits = simulation_.device->traits();
   const auto kind = request_.device == "browser" ? device::RemoteKind::steering : device::RemoteKind::handle;
   return std::make_shared<device::DevicePort>(
-      rig_.link, kind,
-      device::DeviceWelcome{id_, request_.device, rig_.model.settings.limits.force_max_n, traits.stale});
+      simulation_.link, kind,
+      device::DeviceWelcome{id_, request_.device, simulation_.model.settings.limits.force_max_n,
+                            traits.stale});
 }
 
 /// Whatever goes wrong in the follower ends this session, not the server.
@@ -320,7 +323,7 @@ void ReamingSession::take(bool ended) {
     note_events(report);
   };
   if (ended)
-    rings_.drain_rest(rig_.bone_case.bone, rig_.state.tick - 1, take_brick, take_one);
+    rings_.drain_rest(simulation_.bone_case.bone, simulation_.state.tick - 1, take_brick, take_one);
   else
     rings_.drain(take_brick, take_one);
   if (const std::string failure = files_->recorder().failure(); !failure.empty())
@@ -329,7 +332,7 @@ void ReamingSession::take(bool ended) {
 }
 
 void ReamingSession::take_report(const record::TickReport& r) {
-  fill_in(r, sample_);
+  update_sample(r, sample_);
   sample_.state = r.paused ? SessionState::paused : SessionState::running;
   batcher_.add(sample_);
 }
@@ -337,8 +340,8 @@ void ReamingSession::take_report(const record::TickReport& r) {
 void ReamingSession::note_health() {
   const score::MetricsAccumulator& metrics = files_->metrics();
   const int64_t now_ns = steady_ns();
-  live_score_.update(files_->metrics(), {rig_.bone_case.bone.grid, publisher_.replica().coverage().data()},
-                     now_ns);
+  live_score_.update(files_->metrics(),
+                     {simulation_.bone_case.bone.grid, publisher_.replica().coverage().data()}, now_ns);
   const sim::LoopHealth health = loop_.health();
   sample_.depth_mm = static_cast<float>(metrics.reaming_depth_mm());
   sample_.removed_volume_mm3 = static_cast<float>(metrics.removed_volume_mm3());

@@ -13,7 +13,7 @@
 #include "session/live/resume_point.hpp"
 #include "session/live/session_files.hpp"
 #include "session/running_session.hpp"
-#include "session/simulation/rig.hpp"
+#include "session/simulation/simulation.hpp"
 #include "sim/cpu_allocator.hpp"
 #include "sim/haptic_loop.hpp"
 #include "stream/fanout.hpp"
@@ -22,7 +22,7 @@
 namespace ream::session {
 
 /// What all sessions of one server share.
-struct SessionHouse {
+struct SessionContext {
   std::filesystem::path data;
   uint64_t server_epoch = 0;  ///< differs after each start of the server
   std::string backend = "auto";
@@ -37,16 +37,16 @@ struct SessionHouse {
 /// telemetry and the streamed surface up to date. The bone is on its viewers' screens before it starts.
 class ReamingSession final : public RunningSession {
  public:
-  /// Errors: those of Rig.
-  ReamingSession(const SessionHouse& house, const SessionRequest& request);
+  /// Errors: those of Simulation.
+  ReamingSession(const SessionContext& context, const SessionRequest& request);
   /// Goes on with one that was interrupted or stopped, under the same id; see SessionResumer. Errors:
-  /// those of ResumePoint and Rig.
-  ReamingSession(const SessionHouse& house, const SessionRequest& request, const std::string& reamer);
+  /// those of ResumePoint and Simulation.
+  ReamingSession(const SessionContext& context, const SessionRequest& request, const std::string& reamer);
   ~ReamingSession() override;
 
   void start() override;
   void pause() override;
-  void go_on() override;
+  void unpause() override;
   void stop() override;
   bool relabel(const SessionRequest& request) override;
   SessionStatus status() const override;
@@ -64,11 +64,11 @@ class ReamingSession final : public RunningSession {
     std::unique_ptr<ResumePoint> from;          ///< empty: new
     bool changed_tool = false;                  ///< since it ended
     SessionState before = SessionState::fault;  ///< it is this again when it cannot be started
-    RigParts parts;
+    SimulationSetup parts;
   };
-  static Beginning resumed(const SessionHouse& house, const SessionRequest& request,
+  static Beginning resumed(const SessionContext& context, const SessionRequest& request,
                            const std::string& reamer);
-  ReamingSession(const SessionHouse& house, const SessionRequest& request, Beginning beginning);
+  ReamingSession(const SessionContext& context, const SessionRequest& request, Beginning beginning);
 
   void open_files();
   void write_running(const SessionFiles& files) const;
@@ -100,7 +100,7 @@ class ReamingSession final : public RunningSession {
   void note_device();
   void tell_port();
 
-  const SessionHouse house_;
+  const SessionContext context_;
   const SessionRequest request_;
   const std::string id_;
   const std::filesystem::path folder_;
@@ -108,7 +108,7 @@ class ReamingSession final : public RunningSession {
   const bool changed_tool_;
   const SessionState state_without_start_;
   std::optional<FileLock> lock_;  ///< of the folder, while it runs
-  Rig rig_;
+  Simulation simulation_;
   LoopRings rings_;
   const double rehearsed_us_;                              ///< slow ticks of this session, before the first
   std::unique_ptr<sim::CpuAllocator::Reservation> place_;  ///< of the loop while it runs

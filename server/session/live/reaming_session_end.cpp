@@ -9,7 +9,7 @@
 #include "session/folder/session_folder.hpp"
 #include "session/live/reaming_session.hpp"
 #include "session/live/session_recovery.hpp"
-#include "session/live/stream_words.hpp"
+#include "session/live/stream_messages.hpp"
 #include "session/scoring/kept_score.hpp"
 
 namespace ream::session {
@@ -30,7 +30,7 @@ void ReamingSession::finish() {
   publisher_.flush(steady_ns());
   note_health();
   const auto results = files_->finish(health, told_of(state, fault));
-  keep_score(folder_, house_.data);
+  keep_score(folder_, context_.data);
   close(state, fault, results.metrics);
 }
 
@@ -64,7 +64,7 @@ void ReamingSession::end_without_force(const std::string& words) {
   nlohmann::json metrics = this->metrics();
   try {
     files_->abandon(to_text(state), words);
-    close_session_folder(folder_, house_.data, state, words);
+    close_session_folder(folder_, context_.data, state, words);
     append_missing_remarks();
     metrics = read_json_file(metrics_json(folder_));
   } catch (const std::exception& e) {

@@ -19,8 +19,8 @@ constexpr int64_t longest_standstill_ns = 1'000'000'000;
 void ReamingSession::note_device() {
   DeviceLinkStatus& device = status_.device;
   device.state = device::to_text(device_state_);
-  if (!rig_.link) return;
-  const device::RemoteLink& link = *rig_.link;
+  if (!simulation_.link) return;
+  const device::RemoteLink& link = *simulation_.link;
   const int64_t rtt_us = link.rtt_us;
   device.rtt_ms = rtt_us < 0 ? std::nullopt : std::optional(1.0e-3 * static_cast<double>(rtt_us));
   device.received = link.received;

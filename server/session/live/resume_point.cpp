@@ -8,11 +8,11 @@
 #include "record/log_sink.hpp"
 #include "session/folder/recorded_annotations.hpp"
 #include "session/folder/session_folder.hpp"
-#include "session/simulation/asked_rig.hpp"
 #include "session/simulation/measured_glenoid.hpp"
 #include "session/simulation/recorded_case.hpp"
-#include "session/simulation/recorded_rig.hpp"
 #include "session/simulation/recorded_session.hpp"
+#include "session/simulation/recorded_setup.hpp"
+#include "session/simulation/session_setup.hpp"
 #include "shell/parametric_profile.hpp"
 #include "shell/reamer_library.hpp"
 
@@ -86,11 +86,11 @@ ResumePoint::ResumePoint(const fs::path& folder, const fs::path& data)
   bone_.write_to(case_.bone.coverage);
 }
 
-RigParts ResumePoint::parts(const RunRequest& request, const std::string& reamer) {
+SimulationSetup ResumePoint::parts(const RunRequest& request, const std::string& reamer) {
   const record::ops::Segment& before = recording_.segments().back();
   const uint64_t session_hash = last_session_hash(recording_);
-  RigParts parts =
-      recorded_parts(recording_, before, std::move(case_), {ticks(), session_hash}, request.backend);
+  SimulationSetup parts =
+      recorded_setup(recording_, before, std::move(case_), {ticks(), session_hash}, request.backend);
   if (!reamer.empty() && reamer != before.tool) {
     parts.reamer = reamer_of_words(reamer);
     parts.tool = made(parts.reamer);

@@ -6,7 +6,7 @@
 #include "core/file_lock.hpp"
 #include "record/recorded_bone.hpp"
 #include "score/metrics.hpp"
-#include "session/simulation/rig.hpp"
+#include "session/simulation/simulation.hpp"
 
 namespace ream::session {
 
@@ -21,10 +21,10 @@ class ResumePoint {
   ResumePoint(const ResumePoint&) = delete;
   ResumePoint& operator=(const ResumePoint&) = delete;
 
-  /// What a rig is made of that goes on from here with the recorded settings, under a script that begins
-  /// anew. `request`: backend, script and device count. `reamer`: words, or empty for the one before. To be
-  /// called once. Error invalid_input for the reamer; those of script and device.
-  RigParts parts(const RunRequest& request, const std::string& reamer);
+  /// What a simulation is made of that goes on from here with the recorded settings, under a script that
+  /// begins anew. `request`: backend, script and device count. `reamer`: words, or empty for the one before.
+  /// To be called once. Error invalid_input for the reamer; those of script and device.
+  SimulationSetup parts(const RunRequest& request, const std::string& reamer);
 
   /// Undoes what was appended to the recording since it was read; nobody may be writing it. On a failure it
   /// says so in the log.

@@ -19,35 +19,36 @@ void write_json(const std::filesystem::path& path, const nlohmann::json& json) {
 }
 
 /// The start of the session stays what it was.
-nlohmann::json resumed_description(const Rig& rig, const ResumePoint& from) {
-  nlohmann::json description = rig.description();
+nlohmann::json resumed_description(const Simulation& simulation, const ResumePoint& from) {
+  nlohmann::json description = simulation.description();
   description["start_grid_hash"] = to_hex(from.recording().header().start_grid_hash);
   return description;
 }
 
 }  // namespace
 
-SessionFiles::SessionFiles(const Rig& rig, const std::filesystem::path& folder, const uint8_t* start_coverage,
-                           Trace trace)
-    : rig_(rig),
+SessionFiles::SessionFiles(const Simulation& simulation, const std::filesystem::path& folder,
+                           const uint8_t* start_coverage, Trace trace)
+    : simulation_(simulation),
       folder_(folder),
-      description_(rig.description()),
-      recorder_(std::in_place, record::create_log_file(folder / "recording.ream"), header_of(rig),
-                segment_of(rig, 0, "start"), start_coverage),
-      metrics_(rig.bone_case.bone.grid.voxel_volume_mm3(), rig.model.world_from_plan.inverse()) {
+      description_(simulation.description()),
+      recorder_(std::in_place, record::create_log_file(folder / "recording.ream"), header_of(simulation),
+                segment_of(simulation, 0, "start"), start_coverage),
+      metrics_(simulation.bone_case.bone.grid.voxel_volume_mm3(),
+               simulation.model.world_from_plan.inverse()) {
   if (trace == Trace::written)
-    trace_.emplace(folder / "trace.csv", rig.bone_case.bone.grid.voxel_volume_mm3());
+    trace_.emplace(folder / "trace.csv", simulation.bone_case.bone.grid.voxel_volume_mm3());
 }
 
-SessionFiles::SessionFiles(const Rig& rig, const std::filesystem::path& folder, const uint8_t* start_coverage,
-                           const ResumePoint& from, bool changed_tool)
-    : rig_(rig),
+SessionFiles::SessionFiles(const Simulation& simulation, const std::filesystem::path& folder,
+                           const uint8_t* start_coverage, const ResumePoint& from, bool changed_tool)
+    : simulation_(simulation),
       folder_(folder),
-      description_(resumed_description(rig, from)),
+      description_(resumed_description(simulation, from)),
       recorder_(std::in_place,
                 record::continue_log_file(folder / "recording.ream", from.recording().log().whole_bytes()),
                 from.recording(), from.bone(),
-                segment_of(rig, from.ticks(), changed_tool ? "reamer" : "resume"), start_coverage),
+                segment_of(simulation, from.ticks(), changed_tool ? "reamer" : "resume"), start_coverage),
       metrics_(from.metrics()),
       ticks_(from.ticks()) {}
 
@@ -69,7 +70,8 @@ void SessionFiles::abandon(const std::string& state, const std::string& words) {
 }
 
 record::TickReport SessionFiles::add(const record::TickReport& report) {
-  const record::TickReport kept = record::as_recorded(report, rig_.bone_case.bone.grid.world_from_grid);
+  const record::TickReport kept =
+      record::as_recorded(report, simulation_.bone_case.bone.grid.world_from_grid);
   if (trace_) trace_->add(kept);
   metrics_.add(kept);
   recorder_->add(report);
@@ -80,10 +82,10 @@ record::TickReport SessionFiles::add(const record::TickReport& report) {
 }
 
 score::MetricResults SessionFiles::bone_results() const {
-  if (!rig_.native) return score::missing_bone_results("the bone before the session is not known");
-  const voxel::BoneModel& bone = rig_.bone_case.bone;
-  return score::bone_results(*rig_.native, {bone.grid, bone.coverage.data()}, metrics_.cut_line(),
-                             rig_.model.world_from_plan, metrics_.reaming_depth_mm());
+  if (!simulation_.native) return score::missing_bone_results("the bone before the session is not known");
+  const voxel::BoneModel& bone = simulation_.bone_case.bone;
+  return score::bone_results(*simulation_.native, {bone.grid, bone.coverage.data()}, metrics_.cut_line(),
+                             simulation_.model.world_from_plan, metrics_.reaming_depth_mm());
 }
 
 SessionFiles::Results SessionFiles::finish(const sim::LoopHealth& health, const nlohmann::json& extra) {
@@ -93,10 +95,10 @@ SessionFiles::Results SessionFiles::finish(const sim::LoopHealth& health, const 
     recorder_->add(record::ops::Event{ticks_, extra.value("state", "fault"), fault});
   recorder_->finish(extra.value("state", "finished"));
   recorder_.reset();  // others may append remarks or go on from here
-  const uint64_t grid_hash = rig_.bone_case.bone.coverage_hash();
-  Results results{
-      score::session_metrics_json(metrics_, bone_results(), rig_.model.settings.force_scale, &grid_hash),
-      timing_file_json(health)};
+  const uint64_t grid_hash = simulation_.bone_case.bone.coverage_hash();
+  Results results{score::session_metrics_json(metrics_, bone_results(),
+                                              simulation_.model.settings.force_scale, &grid_hash),
+                  timing_file_json(health)};
   write_json(folder_ / "metrics.json", results.metrics);
   write_json(folder_ / "timing.json", results.timing);
   nlohmann::json session = description_;

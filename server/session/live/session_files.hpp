@@ -8,7 +8,7 @@
 #include "score/metrics.hpp"
 #include "session/live/resume_point.hpp"
 #include "session/live/session_events.hpp"
-#include "session/simulation/rig.hpp"
+#include "session/simulation/simulation.hpp"
 #include "sim/haptic_loop.hpp"
 
 namespace ream::session {
@@ -22,12 +22,12 @@ class SessionFiles {
 
   /// Opens trace and recording in `folder`, which must exist. `start_coverage` as for record::Recorder.
   /// Error io.
-  SessionFiles(const Rig& rig, const std::filesystem::path& folder, const uint8_t* start_coverage,
-               Trace trace);
+  SessionFiles(const Simulation& simulation, const std::filesystem::path& folder,
+               const uint8_t* start_coverage, Trace trace);
 
   /// Goes on with a session after what was recorded of it. `changed_tool`: it is not the one before.
-  SessionFiles(const Rig& rig, const std::filesystem::path& folder, const uint8_t* start_coverage,
-               const ResumePoint& from, bool changed_tool);
+  SessionFiles(const Simulation& simulation, const std::filesystem::path& folder,
+               const uint8_t* start_coverage, const ResumePoint& from, bool changed_tool);
 
   /// All images of a tick come before its report.
   void add(const voxel::BrickImage& image) { recorder_->add(image); }
@@ -57,9 +57,9 @@ class SessionFiles {
  private:
   score::MetricResults bone_results() const;
 
-  const Rig& rig_;
+  const Simulation& simulation_;
   const std::filesystem::path folder_;
-  const nlohmann::json description_;  ///< of the rig before the first tick
+  const nlohmann::json description_;  ///< of the simulation before the first tick
   std::optional<record::TraceCsv> trace_;
   std::optional<record::Recorder> recorder_;  ///< until finished or abandoned
   score::MetricsAccumulator metrics_;

@@ -6,7 +6,7 @@
 
 #include "core/clock.hpp"
 #include "core/error.hpp"
-#include "session/live/stream_words.hpp"
+#include "session/live/stream_messages.hpp"
 #include "session/simulation/reamer.hpp"
 
 namespace ream::session {
@@ -88,7 +88,7 @@ void ReplayPicture::jump_to(const ReplayMoment& moment) {
   show_metrics();
   publish_history(history);
   if (ticks > 0) {
-    fill_in(now, sample_);
+    update_sample(now, sample_);
   } else {
     // Before the first tick: where it is going to begin, without force.
     sample_.world_from_tool = now.world_from_tool;
@@ -104,7 +104,7 @@ void ReplayPicture::play_to(uint32_t ticks) {
     while (shown_.position_ticks < end) {
       const record::TickReport report = record::report_of(tick_at(shown_.position_ticks), world_from_grid_);
       if (metrics_) metrics_->add(report);
-      fill_in(report, sample_);
+      update_sample(report, sample_);
       sample_.playback->position_ticks = ++shown_.position_ticks;
       batcher_.add(sample_);
     }
@@ -150,7 +150,7 @@ void ReplayPicture::publish_history(const std::vector<record::ops::Tick>& histor
   auto batch = std::make_shared<stream::TelemetryBatch>();
   batch->tick_stride = history_stride;
   for (const record::ops::Tick& tick : history) {
-    fill_in(record::report_of(tick, world_from_grid_), sample_);
+    update_sample(record::report_of(tick, world_from_grid_), sample_);
     batch->samples.push_back(sample_);
   }
   fanout_.publish_telemetry(std::move(batch));

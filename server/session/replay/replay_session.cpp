@@ -11,7 +11,7 @@
 #include "core/log.hpp"
 #include "score/metrics.hpp"
 #include "session/folder/session_folder.hpp"
-#include "session/live/stream_words.hpp"
+#include "session/live/stream_messages.hpp"
 #include "session/live/viewer_stream.hpp"
 #include "session/simulation/recorded_session.hpp"
 #include "sim/settings.hpp"
@@ -65,12 +65,12 @@ score::MetricsAccumulator no_metrics(const case_::Case& c) {
 
 }  // namespace
 
-ReplaySession::ReplaySession(const SessionHouse& house, const ReplayRequest& request)
-    : house_(house),
+ReplaySession::ReplaySession(const SessionContext& context, const ReplayRequest& request)
+    : context_(context),
       request_(request),
-      recording_(sessions_folder(house.data) / request.replay_of / "recording.ream"),
-      kept_metrics_(kept_metrics(sessions_folder(house.data) / request.replay_of)),
-      bone_case_(bone_before(recording_, house.data)),
+      recording_(sessions_folder(context.data) / request.replay_of / "recording.ream"),
+      kept_metrics_(kept_metrics(sessions_folder(context.data) / request.replay_of)),
+      bone_case_(bone_before(recording_, context.data)),
       timeline_(recording_, bone_case_.bone.grid.world_from_grid, no_metrics(bone_case_)),
       fanout_(std::make_shared<stream::Fanout>()),
       picture_(recording_, bone_case_, timeline_, hello(), *fanout_),
@@ -83,9 +83,9 @@ ReplaySession::ReplaySession(const SessionHouse& house, const ReplayRequest& req
 ReplaySession::~ReplaySession() { stop(); }
 
 stream::HelloInfo ReplaySession::hello() const {
-  stream::HelloInfo info = hello_of(bone_case_, *bone_case_.plan, {});
+  stream::HelloInfo info = make_hello(bone_case_, *bone_case_.plan, {});
   info.session_id = request_.id;
-  info.server_epoch = house_.server_epoch;
+  info.server_epoch = context_.server_epoch;
   info.force_scale = recording_.header().force_scale;
   info.force_max_n = recorded_force_max_n(recording_);
   info.replay_of = request_.replay_of;

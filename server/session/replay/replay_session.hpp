@@ -17,7 +17,7 @@ class ReplaySession final : public RunningReplay {
  public:
   /// Rests at the start, which viewers who join get at once. Errors: those of Recording and of case and tool;
   /// invalid_input when no tick was recorded; conflict when the case's bone is not the one that was recorded.
-  ReplaySession(const SessionHouse& house, const ReplayRequest& request);
+  ReplaySession(const SessionContext& context, const ReplayRequest& request);
   ~ReplaySession() override;
 
   PlaybackStatus status() const override;
@@ -34,7 +34,7 @@ class ReplaySession final : public RunningReplay {
   std::vector<RecordingDamage> damage() const;
   stream::HelloInfo hello() const;
 
-  const SessionHouse house_;
+  const SessionContext context_;
   const ReplayRequest request_;
   const record::Recording recording_;
   const nlohmann::json kept_metrics_;  ///< of the session, at its end; or null

@@ -7,7 +7,7 @@
 #include "core/interrupt.hpp"
 #include "record/recorded_bone.hpp"
 #include "score/metrics.hpp"
-#include "session/simulation/rig.hpp"
+#include "session/simulation/simulation.hpp"
 
 namespace ream::session {
 namespace {

@@ -46,7 +46,7 @@ class Verifier {
       if (segments[i].first_tick >= last_tick() && i > 0) break;
       run_segment(segments[i], std::min(end, last_tick()));
     }
-    if (rig_) result_.grid_hash = rig_->bone_case.bone.coverage_hash();
+    if (simulation_) result_.grid_hash = simulation_->bone_case.bone.coverage_hash();
     return result_;
   }
 
@@ -72,38 +72,39 @@ class Verifier {
     result_.left_out.push_back("vibration and the hand force with it were not compared: " + reason);
   }
 
-  /// The rig of a segment on the bone as it now is.
+  /// The simulation of a segment on the bone as it now is.
   void make_rig(const record::ops::Segment& segment) {
     sim::ResumeState from;
-    if (rig_) {
-      from = {rig_->state.tick, rig_->state.session_hash};
-      bone_case_ = std::move(rig_->bone_case);
-      rig_.reset();
+    if (simulation_) {
+      from = {simulation_->state.tick, simulation_->state.session_hash};
+      bone_case_ = std::move(simulation_->bone_case);
+      simulation_.reset();
     }
-    RigParts parts = recorded_parts(recording_, segment, std::move(bone_case_), from, request_.backend);
+    SimulationSetup parts =
+        recorded_setup(recording_, segment, std::move(bone_case_), from, request_.backend);
     parts.settings.vibration = vibration_;
-    rig_ = std::make_unique<Rig>(std::move(parts));
-    rig_->state.handle_given = true;
-    result_.backend = rig_->state.backend.name;
+    simulation_ = std::make_unique<Simulation>(std::move(parts));
+    simulation_->state.handle_given = true;
+    result_.backend = simulation_->state.backend.name;
   }
 
   void compare_start(const record::ops::Segment& segment) {
-    if (segment.first_tick != rig_->state.tick) {
+    if (segment.first_tick != simulation_->state.tick) {
       differ({"order", "segment.first_tick", std::to_string(segment.first_tick),
-              std::to_string(rig_->state.tick)});
+              std::to_string(simulation_->state.tick)});
       return;
     }
     if (segment.first_tick > 0) return;
     // The header's tables are those of the first reamer.
     if (const std::string feed = recorded_table(recording_, "feed"), found = feed_table(); feed != found)
       differ({"table", "feed", feed, found});
-    const uint64_t hash = rig_->bone_case.bone.coverage_hash();
+    const uint64_t hash = simulation_->bone_case.bone.coverage_hash();
     if (hash != recording_.header().start_grid_hash)
       differ({"bone", "start_grid_hash", to_hex(recording_.header().start_grid_hash), to_hex(hash)});
   }
 
   std::string feed_table() const {
-    const uint64_t hash = rig_->model.feed->table_hash();
+    const uint64_t hash = simulation_->model.feed->table_hash();
     return hash == 0 ? "" : to_hex(hash);
   }
 
@@ -127,11 +128,11 @@ class Verifier {
   }
 
   void repeat(const record::ops::Tick& recorded) {
-    sim::State& state = rig_->state;
+    sim::State& state = simulation_->state;
     if ((recorded.flags & record::failed_over_flag) != 0 && state.failed_over_tick < 0)
       state.failed_over_tick = recorded.tick;
     record::TickReport report;
-    const sim::StepStatus status = sim::step(rig_->model, state, record::input_of(recorded), report);
+    const sim::StepStatus status = sim::step(simulation_->model, state, record::input_of(recorded), report);
     if (status != sim::StepStatus::ok) {
       differ(
           {"fault", "step", "a whole tick",
@@ -158,7 +159,7 @@ class Verifier {
     const bool last = next_checkpoint_ + 1 == checkpoints_.size();
     if (!last && tick < grid_compared_tick_ + request_.ticks_between_grid_hashes) return;
     grid_compared_tick_ = tick;
-    result_.grid_hash = rig_->bone_case.bone.coverage_hash();
+    result_.grid_hash = simulation_->bone_case.bone.coverage_hash();
     if (checkpoint.grid_hash != result_.grid_hash)
       differ({"bone", "grid_hash", to_hex(checkpoint.grid_hash), to_hex(result_.grid_hash)});
   }
@@ -176,7 +177,7 @@ class Verifier {
   std::vector<record::ops::Checkpoint> checkpoints_;
   size_t next_checkpoint_ = 0;
   uint32_t grid_compared_tick_ = 0;
-  std::unique_ptr<Rig> rig_;
+  std::unique_ptr<Simulation> simulation_;
   VerifyResult result_;
 };
 

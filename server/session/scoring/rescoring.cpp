@@ -10,8 +10,8 @@
 #include "score/metrics.hpp"
 #include "session/simulation/measured_glenoid.hpp"
 #include "session/simulation/recorded_case.hpp"
-#include "session/simulation/recorded_rig.hpp"
 #include "session/simulation/recorded_session.hpp"
+#include "session/simulation/recorded_setup.hpp"
 #include "sim/model.hpp"
 
 namespace ream::session {

@@ -37,7 +37,7 @@ std::string code_of(const json& session) {
   return "";
 }
 
-std::vector<json> session_cells(const TableSession& one, const score::Rubric& rubric) {
+std::vector<json> session_cells(const EndedSession& one, const score::Rubric& rubric) {
   const score::Score score = score::apply_rubric(rubric, one.metrics);
   const std::string code = code_of(one.session);
   return {one.id,
@@ -63,14 +63,14 @@ std::string limits_in_words(const score::Metric& metric) {
 
 }  // namespace
 
-ExportTable score_table(const std::vector<TableSession>& sessions, const score::Rubric& rubric) {
+ExportTable score_table(const std::vector<EndedSession>& sessions, const score::Rubric& rubric) {
   ExportTable table;
   table.name = "sessions";
   table.columns = session_columns();
   for (const score::Metric& metric : score::metric_catalogue())
     table.columns.push_back({std::string(metric.key), std::string(metric.unit),
                              std::string(metric.name) + ". " + std::string(metric.definition)});
-  for (const TableSession& one : sessions) {
+  for (const EndedSession& one : sessions) {
     std::vector<json> row = session_cells(one, rubric);
     for (const score::Metric& metric : score::metric_catalogue())
       row.push_back(one.metrics.value(std::string(metric.key), json()));

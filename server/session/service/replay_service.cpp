@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "core/new_id.hpp"
-#include "session/service/keeping_session.hpp"
+#include "session/service/session_socket.hpp"
 
 namespace ream::session {
 
@@ -170,7 +170,7 @@ nlohmann::json ReplayService::metrics(const std::string& id) const { return find
 std::unique_ptr<net::WebSocketSession> ReplayService::subscribe(const std::string& id, int stride) const {
   auto entry = find(id);
   auto inner = entry->running->subscribe(stride);
-  return std::make_unique<KeepingSession>(std::move(entry), std::move(inner));
+  return std::make_unique<SessionSocket>(std::move(entry), std::move(inner));
 }
 
 void ReplayService::shut_down() {

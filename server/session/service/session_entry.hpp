@@ -2,8 +2,8 @@
 #include <memory>
 #include <mutex>
 
-#include "session/service/keeping_session.hpp"
 #include "session/service/session_service.hpp"
+#include "session/service/session_socket.hpp"
 
 namespace ream::session {
 
@@ -37,15 +37,15 @@ inline constexpr uint16_t goes_on_elsewhere = 4001;
 
 /// A viewer's or device's connection to a session, which keeps it, and says goodbye when the session goes on
 /// as another one. Who comes after that may stay and look.
-class SessionService::Attendance final : public KeepingSession {
+class SessionService::ViewerSocket final : public SessionSocket {
  public:
-  Attendance(std::shared_ptr<Entry> entry, std::unique_ptr<net::WebSocketSession> inner)
-      : KeepingSession(entry, std::move(inner)),
+  ViewerSocket(std::shared_ptr<Entry> entry, std::unique_ptr<net::WebSocketSession> inner)
+      : SessionSocket(entry, std::move(inner)),
         entry_(std::move(entry)),
         came_late_(!entry_->request().followed_by.empty()) {}
 
   std::optional<net::CloseReason> close_reason() override {
-    if (auto words = KeepingSession::close_reason(); words || came_late_) return words;
+    if (auto words = SessionSocket::close_reason(); words || came_late_) return words;
     const std::string next = entry_->request().followed_by;
     if (next.empty()) return std::nullopt;
     return net::CloseReason{goes_on_elsewhere, "goes on from intact bone as session " + next};

@@ -21,7 +21,7 @@ SessionRecord SessionService::start(const std::string& id) {
     throw Error(ErrorKind::conflict, "session '" + id + "' is " + to_text(status.state) +
                                          "; only a created or paused session can be started");
   if (status.held)
-    entry->running->go_on();
+    entry->running->unpause();
   else
     entry->running->start();
   return entry->record();
@@ -84,7 +84,7 @@ SessionRequest SessionService::next_attempt(const SessionRecord& before) const {
 
 /// The new one stands before the old one ends, so that nothing is lost where it cannot be made; meanwhile the
 /// hand holds nothing.
-SessionRecord SessionService::begin_anew(const SessionRecord& before) {
+SessionRecord SessionService::restart(const SessionRecord& before) {
   const std::string& id = before.request.id;
   const auto old = is_live(before.status.state) ? find(id) : find_or_none(id);
   const bool ran =
@@ -94,9 +94,9 @@ SessionRecord SessionService::begin_anew(const SessionRecord& before) {
   if (held_here) old->running->pause();
   std::shared_ptr<Entry> next;
   try {
-    next = made_anew(std::move(wanted), old && old->live() ? 1 : 0);
+    next = create_entry(std::move(wanted), old && old->live() ? 1 : 0);
   } catch (...) {
-    if (held_here) old->running->go_on();
+    if (held_here) old->running->unpause();
     throw;
   }
   if (old) {
@@ -130,7 +130,7 @@ SessionRecord SessionService::reset(const std::string& id) {
     being_reset_.erase(id);
   };
   try {
-    const SessionRecord next = begin_anew(get(id));
+    const SessionRecord next = restart(get(id));
     done();
     return next;
   } catch (...) {
@@ -139,8 +139,8 @@ SessionRecord SessionService::reset(const std::string& id) {
   }
 }
 
-std::shared_ptr<SessionService::Entry> SessionService::made_again(const SessionRecord& before,
-                                                                  const std::string& reamer) {
+std::shared_ptr<SessionService::Entry> SessionService::reopen_entry(const SessionRecord& before,
+                                                                    const std::string& reamer) {
   auto entry = std::make_shared<Entry>();
   entry->label(before.request);
   entry->running = engine_.resume(before.request, reamer);
@@ -169,7 +169,7 @@ SessionRecord SessionService::resume(const std::string& id, const std::string& r
   try {
     reserve_place();
     reserved = true;
-    entry = made_again(before, reamer);
+    entry = reopen_entry(before, reamer);
   } catch (...) {
     const std::lock_guard lock(mutex_);
     done(reserved);

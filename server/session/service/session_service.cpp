@@ -61,11 +61,11 @@ std::vector<std::shared_ptr<SessionService::Entry>> SessionService::take_surplus
 }
 
 SessionRecord SessionService::create(SessionRequest wanted) {
-  return made_anew(std::move(wanted), 0)->record();
+  return create_entry(std::move(wanted), 0)->record();
 }
 
 /// `leaving`: live ones that are about to end for it.
-std::shared_ptr<SessionService::Entry> SessionService::made_anew(SessionRequest wanted, size_t leaving) {
+std::shared_ptr<SessionService::Entry> SessionService::create_entry(SessionRequest wanted, size_t leaving) {
   reserve_place(leaving);
   auto entry = std::make_shared<Entry>();
   try {
@@ -202,13 +202,13 @@ void SessionService::write_picture(const std::string& id, const std::filesystem:
 std::unique_ptr<net::WebSocketSession> SessionService::subscribe(const std::string& id, int stride) const {
   auto entry = find(id);
   auto inner = entry->running->subscribe(stride);
-  return std::make_unique<Attendance>(std::move(entry), std::move(inner));
+  return std::make_unique<ViewerSocket>(std::move(entry), std::move(inner));
 }
 
 std::unique_ptr<net::WebSocketSession> SessionService::connect_device(const std::string& id) const {
   auto entry = find(id);
   auto inner = entry->running->connect_device();
-  return std::make_unique<Attendance>(std::move(entry), std::move(inner));
+  return std::make_unique<ViewerSocket>(std::move(entry), std::move(inner));
 }
 
 void SessionService::shut_down() {

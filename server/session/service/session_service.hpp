@@ -95,15 +95,15 @@ class SessionService {
 
  private:
   struct Entry;
-  class Attendance;
+  class ViewerSocket;
   std::shared_ptr<Entry> find_or_none(const std::string& id) const;
   std::shared_ptr<Entry> find(const std::string& id) const;
   SessionRecord archived(const std::string& id) const;
   SessionRecord with_mark(SessionRecord held) const;
-  std::shared_ptr<Entry> made_again(const SessionRecord& before, const std::string& reamer);
-  std::shared_ptr<Entry> made_anew(SessionRequest wanted, size_t leaving);
+  std::shared_ptr<Entry> reopen_entry(const SessionRecord& before, const std::string& reamer);
+  std::shared_ptr<Entry> create_entry(SessionRequest wanted, size_t leaving);
   SessionRequest next_attempt(const SessionRecord& before) const;
-  SessionRecord begin_anew(const SessionRecord& before);
+  SessionRecord restart(const SessionRecord& before);
   void relabel(const std::string& id, const SessionRequest& labels);
   void reserve_place(size_t leaving = 0);
   std::string unused_id() const;

@@ -28,7 +28,7 @@ class RecordingMeasurer final : public SessionMeasurer {
 };
 
 /// What an order asks for; everything in it goes by ids.
-ExportRequest request_of(const ExportFormat& format, const ExportOrder& order, const fs::path& data) {
+ExportRequest export_request_of(const ExportFormat& format, const ExportOrder& order, const fs::path& data) {
   ExportRequest request;
   request.recording = recording_file(sessions_folder(data) / order.session.id);
   request.data = data;
@@ -46,37 +46,37 @@ ExportRequest request_of(const ExportFormat& format, const ExportOrder& order, c
 std::string SimulationEngine::program() const { return version_text(); }
 
 std::unique_ptr<RunningSession> SimulationEngine::make(const SessionRequest& request) {
-  return std::make_unique<ReamingSession>(house_, request);
+  return std::make_unique<ReamingSession>(context_, request);
 }
 
 std::unique_ptr<RunningSession> SimulationEngine::resume(const SessionRequest& request,
                                                          const std::string& reamer) {
-  return std::make_unique<ReamingSession>(house_, request, reamer);
+  return std::make_unique<ReamingSession>(context_, request, reamer);
 }
 
 std::unique_ptr<RunningReplay> SimulationEngine::replay(const ReplayRequest& request) {
-  return std::make_unique<ReplaySession>(house_, request);
+  return std::make_unique<ReplaySession>(context_, request);
 }
 
 std::unique_ptr<SessionMeasurer> SimulationEngine::measurer() const {
-  return std::make_unique<RecordingMeasurer>(house_.data);
+  return std::make_unique<RecordingMeasurer>(context_.data);
 }
 
 void SimulationEngine::write_deviations(const fs::path& folder, const fs::path& json,
                                         const Progress& progress) const {
   ExportRequest request;
   request.recording = recording_file(folder);
-  request.data = house_.data;
+  request.data = context_.data;
   session::write_deviations(request, json, progress);
 }
 
 void SimulationEngine::check_export(const ExportFormat& format, const ExportOrder& order) const {
-  request_of(format, order, house_.data);
+  export_request_of(format, order, context_.data);
 }
 
 void SimulationEngine::write_export(const ExportFormat& format, const ExportOrder& order, const fs::path& out,
                                     const Progress& progress) const {
-  format.write(request_of(format, order, house_.data), out, progress);
+  format.write(export_request_of(format, order, context_.data), out, progress);
 }
 
 }  // namespace ream::session

@@ -7,7 +7,7 @@ namespace ream::session {
 /// The engine of `ream serve`: sessions, replays, scores and exports of one data folder.
 class SimulationEngine final : public SessionEngine {
  public:
-  explicit SimulationEngine(SessionHouse house) : house_(std::move(house)) {}
+  explicit SimulationEngine(SessionContext context) : context_(std::move(context)) {}
 
   std::string program() const override;
   std::unique_ptr<RunningSession> make(const SessionRequest& request) override;
@@ -21,7 +21,7 @@ class SimulationEngine final : public SessionEngine {
                     const Progress& progress) const override;
 
  private:
-  const SessionHouse house_;
+  const SessionContext context_;
 };
 
 }  // namespace ream::session

@@ -82,13 +82,13 @@ void write_picture(const case_::Case& bone_case, const std::vector<uint8_t>& bef
   draw_picture(bone_case, surface::whole_surface(bone.grid, bone.coverage.data()), before, png);
 }
 
-void write_reamed_pictures(const Rig& rig, const std::vector<uint8_t>& before,
+void write_reamed_pictures(const Simulation& simulation, const std::vector<uint8_t>& before,
                            const std::filesystem::path& folder) {
-  const voxel::BoneModel& bone = rig.bone_case.bone;
+  const voxel::BoneModel& bone = simulation.bone_case.bone;
   const TriangleMesh surface = surface::whole_surface(bone.grid, bone.coverage.data());
   write_ply(folder / "reamed.ply", surface.transformed(bone.grid.world_from_grid),
-            case_::frame_in_words(rig.bone_case.side));
-  draw_picture(rig.bone_case, surface, before, folder / "snapshot.png");
+            case_::frame_in_words(simulation.bone_case.side));
+  draw_picture(simulation.bone_case, surface, before, folder / "snapshot.png");
 }
 
 }  // namespace ream::session

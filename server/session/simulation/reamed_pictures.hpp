@@ -3,13 +3,13 @@
 #include <vector>
 
 #include "render/snapshot.hpp"
-#include "session/simulation/rig.hpp"
+#include "session/simulation/simulation.hpp"
 
 namespace ream::session {
 
 /// reamed.ply (world frame, mm) and snapshot.png (the glenoid seen along the plan's axis and a little from
 /// above, freshly cut bone tinted) into `folder`. `before`: the coverage before the first tick.
-void write_reamed_pictures(const Rig& rig, const std::vector<uint8_t>& before,
+void write_reamed_pictures(const Simulation& simulation, const std::vector<uint8_t>& before,
                            const std::filesystem::path& folder);
 
 /// The surface of the case's bone as it is, world frame, mm; one sample every `stride` voxels.

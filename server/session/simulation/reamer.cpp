@@ -47,11 +47,11 @@ Reamer reamer_asked_for(const std::string& words, const std::optional<shell::Too
   return {words, axis ? axis : shell::axis_noted_for(words), read_binary_file(words)};
 }
 
-std::string reamer_in_library(const std::string& asked_for, const fs::path& data) {
+std::string reamer_in_library(const std::string& build_setup, const fs::path& data) {
   std::error_code failed;
-  const bool bare_name = !asked_for.empty() && asked_for.find_first_of(" ./\\") == std::string::npos &&
-                         !shell::is_parametric(asked_for) && !fs::is_regular_file(asked_for, failed);
-  return bare_name ? shell::reamer_named(asked_for, data).words : asked_for;
+  const bool bare_name = !build_setup.empty() && build_setup.find_first_of(" ./\\") == std::string::npos &&
+                         !shell::is_parametric(build_setup) && !fs::is_regular_file(build_setup, failed);
+  return bare_name ? shell::reamer_named(build_setup, data).words : build_setup;
 }
 
 shell::Tool tool_of(const Reamer& reamer) {

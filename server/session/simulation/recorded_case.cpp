@@ -2,7 +2,7 @@
 
 #include "core/error.hpp"
 #include "session/simulation/find_case.hpp"
-#include "session/simulation/recorded_rig.hpp"
+#include "session/simulation/recorded_setup.hpp"
 
 namespace ream::session {
 namespace {

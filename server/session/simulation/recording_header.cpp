@@ -17,32 +17,33 @@ std::string table_hashes(const sim::Model& model) {
   return hashes.dump();
 }
 
-record::ops::Header header_of(const Rig& rig) {
+record::ops::Header header_of(const Simulation& simulation) {
   record::ops::Header header;
   header.build = version_text();
-  header.case_id = rig.bone_case.id;
-  header.case_hash = rig.case_hash;
-  header.start_grid_hash = rig.bone_case.bone.coverage_hash();
-  header.random_seed = rig.model.settings.random_seed;
-  header.force_scale = rig.model.settings.force_scale;
-  header.settings = sim::to_json(rig.model.settings).dump();
-  header.plan = case_::to_json(rig.model.plan).dump();
-  header.grid = record::grid_to_text(rig.bone_case.bone.grid);
-  header.description = rig.description().dump();
-  header.tables = table_hashes(rig.model);
-  header.anatomy = case_::to_json(rig.anatomy).dump();
+  header.case_id = simulation.bone_case.id;
+  header.case_hash = simulation.case_hash;
+  header.start_grid_hash = simulation.bone_case.bone.coverage_hash();
+  header.random_seed = simulation.model.settings.random_seed;
+  header.force_scale = simulation.model.settings.force_scale;
+  header.settings = sim::to_json(simulation.model.settings).dump();
+  header.plan = case_::to_json(simulation.model.plan).dump();
+  header.grid = record::grid_to_text(simulation.bone_case.bone.grid);
+  header.description = simulation.description().dump();
+  header.tables = table_hashes(simulation.model);
+  header.anatomy = case_::to_json(simulation.anatomy).dump();
   return header;
 }
 
-record::ops::Segment segment_of(const Rig& rig, uint32_t first_tick, const std::string& reason) {
+record::ops::Segment segment_of(const Simulation& simulation, uint32_t first_tick,
+                                const std::string& reason) {
   record::ops::Segment segment;
   segment.first_tick = first_tick;
   segment.reason = reason;
   segment.utc = utc_now();
-  segment.tool = rig.reamer.words;
-  segment.tool_axis = axis_to_text(rig.reamer.axis);
-  segment.tool_file = rig.reamer.mesh_file;
-  segment.backend = rig.state.backend.name;
+  segment.tool = simulation.reamer.words;
+  segment.tool_axis = axis_to_text(simulation.reamer.axis);
+  segment.tool_file = simulation.reamer.mesh_file;
+  segment.backend = simulation.state.backend.name;
   return segment;
 }
 

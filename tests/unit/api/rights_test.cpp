@@ -21,12 +21,13 @@ TEST(Rights, HaveOneRowARoute) {
 
 TEST(Rights, EveryRowBehindADoorNamesSomebody) {
   for (const Right& right : rights())
-    EXPECT_EQ(right.who == 0, right.door == Door::anybody) << right.method << ' ' << right.pattern;
+    EXPECT_EQ(right.who == 0, right.route_access == RouteAccess::anybody)
+        << right.method << ' ' << right.pattern;
 }
 
 TEST(Rights, OperatorsMayUseEveryRoute) {
   for (const Right& right : rights())
-    EXPECT_TRUE(right.door == Door::anybody || right.who & operators) << right.pattern;
+    EXPECT_TRUE(right.route_access == RouteAccess::anybody || right.who & operators) << right.pattern;
 }
 
 TEST(Rights, AWiderRoleMayAllThatANarrowerOneMay) {

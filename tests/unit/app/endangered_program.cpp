@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "device/crash_guard.hpp"
-#include "session/simulation/asked_rig.hpp"
+#include "session/simulation/session_setup.hpp"
 #include "support/recorded_reaming.hpp"
 
 // A program with a device in somebody's hand, told by its argument how to end. What its device is told, last
@@ -76,14 +76,14 @@ int run(const std::string& how) {
   catch_interrupts();
   if (how != "unwatched") device::take_force_away_on_crash();
   const RecordedReaming reaming;
-  session::RigParts parts =
-      session::asked_for(reaming.request(RecordedReaming::push("ideal", 600.0)), reaming.data());
+  session::SimulationSetup parts =
+      session::build_setup(reaming.request(RecordedReaming::push("ideal", 600.0)), reaming.data());
   const int end_at = how == "signal" ? -1 : 700;
   parts.device = std::make_unique<TellingDevice>(std::move(parts.device), end_at, ends.at(how));
-  session::Rig rig(std::move(parts));
-  const std::vector<uint8_t> start = rig.bone_case.bone.coverage;
+  session::Simulation simulation(std::move(parts));
+  const std::vector<uint8_t> start = simulation.bone_case.bone.coverage;
   try {
-    session::run_headless(rig, start, reaming.folder().path(), true);
+    session::run_headless(simulation, start, reaming.folder().path(), true);
   } catch (const Error& e) {
     std::fprintf(stderr, "%s\n", e.what());
     return 1;

@@ -32,8 +32,9 @@ Script pulling(double force_n, double arm_damping_n_s_mm = 1.0) {
 }
 
 /// A device in the hand of a script, in free space: the mass that a session would simulate is simulated here.
-struct Rig {
-  Rig(const PlantKind& kind, double force_n, const MachineFault& fault = {}, double arm_damping_n_s_mm = 1.0)
+struct Simulation {
+  Simulation(const PlantKind& kind, double force_n, const MachineFault& fault = {},
+             double arm_damping_n_s_mm = 1.0)
       : plant(kind.plant),
         device(
             std::make_unique<WatchedMachine>(make_admittance_plant(kind.plant, device_profile(kind.profile),
@@ -76,46 +77,49 @@ const std::vector<std::string> in_order{"open", "enable", "rest", "disable", "cl
 TEST(AdmittanceDevice, ZeroesItsSensorAndBeginsWhereTheToolIs) {
   for (const PlantKind& kind : plants()) {
     SCOPED_TRACE(kind.plant.name);
-    Rig rig(kind, 0.0);
-    rig.device.open();
-    ASSERT_EQ(rig.device.read(rig.input), DeviceStatus::ok);
+    Simulation simulation(kind, 0.0);
+    simulation.device.open();
+    ASSERT_EQ(simulation.device.read(simulation.input), DeviceStatus::ok);
     EXPECT_GT(kind.plant.sensor_bias_n.norm(), 3.0);
-    EXPECT_LT(rig.input.hand_force_n.norm(), 6.0 * kind.plant.sensor_noise_rms_n) << "the bias is taken away";
-    EXPECT_LT((rig.input.world_from_handle.translation_mm - rig.world_from_start.translation_mm).norm(),
+    EXPECT_LT(simulation.input.hand_force_n.norm(), 6.0 * kind.plant.sensor_noise_rms_n)
+        << "the bias is taken away";
+    EXPECT_LT((simulation.input.world_from_handle.translation_mm - simulation.world_from_start.translation_mm)
+                  .norm(),
               1e-9);
-    EXPECT_TRUE(rig.input.world_from_handle.rotation.isApprox(rig.world_from_start.rotation, 1e-12));
-    rig.device.close();
-    EXPECT_EQ(rig.seen->calls, in_order);
+    EXPECT_TRUE(
+        simulation.input.world_from_handle.rotation.isApprox(simulation.world_from_start.rotation, 1e-12));
+    simulation.device.close();
+    EXPECT_EQ(simulation.seen->calls, in_order);
   }
 }
 
 TEST(AdmittanceDevice, AHandLeadsItFreelyWithoutRinging) {
   for (const PlantKind& kind : plants()) {
     SCOPED_TRACE(kind.plant.name);
-    Rig rig(kind, 20.0);
-    rig.device.open();
-    ASSERT_TRUE(rig.run(3000));
+    Simulation simulation(kind, 20.0);
+    simulation.device.open();
+    ASSERT_TRUE(simulation.run(3000));
     // 20 N on an arm that resists with 1 N s/mm and a mass with a hundredth of that.
-    const Vec3 along = rig.world_from_start.rotation.col(2);
-    EXPECT_NEAR(rig.velocity_mm_s.dot(along), 20.0 / 1.01, 1.0);
-    const Vec3 sideways = rig.velocity_mm_s - along * rig.velocity_mm_s.dot(along);
+    const Vec3 along = simulation.world_from_start.rotation.col(2);
+    EXPECT_NEAR(simulation.velocity_mm_s.dot(along), 20.0 / 1.01, 1.0);
+    const Vec3 sideways = simulation.velocity_mm_s - along * simulation.velocity_mm_s.dot(along);
     EXPECT_LT(sideways.norm(), 1.0);
-    rig.device.close();
-    test::expect_within_limits(*rig.seen, kind.plant.limits.motion);
-    EXPECT_EQ(rig.seen->calls, in_order);
+    simulation.device.close();
+    test::expect_within_limits(*simulation.seen, kind.plant.limits.motion);
+    EXPECT_EQ(simulation.seen->calls, in_order);
   }
 }
 
 TEST(AdmittanceDevice, AHandThatPullsTooHardMeetsTheLimits) {
   for (const PlantKind& kind : plants()) {
     SCOPED_TRACE(kind.plant.name);
-    Rig rig(kind, 0.7 * kind.plant.limits.sensor_range_n, {}, 0.02);
-    rig.device.open();
-    ASSERT_TRUE(rig.run(4000));
-    EXPECT_GT(rig.seen->fastest_mm_s, 0.5 * kind.plant.limits.motion.speed_max_mm_s);
-    test::expect_within_limits(*rig.seen, kind.plant.limits.motion);
-    rig.device.close();
-    test::expect_within_limits(*rig.seen, kind.plant.limits.motion);
+    Simulation simulation(kind, 0.7 * kind.plant.limits.sensor_range_n, {}, 0.02);
+    simulation.device.open();
+    ASSERT_TRUE(simulation.run(4000));
+    EXPECT_GT(simulation.seen->fastest_mm_s, 0.5 * kind.plant.limits.motion.speed_max_mm_s);
+    test::expect_within_limits(*simulation.seen, kind.plant.limits.motion);
+    simulation.device.close();
+    test::expect_within_limits(*simulation.seen, kind.plant.limits.motion);
   }
 }
 
@@ -144,36 +148,36 @@ TEST(AdmittanceDevice, EveryFaultBringsItToRestInItsTime) {
   for (const PlantKind& kind : plants())
     for (const FaultRow& row : faults()) {
       SCOPED_TRACE(kind.plant.name + ": " + row.name);
-      Rig rig(kind, 30.0, row.fault);
-      rig.device.open();
+      Simulation simulation(kind, 30.0, row.fault);
+      simulation.device.open();
       const int64_t last_tick = std::min<int64_t>(row.fault.from + row.fault.ticks, 1600);
-      const bool ran = rig.run(static_cast<int>(last_tick));
+      const bool ran = simulation.run(static_cast<int>(last_tick));
       EXPECT_EQ(ran, !row.ends);
-      const double stale_ms = rig.device.traits().stale.fade_ms;
+      const double stale_ms = simulation.device.traits().stale.fade_ms;
       const double rest_ms = stale_ms + 1e3 * kind.plant.limits.motion.stop_time_s() + 2.0;
       if (!row.ends && static_cast<double>(row.fault.ticks) > rest_ms) {
-        EXPECT_LE(static_cast<double>(rig.seen->last_motion - row.fault.from), rest_ms);
-        EXPECT_TRUE(rig.input.paused);
+        EXPECT_LE(static_cast<double>(simulation.seen->last_motion - row.fault.from), rest_ms);
+        EXPECT_TRUE(simulation.input.paused);
       }
       if (!row.ends) {
-        ASSERT_TRUE(rig.run(2000)) << "it goes on";
-        EXPECT_FALSE(rig.input.paused);
-        EXPECT_GT(rig.velocity_mm_s.norm(), 25.0);
+        ASSERT_TRUE(simulation.run(2000)) << "it goes on";
+        EXPECT_FALSE(simulation.input.paused);
+        EXPECT_GT(simulation.velocity_mm_s.norm(), 25.0);
       }
       const bool strays = row.fault.kind == Kind::lags || row.fault.kind == Kind::collides;
       if (strays) {
-        EXPECT_EQ(rig.seen->stops, 1) << "at once, by itself";
-        EXPECT_EQ(rig.device.write({}), DeviceStatus::fault);
+        EXPECT_EQ(simulation.seen->stops, 1) << "at once, by itself";
+        EXPECT_EQ(simulation.device.write({}), DeviceStatus::fault);
       }
-      rig.device.close();
-      EXPECT_EQ(rig.seen->told_after_stop, 0);
-      test::expect_within_limits(*rig.seen, kind.plant.limits.motion);
-      std::vector<std::string> calls = rig.seen->calls;
+      simulation.device.close();
+      EXPECT_EQ(simulation.seen->told_after_stop, 0);
+      test::expect_within_limits(*simulation.seen, kind.plant.limits.motion);
+      std::vector<std::string> calls = simulation.seen->calls;
       std::erase(calls, "rest");
       EXPECT_EQ(calls, (std::vector<std::string>{"open", "enable", "disable", "close"}));
-      EXPECT_GE(rig.seen->stops, 1) << "before its motors are off";
+      EXPECT_GE(simulation.seen->stops, 1) << "before its motors are off";
       if (row.fault.kind != Kind::deaf && !strays) {
-        EXPECT_EQ(rig.seen->calls, in_order);
+        EXPECT_EQ(simulation.seen->calls, in_order);
       }
     }
 }
@@ -284,24 +288,24 @@ TEST(AdmittanceDevice, AMachineThatMovesOrFallsSilentWhenItsMotorsGoOnIsRefused)
 
 TEST(AdmittanceDevice, SaysHowLongItsBrakingMayTake) {
   for (const PlantKind& kind : plants()) {
-    Rig rig(kind, 0.0);
-    EXPECT_GT(rig.device.closing_ms(), 2e3 * kind.plant.limits.motion.stop_time_s() + 100.0);
+    Simulation simulation(kind, 0.0);
+    EXPECT_GT(simulation.device.closing_ms(), 2e3 * kind.plant.limits.motion.stop_time_s() + 100.0);
   }
 }
 
 TEST(AdmittanceDevice, TakenAwayFromOutsideItStopsByItself) {
   for (const PlantKind& kind : plants()) {
     SCOPED_TRACE(kind.plant.name);
-    Rig rig(kind, 30.0);
-    rig.device.open();
-    ASSERT_TRUE(rig.run(1000));
-    rig.device.take_force_away();
-    const Vec3 before_mm = rig.input.world_from_handle.translation_mm;
-    rig.run(100);
+    Simulation simulation(kind, 30.0);
+    simulation.device.open();
+    ASSERT_TRUE(simulation.run(1000));
+    simulation.device.take_force_away();
+    const Vec3 before_mm = simulation.input.world_from_handle.translation_mm;
+    simulation.run(100);
     const double brake_mm = 30.0 * 30.0 / (2.0 * kind.plant.own_stop_mm_s2) + 1.0;
-    EXPECT_LT((rig.input.world_from_handle.translation_mm - before_mm).norm(), brake_mm);
-    rig.device.close();
-    EXPECT_EQ(rig.seen->calls.back(), "close");
+    EXPECT_LT((simulation.input.world_from_handle.translation_mm - before_mm).norm(), brake_mm);
+    simulation.device.close();
+    EXPECT_EQ(simulation.seen->calls.back(), "close");
   }
 }
 

@@ -102,7 +102,7 @@ TEST_F(DeviceRegistry, RealDevicesTakeTheProfilesOfTheirModelsOnly) {
 
 TEST_F(DeviceRegistry, OffersAreMadeWithoutOpeningAnything) {
   for (const DeviceKind& kind : device_kinds()) {
-    const DeviceOffer offer = kind.offer(folder.path());
+    const DeviceInfo offer = kind.offer(folder.path());
     EXPECT_EQ(offer.name, kind.name);
     EXPECT_EQ(offer.usable, offer.reason.empty()) << offer.reason;
     if (kind.name == "script" || kind.name == "network" || kind.name == "browser") {

@@ -16,7 +16,7 @@
 #include "session/folder/recorded_annotations.hpp"
 #include "session/live/session_recovery.hpp"
 #include "session/service/session_service.hpp"
-#include "session/simulation/asked_rig.hpp"
+#include "session/simulation/session_setup.hpp"
 #include "support/expect_error.hpp"
 #include "support/recorded_reaming.hpp"
 
@@ -57,7 +57,7 @@ class ReamingSessionTest : public testing::Test {
                           test::RecordedReaming::push("ideal-admittance", 20.0).dump());
     fs::create_directories(sessions_folder(reaming.data()));
   }
-  SessionHouse house() const { return {reaming.data(), 1, "cpu", sim::Realtime::off, places}; }
+  SessionContext context() const { return {reaming.data(), 1, "cpu", sim::Realtime::off, places}; }
   static SessionRequest wanted() { return {{}, "slab", "push", {}}; }
   fs::path folder(const std::string& id) const { return sessions_folder(reaming.data()) / id; }
   void run_for_a_while(const std::string& id, uint32_t ticks) {
@@ -75,7 +75,7 @@ class ReamingSessionTest : public testing::Test {
   const test::RecordedReaming reaming;
   const std::shared_ptr<sim::CpuAllocator> places =
       std::make_shared<sim::CpuAllocator>(std::vector{sim::allowed_cpus().front()});
-  SimulationEngine engine{house()};
+  SimulationEngine engine{context()};
   SessionService service{engine, {4, 4}, sessions_folder(reaming.data())};
 };
 
@@ -123,7 +123,7 @@ TEST_F(ReamingSessionTest, ASessionThatCouldNotGoOnCanStillBeResumed) {
   const std::string id = stopped_session();
   const auto recording = read_binary_file(folder(id) / "recording.ream");
   {
-    ReamingSession blocked(house(), service.get(id).request, "");
+    ReamingSession blocked(context(), service.get(id).request, "");
     fs::rename(folder(id) / "session.json", folder(id) / "kept");
     fs::create_directories(folder(id) / "session.json" / "in the way");
     test::expect_error(ErrorKind::io, "session.json", [&] { blocked.start(); });
@@ -137,7 +137,7 @@ TEST_F(ReamingSessionTest, ASessionThatCouldNotGoOnCanStillBeResumed) {
 
 TEST_F(ReamingSessionTest, OneThatGetsNoRealTimeStaysWhatItWas) {
   const std::string id = stopped_session();
-  SessionHouse strict = house();
+  SessionContext strict = context();
   strict.realtime = sim::Realtime::require;
   {
     ReamingSession refused(strict, service.get(id).request, "");
@@ -181,11 +181,12 @@ TEST_F(ReamingSessionTest, ManyRemarksAtOnceBehindTheEnd) {
 }
 
 TEST_F(ReamingSessionTest, EventsAreRecorded) {
-  Rig rig(asked_for(reaming.request(test::RecordedReaming::push("ideal-admittance", 0.2)), reaming.data()));
+  Simulation simulation(
+      build_setup(reaming.request(test::RecordedReaming::push("ideal-admittance", 0.2)), reaming.data()));
   const fs::path out = reaming.folder().path() / "events";
   fs::create_directories(out);
-  const std::vector<uint8_t> start = rig.bone_case.bone.coverage;
-  SessionFiles files(rig, out, start.data(), SessionFiles::Trace::left_out);
+  const std::vector<uint8_t> start = simulation.bone_case.bone.coverage;
+  SessionFiles files(simulation, out, start.data(), SessionFiles::Trace::left_out);
   sim::LoopHealth health;
   health.failed_over_tick = 0;
   files.note_failover(0);
@@ -198,11 +199,12 @@ TEST_F(ReamingSessionTest, EventsAreRecorded) {
 }
 
 TEST_F(ReamingSessionTest, AnAbandonedHealthyRecordingKeepsItsRemarks) {
-  Rig rig(asked_for(reaming.request(test::RecordedReaming::push("ideal-admittance", 0.2)), reaming.data()));
+  Simulation simulation(
+      build_setup(reaming.request(test::RecordedReaming::push("ideal-admittance", 0.2)), reaming.data()));
   const fs::path out = reaming.folder().path() / "abandoned";
   fs::create_directories(out);
-  const std::vector<uint8_t> start = rig.bone_case.bone.coverage;
-  SessionFiles files(rig, out, start.data(), SessionFiles::Trace::left_out);
+  const std::vector<uint8_t> start = simulation.bone_case.bone.coverage;
+  SessionFiles files(simulation, out, start.data(), SessionFiles::Trace::left_out);
   record::ops::Annotation remark;
   remark.words = "said";
   files.add(remark);

@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "record/recording.hpp"
 #include "session/live/headless_run.hpp"
-#include "session/simulation/asked_rig.hpp"
+#include "session/simulation/session_setup.hpp"
 #include "support/damage.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
@@ -39,19 +39,19 @@ class ReplaySessionTest : public testing::Test {
     request.case_name = "slab";
     request.script_name = script.string();
     request.backend = "cpu";
-    Rig rig(asked_for(request, folder_->path()));
+    Simulation simulation(build_setup(request, folder_->path()));
     const auto session = sessions_folder(folder_->path()) / "abcdefgh";
     std::filesystem::create_directories(session);
-    const std::vector<uint8_t> start = rig.bone_case.bone.coverage;
-    metrics_ = run_headless(rig, start, session, false).metrics;
+    const std::vector<uint8_t> start = simulation.bone_case.bone.coverage;
+    metrics_ = run_headless(simulation, start, session, false).metrics;
   }
   static void TearDownTestSuite() { folder_.reset(); }
 
-  static SessionHouse house() {
-    SessionHouse house;
-    house.data = folder_->path();
-    house.server_epoch = 7;
-    return house;
+  static SessionContext context() {
+    SessionContext context;
+    context.data = folder_->path();
+    context.server_epoch = 7;
+    return context;
   }
   static ReplayRequest request(const std::string& of = "abcdefgh") {
     return {"rabcdefgh", of, "slab", "press"};
@@ -69,7 +69,7 @@ class ReplaySessionTest : public testing::Test {
 
 TEST_F(ReplaySessionTest, AtItsEndItsMetricsAreTheSessions) {
   ASSERT_GT(metrics_.at("removed_volume_mm3").get<double>(), 1.0);
-  ReplaySession replay(house(), request());
+  ReplaySession replay(context(), request());
   EXPECT_EQ(replay.status().duration_s, metrics_.at("duration_s").get<double>());
   EXPECT_EQ(replay.metrics().at("removed_volume_mm3"), 0.0);
   replay.change({true, 16.0, 1.0});
@@ -80,7 +80,7 @@ TEST_F(ReplaySessionTest, AtItsEndItsMetricsAreTheSessions) {
 }
 
 TEST_F(ReplaySessionTest, TellsViewersWhereItStandsAndThatItHasEnded) {
-  ReplaySession replay(house(), request());
+  ReplaySession replay(context(), request());
   const auto stream = replay.subscribe(1);
   stream->on_open([] {});
   stream::Viewer viewer;
@@ -146,7 +146,7 @@ class DamagedReplayTest : public ReplaySessionTest {
 TEST_F(DamagedReplayTest, AJumpIntoDamageRestsWhereItWasAndTheReplayGoesOn) {
   testing::internal::CaptureStderr();
   {
-    ReplaySession replay(house(), request("damaged"));
+    ReplaySession replay(context(), request("damaged"));
     replay.change({{}, {}, 1.0});
     while (replay.metrics().at("grid_hash").is_null())
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -170,7 +170,7 @@ TEST_F(DamagedReplayTest, AJumpIntoDamageRestsWhereItWasAndTheReplayGoesOn) {
 }
 
 TEST_F(DamagedReplayTest, DamageIsToldBeforeItIsReached) {
-  const ReplaySession replay(house(), request("damaged"));
+  const ReplaySession replay(context(), request("damaged"));
   while (replay.status().warning.empty()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
   EXPECT_EQ(replay.status().fault, "");
   EXPECT_NE(replay.status().warning.find("is damaged"), std::string::npos);
@@ -184,7 +184,7 @@ TEST_F(DamagedReplayTest, ACutEndIsToldToo) {
   const auto whole = sessions_folder(folder_->path()) / "abcdefgh" / "recording.ream";
   std::filesystem::copy_file(whole, path(), std::filesystem::copy_options::overwrite_existing);
   std::filesystem::resize_file(path(), record::Recording(whole).log().chunks().back().offset + 70);
-  const ReplaySession replay(house(), request("damaged"));
+  const ReplaySession replay(context(), request("damaged"));
   EXPECT_FALSE(replay.status().warning.empty());
   ASSERT_FALSE(replay.marks().empty());
   EXPECT_EQ(replay.marks().back().kind, "damaged");
@@ -192,7 +192,7 @@ TEST_F(DamagedReplayTest, ACutEndIsToldToo) {
 }
 
 TEST_F(ReplaySessionTest, AWholeRecordingHasNoWarning) {
-  ReplaySession replay(house(), request());
+  ReplaySession replay(context(), request());
   replay.change({{}, {}, replay.status().duration_s});
   replay.metrics();  // by now all has been read
   EXPECT_EQ(replay.status().warning, "");
@@ -200,10 +200,10 @@ TEST_F(ReplaySessionTest, AWholeRecordingHasNoWarning) {
 }
 
 TEST_F(ReplaySessionTest, RefusesWhatItCannotShow) {
-  expect_error(ErrorKind::not_found, "nobody", [] { ReplaySession(house(), request("nobody")); });
+  expect_error(ErrorKind::not_found, "nobody", [] { ReplaySession(context(), request("nobody")); });
   folder_->write("sessions/broken/recording.ream", "no recording");
-  EXPECT_THROW(ReplaySession(house(), request("broken")), Error);
-  ReplaySession replay(house(), request());
+  EXPECT_THROW(ReplaySession(context(), request("broken")), Error);
+  ReplaySession replay(context(), request());
   expect_error(ErrorKind::invalid_input, "position_s", [&] { replay.change({{}, {}, 1000.0}); });
 }
 
@@ -213,9 +213,9 @@ TEST_F(ReplaySessionTest, RefusesACaseThatHasChanged) {
   case_::Case changed = c;
   changed.bone.coverage[changed.bone.grid.index(24, 24, 5)] = 7;
   case_::save_case(changed, folder, true);
-  expect_error(ErrorKind::conflict, "slab", [] { ReplaySession(house(), request()); });
+  expect_error(ErrorKind::conflict, "slab", [] { ReplaySession(context(), request()); });
   case_::save_case(c, folder, true);
-  EXPECT_NO_THROW(ReplaySession(house(), request()));
+  EXPECT_NO_THROW(ReplaySession(context(), request()));
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include "core/data_folder.hpp"
 #include "core/file.hpp"
 #include "session/live/headless_run.hpp"
-#include "session/simulation/asked_rig.hpp"
+#include "session/simulation/session_setup.hpp"
 #include "support/analytic_glenoid.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -55,11 +55,11 @@ class RescoringTest : public testing::Test {
     request.backend = "cpu";
     request.tool = tool;
     request.tool_spacing_mm = 1.0;
-    Rig rig(asked_for(request, data()));
+    Simulation simulation(build_setup(request, data()));
     const std::filesystem::path folder = sessions_folder(data()) / id;
     std::filesystem::create_directories(folder);
-    const std::vector<uint8_t> start = rig.bone_case.bone.coverage;
-    run_headless(rig, start, folder, false);
+    const std::vector<uint8_t> start = simulation.bone_case.bone.coverage;
+    run_headless(simulation, start, folder, false);
   }
 
  private:

@@ -9,7 +9,7 @@
 #include "case/landmarks.hpp"
 #include "core/file.hpp"
 #include "session/live/headless_run.hpp"
-#include "session/simulation/asked_rig.hpp"
+#include "session/simulation/session_setup.hpp"
 #include "support/random_reaming.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -40,10 +40,10 @@ Scored run(const RandomReaming& reaming, const TemporaryFolder& folder) {
   request.script_name = (folder.path() / "script.json").string();
   request.backend = "cpu";
   request.tool_spacing_mm = robot_spacing_mm;
-  session::Rig rig(session::asked_for(request, data));
+  session::Simulation simulation(session::build_setup(request, data));
   std::filesystem::create_directories(out);
-  const std::vector<uint8_t> start = rig.bone_case.bone.coverage;
-  const session::HeadlessResult result = session::run_headless(rig, start, out, false);
+  const std::vector<uint8_t> start = simulation.bone_case.bone.coverage;
+  const session::HeadlessResult result = session::run_headless(simulation, start, out, false);
   return {result.metrics, reaming_truth(reaming, out / "trace.csv")};
 }
 

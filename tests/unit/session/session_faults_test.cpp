@@ -55,7 +55,7 @@ class SessionFaults : public testing::Test {
     request.case_id = "slab";
     request.script = "practice";
     request.device = "network";
-    return std::make_unique<ReamingSession>(SessionHouse{reaming.data(), 1, "cpu", sim::Realtime::off},
+    return std::make_unique<ReamingSession>(SessionContext{reaming.data(), 1, "cpu", sim::Realtime::off},
                                             request);
   }
   fs::path folder() const { return sessions_folder(reaming.data()) / "faulty"; }

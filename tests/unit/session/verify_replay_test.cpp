@@ -11,8 +11,8 @@
 #include "record/replay_device.hpp"
 #include "record/tick_report.hpp"
 #include "session/replay/review_recording.hpp"
-#include "session/simulation/asked_rig.hpp"
 #include "session/simulation/recorded_case.hpp"
+#include "session/simulation/session_setup.hpp"
 #include "support/changed_recording.hpp"
 #include "support/expect_error.hpp"
 #include "support/recorded_reaming.hpp"
@@ -83,14 +83,14 @@ TEST(VerifyReplay, ARecordingIsADevice) {
     RecordedReaming reaming;
     const std::filesystem::path path = reaming.record(RecordedReaming::push(profile));
     const record::Recording recording(path);
-    RigParts parts = recorded_parts(recording, recording.segments().front(),
-                                    recorded_case(recording, "", reaming.data()), {}, "cpu");
+    SimulationSetup parts = recorded_setup(recording, recording.segments().front(),
+                                           recorded_case(recording, "", reaming.data()), {}, "cpu");
     device::DeviceTraits traits;
     traits.profile = profile;
     parts.device = std::make_unique<record::ReplayDevice>(recording, 0, recording.tick_count(), traits);
-    Rig rig(std::move(parts));
-    rig.state.handle_given = true;
-    const record::Recording again(reaming.record(rig));
+    Simulation simulation(std::move(parts));
+    simulation.state.handle_given = true;
+    const record::Recording again(reaming.record(simulation));
     const auto ticks = recording.ticks(0, UINT32_MAX);
     EXPECT_EQ(again.ticks(0, UINT32_MAX), ticks);
     EXPECT_EQ(again.checkpoints(), recording.checkpoints());
@@ -130,10 +130,10 @@ TEST(VerifyReplay, ADeviceThatFallsSilentNowAndThen) {
   for (const char* profile : {"touch", "ideal", "ideal-admittance"}) {
     SCOPED_TRACE(profile);
     RecordedReaming reaming;
-    RigParts parts = asked_for(reaming.request(RecordedReaming::push(profile, 4.5)), reaming.data());
+    SimulationSetup parts = build_setup(reaming.request(RecordedReaming::push(profile, 4.5)), reaming.data());
     parts.device = std::make_unique<HaltingDevice>(std::move(parts.device));
-    Rig rig(std::move(parts));
-    const std::filesystem::path path = reaming.record(rig);
+    Simulation simulation(std::move(parts));
+    const std::filesystem::path path = reaming.record(simulation);
     uint32_t stale = 0, lost = 0;
     record::Recording(path).for_each_tick(0, UINT32_MAX, [&](const Tick& tick) {
       const bool is_stale = (tick.flags & record::stale_flag) != 0;
@@ -160,8 +160,8 @@ TEST(VerifyReplay, RemovalByDecay) {
   RecordedReaming reaming;
   RunRequest request = reaming.request(RecordedReaming::push("ideal"));
   request.removal = sim::RemovalLaw::decay;
-  Rig rig(asked_for(request, reaming.data()));
-  expect_the_same_everywhere(reaming, reaming.record(rig));
+  Simulation simulation(build_setup(request, reaming.data()));
+  expect_the_same_everywhere(reaming, reaming.record(simulation));
 }
 
 TEST(VerifyReplay, GuidedInBoneThatGivesWay) {
@@ -190,12 +190,13 @@ TEST(VerifyReplay, EveryFeedModelAndVibration) {
 
 TEST(VerifyReplay, ASessionWhoseDeviceFailed) {
   RecordedReaming reaming;
-  Rig rig(asked_for(reaming.request(RecordedReaming::push("omega.6")), reaming.data()));
-  rig.state.reserve = sim::make_cpp_backend(rig.model, rig.bone_case.bone, rig.state.cells);
-  rig.state.backend.narrow_phase =
-      std::make_unique<test::FailingNarrowPhase>(std::move(rig.state.backend.narrow_phase), 300);
-  const auto path = reaming.record(rig);
-  ASSERT_GT(rig.state.failed_over_tick, 0);
+  Simulation simulation(build_setup(reaming.request(RecordedReaming::push("omega.6")), reaming.data()));
+  simulation.state.reserve =
+      sim::make_cpp_backend(simulation.model, simulation.bone_case.bone, simulation.state.cells);
+  simulation.state.backend.narrow_phase =
+      std::make_unique<test::FailingNarrowPhase>(std::move(simulation.state.backend.narrow_phase), 300);
+  const auto path = reaming.record(simulation);
+  ASSERT_GT(simulation.state.failed_over_tick, 0);
   expect_the_same_everywhere(reaming, path);
 }
 

@@ -37,7 +37,7 @@ int refused(Action&& action) {
 
 class StudyServiceTest : public testing::Test {
  protected:
-  StudySurroundings surroundings() {
+  StudyDependencies dependencies() {
     return {[](const std::string& id) {
               return id == ada.user_id   ? std::optional(ada.name)
                      : id == bob.user_id ? std::optional(bob.name)
@@ -46,13 +46,13 @@ class StudyServiceTest : public testing::Test {
             [](const std::string& id) { return id != "missing"; },
             [this](const std::string&) { return attempts_; }};
   }
-  static StudyWishes wishes(const std::vector<std::string>& cases = {"demo", "hard"}) {
+  static StudyDraft draft(const std::vector<std::string>& cases = {"demo", "hard"}) {
     return {"First year",
             "Who presses too hard?",
             {cases, "practice", "browser", "touch"},
             face_validity_questionnaire()};
   }
-  std::string made() { return service_.create(wishes()).id; }
+  std::string made() { return service_.create(draft()).id; }
   std::string join(const net::Caller& who, const std::string& id, const std::string& level = "novice") {
     return service_.join(who, {level, 2, "", "", service_.get(the_operator, id).join_code}).second.code;
   }
@@ -66,11 +66,11 @@ class StudyServiceTest : public testing::Test {
   test::TemporaryFolder folder_;
   store::Database database_{"sqlite:" + (folder_.path() / "ream.db").string()};
   std::vector<StudyAttempt> attempts_;
-  StudyService service_{database_, surroundings()};
+  StudyService service_{database_, dependencies()};
 };
 
 TEST_F(StudyServiceTest, KeepsWhatAStudyIsMadeOf) {
-  const Study study = service_.create(wishes());
+  const Study study = service_.create(draft());
   const Study kept = service_.get(instructor, study.id);
   EXPECT_EQ(kept.name, "First year");
   EXPECT_EQ(kept.settings.cases, (std::vector<std::string>{"demo", "hard"}));
@@ -80,18 +80,18 @@ TEST_F(StudyServiceTest, KeepsWhatAStudyIsMadeOf) {
   EXPECT_EQ(to_json(*kept.questionnaire), to_json(face_validity_questionnaire()));
   EXPECT_EQ(kept.join_code, study.join_code);
   EXPECT_NE(kept.join_code, kept.id);
-  expect_error(ErrorKind::not_found, "missing", [&] { service_.create(wishes({"missing"})); });
+  expect_error(ErrorKind::not_found, "missing", [&] { service_.create(draft({"missing"})); });
 }
 
 TEST_F(StudyServiceTest, ItsSettingsStandStillOnceSomebodyTakesPart) {
   const std::string id = made();
-  service_.change(id, wishes({"hard"}));
+  service_.change(id, draft({"hard"}));
   EXPECT_EQ(service_.get(instructor, id).settings.cases, std::vector<std::string>{"hard"});
   join(ada, id);
-  StudyWishes renamed = wishes({"hard"});
+  StudyDraft renamed = draft({"hard"});
   renamed.name = "Second year";
   EXPECT_EQ(service_.change(id, renamed).name, "Second year");
-  expect_error(ErrorKind::conflict, "takes part", [&] { service_.change(id, wishes({"demo"})); });
+  expect_error(ErrorKind::conflict, "takes part", [&] { service_.change(id, draft({"demo"})); });
   renamed.questionnaire.reset();
   expect_error(ErrorKind::conflict, "takes part", [&] { service_.change(id, renamed); });
   expect_error(ErrorKind::conflict, "takes part", [&] { service_.remove(id); });
@@ -194,7 +194,7 @@ TEST_F(StudyServiceTest, WhoRunsTheStudyAnswersForThoseWithoutAnAccount) {
   const std::string id = made(), code = service_.enrol(instructor, id, {"expert", 9, "", "", ""}).code;
   service_.answer(instructor, id, code, answers());
   EXPECT_EQ(service_.participant(the_operator, id, code).answers, answers());
-  StudyWishes silent = wishes();
+  StudyDraft silent = draft();
   silent.questionnaire.reset();
   const std::string asks_nothing = service_.create(silent).id;
   const std::string other = service_.enrol(instructor, asks_nothing, {"expert", 9, "", "", ""}).code;

@@ -5,8 +5,8 @@
 namespace ream::test {
 namespace {
 
-using api::Door;
 using api::Right;
+using api::RouteAccess;
 
 /// One operation of openapi.yaml and its row in the table of rights.
 struct Operation {
@@ -35,13 +35,15 @@ class EveryRouteTest : public PersonaTest {
 
   /// What the table and the persona come to. `may_see`: the persona may see the session that is asked for.
   Answer expected(const Operation& operation, const Persona& persona, bool may_see) const {
-    if (operation.right.door == Door::anybody) return Answer::passes;
+    if (operation.right.route_access == RouteAccess::anybody) return Answer::passes;
     if (persona.from_elsewhere && operation.changes()) return Answer::not_you;
     if (persona.role.empty())
-      return operation.right.door == Door::gauges && persona.shows_nothing ? Answer::passes
-                                                                           : Answer::who_are_you;
+      return operation.right.route_access == RouteAccess::monitoring && persona.shows_nothing
+                 ? Answer::passes
+                 : Answer::who_are_you;
     if (persona.without_csrf && operation.changes()) return Answer::not_you;
-    if (operation.right.door == Door::gauges) return Answer::passes;  // asked by this machine itself
+    if (operation.right.route_access == RouteAccess::monitoring)
+      return Answer::passes;  // asked by this machine itself
     if (!(operation.right.who & access::role_bit(persona.role))) return Answer::not_you;
     const bool of_a_session = operation.pattern.starts_with(one);
     return of_a_session && !may_see ? Answer::no_such_thing : Answer::passes;
@@ -56,16 +58,11 @@ class EveryRouteTest : public PersonaTest {
         EXPECT_EQ(reply.status, 401) << reply.body;
         EXPECT_TRUE(reply.headers.contains("www-authenticate"));
         return;
-      case Answer::not_you:
-        EXPECT_EQ(reply.status, 403) << reply.body;
-        return;
-      case Answer::no_such_thing:
-        EXPECT_EQ(reply.status, 404) << reply.body;
-        return;
-      case Answer::passes:
-        break;
+      case Answer::not_you: EXPECT_EQ(reply.status, 403) << reply.body; return;
+      case Answer::no_such_thing: EXPECT_EQ(reply.status, 404) << reply.body; return;
+      case Answer::passes: break;
     }
-    if (operation.right.door == Door::anybody) return;
+    if (operation.right.route_access == RouteAccess::anybody) return;
     EXPECT_NE(reply.status, 401) << reply.body;
     EXPECT_FALSE(right_input && reply.status == 403) << reply.body;
     EXPECT_FALSE(right_input && operation.pattern.starts_with(one) && reply.status == 404) << reply.body;
@@ -120,7 +117,8 @@ TEST_F(EveryRouteTest, SaysInTheContractWhetherItAsksWhoItIs) {
   ASSERT_FALSE(contract.at("security").empty());
   for (const Operation& operation : operations()) {
     const bool open = operation.described.contains("security") && operation.described.at("security").empty();
-    EXPECT_EQ(open, operation.right.door == Door::anybody) << operation.method << ' ' << operation.pattern;
+    EXPECT_EQ(open, operation.right.route_access == RouteAccess::anybody)
+        << operation.method << ' ' << operation.pattern;
     EXPECT_TRUE(open || operation.described.at("responses").contains("401"))
         << operation.method << ' ' << operation.pattern;
   }

@@ -162,7 +162,7 @@ TEST_F(ScoreContractTest, EveryDescribedReplyIsGivenAsDescribed) {
   rescoring();
   too_much();
   // Of a table or a curve while others wait for work of that kind, and of the index while the database is
-  // away: QuietWork's and SessionRegister's tests.
+  // away: LowPriorityExecutor's and SessionRegister's tests.
   expect_all_given({"scores"}, {{"GET " + scores, 503}, {"GET " + learning, 503}});
 }
 

@@ -6,9 +6,9 @@
 namespace ream::session {
 
 /// A viewer's or device's connection, which keeps the session that it belongs to.
-class KeepingSession : public net::WebSocketSession {
+class SessionSocket : public net::WebSocketSession {
  public:
-  KeepingSession(std::shared_ptr<void> kept, std::unique_ptr<net::WebSocketSession> inner)
+  SessionSocket(std::shared_ptr<void> kept, std::unique_ptr<net::WebSocketSession> inner)
       : kept_(std::move(kept)), inner_(std::move(inner)) {}
   void on_open(std::function<void()> wake) override { inner_->on_open(std::move(wake)); }
   bool sends_text() const override { return inner_->sends_text(); }

@@ -10,7 +10,7 @@ namespace ream::session {
 
 /// Loads cases so that those of one folder share their densities in memory, as long as any of them lives: a
 /// further session on a case costs its coverage only. Thread-safe.
-class CaseShelf {
+class CaseCache {
  public:
   /// As case_::load_case.
   case_::Case load(const std::filesystem::path& folder);

@@ -8,9 +8,9 @@
 namespace ream::session {
 
 /// What viewers are told of a case, its plan and the tool in the hand; who sends it fills in the rest.
-stream::HelloInfo hello_of(const case_::Case& c, const case_::Plan& plan, const shell::Tool& tool);
+stream::HelloInfo make_hello(const case_::Case& c, const case_::Plan& plan, const shell::Tool& tool);
 
 /// What viewers are told of one tick. Where the bone is, is left out where it has not moved.
-void fill_in(const record::TickReport& report, stream::TelemetrySample& sample);
+void update_sample(const record::TickReport& report, stream::TelemetrySample& sample);
 
 }  // namespace ream::session

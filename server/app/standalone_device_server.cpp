@@ -1,4 +1,4 @@
-#include "app/device_door.hpp"
+#include "app/standalone_device_server.hpp"
 
 namespace ream::app {
 namespace {
@@ -7,8 +7,9 @@ const std::string session = "trial";
 
 }  // namespace
 
-DeviceDoor::DeviceDoor(std::shared_ptr<device::RemoteLink> link, const std::string& device,
-                       const device::DeviceTraits& traits, uint16_t port)
+StandaloneDeviceServer::StandaloneDeviceServer(std::shared_ptr<device::RemoteLink> link,
+                                               const std::string& device, const device::DeviceTraits& traits,
+                                               uint16_t port)
     : device_port_(std::make_shared<device::DevicePort>(
           std::move(link), device::RemoteKind::handle,
           device::DeviceWelcome{session, device, traits.force_max_n, traits.stale})) {
@@ -22,7 +23,7 @@ DeviceDoor::DeviceDoor(std::shared_ptr<device::RemoteLink> link, const std::stri
   listener_->start();
 }
 
-std::string DeviceDoor::url() const {
+std::string StandaloneDeviceServer::url() const {
   return "ws://127.0.0.1:" + std::to_string(listener_->port()) + "/api/v1/sessions/" + session + "/device";
 }
 

@@ -1,9 +1,9 @@
-#include "session/simulation/case_shelf.hpp"
+#include "session/simulation/case_cache.hpp"
 
 namespace ream::session {
 namespace fs = std::filesystem;
 
-voxel::SharedBytes CaseShelf::density_of(const std::string& key, fs::file_time_type written) {
+voxel::SharedBytes CaseCache::density_of(const std::string& key, fs::file_time_type written) {
   const std::lock_guard lock(mutex_);
   std::erase_if(known_, [](const auto& entry) { return entry.second.density.gone(); });
   const auto found = known_.find(key);
@@ -11,7 +11,7 @@ voxel::SharedBytes CaseShelf::density_of(const std::string& key, fs::file_time_t
   return found->second.density.get();
 }
 
-case_::Case CaseShelf::load(const fs::path& folder) {
+case_::Case CaseCache::load(const fs::path& folder) {
   std::error_code failed;
   const std::string key = fs::weakly_canonical(folder, failed).string();
   const auto written = fs::last_write_time(folder / "density.zst", failed);

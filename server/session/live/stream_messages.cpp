@@ -1,4 +1,4 @@
-#include "session/live/stream_words.hpp"
+#include "session/live/stream_messages.hpp"
 
 namespace ream::session {
 namespace {
@@ -10,7 +10,7 @@ bool is_at_rest(const Pose& world_from_bone_rest) {
 
 }  // namespace
 
-stream::HelloInfo hello_of(const case_::Case& c, const case_::Plan& plan, const shell::Tool& tool) {
+stream::HelloInfo make_hello(const case_::Case& c, const case_::Plan& plan, const shell::Tool& tool) {
   stream::HelloInfo info;
   info.case_id = c.id;
   info.case_name = c.name;
@@ -24,7 +24,7 @@ stream::HelloInfo hello_of(const case_::Case& c, const case_::Plan& plan, const 
   return info;
 }
 
-void fill_in(const record::TickReport& r, stream::TelemetrySample& sample) {
+void update_sample(const record::TickReport& r, stream::TelemetrySample& sample) {
   sample.tick = r.tick;
   sample.thrust_n = static_cast<float>(r.thrust_n);
   sample.hand_force_n = static_cast<float>(r.hand_force_n.norm());

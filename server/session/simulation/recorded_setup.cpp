@@ -1,4 +1,4 @@
-#include "session/simulation/recorded_rig.hpp"
+#include "session/simulation/recorded_setup.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -57,9 +57,10 @@ Reamer recorded_reamer(const record::Recording& recording, const record::ops::Se
           segment.tool_file};
 }
 
-RigParts recorded_parts(const record::Recording& recording, const record::ops::Segment& segment,
-                        case_::Case bone_case, const sim::ResumeState& from, const std::string& backend) {
-  RigParts parts;
+SimulationSetup recorded_setup(const record::Recording& recording, const record::ops::Segment& segment,
+                               case_::Case bone_case, const sim::ResumeState& from,
+                               const std::string& backend) {
+  SimulationSetup parts;
   parts.request.case_name = bone_case.id;
   parts.request.backend = backend;
   parts.bone_case = std::move(bone_case);

@@ -1,4 +1,4 @@
-#include "jobs/quiet_work.hpp"
+#include "jobs/low_priority_executor.hpp"
 
 #include <future>
 
@@ -12,7 +12,7 @@ constexpr int most_inside = 2;  // one works, one waits
 
 }  // namespace
 
-void QuietWork::run(const std::function<void()>& work) {
+void LowPriorityExecutor::run(const std::function<void()>& work) {
   {
     const std::lock_guard lock(mutex_);
     if (inside_ == most_inside)

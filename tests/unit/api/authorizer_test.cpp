@@ -1,4 +1,4 @@
-#include "api/gate.hpp"
+#include "api/authorizer.hpp"
 
 #include "access/secret.hpp"
 #include "api/login_cookie.hpp"
@@ -45,7 +45,7 @@ class GateTest : public test::TestDatabase<test::OnSqlite> {
   /// 0: passes.
   int refusal(net::Request asked, const std::string& pattern) {
     try {
-      gate.admit(asked, pattern);
+      authorizer.authorize(asked, pattern);
       return 0;
     } catch (const net::RequestError& refused) {
       return refused.status();
@@ -63,20 +63,20 @@ class GateTest : public test::TestDatabase<test::OnSqlite> {
   }
 
   access::AccessControl gatehouse{database(), {machine_clock(), {}, {1, size_t{8} << 10}, 2}};
-  Gate gate{&gatehouse, [this](const std::string& id) { return session(id); }};
+  Authorizer authorizer{&gatehouse, [this](const std::string& id) { return session(id); }};
   std::string anna, tom;
   const std::string users = "/api/v1/users", sessions = "/api/v1/sessions", login = "/api/v1/login";
 };
 
 TEST_F(GateTest, WithoutUsersEverybodyIsAnOperator) {
-  EXPECT_TRUE(gate.is_open());
+  EXPECT_TRUE(authorizer.is_open());
   net::Request asked = request("DELETE");
-  gate.admit(asked, users + "/{id}");
+  authorizer.authorize(asked, users + "/{id}");
   EXPECT_EQ(asked.caller.role, "operator");
   EXPECT_EQ(asked.caller.user_id, "");
-  EXPECT_TRUE((Gate{nullptr, {}}).is_open());
+  EXPECT_TRUE((Authorizer{nullptr, {}}).is_open());
   add_users();
-  EXPECT_FALSE(gate.is_open());
+  EXPECT_FALSE(authorizer.is_open());
   EXPECT_EQ(refusal(request("DELETE"), users + "/{id}"), 401);
 }
 
@@ -98,7 +98,7 @@ TEST_F(GateTest, PagesAndOpenRoutesAskNobody) {
 TEST_F(GateTest, TellsTheHandlerWhoItIsAndKeepsTheSecretFromIt) {
   add_users();
   net::Request asked = with_cookie("POST", tom);
-  gate.admit(asked, sessions);
+  authorizer.authorize(asked, sessions);
   EXPECT_EQ(asked.caller.user_id, tom);
   EXPECT_EQ(asked.caller.name, "tom");
   EXPECT_EQ(asked.caller.role, "trainee");
@@ -120,7 +120,7 @@ TEST_F(GateTest, WhoIsNotKnownIsToldHowToBe) {
   add_users();
   const auto challenge = [&](net::Request asked) -> std::string {
     try {
-      gate.admit(asked, users);
+      authorizer.authorize(asked, users);
     } catch (const net::RequestError& refused) {
       for (const auto& [name, value] : refused.headers())
         if (name == "WWW-Authenticate") return value;

@@ -1,4 +1,4 @@
-#include "api/gate.hpp"
+#include "api/authorizer.hpp"
 
 #include "access/secret.hpp"
 #include "api/login_cookie.hpp"
@@ -47,9 +47,9 @@ void require_no_forgery(const Visitor& visitor, const net::Request& request) {
         403, "a change by cookie needs the header X-CSRF-Token with what GET /api/v1/login says");
 }
 
-bool Gate::is_open() const { return !gatehouse_ || !gatehouse_->users.any(); }
+bool Authorizer::is_open() const { return !gatehouse_ || !gatehouse_->users.any(); }
 
-Visitor Gate::visitor(const net::Request& request) const {
+Visitor Authorizer::visitor(const net::Request& request) const {
   Visitor visitor;
   if (is_open()) {
     visitor.caller = everybody();
@@ -66,14 +66,15 @@ Visitor Gate::visitor(const net::Request& request) const {
   return visitor;
 }
 
-void Gate::require_right(const Right& right, const Visitor& visitor, const net::Request& request) const {
+void Authorizer::require_right(const Right& right, const Visitor& visitor,
+                               const net::Request& request) const {
   if (right.who & access::role_bit(visitor.caller.role)) return;
-  if (right.door == Door::gauges && is_gauge_reader(visitor, request)) return;
+  if (right.route_access == RouteAccess::monitoring && is_gauge_reader(visitor, request)) return;
   if (!visitor.identity) refuse_unknown("log in first, or send a token");
   throw net::RequestError(403, visitor.caller.role + "s may not " + request.method + " " + right.pattern);
 }
 
-void Gate::require_sight(const net::Request& request, const std::string& pattern) const {
+void Authorizer::require_sight(const net::Request& request, const std::string& pattern) const {
   if (!pattern.starts_with(one_session) || !find_session_) return;
   if (access::role_bit(request.caller.role) & access::staff) return;
   const std::string& id = request.parameters.at("id");
@@ -81,14 +82,14 @@ void Gate::require_sight(const net::Request& request, const std::string& pattern
   if (session && !may_see(request.caller, *session)) refuse_unseen(id);
 }
 
-void Gate::admit(net::Request& request, const std::string& pattern) const {
+void Authorizer::authorize(net::Request& request, const std::string& pattern) const {
   if (pattern.empty()) return;
   const Right* right = right_of(request.method, pattern);
   if (!right) {
     log::error("nobody may use " + request.method + " " + pattern + ": it is not in the table of rights");
     throw net::RequestError(403, "nobody may " + request.method + " " + pattern);
   }
-  if (right->door == Door::anybody) return;
+  if (right->route_access == RouteAccess::anybody) return;
   const Visitor visitor = this->visitor(request);
   require_no_forgery(visitor, request);
   require_right(*right, visitor, request);

@@ -1,13 +1,13 @@
 #pragma once
 #include <filesystem>
 
-#include "session/simulation/rig.hpp"
+#include "session/simulation/simulation.hpp"
 
 namespace ream::session {
 
 /// The parts of a new session. Errors: not_found and invalid_input of case, script and reamer; conflict when
 /// the case has no plan. `data` is where cases are looked up; the demo case is made there on first use.
-RigParts asked_for(const RunRequest& request, const std::filesystem::path& data);
+SimulationSetup build_setup(const RunRequest& request, const std::filesystem::path& data);
 
 /// The script that a request means, its force scale the request's. Errors: those of load_script.
 device::Script find_script(const RunRequest& request);

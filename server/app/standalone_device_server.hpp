@@ -10,11 +10,11 @@ namespace ream::app {
 
 /// Lets the client of one device connect over loopback while there is no server: it speaks the same
 /// (proto/device.fbs) on the same path as with a session. Ends the connection with itself.
-class DeviceDoor {
+class StandaloneDeviceServer {
  public:
   /// `port` 0: any free one. Errors: unavailable when the port cannot be had.
-  DeviceDoor(std::shared_ptr<device::RemoteLink> link, const std::string& device,
-             const device::DeviceTraits& traits, uint16_t port);
+  StandaloneDeviceServer(std::shared_ptr<device::RemoteLink> link, const std::string& device,
+                         const device::DeviceTraits& traits, uint16_t port);
 
   /// Where the client connects to.
   std::string url() const;

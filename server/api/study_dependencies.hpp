@@ -8,7 +8,7 @@
 namespace ream::api {
 
 /// What studies ask of this server; all that is given outlives them.
-study::StudySurroundings study_surroundings(const std::filesystem::path& cases_folder,
+study::StudyDependencies study_dependencies(const std::filesystem::path& cases_folder,
                                             session::SessionService& sessions,
                                             access::AccessControl& gatehouse);
 

@@ -11,7 +11,7 @@
 namespace ream::workup {
 
 /// What people look at of a case's CT: the newest few stay in memory. Thread-safe.
-class CtShelf {
+class CtCache {
  public:
   using Hu = std::shared_ptr<const std::vector<int16_t>>;
   using Labels = std::shared_ptr<const std::vector<uint8_t>>;

@@ -1,4 +1,4 @@
-#include "api/request_frame.hpp"
+#include "api/request_middleware.hpp"
 
 #include "api/audit_rules.hpp"
 #include "api/change_rules.hpp"
@@ -7,15 +7,15 @@
 
 namespace ream::api {
 
-RequestFrame::RequestFrame(const Contract& contract, Idempotency& idempotency, ChangeFeed& feed,
-                           SessionFinder find_session, Audit audit)
+RequestMiddleware::RequestMiddleware(const Contract& contract, Idempotency& idempotency, ChangeFeed& feed,
+                                     SessionFinder find_session, Audit audit)
     : contract_(contract),
       idempotency_(idempotency),
       feed_(feed),
       find_session_(std::move(find_session)),
       audit_(std::move(audit)) {}
 
-void RequestFrame::put_around(net::Router& router) {
+void RequestMiddleware::install(net::Router& router) {
   router.check(
       [this](const net::Request& request, const std::string& pattern) { contract_.check(request, pattern); });
   router.around([this](const net::Request& request, const std::string& pattern, const net::Handler& next) {
@@ -23,8 +23,8 @@ void RequestFrame::put_around(net::Router& router) {
   });
 }
 
-net::Response RequestFrame::answer(const net::Request& request, const std::string& pattern,
-                                   const net::Handler& next) {
+net::Response RequestMiddleware::answer(const net::Request& request, const std::string& pattern,
+                                        const net::Handler& next) {
   const net::Handler done = [&](const net::Request& passed) {
     net::Response response = next(passed);
     tell(passed, pattern, response);
@@ -36,8 +36,8 @@ net::Response RequestFrame::answer(const net::Request& request, const std::strin
 }
 
 /// The change was made; that it cannot be told is no reason to say it failed.
-void RequestFrame::tell(const net::Request& request, const std::string& pattern,
-                        const net::Response& response) {
+void RequestMiddleware::tell(const net::Request& request, const std::string& pattern,
+                             const net::Response& response) {
   try {
     auto change = change_made(request, pattern, response);
     if (!change) return;

@@ -1,4 +1,4 @@
-#include "session/simulation/rig.hpp"
+#include "session/simulation/simulation.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -45,7 +45,7 @@ const case_::Plan& plan_of(const case_::Case& c) {
   return *c.plan;
 }
 
-Rig::Rig(RigParts parts)
+Simulation::Simulation(SimulationSetup parts)
     : request(std::move(parts.request)),
       script(std::move(parts.script)),
       bone_case(std::move(parts.bone_case)),
@@ -58,7 +58,7 @@ Rig::Rig(RigParts parts)
       model(sim::make_model(plan_of(bone_case), bone_case.bone, std::move(parts.tool), parts.settings)),
       state(model, bone_case.bone, parts.from) {}
 
-nlohmann::json Rig::description() const {
+nlohmann::json Simulation::description() const {
   nlohmann::json description = {
       {"build", version_text()},
       {"case", bone_case.id},

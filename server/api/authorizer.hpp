@@ -5,8 +5,8 @@
 
 #include "access/access_control.hpp"
 #include "api/rights.hpp"
+#include "api/visibility.hpp"
 #include "net/message.hpp"
-#include "session/running_session.hpp"
 
 namespace ream::api {
 
@@ -19,19 +19,16 @@ struct Visitor {
 
 /// Stands before every route (net::Router::guard): finds out who asks, by bearer token, else by cookie, and
 /// lets them pass as the table of rights says. Without users everybody passes, as an operator. Thread-safe.
-class Gate {
+class Authorizer {
  public:
-  /// What a session or replay with that id is; none when there is none.
-  using SessionFinder = std::function<std::optional<session::SessionRequest>(const std::string& id)>;
-
-  /// `gatehouse` outlives the gate; null: there are never users.
-  Gate(access::AccessControl* gatehouse, SessionFinder find_session)
+  /// `gatehouse` outlives it; null: there are never users.
+  Authorizer(access::AccessControl* gatehouse, SessionFinder find_session)
       : gatehouse_(gatehouse), find_session_(std::move(find_session)) {}
 
   /// Sets the caller and takes what was shown out of the request. `pattern` empty: static files.
   /// RequestErrors: 401 who are you, 403 not you (or a change by cookie without the token against forgery);
   /// Error not_found for a session that the caller may not see.
-  void admit(net::Request& request, const std::string& pattern) const;
+  void authorize(net::Request& request, const std::string& pattern) const;
 
   /// For routes that are open: who asks, if they show anything good. RequestError 401 for a bad token; a bad
   /// cookie is none.

@@ -10,7 +10,7 @@
 #include "jobs/job_service.hpp"
 #include "net/message.hpp"
 #include "session/service/session_service.hpp"
-#include "workup/ct_shelf.hpp"
+#include "workup/ct_cache.hpp"
 #include "workup/upload_store.hpp"
 
 namespace ream::workup {
@@ -24,11 +24,11 @@ struct NewCase {
 /// What is done with cases between upload and session: import, segmentation, landmarks, plan, build, each
 /// kept in the case's folder. Thread-safe. Unknown cases throw Error not_found, steps that miss an earlier
 /// one conflict.
-class CaseWorkshop {
+class CaseService {
  public:
-  /// `jobs` does the long work; it is shut down before the workshop goes. `sessions` outlives it.
-  CaseWorkshop(std::filesystem::path cases_folder, const session::SessionService& sessions,
-               jobs::JobService& jobs);
+  /// `jobs` does the long work; it is shut down before this goes. `sessions` outlives it.
+  CaseService(std::filesystem::path cases_folder, const session::SessionService& sessions,
+              jobs::JobService& jobs);
 
   std::filesystem::path folder_of(const std::string& id) const;
   ct::Workup workup(const std::string& id) const;
@@ -61,11 +61,11 @@ class CaseWorkshop {
  private:
   std::string unused_id(const std::string& wanted) const;
   void require_no_sessions(const std::string& id, const std::string& what) const;
-  CtShelf::Bone surface_of(const std::string& id);
+  CtCache::Bone surface_of(const std::string& id);
 
   const std::filesystem::path cases_folder_;
   const session::SessionService& sessions_;
-  CtShelf shelf_;
+  CtCache cache_;
   std::mutex changing_;  ///< one writer of a case's small files at a time
   jobs::JobService& jobs_;
 };

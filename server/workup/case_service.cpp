@@ -1,4 +1,4 @@
-#include "workup/case_workshop.hpp"
+#include "workup/case_service.hpp"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -72,18 +72,18 @@ class TakenUpload {
 
 }  // namespace
 
-CaseWorkshop::CaseWorkshop(fs::path cases_folder, const session::SessionService& sessions,
-                           jobs::JobService& jobs)
+CaseService::CaseService(fs::path cases_folder, const session::SessionService& sessions,
+                         jobs::JobService& jobs)
     : cases_folder_(std::move(cases_folder)), sessions_(sessions), jobs_(jobs) {}
 
-fs::path CaseWorkshop::folder_of(const std::string& id) const {
+fs::path CaseService::folder_of(const std::string& id) const {
   const fs::path folder = cases_folder_ / id;
   if (!is_name(id) || !is_case_folder(folder))
     throw Error(ErrorKind::not_found, "no case '" + id + "'; GET /api/v1/cases lists them");
   return folder;
 }
 
-ct::Workup CaseWorkshop::workup(const std::string& id) const {
+ct::Workup CaseService::workup(const std::string& id) const {
   const fs::path folder = folder_of(id);
   if (!ct::has_workup(folder))
     throw Error(ErrorKind::conflict,
@@ -91,14 +91,14 @@ ct::Workup CaseWorkshop::workup(const std::string& id) const {
   return ct::load_workup(folder);
 }
 
-std::string CaseWorkshop::unused_id(const std::string& wanted) const {
+std::string CaseService::unused_id(const std::string& wanted) const {
   const std::string base = wanted.substr(0, longest_id);
   std::string id = base;
   for (int n = 2; fs::exists(cases_folder_ / id); ++n) id = base + "-" + std::to_string(n);
   return id;
 }
 
-jobs::JobRecord CaseWorkshop::import(const NewCase& wanted, UploadStore& uploads) {
+jobs::JobRecord CaseService::import(const NewCase& wanted, UploadStore& uploads) {
   const Upload upload = uploads.get(wanted.upload_id);
   const std::string stem = upload.name.substr(0, upload.name.find('.'));
   if (!wanted.id.empty() && fs::exists(cases_folder_ / wanted.id))
@@ -116,7 +116,7 @@ jobs::JobRecord CaseWorkshop::import(const NewCase& wanted, UploadStore& uploads
   });
 }
 
-jobs::JobRecord CaseWorkshop::copy(const std::string& from, case_::Side side) {
+jobs::JobRecord CaseService::copy(const std::string& from, case_::Side side) {
   const ct::Workup source = workup(from);
   const std::string id = unused_id(from + "-" + case_::to_text(side));
   return jobs_.submit({"import", id}, [this, from, id, side, source](const Progress& progress) {
@@ -125,13 +125,13 @@ jobs::JobRecord CaseWorkshop::copy(const std::string& from, case_::Side side) {
   });
 }
 
-jobs::JobRecord CaseWorkshop::segment(const std::string& id, ct::SegmentationSettings settings) {
+jobs::JobRecord CaseService::segment(const std::string& id, ct::SegmentationSettings settings) {
   settings.side = workup(id).side;
   return jobs_.submit({"segmentation", id}, [this, id, settings](const Progress& progress) {
     const fs::path folder = folder_of(id);
     ct::Workup workup = this->workup(id);
     ct::HuVolume volume = workup.volume;
-    volume.hu = *shelf_.hu(folder, workup);
+    volume.hu = *cache_.hu(folder, workup);
     const ct::Segmentation made = ct::segment_shoulder(volume, settings, progress);
     const std::lock_guard lock(changing_);
     workup = this->workup(id);
@@ -139,14 +139,14 @@ jobs::JobRecord CaseWorkshop::segment(const std::string& id, ct::SegmentationSet
   });
 }
 
-void CaseWorkshop::undo_segmentation(const std::string& id) {
+void CaseService::undo_segmentation(const std::string& id) {
   if (jobs_.busy(id)) throw Error(ErrorKind::conflict, "other work on case '" + id + "' is not done");
   const std::lock_guard lock(changing_);
   ct::Workup workup = this->workup(id);
   ct::undo_segmentation(folder_of(id), workup);
 }
 
-void CaseWorkshop::require_no_sessions(const std::string& id, const std::string& what) const {
+void CaseService::require_no_sessions(const std::string& id, const std::string& what) const {
   store::SessionQuery query;
   query.case_id = id;
   query.limit = 0;
@@ -157,25 +157,25 @@ void CaseWorkshop::require_no_sessions(const std::string& id, const std::string&
                                          ". Copy it instead");
 }
 
-jobs::JobRecord CaseWorkshop::build(const std::string& id, const ct::BuildSettings& settings) {
+jobs::JobRecord CaseService::build(const std::string& id, const ct::BuildSettings& settings) {
   if (!workup(id).segmentation()) throw Error(ErrorKind::conflict, "case '" + id + "' is not segmented yet");
   require_no_sessions(id, "built anew");
   return jobs_.submit({"build", id}, [this, id, settings](const Progress& progress) {
     const fs::path folder = folder_of(id);
     ct::Workup workup = this->workup(id);
-    const auto hu = shelf_.hu(folder, workup);
-    const auto labels = shelf_.labels(folder, workup, workup.segmentation()->revision);
+    const auto hu = cache_.hu(folder, workup);
+    const auto labels = cache_.labels(folder, workup, workup.segmentation()->revision);
     case_::Case made =
         ct::build_from(workup, *hu, *labels, landmarks(id), settings, part_of(progress, 0.0, read_share));
     progress(read_share, "writing the case");
     const std::lock_guard lock(changing_);
     case_::save_bone(made, folder);
     ct::save_workup(folder, workup);
-    shelf_.forget(id);
+    cache_.forget(id);
   });
 }
 
-void CaseWorkshop::remove(const std::string& id) {
+void CaseService::remove(const std::string& id) {
   const fs::path folder = folder_of(id);
   if (jobs_.busy(id)) throw Error(ErrorKind::conflict, "there is work on case '" + id + "'; cancel it first");
   require_no_sessions(id, "deleted");
@@ -185,42 +185,42 @@ void CaseWorkshop::remove(const std::string& id) {
   fs::rename(folder, gone, failed);
   if (failed) throw Error(ErrorKind::io, "cannot delete " + folder.string() + ": " + failed.message());
   fs::remove_all(gone, failed);
-  shelf_.forget(id);
+  cache_.forget(id);
 }
 
-case_::Side CaseWorkshop::side_of(const std::string& id) const {
+case_::Side CaseService::side_of(const std::string& id) const {
   const fs::path folder = folder_of(id);
   return ct::has_workup(folder) ? ct::load_workup(folder).side : case_::load_case_description(folder).side;
 }
 
-case_::Landmarks CaseWorkshop::landmarks(const std::string& id) const {
+case_::Landmarks CaseService::landmarks(const std::string& id) const {
   return case_::load_landmarks(folder_of(id)).value_or(case_::Landmarks{});
 }
 
-void CaseWorkshop::set_landmarks(const std::string& id, const case_::Landmarks& landmarks) {
+void CaseService::set_landmarks(const std::string& id, const case_::Landmarks& landmarks) {
   const std::lock_guard lock(changing_);
   case_::save_landmarks(landmarks, folder_of(id));
 }
 
-CtShelf::Bone CaseWorkshop::surface_of(const std::string& id) {
+CtCache::Bone CaseService::surface_of(const std::string& id) {
   const fs::path folder = folder_of(id);
   if (ct::has_workup(folder)) {
     const ct::Workup workup = ct::load_workup(folder);
-    if (workup.segmentation()) return shelf_.bone(folder, workup);
+    if (workup.segmentation()) return cache_.bone(folder, workup);
   }
   if (fs::exists(folder / "case.json"))
     return std::make_shared<const voxel::BoneModel>(case_::load_case(folder).bone);
   throw Error(ErrorKind::conflict, "case '" + id + "' is not segmented yet");
 }
 
-case_::Plan CaseWorkshop::propose(const std::string& id, const case_::PlanTargets& targets) {
+case_::Plan CaseService::propose(const std::string& id, const case_::PlanTargets& targets) {
   const auto bone = surface_of(id);
   return case_::propose_plan(targets, landmarks(id), side_of(id), [&](const Vec3& point, const Vec3& way) {
     return case_::surface_along(*bone, point, way);
   });
 }
 
-case_::PlanAssessment CaseWorkshop::assess(const std::string& id, const case_::Plan& plan) {
+case_::PlanAssessment CaseService::assess(const std::string& id, const case_::Plan& plan) {
   const auto bone = surface_of(id);
   std::optional<case_::GlenoidFrame> glenoid;
   const fs::path folder = folder_of(id);
@@ -228,7 +228,7 @@ case_::PlanAssessment CaseWorkshop::assess(const std::string& id, const case_::P
   return case_::assess_plan(plan, landmarks(id), side_of(id), bone.get(), glenoid ? &*glenoid : nullptr);
 }
 
-case_::PlanAssessment CaseWorkshop::set_plan(const std::string& id, const case_::Plan& plan) {
+case_::PlanAssessment CaseService::set_plan(const std::string& id, const case_::Plan& plan) {
   const case_::PlanAssessment assessment = assess(id, plan);
   if (assessment.needs_override) throw Error(ErrorKind::conflict, case_::why_refused(assessment));
   const std::lock_guard lock(changing_);
@@ -236,8 +236,8 @@ case_::PlanAssessment CaseWorkshop::set_plan(const std::string& id, const case_:
   return assessment;
 }
 
-net::Bytes CaseWorkshop::slice(const std::string& id, int axis, int index, bool of_labels,
-                               std::optional<int> revision) {
+net::Bytes CaseService::slice(const std::string& id, int axis, int index, bool of_labels,
+                              std::optional<int> revision) {
   const fs::path folder = folder_of(id);
   const ct::Workup workup = this->workup(id);
   const Vec3i& dims = workup.volume.dims;
@@ -245,23 +245,23 @@ net::Bytes CaseWorkshop::slice(const std::string& id, int axis, int index, bool 
     throw Error(ErrorKind::not_found, "case '" + id + "' has the slices 0 to " +
                                           std::to_string(dims[axis] - 1) + " along that axis");
   if (!of_labels)
-    return bytes_of(ct::slice_of(std::span<const int16_t>(*shelf_.hu(folder, workup)), dims, axis, index));
+    return bytes_of(ct::slice_of(std::span<const int16_t>(*cache_.hu(folder, workup)), dims, axis, index));
   if (!workup.segmentation()) throw Error(ErrorKind::conflict, "case '" + id + "' is not segmented yet");
   if (revision && *revision != workup.segmentation()->revision)
     throw Error(ErrorKind::conflict, "case '" + id + "' has been segmented again or undone since");
-  const auto labels = shelf_.labels(folder, workup, workup.segmentation()->revision);
+  const auto labels = cache_.labels(folder, workup, workup.segmentation()->revision);
   return bytes_of(ct::slice_of(std::span<const uint8_t>(*labels), dims, axis, index));
 }
 
-void CaseWorkshop::write_volume(const std::string& id, const fs::path& file) {
+void CaseService::write_volume(const std::string& id, const fs::path& file) {
   const fs::path folder = folder_of(id);
   const ct::Workup workup = this->workup(id);
   ct::HuVolume volume = workup.volume;
-  volume.hu = *shelf_.hu(folder, workup);
+  volume.hu = *cache_.hu(folder, workup);
   ct::write_volume_file(volume, file);
 }
 
-std::string CaseWorkshop::mesh(const std::string& id) {
+std::string CaseService::mesh(const std::string& id) {
   const auto bone = surface_of(id);
   const bool coarse = static_cast<double>(bone->grid.voxel_count()) > most_fine_voxels;
   const TriangleMesh mesh = surface::whole_surface(bone->grid, bone->coverage.data(), 1, coarse ? 2 : 1);

@@ -1,4 +1,4 @@
-#include "session/scoring/kept_sessions.hpp"
+#include "session/scoring/ended_sessions.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-class KeptSessions : public testing::Test {
+class EndedSessions : public testing::Test {
  protected:
   void keep(const std::string& id, const json& labels, const json& metrics = json()) {
     const auto folder = sessions_folder(data_.path()) / id;
@@ -38,29 +38,29 @@ class KeptSessions : public testing::Test {
     if (!metrics.is_null()) write_file_atomically(folder / "metrics.json", metrics.dump());
   }
 
-  std::vector<std::string> ids(const std::vector<KeptSession>& sessions) const {
+  std::vector<std::string> ids(const std::vector<EndedSession>& sessions) const {
     std::vector<std::string> result;
-    for (const KeptSession& session : sessions) result.push_back(session.id);
+    for (const EndedSession& session : sessions) result.push_back(session.id);
     return result;
   }
 
   test::TemporaryFolder data_;
 };
 
-TEST_F(KeptSessions, AreToldOldestFirst) {
+TEST_F(EndedSessions, AreToldOldestFirst) {
   keep("b", {{"created_utc", "2026-01-02T00:00:00Z"}});
   keep("c", {{"created_utc", "2026-01-01T00:00:00Z"}});
   keep("a", {{"created_utc", "2026-01-02T00:00:00Z"}});
-  EXPECT_EQ(ids(kept_sessions(data_.path())), (std::vector<std::string>{"c", "a", "b"}));
-  EXPECT_TRUE(kept_sessions(data_.path() / "nowhere").empty());
+  EXPECT_EQ(ids(ended_sessions(data_.path())), (std::vector<std::string>{"c", "a", "b"}));
+  EXPECT_TRUE(ended_sessions(data_.path() / "nowhere").empty());
 }
 
-TEST_F(KeptSessions, OfATraineeAreFoundByUserCodeOrName) {
+TEST_F(EndedSessions, OfATraineeAreFoundByUserCodeOrName) {
   keep("a", {{"trainee_id", "u-1"}, {"trainee", "Zoe"}});
   keep("b", {{"trainee_id", "u-1"}, {"participant", "P-1"}});
   keep("c", {{"trainee", "Zoe"}});
   keep("d", json::object());
-  const auto all = kept_sessions(data_.path());
+  const auto all = ended_sessions(data_.path());
   EXPECT_EQ(ids(sessions_of_trainee(all, "u-1")), (std::vector<std::string>{"a", "b"}));
   EXPECT_EQ(ids(sessions_of_trainee(all, "P-1")), std::vector<std::string>{"b"});
   EXPECT_EQ(ids(sessions_of_trainee(all, "Zoe")), (std::vector<std::string>{"a", "c"}));
@@ -68,7 +68,7 @@ TEST_F(KeptSessions, OfATraineeAreFoundByUserCodeOrName) {
   EXPECT_EQ(trainee_of({{"trainee_id", "u-1"}, {"trainee", "Zoe"}}), "u-1");
 }
 
-TEST_F(KeptSessions, LearnFromTheirMetrics) {
+TEST_F(EndedSessions, LearnFromTheirMetrics) {
   keep("a", {{"created_utc", "2026-01-01T00:00:00Z"}, {"theatre", true}}, {{"duration_s", 100.0}});
   keep("b", {{"created_utc", "2026-01-02T00:00:00Z"}}, {{"duration_s", 900.0}});
   keep("c", {{"created_utc", "2026-01-03T00:00:00Z"}});
@@ -76,7 +76,7 @@ TEST_F(KeptSessions, LearnFromTheirMetrics) {
   rubric.name = "fast";
   rubric.pass_points = 50.0;
   rubric.criteria.push_back({"duration_s", score::Ramp{600.0, 60.0}, std::nullopt, 1.0, false});
-  const score::LearningCurve curve = learning_of(kept_sessions(data_.path()), rubric, {});
+  const score::LearningCurve curve = learning_of(ended_sessions(data_.path()), rubric, {});
   ASSERT_EQ(curve.points.size(), 2u) << "one session left no metrics";
   EXPECT_TRUE(curve.points[0].theatre);
   EXPECT_EQ(curve.points[0].outcome, score::Outcome::pass);

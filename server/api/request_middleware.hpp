@@ -7,23 +7,21 @@
 #include "api/change_feed.hpp"
 #include "api/idempotency.hpp"
 #include "api/request_contract.hpp"
+#include "api/visibility.hpp"
 #include "net/router.hpp"
 
 namespace ream::api {
 
 /// What stands around every route: requests are held against the contract, repeated ones get their first
 /// answer, replies have entity tags, changes are told, and what deletes or takes out data is audited.
-class RequestFrame {
+class RequestMiddleware {
  public:
-  /// What a session with that id is; none when there is none.
-  using SessionFinder = std::function<std::optional<session::SessionRequest>(const std::string& id)>;
-
   /// What is given outlives the frame.
-  RequestFrame(const Contract& contract, Idempotency& idempotency, ChangeFeed& feed,
-               SessionFinder find_session, Audit audit);
+  RequestMiddleware(const Contract& contract, Idempotency& idempotency, ChangeFeed& feed,
+                    SessionFinder find_session, Audit audit);
 
   /// The frame outlives the router.
-  void put_around(net::Router& router);
+  void install(net::Router& router);
 
  private:
   net::Response answer(const net::Request& request, const std::string& pattern, const net::Handler& next);

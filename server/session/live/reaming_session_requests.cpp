@@ -24,7 +24,7 @@ void ReamingSession::hold(bool held) {
 
 void ReamingSession::pause() { hold(true); }
 
-void ReamingSession::go_on() { hold(false); }
+void ReamingSession::unpause() { hold(false); }
 
 bool ReamingSession::relabel(const SessionRequest& request) {
   std::unique_lock lock(mutex_);
@@ -56,8 +56,8 @@ std::vector<uint8_t> ReamingSession::coverage_now() {
 
 /// The haptic thread writes the session's own bone, so the case is loaded once more.
 case_::Case ReamingSession::intact_case() const {
-  case_::Case intact = find_case(request_.case_id, house_.data);
-  intact.plan = rig_.model.plan;
+  case_::Case intact = find_case(request_.case_id, context_.data);
+  intact.plan = simulation_.model.plan;
   case_::cut_pilot_hole(intact.bone, *intact.plan);
   return intact;
 }

@@ -1,4 +1,4 @@
-#include "workup/ct_shelf.hpp"
+#include "workup/ct_cache.hpp"
 
 #include "ct/build/ct_workspace.hpp"
 
@@ -11,7 +11,7 @@ constexpr size_t most_items = 6;
 }  // namespace
 
 template <typename T, typename Make>
-std::shared_ptr<const T> CtShelf::find_or_make(const std::string& case_id, const std::string& what,
+std::shared_ptr<const T> CtCache::find_or_make(const std::string& case_id, const std::string& what,
                                                Make&& make) {
   const auto look = [&]() -> std::shared_ptr<const T> {
     for (auto item = items_.begin(); item != items_.end(); ++item)
@@ -35,24 +35,24 @@ std::shared_ptr<const T> CtShelf::find_or_make(const std::string& case_id, const
   return made;
 }
 
-CtShelf::Hu CtShelf::hu(const fs::path& case_folder, const ct::Workup& workup) {
+CtCache::Hu CtCache::hu(const fs::path& case_folder, const ct::Workup& workup) {
   return find_or_make<std::vector<int16_t>>(workup.id, "hu",
                                             [&] { return ct::load_hu(case_folder, workup); });
 }
 
-CtShelf::Labels CtShelf::labels(const fs::path& case_folder, const ct::Workup& workup, int revision) {
+CtCache::Labels CtCache::labels(const fs::path& case_folder, const ct::Workup& workup, int revision) {
   return find_or_make<std::vector<uint8_t>>(workup.id, "labels " + std::to_string(revision),
                                             [&] { return ct::load_labels(case_folder, workup, revision); });
 }
 
-CtShelf::Bone CtShelf::bone(const fs::path& case_folder, const ct::Workup& workup) {
+CtCache::Bone CtCache::bone(const fs::path& case_folder, const ct::Workup& workup) {
   const int revision = workup.segmentation() ? workup.segmentation()->revision : 0;
   return find_or_make<voxel::BoneModel>(workup.id, "bone " + std::to_string(revision), [&] {
     return ct::scapula_of(workup, *hu(case_folder, workup), *labels(case_folder, workup, revision));
   });
 }
 
-void CtShelf::forget(const std::string& case_id) {
+void CtCache::forget(const std::string& case_id) {
   const std::lock_guard lock(mutex_);
   std::erase_if(items_, [&](const Item& item) { return item.case_id == case_id; });
 }

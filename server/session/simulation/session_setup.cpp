@@ -1,4 +1,4 @@
-#include "session/simulation/asked_rig.hpp"
+#include "session/simulation/session_setup.hpp"
 
 #include "core/units.hpp"
 #include "device/registry/device_registry.hpp"
@@ -45,8 +45,8 @@ device::Script find_script(const RunRequest& request) {
   return script;
 }
 
-RigParts asked_for(const RunRequest& request, const std::filesystem::path& data) {
-  RigParts parts;
+SimulationSetup build_setup(const RunRequest& request, const std::filesystem::path& data) {
+  SimulationSetup parts;
   parts.request = request;
   parts.script = find_script(request);
   device::settle_for_device(request.device, request.device_profile, parts.script);

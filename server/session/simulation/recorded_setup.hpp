@@ -2,7 +2,7 @@
 #include <string>
 
 #include "record/recording.hpp"
-#include "session/simulation/rig.hpp"
+#include "session/simulation/simulation.hpp"
 
 namespace ream::session {
 
@@ -22,9 +22,10 @@ sim::Settings recorded_settings(const record::Recording& recording, const std::s
 /// The reamer of a segment. Error invalid_input.
 Reamer recorded_reamer(const record::Recording& recording, const record::ops::Segment& segment);
 
-/// A segment's rig once more, without device or script. `bone_case` is the case_as_recorded(), its coverage
-/// as the segment finds it; `from` likewise. Errors: those above; of tool_of.
-RigParts recorded_parts(const record::Recording& recording, const record::ops::Segment& segment,
-                        case_::Case bone_case, const sim::ResumeState& from, const std::string& backend);
+/// A segment's simulation once more, without device or script. `bone_case` is the case_as_recorded(), its
+/// coverage as the segment finds it; `from` likewise. Errors: those above; of tool_of.
+SimulationSetup recorded_setup(const record::Recording& recording, const record::ops::Segment& segment,
+                               case_::Case bone_case, const sim::ResumeState& from,
+                               const std::string& backend);
 
 }  // namespace ream::session

@@ -30,11 +30,11 @@ struct RunRequest {
   std::string device_profile;     ///< empty: the script's
 };
 
-/// What a rig is made of, each thing found, read and checked beforehand.
-struct RigParts {
+/// What a simulation is made of, each thing found, read and checked beforehand.
+struct SimulationSetup {
   RunRequest request;
   device::Script script;
-  case_::Case bone_case;   ///< with a plan; its coverage is what is left when the rig begins
+  case_::Case bone_case;   ///< with a plan; its coverage is what is left when the simulation begins
   uint64_t case_hash = 0;  ///< of the case as it was loaded
   case_::Anatomy anatomy;
   std::shared_ptr<const score::NativeGlenoid> native;  ///< may be null where nobody scores
@@ -48,12 +48,12 @@ struct RigParts {
 
 /// One case, one tool, one device, ready for the first tick of a segment. Everything in it stays where it is
 /// (the model refers to the bone), so it is made once and neither copied nor moved.
-class Rig {
+class Simulation {
  public:
   /// Errors: those of make_model; unavailable for the backend.
-  explicit Rig(RigParts parts);
-  Rig(const Rig&) = delete;
-  Rig& operator=(const Rig&) = delete;
+  explicit Simulation(SimulationSetup parts);
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
 
   const RunRequest request;
   device::Script script;
@@ -67,7 +67,7 @@ class Rig {
   sim::Model model;
   sim::State state;
 
-  /// What was simulated, by which build, for people. Of a rig with a device, before its first tick.
+  /// What was simulated, by which build, for people. Of a simulation with a device, before its first tick.
   nlohmann::json description() const;
 };
 

@@ -1,4 +1,4 @@
-#include "api/study_surroundings.hpp"
+#include "api/study_dependencies.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -32,11 +32,11 @@ std::optional<study::StudyAttempt> attempt_of(const session::SessionService& ses
 
 }  // namespace
 
-study::StudySurroundings study_surroundings(const std::filesystem::path& cases_folder,
+study::StudyDependencies study_dependencies(const std::filesystem::path& cases_folder,
                                             session::SessionService& sessions,
                                             access::AccessControl& gatehouse) {
-  study::StudySurroundings surroundings;
-  surroundings.name_of_user = [&gatehouse](const std::string& user_id) -> std::optional<std::string> {
+  study::StudyDependencies dependencies;
+  dependencies.name_of_user = [&gatehouse](const std::string& user_id) -> std::optional<std::string> {
     try {
       const access::User user = gatehouse.users.get(user_id);
       return user.display_name.empty() ? user.name : user.display_name;
@@ -45,10 +45,10 @@ study::StudySurroundings study_surroundings(const std::filesystem::path& cases_f
       return std::nullopt;
     }
   };
-  surroundings.has_case = [cases_folder](const std::string& case_id) {
+  dependencies.has_case = [cases_folder](const std::string& case_id) {
     return is_name(case_id) && workup::is_case_folder(cases_folder / case_id);
   };
-  surroundings.attempts = [&sessions](const std::string& study_id) {
+  dependencies.attempts = [&sessions](const std::string& study_id) {
     store::SessionQuery query;
     query.study = study_id;
     query.limit = SIZE_MAX;
@@ -57,7 +57,7 @@ study::StudySurroundings study_surroundings(const std::filesystem::path& cases_f
       if (auto attempt = attempt_of(sessions, record)) attempts.push_back(std::move(*attempt));
     return attempts;
   };
-  return surroundings;
+  return dependencies;
 }
 
 }  // namespace ream::api
