@@ -8,14 +8,10 @@ namespace ream::api {
 bool may_see(const net::Caller& caller, const session::SessionRequest& session) {
   switch (access::role_bit(caller.role)) {
     case access::operators:
-    case access::instructors:
-      return true;
-    case access::trainees:
-      return !caller.user_id.empty() && caller.user_id == session.trainee_id;
-    case access::viewers:
-      return caller.only_session.empty() || caller.only_session == session.id;
-    default:
-      return false;
+    case access::instructors: return true;
+    case access::trainees: return !caller.user_id.empty() && caller.user_id == session.trainee_id;
+    case access::viewers: return caller.only_session.empty() || caller.only_session == session.id;
+    default: return false;
   }
 }
 

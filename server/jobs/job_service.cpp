@@ -40,16 +40,11 @@ struct JobService::Job {
 
 std::string to_text(JobState state) {
   switch (state) {
-    case JobState::waiting:
-      return "waiting";
-    case JobState::running:
-      return "running";
-    case JobState::done:
-      return "done";
-    case JobState::failed:
-      return "failed";
-    case JobState::cancelled:
-      return "cancelled";
+    case JobState::waiting: return "waiting";
+    case JobState::running: return "running";
+    case JobState::done: return "done";
+    case JobState::failed: return "failed";
+    case JobState::cancelled: return "cancelled";
   }
   return "failed";
 }

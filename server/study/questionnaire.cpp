@@ -134,9 +134,7 @@ json to_json(const QuestionnaireItem& item) {
       for (const auto& option : item.options)
         told["options"].push_back({{"id", option.id}, {"words", option.words}});
       break;
-    case Kind::text:
-      told.update({{"kind", "text"}, {"longest", item.longest}});
-      break;
+    case Kind::text: told.update({{"kind", "text"}, {"longest", item.longest}}); break;
   }
   return told;
 }

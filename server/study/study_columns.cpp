@@ -95,9 +95,7 @@ session::ExportColumn answer_column(const QuestionnaireItem& item) {
       for (const auto& option : item.options) words += " " + option.id + ": " + option.words + ".";
       if (item.several) words += " Several are joined by ';'.";
       break;
-    case QuestionnaireItem::Kind::text:
-      words += " Free text.";
-      break;
+    case QuestionnaireItem::Kind::text: words += " Free text."; break;
   }
   return {item.id, item.kind == QuestionnaireItem::Kind::likert ? "points" : "", words};
 }

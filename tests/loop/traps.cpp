@@ -172,16 +172,11 @@ void trapped(Trap trap, const void* caller) {
 
 const char* to_text(Trap trap) {
   switch (trap) {
-    case Trap::allocate:
-      return "allocation";
-    case Trap::release:
-      return "release of memory";
-    case Trap::lock:
-      return "lock";
-    case Trap::wake:
-      return "wake-up of another thread";
-    case Trap::system_call:
-      return "system call";
+    case Trap::allocate: return "allocation";
+    case Trap::release: return "release of memory";
+    case Trap::lock: return "lock";
+    case Trap::wake: return "wake-up of another thread";
+    case Trap::system_call: return "system call";
   }
   return "";
 }

@@ -27,12 +27,9 @@ inline AwkwardTriangle awkward_triangle(std::mt19937& random, int number, const 
   const Vec3f p = anywhere();
   const int axis = static_cast<int>(random() % 3);
   switch (number % 12) {
-    case 0:
-      return {"any", {p, near(p, 24.0f), near(p, 24.0f)}};
-    case 1:
-      return {"small", {p, near(p, 4.0f), near(p, 4.0f)}};
-    case 2:
-      return {"tiny", {p, near(p, 1e-3f), near(p, 1e-3f)}};
+    case 0: return {"any", {p, near(p, 24.0f), near(p, 24.0f)}};
+    case 1: return {"small", {p, near(p, 4.0f), near(p, 4.0f)}};
+    case 2: return {"tiny", {p, near(p, 1e-3f), near(p, 1e-3f)}};
     case 3: {
       const Vec3f q = near(p, 40.0f);
       return {"sliver", {p, q, near(on_line(p, q), 1e-4f)}};
@@ -60,10 +57,8 @@ inline AwkwardTriangle awkward_triangle(std::mt19937& random, int number, const 
       const Vec3f q = near(p, 30.0f);
       return {"line", {p, q, on_line(p, q)}};
     }
-    case 9:
-      return {"point", {p, p, p}};
-    case 10:
-      return {"huge", {near(p, 3000.0f), near(p, 3000.0f), near(p, 3000.0f)}};
+    case 9: return {"point", {p, p, p}};
+    case 10: return {"huge", {near(p, 3000.0f), near(p, 3000.0f), near(p, 3000.0f)}};
     default: {
       const Vec3f q = near(p, 4000.0f), r = p - (q - p);
       return {"huge sliver", {r, q, near(on_line(r, q), std::pow(10.0f, -5.0f * unit(random)))}};

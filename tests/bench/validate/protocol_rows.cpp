@@ -81,9 +81,9 @@ std::vector<Row> rows_of(const PublishedBone& bone, const Phases& phases, const 
     thrust[s] = phases[s].held_thrust_n;
     feed[s] = phases[s].held_feed_mm_s;
     const double ours = phases[s].stiffness_n_mm;
-    stiffness.lines.push_back({std::to_string(s + 1),
-                               {ours, ours * handle_spring_n_mm / (ours + handle_spring_n_mm),
-                                bone.specimens[s].stiffness_n_mm}});
+    stiffness.lines.push_back(
+        {std::to_string(s + 1),
+         {ours, ours * handle_spring_n_mm / (ours + handle_spring_n_mm), bone.specimens[s].stiffness_n_mm}});
   }
   stiffness.print(options.tables, 1);
   const std::string name = std::string("robot protocol, ") + bone.name;

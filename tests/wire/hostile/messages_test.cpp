@@ -26,16 +26,11 @@ class HostileMessagesTest : public HostileTest {
   }
   std::string senseless() {
     switch (random_() % 5) {
-      case 0:
-        return noise(200);
-      case 1:
-        return noise(60'000);
-      case 2:
-        return damaged(greeting_bytes(FakeDeviceClient::revision, "fake"));
-      case 3:
-        return damaged(handle_bytes({}));
-      default:
-        return damaged(steering_bytes({}));
+      case 0: return noise(200);
+      case 1: return noise(60'000);
+      case 2: return damaged(greeting_bytes(FakeDeviceClient::revision, "fake"));
+      case 3: return damaged(handle_bytes({}));
+      default: return damaged(steering_bytes({}));
     }
   }
   std::string seed() const { return "seed " + std::to_string(seed_); }
