@@ -194,17 +194,6 @@ test('in theatre there is nothing but the bone, an opaque reamer, sound and forc
   await expect(page.getByTestId('cut-away')).toHaveAttribute('aria-pressed', 'true');
 });
 
-test('theatre mode is not offered by a server that does not know it', async ({ page }) => {
-  await page.route(/\/api\/v1\/sessions/, async (route) => {
-    const answer = await route.fetch();
-    const text = (await answer.text()).replace(/"theatre":(true|false),?/g, '');
-    await route.fulfill({ response: answer, body: text });
-  });
-  await open(page);
-  await expect(page.getByTestId('practise')).toBeEnabled();
-  await expect(page.getByTestId('theatre-mode')).toHaveCount(0);
-});
-
 test('shows the CT beside the picture, with the outline of the reamer, once it is asked for', async ({
   page,
 }, info) => {
