@@ -1,45 +1,17 @@
 #include "session/simulation/reamer.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/temporary_file.hpp"
 #include "shell/parametric_profile.hpp"
 #include "shell/reamer_library.hpp"
 
 namespace ream::session {
-namespace {
-
 namespace fs = std::filesystem;
-
-/// A folder in the system's place for temporary things; removed with all that is in it.
-class SystemTemporaryFolder {
- public:
-  SystemTemporaryFolder() {
-    std::string pattern = (fs::temp_directory_path() / "ream-reamer-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr)
-      throw Error(ErrorKind::io,
-                  "cannot make a folder for a reamer's mesh in " + fs::temp_directory_path().string());
-    path_ = pattern;
-  }
-  ~SystemTemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  SystemTemporaryFolder(const SystemTemporaryFolder&) = delete;
-  SystemTemporaryFolder& operator=(const SystemTemporaryFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
-}  // namespace
 
 Reamer reamer_asked_for(const std::string& words, const std::optional<shell::ToolAxis>& axis) {
   std::error_code failed;
@@ -47,16 +19,16 @@ Reamer reamer_asked_for(const std::string& words, const std::optional<shell::Too
   return {words, axis ? axis : shell::axis_noted_for(words), read_binary_file(words)};
 }
 
-std::string reamer_in_library(const std::string& build_setup, const fs::path& data) {
+std::string reamer_in_library(const std::string& reamer, const fs::path& data) {
   std::error_code failed;
-  const bool bare_name = !build_setup.empty() && build_setup.find_first_of(" ./\\") == std::string::npos &&
-                         !shell::is_parametric(build_setup) && !fs::is_regular_file(build_setup, failed);
-  return bare_name ? shell::reamer_named(build_setup, data).words : build_setup;
+  const bool bare_name = !reamer.empty() && reamer.find_first_of(" ./\\") == std::string::npos &&
+                         !shell::is_parametric(reamer) && !fs::is_regular_file(reamer, failed);
+  return bare_name ? shell::reamer_named(reamer, data).words : reamer;
 }
 
 shell::Tool tool_of(const Reamer& reamer) {
   if (reamer.mesh_file.empty()) return shell::make_tool(reamer.words, reamer.axis);
-  const SystemTemporaryFolder folder;
+  const TemporaryFolder folder(fs::temp_directory_path() / "ream-reamer");
   const fs::path file = folder.path() / ("reamer" + fs::path(reamer.words).extension().string());
   write_file_atomically(file, std::span<const std::byte>(reamer.mesh_file));
   try {

@@ -22,7 +22,7 @@ Reamer reamer_asked_for(const std::string& words, const std::optional<shell::Too
 
 /// The path of the user's mesh of that name in the data folder's reamers; anything that make_tool takes stays
 /// as it is. Error usage lists the names that exist, for a single word that is nothing of all that.
-std::string reamer_in_library(const std::string& build_setup, const std::filesystem::path& data);
+std::string reamer_in_library(const std::string& reamer, const std::filesystem::path& data);
 
 /// The tool once more: from the words, or from the bytes of the mesh file, which must not refer to other
 /// files. Errors: those of make_tool; io.
