@@ -12,6 +12,8 @@ namespace {
 using std::chrono::seconds;
 constexpr seconds note_interval{60}, retention = std::chrono::hours(24 * 30);
 constexpr size_t max_cached = 4096;
+/// A clock that is set right by so little has not gone back.
+constexpr seconds clock_tolerance{120};
 
 /// What somebody may do with it now; none: nothing any more.
 std::optional<Role> role_of(const store::KnownCredential& known) {
@@ -64,9 +66,45 @@ std::optional<store::KnownCredential> Credentials::look_up(const std::string& id
   return known;
 }
 
-std::optional<Identity> Credentials::identity_of(const store::KnownCredential& known) const {
-  const store::CredentialRow& row = known.credential;
+void Credentials::turn_back(UtcMoment now) {
+  const std::string kept = table_.latest_time();
+  if (!kept.empty() && utc_moment(kept) <= now + clock_tolerance) {  // another process has done so
+    latest_ = latest_kept_ = now;
+    const std::lock_guard lock(mutex_);
+    ++invalidations_;
+    cache_.clear();
+    return;
+  }
+  const auto gone =
+      table_.turn_back(utc_text(*latest_), utc_text(now), utc_text(*latest_ - lifetimes_.cookie_idle));
+  log::warn("the clock went back from " + utc_text(*latest_) + " to " + utc_text(now) + "; " +
+            std::to_string(gone.size()) +
+            " logins, tokens and links that had ended by then or were made since then are gone");
+  latest_ = latest_kept_ = now;
+  invalidate(gone);
+}
+
+UtcMoment Credentials::judged_time() {
   const UtcMoment now = now_();
+  const std::lock_guard lock(time_mutex_);
+  if (!latest_) {
+    const std::string kept = table_.latest_time();
+    latest_ = latest_kept_ = kept.empty() ? UtcMoment{} : utc_moment(kept);
+  }
+  if (now < *latest_ - clock_tolerance) turn_back(now);
+  latest_ = std::max(*latest_, now);
+  if (*latest_ - latest_kept_ < note_interval) return *latest_;
+  latest_kept_ = *latest_;
+  try {
+    table_.note_latest_time(utc_text(*latest_));
+  } catch (const Error& failure) {
+    log::warn(std::string("the time could not be noted in the database: ") + failure.what());
+  }
+  return *latest_;
+}
+
+std::optional<Identity> Credentials::identity_of(const store::KnownCredential& known, UtcMoment now) const {
+  const store::CredentialRow& row = known.credential;
   if (row.expires_utc <= utc_text(now)) return std::nullopt;
   const bool is_cookie = row.kind == to_text(CredentialKind::cookie);
   if (is_cookie && row.last_used_utc < utc_text(now - lifetimes_.cookie_idle)) return std::nullopt;
@@ -109,24 +147,26 @@ void Credentials::note_use(const store::CredentialRow& row) {
 std::optional<Identity> Credentials::identify(const Secret& secret, CredentialKind kind) {
   const std::string id = id_inside(secret);
   if (id.empty()) return std::nullopt;
+  const UtcMoment now = judged_time();
   const auto known = look_up(id);
   if (!known || known->credential.kind != to_text(kind) || !has_hash(secret, known->credential.hash))
     return std::nullopt;
-  auto identity = identity_of(*known);
+  auto identity = identity_of(*known, now);
   if (identity) note_use(known->credential);
   return identity;
 }
 
 std::optional<Identity> Credentials::identify_again(const std::string& id) {
+  const UtcMoment now = judged_time();
   const auto known = look_up(id);
   if (!known) return std::nullopt;
-  auto identity = identity_of(*known);
+  auto identity = identity_of(*known, now);
   if (identity) note_use(known->credential);
   return identity;
 }
 
 IssuedCredential Credentials::issue(CredentialKind kind, const NewCredential& request) {
-  const UtcMoment now = now_();
+  const UtcMoment now = judged_time();
   const seconds lifetime = kind == CredentialKind::token    ? lifetimes_.token
                            : kind == CredentialKind::cookie ? lifetimes_.cookie
                                                             : lifetimes_.link;
@@ -180,8 +220,9 @@ void Credentials::invalidate(const std::vector<std::string>& ids) {
 
 void Credentials::revoke(const std::string& id) { invalidate(table_.remove(id)); }
 
-void Credentials::end_cookies(const std::string& user_id, const std::string& except) {
-  invalidate(table_.remove_of_user(user_id, to_text(CredentialKind::cookie), except));
+void Credentials::end_old_logins(const std::string& user_id, const std::string& except, bool keep_tokens) {
+  const std::string kind = keep_tokens ? to_text(CredentialKind::cookie) : "";
+  invalidate(table_.remove_of_user(user_id, kind, except));
 }
 
 void Credentials::revoke_links(const std::string& user_id) {
@@ -190,6 +231,11 @@ void Credentials::revoke_links(const std::string& user_id) {
 
 void Credentials::revoke_all(const std::string& user_id) {
   invalidate(table_.remove_of_user(user_id, "", ""));
+}
+
+void Credentials::end_open_beginning(std::vector<std::string> ids) {
+  ids.emplace_back();
+  invalidate(ids);
 }
 
 void Credentials::renew(const std::string& user_id) {

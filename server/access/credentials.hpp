@@ -52,7 +52,9 @@ struct IssuedCredential {
   Secret secret;  ///< for its owner, once; kept nowhere
 };
 
-/// Tokens, cookie sessions and viewer links. What was looked up is cached for `cache_time`, so that is how
+/// Tokens, cookie sessions and viewer links. What has ended stays so when the machine's clock goes back: the
+/// latest time that was seen is kept, and what had ended by it goes; so does what was made by a clock that
+/// was ahead, as it would be good for too long. What was looked up is cached for `cache_time`, so that is how
 /// long another process may take to see a revocation; in this one it holds at once. Thread-safe; errors are
 /// those of the database.
 class Credentials {
@@ -76,14 +78,18 @@ class Credentials {
 
   /// With all that were made with it.
   void revoke(const std::string& id);
-  /// Cookie sessions of a user but `except`.
-  void end_cookies(const std::string& user_id, const std::string& except);
+  /// A new password: all that a user has and has made but `except`; with `keep_tokens` cookie sessions only.
+  void end_old_logins(const std::string& user_id, const std::string& except, bool keep_tokens);
   /// Viewer links that a user has made.
   void revoke_links(const std::string& user_id);
   /// All that a user has and has made.
   void revoke_all(const std::string& user_id);
   /// All that a user has is looked up anew, for the user may now do more or less.
   void renew(const std::string& user_id);
+
+  /// The first user has come: `ids` were nobody's and are removed. What was let in without any credential, as
+  /// long as the server was open, hears of it as of the id "".
+  void end_open_beginning(std::vector<std::string> ids);
 
   /// Called with the ids of what is no longer as it was: revoked or renewed here. On the thread that did it.
   /// To be set before use.
@@ -97,7 +103,11 @@ class Credentials {
     SteadyClock::time_point since;
   };
   std::optional<store::KnownCredential> look_up(const std::string& id);
-  std::optional<Identity> identity_of(const store::KnownCredential& known) const;
+  std::optional<Identity> identity_of(const store::KnownCredential& known, UtcMoment now) const;
+  /// The machine's time. When it has gone back, what had ended is removed first: to be asked before anything
+  /// is looked up or made.
+  UtcMoment judged_time();
+  void turn_back(UtcMoment now);
   void note_use(const store::CredentialRow& row);
   void invalidate(const std::vector<std::string>& ids);
 
@@ -108,6 +118,9 @@ class Credentials {
   std::mutex mutex_;
   std::map<std::string, CachedCredential> cache_;
   uint64_t invalidations_ = 0;  ///< counts what invalidates look-ups that are under way
+  std::mutex time_mutex_;
+  std::optional<UtcMoment> latest_;  ///< that was seen; none: not read yet
+  UtcMoment latest_kept_{};          ///< in the database
 };
 
 /// "token", "cookie" or "link".

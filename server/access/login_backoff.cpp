@@ -14,14 +14,15 @@ constexpr BackoffPolicy both_policy{4, seconds(900), seconds(24 * 3600)},
     name_policy{20, seconds(300), seconds(3600)}, place_policy{20, seconds(60), seconds(900)};
 constexpr int64_t day_ms = 24 * 3600 * 1000, places_ms = 90 * day_ms;
 
-/// What was typed as a name may be a password, so keys are hashes. That of name and place begins with the
-/// name's.
+/// What was typed as a name may be a password, so keys are hashes. Those of name and place, and of name and
+/// device, begin with the name's.
 struct Keys {
-  Keys(const std::string& typed_name, const std::string& address)
+  Keys(const std::string& typed_name, const LoginOrigin& origin)
       : name("name:" + hash_of(Secret(std::string_view(typed_name)))),
-        place("place:" + hash_of(Secret(place_of(address)))),
-        both(name + "@" + place) {}
-  const std::string name, place, both;
+        place("place:" + hash_of(Secret(place_of(origin.address)))),
+        both(name + "@" + place),
+        device(origin.device.empty() ? "" : name + "@device:" + hash_of(origin.device)) {}
+  const std::string name, place, both, device;
 };
 
 int64_t counted_from(int64_t now_ms, const BackoffPolicy& policy) {
@@ -58,12 +59,23 @@ int64_t LoginBackoff::now_ms() const {
   return std::chrono::duration_cast<std::chrono::milliseconds>(now_().time_since_epoch()).count();
 }
 
-void LoginBackoff::require_allowed(const std::string& name, const std::string& address) {
-  const Keys keys(name, address);
+bool LoginBackoff::knows_device(const std::string& key, const LoginOrigin& origin, int64_t now) const {
+  if (key.empty()) return false;
+  return origin.logged_in || attempts_.knows_place(key, now - places_ms);
+}
+
+void LoginBackoff::require_allowed(const std::string& name, const LoginOrigin& origin) {
+  const Keys keys(name, origin);
   const int64_t now = now_ms();
-  auto found = attempts_.failures({keys.both, keys.name, keys.place});
+  const bool by_itself = knows_device(keys.device, origin, now);
+  auto found =
+      by_itself ? attempts_.failures({keys.device}) : attempts_.failures({keys.both, keys.name, keys.place});
   if (found.empty()) return;
-  int64_t wait = wait_ms(found[keys.both], both_policy, now);
+  if (std::any_of(found.begin(), found.end(), [&](const auto& one) { return one.second.last_ms > now; })) {
+    attempts_.take_from_future(now);
+    for (auto& [key, failed] : found) failed.last_ms = std::min(failed.last_ms, now);
+  }
+  int64_t wait = wait_ms(found[by_itself ? keys.device : keys.both], both_policy, now);
   const int64_t of_others =
       std::max(wait_ms(found[keys.name], name_policy, now), wait_ms(found[keys.place], place_policy, now));
   if (of_others > wait && !attempts_.knows_place(keys.both, now - places_ms)) wait = of_others;
@@ -72,22 +84,28 @@ void LoginBackoff::require_allowed(const std::string& name, const std::string& a
   throw TooManyAttempts("too many failed logins; try again in " + std::to_string(retry_s) + " s", retry_s);
 }
 
-void LoginBackoff::note_failure(const std::string& name, const std::string& address) {
-  const Keys keys(name, address);
+void LoginBackoff::note_failure(const std::string& name, const LoginOrigin& origin) {
+  const Keys keys(name, origin);
   const int64_t now = now_ms();
-  attempts_.note_failure({{keys.both, counted_from(now, both_policy)},
-                          {keys.name, counted_from(now, name_policy)},
-                          {keys.place, counted_from(now, place_policy)}},
-                         now, now - day_ms);
+  using Counts = std::vector<store::LoginAttemptTable::Count>;
+  const Counts counts = knows_device(keys.device, origin, now)
+                            ? Counts{{keys.device, counted_from(now, both_policy)}}
+                            : Counts{{keys.both, counted_from(now, both_policy)},
+                                     {keys.name, counted_from(now, name_policy)},
+                                     {keys.place, counted_from(now, place_policy)}};
+  attempts_.note_failure(counts, now, now - day_ms);
 }
 
-void LoginBackoff::note_success(const std::string& name, const std::string& address) {
-  const Keys keys(name, address);
+void LoginBackoff::note_success(const std::string& name, const LoginOrigin& origin) {
+  const Keys keys(name, origin);
   const int64_t now = now_ms();
-  attempts_.forget_failures(keys.both);
+  const bool by_itself = knows_device(keys.device, origin, now);
+  attempts_.forget_failures(by_itself ? keys.device : keys.both);
+  if (origin.logged_in) return;
   attempts_.note_place(keys.both, now, now - places_ms);
+  if (!keys.device.empty()) attempts_.note_place(keys.device, now, now - places_ms);
 }
 
-void LoginBackoff::forget(const std::string& name) { attempts_.forget_failures(Keys(name, "").name); }
+void LoginBackoff::forget(const std::string& name) { attempts_.forget_failures(Keys(name, {}).name); }
 
 }  // namespace ream::access

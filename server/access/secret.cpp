@@ -106,6 +106,8 @@ bool has_hash(const Secret& secret, const std::string& hash) {
   return equal_in_constant_time(hash_of(secret), hash);
 }
 
+std::string fingerprint_of(const std::string& text) { return digest(text, "fingerprint"); }
+
 std::string csrf_token_of(const Secret& cookie) { return digest(cookie.reveal(), "csrf"); }
 
 }  // namespace ream::access

@@ -50,6 +50,9 @@ std::string hash_of(const Secret& secret);
 /// In constant time.
 bool has_hash(const Secret& secret, const std::string& hash);
 
+/// BLAKE2b of 32 bytes as base64url, of text that is no secret.
+std::string fingerprint_of(const std::string& text);
+
 /// What a page must send back with every change it makes by its cookie: a hash of the cookie's secret that
 /// does not tell it.
 std::string csrf_token_of(const Secret& cookie);

@@ -70,7 +70,7 @@ User Users::add(const NewUser& user) {
   require_user_name(name);
   require_display_name(user.display_name);
   require_account_role(user.role);
-  require_good_password(user.password);
+  require_good_password(user.password, name);
   if (table_.find_by_name(name)) throw Error(ErrorKind::conflict, "there is a user '" + name + "' already");
   store::UserRow row;
   row.id = random_id();
@@ -79,8 +79,9 @@ User Users::add(const NewUser& user) {
   row.role = to_text(user.role);
   row.created_utc = utc_text(now_());
   row.password_hash = hasher_.hash(user.password);
-  table_.add(row);
+  const store::UserTable::Added added = table_.add(row);
   any_ = true;
+  if (added.first) credentials_.end_open_beginning(added.ended);
   return user_of(row);
 }
 
@@ -89,8 +90,7 @@ User Users::change(const std::string& id, const UserChange& change) {
   if (change.display_name) require_display_name(*change.display_name);
   std::string hash;
   if (change.password) {
-    require_good_password(*change.password);
-    get(id);
+    require_good_password(*change.password, get(id).name);
     hash = hasher_.hash(*change.password);
   }
   const User changed = user_of(table_.change(id, [&](store::UserRow& row) {
@@ -101,7 +101,7 @@ User Users::change(const std::string& id, const UserChange& change) {
     if (!hash.empty()) row.password_hash = hash;
   }));
   if (change.password) {
-    credentials_.end_cookies(id, "");
+    credentials_.end_old_logins(id, "", change.keep_tokens);
     backoff_.forget(changed.name);
   }
   if (!changed.enabled) {
@@ -135,15 +135,15 @@ std::vector<User> Users::list() const {
 }
 
 bool Users::check_password(const std::optional<store::UserRow>& row, const std::string& name,
-                           const Secret& password, const std::string& address) {
-  backoff_.require_allowed(name, address);
+                           const Secret& password, const LoginOrigin& origin) {
+  backoff_.require_allowed(name, origin);
   const bool can_log_in = row && row->enabled;
   const auto verdict = hasher_.verify(password, can_log_in ? row->password_hash : "");
   if (!verdict.right) {
-    backoff_.note_failure(name, address);
+    backoff_.note_failure(name, origin);
     return false;
   }
-  backoff_.note_success(name, address);
+  backoff_.note_success(name, origin);
   if (verdict.outdated) rehash(*row, password);
   return true;
 }
@@ -160,20 +160,19 @@ void Users::rehash(const store::UserRow& row, const Secret& password) {
 }
 
 std::optional<User> Users::log_in(const std::string& typed, const Secret& password,
-                                  const std::string& address) {
+                                  const LoginOrigin& origin) {
   const std::string name = lower(typed);
   const auto row = is_user_name(name) ? table_.find_by_name(name) : std::nullopt;
-  return check_password(row, name, password, address) ? std::optional(user_of(*row)) : std::nullopt;
+  return check_password(row, name, password, origin) ? std::optional(user_of(*row)) : std::nullopt;
 }
 
-bool Users::change_password(const std::string& id, const Secret& current, const Secret& new_password,
-                            const std::string& address, const std::string& this_cookie) {
-  require_good_password(new_password);
+bool Users::change_password(const std::string& id, const PasswordChange& change, const LoginOrigin& origin) {
   const auto row = table_.find(id);
-  if (!check_password(row, row ? row->name : "", current, address)) return false;
-  const std::string hash = hasher_.hash(new_password);
+  require_good_password(change.wanted, row ? row->name : "");
+  if (!check_password(row, row ? row->name : "", change.present, origin)) return false;
+  const std::string hash = hasher_.hash(change.wanted);
   table_.change(id, [&](store::UserRow& changed) { changed.password_hash = hash; });
-  credentials_.end_cookies(id, this_cookie);
+  credentials_.end_old_logins(id, change.this_login, change.keep_tokens);
   return true;
 }
 

@@ -35,6 +35,15 @@ struct UserChange {
   std::optional<Role> role;
   std::optional<bool> enabled;
   std::optional<Secret> password;
+  bool keep_tokens = false;  ///< when the password is new; see PasswordChange
+};
+
+/// Of one's own password. A new one ends what came by the old one: all logins but this, and tokens and links
+/// too unless they are to stay, as whoever knew the old one may have made them.
+struct PasswordChange {
+  Secret present, wanted;
+  std::string this_login = {};  ///< id of the credential that goes on
+  bool keep_tokens = false;
 };
 
 /// Who may log in. There is always an operator who can, once there is anybody. Thread-safe. Errors:
@@ -47,8 +56,9 @@ class Users {
   /// Whether the server is past its open beginning. Asks the database at most once a second until then.
   bool any();
 
+  /// The first one ends what was made and opened while everybody could do everything.
   User add(const NewUser& user);
-  /// A new password ends the user's cookie sessions and forgives failed logins; disabling revokes all.
+  /// A new password ends what came by the old one and forgives failed logins; disabling revokes all.
   User change(const std::string& id, const UserChange& change);
   void remove(const std::string& id);
 
@@ -58,15 +68,14 @@ class Users {
   std::vector<User> list() const;
 
   /// The user when name and password belong together, after as long as it takes when they do not.
-  /// `address` is where it was tried from. Errors: TooManyAttempts.
-  std::optional<User> log_in(const std::string& name, const Secret& password, const std::string& address);
-  /// One's own. False when `current` is not the password. Ends all other cookie sessions but `this_cookie`.
-  bool change_password(const std::string& id, const Secret& current, const Secret& new_password,
-                       const std::string& address, const std::string& this_cookie);
+  /// Errors: TooManyAttempts.
+  std::optional<User> log_in(const std::string& name, const Secret& password, const LoginOrigin& origin);
+  /// One's own. False when the present password is another.
+  bool change_password(const std::string& id, const PasswordChange& change, const LoginOrigin& origin);
 
  private:
   bool check_password(const std::optional<store::UserRow>& row, const std::string& name,
-                      const Secret& password, const std::string& address);
+                      const Secret& password, const LoginOrigin& origin);
 
   void rehash(const store::UserRow& row, const Secret& password);
 

@@ -1,15 +1,13 @@
-#include "api/annotation_resource.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include "api/request_body.hpp"
+#include "api/request_values.hpp"
+#include "api/routes.hpp"
+#include "api/services.hpp"
 
 namespace ream::api {
 using nlohmann::json;
 namespace {
-
-constexpr size_t longest_words = 4000, longest_author = 100;
-constexpr double longest_session_s = 4e6, farthest_mm = 1e6;
 
 json annotation_json(const session::Annotation& annotation) {
   json place;
@@ -21,36 +19,32 @@ json annotation_json(const session::Annotation& annotation) {
           {"place_mm", std::move(place)}};
 }
 
-net::Response annotate(session::SessionService& service, const net::Request& request) {
-  RequestBody body(request);
-  session::NewAnnotation note;
-  note.words = body.words("words", 1, longest_words);
-  note.author = body.words("author", 0, longest_author);
-  note.at_s = body.number_within_or_none("at_s", 0.0, longest_session_s);
-  note.place_mm = body.point_or_none("place_mm", farthest_mm);
-  body.finish();
-  const std::string& id = request.parameters.at("id");
+net::Response annotate(const Services& services, const net::Request& request) {
+  const json& body = body_of(request);
+  session::NewAnnotation note{body.at("words"), text_in(body, "author"), optional_in<double>(body, "at_s"),
+                              point_in(body, "place_mm")};
+  const std::string& id = id_of(request);
   // The remark goes into the recording, which others read: who takes part in a study signs by code.
-  if (const session::SessionRequest session = service.get(id).request;
+  if (const session::SessionRequest session = services.sessions.get(id).request;
       !session.participant.empty() && !request.caller.user_id.empty() &&
       request.caller.user_id == session.trainee_id)
     note.author = session.participant;
-  return net::json_response(201, annotation_json(service.annotate(id, note)));
+  return net::json_response(201, annotation_json(services.sessions.annotate(id, note)));
 }
 
-net::Response list(const session::SessionService& service, const net::Request& request) {
+net::Response list_annotations(const Services& services, const net::Request& request) {
   json annotations = json::array();
-  for (const session::Annotation& annotation : service.annotations(request.parameters.at("id")))
+  for (const session::Annotation& annotation : services.sessions.annotations(id_of(request)))
     annotations.push_back(annotation_json(annotation));
   return net::json_response(200, {{"annotations", std::move(annotations)}});
 }
 
 }  // namespace
 
-void add_annotation_routes(net::Router& router, session::SessionService& service) {
-  const std::string path = "/api/v1/sessions/{id}/annotations";
-  router.on("GET", path, [&service](const net::Request& request) { return list(service, request); });
-  router.on("POST", path, [&service](const net::Request& request) { return annotate(service, request); });
+std::vector<Route> annotation_routes() {
+  const std::string annotations = "/api/v1/sessions/{id}/annotations";
+  return {{"GET", annotations, access::all_roles, reads("session.annotations"), list_annotations},
+          {"POST", annotations, access::reamers, not_audited, annotate, {"session", "annotated"}}};
 }
 
 }  // namespace ream::api

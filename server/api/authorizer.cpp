@@ -3,7 +3,6 @@
 #include "access/secret.hpp"
 #include "api/login_cookie.hpp"
 #include "api/visibility.hpp"
-#include "core/log.hpp"
 #include "net/guard.hpp"
 #include "net/problem.hpp"
 
@@ -26,13 +25,19 @@ bool is_own_machine(const net::Request& request) {
   constexpr std::string_view mapped = "::ffff:";
   std::string_view peer = request.peer;
   if (peer.starts_with(mapped)) peer.remove_prefix(mapped.size());
-  return net::is_loopback_host(peer) && request.header("forwarded").empty() &&
-         request.header("x-forwarded-for").empty();
+  return net::is_loopback_host(peer) && !request.passed_on;
 }
 
 bool is_gauge_reader(const Visitor& visitor, const net::Request& request) {
   return is_own_machine(request) ||
          (visitor.identity && visitor.identity->kind == access::CredentialKind::token);
+}
+
+void require_access(const Route& route, const Visitor& visitor, const net::Request& request) {
+  if (route.access.roles & access::role_bit(visitor.caller.role)) return;
+  if (route.access.kind == RouteAccess::Kind::monitoring && is_gauge_reader(visitor, request)) return;
+  if (!visitor.identity) refuse_unknown("log in first, or send a token");
+  throw net::RequestError(403, visitor.caller.role + "s may not " + request.method + " " + route.pattern);
 }
 
 }  // namespace
@@ -47,8 +52,6 @@ void require_no_forgery(const Visitor& visitor, const net::Request& request) {
         403, "a change by cookie needs the header X-CSRF-Token with what GET /api/v1/login says");
 }
 
-bool Authorizer::is_open() const { return !gatehouse_ || !gatehouse_->users.any(); }
-
 Visitor Authorizer::visitor(const net::Request& request) const {
   Visitor visitor;
   if (is_open()) {
@@ -56,46 +59,32 @@ Visitor Authorizer::visitor(const net::Request& request) const {
     return visitor;
   }
   if (const access::Secret token = bearer_token_of(request); !token.empty()) {
-    visitor.identity = gatehouse_->credentials.identify(token, access::CredentialKind::token);
+    visitor.identity = access_control_.credentials.identify(token, access::CredentialKind::token);
     if (!visitor.identity) refuse_unknown("the token is unknown, has ended or was revoked", "invalid_token");
   } else if (const access::Secret cookie = cookie_of(request); !cookie.empty()) {
-    visitor.identity = gatehouse_->credentials.identify(cookie, access::CredentialKind::cookie);
+    visitor.identity = access_control_.credentials.identify(cookie, access::CredentialKind::cookie);
     if (visitor.identity) visitor.csrf_token = access::csrf_token_of(cookie);
   }
   if (visitor.identity) visitor.caller = caller_of(*visitor.identity);
   return visitor;
 }
 
-void Authorizer::require_right(const Right& right, const Visitor& visitor,
-                               const net::Request& request) const {
-  if (right.who & access::role_bit(visitor.caller.role)) return;
-  if (right.route_access == RouteAccess::monitoring && is_gauge_reader(visitor, request)) return;
-  if (!visitor.identity) refuse_unknown("log in first, or send a token");
-  throw net::RequestError(403, visitor.caller.role + "s may not " + request.method + " " + right.pattern);
-}
-
-void Authorizer::require_sight(const net::Request& request, const std::string& pattern) const {
-  if (!pattern.starts_with(one_session) || !find_session_) return;
-  if (access::role_bit(request.caller.role) & access::staff) return;
+void Authorizer::require_sight(const net::Request& request, const Route& route) const {
+  if (!route.pattern.starts_with(one_session)) return;
+  if (access::is_staff(request.caller.role)) return;
   const std::string& id = request.parameters.at("id");
-  const auto session = find_session_(id);
+  const auto session = sessions_.session_of(id);
   if (session && !may_see(request.caller, *session)) refuse_unseen(id);
 }
 
-void Authorizer::authorize(net::Request& request, const std::string& pattern) const {
-  if (pattern.empty()) return;
-  const Right* right = right_of(request.method, pattern);
-  if (!right) {
-    log::error("nobody may use " + request.method + " " + pattern + ": it is not in the table of rights");
-    throw net::RequestError(403, "nobody may " + request.method + " " + pattern);
-  }
-  if (right->route_access == RouteAccess::anybody) return;
+void Authorizer::authorize(net::Request& request, const Route& route) const {
+  if (route.access.kind == RouteAccess::Kind::anybody) return;
   const Visitor visitor = this->visitor(request);
   require_no_forgery(visitor, request);
-  require_right(*right, visitor, request);
+  require_access(route, visitor, request);
   request.caller = visitor.caller;
   for (const char* shown : {"authorization", "cookie", "x-csrf-token"}) request.headers.erase(shown);
-  require_sight(request, pattern);
+  require_sight(request, route);
 }
 
 }  // namespace ream::api

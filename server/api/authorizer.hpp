@@ -1,10 +1,9 @@
 #pragma once
-#include <functional>
 #include <optional>
 #include <string>
 
 #include "access/access_control.hpp"
-#include "api/rights.hpp"
+#include "api/route.hpp"
 #include "api/visibility.hpp"
 #include "net/message.hpp"
 
@@ -17,32 +16,31 @@ struct Visitor {
   std::string csrf_token;                    ///< of a cookie; else empty
 };
 
-/// Stands before every route (net::Router::guard): finds out who asks, by bearer token, else by cookie, and
-/// lets them pass as the table of rights says. Without users everybody passes, as an operator. Thread-safe.
+/// Stands before every route: finds out who asks, by bearer token, else by cookie, and lets them pass as the
+/// route's row says. Without users everybody passes, as an operator. Thread-safe.
 class Authorizer {
  public:
-  /// `gatehouse` outlives it; null: there are never users.
-  Authorizer(access::AccessControl* gatehouse, SessionFinder find_session)
-      : gatehouse_(gatehouse), find_session_(std::move(find_session)) {}
+  /// Both outlive it.
+  Authorizer(access::AccessControl& access_control, const SessionFinder& sessions)
+      : access_control_(access_control), sessions_(sessions) {}
 
-  /// Sets the caller and takes what was shown out of the request. `pattern` empty: static files.
-  /// RequestErrors: 401 who are you, 403 not you (or a change by cookie without the token against forgery);
-  /// Error not_found for a session that the caller may not see.
-  void authorize(net::Request& request, const std::string& pattern) const;
+  /// Sets the caller and takes what was shown out of the request. RequestErrors: 401 who are you, 403 not you
+  /// (or a change by cookie without the token against forgery); Error not_found for a session that the caller
+  /// may not see.
+  void authorize(net::Request& request, const Route& route) const;
 
   /// For routes that are open: who asks, if they show anything good. RequestError 401 for a bad token; a bad
   /// cookie is none.
   Visitor visitor(const net::Request& request) const;
 
   /// Whether the server lets in everybody.
-  bool is_open() const;
+  bool is_open() const { return !access_control_.users.any(); }
 
  private:
-  void require_right(const Right& right, const Visitor& visitor, const net::Request& request) const;
-  void require_sight(const net::Request& request, const std::string& pattern) const;
+  void require_sight(const net::Request& request, const Route& route) const;
 
-  access::AccessControl* gatehouse_;
-  const SessionFinder find_session_;
+  access::AccessControl& access_control_;
+  const SessionFinder& sessions_;
 };
 
 /// RequestError 403 unless a request that changes something by its cookie shows the token against forgery,

@@ -1,19 +1,20 @@
 #include <nlohmann/json.hpp>
 
 #include "access/role.hpp"
-#include "api/request_body.hpp"
-#include "api/score_tools.hpp"
-#include "core/error.hpp"
+#include "api/replies.hpp"
+#include "api/request_values.hpp"
+#include "api/routes.hpp"
+#include "api/services.hpp"
+#include "core/text.hpp"
+#include "net/problem.hpp"
 #include "score/group_cut.hpp"
 
 namespace ream::api {
 using nlohmann::json;
 namespace {
 
-const std::string base = "/api/v1/benchmarks";
-constexpr size_t max_benchmark_name = 200, longest_rubric = 72, most_sessions = 1000, fewest_to_contrast = 3;
-
-json text_or_null(const std::string& text) { return text.empty() ? json(nullptr) : json(text); }
+const std::string benchmarks_path = "/api/v1/benchmarks";
+constexpr size_t fewest_to_contrast = 3;
 
 json summary_json(const score::KeptBenchmark& kept) {
   return {{"id", kept.id},
@@ -33,25 +34,25 @@ json benchmark_json(const score::KeptBenchmark& kept, const net::Caller& caller)
   json told = summary_json(kept);
   told["expert_sessions"] = to_staff ? json(kept.benchmark.sessions) : json(nullptr);
   told["novice_sessions"] = to_staff ? json(kept.novices) : json(nullptr);
-  told["rubric"] = text_or_null(kept.rubric);
-  told["density"] = text_or_null(kept.density);
+  told["rubric"] = or_null(kept.rubric);
+  told["density"] = or_null(kept.density);
   told["lines"] = std::move(lines);
   told["cuts"] = kept.cuts;
   return told;
 }
 
 /// What sessions say; each must have ended and left metrics. `key` names them in the request.
-std::vector<score::MeasuredSession> measured(const ScoreTools& tools, const std::vector<std::string>& ids,
-                                             const std::string& key) {
-  std::vector<score::MeasuredSession> sessions;
+std::vector<score::EndedSession> measured(const Services& services, const std::vector<std::string>& ids,
+                                          const std::string& key) {
+  std::vector<score::EndedSession> sessions;
   for (size_t i = 0; i < ids.size(); ++i) {
     const auto refuse = [&](const std::string& why) {
       throw net::RequestError(422, "session '" + ids[i] + "' " + why,
                               {{pointer_to(key) + "/" + std::to_string(i), why}});
     };
     try {
-      if (is_live(tools.sessions.get(ids[i]).status.state)) refuse("has not ended");
-      sessions.push_back({ids[i], tools.sessions.metrics(ids[i])});
+      if (is_live(services.sessions.get(ids[i]).status.state)) refuse("has not ended");
+      sessions.push_back({ids[i], nullptr, services.sessions.metrics(ids[i])});
     } catch (const net::RequestError&) {
       throw;
     } catch (const Error& missing) {
@@ -68,31 +69,23 @@ struct Wishes {
   std::vector<std::string> experts, novices;
 };
 
-Wishes wishes_in(const net::Request& request) {
-  RequestBody body(request);
-  Wishes wishes;
-  wishes.name = body.words("name", 1, max_benchmark_name);
-  wishes.experts = body.names("experts", 1, most_sessions);
-  const bool contrasted = body.value_or_none("novices").has_value();
-  if (contrasted) wishes.novices = body.names("novices", fewest_to_contrast, most_sessions);
-  wishes.rubric = body.words("rubric", 0, longest_rubric);
-  const std::string density =
-      body.value_or_none("density") ? body.one_of("density", {"normal", "kernel"}) : "normal";
-  body.finish();
-  wishes.density = score::density_from_text(density);
-  if (contrasted && wishes.experts.size() < fewest_to_contrast)
+Wishes wishes_in(const json& body) {
+  Wishes wishes{body.at("name"), text_in(body, "rubric"),
+                score::density_from_text(body.value("density", "normal")),
+                different_texts_in(body, "experts"), different_texts_in(body, "novices")};
+  if (!wishes.novices.empty() && wishes.experts.size() < fewest_to_contrast)
     throw net::RequestError(422, "pass marks need three sessions of experts and three of novices",
                             {{"#/experts", "must have three or more to be contrasted"}});
   return wishes;
 }
 
-net::Response create(const ScoreTools& tools, const net::Request& request) {
-  const Wishes wishes = wishes_in(request);
-  const session::Judge judge = tools.stores.judge_by(wishes.rubric);
+net::Response create_benchmark(const Services& services, const net::Request& request) {
+  const Wishes wishes = wishes_in(body_of(request));
+  const session::Judge judge = services.stores.judge_by(wishes.rubric);
   score::KeptBenchmark made;
-  tools.executor.run([&] {
-    const auto experts = measured(tools, wishes.experts, "experts");
-    const auto novices = measured(tools, wishes.novices, "novices");
+  services.executor.run([&] {
+    const auto experts = measured(services, wishes.experts, "experts");
+    const auto novices = measured(services, wishes.novices, "novices");
     made.benchmark = score::make_benchmark(wishes.name, experts);
     if (novices.empty()) return;
     made.novices = wishes.novices;
@@ -103,27 +96,29 @@ net::Response create(const ScoreTools& tools, const net::Request& request) {
   if (made.benchmark.lines.empty())
     throw net::RequestError(422, "the experts' sessions say nothing that others could be compared with",
                             {{"#/experts", "say no metric that has an aim"}});
-  const score::KeptBenchmark kept = tools.stores.benchmarks.keep(std::move(made));
-  tools.audit(request, "benchmark.create", kept.id, kept.benchmark.name);
-  net::Response response = net::json_response(201, benchmark_json(kept, request.caller));
-  response.headers.emplace_back("Location", base + "/" + kept.id);
-  return response;
+  const score::KeptBenchmark kept = services.stores.benchmarks.keep(std::move(made));
+  services.audit(request, "benchmark.create", kept.id, kept.benchmark.name);
+  return created(benchmarks_path + "/" + kept.id, benchmark_json(kept, request.caller));
+}
+
+net::Response list_benchmarks(const Services& services, const net::Request&) {
+  json benchmarks = json::array();
+  for (const score::KeptBenchmark& kept : services.stores.benchmarks.list())
+    benchmarks.push_back(summary_json(kept));
+  return net::json_response(200, {{"benchmarks", std::move(benchmarks)}});
+}
+
+net::Response get_benchmark(const Services& services, const net::Request& request) {
+  return net::json_response(200,
+                            benchmark_json(services.stores.benchmarks.get(id_of(request)), request.caller));
 }
 
 }  // namespace
 
-void add_benchmark_routes(net::Router& router, const ScoreTools& tools) {
-  router.on("GET", base, [tools](const net::Request&) {
-    json benchmarks = json::array();
-    for (const score::KeptBenchmark& kept : tools.stores.benchmarks.list())
-      benchmarks.push_back(summary_json(kept));
-    return net::json_response(200, {{"benchmarks", std::move(benchmarks)}});
-  });
-  router.on("POST", base, [tools](const net::Request& request) { return create(tools, request); });
-  router.on("GET", base + "/{id}", [tools](const net::Request& request) {
-    return net::json_response(
-        200, benchmark_json(tools.stores.benchmarks.get(request.parameters.at("id")), request.caller));
-  });
+std::vector<Route> benchmark_routes() {
+  return {{"GET", benchmarks_path, access::reamers, not_audited, list_benchmarks},
+          {"POST", benchmarks_path, access::staff, audited_by_handler, create_benchmark},
+          {"GET", benchmarks_path + "/{id}", access::reamers, not_audited, get_benchmark}};
 }
 
 }  // namespace ream::api

@@ -1,7 +1,9 @@
 #include <charconv>
 #include <optional>
 
-#include "api/case_work_resource.hpp"
+#include "api/request_values.hpp"
+#include "api/routes.hpp"
+#include "api/services.hpp"
 #include "core/temporary_file.hpp"
 #include "net/file_body.hpp"
 #include "net/problem.hpp"
@@ -24,62 +26,45 @@ int index_of(const std::string& text) {
   return index;
 }
 
-bool wants_labels(const net::Request& request) {
-  const auto found = request.query.find("of");
-  if (found == request.query.end() || found->second == "hu") return false;
-  if (found->second == "labels") return true;
-  throw net::RequestError(422, "?of must be hu or labels");
-}
-
-/// The segmentation that a client believes to look at, if it says so.
-std::optional<int> revision_of(const net::Request& request) {
-  const auto found = request.query.find("revision");
-  if (found == request.query.end()) return std::nullopt;
-  return index_of(found->second);
-}
-
 net::SharedBytes shared(net::Bytes bytes) { return std::make_shared<const net::Bytes>(std::move(bytes)); }
 
 /// Kept by no cache: what an address shows changes when its case is made anew.
-net::Response slice(workup::CaseService& case_service, const net::Request& request) {
+net::Response get_slice(const Services& services, const net::Request& request) {
   const auto& parameters = request.parameters;
+  std::optional<int> revision;  // the segmentation that a client believes to look at
+  if (request.query.contains("revision")) revision = index_of(query_text(request, "revision"));
   net::Bytes bytes =
-      case_service.slice(parameters.at("id"), axis_of(parameters.at("axis")),
-                         index_of(parameters.at("index")), wants_labels(request), revision_of(request));
+      services.cases.slice(id_of(request), axis_of(parameters.at("axis")), index_of(parameters.at("index")),
+                           query_text(request, "of") == "labels", revision);
   net::Response response = net::bytes_response(200, "application/octet-stream", shared(std::move(bytes)));
   response.headers.emplace_back("Cache-Control", "no-store");
   return response;
 }
 
 /// Made now, sent, and gone.
-net::Response volume(workup::CaseService& case_service, jobs::LowPriorityExecutor& executor,
-                     const std::filesystem::path& temporary_folder, const net::Request& request) {
-  const std::string& id = request.parameters.at("id");
-  case_service.workup(id);
-  const TemporaryFile file(temporary_folder, ".nrrd");
-  executor.run([&] { case_service.write_volume(id, file.path()); });
+net::Response get_volume(const Services& services, const net::Request& request) {
+  const std::string& id = id_of(request);
+  services.cases.workup(id);
+  const TemporaryFile file(services.temporary_folder, ".nrrd");
+  services.executor.run([&] { services.cases.write_volume(id, file.path()); });
   return net::file_response(request, {file.path(), "application/octet-stream", id + ".nrrd"});
 }
 
-net::Response mesh(workup::CaseService& case_service, const net::Request& request) {
+net::Response get_case_mesh(const Services& services, const net::Request& request) {
   net::Response response =
-      net::bytes_response(200, "application/ply", net::share(case_service.mesh(request.parameters.at("id"))));
+      net::bytes_response(200, "application/ply", net::share(services.cases.mesh(id_of(request))));
   response.headers.emplace_back("Cache-Control", "no-store");
   return response;
 }
 
 }  // namespace
 
-void add_case_volume_routes(net::Router& router, workup::CaseService& case_service,
-                            jobs::LowPriorityExecutor& executor,
-                            const std::filesystem::path& temporary_folder) {
-  router.on("GET", "/api/v1/cases/{id}/volume", [&, temporary_folder](const net::Request& request) {
-    return volume(case_service, executor, temporary_folder, request);
-  });
-  router.on("GET", "/api/v1/cases/{id}/volume/slices/{axis}/{index}",
-            [&case_service](const net::Request& request) { return slice(case_service, request); });
-  router.on("GET", "/api/v1/cases/{id}/mesh",
-            [&case_service](const net::Request& request) { return mesh(case_service, request); });
+std::vector<Route> case_volume_routes() {
+  using access::reamers;
+  const std::string one = "/api/v1/cases/{id}";
+  return {{"GET", one + "/volume", reamers, reads("case.ct"), get_volume},
+          {"GET", one + "/volume/slices/{axis}/{index}", reamers, reads("case.ct"), get_slice},
+          {"GET", one + "/mesh", reamers, reads("case.mesh"), get_case_mesh}};
 }
 
 }  // namespace ream::api

@@ -79,8 +79,7 @@ class ChangeFeed::Listener final : public net::WebSocketSession {
   uint64_t number_ = 0;
 };
 
-ChangeFeed::ChangeFeed(Sight sight, size_t most_kept)
-    : sight_(std::move(sight)), most_kept_(most_kept), newest_(first_number()) {}
+ChangeFeed::ChangeFeed(size_t most_kept) : most_kept_(most_kept), newest_(first_number()) {}
 
 void ChangeFeed::tell(const Change& change) {
   std::vector<std::function<void()>> wakes;
@@ -109,7 +108,7 @@ ChangeFeed::Next ChangeFeed::next_after(uint64_t& number, const net::Caller& cal
   auto next = kept_.begin() + static_cast<std::ptrdiff_t>(number + 1 - kept_.front().number);
   for (; next != kept_.end(); ++next) {
     number = next->number;
-    if (sight_(caller, next->change)) return {next->message, false};
+    if (may_know(caller, next->change)) return {next->message, false};
   }
   return {};
 }

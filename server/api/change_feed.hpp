@@ -27,10 +27,7 @@ struct Change {
 /// Numbers grow over restarts of the server. Thread-safe.
 class ChangeFeed : public std::enable_shared_from_this<ChangeFeed> {
  public:
-  /// Whether a caller may know of a change.
-  using Sight = std::function<bool(const net::Caller& caller, const Change& change)>;
-
-  explicit ChangeFeed(Sight sight, size_t most_kept = 1000);
+  explicit ChangeFeed(size_t most_kept = 1000);
 
   void tell(const Change& change);
 
@@ -58,7 +55,6 @@ class ChangeFeed : public std::enable_shared_from_this<ChangeFeed> {
   /// The next after `number` that the caller may know of; `number` becomes its own.
   Next next_after(uint64_t& number, const net::Caller& caller) const;
 
-  const Sight sight_;
   const size_t most_kept_;
   mutable std::mutex mutex_;
   std::deque<Kept> kept_;  ///< oldest first, without gaps

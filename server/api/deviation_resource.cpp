@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "api/job_resource.hpp"
-#include "api/score_tools.hpp"
+#include "api/replies.hpp"
+#include "api/request_values.hpp"
+#include "api/routes.hpp"
+#include "api/services.hpp"
 #include "api/session_work.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -39,29 +41,29 @@ net::Response field(const std::string& id, const fs::path& folder, const std::st
   return response;
 }
 
-net::Response deviation(const ScoreTools& tools, const net::Request& request) {
-  const std::string& id = request.parameters.at("id");
-  const session::SessionRecord record = tools.sessions.get(id);
+net::Response get_deviation(const Services& services, const net::Request& request) {
+  const std::string& id = id_of(request);
+  const session::SessionRecord record = services.sessions.get(id);
   if (is_live(record.status.state))
     throw Error(ErrorKind::conflict, "session '" + id + "' is " + to_text(record.status.state) +
                                          "; its surface is compared when it has ended");
-  const fs::path folder = tools.sessions.folder_of(id);
+  const fs::path folder = services.sessions.folder_of(id);
   std::error_code failed;
   if (fs::is_regular_file(folder / description_name, failed))
     return field(id, folder, request.query.at("to"));
   if (!fs::is_regular_file(session::recording_file(folder), failed))
     throw Error(ErrorKind::not_found, "session '" + id + "' left no recording; it was never started");
-  return accepted(work_in_folder(tools.jobs, "deviation", record, folder,
-                                 [&engine = tools.engine](const fs::path& place, const Progress& progress) {
-                                   engine.write_deviations(place, place / description_name, progress);
+  return accepted(work_in_folder(services.jobs, "deviation", record, folder,
+                                 [&engine = services.engine](const fs::path& work, const Progress& progress) {
+                                   engine.write_deviations(work, work / description_name, progress);
                                  }));
 }
 
 }  // namespace
 
-void add_deviation_routes(net::Router& router, const ScoreTools& tools) {
-  router.on("GET", "/api/v1/sessions/{id}/deviation",
-            [tools](const net::Request& request) { return deviation(tools, request); });
+std::vector<Route> deviation_routes() {
+  return {
+      {"GET", "/api/v1/sessions/{id}/deviation", access::reamers, reads("session.deviation"), get_deviation}};
 }
 
 }  // namespace ream::api

@@ -9,7 +9,7 @@
 namespace ream::api {
 namespace {
 
-constexpr size_t longest_key = 200, most_remembered = 4096, largest_body = 256 * 1024;
+constexpr size_t longest_key = 200, largest_body = 256 * 1024;
 
 bool is_key(std::string_view key) {
   return !key.empty() && key.size() <= longest_key &&
@@ -42,19 +42,10 @@ std::string text_of(const net::SharedBytes& body) {
 
 }  // namespace
 
-Idempotency::Idempotency(std::shared_ptr<store::Database> database, WallClock now)
-    : database_(std::move(database)), now_(std::move(now)) {}
-
 int64_t Idempotency::oldest_ms() const { return in_ms(now_() - kept_for); }
 
-std::optional<store::StoredResponse> Idempotency::find(const Name& name) const {
-  std::optional<store::StoredResponse> found;
-  if (database_) {
-    found = store::IdempotencyTable(*database_).find(name.first, name.second);
-  } else {
-    const std::lock_guard lock(mutex_);
-    if (const auto kept = remembered_.find(name); kept != remembered_.end()) found = kept->second;
-  }
+std::optional<store::StoredResponse> Idempotency::find(const Name& name) {
+  auto found = table_.find(name.first, name.second);
   return found && found->at_ms >= oldest_ms() ? found : std::nullopt;
 }
 
@@ -68,20 +59,11 @@ void Idempotency::keep(const Name& name, const std::string& request, const net::
                                      std::string(response.header("Location")),
                                      text_of(response.body),
                                      in_ms(now_())};
-  if (database_) {
-    try {
-      store::IdempotencyTable(*database_).put(answer);
-    } catch (const Error& error) {
-      log::warn(std::string("an answer could not be kept for its repetition: ") + error.what());
-    }
-    return;
+  try {
+    table_.put(answer);
+  } catch (const Error& error) {
+    log::warn(std::string("an answer could not be kept for its repetition: ") + error.what());
   }
-  const std::lock_guard lock(mutex_);
-  remembered_[name] = answer;
-  if (remembered_.size() <= most_remembered) return;
-  remembered_.erase(
-      std::min_element(remembered_.begin(), remembered_.end(),
-                       [](const auto& a, const auto& b) { return a.second.at_ms < b.second.at_ms; }));
 }
 
 net::Response Idempotency::answer(const net::Request& request, const net::Handler& next) {
@@ -115,10 +97,6 @@ net::Response Idempotency::answer(const net::Request& request, const net::Handle
   return response;
 }
 
-void Idempotency::forget_old() {
-  if (database_) return store::IdempotencyTable(*database_).remove_before(oldest_ms());
-  const std::lock_guard lock(mutex_);
-  std::erase_if(remembered_, [&](const auto& kept) { return kept.second.at_ms < oldest_ms(); });
-}
+void Idempotency::forget_old() { table_.remove_before(oldest_ms()); }
 
 }  // namespace ream::api

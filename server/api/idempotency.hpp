@@ -1,7 +1,5 @@
 #pragma once
 #include <chrono>
-#include <map>
-#include <memory>
 #include <mutex>
 #include <set>
 #include <string>
@@ -15,14 +13,15 @@ namespace ream::api {
 
 /// Lets a sender repeat a request that makes something (its answer was lost, say) without making it twice:
 /// requests with the same Idempotency-Key of the same caller get the same answer for a day. Kept in the
-/// database, or without one in memory. Thread-safe.
+/// database, for each caller the last 1000 answers of at most 8 MiB. Thread-safe.
 class Idempotency {
  public:
   static constexpr std::chrono::hours kept_for{24};
   static constexpr const char* header = "idempotency-key";
 
-  /// `database` null: in memory, the newest few thousand.
-  explicit Idempotency(std::shared_ptr<store::Database> database, WallClock now = machine_clock());
+  /// `database` outlives it.
+  explicit Idempotency(store::Database& database, WallClock now = machine_clock())
+      : table_(database), now_(std::move(now)) {}
 
   /// What next(request) answers, or what it answered before. Only success is kept: what failed may be tried
   /// again. RequestErrors: 400 for a key that is none, 422 when it was used for another request, 409 while
@@ -31,18 +30,20 @@ class Idempotency {
 
   /// Forgets what is older than a day.
   void forget_old();
+  /// Forgets the answers that tell of a session that was erased, or were given to or tell of a user who is
+  /// gone.
+  void forget_about(const std::string& id) { table_.remove_about(id); }
 
  private:
   using Name = std::pair<std::string, std::string>;  ///< caller and key
-  std::optional<store::StoredResponse> find(const Name& name) const;
+  std::optional<store::StoredResponse> find(const Name& name);
   void keep(const Name& name, const std::string& request, const net::Response& response);
   int64_t oldest_ms() const;
 
-  const std::shared_ptr<store::Database> database_;
+  store::IdempotencyTable table_;
   const WallClock now_;
-  mutable std::mutex mutex_;
+  std::mutex mutex_;
   std::set<Name> under_way_;
-  std::map<Name, store::StoredResponse> remembered_;  ///< without a database
 };
 
 }  // namespace ream::api

@@ -1,9 +1,11 @@
-#include "api/job_resource.hpp"
-
 #include <nlohmann/json.hpp>
 
 #include "access/role.hpp"
 #include "api/json_page.hpp"
+#include "api/replies.hpp"
+#include "api/request_values.hpp"
+#include "api/routes.hpp"
+#include "api/services.hpp"
 #include "api/visibility.hpp"
 #include "core/text.hpp"
 #include "net/file_body.hpp"
@@ -12,8 +14,6 @@
 namespace ream::api {
 using nlohmann::json;
 namespace {
-
-json or_null(const std::string& text) { return text.empty() ? json(nullptr) : json(text); }
 
 json job_json(const jobs::JobRecord& job) {
   json problem, result;
@@ -39,15 +39,21 @@ json job_json(const jobs::JobRecord& job) {
           {"result", std::move(result)}};
 }
 
+/// Operators and instructors may know of all work, others of that on sessions that they may see.
+bool may_see_job(const net::Caller& caller, const jobs::JobRecord& job) {
+  if ((access::role_bit(caller.role) & access::staff) != 0) return true;
+  return job.order.session && may_see(caller, *job.order.session);
+}
+
 bool fits(const net::Request& request, const std::string& name, const std::string& value) {
   const auto wanted = request.query.find(name);
   return wanted == request.query.end() || wanted->second == value;
 }
 
-net::Response list(const jobs::JobService& jobs, const net::Request& request) {
+net::Response list_jobs(const Services& services, const net::Request& request) {
   std::vector<json> list;
-  for (const jobs::JobRecord& job : jobs.list())
-    if (may_see(request.caller, job) && fits(request, "case_id", job.order.case_id) &&
+  for (const jobs::JobRecord& job : services.jobs.list())
+    if (may_see_job(request.caller, job) && fits(request, "case_id", job.order.case_id) &&
         fits(request, "session_id", job.order.session_id) && fits(request, "kind", job.order.kind) &&
         fits(request, "state", to_text(job.state)))
       list.push_back(job_json(job));
@@ -55,15 +61,15 @@ net::Response list(const jobs::JobService& jobs, const net::Request& request) {
 }
 
 /// In the words of a job that does not exist unless the caller may know of it.
-jobs::JobRecord seen(const jobs::JobService& jobs, const net::Request& request) {
-  jobs::JobRecord job = jobs.get(request.parameters.at("id"));
-  if (!may_see(request.caller, job))
+jobs::JobRecord seen_job(const Services& services, const net::Request& request) {
+  jobs::JobRecord job = services.jobs.get(id_of(request));
+  if (!may_see_job(request.caller, job))
     throw Error(ErrorKind::not_found, "no job '" + job.id + "'; GET /api/v1/jobs lists them");
   return job;
 }
 
-net::Response result(const jobs::JobService& jobs, const net::Request& request) {
-  const jobs::JobRecord job = seen(jobs, request);
+net::Response get_job_result(const Services& services, const net::Request& request) {
+  const jobs::JobRecord job = seen_job(services, request);
   if (jobs::is_open(job.state))
     throw Error(ErrorKind::conflict, "job '" + job.id + "' is " + to_text(job.state) + "; wait for its end");
   if (!job.result) throw Error(ErrorKind::not_found, "job '" + job.id + "' has no file, or has it no longer");
@@ -71,12 +77,15 @@ net::Response result(const jobs::JobService& jobs, const net::Request& request) 
                             {job.result->path, job.result->media_type, job.result->path.filename().string()});
 }
 
-}  // namespace
-
-bool may_see(const net::Caller& caller, const jobs::JobRecord& job) {
-  if ((access::role_bit(caller.role) & access::staff) != 0) return true;
-  return job.order.session && may_see(caller, *job.order.session);
+net::Response get_job(const Services& services, const net::Request& request) {
+  return net::json_response(200, job_json(seen_job(services, request)));
 }
+
+net::Response cancel_job(const Services& services, const net::Request& request) {
+  return net::json_response(202, job_json(services.jobs.cancel(seen_job(services, request).id)));
+}
+
+}  // namespace
 
 net::Response accepted(const jobs::JobRecord& job) {
   net::Response response = net::json_response(202, job_json(job));
@@ -84,16 +93,13 @@ net::Response accepted(const jobs::JobRecord& job) {
   return response;
 }
 
-void add_job_routes(net::Router& router, jobs::JobService& jobs) {
+std::vector<Route> job_routes() {
+  using access::reamers;
   const std::string all = "/api/v1/jobs", one = all + "/{id}";
-  router.on("GET", all, [&jobs](const net::Request& request) { return list(jobs, request); });
-  router.on("GET", one, [&jobs](const net::Request& request) {
-    return net::json_response(200, job_json(seen(jobs, request)));
-  });
-  router.on("DELETE", one, [&jobs](const net::Request& request) {
-    return net::json_response(202, job_json(jobs.cancel(seen(jobs, request).id)));
-  });
-  router.on("GET", one + "/result", [&jobs](const net::Request& request) { return result(jobs, request); });
+  return {{"GET", all, reamers, not_audited, list_jobs},
+          {"GET", one, reamers, not_audited, get_job},
+          {"DELETE", one, reamers, changes("job.cancel"), cancel_job},
+          {"GET", one + "/result", reamers, reads("job.result"), get_job_result}};
 }
 
 }  // namespace ream::api

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "api/request_values.hpp"
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "core/text.hpp"
 
 namespace ream::api {
@@ -25,11 +27,6 @@ std::string encoded(const std::string& text) {
   return out;
 }
 
-std::string or_usual(const net::Request& request, const std::string& name, const std::string& usual) {
-  const auto given = request.query.find(name);
-  return given == request.query.end() ? usual : given->second;
-}
-
 /// What a list is sorted by: the value of a key, then the id, both the same way.
 struct Order {
   std::string key;
@@ -48,7 +45,7 @@ struct Order {
 
 /// An item that stands where the cursor does.
 json place_of(const std::string& cursor, const Order& order) {
-  const json place = json::parse(bytes_from_hex(cursor), nullptr, false);
+  const json place = parse_json_or_discard(bytes_from_hex(cursor));
   if (!place.is_array() || place.size() != 3 || place[0] != (order.descending ? "-" + order.key : order.key))
     throw Error(ErrorKind::invalid_input,
                 "cursor is none that this list has given; leave it out to begin with the first page");
@@ -59,7 +56,7 @@ json place_of(const std::string& cursor, const Order& order) {
 
 size_t limit_of(const net::Request& request) {
   const auto given = request.query.find("limit");
-  return given == request.query.end() ? usual_page : json::parse(given->second).get<size_t>();
+  return given == request.query.end() ? usual_page : parse_json(given->second).get<size_t>();
 }
 
 std::string next_link(const net::Request& request, const std::string& cursor) {
@@ -79,7 +76,8 @@ net::Response page_response(const net::Request& request, const std::string& name
 
 net::Response page_of(const net::Request& request, const std::string& name, std::vector<json> items,
                       const std::string& usual_sort) {
-  const std::string sort = or_usual(request, "sort", usual_sort), cursor = or_usual(request, "cursor", "");
+  const std::string sort = query_text(request, "sort", usual_sort),
+                    cursor = query_text(request, "cursor", "");
   const Order order{sort.starts_with('-') ? sort.substr(1) : sort, sort.starts_with('-')};
   const size_t limit = limit_of(request), total = items.size();
   std::sort(items.begin(), items.end(), [&](const json& a, const json& b) { return order.precedes(a, b); });

@@ -1,6 +1,8 @@
 #include <nlohmann/json.hpp>
 
-#include "api/score_tools.hpp"
+#include "api/request_values.hpp"
+#include "api/routes.hpp"
+#include "api/services.hpp"
 #include "api/session_list.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -18,24 +20,14 @@ struct Attempt {
   json metrics;
 };
 
-std::string asked(const net::Request& request, const std::string& name) {
-  const auto given = request.query.find(name);
-  return given == request.query.end() ? std::string() : given->second;
-}
-
-double asked_or(const net::Request& request, const std::string& name, double otherwise) {
-  const std::string given = asked(request, name);
-  return given.empty() ? otherwise : json::parse(given).get<double>();
-}
-
 /// Of one person: by user, by the code of a study, or by the name that was given where there are no users.
 store::SessionQuery query_of(const net::Request& request) {
   store::SessionQuery query;
-  query.trainee_id = asked(request, "trainee");
-  query.participant = asked(request, "participant");
-  query.text = asked(request, "name");
+  query.trainee_id = query_text(request, "trainee");
+  query.participant = query_text(request, "participant");
+  query.text = query_text(request, "name");
   query.outside_studies = !query.text.empty();
-  query.case_id = asked(request, "case");
+  query.case_id = query_text(request, "case");
   if (request.caller.role == "trainee") {
     if (!query.trainee_id.empty() && query.trainee_id != request.caller.user_id)
       throw Error(ErrorKind::not_found,
@@ -57,15 +49,15 @@ bool is_named(const session::SessionRecord& record, const std::string& name) {
   return record.request.trainee_id.empty() && record.request.trainee == name;
 }
 
-std::vector<Attempt> attempts_of(const ScoreTools& tools, const net::Request& request,
+std::vector<Attempt> attempts_of(const Services& services, const net::Request& request,
                                  const score::Rubric& rubric) {
   std::vector<Attempt> attempts;
-  const std::string name = asked(request, "name");
+  const std::string name = query_text(request, "name");
   for (const session::SessionRecord& record :
-       sessions_for(request.caller, tools.sessions, query_of(request)).sessions) {
+       sessions_for(request.caller, services.sessions, query_of(request)).sessions) {
     if (!name.empty() && !is_named(record, name)) continue;
     const std::string& id = record.request.id;
-    const fs::path folder = tools.sessions.folder_of(id);
+    const fs::path folder = services.sessions.folder_of(id);
     std::error_code failed;
     if (is_live(record.status.state) || !fs::exists(session::metrics_json(folder), failed)) continue;
     Attempt attempt;
@@ -100,17 +92,17 @@ json progression(const std::string& id, const score::Benchmark& benchmark,
           {"sessions", std::move(sessions)}};
 }
 
-net::Response learning(const ScoreTools& tools, const net::Request& request) {
-  const std::string benchmark = asked(request, "benchmark");
-  const session::Judge judge = tools.stores.judge_by(asked(request, "rubric"), benchmark);
+net::Response get_learning(const Services& services, const net::Request& request) {
+  const std::string benchmark = query_text(request, "benchmark");
+  const session::Judge judge = services.stores.judge_by(query_text(request, "rubric"), benchmark);
   score::CusumParameters cusum;
-  cusum.acceptable_rate = asked_or(request, "acceptable_rate", cusum.acceptable_rate);
-  cusum.unacceptable_rate = asked_or(request, "unacceptable_rate", cusum.unacceptable_rate);
-  cusum.alpha = asked_or(request, "alpha", cusum.alpha);
-  cusum.beta = asked_or(request, "beta", cusum.beta);
+  cusum.acceptable_rate = query_number(request, "acceptable_rate", cusum.acceptable_rate);
+  cusum.unacceptable_rate = query_number(request, "unacceptable_rate", cusum.unacceptable_rate);
+  cusum.alpha = query_number(request, "alpha", cusum.alpha);
+  cusum.beta = query_number(request, "beta", cusum.beta);
   score::cusum_limits(cusum);
   std::vector<Attempt> attempts;
-  tools.executor.run([&] { attempts = attempts_of(tools, request, judge.rubric); });
+  services.executor.run([&] { attempts = attempts_of(services, request, judge.rubric); });
   std::vector<score::LearningPoint> points;
   for (const Attempt& attempt : attempts) points.push_back(attempt.point);
   json told = score::learning_json(score::learning_curve(cusum, std::move(points)));
@@ -123,9 +115,8 @@ net::Response learning(const ScoreTools& tools, const net::Request& request) {
 
 }  // namespace
 
-void add_learning_routes(net::Router& router, const ScoreTools& tools) {
-  router.on("GET", "/api/v1/learning",
-            [tools](const net::Request& request) { return learning(tools, request); });
+std::vector<Route> learning_routes() {
+  return {{"GET", "/api/v1/learning", access::reamers, reads("scores.read"), get_learning}};
 }
 
 }  // namespace ream::api

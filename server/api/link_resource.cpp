@@ -1,6 +1,7 @@
-
-#include "api/access_resource.hpp"
-#include "api/request_body.hpp"
+#include "api/replies.hpp"
+#include "api/request_values.hpp"
+#include "api/routes.hpp"
+#include "api/services.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
 
@@ -9,69 +10,65 @@ using access::CredentialKind;
 using nlohmann::json;
 namespace {
 
-constexpr size_t max_link_name = 100, longest_moment = 40;
-const std::string links_path = "/api/v1/links";
-
 json link_json(const store::CredentialRow& row) {
   return {{"id", row.id},
           {"name", row.name},
-          {"session", row.session_id.empty() ? json(nullptr) : json(row.session_id)},
-          {"user_id", row.user_id.empty() ? json(nullptr) : json(row.user_id)},
+          {"session", or_null(row.session_id)},
+          {"user_id", or_null(row.user_id)},
           {"created_utc", row.created_utc},
           {"expires_utc", row.expires_utc},
-          {"last_used_utc", row.last_used_utc.empty() ? json(nullptr) : json(row.last_used_utc)}};
+          {"last_used_utc", or_null(row.last_used_utc)}};
 }
 
 /// Whose links the caller has to do with; empty: everybody's.
 std::string maker_for(const net::Caller& caller) { return caller.role == "operator" ? "" : caller.user_id; }
 
-net::Response list(const AccessTools& tools, const net::Request& request) {
+net::Response list_links(const Services& services, const net::Request& request) {
   json links = json::array();
-  if (tools.gatehouse)
-    for (const auto& row : tools.gatehouse->credentials.list(CredentialKind::link, maker_for(request.caller)))
-      links.push_back(link_json(row));
+  for (const auto& row :
+       services.access_control.credentials.list(CredentialKind::link, maker_for(request.caller)))
+    links.push_back(link_json(row));
   return net::json_response(200, {{"links", std::move(links)}});
 }
 
-net::Response add(const AccessTools& tools, const net::Request& request) {
-  RequestBody body(request);
+net::Response add_link(const Services& services, const net::Request& request) {
+  if (services.authorizer.is_open())
+    throw Error(ErrorKind::conflict,
+                "without users everybody may watch without a link; add a user first, then make links");
+  const json& body = body_of(request);
   access::NewCredential wanted;
-  wanted.name = body.words("name", 0, max_link_name);
-  wanted.only_session = body.name_or("session", "");
-  wanted.expires_utc = body.words("expires_utc", 0, longest_moment);
-  body.finish();
-  access::AccessControl& gatehouse = gatehouse_of(tools);
-  if (!access::is_plain_line(wanted.name))
-    throw net::RequestError(422, "'name' must be one line", {{"#/name", "must be one line"}});
-  if (!wanted.only_session.empty()) tools.require_session(wanted.only_session);
+  wanted.name = text_in(body, "name");
+  wanted.only_session = text_in(body, "session");
+  wanted.expires_utc = text_in(body, "expires_utc");
+  if (!wanted.only_session.empty()) services.sessions.get(wanted.only_session);
   wanted.user_id = request.caller.user_id;
-  const access::IssuedCredential issued = gatehouse.credentials.issue(CredentialKind::link, wanted);
-  audit_in (&gatehouse)(request, "link.add", issued.row.id,
-                        issued.row.session_id.empty() ? "all sessions" : "session " + issued.row.session_id);
+  const access::IssuedCredential issued =
+      services.access_control.credentials.issue(CredentialKind::link, wanted);
+  services.audit(request, "link.add", issued.row.id,
+                 issued.row.session_id.empty() ? "all sessions" : "session " + issued.row.session_id);
   json told = link_json(issued.row);
   told["secret"] = issued.secret.reveal();
   return net::json_response(201, told);
 }
 
-net::Response revoke(const AccessTools& tools, const net::Request& request) {
-  access::AccessControl& gatehouse = gatehouse_with(tools, "link");
-  const std::string& id = id_in(request, "link");
-  const auto row = gatehouse.credentials.find(id, CredentialKind::link);
+net::Response revoke_link(const Services& services, const net::Request& request) {
+  const std::string& id = id_of(request);
+  const auto row = services.access_control.credentials.find(id, CredentialKind::link);
   const std::string maker = maker_for(request.caller);
   if (!row || (!maker.empty() && row->user_id != maker))
     throw Error(ErrorKind::not_found, "no link '" + id + "'; GET /api/v1/links lists them");
-  gatehouse.credentials.revoke(id);
-  audit_in (&gatehouse)(request, "link.revoke", id, row->name);
-  return {204, {}, nullptr, {}};
+  services.access_control.credentials.revoke(id);
+  services.audit(request, "link.revoke", id, row->name);
+  return no_content();
 }
 
 }  // namespace
 
-void add_link_routes(net::Router& router, const AccessTools& tools) {
-  router.on("GET", links_path, [tools](const net::Request& request) { return list(tools, request); });
-  router.on("POST", links_path, [tools](const net::Request& request) { return add(tools, request); });
-  router.on("DELETE", links_path + "/{id}",
-            [tools](const net::Request& request) { return revoke(tools, request); });
+std::vector<Route> link_routes() {
+  const std::string links = "/api/v1/links";
+  return {{"GET", links, access::staff, not_audited, list_links},
+          {"POST", links, access::staff, audited_by_handler, add_link},
+          {"DELETE", links + "/{id}", access::staff, audited_by_handler, revoke_link}};
 }
 
 }  // namespace ream::api

@@ -1,12 +1,14 @@
 #include <chrono>
 
-#include "access/password_hasher.hpp"
-#include "api/access_resource.hpp"
 #include "api/login_cookie.hpp"
-#include "api/request_body.hpp"
+#include "api/replies.hpp"
+#include "api/request_values.hpp"
+#include "api/routes.hpp"
+#include "api/services.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "core/text.hpp"
+#include "net/problem.hpp"
 
 namespace ream::api {
 using access::CredentialKind;
@@ -14,12 +16,8 @@ using access::Secret;
 using nlohmann::json;
 namespace {
 
-constexpr size_t max_login_name = 200, longest_secret = access::max_password_bytes;
-const std::string login_path = "/api/v1/login";
-
-Secret secret_in(RequestBody& body, const std::string& key) {
-  std::string text = body.words(key, 1, longest_secret);
-  return Secret(std::move(text));
+Secret secret_in(const net::Request& request, const char* key) {
+  return Secret(body_of(request).at(key).get<std::string>());
 }
 
 json visitor_json(const Visitor& visitor, bool open) {
@@ -27,7 +25,6 @@ json visitor_json(const Visitor& visitor, bool open) {
   json user;
   if (identity && !identity->user_id.empty())
     user = {{"id", identity->user_id}, {"name", identity->name}, {"display_name", identity->display_name}};
-  const auto or_null = [](const std::string& text) { return text.empty() ? json(nullptr) : json(text); };
   return {{"login_needed", !open},
           {"role", or_null(visitor.caller.role)},
           {"user", std::move(user)},
@@ -36,22 +33,23 @@ json visitor_json(const Visitor& visitor, bool open) {
           {"expires_utc", identity ? json(identity->expires_utc) : json(nullptr)}};
 }
 
-net::Response who_am_i(const AccessTools& tools, const net::Request& request) {
-  return net::json_response(200, visitor_json(tools.authorizer.visitor(request), tools.authorizer.is_open()));
+net::Response who_am_i(const Services& services, const net::Request& request) {
+  return net::json_response(
+      200, visitor_json(services.authorizer.visitor(request), services.authorizer.is_open()));
 }
 
 /// Gives the page a cookie and tells who it is now.
-net::Response let_in(const AccessTools& tools, const net::Request& request,
+net::Response let_in(const Services& services, const net::Request& request,
                      const access::NewCredential& wanted, const std::string& action) {
-  access::AccessControl& gatehouse = gatehouse_of(tools);
-  const access::IssuedCredential cookie = gatehouse.credentials.issue(CredentialKind::cookie, wanted);
+  const access::IssuedCredential cookie =
+      services.access_control.credentials.issue(CredentialKind::cookie, wanted);
   net::Request with_cookie = request;
   with_cookie.headers.erase("authorization");
-  with_cookie.headers["cookie"] = login_cookie(cookie.secret, {}, false);
-  const Visitor visitor = tools.authorizer.visitor(with_cookie);
+  with_cookie.headers["cookie"] = login_cookie(cookie.secret, {}, request.encrypted);
+  const Visitor visitor = services.authorizer.visitor(with_cookie);
   with_cookie.caller = visitor.caller;
-  audit_in (&gatehouse)(with_cookie, action, wanted.user_id, "");
-  net::Response response = net::json_response(200, visitor_json(visitor, tools.authorizer.is_open()));
+  services.audit(with_cookie, action, wanted.user_id, "");
+  net::Response response = net::json_response(200, visitor_json(visitor, services.authorizer.is_open()));
   const auto lifetime = utc_moment(cookie.row.expires_utc) - utc_moment(cookie.row.created_utc);
   response.headers.emplace_back(
       "Set-Cookie", login_cookie(cookie.secret, std::chrono::duration_cast<std::chrono::seconds>(lifetime),
@@ -59,81 +57,79 @@ net::Response let_in(const AccessTools& tools, const net::Request& request,
   return response;
 }
 
-net::Response log_in(const AccessTools& tools, const net::Request& request) {
-  RequestBody body(request);
-  const std::string name = body.words("name", 1, max_login_name);
-  const Secret password = secret_in(body, "password");
-  body.finish();
-  access::AccessControl& gatehouse = gatehouse_of(tools);
-  const auto user = gatehouse.users.log_in(name, password, request.peer);
+net::Response log_in(const Services& services, const net::Request& request) {
+  const std::string name = body_of(request).at("name");
+  const Secret password = secret_in(request, "password");
+  access::LoginOrigin origin{request.peer, device_of(request)};
+  if (origin.device.empty()) origin.device = access::make_credential_secret().text;
+  const auto user = services.access_control.users.log_in(name, password, origin);
   if (!user) {
     // What was typed may be a password in the wrong field: only names that exist are kept.
-    const auto known = gatehouse.users.find_by_name(access::is_user_name(lower(name)) ? name : "");
-    audit_in (&gatehouse)(request, "login.failed", known ? known->id : "", known ? known->name : "");
+    const auto known =
+        services.access_control.users.find_by_name(access::is_user_name(lower(name)) ? name : "");
+    services.audit(request, "login.failed", known ? known->id : "", known ? known->name : "");
     refuse_unknown("name or password is wrong");
   }
   access::NewCredential wanted;
   wanted.user_id = user->id;
-  return let_in(tools, request, wanted, "login");
+  net::Response response = let_in(services, request, wanted, "login");
+  response.headers.emplace(response.headers.begin(), "Set-Cookie",
+                           device_cookie(origin.device, request.encrypted));
+  return response;
 }
 
-net::Response log_in_by_link(const AccessTools& tools, const net::Request& request) {
-  RequestBody body(request);
-  const Secret secret = secret_in(body, "secret");
-  body.finish();
-  access::AccessControl& gatehouse = gatehouse_of(tools);
-  const auto link = gatehouse.credentials.identify(secret, CredentialKind::link);
+net::Response log_in_by_link(const Services& services, const net::Request& request) {
+  const auto link =
+      services.access_control.credentials.identify(secret_in(request, "secret"), CredentialKind::link);
   if (!link) refuse_unknown("the link is unknown, has ended or was revoked");
   access::NewCredential wanted;
   wanted.name = link->display_name;
   wanted.only_session = link->only_session;
   wanted.parent_id = link->credential;
   wanted.expires_utc = link->expires_utc;
-  return let_in(tools, request, wanted, "login.link");
+  return let_in(services, request, wanted, "login.link");
 }
 
-net::Response log_out(const AccessTools& tools, const net::Request& request) {
+net::Response log_out(const Services& services, const net::Request& request) {
   net::Response response{204, {}, nullptr, {}};
   response.headers.emplace_back("Set-Cookie", no_login_cookie(request.encrypted));
-  const Visitor visitor = tools.authorizer.visitor(request);
+  const Visitor visitor = services.authorizer.visitor(request);
   if (!visitor.identity) return response;
   if (visitor.identity->kind == CredentialKind::token)
     throw Error(ErrorKind::conflict, "a token is not logged out; revoke it at /api/v1/tokens");
   require_no_forgery(visitor, request);
   net::Request known = request;
   known.caller = visitor.caller;
-  tools.gatehouse->credentials.revoke(visitor.identity->credential);
-  audit_in(tools.gatehouse)(known, "logout", visitor.caller.user_id, "");
+  services.access_control.credentials.revoke(visitor.identity->credential);
+  services.audit(known, "logout", visitor.caller.user_id, "");
   return response;
 }
 
-net::Response change_password(const AccessTools& tools, const net::Request& request) {
-  RequestBody body(request);
-  const Secret present = secret_in(body, "password"), wanted = secret_in(body, "new_password");
-  body.finish();
+net::Response change_password(const Services& services, const net::Request& request) {
   const net::Caller& caller = request.caller;
+  const access::PasswordChange wanted{secret_in(request, "password"), secret_in(request, "new_password"),
+                                      caller.credential, body_of(request).value("keep_tokens", false)};
   if (caller.user_id.empty())
     throw Error(ErrorKind::conflict, "nobody is logged in; without users there is no password");
-  access::AccessControl& gatehouse = gatehouse_of(tools);
-  if (!gatehouse.users.change_password(caller.user_id, present, wanted, request.peer, caller.credential))
+  const access::LoginOrigin origin{request.peer, Secret(std::string_view(caller.credential)), true};
+  if (!services.access_control.users.change_password(caller.user_id, wanted, origin))
     throw net::RequestError(422, "the present password is wrong", {{"#/password", "is wrong"}});
-  audit_in (&gatehouse)(request, "password.change", caller.user_id, "");
-  return {204, {}, nullptr, {}};
+  services.audit(request, "password.change", caller.user_id, wanted.keep_tokens ? "tokens stay" : "");
+  return no_content();
 }
 
 }  // namespace
 
-void add_login_routes(net::Router& router, const AccessTools& tools) {
-  router.on("GET", login_path, [tools](const net::Request& request) { return who_am_i(tools, request); });
-  router.on("POST", login_path, [tools](const net::Request& request) {
-    return patiently([&] { return log_in(tools, request); });
-  });
-  router.on("DELETE", login_path, [tools](const net::Request& request) { return log_out(tools, request); });
-  router.on("POST", login_path + "/link",
-            [tools](const net::Request& request) { return log_in_by_link(tools, request); });
-  router.on("POST", login_path + "/password", [tools](const net::Request& request) {
-    return patiently([&] { return change_password(tools, request); });
-  });
+std::vector<Route> login_routes() {
+  const std::string login = "/api/v1/login";
+  std::vector<Route> all = {
+      {"GET", login, for_anybody, not_audited, who_am_i},
+      {"POST", login, for_anybody, audited_by_handler, log_in},
+      {"DELETE", login, for_anybody, audited_by_handler, log_out},
+      {"POST", login + "/link", for_anybody, audited_by_handler, log_in_by_link},
+      {"POST", login + "/password", access::reamers, audited_by_handler, change_password}};
+  for (Route& route : all) route.urgency = net::Urgency::entry;
+  return all;
 }
 
 }  // namespace ream::api

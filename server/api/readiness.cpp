@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "core/signal_handlers.hpp"
 
 namespace ream::api {
 
@@ -10,7 +11,7 @@ Readiness::Readiness(std::function<void()> prepare) {
     stage_ = Stage::ready;
     return;
   }
-  thread_ = std::thread([this, prepare = std::move(prepare)] {
+  thread_ = start_thread([this, prepare = std::move(prepare)] {
     Stage stage = Stage::ready;
     std::string reason;
     try {
@@ -19,6 +20,9 @@ Readiness::Readiness(std::function<void()> prepare) {
       stage = Stage::failed;
       reason = failure.what();
       log::error("the server could not be made ready: " + reason);
+    } catch (...) {
+      stage = Stage::failed;
+      log::current_exception("the server could not be made ready");
     }
     const std::lock_guard lock(mutex_);
     stage_ = stage;

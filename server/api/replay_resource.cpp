@@ -1,42 +1,36 @@
-#include "api/replay_resource.hpp"
-
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "api/request_body.hpp"
+#include "api/replies.hpp"
+#include "api/request_values.hpp"
+#include "api/routes.hpp"
+#include "api/services.hpp"
 #include "core/error.hpp"
 
 namespace ream::api {
 using nlohmann::json;
 namespace {
 
-const std::string sessions_path = "/api/v1/sessions";
 constexpr double ticks_per_s = 1000.0;
-/// Longer than any recording; the replay itself knows its duration.
-constexpr double longest_s = 1e7;
 
-net::Response create(const session::SessionService& sessions, session::ReplayService& replays,
-                     const net::Request& request) {
-  const std::string& id = request.parameters.at("id");
-  const session::SessionRecord of = sessions.get(id);
+net::Response create_replay(const Services& services, const net::Request& request) {
+  services.readiness.require_prepared();
+  const std::string& id = id_of(request);
+  const session::SessionRecord of = services.sessions.get(id);
   if (is_live(of.status.state))
     throw Error(ErrorKind::conflict, "session '" + id + "' is " + to_text(of.status.state) +
                                          "; it can be replayed when it has ended");
-  const session::ReplayRecord record = replays.create({{}, id, of.request.case_id, of.request.script});
-  net::Response response = net::json_response(201, to_json(record));
-  response.headers.emplace_back("Location", sessions_path + "/" + record.request.id);
-  return response;
+  const session::ReplayRecord record =
+      services.replays.create({{}, id, of.request.case_id, of.request.script});
+  return created("/api/v1/sessions/" + record.request.id, to_json(record));
 }
 
-net::Response change(session::ReplayService& replays, const net::Request& request) {
-  const std::string& id = request.parameters.at("id");
-  RequestBody body(request);
-  session::PlaybackChange wanted;
-  wanted.playing = body.flag_or_none("playing");
-  wanted.speed = body.number_within_or_none("speed", 0.0, session::fastest_playback);
-  wanted.position_s = body.number_within_or_none("position_s", 0.0, longest_s);
-  body.finish();
-  return net::json_response(200, to_json(replays.change(id, wanted)));
+net::Response change_playback(const Services& services, const net::Request& request) {
+  const json& body = body_of(request);
+  return net::json_response(
+      200, to_json(services.replays.change(
+               id_of(request), {optional_in<bool>(body, "playing"), optional_in<double>(body, "speed"),
+                                optional_in<double>(body, "position_s")})));
 }
 
 }  // namespace
@@ -66,14 +60,15 @@ json to_json(const session::ReplayRecord& record) {
           {"marks", std::move(marks)}};
 }
 
-void add_replay_routes(net::Router& router, const session::SessionService& sessions,
-                       session::ReplayService& replays, const Readiness& readiness) {
-  router.on("POST", sessions_path + "/{id}/replay", [&](const net::Request& request) {
-    readiness.require_prepared();
-    return create(sessions, replays, request);
-  });
-  router.on("POST", sessions_path + "/{id}/playback",
-            [&replays](const net::Request& request) { return change(replays, request); });
+std::vector<Route> replay_routes() {
+  const std::string one = "/api/v1/sessions/{id}";
+  return {{"POST",
+           one + "/replay",
+           access::all_roles,
+           reads("session.replay"),
+           create_replay,
+           {"replay", "created"}},
+          {"POST", one + "/playback", access::all_roles, not_audited, change_playback}};
 }
 
 }  // namespace ream::api

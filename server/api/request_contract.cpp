@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "api/request_body.hpp"
 #include "api/yaml_json.hpp"
 #include "core/json.hpp"
+#include "net/problem.hpp"
 
 namespace ream::api {
 using nlohmann::json;
@@ -28,7 +28,19 @@ bool takes_text(const json& schema, const json& document) {
 
 /// A parameter arrives as text; what is no JSON stays one and does not fit.
 json value_of(const std::string& text, bool is_text) {
-  return is_text || !json::accept(text) ? json(text) : json::parse(text);
+  json value = is_text ? json(text) : parse_json_or_discard(text);
+  return value.is_discarded() ? json(text) : value;
+}
+
+json json_in(const net::Request& request) {
+  const std::string_view type = request.header("content-type");
+  if (type.substr(0, type.find(';')) != "application/json")
+    throw net::RequestError(415, "the request body must be sent as application/json");
+  try {
+    return parse_json(request.body);
+  } catch (const Error& fault) {
+    throw net::RequestError(400, std::string("the request body ") + fault.what());
+  }
 }
 
 [[noreturn]] void refuse(const std::string& what, const std::vector<net::FieldError>& faults) {
@@ -74,7 +86,7 @@ void Contract::add_parameter(const json& parameter, const json& document, Operat
   if (in != "path" && in != "query") return;
   const json& schema = parameter.at("schema");
   to.parameters.push_back({name, in == "path", parameter.value("required", false),
-                           takes_text(schema, document), Schema(schema, document)});
+                           takes_text(schema, document), JsonSchema(schema, document)});
 }
 
 const Contract::Operation* Contract::find(const std::string& method, const std::string& pattern) const {
@@ -113,21 +125,23 @@ void Contract::check_query(const Operation& operation, const net::Request& reque
       faults.push_back(about(parameter.name, fault));
   }
   if (known > 0 && given < request.query.size())
-    for (const auto& [name, value] : request.query)
+    for (const auto& asked : request.query)
       if (std::none_of(operation.parameters.begin(), operation.parameters.end(),
-                       [&](const Parameter& one) { return !one.in_path && one.name == name; }))
-        faults.push_back({"?" + name, "'" + name + "' is not known here"});
+                       [&](const Parameter& one) { return !one.in_path && one.name == asked.first; }))
+        faults.push_back({"?" + asked.first, "'" + asked.first + "' is not known here"});
   if (!faults.empty()) refuse("the query", faults);
 }
 
-void Contract::check(const net::Request& request, const std::string& pattern) const {
+void Contract::check(net::Request& request, const std::string& pattern) const {
   const Operation* operation = find(request.method, pattern);
   if (operation == nullptr) return;
   check_path(*operation, request);
   check_query(*operation, request);
   if (!operation->body || (request.body.empty() && !operation->body_required)) return;
-  const auto faults = operation->body->faults(json_object_in(request));
+  json body = json_in(request);
+  const auto faults = operation->body->faults(body);
   if (!faults.empty()) refuse("the request body", faults);
+  request.json = std::make_shared<const json>(std::move(body));
 }
 
 }  // namespace ream::api

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "api/schema.hpp"
+#include "core/json_schema.hpp"
 #include "net/message.hpp"
 
 namespace ream::api {
@@ -19,8 +19,8 @@ class Contract {
 
   /// `pattern`: of the route. Paths that are not described pass. RequestErrors: 404 for a path that names
   /// nothing; 400 for a query that lacks something, or a body that is no JSON; 415 for a body of another
-  /// type; 422 for a query or body that does not fit, with the places at fault.
-  void check(const net::Request& request, const std::string& pattern) const;
+  /// type; 422 for a query or body that does not fit, with the places at fault. Sets Request::json.
+  void check(net::Request& request, const std::string& pattern) const;
 
   /// Whether repeating a request there with the same Idempotency-Key gives the same answer.
   bool takes_idempotency_key(const std::string& method, const std::string& pattern) const;
@@ -29,11 +29,11 @@ class Contract {
   struct Parameter {
     std::string name;
     bool in_path = false, required = false, is_text = true;
-    Schema schema;
+    JsonSchema schema;
   };
   struct Operation {
     std::vector<Parameter> parameters;
-    std::optional<Schema> body;  ///< none: not JSON
+    std::optional<JsonSchema> body;  ///< none: not JSON
     bool body_required = false, idempotency_key = false;
   };
   using Operations = std::map<std::pair<std::string, std::string>, Operation>;  ///< by method and pattern

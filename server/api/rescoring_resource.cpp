@@ -1,8 +1,9 @@
 #include <nlohmann/json.hpp>
 
-#include "api/job_resource.hpp"
-#include "api/request_body.hpp"
-#include "api/score_tools.hpp"
+#include "api/replies.hpp"
+#include "api/request_values.hpp"
+#include "api/routes.hpp"
+#include "api/services.hpp"
 #include "api/session_list.hpp"
 #include "api/session_work.hpp"
 #include "core/error.hpp"
@@ -12,8 +13,6 @@ namespace ream::api {
 namespace fs = std::filesystem;
 using nlohmann::json;
 namespace {
-
-constexpr size_t longest_rubric = 72, most_named = 1000;
 
 /// What a job does; everything it needs, as it outlives the request.
 struct Rescoring {
@@ -25,7 +24,7 @@ struct Rescoring {
 };
 
 /// By ids, or by the filters of the list of sessions, of which those that have ended are meant.
-std::vector<std::string> ids_by_filter(const ScoreTools& tools, const net::Request& request,
+std::vector<std::string> ids_by_filter(const Services& services, const net::Request& request,
                                        const json& filter) {
   net::Request as_list = request;
   as_list.query.clear();
@@ -34,14 +33,14 @@ std::vector<std::string> ids_by_filter(const ScoreTools& tools, const net::Reque
   store::SessionQuery query = session_query(as_list);
   query.limit = SIZE_MAX;
   std::vector<std::string> ids;
-  for (const session::SessionRecord& record : sessions_for(request.caller, tools.sessions, query).sessions)
+  for (const session::SessionRecord& record : sessions_for(request.caller, services.sessions, query).sessions)
     if (!is_live(record.status.state)) ids.push_back(record.request.id);
   return ids;
 }
 
-std::vector<std::string> ids_named(const ScoreTools& tools, const std::vector<std::string>& named) {
+std::vector<std::string> ids_named(const Services& services, const std::vector<std::string>& named) {
   for (size_t i = 0; i < named.size(); ++i) {
-    const session::SessionRecord record = tools.sessions.get(named[i]);
+    const session::SessionRecord record = services.sessions.get(named[i]);
     if (is_live(record.status.state))
       throw Error(ErrorKind::conflict, "session '" + named[i] + "' is " + to_text(record.status.state) +
                                            "; it can be scored anew when it has ended");
@@ -88,26 +87,22 @@ json rescore_all(const Rescoring& all, const Progress& progress) {
           {"failed", std::move(failed)}};
 }
 
-net::Response begin(const ScoreTools& tools, const net::Request& request) {
-  RequestBody body(request);
-  const std::optional<json> filter = body.value_or_none("filter");
-  std::vector<std::string> named;
-  const bool by_name = body.value_or_none("sessions").has_value();
-  if (by_name) named = body.names("sessions", 1, most_named);
-  const std::string rubric = body.words("rubric", 0, longest_rubric);
-  const std::string benchmark = body.name_or("benchmark", "");
-  body.finish();
-  if (by_name == filter.has_value())
+net::Response begin_rescoring(const Services& services, const net::Request& request) {
+  const json& body = body_of(request);
+  const bool by_name = body.contains("sessions");
+  const std::vector<std::string> named = different_texts_in(body, "sessions");
+  if (by_name == body.contains("filter"))
     throw net::RequestError(422, "say either 'sessions' or 'filter'; an empty filter means all sessions",
                             {{"#/sessions", "or filter: one of them"}});
-  Rescoring all{&tools.sessions, &tools.feed, &tools.engine, tools.stores.judge_by(rubric, benchmark),
-                by_name ? ids_named(tools, named) : ids_by_filter(tools, request, *filter)};
+  Rescoring all{&services.sessions, &services.feed, &services.engine,
+                services.stores.judge_by(text_in(body, "rubric"), text_in(body, "benchmark")),
+                by_name ? ids_named(services, named) : ids_by_filter(services, request, body.at("filter"))};
   if (all.ids.empty())
     throw net::RequestError(422, "no session that has ended fits the filter", {{"#/filter", "fits nothing"}});
-  tools.audit(request, "session.rescore", "",
-              std::to_string(all.ids.size()) + " sessions by " + all.judge.rubric_id + "@" +
-                  std::to_string(all.judge.rubric.version));
-  return accepted(tools.jobs.submit_file(
+  services.audit(request, "session.rescore", "",
+                 std::to_string(all.ids.size()) + " sessions by " + all.judge.rubric_id + "@" +
+                     std::to_string(all.judge.rubric.version));
+  return accepted(services.jobs.submit_file(
       {"rescoring"}, [all = std::move(all)](const fs::path& folder, const Progress& progress) {
         const json report = rescore_all(all, progress);
         write_file_atomically(folder / "rescoring.json", report.dump(2) + "\n");
@@ -117,9 +112,8 @@ net::Response begin(const ScoreTools& tools, const net::Request& request) {
 
 }  // namespace
 
-void add_rescoring_routes(net::Router& router, const ScoreTools& tools) {
-  router.on("POST", "/api/v1/rescorings",
-            [tools](const net::Request& request) { return begin(tools, request); });
+std::vector<Route> rescoring_routes() {
+  return {{"POST", "/api/v1/rescorings", access::staff, audited_by_handler, begin_rescoring}};
 }
 
 }  // namespace ream::api

@@ -1,9 +1,10 @@
 #include "api/retention.hpp"
 
-#include <chrono>
+#include <ctime>
 
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "core/signal_handlers.hpp"
 #include "core/thread_pool.hpp"
 
 namespace ream::api {
@@ -14,9 +15,28 @@ constexpr size_t page = 200;
 /// After what has failed: the database may be away, or the index still be read.
 constexpr std::chrono::milliseconds again_after = std::chrono::minutes(1);
 
+/// A clock that is corrected by more than this was wrong; the day after is too early to trust it.
+constexpr std::chrono::minutes even_within{10};
+constexpr std::chrono::hours trusted_after{24};
+constexpr size_t always_may_go = 20;
+
 std::string days_text(int days) { return std::to_string(days) + (days == 1 ? " day" : " days"); }
 
+std::string moved_text(std::chrono::nanoseconds by) {
+  const auto minutes = std::chrono::duration_cast<std::chrono::minutes>(by).count();
+  return "the clock was moved by " + std::to_string(minutes) +
+         " minutes while the server ran; old sessions are deleted again when it has gone evenly for a day, "
+         "or "
+         "after a restart";
+}
+
 }  // namespace
+
+std::chrono::nanoseconds time_since_boot() {
+  timespec time{};
+  ::clock_gettime(CLOCK_BOOTTIME, &time);
+  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
 
 Retention::Retention(RetentionRules rules, RetentionTools tools)
     : rules_(std::move(rules)), tools_(std::move(tools)) {}
@@ -24,7 +44,7 @@ Retention::Retention(RetentionRules rules, RetentionTools tools)
 Retention::~Retention() { stop(); }
 
 void Retention::begin() {
-  thread_ = std::thread([this] { work(); });
+  thread_ = start_thread([this] { work(); });
 }
 
 void Retention::stop() {
@@ -68,42 +88,98 @@ void Retention::work() {
     wait = rules_.look_every;
     try {
       look();
-    } catch (const std::exception& failure) {
-      log::warn(std::string("the rules of retention could not be carried out: ") + failure.what());
+    } catch (...) {
+      log::current_exception("the rules of retention could not be carried out");
       wait = std::min(wait, again_after);
     }
     lock.lock();
   }
 }
 
-void Retention::look() {
-  tools_.jobs.remove_old_results();
-  erase_deleted_sessions();
-  if (rules_.keep_sessions_days) delete_old_sessions();
-  if (rules_.keep_deleted_days == 0) erase_deleted_sessions();
+std::string Retention::held() const {
+  const std::lock_guard lock(mutex_);
+  return held_;
 }
 
-void Retention::delete_old_sessions() {
+bool Retention::clock_is_even() {
+  const ClockReading now{rules_.now(), rules_.running()};
+  if (last_reading_) {
+    const auto by =
+        std::chrono::nanoseconds(now.wall - last_reading_->wall) - (now.running - last_reading_->running);
+    if (std::chrono::abs(by) > even_within) {
+      moved_at_ = now.running;
+      reason_ = moved_text(by);
+      log::warn(reason_);
+    }
+  }
+  last_reading_ = now;
+  if (moved_at_ && now.running - *moved_at_ >= trusted_after) moved_at_.reset();
+  return !moved_at_;
+}
+
+bool Retention::may_go(size_t count, size_t of, const std::string& what) {
+  if (count <= always_may_go || count * 100 <= of * static_cast<size_t>(rules_.most_at_once_percent))
+    return true;
+  reason_ = std::to_string(count) + " of " + std::to_string(of) + " " + what +
+            " are due to go at once, more than " + std::to_string(rules_.most_at_once_percent) +
+            " %; if the clock is right, start the server with --delete-at-once-percent 100";
+  return false;
+}
+
+void Retention::look() {
+  tools_.jobs.remove_old_results();
+  const std::string before = reason_;
+  if (clock_is_even()) {
+    reason_.clear();
+    tools_.idempotency.forget_old();
+    if (rules_.keep_deleted_days > 0) erase_deleted_sessions();
+    if (rules_.keep_sessions_days) delete_old_sessions();
+  }
+  if (rules_.keep_deleted_days == 0) erase_deleted_sessions();
+  if (reason_ != before && !reason_.empty()) log::warn("nothing is deleted by the rules: " + reason_);
+  const std::lock_guard lock(mutex_);
+  held_ = reason_;
+}
+
+void Retention::audit(const std::string& action, const std::string& session_id, const std::string& detail) {
+  tools_.audit_log.note({"", "retention", "", "", ""}, action, session_id, detail);
+}
+
+std::vector<session::SessionRecord> Retention::due_sessions(size_t& all) {
   store::SessionQuery query;
+  query.limit = 1;
+  all = tools_.sessions.list(query).total;
   query.created_before = days_ago(*rules_.keep_sessions_days);
   query.order = store::SessionOrder::created;
   query.descending = false;
   query.limit = page;
+  std::vector<session::SessionRecord> due;
   do {
-    const session::SessionPage old = tools_.sessions.list(query);
-    for (const session::SessionRecord& record : old.sessions) {
-      if (stopping()) return;
+    session::SessionPage old = tools_.sessions.list(query);
+    for (session::SessionRecord& record : old.sessions) {
       const session::SessionRequest& session = record.request;
       if (is_live(record.status.state) || session.keep) continue;
-      if (session.study.empty() || tools_.is_over(session.study)) delete_by_rule(record);
+      if (session.study.empty() || tools_.studies.is_closed(session.study)) due.push_back(std::move(record));
     }
     query.cursor = old.next;
-  } while (!query.cursor.empty());
+  } while (!query.cursor.empty() && !stopping());
+  return due;
+}
+
+void Retention::delete_old_sessions() {
+  size_t all = 0;
+  const std::vector<session::SessionRecord> due = due_sessions(all);
+  if (!may_go(due.size(), all, "sessions")) return;
+  for (const session::SessionRecord& record : due) {
+    if (stopping()) return;
+    delete_by_rule(record);
+  }
 }
 
 /// One that somebody uses at this moment waits for the next time.
 void Retention::delete_by_rule(const session::SessionRecord& record) {
   const std::string& id = record.request.id;
+  tools_.audit_log.require_writable();
   try {
     tools_.sessions.remove(id);
   } catch (const Error& failure) {
@@ -112,27 +188,41 @@ void Retention::delete_by_rule(const session::SessionRecord& record) {
     return;
   }
   tools_.replays.stop_all_of(id);
-  tools_.audit("session.delete", id,
-               "by rule: older than " + days_text(rules_.keep_sessions_days.value_or(0)));
+  audit("session.delete", id, "by rule: older than " + days_text(rules_.keep_sessions_days.value_or(0)));
   tools_.feed.tell(
       {"session", id, "deleted", std::make_shared<const session::SessionRequest>(record.request)});
 }
 
 void Retention::erase_deleted_sessions() {
   const std::string before = days_ago(rules_.keep_deleted_days);
-  for (const session::DeletedSession& deleted : tools_.sessions.deleted()) {
-    if (stopping()) return;
-    if (deleted.deleted_utc > before) continue;
-    try {
-      tools_.sessions.erase(deleted.id);
-    } catch (const Error& failure) {
-      log::warn(failure.what());
-      continue;
-    }
-    tools_.audit("session.erase", deleted.id,
-                 "by rule: deleted more than " + days_text(rules_.keep_deleted_days) + " ago");
-    tools_.feed.tell({"session", deleted.id, "erased"});
+  std::vector<session::DeletedSession> due = tools_.sessions.deleted();
+  const size_t in_trash = due.size();
+  if (rules_.keep_deleted_days > 0) {
+    std::erase_if(due, [&](const session::DeletedSession& deleted) { return deleted.deleted_utc > before; });
+    store::SessionQuery one;
+    one.limit = 1;
+    if (!due.empty() &&
+        !may_go(due.size(), in_trash + tools_.sessions.list(one).total, "sessions and deleted ones"))
+      return;
   }
+  for (const session::DeletedSession& deleted : due) {
+    if (stopping()) return;
+    erase(deleted);
+  }
+}
+
+void Retention::erase(const session::DeletedSession& deleted) {
+  tools_.audit_log.require_writable();
+  try {
+    tools_.sessions.erase(deleted.id);
+    tools_.idempotency.forget_about(deleted.id);
+  } catch (const Error& failure) {
+    log::warn(failure.what());
+    return;
+  }
+  audit("session.erase", deleted.id,
+        "by rule: deleted more than " + days_text(rules_.keep_deleted_days) + " ago");
+  tools_.feed.tell({"session", deleted.id, "erased"});
 }
 
 }  // namespace ream::api

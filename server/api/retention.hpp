@@ -1,18 +1,26 @@
 #pragma once
+#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include "access/access_control.hpp"
 #include "api/change_feed.hpp"
+#include "api/idempotency.hpp"
 #include "core/utc.hpp"
 #include "jobs/job_service.hpp"
 #include "session/service/replay_service.hpp"
 #include "session/service/session_service.hpp"
+#include "study/study_service.hpp"
 
 namespace ream::api {
+
+/// How long this machine has been on, also while it slept.
+std::chrono::nanoseconds time_since_boot();
 
 /// How long data is kept, in days.
 struct RetentionRules {
@@ -20,6 +28,10 @@ struct RetentionRules {
   int keep_deleted_days = 30;             ///< 0: what is deleted is gone
   std::chrono::milliseconds look_every = std::chrono::hours(1);
   WallClock now = machine_clock();
+  /// Time that nobody sets, suspension included: what the wall clock is held against.
+  std::function<std::chrono::nanoseconds()> running = time_since_boot;
+  /// Most of the sessions, and of sessions and trash together, that may go in one look. Up to 20 always may.
+  int most_at_once_percent = 50;
 };
 
 /// What the rules of retention are carried out with. All outlive Retention.
@@ -27,17 +39,20 @@ struct RetentionTools {
   session::SessionService& sessions;
   session::ReplayService& replays;
   jobs::JobService& jobs;
+  Idempotency& idempotency;  ///< forgets what was answered about sessions that are erased, and what is old
   ChangeFeed& feed;
-  /// Whether sessions of that study may be deleted without a person asking for it.
-  std::function<bool(const std::string& study_id)> is_over;
-  /// Keeps that a session was deleted or erased by the rules.
-  std::function<void(const std::string& action, const std::string& session_id, const std::string& detail)>
-      audit;
+  const study::StudyService& studies;  ///< of a closed one sessions may be deleted without a person asking
+  access::AuditLog& audit_log;         ///< keeps that a session was deleted or erased by the rules
 };
 
 /// Deletes old sessions, erases what was deleted long enough ago, and removes old files of jobs: when it
 /// begins and from time to time, on a thread that gives way to everything else. Sessions that are live, that
 /// somebody keeps for good, or that belong to a study that is not over stay.
+///
+/// Time decides what goes, and a clock may be wrong. So nothing is deleted or erased because of its age while
+/// the wall clock has moved against the time the machine has been on by more than ten minutes within the last
+/// day, nor when more than RetentionRules::most_at_once_percent would go at once: held() says so then, and
+/// the log. What is erased as nothing is to be kept is no matter of time.
 class Retention {
  public:
   Retention(RetentionRules rules, RetentionTools tools);
@@ -49,6 +64,8 @@ class Retention {
   void begin();
   /// Something was deleted by hand. Looks at once where that is not to be kept.
   void was_deleted();
+  /// Why sessions that are due are not deleted at present; empty: nothing is held back.
+  std::string held() const;
   /// When a session that was deleted then is erased.
   std::string ends_utc(const std::string& deleted_utc) const;
   /// May be called twice.
@@ -57,15 +74,29 @@ class Retention {
  private:
   void work();
   void look();
+  bool clock_is_even();
+  /// Whether so many of so many may go; notes why not.
+  bool may_go(size_t count, size_t of, const std::string& what);
+  std::vector<session::SessionRecord> due_sessions(size_t& all);
   void delete_old_sessions();
   void delete_by_rule(const session::SessionRecord& record);
   void erase_deleted_sessions();
+  void erase(const session::DeletedSession& deleted);
+  void audit(const std::string& action, const std::string& session_id, const std::string& detail);
   std::string days_ago(int days) const;
   bool stopping();
 
+  struct ClockReading {
+    UtcMoment wall;
+    std::chrono::nanoseconds running;
+  };
   const RetentionRules rules_;
   const RetentionTools tools_;
-  std::mutex mutex_;
+  std::optional<ClockReading> last_reading_;
+  std::optional<std::chrono::nanoseconds> moved_at_;  ///< by the time of running; none: the clock goes evenly
+  std::string reason_;                                ///< of this look
+  mutable std::mutex mutex_;
+  std::string held_;
   std::condition_variable changed_;
   bool stopping_ = false, look_wanted_ = true;
   std::thread thread_;

@@ -1,9 +1,10 @@
 #include <algorithm>
-#include <mutex>
 #include <nlohmann/json.hpp>
 
-#include "api/request_body.hpp"
-#include "api/score_tools.hpp"
+#include "api/replies.hpp"
+#include "api/request_values.hpp"
+#include "api/routes.hpp"
+#include "api/services.hpp"
 #include "core/error.hpp"
 #include "net/conditional.hpp"
 
@@ -12,118 +13,104 @@ using nlohmann::json;
 namespace {
 
 const std::string rubrics_path = "/api/v1/rubrics";
-const std::string body_place = "the request body";
+const std::string rubric_place = "the request body";
 
-/// Rubrics as requests read and edit them.
-class Desk {
- public:
-  explicit Desk(const ScoreTools& tools) : tools_(tools) {}
+bool has_rubric(const score::RubricStore& store, const std::string& id) {
+  const auto ids = store.ids();
+  return std::find(ids.begin(), ids.end(), id) != ids.end();
+}
 
-  net::Response list() const {
-    json rubrics = json::array();
-    for (const std::string& id : store().ids()) {
-      const score::Rubric newest = store().get(id);
-      rubrics.push_back({{"id", id},
-                         {"name", newest.name},
-                         {"version", newest.version},
-                         {"versions", store().versions(id)},
-                         {"remark", newest.remark},
-                         {"pass_points", newest.pass_points ? json(*newest.pass_points) : json(nullptr)}});
-    }
-    return net::json_response(200, {{"rubrics", std::move(rubrics)}});
-  }
+void require_rubric(const score::RubricStore& store, const std::string& id) {
+  if (!has_rubric(store, id))
+    throw Error(ErrorKind::not_found, "no rubric '" + id + "'; GET " + rubrics_path + " lists them");
+}
 
-  /// `version` 0: the newest.
-  net::Response one(const std::string& id, int version) const {
-    require(id);
-    return net::json_response(200, told(id, version == 0 ? store().get(id) : store().get(id, version)));
-  }
+void require_place(const ScoreStores& stores) {
+  if (!stores.writable) throw Error(ErrorKind::unavailable, "this server keeps no rubrics");
+}
 
-  net::Response create(const net::Request& request) {
-    RequestBody body(request);
-    const std::string id = body.name("id");
-    const std::optional<json> wanted = body.value_or_none("rubric");
-    body.finish();
-    score::Rubric rubric = rubric_from(wanted.value_or(json()));
-    const std::lock_guard one_at_a_time(editing_);
-    if (has(id)) throw Error(ErrorKind::conflict, "there is a rubric '" + id + "' already; PUT edits it");
-    require_place();
-    const score::Rubric kept = store().save(id, std::move(rubric));
-    tools_.audit(request, "rubric.create", id, kept.name);
-    net::Response response = net::json_response(201, told(id, kept));
-    response.headers.emplace_back("Location", rubrics_path + "/" + id);
-    return response;
-  }
+/// Over the network a rubric asks only for what every session can say.
+score::Rubric rubric_from(const json& value) {
+  score::Rubric rubric = score::rubric_from_json(value, rubric_place);
+  for (size_t i = 0; i < rubric.criteria.size(); ++i)
+    if (const std::string& metric = rubric.criteria[i].metric; !score::find_metric(metric))
+      throw net::RequestError(422, "there is no metric '" + metric + "'; a session's score names them",
+                              {{"#/criteria/" + std::to_string(i) + "/metric", "is no metric"}});
+  return rubric;
+}
 
-  /// Two who edit the same version: the second is told so.
-  net::Response edit(const net::Request& request) {
-    const std::string& id = id_of(request);
-    score::Rubric rubric = rubric_from(json_object_in(request));
-    const std::lock_guard one_at_a_time(editing_);
-    require(id);
-    const net::Response now = one(id, 0);
-    net::require_match(request, net::entity_tag(*now.body));
-    const int newest = store().versions(id).back();
-    if (rubric.version != newest)
-      throw Error(ErrorKind::conflict, "rubric '" + id + "' is at version " + std::to_string(newest) +
-                                           ", and the body says it edits version " +
-                                           std::to_string(rubric.version) +
-                                           "; read the newest and repeat the change there");
-    require_place();
-    const score::Rubric kept = store().save(id, std::move(rubric));
-    tools_.audit(request, "rubric.edit", id, "version " + std::to_string(kept.version));
-    return net::json_response(200, told(id, kept));
-  }
+json kept_rubric(const score::RubricStore& store, const std::string& id, const score::Rubric& rubric) {
+  return {{"id", id},
+          {"version", rubric.version},
+          {"versions", store.versions(id)},
+          {"rubric", score::rubric_json(rubric)}};
+}
 
- private:
-  const score::RubricStore& store() const { return tools_.stores.rubrics; }
+net::Response list_rubrics(const Services& services, const net::Request&) {
+  const score::RubricStore& store = services.stores.rubrics;
+  json rubrics = json::array();
+  for (const std::string& id : store.ids()) {
+    const score::Rubric newest = store.get(id);
+    rubrics.push_back({{"id", id},
+                       {"name", newest.name},
+                       {"version", newest.version},
+                       {"versions", store.versions(id)},
+                       {"remark", newest.remark},
+                       {"pass_points", newest.pass_points ? json(*newest.pass_points) : json(nullptr)}});
+  }
+  return net::json_response(200, {{"rubrics", std::move(rubrics)}});
+}
 
-  bool has(const std::string& id) const {
-    const auto ids = store().ids();
-    return std::find(ids.begin(), ids.end(), id) != ids.end();
-  }
-  void require(const std::string& id) const {
-    if (!has(id))
-      throw Error(ErrorKind::not_found, "no rubric '" + id + "'; GET " + rubrics_path + " lists them");
-  }
-  void require_place() const {
-    if (!tools_.stores.writable) throw Error(ErrorKind::unavailable, "this server keeps no rubrics");
-  }
-  /// Over the network a rubric asks only for what every session can say.
-  static score::Rubric rubric_from(const json& value) {
-    score::Rubric rubric = score::rubric_from_json(value, body_place);
-    for (size_t i = 0; i < rubric.criteria.size(); ++i)
-      if (const std::string& metric = rubric.criteria[i].metric; !score::find_metric(metric))
-        throw net::RequestError(422, "there is no metric '" + metric + "'; a session's score names them",
-                                {{"#/criteria/" + std::to_string(i) + "/metric", "is no metric"}});
-    return rubric;
-  }
-  json told(const std::string& id, const score::Rubric& rubric) const {
-    return {{"id", id},
-            {"version", rubric.version},
-            {"versions", store().versions(id)},
-            {"rubric", score::rubric_json(rubric)}};
-  }
+net::Response get_rubric(const Services& services, const net::Request& request) {
+  const score::RubricStore& store = services.stores.rubrics;
+  const std::string& id = id_of(request);
+  require_rubric(store, id);
+  const int version = static_cast<int>(query_number(request, "version", 0.0));
+  return net::json_response(200,
+                            kept_rubric(store, id, version == 0 ? store.get(id) : store.get(id, version)));
+}
 
-  const ScoreTools tools_;
-  std::mutex editing_;
-};
+net::Response create_rubric(const Services& services, const net::Request& request) {
+  const ScoreStores& stores = services.stores;
+  const std::string id = body_of(request).at("id");
+  score::Rubric rubric = rubric_from(body_of(request).at("rubric"));
+  const std::lock_guard one_at_a_time(stores.editing);
+  if (has_rubric(stores.rubrics, id))
+    throw Error(ErrorKind::conflict, "there is a rubric '" + id + "' already; PUT edits it");
+  require_place(stores);
+  const score::Rubric kept = stores.rubrics.save(id, std::move(rubric));
+  services.audit(request, "rubric.create", id, kept.name);
+  return created(rubrics_path + "/" + id, kept_rubric(stores.rubrics, id, kept));
+}
 
-int version_in(const net::Request& request) {
-  const auto given = request.query.find("version");
-  return given == request.query.end() ? 0 : json::parse(given->second).get<int>();
+/// Two who edit the same version: the second is told so.
+net::Response edit_rubric(const Services& services, const net::Request& request) {
+  const ScoreStores& stores = services.stores;
+  const std::string& id = id_of(request);
+  score::Rubric rubric = rubric_from(body_of(request));
+  const std::lock_guard one_at_a_time(stores.editing);
+  require_rubric(stores.rubrics, id);
+  const json now = kept_rubric(stores.rubrics, id, stores.rubrics.get(id));
+  net::require_match(request, net::entity_tag(*net::json_response(200, now).body));
+  const int newest = stores.rubrics.versions(id).back();
+  if (rubric.version != newest)
+    throw Error(ErrorKind::conflict, "rubric '" + id + "' is at version " + std::to_string(newest) +
+                                         ", and the body says it edits version " +
+                                         std::to_string(rubric.version) +
+                                         "; read the newest and repeat the change there");
+  require_place(stores);
+  const score::Rubric kept = stores.rubrics.save(id, std::move(rubric));
+  services.audit(request, "rubric.edit", id, "version " + std::to_string(kept.version));
+  return net::json_response(200, kept_rubric(stores.rubrics, id, kept));
 }
 
 }  // namespace
 
-void add_rubric_routes(net::Router& router, const ScoreTools& tools) {
-  const auto desk = std::make_shared<Desk>(tools);
-  router.on("GET", rubrics_path, [desk](const net::Request&) { return desk->list(); });
-  router.on("POST", rubrics_path, [desk](const net::Request& request) { return desk->create(request); });
-  router.on("GET", rubrics_path + "/{id}",
-            [desk](const net::Request& request) { return desk->one(id_of(request), version_in(request)); });
-  router.on("PUT", rubrics_path + "/{id}",
-            [desk](const net::Request& request) { return desk->edit(request); });
+std::vector<Route> rubric_routes() {
+  return {{"GET", rubrics_path, access::reamers, not_audited, list_rubrics},
+          {"POST", rubrics_path, access::staff, audited_by_handler, create_rubric},
+          {"GET", rubrics_path + "/{id}", access::reamers, not_audited, get_rubric},
+          {"PUT", rubrics_path + "/{id}", access::staff, audited_by_handler, edit_rubric}};
 }
 
 }  // namespace ream::api

@@ -1,7 +1,8 @@
 #include <nlohmann/json.hpp>
 
-#include "api/request_body.hpp"
-#include "api/score_tools.hpp"
+#include "api/request_values.hpp"
+#include "api/routes.hpp"
+#include "api/services.hpp"
 #include "api/session_list.hpp"
 #include "api/session_work.hpp"
 #include "core/error.hpp"
@@ -12,14 +13,6 @@ namespace ream::api {
 namespace fs = std::filesystem;
 using nlohmann::json;
 namespace {
-
-const std::string session_path = "/api/v1/sessions/{id}";
-constexpr size_t longest_rubric = 72;
-
-std::string asked(const net::Request& request, const std::string& name) {
-  const auto given = request.query.find(name);
-  return given == request.query.end() ? std::string() : given->second;
-}
 
 /// What a score says of the session itself, which has no file before its start.
 json about(const session::SessionRecord& record) { return {{"theatre", record.request.theatre}}; }
@@ -32,49 +25,47 @@ net::Response told(const std::string& id, const std::string& standing, const jso
 }
 
 /// As it is kept where nobody asks for another rubric, else made now.
-net::Response score(const ScoreTools& tools, const net::Request& request) {
+net::Response get_score(const Services& services, const net::Request& request) {
   const std::string& id = id_of(request);
-  const session::SessionRecord record = tools.sessions.get(id);
-  const fs::path folder = tools.sessions.folder_of(id);
+  const session::SessionRecord record = services.sessions.get(id);
+  const fs::path folder = services.sessions.folder_of(id);
   const bool live = is_live(record.status.state);
-  const std::string rubric = asked(request, "rubric"), benchmark = asked(request, "benchmark");
+  const std::string rubric = query_text(request, "rubric"), benchmark = query_text(request, "benchmark");
   std::error_code failed;
   if (!live && rubric.empty() && benchmark.empty() && fs::exists(session::score_json(folder), failed))
     return told(id, "kept", read_json_file(session::score_json(folder)));
-  const session::Judge judge = tools.stores.judge_by(rubric, benchmark);
-  const json metrics = tools.sessions.metrics(id);
+  const session::Judge judge = services.stores.judge_by(rubric, benchmark);
+  const json metrics = services.sessions.metrics(id);
   return told(id, live ? "live" : "computed",
-              session::score_document(tools.engine.program(), about(record), metrics, judge));
+              session::score_document(services.engine.program(), about(record), metrics, judge));
 }
 
-net::Response score_anew(const ScoreTools& tools, const net::Request& request) {
-  RequestBody body(request);
-  const std::string rubric = body.words("rubric", 0, longest_rubric);
-  const std::string benchmark = body.name_or("benchmark", "");
-  body.finish();
+net::Response score_anew(const Services& services, const net::Request& request) {
   const std::string& id = id_of(request);
-  const session::SessionRecord record = tools.sessions.get(id);
+  const session::SessionRecord record = services.sessions.get(id);
   if (is_live(record.status.state))
     throw Error(ErrorKind::conflict, "session '" + id + "' is " + to_text(record.status.state) +
                                          "; its score can be kept when it has ended");
-  const fs::path folder = tools.sessions.folder_of(id);
-  const json metrics = tools.sessions.metrics(id);
-  const session::Judge judge = tools.stores.judge_by(rubric, benchmark);
+  const fs::path folder = services.sessions.folder_of(id);
+  const json metrics = services.sessions.metrics(id);
+  const session::Judge judge =
+      services.stores.judge_by(text_in(body_of(request), "rubric"), text_in(body_of(request), "benchmark"));
   const FileLock lock = lock_of_ended(folder);
-  const json document = session::score_document(tools.engine.program(), about(record), metrics, judge);
+  const json document = session::score_document(services.engine.program(), about(record), metrics, judge);
   session::write_results(folder, metrics, document);
-  tools.sessions.note_results(id);
+  services.sessions.note_results(id);
   return told(id, "kept", document);
 }
 
 /// Those with metrics, of all that the caller may see.
-std::vector<session::EndedSession> table_sessions(const ScoreTools& tools, const net::Request& request) {
+std::vector<session::EndedSession> table_sessions(const Services& services, const net::Request& request) {
   store::SessionQuery query = session_query(request);
   query.limit = SIZE_MAX;
   std::vector<session::EndedSession> sessions;
-  for (const session::SessionRecord& record : sessions_for(request.caller, tools.sessions, query).sessions) {
+  for (const session::SessionRecord& record :
+       sessions_for(request.caller, services.sessions, query).sessions) {
     if (is_live(record.status.state)) continue;
-    const fs::path folder = tools.sessions.folder_of(record.request.id);
+    const fs::path folder = services.sessions.folder_of(record.request.id);
     std::error_code failed;
     if (!fs::exists(session::metrics_json(folder), failed)) continue;
     sessions.push_back({record.request.id, read_json_file(session::session_json(folder)),
@@ -90,16 +81,16 @@ net::Response csv_response(const session::ExportTable& table) {
   return response;
 }
 
-net::Response scores(const ScoreTools& tools, const net::Request& request) {
-  const session::Judge judge = tools.stores.judge_by(asked(request, "rubric"));
+net::Response list_scores(const Services& services, const net::Request& request) {
+  const session::Judge judge = services.stores.judge_by(query_text(request, "rubric"));
   session::ExportTable table, codebook;
-  tools.executor.run([&] {
-    table = session::score_table(table_sessions(tools, request), judge.rubric);
+  services.executor.run([&] {
+    table = session::score_table(table_sessions(services, request), judge.rubric);
     codebook = session::score_codebook(table);
   });
   table.name = "scores";
-  if (asked(request, "format") == "csv")
-    return csv_response(asked(request, "table") == "codebook" ? codebook : table);
+  if (query_text(request, "format") == "csv")
+    return csv_response(query_text(request, "table") == "codebook" ? codebook : table);
   return net::json_response(200, {{"rubric", {{"id", judge.rubric_id}, {"version", judge.rubric.version}}},
                                   {"scores", session::json_of(table)},
                                   {"codebook", session::json_of(codebook)}});
@@ -107,12 +98,11 @@ net::Response scores(const ScoreTools& tools, const net::Request& request) {
 
 }  // namespace
 
-void add_score_routes(net::Router& router, const ScoreTools& tools) {
-  router.on("GET", session_path + "/score",
-            [tools](const net::Request& request) { return score(tools, request); });
-  router.on("POST", session_path + "/score",
-            [tools](const net::Request& request) { return score_anew(tools, request); });
-  router.on("GET", "/api/v1/scores", [tools](const net::Request& request) { return scores(tools, request); });
+std::vector<Route> score_routes() {
+  const std::string score = "/api/v1/sessions/{id}/score";
+  return {{"GET", score, access::all_roles, reads("session.score.read"), get_score},
+          {"POST", score, access::staff, changes("session.score"), score_anew, {"session", "scored"}},
+          {"GET", "/api/v1/scores", access::reamers, reads("scores.read"), list_scores}};
 }
 
 }  // namespace ream::api

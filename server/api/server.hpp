@@ -4,21 +4,11 @@
 #include <memory>
 #include <string>
 
-#include "access/access_control.hpp"
-#include "api/authorizer.hpp"
-#include "api/readiness.hpp"
 #include "api/request_middleware.hpp"
-#include "api/retention.hpp"
-#include "api/score_tools.hpp"
+#include "api/services.hpp"
 #include "api/session_watch.hpp"
-#include "api/stream_watch.hpp"
-#include "jobs/job_service.hpp"
-#include "jobs/low_priority_executor.hpp"
+#include "core/periodic_task.hpp"
 #include "net/listener.hpp"
-#include "session/service/replay_service.hpp"
-#include "session/service/session_service.hpp"
-#include "study/study_service.hpp"
-#include "workup/case_service.hpp"
 
 namespace ream::api {
 
@@ -33,10 +23,10 @@ struct ServerOptions {
   std::string default_device = "script";  ///< of sessions that name none
   session::ReplayLimits replays;
   RetentionRules retention;
-  /// Has users and what they did, the index of sessions, and answers to repeat. Null: everybody may do
-  /// everything, and lists come from the folders.
+  /// Has users and what they did, the index of sessions, studies, and answers to repeat. Never null. While it
+  /// has no users, everybody may do everything.
   std::shared_ptr<store::Database> database;
-  access::AccessOptions gatehouse;
+  access::AccessOptions access;
   std::function<void()> prepare;  ///< run once in the background; /readyz is 503 until it is done
 };
 
@@ -57,42 +47,40 @@ class Server {
   /// Ends connections, then sessions. May be called twice.
   void stop();
 
-  /// Users, credentials and the audit log; null without a database.
-  access::AccessControl* gatehouse() const { return gatehouse_.get(); }
-
-  /// Method and pattern of everything served, the page left out.
-  std::vector<net::Router::Route> routes() const { return router_.routes(); }
+  /// Users, credentials and the audit log.
+  access::AccessControl& access_control() { return access_control_; }
 
  private:
-  net::Router routes_of(const ServerOptions& options);
+  net::Router router_for(const ServerOptions& options) const;
   void tell(const jobs::JobRecord& job);
-  RetentionTools retention_tools();
-  std::optional<session::SessionRequest> session_of(const std::string& id) const;
 
   // Order matters: nothing is prepared before the port is ours. stop() has ended the listener before any of
   // these goes.
   const std::shared_ptr<store::Database> database_;
-  const std::shared_ptr<ChangeFeed> feed_;
+  const std::shared_ptr<ChangeFeed> feed_ = std::make_shared<ChangeFeed>();
   const Contract contract_;
   Idempotency idempotency_;
   const std::shared_ptr<session::SessionEngine> engine_;
   const ScoreStores stores_;
   jobs::JobService jobs_;
   jobs::LowPriorityExecutor executor_;
-  const std::unique_ptr<access::AccessControl> gatehouse_;
-  const std::unique_ptr<StreamWatch> stream_watch_;  ///< null without a database
+  access::AccessControl access_control_;
+  StreamWatch stream_watch_;
   session::SessionService sessions_;
-  const std::unique_ptr<study::StudyService> studies_;  ///< null without a database
+  study::StudyService studies_;
   session::ReplayService replays_;
+  const ServedSessions served_;
   Retention retention_;
   workup::UploadStore uploads_;
   workup::CaseService case_service_;
   const Authorizer authorizer_;
-  RequestMiddleware middleware_;
+  const Services services_;
+  const RequestMiddleware middleware_;
   net::Router router_;
   net::Listener listener_;
   Readiness readiness_;
   SessionWatch watch_;
+  PeriodicTask unstarted_;  ///< ends sessions that nobody starts
 };
 
 }  // namespace ream::api

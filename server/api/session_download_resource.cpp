@@ -1,10 +1,10 @@
-#include "api/session_download_resource.hpp"
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "api/job_resource.hpp"
-#include "api/request_body.hpp"
+#include "api/replies.hpp"
+#include "api/request_values.hpp"
+#include "api/routes.hpp"
+#include "api/services.hpp"
 #include "api/session_work.hpp"
 #include "core/clock.hpp"
 #include "core/file.hpp"
@@ -17,16 +17,10 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 namespace {
 
-constexpr double longest_session_s = 4e6;
-constexpr int largest_stride = 1'000'000;
 constexpr double most_rows_at_once = 1e6;
-constexpr size_t longest_rubric_name = 80;
 
-/// The session as the caller may know it.
-session::SessionRecord seen(const DownloadTools& tools, const net::Request& request) {
-  session::SessionRecord record = tools.sessions.get(id_of(request));
-  record.request = study::seen_by(request.caller, tools.studies, std::move(record.request));
-  return record;
+session::SessionRecord seen_session(const Services& services, const net::Request& request) {
+  return services.seen(request.caller, services.sessions.get(id_of(request)));
 }
 
 fs::path existing(const fs::path& file, const std::string& id, const std::string& what) {
@@ -35,29 +29,24 @@ fs::path existing(const fs::path& file, const std::string& id, const std::string
   throw Error(ErrorKind::not_found, "session '" + id + "' left no " + what + "; it was never started");
 }
 
-net::Response recording(const DownloadTools& tools, const net::Request& request) {
+net::Response get_recording(const Services& services, const net::Request& request) {
   const std::string& id = id_of(request);
-  const fs::path file = existing(session::recording_file(tools.sessions.folder_of(id)), id, "recording");
+  const fs::path file = existing(session::recording_file(services.sessions.folder_of(id)), id, "recording");
   return net::file_response(request, {file, "application/octet-stream", id + ".ream"});
 }
 
-net::Response session_file(const DownloadTools& tools, const net::Request& request) {
+net::Response get_session_file(const Services& services, const net::Request& request) {
   const std::string& id = id_of(request);
   json session =
-      read_json_file(existing(session::session_json(tools.sessions.folder_of(id)), id, "session.json"));
-  session::write_labels(seen(tools, request).request, session);
+      read_json_file(existing(session::session_json(services.sessions.folder_of(id)), id, "session.json"));
+  session::write_labels(seen_session(services, request).request, session);
   return net::json_response(200, session);
 }
 
-double number_or(const net::Request& request, const std::string& name, double otherwise) {
-  const auto given = request.query.find(name);
-  return given == request.query.end() ? otherwise : json::parse(given->second).get<double>();
-}
-
 session::TracePart part_of(const net::Request& request) {
-  session::TracePart part{number_or(request, "from_s", 0.0), std::nullopt,
-                          static_cast<int>(number_or(request, "stride", 1.0))};
-  if (request.query.contains("to_s")) part.to_s = number_or(request, "to_s", 0.0);
+  session::TracePart part{query_number(request, "from_s", 0.0), std::nullopt,
+                          static_cast<int>(query_number(request, "stride", 1.0))};
+  if (request.query.contains("to_s")) part.to_s = query_number(request, "to_s", 0.0);
   return part;
 }
 
@@ -72,29 +61,30 @@ void require_few_rows(const session::TracePart& part, double duration_s) {
 
 /// Made now, sent, and gone.
 template <typename Write>
-net::Response made_now(const DownloadTools& tools, const net::Request& request, const std::string& ending,
+net::Response made_now(const Services& services, const net::Request& request, const std::string& ending,
                        const std::string& media_type, Write&& write) {
-  const TemporaryFile file(tools.temporary_folder, "." + ending);
-  tools.executor.run([&] { write(file.path()); });
+  const TemporaryFile file(services.temporary_folder, "." + ending);
+  services.executor.run([&] { write(file.path()); });
   return net::file_response(request, {file.path(), media_type, id_of(request) + "." + ending});
 }
 
-net::Response trace(const DownloadTools& tools, const net::Request& request) {
-  const session::SessionRecord record = seen(tools, request);
+net::Response get_trace(const Services& services, const net::Request& request) {
+  const session::SessionRecord record = seen_session(services, request);
   const session::ExportOrder order{record.request, part_of(request)};
   const session::ExportFormat& format = session::served_export_format("csv");
-  existing(session::recording_file(tools.sessions.folder_of(order.session.id)), order.session.id,
+  existing(session::recording_file(services.sessions.folder_of(order.session.id)), order.session.id,
            "recording");
   require_few_rows(order.part, record.status.duration_s);
-  return made_now(tools, request, format.ending(), format.media_type,
-                  [&](const fs::path& out) { tools.engine.write_export(format, order, out, no_progress); });
+  return made_now(services, request, format.ending(), format.media_type, [&](const fs::path& out) {
+    services.engine.write_export(format, order, out, no_progress);
+  });
 }
 
 /// What every ended session can have in its folder: given where it is there, else made by a job.
-net::Response kept_or_made(const DownloadTools& tools, const net::Request& request,
+net::Response kept_or_made(const Services& services, const net::Request& request,
                            const session::SessionRecord& record, const char* kind, const char* format_name,
                            const char* name) {
-  const fs::path folder = tools.sessions.folder_of(record.request.id);
+  const fs::path folder = services.sessions.folder_of(record.request.id);
   existing(session::recording_file(folder), record.request.id, "recording");
   const session::ExportFormat& format = session::served_export_format(format_name);
   std::error_code failed;
@@ -103,71 +93,64 @@ net::Response kept_or_made(const DownloadTools& tools, const net::Request& reque
                               {folder / name, format.media_type, record.request.id + "." + format.ending()});
   const session::ExportOrder order{record.request};
   return accepted(work_in_folder(
-      tools.jobs, kind, record, folder,
-      [&engine = tools.engine, &format, order, name](const fs::path& place, const Progress& progress) {
+      services.jobs, kind, record, folder,
+      [&engine = services.engine, &format, order, name](const fs::path& place, const Progress& progress) {
         engine.write_export(format, order, place / name, progress);
       }));
 }
 
 int export_stride_of(const net::Request& request) {
-  return static_cast<int>(number_or(request, "stride", 1.0));
+  return static_cast<int>(query_number(request, "stride", 1.0));
 }
 
-net::Response mesh(const DownloadTools& tools, const net::Request& request) {
-  const session::SessionRecord record = seen(tools, request);
+net::Response get_mesh(const Services& services, const net::Request& request) {
+  const session::SessionRecord record = seen_session(services, request);
   if (!is_live(record.status.state))
-    return kept_or_made(tools, request, record, "mesh", "surface", "reamed.ply");
-  return made_now(tools, request, "ply", "application/ply", [&](const fs::path& out) {
-    tools.sessions.write_surface(id_of(request), out, export_stride_of(request));
+    return kept_or_made(services, request, record, "mesh", "surface", "reamed.ply");
+  return made_now(services, request, "ply", "application/ply", [&](const fs::path& out) {
+    services.sessions.write_surface(id_of(request), out, export_stride_of(request));
   });
 }
 
-net::Response snapshot(const DownloadTools& tools, const net::Request& request) {
-  const session::SessionRecord record = seen(tools, request);
+net::Response get_snapshot(const Services& services, const net::Request& request) {
+  const session::SessionRecord record = seen_session(services, request);
   if (!is_live(record.status.state))
-    return kept_or_made(tools, request, record, "snapshot", "png", "snapshot.png");
-  return made_now(tools, request, "png", "image/png",
-                  [&](const fs::path& out) { tools.sessions.write_picture(id_of(request), out); });
+    return kept_or_made(services, request, record, "snapshot", "png", "snapshot.png");
+  return made_now(services, request, "png", "image/png",
+                  [&](const fs::path& out) { services.sessions.write_picture(id_of(request), out); });
 }
 
 /// Part, rubric and benchmark, where the form has such. Throws RequestError 422.
-session::ExportOrder order_in(RequestBody& body, const session::ExportFormat& format) {
-  session::ExportOrder order;
-  const auto from_s = body.number_within_or_none("from_s", 0.0, longest_session_s);
-  order.part.to_s = body.number_within_or_none("to_s", 0.0, longest_session_s);
-  const auto stride = body.number_within_or_none("stride", 1.0, largest_stride);
-  const auto rubric = body.words_or_none("rubric", longest_rubric_name);
-  const auto benchmark = body.value_or_none("benchmark") ? body.name("benchmark") : std::string();
-  body.finish();
-  if (!format.is_table() && (from_s || order.part.to_s || stride))
+session::ExportOrder order_in(const json& body, const session::ExportFormat& format) {
+  if (!format.is_table() && (body.contains("from_s") || body.contains("to_s") || body.contains("stride")))
     throw net::RequestError(422,
                             "only a table has a part from_s, to_s, stride; '" + format.name + "' is none",
                             {{"#/format", "is no table"}});
-  if (!format.is_report() && (rubric || !benchmark.empty()))
+  if (!format.is_report() && (body.contains("rubric") || body.contains("benchmark")))
     throw net::RequestError(422, "only a report has a rubric and a benchmark; '" + format.name + "' is none",
                             {{"#/format", "is no report"}});
-  order.part.from_s = from_s.value_or(0.0);
-  order.part.stride = static_cast<int>(stride.value_or(1.0));
-  order.rubric = rubric.value_or(order.rubric);
-  order.benchmark = benchmark;
+  session::ExportOrder order;
+  order.part = {body.value("from_s", 0.0), optional_in<double>(body, "to_s"), body.value("stride", 1)};
+  order.rubric = body.value("rubric", order.rubric);
+  order.benchmark = text_in(body, "benchmark");
   return order;
 }
 
-net::Response export_session(const DownloadTools& tools, const net::Request& request) {
-  RequestBody body(request);
-  const session::ExportFormat& format = session::served_export_format(body.name("format"));
+net::Response export_session(const Services& services, const net::Request& request) {
+  const json& body = body_of(request);
+  const session::ExportFormat& format = session::served_export_format(body.at("format"));
   session::ExportOrder order = order_in(body, format);
-  const session::SessionRecord record = seen(tools, request);
+  const session::SessionRecord record = seen_session(services, request);
   const std::string id = record.request.id;
   if (is_live(record.status.state))
     throw Error(ErrorKind::conflict, "session '" + id + "' is " + to_text(record.status.state) +
                                          "; it can be exported when it has ended");
-  existing(session::recording_file(tools.sessions.folder_of(id)), id, "recording");
+  existing(session::recording_file(services.sessions.folder_of(id)), id, "recording");
   order.session = record.request;
-  tools.engine.check_export(format, order);
+  services.engine.check_export(format, order);
   const jobs::JobOrder job{"export", {}, id, std::make_shared<const session::SessionRequest>(record.request)};
-  return accepted(tools.jobs.submit_file(
-      job, [&engine = tools.engine, &format, order](const fs::path& folder, const Progress& progress) {
+  return accepted(services.jobs.submit_file(
+      job, [&engine = services.engine, &format, order](const fs::path& folder, const Progress& progress) {
         const std::string name = order.session.id + "." + format.ending();
         engine.write_export(format, order, folder / name, progress);
         return jobs::JobService::MadeFile{name, format.media_type};
@@ -176,19 +159,15 @@ net::Response export_session(const DownloadTools& tools, const net::Request& req
 
 }  // namespace
 
-void add_download_routes(net::Router& router, const DownloadTools& tools) {
+std::vector<Route> download_routes() {
+  using access::reamers;
   const std::string one = "/api/v1/sessions/{id}";
-  const auto get = [&](const std::string& what, auto answer) {
-    router.on("GET", one + what,
-              [tools, answer](const net::Request& request) { return answer(tools, request); });
-  };
-  get("/recording", recording);
-  get("/session.json", session_file);
-  get("/trace", trace);
-  get("/mesh", mesh);
-  get("/snapshot", snapshot);
-  router.on("POST", one + "/exports",
-            [tools](const net::Request& request) { return export_session(tools, request); });
+  return {{"GET", one + "/recording", reamers, changes("session.download"), get_recording},
+          {"GET", one + "/session.json", reamers, reads("session.file"), get_session_file},
+          {"GET", one + "/trace", reamers, reads("session.trace"), get_trace},
+          {"GET", one + "/mesh", reamers, reads("session.mesh"), get_mesh},
+          {"GET", one + "/snapshot", reamers, reads("session.snapshot"), get_snapshot},
+          {"POST", one + "/exports", reamers, changes("session.export"), export_session}};
 }
 
 }  // namespace ream::api

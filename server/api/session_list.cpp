@@ -4,24 +4,19 @@
 
 #include "access/role.hpp"
 #include "api/json_page.hpp"
-#include "api/replay_resource.hpp"
-#include "api/session_json.hpp"
+#include "api/replies.hpp"
+#include "api/request_values.hpp"
+#include "api/services.hpp"
 #include "api/visibility.hpp"
 #include "core/error.hpp"
-#include "session/folder/session_row.hpp"
+#include "session/folder/session_folder.hpp"
 
 namespace ream::api {
 using nlohmann::json;
 namespace {
 
-std::string text_of(const net::Request& request, const std::string& name) {
-  const auto given = request.query.find(name);
-  return given == request.query.end() ? std::string() : given->second;
-}
-
 std::optional<double> number_of(const net::Request& request, const std::string& name) {
-  const std::string given = text_of(request, name);
-  return given.empty() ? std::nullopt : std::optional(json::parse(given).get<double>());
+  return request.query.contains(name) ? std::optional(query_number(request, name, 0.0)) : std::nullopt;
 }
 
 std::vector<std::string> parts_of(const std::string& list) {
@@ -36,7 +31,7 @@ std::vector<std::string> parts_of(const std::string& list) {
 
 /// Moments that begin so are at or behind it, with parts of a second or without.
 std::string beginning_of(const net::Request& request, const std::string& name) {
-  std::string moment = text_of(request, name);
+  std::string moment = query_text(request, name);
   if (moment.ends_with('Z')) moment.pop_back();
   return moment;
 }
@@ -55,11 +50,11 @@ session::SessionPage only(const session::SessionService& sessions, const store::
   return page;
 }
 
-json visible_replays(const net::Caller& caller, const session::SessionService& sessions,
-                     const session::ReplayService& replays) {
+json visible_replays(const Services& services, const net::Caller& caller) {
   json visible = json::array();
-  for (const session::ReplayRecord& record : replays.list()) try {
-      if (may_see(caller, sessions.get(record.request.replay_of).request)) visible.push_back(to_json(record));
+  for (const session::ReplayRecord& record : services.replays.list()) try {
+      if (may_see(caller, services.sessions.get(record.request.replay_of).request))
+        visible.push_back(to_json(record));
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::not_found) throw;
     }
@@ -70,20 +65,20 @@ json visible_replays(const net::Caller& caller, const session::SessionService& s
 
 store::SessionQuery session_query(const net::Request& request) {
   store::SessionQuery query;
-  query.states = parts_of(text_of(request, "state"));
-  query.case_id = text_of(request, "case");
-  query.trainee_id = text_of(request, "trainee");
-  query.study = text_of(request, "study");
-  query.participant = text_of(request, "participant");
+  query.states = parts_of(query_text(request, "state"));
+  query.case_id = query_text(request, "case");
+  query.trainee_id = query_text(request, "trainee");
+  query.study = query_text(request, "study");
+  query.participant = query_text(request, "participant");
   query.created_from = beginning_of(request, "from");
   query.created_before = beginning_of(request, "to");
-  query.outcomes = parts_of(text_of(request, "outcome"));
+  query.outcomes = parts_of(query_text(request, "outcome"));
   query.points_from = number_of(request, "points_from");
   query.points_to = number_of(request, "points_to");
-  query.text = text_of(request, "q");
-  query.cursor = text_of(request, "cursor");
+  query.text = query_text(request, "q");
+  query.cursor = query_text(request, "cursor");
   query.limit = limit_of(request);
-  const std::string sort = request.query.contains("sort") ? text_of(request, "sort") : "-created_utc";
+  const std::string sort = query_text(request, "sort", "-created_utc");
   query.descending = sort.starts_with('-');
   query.order = store::session_order_from(query.descending ? sort.substr(1) : sort)
                     .value_or(store::SessionOrder::created);
@@ -105,19 +100,18 @@ session::SessionPage sessions_for(const net::Caller& caller, const session::Sess
   return sessions.list(query);
 }
 
-net::Response list_sessions(const session::SessionService& sessions, const study::StudyService* studies,
-                            const session::ReplayService& replays, const net::Request& request) {
-  session::SessionPage page = sessions_for(request.caller, sessions, session_query(request));
-  const study::Blinding blinding = study::blinding_for(studies, request.caller);
+net::Response list_sessions(const Services& services, const net::Request& request) {
+  session::SessionPage page = sessions_for(request.caller, services.sessions, session_query(request));
+  const study::Blinding blinding = services.studies.blinding(request.caller);
   json records = json::array();
   for (session::SessionRecord& record : page.sessions) {
     record.request = blinding.seen(std::move(record.request));
     records.push_back(to_json(record));
   }
   json whole = {{"sessions", std::move(records)},
-                {"next", page.next.empty() ? json(nullptr) : json(page.next)},
+                {"next", or_null(page.next)},
                 {"total", page.total},
-                {"replays", visible_replays(request.caller, sessions, replays)}};
+                {"replays", visible_replays(services, request.caller)}};
   net::Response response = net::json_response(200, whole);
   if (!page.next.empty()) response.headers.emplace_back("Link", next_link(request, page.next));
   return response;

@@ -1,10 +1,10 @@
 #pragma once
 #include "net/message.hpp"
-#include "session/service/replay_service.hpp"
 #include "session/service/session_service.hpp"
-#include "study/study_service.hpp"
 
 namespace ream::api {
+
+struct Services;
 
 /// What of a list of sessions the filters, order and page of a query ask for; the contract has checked it.
 store::SessionQuery session_query(const net::Request& request);
@@ -16,9 +16,8 @@ session::SessionPage sessions_for(const net::Caller& caller, const session::Sess
                                   store::SessionQuery query);
 
 /// GET /api/v1/sessions: a page of the sessions that the caller may see, as they may know them, and the
-/// replays of such that are open. `studies` null: there are none. Errors: invalid_input for a bad cursor;
-/// unavailable while the index cannot be asked.
-net::Response list_sessions(const session::SessionService& sessions, const study::StudyService* studies,
-                            const session::ReplayService& replays, const net::Request& request);
+/// replays of such that are open. Errors: invalid_input for a bad cursor; unavailable while the index cannot
+/// be asked.
+net::Response list_sessions(const Services& services, const net::Request& request);
 
 }  // namespace ream::api

@@ -1,10 +1,10 @@
-#include "api/session_trash_resource.hpp"
-
 #include <nlohmann/json.hpp>
 
 #include "api/json_page.hpp"
-#include "api/request_body.hpp"
-#include "api/session_json.hpp"
+#include "api/replies.hpp"
+#include "api/request_values.hpp"
+#include "api/routes.hpp"
+#include "api/services.hpp"
 #include "core/error.hpp"
 #include "net/problem.hpp"
 
@@ -12,60 +12,58 @@ namespace ream::api {
 using nlohmann::json;
 namespace {
 
-const std::string trash_path = "/api/v1/sessions";
-
-void tell(const TrashTools& tools, const session::SessionRecord& record, const char* change) {
-  tools.feed.tell({"session", record.request.id, change,
-                   std::make_shared<const session::SessionRequest>(record.request)});
+void tell_session(const Services& services, const session::SessionRecord& record, const char* change) {
+  services.feed.tell({"session", record.request.id, change,
+                      std::make_shared<const session::SessionRequest>(record.request)});
 }
 
-net::Response remove(const TrashTools& tools, const net::Request& request) {
+net::Response remove_session(const Services& services, const net::Request& request) {
   const std::string& id = id_of(request);
-  if (tools.replays.has(id)) throw Error(ErrorKind::conflict, "'" + id + "' is a replay; POST stop ends it");
-  if (request.caller.role == "trainee" && !tools.sessions.get(id).request.study.empty())
+  if (services.replays.has(id))
+    throw Error(ErrorKind::conflict, "'" + id + "' is a replay; POST stop ends it");
+  if (request.caller.role == "trainee" && !services.sessions.get(id).request.study.empty())
     throw net::RequestError(403, "a session of a study is deleted by those who run the study");
-  const session::SessionRecord record = tools.sessions.remove(id);
-  tools.replays.stop_all_of(id);
-  tell(tools, record, "deleted");
-  tools.retention.was_deleted();
-  return {204, {}, nullptr, {}};
+  const session::SessionRecord record = services.sessions.remove(id);
+  services.replays.stop_all_of(id);
+  tell_session(services, record, "deleted");
+  services.retention.was_deleted();
+  return no_content();
 }
 
-json deleted_json(const TrashTools& tools, const study::Blinding& blinding, session::DeletedSession deleted) {
+json deleted_json(const Services& services, const study::Blinding& blinding,
+                  session::DeletedSession deleted) {
   json session;
   if (deleted.record) {
     deleted.record->request = blinding.seen(std::move(deleted.record->request));
-    session = api::to_json(*deleted.record);
+    session = to_json(*deleted.record);
   }
   return {{"id", deleted.id},
           {"deleted_utc", deleted.deleted_utc},
-          {"ends_utc", tools.retention.ends_utc(deleted.deleted_utc)},
+          {"ends_utc", services.retention.ends_utc(deleted.deleted_utc)},
           {"session", std::move(session)}};
 }
 
-net::Response restore(const TrashTools& tools, const net::Request& request) {
-  session::SessionRecord record = tools.sessions.restore(id_of(request));
-  tell(tools, record, "restored");
-  record.request = study::seen_by(request.caller, tools.studies, std::move(record.request));
-  return net::json_response(200, api::to_json(record));
+net::Response restore_session(const Services& services, const net::Request& request) {
+  const session::SessionRecord record = services.sessions.restore(id_of(request));
+  tell_session(services, record, "restored");
+  return net::json_response(200, to_json(services.seen(request.caller, record)));
 }
 
-net::Response list(const TrashTools& tools, const net::Request& request) {
-  const study::Blinding blinding = study::blinding_for(tools.studies, request.caller);
+net::Response list_trash(const Services& services, const net::Request& request) {
+  const study::Blinding blinding = services.studies.blinding(request.caller);
   std::vector<json> items;
-  for (session::DeletedSession& deleted : tools.sessions.deleted())
-    items.push_back(deleted_json(tools, blinding, std::move(deleted)));
+  for (session::DeletedSession& deleted : services.sessions.deleted())
+    items.push_back(deleted_json(services, blinding, std::move(deleted)));
   return page_of(request, "deleted", std::move(items), "-deleted_utc");
 }
 
 }  // namespace
 
-void add_trash_routes(net::Router& router, const TrashTools& tools) {
-  router.on("DELETE", trash_path + "/{id}",
-            [tools](const net::Request& request) { return remove(tools, request); });
-  router.on("POST", trash_path + "/{id}/restore",
-            [tools](const net::Request& request) { return restore(tools, request); });
-  router.on("GET", "/api/v1/trash", [tools](const net::Request& request) { return list(tools, request); });
+std::vector<Route> session_trash_routes() {
+  const std::string one = "/api/v1/sessions/{id}";
+  return {{"DELETE", one, access::reamers, changes("session.delete"), remove_session},
+          {"POST", one + "/restore", access::staff, changes("session.restore"), restore_session},
+          {"GET", "/api/v1/trash", access::staff, not_audited, list_trash}};
 }
 
 }  // namespace ream::api

@@ -1,19 +1,20 @@
 #include "api/session_watch.hpp"
 
 #include "core/log.hpp"
+#include "core/signal_handlers.hpp"
 
 namespace ream::api {
 
 SessionWatch::SessionWatch(const session::SessionService& sessions, ChangeFeed& feed,
                            std::chrono::milliseconds look_every)
     : sessions_(sessions), feed_(feed) {
-  thread_ = std::thread([this, look_every] {
+  thread_ = start_thread([this, look_every] {
     std::unique_lock lock(mutex_);
     while (!leaving_changed_.wait_for(lock, look_every, [this] { return leaving_; })) {
       try {
         look();
-      } catch (const std::exception& failure) {
-        log::warn(std::string("changes of sessions could not be told: ") + failure.what());
+      } catch (...) {
+        log::current_exception("changes of sessions could not be told");
       }
     }
   });

@@ -4,8 +4,8 @@
 #include <atomic>
 #include <functional>
 
-#include "core/error.hpp"
 #include "core/log.hpp"
+#include "core/signal_handlers.hpp"
 
 namespace ream::api {
 
@@ -60,14 +60,14 @@ class StreamWatch::WatchedSession final : public net::WebSocketSession {
   std::unique_ptr<net::WebSocketSession> inner_;
 };
 
-StreamWatch::StreamWatch(access::Credentials& credentials, std::chrono::milliseconds look_every)
-    : credentials_(credentials), look_every_(look_every) {
-  credentials_.on_change([this](const std::vector<std::string>& ids) { end(ids); });
-  thread_ = std::thread([this] { look(); });
+StreamWatch::StreamWatch(access::AccessControl& access_control, std::chrono::milliseconds look_every)
+    : access_control_(access_control), look_every_(look_every) {
+  access_control_.credentials.on_change([this](const std::vector<std::string>& ids) { end(ids); });
+  thread_ = start_thread([this] { look(); });
 }
 
 StreamWatch::~StreamWatch() {
-  credentials_.on_change({});
+  access_control_.credentials.on_change({});
   {
     const std::lock_guard lock(mutex_);
     stopped_ = true;
@@ -78,7 +78,6 @@ StreamWatch::~StreamWatch() {
 
 std::unique_ptr<net::WebSocketSession> StreamWatch::watched(const net::Request& request,
                                                             std::unique_ptr<net::WebSocketSession> inner) {
-  if (request.caller.credential.empty()) return inner;
   auto stream = std::make_shared<Stream>();
   stream->caller = request.caller;
   {
@@ -86,8 +85,8 @@ std::unique_ptr<net::WebSocketSession> StreamWatch::watched(const net::Request& 
     std::erase_if(streams_, [](const auto& gone) { return gone.expired(); });
     streams_.push_back(stream);
   }
-  // Revoked between its check and here: nobody would tell.
-  if (!credentials_.identify_again(request.caller.credential)) stream->end();
+  // Revoked, or the first user came, between its check and here: nobody would tell.
+  if (!may_go_on(*stream)) stream->end();
   return std::make_unique<WatchedSession>(std::move(stream), std::move(inner));
 }
 
@@ -111,19 +110,22 @@ void StreamWatch::look() {
     lock.unlock();
     try {
       look_at_all();
-    } catch (const Error& failure) {
-      log::warn(std::string("whether streams may go on could not be asked: ") + failure.what());
+    } catch (...) {
+      log::current_exception("whether streams may go on could not be asked");
     }
     lock.lock();
   }
 }
 
+bool StreamWatch::may_go_on(const Stream& stream) {
+  if (stream.caller.credential.empty()) return !access_control_.users.any();
+  const auto identity = access_control_.credentials.identify_again(stream.caller.credential);
+  return identity && access::to_text(identity->role) == stream.caller.role;
+}
+
 void StreamWatch::look_at_all() {
-  for (const auto& stream : open_streams()) {
-    if (stream->ended) continue;
-    const auto identity = credentials_.identify_again(stream->caller.credential);
-    if (!identity || access::to_text(identity->role) != stream->caller.role) stream->end();
-  }
+  for (const auto& stream : open_streams())
+    if (!stream->ended && !may_go_on(*stream)) stream->end();
 }
 
 }  // namespace ream::api

@@ -8,27 +8,28 @@
 #include <thread>
 #include <vector>
 
-#include "access/credentials.hpp"
+#include "access/access_control.hpp"
 #include "net/message.hpp"
 #include "net/websocket.hpp"
 
 namespace ream::api {
 
 /// Ends WebSockets whose credential is good no more: at once when it is revoked here, within seconds when it
-/// ends or is revoked by another process. While a database cannot be asked they go on. Thread-safe.
+/// ends or is revoked by another process. Those that were opened without one, while the server had no users,
+/// end as the first user comes. While a database cannot be asked they go on. Thread-safe.
 class StreamWatch {
  public:
   /// Of the closing handshake: the credential is good no more.
   static constexpr uint16_t access_ended = 4003;
 
-  /// `credentials` outlives the watch, which takes its on_change().
-  explicit StreamWatch(access::Credentials& credentials,
+  /// `access_control` outlives the watch, which takes the on_change() of its credentials.
+  explicit StreamWatch(access::AccessControl& access_control,
                        std::chrono::milliseconds look_every = std::chrono::seconds(2));
   ~StreamWatch();
   StreamWatch(const StreamWatch&) = delete;
   StreamWatch& operator=(const StreamWatch&) = delete;
 
-  /// `inner` as it is when nobody in particular has opened it.
+  /// `inner`, as long as who has opened it may have it.
   std::unique_ptr<net::WebSocketSession> watched(const net::Request& request,
                                                  std::unique_ptr<net::WebSocketSession> inner);
 
@@ -38,9 +39,11 @@ class StreamWatch {
   void end(const std::vector<std::string>& credentials);
   void look();
   void look_at_all();
+  /// Whether the stream's caller would be let in again, with the same role.
+  bool may_go_on(const Stream& stream);
   std::vector<std::shared_ptr<Stream>> open_streams();
 
-  access::Credentials& credentials_;
+  access::AccessControl& access_control_;
   const std::chrono::milliseconds look_every_;
   std::mutex mutex_;
   std::condition_variable changed_;

@@ -9,55 +9,60 @@
 namespace ream::api {
 namespace {
 
-std::optional<study::StudyAttempt> attempt_of(const session::SessionService& sessions,
-                                              const session::SessionRecord& record) {
-  const session::SessionRequest& request = record.request;
-  if (is_live(record.status.state) || record.status.tick == 0) return std::nullopt;
-  study::StudyAttempt attempt{request.participant,
-                              request.case_id,
-                              request.script,
-                              record.status.device.name,
-                              record.status.device.profile,
-                              to_text(record.status.state),
-                              request.created_utc,
-                              !request.followed_by.empty(),
-                              nlohmann::json::object()};
-  try {
-    attempt.metrics = sessions.metrics(request.id);
-  } catch (const Error& missing) {
-    if (missing.kind() != ErrorKind::not_found) throw;
-  }
-  return attempt;
-}
+class ServerDependencies final : public study::StudyDependencies {
+ public:
+  ServerDependencies(std::filesystem::path cases_folder, session::SessionService& sessions,
+                     access::AccessControl& access_control)
+      : cases_folder_(std::move(cases_folder)), sessions_(sessions), access_control_(access_control) {}
 
-}  // namespace
-
-study::StudyDependencies study_dependencies(const std::filesystem::path& cases_folder,
-                                            session::SessionService& sessions,
-                                            access::AccessControl& gatehouse) {
-  study::StudyDependencies dependencies;
-  dependencies.name_of_user = [&gatehouse](const std::string& user_id) -> std::optional<std::string> {
+  std::optional<std::string> name_of_user(const std::string& user_id) const override {
     try {
-      const access::User user = gatehouse.users.get(user_id);
+      const access::User user = access_control_.users.get(user_id);
       return user.display_name.empty() ? user.name : user.display_name;
     } catch (const Error& unknown) {
       if (unknown.kind() != ErrorKind::not_found) throw;
       return std::nullopt;
     }
-  };
-  dependencies.has_case = [cases_folder](const std::string& case_id) {
-    return is_name(case_id) && workup::is_case_folder(cases_folder / case_id);
-  };
-  dependencies.attempts = [&sessions](const std::string& study_id) {
+  }
+
+  bool has_case(const std::string& case_id) const override {
+    return is_name(case_id) && workup::is_case_folder(cases_folder_ / case_id);
+  }
+
+  std::vector<study::StudyAttempt> attempts(const std::string& study_id) const override {
     store::SessionQuery query;
     query.study = study_id;
     query.limit = SIZE_MAX;
     std::vector<study::StudyAttempt> attempts;
-    for (const session::SessionRecord& record : sessions.list(query).sessions)
-      if (auto attempt = attempt_of(sessions, record)) attempts.push_back(std::move(*attempt));
+    for (session::SessionRecord& record : sessions_.list(query).sessions) {
+      if (is_live(record.status.state) || record.status.tick == 0) continue;
+      nlohmann::json metrics = metrics_of(record.request.id);
+      attempts.push_back({std::move(record), std::move(metrics)});
+    }
     return attempts;
-  };
-  return dependencies;
+  }
+
+ private:
+  nlohmann::json metrics_of(const std::string& session_id) const {
+    try {
+      return sessions_.metrics(session_id);
+    } catch (const Error& missing) {
+      if (missing.kind() != ErrorKind::not_found) throw;
+      return nlohmann::json::object();
+    }
+  }
+
+  const std::filesystem::path cases_folder_;
+  session::SessionService& sessions_;
+  access::AccessControl& access_control_;
+};
+
+}  // namespace
+
+std::unique_ptr<const study::StudyDependencies> study_dependencies(const std::filesystem::path& cases_folder,
+                                                                   session::SessionService& sessions,
+                                                                   access::AccessControl& access_control) {
+  return std::make_unique<ServerDependencies>(cases_folder, sessions, access_control);
 }
 
 }  // namespace ream::api

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <memory>
 
 #include "access/access_control.hpp"
 #include "session/service/session_service.hpp"
@@ -8,8 +9,8 @@
 namespace ream::api {
 
 /// What studies ask of this server; all that is given outlives them.
-study::StudyDependencies study_dependencies(const std::filesystem::path& cases_folder,
-                                            session::SessionService& sessions,
-                                            access::AccessControl& gatehouse);
+std::unique_ptr<const study::StudyDependencies> study_dependencies(const std::filesystem::path& cases_folder,
+                                                                   session::SessionService& sessions,
+                                                                   access::AccessControl& access_control);
 
 }  // namespace ream::api

@@ -1,11 +1,11 @@
-#include "api/study_resource.hpp"
-
 #include <nlohmann/json.hpp>
 
-#include "access/role.hpp"
-#include "api/request_body.hpp"
-#include "api/study_json.hpp"
-#include "core/error.hpp"
+#include "api/replies.hpp"
+#include "api/request_values.hpp"
+#include "api/routes.hpp"
+#include "api/services.hpp"
+#include "core/text.hpp"
+#include "net/problem.hpp"
 
 namespace ream::api {
 using nlohmann::json;
@@ -15,91 +15,127 @@ const std::string studies_path = "/api/v1/studies";
 
 const std::string& code_of(const net::Request& request) { return request.parameters.at("code"); }
 
-/// What all routes of studies need.
-struct Desk {
-  study::StudyService* service_or_none;
-  Audit audit;
-
-  study::StudyService& service() const {
-    if (!service_or_none)
-      throw Error(ErrorKind::unavailable, "this server has no database, so it has no studies");
-    return *service_or_none;
-  }
-
-  StudyView told(const net::Request& request, const study::Study& study) const {
-    return {study, (access::role_bit(request.caller.role) & access::staff) != 0, service().count(study.id),
-            service().code_of(request.caller, study.id)};
-  }
-  net::Response reply(const net::Request& request, int status, const study::Study& study) const {
-    return net::json_response(status, to_json(told(request, study)));
-  }
-  net::Response created(const std::string& where, const json& body) const {
-    net::Response response = net::json_response(201, body);
-    response.headers.emplace_back("Location", where);
-    return response;
-  }
+/// What REST says of a study to its staff and to those who take part.
+struct StudyView {
+  const study::Study& study;
+  bool to_staff = false;
+  int64_t participants = 0;  ///< told to staff
+  std::string own_code;      ///< of the caller; empty: does not take part
 };
 
-net::Response list(const Desk& desk, const net::Request& request) {
+/// Without the questionnaire.
+json summary_json(const StudyView& told) {
+  const study::Study& study = told.study;
+  return {{"id", study.id},
+          {"name", study.name},
+          {"description", study.description},
+          {"state", study.open ? "open" : "closed"},
+          {"blinded", study.blinded()},
+          {"created_utc", study.created_utc},
+          {"closed_utc", or_null(study.closed_utc)},
+          {"unblinded_utc", or_null(study.unblinded_utc)},
+          {"cases", study.settings.cases},
+          {"script", or_null(study.settings.script)},
+          {"device", or_null(study.settings.device)},
+          {"device_profile", or_null(study.settings.device_profile)},
+          {"join_code", told.to_staff ? json(study.join_code) : json(nullptr)},
+          {"participants", told.to_staff ? json(told.participants) : json(nullptr)},
+          {"participant", or_null(told.own_code)}};
+}
+
+json study_json(const StudyView& told) {
+  json all = summary_json(told);
+  all["questionnaire"] = told.study.questionnaire ? to_json(*told.study.questionnaire) : json(nullptr);
+  return all;
+}
+
+json person_json(const store::PersonRow& person) {
+  return {{"code", person.code}, {"user_id", or_null(person.user_id)}, {"name", person.name}};
+}
+
+/// Errors: those of the questionnaire; RequestError 422 for a case that comes twice.
+study::StudyDraft study_draft_from(const json& body) {
+  study::StudyDraft draft{body.at("name"),
+                          text_in(body, "description"),
+                          {different_texts_in(body, "cases"), text_in(body, "script"),
+                           text_in(body, "device"), text_in(body, "device_profile")},
+                          std::nullopt};
+  if (!body.contains("questionnaire"))
+    draft.questionnaire = study::face_validity_questionnaire();
+  else if (!body["questionnaire"].is_null())
+    draft.questionnaire = study::questionnaire_from(body["questionnaire"]);
+  return draft;
+}
+
+/// Of NewParticipant or Joining. RequestError 422 when a person is named by user_id and name.
+study::NewParticipant new_participant_from(const json& body) {
+  study::NewParticipant wanted{body.at("experience"), body.value("procedures_done", int64_t{0}),
+                               text_in(body, "user_id"), text_in(body, "name"), text_in(body, "join_code")};
+  if (!wanted.user_id.empty() && !wanted.name.empty())
+    throw net::RequestError(422, "'name' is for somebody without an account; leave it out beside 'user_id'",
+                            {{"#/name", "must not stand beside user_id"}});
+  return wanted;
+}
+
+StudyView study_view(const Services& services, const net::Request& request, const study::Study& study) {
+  return {study, access::is_staff(request.caller.role), services.studies.count(study.id),
+          services.studies.code_of(request.caller, study.id)};
+}
+
+net::Response study_reply(const Services& services, const net::Request& request, const study::Study& study) {
+  return net::json_response(200, study_json(study_view(services, request, study)));
+}
+
+net::Response list_studies(const Services& services, const net::Request& request) {
   json studies = json::array();
-  for (const study::Study& study : desk.service().list(request.caller))
-    studies.push_back(summary_json(desk.told(request, study)));
+  for (const study::Study& study : services.studies.list(request.caller))
+    studies.push_back(summary_json(study_view(services, request, study)));
   return net::json_response(200, {{"studies", std::move(studies)}});
 }
 
-net::Response create(const Desk& desk, const net::Request& request) {
-  const study::Study study = desk.service().create(study_draft_in(request));
-  desk.audit(request, "study.create", study.id, study.name);
-  return desk.created(studies_path + "/" + study.id, to_json(desk.told(request, study)));
+net::Response create_study(const Services& services, const net::Request& request) {
+  const study::Study study = services.studies.create(study_draft_from(body_of(request)));
+  services.audit(request, "study.create", study.id, study.name);
+  return created(studies_path + "/" + study.id, study_json(study_view(services, request, study)));
 }
 
-net::Response join(const Desk& desk, const net::Request& request) {
-  const study::NewParticipant about = new_participant_in(request, false);
-  const auto [id, participant] = desk.service().join(request.caller, about);
-  desk.audit(request, "study.join", id, "");
+net::Response join_study(const Services& services, const net::Request& request) {
+  const study::NewParticipant about = new_participant_from(body_of(request));
+  const auto [id, participant] = services.studies.join(request.caller, about);
+  services.audit(request, "study.join", id, "");
   json told = to_json(participant);
   told["study"] = id;
-  return desk.created(studies_path + "/" + id + "/participants/" + participant.code, told);
+  return created(studies_path + "/" + id + "/participants/" + participant.code, told);
 }
 
-net::Response enrol(const Desk& desk, const net::Request& request) {
+net::Response enrol_participant(const Services& services, const net::Request& request) {
   const study::Participant participant =
-      desk.service().enrol(request.caller, id_of(request), new_participant_in(request, true));
-  desk.audit(request, "study.enrol", id_of(request), participant.code);
-  return desk.created(studies_path + "/" + id_of(request) + "/participants/" + participant.code,
-                      to_json(participant));
+      services.studies.enrol(request.caller, id_of(request), new_participant_from(body_of(request)));
+  services.audit(request, "study.enrol", id_of(request), participant.code);
+  return created(studies_path + "/" + id_of(request) + "/participants/" + participant.code,
+                 to_json(participant));
 }
 
-net::Response participants(const Desk& desk, const net::Request& request) {
+net::Response list_participants(const Services& services, const net::Request& request) {
   json list = json::array();
-  for (const study::Participant& participant : desk.service().participants(request.caller, id_of(request)))
+  for (const study::Participant& participant : services.studies.participants(request.caller, id_of(request)))
     list.push_back(to_json(participant));
   return net::json_response(200, {{"participants", std::move(list)}});
 }
 
-net::Response persons(const Desk& desk, const net::Request& request) {
+net::Response list_persons(const Services& services, const net::Request& request) {
   json list = json::array();
-  for (const store::PersonRow& person : desk.service().persons(request.caller, id_of(request)))
-    list.push_back(to_json(person));
-  desk.audit(request, "study.persons", id_of(request), "looked up who takes part");
+  for (const store::PersonRow& person : services.studies.persons(request.caller, id_of(request)))
+    list.push_back(person_json(person));
+  services.audit(request, "study.persons", id_of(request), "looked up who takes part");
   return net::json_response(200, {{"persons", std::move(list)}});
 }
 
-std::string choice(const net::Request& request, const std::string& key, const std::string& usual,
-                   const std::vector<std::string>& words) {
-  const auto given = request.query.find(key);
-  const std::string chosen = given == request.query.end() ? usual : given->second;
-  if (std::find(words.begin(), words.end(), chosen) != words.end()) return chosen;
-  std::string list;
-  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
-  throw Error(ErrorKind::invalid_input, key + " must be one of " + list + ", not '" + chosen + "'");
-}
-
-net::Response export_study(const Desk& desk, const net::Request& request) {
-  const std::string format = choice(request, "format", "json", {"json", "csv"});
-  const std::string table = choice(request, "table", "sessions", {"sessions", "answers", "groups"});
-  const study::StudyExport all = desk.service().export_all(request.caller, id_of(request));
-  desk.audit(request, "study.export", id_of(request), format == "csv" ? table + " as CSV" : "JSON");
+net::Response export_study(const Services& services, const net::Request& request) {
+  const std::string format = query_text(request, "format", "json");
+  const std::string table = query_text(request, "table", "sessions");
+  const study::StudyExport all = services.studies.export_all(request.caller, id_of(request));
+  services.audit(request, "study.export", id_of(request), format == "csv" ? table + " as CSV" : "JSON");
   if (format == "json")
     return net::json_response(200, {{"study", id_of(request)},
                                     {"sessions", session::json_of(all.sessions)},
@@ -115,69 +151,82 @@ net::Response export_study(const Desk& desk, const net::Request& request) {
   return response;
 }
 
-void add_life_routes(net::Router& router, const Desk& desk) {
-  const std::string one = studies_path + "/{id}";
-  const auto on = [&](const std::string& word, study::Study (study::StudyService::*act)(const std::string&)) {
-    router.on("POST", one + "/" + word, [desk, word, act](const net::Request& request) {
-      const study::Study study = (desk.service().*act)(id_of(request));
-      desk.audit(request, "study." + word, study.id, study.name);
-      return desk.reply(request, 200, study);
-    });
-  };
-  on("close", &study::StudyService::close);
-  on("reopen", &study::StudyService::reopen);
-  on("unblind", &study::StudyService::unblind);
-  router.on("PUT", one, [desk](const net::Request& request) {
-    const study::Study study = desk.service().change(id_of(request), study_draft_in(request));
-    desk.audit(request, "study.change", study.id, study.name);
-    return desk.reply(request, 200, study);
-  });
-  router.on("DELETE", one, [desk](const net::Request& request) {
-    desk.service().remove(id_of(request));
-    desk.audit(request, "study.delete", id_of(request), "");
-    return net::Response{204, {}, nullptr, {}};
-  });
+net::Response get_study(const Services& services, const net::Request& request) {
+  return study_reply(services, request, services.studies.get(request.caller, id_of(request)));
 }
 
-void add_participant_routes(net::Router& router, const Desk& desk) {
-  const std::string all = studies_path + "/{id}/participants", one = all + "/{code}";
-  router.on("GET", all, [desk](const net::Request& request) { return participants(desk, request); });
-  router.on("POST", all, [desk](const net::Request& request) { return enrol(desk, request); });
-  router.on("GET", one, [desk](const net::Request& request) {
-    return net::json_response(
-        200, to_json(desk.service().participant(request.caller, id_of(request), code_of(request))));
-  });
-  router.on("DELETE", one, [desk](const net::Request& request) {
-    desk.service().withdraw(id_of(request), code_of(request));
-    desk.audit(request, "study.withdraw", id_of(request), code_of(request));
-    return net::Response{204, {}, nullptr, {}};
-  });
-  router.on("PUT", one + "/answers", [desk](const net::Request& request) {
-    return net::json_response(200, to_json(desk.service().answer(request.caller, id_of(request),
-                                                                 code_of(request), json_object_in(request))));
-  });
+net::Response study_changed(const Services& services, const net::Request& request, const study::Study& study,
+                            const char* action) {
+  services.audit(request, action, study.id, study.name);
+  return study_reply(services, request, study);
+}
+
+net::Response change_study(const Services& services, const net::Request& request) {
+  const study::Study study = services.studies.change(id_of(request), study_draft_from(body_of(request)));
+  return study_changed(services, request, study, "study.change");
+}
+
+net::Response close_study(const Services& services, const net::Request& request) {
+  return study_changed(services, request, services.studies.close(id_of(request)), "study.close");
+}
+
+net::Response reopen_study(const Services& services, const net::Request& request) {
+  return study_changed(services, request, services.studies.reopen(id_of(request)), "study.reopen");
+}
+
+net::Response unblind_study(const Services& services, const net::Request& request) {
+  return study_changed(services, request, services.studies.unblind(id_of(request)), "study.unblind");
+}
+
+net::Response remove_study(const Services& services, const net::Request& request) {
+  services.studies.remove(id_of(request));
+  return no_content();
+}
+
+net::Response get_participant(const Services& services, const net::Request& request) {
+  return net::json_response(
+      200, to_json(services.studies.participant(request.caller, id_of(request), code_of(request))));
+}
+
+net::Response withdraw_participant(const Services& services, const net::Request& request) {
+  services.studies.withdraw(id_of(request), code_of(request));
+  services.audit(request, "study.withdraw", id_of(request), code_of(request));
+  return no_content();
+}
+
+net::Response answer_questions(const Services& services, const net::Request& request) {
+  return net::json_response(200, to_json(services.studies.answer(request.caller, id_of(request),
+                                                                 code_of(request), body_of(request))));
+}
+
+net::Response get_codebook(const Services& services, const net::Request& request) {
+  return net::json_response(200, services.studies.codebook(id_of(request)));
 }
 
 }  // namespace
 
-void add_study_routes(net::Router& router, study::StudyService* service, const Audit& audit) {
-  const Desk desk{service, audit};
-  router.on("GET", studies_path, [desk](const net::Request& request) { return list(desk, request); });
-  router.on("POST", studies_path, [desk](const net::Request& request) { return create(desk, request); });
-  router.on("POST", studies_path + "/join",
-            [desk](const net::Request& request) { return join(desk, request); });
-  router.on("GET", studies_path + "/{id}", [desk](const net::Request& request) {
-    return desk.reply(request, 200, desk.service().get(request.caller, id_of(request)));
-  });
-  add_life_routes(router, desk);
-  add_participant_routes(router, desk);
-  router.on("GET", studies_path + "/{id}/persons",
-            [desk](const net::Request& request) { return persons(desk, request); });
-  router.on("GET", studies_path + "/{id}/codebook", [desk](const net::Request& request) {
-    return net::json_response(200, desk.service().codebook(id_of(request)));
-  });
-  router.on("GET", studies_path + "/{id}/export",
-            [desk](const net::Request& request) { return export_study(desk, request); });
+std::vector<Route> study_routes() {
+  using namespace access;
+  const std::string one = studies_path + "/{id}";
+  const std::string participants = one + "/participants", participant = participants + "/{code}";
+  const RouteChange changed{"study", "changed"};
+  return {{"GET", studies_path, reamers, not_audited, list_studies},
+          {"POST", studies_path, staff, audited_by_handler, create_study, {"study", "created"}},
+          {"POST", studies_path + "/join", reamers, audited_by_handler, join_study},
+          {"GET", one, reamers, not_audited, get_study},
+          {"PUT", one, staff, changes("study.change"), change_study, changed},
+          {"DELETE", one, operators, changes("study.delete"), remove_study, {"study", "deleted"}},
+          {"POST", one + "/close", staff, audited_by_handler, close_study, changed},
+          {"POST", one + "/reopen", staff, audited_by_handler, reopen_study, changed},
+          {"POST", one + "/unblind", operators, audited_by_handler, unblind_study, changed},
+          {"GET", participants, staff, reads("study.participants"), list_participants},
+          {"POST", participants, staff, audited_by_handler, enrol_participant},
+          {"GET", participant, reamers, reads("study.participants"), get_participant},
+          {"DELETE", participant, operators, audited_by_handler, withdraw_participant, changed},
+          {"PUT", participant + "/answers", reamers, changes("study.answers"), answer_questions, changed},
+          {"GET", one + "/persons", staff, audited_by_handler, list_persons},
+          {"GET", one + "/codebook", staff, not_audited, get_codebook},
+          {"GET", one + "/export", staff, audited_by_handler, export_study}};
 }
 
 }  // namespace ream::api

@@ -1,71 +1,58 @@
-#include "api/upload_resource.hpp"
-
-#include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "api/json_page.hpp"
-#include "api/request_body.hpp"
+#include "api/replies.hpp"
+#include "api/request_values.hpp"
+#include "api/routes.hpp"
+#include "api/services.hpp"
+#include "net/problem.hpp"
 
 namespace ream::api {
 namespace {
 
-constexpr double most_bytes = 1e15;
-constexpr size_t max_upload_name = 200;
-
-nlohmann::json to_json(const workup::Upload& upload) {
+nlohmann::json upload_json(const workup::Upload& upload) {
   return {{"id", upload.id}, {"name", upload.name}, {"bytes", upload.bytes}, {"received", upload.received}};
 }
 
-uint64_t offset_of(const net::Request& request) {
-  uint64_t offset = 0;
-  const auto found = request.query.find("offset");
-  if (found == request.query.end())
-    throw net::RequestError(400, "?offset=N is missing: where in the file the piece begins");
-  const std::string& text = found->second;
-  const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), offset);
-  if (failed != std::errc() || end != text.data() + text.size())
-    throw net::RequestError(400, "?offset must be a whole number");
-  return offset;
+net::Response begin_upload(const Services& services, const net::Request& request) {
+  const nlohmann::json& body = body_of(request);
+  const workup::Upload upload =
+      services.uploads.create(body.at("name"), static_cast<uint64_t>(body.at("bytes").get<double>()));
+  return created("/api/v1/uploads/" + upload.id, upload_json(upload));
 }
 
-net::Response begin(workup::UploadStore& uploads, const net::Request& request) {
-  RequestBody body(request);
-  const std::string name = body.words("name", 1, max_upload_name);
-  const auto bytes = body.number_or_none("bytes", 0.0, most_bytes);
-  body.finish();
-  if (!bytes) throw net::RequestError(422, "'bytes' is missing: the size of the file");
-  const workup::Upload upload = uploads.create(name, static_cast<uint64_t>(*bytes));
-  net::Response response = net::json_response(201, to_json(upload));
-  response.headers.emplace_back("Location", "/api/v1/uploads/" + upload.id);
-  return response;
-}
-
-net::Response append(workup::UploadStore& uploads, const net::Request& request) {
+net::Response append_upload(const Services& services, const net::Request& request) {
   if (request.header("content-type") != "application/octet-stream")
     throw net::RequestError(415, "a piece of a file must be sent as application/octet-stream");
-  return net::json_response(
-      200, to_json(uploads.append(request.parameters.at("id"), offset_of(request), request.body)));
+  const auto offset = static_cast<uint64_t>(query_number(request, "offset", 0.0));
+  return net::json_response(200, upload_json(services.uploads.append(id_of(request), offset, request.body)));
+}
+
+net::Response list_uploads(const Services& services, const net::Request& request) {
+  std::vector<nlohmann::json> all;
+  for (const workup::Upload& upload : services.uploads.list()) all.push_back(upload_json(upload));
+  return page_of(request, "uploads", std::move(all), "name");
+}
+
+net::Response get_upload(const Services& services, const net::Request& request) {
+  return net::json_response(200, upload_json(services.uploads.get(id_of(request))));
+}
+
+net::Response remove_upload(const Services& services, const net::Request& request) {
+  services.uploads.remove(id_of(request));
+  return no_content();
 }
 
 }  // namespace
 
-void add_upload_routes(net::Router& router, workup::UploadStore& uploads) {
-  router.on("POST", "/api/v1/uploads",
-            [&uploads](const net::Request& request) { return begin(uploads, request); });
-  router.on("GET", "/api/v1/uploads", [&uploads](const net::Request& request) {
-    std::vector<nlohmann::json> all;
-    for (const workup::Upload& upload : uploads.list()) all.push_back(to_json(upload));
-    return page_of(request, "uploads", std::move(all), "name");
-  });
-  router.on("GET", "/api/v1/uploads/{id}", [&uploads](const net::Request& request) {
-    return net::json_response(200, to_json(uploads.get(request.parameters.at("id"))));
-  });
-  router.on("PUT", "/api/v1/uploads/{id}",
-            [&uploads](const net::Request& request) { return append(uploads, request); });
-  router.on("DELETE", "/api/v1/uploads/{id}", [&uploads](const net::Request& request) {
-    uploads.remove(request.parameters.at("id"));
-    return net::Response{204, {}, nullptr, {}};
-  });
+std::vector<Route> upload_routes() {
+  using access::staff;
+  const std::string all = "/api/v1/uploads", one = all + "/{id}";
+  return {{"GET", all, staff, not_audited, list_uploads},
+          {"POST", all, staff, changes("upload.begin"), begin_upload},
+          {"GET", one, staff, not_audited, get_upload},
+          {"PUT", one, staff, not_audited, append_upload},
+          {"DELETE", one, staff, changes("upload.remove"), remove_upload}};
 }
 
 }  // namespace ream::api

@@ -5,6 +5,15 @@
 
 namespace ream::api {
 
+std::optional<session::SessionRequest> ServedSessions::session_of(const std::string& id) const {
+  try {
+    return sessions_.get(replays_.has(id) ? replays_.get(id).request.replay_of : id).request;
+  } catch (const Error& unknown) {
+    if (unknown.kind() != ErrorKind::not_found) throw;
+    return std::nullopt;
+  }
+}
+
 bool may_see(const net::Caller& caller, const session::SessionRequest& session) {
   switch (access::role_bit(caller.role)) {
     case access::operators:
@@ -17,10 +26,6 @@ bool may_see(const net::Caller& caller, const session::SessionRequest& session) 
 
 void refuse_unseen(const std::string& id) {
   throw Error(ErrorKind::not_found, "no session '" + id + "'; GET /api/v1/sessions lists them");
-}
-
-void require_may_see(const net::Caller& caller, const session::SessionRequest& session) {
-  if (!may_see(caller, session)) refuse_unseen(session.id);
 }
 
 }  // namespace ream::api

@@ -1,15 +1,32 @@
 #pragma once
-#include <functional>
 #include <optional>
 #include <string>
 
 #include "net/message.hpp"
-#include "session/running_session.hpp"
+#include "session/service/replay_service.hpp"
+#include "session/service/session_service.hpp"
 
 namespace ream::api {
 
-/// What a session or replay with that id is; none when there is none.
-using SessionFinder = std::function<std::optional<session::SessionRequest>(const std::string& id)>;
+/// Knows sessions by their ids.
+class SessionFinder {
+ public:
+  virtual ~SessionFinder() = default;
+  /// What a session or replay with that id is; none when there is none.
+  virtual std::optional<session::SessionRequest> session_of(const std::string& id) const = 0;
+};
+
+/// Those of a server, which outlive it.
+class ServedSessions final : public SessionFinder {
+ public:
+  ServedSessions(const session::SessionService& sessions, const session::ReplayService& replays)
+      : sessions_(sessions), replays_(replays) {}
+  std::optional<session::SessionRequest> session_of(const std::string& id) const override;
+
+ private:
+  const session::SessionService& sessions_;
+  const session::ReplayService& replays_;
+};
 
 /// Whether a caller may know of a session: operators and instructors of all, trainees of their own, viewers
 /// of the one their link is for or, when it is for none in particular, of all.
@@ -17,7 +34,5 @@ bool may_see(const net::Caller& caller, const session::SessionRequest& session);
 
 /// Error not_found, in the words of a session that does not exist.
 [[noreturn]] void refuse_unseen(const std::string& id);
-/// The same unless the caller may see it.
-void require_may_see(const net::Caller& caller, const session::SessionRequest& session);
 
 }  // namespace ream::api

@@ -14,8 +14,9 @@ json scalar(const YAML::Node& node) {
   if (node.Tag() == "!") return text;  // quoted
   if (text == "null" || text == "~" || text.empty()) return nullptr;
   if (text == "true" || text == "false") return text == "true";
-  const bool number = text.find_first_not_of("0123456789+-.eE") == std::string::npos && json::accept(text);
-  return number ? json::parse(text) : json(text);
+  if (text.find_first_not_of("0123456789+-.eE") != std::string::npos) return text;
+  json number = parse_json_or_discard(text);
+  return number.is_discarded() ? json(text) : number;
 }
 
 json convert(const YAML::Node& node) {
@@ -26,7 +27,9 @@ json convert(const YAML::Node& node) {
   }
   if (node.IsMap()) {
     json object = json::object();
-    for (const auto& pair : node) object[pair.first.as<std::string>()] = convert(pair.second);
+    for (const auto& pair : node)
+      if (const auto key = pair.first.as<std::string>(); !object.emplace(key, convert(pair.second)).second)
+        throw Error(ErrorKind::invalid_input, "the YAML has the key '" + key + "' twice in one place");
     return object;
   }
   return node.IsNull() ? json(nullptr) : scalar(node);

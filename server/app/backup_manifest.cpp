@@ -58,7 +58,7 @@ void write_manifest(const BackupManifest& manifest, const fs::path& file) {
                       {"migrations", std::move(migrations)},
                       {"tables", std::move(tables)},
                       {"files", manifest.files}};
-  write_file_atomically(file, value.dump(2) + "\n");
+  write_json_file(file, value);
 }
 
 BackupManifest read_manifest(const fs::path& file, const fs::path& archive) {

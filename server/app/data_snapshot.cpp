@@ -80,7 +80,7 @@ std::vector<Seen> hold_all(const fs::path& folder, const fs::path& to) {
 bool is_live(const fs::path& session_folder) {
   try {
     const auto found = session::read_session_folder(session_folder);
-    return !found.lasting && is_live(found.record.status.state);
+    return !found.lasting && is_live(found.status.state);
   } catch (const Error&) {
     return false;
   }

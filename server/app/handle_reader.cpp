@@ -1,6 +1,7 @@
 #include "app/handle_reader.hpp"
 
 #include "core/error.hpp"
+#include "core/signal_handlers.hpp"
 #include "sim/realtime.hpp"
 #include "sim/watchdogs.hpp"
 
@@ -15,7 +16,7 @@ HandleReader::HandleReader(device::HapticDevice& device, const device::DeviceSet
           setup.scale) {
   device.open();
   guard_.emplace(device);
-  thread_ = std::thread([this] { read(); });
+  thread_ = start_thread([this] { read(); });
 }
 
 HandleReader::~HandleReader() {

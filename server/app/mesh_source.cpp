@@ -11,7 +11,6 @@
 #include "session/simulation/find_case.hpp"
 #include "session/simulation/recorded_session.hpp"
 #include "voxel/solid_cells.hpp"
-#include "workup/ct_source.hpp"
 
 namespace ream::app {
 namespace fs = std::filesystem;
@@ -48,10 +47,17 @@ bool is_text(const fs::path& path) {
   return ending == ".txt" || ending == ".csv" || ending == ".xyz";
 }
 
+fe::ElementModel from_rows(const fs::path& path, const MeshSource& source, fe::MemoryBudget& budget,
+                           const Progress& progress) {
+  fe::ElementModel model = fe::read_text_rows(path, budget, progress);
+  if (source.threshold) fe::remove_below(model, *source.threshold, budget);
+  return model;
+}
+
 fe::ElementModel from_volume(const fs::path& path, const MeshSource& source, fe::MemoryBudget& budget,
                              const Progress& progress) {
-  ct::GrayVolume volume(path, budget.left(), part_of(progress, 0.0, 0.4));
-  budget.take(volume.bytes(), "the volume");
+  const ct::GrayVolume volume(path, budget.left(), part_of(progress, 0.0, 0.4));
+  if (!volume.rows().empty()) return from_rows(volume.rows(), source, budget, part_of(progress, 0.4, 1.0));
   fe::ElementModel model;
   model.gray = volume.gray();
   model.spacing_mm = volume.spacing_mm();
@@ -69,7 +75,6 @@ fe::ElementModel from_volume(const fs::path& path, const MeshSource& source, fe:
     for (size_t i = 0; i < codes.size(); ++i) codes[i] = bone[layer[i]] ? int32_t{layer[i]} : fe::no_element;
   };
   fe::fill_from_layers(model, volume.dims(), read, budget, part_of(progress, 0.4, 1.0));
-  budget.give_back(volume.bytes());
   return model;
 }
 
@@ -138,13 +143,8 @@ fe::ElementModel open_mesh_source(const MeshSource& source, fe::MemoryBudget& bu
     case Kind::session: return from_session(source, budget, progress);
     case Kind::volume: break;
   }
-  const workup::CtSource unpacked(source.name, progress);
-  return unpacked.read([&](const fs::path& path) {
-    if (!is_text(path)) return from_volume(path, source, budget, progress);
-    fe::ElementModel model = fe::read_text_rows(path, budget, progress);
-    if (source.threshold) fe::remove_below(model, *source.threshold, budget);
-    return model;
-  });
+  return is_text(source.name) ? from_rows(source.name, source, budget, progress)
+                              : from_volume(source.name, source, budget, progress);
 }
 
 }  // namespace ream::app

@@ -11,7 +11,7 @@ namespace ream::app {
 
 /// What a mesh is to be made of.
 struct MeshSource {
-  /// A volume (folder, file or zip, as CtSource), text rows, a case, or a recorded session; cases and
+  /// A volume (folder, file or zip, as ct::read_ct), text rows, a case, or a recorded session; cases and
   /// sessions by path or, where there is no such path, by id.
   std::string name;
   std::string case_name;  ///< of a session, where its case is not in the data folder

@@ -130,13 +130,14 @@ void put_in_place(const fs::path& unpacked, const fs::path& data, const fs::path
 
 /// Rows and folders together, or neither.
 void replace(store::Database& database, const fs::path& unpacked, const std::vector<store::TableFile>& tables,
-             const fs::path& data, const fs::path& aside, const Progress& progress) {
+             const fs::path& data, const fs::path& aside, bool keep_tokens, const Progress& progress) {
   Moves moves;
   const auto put = [&] {
     put_in_place(unpacked / "data", data, aside, moves);
     progress(1.0, "keeping it");
   };
-  store::read_table_files(database, unpacked / "tables", tables, put, progress);
+  store::read_table_files(database, unpacked / "tables", tables, put, progress,
+                          keep_tokens ? store::OldCredentials::tokens : store::OldCredentials::none);
   moves.stay();
 }
 
@@ -158,10 +159,10 @@ void require_backup(const fs::path& file) {
 }
 
 RestoreReport restore_backup(store::Database& database, const fs::path& data, const fs::path& file,
-                             bool force, const Progress& progress) {
+                             const RestoreOptions& options, const Progress& progress) {
   require_backup(file);
   const Present present = look(database, data);
-  if (!force) require_empty(present, database.name(), data);
+  if (!options.force) require_empty(present, database.name(), data);
   const auto alone = FileLock::attempt(serving_lock(data));
   if (!alone)
     throw Error(ErrorKind::conflict, "a server runs on " + data.string() + "; stop it, then restore");
@@ -178,7 +179,8 @@ RestoreReport restore_backup(store::Database& database, const fs::path& data, co
 
   const fs::path aside = made_aside(database, present, data);
   try {
-    replace(database, scratch.path(), manifest.tables, data, aside, part_of(progress, unpacked_share, 1.0));
+    replace(database, scratch.path(), manifest.tables, data, aside, options.keep_tokens,
+            part_of(progress, unpacked_share, 1.0));
   } catch (...) {
     std::error_code ignored;
     if (!aside.empty()) fs::remove_all(aside / "tables", ignored);

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <charconv>
 
 #include "core/error.hpp"
 #include "net/guard.hpp"
@@ -42,6 +43,15 @@ void require_safe(const ServerAddress& address, bool has_users) {
                     "something else encrypts");
 }
 
+uint16_t openigtlink_port(const std::string& digits, const std::string& text) {
+  uint16_t port = 0;
+  const char* end = digits.data() + digits.size();
+  const auto read = std::from_chars(digits.data(), end, port);
+  if (read.ec != std::errc() || read.ptr != end)
+    throw Error(ErrorKind::usage, "--openigtlink " + text + ": give PORT or HOST:PORT, such as 18944");
+  return port;
+}
+
 }  // namespace
 
 net::ListenOptions listen_options(const ServerAddress& address, bool has_users) {
@@ -51,6 +61,8 @@ net::ListenOptions listen_options(const ServerAddress& address, bool has_users) 
   options.host = address.host;
   options.port = address.port;
   options.public_names = address.public_names;
+  for (const std::string& proxy : address.trusted_proxies)
+    options.trusted_proxies.push_back(net::trusted_proxy(proxy));
   if (!address.certificate_chain.empty()) {
     options.tls = {address.certificate_chain, address.key};
     net::TlsContext{*options.tls};  // what is wrong with them is said before anything is begun
@@ -71,6 +83,21 @@ std::string server_url(const ServerAddress& address, uint16_t port) {
     host = own;
   if (host.find(':') != std::string::npos) host = "[" + host + "]";
   return (address.certificate_chain.empty() ? "http://" : "https://") + host + ":" + std::to_string(port);
+}
+
+openigtlink::ServerOptions openigtlink_address(const std::string& text, const ServerAddress& server) {
+  openigtlink::ServerOptions options;
+  options.host = server.host;
+  const size_t colon = text.rfind(':');
+  options.port = openigtlink_port(colon == std::string::npos ? text : text.substr(colon + 1), text);
+  if (colon != std::string::npos) options.host = text.substr(0, colon);
+  if (options.host.size() > 2 && options.host.front() == '[' && options.host.back() == ']')
+    options.host = options.host.substr(1, options.host.size() - 2);
+  if (!net::is_loopback_host(options.host) && !server.insecure)
+    throw Error(ErrorKind::usage, "--openigtlink " + text + ": everybody who reaches " + options.host +
+                                      " could watch, without a login; give 127.0.0.1:PORT, or --insecure "
+                                      "where something else guards the port");
+  return options;
 }
 
 }  // namespace ream::app

@@ -3,7 +3,7 @@
 namespace ream::app {
 namespace {
 
-const std::string session = "trial";
+const std::string trial_session = "trial";
 
 }  // namespace
 
@@ -12,8 +12,8 @@ StandaloneDeviceServer::StandaloneDeviceServer(std::shared_ptr<device::RemoteLin
                                                uint16_t port)
     : device_port_(std::make_shared<device::DevicePort>(
           std::move(link), device::RemoteKind::handle,
-          device::DeviceWelcome{session, device, traits.force_max_n, traits.stale})) {
-  router_.on_websocket("/api/v1/sessions/" + session + "/device",
+          device::DeviceWelcome{trial_session, device, traits.force_max_n, traits.stale})) {
+  router_.on_websocket("/api/v1/sessions/" + trial_session + "/device",
                        [door = device_port_](const net::Request&) { return door->connect(); });
   net::ListenOptions options;
   options.port = port;
@@ -24,7 +24,8 @@ StandaloneDeviceServer::StandaloneDeviceServer(std::shared_ptr<device::RemoteLin
 }
 
 std::string StandaloneDeviceServer::url() const {
-  return "ws://127.0.0.1:" + std::to_string(listener_->port()) + "/api/v1/sessions/" + session + "/device";
+  return "ws://127.0.0.1:" + std::to_string(listener_->port()) + "/api/v1/sessions/" + trial_session +
+         "/device";
 }
 
 }  // namespace ream::app

@@ -136,7 +136,7 @@ void check(const Case& c) {
 void write_bone(const Case& c, const fs::path& folder) {
   write_voxels(folder / "density.zst", c.bone.grid, c.bone.density);
   write_voxels(folder / "coverage.zst", c.bone.grid, c.bone.coverage);
-  write_file_atomically(folder / "case.json", to_json(c).dump(2) + "\n");
+  write_json_file(folder / "case.json", to_json(c));
 }
 
 /// The files of a case folder, its CT's included, under a second name.
@@ -152,7 +152,7 @@ void link_files(const fs::path& from, const fs::path& to) {
 void save_case(const Case& c, const fs::path& folder, bool replace) {
   check(c);
   AtomicFolder target(folder, replace);
-  if (c.plan) write_file_atomically(target.path() / "plan.json", to_json(*c.plan).dump(2) + "\n");
+  if (c.plan) write_json_file(target.path() / "plan.json", to_json(*c.plan));
   write_bone(c, target.path());
   target.commit();
 }

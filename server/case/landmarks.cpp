@@ -94,7 +94,7 @@ void save_landmarks(const Landmarks& landmarks, const std::filesystem::path& cas
   const std::filesystem::path file = case_folder / "landmarks.json";
   const json value = to_json(landmarks);
   landmarks_from_json(value, "landmarks of " + case_folder.string());
-  write_file_atomically(file, value.dump(2) + "\n");
+  write_json_file(file, value);
 }
 
 std::optional<Landmarks> load_landmarks(const std::filesystem::path& case_folder) {

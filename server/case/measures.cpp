@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "core/units.hpp"
 
 namespace ream::case_ {
@@ -218,8 +218,6 @@ GlenoidFrame glenoid_frame(const Landmarks& l, Side side) {
 
 namespace {
 
-json number_or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
-
 /// Healthy shoulders; low and high are the range that was seen, or of what counts as centred.
 json normal_values() {
   return {{"version_deg",
@@ -256,8 +254,8 @@ json to_json(const Measures& m) {
                 {"inclination_3d_deg", degrees_or_null(m.inclination_3d_rad)},
                 {"version_friedman_deg", degrees_or_null(m.version_friedman_rad)},
                 {"inclination_friedman_deg", degrees_or_null(m.inclination_friedman_rad)},
-                {"subluxation_percent", number_or_null(m.subluxation_percent)},
-                {"subluxation_glenoid_percent", number_or_null(m.subluxation_glenoid_percent)},
+                {"subluxation_percent", or_null(m.subluxation_percent)},
+                {"subluxation_glenoid_percent", or_null(m.subluxation_glenoid_percent)},
                 {"biconcavity", nullptr},
                 {"normal", normal_values()},
                 {"missing", m.missing},

@@ -119,7 +119,7 @@ void save_plan(const Plan& plan, const std::filesystem::path& case_folder) {
   if (!std::filesystem::is_regular_file(case_folder / "case.json") &&
       !std::filesystem::is_regular_file(case_folder / "ct" / "ct.json"))
     throw Error(ErrorKind::not_found, case_folder.string() + " is not a case: it has no case.json");
-  write_file_atomically(case_folder / "plan.json", to_json(plan).dump(2) + "\n");
+  write_json_file(case_folder / "plan.json", to_json(plan));
 }
 
 }  // namespace ream::case_

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "case/measures.hpp"
 #include "case/plan.hpp"
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "core/json_reader.hpp"
 #include "core/units.hpp"
 #include "shell/reamer_library.hpp"
@@ -139,7 +139,7 @@ json to_json(const PlanAssessment& a) {
           {"inclination_before_deg", degrees_or_null(a.inclination_before_rad)},
           {"version_after_deg", degrees_or_null(a.version_after_rad)},
           {"inclination_after_deg", degrees_or_null(a.inclination_after_rad)},
-          {"vault_depth_mm", a.vault_depth_mm ? json(*a.vault_depth_mm) : json(nullptr)},
+          {"vault_depth_mm", or_null(a.vault_depth_mm)},
           {"warnings", a.warnings},
           {"needs_override", a.needs_override},
           {"words",

@@ -5,8 +5,9 @@
 namespace ream {
 
 /// A tick is one millisecond of simulated time, however late it runs.
-inline constexpr double tick_s = 1e-3;
+inline constexpr double tick_s = 1e-3, tick_ms = 1e3 * tick_s;
 inline constexpr int64_t tick_ns = 1'000'000;
+inline constexpr double ns_per_ms = 1.0e6;
 
 using SteadyClock = std::chrono::steady_clock;
 

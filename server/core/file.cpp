@@ -19,6 +19,7 @@ namespace {
 std::string reason() { return std::strerror(errno); }
 
 constexpr int compression_level = 1;
+constexpr uintmax_t max_json_file_bytes = 64 << 20;
 
 }  // namespace
 
@@ -58,15 +59,21 @@ void write_file_atomically(const fs::path& path, std::string_view text) {
   write_file_atomically(path, std::as_bytes(std::span(text.data(), text.size())));
 }
 
+void write_json_file(const fs::path& path, const nlohmann::json& json) {
+  write_file_atomically(path, json.dump(2) + "\n");
+}
+
 nlohmann::json read_json_file(const fs::path& path) {
+  std::error_code unknown;
+  if (const uintmax_t size = fs::file_size(path, unknown); !unknown && size > max_json_file_bytes)
+    throw Error(ErrorKind::invalid_input, path.string() + " is larger than " +
+                                              std::to_string(max_json_file_bytes >> 20) +
+                                              " MB: no JSON file of this program is");
   const std::string text = read_text_file(path);
   try {
-    return nlohmann::json::parse(text);
-  } catch (const nlohmann::json::exception& e) {
-    std::string what = e.what();
-    const auto bracket = what.find("] ");
-    if (bracket != std::string::npos) what = what.substr(bracket + 2);
-    throw Error(ErrorKind::invalid_input, path.string() + " is not valid JSON: " + what);
+    return parse_json(text);
+  } catch (const Error& e) {
+    throw Error(e.kind(), path.string() + " " + e.what());
   }
 }
 

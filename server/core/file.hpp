@@ -19,8 +19,12 @@ std::vector<std::byte> read_binary_file(const std::filesystem::path& path);
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_file_atomically(const std::filesystem::path& path, std::string_view text);
 
-/// Parsed JSON; Error invalid_input names the file and the place of a syntax error.
+/// Parsed JSON (parse_json of core/json.hpp) of at most 64 MB; Error invalid_input names the file and the
+/// place of a syntax error.
 nlohmann::json read_json_file(const std::filesystem::path& path);
+
+/// Indented, with a line feed at the end. Error io.
+void write_json_file(const std::filesystem::path& path, const nlohmann::json& json);
 
 /// Names that were made in the folder survive a loss of power from here on, where the file system can promise
 /// it.

@@ -1,26 +1,37 @@
 #include "core/interrupt.hpp"
 
 #include <signal.h>
+#include <unistd.h>
 
 #include "core/error.hpp"
+#include "core/signal_handlers.hpp"
 
 namespace ream {
 namespace {
 
-volatile sig_atomic_t signalled = 0;
+volatile sig_atomic_t signalled = 0, patience_s = 0;
 
-void remember_signal(int) { signalled = 1; }
+void remember_signal(int) {
+  if (signalled == 0) ::alarm(static_cast<unsigned>(patience_s));
+  signalled = 1;
+}
+
+bool is_ignored(int signal) {
+  struct sigaction there {};
+  return ::sigaction(signal, nullptr, &there) == 0 && there.sa_handler == SIG_IGN;
+}
 
 }  // namespace
 
-void catch_interrupts() {
-  struct sigaction action {};
-  action.sa_handler = remember_signal;
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
+void catch_interrupts(std::chrono::seconds patience) {
+  patience_s = static_cast<sig_atomic_t>(patience.count());
+  for (const int signal : {SIGINT, SIGTERM, SIGQUIT}) keep_handler(signal, remember_signal);
+  keep_handler(SIGHUP, is_ignored(SIGHUP) ? SIG_IGN : remember_signal);
 }
 
-void take_file_size_limit_as_error() { ::signal(SIGXFSZ, SIG_IGN); }
+void take_failed_writes_as_errors() {
+  for (const int signal : {SIGXFSZ, SIGPIPE}) keep_handler(signal, SIG_IGN);
+}
 
 bool interrupted() noexcept { return signalled != 0; }
 

@@ -8,4 +8,8 @@ void info(const std::string& line);
 void warn(const std::string& line);
 void error(const std::string& line);
 
+/// For a catch (...) beyond which nothing may escape: one line, "<what>: <the exception's words>". Without
+/// memory for it there is no line.
+void current_exception(const char* what) noexcept;
+
 }  // namespace ream::log

@@ -1,9 +1,9 @@
 #include "core/periodic_task.hpp"
 
-#include <string>
 #include <utility>
 
 #include "core/log.hpp"
+#include "core/signal_handlers.hpp"
 #include "core/thread_pool.hpp"
 
 namespace ream {
@@ -12,7 +12,7 @@ PeriodicTask::PeriodicTask(const char* name, Work work, std::chrono::millisecond
     : name_(name), work_(std::move(work)), retry_after_(retry_after) {}
 
 void PeriodicTask::start(std::chrono::milliseconds delay, bool low_priority) {
-  thread_ = std::thread([=, this] { run(delay, low_priority); });
+  thread_ = start_thread([=, this] { run(delay, low_priority); });
 }
 
 void PeriodicTask::wake() {
@@ -48,8 +48,8 @@ void PeriodicTask::run(std::chrono::milliseconds wait, bool low_priority) {
 std::chrono::milliseconds PeriodicTask::work_once() {
   try {
     return work_();
-  } catch (const std::exception& failure) {
-    log::warn(std::string(name_) + ": " + failure.what());
+  } catch (...) {
+    log::current_exception(name_);
     return retry_after_;
   }
 }

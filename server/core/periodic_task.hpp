@@ -13,7 +13,7 @@ namespace ream {
 class PeriodicTask {
  public:
   /// Does the work once and returns how long to wait until the next time. Should ask stopping() between
-  /// longer steps. What it throws is logged as a warning that begins with `name` ("retention"), and it is
+  /// longer steps. What it throws is logged as an error that begins with `name` ("retention"), and it is
   /// called again after `retry_after`.
   using Work = std::function<std::chrono::milliseconds()>;
   PeriodicTask(const char* name, Work work,

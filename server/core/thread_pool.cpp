@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/signal_handlers.hpp"
+
 namespace ream {
 namespace {
 
@@ -22,7 +24,7 @@ ThreadPool::ThreadPool(int threads) {
   if (threads <= 0) threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   try {
     for (int worker = 1; worker < threads; ++worker)
-      workers_.emplace_back([this, worker] { work_on_jobs(worker); });
+      workers_.push_back(start_thread([this, worker] { work_on_jobs(worker); }));
   } catch (...) {
     stop();
     throw;
@@ -42,15 +44,16 @@ void ThreadPool::stop() {
 
 void ThreadPool::run(size_t count, const std::function<void(size_t, int)>& work,
                      const std::function<void(double)>& progress) {
+  const int helpers = count > 1 ? static_cast<int>(workers_.size()) : 0;
   {
     const std::lock_guard lock(mutex_);
     job_ = {count, &work, &progress};
     next_.store(0, std::memory_order_relaxed);
     failure_ = nullptr;
-    busy_ = count > 1 ? static_cast<int>(workers_.size()) : 0;
-    if (busy_ > 0) ++job_number_;
+    busy_ = helpers;
+    if (helpers > 0) ++job_number_;
   }
-  if (busy_ > 0) start_.notify_all();
+  if (helpers > 0) start_.notify_all();
   take_pieces(0);
   std::unique_lock lock(mutex_);
   done_.wait(lock, [this] { return busy_ == 0; });

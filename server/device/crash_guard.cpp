@@ -1,9 +1,15 @@
 #include "device/crash_guard.hpp"
 
+#include <poll.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <array>
 #include <atomic>
+#include <cstring>
+#include <exception>
+
+#include "core/signal_handlers.hpp"
 
 namespace ream::device {
 namespace {
@@ -12,32 +18,69 @@ namespace {
 std::array<std::atomic<HapticDevice*>, 64> watched{};
 static_assert(std::atomic<HapticDevice*>::is_always_lock_free);
 
-constexpr std::array crashes{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+constexpr std::array crashes{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS, SIGXCPU};
+constexpr int longest_wait_ms = 1000, look_every_ms = 10;
+constexpr unsigned longest_release_s = 2;
 
-/// A signal that was sent from outside would not come again by itself, so it is raised once more, for its
-/// usual action. That is put back by hand: OpenCL's PoCL has a handler of its own for SIGFPE, which calls
-/// this one.
-void on_crash(int signal) {
-  for (auto& place : watched)
-    if (HapticDevice* device = place.load(std::memory_order_acquire)) device->take_force_away();
+std::atomic<pid_t> crashed_thread{0};
+std::terminate_handler usual_terminate = nullptr;
+
+/// Puts it back by hand: whoever else had a handler (PoCL, the compiler in it) is not asked.
+void take_usual_action(int signal) noexcept {
   struct sigaction usual {};
   usual.sa_handler = SIG_DFL;
   ::sigaction(signal, &usual, nullptr);
+}
+
+/// The process is about to end, and a device that does not return must not keep it from that.
+void take_all_force_away() noexcept {
+  take_usual_action(SIGALRM);
+  ::alarm(longest_release_s);
+  for (auto& place : watched)
+    if (HapticDevice* device = place.load(std::memory_order_acquire)) device->take_force_away();
+}
+
+/// The first thread that crashes takes the force away; another one meanwhile lets it, and one that crashes
+/// while doing so has done what it could. Then the signal is raised once more for its usual action.
+void on_crash(int signal) {
+  const pid_t here = ::gettid();
+  pid_t first = 0;
+  if (crashed_thread.compare_exchange_strong(first, here))
+    take_all_force_away();
+  else if (first != here)
+    for (int waited_ms = 0; waited_ms < longest_wait_ms; waited_ms += look_every_ms)
+      ::poll(nullptr, 0, look_every_ms);
+  take_usual_action(signal);
   ::raise(signal);
+}
+
+void on_terminate() {
+  take_all_force_away();
+  usual_terminate();
+}
+
+void on_patience_over(int) {
+  end_process_without_force(
+      "it was told to end and has not; sessions that were not closed are recovered at the "
+      "next start");
 }
 
 }  // namespace
 
 void take_force_away_on_crash() {
-  for (const int signal : crashes) {
-    struct sigaction action {};
-    action.sa_handler = on_crash;
-    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER | SA_ONSTACK);
-    ::sigaction(signal, &action, nullptr);
-  }
+  for (const int signal : crashes) keep_handler(signal, on_crash, SA_NODEFER);
+  keep_handler(SIGALRM, on_patience_over);
+  if (const auto before = std::set_terminate(on_terminate); before != on_terminate) usual_terminate = before;
 }
 
-CrashWatch::CrashWatch(HapticDevice& device) noexcept {
+void end_process_without_force(const char* words) noexcept {
+  take_all_force_away();
+  for (const char* part : {"ream: ", words, "; the force was taken away and the process ends\n"})
+    if (::write(STDERR_FILENO, part, std::strlen(part)) < 0) break;
+  ::_exit(1);
+}
+
+CrashWatch::CrashWatch(HapticDevice& device) noexcept : handlers_hold_(restore_handlers()) {
   for (size_t i = 0; i < watched.size() && place_ < 0; ++i) {
     HapticDevice* nobody = nullptr;
     if (watched[i].compare_exchange_strong(nobody, &device)) place_ = static_cast<int>(i);

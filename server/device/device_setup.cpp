@@ -220,7 +220,7 @@ void save_device_setup(const std::filesystem::path& data, const std::string& dev
                        const DeviceSetup& setup) {
   const std::filesystem::path path = device_setup_path(data, device);
   make_writable_folder(path.parent_path());
-  write_file_atomically(path, to_json(setup).dump(2) + "\n");
+  write_json_file(path, to_json(setup));
 }
 
 }  // namespace ream::device

@@ -5,8 +5,6 @@
 namespace ream::device {
 namespace {
 
-constexpr double tick_ms = 1e3 * tick_s;
-
 DeviceTraits seen_from_the_world(DeviceTraits traits, double scale) {
   traits.torque_max_n_mm *= scale;
   traits.stiffness_max_n_mm /= scale;

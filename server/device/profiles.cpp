@@ -3,6 +3,7 @@
 #include <array>
 
 #include "core/error.hpp"
+#include "core/units.hpp"
 
 namespace ream::device {
 namespace {
@@ -63,8 +64,6 @@ constexpr std::array<Published, 19> table{{
 constexpr double default_ramp_s = 2.0;
 /// What a hand takes for texture; drill vibration on top of contact stays within it. Engineering choice.
 constexpr double default_vibration_max_n = 0.5;
-
-constexpr double mm_per_m = 1000.0;
 
 DeviceTraits traits_of(const Published& row) {
   const std::string name = row.name;

@@ -14,7 +14,7 @@ namespace ream::fe {
 namespace {
 
 constexpr size_t max_head_bytes = 1 << 16;
-constexpr uint64_t elements_of_block = 1 << 16;
+constexpr uint64_t elements_of_read = 1 << 16;
 
 /// A file that is read from any place.
 class ReadFile {
@@ -123,9 +123,9 @@ class VtuCheck {
     IdSet used;
     std::vector<Index> ids, end_of;
     std::vector<uint8_t> kind;
-    for (uint64_t first = 0; first < elements_; first += elements_of_block) {
+    for (uint64_t first = 0; first < elements_; first += elements_of_read) {
       progress(static_cast<double>(first) / static_cast<double>(elements_), "checking");
-      const uint64_t count = std::min(elements_of_block, elements_ - first);
+      const uint64_t count = std::min(elements_of_read, elements_ - first);
       file_.read(corners.begin + 8 * first * sizeof(Index), ids, 8 * count);
       file_.read(ends.begin + first * sizeof(Index), end_of, count);
       file_.read(kinds.begin + first, kind, count);
@@ -180,8 +180,8 @@ class VtuCheck {
                     numbers = array("material", "Int32", elements_ * 4);
     std::vector<float> gray, modulus;
     std::vector<int32_t> material;
-    for (uint64_t first = 0; first < elements_; first += elements_of_block) {
-      const uint64_t count = std::min(elements_of_block, elements_ - first);
+    for (uint64_t first = 0; first < elements_; first += elements_of_read) {
+      const uint64_t count = std::min(elements_of_read, elements_ - first);
       file_.read(grays.begin + first * 4, gray, count);
       file_.read(moduli.begin + first * 4, modulus, count);
       file_.read(numbers.begin + first * 4, material, count);

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "core/error.hpp"
+#include "core/signal_handlers.hpp"
 #include "core/text.hpp"
 #include "gpu/check.hpp"
 
@@ -93,6 +94,7 @@ std::vector<Device> list_devices() {
   check(clGetPlatformIDs(count, platforms.data(), nullptr), "clGetPlatformIDs");
   std::vector<Device> devices;
   for (const cl_platform_id platform : platforms) append_devices(platform, devices);
+  restore_handlers();  // PoCL has put one of its own in the place of ours
   return devices;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/signal_handlers.hpp"
 #include "gpu/binary_cache.hpp"
 #include "gpu/check.hpp"
 #include "ream_embedded_kernels.hpp"
@@ -77,6 +78,11 @@ Handle<_cl_program> from_binary(const Queue& queue, const std::vector<std::byte>
   return program;
 }
 
+/// A driver's compiler may put signal handlers of its own in the place of ours.
+struct HandlersBack {
+  ~HandlersBack() { restore_handlers(); }
+};
+
 }  // namespace
 
 Program::Program(const Queue& queue, std::string_view file_name, const std::string& options) {
@@ -92,6 +98,7 @@ Program Program::from_source(const Queue& queue, const std::string& name, const 
 
 void Program::build(const Queue& queue, const std::string& name, const std::string& source,
                     const std::string& extra_options) {
+  const HandlersBack handlers_back;
   const Device& device = queue.device();
   const std::string options = "-cl-std=CL1.2" + (extra_options.empty() ? "" : " " + extra_options);
   const std::string key =

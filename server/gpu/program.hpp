@@ -11,6 +11,7 @@ namespace ream::gpu {
 
 /// A kernel file of kernels/ built for a queue's device, taken from the binary cache when it was built
 /// before. Built without any unsafe arithmetic option, so that results are the same bits on every device.
+/// Signal handlers that the driver's compiler has installed meanwhile have gone again (restore_handlers).
 class Program {
  public:
   /// `file_name` as in kernels/, `options` e.g. "-D RADIUS=3". Throws Error not_found for an unknown file and

@@ -8,6 +8,7 @@
 #include "core/file.hpp"
 #include "core/log.hpp"
 #include "core/new_id.hpp"
+#include "core/signal_handlers.hpp"
 #include "core/thread_pool.hpp"
 
 namespace ream::jobs {
@@ -33,7 +34,7 @@ std::string about(const JobOrder& order) {
 
 struct JobService::Job {
   JobRecord record;
-  Task task;
+  Work work;  ///< until it runs
   std::atomic<bool> cancel_wanted{false};
   int64_t told_ns = 0;
 };
@@ -53,7 +54,7 @@ bool is_open(JobState state) { return state == JobState::waiting || state == Job
 
 JobService::JobService(JobOptions options) : options_(std::move(options)) {
   if (!options_.folder.empty()) remove_quietly(options_.folder);
-  thread_ = std::thread([this] { work(); });
+  thread_ = start_thread([this] { work(); });
 }
 
 JobService::~JobService() { shut_down(); }
@@ -71,7 +72,11 @@ void JobService::shut_down() {
 fs::path JobService::folder_of(const Job& job) const { return options_.folder / job.record.id; }
 
 void JobService::tell(const JobRecord& record) const {
-  if (options_.on_change) options_.on_change(record);
+  try {
+    if (options_.on_change) options_.on_change(record);
+  } catch (...) {
+    log::current_exception("a change of a job could not be told");
+  }
 }
 
 bool JobService::busy_locked(const std::string& case_id) const {
@@ -103,7 +108,7 @@ void JobService::forget_surplus() {
   }
 }
 
-JobRecord JobService::add(const JobOrder& order, Task task) {
+JobRecord JobService::add(const JobOrder& order, const std::shared_ptr<Job>& job) {
   JobRecord record;
   {
     const std::lock_guard lock(mutex_);
@@ -111,17 +116,15 @@ JobRecord JobService::add(const JobOrder& order, Task task) {
     if (!order.case_id.empty() && busy_locked(order.case_id))
       throw Error(ErrorKind::conflict,
                   "other work on case '" + order.case_id + "' is not done; wait for it or cancel it");
-    const auto waiting =
-        std::count_if(jobs_.begin(), jobs_.end(), [](const auto& job) { return is_open(job->record.state); });
+    const auto waiting = std::count_if(jobs_.begin(), jobs_.end(),
+                                       [](const auto& other) { return is_open(other->record.state); });
     if (waiting >= static_cast<std::ptrdiff_t>(most_waiting))
       throw Error(ErrorKind::unavailable, "too much work waits already; try again later");
-    const auto job = std::make_shared<Job>();
     job->record.id = random_id();
     job->record.number = ++submitted_;
     job->record.order = order;
     job->record.step = "waiting for its turn";
     job->record.created_utc = ream::utc_text(options_.now());
-    job->task = std::move(task);
     jobs_.push_back(job);
     forget_surplus();
     record = job->record;
@@ -132,32 +135,28 @@ JobRecord JobService::add(const JobOrder& order, Task task) {
 }
 
 JobRecord JobService::submit(const JobOrder& order, Work work) {
-  return add(order, [work = std::move(work)](Job&, const Progress& progress) { work(progress); });
-}
-
-JobRecord JobService::submit_session(const JobOrder& order, SessionWork work) {
-  return add(order, [this, work = std::move(work)](Job& job, const Progress& progress) {
-    std::string id = work(progress);
-    const std::lock_guard lock(mutex_);
-    job.record.order.session_id = std::move(id);
-  });
+  const auto job = std::make_shared<Job>();
+  job->work = std::move(work);
+  return add(order, job);
 }
 
 JobRecord JobService::submit_file(const JobOrder& order, FileWork work) {
   if (options_.folder.empty())
     throw Error(ErrorKind::unavailable, "this server has no folder for files that work makes");
-  return add(order, [this, work = std::move(work)](Job& job, const Progress& progress) {
-    const fs::path folder = folder_of(job);
+  const auto job = std::make_shared<Job>();
+  job->work = [this, &record = job->record, folder_work = std::move(work)](const Progress& progress) {
+    const fs::path folder = options_.folder / record.id;
     make_writable_folder(folder);
     try {
-      const MadeFile made = work(folder, progress);
+      const MadeFile made = folder_work(folder, progress);
       const std::lock_guard lock(mutex_);
-      job.record.result = JobResult{folder / made.name, made.media_type, fs::file_size(folder / made.name)};
+      record.result = JobResult{folder / made.name, made.media_type, fs::file_size(folder / made.name)};
     } catch (...) {
       remove_quietly(folder);
       throw;
     }
-  });
+  };
+  return add(order, job);
 }
 
 std::shared_ptr<JobService::Job> JobService::find(const std::string& id) const {
@@ -217,8 +216,13 @@ void JobService::work() {
     const auto job = *next;
     job->record.state = JobState::running;
     lock.unlock();
-    run(job);
+    try {
+      run(job);
+    } catch (...) {
+      log::current_exception("a job could not be ended in order");
+    }
     lock.lock();
+    if (is_open(job->record.state)) job->record.state = JobState::failed;
   }
 }
 
@@ -258,8 +262,8 @@ void JobService::run(const std::shared_ptr<Job>& job) {
   };
   try {
     progress(0.0, "beginning");
-    const Task task = std::exchange(job->task, {});
-    task(*job, progress);
+    const Work work = std::exchange(job->work, {});
+    work(progress);
     end(*job, JobState::done, ErrorKind::io, {});
   } catch (const Error& error) {
     const bool cancelled = error.kind() == ErrorKind::cancelled;
@@ -269,6 +273,9 @@ void JobService::run(const std::shared_ptr<Job>& job) {
     end(*job, JobState::failed, ErrorKind::unavailable, "there is not enough memory for this work");
   } catch (const std::exception& failure) {
     log::warn(about(job->record.order) + " failed: " + failure.what());
+    end(*job, JobState::failed, ErrorKind::io, "the work failed; the server's log says why");
+  } catch (...) {
+    log::current_exception("a job failed");
     end(*job, JobState::failed, ErrorKind::io, "the work failed; the server's log says why");
   }
 }

@@ -36,8 +36,6 @@ class JobService {
     std::string name, media_type;
   };
   using FileWork = std::function<MadeFile(const std::filesystem::path& folder, const Progress& progress)>;
-  /// Work that makes a session; returns its id.
-  using SessionWork = std::function<std::string(const Progress& progress)>;
 
   explicit JobService(JobOptions options = {});
   /// Cancels what runs and waits for it.
@@ -48,7 +46,6 @@ class JobService {
   /// Error conflict while other work on that case waits or runs; unavailable when too much waits.
   JobRecord submit(const JobOrder& order, Work work);
   JobRecord submit_file(const JobOrder& order, FileWork work);
-  JobRecord submit_session(const JobOrder& order, SessionWork work);
   /// Work of that kind on that session that waits or runs; none otherwise.
   std::optional<JobRecord> open_on_session(const std::string& kind, const std::string& session_id) const;
 
@@ -66,8 +63,7 @@ class JobService {
 
  private:
   struct Job;
-  using Task = std::function<void(Job& job, const Progress& progress)>;
-  JobRecord add(const JobOrder& order, Task task);
+  JobRecord add(const JobOrder& order, const std::shared_ptr<Job>& job);
   void work();
   void run(const std::shared_ptr<Job>& job);
   void note_progress(Job& job, double share, std::string_view step);

@@ -1,8 +1,7 @@
 #include "jobs/low_priority_executor.hpp"
 
-#include <future>
-
 #include "core/error.hpp"
+#include "core/signal_handlers.hpp"
 #include "core/thread_pool.hpp"
 
 namespace ream::jobs {
@@ -26,7 +25,7 @@ void LowPriorityExecutor::run(const std::function<void()>& work) {
   };
   try {
     const std::lock_guard one_at_a_time(working_);
-    std::async(std::launch::async, [&work] {
+    start_task([&work] {
       lower_thread_priority();
       work();
     }).get();

@@ -12,7 +12,7 @@ ConnectionRegistry::Place ConnectionRegistry::make_room(const std::string& addre
       ++here;
       if (connection->address() == address) ++of_address;
     }
-    const bool address_full = of_address >= limits.connections_per_address;
+    const bool address_full = !address.empty() && of_address >= limits.connections_per_address;
     if (!address_full && here < limits.connections) return Place::free;
     evicted = longest_waiting(address_full ? address : std::string());
     if (!evicted) return connections_.size() < 2 * limits.connections ? Place::busy : Place::overfull;

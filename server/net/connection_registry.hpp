@@ -56,8 +56,9 @@ class ConnectionRegistry {
     overfull,  ///< too many are being told so already
   };
 
-  /// Whether one more of `address` may come. Where all places are taken, of the server or of that address,
-  /// the connection that has waited longest for its peer is shut down for it.
+  /// Whether one more of `address` (empty: that of a proxy, which stands for many) may come. Where all places
+  /// are taken, of the server or of that address, the connection that has waited longest for its peer is shut
+  /// down for it.
   Place make_room(const std::string& address, const Limits& limits);
 
   /// False once closed: the connection must not begin. `leaving`: it takes no place, as it is about to end.

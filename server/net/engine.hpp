@@ -7,6 +7,7 @@
 
 #include "net/byte_budget.hpp"
 #include "net/channel.hpp"
+#include "net/client_address.hpp"
 #include "net/connection_registry.hpp"
 #include "net/limits.hpp"
 #include "net/rate_limiter.hpp"
@@ -23,14 +24,15 @@ struct Engine {
         limits(peer_limits),
         address_rate(peer_limits.requests_per_address),
         bodies(peer_limits.bodies_bytes),
-        workers(worker_threads, peer_limits.waiting_requests),
+        workers(worker_threads, peer_limits.waiting_requests, peer_limits.waiting_of_caller, true),
         file_readers(1, 2 * peer_limits.connections),
         io(static_cast<int>(io_threads)) {}
 
   const Router& router;
   const Limits limits;
   std::vector<std::string> public_names;
-  std::shared_ptr<TlsContext> tls;  ///< null: connections are plain
+  TrustedProxies proxies;
+  std::shared_ptr<RenewedTls> tls;  ///< null: connections are plain
   RateLimiter address_rate;
   ByteBudget bodies;
   ConnectionRegistry connections;
@@ -42,7 +44,8 @@ struct Engine {
 /// Who is connected and through which of our addresses; numeric, without ports.
 struct Ends {
   std::string peer, local;
-  std::string peer_key;  ///< what limits go by: the peer, of IPv6 its /64
+  std::string
+      peer_key;  ///< what limits of connections go by: limit_key() of the peer; empty: a trusted proxy
 };
 
 Ends ends_of(const Channel::Socket& socket);

@@ -93,7 +93,7 @@ void ReplyWriter::write_some() {
 /// The disk may take its time: a thread of its own waits for it.
 void ReplyWriter::fetch_piece() {
   watchdog_.disarm();
-  const bool taken = engine_.file_readers.submit([this, owner = reply_.owner.lock()] {
+  const auto taken = engine_.file_readers.submit([this, owner = reply_.owner.lock()] {
     const bool whole = read_piece();
     asio::post(channel_.get_executor(), [this, owner, whole] {
       outgoing_ = {asio::buffer(piece_), asio::const_buffer()};
@@ -103,18 +103,18 @@ void ReplyWriter::fetch_piece() {
         watchdog_.close();
     });
   });
-  if (!taken) watchdog_.close();
+  if (taken != WorkerPool::Taken::yes) watchdog_.close();
 }
 
 /// False when the file is not what it was: what was promised cannot be sent any more.
 bool ReplyWriter::read_piece() {
   FileStretch& stretch = *reply_.file;
-  piece_.resize(std::min<uint64_t>(stretch.bytes, engine_.limits.file_piece_bytes));
   try {
+    piece_.resize(std::min<uint64_t>(stretch.bytes, engine_.limits.file_piece_bytes));
     if (stretch.file->read(stretch.offset, piece_) < piece_.size())
       throw Error(ErrorKind::io, "a file became shorter while it was sent");
-  } catch (const Error& failure) {
-    log::error(failure.what());
+  } catch (...) {
+    log::current_exception("a file could not be sent whole");
     return false;
   }
   stretch.offset += piece_.size();
@@ -140,7 +140,9 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
         channel_(std::move(socket)),
         watchdog_(channel_),
         writer_(engine, channel_, watchdog_),
-        parser_(engine.limits) {}
+        parser_(engine.limits) {
+    encrypted_ = engine.tls != nullptr;
+  }
   ~HttpConnection() override { engine_.connections.remove(this); }
 
   void start(bool refuse) {
@@ -167,6 +169,11 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
   void abandon() noexcept override { watchdog_.close(); }
 
  private:
+  void fail_plain() {
+    encrypted_ = false;
+    fail(400, "this port speaks TLS only: ask for it with https:// or wss://");
+  }
+
   void await_handshake() {
     set_wait(Wait::head);
     watchdog_.arm(engine_.limits.header, shared_from_this());
@@ -175,8 +182,9 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
       if (failed)
         self->watchdog_.close();
       else if (static_cast<unsigned char>(self->received_.front()) != tls_handshake_byte)
-        self->fail(400, "this port speaks TLS only: ask for it with https:// or wss://");
-      else if (self->engine_.address_rate.take(self->address(), self->engine_.limits.handshake_cost) > 0.0)
+        self->fail_plain();
+      else if (!self->address().empty() &&
+               self->engine_.address_rate.take(self->address(), self->engine_.limits.handshake_cost) > 0.0)
         self->watchdog_.close();
       else
         self->start_tls(bytes);
@@ -184,7 +192,7 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
   }
 
   void start_tls(size_t bytes) {
-    channel_.async_encrypt(*engine_.tls, asio::buffer(received_, bytes),
+    channel_.async_encrypt(*engine_.tls->current(), asio::buffer(received_, bytes),
                            [self = shared_from_this()](error_code failed) {
                              if (failed)
                                self->watchdog_.close();
@@ -253,18 +261,23 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
   /// False when the request goes no further, or not from here.
   bool on_head() {
     Request& request = parser_.request();
-    request.peer = ends_.peer;
-    request.encrypted = channel_.encrypted();
     keep_alive_ = parser_.keep_alive();
     head_only_ = request.method == "HEAD";
+    try {
+      engine_.proxies.resolve(request, ends_.peer, channel_.encrypted());
+    } catch (const RequestError& error) {
+      fail(error.status(), error.what());
+      return false;
+    }
+    encrypted_ = request.encrypted;
     const Limits& limits = engine_.limits;
     pace_ = TransferPace(TransferPace::Clock::now(), limits.body, limits.body, limits.min_bytes_per_s);
     const bool is_websocket = wants_websocket(request);
     if (auto refusal = refuse_foreign(request, is_websocket, {engine_.public_names, ends_.local})) {
       refuse(std::move(*refusal));
-    } else if (const double wait_s = engine_.address_rate.take(address()); wait_s > 0.0) {
-      refuse(too_many_requests("too many requests from " + ends_.peer + "; wait and send fewer", wait_s));
-    } else if (!(body_lease_ = engine_.bodies.lend(parser_.announced_bytes().value_or(limits.body_bytes)))) {
+    } else if (const double wait_s = engine_.address_rate.take(limit_key(request.peer)); wait_s > 0.0) {
+      refuse(too_many_requests("too many requests from " + request.peer + "; wait and send fewer", wait_s));
+    } else if (!lend_body(parser_.announced_bytes().value_or(limits.body_bytes))) {
       fail(503, "the server has too many request bodies to hold; try again");
     } else if (is_websocket) {
       open_websocket();
@@ -274,6 +287,11 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
       return true;
     }
     return false;
+  }
+
+  bool lend_body(size_t bytes) {
+    if (bytes > engine_.limits.small_body_bytes) body_lease_ = engine_.bodies.lend(bytes);
+    return bytes <= engine_.limits.small_body_bytes || body_lease_;
   }
 
   void send_continue() {
@@ -297,18 +315,37 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
     stop_waiting();
     Request request = std::move(parser_.request());
     request.body = parser_.take_body();
-    const bool taken =
-        engine_.workers.submit([self = shared_from_this(), request = std::move(request)]() mutable {
+    const Urgency urgency = engine_.router.urgency_of(request);
+    const std::string caller = caller_of(request);
+    have_done(
+        [self = shared_from_this(), request = std::move(request)]() mutable {
           Response response = self->engine_.router.respond(std::move(request));
           asio::post(self->channel_.get_executor(),
                      [self, response = std::move(response)]() mutable { self->write(std::move(response)); });
-        });
-    if (!taken) fail(503, "the server is busy; try again");
+        },
+        urgency, caller);
+  }
+
+  /// Whoever shows the same credentials from the same address; who they are is not known yet.
+  std::string caller_of(const Request& request) const {
+    std::string caller = address();
+    for (const char* name : {"authorization", "cookie"}) caller.append("\n").append(request.header(name));
+    return caller;
+  }
+
+  /// By a worker.
+  void have_done(std::function<void()> job, Urgency urgency, const std::string& caller) {
+    switch (engine_.workers.submit(std::move(job), urgency, caller)) {
+      case WorkerPool::Taken::yes: return;
+      case WorkerPool::Taken::full: fail(503, "the server is busy; try again"); return;
+      case WorkerPool::Taken::caller_full:
+        refuse(too_many_requests("too many of your requests wait for an answer; wait for some", 1.0));
+    }
   }
 
   void open_websocket() {
     stop_waiting();
-    const bool taken = engine_.workers.submit([self = shared_from_this()] {
+    const auto open = [self = shared_from_this()] {
       auto opened = std::make_shared<Router::Opened>(self->engine_.router.open(self->parser_.request()));
       asio::post(self->channel_.get_executor(), [self, opened] {
         if (!opened->session)
@@ -317,8 +354,8 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
           start_websocket(self->engine_, std::move(self->channel_), self->ends_,
                           std::move(self->parser_.request()), std::move(opened->session));
       });
-    });
-    if (!taken) fail(503, "the server is busy; try again");
+    };
+    have_done(open, Urgency::usual, caller_of(parser_.request()));
   }
 
   /// The peer sends no more: say why there is no answer where there is still somebody to say it to.
@@ -341,8 +378,7 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
     stop_waiting();
     keep_alive_ = keep_alive_ && !ending_;
     const bool with_body = !std::exchange(head_only_, false);
-    writer_.send({weak_from_this(),
-                  response_head(response, security_headers(channel_.encrypted()), keep_alive_),
+    writer_.send({weak_from_this(), response_head(response, security_headers(encrypted_), keep_alive_),
                   with_body ? std::move(response.body) : nullptr,
                   with_body ? std::move(response.file) : std::nullopt, [this] { on_written(); }});
   }
@@ -376,6 +412,7 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
   TransferPace pace_;
   bool keep_alive_ = false;
   bool head_only_ = false;
+  bool encrypted_ = false;  ///< as far as the client of the last request is concerned
   bool ending_ = false;
 };
 

@@ -22,7 +22,9 @@ struct Limits {
   // finds a place at once; only where all are busy is the newcomer answered 503.
   size_t connections = 512;
   size_t connections_per_address = 256;  ///< IPv6: of one /64
-  size_t waiting_requests = 128;         ///< not yet taken by a worker; more are answered 503
+  size_t waiting_requests = 128;         ///< of one urgency, not yet taken by a worker; more are answered 503
+  size_t waiting_of_caller = 64;         ///< among them; more are answered 429
+  size_t small_body_bytes = 4 * 1024;    ///< are always held, whatever bodies_bytes says
 
   // Rates; what is beyond is answered 429 with Retry-After, before any handler runs.
   Rate requests_per_address{1000.0, 2000.0};

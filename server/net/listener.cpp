@@ -14,6 +14,8 @@
 
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "core/periodic_task.hpp"
+#include "core/signal_handlers.hpp"
 #include "net/engine.hpp"
 #include "net/guard.hpp"
 
@@ -83,21 +85,14 @@ std::string text_of(const asio::ip::address& address) {
   return text.substr(0, text.find('%'));
 }
 
-/// Whoever has an IPv6 address has its whole /64.
-std::string key_of(const asio::ip::address& address) {
-  if (address.is_v4()) return text_of(address);
-  auto bytes = address.to_v6().to_bytes();
-  std::fill(bytes.begin() + 8, bytes.end(), uint8_t{0});
-  return asio::ip::address_v6(bytes).to_string() + "/64";
-}
-
 }  // namespace
 
 Ends ends_of(const Channel::Socket& socket) {
   boost::system::error_code failed;
   const auto peer = plain_address(socket.remote_endpoint(failed).address());
   const auto local = plain_address(socket.local_endpoint(failed).address());
-  return {text_of(peer), text_of(local), key_of(peer)};
+  const std::string address = text_of(peer);
+  return {address, text_of(local), limit_key(address)};
 }
 
 struct Listener::Parts {
@@ -108,9 +103,11 @@ struct Listener::Parts {
         pause(acceptor.get_executor()),
         io_threads(options.io_threads) {
     for (const std::string& name : options.public_names) engine.public_names.push_back(plain_host(name));
-    if (options.tls) engine.tls = std::make_shared<TlsContext>(*options.tls);
+    engine.proxies = TrustedProxies(options.trusted_proxies);
+    if (options.tls) engine.tls = std::make_shared<RenewedTls>(*options.tls);
     open(acceptor, options);
-    if (engine.tls && !engine.tls->warning().empty()) log::warn(engine.tls->warning());
+    if (engine.tls && !engine.tls->current()->warning().empty()) log::warn(engine.tls->current()->warning());
+    look_at_certificate_every = options.look_at_certificate_every;
     bound_port = acceptor.local_endpoint().port();
   }
 
@@ -130,6 +127,7 @@ struct Listener::Parts {
   void start_connection(tcp::socket socket) {
     using Place = ConnectionRegistry::Place;
     Ends ends = ends_of(socket);
+    if (engine.proxies.trusts(ends.peer)) ends.peer_key.clear();
     const Place place = engine.connections.make_room(ends.peer_key, engine.limits);
     if (place == Place::overfull) return;
     boost::system::error_code ignored;
@@ -152,8 +150,8 @@ struct Listener::Parts {
       try {
         engine.io.run();
         return;
-      } catch (const std::exception& failure) {
-        log::error(std::string("a connection failed: ") + failure.what());
+      } catch (...) {
+        log::current_exception("a connection failed");
       }
     }
   }
@@ -163,12 +161,17 @@ struct Listener::Parts {
     engine.io.restart();
     try {
       engine.io.poll();
-    } catch (const std::exception& failure) {
-      log::error(std::string("a connection failed at the end: ") + failure.what());
+    } catch (...) {
+      log::current_exception("a connection failed at the end");
     }
   }
 
+  std::chrono::milliseconds look_at_certificate_every{};
   Engine engine;
+  PeriodicTask certificate{"certificate", [this] {
+                             engine.tls->look();
+                             return look_at_certificate_every;
+                           }};
   /// While a handler runs, its connection has nothing pending: the I/O threads must not take that for the
   /// end.
   asio::executor_work_guard<asio::io_context::executor_type> until_stopped;
@@ -189,13 +192,16 @@ uint16_t Listener::port() const { return parts_->bound_port; }
 
 void Listener::start() {
   asio::post(parts_->acceptor.get_executor(), [parts = parts_.get()] { parts->accept(); });
+  parts_->threads.reserve(parts_->io_threads);
+  if (parts_->engine.tls) parts_->certificate.start(parts_->look_at_certificate_every);
   for (size_t i = 0; i < parts_->io_threads; ++i)
-    parts_->threads.emplace_back([parts = parts_.get()] { parts->run_io(); });
+    parts_->threads.push_back(start_thread([parts = parts_.get()] { parts->run_io(); }));
 }
 
 void Listener::stop() {
   if (parts_->stopped) return;
   parts_->stopped = true;
+  parts_->certificate.stop();
   Engine& engine = parts_->engine;
   asio::post(parts_->acceptor.get_executor(), [parts = parts_.get()] {
     boost::system::error_code ignored;

@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -6,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "net/client_address.hpp"
 #include "net/limits.hpp"
 #include "net/router.hpp"
 #include "net/tls.hpp"
@@ -21,9 +23,12 @@ struct ListenOptions {
   /// Names and addresses by which people reach this server from elsewhere, besides the address it listens on;
   /// without scheme and port. Requests for any other host are refused.
   std::vector<std::string> public_names;
+  /// Peers that say for whom they ask. They may open connections as many as there are places.
+  std::vector<TrustedProxy> trusted_proxies;
   std::optional<TlsOptions> tls;  ///< with it the port speaks HTTPS only
-  size_t io_threads = 1;          ///< sockets
-  size_t worker_threads = 4;      ///< request handlers, which may block
+  std::chrono::milliseconds look_at_certificate_every = std::chrono::minutes(1);
+  size_t io_threads = 1;      ///< sockets
+  size_t worker_threads = 4;  ///< request handlers, which may block; more are kept for urgent ones
   Limits limits;
 };
 

@@ -12,7 +12,7 @@
 
 namespace ream::net {
 
-/// Who asks, as the router's gate has found out; net itself does not look. Without users everybody is an
+/// Who asks, as the router's policy has found out; net itself does not look. Without users everybody is an
 /// operator with an empty user_id.
 struct Caller {
   std::string user_id;       ///< empty: nobody in particular (no users, or a viewer link)
@@ -36,9 +36,11 @@ struct Request {
   std::map<std::string, std::string> headers;     ///< names in lower case; repeated ones joined by ", "
   std::map<std::string, std::string> parameters;  ///< what the {names} of the route's pattern matched
   std::string body;
-  std::string peer;        ///< numeric address of who is connected, without the port
-  bool encrypted = false;  ///< came over TLS
-  Caller caller;           ///< set by the router's gate
+  std::shared_ptr<const nlohmann::json> json;  ///< the body once it was read and checked; null: no JSON
+  std::string peer;        ///< numeric address of the client, without the port; see TrustedProxies
+  bool encrypted = false;  ///< came from there over TLS
+  bool passed_on = false;  ///< by a proxy, as far as can be seen
+  Caller caller;           ///< set by the router's policy
 
   /// Value of a header, empty when absent. `name` in lower case.
   std::string_view header(const std::string& name) const;

@@ -2,11 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 #include "core/json.hpp"
 #include "core/log.hpp"
 
 namespace ream::net {
+namespace {
+
+constexpr const char* failed_words = "the server failed on this request; its log says why";
+
+}  // namespace
 
 int http_status(ErrorKind kind) {
   switch (kind) {
@@ -81,7 +87,26 @@ Response problem_of(const std::exception& failure) {
     return problem(http_status(error->kind()), error->what());
   }
   log::error(std::string("a request handler failed: ") + failure.what());
-  return problem(500, "the server failed on this request; its log says why");
+  if (dynamic_cast<const std::bad_alloc*>(&failure) != nullptr)
+    return problem(503, "there is not enough memory for this request; try again later");
+  return problem(500, failed_words);
+}
+
+Response problem_of_current_exception() noexcept {
+  try {
+    try {
+      throw;
+    } catch (const std::exception& failure) {
+      return problem_of(failure);
+    } catch (...) {
+      log::current_exception("a request handler failed");
+      return problem(500, failed_words);
+    }
+  } catch (...) {
+    Response without_words;
+    without_words.status = 503;
+    return without_words;
+  }
 }
 
 }  // namespace ream::net

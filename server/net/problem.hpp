@@ -4,14 +4,13 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/json_schema.hpp"
 #include "net/message.hpp"
 
 namespace ream::net {
 
-/// One thing wrong with a request body: where (a JSON pointer, "#/force_scale") and what.
-struct FieldError {
-  std::string pointer, detail;
-};
+/// One thing wrong with a request.
+using FieldError = SchemaFault;
 
 using Headers = std::vector<std::pair<std::string, std::string>>;
 
@@ -49,8 +48,12 @@ Response problem(int status, const std::string& detail, const std::vector<FieldE
 /// 429 with Retry-After. `wait_s`: until there is room again, rounded up to whole seconds.
 Response too_many_requests(const std::string& detail, double wait_s);
 
-/// Problem of an exception that left a handler. What is not an Error becomes a plain 500; its words go to the
-/// log only.
+/// Problem of an exception that left a handler. Want of memory is a 503. What else is not an Error becomes a
+/// plain 500; its words go to the log only.
 Response problem_of(const std::exception& failure);
+
+/// For a catch (...) around a handler: the problem of whatever it is, or 503 without words where there is not
+/// even memory for them.
+Response problem_of_current_exception() noexcept;
 
 }  // namespace ream::net

@@ -50,47 +50,46 @@ Response upgrade_required(const Request& request) {
 
 }  // namespace
 
-void Router::on(const std::string& method, const std::string& pattern, Handler handler) {
-  entries_.push_back({method, pattern, segments_of(pattern), std::move(handler), {}});
+void Router::on(const std::string& method, const std::string& pattern, Handler handler, Urgency urgency) {
+  entries_.push_back({method, segments_of(pattern), std::move(handler), {}, urgency});
 }
 
 void Router::on_websocket(const std::string& pattern, WebSocketHandler handler) {
-  entries_.push_back({"GET", pattern, segments_of(pattern), upgrade_required, std::move(handler)});
+  entries_.push_back({"GET", segments_of(pattern), upgrade_required, std::move(handler)});
+}
+
+Urgency Router::urgency_of(const Request& request) const {
+  const std::vector<std::string> path = segments_of(request.path);
+  for (const Entry& entry : entries_)
+    if (entry.method == request.method && matches(entry.segments, path)) return entry.urgency;
+  return Urgency::usual;
 }
 
 void Router::otherwise(Handler handler) { otherwise_ = std::move(handler); }
 
-void Router::guard(Gate gate) { gate_ = std::move(gate); }
-
 void Router::pace_callers(Rate rate) { callers_ = std::make_shared<RateLimiter>(rate); }
 
-void Router::wrap_websockets(WebSocketWrapper wrapper) { wrapper_ = std::move(wrapper); }
-
-void Router::check(Check check) { check_ = std::move(check); }
-
-void Router::around(Around around) { around_ = std::move(around); }
-
-std::optional<Response> Router::admit(Request& request, const std::string& pattern) const {
-  if (gate_) gate_(request, pattern);
+std::optional<Response> Router::admit(Request& request, size_t route) const {
+  if (policy_) policy_->authorize(request, route);
   const Caller& caller = request.caller;
   const std::string& key = caller.user_id.empty() ? caller.credential : caller.user_id;
-  if (!callers_ || key.empty()) return std::nullopt;
-  const double wait_s = callers_->take(key);
-  if (wait_s <= 0.0) return std::nullopt;
-  return too_many_requests("too many requests of one user; wait and send fewer", wait_s);
+  const double wait_s = callers_ && !key.empty() ? callers_->take(key) : 0.0;
+  if (wait_s > 0.0) return too_many_requests("too many requests of one user; wait and send fewer", wait_s);
+  if (policy_) policy_->check(request, route);
+  return std::nullopt;
 }
 
 Response Router::dispatch(Request& request) const {
   const std::vector<std::string> path = segments_of(request.path);
   const std::string method = request.method == "HEAD" ? "GET" : request.method;
   std::set<std::string> allowed;
-  for (const Entry& entry : entries_) {
+  for (size_t route = 0; route < entries_.size(); ++route) {
+    const Entry& entry = entries_[route];
     if (!matches(entry.segments, path)) continue;
     if (entry.method == method) {
       take_parameters(entry.segments, path, request);
-      if (auto refusal = admit(request, entry.pattern)) return *refusal;
-      if (check_) check_(request, entry.pattern);
-      return around_ ? around_(request, entry.pattern, entry.handler) : entry.handler(request);
+      if (auto refusal = admit(request, route)) return *refusal;
+      return policy_ ? policy_->answer(request, route, entry.handler) : entry.handler(request);
     }
     allowed.insert(entry.method);
     if (entry.method == "GET") allowed.insert("HEAD");
@@ -98,39 +97,32 @@ Response Router::dispatch(Request& request) const {
   if (!allowed.empty()) return method_not_allowed(request, allowed);
   if (!otherwise_) throw Error(ErrorKind::not_found, "nothing is served at " + request.path);
   if (method != "GET") return method_not_allowed(request, {"GET", "HEAD"});
-  if (auto refusal = admit(request, {})) return *refusal;
   return otherwise_(request);
 }
 
 Response Router::respond(Request request) const {
   try {
     return dispatch(request);
-  } catch (const std::exception& failure) {
-    return problem_of(failure);
+  } catch (...) {
+    return problem_of_current_exception();
   }
 }
 
 Router::Opened Router::open(Request request) const {
   try {
     const std::vector<std::string> path = segments_of(request.path);
-    for (const Entry& entry : entries_) {
+    for (size_t route = 0; route < entries_.size(); ++route) {
+      const Entry& entry = entries_[route];
       if (!entry.websocket_handler || !matches(entry.segments, path)) continue;
       take_parameters(entry.segments, path, request);
-      if (auto refusal = admit(request, entry.pattern)) return {nullptr, *refusal};
-      if (check_) check_(request, entry.pattern);
+      if (auto refusal = admit(request, route)) return {nullptr, *refusal};
       auto session = entry.websocket_handler(request);
-      return {wrapper_ ? wrapper_(request, std::move(session)) : std::move(session), {}};
+      return {policy_ ? policy_->opened(request, route, std::move(session)) : std::move(session), {}};
     }
     throw Error(ErrorKind::not_found, "no WebSocket is served at " + request.path);
-  } catch (const std::exception& failure) {
-    return {nullptr, problem_of(failure)};
+  } catch (...) {
+    return {nullptr, problem_of_current_exception()};
   }
-}
-
-std::vector<Router::Route> Router::routes() const {
-  std::vector<Route> list;
-  for (const Entry& entry : entries_) list.push_back({entry.method, entry.pattern});
-  return list;
 }
 
 }  // namespace ream::net

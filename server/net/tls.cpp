@@ -4,12 +4,14 @@
 #include <openssl/pem.h>
 #include <openssl/ssl.h>
 #include <openssl/x509.h>
+#include <sys/stat.h>
 #include <boost/asio/ssl/context.hpp>
 
 #include <string>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/log.hpp"
 
 namespace ream::net {
 namespace fs = std::filesystem;
@@ -109,5 +111,42 @@ TlsContext::TlsContext(const TlsOptions& options)
 }
 
 TlsContext::~TlsContext() = default;
+
+RenewedTls::RenewedTls(TlsOptions options)
+    : options_(std::move(options)), stamp_(stamp()), context_(std::make_shared<TlsContext>(options_)) {}
+
+std::shared_ptr<TlsContext> RenewedTls::current() const {
+  const std::lock_guard lock(mutex_);
+  return context_;
+}
+
+/// Differs after one of the files was replaced or written.
+std::string RenewedTls::stamp() const {
+  std::string text;
+  for (const fs::path& file : {options_.certificate_chain, options_.key}) {
+    struct stat found {};
+    if (::stat(file.c_str(), &found) != 0) return {};
+    for (const auto number :
+         {static_cast<int64_t>(found.st_ino), static_cast<int64_t>(found.st_size),
+          static_cast<int64_t>(found.st_mtim.tv_sec), static_cast<int64_t>(found.st_mtim.tv_nsec)})
+      text += std::to_string(number) + " ";
+  }
+  return text;
+}
+
+void RenewedTls::look() {
+  const std::string now = stamp();
+  if (now == stamp_) return;
+  stamp_ = now;
+  try {
+    auto renewed = std::make_shared<TlsContext>(options_);
+    if (!renewed->warning().empty()) log::warn(renewed->warning());
+    const std::lock_guard lock(mutex_);
+    context_ = std::move(renewed);
+    log::info("the certificate in " + options_.certificate_chain.string() + " is read anew");
+  } catch (const Error& failure) {
+    log::warn(std::string("the old certificate goes on: ") + failure.what());
+  }
+}
 
 }  // namespace ream::net

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <string>
 
 namespace boost::asio::ssl {
@@ -30,6 +31,27 @@ class TlsContext {
  private:
   std::unique_ptr<boost::asio::ssl::context> context_;
   std::string warning_;
+};
+
+/// The context of files that may be replaced while the server runs, as certificates are every few months.
+/// Connections that are open keep theirs. Thread-safe.
+class RenewedTls {
+ public:
+  /// Errors as for TlsContext.
+  explicit RenewedTls(TlsOptions options);
+
+  std::shared_ptr<TlsContext> current() const;
+  /// Reads the files again when they are others than before. Those that cannot be used are said in the log,
+  /// and what was good before goes on.
+  void look();
+
+ private:
+  std::string stamp() const;
+
+  const TlsOptions options_;
+  mutable std::mutex mutex_;
+  std::string stamp_;  ///< of the files that were read last
+  std::shared_ptr<TlsContext> context_;
 };
 
 }  // namespace ream::net

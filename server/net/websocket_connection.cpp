@@ -55,7 +55,7 @@ class WebSocketConnection final : public Connection,
     timeouts.idle_timeout = engine_.limits.idle;
     timeouts.keep_alive_pings = true;
     stream_.set_option(timeouts);
-    const bool encrypted = stream_.next_layer().encrypted();
+    const bool encrypted = request.encrypted;
     stream_.set_option(websocket::stream_base::decorator([encrypted](websocket::response_type& response) {
       for (const auto& [name, value] : security_headers(encrypted)) response.set(name, value);
     }));

@@ -10,6 +10,7 @@
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "core/signal_handlers.hpp"
 
 namespace ream::openigtlink {
 namespace {
@@ -37,7 +38,7 @@ Server::Server(ServerOptions options, std::shared_ptr<const ActiveSession> activ
       socket_(options_.host, options_.port),
       wake_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
   if (!wake_) throw Error(ErrorKind::unavailable, "OpenIGTLink: too many files are open in this program");
-  thread_ = std::thread([this] { run(); });
+  thread_ = start_thread([this] { run(); });
 }
 
 Server::~Server() {
@@ -52,10 +53,10 @@ void Server::run() noexcept {
     try {
       wait_for_events();
       poll_once();
-    } catch (const std::exception& e) {
+    } catch (...) {
+      log::current_exception("OpenIGTLink: its clients were disconnected");
       clients_.clear();
       unsubscribe();
-      log::error(std::string("OpenIGTLink: its clients were disconnected: ") + e.what());
       std::this_thread::sleep_for(after_failure);
     }
   }

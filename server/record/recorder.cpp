@@ -16,6 +16,7 @@
 
 #include "core/clock.hpp"
 #include "core/error.hpp"
+#include "core/signal_handlers.hpp"
 #include "record/brick_deltas.hpp"
 
 namespace ream::record {
@@ -142,7 +143,7 @@ struct Recorder::Impl {
     writer.close_chunk();
     writer.sync();
     bytes_written = writer.bytes_written();
-    thread = std::thread([this] { write_chunks(); });
+    thread = start_thread([this] { write_chunks(); });
   }
 
   void write_chunks() {

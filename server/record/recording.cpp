@@ -1,9 +1,9 @@
 #include "record/recording.hpp"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/json.hpp"
 
 namespace ream::record {
 namespace {
@@ -40,7 +40,7 @@ std::string grid_to_text(const voxel::VoxelGrid& grid) {
 
 voxel::VoxelGrid grid_from_text(const std::string& text) {
   try {
-    const json grid = json::parse(text);
+    const json grid = parse_json_or_discard(text);
     const auto vector = [](const json& list) {
       return Vec3(list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>());
     };

@@ -15,7 +15,7 @@ namespace {
 constexpr Type body{8.5, grey(0.12), false, Anchor::left}, soft{8.0, grey(0.38), false, Anchor::left};
 constexpr Type small{7.2, grey(0.3), false, Anchor::left};
 constexpr Stroke hair{0.4, grey(0.8), false};
-constexpr double picture_gap = 14.0, chart_height = 128.0;
+constexpr double picture_gap = 14.0, pdf_chart_height = 128.0;
 
 constexpr double text_size = 7.8;
 
@@ -246,12 +246,12 @@ void PdfPages::chart(const Chart& chart, double left, double width, double heigh
 }
 
 void PdfPages::course() {
-  heading("Course", report_.charts.empty() ? 14.0 : chart_height);
+  heading("Course", report_.charts.empty() ? 14.0 : pdf_chart_height);
   words(report_.why_no_charts, body);
   for (const Chart& each : report_.charts) {
-    need(chart_height);
-    chart(each, margin, text_width, chart_height);
-    y_ += chart_height + 4.0;
+    need(pdf_chart_height);
+    chart(each, margin, text_width, pdf_chart_height);
+    y_ += pdf_chart_height + 4.0;
   }
   remarks();
 }
@@ -275,12 +275,12 @@ void PdfPages::learning() {
   heading("Learning", 40.0);
   words(report_.learning_words, body);
   if (!report_.learning_charts.empty()) {
-    need(chart_height);
+    need(pdf_chart_height);
     const double width = 0.5 * (text_width - picture_gap);
     for (size_t i = 0; i < report_.learning_charts.size(); ++i)
       chart(report_.learning_charts[i], margin + static_cast<double>(i) * (width + picture_gap), width,
-            chart_height);
-    y_ += chart_height + 4.0;
+            pdf_chart_height);
+    y_ += pdf_chart_height + 4.0;
   }
   if (report_.benchmark.empty()) return;
   small_heading(report_.benchmark_words, 20.0);

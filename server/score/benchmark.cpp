@@ -22,10 +22,10 @@ struct ExpertValue {
   double value = 0.0;
 };
 
-std::vector<ExpertValue> values_in(const std::vector<MeasuredSession>& sessions, std::string_view metric) {
+std::vector<ExpertValue> values_in(const std::vector<EndedSession>& sessions, std::string_view metric) {
   std::vector<ExpertValue> found;
-  for (const MeasuredSession& session : sessions)
-    if (const auto value = session.value(metric)) found.push_back({session.session, *value});
+  for (const EndedSession& session : sessions)
+    if (const auto value = session.value(metric)) found.push_back({session.id, *value});
   return found;
 }
 
@@ -75,12 +75,6 @@ BenchmarkLine line_from(JsonReader& reader) {
 
 }  // namespace
 
-std::optional<double> MeasuredSession::value(std::string_view metric) const {
-  const auto found = metrics.find(std::string(metric));
-  if (found == metrics.end() || !found->is_number()) return std::nullopt;
-  return found->get<double>();
-}
-
 Spread spread_of(std::span<const double> values) {
   Spread result;
   for (const double value : values) result.mean += value;
@@ -91,12 +85,12 @@ Spread spread_of(std::span<const double> values) {
   return result;
 }
 
-Benchmark make_benchmark(const std::string& name, const std::vector<MeasuredSession>& experts) {
+Benchmark make_benchmark(const std::string& name, const std::vector<EndedSession>& experts) {
   if (experts.empty())
     throw Error(ErrorKind::invalid_input, "benchmark '" + name + "': no expert's session is given");
   Benchmark benchmark;
   benchmark.name = name;
-  for (const MeasuredSession& session : experts) benchmark.sessions.push_back(session.session);
+  for (const EndedSession& session : experts) benchmark.sessions.push_back(session.id);
   for (const Metric& metric : metric_catalogue()) {
     const std::optional<Better> aim = aim_of(metric);
     if (!aim) continue;

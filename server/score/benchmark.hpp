@@ -6,18 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "score/ended_session.hpp"
 #include "score/metric_catalogue.hpp"
 
 namespace ream::score {
-
-/// A session's id and its metrics.json.
-struct MeasuredSession {
-  std::string session;
-  nlohmann::json metrics;
-
-  /// Empty: it is missing.
-  std::optional<double> value(std::string_view metric) const;
-};
 
 /// Mean and standard deviation (n - 1) of at least two values.
 struct Spread {
@@ -48,7 +40,7 @@ inline constexpr double dropped_from_z = 1.96;
 
 /// Over all metrics that have an aim and that an expert's session has. Error invalid_input when there is no
 /// session.
-Benchmark make_benchmark(const std::string& name, const std::vector<MeasuredSession>& experts);
+Benchmark make_benchmark(const std::string& name, const std::vector<EndedSession>& experts);
 
 /// Error not_found, invalid_input (names file and key).
 Benchmark load_benchmark(const std::filesystem::path& path);

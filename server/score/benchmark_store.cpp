@@ -91,8 +91,8 @@ KeptBenchmark BenchmarkStore::keep(KeptBenchmark wanted) const {
   } while (fs::exists(folder_ / (wanted.id + ".json"), failed));
   wanted.created_utc = utc_now();
   const fs::path file = folder_ / (wanted.id + ".json");
-  write_file_atomically(cuts_beside(file), cuts_json(wanted).dump(2) + "\n");
-  write_file_atomically(file, score::benchmark_json(wanted.benchmark).dump(2) + "\n");
+  write_json_file(cuts_beside(file), cuts_json(wanted));
+  write_json_file(file, score::benchmark_json(wanted.benchmark));
   return wanted;
 }
 

@@ -115,7 +115,7 @@ void write_deviation(const std::filesystem::path& json_path, const std::string& 
                                       {"range_mm", deviation_range_mm},
                                       {"unknown", deviation_unknown},
                                       {"fields", listed}};
-  write_file_atomically(json_path, description.dump(2) + "\n");
+  write_json_file(json_path, description);
 }
 
 }  // namespace ream::score

@@ -132,11 +132,11 @@ std::optional<double> best_crossing(const Groups& groups, double novice_mean, do
   return best;
 }
 
-using Value = std::function<std::optional<double>(const MeasuredSession&)>;
+using Value = std::function<std::optional<double>(const EndedSession&)>;
 
-std::vector<double> values_in(const std::vector<MeasuredSession>& sessions, const Value& value) {
+std::vector<double> values_in(const std::vector<EndedSession>& sessions, const Value& value) {
   std::vector<double> values;
-  for (const MeasuredSession& session : sessions)
+  for (const EndedSession& session : sessions)
     if (const auto number = value(session)) values.push_back(*number);
   return values;
 }
@@ -195,9 +195,9 @@ GroupCut contrasting_groups(std::span<const double> novices, std::span<const dou
 
 std::string_view to_text(Density density) { return density == Density::normal ? "normal" : "kernel"; }
 
-json group_cuts_json(const std::vector<MeasuredSession>& novices, const std::vector<MeasuredSession>& experts,
+json group_cuts_json(const std::vector<EndedSession>& novices, const std::vector<EndedSession>& experts,
                      const Rubric& rubric, Density density) {
-  const Value points = [&](const MeasuredSession& session) {
+  const Value points = [&](const EndedSession& session) {
     return apply_rubric(rubric, session.metrics).points;
   };
   json cuts =
@@ -205,7 +205,7 @@ json group_cuts_json(const std::vector<MeasuredSession>& novices, const std::vec
   for (const Metric& metric : metric_catalogue()) {
     if (!aim_of(metric)) continue;
     const std::string key(metric.key);
-    const Value value = [&](const MeasuredSession& session) { return session.value(key); };
+    const Value value = [&](const EndedSession& session) { return session.value(key); };
     const auto of_novices = values_in(novices, value), of_experts = values_in(experts, value);
     if (!of_novices.empty() && !of_experts.empty())
       cuts.push_back(cut_json(key, of_novices, of_experts, density));

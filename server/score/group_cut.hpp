@@ -42,8 +42,8 @@ std::string_view to_text(Density density);
 
 /// Cuts of the points by a rubric ("points") and of every metric that has an aim and that both groups have.
 /// Where groups cannot be cut, the entry has `error` in place of figures.
-nlohmann::json group_cuts_json(const std::vector<MeasuredSession>& novices,
-                               const std::vector<MeasuredSession>& experts, const Rubric& rubric,
+nlohmann::json group_cuts_json(const std::vector<EndedSession>& novices,
+                               const std::vector<EndedSession>& experts, const Rubric& rubric,
                                Density density);
 
 /// Error invalid_input for other words than normal and kernel.

@@ -1,9 +1,9 @@
 #include "score/learning_curve.hpp"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/json.hpp"
 
 namespace ream::score {
 using nlohmann::json;
@@ -12,8 +12,6 @@ namespace {
 bool is_decided(const LearningPoint& point) {
   return point.outcome == Outcome::pass || point.outcome == Outcome::fail;
 }
-
-json or_null(const std::optional<double>& number) { return number ? json(*number) : json(); }
 
 }  // namespace
 

@@ -1,12 +1,12 @@
 #include "score/rubric.hpp"
 
-#include <nlohmann/json.hpp>
 #include <rubrics.hpp>
 #include <set>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/hash.hpp"
+#include "core/json.hpp"
 #include "core/json_reader.hpp"
 
 namespace ream::score {
@@ -93,7 +93,7 @@ uint64_t rubric_hash(const Rubric& rubric) { return hash_text(rubric_json(rubric
 
 const Rubric& standard_rubric() {
   static const Rubric standard =
-      rubric_from_json(json::parse(embedded::rubrics::find("standard.json")), "the standard rubric");
+      rubric_from_json(parse_json(embedded::rubrics::find("standard.json")), "the standard rubric");
   return standard;
 }
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/json.hpp"
 #include "score/metric_results.hpp"
 
 namespace ream::score {
@@ -26,8 +26,6 @@ double points_by(const Band& band, double value) {
   if (band.better == Better::between || band.warn == band.pass) return points_outside_between;
   return points_by(Ramp{band.warn, band.pass}, value);
 }
-
-json or_null(const std::optional<double>& number) { return number ? json(*number) : json(nullptr); }
 
 std::string name_of(const std::string& metric) {
   const Metric* known = find_metric(metric);

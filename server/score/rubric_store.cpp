@@ -125,7 +125,7 @@ Rubric RubricStore::save(const std::string& id, Rubric rubric) const {
   make_writable_folder(folder_ / id);
   const fs::path path = file(id, rubric.version);
   const fs::path temporary = path.string() + "." + std::to_string(::getpid()) + ".new";
-  write_file_atomically(temporary, value.dump(2) + "\n");
+  write_json_file(temporary, value);
   publish(temporary, path, id);
   return rubric;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/vec.hpp"
+#include "record/ops.hpp"
 
 namespace ream::session {
 
@@ -21,5 +22,10 @@ struct Annotation {
   double at_s = 0.0;
   std::optional<Vec3> place_mm;
 };
+
+/// A remark as it is recorded, made now. It is about tick `ticks` (that many have passed) when it names no
+/// time. Error invalid_input when it is about a time after that.
+record::ops::Annotation annotation_op(const NewAnnotation& note, uint32_t ticks);
+Annotation annotation_of(const record::ops::Annotation& op);
 
 }  // namespace ream::session

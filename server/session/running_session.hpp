@@ -73,6 +73,10 @@ class RunningSession {
   /// Ends it and waits for the loop (zero force on the way out). Harmless when it has ended already.
   virtual void stop() = 0;
 
+  /// Its loop stands still in its device: to destroy it would wait for that, and end the process where it
+  /// does not come back.
+  virtual bool stands_still() const = 0;
+
   virtual SessionStatus status() const = 0;
   /// Its labels are now those of `request`; false when it has ended or was never started, so that nothing of
   /// it writes them down any more.

@@ -3,6 +3,8 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/signal_handlers.hpp"
+#include "device/crash_guard.hpp"
 #include "device/haptic_device.hpp"
 #include "sim/realtime.hpp"
 
@@ -12,6 +14,15 @@ namespace {
 constexpr uint32_t publish_every_ticks = 500;
 constexpr uint32_t summaries = 5;
 constexpr std::chrono::milliseconds look_for_end{1};
+/// What has not come back by then does not: drivers give up after a second or two.
+constexpr std::chrono::seconds longest_return{10};
+
+template <typename Condition>
+bool comes_true_in_time(Condition condition) noexcept {
+  const auto latest = SteadyClock::now() + longest_return;
+  while (!condition() && SteadyClock::now() < latest) std::this_thread::sleep_for(look_for_end);
+  return condition();
+}
 
 double microseconds(SteadyClock::duration duration) {
   return std::chrono::duration<double, std::micro>(duration).count();
@@ -69,7 +80,12 @@ HapticLoop::HapticLoop(const Model& model, State& state, device::HapticDevice& d
 
 HapticLoop::~HapticLoop() {
   stop();
-  if (thread_.joinable()) thread_.join();
+  if (!thread_.joinable()) return;
+  if (!comes_true_in_time([this] { return ended(); }))
+    device::end_process_without_force(
+        "a haptic loop stands still in its device, which does not come back; check "
+        "the device's cable and power");
+  thread_.join();
 }
 
 void HapticLoop::start() {
@@ -79,7 +95,7 @@ void HapticLoop::start() {
   std::atomic<bool> asked{false};
   bool usable = true;
   try {
-    thread_ = std::thread([this, &asked, &usable] {
+    thread_ = start_thread([this, &asked, &usable] {
       if (options_.wall_clock) health_.realtime = ask_for_realtime(options_.realtime, options_.cpu);
       usable = options_.realtime != Realtime::require || refusal().empty();
       const bool runs = usable;
@@ -112,8 +128,9 @@ LoopEnd HapticLoop::run() {
 
 void HapticLoop::stop() noexcept {
   request_stop();
-  while (thread_.joinable() && !ended() && stood_still_ms() == 0) std::this_thread::sleep_for(look_for_end);
-  if (thread_.joinable() && ended()) thread_.join();
+  if (!thread_.joinable()) return;
+  comes_true_in_time([this] { return ended() || stood_still_ms() > 0; });
+  if (ended()) thread_.join();
 }
 
 LoopHealth HapticLoop::health() noexcept {

@@ -31,6 +31,8 @@ class HapticLoop {
  public:
   HapticLoop(const Model& model, State& state, device::HapticDevice& device, SpscRing<TickReport>& reports,
              LoopOptions options);
+  /// Stops. A loop that stands still is waited for; where it does not come back within 10 s, its thread can
+  /// be neither ended nor left behind: the process ends (device::end_process_without_force).
   ~HapticLoop();
   HapticLoop(const HapticLoop&) = delete;
   HapticLoop& operator=(const HapticLoop&) = delete;
@@ -44,7 +46,8 @@ class HapticLoop {
   void request_stop() noexcept { stop_.store(true, std::memory_order_relaxed); }
   /// From its next tick on the session is paused as by the device's own button, or no longer; any thread.
   void pause(bool paused) noexcept { paused_.store(paused, std::memory_order_relaxed); }
-  /// Asks the loop to end and waits for it, but not for one that stands still. Safe to call twice.
+  /// Asks the loop to end and waits for it, 10 s at most, and not for one that stands still. Safe to call
+  /// twice.
   void stop() noexcept;
   /// Runs the whole loop on the calling thread instead of start().
   LoopEnd run();

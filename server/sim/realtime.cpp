@@ -34,6 +34,9 @@ RealtimeGrant ask_for_realtime(Realtime mode, int cpu) noexcept {
   sched_param parameters{};
   parameters.sched_priority = loop_fifo_priority;
   grant.fifo = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO | SCHED_RESET_ON_FORK, &parameters) == 0;
+  // All that the loop touches is there by now. Memory that comes later is not locked on purpose: it would be
+  // what others read and build, up to gigabytes that the kernel could not put aside any more, and where
+  // locked memory is limited, allocations of any thread would fail.
   grant.locked = ::mlockall(MCL_CURRENT) == 0;
   if (cpu >= 0 && pin_to(cpu)) grant.cpu = cpu;
   return grant;

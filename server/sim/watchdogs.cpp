@@ -3,6 +3,8 @@
 #include <pthread.h>
 #include <sched.h>
 
+#include "core/signal_handlers.hpp"
+
 namespace ream::sim {
 namespace {
 
@@ -23,7 +25,7 @@ LoopGuard::LoopGuard(device::HapticDevice& device, std::chrono::milliseconds lim
     : device_(device),
       now_ns_(now_ns),
       limit_ns_(std::chrono::nanoseconds(limit).count()),
-      thread_([this, realtime] { watch(realtime); }) {}
+      thread_(start_thread([this, realtime] { watch(realtime); })) {}
 
 LoopGuard::~LoopGuard() {
   {

@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/signal_handlers.hpp"
 #include "store/dialect.hpp"
 #include "store/sql.hpp"
 
 namespace ream::store {
 
-Deadlines::Deadlines() : thread_([this] { work(); }) {}
+Deadlines::Deadlines() : thread_(start_thread([this] { work(); })) {}
 
 Deadlines::~Deadlines() {
   {

@@ -16,6 +16,12 @@ void remove_with_children(Sql& sql, std::vector<std::string>& ids) {
   for (const std::string& id : ids) sql << "DELETE FROM credentials WHERE id = :id", use(id);
 }
 
+void keep_latest_time(Sql& sql, const std::string& utc) {
+  sql << "INSERT INTO credential_clock (id, latest_utc) VALUES (1, :utc) "
+         "ON CONFLICT (id) DO UPDATE SET latest_utc = excluded.latest_utc",
+      use(utc);
+}
+
 }  // namespace
 
 void CredentialTable::add(const CredentialRow& row) {
@@ -95,6 +101,35 @@ std::vector<std::string> CredentialTable::remove_of_user(const std::string& user
                   use(user_id), use(kind), use(kind), use(except), into(found)),
                  [&] { ids.push_back(found); });
     remove_with_children(sql, ids);
+    return ids;
+  });
+}
+
+std::string CredentialTable::latest_time() const {
+  return database_.read([](Sql& sql) {
+    std::string utc;
+    sql << "SELECT latest_utc FROM credential_clock WHERE id = 1", into(utc);
+    return sql.got_data() ? utc : std::string();
+  });
+}
+
+void CredentialTable::note_latest_time(const std::string& utc) {
+  database_.run([&](Sql& sql) { keep_latest_time(sql, utc); });
+}
+
+std::vector<std::string> CredentialTable::turn_back(const std::string& latest, const std::string& now,
+                                                    const std::string& idle_since) {
+  return database_.run([&](Sql& sql) {
+    std::string found;
+    std::vector<std::string> ids;
+    for_each_row(
+        (sql.prepare << "SELECT id FROM credentials WHERE expires_utc <= :latest OR created_utc > :now "
+                        "OR (kind = 'cookie' AND last_used_utc < :idle)",
+         use(latest), use(now), use(idle_since), into(found)),
+        [&] { ids.push_back(found); });
+    remove_with_children(sql, ids);
+    sql << "UPDATE credentials SET last_used_utc = :at WHERE last_used_utc > :now", use(now), use(now);
+    keep_latest_time(sql, now);
     return ids;
   });
 }

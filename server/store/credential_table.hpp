@@ -46,6 +46,13 @@ class CredentialTable {
   /// Removes a user's, of one kind or (`kind` empty) all, but `except`, with all that were made with them.
   std::vector<std::string> remove_of_user(const std::string& user_id, const std::string& kind,
                                           const std::string& except);
+  /// The latest time they were judged by; empty: none yet.
+  std::string latest_time() const;
+  void note_latest_time(const std::string& utc);
+  /// The clock has gone back from `latest` to `now`: removes those that had ended by then, cookies that were
+  /// used last before `idle_since` among them, and those that were made later than now. Ids of what is gone.
+  std::vector<std::string> turn_back(const std::string& latest, const std::string& now,
+                                     const std::string& idle_since);
   /// Those that ended before that moment.
   void remove_expired(const std::string& before_utc);
 

@@ -4,6 +4,19 @@
 
 namespace ream::store {
 
+namespace {
+
+void make_room(Sql& sql, const std::string& caller) {
+  const long long most = IdempotencyTable::max_answers, bytes = IdempotencyTable::max_bytes;
+  sql << "DELETE FROM kept_answers WHERE caller = :owner AND key IN (SELECT key FROM (SELECT key, "
+         "ROW_NUMBER() OVER (ORDER BY at_ms DESC, key) AS place, "
+         "SUM(LENGTH(body)) OVER (ORDER BY at_ms DESC, key) AS bytes "
+         "FROM kept_answers WHERE caller = :caller) AS newest WHERE place > :most OR bytes > :bytes)",
+      use(caller), use(caller), use(most), use(bytes);
+}
+
+}  // namespace
+
 std::optional<StoredResponse> IdempotencyTable::find(const std::string& caller,
                                                      const std::string& key) const {
   return database_.read([&](Sql& sql) -> std::optional<StoredResponse> {
@@ -30,12 +43,21 @@ void IdempotencyTable::put(const StoredResponse& answer) {
            "at_ms = excluded.at_ms",
         use(answer.caller), use(answer.key), use(answer.request), use(status), use(answer.content_type),
         use(answer.location), use(answer.body), use(at_ms);
+    make_room(sql, answer.caller);
   });
 }
 
 void IdempotencyTable::remove_before(int64_t before_ms) {
   const long long before = before_ms;
   database_.run([&](Sql& sql) { sql << "DELETE FROM kept_answers WHERE at_ms < :before", use(before); });
+}
+
+void IdempotencyTable::remove_about(const std::string& id) {
+  database_.run([&](Sql& sql) {
+    sql << "DELETE FROM kept_answers WHERE caller = :caller OR REPLACE(body, :in_body, '') <> body "
+           "OR REPLACE(location, :in_location, '') <> location",
+        use(id), use(id), use(id);
+  });
 }
 
 }  // namespace ream::store

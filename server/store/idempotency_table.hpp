@@ -21,12 +21,17 @@ struct StoredResponse {
 /// Answers by caller and key. Thread-safe; errors are those of Database.
 class IdempotencyTable {
  public:
+  /// Most of one caller; the oldest ones give way.
+  static constexpr int64_t max_answers = 1000, max_bytes = 8 << 20;
+
   explicit IdempotencyTable(Database& database) : database_(database) {}
 
   std::optional<StoredResponse> find(const std::string& caller, const std::string& key) const;
   /// Takes the place of one with the same caller and key.
   void put(const StoredResponse& answer);
   void remove_before(int64_t at_ms);
+  /// Answers that hold this id: of a session or a person that is to be forgotten.
+  void remove_about(const std::string& id);
 
  private:
   Database& database_;

@@ -32,6 +32,14 @@ void LoginAttemptTable::note_failure(const std::vector<Count>& counts, int64_t n
   });
 }
 
+void LoginAttemptTable::take_from_future(int64_t now_ms) {
+  const long long now = now_ms;
+  database_.run([&](Sql& sql) {
+    sql << "UPDATE login_failures SET last_ms = :at WHERE last_ms > :now", use(now), use(now);
+    sql << "UPDATE login_places SET last_ms = :at WHERE last_ms > :now", use(now), use(now);
+  });
+}
+
 void LoginAttemptTable::forget_failures(const std::string& beginning) {
   const auto length = static_cast<long long>(beginning.size());
   database_.run([&](Sql& sql) {

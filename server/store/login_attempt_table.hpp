@@ -27,6 +27,8 @@ class LoginAttemptTable {
   };
   /// One more of each. Rows older than `forget_before_ms` are removed.
   void note_failure(const std::vector<Count>& counts, int64_t now_ms, int64_t forget_before_ms);
+  /// What was noted later than now, by a clock that was ahead, counts as of now.
+  void take_from_future(int64_t now_ms);
   /// Under all keys that begin so.
   void forget_failures(const std::string& beginning);
 

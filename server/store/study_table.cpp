@@ -191,6 +191,10 @@ std::string StudyTable::code_of(const std::string& study, const std::string& use
   return found == codes.end() ? std::string() : found->second;
 }
 
+void StudyTable::forget_person(const std::string& user_id) {
+  database_.run([&](Sql& sql) { sql << "DELETE FROM study_persons WHERE user_id = :user_id", use(user_id); });
+}
+
 std::map<std::string, std::string> StudyTable::codes_of(const std::string& user_id) const {
   if (user_id.empty()) return {};
   return database_.read([&](Sql& sql) {

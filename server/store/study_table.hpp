@@ -71,6 +71,8 @@ class StudyTable {
   std::string code_of(const std::string& study, const std::string& user_id) const;
   /// Study and code of all that the user takes part in.
   std::map<std::string, std::string> codes_of(const std::string& user_id) const;
+  /// Nobody knows any more who takes part under the user's codes; what the participants did stays.
+  void forget_person(const std::string& user_id);
 
  private:
   Database& database_;

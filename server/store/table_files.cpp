@@ -110,7 +110,7 @@ json TableReader::next_line(size_t length) {
   std::string text;
   ++line_;
   if (!std::getline(in_, text)) return nullptr;
-  json line = json::parse(text, nullptr, false);
+  json line = parse_json_or_discard(text);
   if (!line.is_array() || (length != 0 && line.size() != length)) refuse("is no row of table " + table_);
   return line;
 }
@@ -197,7 +197,8 @@ std::vector<std::string> filled_tables(Database& database) {
 }
 
 void read_table_files(Database& database, const fs::path& folder, const std::vector<TableFile>& files,
-                      const std::function<void()>& before_commit, const Progress& progress) {
+                      const std::function<void()>& before_commit, const Progress& progress,
+                      OldCredentials credentials) {
   std::vector<std::string> tables = table_names();
   database.run_at_length([&](Sql& sql) {
     for (auto table = tables.rbegin(); table != tables.rend(); ++table) sql << "DELETE FROM " + *table;
@@ -212,6 +213,8 @@ void read_table_files(Database& database, const fs::path& folder, const std::vec
                                                   " does not hold the " + std::to_string(file->rows) +
                                                   " rows that it should");
     }
+    if (credentials == OldCredentials::tokens) sql << "DELETE FROM credentials WHERE kind <> 'token'";
+    if (credentials == OldCredentials::none) sql << "DELETE FROM credentials";
     before_commit();
   });
 }

@@ -24,11 +24,15 @@ std::vector<TableFile> write_table_files(Database& database, const std::filesyst
 /// Tables that hold anything.
 std::vector<std::string> filled_tables(Database& database);
 
+/// Which logins, links and tokens of a file are good again. Some may have been revoked since it was written.
+enum class OldCredentials { all, tokens, none };
+
 /// Replaces what the tables hold by these files of `folder`, all or nothing. `before_commit` is called when
 /// all of it has gone well and may still throw; it may be called more than once. Errors: those of Database;
 /// invalid_input naming file and line for what is no such file, or not the stated number of rows.
 void read_table_files(Database& database, const std::filesystem::path& folder,
                       const std::vector<TableFile>& files, const std::function<void()>& before_commit,
-                      const Progress& progress = no_progress);
+                      const Progress& progress = no_progress,
+                      OldCredentials credentials = OldCredentials::all);
 
 }  // namespace ream::store

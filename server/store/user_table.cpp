@@ -32,10 +32,24 @@ void require_some_left(Sql& sql, const std::string& role, const std::string& nam
                 "'" + name + "' is the last " + role + " who can log in; make somebody else one first");
 }
 
+/// In the transaction that has added a user.
+UserTable::Added end_open_beginning(Sql& sql) {
+  UserTable::Added added;
+  long long users = 0;
+  sql << "SELECT COUNT(*) FROM users", into(users);
+  added.first = users == 1;
+  if (!added.first) return added;
+  std::string id;
+  for_each_row((sql.prepare << "SELECT id FROM credentials WHERE user_id = ''", into(id)),
+               [&] { added.ended.push_back(id); });
+  sql << "DELETE FROM credentials WHERE user_id = ''";
+  return added;
+}
+
 }  // namespace
 
-void UserTable::add(const UserRow& row) {
-  database_.run([&](Sql& sql) {
+UserTable::Added UserTable::add(const UserRow& row) {
+  return database_.run([&](Sql& sql) {
     if (find_where(sql, "WHERE name = :name", row.name))
       throw Error(ErrorKind::conflict, "there is a user '" + row.name + "' already");
     const int enabled = row.enabled ? 1 : 0;
@@ -46,6 +60,7 @@ void UserTable::add(const UserRow& row) {
     long long kept = 0;
     sql << "SELECT COUNT(*) FROM users WHERE enabled = 1 AND role = :role", use(kept_role_), into(kept);
     if (kept == 0) throw Error(ErrorKind::conflict, "the first user must be " + kept_role_);
+    return end_open_beginning(sql);
   });
 }
 
@@ -66,6 +81,8 @@ void UserTable::remove(const std::string& id) {
   database_.run([&](Sql& sql) {
     const std::string name = known(sql, id).name;
     sql << "DELETE FROM users WHERE id = :id", use(id);
+    sql << "DELETE FROM kept_answers WHERE caller = :caller OR REPLACE(body, :id, '') <> body", use(id),
+        use(id);
     require_some_left(sql, kept_role_, name);
   });
 }

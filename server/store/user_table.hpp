@@ -25,12 +25,17 @@ class UserTable {
   UserTable(Database& database, std::string kept_role)
       : database_(database), kept_role_(std::move(kept_role)) {}
 
-  /// Error conflict when the name is taken, or when the first user has another role than the kept one.
-  void add(const UserRow& row);
+  struct Added {
+    bool first = false;
+    std::vector<std::string> ended;  ///< ids of credentials that went with the open beginning
+  };
+  /// With the first user all credentials without an owner go: whoever made them was not known. Error conflict
+  /// when the name is taken, or when the first user has another role than the kept one.
+  Added add(const UserRow& row);
   /// Changes a user in one transaction; `change` may run more than once. Errors: not_found; conflict when
   /// nobody would be left with the kept role.
   UserRow change(const std::string& id, const std::function<void(UserRow&)>& change);
-  /// Errors as for change().
+  /// With the answers that are kept to repeat for or about the user. Errors as for change().
   void remove(const std::string& id);
 
   std::optional<UserRow> find(const std::string& id) const;

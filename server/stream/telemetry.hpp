@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "core/session_state.hpp"
@@ -39,6 +40,12 @@ struct TelemetrySample {
   uint32_t ticks_missed = 0;
   std::optional<Playback> playback;  ///< in replays only
   std::array<char, 160> fault{};     ///< words, zero-terminated, when state is fault
+
+  /// Cut to what there is room for.
+  void set_fault(std::string_view words) {
+    fault.fill('\0');
+    words.copy(fault.data(), fault.size() - 1);
+  }
 };
 
 /// Samples that follow each other: tick of entry i is front().tick + i * tick_stride.

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "core/json_reader.hpp"
 #include "core/text.hpp"
 
@@ -172,7 +173,7 @@ json to_json(const Questionnaire& questionnaire) {
 
 const Questionnaire& face_validity_questionnaire() {
   static const Questionnaire ours =
-      questionnaire_from(json::parse(embedded::questionnaires::find("face_validity_1.json")));
+      questionnaire_from(parse_json(embedded::questionnaires::find("face_validity_1.json")));
   return ours;
 }
 
@@ -187,7 +188,7 @@ std::vector<net::FieldError> faults_of_answers(const Questionnaire& questionnair
   }
   for (const auto& [id, answer] : answers.items())
     if (std::none_of(questionnaire.items.begin(), questionnaire.items.end(),
-                     [&](const QuestionnaireItem& item) { return item.id == id; }))
+                     [&asked = id](const QuestionnaireItem& item) { return item.id == asked; }))
       faults.push_back({pointer_to(id), "'" + id + "' is no item of the questionnaire"});
   return faults;
 }

@@ -1,6 +1,6 @@
 #include "study/study_columns.hpp"
 
-#include <map>
+#include "score/metric_catalogue.hpp"
 
 namespace ream::study {
 namespace {
@@ -12,33 +12,6 @@ const session::ExportColumn experience_column = {
     "experience", "", "Level of experience at enrolment: novice, intermediate or expert"};
 const session::ExportColumn procedures_column = {
     "procedures_done", "", "Glenoid reamings done in patients before, as stated at enrolment"};
-
-/// Longer endings first: "_n_mm" ends in "_mm" too.
-const std::vector<std::pair<std::string, std::string>> units = {
-    {"_n_mm", "N/mm"}, {"_mm3", "mm3"},     {"_mm2", "mm2"},  {"_mm_s", "mm/s"}, {"_mm", "mm"},
-    {"_nmm", "N mm"},  {"_percent", "%"},   {"_share", "1"},  {"_deg", "deg"},   {"_n", "N"},
-    {"_s", "s"},       {"_count", "count"}, {"_scale", "N/N"}};
-
-const std::map<std::string, std::string> metric_words = {
-    {"removed_volume_mm3", "Bone removed, without the pilot hole"},
-    {"removed_volume_cortical_mm3", "Cortical bone removed"},
-    {"removed_volume_cancellous_mm3", "Cancellous bone removed"},
-    {"removed_volume_cartilage_mm3", "Cartilage removed"},
-    {"reaming_depth_mm", "How far the reamer went along the planned axis from first contact"},
-    {"axial_thrust_mean_n", "Mean thrust while in contact with the spindle on, simulated newtons"},
-    {"axial_thrust_peak_n", "Largest thrust, simulated newtons"},
-    {"apparent_stiffness_n_mm",
-     "Thrust gained a mm of advance while thrust first rises; empty when it never rose that far"},
-    {"duration_s", "Simulated time of the session"},
-    {"contact_time_s", "Time in contact with bone"},
-    {"weakened_time_s", "Time in which the hand felt noticeably less than what was simulated"},
-    {"force_scale", "Simulated newtons per newton at the hand"}};
-
-std::string unit_of(const std::string& name) {
-  for (const auto& [ending, unit] : units)
-    if (name.ends_with(ending)) return unit;
-  return {};
-}
 
 }  // namespace
 
@@ -79,9 +52,11 @@ std::vector<session::ExportColumn> group_columns() {
 }
 
 session::ExportColumn metric_column(const std::string& name) {
-  const auto words = metric_words.find(name);
-  return {name, unit_of(name),
-          words == metric_words.end() ? "As metrics.json of the session has it" : words->second};
+  if (const score::Metric* metric = score::find_metric(name))
+    return {name, std::string(metric->unit),
+            std::string(metric->name) + ". " + std::string(metric->definition)};
+  if (name == "force_scale") return {name, "N/N", "Simulated newtons per newton at the hand"};
+  return {name, "", "As metrics.json of the session has it"};
 }
 
 session::ExportColumn answer_column(const QuestionnaireItem& item) {

@@ -43,18 +43,20 @@ int64_t day_of(const std::string& utc) {
   return date.ok() ? std::chrono::sys_days(date).time_since_epoch().count() : 0;
 }
 
+const std::string& created(const StudyAttempt& attempt) { return attempt.session.request.created_utc; }
+
 std::vector<Row> rows_of(const std::vector<Participant>& participants,
                          const std::vector<StudyAttempt>& attempts) {
   std::vector<Row> rows;
   for (const Participant& participant : participants) {
     std::vector<const StudyAttempt*> own;
     for (const StudyAttempt& attempt : attempts)
-      if (attempt.participant == participant.code) own.push_back(&attempt);
+      if (attempt.session.request.participant == participant.code) own.push_back(&attempt);
     std::stable_sort(own.begin(), own.end(),
-                     [](const auto* a, const auto* b) { return a->created_utc < b->created_utc; });
+                     [](const auto* a, const auto* b) { return created(*a) < created(*b); });
     for (size_t i = 0; i < own.size(); ++i) {
       Row row{&participant, own[i], static_cast<int>(i + 1), 0, {}};
-      row.day = static_cast<int>(day_of(own[i]->created_utc) - day_of(own.front()->created_utc)) + 1;
+      row.day = static_cast<int>(day_of(created(*own[i])) - day_of(created(*own.front()))) + 1;
       collect_figures(own[i]->metrics, "", row.figures);
       rows.push_back(std::move(row));
     }
@@ -74,19 +76,20 @@ session::ExportTable sessions_table(const Study& study, const std::vector<Row>& 
   const std::set<std::string> figures = names_of_figures(rows);
   for (const std::string& name : figures) table.columns.push_back(metric_column(name));
   for (const Row& row : rows) {
-    const StudyAttempt& attempt = *row.attempt;
+    const session::SessionRequest& request = row.attempt->session.request;
+    const session::SessionStatus& status = row.attempt->session.status;
     std::vector<json> cells = {study.id,
                                row.participant->code,
                                row.participant->experience,
                                row.participant->procedures_done,
                                row.number,
                                row.day,
-                               attempt.case_id,
-                               attempt.script,
-                               attempt.device,
-                               attempt.device_profile,
-                               attempt.state,
-                               attempt.given_up};
+                               request.case_id,
+                               request.script,
+                               status.device.name,
+                               status.device.profile,
+                               to_text(status.state),
+                               row.attempt->given_up()};
     for (const std::string& name : figures) {
       const auto found = row.figures.find(name);
       cells.push_back(found == row.figures.end() ? json(nullptr) : found->second);
@@ -129,8 +132,9 @@ double median_of(std::vector<double> values) {
 Groups groups_of_sessions(const std::vector<Row>& rows) {
   std::map<const Participant*, std::map<std::string, std::vector<double>>> own;
   for (const Row& row : rows) {
-    const std::string& state = row.attempt->state;
-    if (row.attempt->given_up || (state != "finished" && state != "stopped")) continue;
+    const SessionState state = row.attempt->session.status.state;
+    if (row.attempt->given_up() || (state != SessionState::finished && state != SessionState::stopped))
+      continue;
     for (const auto& [name, value] : row.figures) own[row.participant][name].push_back(plain(value));
   }
   Groups groups;

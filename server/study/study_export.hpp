@@ -3,19 +3,19 @@
 #include <string>
 #include <vector>
 
+#include "session/folder/session_folder.hpp"
 #include "session/scoring/export_table.hpp"
 #include "study/study.hpp"
 
 namespace ream::study {
 
-/// One session of a study, as an export needs it.
+/// One session of a study, as an export needs it. Its dates are used for order and day only, and never told.
 struct StudyAttempt {
-  std::string participant;
-  std::string case_id, script, device, device_profile;
-  std::string state;        ///< the word of session.json
-  std::string created_utc;  ///< used for order and day only; never told
-  bool given_up = false;    ///< the participant went back to intact bone in a session of its own
-  nlohmann::json metrics;   ///< metrics.json
+  session::SessionRecord session;
+  nlohmann::json metrics;  ///< metrics.json
+
+  /// The participant went back to intact bone in a session of its own.
+  bool given_up() const { return !session.request.followed_by.empty(); }
 };
 
 /// What leaves a study: no names, no ids of users or sessions, no dates; of time only the day since the

@@ -1,3 +1,4 @@
+#include "core/json.hpp"
 #include "study/study_export.hpp"
 
 namespace ream::study {
@@ -7,9 +8,7 @@ namespace {
 json codebook_of(const session::ExportTable& table) {
   json columns = json::array();
   for (const session::ExportColumn& column : table.columns)
-    columns.push_back({{"name", column.name},
-                       {"unit", column.unit.empty() ? json(nullptr) : json(column.unit)},
-                       {"words", column.words}});
+    columns.push_back({{"name", column.name}, {"unit", or_null(column.unit)}, {"words", column.words}});
   return columns;
 }
 

@@ -79,7 +79,7 @@ void StudyService::withdraw(const std::string& id, const std::string& code) {
 StudyExport StudyService::everything(const Study& study) const {
   std::vector<Participant> all;
   for (const store::ParticipantRow& row : table_.participants(study.id)) all.push_back(participant_of(row));
-  return export_of(study, all, dependencies_.attempts(study.id));
+  return export_of(study, all, dependencies_->attempts(study.id));
 }
 
 StudyExport StudyService::export_all(const net::Caller& caller, const std::string& id) const {
@@ -132,15 +132,6 @@ Blinding StudyService::blinding(const net::Caller& caller) const {
     unblinded.clear();  // what cannot be looked up now stays hidden
   }
   return {caller, std::move(unblinded)};
-}
-
-Blinding blinding_for(const StudyService* studies, const net::Caller& caller) {
-  return studies ? studies->blinding(caller) : Blinding(caller, {});
-}
-
-session::SessionRequest seen_by(const net::Caller& caller, const StudyService* studies,
-                                session::SessionRequest session) {
-  return session.study.empty() ? session : blinding_for(studies, caller).seen(std::move(session));
 }
 
 }  // namespace ream::study

@@ -1,5 +1,7 @@
 #include "study/study_rows.hpp"
 
+#include "core/json.hpp"
+
 namespace ream::study {
 using nlohmann::json;
 
@@ -27,12 +29,12 @@ Study study_of(const store::StudyRow& row) {
   study.description = row.description;
   study.open = row.state == "open";
   study.join_code = row.join_code;
-  const json settings = json::parse(row.settings);
+  const json settings = parse_json(row.settings);
   settings.at("cases").get_to(study.settings.cases);
   study.settings.script = settings.value("script", "");
   study.settings.device = settings.value("device", "");
   study.settings.device_profile = settings.value("device_profile", "");
-  if (!row.questionnaire.empty()) study.questionnaire = questionnaire_from(json::parse(row.questionnaire));
+  if (!row.questionnaire.empty()) study.questionnaire = questionnaire_from(parse_json(row.questionnaire));
   study.created_utc = row.created_utc;
   study.closed_utc = row.closed_utc;
   study.unblinded_utc = row.unblinded_utc;
@@ -46,7 +48,7 @@ store::ParticipantRow row_of(const std::string& study_id, const Participant& par
 
 Participant participant_of(const store::ParticipantRow& row) {
   Participant participant{row.code, row.experience, row.procedures_done, std::nullopt, false};
-  if (!row.answers.empty()) participant.answers = json::parse(row.answers);
+  if (!row.answers.empty()) participant.answers = parse_json(row.answers);
   return participant;
 }
 

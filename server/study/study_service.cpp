@@ -21,7 +21,7 @@ Error unknown_study(const std::string& id) {
 
 }  // namespace
 
-StudyService::StudyService(store::Database& database, StudyDependencies dependencies)
+StudyService::StudyService(store::Database& database, std::unique_ptr<const StudyDependencies> dependencies)
     : table_(database), dependencies_(std::move(dependencies)) {}
 
 Study StudyService::known(const std::string& id) const {
@@ -39,7 +39,7 @@ Study StudyService::open_one(const std::string& id) const {
 
 void StudyService::require_settings(const StudySettings& settings) const {
   for (const std::string& case_id : settings.cases)
-    if (!dependencies_.has_case(case_id))
+    if (!dependencies_->has_case(case_id))
       throw Error(ErrorKind::not_found, "no case '" + case_id + "'; GET /api/v1/cases lists them");
 }
 
@@ -160,7 +160,7 @@ Participant StudyService::enrol(const net::Caller& caller, const std::string& id
                             "only operators may say who a participant is; give the person the join code");
   store::PersonRow person{"", wanted.user_id, wanted.name};
   if (!wanted.user_id.empty()) {
-    const auto name = dependencies_.name_of_user(wanted.user_id);
+    const auto name = dependencies_->name_of_user(wanted.user_id);
     if (!name) throw Error(ErrorKind::not_found, "no user '" + wanted.user_id + "'");
     person.name = *name;
   }

@@ -1,6 +1,6 @@
 #pragma once
-#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,13 +28,15 @@ struct NewParticipant {
   std::string join_code;  ///< of who enrols themself
 };
 
-/// What studies ask of the rest of the server.
-struct StudyDependencies {
+/// What studies ask of the rest of the server. Thread-safe.
+class StudyDependencies {
+ public:
+  virtual ~StudyDependencies() = default;
   /// Name of a user, none for an unknown id.
-  std::function<std::optional<std::string>(const std::string& user_id)> name_of_user;
-  std::function<bool(const std::string& case_id)> has_case;
+  virtual std::optional<std::string> name_of_user(const std::string& user_id) const = 0;
+  virtual bool has_case(const std::string& case_id) const = 0;
   /// All sessions of a study that have ended and left metrics.
-  std::function<std::vector<StudyAttempt>(const std::string& study_id)> attempts;
+  virtual std::vector<StudyAttempt> attempts(const std::string& study_id) const = 0;
 };
 
 /// Studies and who takes part in them. Who a participant is stays hidden from all but operators and the
@@ -42,7 +44,7 @@ struct StudyDependencies {
 /// know of too; conflict when the study's state does not allow it; those of the database.
 class StudyService {
  public:
-  StudyService(store::Database& database, StudyDependencies dependencies);
+  StudyService(store::Database& database, std::unique_ptr<const StudyDependencies> dependencies);
 
   Study create(const StudyDraft& draft);
   /// Newest first; trainees have those they take part in.
@@ -102,13 +104,7 @@ class StudyService {
   void require_settings(const StudySettings& settings) const;
 
   mutable store::StudyTable table_;
-  const StudyDependencies dependencies_;
+  const std::unique_ptr<const StudyDependencies> dependencies_;
 };
-
-/// What the caller may know of who trained; `studies` null: there are none.
-Blinding blinding_for(const StudyService* studies, const net::Caller& caller);
-/// One session as the caller may know it. Only those of studies are looked up.
-session::SessionRequest seen_by(const net::Caller& caller, const StudyService* studies,
-                                session::SessionRequest session);
 
 }  // namespace ream::study

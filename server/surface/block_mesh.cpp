@@ -1,14 +1,14 @@
 #include "surface/block_mesh.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <thread>
+#include <optional>
 
 #include "core/error.hpp"
+#include "core/thread_pool.hpp"
 #include "surface/block_layout.hpp"
 #include "surface/marching_cubes.hpp"
 
@@ -93,17 +93,16 @@ int checked(int stride) {
   return stride;
 }
 
-/// Calls work(item) for all items below count, on that many threads.
+/// Calls work(item) for all items below count, on that many threads. What it throws is thrown here.
 template <typename MakeWork>
 void in_parallel(uint32_t count, int threads, MakeWork make_work) {
-  std::atomic<uint32_t> next{0};
-  const auto run = [&] {
-    auto work = make_work();
-    for (uint32_t item = next++; item < count; item = next++) work(item);
-  };
-  std::vector<std::jthread> helpers;
-  for (int i = 1; i < threads; ++i) helpers.emplace_back(run);
-  run();
+  ThreadPool pool(threads);
+  std::vector<std::optional<decltype(make_work())>> works(static_cast<size_t>(pool.threads()));
+  pool.run(count, [&](size_t item, int worker) {
+    auto& work = works[static_cast<size_t>(worker)];
+    if (!work) work.emplace(make_work());
+    (*work)(static_cast<uint32_t>(item));
+  });
 }
 
 std::vector<Fill> fills(const voxel::VoxelGrid& grid, const uint8_t* coverage, int threads) {

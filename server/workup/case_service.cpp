@@ -16,13 +16,13 @@
 #include "geometry/mesh_io.hpp"
 #include "surface/block_mesh.hpp"
 #include "workup/case_json.hpp"
-#include "workup/ct_source.hpp"
 
 namespace ream::workup {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double read_share = 0.8, unpacking_share = 0.2;
+constexpr double read_share = 0.8;
+constexpr uint64_t always_taken_bytes = 32 << 20, max_packing = 16;
 constexpr size_t longest_id = 60;
 constexpr double most_fine_voxels = 2.0e7;  // beyond, a surface is sampled every other voxel
 
@@ -46,12 +46,14 @@ auto naming_as_sent(const fs::path& file, Action&& action) {
   }
 }
 
-/// A zip is unpacked beside it; `series_uid` empty: the largest series.
+/// A zip is unpacked beside it; `series_uid` empty: the largest series. A CT packs to a half or a quarter, so
+/// that what unpacks to far more is none, but would take the server's memory.
 ct::HuVolume read_upload(const fs::path& file, const std::string& series_uid, const Progress& progress) {
-  const CtSource source(file, part_of(progress, 0.0, unpacking_share), file.parent_path());
-  return source.read([&](const fs::path& path) {
-    return ct::read_ct(path, {series_uid, false}, part_of(progress, unpacking_share, 1.0));
-  });
+  ct::ReadOptions options;
+  options.series_uid = series_uid;
+  options.max_bytes = always_taken_bytes + max_packing * fs::file_size(file);
+  options.scratch = file.parent_path();
+  return ct::read_ct(file, options, progress);
 }
 
 /// Goes away with whatever is left of an upload.

@@ -10,7 +10,7 @@
 #include "ct/build/ct_workspace.hpp"
 #include "ct/phantom/phantom_case.hpp"
 #include "ct/segment/shoulder_bones.hpp"
-#include "session/simulation/case_cache.hpp"
+#include "session/simulation/find_case.hpp"
 #include "support/temporary_folder.hpp"
 #include "voxel/upsample.hpp"
 

@@ -19,7 +19,7 @@ constexpr int pose_search_shell = 128;
 /// Ticks that the tool stays at some of the severe poses, creeping; the last ones are compared.
 constexpr int held_ticks = 300, compared_ticks = 20;
 constexpr size_t held_poses = 12;
-constexpr double creep_mm = 1e-4, compared_probe_mm = 0.1;
+constexpr double study_creep_mm = 1e-4, compared_probe_mm = 0.1;
 constexpr int coarsest_compared_voxmap = 256;
 constexpr ImplicitCap thesis_cap{16.0, 8.0, 8.0};  // shell::thesis_tool without nipple and back
 
@@ -113,7 +113,8 @@ std::vector<QuantisedPose> held(std::span<const QuantisedPose> poses) {
   std::vector<QuantisedPose> ticks;
   for (const QuantisedPose& pose : poses)
     for (int i = 0; i < held_ticks; ++i)
-      ticks.push_back(quantised(dequantised(pose) * Pose{Mat3::Identity(), Vec3(0.0, 0.0, creep_mm * i)}));
+      ticks.push_back(
+          quantised(dequantised(pose) * Pose{Mat3::Identity(), Vec3(0.0, 0.0, study_creep_mm * i)}));
   return ticks;
 }
 

@@ -13,14 +13,15 @@
 #include "session/live/loop_rings.hpp"
 #include "session/live/session_files.hpp"
 #include "session/simulation/find_case.hpp"
-#include "session/simulation/measured_glenoid.hpp"
 #include "session/simulation/session_setup.hpp"
+#include "session/simulation/simulation.hpp"
 #include "shell/tool.hpp"
+#include "sim/haptic_loop.hpp"
 
 namespace ream::bench {
 namespace {
 
-constexpr double press_n = 35.0, shell_spacing_mm = 0.1;
+constexpr double scored_press_n = 35.0, shell_spacing_mm = 0.1;
 /// Feed of a specimen so hard that ten minutes stay in the vault.
 constexpr double hard = 0.1;
 /// How often a server looks at what has come.
@@ -35,7 +36,7 @@ double thread_cpu_s() {
 }
 
 session::RunRequest request_for(const std::filesystem::path& folder, double duration_s) {
-  write_file_atomically(folder / "script.json", pecking(duration_s, press_n, hard).dump());
+  write_file_atomically(folder / "script.json", pecking(duration_s, scored_press_n, hard).dump());
   session::RunRequest request;
   request.case_name = thesis_case;
   request.script_name = (folder / "script.json").string();
@@ -137,7 +138,7 @@ ScoredReaming ream_and_score(const std::filesystem::path& data, const std::strin
   simulation.state.brick_sender = nullptr;
   rings.drain_rest(simulation.bone_case.bone, simulation.state.tick - 1, take_brick, take_report);
   const auto ended = SteadyClock::now();
-  const nlohmann::json metrics = files.finish(loop.health(), nlohmann::json::object()).metrics;
+  const nlohmann::json metrics = files.finish(loop.health()).metrics;
   scored.final_ms = elapsed_us(ended) * 1e-3;
   scored.duration_s = metrics.at("duration_s");
   scored.depth_mm = metrics.at("reaming_depth_mm");

@@ -28,14 +28,14 @@ constexpr const char* script_name = "pecking";
 constexpr double thesis_spacing_mm = 0.1;
 constexpr int office_sessions = 10'000;
 constexpr int most_refusals = 60;
-constexpr double press_n = 52.0;
+constexpr double served_press_n = 52.0;
 
 }  // namespace
 
 struct ServedReaming::House {
   House(sim::Realtime realtime, double turn_s, Surroundings surroundings) {
     keep_thesis_case(folder.path());
-    folder.write("scripts/" + std::string(script_name) + ".json", pecking(turn_s, press_n).dump());
+    folder.write("scripts/" + std::string(script_name) + ".json", pecking(turn_s, served_press_n).dump());
     session::SessionContext context;
     context.data = folder.path();
     context.backend = "cpu";
@@ -47,10 +47,8 @@ struct ServedReaming::House {
     options.sessions_folder = sessions_folder(context.data);
     options.sessions.kept = 1;  // each keeps its bone
     options.engine = std::make_shared<session::SimulationEngine>(context);
-    if (surroundings == Surroundings::office) {
-      write_sessions(folder, office_sessions, "sessions/");
-      options.database = std::make_shared<store::Database>("sqlite:" + (folder.path() / "ream.db").string());
-    }
+    if (surroundings == Surroundings::office) write_sessions(folder, office_sessions, "sessions/");
+    options.database = std::make_shared<store::Database>("sqlite:" + (folder.path() / "ream.db").string());
     server = std::make_unique<api::Server>(std::move(options));
     server->start();
     if (surroundings == Surroundings::office) open_office();
@@ -58,13 +56,13 @@ struct ServedReaming::House {
 
   /// From here on a token is needed. Waits until all sessions are listed.
   void open_office() {
-    access::AccessControl& gatehouse = *server->gatehouse();
-    const access::User chief = gatehouse.users.add(
+    access::AccessControl& access_control = server->access_control();
+    const access::User chief = access_control.users.add(
         {"chief", "", access::Role::operator_, access::Secret(std::string("a pass phrase of a bench"))});
     access::NewCredential wanted;
     wanted.user_id = chief.id;
     wanted.name = "bench";
-    token = gatehouse.credentials.issue(access::CredentialKind::token, wanted).secret.reveal();
+    token = access_control.credentials.issue(access::CredentialKind::token, wanted).secret.reveal();
     while (ask("GET", "?limit=1").at("total") != office_sessions)
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
@@ -114,7 +112,7 @@ ServedTurn ServedReaming::run(StreamViewer& viewer, const std::function<void(con
   }
   turn.streamed_mb = static_cast<double>(viewer.stop_watching()) * 1e-6;
   const session::SessionStatus status =
-      session::read_session_folder(sessions_folder(house_->folder.path()) / id).record.status;
+      session::read_session_folder(sessions_folder(house_->folder.path()) / id).status;
   if (status.state != SessionState::finished)
     throw Error(ErrorKind::unavailable,
                 "the session ended as " + to_text(status.state) + ": " + status.fault);

@@ -23,7 +23,7 @@ struct ServedTurn {
 /// What a server has besides the session.
 enum class Surroundings {
   none,
-  office,  ///< users, and a database with 10,000 sessions; requests need a token
+  office,  ///< users, and 10,000 sessions; requests need a token
 };
 
 /// A server on loopback as `ream serve` makes one, the bench case thesis-5-4-2 in its data folder, and a

@@ -39,7 +39,7 @@ struct Seated {
   double bytes_per_s = 0.0, blocks_per_s = 0.0, feed_mm_s = 0.0;
 };
 
-double mean(const std::vector<double>& values) {
+double mean_of(const std::vector<double>& values) {
   double sum = 0.0;
   for (const double v : values) sum += v;
   return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
@@ -99,7 +99,7 @@ Seated measure_seated(case_::Case bone_case) {
   seated.bytes_per_s = bytes / seconds;
   seated.blocks_per_s = blocks / seconds;
   seated.pictures_per_s = pictures / seconds;
-  seated.feed_mm_s = mean(feeds);
+  seated.feed_mm_s = mean_of(feeds);
   return seated;
 }
 
@@ -108,10 +108,10 @@ void add_seated(const std::string& name, const Seated& seated, double bytes_goal
                        double baseline = 0.0) {
     rows.push_back({"surface", name + " " + what, ours, baseline, unit, goal});
   };
-  add("update, mean", mean(seated.update_us), "us", goal_mean_us, thesis_update_us);
+  add("update, mean", mean_of(seated.update_us), "us", goal_mean_us, thesis_update_us);
   add("update, p50", percentile(seated.update_us, 0.5), "us");
   add("update, p99", percentile(seated.update_us, 0.99), "us", goal_p99_us);
-  add("update, wall, mean", mean(seated.wall_us), "us");
+  add("update, wall, mean", mean_of(seated.wall_us), "us");
   add("update, wall, p99", percentile(seated.wall_us, 0.99), "us");
   add("stream", seated.bytes_per_s, "B/s", bytes_goal);
   add("blocks", seated.blocks_per_s, "1/s");

@@ -16,7 +16,7 @@ constexpr int resolution = 512, poses_a_depth = 8, rounds = 6;
 constexpr double shares_inside[] = {0.0025, 0.005, 0.01, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4};
 /// So that contact starts at the edge of the face and grows from nothing.
 const Vec3 tilt_rad(0.15, 0.1, 0.0);
-constexpr double creep_mm = 1e-3, least_depth_mm = -10.0, largest_depth_mm = 20.0;
+constexpr double figure_creep_mm = 1e-3, least_depth_mm = -10.0, largest_depth_mm = 20.0;
 /// The cap alone: a nipple would be in the bone before the cap is.
 constexpr const char* tool_text = "ellipse 16,8 back 1.25";
 constexpr ImplicitCap cap{16.0, 8.0, 8.0};
@@ -55,7 +55,7 @@ std::vector<Row> voi_figure(const Options& options) {
   for (const double share : shares_inside) {
     const double depth_mm = depth_of_share(voxmap, codes, share, least_depth_mm, largest_depth_mm, pose_at);
     std::vector<QuantisedPose> poses;
-    for (int i = 0; i < poses_a_depth; ++i) poses.push_back(pose_at(depth_mm + creep_mm * i));
+    for (int i = 0; i < poses_a_depth; ++i) poses.push_back(pose_at(depth_mm + figure_creep_mm * i));
     const std::vector<Samples> s = measure_in_turns(contenders, poses, rounds);
     const double volume_mm3 =
         static_cast<double>(volume.contact(poses.front()).collided) * bone.bone.grid.voxel_volume_mm3();

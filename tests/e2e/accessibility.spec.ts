@@ -49,14 +49,14 @@ function misplaced(page: Page): Promise<string[]> {
     if (scrollWidth > window.innerWidth) found.push(`the page is ${scrollWidth} px wide`);
     const name = (element: Element) =>
       `${element.tagName.toLowerCase()} ${element.getAttribute('data-testid') ?? element.className} “${(element.textContent ?? '').trim().slice(0, 24)}”`;
-    const seen = 'button, select, summary, textarea, input, nav a, .who a, a.strip-button, a.plain-button';
+    const seen = 'button, select, summary, textarea, input, nav a, .current-user a, a.strip-button, a.plain-button';
     for (const element of document.querySelectorAll<HTMLElement>(seen)) {
       if (!element.checkVisibility({ visibilityProperty: true, opacityProperty: true })) continue;
       // A box is as large as what is pressed for it.
       const pressed = element.matches('[type="checkbox"], [type="radio"], [type="file"]')
         ? (element.closest('label') ?? element)
         : element;
-      const scroller = element.closest('.desk-scroll, .side, .steps, .desk');
+      const scroller = element.closest('.table-scroll, .side, .steps, .content');
       const box = pressed.getBoundingClientRect();
       if (box.width === 0) continue;
       if (scroller === null && (box.left < -0.5 || box.right > window.innerWidth + 0.5))

@@ -9,11 +9,11 @@ const olga: TestUser = { name: 'olga', role: 'operator', displayName: 'Olga Oper
 const here = serverForEachTest([olga]);
 
 test('tells every operation to whoever asks, breaks no rule and asks no other server', async ({ page }) => {
-  const complaints: string[] = [];
+  const violations: string[] = [];
   const elsewhere: string[] = [];
   page.on('console', (message) => {
     if (message.type() === 'error' || message.text().includes('Content Security Policy'))
-      complaints.push(message.text());
+      violations.push(message.text());
   });
   page.on('request', (request) => {
     if (!request.url().startsWith(here.server.url) && !request.url().startsWith('data:')) elsewhere.push(request.url());
@@ -32,6 +32,6 @@ test('tells every operation to whoever asks, breaks no rule and asks no other se
   await expect(deletion).toContainText('It can be restored');
   await expect(deletion.locator('.responses-table')).toContainText('409');
   await expect(deletion).toHaveCSS('border-top-style', 'solid');
-  expect(complaints).toEqual([]);
+  expect(violations).toEqual([]);
   expect(elsewhere).toEqual([]);
 });

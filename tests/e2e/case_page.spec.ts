@@ -6,7 +6,7 @@ import { join } from 'node:path';
 
 import { expect, type Locator, type Page, test } from '@playwright/test';
 
-import type { CaseDetails, Job, Triple } from '../../web/src/wire/rest_types';
+import type { Case, Job, Triple } from '../../web/src/wire/rest_types';
 import { compare, picture } from './pixels';
 import { drawn, readout, serverForEachTest, untilLive } from './server_for_each_test';
 import { program } from './server_process';
@@ -61,8 +61,8 @@ async function upload(page: Page): Promise<string> {
   return /#\/cases\/([a-z0-9-]+)$/.exec(page.url())?.[1] ?? '';
 }
 
-const details = async (page: Page, id: string): Promise<CaseDetails> =>
-  (await (await page.request.get(`${here.server.url}/api/v1/cases/${id}`)).json()) as CaseDetails;
+const details = async (page: Page, id: string): Promise<Case> =>
+  (await (await page.request.get(`${here.server.url}/api/v1/cases/${id}`)).json()) as Case;
 
 async function openStep(page: Page, name: string): Promise<Locator> {
   const step = page.getByTestId(`step-${name}`);
@@ -75,7 +75,7 @@ async function openStep(page: Page, name: string): Promise<Locator> {
 async function spotIn(
   page: Page,
   name: 'axial' | 'sagittal',
-  ct: NonNullable<CaseDetails['ct']>,
+  ct: NonNullable<Case['ct']>,
   point: Triple,
 ): Promise<[number, number]> {
   const { rotation, translation_mm: t } = ct.world_from_volume;
@@ -98,7 +98,7 @@ async function spotIn(
 }
 
 /** Scrolls the axial view to a point's slice and clicks where the point is. */
-async function clickInAxial(page: Page, ct: NonNullable<CaseDetails['ct']>, point: Triple): Promise<void> {
+async function clickInAxial(page: Page, ct: NonNullable<Case['ct']>, point: Triple): Promise<void> {
   const index = Math.floor((point[2] - ct.world_from_volume.translation_mm[2]) / ct.spacing_mm[2]);
   const place = page.getByTestId('place-axial');
   await page.getByTestId('slice-axial').focus();
@@ -356,7 +356,7 @@ test('a large correction is refused until a reason is given', async ({ page }) =
   await page.request.put(`${here.server.url}/api/v1/cases/${id}/landmarks`, { data: truth });
   await openCase(page, id);
   await openStep(page, 'plan');
-  await page.getByTestId('wanted-version-way').selectOption('anteversion');
+  await page.getByTestId('wanted-version-direction').selectOption('anteversion');
   await page.getByTestId('wanted-version').fill('12');
   await page.getByTestId('propose').click();
   await expect(page.getByTestId('plan-warning').first()).toBeVisible();

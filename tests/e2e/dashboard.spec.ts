@@ -72,11 +72,11 @@ test('a tile opens the session live; tiles are of before as soon as news stop, a
   await expect(page.getByTestId(`tile-${id}`)).toHaveAttribute('data-stale', 'false');
 
   await here.server.kill();
-  await expect(page.getByTestId('no-news')).toContainText('not live', { timeout: 3000 });
+  await expect(page.getByTestId('no-updates')).toContainText('not live', { timeout: 3000 });
   await expect(page.getByTestId(`tile-${id}`)).toHaveAttribute('data-stale', 'true');
   await expect(page.getByTestId(`state-${id}`)).toHaveText('not live');
   await here.server.start();
-  await expect(page.getByTestId('no-news')).toBeHidden({ timeout: 60_000 });
+  await expect(page.getByTestId('no-updates')).toBeHidden({ timeout: 60_000 });
   // The killed server's session was closed where it broke off.
   await expect(page.getByTestId(`tile-${id}`)).toBeHidden();
   await expect(page.getByTestId(`recent-${id}`)).toContainText('Interrupted', { timeout: 60_000 });

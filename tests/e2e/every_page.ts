@@ -10,7 +10,7 @@ export const olga: TestUser = { name: 'olga', role: 'operator', displayName: 'Ol
 export const tom: TestUser = { name: 'tom', role: 'trainee', displayName: 'Tom Trainee' };
 
 /** Whose session it is; only staff's are nobody's. */
-async function giveTo(page: Page, session: string, { name, displayName }: TestUser): Promise<void> {
+async function assignSession(page: Page, session: string, { name, displayName }: TestUser): Promise<void> {
   const { users } = (await (await page.request.get(new URL('/api/v1/users', page.url()).href)).json()) as {
     users: { id: string; name: string }[];
   };
@@ -40,7 +40,7 @@ export async function goThroughEveryPage(
   });
   const { code } = await post<{ code: string }>(page, `studies/${study.id}/participants`, { experience: 'novice' });
   const ended = await startDemo(page, url);
-  await giveTo(page, ended, tom);
+  await assignSession(page, ended, tom);
   const tile = page.getByTestId(`tile-${ended}`);
   await expect(tile).toContainText(/[1-9] N/, { timeout: 60_000 });
   // What rests stays as it is for as long as it is looked at.

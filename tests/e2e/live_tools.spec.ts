@@ -150,36 +150,36 @@ test('the trainee’s view is the picture alone, and steers', async ({ page }, i
 });
 
 /** Makes the server tell of sessions as one does that knows theatre mode. */
-async function tellTheatre(page: Page): Promise<{ asked: boolean[] }> {
-  const heard = { asked: [] as boolean[] };
+async function emulateTheatreMode(page: Page): Promise<{ requests: boolean[] }> {
+  const observed = { requests: [] as boolean[] };
   let theatre = false;
   await page.route(/\/api\/v1\/sessions(\/[0-9a-z]+)?(\/start|\/stop)?(\?.*)?$/, async (route) => {
     const request = route.request();
-    const wish = request.method() === 'POST' ? (request.postDataJSON() as { theatre?: boolean } | null) : null;
-    const { theatre: asked, ...rest } = wish ?? {};
-    if (wish !== null && request.url().endsWith('/sessions')) {
-      theatre = asked === true;
-      heard.asked.push(theatre);
+    const requestBody = request.method() === 'POST' ? (request.postDataJSON() as { theatre?: boolean } | null) : null;
+    const { theatre: requests, ...rest } = requestBody ?? {};
+    if (requestBody !== null && request.url().endsWith('/sessions')) {
+      theatre = requests === true;
+      observed.requests.push(theatre);
     }
-    const answer = await route.fetch(wish === null ? {} : { postData: JSON.stringify(rest) });
-    const told = (await answer.json()) as { sessions?: object[] };
-    const json = told.sessions
-      ? { ...told, sessions: told.sessions.map((s) => ({ ...s, theatre })) }
-      : { ...told, theatre };
+    const answer = await route.fetch(requestBody === null ? {} : { postData: JSON.stringify(rest) });
+    const body = (await answer.json()) as { sessions?: object[] };
+    const json = body.sessions
+      ? { ...body, sessions: body.sessions.map((s) => ({ ...s, theatre })) }
+      : { ...body, theatre };
     await route.fulfill({ response: answer, json });
   });
-  return heard;
+  return observed;
 }
 
 test('in theatre there is nothing but the bone, an opaque reamer, sound and force', async ({ page }, info) => {
-  const heard = await tellTheatre(page);
+  const observed = await emulateTheatreMode(page);
   await open(page);
   await page.getByTestId('cut-away').click();
   await page.getByTestId('theatre-mode').check();
   await page.getByTestId('practise').click();
   const theatre = page.getByTestId('trainee-page');
   await expect(theatre).toHaveAttribute('data-theatre', 'true');
-  expect(heard.asked.at(-1)).toBe(true);
+  expect(observed.requests.at(-1)).toBe(true);
   await page.waitForFunction(() => window.__ream.deviceLink === 'holding', null, { timeout: 60_000 });
   for (const id of ['gauge-version', 'depth', 'force-plot', 'alarms', 'cut-away', 'leave-trainee', 'live-strip'])
     await expect(page.getByTestId(id)).toHaveCount(0);

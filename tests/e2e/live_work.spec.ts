@@ -32,10 +32,10 @@ test('paints kinds of bone and contact, draws feed and vibration, and keeps rema
     .toBeGreaterThan(0.05);
   await page.keyboard.press('n');
   await page.keyboard.type('Leans too far back');
-  await expect(page.getByTestId('keep-live-remark')).toContainText('Keep at 0:');
+  await expect(page.getByTestId('keep-live-annotation')).toContainText('Keep at 0:');
   await page.keyboard.press('Enter');
-  await expect(page.getByTestId('remarks')).toContainText('Leans too far back');
-  await expect(page.getByTestId('live-remark')).toHaveValue('');
+  await expect(page.getByTestId('annotations')).toContainText('Leans too far back');
+  await expect(page.getByTestId('live-annotation')).toHaveValue('');
 
   for (const [i, id] of ['feed-plot', 'vibration-plot'].entries())
     expect((await compare(page, await picture(page.getByTestId(id)), quiet[i])).changed).toBeGreaterThan(100);

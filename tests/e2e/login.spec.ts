@@ -9,7 +9,7 @@ const ines: TestUser = { name: 'ines', role: 'instructor', displayName: 'Ines In
 const tom: TestUser = { name: 'tom', role: 'trainee', displayName: 'Tom Trainee' };
 
 const here = serverForEachTest([olga, ines, tom]);
-const who = (page: Page) => page.getByTestId('who');
+const who = (page: Page) => page.getByTestId('current-user');
 
 async function enter(page: Page, user: TestUser): Promise<void> {
   await page.goto(here.server.url);
@@ -60,7 +60,7 @@ test('keeps the login over a reload, and offers what the role may do', async ({ 
   await expect(page.getByTestId('cases')).toBeVisible();
   await expect(page.getByRole('heading', { name: 'New case' })).toBeHidden();
   await page.goto(`${here.server.url}/#/users`);
-  await expect(page.getByTestId('not-for-you')).toBeVisible();
+  await expect(page.getByTestId('forbidden')).toBeVisible();
 });
 
 test('changes the password, and the old one is of no more use', async ({ page }) => {
@@ -73,11 +73,11 @@ test('changes the password, and the old one is of no more use', async ({ page })
     await page.getByTestId('change-password').click();
   };
   await change(passwordOf('tom'), 'a much better one', 'another one');
-  await expect(page.getByTestId('password-said')).toContainText('differ');
+  await expect(page.getByTestId('password-status')).toContainText('differ');
   await change('not the present one', 'a much better one');
-  await expect(page.getByTestId('password-said')).toContainText('wrong');
+  await expect(page.getByTestId('password-status')).toContainText('wrong');
   await change(passwordOf('tom'), 'a much better one');
-  await expect(page.getByTestId('password-said')).toContainText('is changed');
+  await expect(page.getByTestId('password-status')).toContainText('is changed');
   await page.getByTestId('log-out').click();
   await logIn(page, 'tom');
   await expect(page.getByTestId('login-problem')).toContainText('wrong');
@@ -163,7 +163,7 @@ test('an operator adds, disables and removes users; the table says who is what',
   await expect(page.getByTestId('user-ada')).toContainText('Disabled');
   await expect(other.getByTestId('login-problem')).toContainText('Your login has ended');
   await page.getByTestId('remove-ada').click();
-  await page.getByTestId('really-remove-ada').click();
+  await page.getByTestId('confirm-remove-ada').click();
   await expect(page.getByTestId('user-ada')).toBeHidden();
   await context.close();
 });

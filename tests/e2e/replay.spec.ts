@@ -28,16 +28,16 @@ async function openReplay(page: Page, sessionId: string): Promise<void> {
 }
 
 /** Until the stream has told how things stand as they are after `ms`. */
-async function toldAgain(page: Page, ms = 0): Promise<void> {
-  const before = (await readout(page)).toldMs ?? 0;
-  await page.waitForFunction((after) => (window.__ream.toldMs ?? 0) > after, before + ms, { timeout: 30_000 });
+async function telemetryArrived(page: Page, ms = 0): Promise<void> {
+  const before = (await readout(page)).telemetryMs ?? 0;
+  await page.waitForFunction((after) => (window.__ream.telemetryMs ?? 0) > after, before + ms, { timeout: 30_000 });
 }
 
 async function seek(page: Page, seconds: number): Promise<void> {
   await page.getByTestId('seek').fill(String(seconds));
   await page.waitForFunction((ticks) => window.__ream.positionTicks === ticks, Math.round(seconds * 1000));
   // What is told next is of later than all that the jump changed.
-  await toldAgain(page);
+  await telemetryArrived(page);
   await settled(page);
 }
 
@@ -88,7 +88,7 @@ test('a recorded session is opened from the list, moved about in, and says that 
   await page.getByTestId('play').click();
   await expect(page.getByTestId('play')).toHaveAttribute('data-playing', 'false');
   const rested = (await readout(page)).positionTicks;
-  await toldAgain(page, 700);
+  await telemetryArrived(page, 700);
   expect((await readout(page)).positionTicks).toBe(rested);
 
   await page.getByTestId('leave-replay').click();

@@ -80,8 +80,8 @@ test('a session is gone through, mapped, measured, judged and taken home', async
   await expect.poll(async () => Number(await pane(page).getAttribute('data-position'))).toBeGreaterThan(500);
   await page.getByTestId('events').click();
   await page.getByTestId('event').first().click();
-  await page.getByTestId('remark').fill('Here it begins');
-  await page.getByTestId('add-remark').click();
+  await page.getByTestId('annotation').fill('Here it begins');
+  await page.getByTestId('add-annotation').click();
   await expect(page.getByTestId('event').filter({ hasText: 'Here it begins' })).toBeVisible();
   await page.getByTestId('events').click();
   await page.keyboard.press('b');
@@ -100,7 +100,7 @@ test('a session is gone through, mapped, measured, judged and taken home', async
   const legend = page.getByTestId('legend');
   await expect(legend).toContainText('0.25 to 0.5 mm beyond');
   await expect(legend).toContainText('nothing to compare');
-  await expect(page.getByTestId('breach-0')).toContainText(/none|pegs|cannot be said/);
+  await expect(page.getByTestId('breach-0')).toContainText(/none|pegs|not known/);
   await page.screenshot({ path: info.outputPath('map-plan.png') });
   const report = await bone(pane(page));
   await page.getByTestId('map-scale').selectOption('coarse');
@@ -148,7 +148,7 @@ test('a session is gone through, mapped, measured, judged and taken home', async
   const card = page.getByTestId('metric-card');
   await expect(page.getByTestId('mark-0')).toContainText('of 100');
   await page.getByTestId('metric-version_error_deg').hover();
-  for (const said of ['Definition', 'Unit', 'Limits', 'Source', 'Confidence']) await expect(card).toContainText(said);
+  for (const label of ['Definition', 'Unit', 'Limits', 'Source', 'Confidence']) await expect(card).toContainText(label);
   await page.mouse.move(5, 5);
   await expect(card).toHaveCount(0);
   const name = page.getByTestId('metric-seating_percent').getByRole('button');
@@ -158,8 +158,8 @@ test('a session is gone through, mapped, measured, judged and taken home', async
   await page.screenshot({ path: info.outputPath('score.png') });
   await page.keyboard.press('Escape');
   await expect(card).toHaveCount(0);
-  await page.getByTestId('unsaid').click();
-  await expect(page.getByTestId('score').locator('.unsaid-list dd').first()).not.toBeEmpty();
+  await page.getByTestId('missing-metrics').click();
+  await expect(page.getByTestId('score').locator('.missing-list dd').first()).not.toBeEmpty();
 
   // Files.
   for (const [format, ending] of [
@@ -269,13 +269,13 @@ test('says what is wrong and what to do: links that end, a server that is gone, 
 
   // Deleted under the eyes of who looks at it, and restored.
   await call(page, 'DELETE', `sessions/${id}`);
-  const trouble = page.getByTestId('trouble');
-  await expect(trouble).toContainText('deleted', { timeout: 30_000 });
+  const sessionError = page.getByTestId('session-error');
+  await expect(sessionError).toContainText('deleted', { timeout: 30_000 });
   await page.screenshot({ path: info.outputPath('deleted.png') });
   await call(page, 'POST', `sessions/${id}/restore`);
-  await trouble.getByRole('button').click();
+  await sessionError.getByRole('button').click();
   await expect(shown(pane(page))).toHaveAttribute('data-stale', 'false', { timeout: 60_000 });
   await page.goto(`${here.server.url}/#/review/nosuch12`);
-  await expect(trouble).toHaveAttribute('data-kind', 'gone');
-  expect(await picture(trouble)).not.toBe('');
+  await expect(sessionError).toHaveAttribute('data-kind', 'gone');
+  expect(await picture(sessionError)).not.toBe('');
 });

@@ -26,15 +26,15 @@ export class ServerProcess {
 
   /** The first user ends the time in which everybody may do everything. */
   addUser({ name, role, displayName }: TestUser): void {
-    const words = ['user', 'add', name, '--role', role, '--display-name', displayName, '--data', this.dataFolder];
-    const { status, stderr } = spawnSync(program, words, { input: `${passwordOf(name)}\n`, encoding: 'utf8' });
+    const args = ['user', 'add', name, '--role', role, '--display-name', displayName, '--data', this.dataFolder];
+    const { status, stderr } = spawnSync(program, args, { input: `${passwordOf(name)}\n`, encoding: 'utf8' });
     if (status !== 0) throw new Error(`${program} user add ended with ${String(status)}: ${stderr}`);
   }
 
   /** What an operator does at the server's own command line. */
-  command(...words: string[]): string {
-    const { status, stdout, stderr } = spawnSync(program, [...words, '--data', this.dataFolder], { encoding: 'utf8' });
-    if (status !== 0) throw new Error(`${program} ${words.join(' ')} ended with ${String(status)}: ${stderr}`);
+  command(...args: string[]): string {
+    const { status, stdout, stderr } = spawnSync(program, [...args, '--data', this.dataFolder], { encoding: 'utf8' });
+    if (status !== 0) throw new Error(`${program} ${args.join(' ')} ended with ${String(status)}: ${stderr}`);
     return stdout;
   }
 

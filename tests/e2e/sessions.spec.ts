@@ -30,8 +30,8 @@ test('a session is paused, goes on, and begins anew on intact bone as another se
     .poll(async () => Number(await page.getByTestId('removed-volume').textContent()), { timeout: 90_000 })
     .toBeGreaterThan(60);
   await page.getByTestId('reset-session').click();
-  await expect(page.getByTestId('really-reset')).toBeFocused();
-  await page.getByTestId('really-reset').click();
+  await expect(page.getByTestId('confirm-reset')).toBeFocused();
+  await page.getByTestId('confirm-reset').click();
   // The new session reams at once: what it has removed is seen while it is little.
   await page.waitForFunction(
     (before) => {

@@ -36,9 +36,9 @@ async function unsettled(page: Page): Promise<string[]> {
       for (const image of document.images) if (isSeen(image) && !image.complete) reasons.add(`${image.alt} is loaded`);
       for (const busy of document.querySelectorAll('[aria-busy="true"], [data-pending="true"]'))
         reasons.add(`${busy.getAttribute('data-testid') ?? busy.className} is busy`);
-      for (const said of document.querySelectorAll('p, [role="status"]')) {
-        const text = (said.textContent ?? '').trim();
-        if (text.endsWith('…') && isSeen(said)) reasons.add(text);
+      for (const element of document.querySelectorAll('p, [role="status"]')) {
+        const text = (element.textContent ?? '').trim();
+        if (text.endsWith('…') && isSeen(element)) reasons.add(text);
       }
     }
     return [...reasons];

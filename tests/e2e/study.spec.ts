@@ -18,7 +18,7 @@ async function windowOf(browser: Browser, user: TestUser): Promise<Page> {
   here.watchForErrors(page);
   await page.goto(here.server.url);
   await logIn(page, user.name);
-  await expect(page.getByTestId('who')).toContainText(user.displayName);
+  await expect(page.getByTestId('current-user')).toContainText(user.displayName);
   return page;
 }
 
@@ -99,7 +99,7 @@ test('a trainee takes part, trains and answers; who watches sees the code until 
   await trainee.getByTestId('vibration-none').check();
   await trainee.getByTestId('remarks-text').fill('More bone, please.');
   await trainee.getByTestId('send-answers').click();
-  await expect(trainee.getByTestId('answers-said')).toContainText('Thank you');
+  await expect(trainee.getByTestId('answers-status')).toContainText('Thank you');
   await trainee.reload();
   await expect(trainee.getByTestId('vibration-none')).toBeChecked();
   await expect(trainee.getByTestId('remarks-text')).toHaveValue('More bone, please.');
@@ -119,10 +119,10 @@ test('a trainee takes part, trains and answers; who watches sees the code until 
   await expect(operator.getByTestId(`participant-${code}`)).toContainText('Tom Trainee');
 
   await operator.getByTestId('close-study').click();
-  await operator.getByTestId('really-close-study').click();
+  await operator.getByTestId('confirm-close-study').click();
   await expect(operator.getByTestId('study-state')).toHaveText('Closed');
   await operator.getByTestId('unblind-study').click();
-  await operator.getByTestId('really-unblind-study').click();
+  await operator.getByTestId('confirm-unblind-study').click();
   await expect(operator.getByTestId('unblind-study')).toBeHidden();
   await instructor.getByTestId('to-sessions').click();
   await expect(instructor.getByTestId('session-table')).toContainText('Tom Trainee');
@@ -133,7 +133,7 @@ test('a trainee takes part, trains and answers; who watches sees the code until 
 test('an instructor enrols somebody without an account and trains with their code', async ({ browser }) => {
   const page = await windowOf(browser, ines);
   await makeStudy(page);
-  await expect(page.getByTestId('enrol-who')).toBeHidden();
+  await expect(page.getByTestId('enrol-user')).toBeHidden();
   await page.getByTestId('experience').selectOption('expert');
   await page.getByTestId('procedures').fill('120');
   await page.getByTestId('enrol').click();

@@ -1,7 +1,8 @@
 // JSON of requests and files: bodies, landmarks, plans, scripts.
 #include <nlohmann/json.hpp>
 
-#include "api/request_body.hpp"
+#include "api/request_contract.hpp"
+#include "api/request_values.hpp"
 #include "case/landmarks.hpp"
 #include "case/plan.hpp"
 #include "core/error.hpp"
@@ -18,15 +19,46 @@ net::Request request_with(std::string_view text) {
   return request;
 }
 
+constexpr const char* described = R"(
+paths:
+  /things:
+    post:
+      requestBody:
+        required: true
+        content: {application/json: {schema: {}}}
+    put:
+      requestBody:
+        required: true
+        content:
+          application/json:
+            schema:
+              type: object
+              additionalProperties: false
+              required: [case]
+              properties:
+                case: {type: string, pattern: '^[a-z0-9-]{1,64}$'}
+                title: {type: string, maxLength: 10}
+                force_scale: {type: number, exclusiveMinimum: 0, maximum: 1000}
+                place_mm: {oneOf: [{type: array, minItems: 3, maxItems: 3, items: {type: number}}, {type: 'null'}]}
+                blinded: {type: boolean}
+)";
+
+/// The body of a request as its handler gets it.
+nlohmann::json checked(const char* method, std::string_view text) {
+  static const api::Contract contract{described};
+  net::Request request = request_with(text);
+  request.method = method;
+  contract.check(request, "/things");
+  return api::body_of(request);
+}
+
 void read_body(std::string_view text) {
-  api::RequestBody body(request_with(text));
-  body.name_or("case", "");
-  body.words("title", 0, 10);
-  body.number_or_none("force_scale", 0.0, 1000.0);
-  body.number_within_or_none("spacing_mm", 0.1, 2.0);
-  body.point_or_none("place_mm", 500.0);
-  body.flag_or_none("blinded");
-  body.finish();
+  const nlohmann::json body = checked("PUT", text);
+  require(!body.at("case").get<std::string>().empty(), "a body without a case was taken");
+  api::text_in(body, "title");
+  api::optional_in<double>(body, "force_scale");
+  api::point_in(body, "place_mm");
+  body.value("blinded", false);
 }
 
 /// What is read must be the same when it has been written and read again.
@@ -41,7 +73,7 @@ void read(uint8_t kind, std::string_view text) {
     read_body(text);
     return;
   }
-  const nlohmann::json json = api::json_object_in(request_with(text));
+  const nlohmann::json json = checked("POST", text);
   if (kind % 4 == 1)
     read_twice(json, case_::landmarks_from_json);
   else if (kind % 4 == 2)

@@ -153,12 +153,12 @@ TEST(AdmittanceLoop, SigtermStopsThenDisablesThenCloses) {
                            {true, sim::Realtime::off});
       loop.start();
       wait_until("it to press", [&] { return reports.size() > 500; });
-      static_cast<void>(::write(pipe_ends[1], "!", 1));
+      if (::write(pipe_ends[1], "!", 1) != 1) ::_exit(2);
       wait_until("the signal", [] { return interrupted(); });
       loop.stop();
       std::string calls;
       for (const std::string& call : machine.seen->calls) calls += call + " ";
-      static_cast<void>(::write(pipe_ends[1], calls.data(), calls.size()));
+      if (::write(pipe_ends[1], calls.data(), calls.size()) < 0) ::_exit(3);
       ::_exit(machine.seen->stops > 0 ? 0 : 1);
     }
     ::close(pipe_ends[1]);

@@ -50,6 +50,9 @@ extern "C" void* __libc_calloc(size_t, size_t);
 extern "C" void* __libc_realloc(void*, size_t);
 extern "C" void* __libc_memalign(size_t, size_t);
 extern "C" void __libc_free(void*);
+// All interposed functions lie in a section of their own, whose ends the linker gives.
+#define REAM_TRAP_CODE __attribute__((section("ream_traps")))
+extern "C" const char __start_ream_traps[], __stop_ream_traps[];
 
 namespace ream::test {
 namespace {
@@ -94,11 +97,18 @@ int note_object(dl_phdr_info* object, size_t, void*) {
   return 0;
 }
 
+/// Whether it is in an interposed function, which is in place of the library's whoever calls it.
+bool is_interposed(const void* frame) {
+  return frame >= static_cast<const void*>(__start_ream_traps) &&
+         frame <= static_cast<const void*>(__stop_ream_traps);
+}
+
 /// Whether OpenCL lies on the way from where it happened to the first code of this program. `caller` is whom
 /// the interposed function was called by, or where the system call was made.
 bool is_vendors(void* const* frames, int count, const void* caller) {
   void* const* const end = frames + count;
   for (void* const* frame = std::find(frames, end, caller); frame != end; ++frame) {
+    if (is_interposed(*frame)) continue;
     if (this_program.holds(*frame)) return false;
     for (const Range& range : open_cl)
       if (range.holds(*frame)) return true;
@@ -230,38 +240,38 @@ using ream::test::trapped;
 
 extern "C" {
 
-void* malloc(size_t size) {
+REAM_TRAP_CODE void* malloc(size_t size) {
   trapped(Trap::allocate, __builtin_return_address(0));
   return __libc_malloc(size);
 }
-void* calloc(size_t count, size_t size) {
+REAM_TRAP_CODE void* calloc(size_t count, size_t size) {
   trapped(Trap::allocate, __builtin_return_address(0));
   return __libc_calloc(count, size);
 }
-void* realloc(void* old, size_t size) {
+REAM_TRAP_CODE void* realloc(void* old, size_t size) {
   trapped(Trap::allocate, __builtin_return_address(0));
   return __libc_realloc(old, size);
 }
-void* memalign(size_t alignment, size_t size) {
+REAM_TRAP_CODE void* memalign(size_t alignment, size_t size) {
   trapped(Trap::allocate, __builtin_return_address(0));
   return __libc_memalign(alignment, size);
 }
-void* aligned_alloc(size_t alignment, size_t size) {
+REAM_TRAP_CODE void* aligned_alloc(size_t alignment, size_t size) {
   trapped(Trap::allocate, __builtin_return_address(0));
   return __libc_memalign(alignment, size);
 }
-int posix_memalign(void** out, size_t alignment, size_t size) {
+REAM_TRAP_CODE int posix_memalign(void** out, size_t alignment, size_t size) {
   trapped(Trap::allocate, __builtin_return_address(0));
   *out = __libc_memalign(alignment, size);
   return *out == nullptr ? ENOMEM : 0;
 }
-void free(void* p) {
+REAM_TRAP_CODE void free(void* p) {
   if (p != nullptr) trapped(Trap::release, __builtin_return_address(0));
   __libc_free(p);
 }
 
 #define REAM_TRAPPED(trap, name, parameters, arguments)                  \
-  int name parameters {                                                  \
+  REAM_TRAP_CODE int name parameters {                                   \
     static const auto real = ream::test::next<int(*) parameters>(#name); \
     trapped(trap, __builtin_return_address(0));                          \
     return real arguments;                                               \

@@ -46,6 +46,9 @@ class FakeSession final : public session::RunningSession {
     ++stops();
   }
 
+  bool stands_still() const override { return stands_still_; }
+  void stand_still(bool still) { stands_still_ = still; }
+
   session::SessionStatus status() const override {
     const std::lock_guard lock(mutex_);
     return status_;
@@ -114,6 +117,7 @@ class FakeSession final : public session::RunningSession {
   mutable std::mutex mutex_;
   session::SessionStatus status_;
   std::vector<session::Annotation> annotations_;
+  std::atomic<bool> stands_still_{false};
 };
 
 /// Sends "hello <session>" and then whatever the viewer sends, back.

@@ -1,39 +1,71 @@
 #pragma once
-#include <filesystem>
+#include <gtest/gtest.h>
+
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "core/json_schema.hpp"
+
 namespace ream::test {
 
-/// A YAML file as JSON (YAML 1.2 core types; quoted scalars are text).
-nlohmann::json read_yaml(const std::filesystem::path& file);
+/// What is wrong with a value, a line each; empty when it fits. `schema` may refer to `document`.
+inline std::vector<std::string> schema_faults(const nlohmann::json& schema, const nlohmann::json& value,
+                                              const nlohmann::json& document) {
+  std::vector<std::string> lines;
+  for (const SchemaFault& fault : JsonSchema(schema, document).faults(value))
+    lines.push_back(fault.pointer + ": " + fault.detail);
+  return lines;
+}
+/// Of a schema that is a document of its own.
+inline std::vector<std::string> schema_faults(const nlohmann::json& schema, const nlohmann::json& value) {
+  return schema_faults(schema, value, schema);
+}
 
-/// Checks values against JSON schemas inside one document. Knows the keywords that the files in proto/ use
-/// and throws std::logic_error on any other, so that nothing is passed over unseen.
-class SchemaChecker {
- public:
-  explicit SchemaChecker(const nlohmann::json& document) : document_(document) {}
-
-  /// One line per fault, "#/loop/missed: must be integer"; empty when the value fits.
-  std::vector<std::string> faults(const nlohmann::json& schema, const nlohmann::json& value) const;
-
-  /// The schema itself, or what its $ref names in the document.
-  const nlohmann::json& resolve(const nlohmann::json& schema) const;
-
- private:
-  void check(const nlohmann::json& schema, const nlohmann::json& value, const std::string& at,
-             std::vector<std::string>& faults) const;
-  void check_object(const nlohmann::json& schema, const nlohmann::json& value, const std::string& at,
-                    std::vector<std::string>& faults) const;
-  void check_array(const nlohmann::json& schema, const nlohmann::json& value, const std::string& at,
-                   std::vector<std::string>& faults) const;
-  void check_one_of(const nlohmann::json& schema, const nlohmann::json& value, const std::string& at,
-                    std::vector<std::string>& faults) const;
-  void check_condition(const nlohmann::json& schema, const nlohmann::json& value, const std::string& at,
-                       std::vector<std::string>& faults) const;
-
-  const nlohmann::json& document_;
-};
+/// A schema and all within it say nothing but what JsonSchema understands, so that nothing is passed over
+/// unseen.
+inline void expect_known_keywords(const nlohmann::json& schema, const std::string& place) {
+  static const std::set<std::string> known = {"$ref",
+                                              "type",
+                                              "const",
+                                              "enum",
+                                              "required",
+                                              "dependentRequired",
+                                              "properties",
+                                              "items",
+                                              "minItems",
+                                              "maxItems",
+                                              "minimum",
+                                              "maximum",
+                                              "exclusiveMinimum",
+                                              "multipleOf",
+                                              "additionalProperties",
+                                              "pattern",
+                                              "minLength",
+                                              "maxLength",
+                                              "oneOf",
+                                              "allOf",
+                                              "if",
+                                              "then",
+                                              "not",
+                                              "description",
+                                              "title",
+                                              "$defs",
+                                              "$schema",
+                                              "$id",
+                                              "default"};
+  if (!schema.is_object()) return;
+  for (const auto& [key, value] : schema.items()) {
+    EXPECT_TRUE(known.contains(key)) << place << " has the keyword " << key;
+    const bool by_name = key == "properties" || key == "$defs";
+    const bool listed = key == "oneOf" || key == "allOf";
+    if (by_name || listed)
+      for (const auto& [name, part] : value.items())
+        expect_known_keywords(part, place + "/" + key + "/" + name);
+    else if (key == "items" || key == "additionalProperties" || key == "if" || key == "then" || key == "not")
+      expect_known_keywords(value, place + "/" + key);
+  }
+}
 
 }  // namespace ream::test

@@ -52,7 +52,7 @@ class RecordedCutting {
     }
   }
 
-  /// What ReamingSession does when the loop has ended.
+  /// What SessionFollower does when the loop has ended.
   void send_rest(record::Recorder& recorder) {
     while (sender.pending() > 0) {
       sender.send(bone.coverage.data(), tick - 1, 1000);

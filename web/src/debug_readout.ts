@@ -19,8 +19,8 @@ export interface DebugReadout {
   sessionState: string | null;
   serverEpoch: string | null;
   lastTick: number | null;
-  /** When the stream last told how things stand, ms; a replay that rests is told of again and again, too. */
-  toldMs: number | null;
+  /** When the last telemetry arrived, ms; a paused replay sends it again and again, too. */
+  telemetryMs: number | null;
   traceRevision: number;
   /** How old news are beyond what they always are, ms. */
   behindMs: number;
@@ -31,7 +31,7 @@ export interface DebugReadout {
   pushN: number;
   /** How far the reamer's origin is past the planned entry along the axis, mm. */
   toolDepthMm: number | null;
-  /** What was last told to the loudspeaker. */
+  /** The newest parameters of the sound. */
   sound: SoundParameters;
   /** From where the picture is seen. */
   eye: Eye;
@@ -66,7 +66,7 @@ export function publishDebugReadout({ store, practice, scene, sound, latency }: 
       sessionState: store.sessionState.value,
       serverEpoch: store.hello.value?.serverEpoch ?? null,
       lastTick: store.telemetry.value?.tick ?? null,
-      toldMs: store.telemetry.value?.receivedMs ?? null,
+      telemetryMs: store.telemetry.value?.receivedMs ?? null,
       traceRevision: store.traceRevision.value,
       behindMs: store.behindMs.value,
       replayOf: store.hello.value?.replayOf ?? null,
@@ -74,7 +74,7 @@ export function publishDebugReadout({ store, practice, scene, sound, latency }: 
       deviceLink: practice.sessionId.value === null ? null : practice.link.value.kind,
       pushN: practice.hand.pushN.value,
       toolDepthMm: toolDepthMm(store),
-      sound: sound.told.value,
+      sound: sound.parameters.value,
       eye: scene.eye(),
       handLatencyMs: latency.handMs.value,
     }),

@@ -12,7 +12,7 @@ import { Alarms } from './state/alarms';
 import { Identity } from './state/identity';
 import { Latency } from './state/latency';
 import { LiveCase } from './state/live_case';
-import { LiveRemarks } from './state/live_remarks';
+import { LiveAnnotations } from './state/live_annotations';
 import { Practice } from './state/practice';
 import { PracticeStore } from './state/practice_store';
 import { browserWindow, letGoWhenLeft } from './state/practice_window';
@@ -73,7 +73,7 @@ function main(root: HTMLElement): void {
   const latency = measureLatency(store, practiceStore, scene);
   publishDebugReadout({ store, practice: practiceStore, scene, sound, latency });
   const view = new ViewSettings();
-  scene.onTaken = () => {
+  scene.onInteraction = () => {
     if (view.choices.peek().camera !== 'own') view.change({ camera: 'own' });
   };
   const inTheatre = theatreHere(store, practiceStore, route);
@@ -93,7 +93,7 @@ function main(root: HTMLElement): void {
         alarms,
         sound,
         latency,
-        remarks: new LiveRemarks(store, new ReviewApi(window.location.origin)),
+        annotations: new LiveAnnotations(store, new ReviewApi(window.location.origin)),
         theatreWanted: signal(false),
         practice,
         practiceStore,
@@ -112,14 +112,14 @@ function main(root: HTMLElement): void {
 
 /** Who teaches and logs in begins the day with the overview, unless the address names a page. */
 function beginWithOverview(identity: Identity, route: Signal<Route>): void {
-  let asked = false;
+  let hadToLogIn = false;
   let begun = false;
   effect(() => {
     const phase = identity.phase.value;
-    if (phase === 'unknown') asked = true;
+    if (phase === 'unknown') hadToLogIn = true;
     if (phase !== 'known' || begun) return;
     begun = true;
-    if (!asked || !identity.may.peek().teach || window.location.hash !== '') return;
+    if (!hadToLogIn || !identity.may.peek().teach || window.location.hash !== '') return;
     window.history.replaceState(null, '', addressOfRoute({ kind: 'dashboard' }));
     route.value = { kind: 'dashboard' };
   });
@@ -151,7 +151,7 @@ function watchWhenKnown(
 
 /** By this computer's clock alone, ms since 1970: page and workers count from different moments. */
 const clockMs = () => performance.timeOrigin + performance.now();
-const tellLatencyMs = 500;
+const publishLatencyMs = 500;
 
 function measureLatency(store: Store, practice: PracticeStore, scene: BoneScene): Latency {
   const latency = new Latency();
@@ -166,7 +166,7 @@ function measureLatency(store: Store, practice: PracticeStore, scene: BoneScene)
     if (telemetry?.receivedMs === undefined || !store.live.peek()) return;
     latency.drawn(telemetry.tick, telemetry.receivedMs, clockMs());
   };
-  setInterval(() => latency.tell(clockMs()), tellLatencyMs);
+  setInterval(() => latency.publish(clockMs()), publishLatencyMs);
   return latency;
 }
 

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 struct BackupOptions {
   fs::path file;
-  bool force = false;
+  RestoreOptions restore;
 };
 
 size_t count_of(const std::map<std::string, size_t>& counts, const std::string& folder) {
@@ -75,8 +75,13 @@ void restore(const BackupOptions& options, const GlobalOptions& global) {
   RestoreReport report;
   {
     const TerminalProgress progress;
-    report = restore_backup(*database, data, options.file, options.force, std::cref(progress));
+    report = restore_backup(*database, data, options.file, options.restore, std::cref(progress));
   }
+  log::info(options.restore.keep_tokens
+                ? "logins and viewer links are not restored; tokens are, also those revoked since the backup"
+                : "logins, viewer links and tokens are not restored; make new ones (or restore with "
+                  "--keep-tokens)");
+  log::info("passwords are those of the backup, and sessions that were erased since are back");
   if (!report.aside.empty()) log::info("what was there before is in " + report.aside.string());
   if (global.json)
     std::cout << nlohmann::json{{"data", data.string()},
@@ -109,7 +114,9 @@ void add_restore_command(CLI::App& app, GlobalOptions& global) {
   CLI::App* command = app.add_subcommand(
       "restore", "Put a backup into an empty data folder and an empty database of either kind");
   command->add_option("FILE", options->file, "What ream backup has written")->required();
-  command->add_flag("--force", options->force, "Move aside what is there, within the data folder");
+  command->add_flag("--force", options->restore.force, "Move aside what is there, within the data folder");
+  command->add_flag("--keep-tokens", options->restore.keep_tokens,
+                    "Tokens of the backup are good again, also those that were revoked since");
   command->callback([options, &global] { restore(*options, global); });
 }
 

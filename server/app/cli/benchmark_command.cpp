@@ -27,13 +27,13 @@ struct BenchmarkOptions {
   fs::path out;
 };
 
-std::vector<score::MeasuredSession> measured(const std::vector<std::string>& names,
-                                             const BenchmarkOptions& options, const fs::path& data) {
+std::vector<score::EndedSession> measured(const std::vector<std::string>& names,
+                                          const BenchmarkOptions& options, const fs::path& data) {
   const TerminalProgress progress;
-  std::vector<score::MeasuredSession> sessions;
+  std::vector<score::EndedSession> sessions;
   for (const session::Rescored& one : session::rescore(names, options.case_name, data, std::cref(progress))) {
     if (!one.error.empty()) throw Error(one.kind, one.name + ": " + one.error);
-    sessions.push_back({one.name, one.metrics});
+    sessions.push_back({one.name, nullptr, one.metrics});
   }
   return sessions;
 }
@@ -68,8 +68,7 @@ void make_benchmark(const BenchmarkOptions& options, const GlobalOptions& global
   json cuts = json::array();
   if (!options.novices.empty())
     cuts = score::group_cuts_json(measured(options.novices, options, data), experts, rubric, density);
-  if (!options.out.empty())
-    write_file_atomically(options.out, score::benchmark_json(benchmark).dump(2) + "\n");
+  if (!options.out.empty()) write_json_file(options.out, score::benchmark_json(benchmark));
   if (global.json)
     std::cout << json{{"benchmark", score::benchmark_json(benchmark)}, {"cuts", cuts}}.dump() << '\n';
   else

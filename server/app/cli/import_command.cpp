@@ -14,7 +14,6 @@
 #include "core/log.hpp"
 #include "ct/build/import.hpp"
 #include "session/export/session_bundle.hpp"
-#include "workup/ct_source.hpp"
 
 namespace ream::app {
 namespace {
@@ -61,18 +60,15 @@ ct::ImportOptions parsed(const ImportOptions& options) {
 ct::Imported imported(const ImportOptions& options, const ct::ImportOptions& import,
                       const std::filesystem::path& out) {
   const TerminalProgress progress;
-  const workup::CtSource source(options.path);
-  return source.read([&](const std::filesystem::path& ct) {
-    return ct::import_with_ct(ct, ct::case_id_from(out), import, std::cref(progress));
-  });
+  return ct::import_with_ct(options.path, ct::case_id_from(out), import, std::cref(progress));
 }
 
-void report(const case_::Case& c, const std::filesystem::path& out, bool json) {
+void report(const case_::Case& c, const std::filesystem::path& out, bool as_json) {
   const auto& d = c.bone.grid.dims;
   const auto& s = c.bone.grid.spacing_mm;
   const auto density = ct::density_range_g_cc(c.bone);
   for (const auto& warning : c.warnings) log::warn(warning);
-  if (json) {
+  if (as_json) {
     std::cout << nlohmann::json{{"case", c.id},
                                 {"out", out.string()},
                                 {"dims", {d.x(), d.y(), d.z()}},

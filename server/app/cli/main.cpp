@@ -36,6 +36,7 @@ void add_commands(CLI::App& app, ream::app::GlobalOptions& global) {
   add_list_command(app, global);
   add_replay_command(app, global);
   add_devices_command(app, global);
+  add_audit_command(app, global);
   add_user_command(app, global);
   add_backup_command(app, global);
   add_restore_command(app, global);
@@ -48,7 +49,7 @@ int main(int argc, char** argv) {
   CLI::App app("ream: a training simulator for glenoid reaming");
   ream::app::GlobalOptions global;
   add_commands(app, global);
-  ream::take_file_size_limit_as_error();
+  ream::take_failed_writes_as_errors();
   ream::device::take_force_away_on_crash();
   try {
     app.parse(argc, argv);

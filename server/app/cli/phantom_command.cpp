@@ -47,7 +47,7 @@ void phantom(const PhantomOptions& options, const GlobalOptions& global) {
   const ct::Phantom made = ct::make_phantom(params);
   write_volume(made.volume, options, folder.path());
   const nlohmann::json truth = ct::to_json(made.truth);
-  write_file_atomically(folder.path() / "ground_truth.json", truth.dump(2) + "\n");
+  write_json_file(folder.path() / "ground_truth.json", truth);
   case_::save_landmarks(made.truth.landmarks, folder.path());
   folder.commit();
   const Vec3i& d = made.volume.dims;

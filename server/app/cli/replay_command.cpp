@@ -13,8 +13,9 @@
 #include "core/interrupt.hpp"
 #include "session/replay/review_recording.hpp"
 #include "session/replay/verify_replay.hpp"
-#include "session/simulation/recorded_case.hpp"
+#include "session/simulation/find_case.hpp"
 #include "session/simulation/recorded_session.hpp"
+#include "session/simulation/recorded_setup.hpp"
 
 namespace ream::app {
 namespace {

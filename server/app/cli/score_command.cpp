@@ -11,11 +11,13 @@
 #include "core/file.hpp"
 #include "core/interrupt.hpp"
 #include "core/log.hpp"
+#include "core/version.hpp"
 #include "score/rubric_store.hpp"
-#include "session/export/session_facts.hpp"
+#include "session/export/session_report.hpp"
+#include "session/folder/session_folder.hpp"
 #include "session/scoring/ended_sessions.hpp"
-#include "session/scoring/kept_score.hpp"
 #include "session/scoring/rescoring.hpp"
+#include "session/scoring/score_document.hpp"
 #include "session/scoring/score_table.hpp"
 #include "session/simulation/recorded_session.hpp"
 
@@ -32,21 +34,16 @@ struct ScoreOptions {
   score::CusumParameters cusum;
 };
 
-/// What sessions are judged by.
-struct Judge {
-  score::Rubric rubric;
-  std::optional<score::Benchmark> benchmark;
-};
-
 /// A session that could be scored.
 struct Judged {
   session::EndedSession table;
   nlohmann::json document;
 };
 
-Judge judge_of(const ScoreOptions& options, const fs::path& data) {
-  Judge judge{score::find_rubric(options.rubric, score::RubricStore(rubrics_folder(data))), std::nullopt};
-  if (!options.benchmark.empty()) judge.benchmark = score::load_benchmark(options.benchmark);
+session::Judge judge_of(const ScoreOptions& options, const fs::path& data) {
+  session::Judge judge{score::find_rubric(options.rubric, score::RubricStore(rubrics_folder(data))), ""};
+  if (!options.benchmark.empty())
+    judge.benchmark = std::make_shared<const score::Benchmark>(score::load_benchmark(options.benchmark));
   return judge;
 }
 
@@ -73,14 +70,13 @@ std::vector<session::Rescored> rescored(const ScoreOptions& options, const fs::p
   return session::rescore(names, options.case_name, data, std::cref(progress));
 }
 
-Judged judged(const session::Rescored& one, const ScoreOptions& options, const Judge& judge,
+Judged judged(const session::Rescored& one, const ScoreOptions& options, const session::Judge& judge,
               const fs::path& data) {
   const fs::path recording = session::recording_path(one.name, data);
   Judged result;
   result.table = {one.name, session::description_of(record::Recording(recording)), one.metrics};
-  result.document = session::score_document(result.table.session, one.metrics, judge.rubric,
-                                            judge.benchmark ? &*judge.benchmark : nullptr);
-  if (options.save) session::write_score(recording.parent_path(), result.document);
+  result.document = session::score_document(version_text(), result.table.session, one.metrics, judge);
+  if (options.save) write_json_file(session::score_json(recording.parent_path()), result.document);
   return result;
 }
 
@@ -100,7 +96,7 @@ nlohmann::json answer_of(const Judged& one) {
   return answer;
 }
 
-nlohmann::json learning_of_all(const std::vector<Judged>& all, const Judge& judge,
+nlohmann::json learning_of_all(const std::vector<Judged>& all, const session::Judge& judge,
                                const ScoreOptions& options) {
   std::vector<score::LearningPoint> points;
   for (const Judged& one : all)
@@ -126,7 +122,7 @@ void print_all(const std::vector<Judged>& all, const nlohmann::json& failed, con
 
 void score_sessions(const ScoreOptions& options, const GlobalOptions& global) {
   const fs::path data = data_folder(global.data);
-  const Judge judge = judge_of(options, data);
+  const session::Judge judge = judge_of(options, data);
   const std::vector<session::Rescored> scored = rescored(options, data);
   std::vector<Judged> all;
   nlohmann::json failed = nlohmann::json::array();

@@ -11,7 +11,6 @@
 #include "api/server.hpp"
 #include "app/cli/commands.hpp"
 #include "app/open_database.hpp"
-#include "app/openigtlink_address.hpp"
 #include "app/server_address.hpp"
 #include "core/clock.hpp"
 #include "core/data_folder.hpp"
@@ -22,6 +21,7 @@
 #include "core/log.hpp"
 #include "ct/phantom/phantom_case.hpp"
 #include "device/registry/device_registry.hpp"
+#include "isolation/sandbox.hpp"
 #include "openigtlink/server.hpp"
 #include "session/live/session_recovery.hpp"
 #include "session/service/simulation_engine.hpp"
@@ -32,7 +32,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_days = 36500;
+constexpr int most_days = 36500, most_minutes = 7 * 24 * 60;
 
 struct ServeOptions {
   ServerAddress address;
@@ -40,7 +40,8 @@ struct ServeOptions {
   fs::path web;
   std::string backend = "auto", realtime = "try", device = "script";
   std::optional<int> keep_sessions_days;
-  int keep_deleted_days = 30;
+  int keep_deleted_days = 30, end_unstarted_minutes = 10;
+  int delete_at_once_percent = 50;
 };
 
 /// The built page: --web, else web/ beside the program's folder, else web/dist of the source tree it was
@@ -81,21 +82,21 @@ bool has_users(const std::string& db, const fs::path& data) {
 }
 
 /// An expiring link for people who only watch; empty while everybody may do everything.
-std::string viewer_link(access::AccessControl& gatehouse, const std::string& url) {
-  if (!gatehouse.users.any()) return {};
+std::string viewer_link(access::AccessControl& access_control, const std::string& url) {
+  if (!access_control.users.any()) return {};
   access::NewCredential wanted;
   wanted.name = "the server's own, at its start";
-  const auto issued = gatehouse.credentials.issue(access::CredentialKind::link, wanted);
+  const auto issued = access_control.credentials.issue(access::CredentialKind::link, wanted);
   return url + "/#watch=" + issued.secret.reveal();
 }
 
 /// The viewer link goes to a person or a program that asked for it, never into a file of logs.
 void tell_address(const std::string& url, const openigtlink::Server* watched,
-                  access::AccessControl& gatehouse, bool for_programs) {
+                  access::AccessControl& access_control, bool for_programs) {
   if (for_programs) {
     nlohmann::json told = {{"url", url}};
     if (watched != nullptr) told["openigtlink_port"] = watched->port();
-    if (const std::string link = viewer_link(gatehouse, url); !link.empty()) told["viewer_link"] = link;
+    if (const std::string link = viewer_link(access_control, url); !link.empty()) told["viewer_link"] = link;
     std::cout << told.dump() << std::endl;
     return;
   }
@@ -103,8 +104,17 @@ void tell_address(const std::string& url, const openigtlink::Server* watched,
   if (watched != nullptr)
     std::cout << "3D Slicer watches by OpenIGTLink, port " << watched->port() << std::endl;
   if (::isatty(STDOUT_FILENO) == 0) return;
-  if (const std::string link = viewer_link(gatehouse, url); !link.empty())
+  if (const std::string link = viewer_link(access_control, url); !link.empty())
     std::cout << "to watch, for 12 hours: " << link << std::endl;
+}
+
+void log_sandbox() {
+  const isolation::SandboxSupport support = isolation::sandbox_support();
+  const std::string words = isolation::sandbox_in_words(support);
+  if (support.landlock > 0 && support.seccomp)
+    log::info(words);
+  else
+    log::warn(words);
 }
 
 void serve(const ServeOptions& options, const GlobalOptions& global) {
@@ -133,8 +143,8 @@ void serve(const ServeOptions& options, const GlobalOptions& global) {
 
   std::optional<openigtlink::Server> watched;
   if (openigtlink_options) {
-    context.showcase = std::make_shared<openigtlink::ActiveSession>();
-    watched.emplace(*openigtlink_options, context.showcase);
+    context.openigtlink_session = std::make_shared<openigtlink::ActiveSession>();
+    watched.emplace(*openigtlink_options, context.openigtlink_session);
   }
   server_options.cases_folder = cases_folder(context.data);
   server_options.data_folder = context.data;
@@ -143,12 +153,16 @@ void serve(const ServeOptions& options, const GlobalOptions& global) {
   server_options.default_device = options.device;
   server_options.retention.keep_sessions_days = options.keep_sessions_days;
   server_options.retention.keep_deleted_days = options.keep_deleted_days;
+  server_options.retention.most_at_once_percent = options.delete_at_once_percent;
+  server_options.sessions.unstarted = std::chrono::minutes(options.end_unstarted_minutes);
+  if (options.end_unstarted_minutes == 0) server_options.sessions.unstarted.reset();
   server_options.prepare = [context] { ct::load_or_make_demo_case(context.data); };
   api::Server server(std::move(server_options));
   server.start();
 
-  tell_address(server_url(options.address, server.port()), watched ? &*watched : nullptr, *server.gatehouse(),
-               global.json);
+  log_sandbox();
+  tell_address(server_url(options.address, server.port()), watched ? &*watched : nullptr,
+               server.access_control(), global.json);
   while (!interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   log::info("stopping: sessions end without force, recordings are closed");
   server.stop();
@@ -168,6 +182,9 @@ void add_serve_command(CLI::App& app, GlobalOptions& global) {
   command->add_option("--tls-cert", address.certificate_chain,
                       "The server's certificate with its chain, PEM");
   command->add_option("--tls-key", address.key, "Its key, PEM");
+  command->add_option("--trusted-proxy", address.trusted_proxies,
+                      "Proxy in front of this server, ADDRESS[/BITS], whose Forwarded or X-Forwarded-For and "
+                      "-Proto say who asks; several may be given");
   command->add_flag("--insecure", address.insecure,
                     "Let others log in without TLS, where something else encrypts");
   command->add_option("--openigtlink", options->openigtlink,
@@ -188,6 +205,16 @@ void add_serve_command(CLI::App& app, GlobalOptions& global) {
       ->add_option("--keep-deleted-days", options->keep_deleted_days,
                    "Keep deleted sessions for so long, so that they can be restored; 0: not at all")
       ->check(CLI::Range(0, most_days))
+      ->capture_default_str();
+  command
+      ->add_option("--delete-at-once-percent", options->delete_at_once_percent,
+                   "Delete nothing by age while more than this share would go at once; 100: no limit")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  command
+      ->add_option("--end-unstarted-minutes", options->end_unstarted_minutes,
+                   "End sessions that nobody has started for so long; 0: never")
+      ->check(CLI::Range(0, most_minutes))
       ->capture_default_str();
   command->callback([options, &global] { serve(*options, global); });
 }

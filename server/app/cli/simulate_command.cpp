@@ -12,7 +12,7 @@
 #include "core/interrupt.hpp"
 #include "force/feed_model.hpp"
 #include "session/live/headless_run.hpp"
-#include "session/scoring/kept_score.hpp"
+#include "session/scoring/score_document.hpp"
 #include "session/simulation/reamed_pictures.hpp"
 #include "session/simulation/session_setup.hpp"
 
@@ -66,7 +66,7 @@ void simulate(const SimulateOptions& options, const GlobalOptions& global) {
   catch_interrupts();
   session::Simulation simulation(session::build_setup(request, data_folder(global.data)));
   const std::vector<uint8_t> before = simulation.bone_case.bone.coverage;
-  const session::HeadlessResult result =
+  const session::SessionFiles::Results result =
       session::run_headless(simulation, before, folder.path(), options.wall_clock);
   session::write_reamed_pictures(simulation, before, folder.path());
   session::keep_score(folder.path(), data_folder(global.data));
@@ -74,9 +74,9 @@ void simulate(const SimulateOptions& options, const GlobalOptions& global) {
   folder.commit();
 
   if (global.json) {
-    nlohmann::json json = result.metrics;
-    json["out"] = out.string();
-    std::cout << json.dump() << '\n';
+    nlohmann::json summary = result.metrics;
+    summary["out"] = out.string();
+    std::cout << summary.dump() << '\n';
     return;
   }
   const auto number = [&](const char* key) { return result.metrics.at(key).get<double>(); };

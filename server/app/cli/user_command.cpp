@@ -3,15 +3,16 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "access/access_control.hpp"
-#include "api/user_json.hpp"
+#include "api/replies.hpp"
 #include "app/cli/commands.hpp"
 #include "app/open_database.hpp"
 #include "app/password_prompt.hpp"
+#include "app/person_data.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "core/text.hpp"
 
 namespace ream::app {
@@ -24,6 +25,7 @@ using nlohmann::json;
 struct UserOptions {
   std::string name, display_name, role, words, credential;
   int expires_days = 90;
+  bool keep_tokens = false;
 };
 
 const std::vector<std::string> account_roles = {"operator", "instructor", "trainee"};
@@ -32,18 +34,18 @@ const std::vector<std::string> token_roles = {"operator", "instructor", "trainee
 /// The database and what stands on it, for one command.
 struct Office {
   explicit Office(const GlobalOptions& global)
-      : database(open_database(global.db, data_folder(global.data))), gatehouse(*database) {}
+      : database(open_database(global.db, data_folder(global.data))), access_control(*database) {}
 
   access::User user(const std::string& name) const {
-    if (const auto found = gatehouse.users.find_by_name(name)) return *found;
+    if (const auto found = access_control.users.find_by_name(name)) return *found;
     throw Error(ErrorKind::not_found, "no user '" + name + "'; ream user list shows them");
   }
   void note(const std::string& action, const std::string& object, const std::string& detail) {
-    gatehouse.audit.note({"", "command line", to_text(Role::operator_), "", ""}, action, object, detail);
+    access_control.audit.note({"", "command line", to_text(Role::operator_), "", ""}, action, object, detail);
   }
 
   std::shared_ptr<store::Database> database;
-  access::AccessControl gatehouse;
+  access::AccessControl access_control;
 };
 
 json to_json(const store::CredentialRow& row) {
@@ -54,7 +56,7 @@ json to_json(const store::CredentialRow& row) {
           {"session", row.session_id},
           {"created_utc", row.created_utc},
           {"expires_utc", row.expires_utc},
-          {"last_used_utc", row.last_used_utc.empty() ? json(nullptr) : json(row.last_used_utc)}};
+          {"last_used_utc", or_null(row.last_used_utc)}};
 }
 
 void tell(const GlobalOptions& global, const json& for_programs, const std::string& for_people) {
@@ -63,10 +65,10 @@ void tell(const GlobalOptions& global, const json& for_programs, const std::stri
 
 void add(const UserOptions& options, const GlobalOptions& global) {
   Office office(global);
-  const bool first = !office.gatehouse.users.any();
+  const bool first = !office.access_control.users.any();
   const std::string name = lower(options.name);
   access::require_user_name(name);
-  if (office.gatehouse.users.find_by_name(name))
+  if (office.access_control.users.find_by_name(name))
     throw Error(ErrorKind::conflict, "there is a user '" + name + "' already");
   access::NewUser wanted;
   wanted.name = name;
@@ -76,7 +78,7 @@ void add(const UserOptions& options, const GlobalOptions& global) {
   if (first && wanted.role != Role::operator_)
     throw Error(ErrorKind::conflict, "the first user must be operator");
   wanted.password = ask_new_password(name);
-  const access::User user = office.gatehouse.users.add(wanted);
+  const access::User user = office.access_control.users.add(wanted);
   office.note("user.add", user.id, user.name + " as " + access::to_text(user.role));
   tell(global, api::user_json(user),
        user.name + " is " + access::to_text(user.role) +
@@ -96,13 +98,13 @@ void list(const GlobalOptions& global) {
   Office office(global);
   std::map<std::string, std::string> names;
   json told = {{"users", json::array()}, {"tokens", json::array()}, {"links", json::array()}};
-  for (const access::User& user : office.gatehouse.users.list()) {
+  for (const access::User& user : office.access_control.users.list()) {
     told["users"].push_back(api::user_json(user));
     names[user.id] = user.name;
   }
-  for (const auto& row : office.gatehouse.credentials.list(CredentialKind::token, ""))
+  for (const auto& row : office.access_control.credentials.list(CredentialKind::token, ""))
     told["tokens"].push_back(to_json(row));
-  for (const auto& row : office.gatehouse.credentials.list(CredentialKind::link, ""))
+  for (const auto& row : office.access_control.credentials.list(CredentialKind::link, ""))
     told["links"].push_back(to_json(row));
   if (global.json) {
     std::cout << told.dump() << '\n';
@@ -130,7 +132,8 @@ void make_token(const UserOptions& options, const GlobalOptions& global) {
                                               "; a token of theirs cannot be " + options.role);
   wanted.expires_utc =
       utc_text(std::chrono::system_clock::now() + std::chrono::hours(24) * options.expires_days);
-  const access::IssuedCredential issued = office.gatehouse.credentials.issue(CredentialKind::token, wanted);
+  const access::IssuedCredential issued =
+      office.access_control.credentials.issue(CredentialKind::token, wanted);
   office.note("token.add", issued.row.id, issued.row.name);
   json told = to_json(issued.row);
   told["secret"] = issued.secret.reveal();
@@ -140,7 +143,7 @@ void make_token(const UserOptions& options, const GlobalOptions& global) {
 
 void revoke(const UserOptions& options, const GlobalOptions& global) {
   Office office(global);
-  access::Credentials& credentials = office.gatehouse.credentials;
+  access::Credentials& credentials = office.access_control.credentials;
   for (const CredentialKind kind : {CredentialKind::token, CredentialKind::link, CredentialKind::cookie})
     if (const auto row = credentials.find(options.credential, kind)) {
       credentials.revoke(row->id);
@@ -156,7 +159,7 @@ void revoke(const UserOptions& options, const GlobalOptions& global) {
 void change(const std::string& name, const access::UserChange& change, const std::string& words,
             const GlobalOptions& global) {
   Office office(global);
-  const access::User user = office.gatehouse.users.change(office.user(name).id, change);
+  const access::User user = office.access_control.users.change(office.user(name).id, change);
   office.note("user.change", user.id, user.name + ": " + words);
   tell(global, api::user_json(user), user.name + ": " + words);
 }
@@ -165,7 +168,9 @@ void set_password(const UserOptions& options, const GlobalOptions& global) {
   const std::string name = Office(global).user(options.name).name;
   access::UserChange wanted;
   wanted.password = ask_new_password(name);
-  change(name, wanted, "password", global);
+  wanted.keep_tokens = options.keep_tokens;
+  change(name, wanted,
+         wanted.keep_tokens ? "password, tokens stay" : "password; tokens and links are revoked", global);
 }
 
 void set_role(const UserOptions& options, const GlobalOptions& global) {
@@ -183,9 +188,36 @@ void set_enabled(const UserOptions& options, bool enabled, const GlobalOptions& 
 void remove(const UserOptions& options, const GlobalOptions& global) {
   Office office(global);
   const access::User user = office.user(options.name);
-  office.gatehouse.users.remove(user.id);
+  office.access_control.users.remove(user.id);
   office.note("user.remove", user.id, user.name);
   tell(global, {{"removed", user.id}}, user.name + " is removed");
+}
+
+void forget(const UserOptions& options, const GlobalOptions& global) {
+  Office office(global);
+  const access::User user = office.user(options.name);
+  office.note("user.forget", user.id, "");
+  const ForgetReport report =
+      forget_person(*office.database, office.access_control, data_folder(global.data), user);
+  if (!report.left.empty()) {
+    for (const std::string& line : report.left) std::cerr << line << '\n';
+    throw Error(ErrorKind::conflict, std::to_string(report.left.size()) + " sessions still name '" +
+                                         user.name + "', who is disabled; see above, then forget again");
+  }
+  office.note("user.forget", user.id, "");
+  tell(global, {{"forgotten", user.id}, {"sessions", report.sessions}, {"audit_rows", report.audit_rows}},
+       user.name + " is forgotten: " + std::to_string(report.sessions) + " sessions and " +
+           std::to_string(report.audit_rows) + " rows of the audit log are without a name");
+  if (!global.json)
+    std::cerr << "backups and what was downloaded still hold the name; results of jobs go within a day\n";
+}
+
+void export_user(const UserOptions& options, const GlobalOptions& global) {
+  const Office office(global);
+  std::cout << export_person(*office.database, office.access_control, data_folder(global.data),
+                             office.user(options.name))
+                   .dump(2, ' ', false, json::error_handler_t::replace)
+            << '\n';
 }
 
 }  // namespace
@@ -219,7 +251,9 @@ void add_user_command(CLI::App& app, GlobalOptions& global) {
   CLI::App* revoking = command->add_subcommand("revoke", "Revoke a token, a viewer link or a login at once");
   revoking->add_option("ID", options->credential, "Of ream user list")->required();
   revoking->callback([options, &global] { revoke(*options, global); });
-  with_name("password", "Set a user's password", [options, &global] { set_password(*options, global); });
+  with_name("password", "Set a user's password; ends all logins, tokens and links", [options, &global] {
+    set_password(*options, global);
+  })->add_flag("--keep-tokens", options->keep_tokens, "Tokens and links stay good");
   with_name("role", "Set a user's role", [options, &global] { set_role(*options, global); })
       ->add_option("ROLE", options->role)
       ->required()
@@ -228,6 +262,11 @@ void add_user_command(CLI::App& app, GlobalOptions& global) {
             [options, &global] { set_enabled(*options, false, global); });
   with_name("enable", "Let a user log in again", [options, &global] { set_enabled(*options, true, global); });
   with_name("remove", "Remove a user; sessions stay", [options, &global] { remove(*options, global); });
+  with_name("forget",
+            "Remove a user and the name from sessions, trash, studies and audit log; no server may run",
+            [options, &global] { forget(*options, global); });
+  with_name("export", "Write all that is kept of a user to stdout, as JSON",
+            [options, &global] { export_user(*options, global); });
 }
 
 }  // namespace ream::app

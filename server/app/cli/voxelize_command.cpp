@@ -138,11 +138,11 @@ void check_names(const VoxelizeOptions& options) {
         throw Error(ErrorKind::usage, "two outputs have the name " + names[i].string());
 }
 
-void report(const VoxelizeOptions& options, const Result& result, bool json) {
+void report(const VoxelizeOptions& options, const Result& result, bool as_json) {
   const voxelizer::VoxelSet& set = result.set;
   const Vec3i& d = set.grid().dims;
   const Vec3 &s = set.grid().size_mm, &o = set.grid().origin_mm;
-  if (json) {
+  if (as_json) {
     std::cout << nlohmann::json{{"voxels", set.filled()},
                                 {"dims", {d.x(), d.y(), d.z()}},
                                 {"size_mm", {s.x(), s.y(), s.z()}},

@@ -13,7 +13,7 @@
 namespace ream::ct {
 namespace {
 
-constexpr double min_step_mm = 0.3, depth_mm = 10.0, solid = 127.5;
+constexpr double min_step_mm = 0.3, profile_depth_mm = 10.0, solid = 127.5;
 constexpr double min_cosine = 0.5736;  // 55 degrees
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 
@@ -34,9 +34,9 @@ struct ArticularFace {
 
 /// How far lateral of the centre's plane the first bone lies on the way medially; NaN without any.
 double height_at(const voxel::BoneModel& bone, const Vec3& point_mm, const Vec3& lateral, double step_mm) {
-  double before = voxel::coverage_at(bone, point_mm + depth_mm * lateral);
+  double before = voxel::coverage_at(bone, point_mm + profile_depth_mm * lateral);
   if (before >= solid) return nowhere;
-  for (double height = depth_mm - step_mm; height >= -depth_mm; height -= step_mm) {
+  for (double height = profile_depth_mm - step_mm; height >= -profile_depth_mm; height -= step_mm) {
     const double here = voxel::coverage_at(bone, point_mm + height * lateral);
     if (here >= solid) return height + step_mm * (here - solid) / (here - before);
     before = here;

@@ -136,7 +136,7 @@ void undo_segmentation(const fs::path& case_folder, Workup& workup) {
 }
 
 void save_workup(const fs::path& case_folder, const Workup& workup) {
-  write_file_atomically(description_of(case_folder), to_json(workup).dump(2) + "\n");
+  write_json_file(description_of(case_folder), to_json(workup));
 }
 
 }  // namespace ream::ct

@@ -120,7 +120,10 @@ Mask mask_from_label(const HuVolume& volume, const HuVolume& label, int value) {
 Imported import_with_ct(const std::filesystem::path& path, const std::string& id,
                         const ImportOptions& options, const Progress& progress) {
   Imported imported;
-  imported.volume = read_ct(path, {options.series_uid, options.keep_names}, part_of(progress, 0.0, 0.3));
+  ReadOptions reading;
+  reading.series_uid = options.series_uid;
+  reading.keep_names = options.keep_names;
+  imported.volume = read_ct(path, reading, part_of(progress, 0.0, 0.3));
   HuVolume& volume = imported.volume;
   case_::Case& result = imported.made;
   result.id = id;

@@ -13,8 +13,9 @@ namespace ream::ct {
 /// as codes of a scale, exactly where that can be (voxel::GrayScale).
 class GrayVolume {
  public:
-  /// A folder of DICOM slices, or a NRRD, NIfTI or MetaImage file, as read_ct takes them. What lies unpacked
-  /// in a .nrrd or .mha file stays there and is read layer by layer; everything else is read whole, unless
+  /// A folder of DICOM slices, a NRRD, NIfTI or MetaImage file, or a zip archive of one, as read_ct takes
+  /// them. ream-reader writes the values into a temporary file, from which layers are read: memory here is a
+  /// layer. What lies unpacked in a .nrrd or .mha file it reads layer by layer, everything else whole, unless
   /// that takes more than `max_bytes` of memory. Errors: those of read_ct; invalid_input that says what to
   /// do where it would take more.
   explicit GrayVolume(const std::filesystem::path& path, uint64_t max_bytes = UINT64_MAX,
@@ -28,8 +29,9 @@ class GrayVolume {
   const Pose& world_from_volume() const;
   const voxel::GrayScale& gray() const;
   const std::vector<std::string>& warnings() const;
-  /// Of memory.
-  uint64_t bytes() const;
+  /// Where the archive held text rows `x y z gray`: that file, unpacked, and nothing else is known. Else
+  /// empty.
+  std::filesystem::path rows() const;
 
   /// Codes of layer w, x fastest, dims.x * dims.y of them. Thread-safe. Throws Error io.
   void read_layer(int w, std::span<uint16_t> codes) const;

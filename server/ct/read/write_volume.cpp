@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
-#include "ct/read/volume_file.hpp"
+#include "ct/read/image_io.hpp"
 
 namespace ream::ct {
 namespace fs = std::filesystem;

@@ -11,7 +11,6 @@
 namespace ream::device {
 namespace {
 
-constexpr double tick_ms = 1e3 * tick_s;
 /// How firmly tool and machine keep together where limits hold the machine back, critically damped.
 constexpr double holding_rad_s = 30.0;
 constexpr double n_per_kg_mm_s2 = 1.0e-3;

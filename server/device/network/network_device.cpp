@@ -8,7 +8,6 @@
 namespace ream::device {
 namespace {
 
-constexpr double ns_per_ms = 1.0e6;
 /// A glide takes at least a tick, and no longer than this: then a late pose counts more than a smooth one.
 constexpr double max_glide_ns = 50.0 * ns_per_ms, min_glide_ns = 1.0 * ns_per_ms;
 /// Each time between two messages counts for this share of what is usual.

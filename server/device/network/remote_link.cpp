@@ -6,8 +6,6 @@
 namespace ream::device {
 namespace {
 
-constexpr double ns_per_ms = 1.0e6;
-
 std::array<double, 3> plain(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace

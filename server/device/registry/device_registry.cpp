@@ -7,7 +7,6 @@
 #include "device/mapped_device.hpp"
 #include "device/network/network_device.hpp"
 #include "device/profiles.hpp"
-#include "device/registry/real_devices.hpp"
 #include "device/simulated/admittance_plant.hpp"
 #include "device/simulated/scripted_device.hpp"
 #include "device/simulated/steered_hand_device.hpp"

@@ -75,4 +75,8 @@ void settle_for_device(const std::string& device, const std::string& profile, Sc
 /// Errors: those of device_kind and of the kind.
 MadeDevice make_device(const DeviceRequest& request);
 
+/// Devices on this computer or behind a service that this program connects to by itself, with set-ups in the
+/// data folder; server/device/GUIDE.md.
+std::vector<DeviceKind> real_device_kinds();
+
 }  // namespace ream::device

@@ -1,4 +1,4 @@
-#include "device/registry/real_devices.hpp"
+#include "device/registry/device_registry.hpp"
 
 #include "core/error.hpp"
 #include "device/device_setup.hpp"

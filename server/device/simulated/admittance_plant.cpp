@@ -16,9 +16,9 @@ namespace {
 constexpr size_t max_delay_ticks = 64;
 
 /// The machine's mechanics: position control of one mass, after a delay.
-class Servo {
+class JointServo {
  public:
-  explicit Servo(const PlantParameters& plant)
+  explicit JointServo(const PlantParameters& plant)
       : omega_rad_s_(2.0 * pi * plant.servo_hz),
         own_stop_mm_s2_(plant.own_stop_mm_s2),
         delay_ticks_(static_cast<size_t>(plant.delay_ticks)) {}
@@ -143,7 +143,7 @@ class AdmittancePlant final : public AdmittanceMachine {
   DeviceTraits traits_;
   const Script script_;
   GrippingHand hand_;
-  Servo servo_;
+  JointServo servo_;
   const uint64_t random_seed_;
   std::mt19937_64 random_;
   std::normal_distribution<double> noise_{0.0, 1.0};

@@ -5,12 +5,13 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "device/vendors/force_dimension_library.hpp"
 
 namespace ream::device {
 namespace {
 
-constexpr double mm_per_m = 1000.0, watchdog_period_ms = 0.125;
+constexpr double watchdog_period_ms = 0.125;
 constexpr unsigned char on = 1, off = 0;
 /// Places in what dhdGetStatus tells, and of how many.
 constexpr size_t status_count = 32, reset_status = 3, force_status = 5;

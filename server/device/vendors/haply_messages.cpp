@@ -173,7 +173,7 @@ HaplyReader::HaplyReader(std::string device_id, std::string grip_id)
     : configured_id_(std::move(device_id)), configured_grip_(std::move(grip_id)) {}
 
 void HaplyReader::take_inventory(std::string_view text) {
-  const json frame = json::parse(text, nullptr, false);
+  const json frame = parse_json_or_discard(text);
   if (!frame.is_object()) throw Error(ErrorKind::unavailable, "its first message is no inventory of devices");
   const json& list = member(frame, "inverse3");
   const json& found = device_in(list, configured_id_);
@@ -193,7 +193,7 @@ void HaplyReader::take_inventory(std::string_view text) {
 }
 
 bool HaplyReader::take_state(std::string_view text, std::string& why) {
-  const json frame = json::parse(text, nullptr, false);
+  const json frame = parse_json_or_discard(text);
   if (!frame.is_object()) {
     why = "it says something that is no JSON";
     return false;
@@ -218,7 +218,7 @@ bool HaplyReader::take_state(std::string_view text, std::string& why) {
 
 HaplyEvent read_haply_event(std::string_view text, const std::string& device_id) {
   using Kind = HaplyEvent::Kind;
-  const json event = json::parse(text, nullptr, false);
+  const json event = parse_json_or_discard(text);
   const json& data = member(event, "data");
   const std::string about = text_of(data, "device_id");
   if (!about.empty() && about != device_id) return {};

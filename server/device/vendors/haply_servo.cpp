@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "core/units.hpp"
 #include "device/vendors/haply_messages.hpp"
 #include "net/websocket_client.hpp"
 
@@ -11,7 +12,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto connecting = 1000ms, sending = 250ms, answering = 250ms, probing = 500ms;
-constexpr double mm_per_m = 1000.0;
 /// So many useless frames one after the other, and the connection is begun anew.
 constexpr int max_useless_frames = 100;
 constexpr int turns_between_events = 10;

@@ -15,7 +15,7 @@ namespace {
 
 using Library = OpenHapticsLibrary;
 
-constexpr int spindle_button = 1, clutch_button = 2, pause_button = 4;
+constexpr int hd_spindle_button = 1, hd_clutch_button = 2, hd_pause_button = 4;
 constexpr int64_t lost_ns = static_cast<int64_t>(servo_loop_timeout_ms * 1e6);
 constexpr int closing_wait_ms = 20;
 /// That one look takes from the library's list.
@@ -131,9 +131,9 @@ class OpenHapticsServo final : public Servo {
     for (int column = 0; column < 3; ++column)
       for (int row = 0; row < 3; ++row) state.device_from_handle.rotation(row, column) = m[4 * column + row];
     state.device_from_handle.translation_mm = Vec3(m[12], m[13], m[14]);
-    state.spindle_on = !config_.spindle_by_button || (pressed & spindle_button) != 0;
-    state.clutch = (pressed & clutch_button) != 0;
-    state.paused = (pressed & pause_button) != 0;
+    state.spindle_on = !config_.spindle_by_button || (pressed & hd_spindle_button) != 0;
+    state.clutch = (pressed & hd_clutch_button) != 0;
+    state.paused = (pressed & hd_pause_button) != 0;
     const ServoForce force = leaving_ ? ServoForce{} : end_->force();
     hd().set_doubles(Library::force, force.force_n.data());
     if (has_torque_) hd().set_doubles(Library::torque, force.torque_n_mm.data());

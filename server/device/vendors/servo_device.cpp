@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "core/signal_handlers.hpp"
 
 namespace ream::device {
 namespace {
@@ -33,7 +34,7 @@ void ServoDevice::open() {
   end_.open();
   leaving_ = unusable_ = without_force_ = false;
   opened_ = 0;
-  thread_ = std::thread([this] { run(); });
+  thread_ = start_thread([this] { run(); });
   opened_.wait(0);
   if (opened_ > 0) return;
   thread_.join();

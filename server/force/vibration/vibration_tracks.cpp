@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <future>
 #include <map>
 #include <mutex>
 #include <numeric>
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/signal_handlers.hpp"
 #include "core/units.hpp"
 #include "force/vibration/vibration_recording.hpp"
 #include "force/vibration/vibration_signal.hpp"
@@ -154,7 +154,7 @@ VibrationTrack recorded_track(VibrationKind kind, const std::filesystem::path& f
 std::shared_ptr<const VibrationTracks> made(const Files& files, double rate_hz, uint64_t seed) {
   std::array<std::future<VibrationTrack>, vibration_kinds> parts;
   for (size_t k = 0; k < vibration_kinds; ++k)
-    parts[k] = std::async(std::launch::async, [&files, rate_hz, seed, k] {
+    parts[k] = start_task([&files, rate_hz, seed, k] {
       const auto kind = static_cast<VibrationKind>(k);
       return files[k].empty() ? synthesized_track(kind, seed) : recorded_track(kind, files[k], rate_hz);
     });

@@ -1,22 +1,56 @@
 #include "session/export/export_formats.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"
+#include "geometry/mesh_io.hpp"
+#include "geometry/scene_export.hpp"
 #include "net/problem.hpp"
+#include "record/recorded_bone.hpp"
+#include "record/trace_csv.hpp"
+#include "report/deviation_scale.hpp"
 #include "report/report.hpp"
-#include "session/export/export_surfaces.hpp"
-#include "session/export/export_trace.hpp"
+#include "score/deviation.hpp"
+#include "session/export/reamed_bone.hpp"
 #include "session/export/session_bundle.hpp"
 #include "session/export/session_report.hpp"
+#include "session/simulation/reamed_pictures.hpp"
+#include "session/simulation/recorded_session.hpp"
 
 namespace ream::session {
 namespace {
 
 namespace fs = std::filesystem;
 
+constexpr uint32_t ticks_between_looks = 10'000;
+
+uint32_t tick_at(double time_s) {
+  return static_cast<uint32_t>(std::clamp(std::ceil(time_s / tick_s - 0.5), 0.0, 4.0e9));
+}
+
+/// One row a tick, as the trace.csv of a run is; the same bytes. Of a part: the rows of every `stride`th tick
+/// from the first one in it, as they stand in the whole.
 void write_trace(const ExportRequest& request, const fs::path& out, const Progress& progress) {
-  export_trace(recording_of(request), out, request.part, progress);
+  const record::Recording recording = recording_of(request);
+  const TracePart& part = request.part;
+  const voxel::VoxelGrid grid = recording.grid();
+  const uint32_t first = tick_at(part.from_s);
+  const uint32_t end = std::min(part.to_s ? tick_at(*part.to_s) : UINT32_MAX, recording.tick_count());
+  record::TraceCsv trace(out, grid.voxel_volume_mm3());
+  recording.for_each_tick(0, end, [&](const record::ops::Tick& tick) {
+    if (tick.tick % ticks_between_looks == 0)
+      progress(static_cast<double>(tick.tick) / std::max(end, 1u), "writing rows");
+    const record::TickReport report = record::report_of(tick, grid.world_from_grid);
+    if (tick.tick >= first && (tick.tick - first) % static_cast<uint32_t>(part.stride) == 0)
+      trace.add(report);
+    else
+      trace.pass(report);
+  });
+  trace.finish();
 }
 
 void write_bundle(const ExportRequest& request, const fs::path& out, const Progress& progress) {
@@ -32,7 +66,109 @@ void write_pdf(const ExportRequest& request, const fs::path& out, const Progress
   write_file_atomically(out, report::pdf_of(session_report(request, progress)));
 }
 
+/// Bone and implant in the world frame.
+struct Surfaces {
+  TriangleMesh bone, implant;  ///< the implant is empty where none can be seated
+  score::DeviationFields deviation;
+  case_::Side side = case_::Side::right;
+
+  std::string remark() const { return case_::frame_in_words(side); }
+};
+
+Surfaces surfaces_of(const ExportRequest& request, const Progress& progress) {
+  const record::Recording recording = recording_of(request);
+  const score::MetricsAccumulator ticks = accumulated(recording, part_of(progress, 0.0, 0.5));
+  progress(0.5, "comparing surfaces");
+  ComparedBone compared = reamed_bone(recording, ticks, request.case_name, request.data);
+  const Pose& world_from_grid = compared.bone.world_from_grid;
+  progress(0.9, "writing");
+  return {compared.bone.after.transformed(world_from_grid),
+          compared.implant.transformed(world_from_grid),
+          {std::move(compared.bone.from_plan), std::move(compared.bone.from_implant)},
+          compared.bone.side};
+}
+
+/// The bone, coloured where there is a plan to compare with, and the implant.
+std::vector<SceneObject> scene_of(const Surfaces& surfaces) {
+  SceneObject bone;
+  bone.name = "bone";
+  bone.mesh = &surfaces.bone;
+  for (const int8_t code : surfaces.deviation.from_plan) {
+    const render::VertexColour colour = report::deviation_colour(code);
+    bone.colours.push_back({colour.red, colour.green, colour.blue});
+  }
+  if (!surfaces.deviation.from_plan.empty())
+    bone.properties.push_back({"deviation_plan", surfaces.deviation.from_plan});
+  if (!surfaces.deviation.from_implant.empty())
+    bone.properties.push_back({"deviation_implant", surfaces.deviation.from_implant});
+  std::vector<SceneObject> objects = {std::move(bone)};
+  if (!surfaces.implant.triangles.empty()) {
+    SceneObject implant;
+    implant.name = "implant";
+    implant.mesh = &surfaces.implant;
+    objects.push_back(std::move(implant));
+  }
+  return objects;
+}
+
+/// The recording's case, its coverage what the session left.
+case_::Case left_case(const ExportRequest& request, std::vector<uint8_t>& before, const Progress& progress) {
+  progress(0.0, "reading the case");
+  const record::Recording recording = recording_of(request);
+  case_::Case bone_case = case_of(recording, request.case_name, request.data);
+  progress(0.2, "reading the recording");
+  voxel::BoneModel& bone = bone_case.bone;
+  before = bone.coverage;
+  record::RecordedBone recorded(recording, bone.grid, bone.coverage);
+  recorded.seek(UINT32_MAX, [](const voxel::BrickImage&) {});
+  recorded.write_to(bone.coverage);
+  progress(0.5, "finding the surface");
+  return bone_case;
+}
+
+void write_stl_bone(const ExportRequest& request, const fs::path& out, const Progress& progress) {
+  std::vector<uint8_t> before;
+  const case_::Case left = left_case(request, before, progress);
+  write_file_atomically(out,
+                        stl_of(reamed_surface(left), "reamed bone, " + case_::frame_in_words(left.side)));
+}
+
+void write_stl_implant(const ExportRequest& request, const fs::path& out, const Progress& progress) {
+  const Surfaces surfaces = surfaces_of(request, progress);
+  if (surfaces.implant.triangles.empty())
+    throw Error(ErrorKind::conflict,
+                "no implant can be seated: its plan says nothing of an implant, or no bone was reamed");
+  write_file_atomically(out, stl_of(surfaces.implant, "seated implant, " + surfaces.remark()));
+}
+
+void write_ply_scene(const ExportRequest& request, const fs::path& out, const Progress& progress) {
+  const Surfaces surfaces = surfaces_of(request, progress);
+  write_file_atomically(out, ply_of(scene_of(surfaces), surfaces.remark()));
+}
+
+void write_glb_scene(const ExportRequest& request, const fs::path& out, const Progress& progress) {
+  const Surfaces surfaces = surfaces_of(request, progress);
+  write_file_atomically(out, glb_of(scene_of(surfaces), surfaces.remark()));
+}
+
+void write_surface(const ExportRequest& request, const fs::path& out, const Progress& progress) {
+  std::vector<uint8_t> before;
+  const case_::Case left = left_case(request, before, progress);
+  write_ply(out, reamed_surface(left), case_::frame_in_words(left.side));
+}
+
+void write_snapshot(const ExportRequest& request, const fs::path& out, const Progress& progress) {
+  std::vector<uint8_t> before;
+  const case_::Case left = left_case(request, before, progress);
+  write_picture(left, before, out);
+}
+
 }  // namespace
+
+void write_deviations(const ExportRequest& request, const fs::path& out, const Progress& progress) {
+  const Surfaces surfaces = surfaces_of(request, progress);
+  score::write_deviation(out, "reamed.ply", surfaces.bone.vertices_mm.size(), surfaces.deviation);
+}
 
 record::Recording recording_of(const ExportRequest& request) {
   record::Recording recording(request.recording, record::Recording::Trust::checked);

@@ -73,6 +73,11 @@ const ExportFormat& export_format_of(const std::string& name, const std::filesys
 /// those there are.
 const ExportFormat& served_export_format(const std::string& name);
 
+/// Deviations alone (score/deviation_file.hpp), in the order of the vertices of the bone in the PLY files. As
+/// ExportFormat::write.
+void write_deviations(const ExportRequest& request, const std::filesystem::path& out,
+                      const Progress& progress);
+
 /// The recording of a request, which may be damaged towards its end; that is logged.
 record::Recording recording_of(const ExportRequest& request);
 

@@ -4,9 +4,10 @@
 #include "record/recorded_bone.hpp"
 #include "score/alignment.hpp"
 #include "score/deviation.hpp"
-#include "session/simulation/measured_glenoid.hpp"
-#include "session/simulation/recorded_case.hpp"
+#include "session/simulation/find_case.hpp"
 #include "session/simulation/recorded_setup.hpp"
+#include "session/simulation/session_setup.hpp"
+#include "session/simulation/simulation.hpp"
 #include "sim/model.hpp"
 #include "surface/block_mesh.hpp"
 

@@ -62,7 +62,7 @@ void relabel(const fs::path& folder, const SessionRequest& labels, const fs::pat
              std::vector<store::ArchiveEntry>& entries) {
   nlohmann::json session = read_json_file(folder / "session.json");
   write_labels(labels, session);
-  write_file_atomically(made / "session.json", session.dump(2) + "\n");
+  write_json_file(made / "session.json", session);
   for (store::ArchiveEntry& entry : entries)
     if (entry.name == "session/session.json") entry.file = made / "session.json";
 }
@@ -94,7 +94,7 @@ void write_session_bundle(const fs::path& recording_file, const std::string& cas
                                  {"revision", revision},
                                  {"session", session_id(folder, recording)},
                                  {"case", recording.header().case_id}};
-  write_file_atomically(made.path() / "bundle.json", bundle.dump(2) + "\n");
+  write_json_file(made.path() / "bundle.json", bundle);
   std::vector<store::ArchiveEntry> entries{{made.path() / "bundle.json", "bundle.json"}};
   add_files(folder, session_files, "session", entries);
   if (labels != nullptr && fs::is_regular_file(folder / "session.json"))

@@ -7,7 +7,8 @@
 #include <ctime>
 
 #include "core/log.hpp"
-#include "session/folder/session_row.hpp"
+#include "core/signal_handlers.hpp"
+#include "session/folder/session_folder.hpp"
 
 namespace ream::session {
 namespace {
@@ -36,7 +37,7 @@ std::optional<store::SessionRow> row_from(const fs::path& folder) {
   const int64_t stamp = session_stamp(folder);
   if (stamp == 0) return std::nullopt;
   try {
-    return row_of(read_session_folder(folder), stamp);
+    return read_session_row(folder, stamp);
   } catch (const Error& damage) {
     log::warn("session " + folder.filename().string() + " is left out: " + damage.what());
     return std::nullopt;
@@ -46,7 +47,7 @@ std::optional<store::SessionRow> row_from(const fs::path& folder) {
 }  // namespace
 
 IndexUpkeep::IndexUpkeep(const SessionArchive& archive, store::Database& database)
-    : archive_(archive), index_(database), thread_([this] { work(); }) {}
+    : archive_(archive), index_(database), thread_(start_thread([this] { work(); })) {}
 
 IndexUpkeep::~IndexUpkeep() {
   {
@@ -99,6 +100,10 @@ void IndexUpkeep::work() {
     } catch (const Error& failure) {
       if (!lock.owns_lock()) lock.lock();
       note_failure(failure);
+    } catch (...) {
+      log::current_exception("the index of sessions");
+      if (!lock.owns_lock()) lock.lock();
+      note_failure(Error(ErrorKind::unavailable, "it could not be written; the server's log says why"));
     }
     changed_.notify_all();
   }

@@ -3,7 +3,7 @@
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "record/op_log.hpp"
-#include "session/annotation_op.hpp"
+#include "session/annotation.hpp"
 #include "session/folder/session_folder.hpp"
 
 namespace ream::session {

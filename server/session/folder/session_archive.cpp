@@ -34,9 +34,8 @@ SessionArchive::Known SessionArchive::look(const fs::path& folder) const {
   if (stamp == 0) return known;
   bool lasting = true;
   try {
-    FolderRecord found = read_session_folder(folder);
-    known.record = std::move(found.record);
-    lasting = found.lasting;
+    known.record = read_session_folder(folder);
+    lasting = known.record->lasting;
   } catch (const Error& damage) {
     known.damage = damage.what();
   }

@@ -2,11 +2,12 @@
 
 #include <sys/stat.h>
 
-#include <nlohmann/json.hpp>
+#include <algorithm>
 
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/json.hpp"
 #include "core/log.hpp"
 #include "core/new_id.hpp"
 #include "core/text.hpp"
@@ -51,7 +52,7 @@ std::optional<SessionMark> mark_from(const json& mark) {
   return read;
 }
 
-/// The mark of a score.json, in the keys that record_from_text() reads; null without one.
+/// The mark of a score.json, in the keys that mark_from() reads; null without one.
 json mark_in(const fs::path& folder) {
   std::error_code failed;
   if (!fs::exists(score_json(folder), failed)) return nullptr;
@@ -67,10 +68,29 @@ json mark_in(const fs::path& folder) {
   }
 }
 
-/// `timing` and `mark` may be null.
-FolderRecord record_of(const json& session, const json& timing, const json& mark, const fs::path& folder) {
-  FolderRecord found;
-  SessionRecord& record = found.record;
+/// What a session's files say; `timing` and `mark` may be null.
+struct SessionJson {
+  json session, timing, mark;
+};
+
+SessionJson read_files(const fs::path& folder) {
+  SessionJson files{read_json_file(session_json(folder)), nullptr, nullptr};
+  std::error_code failed;
+  if (const fs::path file = folder / "timing.json"; fs::exists(file, failed))
+    files.timing = read_json_file(file);
+  return files;
+}
+
+/// Throws json::exception, as the next.
+void complete(SessionJson& files, const fs::path& folder) {
+  if (files.session.value("created_utc", "").empty())
+    files.session["created_utc"] = changed_utc(session_json(folder));
+  files.mark = mark_in(folder);
+}
+
+SessionRecord record_of(const SessionJson& files, const fs::path& folder) {
+  const auto& [session, timing, mark] = files;
+  SessionRecord record;
   record.streamable = false;
   record.request.id = folder.filename().string();
   record.request.case_id = plain_name(session.value("case", ""));
@@ -82,8 +102,8 @@ FolderRecord record_of(const json& session, const json& timing, const json& mark
   read_labels(session, record.request);
   SessionStatus& status = record.status;
   status.state = state_of(session, folder);
-  found.lasting = !is_live(status.state);
-  if (!found.lasting && !FileLock::held(lock_file(folder))) status.state = SessionState::interrupted;
+  record.lasting = !is_live(status.state);
+  if (!record.lasting && !FileLock::held(lock_file(folder))) status.state = SessionState::interrupted;
   status.device.name = record.request.device;
   status.device.profile = session.value("device_profile", "");
   status.force_scale = session.value("force_scale", 1.0);
@@ -95,7 +115,13 @@ FolderRecord record_of(const json& session, const json& timing, const json& mark
   }
   status.duration_s = status.tick * tick_s;
   if (!is_live(status.state)) record.mark = mark_from(mark);
-  return found;
+  return record;
+}
+
+/// JSON may hold a NUL, a database's text may not.
+std::string without_nul(std::string text) {
+  text.erase(std::remove(text.begin(), text.end(), '\0'), text.end());
+  return text;
 }
 
 /// Differs after the file has been replaced; zero without one. The time of change alone may be the same for
@@ -108,7 +134,7 @@ int64_t file_stamp(const fs::path& file) {
 
 /// Runs what reads the files' JSON.
 template <typename Read>
-FolderRecord checked(const fs::path& folder, Read&& read) {
+auto checked(const fs::path& folder, Read&& read) {
   try {
     return read();
   } catch (const json::exception&) {
@@ -125,28 +151,56 @@ fs::path score_json(const fs::path& folder) { return folder / "score.json"; }
 fs::path recording_file(const fs::path& folder) { return folder / "recording.ream"; }
 fs::path lock_file(const fs::path& folder) { return folder / "lock"; }
 
-FolderRecord read_session_folder(const fs::path& folder) {
-  json session = read_json_file(session_json(folder)), timing;
-  std::error_code failed;
-  if (const fs::path file = folder / "timing.json"; fs::exists(file, failed)) timing = read_json_file(file);
+SessionRecord read_session_folder(const fs::path& folder) {
+  SessionJson files = read_files(folder);
   return checked(folder, [&] {
-    if (session.value("created_utc", "").empty()) session["created_utc"] = changed_utc(session_json(folder));
-    json mark = mark_in(folder);
-    FolderRecord found = record_of(session, timing, mark, folder);
-    found.text =
-        json{{"session", std::move(session)}, {"timing", std::move(timing)}, {"mark", std::move(mark)}}
-            .dump();
-    return found;
+    complete(files, folder);
+    return record_of(files, folder);
   });
 }
 
-FolderRecord record_from_text(const std::string& text, const fs::path& folder) {
+store::SessionRow row_of(const SessionRecord& record) {
+  const SessionRequest& request = record.request;
+  store::SessionRow row;
+  row.id = request.id;
+  row.case_id = request.case_id;
+  row.script = request.script;
+  row.state = to_text(record.status.state);
+  row.created_utc = without_nul(request.created_utc);
+  row.duration_s = record.status.duration_s;
+  row.trainee_id = without_nul(request.trainee_id);
+  // Lists are sorted and searched by it, also by those for whom the person is hidden.
+  row.trainee = without_nul(request.study.empty() ? request.trainee : request.participant);
+  row.study = without_nul(request.study);
+  row.participant = without_nul(request.participant);
+  row.title = without_nul(request.title);
+  if (record.mark) {
+    row.points = record.mark->points;
+    row.outcome = without_nul(record.mark->outcome);
+  }
+  row.lasting = record.lasting;
+  return row;
+}
+
+store::SessionRow read_session_row(const fs::path& folder, int64_t stamp) {
+  SessionJson files = read_files(folder);
   return checked(folder, [&] {
-    const json files = json::parse(text);
-    FolderRecord found =
-        record_of(files.at("session"), files.at("timing"), files.value("mark", json()), folder);
-    found.text = text;
-    return found;
+    complete(files, folder);
+    store::SessionRow row = row_of(record_of(files, folder));
+    row.record = json{{"session", std::move(files.session)},
+                      {"timing", std::move(files.timing)},
+                      {"mark", std::move(files.mark)}}
+                     .dump();
+    row.stamp = stamp;
+    return row;
+  });
+}
+
+SessionRecord record_of(const store::SessionRow& row, const fs::path& folder) {
+  return checked(folder, [&] {
+    const json files = parse_json_or_discard(row.record);
+    return record_of(SessionJson{files.at("session"), files.at("timing"), files.value("mark", json())},
+                     folder);
   });
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/file_lock.hpp"
 #include "session/running_session.hpp"
+#include "store/session_query.hpp"
 
 namespace ream::session {
 
@@ -22,6 +23,9 @@ struct SessionRecord {
   SessionStatus status;
   bool streamable = true;                ///< held in memory: its stream can be opened
   std::optional<SessionMark> mark = {};  ///< by its score.json, once it has ended
+  /// Of one that was read from its folder: stays true until session.json is replaced. Else the session was
+  /// left in a live state: that is its state while somebody holds its lock, and interrupted from then on.
+  bool lasting = true;
 };
 
 /// Names of what lies in a session's folder.
@@ -32,20 +36,16 @@ std::filesystem::path recording_file(const std::filesystem::path& folder);
 /// Held (core/file_lock.hpp) by the process in which the session lives, or that changes its files.
 std::filesystem::path lock_file(const std::filesystem::path& folder);
 
-struct FolderRecord {
-  SessionRecord record;
-  /// Stays true until session.json is replaced. Else the session was left in a live state: that is its state
-  /// while somebody holds its lock, and interrupted from then on.
-  bool lasting = true;
-  std::string text;  ///< what the files say, for record_from_text()
-};
-
 /// What session.json, timing.json and score.json say, under the folder's name as id. Errors: not_found,
 /// invalid_input, io; a score.json that cannot be read counts as none.
-FolderRecord read_session_folder(const std::filesystem::path& folder);
+SessionRecord read_session_folder(const std::filesystem::path& folder);
 
-/// The same from the text that was read of this folder before. Error invalid_input.
-FolderRecord record_from_text(const std::string& text, const std::filesystem::path& folder);
+/// What lists filter and sort a session by.
+store::SessionRow row_of(const SessionRecord& record);
+/// The whole row of the index. `stamp`: session_stamp() from before. Errors: as read_session_folder.
+store::SessionRow read_session_row(const std::filesystem::path& folder, int64_t stamp);
+/// What read_session_folder said when that row was read of this folder. Error invalid_input.
+SessionRecord record_of(const store::SessionRow& row, const std::filesystem::path& folder);
 
 /// Differs after session.json or score.json has been replaced. Zero without a session.json.
 int64_t session_stamp(const std::filesystem::path& folder);

@@ -1,10 +1,10 @@
 #include "session/folder/session_labels.hpp"
 
 #include <array>
-#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/json.hpp"
 #include "session/folder/session_folder.hpp"
 
 namespace ream::session {
@@ -54,8 +54,7 @@ void write_labels(const SessionRequest& request, json& session) {
 json labels_json(const SessionRequest& request) {
   json labels = {{"attempt", request.attempt}, {"keep", request.keep}, {"theatre", request.theatre}};
   for (const TextLabel& label : text_labels) {
-    const std::string& text = request.*label.text;
-    labels[label.key] = text.empty() ? json(nullptr) : json(text);
+    labels[label.key] = or_null(request.*label.text);
   }
   return labels;
 }
@@ -69,7 +68,7 @@ void relabel_folder(const std::filesystem::path& folder, const SessionRequest& r
   if (!lock) throw Error(ErrorKind::conflict, name + " is in use by another process");
   json session = read_json_file(session_json(folder));
   write_labels(request, session);
-  write_file_atomically(session_json(folder), session.dump(2) + "\n");
+  write_json_file(session_json(folder), session);
 }
 
 }  // namespace ream::session

@@ -3,19 +3,12 @@
 #include <algorithm>
 #include <set>
 
-#include "session/folder/session_row.hpp"
 #include "store/session_index.hpp"
 
 namespace ream::session {
 
-SessionRegister::SessionRegister(const SessionArchive& archive, std::shared_ptr<store::Database> database)
-    : archive_(archive),
-      database_(std::move(database)),
-      upkeep_(database_ ? std::make_unique<IndexUpkeep>(archive_, *database_) : nullptr) {}
-
-void SessionRegister::changed(const std::string& id) {
-  if (upkeep_) upkeep_->changed(id);
-}
+SessionRegister::SessionRegister(const SessionArchive& archive, store::Database& database)
+    : archive_(archive), database_(database), upkeep_(archive, database) {}
 
 /// None for a damaged folder, too.
 std::optional<SessionRecord> SessionRegister::found(const std::string& id) const {
@@ -30,12 +23,7 @@ std::optional<SessionRecord> SessionRegister::found(const std::string& id) const
 std::vector<std::string> SessionRegister::add_from_folders(std::vector<SessionRecord>& here) {
   std::set<std::string> ids;
   for (const SessionRecord& record : here) ids.insert(record.request.id);
-  if (!upkeep_) {
-    for (SessionRecord& record : archive_.list())
-      if (ids.insert(record.request.id).second) here.push_back(std::move(record));
-    return {};
-  }
-  for (const std::string& id : upkeep_->behind()) {
+  for (const std::string& id : upkeep_.behind()) {
     if (!ids.insert(id).second) continue;
     if (auto record = found(id)) here.push_back(std::move(*record));
   }
@@ -45,13 +33,13 @@ std::vector<std::string> SessionRegister::add_from_folders(std::vector<SessionRe
 /// Returns how many there are in all.
 size_t SessionRegister::add_from_index(const store::SessionQuery& query,
                                        const std::vector<std::string>& except, std::vector<Listed>& listed) {
-  auto [rows, total] = store::SessionIndex(*database_).find(query, except);
+  auto [rows, total] = store::SessionIndex(database_).find(query, except);
   for (store::SessionRow& row : rows) {
     std::optional<SessionRecord> record;
     try {
-      record = record_from_text(row.record, archive_.folder_of(row.id)).record;
+      record = record_of(row, archive_.folder_of(row.id));
     } catch (const Error&) {  // the folder knows better
-      upkeep_->changed(row.id);
+      upkeep_.changed(row.id);
       record = found(row.id);
     }
     if (record) listed.push_back({std::move(row), std::move(*record)});
@@ -70,7 +58,7 @@ SessionPage SessionRegister::list(const store::SessionQuery& query, std::vector<
     ++page.total;
     if (!place || store::behind(query, *place, row)) listed.push_back({std::move(row), std::move(record)});
   }
-  if (database_) page.total += add_from_index(query, except, listed);
+  page.total += add_from_index(query, except, listed);
   std::sort(listed.begin(), listed.end(),
             [&](const Listed& a, const Listed& b) { return store::precedes(query, a.row, b.row); });
   if (listed.size() > query.limit) {

@@ -17,19 +17,18 @@ struct SessionPage {
   size_t total = 0;  ///< sessions that the filters let pass, on all pages
 };
 
-/// Lists sessions: from the index in the database, where there is one, corrected by what is not in it yet;
-/// else by looking at every folder. Thread-safe.
+/// Lists sessions: from the index in the database, corrected by what is not in it yet. Thread-safe.
 class SessionRegister {
  public:
-  /// `archive` outlives it.
-  SessionRegister(const SessionArchive& archive, std::shared_ptr<store::Database> database);
+  /// Both outlive it.
+  SessionRegister(const SessionArchive& archive, store::Database& database);
 
   /// `held`: those in the memory of this server, which count as they are now. Errors: invalid_input for a bad
   /// cursor or text; unavailable while the database cannot be reached.
   SessionPage list(const store::SessionQuery& query, std::vector<SessionRecord> held);
 
   /// Something of this session's folder was changed, so that its row is to be made anew.
-  void changed(const std::string& id);
+  void changed(const std::string& id) { upkeep_.changed(id); }
 
  private:
   struct Listed {
@@ -42,8 +41,8 @@ class SessionRegister {
                         std::vector<Listed>& listed);
 
   const SessionArchive& archive_;
-  const std::shared_ptr<store::Database> database_;  ///< null: none
-  std::unique_ptr<IndexUpkeep> upkeep_;
+  store::Database& database_;
+  IndexUpkeep upkeep_;
 };
 
 }  // namespace ream::session

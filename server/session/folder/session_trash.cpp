@@ -50,7 +50,7 @@ std::string deleted_utc_of(const fs::path& folder) {
 DeletedSession deleted_in(const fs::path& folder) {
   DeletedSession found{folder.filename().string(), deleted_utc_of(folder), std::nullopt};
   try {
-    found.record = read_session_folder(folder).record;
+    found.record = read_session_folder(folder);
   } catch (const Error& damage) {
     log::warn("deleted session " + found.id + " cannot be read: " + damage.what());
   }

@@ -1,7 +1,6 @@
 #include "session/live/headless_run.hpp"
 
 #include <chrono>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "core/error.hpp"
@@ -9,7 +8,6 @@
 #include "core/log.hpp"
 #include "device/crash_guard.hpp"
 #include "session/live/loop_rings.hpp"
-#include "session/live/session_files.hpp"
 #include "sim/haptic_loop.hpp"
 
 namespace ream::session {
@@ -23,23 +21,37 @@ constexpr int bricks_a_tick_without_hurry = 8192;
 /// Chunks that may wait for the disk before a run in virtual time waits for it.
 constexpr size_t enough_waiting_chunks = 16;
 
+/// A loop that stands still for longer than this will not come back.
+constexpr int64_t longest_standstill_ms = 5000;
+
+[[noreturn]] void throw_fault(const sim::BlackBox& box, sim::LoopEnd end) {
+  box.write("ream-black-box.csv");
+  throw Error(ErrorKind::unavailable, message_of(end) + " The last seconds are in ream-black-box.csv.");
+}
+
 }  // namespace
 
-HeadlessResult run_headless(Simulation& simulation, std::span<const uint8_t> start_coverage,
-                            const std::filesystem::path& folder, bool wall_clock) {
+SessionFiles::Results run_headless(Simulation& simulation, std::span<const uint8_t> start_coverage,
+                                   const std::filesystem::path& folder, bool wall_clock) {
   LoopRings rings(simulation.bone_case.bone.grid);
   simulation.state.brick_sender = &rings.sender;
   if (!wall_clock) simulation.state.brick_budget = bricks_a_tick_without_hurry;
-  SessionFiles files(simulation, folder, start_coverage.data(), SessionFiles::Trace::written);
   const auto realtime = wall_clock ? sim::Realtime::attempt : sim::Realtime::off;
   sim::HapticLoop loop(simulation.model, simulation.state, *simulation.device, rings.reports,
                        {wall_clock, realtime});
+  // After the loop: where that stands still to the end of the process, they have been closed before.
+  SessionFiles files(simulation, folder, start_coverage.data(), SessionFiles::Trace::written);
+  sim::BlackBox recent;
   const auto take_brick = [&](const voxel::BrickImage& image) { files.add(image); };
-  const auto take_report = [&](const record::TickReport& report) { files.add(report); };
+  const auto take_report = [&](const record::TickReport& report) {
+    recent.remember(report);
+    files.add(report);
+  };
   const device::CrashWatch crash_watch(*simulation.device);
   loop.start();
   while (!loop.ended()) {
     throw_if_interrupted();
+    if (loop.stood_still_ms() > longest_standstill_ms) throw_fault(recent, sim::LoopEnd::stood_still);
     const bool late = files.recorder().waiting_chunks() > enough_waiting_chunks;
     if (late || !rings.drain(take_brick, take_report))
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -49,17 +61,14 @@ HeadlessResult run_headless(Simulation& simulation, std::span<const uint8_t> sta
   rings.drain_rest(simulation.bone_case.bone, simulation.state.tick - 1, take_brick, take_report);
 
   const sim::LoopHealth health = loop.health();
-  if (const std::string fault = message_of(health.end); !fault.empty()) {
-    loop.black_box().write("ream-black-box.csv");
-    throw Error(ErrorKind::unavailable, fault + " The last seconds are in ream-black-box.csv.");
-  }
+  if (!message_of(health.end).empty()) throw_fault(loop.black_box(), health.end);
   if (health.failed_over_tick >= 0) log::warn(sim::failover_message(health.failed_over_tick));
-  const SessionFiles::Results results = files.finish(health, nlohmann::json::object());
+  SessionFiles::Results results = files.finish(health);
   if (const double weakened_s = results.metrics.at("weakened_time_s").get<double>();
       weakened_s > told_weakened_s)
     log::warn("the hand felt less than it asked for during " + std::to_string(weakened_s) + " s, as " +
               simulation.device->traits().profile + " renders no more; a larger force_scale helps");
-  return {results.metrics, results.timing};
+  return results;
 }
 
 }  // namespace ream::session

@@ -8,11 +8,11 @@
 #include "record/log_sink.hpp"
 #include "session/folder/recorded_annotations.hpp"
 #include "session/folder/session_folder.hpp"
-#include "session/simulation/measured_glenoid.hpp"
-#include "session/simulation/recorded_case.hpp"
+#include "session/simulation/find_case.hpp"
 #include "session/simulation/recorded_session.hpp"
 #include "session/simulation/recorded_setup.hpp"
 #include "session/simulation/session_setup.hpp"
+#include "session/simulation/simulation.hpp"
 #include "shell/parametric_profile.hpp"
 #include "shell/reamer_library.hpp"
 
@@ -78,7 +78,8 @@ ResumePoint::ResumePoint(const fs::path& folder, const fs::path& data)
       case_(case_of(recording_, {}, data)),
       start_coverage_(case_.bone.coverage),
       bone_(recording_, case_.bone.grid, start_coverage_),
-      metrics_(accumulated(recording_)) {
+      metrics_(accumulated(recording_)),
+      state_(read_session_folder(folder).status.state) {
   bone_.seek(ticks(), [](const voxel::BrickImage&) {});
   if (bone_.ticks() != ticks())
     throw Error(ErrorKind::invalid_input,
@@ -86,31 +87,31 @@ ResumePoint::ResumePoint(const fs::path& folder, const fs::path& data)
   bone_.write_to(case_.bone.coverage);
 }
 
-SimulationSetup ResumePoint::parts(const RunRequest& request, const std::string& reamer) {
+SimulationSetup ResumePoint::setup(const RunRequest& request, const std::string& reamer) {
   const record::ops::Segment& before = recording_.segments().back();
   const uint64_t session_hash = last_session_hash(recording_);
-  SimulationSetup parts =
+  SimulationSetup setup =
       recorded_setup(recording_, before, std::move(case_), {ticks(), session_hash}, request.backend);
   if (!reamer.empty() && reamer != before.tool) {
-    parts.reamer = reamer_of_words(reamer);
-    parts.tool = made(parts.reamer);
+    setup.reamer = reamer_of_words(reamer);
+    setup.tool = made(setup.reamer);
   }
   const case_::Case native = recorded_case(recording_, {}, data_);
-  parts.anatomy = recorded_anatomy(recording_, native, {}, data_);
-  parts.native = measured_glenoid(native, parts.anatomy, parts.tool);
-  parts.request.script_name = request.script_name;
-  parts.request.random_seed = recording_.header().random_seed;
-  parts.script = find_script(request);
-  parts.request.device = request.device;
-  parts.request.device_profile = request.device_profile;
-  device::settle_for_device(request.device, request.device_profile, parts.script);
-  parts.script.force_scale = parts.settings.force_scale;
-  device::MadeDevice made = device::make_device({request.device, request.device_profile, &parts.script,
-                                                 sim::world_from_plan(plan_of(parts.bone_case)),
+  setup.anatomy = recorded_anatomy(recording_, native, {}, data_);
+  setup.native = measured_glenoid(native, setup.anatomy, setup.tool);
+  setup.request.script_name = request.script_name;
+  setup.request.random_seed = recording_.header().random_seed;
+  setup.script = find_script(request);
+  setup.request.device = request.device;
+  setup.request.device_profile = request.device_profile;
+  device::settle_for_device(request.device, request.device_profile, setup.script);
+  setup.script.force_scale = setup.settings.force_scale;
+  device::MadeDevice made = device::make_device({request.device, request.device_profile, &setup.script,
+                                                 sim::world_from_plan(plan_of(setup.bone_case)),
                                                  recording_.header().random_seed, data_});
-  parts.device = std::move(made.device);
-  parts.link = std::move(made.link);
-  return parts;
+  setup.device = std::move(made.device);
+  setup.link = std::move(made.link);
+  return setup;
 }
 
 }  // namespace ream::session

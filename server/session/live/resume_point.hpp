@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/file_lock.hpp"
+#include "core/session_state.hpp"
 #include "record/recorded_bone.hpp"
 #include "score/metrics.hpp"
 #include "session/simulation/simulation.hpp"
@@ -24,12 +25,14 @@ class ResumePoint {
   /// What a simulation is made of that goes on from here with the recorded settings, under a script that
   /// begins anew. `request`: backend, script and device count. `reamer`: words, or empty for the one before.
   /// To be called once. Error invalid_input for the reamer; those of script and device.
-  SimulationSetup parts(const RunRequest& request, const std::string& reamer);
+  SimulationSetup setup(const RunRequest& request, const std::string& reamer);
 
   /// Undoes what was appended to the recording since it was read; nobody may be writing it. On a failure it
   /// says so in the log.
   void cut_to_its_end() const;
 
+  /// Of the session, as its folder has it.
+  SessionState state() const { return state_; }
   /// Ticks that were recorded; the next is theirs.
   uint32_t ticks() const { return recording_.tick_count(); }
   const record::Recording& recording() const { return recording_; }
@@ -45,6 +48,7 @@ class ResumePoint {
   const std::vector<uint8_t> start_coverage_;
   record::RecordedBone bone_;
   score::MetricsAccumulator metrics_;
+  const SessionState state_;
 };
 
 /// The lock of a session's folder, which exists. Error conflict when somebody else has it.

@@ -14,8 +14,8 @@
 #include "core/text.hpp"
 #include "record/op_log.hpp"
 #include "session/folder/session_folder.hpp"
-#include "session/scoring/kept_score.hpp"
 #include "session/scoring/rescoring.hpp"
+#include "session/scoring/score_document.hpp"
 
 namespace ream::session {
 namespace {

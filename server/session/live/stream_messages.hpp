@@ -1,7 +1,9 @@
 #pragma once
 #include "case/case.hpp"
 #include "record/tick_report.hpp"
+#include "score/metrics.hpp"
 #include "shell/tool.hpp"
+#include "sim/loop_health.hpp"
 #include "stream/messages.hpp"
 #include "stream/telemetry.hpp"
 
@@ -12,5 +14,8 @@ stream::HelloInfo make_hello(const case_::Case& c, const case_::Plan& plan, cons
 
 /// What viewers are told of one tick. Where the bone is, is left out where it has not moved.
 void update_sample(const record::TickReport& report, stream::TelemetrySample& sample);
+/// The same of a session so far.
+void update_sample(const score::MetricsAccumulator& metrics, const sim::LoopHealth& health,
+                   stream::TelemetrySample& sample);
 
 }  // namespace ream::session

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/signal_handlers.hpp"
 
 namespace ream::session {
 namespace {
@@ -19,13 +20,13 @@ Error lacks_tick(const record::Recording& recording, uint32_t tick) {
 MetricsTimeline::MetricsTimeline(const record::Recording& recording, const Pose& world_from_grid,
                                  const score::MetricsAccumulator& start)
     : recording_(recording), world_from_grid_(world_from_grid), seconds_{start} {
-  reader_ = std::thread([this] { read_all(); });
+  reader_ = start_thread([this] { read_all(); });
 }
 
 MetricsTimeline::~MetricsTimeline() {
   {
     const std::lock_guard lock(mutex_);
-    leaving_ = true;
+    stopping_ = true;
   }
   reader_.join();
 }
@@ -43,7 +44,7 @@ void MetricsTimeline::read_all() {
                                  ++reached;
                                });
       const std::lock_guard lock(mutex_);
-      if (leaving_) return;
+      if (stopping_) return;
       if (reached == reached_ticks_) throw lacks_tick(recording_, reached);
       reached_ticks_ = reached;
       if (reached == seconds_.size() * ticks_per_second) seconds_.push_back(metrics);
@@ -76,10 +77,9 @@ std::optional<score::MetricsAccumulator> MetricsTimeline::at(uint32_t ticks) con
   return from_second(before, ticks);
 }
 
-score::MetricsAccumulator MetricsTimeline::wait_for(uint32_t ticks,
-                                                    std::chrono::milliseconds patience) const {
+score::MetricsAccumulator MetricsTimeline::wait_for(uint32_t ticks, std::chrono::milliseconds timeout) const {
   std::unique_lock lock(mutex_);
-  grown_.wait_for(lock, patience, [&] { return done_ || ticks <= reached_ticks_; });
+  grown_.wait_for(lock, timeout, [&] { return done_ || ticks <= reached_ticks_; });
   if (ticks > reached_ticks_ && !done_)
     throw Error(ErrorKind::unavailable,
                 "the recording is still being read up to this moment; ask again in a few seconds");

@@ -31,9 +31,9 @@ class MetricsTimeline {
 
   /// After `ticks` ticks; nothing when the recording has not been read up to there yet, or is damaged before.
   std::optional<score::MetricsAccumulator> at(uint32_t ticks) const;
-  /// The same, waiting for it. Errors: unavailable when `patience` is over, invalid_input when the recording
+  /// The same, waiting for it. Errors: unavailable when `timeout` is over, invalid_input when the recording
   /// is damaged before.
-  score::MetricsAccumulator wait_for(uint32_t ticks, std::chrono::milliseconds patience) const;
+  score::MetricsAccumulator wait_for(uint32_t ticks, std::chrono::milliseconds timeout) const;
   /// The first damage among the ticks, as far as the recording has been read.
   RecordingDamage damage() const;
 
@@ -48,7 +48,7 @@ class MetricsTimeline {
   std::vector<score::MetricsAccumulator> seconds_;  ///< entry i: after i seconds
   uint32_t reached_ticks_ = 0;                      ///< ticks that have been read
   std::string damage_;
-  bool done_ = false, leaving_ = false;
+  bool done_ = false, stopping_ = false;
   std::thread reader_;
 };
 

@@ -1,7 +1,6 @@
 #include "session/replay/replay_picture.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 
 #include "core/clock.hpp"
@@ -33,7 +32,7 @@ ReplayPicture::ReplayPicture(const record::Recording& recording, const case_::Ca
   fanout_.publish_hello(stream::hello_message(hello_));
   publisher_.publish_all();
   jump_to({});
-  tell(SessionState::replaying);
+  publish_state(SessionState::replaying);
 }
 
 void ReplayPicture::show(const ReplayMoment& moment) {
@@ -50,7 +49,7 @@ void ReplayPicture::show(const ReplayMoment& moment) {
   show_tool();
   catch_up_metrics();
   // Ticks that were played have told of changes themselves.
-  if (jumped || (changed && !moved)) tell(SessionState::replaying);
+  if (jumped || (changed && !moved)) publish_state(SessionState::replaying);
 }
 
 void ReplayPicture::settle(const ReplayMoment& moment, uint32_t position_ticks) {
@@ -58,9 +57,7 @@ void ReplayPicture::settle(const ReplayMoment& moment, uint32_t position_ticks) 
   shown_.position_ticks = position_ticks;
   sample_.state = SessionState::replaying;
   sample_.playback = {position_ticks, moment.speed, moment.playing, moment.jump};
-  sample_.fault.fill('\0');
-  std::memcpy(sample_.fault.data(), moment.fault.data(),
-              std::min(moment.fault.size(), sample_.fault.size() - 1));
+  sample_.set_fault(moment.fault);
 }
 
 void ReplayPicture::seek_bone(uint32_t ticks) {
@@ -196,7 +193,7 @@ void ReplayPicture::poll(int64_t now_ns) {
   batcher_.publish_if_due(now_ns);
 }
 
-void ReplayPicture::tell(SessionState state) {
+void ReplayPicture::publish_state(SessionState state) {
   sample_.state = state;
   batcher_.add(sample_);
   batcher_.flush();

@@ -36,7 +36,7 @@ class ReplayPicture {
   /// Publishes what waits and is due; `now_ns` as steady_ns(); call every 10 ms or so.
   void poll(int64_t now_ns);
   /// Tells where the replay stands, now.
-  void tell(SessionState state);
+  void publish_state(SessionState state);
 
   /// Ticks of the recording that have passed in what is shown.
   uint32_t ticks() const { return shown_.position_ticks; }

@@ -2,34 +2,37 @@
 
 #include <algorithm>
 #include <chrono>
-#include <nlohmann/json.hpp>
 
 #include "core/clock.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/json.hpp"
 #include "core/log.hpp"
+#include "core/signal_handlers.hpp"
+#include "score/bone_results.hpp"
 #include "score/metrics.hpp"
 #include "session/folder/session_folder.hpp"
 #include "session/live/stream_messages.hpp"
 #include "session/live/viewer_stream.hpp"
 #include "session/simulation/recorded_session.hpp"
+#include "sim/model.hpp"
 #include "sim/settings.hpp"
 
 namespace ream::session {
 namespace {
 
 /// A request for metrics waits this long for the recording to be read.
-constexpr auto metrics_patience = std::chrono::seconds(1);
+constexpr auto metrics_timeout = std::chrono::seconds(1);
 constexpr auto replay_period = std::chrono::milliseconds(10);
 /// A replay that rests tells its viewers so this often, so that a silent link is a broken one.
 constexpr int64_t replay_heartbeat_ns = 500'000'000;
 
 double recorded_force_max_n(const record::Recording& recording) {
   const std::string place = "the settings in " + recording.log().path().string();
-  const auto json = nlohmann::json::parse(recording.header().settings, nullptr, false);
-  if (json.is_discarded()) throw Error(ErrorKind::invalid_input, place + " is not JSON");
-  return sim::settings_from_json(json, place).limits.force_max_n;
+  const auto settings = parse_json_or_discard(recording.header().settings);
+  if (settings.is_discarded()) throw Error(ErrorKind::invalid_input, place + " is not JSON");
+  return sim::settings_from_json(settings, place).limits.force_max_n;
 }
 
 case_::Case bone_before(const record::Recording& recording, const std::filesystem::path& data) {
@@ -77,7 +80,7 @@ ReplaySession::ReplaySession(const SessionContext& context, const ReplayRequest&
       playhead_(recording_.tick_count()) {
   bone_hash_ = picture_.bone_hash();
   last_watched_ns_ = steady_ns();
-  follower_ = std::thread([this] { follow(); });
+  follower_ = start_thread([this] { follow(); });
 }
 
 ReplaySession::~ReplaySession() { stop(); }
@@ -142,7 +145,7 @@ nlohmann::json ReplaySession::metrics() const {
     if (bone_ticks_ == ticks) grid_hash = bone_hash_;
   }
   nlohmann::json now = score::session_metrics_json(
-      timeline_.wait_for(ticks, metrics_patience),
+      timeline_.wait_for(ticks, metrics_timeout),
       score::missing_bone_results("the bone is measured at the session's end only"),
       recording_.header().force_scale, grid_hash ? &*grid_hash : nullptr);
   return same_moment(kept_metrics_, now) ? kept_metrics_ : now;
@@ -161,12 +164,12 @@ void ReplaySession::stop() {
   const std::lock_guard one_at_a_time(stopping_);
   {
     const std::lock_guard lock(mutex_);
-    if (leaving_) return;
-    leaving_ = true;
+    if (ended_) return;
+    ended_ = true;
   }
   changed_.notify_all();
   follower_.join();
-  picture_.tell(SessionState::stopped);
+  picture_.publish_state(SessionState::stopped);
 }
 
 std::unique_ptr<net::WebSocketSession> ReplaySession::subscribe(int stride) {
@@ -181,34 +184,34 @@ void ReplaySession::follow() {
     try {
       {
         const std::lock_guard lock(mutex_);
-        if (leaving_) return;
+        if (ended_) return;
         playhead_.advance(now_ns - before_ns);
         moment = {playhead_.position_ticks(), playhead_.jumps(), static_cast<float>(playhead_.speed()),
                   playhead_.playing(), fault_};
         if (fanout_->viewers() > 0) last_watched_ns_ = now_ns;
       }
       before_ns = now_ns;
-      present(moment, now_ns);
+      show_moment(moment, now_ns);
     } catch (const std::exception& e) {
-      give_up(e.what(), moment.jump);
+      rest_with_fault(e.what(), moment.jump);
     }
     std::unique_lock lock(mutex_);
     bone_ticks_ = picture_.bone_ticks();
     bone_hash_ = picture_.bone_hash();
-    changed_.wait_for(lock, replay_period, [&] { return leaving_ || playhead_.jumps() != moment.jump; });
+    changed_.wait_for(lock, replay_period, [&] { return ended_ || playhead_.jumps() != moment.jump; });
   }
 }
 
-void ReplaySession::present(const ReplayMoment& moment, int64_t now_ns) {
+void ReplaySession::show_moment(const ReplayMoment& moment, int64_t now_ns) {
   picture_.show(moment);
   picture_.poll(steady_ns());
-  if (moment.playing || now_ns - last_told_ns_ <= replay_heartbeat_ns) return;
-  picture_.tell(SessionState::replaying);
-  last_told_ns_ = now_ns;
+  if (moment.playing || now_ns - last_published_ns_ <= replay_heartbeat_ns) return;
+  picture_.publish_state(SessionState::replaying);
+  last_published_ns_ = now_ns;
 }
 
 /// Rests where the picture stands, which could be read; another jump since then stays wanted.
-void ReplaySession::give_up(const std::string& words, uint32_t jump) {
+void ReplaySession::rest_with_fault(const std::string& words, uint32_t jump) {
   if (words != logged_fault_) log::error("replay of session " + request_.replay_of + ": " + words);
   logged_fault_ = words;
   const std::lock_guard lock(mutex_);

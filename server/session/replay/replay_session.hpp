@@ -3,11 +3,11 @@
 #include <mutex>
 #include <thread>
 
-#include "session/live/reaming_session.hpp"
 #include "session/replay/metrics_timeline.hpp"
 #include "session/replay/playhead.hpp"
 #include "session/replay/replay_picture.hpp"
 #include "session/running_replay.hpp"
+#include "session/session_context.hpp"
 #include "stream/fanout.hpp"
 
 namespace ream::session {
@@ -29,8 +29,8 @@ class ReplaySession final : public RunningReplay {
 
  private:
   void follow();
-  void present(const ReplayMoment& moment, int64_t now_ns);
-  void give_up(const std::string& words, uint32_t jump);
+  void show_moment(const ReplayMoment& moment, int64_t now_ns);
+  void rest_with_fault(const std::string& words, uint32_t jump);
   std::vector<RecordingDamage> damage() const;
   stream::HelloInfo hello() const;
 
@@ -42,7 +42,7 @@ class ReplaySession final : public RunningReplay {
   const MetricsTimeline timeline_;
   const std::shared_ptr<stream::Fanout> fanout_;
   ReplayPicture picture_;  ///< of the thread, as the next two
-  int64_t last_told_ns_ = 0;
+  int64_t last_published_ns_ = 0;
   std::string logged_fault_;
 
   mutable std::mutex mutex_;  ///< guards what follows
@@ -52,7 +52,7 @@ class ReplaySession final : public RunningReplay {
   uint64_t bone_hash_ = 0;
   uint32_t bone_ticks_ = 0;
   int64_t last_watched_ns_ = 0;
-  bool leaving_ = false;
+  bool ended_ = false;
   std::mutex stopping_;  ///< one stop() at a time
   std::thread follower_;
 };

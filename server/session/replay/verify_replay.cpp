@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "core/interrupt.hpp"
+#include "core/json.hpp"
 #include "record/replay_device.hpp"
 #include "record/tick_report.hpp"
 #include "session/simulation/recording_header.hpp"
@@ -23,7 +23,7 @@ constexpr uint32_t ticks_between_looks_for_interrupts = 1000;
 
 /// Hash of a table as the header has it; empty when it had none.
 std::string recorded_table(const record::Recording& recording, const char* name) {
-  const nlohmann::json tables = nlohmann::json::parse(recording.header().tables, nullptr, false);
+  const nlohmann::json tables = parse_json_or_discard(recording.header().tables);
   return tables.is_object() && tables.contains(name) && tables.at(name).is_string()
              ? tables.at(name).get<std::string>()
              : "";
@@ -73,7 +73,7 @@ class Verifier {
   }
 
   /// The simulation of a segment on the bone as it now is.
-  void make_rig(const record::ops::Segment& segment) {
+  void make_simulation(const record::ops::Segment& segment) {
     sim::ResumeState from;
     if (simulation_) {
       from = {simulation_->state.tick, simulation_->state.session_hash};
@@ -109,7 +109,7 @@ class Verifier {
   }
 
   void run_segment(const record::ops::Segment& segment, uint32_t end) {
-    make_rig(segment);
+    make_simulation(segment);
     compare_start(segment);
     if (result_.difference) return;
     // A difference ends the work between batches.

@@ -27,7 +27,7 @@ struct VerifyResult {
 
 /// Computes every segment of a recording once more from its recorded causes and compares each tick's pose,
 /// bone, forces and hash, and the whole bone's hash where the recording has keys and at its end. Stops at the
-/// first tick that differs. `bone_case` is the recorded_case. Errors: those of recorded_parts and Simulation;
+/// first tick that differs. `bone_case` is the recorded_case. Errors: those of recorded_setup and Simulation;
 /// invalid_input for a damaged chunk; io when interrupted.
 VerifyResult verify_replay(const record::Recording& recording, case_::Case bone_case,
                            const VerifyRequest& request);

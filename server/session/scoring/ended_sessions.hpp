@@ -4,18 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "core/progress.hpp"
+#include "score/ended_session.hpp"
 #include "score/learning_curve.hpp"
 
 namespace ream::session {
 
-/// A session that has ended, for statistics.
-struct EndedSession {
-  std::string id;
-  nlohmann::json session;             ///< session.json, or what its recording says of it
-  nlohmann::json metrics = {};        ///< metrics.json; null: not read, or not left
-  std::filesystem::path folder = {};  ///< empty: not needed
-};
+using score::EndedSession;
 
 /// All ended sessions of a data folder that can be read, oldest first. What cannot be read is left out, with
 /// a line in the log. Their metrics are not read.

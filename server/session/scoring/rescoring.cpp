@@ -8,10 +8,11 @@
 #include "record/recorded_bone.hpp"
 #include "score/bone_results.hpp"
 #include "score/metrics.hpp"
-#include "session/simulation/measured_glenoid.hpp"
-#include "session/simulation/recorded_case.hpp"
+#include "session/simulation/find_case.hpp"
 #include "session/simulation/recorded_session.hpp"
 #include "session/simulation/recorded_setup.hpp"
+#include "session/simulation/session_setup.hpp"
+#include "session/simulation/simulation.hpp"
 #include "sim/model.hpp"
 
 namespace ream::session {

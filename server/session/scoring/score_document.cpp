@@ -1,16 +1,19 @@
 #include "session/scoring/score_document.hpp"
 
+#include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/json.hpp"
+#include "core/log.hpp"
+#include "core/version.hpp"
 #include "score/metric_results.hpp"
+#include "score/rubric_store.hpp"
 #include "session/folder/session_folder.hpp"
 
 namespace ream::session {
 namespace fs = std::filesystem;
 using nlohmann::json;
 namespace {
-
-json text_or_null(std::string_view text) { return text.empty() ? json(nullptr) : json(text); }
 
 /// The rubric's own limits of a metric; null where it says nothing of it.
 json criterion_of(const json& document, std::string_view metric) {
@@ -37,7 +40,7 @@ json explained(const score::Metric& metric, const json& document) {
           {"value", said ? *found : json(nullptr)},
           {"missing", missing},
           {"unsaid", missing},  // the key of the version before
-          {"unit", text_or_null(metric.unit)},
+          {"unit", or_null(metric.unit)},
           {"definition", metric.definition},
           {"source", metric.source},
           {"evidence", score::to_text(metric.evidence)},
@@ -66,7 +69,7 @@ json score_document(const std::string& scored_by, const json& session, const jso
           {"force_scale", metrics.value("force_scale", 1.0)},
           {"score", score::score_json(judge.rubric, score)},
           {"rubric", score::rubric_json(judge.rubric)},
-          {"rubric_id", text_or_null(judge.rubric_id)},
+          {"rubric_id", or_null(judge.rubric_id)},
           {"benchmark", judge.benchmark ? score::comparison_json(*judge.benchmark, metrics) : json()},
           {"metrics", metrics}};
 }
@@ -99,11 +102,22 @@ void write_results(const fs::path& folder, const json& metrics, const json& docu
     if (const std::string lost = lost_metric(before, metrics); !lost.empty())
       throw Error(ErrorKind::conflict, "it said " + lost + " before and does not now: " +
                                            score::missing_reason(metrics, lost) + "; it is left as it was");
-    if (before != metrics) write_file_atomically(metrics_json(folder), metrics.dump(2) + "\n");
+    if (before != metrics) write_json_file(metrics_json(folder), metrics);
   } else {
-    write_file_atomically(metrics_json(folder), metrics.dump(2) + "\n");
+    write_json_file(metrics_json(folder), metrics);
   }
-  write_file_atomically(score_json(folder), document.dump(2) + "\n");
+  write_json_file(score_json(folder), document);
+}
+
+void keep_score(const fs::path& folder, const fs::path& data) noexcept {
+  try {
+    const score::Rubric rubric = score::RubricStore(rubrics_folder(data)).get("standard");
+    write_json_file(score_json(folder),
+                    score_document(version_text(), read_json_file(session_json(folder)),
+                                   read_json_file(metrics_json(folder)), {rubric, "standard", nullptr}));
+  } catch (const std::exception& e) {
+    log::warn(folder.string() + ": the session could not be judged: " + e.what());
+  }
 }
 
 }  // namespace ream::session

@@ -31,4 +31,9 @@ nlohmann::json explained_score(const nlohmann::json& document);
 void write_results(const std::filesystem::path& folder, const nlohmann::json& metrics,
                    const nlohmann::json& document);
 
+/// Judges a session that has ended by the newest `standard` rubric of the data folder, and writes its
+/// score.json from its session.json and metrics.json. What fails is logged: a session's end does not depend
+/// on it.
+void keep_score(const std::filesystem::path& folder, const std::filesystem::path& data) noexcept;
+
 }  // namespace ream::session

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "core/new_id.hpp"
+#include "core/signal_handlers.hpp"
 #include "session/service/session_socket.hpp"
 
 namespace ream::session {
@@ -28,12 +29,12 @@ struct ReplayService::Entry {
 };
 
 ReplayService::ReplayService(SessionEngine& engine, ReplayLimits limits) : engine_(engine), limits_(limits) {
-  caretaker_ = std::thread([this] { end_unattended(); });
+  cleanup_thread_ = start_thread([this] { end_unattended(); });
 }
 
 ReplayService::~ReplayService() {
   shut_down();
-  caretaker_.join();
+  cleanup_thread_.join();
 }
 
 void ReplayService::end_unattended() {
@@ -46,8 +47,8 @@ void ReplayService::end_unattended() {
         log::info("replay of session " + entry->request.replay_of + " ends: nobody has watched it for long");
         entry->running->stop();
       }
-    } catch (const std::exception& failure) {
-      log::error(std::string("a replay that nobody watches could not be ended: ") + failure.what());
+    } catch (...) {
+      log::current_exception("a replay that nobody watches could not be ended");
     }
     if (!lock.owns_lock()) lock.lock();
   }

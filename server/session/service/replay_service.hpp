@@ -70,7 +70,7 @@ class ReplayService {
   size_t being_made_ = 0;
   bool closed_ = false;
   std::condition_variable closing_;
-  std::thread caretaker_;  ///< ends unattended replays
+  std::thread cleanup_thread_;  ///< ends unattended replays
 };
 
 }  // namespace ream::session

@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <memory>
 #include <mutex>
 
@@ -11,6 +12,7 @@ namespace ream::session {
 struct SessionService::Entry {
   std::unique_ptr<RunningSession> running;
   std::mutex changing;  ///< one start, pause or stop at a time
+  const std::chrono::steady_clock::time_point made = std::chrono::steady_clock::now();
 
   SessionRecord record() const { return {request(), running->status()}; }
   bool live() const { return is_live(running->status().state); }

@@ -65,7 +65,7 @@ void SessionService::relabel(const std::string& id, const SessionRequest& labels
   if (!written && (!entry || std::filesystem::exists(session_json(archive_.folder_of(id)), failed)))
     relabel_folder(archive_.folder_of(id), labels);
   if (entry) entry->label(labels);
-  register_->changed(id);
+  register_.changed(id);
 }
 
 SessionRequest SessionService::next_attempt(const SessionRecord& before) const {
@@ -84,7 +84,7 @@ SessionRequest SessionService::next_attempt(const SessionRecord& before) const {
 
 /// The new one stands before the old one ends, so that nothing is lost where it cannot be made; meanwhile the
 /// hand holds nothing.
-SessionRecord SessionService::restart(const SessionRecord& before) {
+SessionRecord SessionService::restart(const SessionRecord& before, bool by_trainee) {
   const std::string& id = before.request.id;
   const auto old = is_live(before.status.state) ? find(id) : find_or_none(id);
   const bool ran =
@@ -94,7 +94,7 @@ SessionRecord SessionService::restart(const SessionRecord& before) {
   if (held_here) old->running->pause();
   std::shared_ptr<Entry> next;
   try {
-    next = create_entry(std::move(wanted), old && old->live() ? 1 : 0);
+    next = create_entry(std::move(wanted), by_trainee, old && old->live() ? 1 : 0);
   } catch (...) {
     if (held_here) old->running->unpause();
     throw;
@@ -119,7 +119,7 @@ SessionRecord SessionService::restart(const SessionRecord& before) {
   return next->record();
 }
 
-SessionRecord SessionService::reset(const std::string& id) {
+SessionRecord SessionService::reset(const std::string& id, bool by_trainee) {
   {
     const std::lock_guard lock(mutex_);
     if (!being_reset_.insert(id).second)
@@ -130,7 +130,7 @@ SessionRecord SessionService::reset(const std::string& id) {
     being_reset_.erase(id);
   };
   try {
-    const SessionRecord next = restart(get(id));
+    const SessionRecord next = restart(get(id), by_trainee);
     done();
     return next;
   } catch (...) {
@@ -148,7 +148,7 @@ std::shared_ptr<SessionService::Entry> SessionService::reopen_entry(const Sessio
   return entry;
 }
 
-SessionRecord SessionService::resume(const std::string& id, const std::string& reamer) {
+SessionRecord SessionService::resume(const std::string& id, const std::string& reamer, bool by_trainee) {
   const SessionRecord before = get(id);
   const SessionState state = before.status.state;
   if (state != SessionState::interrupted && state != SessionState::stopped)
@@ -160,14 +160,15 @@ SessionRecord SessionService::resume(const std::string& id, const std::string& r
     if (!being_resumed_.insert(id).second)
       throw Error(ErrorKind::conflict, "session '" + id + "' is being resumed already");
   }
-  const auto done = [this, &id](bool reserved) {
+  const std::string& trainee_id = before.request.trainee_id;
+  const auto done = [&](bool reserved) {
     being_resumed_.erase(id);
-    if (reserved) --being_made_;
+    if (reserved) free_place(trainee_id);
   };
   std::shared_ptr<Entry> entry, old;
   bool reserved = false;
   try {
-    reserve_place();
+    reserve_place(trainee_id, by_trainee);
     reserved = true;
     entry = reopen_entry(before, reamer);
   } catch (...) {
@@ -185,8 +186,47 @@ SessionRecord SessionService::resume(const std::string& id, const std::string& r
     entries_.erase(place);
   }
   entries_.push_back(entry);
-  register_->changed(id);
+  register_.changed(id);
   return entry->record();
 }
+
+/// First out of the folders, then out of memory and index: whatever happens in between, they follow.
+SessionRecord SessionService::remove(const std::string& id) {
+  const std::lock_guard one_at_a_time(labelling_);
+  SessionRecord record = get(id);
+  if (is_live(record.status.state))
+    throw Error(ErrorKind::conflict,
+                "session '" + id + "' is " + to_text(record.status.state) + "; stop it before it is deleted");
+  if (record.request.keep)
+    throw Error(ErrorKind::conflict, "session '" + id + "' is kept for good; take that off it first");
+  std::error_code failed;
+  if (std::filesystem::exists(archive_.folder_of(id), failed)) trash_.take(id);
+  std::vector<std::shared_ptr<Entry>> gone;  // destroyed after the lock
+  {
+    const std::lock_guard lock(mutex_);
+    const auto first = std::stable_partition(entries_.begin(), entries_.end(),
+                                             [&](const auto& entry) { return entry->id() != id; });
+    for (auto entry = first; entry != entries_.end(); ++entry)
+      ((*entry)->running->stands_still() ? standing_ : gone).push_back(std::move(*entry));
+    entries_.erase(first, entries_.end());
+  }
+  register_.changed(id);
+  record.streamable = false;
+  return record;
+}
+
+SessionRecord SessionService::restore(const std::string& id) {
+  if (find_or_none(id)) throw Error(ErrorKind::conflict, "session '" + id + "' is not deleted");
+  std::error_code failed;
+  if (!trash_.has(id) && std::filesystem::exists(archive_.folder_of(id), failed))
+    throw Error(ErrorKind::conflict, "session '" + id + "' is not deleted");
+  trash_.give_back(id);
+  register_.changed(id);
+  return archived(id);
+}
+
+void SessionService::erase(const std::string& id) { trash_.erase(id); }
+
+std::vector<DeletedSession> SessionService::deleted() const { return trash_.list(); }
 
 }  // namespace ream::session

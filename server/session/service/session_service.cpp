@@ -12,26 +12,39 @@
 namespace ream::session {
 
 SessionService::SessionService(SessionEngine& engine, SessionLimits limits,
-                               const std::filesystem::path& sessions_folder,
-                               std::shared_ptr<store::Database> database)
+                               const std::filesystem::path& sessions_folder, store::Database& database)
     : engine_(engine),
       limits_(limits),
       archive_(sessions_folder),
       trash_(sessions_folder),
-      register_(std::make_unique<SessionRegister>(archive_, std::move(database))) {}
+      register_(archive_, database) {}
 
 SessionService::~SessionService() { shut_down(); }
 
-void SessionService::reserve_place(size_t leaving) {
+/// `leaving`: live ones that are about to end for it.
+void SessionService::reserve_place(const std::string& trainee_id, bool by_trainee, size_t leaving) {
   const std::lock_guard lock(mutex_);
   if (closed_) throw Error(ErrorKind::unavailable, "the server is stopping");
-  const auto live = static_cast<size_t>(
-      std::count_if(entries_.begin(), entries_.end(), [](const auto& entry) { return entry->live(); }));
-  if (live + being_made_ >= limits_.live + leaving)
+  size_t live = being_made_.size(), own = being_made_.count(trainee_id);
+  for (const auto& entry : entries_) {
+    if (!entry->live()) continue;
+    ++live;
+    own += entry->request().trainee_id == trainee_id;
+  }
+  if (by_trainee && own >= limits_.of_trainee + leaving)
+    throw Error(ErrorKind::conflict,
+                std::to_string(limits_.of_trainee) +
+                    " of your sessions are live, as many as a trainee may have at once; stop one first");
+  if (live >= limits_.live + leaving)
     throw Error(ErrorKind::unavailable,
                 std::to_string(limits_.live) +
                     " sessions are live, as many as this server runs at once; stop one first");
-  ++being_made_;
+  being_made_.insert(trainee_id);
+}
+
+/// With the mutex held.
+void SessionService::free_place(const std::string& trainee_id) {
+  being_made_.erase(being_made_.find(trainee_id));
 }
 
 std::string SessionService::unused_id() const {
@@ -49,7 +62,7 @@ std::vector<std::shared_ptr<SessionService::Entry>> SessionService::take_surplus
   auto ended = static_cast<size_t>(
       std::count_if(entries_.begin(), entries_.end(), [](const auto& entry) { return !entry->live(); }));
   for (auto entry = entries_.begin(); entry != entries_.end() && ended > limits_.kept;) {
-    if ((*entry)->live()) {
+    if ((*entry)->live() || (*entry)->running->stands_still()) {
       ++entry;
       continue;
     }
@@ -60,13 +73,14 @@ std::vector<std::shared_ptr<SessionService::Entry>> SessionService::take_surplus
   return surplus;
 }
 
-SessionRecord SessionService::create(SessionRequest wanted) {
-  return create_entry(std::move(wanted), 0)->record();
+SessionRecord SessionService::create(SessionRequest wanted, bool by_trainee) {
+  return create_entry(std::move(wanted), by_trainee, 0)->record();
 }
 
-/// `leaving`: live ones that are about to end for it.
-std::shared_ptr<SessionService::Entry> SessionService::create_entry(SessionRequest wanted, size_t leaving) {
-  reserve_place(leaving);
+std::shared_ptr<SessionService::Entry> SessionService::create_entry(SessionRequest wanted, bool by_trainee,
+                                                                    size_t leaving) {
+  const std::string trainee_id = wanted.trainee_id;
+  reserve_place(trainee_id, by_trainee, leaving);
   auto entry = std::make_shared<Entry>();
   try {
     {
@@ -78,12 +92,12 @@ std::shared_ptr<SessionService::Entry> SessionService::create_entry(SessionReque
     entry->running = engine_.make(entry->request());
   } catch (...) {
     const std::lock_guard lock(mutex_);
-    --being_made_;
+    free_place(trainee_id);
     throw;
   }
   std::vector<std::shared_ptr<Entry>> surplus;  // destroyed after the lock: ending a session may take a while
   const std::lock_guard lock(mutex_);
-  --being_made_;
+  free_place(trainee_id);
   if (closed_) throw Error(ErrorKind::unavailable, "the server is stopping");
   entries_.push_back(entry);
   surplus = take_surplus();
@@ -135,7 +149,7 @@ SessionRecord SessionService::with_mark(SessionRecord held) const {
 SessionPage SessionService::list(const store::SessionQuery& query) const {
   std::vector<SessionRecord> records = held();
   for (SessionRecord& record : records) record = with_mark(std::move(record));
-  return register_->list(query, std::move(records));
+  return register_.list(query, std::move(records));
 }
 
 SessionRecord SessionService::get(const std::string& id) const {
@@ -150,7 +164,7 @@ nlohmann::json SessionService::metrics(const std::string& id) const {
   return entry && (entry->live() || !kept) ? entry->running->metrics() : archive_.metrics(id);
 }
 
-void SessionService::note_results(const std::string& id) { register_->changed(id); }
+void SessionService::note_results(const std::string& id) { register_.changed(id); }
 
 std::optional<Annotation> SessionService::annotate_live(const std::string& id, const NewAnnotation& note) {
   const auto entry = find_or_none(id);
@@ -209,6 +223,22 @@ std::unique_ptr<net::WebSocketSession> SessionService::connect_device(const std:
   auto entry = find(id);
   auto inner = entry->running->connect_device();
   return std::make_unique<ViewerSocket>(std::move(entry), std::move(inner));
+}
+
+void SessionService::end_unstarted(std::chrono::steady_clock::time_point now) {
+  if (!limits_.unstarted) return;
+  std::vector<std::shared_ptr<Entry>> old;
+  {
+    const std::lock_guard lock(mutex_);
+    std::copy_if(entries_.begin(), entries_.end(), std::back_inserter(old),
+                 [&](const auto& entry) { return now - entry->made >= *limits_.unstarted; });
+  }
+  for (const auto& entry : old) {
+    const std::lock_guard changing(entry->changing);
+    if (entry->running->status().state != SessionState::created) continue;
+    entry->running->stop();
+    log::info("session " + entry->id() + " was ended: nobody started it");
+  }
 }
 
 void SessionService::shut_down() {

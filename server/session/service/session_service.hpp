@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <cstddef>
 #include <memory>
 #include <mutex>
@@ -19,8 +20,10 @@
 namespace ream::session {
 
 struct SessionLimits {
-  size_t live = 4;   ///< created, running or paused at once
-  size_t kept = 16;  ///< ended ones that can still be looked at; the oldest go first
+  size_t live = 4;        ///< created, running or paused at once
+  size_t kept = 16;       ///< ended ones that can still be looked at; the oldest go first
+  size_t of_trainee = 2;  ///< live ones that one trainee may have made
+  std::optional<std::chrono::minutes> unstarted{10};  ///< what nobody starts for so long ends; none: never
 };
 
 /// Owns the sessions of this server and knows all that lie in the data folder. Thread-safe. Unknown ids throw
@@ -28,15 +31,16 @@ struct SessionLimits {
 class SessionService {
  public:
   /// `engine` outlives it. `sessions_folder`: where sessions keep their folders; empty: nowhere. `database`:
-  /// has the index of sessions; null: lists are made from the folders.
+  /// has the index of sessions; outlives it.
   SessionService(SessionEngine& engine, SessionLimits limits, const std::filesystem::path& sessions_folder,
-                 std::shared_ptr<store::Database> database = nullptr);
+                 store::Database& database);
   ~SessionService();
   SessionService(const SessionService&) = delete;
   SessionService& operator=(const SessionService&) = delete;
 
-  /// `wanted.id` is chosen here. Errors: unavailable when as many are live as may be; those of the engine.
-  SessionRecord create(SessionRequest wanted);
+  /// `wanted.id` is chosen here. `by_trainee`: it is the trainee who asks. Errors: unavailable when as many
+  /// are live as may be; conflict when as many of that trainee are; those of the engine.
+  SessionRecord create(SessionRequest wanted, bool by_trainee = false);
   /// Those of this server that are still held in memory, oldest first.
   std::vector<SessionRecord> held() const;
   /// Of all in the data folder, as SessionRegister::list().
@@ -52,13 +56,13 @@ class SessionService {
   /// settings and labels, which runs if the old one did. Those who watch the old one are told where it goes
   /// on. Errors: conflict when that was done before, or the session lives in another process; those of
   /// create(), after which the old one is as it was.
-  SessionRecord reset(const std::string& id);
+  SessionRecord reset(const std::string& id, bool by_trainee = false);
   /// Errors: those of relabel_folder().
   SessionRecord change(const std::string& id, const SessionChange& change);
   /// Goes on with one that was interrupted or stopped, under the same id, and starts it. `reamer`: empty for
   /// the same as before. Errors: conflict in any other state or when another process has it; those of
   /// create() and start().
-  SessionRecord resume(const std::string& id, const std::string& reamer);
+  SessionRecord resume(const std::string& id, const std::string& reamer, bool by_trainee = false);
   /// Deletes one that has ended: it goes to the trash. Error conflict while it is live or in use, or is to be
   /// kept for good.
   SessionRecord remove(const std::string& id);
@@ -90,7 +94,11 @@ class SessionService {
   /// session is only in its folder.
   std::unique_ptr<net::WebSocketSession> connect_device(const std::string& id) const;
 
-  /// Stops every session that still runs; nothing can be created or started any more.
+  /// Ends those that were made longer ago than SessionLimits::unstarted and never started.
+  void end_unstarted(std::chrono::steady_clock::time_point now = std::chrono::steady_clock::now());
+
+  /// Stops every session that still runs; nothing can be created or started any more. One whose loop stands
+  /// still is held to the end of the service, also when it is deleted.
   void shut_down();
 
  private:
@@ -101,11 +109,12 @@ class SessionService {
   SessionRecord archived(const std::string& id) const;
   SessionRecord with_mark(SessionRecord held) const;
   std::shared_ptr<Entry> reopen_entry(const SessionRecord& before, const std::string& reamer);
-  std::shared_ptr<Entry> create_entry(SessionRequest wanted, size_t leaving);
+  std::shared_ptr<Entry> create_entry(SessionRequest wanted, bool by_trainee, size_t leaving);
   SessionRequest next_attempt(const SessionRecord& before) const;
-  SessionRecord restart(const SessionRecord& before);
+  SessionRecord restart(const SessionRecord& before, bool by_trainee);
   void relabel(const std::string& id, const SessionRequest& labels);
-  void reserve_place(size_t leaving = 0);
+  void reserve_place(const std::string& trainee_id, bool by_trainee, size_t leaving = 0);
+  void free_place(const std::string& trainee_id);
   std::string unused_id() const;
   std::optional<Annotation> annotate_live(const std::string& id, const NewAnnotation& note);
   std::vector<std::shared_ptr<Entry>> take_surplus();
@@ -114,13 +123,15 @@ class SessionService {
   const SessionLimits limits_;
   const SessionArchive archive_;
   SessionTrash trash_;
-  const std::unique_ptr<SessionRegister> register_;
-  std::mutex annotating_;  ///< one remark behind an end at a time; locked before mutex_
-  std::mutex labelling_;   ///< one change of labels at a time; locked before mutex_
+  mutable SessionRegister register_;  ///< a list mends it where the folders know better
+  std::mutex annotating_;             ///< one remark behind an end at a time; locked before mutex_
+  std::mutex labelling_;              ///< one change of labels at a time; locked before mutex_
   mutable std::mutex mutex_;
   std::vector<std::shared_ptr<Entry>> entries_;  ///< oldest first
+  /// Deleted, but their loops stand still: not to be destroyed while others run.
+  std::vector<std::shared_ptr<Entry>> standing_;
   std::set<std::string> being_resumed_, being_reset_;
-  size_t being_made_ = 0;
+  std::multiset<std::string> being_made_;  ///< by who trains
   bool closed_ = false;
 };
 

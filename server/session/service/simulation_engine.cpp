@@ -4,8 +4,9 @@
 #include "core/log.hpp"
 #include "core/version.hpp"
 #include "score/rubric_store.hpp"
-#include "session/export/export_surfaces.hpp"
+#include "session/export/export_formats.hpp"
 #include "session/folder/session_folder.hpp"
+#include "session/live/live_session.hpp"
 #include "session/replay/replay_session.hpp"
 #include "session/scoring/rescoring.hpp"
 
@@ -46,12 +47,12 @@ ExportRequest export_request_of(const ExportFormat& format, const ExportOrder& o
 std::string SimulationEngine::program() const { return version_text(); }
 
 std::unique_ptr<RunningSession> SimulationEngine::make(const SessionRequest& request) {
-  return std::make_unique<ReamingSession>(context_, request);
+  return LiveSession::create(context_, request);
 }
 
 std::unique_ptr<RunningSession> SimulationEngine::resume(const SessionRequest& request,
                                                          const std::string& reamer) {
-  return std::make_unique<ReamingSession>(context_, request, reamer);
+  return LiveSession::resume(context_, request, reamer);
 }
 
 std::unique_ptr<RunningReplay> SimulationEngine::replay(const ReplayRequest& request) {
@@ -62,12 +63,12 @@ std::unique_ptr<SessionMeasurer> SimulationEngine::measurer() const {
   return std::make_unique<RecordingMeasurer>(context_.data);
 }
 
-void SimulationEngine::write_deviations(const fs::path& folder, const fs::path& json,
+void SimulationEngine::write_deviations(const fs::path& folder, const fs::path& target,
                                         const Progress& progress) const {
   ExportRequest request;
   request.recording = recording_file(folder);
   request.data = context_.data;
-  session::write_deviations(request, json, progress);
+  session::write_deviations(request, target, progress);
 }
 
 void SimulationEngine::check_export(const ExportFormat& format, const ExportOrder& order) const {

@@ -1,6 +1,6 @@
 #pragma once
-#include "session/live/reaming_session.hpp"
 #include "session/service/session_engine.hpp"
+#include "session/session_context.hpp"
 
 namespace ream::session {
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/json.hpp"
 #include "core/temporary_file.hpp"
 #include "shell/parametric_profile.hpp"
 #include "shell/reamer_library.hpp"
@@ -49,7 +49,7 @@ std::string axis_to_text(const std::optional<shell::ToolAxis>& axis) {
 
 std::optional<shell::ToolAxis> axis_from_text(const std::string& text, const std::string& place) {
   if (text.empty()) return std::nullopt;
-  const nlohmann::json list = nlohmann::json::parse(text, nullptr, false);
+  const nlohmann::json list = parse_json_or_discard(text);
   const bool six = list.is_array() && list.size() == 6;
   if (!six || !std::all_of(list.begin(), list.end(), [](const auto& n) { return n.is_number(); }))
     throw Error(ErrorKind::invalid_input, place + ": the reamer's axis must be six numbers");

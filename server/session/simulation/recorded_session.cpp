@@ -2,7 +2,7 @@
 
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
-#include "session/simulation/recorded_case.hpp"
+#include "session/simulation/find_case.hpp"
 #include "session/simulation/recorded_setup.hpp"
 #include "sim/model.hpp"
 

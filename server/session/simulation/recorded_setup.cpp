@@ -1,10 +1,9 @@
 #include "session/simulation/recorded_setup.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include "case/plan.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/json.hpp"
 #include "sim/settings.hpp"
 
 namespace ream::session {
@@ -13,8 +12,8 @@ namespace {
 /// A JSON text of a recording's header. Error invalid_input naming it.
 nlohmann::json parsed(const std::string& text, const std::string& place) {
   try {
-    return nlohmann::json::parse(text);
-  } catch (const nlohmann::json::parse_error&) {
+    return parse_json(text);
+  } catch (const Error&) {
     throw Error(ErrorKind::invalid_input, place + " cannot be read");
   }
 }

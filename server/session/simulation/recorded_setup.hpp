@@ -13,7 +13,7 @@ case_::Case case_as_recorded(const record::Recording& recording, case_::Case fou
 /// The plan of a recording. Error invalid_input.
 case_::Plan recorded_plan(const record::Recording& recording);
 
-/// What the session is measured against, in recordings whose header says it. Error invalid_input.
+/// What a recording says that its session is measured against. Error invalid_input.
 case_::Anatomy anatomy_in(const record::Recording& recording);
 
 /// Settings of a recording, to compute with `backend`. Error invalid_input.

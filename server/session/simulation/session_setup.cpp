@@ -3,7 +3,7 @@
 #include "core/units.hpp"
 #include "device/registry/device_registry.hpp"
 #include "session/simulation/find_case.hpp"
-#include "session/simulation/measured_glenoid.hpp"
+#include "session/simulation/simulation.hpp"
 #include "sim/settings.hpp"
 
 namespace ream::session {
@@ -64,6 +64,13 @@ SimulationSetup build_setup(const RunRequest& request, const std::filesystem::pa
   parts.anatomy = find_anatomy(parts.bone_case, request.case_name, data);
   parts.native = measured_glenoid(parts.bone_case, parts.anatomy, parts.tool);
   return parts;
+}
+
+std::shared_ptr<const score::NativeGlenoid> measured_glenoid(const case_::Case& native,
+                                                             const case_::Anatomy& anatomy,
+                                                             const shell::Tool& reamer) {
+  return std::make_shared<const score::NativeGlenoid>(score::Task{anatomy, native.plan, reamer.profile},
+                                                      native.bone);
 }
 
 }  // namespace ream::session

@@ -11,20 +11,20 @@ namespace {
 
 nlohmann::json vibration_json(const sim::Model& model) {
   const force::VibrationSettings& vibration = model.settings.vibration;
-  nlohmann::json json = {{"source", force::to_text(vibration.source)},
-                         {"seed", model.settings.random_seed},
-                         {"n_per_g", vibration.vibration_n_per_g}};
-  if (model.vibration) json["tracks_hash"] = to_hex(model.vibration->hash());
-  return json;
+  nlohmann::json described = {{"source", force::to_text(vibration.source)},
+                              {"seed", model.settings.random_seed},
+                              {"n_per_g", vibration.vibration_n_per_g}};
+  if (model.vibration) described["tracks_hash"] = to_hex(model.vibration->hash());
+  return described;
 }
 
 nlohmann::json guide_json(const sim::Model& model) {
-  nlohmann::json json = {{"kind", case_::to_text(model.plan.guide)}};
+  nlohmann::json described = {{"kind", case_::to_text(model.plan.guide)}};
   if (model.guide) {
-    json["clearance_mm"] = model.guide->clearance_mm;
-    json["length_mm"] = model.guide->length_mm;
+    described["clearance_mm"] = model.guide->clearance_mm;
+    described["length_mm"] = model.guide->length_mm;
   }
-  return json;
+  return described;
 }
 
 nlohmann::json mount_json(const sim::Model& model) {

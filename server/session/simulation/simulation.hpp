@@ -26,7 +26,7 @@ struct RunRequest {
   double tool_spacing_mm = 0.2;
   std::optional<double> force_scale;  ///< overrides the script's
   uint64_t random_seed = 1;
-  std::string device = "script";  ///< app/device_registry.hpp
+  std::string device = "script";  ///< device/registry/device_registry.hpp
   std::string device_profile;     ///< empty: the script's
 };
 

@@ -10,7 +10,7 @@
 namespace ream::bench {
 namespace {
 
-constexpr size_t local_items = 64;
+constexpr size_t yau_local_items = 64;
 
 /// Voxels of the cap's box and the bone's box together; nothing when they do not meet.
 std::optional<layout::YauExchange> arguments(const Voxmap& voxmap, const ImplicitCap& cap,
@@ -59,7 +59,7 @@ Yau::Sums Yau::contact(const QuantisedPose& grid_from_tool) {
   std::optional<layout::YauExchange> e = arguments(voxmap_, cap_, grid_from_tool);
   if (!e) return {};
   exchange_.write(queue_, &*e, sizeof *e);
-  kernel_.enqueue(queue_, static_cast<size_t>(e->size[0]), local_items,
+  kernel_.enqueue(queue_, static_cast<size_t>(e->size[0]), yau_local_items,
                   static_cast<size_t>(e->size[1]) * static_cast<size_t>(e->size[2]));
   exchange_.read(queue_, &*e, sizeof *e);
   return {e->collided, e->gray_sixteenths};

@@ -9,9 +9,9 @@
 namespace ream::bench {
 namespace {
 
-constexpr size_t local_items = 64;
+constexpr size_t zheng_local_items = 64;
 constexpr size_t reduction_items = 256;
-constexpr float largest_force = 1.0f;
+constexpr float unscaled_force = 1.0f;
 
 gpu::Buffer points_of(const gpu::Queue& queue, const MortonShell& shell) {
   std::vector<float> points;
@@ -59,7 +59,7 @@ Zheng::Zheng(const gpu::Queue& queue, const Voxmap& voxmap, const MortonShell& s
     arguments_.centre[i] = static_cast<float>(centre[i]);
     arguments_.dims[i] = voxmap.dims[i];
   }
-  arguments_.force_scale = largest_force / (255.0f * static_cast<float>(shell.box_mm.half_size().norm()));
+  arguments_.force_scale = unscaled_force / (255.0f * static_cast<float>(shell.box_mm.half_size().norm()));
   arguments_.root_edge = static_cast<int>(std::bit_ceil(static_cast<unsigned>(voxmap.dims.maxCoeff())));
   arguments_.points = static_cast<uint32_t>(point_count_);
   find_.set_all(points_, gray_, collided_, argument_buffer_, forces_);
@@ -70,7 +70,7 @@ Zheng::Sums Zheng::contact(const QuantisedPose& grid_from_tool, bool clear_flags
   std::memcpy(&arguments_.voxel_from_tool, &affine, sizeof affine);
   argument_buffer_.write(queue_, &arguments_, sizeof arguments_);
   if (clear_flags) collided_.fill(queue_, 0);
-  find_.enqueue(queue_, point_count_, local_items);
+  find_.enqueue(queue_, point_count_, zheng_local_items);
 
   size_t count = point_count_, turn = 0;
   const gpu::Buffer* from = &forces_;

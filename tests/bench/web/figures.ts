@@ -7,4 +7,4 @@ export function percentile(values: readonly number[], fraction: number): number 
 export const median = (values: readonly number[]): number => percentile(values, 0.5);
 
 /** For somebody who waits. */
-export const tell = (words: string): void => void process.stderr.write(`web: ${words}\n`);
+export const log = (message: string): void => void process.stderr.write(`web: ${message}\n`);

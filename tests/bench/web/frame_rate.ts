@@ -3,7 +3,7 @@ import type { Browser, Page } from '@playwright/test';
 import type { Eye } from '../../../web/src/scene/shared_eye';
 import type { BareServer } from './bare_server';
 import { patienceMs, viewport } from './browser';
-import { median, tell } from './figures';
+import { median, log } from './figures';
 import { LiveVisit } from './live_visit';
 import { ProcessorTime } from './processor_time';
 import type { Turned } from './turned';
@@ -49,7 +49,7 @@ export async function frameRates(
     ours.push(await timed(clock, triangles, (seconds) => visit.turn(seconds)));
     await visit.end();
     others.push(await turnBare(browser, clock, `${bare.url}${view.smooth ? '#smooth' : ''}`, view));
-    tell(`pictures a second: ${rounded(ours.at(-1))}, of the bare page ${rounded(others.at(-1))}`);
+    log(`pictures a second: ${rounded(ours.at(-1))}, of the bare page ${rounded(others.at(-1))}`);
   }
   return { ours: medians(ours), bare: medians(others) };
 }

@@ -1,6 +1,6 @@
 import type { Browser } from '@playwright/test';
 
-import { tell } from './figures';
+import { log } from './figures';
 import { LiveVisit } from './live_visit';
 
 /** The page tells of its last 20 s. */
@@ -30,7 +30,7 @@ export async function handDelay(browser: Browser, liveUrl: string): Promise<Hand
   await page.getByTestId('stop').click();
   await page.waitForFunction(() => window.__ream.sessionState === 'stopped');
   await page.context().close();
-  tell(
+  log(
     `hand to picture, p95: ${readings.map((ms) => ms.toFixed(0)).join(', ')} ms; ${removedMm3.toFixed(1)} mm3 removed`,
   );
   if (!(removedMm3 > 0)) throw new Error('the hand on the page did not ream');

@@ -1,6 +1,6 @@
 import type { Browser, CDPSession } from '@playwright/test';
 
-import { median, tell } from './figures';
+import { median, log } from './figures';
 import { LiveVisit } from './live_visit';
 
 /** What a page keeps fills up in this time: the plot's seconds, caches, compiled code. */
@@ -35,12 +35,15 @@ export async function heapOverTime(browser: Browser, liveUrl: string, minutes: n
   const beganMs = Date.now();
   for (let minute = 0; minute <= minutes;) {
     await page.send('HeapProfiler.collectGarbage');
-    await workers.ask('HeapProfiler.collectGarbage');
-    const usages = [await page.send('Runtime.getHeapUsage'), ...(await workers.ask('Runtime.getHeapUsage'))] as Usage[];
+    await workers.call('HeapProfiler.collectGarbage');
+    const usages = [
+      await page.send('Runtime.getHeapUsage'),
+      ...(await workers.call('Runtime.getHeapUsage')),
+    ] as Usage[];
     minute = (Date.now() - beganMs) / 60_000;
     readings.push({ minute, mb: usages.reduce((sum, usage) => sum + mbOf(usage), 0) });
     if (readings.length % 8 === 1)
-      tell(`heap after ${minute.toFixed(1)} minutes: ${readings.at(-1)?.mb.toFixed(2) ?? ''} MB`);
+      log(`heap after ${minute.toFixed(1)} minutes: ${readings.at(-1)?.mb.toFixed(2) ?? ''} MB`);
     await visit.page.waitForTimeout(everyS * 1000);
     const { live, sessionState } = await visit.page.evaluate(() => window.__ream);
     if (!live || sessionState !== 'running')
@@ -61,7 +64,7 @@ function slope(readings: { minute: number; mb: number }[]): number {
 class Workers {
   private readonly sessionIds: string[] = [];
   private readonly waiting = new Map<number, (result: unknown) => void>();
-  private asked = 0;
+  private requests = 0;
 
   private constructor(private readonly page: CDPSession) {}
 
@@ -78,10 +81,10 @@ class Workers {
     return workers;
   }
 
-  ask(method: string): Promise<unknown[]> {
+  call(method: string): Promise<unknown[]> {
     return Promise.all(
       this.sessionIds.map(async (sessionId) => {
-        const id = ++this.asked;
+        const id = ++this.requests;
         const answered = new Promise<unknown>((answer) => this.waiting.set(id, answer));
         await this.page.send('Target.sendMessageToTarget', { sessionId, message: JSON.stringify({ id, method }) });
         return answered.finally(() => this.waiting.delete(id));

@@ -1,6 +1,6 @@
 import type { Browser } from '@playwright/test';
 
-import { median, tell } from './figures';
+import { median, log } from './figures';
 import { LiveVisit } from './live_visit';
 
 const visits = 7;
@@ -23,6 +23,6 @@ export async function lateJoin(browser: Browser, liveUrl: string): Promise<LateJ
     opened.push(visit.openedAfterMs);
     await visit.end();
   }
-  tell(`joined after ${joined.map((ms) => ms.toFixed(0)).join(', ')} ms`);
+  log(`joined after ${joined.map((ms) => ms.toFixed(0)).join(', ')} ms`);
   return { joinedMs: median(joined), openedMs: median(opened) };
 }

@@ -16,31 +16,31 @@ declare global {
  */
 function watchJoining(): void {
   window.joinedAfterMs = null;
-  let askedMs: number | null = null;
+  let requestedMs: number | null = null;
   // eslint-disable-next-line @typescript-eslint/unbound-method
-  const post = Worker.prototype.postMessage as (this: Worker, ...told: unknown[]) => void;
-  Worker.prototype.postMessage = function (this: Worker, ...told: unknown[]): void {
-    const request = told[0] as { kind?: string; url?: string } | undefined;
-    if (request?.kind === 'open' && request.url?.includes('/stream') === true) askedMs ??= performance.now();
-    post.apply(this, told);
+  const post = Worker.prototype.postMessage as (this: Worker, ...args: unknown[]) => void;
+  Worker.prototype.postMessage = function (this: Worker, ...args: unknown[]): void {
+    const request = args[0] as { kind?: string; url?: string } | undefined;
+    if (request?.kind === 'open' && request.url?.includes('/stream') === true) requestedMs ??= performance.now();
+    post.apply(this, args);
   };
   const afterFrame = new MessageChannel();
   let liveBefore = false;
   let drawnBefore = 0;
   const look = () => {
-    liveBefore = askedMs !== null && window.__ream.live;
+    liveBefore = requestedMs !== null && window.__ream.live;
     afterFrame.port2.postMessage(null);
   };
   afterFrame.port1.onmessage = () => {
-    const drawn = askedMs === null ? 0 : window.__ream.framesDrawn;
-    if (!liveBefore || drawn === drawnBefore || askedMs === null) {
+    const drawn = requestedMs === null ? 0 : window.__ream.framesDrawn;
+    if (!liveBefore || drawn === drawnBefore || requestedMs === null) {
       drawnBefore = drawn;
       requestAnimationFrame(look);
       return;
     }
     const gl = document.querySelector<HTMLCanvasElement>('[data-testid=bone-canvas]')?.getContext('webgl2');
     gl?.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
-    window.joinedAfterMs = performance.now() - askedMs;
+    window.joinedAfterMs = performance.now() - requestedMs;
   };
   requestAnimationFrame(look);
 }

@@ -3,7 +3,7 @@ import type { Browser } from '@playwright/test';
 import { ServerProcess } from '../../e2e/server_process';
 import { BareServer } from './bare_server';
 import { launchBrowser } from './browser';
-import { tell } from './figures';
+import { log } from './figures';
 import { frameRates } from './frame_rate';
 import { handDelay } from './hand_delay';
 import { heapOverTime } from './heap';
@@ -43,7 +43,7 @@ async function measured(browser: Browser, url: string, bare: BareServer): Promis
   const figures: Record<string, object> = {};
   const measure = async (part: string, name: string, run: () => Promise<object>) => {
     if (!wanted.includes(part)) return;
-    tell(name);
+    log(name);
     figures[name] = await run();
   };
   const during = async (caseName: string, script: string, watch: (id: string) => Promise<void>) => {

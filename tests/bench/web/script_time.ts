@@ -2,7 +2,7 @@ import { writeFileSync } from 'node:fs';
 
 import type { Browser } from '@playwright/test';
 
-import { percentile, tell } from './figures';
+import { percentile, log } from './figures';
 import { LiveVisit } from './live_visit';
 import { scriptOfFrames, type TraceEvent } from './trace';
 
@@ -49,7 +49,7 @@ export async function scriptTime(browser: Browser, liveUrl: string): Promise<Scr
     longestWallMs: Math.max(...passed),
     p99WallMs: percentile(passed, 0.99),
   };
-  tell(
+  log(
     `script of ${String(frames.length)} frames: longest ${figures.longestMs.toFixed(1)} ms, at a stretch ${figures.longestUnbrokenMs.toFixed(1)}`,
   );
   return figures;

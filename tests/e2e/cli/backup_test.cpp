@@ -9,6 +9,7 @@
 #include "e2e/cli/serve_block_fixture.hpp"
 #include "support/places.hpp"
 #include "support/postgres_server.hpp"
+#include "support/seed.hpp"
 
 namespace ream::test {
 namespace {
@@ -88,7 +89,7 @@ TEST_F(Backup, WhatCannotBeUsedIsNamed) {
 
 TEST_F(Backup, AFullDiskLeavesNothing) {
   std::string noise;
-  std::mt19937 random(1);
+  std::mt19937 random(test::seed(1));
   for (int i = 0; i < 100'000; ++i) noise += static_cast<char>(random());
   write("data/reamers/noise.bin", noise);
   succeed({"backup", "good.zip"});

@@ -164,7 +164,7 @@ TEST_F(CredentialsTest, AllOfAUserCanBeEnded) {
   };
   const IssuedCredential here = cookie(), there = cookie(), robot = token("instructor"),
                          shown = link("instructor");
-  credentials.end_cookies("instructor", here.row.id);
+  credentials.end_old_logins("instructor", here.row.id, true);
   EXPECT_TRUE(credentials.identify(here.secret, CredentialKind::cookie));
   EXPECT_FALSE(credentials.identify(there.secret, CredentialKind::cookie));
   credentials.revoke_links("instructor");
@@ -195,6 +195,56 @@ TEST_F(CredentialsTest, AreListedWithoutTheirSecrets) {
   EXPECT_EQ(credentials.list(CredentialKind::token, "").size(), 2u);
   EXPECT_TRUE(credentials.find(one.row.id, CredentialKind::token));
   EXPECT_FALSE(credentials.find(one.row.id, CredentialKind::link));
+}
+
+TEST_F(CredentialsTest, WhatHasEndedStaysSoWhenTheClockGoesBack) {
+  const IssuedCredential short_lived =
+      credentials.issue(CredentialKind::token, {"operator", {}, "", "", "2026-01-31T14:00:00Z"});
+  const IssuedCredential long_lived = token("operator");
+  ASSERT_TRUE(role_of(short_lived));
+  clock.pass(hours(3));
+  EXPECT_FALSE(role_of(short_lived));
+  EXPECT_TRUE(role_of(long_lived));
+  clock.pass(-hours(2) - minutes(30));
+  EXPECT_FALSE(role_of(short_lived)) << "it had ended";
+  EXPECT_TRUE(role_of(long_lived));
+  const IssuedCredential later =
+      credentials.issue(CredentialKind::token, {"operator", {}, "", "", "2026-01-31T13:00:00Z"});
+  EXPECT_TRUE(role_of(later)) << "made after it, good by the clock of today";
+}
+
+TEST_F(CredentialsTest, TheLatestTimeIsKeptAcrossProcesses) {
+  const IssuedCredential issued = token("operator");
+  clock.pass(hours(24 * 91));
+  EXPECT_FALSE(role_of(issued));
+  clock.pass(-hours(24 * 90));
+  const auto again = open_again();
+  Credentials next(*again, clock.function());
+  EXPECT_FALSE(next.identify(issued.secret, CredentialKind::token));
+  const IssuedCredential fresh = next.issue(CredentialKind::token, {"operator", {}, "", "", ""});
+  EXPECT_TRUE(next.identify(fresh.secret, CredentialKind::token));
+  EXPECT_TRUE(role_of(fresh)) << "nobody turns back twice";
+}
+
+TEST_F(CredentialsTest, WhatAClockMadeThatWasAheadEnds) {
+  const IssuedCredential before = token("operator");
+  clock.pass(hours(24 * 80));
+  const IssuedCredential cookie = credentials.issue(CredentialKind::cookie, {"operator", {}, "", "", ""});
+  EXPECT_TRUE(credentials.identify(cookie.secret, CredentialKind::cookie));
+  EXPECT_TRUE(role_of(before));
+  std::vector<std::string> told;
+  credentials.on_change([&](const Ids& ids) { told.insert(told.end(), ids.begin(), ids.end()); });
+  clock.pass(-hours(24 * 80));
+  EXPECT_FALSE(credentials.identify(cookie.secret, CredentialKind::cookie)) << "good for 81 days else";
+  EXPECT_TRUE(role_of(before));
+  EXPECT_EQ(told, Ids{cookie.row.id}) << "streams hear of it";
+}
+
+TEST_F(CredentialsTest, AClockThatIsSetRightALittleEndsNothing) {
+  const IssuedCredential issued = token("operator");
+  EXPECT_TRUE(role_of(issued));
+  clock.pass(-std::chrono::seconds(100));
+  EXPECT_TRUE(role_of(issued));
 }
 
 }  // namespace

@@ -12,16 +12,19 @@ using std::chrono::seconds;
 class LoginBackoffTest : public test::TestDatabase<test::OnSqlite> {
  protected:
   /// Seconds to wait; 0: none.
-  int wait(const std::string& name, const std::string& address) {
+  int wait(const std::string& name, const std::string& address, const std::string& device = {}) {
     try {
-      backoff.require_allowed(name, address);
+      backoff.require_allowed(name, from(address, device));
       return 0;
     } catch (const TooManyAttempts& refused) {
       return refused.retry_after_s();
     }
   }
-  void fail(int times, const std::string& name, const std::string& address) {
-    for (int i = 0; i < times; ++i) backoff.note_failure(name, address);
+  void fail(int times, const std::string& name, const std::string& address, const std::string& device = {}) {
+    for (int i = 0; i < times; ++i) backoff.note_failure(name, from(address, device));
+  }
+  static LoginOrigin from(const std::string& address, const std::string& device = {}) {
+    return {address, Secret(std::string_view(device))};
   }
   test::HandClock clock;
   LoginBackoff backoff{database(), clock.function()};
@@ -62,7 +65,7 @@ TEST_F(LoginBackoffTest, SomeFailuresAreFreeThenTheWaitGrowsAndPasses) {
 
 TEST_F(LoginBackoffTest, SuccessAndADayForgive) {
   fail(10, "anna", "10.0.0.1");
-  backoff.note_success("anna", "10.0.0.1");
+  backoff.note_success("anna", from("10.0.0.1"));
   EXPECT_EQ(wait("anna", "10.0.0.1"), 0);
   fail(10, "ben", "10.0.0.1");
   clock.pass(hours(25));
@@ -79,7 +82,7 @@ TEST_F(LoginBackoffTest, NamesThatDoNotExistAreTreatedAlike) {
 }
 
 TEST_F(LoginBackoffTest, GuessingFromManyPlacesIsSlowButTheUsualPlaceStaysOpen) {
-  backoff.note_success("anna", "10.0.0.1");
+  backoff.note_success("anna", from("10.0.0.1"));
   for (int i = 0; i < 40; ++i) fail(1, "anna", "10.9.9." + std::to_string(i));
   EXPECT_EQ(wait("anna", "10.9.9.200"), 300);
   EXPECT_EQ(wait("anna", "10.0.0.1"), 0);
@@ -87,7 +90,7 @@ TEST_F(LoginBackoffTest, GuessingFromManyPlacesIsSlowButTheUsualPlaceStaysOpen) 
 }
 
 TEST_F(LoginBackoffTest, OneWhoGuessesDoesNotLockOutAHospitalBehindOneAddress) {
-  for (int i = 0; i < 30; ++i) backoff.note_success("doctor" + std::to_string(i), "10.0.0.1");
+  for (int i = 0; i < 30; ++i) backoff.note_success("doctor" + std::to_string(i), from("10.0.0.1"));
   for (int i = 0; i < 300; ++i) fail(1, "guess" + std::to_string(i), "10.0.0.1");
   fail(50, "doctor7", "10.0.0.1");
   EXPECT_GT(wait("doctor7", "10.0.0.1"), 0) << "is guessed at";
@@ -102,8 +105,47 @@ TEST_F(LoginBackoffTest, IsKeptAcrossProcessesWithoutNamesAndAddresses) {
   fail(6, "anna", "10.0.0.1");
   const auto again = open_again();
   LoginBackoff other(*again, clock.function());
-  EXPECT_THROW(other.require_allowed("anna", "10.0.0.1"), TooManyAttempts);
+  EXPECT_THROW(other.require_allowed("anna", from("10.0.0.1")), TooManyAttempts);
   other.forget("anna");
+  EXPECT_EQ(wait("anna", "10.0.0.1"), 0);
+}
+
+TEST_F(LoginBackoffTest, AKnownBrowserCountsByItself) {
+  backoff.note_success("anna", from("10.0.0.1", "hers"));
+  fail(50, "anna", "10.0.0.1");
+  fail(50, "anna", "10.0.0.1", "of the one who guesses");
+  EXPECT_EQ(wait("anna", "10.0.0.1"), 900);
+  EXPECT_EQ(wait("anna", "10.0.0.1", "of the one who guesses"), 900) << "a browser of one's own helps nobody";
+  EXPECT_EQ(wait("anna", "10.0.0.1", "hers"), 0);
+  EXPECT_EQ(wait("anna", "172.16.0.9", "hers"), 0) << "wherever it is";
+  EXPECT_EQ(wait("ben", "172.16.0.9", "hers"), 0);
+  fail(5, "anna", "10.0.0.1", "hers");
+  EXPECT_EQ(wait("anna", "10.0.0.1", "hers"), 2) << "who has stolen it waits, too";
+  EXPECT_EQ(wait("anna", "172.16.0.9"), 300) << "and its failures are not other places'";
+  backoff.note_success("anna", from("10.0.0.1", "hers"));
+  EXPECT_EQ(wait("anna", "10.0.0.1", "hers"), 0);
+  EXPECT_EQ(wait("anna", "10.0.0.1"), 900) << "success there says nothing of the others";
+  clock.pass(hours(24 * 91));
+  fail(50, "anna", "10.0.0.1");
+  EXPECT_EQ(wait("anna", "10.0.0.1", "hers"), 900) << "forgotten after 90 days";
+}
+
+TEST_F(LoginBackoffTest, ABrowserIsKnownForTheUsersThatUsedItOnly) {
+  backoff.note_success("anna", from("10.0.0.1", "shared"));
+  fail(50, "ben", "10.0.0.1");
+  EXPECT_EQ(wait("ben", "10.0.0.1", "shared"), 900);
+}
+
+TEST_F(LoginBackoffTest, AMomentOfAWrongClockLocksNobodyOutForLong) {
+  clock.pass(hours(24 * 365));
+  fail(30, "anna", "10.0.0.1");
+  backoff.note_success("ben", from("10.0.0.2"));
+  clock.pass(-hours(24 * 365));
+  EXPECT_EQ(wait("anna", "10.0.0.1"), 900) << "as of now, not of next year";
+  EXPECT_EQ(wait("anna", "10.9.9.9"), 300);
+  clock.pass(seconds(899));
+  EXPECT_EQ(wait("anna", "10.0.0.1"), 1) << "the wait goes by";
+  clock.pass(seconds(1));
   EXPECT_EQ(wait("anna", "10.0.0.1"), 0);
 }
 

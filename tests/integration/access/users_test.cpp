@@ -11,12 +11,12 @@
 namespace ream::access {
 namespace {
 
-const std::string here = "10.0.0.1";
+const LoginOrigin here{"10.0.0.1"};
 Secret secret(std::string_view text) { return Secret(text); }
 
 class UsersTest : public test::TestDatabase<test::OnSqlite> {
  protected:
-  UsersTest() : gatehouse(database(), options()) {}
+  UsersTest() : access_control(database(), options()) {}
   AccessOptions options() {
     AccessOptions made;
     made.now = clock.function();
@@ -27,15 +27,15 @@ class UsersTest : public test::TestDatabase<test::OnSqlite> {
     return users.add({name, "", role, secret("password of " + name)});
   }
   IssuedCredential cookie(const std::string& user) {
-    return gatehouse.credentials.issue(CredentialKind::cookie, {user, {}, "", "", ""});
+    return access_control.credentials.issue(CredentialKind::cookie, {user, {}, "", "", ""});
   }
   bool good(const IssuedCredential& issued) {
-    return gatehouse.credentials.identify_again(issued.row.id).has_value();
+    return access_control.credentials.identify_again(issued.row.id).has_value();
   }
 
   test::HandClock clock;
-  AccessControl gatehouse;
-  Users& users = gatehouse.users;
+  AccessControl access_control;
+  Users& users = access_control.users;
 };
 
 TEST_F(UsersTest, BeginWithAnOperator) {
@@ -86,14 +86,63 @@ TEST_F(UsersTest, GuessingIsMadeSlowForKnownAndUnknownNamesAlike) {
   EXPECT_TRUE(users.log_in("anna", secret("password of anna"), here));
 }
 
+TEST_F(UsersTest, WhoGuessesAtTheSameAddressKeepsNobodyOut) {
+  const User anna = add("anna", Role::operator_);
+  const LoginOrigin hers{here.address, make_credential_secret().text};
+  EXPECT_TRUE(users.log_in("anna", secret("password of anna"), hers));
+  for (int round = 0; round < 50; ++round) {
+    try {
+      users.log_in("anna", secret("guess"), here);
+    } catch (const TooManyAttempts&) {
+    }
+    ASSERT_TRUE(users.log_in("anna", secret("password of anna"), hers)) << round;
+    ASSERT_TRUE(users.change_password(anna.id, {secret("password of anna"), secret("password of anna")},
+                                      {here.address, secret("what she is logged in with"), true}));
+    clock.pass(std::chrono::minutes(1));
+  }
+  EXPECT_THROW(
+      {
+        for (int i = 0; i < 9; ++i) users.log_in("anna", secret("guess"), here);
+      },
+      TooManyAttempts);
+}
+
+TEST_F(UsersTest, TheFirstOneEndsWhatWasMadeWhileEverybodyCouldDoEverything) {
+  Credentials& credentials = access_control.credentials;
+  const auto made = [&](CredentialKind kind, const std::string& parent) {
+    return credentials.issue(kind, {"", {}, "", "", "", parent});
+  };
+  const IssuedCredential shown = made(CredentialKind::link, ""),
+                         page = made(CredentialKind::cookie, shown.row.id);
+  EXPECT_TRUE(good(shown));
+  EXPECT_TRUE(good(page)) << "is in the cache now";
+  std::vector<std::string> told;
+  credentials.on_change(
+      [&](const std::vector<std::string>& ids) { told.insert(told.end(), ids.begin(), ids.end()); });
+  test::expect_error(ErrorKind::conflict, "first user must be operator", [&] { add("ben", Role::trainee); });
+  EXPECT_TRUE(good(page));
+  add("anna", Role::operator_);
+  EXPECT_FALSE(good(shown));
+  EXPECT_FALSE(good(page));
+  std::sort(told.begin(), told.end());
+  std::vector<std::string> ended{"", shown.row.id, page.row.id};
+  std::sort(ended.begin(), ended.end());
+  EXPECT_EQ(told, ended) << "also those who came without any";
+  const IssuedCredential of_server = made(CredentialKind::link, "");
+  add("ben", Role::trainee);
+  EXPECT_TRUE(good(of_server)) << "was made with users";
+}
+
 TEST_F(UsersTest, ChangeTheirOwnPassword) {
   const User anna = add("anna", Role::operator_);
   const IssuedCredential this_one = cookie(anna.id), other = cookie(anna.id);
-  EXPECT_FALSE(users.change_password(anna.id, secret("wrong"), secret("a new password"), here, ""));
+  const auto change = [&](const char* present, const char* wanted) {
+    return users.change_password(anna.id, {secret(present), secret(wanted), this_one.row.id}, here);
+  };
+  EXPECT_FALSE(change("wrong", "a new password"));
   EXPECT_TRUE(good(other));
-  EXPECT_THROW(users.change_password(anna.id, secret("password of anna"), secret("short"), here, ""), Error);
-  EXPECT_TRUE(users.change_password(anna.id, secret("password of anna"), secret("a new password"), here,
-                                    this_one.row.id));
+  EXPECT_THROW(change("password of anna", "short"), Error);
+  EXPECT_TRUE(change("password of anna", "a new password"));
   EXPECT_TRUE(good(this_one));
   EXPECT_FALSE(good(other));
   EXPECT_FALSE(users.log_in("anna", secret("password of anna"), here));
@@ -116,11 +165,39 @@ TEST_F(UsersTest, ANewPasswordByAnOperatorEndsCookiesAndForgives) {
   EXPECT_TRUE(users.log_in("ben", secret("another password"), here));
 }
 
+TEST_F(UsersTest, ANewPasswordRevokesTokensAndLinksUnlessTheyAreToStay) {
+  add("anna", Role::operator_);
+  const User ben = add("ben", Role::instructor);
+  const auto made = [&](CredentialKind kind) {
+    return access_control.credentials.issue(kind, {ben.id, {}, "", "", ""});
+  };
+  for (const bool by_operator : {true, false})
+    for (const bool keep : {true, false}) {
+      SCOPED_TRACE(testing::Message() << by_operator << keep);
+      const IssuedCredential token = made(CredentialKind::token), shown = made(CredentialKind::link),
+                             page = made(CredentialKind::cookie), this_one = made(CredentialKind::token);
+      const IssuedCredential viewer =
+          access_control.credentials.issue(CredentialKind::cookie, {"", {}, "", "", "", shown.row.id});
+      UserChange change{{}, {}, {}, secret("password of ben"), keep};
+      if (by_operator)
+        users.change(ben.id, change);
+      else
+        users.change_password(
+            ben.id, {secret("password of ben"), secret("password of ben"), this_one.row.id, keep}, here);
+      EXPECT_EQ(good(token), keep);
+      EXPECT_EQ(good(shown), keep);
+      EXPECT_EQ(good(viewer), keep) << "came by the link";
+      EXPECT_FALSE(good(page));
+      EXPECT_EQ(good(this_one), keep || !by_operator);
+    }
+}
+
 TEST_F(UsersTest, DisablingRevokesAll) {
   add("anna", Role::operator_);
   const User ben = add("ben", Role::instructor);
   const IssuedCredential page = cookie(ben.id);
-  const IssuedCredential shown = gatehouse.credentials.issue(CredentialKind::link, {ben.id, {}, "", "", ""});
+  const IssuedCredential shown =
+      access_control.credentials.issue(CredentialKind::link, {ben.id, {}, "", "", ""});
   UserChange change;
   change.enabled = false;
   EXPECT_FALSE(users.change(ben.id, change).enabled);
@@ -136,15 +213,16 @@ TEST_F(UsersTest, AnotherRoleIsToldToOpenStreamsAndEndsLinks) {
   add("anna", Role::operator_);
   const User ben = add("ben", Role::instructor);
   const IssuedCredential page = cookie(ben.id);
-  const IssuedCredential shown = gatehouse.credentials.issue(CredentialKind::link, {ben.id, {}, "", "", ""});
+  const IssuedCredential shown =
+      access_control.credentials.issue(CredentialKind::link, {ben.id, {}, "", "", ""});
   std::vector<std::string> told;
-  gatehouse.credentials.on_change(
+  access_control.credentials.on_change(
       [&](const std::vector<std::string>& ids) { told.insert(told.end(), ids.begin(), ids.end()); });
   UserChange change;
   change.role = Role::trainee;
   users.change(ben.id, change);
   EXPECT_EQ(told, (std::vector<std::string>{shown.row.id, page.row.id}));
-  EXPECT_EQ(gatehouse.credentials.identify_again(page.row.id)->role, Role::trainee);
+  EXPECT_EQ(access_control.credentials.identify_again(page.row.id)->role, Role::trainee);
   EXPECT_FALSE(good(shown));
 }
 
@@ -186,13 +264,14 @@ TEST_F(UsersTest, AreFoundInTheDatabaseByAnotherProcess) {
   EXPECT_TRUE(users.any()) << "within a second or so";
 }
 
-TEST_F(UsersTest, AuditRowsAreKeptOrSaidInTheLog) {
-  gatehouse.audit.note({"u1", "anna", "operator", "c1", here}, "user.add", "u2", "ben as trainee");
-  const auto rows = gatehouse.audit.list(INT64_MAX, 10);
+TEST_F(UsersTest, AuditRowsSayWhoDidWhatWhere) {
+  access_control.audit.note({"u1", "anna", "operator", "c1", here.address}, "user.add", "u2",
+                            "ben as trainee");
+  const auto rows = access_control.audit.list(INT64_MAX, 10);
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0].at_utc, "2026-01-31T12:00:00Z");
   EXPECT_EQ(rows[0].name, "anna");
-  EXPECT_EQ(rows[0].address, here);
+  EXPECT_EQ(rows[0].address, here.address);
   EXPECT_EQ(rows[0].detail, "ben as trainee");
 }
 

@@ -37,6 +37,30 @@ TEST_F(TlsFilesTest, GoodFilesAreTaken) {
   EXPECT_NO_THROW(TlsContext{files}) << "with a chain";
 }
 
+TEST_F(TlsFilesTest, FilesThatWereReplacedAreReadAnew) {
+  RenewedTls tls(files);
+  const auto first = tls.current();
+  tls.look();
+  EXPECT_EQ(tls.current(), first) << "nothing has changed";
+  const std::string key = read_text_file(files.key), chain = read_text_file(files.certificate_chain);
+  test::make_certificate(files.certificate_chain, folder.path() / "other.key");
+  tls.look();
+  EXPECT_EQ(tls.current(), first) << "the key is still the old one";
+  std::filesystem::rename(folder.path() / "other.key", files.key);
+  tls.look();
+  const auto second = tls.current();
+  EXPECT_NE(second, first);
+  std::filesystem::remove(files.key);
+  tls.look();
+  std::ofstream(files.key) << "nonsense";
+  tls.look();
+  EXPECT_EQ(tls.current(), second);
+  std::ofstream(files.key) << key;
+  std::ofstream(files.certificate_chain) << chain;
+  tls.look();
+  EXPECT_NE(tls.current(), second);
+}
+
 TEST_F(TlsFilesTest, MissingFilesAreNamed) {
   expect_error(ErrorKind::not_found, "none.pem", [&] {
     TlsContext({folder.path() / "none.pem", files.key});

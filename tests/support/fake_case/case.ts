@@ -35,9 +35,9 @@ export class FakeCase {
   undo(): void {
     if (this.found.length > 1) this.found.pop();
   }
-  build(wishes: { upsample: number; roi: string; cartilage_mm: number }): void {
+  build(settings: { upsample: number; roi: string; cartilage_mm: number }): void {
     this.built = {
-      ...wishes,
+      ...settings,
       roi_mm: [-110, -20, -25, -70, 20, 25],
       bone_voxels: 1_234_567,
       density_range_g_cc: [0, 2.55],
@@ -111,16 +111,16 @@ export class FakeCase {
     };
   }
 
-  propose(wishes: { version_deg?: number; depth_mm?: number; reamer?: string }): object {
+  propose(targets: { version_deg?: number; depth_mm?: number; reamer?: string }): object {
     const plan = {
       entry_mm: (this.landmarks ?? truth).glenoid_centre_mm,
       axis_direction: [1, 0, 0],
-      depth_mm: wishes.depth_mm ?? 2,
-      reamer: wishes.reamer ?? 'ellipse 18.25,9',
+      depth_mm: targets.depth_mm ?? 2,
+      reamer: targets.reamer ?? 'ellipse 18.25,9',
       pilot_diameter_mm: 6.2,
       pilot_depth_mm: 12,
       guide: 'nipple',
-      ...(wishes.version_deg === undefined ? {} : { version_deg: wishes.version_deg }),
+      ...(targets.version_deg === undefined ? {} : { version_deg: targets.version_deg }),
     };
     return { plan, assessment: this.assess(plan) };
   }

@@ -38,7 +38,7 @@ type Answer = { status: number; body?: object; bytes?: Uint8Array; type?: string
 const ok = (body: object, status = 200): Answer => ({ status, body });
 
 /** Uploads, jobs and cases as the server has them, over one made-up CT. */
-export class FakeWorkshop {
+export class FakeCaseServer {
   readonly cases = new Map<string, FakeCase>();
   private readonly uploads = new Map<string, FakeUpload>();
   private readonly jobs: FakeJob[] = [];
@@ -183,7 +183,7 @@ export class FakeWorkshop {
   }
 
   /** A job that takes a moment and then does its deed. */
-  private begin(kind: string, case_id: string, deed: () => void): FakeJob {
+  private begin(kind: string, case_id: string, action: () => void): FakeJob {
     const first = steps[0] ?? '';
     const job: FakeJob = {
       id: `j${++this.made}`,
@@ -202,7 +202,7 @@ export class FakeWorkshop {
       if (job.share < 0.999) return;
       clearInterval(timer);
       try {
-        deed();
+        action();
         job.state = 'done';
       } catch (error) {
         job.state = 'failed';

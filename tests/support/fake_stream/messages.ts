@@ -20,7 +20,7 @@ await MeshoptEncoder.ready;
 /** The tool's z is along the axis, which is the grid's -x: a half turn about (1, 0, -1). */
 const toolRotation = { w: 0, x: Math.SQRT1_2, y: 0, z: -Math.SQRT1_2 };
 
-export interface Hail {
+export interface HelloOptions {
   sessionId: string;
   serverEpoch: bigint;
   forceScale: number;
@@ -40,10 +40,10 @@ export interface Moment {
   removedMm3: number;
 }
 
-export function helloMessage(hail: Hail): Uint8Array {
+export function helloMessage(options: HelloOptions): Uint8Array {
   const b = new Builder(1 << 16);
   const tool = capMesh();
-  const sessionId = b.createString(hail.sessionId);
+  const sessionId = b.createString(options.sessionId);
   const caseId = b.createString('demo');
   const caseName = b.createString('Made-up scapula');
   const side = b.createString('right');
@@ -54,7 +54,7 @@ export function helloMessage(hail: Hail): Uint8Array {
   Hello.startHello(b);
   Hello.addProtocolRevision(b, 1);
   Hello.addSessionId(b, sessionId);
-  Hello.addServerEpoch(b, hail.serverEpoch);
+  Hello.addServerEpoch(b, options.serverEpoch);
   Hello.addCaseId(b, caseId);
   Hello.addCaseName(b, caseName);
   Hello.addSide(b, side);
@@ -68,7 +68,7 @@ export function helloMessage(hail: Hail): Uint8Array {
   Hello.addAxisEntryMm(b, Vec3.createVec3(b, ...inWorld(entryMm)));
   Hello.addAxisDirection(b, Vec3.createVec3(b, -1, 0, 0));
   Hello.addPlannedDepthMm(b, plannedDepthMm);
-  Hello.addForceScale(b, hail.forceScale);
+  Hello.addForceScale(b, options.forceScale);
   Hello.addForceMaxN(b, 3.3);
   return finish(b, Body.Hello, Hello.endHello(b));
 }

@@ -6,7 +6,7 @@ import { extname, join, normalize } from 'node:path';
 import { WebSocketServer } from 'ws';
 
 import { SessionState } from '../../../web/src/wire/generated/stream_generated';
-import { FakeWorkshop } from '../fake_case/server';
+import { FakeCaseServer } from '../fake_case/server';
 import { FakeSession } from './session';
 
 const types: Record<string, string> = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css' };
@@ -15,9 +15,9 @@ const types: Record<string, string> = { '.html': 'text/html', '.js': 'text/javas
 export async function serve(port: number, webFolder: string): Promise<string> {
   const sessions: FakeSession[] = [];
   const epoch = BigInt(Date.now());
-  const workshop = new FakeWorkshop();
+  const caseServer = new FakeCaseServer();
   const server = createServer((request, response) => {
-    if (workshop.answer(request, response)) return;
+    if (caseServer.answer(request, response)) return;
     if (!answerApi(request, response, sessions, epoch)) answerFile(request, response, webFolder);
   });
   const sockets = new WebSocketServer({ noServer: true });

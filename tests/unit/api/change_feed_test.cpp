@@ -4,8 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "api/change_rules.hpp"
-
 namespace ream::api {
 namespace {
 
@@ -34,7 +32,7 @@ std::vector<json> heard(net::WebSocketSession& listener) {
 
 class ChangeFeedTest : public testing::Test {
  protected:
-  const std::shared_ptr<ChangeFeed> feed = std::make_shared<ChangeFeed>(may_know, 4);
+  const std::shared_ptr<ChangeFeed> feed = std::make_shared<ChangeFeed>(4);
 };
 
 TEST_F(ChangeFeedTest, GreetsAndTellsInOrderAndWakesWhoListens) {
@@ -106,23 +104,6 @@ TEST_F(ChangeFeedTest, EverybodyHearsWhatTheyMayKnow) {
   EXPECT_EQ(count(*ben), 1u);
   EXPECT_EQ(count(*teacher), 3u);
   EXPECT_EQ(count(*watcher), 1u);
-}
-
-TEST(ChangeRules, RequestsThatChangeSomethingAreTold) {
-  net::Request request;
-  request.parameters["id"] = "demo";
-  net::Response response;
-  const auto change = [&](const char* method, const char* pattern) {
-    request.method = method;
-    return change_made(request, pattern, response);
-  };
-  EXPECT_EQ(change("PUT", "/api/v1/cases/{id}/plan")->id, "demo");
-  EXPECT_EQ(change("DELETE", "/api/v1/cases/{id}")->change, "deleted");
-  EXPECT_FALSE(change("GET", "/api/v1/cases/{id}"));
-  response.headers.emplace_back("Location", "/api/v1/sessions/rabcd2345");
-  EXPECT_EQ(change("POST", "/api/v1/sessions/{id}/replay")->id, "rabcd2345");
-  response.status = 409;
-  EXPECT_FALSE(change("PUT", "/api/v1/cases/{id}/plan"));
 }
 
 }  // namespace

@@ -7,21 +7,16 @@
 
 #include "net/problem.hpp"
 #include "support/expect_error.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/test_databases.hpp"
 
 namespace ream::api {
 namespace {
 
-/// In memory and with a database.
-class IdempotencyTest : public testing::TestWithParam<bool> {
+class IdempotencyTest : public test::TestDatabase<test::OnSqlite> {
  protected:
-  IdempotencyTest() {
-    if (GetParam())
-      database = std::make_shared<store::Database>("sqlite:" + (folder.path() / "ream.db").string());
-    open();
-  }
+  IdempotencyTest() { open(); }
   void open() {
-    idempotency = std::make_unique<Idempotency>(database, [this] { return now; });
+    idempotency = std::make_unique<Idempotency>(database(), [this] { return now; });
   }
   static net::Request request(const std::string& key, const std::string& body = "{}",
                               const std::string& user = {}) {
@@ -53,14 +48,12 @@ class IdempotencyTest : public testing::TestWithParam<bool> {
     return {reinterpret_cast<const char*>(response.body->data()), response.body->size()};
   }
 
-  const test::TemporaryFolder folder;
-  std::shared_ptr<store::Database> database;
   UtcMoment now = utc_moment("2026-01-31T12:00:00Z");
   std::unique_ptr<Idempotency> idempotency;
   int made = 0;
 };
 
-TEST_P(IdempotencyTest, TheSameRequestIsMadeOnceAndAnsweredTheSame) {
+TEST_F(IdempotencyTest, TheSameRequestIsMadeOnceAndAnsweredTheSame) {
   const net::Response first = ask(request("k1")), again = ask(request("k1"));
   EXPECT_EQ(made, 1);
   EXPECT_EQ(again.status, 201);
@@ -76,7 +69,7 @@ TEST_P(IdempotencyTest, TheSameRequestIsMadeOnceAndAnsweredTheSame) {
   EXPECT_EQ(made, 5) << "other keys, other callers and no key are other requests";
 }
 
-TEST_P(IdempotencyTest, AnotherRequestUnderTheSameKeyIsRefused) {
+TEST_F(IdempotencyTest, AnotherRequestUnderTheSameKeyIsRefused) {
   ask(request("k1"));
   EXPECT_EQ(status_of(request("k1", "{\"a\": 1}")), 422);
   net::Request elsewhere = request("k1");
@@ -90,7 +83,7 @@ TEST_P(IdempotencyTest, AnotherRequestUnderTheSameKeyIsRefused) {
   EXPECT_EQ(status_of(empty), 400);
 }
 
-TEST_P(IdempotencyTest, WhatFailedMayBeTriedAgain) {
+TEST_F(IdempotencyTest, WhatFailedMayBeTriedAgain) {
   EXPECT_EQ(ask(request("k1"), 409).status, 409);
   EXPECT_THROW(idempotency->answer(request("k1"),
                                    [](const net::Request&) -> net::Response {
@@ -101,7 +94,7 @@ TEST_P(IdempotencyTest, WhatFailedMayBeTriedAgain) {
   EXPECT_EQ(made, 2);
 }
 
-TEST_P(IdempotencyTest, AfterADayItIsForgotten) {
+TEST_F(IdempotencyTest, AfterADayItIsForgotten) {
   ask(request("k1"));
   now += std::chrono::hours(23);
   ask(request("k1"));
@@ -114,7 +107,7 @@ TEST_P(IdempotencyTest, AfterADayItIsForgotten) {
   EXPECT_EQ(made, 2);
 }
 
-TEST_P(IdempotencyTest, WhileTheFirstIsUnderWayTheOthersAreToldSo) {
+TEST_F(IdempotencyTest, WhileTheFirstIsUnderWayTheOthersAreToldSo) {
   std::latch begun(1), may_end(1);
   auto first = std::async(std::launch::async, [&] {
     return idempotency->answer(request("k1"), [&](const net::Request&) {
@@ -132,15 +125,12 @@ TEST_P(IdempotencyTest, WhileTheFirstIsUnderWayTheOthersAreToldSo) {
   EXPECT_EQ(made, 1);
 }
 
-TEST_P(IdempotencyTest, ADatabaseKeepsAnswersOverARestart) {
+TEST_F(IdempotencyTest, AnswersAreKeptOverARestart) {
   ask(request("k1"));
   open();
   ask(request("k1"));
-  EXPECT_EQ(made, GetParam() ? 1 : 2);
+  EXPECT_EQ(made, 1);
 }
-
-INSTANTIATE_TEST_SUITE_P(Kept, IdempotencyTest, testing::Bool(),
-                         [](const auto& about) { return about.param ? "InTheDatabase" : "InMemory"; });
 
 }  // namespace
 }  // namespace ream::api

@@ -5,8 +5,12 @@
 #include <contract.hpp>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 
+#include "api/request_values.hpp"
 #include "api/yaml_json.hpp"
+#include "net/problem.hpp"
+#include "support/json_schema.hpp"
 
 namespace ream::api {
 namespace {
@@ -70,7 +74,7 @@ class RequestContractTest : public testing::Test {
     return made;
   }
   /// Status of the refusal; 0: it passes.
-  int status(const net::Request& asked) {
+  int status(net::Request asked) {
     try {
       contract.check(asked, "/things/{id}");
     } catch (const net::RequestError& refusal) {
@@ -121,12 +125,48 @@ TEST_F(RequestContractTest, ABodyIsJsonAndThereUnlessItMayBeLeftOut) {
   net::Request text = request("POST", "{}");
   text.headers["content-type"] = "text/plain";
   EXPECT_EQ(status(text), 415);
-  EXPECT_EQ(status(request("POST", "{")), 400);
+  for (const char* type : {"", "text/json"}) {
+    text.headers["content-type"] = type;
+    EXPECT_EQ(status(text), 415) << type;
+  }
+  text = request("POST", R"({"name": "a"})");
+  text.headers["content-type"] = "application/json; charset=utf-8";
+  EXPECT_EQ(status(text), 0);
+  for (const char* body : {"{", R"({"name": "a"} x)", R"({"from": 1e999})", "\xff", "{'name': 1}"})
+    EXPECT_EQ(status(request("POST", body)), 400) << body;
+  for (const char* body : {"[]", "3", "null", R"("demo")"})
+    EXPECT_EQ(status(request("POST", body)), 422) << body;
   EXPECT_EQ(status(request("POST")), 415);
   EXPECT_EQ(status(request("PATCH")), 0);
   EXPECT_EQ(status(request("PATCH", "{}")), 422);
   EXPECT_EQ(status(request("DELETE")), 0);
   EXPECT_EQ(status(request("PUT", "{")), 0) << "what is not described is for the router to refuse";
+}
+
+TEST_F(RequestContractTest, HandlersGetTheBodyThatWasChecked) {
+  net::Request asked = request("POST", R"({"name": "a", "count": 3, "place": [1, 2, 3]})");
+  contract.check(asked, "/things/{id}");
+  EXPECT_EQ(body_of(asked).at("name"), "a");
+  EXPECT_EQ(optional_in<int>(body_of(asked), "count"), 3);
+  EXPECT_EQ(optional_in<int>(body_of(asked), "other"), std::nullopt);
+  EXPECT_EQ(text_in(body_of(asked), "kind"), "");
+  EXPECT_EQ(point_in(body_of(asked), "place"), Vec3(1, 2, 3));
+  EXPECT_EQ(point_in(json{{"place", nullptr}}, "place"), std::nullopt);
+  net::Request without = request("PATCH");
+  contract.check(without, "/things/{id}");
+  EXPECT_EQ(body_of(without), json::object());
+}
+
+TEST_F(RequestContractTest, AListOfDifferentItemsHasNoneTwice) {
+  EXPECT_EQ(different_texts_in(json{{"ids", {"a", "b"}}}, "ids"), (std::vector<std::string>{"a", "b"}));
+  EXPECT_TRUE(different_texts_in(json::object(), "ids").empty());
+  try {
+    different_texts_in(json{{"ids", {"a", "b", "a"}}}, "ids");
+    FAIL();
+  } catch (const net::RequestError& refusal) {
+    EXPECT_EQ(refusal.status(), 422);
+    EXPECT_EQ(refusal.errors().at(0).pointer, "#/ids");
+  }
 }
 
 TEST_F(RequestContractTest, AQueryHasKnownNamesAndFittingValues) {
@@ -173,8 +213,164 @@ TEST(RequestContract, PatternsOfTheContractAreBounded) {
     }
 }
 
-TEST(RequestContract, TheContractCanBeEnforced) {
-  EXPECT_NO_THROW(Contract(std::string(embedded::contract::find("openapi.yaml"))));
+/// Walks the schemas of requests.
+class RequestSchemas {
+ public:
+  explicit RequestSchemas(const json& document) : document_(document) {}
+
+  /// What leaves open how much a request may hold, a line each.
+  std::vector<std::string> open;
+
+  void look_at(const json& unresolved, const std::string& place) {
+    if (unresolved.contains("$ref") && !seen_.insert(unresolved["$ref"]).second) return;
+    const json& schema = followed(unresolved);
+    const json type = schema.value("type", json());
+    const auto may_be = [&](const char* name) {
+      return type == name || (type.is_array() && std::find(type.begin(), type.end(), name) != type.end());
+    };
+    const auto says = [&](std::initializer_list<const char*> keywords) {
+      return std::any_of(keywords.begin(), keywords.end(),
+                         [&](const char* one) { return schema.contains(one); });
+    };
+    if (type.is_null() && !says({"oneOf", "allOf", "const", "enum"}))
+      open.push_back(place + " may be anything");
+    if (may_be("object") &&
+        (!schema.contains("additionalProperties") || schema["additionalProperties"] == true))
+      open.push_back(place + " is an open object");
+    if (may_be("array") && !(says({"maxItems"}) && says({"items"})))
+      open.push_back(place + " is an open list");
+    if (may_be("string") && !says({"maxLength", "pattern"}))
+      open.push_back(place + " is a text of any length");
+    if (may_be("integer") && !says({"enum"}) && !(says({"minimum", "exclusiveMinimum"}) && says({"maximum"})))
+      open.push_back(place + " is a whole number of any size");
+    for (const char* one : {"items", "additionalProperties"})
+      if (schema.contains(one) && schema[one].is_object()) look_at(schema[one], place + "/*");
+    for (const char* some : {"properties", "oneOf", "allOf"}) {
+      const json parts = schema.value(some, json::object());
+      for (const auto& [key, part] : parts.items()) look_at(part, place + "/" + key);
+    }
+  }
+
+  const json& followed(const json& part) const {
+    if (!part.contains("$ref")) return part;
+    return followed(document_.at(json::json_pointer(part["$ref"].get<std::string>().substr(1))));
+  }
+
+ private:
+  const json& document_;
+  std::set<std::string> seen_;
+};
+
+TEST(RequestContract, NoRequestIsOpen) {
+  const json document = json_from_yaml(std::string(embedded::contract::find("openapi.yaml")));
+  RequestSchemas schemas(document);
+  size_t bodies = 0;
+  const auto look_at_parameters = [&](const json& of, const std::string& place) {
+    for (const json& unresolved : of.value("parameters", json::array())) {
+      const json& parameter = schemas.followed(unresolved);
+      if (parameter["in"] != "header")
+        schemas.look_at(parameter.at("schema"), place + "?" + parameter["name"].get<std::string>());
+    }
+  };
+  for (const auto& [path, item] : document.at("paths").items()) {
+    look_at_parameters(item, path);
+    for (const auto& [verb, operation] : item.items()) {
+      if (verb == "parameters") continue;
+      const std::string place = verb + " " + path;
+      look_at_parameters(operation, place);
+      if (!operation.contains("requestBody")) continue;
+      const json& content = schemas.followed(operation["requestBody"]).at("content");
+      if (content.contains("application/json") && ++bodies)
+        schemas.look_at(content["application/json"].at("schema"), place);
+    }
+  }
+  EXPECT_GT(bodies, 25u);
+  EXPECT_EQ(schemas.open, std::vector<std::string>());
+}
+
+TEST(RequestContract, DeepBodiesAreNoJson) {
+  const Contract contract{std::string(embedded::contract::find("openapi.yaml"))};
+  const std::string deep = std::string(100'000, '[') + std::string(100'000, ']');
+  for (const std::string& body :
+       {deep, "{\"name\": \"x\", \"cases\": [\"demo\"], \"questionnaire\": {\"a\": " + deep + "}}"}) {
+    net::Request request;
+    request.method = "POST";
+    request.body = body;
+    request.headers["content-type"] = "application/json";
+    try {
+      contract.check(request, "/api/v1/studies");
+      FAIL();
+    } catch (const net::RequestError& refusal) {
+      EXPECT_EQ(refusal.status(), 400);
+      EXPECT_LT(std::string(refusal.what()).size(), 200u);
+    }
+  }
+}
+
+TEST(RequestContract, SchemasOfTheContractSayWhatIsUnderstood) {
+  const json document = json_from_yaml(std::string(embedded::contract::find("openapi.yaml")));
+  for (const auto& [name, schema] : document.at("components").at("schemas").items())
+    test::expect_known_keywords(schema, name);
+}
+
+TEST(RequestContract, AKeyThatStandsTwiceIsRefused) {
+  EXPECT_THROW(json_from_yaml("a: 1\nb: {c: 1, c: 2}\n"), Error);
+}
+
+/// As a session is asked for: status and pointers of what was wrong.
+std::pair<int, std::vector<std::string>> refused_session(const Contract& contract, const std::string& body) {
+  net::Request request;
+  request.method = "POST";
+  request.body = body;
+  request.headers["content-type"] = "application/json";
+  std::vector<std::string> pointers;
+  try {
+    contract.check(request, "/api/v1/sessions");
+  } catch (const net::RequestError& error) {
+    for (const auto& field : error.errors()) pointers.push_back(field.pointer);
+    return {error.status(), pointers};
+  }
+  return {0, pointers};
+}
+
+TEST(RequestContract, NamesOfSessionsAreNoPathsAndNumbersInRange) {
+  using Pointers = std::vector<std::string>;
+  const Contract contract{std::string(embedded::contract::find("openapi.yaml"))};
+  const auto refused = [&](const std::string& body) { return refused_session(contract, body); };
+  EXPECT_EQ(refused(R"({"case": "a-1", "force_scale": 26})").first, 0);
+  EXPECT_EQ(refused(R"({"case": 3, "force_scale": "much", "speed/rpm": 1, "x~y": 2})").second,
+            (Pointers{"#/case", "#/force_scale", "#/speed~1rpm", "#/x~0y"}));
+  EXPECT_EQ(refused(R"({"case": "demo", "force_scale": null})").second, Pointers{"#/force_scale"});
+  for (const char* name : {"", "../demo", "/etc", "Demo", "a b", "a.b", "demo\\u0000"})
+    EXPECT_EQ(refused(std::string(R"({"case": ")") + name + "\"}").second, Pointers{"#/case"}) << name;
+  for (const char* number : {"0", "-1", "1000.5", "0.09", "1e-300"})
+    EXPECT_EQ(refused(std::string(R"({"case": "demo", "force_scale": )") + number + "}").second,
+              Pointers{"#/force_scale"})
+        << number;
+  EXPECT_EQ(refused(R"({"case": "demo", "force_scale": 1000})").first, 0);
+}
+
+TEST(RequestContract, WordsOfALineHaveNoControlCharactersAndMayBeLong) {
+  const Contract contract{std::string(embedded::contract::find("openapi.yaml"))};
+  net::Request request;
+  request.method = "POST";
+  request.headers["content-type"] = "application/json";
+  const auto taken = [&](const std::string& name) {
+    request.body = json{{"name", name}}.dump();
+    try {
+      contract.check(request, "/api/v1/links");
+      return true;
+    } catch (const net::RequestError&) {
+      return false;
+    }
+  };
+  EXPECT_TRUE(taken("visitors"));
+  std::string longest;
+  for (int i = 0; i < 100; ++i) longest += "\xf0\x9f\xa6\xb4";
+  EXPECT_TRUE(taken(longest)) << "a hundred characters of four bytes";
+  for (const std::string& bad :
+       {std::string("two\nlines"), std::string("a\x7f"), longest + "x", std::string(300'000, 'x')})
+    EXPECT_FALSE(taken(bad)) << bad.substr(0, 20);
 }
 
 }  // namespace

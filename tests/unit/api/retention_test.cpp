@@ -8,13 +8,21 @@
 #include "support/fake_engine.hpp"
 #include "support/hand_clock.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/test_databases.hpp"
 
 namespace ream::api {
 namespace {
 
 namespace fs = std::filesystem;
 
-class RetentionTest : public testing::Test {
+/// A server that has every case, and no users or sessions.
+struct EveryCase final : study::StudyDependencies {
+  std::optional<std::string> name_of_user(const std::string&) const override { return std::nullopt; }
+  bool has_case(const std::string&) const override { return true; }
+  std::vector<study::StudyAttempt> attempts(const std::string&) const override { return {}; }
+};
+
+class RetentionTest : public test::TestDatabase<test::OnSqlite> {
  protected:
   void put(const std::string& id, int days_old, const nlohmann::json& more = nlohmann::json::object()) const {
     nlohmann::json session = {{"case", "demo"}, {"script", "demo"}, {"state", "finished"}};
@@ -28,36 +36,59 @@ class RetentionTest : public testing::Test {
   /// Begins, waits until it has looked, and ends.
   void look(std::optional<int> keep_sessions_days, int keep_deleted_days,
             std::chrono::hours later = std::chrono::hours(0)) {
-    RetentionRules rules{keep_sessions_days, keep_deleted_days, std::chrono::milliseconds(1), {}};
-    std::atomic<int> asked{0};
-    rules.now = [&asked, later] {
-      ++asked;
-      return machine_clock()() + later;
-    };
-    Retention retention(
-        rules, {service, replays, jobs, *feed, [](const std::string& study) { return study == "over"; },
-                [this](const std::string& action, const std::string& id, const std::string&) {
-                  audited.push_back(action + " " + id);
-                }});
+    rules.keep_sessions_days = keep_sessions_days;
+    rules.keep_deleted_days = keep_deleted_days;
+    ahead = later;
+    Retention retention(rules, tools());
     retention.begin();
-    while (asked < 8) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    look_again();
+    held = retention.held();
     retention.stop();
   }
+  /// Waits for looks that began after now.
+  void look_again() {
+    const int before = asked;
+    while (asked < before + 8) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  RetentionTools tools() { return {service, replays, jobs, answers, *feed, studies, audit_log}; }
+
+  /// Actions and ids, the first one first.
+  std::vector<std::string> audited() const {
+    std::vector<std::string> rows;
+    for (const store::AuditRow& row : audit_log.list(INT64_MAX, 10'000))
+      rows.insert(rows.begin(), row.action + " " + row.object);
+    return rows;
+  }
+  std::string make_study() { return studies.create({"A study", "", {{"demo"}, "", "", ""}, {}}).id; }
 
   const test::TemporaryFolder folder;
   test::FakeEngine engine;
-  session::SessionService service{engine, {3, 2}, folder.path() / "sessions"};
+  session::SessionService service{engine, {3, 2}, folder.path() / "sessions", database()};
   session::ReplayService replays{engine, {}};
   jobs::JobService jobs;
-  const std::shared_ptr<ChangeFeed> feed = std::make_shared<ChangeFeed>(may_know);
-  std::vector<std::string> audited;
+  Idempotency answers{database(), [] { return UtcMoment(); }};
+  std::atomic<int> asked{0};
+  std::atomic<std::chrono::hours> ahead{std::chrono::hours(0)};
+  std::string held;
+  RetentionRules rules = [this] {
+    RetentionRules made;
+    made.look_every = std::chrono::milliseconds(1);
+    made.now = [this] {
+      ++asked;
+      return machine_clock()() + ahead.load();
+    };
+    return made;
+  }();
+  const std::shared_ptr<ChangeFeed> feed = std::make_shared<ChangeFeed>();
+  access::AuditLog audit_log{database(), machine_clock()};
+  study::StudyService studies{database(), std::make_unique<EveryCase>()};
 };
 
 TEST_F(RetentionTest, WithoutRulesSessionsStayForEver) {
   put("ancient", 3000);
   look(std::nullopt, 30);
   EXPECT_TRUE(is_there("ancient"));
-  EXPECT_TRUE(audited.empty());
+  EXPECT_TRUE(audited().empty());
 }
 
 TEST_F(RetentionTest, OldSessionsGoToTheTrashOnceAndAreAudited) {
@@ -66,13 +97,15 @@ TEST_F(RetentionTest, OldSessionsGoToTheTrashOnceAndAreAudited) {
   look(30, 10);
   EXPECT_TRUE(is_in_trash("old"));
   EXPECT_TRUE(is_there("young"));
-  EXPECT_EQ(audited, std::vector<std::string>{"session.delete old"});
+  EXPECT_EQ(audited(), std::vector<std::string>{"session.delete old"});
 }
 
 TEST_F(RetentionTest, WhatIsKeptLiveInUseOrOfAStudyThatIsNotOverStays) {
   put("kept", 100, {{"keep", true}});
-  put("open", 100, {{"study", "open"}});
-  put("over", 100, {{"study", "over"}});
+  const std::string over = make_study();
+  studies.close(over);
+  put("open", 100, {{"study", make_study()}});
+  put("over", 100, {{"study", over}});
   put("used", 100);
   const auto lock = FileLock::attempt(session::lock_file(folder.path() / "sessions/used"));
   const std::string live = service.create({{}, "demo", "demo", {}}).request.id;
@@ -89,15 +122,88 @@ TEST_F(RetentionTest, TheTrashIsEmptiedInTime) {
   EXPECT_TRUE(is_in_trash("gone"));
   look(std::nullopt, 30, std::chrono::hours(24 * 30 + 1));
   EXPECT_FALSE(is_in_trash("gone"));
-  EXPECT_EQ(audited, std::vector<std::string>{"session.erase gone"});
+  EXPECT_EQ(audited(), std::vector<std::string>{"session.erase gone"});
 }
 
 TEST_F(RetentionTest, ManyPagesOfOldSessionsGoAtOnce) {
   for (int i = 0; i < 450; ++i) put("s" + std::to_string(i), 31 + i % 7);
+  rules.most_at_once_percent = 100;
   look(30, 0);
   EXPECT_TRUE(fs::is_empty(folder.path() / "sessions"));
   EXPECT_TRUE(fs::is_empty(folder.path() / "trash"));
-  EXPECT_EQ(audited.size(), 900u);
+  EXPECT_EQ(audited().size(), 900u);
+}
+
+TEST_F(RetentionTest, NothingGoesWhenTooMuchWouldGoAtOnce) {
+  for (int i = 0; i < 30; ++i) put("s" + std::to_string(i), 10);
+  look(30, 10, std::chrono::hours(24 * 365));
+  EXPECT_TRUE(is_there("s0")) << "a clock that is a year ahead at the start";
+  EXPECT_NE(held.find("30 of 30 sessions"), std::string::npos) << held;
+  for (int i = 0; i < 30; ++i) service.remove("s" + std::to_string(i));
+  look(std::nullopt, 30, std::chrono::hours(24 * 365));
+  EXPECT_TRUE(is_in_trash("s0"));
+  EXPECT_NE(held.find("30 of 30"), std::string::npos) << held;
+  rules.most_at_once_percent = 100;
+  look(std::nullopt, 30, std::chrono::hours(24 * 365));
+  EXPECT_FALSE(is_in_trash("s0"));
+  EXPECT_EQ(held, "");
+}
+
+TEST_F(RetentionTest, NothingGoesForADayAfterTheClockWasMoved) {
+  std::atomic<std::chrono::hours> on{std::chrono::hours(0)}, moved{std::chrono::hours(0)};
+  rules.running = [&] { return std::chrono::nanoseconds(on.load()); };
+  rules.now = [&] {
+    ++asked;
+    return machine_clock()() + on.load() + moved.load();
+  };
+  rules.keep_sessions_days = 30;
+  put("old", 20);
+  Retention retention(rules, tools());
+  retention.begin();
+  look_again();
+  moved = std::chrono::hours(24 * 11);
+  look_again();
+  EXPECT_TRUE(is_there("old"));
+  EXPECT_NE(retention.held().find("was moved by"), std::string::npos) << retention.held();
+  on = std::chrono::hours(23);
+  look_again();
+  EXPECT_TRUE(is_there("old"));
+  while (is_there("old")) {
+    on = on.load() + std::chrono::hours(24);
+    look_again();
+  }
+  EXPECT_TRUE(is_in_trash("old"));
+  retention.stop();
+}
+
+TEST_F(RetentionTest, WhatIsNotToBeKeptIsErasedWhateverTheClockSays) {
+  put("gone", 1);
+  service.remove("gone");
+  look(std::nullopt, 0, -std::chrono::hours(24 * 365));
+  EXPECT_FALSE(is_in_trash("gone"));
+}
+
+TEST_F(RetentionTest, AnswersToRepeatGoWithTheirSessionAndWithTime) {
+  Idempotency of_today(database());
+  store::IdempotencyTable table(database());
+  const auto put_answer = [&](const std::string& key, const std::string& body, const std::string& at_utc) {
+    table.put({"u1", key, "print", 201, "application/json", "", body,
+               utc_moment(at_utc).time_since_epoch() / std::chrono::milliseconds(1)});
+  };
+  put("gone", 1);
+  service.remove("gone");
+  const std::string now = utc_text(machine_clock()()), long_ago = "2020-01-01T00:00:00Z";
+  put_answer("of it", R"({"id": "gone", "trainee": "Tina"})", now);
+  put_answer("of another", R"({"id": "other"})", now);
+  put_answer("old", "{}", long_ago);
+  rules.keep_deleted_days = 0;
+  Retention retention(rules, {service, replays, jobs, of_today, *feed, studies, audit_log});
+  retention.begin();
+  look_again();
+  retention.stop();
+  EXPECT_FALSE(table.find("u1", "of it"));
+  EXPECT_TRUE(table.find("u1", "of another"));
+  EXPECT_FALSE(table.find("u1", "old"));
 }
 
 TEST_F(RetentionTest, OldFilesOfJobsGoToo) {
@@ -113,8 +219,7 @@ TEST_F(RetentionTest, OldFilesOfJobsGoToo) {
                              .id;
   while (jobs::is_open(with_files.get(id).state)) std::this_thread::yield();
   now = now.load() + std::chrono::hours(25);
-  Retention retention({}, {service, replays, with_files, *feed, [](const std::string&) { return false; },
-                           [](const std::string&, const std::string&, const std::string&) {}});
+  Retention retention({}, {service, replays, with_files, answers, *feed, studies, audit_log});
   retention.begin();
   while (with_files.get(id).result) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   EXPECT_TRUE(fs::is_empty(folder.path() / "jobs") || !fs::exists(folder.path() / "jobs" / id));

@@ -12,6 +12,20 @@ namespace {
 
 using access::CredentialKind;
 
+bool has_ended(net::WebSocketSession& session) {
+  const auto close_reason = session.close_reason();
+  if (!close_reason) return false;
+  EXPECT_EQ(close_reason->code, StreamWatch::access_ended);
+  EXPECT_EQ(session.next(), std::nullopt) << "not a word more";
+  return true;
+}
+
+void until_ended(net::WebSocketSession& session) {
+  for (int i = 0; i < 1000 && !has_ended(session); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_TRUE(has_ended(session));
+}
+
 class StreamWatchTest : public test::TestDatabase<test::OnSqlite> {
  protected:
   StreamWatchTest() {
@@ -26,24 +40,35 @@ class StreamWatchTest : public test::TestDatabase<test::OnSqlite> {
     session->on_open([this] { ++woken; });
     return session;
   }
-  static bool has_ended(net::WebSocketSession& session) {
-    const auto close_reason = session.close_reason();
-    if (!close_reason) return false;
-    EXPECT_EQ(close_reason->code, StreamWatch::access_ended);
-    EXPECT_EQ(session.next(), std::nullopt) << "not a word more";
-    return true;
-  }
-  static void until_ended(net::WebSocketSession& session) {
-    for (int i = 0; i < 1000 && !has_ended(session); ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    EXPECT_TRUE(has_ended(session));
-  }
-
   store::UserTable users{this->database(), "operator"};
-  access::Credentials credentials{this->database()};
+  access::AccessControl access_control{this->database()};
+  access::Credentials& credentials = access_control.credentials;
   std::string token;
   std::atomic<int> woken{0};
-  StreamWatch watch{credentials, std::chrono::milliseconds(20)};
+  StreamWatch watch{access_control, std::chrono::milliseconds(20)};
+};
+
+/// A server without users.
+class OpenStreamWatchTest : public test::TestDatabase<test::OnSqlite> {
+ protected:
+  std::unique_ptr<net::WebSocketSession> open() {
+    net::Request request;
+    request.caller = {"", "", "operator", "", ""};
+    auto session = watch.watched(request, std::make_unique<test::FakeViewer>("s1"));
+    session->on_open([this] { ++woken; });
+    return session;
+  }
+  static void add_anna(access::AccessControl& to) {
+    to.users.add({"anna", "", access::Role::operator_, access::Secret(std::string_view("password of anna"))});
+  }
+  access::AccessOptions cheap() {
+    access::AccessOptions options;
+    options.cost = {1, size_t{8} << 10};
+    return options;
+  }
+  access::AccessControl access_control{this->database(), cheap()};
+  std::atomic<int> woken{0};
+  StreamWatch watch{access_control, std::chrono::milliseconds(20)};
 };
 
 TEST_F(StreamWatchTest, LetsGoodOnesTalk) {
@@ -57,7 +82,8 @@ TEST_F(StreamWatchTest, LetsGoodOnesTalk) {
 }
 
 TEST_F(StreamWatchTest, RevocationEndsThemAtOnce) {
-  const auto session = open(token), nobodys = open("");
+  const std::string other = credentials.issue(CredentialKind::token, {"u2", {}, "", "", ""}).row.id;
+  const auto session = open(token), others = open(other);
   woken = 0;
   credentials.revoke(token);
   EXPECT_EQ(woken, 1);
@@ -65,14 +91,15 @@ TEST_F(StreamWatchTest, RevocationEndsThemAtOnce) {
   const std::string text = "more force";
   session->on_message(std::as_bytes(std::span(text.data(), text.size())));
   EXPECT_EQ(woken, 1) << "what it still says is not heard";
-  EXPECT_FALSE(has_ended(*nobodys));
+  EXPECT_FALSE(has_ended(*others));
   session->on_close();
-  nobodys->on_close();
+  others->on_close();
 }
 
 TEST_F(StreamWatchTest, OneThatWasRevokedOnTheWayInIsNotLetIn) {
   credentials.revoke(token);
   EXPECT_TRUE(has_ended(*open(token)));
+  EXPECT_TRUE(has_ended(*open(""))) << "there are users";
 }
 
 TEST_F(StreamWatchTest, AnotherProcessEndsThemWithinSeconds) {
@@ -95,6 +122,27 @@ TEST_F(StreamWatchTest, OnesThatHaveClosedAreNotWoken) {
   woken = 0;
   credentials.revoke(token);
   EXPECT_EQ(woken, 0);
+}
+
+TEST_F(OpenStreamWatchTest, WhatWasOpenedBeforeTheFirstUserEndsWithThatUser) {
+  const auto viewer = open(), device = open();
+  EXPECT_FALSE(has_ended(*viewer));
+  woken = 0;
+  add_anna(access_control);
+  EXPECT_EQ(woken, 2) << "at once";
+  EXPECT_TRUE(has_ended(*viewer));
+  EXPECT_TRUE(has_ended(*device));
+  EXPECT_TRUE(has_ended(*open())) << "was let in before and is slow";
+  viewer->on_close();
+  device->on_close();
+}
+
+TEST_F(OpenStreamWatchTest, AlsoWhenAnotherProcessAddsThatUser) {
+  const auto viewer = open();
+  const auto again = open_again();
+  access::AccessControl other(*again, cheap());
+  add_anna(other);
+  until_ended(*viewer);
 }
 
 }  // namespace

@@ -45,9 +45,8 @@ TEST(Visibility, WhoIsNotKnownSeesNothing) {
 }
 
 TEST(Visibility, WhatIsNotSeenDoesNotExist) {
-  test::expect_error(ErrorKind::not_found, "no session 's1'",
-                     [] { require_may_see(caller("trainee", "u1"), session("s1", "u2")); });
-  EXPECT_NO_THROW(require_may_see(caller("trainee", "u2"), session("s1", "u2")));
+  EXPECT_FALSE(may_see(caller("trainee", "u1"), session("s1", "u2")));
+  test::expect_error(ErrorKind::not_found, "no session 's1'", [] { refuse_unseen("s1"); });
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "access/access_control.hpp"
 #include "app/data_snapshot.hpp"
 #include "app/restore_backup.hpp"
 #include "core/data_folder.hpp"
@@ -71,7 +72,7 @@ void fill(House<Store>& house) {
     house.write(folder + "/lock", "");
   }
   std::string noise;
-  std::mt19937 random(7);
+  std::mt19937 random(test::seed(7));
   for (int i = 0; i < 200'000; ++i) noise += static_cast<char>(random());
   house.write("cases/demo/case.json", "{}");
   house.write("cases/demo/density.zst", noise);
@@ -106,7 +107,7 @@ TYPED_TEST_SUITE(BackupTest, test::BothStores, test::StoreNames);
 
 template <typename From, typename To>
 void carry(const House<From>&, House<To>& to, const fs::path& file) {
-  const RestoreReport report = restore_backup(to.database, to.data(), file, false);
+  const RestoreReport report = restore_backup(to.database, to.data(), file, {});
   EXPECT_EQ(report.counts.at("sessions"), 2u);
   EXPECT_EQ(report.aside, "");
 }
@@ -168,7 +169,7 @@ TYPED_TEST(BackupTest, KeepsLiveSessionsAsFarAsTheyHadCome) {
       });
   EXPECT_TRUE(grown);
   EXPECT_EQ(report.live, std::vector<std::string>{"live"});
-  restore_backup(other.database, other.data(), this->file(), false);
+  restore_backup(other.database, other.data(), this->file(), {});
   EXPECT_EQ(read_text_file(other.data() / "sessions/live/recording.ream"), std::string(1000, 'a'));
   EXPECT_EQ(read_text_file(other.data() / "sessions/live/session.json"), R"({"state": "running"})");
 }
@@ -191,7 +192,7 @@ TYPED_TEST(BackupTest, InterruptedItLeavesNothing) {
   write_backup(house.database, house.data(), this->file());
   for (const double most : {0.0, 0.3, 0.75, 0.85, 0.99}) {
     expect_error(ErrorKind::cancelled, "interrupted",
-                 [&] { restore_backup(other.database, other.data(), this->file(), false, until(most)); });
+                 [&] { restore_backup(other.database, other.data(), this->file(), {}, until(most)); });
     this->expect_nothing_restored(other);
   }
   carry(house, other, this->file());
@@ -212,7 +213,7 @@ TYPED_TEST(BackupTest, DamageIsSaidAndNothingIsRestored) {
     if (!cut) test::damage(bad, pick(whole.size() - 2));
     House<TypeParam> other;
     try {
-      restore_backup(other.database, other.data(), bad, false);
+      restore_backup(other.database, other.data(), bad, {});
       EXPECT_EQ(other.rows(), house.rows()) << "bytes that say nothing may change";
       EXPECT_EQ(other.kept().size(), 8u);
     } catch (const Error& error) {
@@ -235,9 +236,9 @@ TYPED_TEST(BackupTest, WhatIsThereIsMovedAsideOrLeftAlone) {
   row.id = "mine";
   store::SessionIndex(other.database).put({row});
   expect_error(ErrorKind::conflict, "--force",
-               [&] { restore_backup(other.database, other.data(), this->file(), false); });
+               [&] { restore_backup(other.database, other.data(), this->file(), {}); });
   EXPECT_EQ(other.kept().size(), 2u);
-  const RestoreReport report = restore_backup(other.database, other.data(), this->file(), true);
+  const RestoreReport report = restore_backup(other.database, other.data(), this->file(), {.force = true});
   EXPECT_TRUE(fs::exists(report.aside / "sessions/mine/session.json"));
   EXPECT_TRUE(fs::exists(report.aside / "scripts/mine.json"));
   EXPECT_NE(read_text_file(report.aside / "tables/sessions.jsonl").find("mine"), std::string::npos);
@@ -248,7 +249,7 @@ TYPED_TEST(BackupTest, WhatIsThereIsMovedAsideOrLeftAlone) {
   House<TypeParam> third;
   store::SessionIndex(third.database).put({row});
   expect_error(ErrorKind::conflict, "holds sessions, session_records",
-               [&] { restore_backup(third.database, third.data(), this->file(), false); });
+               [&] { restore_backup(third.database, third.data(), this->file(), {}); });
 }
 
 TYPED_TEST(BackupTest, AServerThatRunsIsNotTouched) {
@@ -257,13 +258,13 @@ TYPED_TEST(BackupTest, AServerThatRunsIsNotTouched) {
   write_backup(house.database, house.data(), this->file());
   const auto serving = FileLock::attempt(serving_lock(other.data()));
   expect_error(ErrorKind::conflict, "a server runs on",
-               [&] { restore_backup(other.database, other.data(), this->file(), true); });
+               [&] { restore_backup(other.database, other.data(), this->file(), {.force = true}); });
 }
 
 TYPED_TEST(BackupTest, OtherFilesAreRefusedByName) {
   House<TypeParam> other;
   const auto refuse = [&](ErrorKind kind, const std::string& words, const fs::path& file) {
-    expect_error(kind, words, [&] { restore_backup(other.database, other.data(), file, false); });
+    expect_error(kind, words, [&] { restore_backup(other.database, other.data(), file, {}); });
     this->expect_nothing_restored(other);
   };
   refuse(ErrorKind::not_found, "nowhere.zip", this->place.path() / "nowhere.zip");
@@ -286,6 +287,27 @@ TYPED_TEST(BackupTest, OtherFilesAreRefusedByName) {
       ErrorKind::invalid_input, "0 files of the 3",
       zip(R"({"format": "ream backup", "revision": 1, "made_utc": "", "build": "ream 1", "files": 3, "tables": [],
                  "migrations": []})"));
+}
+
+TYPED_TEST(BackupTest, WhatWasRevokedSinceIsNotGoodAgain) {
+  House<TypeParam> house;
+  fill(house);
+  access::AccessControl before(house.database);
+  const auto issued = [&](access::CredentialKind kind) {
+    return before.credentials.issue(kind, {"u1", {}, "", "", ""}).row.id;
+  };
+  const std::string token = issued(access::CredentialKind::token),
+                    cookie = issued(access::CredentialKind::cookie),
+                    link = issued(access::CredentialKind::link);
+  write_backup(house.database, house.data(), this->file());
+  for (const bool keep : {false, true}) {
+    House<TypeParam> other;
+    restore_backup(other.database, other.data(), this->file(), {.keep_tokens = keep});
+    store::CredentialTable table(other.database);
+    EXPECT_EQ(table.find(token).has_value(), keep);
+    EXPECT_FALSE(table.find(cookie));
+    EXPECT_FALSE(table.find(link));
+  }
 }
 
 }  // namespace

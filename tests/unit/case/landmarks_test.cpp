@@ -35,7 +35,7 @@ TEST(Landmarks, RoundTripKeepsEveryBitOfEverySubset) {
     json fewer = whole;
     fewer.erase(key);
     EXPECT_EQ(to_json(landmarks_from_json(fewer, "l")), fewer) << key;
-    EXPECT_EQ(test::SchemaChecker(rules).faults(rules, fewer), std::vector<std::string>{}) << key;
+    EXPECT_EQ(test::schema_faults(rules, fewer), std::vector<std::string>{}) << key;
   }
 }
 
@@ -58,7 +58,7 @@ TEST(Landmarks, SchemaAndReaderRefuseTheSame) {
   for (const auto& [key, value] : wrong) {
     json bad = good;
     bad[key] = value;
-    EXPECT_FALSE(test::SchemaChecker(rules).faults(rules, bad).empty()) << key << " " << value;
+    EXPECT_FALSE(test::schema_faults(rules, bad).empty()) << key << " " << value;
     test::expect_error(ErrorKind::invalid_input, key, [&] { landmarks_from_json(bad, "place"); });
   }
   test::expect_error(ErrorKind::invalid_input, "place", [] { landmarks_from_json(json::array(), "place"); });

@@ -4,6 +4,7 @@
 
 #include "collide/contact/contact_schedule.hpp"
 #include "support/random_pose.hpp"
+#include "support/seed.hpp"
 #include "support/test_bone.hpp"
 
 namespace ream::test {
@@ -50,7 +51,7 @@ collide::ContactSums fresh_look(const Walk& walk, const QuantisedPose& pose) {
 }
 
 TEST(ContactSchedule, WhatIsLeftAloneNeverTouches) {
-  constexpr unsigned seed = 20313;
+  const uint32_t seed = test::seed(20313);
   SCOPED_TRACE(testing::Message() << "seed " << seed);
   Walk walk(seed);
   const auto phase = collide::make_narrow_phase_cpu(walk.input());

@@ -8,6 +8,7 @@
 
 #include "support/cut_bricks.hpp"
 #include "support/random_pose.hpp"
+#include "support/seed.hpp"
 #include "support/test_bone.hpp"
 
 namespace ream::test {
@@ -73,7 +74,7 @@ TEST(RemovalSchedule, ASuddenDeepContactIsWorkedOffInTurnAndBounded) {
 }
 
 TEST(RemovalSchedule, WhileTheToolGoesOnNoBrickWaitsLongerThanItsTurn) {
-  constexpr unsigned seed = 71;
+  const uint32_t seed = test::seed(71);
   std::cout << "seed " << seed << '\n';
   std::mt19937 random(seed);
   ScheduleScene s;

@@ -11,6 +11,7 @@
 #include "core/hash.hpp"
 #include "support/cut_bricks.hpp"
 #include "support/random_pose.hpp"
+#include "support/seed.hpp"
 #include "support/test_bone.hpp"
 
 namespace ream::test {
@@ -56,7 +57,7 @@ TEST(Removal, EveryVoxelKeepsWhatItsDistanceToTheSweptBodySays) {
 }
 
 TEST(Removal, IsIdempotentAndOrderFree) {
-  constexpr unsigned seed = 5;
+  const uint32_t seed = test::seed(5);
   std::mt19937 random(seed);
   std::vector<QuantisedPose> poses;
   for (int i = 0; i < 12; ++i)

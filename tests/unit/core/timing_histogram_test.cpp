@@ -1,4 +1,5 @@
 #include "core/timing_histogram.hpp"
+#include "support/seed.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +19,7 @@ double percentile(const std::vector<double>& sorted, double fraction) {
 }
 
 TEST(TimingHistogram, AgreesWithSortedTimes) {
-  std::mt19937 random(51);
+  std::mt19937 random(test::seed(51));
   for (const auto& [count, log_us] : {std::pair{1u, 5.0},
                                       {2u, 5.0},
                                       {10u, 5.0},

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "ct/read/read_ct.hpp"
 #include "ct/read/write_volume.hpp"
+#include "reader/ct_files.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/ct/shoulder_phantom.hpp"
@@ -20,7 +20,7 @@ TEST(LabelMap, ComesBackAsItWasWritten) {
                               shoulder_params(case_::Side::right));
   for (const char* name : {"labels.nrrd", "labels.nii.gz"}) {
     write_label_map(volume, labels.labels, folder.path() / name);
-    const HuVolume map = read_volume_file(folder.path() / name);
+    const HuVolume map = reader::read_volume_file(folder.path() / name);
     EXPECT_EQ(map.dims, volume.dims);
     const Segmentation back = segmentation_from_labels(volume, map);
     EXPECT_EQ(back.labels, labels.labels) << name;

@@ -12,6 +12,7 @@
 #include "support/expect_error.hpp"
 #include "support/json_schema.hpp"
 #include "support/random_pose.hpp"
+#include "support/seed.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ream::device {
@@ -25,7 +26,7 @@ bool is_rotation(const Mat3& r) {
 }
 
 TEST(DeviceSetup, SquareMotionsOfAnyLengthGiveTheirRotationBack) {
-  std::mt19937 random(6);
+  std::mt19937 random(test::seed(6));
   for (int i = 0; i < 200; ++i) {
     const Mat3 device_from_person = test::random_pose(random).rotation;
     std::uniform_real_distribution<double> length_mm(10.1, 300.0);
@@ -38,7 +39,7 @@ TEST(DeviceSetup, SquareMotionsOfAnyLengthGiveTheirRotationBack) {
 
 /// No other rotation brings the three directions nearer to x, y and z.
 TEST(DeviceSetup, CrookedMotionsGiveTheNearestRotation) {
-  std::mt19937 random(7);
+  std::mt19937 random(test::seed(7));
   for (int i = 0; i < 100; ++i) {
     const Mat3 device_from_person = test::random_pose(random).rotation;
     Mat3 directions;
@@ -78,7 +79,7 @@ TEST(DeviceSetup, AxesInWords) {
 }
 
 TEST(DeviceSetup, AwayFromThePersonIsIntoTheBoneAndUpIsTowardsTheHead) {
-  std::mt19937 random(8);
+  std::mt19937 random(test::seed(8));
   for (int i = 0; i < 100; ++i) {
     const Vec3 axis = test::random_direction(random);
     const Mat3 r = world_from_person(3.0 * axis);
@@ -93,7 +94,7 @@ TEST(DeviceSetup, AwayFromThePersonIsIntoTheBoneAndUpIsTowardsTheHead) {
 
 /// The reflected tool is where the reflected handle has it.
 TEST(DeviceSetup, ALeftHandsGripIsTheMirrorImageOfARightOnes) {
-  std::mt19937 random(9);
+  std::mt19937 random(test::seed(9));
   DeviceSetup right, left;
   left.hand = Hand::left;
   right.handle_from_tool = left.handle_from_tool = test::random_pose(random).rotation;
@@ -106,7 +107,7 @@ TEST(DeviceSetup, ALeftHandsGripIsTheMirrorImageOfARightOnes) {
 }
 
 TEST(DeviceSetup, AHandleThatSensesNoTurnKeepsThePlannedAxis) {
-  std::mt19937 random(11);
+  std::mt19937 random(test::seed(11));
   for (const char* device : {"haply", "forcedimension", "openhaptics", "network"})
     for (const Hand hand : {Hand::right, Hand::left}) {
       const DeviceSetup usual = default_device_setup(device);
@@ -135,7 +136,7 @@ std::string complaint(const json& setup) {
 }
 
 TEST(DeviceSetup, AFileKeepsAllOfItAndIsAsTheSchemaSays) {
-  std::mt19937 random(10);
+  std::mt19937 random(test::seed(10));
   const test::TemporaryFolder folder;
   DeviceSetup setup;
   setup.person_from_device = test::random_pose(random).rotation;
@@ -152,7 +153,7 @@ TEST(DeviceSetup, AFileKeepsAllOfItAndIsAsTheSchemaSays) {
   EXPECT_EQ(found.connection, setup.connection);
   const json schema = read_json_file(test::source_folder() + "/proto/device-setup.schema.json");
   const json written = read_json_file(device_setup_path(folder.path(), "touch"));
-  EXPECT_EQ(test::SchemaChecker(schema).faults(schema, written), std::vector<std::string>{});
+  EXPECT_EQ(test::schema_faults(schema, written), std::vector<std::string>{});
   EXPECT_EQ(load_device_setup(folder.path(), "other").scale, 1.0) << "without a file: as it is made";
 }
 
@@ -181,7 +182,7 @@ TEST(DeviceSetup, SchemaAndReaderRefuseTheSame) {
     json setup = good;
     setup[key] = value;
     EXPECT_NE(complaint(setup), "") << key << ' ' << value;
-    EXPECT_FALSE(test::SchemaChecker(schema).faults(schema, setup).empty()) << key << ' ' << value;
+    EXPECT_FALSE(test::schema_faults(schema, setup).empty()) << key << ' ' << value;
   }
   json mirrored = good;
   mirrored["axes"]["towards"] = {0, 0, -1};

@@ -3,6 +3,7 @@
 #include "core/clock.hpp"
 #include "device/simulated/scripted_device.hpp"
 #include "support/random_pose.hpp"
+#include "support/seed.hpp"
 
 namespace ream::device {
 namespace {
@@ -17,7 +18,7 @@ Script gripping(double force_n, double duration_s, double force_scale = 1.0) {
 }
 
 TEST(GrippingHand, PressesOnAHandleThatStaysWithWhatItMeans) {
-  std::mt19937 random(21);
+  std::mt19937 random(test::seed(21));
   const Pose world_from_plan = test::random_pose(random);
   for (const double scale : {1.0, 26.0}) {
     const auto device = make_scripted_device(gripping(40.0, 2.0, scale), world_from_plan);

@@ -4,6 +4,7 @@
 
 #include "core/clock.hpp"
 #include "support/random_pose.hpp"
+#include "support/seed.hpp"
 
 namespace ream::device {
 namespace {
@@ -80,7 +81,7 @@ TEST(MotionLimiter, BrakesToRestWithinItsTime) {
 }
 
 TEST(MotionLimiter, StaysWithinReachWhateverIsWanted) {
-  std::mt19937 random(5);
+  std::mt19937 random(test::seed(5));
   for (int run = 0; run < 50; ++run) {
     MotionLimiter limiter(limits);
     limiter.begin(Pose{});

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "support/expect_error.hpp"
+#include "support/seed.hpp"
 
 namespace ream::device {
 namespace {
@@ -35,7 +36,7 @@ class NetworkDeviceTest : public testing::Test {
   double read_x() { return read().world_from_handle.translation_mm.x(); }
   /// Reads at 1 kHz while a hand at 100 mm/s is heard each `period_ms`; largest step in mm.
   double largest_step_mm(double period_ms, double jitter_ms) {
-    constexpr unsigned seed = 7;
+    const uint32_t seed = test::seed(7);
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> jitter(-jitter_ms, jitter_ms);
     double next_ms = 0.0, sent = 0.0, before = std::nan(""), largest = 0.0;

@@ -6,6 +6,7 @@
 #include "device/simulated/scripted_device.hpp"
 #include "support/expect_error.hpp"
 #include "support/random_pose.hpp"
+#include "support/seed.hpp"
 
 namespace ream::device {
 namespace {
@@ -55,7 +56,7 @@ Script protocol() {
 }
 
 TEST(RobotDevice, ApproachesRampsHoldsAndWithdraws) {
-  std::mt19937 random(31);
+  std::mt19937 random(test::seed(31));
   const Pose world_from_plan = test::random_pose(random);
   // 52 N on 260 N s/mm: 0.2 mm/s.
   const auto samples = run(protocol(), world_from_plan, {260.0, Vec3(0, 0, -3)});

@@ -28,7 +28,7 @@ class ScriptSchema : public testing::Test {
  protected:
   static std::vector<std::string> faults(const json& script) {
     const json schema = read_json_file(test::source_folder() + "/proto/script.schema.json");
-    return test::SchemaChecker(schema).faults(schema, script);
+    return test::schema_faults(schema, script);
   }
 };
 

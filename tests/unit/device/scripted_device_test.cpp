@@ -4,6 +4,7 @@
 
 #include "device/simulated/scripted_device.hpp"
 #include "support/random_pose.hpp"
+#include "support/seed.hpp"
 
 namespace ream::device {
 namespace {
@@ -32,7 +33,7 @@ Script pushing(double force_n, double duration_s) {
 }
 
 TEST(HandDevice, FreeHandMovesAsAMassInADamper) {
-  std::mt19937 random(11);
+  std::mt19937 random(test::seed(11));
   const Pose world_from_plan = test::random_pose(random);
   Script script = pushing(4.0, 2.0);
   script.hand.tilt_rad = Vec3(0.2, -0.1, 0.0);
@@ -121,7 +122,7 @@ TEST(HandDevice, ShakesByItsSeed) {
 }
 
 TEST(PoseDevice, FollowsItsPosesWhateverItFeels) {
-  std::mt19937 random(12);
+  std::mt19937 random(test::seed(12));
   const Pose world_from_plan = test::random_pose(random);
   Script script;
   script.kind = ScriptKind::poses;

@@ -20,7 +20,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int64_t ms = 1'000'000;
+constexpr int64_t ns_per_millisecond = 1'000'000;
 std::atomic<int64_t> now_ns{0};
 int64_t test_clock() { return now_ns; }
 
@@ -33,7 +33,7 @@ ServoState at(double x_mm) {
 class ServoEndTest : public testing::Test {
  protected:
   ServoEndTest() {
-    now_ns = 1000 * ms;
+    now_ns = 1000 * ns_per_millisecond;
     end.open();
     servo.begin();
   }
@@ -76,7 +76,7 @@ TEST_F(ServoEndTest, CutsToTheLimitsAndKeepsTheDirection) {
 TEST_F(ServoEndTest, TakesAnOldForceBack) {
   servo.report(at(1), now_ns);
   answer({1, 0, 0});
-  now_ns += 20 * ms;
+  now_ns += 20 * ns_per_millisecond;
   EXPECT_FALSE(servo.force().is_zero());
   now_ns += 1;
   EXPECT_TRUE(servo.force().is_zero());

@@ -11,9 +11,9 @@
 namespace ream::device {
 namespace {
 
-constexpr int samples = 120000;  // two minutes
+constexpr int tremor_samples = 120000;  // two minutes
 
-std::vector<Vec3> tremor_of(uint64_t seed, double rms_n, int count = samples) {
+std::vector<Vec3> tremor_of(uint64_t seed, double rms_n, int count = tremor_samples) {
   Tremor tremor(seed, rms_n);
   tremor.begin();
   std::vector<Vec3> force_n;
@@ -44,8 +44,8 @@ TEST(Tremor, HasTheRootMeanSquareAskedFor) {
     mean += f;
   }
   for (int k = 0; k < 3; ++k) {
-    EXPECT_NEAR(std::sqrt(squares[k] / samples), 1.5, 0.05 * 1.5) << "component " << k;
-    EXPECT_NEAR(mean[k] / samples, 0.0, 0.01);
+    EXPECT_NEAR(std::sqrt(squares[k] / tremor_samples), 1.5, 0.05 * 1.5) << "component " << k;
+    EXPECT_NEAR(mean[k] / tremor_samples, 0.0, 0.01);
   }
 }
 
@@ -72,7 +72,7 @@ TEST(Tremor, FollowsItsSeedAndNothingElse) {
 TEST(Tremor, DirectionsAreIndependent) {
   double product = 0.0;
   for (const Vec3& f : tremor_of(9, 1.0)) product += f.x() * f.y();
-  EXPECT_NEAR(product / samples, 0.0, 0.1);
+  EXPECT_NEAR(product / tremor_samples, 0.0, 0.1);
 }
 
 TEST(Tremor, NoneIsNothing) {

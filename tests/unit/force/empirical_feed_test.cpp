@@ -12,7 +12,7 @@ std::unique_ptr<FeedModel> make_empirical(FeedSettings settings, Lip lip) {
   return make_feed_model(settings, {std::move(lip)});
 }
 
-EngagedBone cortical(double density_g_cc) {
+EngagedBone cortical_of_density(double density_g_cc) {
   EngagedBone bone;
   bone.share = {0, 1, 0};
   bone.density_g_cc = {0, density_g_cc, 0};
@@ -22,8 +22,8 @@ EngagedBone cortical(double density_g_cc) {
 TEST(EmpiricalFeed, IsLinearInThrustToTheBit) {
   const auto model = make_empirical({}, test::thesis_lip(100));
   for (const double thrust_n : {0.0, 1.0, 52.0, 300.0})
-    EXPECT_EQ(model->load(cortical(1.5), thrust_n).resistance_n_s_mm,
-              lawful_resistance_n_s_mm(cortical(1.5), {}));
+    EXPECT_EQ(model->load(cortical_of_density(1.5), thrust_n).resistance_n_s_mm,
+              lawful_resistance_n_s_mm(cortical_of_density(1.5), {}));
 }
 
 TEST(EmpiricalFeed, TakesItsTorqueFromTheLipsAtTheReferenceFeed) {
@@ -32,8 +32,8 @@ TEST(EmpiricalFeed, TakesItsTorqueFromTheLipsAtTheReferenceFeed) {
   for (const double density_g_cc : {1.2, 1.5, 1.9}) {
     const double feed_mm = (0.11 - 0.05 * density_g_cc) / 2.6;
     const LipLoad load = whole_load(lip_loads(lip, {}, {feed_mm}));
-    EXPECT_NEAR(model->load(cortical(density_g_cc), 20.0).torque_arm_mm, load.torque_n_mm / load.thrust_n,
-                1e-4 * load.torque_n_mm / load.thrust_n);
+    EXPECT_NEAR(model->load(cortical_of_density(density_g_cc), 20.0).torque_arm_mm,
+                load.torque_n_mm / load.thrust_n, 1e-4 * load.torque_n_mm / load.thrust_n);
   }
 }
 

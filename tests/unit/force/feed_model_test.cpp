@@ -12,10 +12,10 @@
 namespace ream::force {
 namespace {
 
-constexpr double seated_area_mm2 = 180.0;
+constexpr double full_seat_mm2 = 180.0;
 
 std::unique_ptr<FeedModel> model_of(const FeedSettings& settings) {
-  return make_feed_model(settings, {test::thesis_lip(200), seated_area_mm2});
+  return make_feed_model(settings, {test::thesis_lip(200), full_seat_mm2});
 }
 
 /// In full contact, as at the planned seating.
@@ -23,7 +23,7 @@ EngagedBone bone_of(int bone_class, double density_g_cc) {
   EngagedBone bone;
   bone.share[static_cast<size_t>(bone_class)] = 1.0;
   bone.density_g_cc[static_cast<size_t>(bone_class)] = density_g_cc;
-  bone.area_mm2 = seated_area_mm2;
+  bone.area_mm2 = full_seat_mm2;
   return bone;
 }
 

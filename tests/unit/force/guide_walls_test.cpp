@@ -1,4 +1,5 @@
 #include "force/guide.hpp"
+#include "support/seed.hpp"
 
 #include <gtest/gtest.h>
 
@@ -34,7 +35,7 @@ Vec2 leading(const Problem& p, const AxisSideways& a) { return a.origin_mm + p.w
 Vec2 trailing(const Problem& p, const AxisSideways& a) { return a.origin_mm + p.walls.trailing_mm * a.slope; }
 
 TEST(GuideWalls, KeepBothPointsWithinTheClearance) {
-  std::mt19937 random(20260401);
+  std::mt19937 random(test::seed(20260401));
   int touched = 0;
   for (int i = 0; i < 20000; ++i) {
     const Problem p = random_problem(random);
@@ -51,7 +52,7 @@ TEST(GuideWalls, KeepBothPointsWithinTheClearance) {
 
 TEST(GuideWalls, NoAxisBetweenTheWallsIsNearer) {
   // The condition of the nearest point of a convex set: towards any point of it the distance grows.
-  std::mt19937 random(7);
+  std::mt19937 random(test::seed(7));
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   for (int i = 0; i < 5000; ++i) {
     const Problem p = random_problem(random);
@@ -72,7 +73,7 @@ TEST(GuideWalls, NoAxisBetweenTheWallsIsNearer) {
 }
 
 TEST(GuideWalls, NearWishesHaveNearAnswers) {
-  std::mt19937 random(11);
+  std::mt19937 random(test::seed(11));
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   for (int i = 0; i < 5000; ++i) {
     const Problem a = random_problem(random);
@@ -87,7 +88,7 @@ TEST(GuideWalls, NearWishesHaveNearAnswers) {
 }
 
 TEST(GuideWalls, AnswersAreLeftAsTheyAre) {
-  std::mt19937 random(13);
+  std::mt19937 random(test::seed(13));
   for (int i = 0; i < 5000; ++i) {
     const Problem p = random_problem(random);
     const AxisSideways once = between_walls(p.walls, p.wanted).axis;

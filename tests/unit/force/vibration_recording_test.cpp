@@ -9,6 +9,7 @@
 #include "force/vibration/vibration_tracks.hpp"
 #include "support/expect_error.hpp"
 #include "support/recording_files.hpp"
+#include "support/seed.hpp"
 #include "support/spectrum.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -17,11 +18,11 @@ namespace {
 
 using test::expect_error;
 
-constexpr auto cortical = static_cast<size_t>(VibrationKind::cortical);
+constexpr auto cortical_kind = static_cast<size_t>(VibrationKind::cortical);
 
 /// Gravity, a slow swing and noise, as an accelerometer on a reamer says it.
 std::vector<float> raw_signal(double rate_hz, double seconds, double unit = 1.0, double gravity_g = 1.0) {
-  std::mt19937_64 random(20260411);
+  std::mt19937_64 random(test::seed(20260411));
   std::uniform_real_distribution<double> even(-1.0, 1.0);
   std::vector<double> tones_hz(40), phases_rad(40);
   for (double& f : tones_hz) f = 230.0 + 170.0 * even(random);
@@ -39,13 +40,13 @@ std::vector<float> raw_signal(double rate_hz, double seconds, double unit = 1.0,
 
 class Recordings : public testing::Test {
  protected:
-  /// The cortical track of a recording file.
+  /// The cortical_kind track of a recording file.
   VibrationTrack track_of(const std::string& name, const std::string& bytes, double rate_hz = 0.0) const {
     VibrationSettings settings;
     settings.source = VibrationSource::recording;
     settings.recordings.cortical = settings.recordings.cancellous = folder_.write(name, bytes);
     settings.recordings.rate_hz = rate_hz;
-    return make_vibration_tracks(settings, 1)->by_kind[cortical];
+    return make_vibration_tracks(settings, 1)->by_kind[cortical_kind];
   }
 
   void refused(const std::string& name, const std::string& bytes, const std::string& mentioned,

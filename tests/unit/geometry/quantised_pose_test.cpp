@@ -2,15 +2,16 @@
 
 #include "geometry/pose.hpp"
 #include "support/random_pose.hpp"
+#include "support/seed.hpp"
 
 namespace ream {
 namespace {
 
-constexpr unsigned quantised_seed = 20262;
+constexpr uint32_t quantised_seed = 20262;
 
 TEST(QuantisedPose, IsWithinHalfAStep) {
-  SCOPED_TRACE(testing::Message() << "quantised_seed " << quantised_seed);
-  std::mt19937 random(quantised_seed);
+  SCOPED_TRACE(testing::Message() << "quantised_seed " << test::seed(quantised_seed));
+  std::mt19937 random(test::seed(quantised_seed));
   for (int i = 0; i < 500; ++i) {
     const Pose pose = test::random_pose(random, 2000.0);
     const Pose back = dequantised(quantised(pose));
@@ -20,8 +21,8 @@ TEST(QuantisedPose, IsWithinHalfAStep) {
 }
 
 TEST(QuantisedPose, OfAQuantisedPoseIsItself) {
-  SCOPED_TRACE(testing::Message() << "quantised_seed " << quantised_seed);
-  std::mt19937 random(quantised_seed);
+  SCOPED_TRACE(testing::Message() << "quantised_seed " << test::seed(quantised_seed));
+  std::mt19937 random(test::seed(quantised_seed));
   for (int i = 0; i < 500; ++i) {
     const QuantisedPose once = quantised(test::random_pose(random, 2000.0));
     EXPECT_EQ(quantised(dequantised(once)), once);

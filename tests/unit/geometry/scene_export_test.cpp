@@ -8,6 +8,7 @@
 
 #include "core/file.hpp"
 #include "geometry/mesh_io.hpp"
+#include "support/seed.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 
@@ -21,7 +22,7 @@ const std::string remark = "millimetres, LPS, right shoulder";
 class SceneExport : public testing::Test {
  protected:
   SceneExport() {
-    std::mt19937 random(11);
+    std::mt19937 random(test::seed(11));
     bone_ = test::box_mesh({10.0f, 4.0f, 3.0f});
     implant_ = test::box_mesh({1.0f, 2.0f, 2.0f});
     for (auto& v : implant_.vertices_mm) v += Vec3f(40.0f, 0.0f, 0.0f);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "support/random_pose.hpp"
+#include "support/seed.hpp"
 
 namespace ream {
 namespace {
@@ -15,7 +16,7 @@ TriangleMesh tetrahedron(float a, float b, float c) {
 }
 
 TEST(TriangleMesh, VolumeIsThatOfTheTetrahedronWhereverItLies) {
-  constexpr unsigned seed = 20264;
+  const uint32_t seed = test::seed(20264);
   SCOPED_TRACE(testing::Message() << "seed " << seed);
   std::mt19937 random(seed);
   const TriangleMesh mesh = tetrahedron(3, 4, 5);

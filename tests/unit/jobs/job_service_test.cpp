@@ -184,14 +184,24 @@ TEST_F(JobFilesTest, EveryChangeIsToldAndWorkOnASessionIsFound) {
   EXPECT_EQ(jobs.open_on_session("mesh", "abcd2345")->id, first.id);
   EXPECT_FALSE(jobs.open_on_session("mesh", "other"));
   EXPECT_FALSE(jobs.open_on_session("snapshot", "abcd2345"));
-  const JobRecord second = jobs.submit_session({"import"}, [](const Progress&) { return "wxyz6789"; });
   jobs.cancel(jobs.submit({"import"}, [](const Progress&) {}).id);
   may_end.count_down();
-  EXPECT_EQ(ended(jobs, second.id).order.session_id, "wxyz6789");
+  EXPECT_EQ(ended(jobs, first.id).state, JobState::done);
   EXPECT_FALSE(jobs.open_on_session("mesh", "abcd2345"));
   jobs.shut_down();
   for (const char* state : {"waiting", "running", "done", "cancelled"})
     EXPECT_NE(std::find(told.begin(), told.end(), state), told.end()) << state;
+}
+
+TEST(JobService, WhateverWorkThrowsItHasFailedAndTheNextIsDone) {
+  struct Wordless {};
+  JobOptions options;
+  options.on_change = [](const JobRecord&) { throw Wordless(); };
+  JobService jobs(options);
+  const JobRecord first = jobs.submit({"import", "a"}, [](const Progress&) { throw Wordless(); });
+  const JobRecord second = jobs.submit({"import", "b"}, [](const Progress&) {});
+  EXPECT_EQ(ended(jobs, first.id).state, JobState::failed);
+  EXPECT_EQ(ended(jobs, second.id).state, JobState::done) << "though nobody could be told";
 }
 
 }  // namespace

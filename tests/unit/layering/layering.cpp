@@ -22,6 +22,7 @@ const Rooms& drawn_arrows() {
       {"app", {"api", "fe"}},
       {"api", {"study", "workup"}},
       {"workup", {"jobs"}},
+      {"reader", {"ct", "store"}},
       {"study", {"session", "access"}},
       {"jobs", {"session"}},
       {"session", {"sim", "openigtlink", "report", "ct", "render", "store", "net"}},
@@ -31,7 +32,7 @@ const Rooms& drawn_arrows() {
       {"openigtlink", {"stream"}},
       {"score", {"record", "surface", "render"}},
       {"report", {"score"}},
-      {"ct", {"case"}},
+      {"ct", {"case", "isolation"}},
       {"fe", {"case"}},
       {"case", {"voxel", "shell"}},
       {"shell", {"voxel", "voxelizer"}},
@@ -47,6 +48,7 @@ const Rooms& drawn_arrows() {
       {"access", {"store"}},
       {"store", {"core"}},
       {"net", {"core"}},
+      {"isolation", {"core"}},
       {"core", {}},
   };
   return arrows;
@@ -55,7 +57,7 @@ const Rooms& drawn_arrows() {
 struct Library {
   const char* name;
   std::regex header;
-  const char* room;
+  const char* rooms;  ///< "one" or "one, other"
 };
 
 const std::vector<Library>& single_room_libraries() {
@@ -63,7 +65,7 @@ const std::vector<Library>& single_room_libraries() {
       {"OpenCL", std::regex("(CL|OpenCL)/.*"), "gpu"},
       {"Beast and Asio", std::regex("boost/(beast|asio)(/|\\.).*"), "net"},
       {"OpenSSL", std::regex("openssl/.*"), "net"},
-      {"ITK", std::regex("(itk|vnl/|gdcm).*"), "ct"},
+      {"ITK", std::regex("(itk|vnl/|gdcm).*"), "ct, reader"},
       {"assimp", std::regex("assimp/.*"), "geometry"},
       {"SOCI", std::regex("soci/.*"), "store"},
       {"libsodium", std::regex("sodium(/.*|\\.h)"), "access"},
@@ -71,6 +73,7 @@ const std::vector<Library>& single_room_libraries() {
       {"Cairo and Pango", std::regex("(cairo|pango)[-a-z/]*\\.h"), "report"},
       {"libsndfile and libsamplerate", std::regex("(sndfile|samplerate)\\.h.*"), "force"},
       {"OpenIGTLink", std::regex("igtl.*\\.h"), "openigtlink"},
+      {"libseccomp and Landlock", std::regex("(seccomp|linux/landlock)\\.h"), "isolation"},
       {"NATS", std::regex("nats(/.*|\\.h)"), "stream"},
   };
   return libraries;
@@ -247,15 +250,37 @@ std::vector<std::string> arrow_violations(const fs::path& root) {
   return found;
 }
 
+bool named_in(const std::string& rooms, const std::string& room) {
+  return (", " + rooms + ",").find(" " + room + ",") != std::string::npos;
+}
+
 std::vector<std::string> library_violations(const fs::path& root) {
   std::vector<std::string> found;
   for_each_include(root, [&](const std::string& room, const Include& include) {
     for (const Library& library : single_room_libraries())
-      if (room != library.room && std::regex_match(include.path, library.header))
+      if (!named_in(library.rooms, room) && std::regex_match(include.path, library.header))
         found.push_back(include.place + ": " + include.path + ": " + library.name + " belongs to " +
-                        library.room);
+                        library.rooms);
   });
   std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::vector<std::string> thread_violations(const fs::path& root) {
+  static const std::regex started(
+      "std::j?thread "
+      "*[({]|std::jthread|std::async|pthread_create|\\bthreads?_?[({]\\[|(threads|workers|helpers)_?\\."
+      "emplace_back");
+  std::vector<std::string> found;
+  for (const fs::path& file : files_under(root / "server")) {
+    if (name_of(root, file) == "server/core/signal_handlers.hpp") continue;
+    std::ifstream in(file);
+    std::string line;
+    for (int number = 1; std::getline(in, line); ++number)
+      if (std::regex_search(line, started))
+        found.push_back(name_of(root, file) + ":" + std::to_string(number) +
+                        ": use start_thread() or start_task()");
+  }
   return found;
 }
 

@@ -20,6 +20,19 @@ Response named(int status) {
   return response;
 }
 
+/// Lets everything pass, as long as a test does not say otherwise.
+struct OpenPolicy : RequestPolicy {
+  void authorize(Request&, size_t) const override {}
+  void check(Request&, size_t) const override {}
+  Response answer(const Request& request, size_t, const Handler& next) const override {
+    return next(request);
+  }
+  std::unique_ptr<WebSocketSession> opened(const Request&, size_t,
+                                           std::unique_ptr<WebSocketSession> session) const override {
+    return session;
+  }
+};
+
 class RouterTest : public testing::Test {
  protected:
   RouterTest() {
@@ -74,32 +87,63 @@ TEST_F(RouterTest, WebSocketPathAskedPlainlyWantsUpgrade) {
   EXPECT_EQ(router.open(request_for("GET", "/things")).refusal.status, 404);
 }
 
-TEST_F(RouterTest, GateIsAskedBeforeEveryHandlerAndMayRefuse) {
-  std::vector<std::string> asked;
-  router.otherwise([](const Request& request) {
-    EXPECT_EQ(request.caller.name, "Ada");
-    return named(200);
-  });
-  router.guard([&](Request& request, const std::string& pattern) {
-    asked.push_back(pattern);
-    if (request.method == "POST") throw RequestError(403, "not for you");
-    request.caller.name = "Ada";
-  });
+TEST_F(RouterTest, PolicyIsAskedBeforeEveryHandlerOfARouteAndMayRefuse) {
+  struct Policy : OpenPolicy {
+    mutable std::vector<size_t> asked;
+    void authorize(Request& request, size_t route) const override {
+      asked.push_back(route);
+      if (request.method == "POST") throw RequestError(403, "not for you");
+      request.caller.name = "Ada";
+    }
+    Response answer(const Request& request, size_t, const Handler& next) const override {
+      EXPECT_EQ(request.caller.name, "Ada");
+      return next(request);
+    }
+  } policy;
+  router.otherwise([](const Request&) { return named(200); });
+  router.follow(policy);
   EXPECT_EQ(router.respond(request_for("GET", "/things")).status, 200);
   EXPECT_EQ(router.respond(request_for("POST", "/things")).status, 403);
   EXPECT_EQ(router.respond(request_for("GET", "/page.css")).status, 200);
   EXPECT_EQ(router.open(request_for("GET", "/things/7/stream")).refusal.status, 404);
-  EXPECT_EQ(asked, (std::vector<std::string>{"/things", "/things", "", "/things/{id}/stream"}));
-  router.guard([](Request&, const std::string&) { throw RequestError(403, "nobody"); });
+  EXPECT_EQ(policy.asked, (std::vector<size_t>{0, 1, 4})) << "files are for everybody";
+  struct Closed : OpenPolicy {
+    void authorize(Request&, size_t) const override { throw RequestError(403, "nobody"); }
+  } closed;
+  router.follow(closed);
   EXPECT_EQ(router.open(request_for("GET", "/things/7/stream")).refusal.status, 403);
+}
+
+TEST_F(RouterTest, PolicyChecksWhoMayAndStandsAroundHandlers) {
+  struct Policy : OpenPolicy {
+    mutable std::vector<std::string> steps;
+    void authorize(Request&, size_t) const override { steps.push_back("authorize"); }
+    void check(Request& request, size_t) const override {
+      steps.push_back("check");
+      if (request.query.contains("odd")) throw RequestError(422, "makes no sense");
+    }
+    Response answer(const Request& request, size_t route, const Handler& next) const override {
+      steps.push_back("answer " + std::to_string(route));
+      return named(next(request).status + 1);
+    }
+  } policy;
+  router.follow(policy);
+  EXPECT_EQ(router.respond(request_for("POST", "/things")).status, 202);
+  EXPECT_EQ(policy.steps, (std::vector<std::string>{"authorize", "check", "answer 1"}));
+  Request odd = request_for("GET", "/things/1/stream");
+  odd.query["odd"] = "yes";
+  EXPECT_EQ(router.open(odd).refusal.status, 422);
 }
 
 TEST_F(RouterTest, ACallerIsPacedByUserOrCredentialAndNobodyElse) {
   router.pace_callers({0.001, 2.0});
-  router.guard([](Request& request, const std::string&) {
-    request.caller.user_id = request.query["user"];
-    request.caller.credential = request.query["credential"];
-  });
+  struct Policy : OpenPolicy {
+    void authorize(Request& request, size_t) const override {
+      request.caller.user_id = request.query["user"];
+      request.caller.credential = request.query["credential"];
+    }
+  } policy;
+  router.follow(policy);
   const auto ask = [&](const std::string& user, const std::string& credential) {
     Request request = request_for("GET", "/things");
     request.query = {{"user", user}, {"credential", credential}};
@@ -131,28 +175,43 @@ TEST(RouterWrapping, IsPutAroundEveryWebSocketThatOpens) {
     if (request.header("x-refuse") == "yes") throw RequestError(409, "not now");
     return std::make_unique<SilentSession>();
   });
-  routes.guard([](Request& request, const std::string&) { request.caller.name = "Ada"; });
-  int wrapped = 0;
-  routes.wrap_websockets([&](const Request& request, std::unique_ptr<WebSocketSession> session) {
-    EXPECT_EQ(request.caller.name, "Ada");
-    EXPECT_TRUE(session);
-    ++wrapped;
-    return session;
-  });
+  struct Policy : OpenPolicy {
+    mutable int wrapped = 0;
+    void authorize(Request& request, size_t) const override { request.caller.name = "Ada"; }
+    std::unique_ptr<WebSocketSession> opened(const Request& request, size_t,
+                                             std::unique_ptr<WebSocketSession> session) const override {
+      EXPECT_EQ(request.caller.name, "Ada");
+      EXPECT_TRUE(session);
+      ++wrapped;
+      return session;
+    }
+  } policy;
+  routes.follow(policy);
   Request request;
   request.method = "GET";
   request.path = "/stream";
   EXPECT_TRUE(routes.open(request).session);
-  EXPECT_EQ(wrapped, 1);
+  EXPECT_EQ(policy.wrapped, 1);
   request.headers["x-refuse"] = "yes";
   EXPECT_EQ(routes.open(request).refusal.status, 409);
-  EXPECT_EQ(wrapped, 1);
+  EXPECT_EQ(policy.wrapped, 1);
 }
 
 TEST_F(RouterTest, OtherwiseAnswersReadsOnly) {
   router.otherwise([](const Request&) { return named(304); });
   EXPECT_EQ(router.respond(request_for("GET", "/nowhere")).status, 304);
   EXPECT_EQ(router.respond(request_for("POST", "/nowhere")).status, 405);
+}
+
+TEST_F(RouterTest, WhateverAHandlerThrowsHasAnAnswer) {
+  struct Wordless {};
+  router.on("GET", "/full", [](const Request&) -> Response { throw std::bad_alloc(); });
+  router.on("GET", "/odd", [](const Request&) -> Response { throw Wordless(); });
+  router.on_websocket("/odd/stream",
+                      [](const Request&) -> std::unique_ptr<WebSocketSession> { throw Wordless(); });
+  EXPECT_EQ(router.respond(request_for("GET", "/full")).status, 503);
+  EXPECT_EQ(router.respond(request_for("GET", "/odd")).status, 500);
+  EXPECT_EQ(router.open(request_for("GET", "/odd/stream")).refusal.status, 500);
 }
 
 }  // namespace

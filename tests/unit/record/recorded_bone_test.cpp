@@ -4,6 +4,7 @@
 
 #include "support/expect_error.hpp"
 #include "support/recorded_cutting.hpp"
+#include "support/seed.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ream::record {
@@ -11,7 +12,7 @@ namespace {
 
 using test::RecordedCutting;
 
-constexpr unsigned seed = 51;
+constexpr uint32_t recorded_bone_seed = 51;
 const Vec3i dims(40, 32, 24);
 
 class RecordedBoneTest : public testing::Test {
@@ -21,7 +22,7 @@ class RecordedBoneTest : public testing::Test {
     ASSERT_EQ(recording.tick_count(), session.tick);
     RecordedBone bone(recording, session.bone.grid, session.start);
     std::vector<uint8_t> follower = session.start;
-    std::mt19937 random(seed);
+    std::mt19937 random(test::seed(recorded_bone_seed));
     for (int i = 0; i < moments; ++i) {
       const auto ticks = static_cast<uint32_t>(random() % (session.tick + 300));
       bone.seek(ticks, [&](const voxel::BrickImage& image) {
@@ -47,8 +48,8 @@ class RecordedBoneTest : public testing::Test {
 };
 
 TEST_F(RecordedBoneTest, IsTheBoneAtEveryMomentForwardsAndBackwards) {
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  RecordedCutting session(seed, dims);
+  SCOPED_TRACE(testing::Message() << "seed " << test::seed(recorded_bone_seed));
+  RecordedCutting session(test::seed(recorded_bone_seed), dims);
   {
     Recorder recorder(create_log_file(path_), session.header(), RecordedCutting::segment(0),
                       session.follower.data());
@@ -59,8 +60,8 @@ TEST_F(RecordedBoneTest, IsTheBoneAtEveryMomentForwardsAndBackwards) {
 }
 
 TEST_F(RecordedBoneTest, HasWholeMomentsThoughImagesComeLate) {
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  RecordedCutting session(seed, dims);
+  SCOPED_TRACE(testing::Message() << "seed " << test::seed(recorded_bone_seed));
+  RecordedCutting session(test::seed(recorded_bone_seed), dims);
   {
     Recorder recorder(create_log_file(path_), session.header(), RecordedCutting::segment(0),
                       session.follower.data());
@@ -76,8 +77,8 @@ TEST_F(RecordedBoneTest, HasWholeMomentsThoughImagesComeLate) {
 }
 
 TEST_F(RecordedBoneTest, ImagesThatComeMuchTooLateCostCheckpointsAndNothingElse) {
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  RecordedCutting session(seed, dims);
+  SCOPED_TRACE(testing::Message() << "seed " << test::seed(recorded_bone_seed));
+  RecordedCutting session(test::seed(recorded_bone_seed), dims);
   {
     Recorder recorder(create_log_file(path_), session.header(), RecordedCutting::segment(0),
                       session.follower.data());
@@ -96,8 +97,8 @@ TEST_F(RecordedBoneTest, ImagesThatComeMuchTooLateCostCheckpointsAndNothingElse)
 }
 
 TEST_F(RecordedBoneTest, WhatIsNotFinishedIsKeptAsFarAsItGoes) {
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  RecordedCutting session(seed, dims);
+  SCOPED_TRACE(testing::Message() << "seed " << test::seed(recorded_bone_seed));
+  RecordedCutting session(test::seed(recorded_bone_seed), dims);
   {
     Recorder recorder(create_log_file(path_), session.header(), RecordedCutting::segment(0),
                       session.follower.data());
@@ -108,8 +109,8 @@ TEST_F(RecordedBoneTest, WhatIsNotFinishedIsKeptAsFarAsItGoes) {
 }
 
 TEST_F(RecordedBoneTest, GoesOnInAContinuedRecording) {
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  RecordedCutting session(seed, dims);
+  SCOPED_TRACE(testing::Message() << "seed " << test::seed(recorded_bone_seed));
+  RecordedCutting session(test::seed(recorded_bone_seed), dims);
   const ops::Header header = session.header();
   {
     Recorder recorder(create_log_file(path_), header, RecordedCutting::segment(0), session.follower.data());
@@ -134,8 +135,8 @@ TEST_F(RecordedBoneTest, GoesOnInAContinuedRecording) {
 }
 
 TEST_F(RecordedBoneTest, CheckpointsHoldTheHashOfTheWholeGrid) {
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  RecordedCutting session(seed, dims);
+  SCOPED_TRACE(testing::Message() << "seed " << test::seed(recorded_bone_seed));
+  RecordedCutting session(test::seed(recorded_bone_seed), dims);
   {
     Recorder recorder(create_log_file(path_), session.header(), RecordedCutting::segment(0),
                       session.follower.data());

@@ -4,6 +4,7 @@
 
 #include "support/expect_error.hpp"
 #include "support/recorded_cutting.hpp"
+#include "support/seed.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ream::record {
@@ -11,11 +12,11 @@ namespace {
 
 using test::RecordedCutting;
 
-constexpr unsigned recording_seed = 77;
+constexpr uint32_t recording_seed = 77;
 
 /// Of the bone at rest, an ordinary one.
 Pose world_from_grid() {
-  std::mt19937 random(3);
+  std::mt19937 random(test::seed(3));
   return test::random_pose(random);
 }
 
@@ -23,7 +24,7 @@ class RecordingTest : public testing::Test {
  protected:
   test::TemporaryFolder folder_;
   const std::filesystem::path path_ = folder_.path() / "recording.ream";
-  RecordedCutting session_{recording_seed, Vec3i(16, 16, 16)};
+  RecordedCutting session_{test::seed(recording_seed), Vec3i(16, 16, 16)};
 
   void record(uint32_t ticks) {
     Recorder recorder(create_log_file(path_), session_.header(), RecordedCutting::segment(0),
@@ -34,7 +35,7 @@ class RecordingTest : public testing::Test {
 };
 
 TEST_F(RecordingTest, HoldsEveryTickAsItIsKept) {
-  SCOPED_TRACE(testing::Message() << "recording_seed " << recording_seed);
+  SCOPED_TRACE(testing::Message() << "recording_seed " << test::seed(recording_seed));
   record(1777);
   const Recording recording(path_, Recording::Trust::checked);
   EXPECT_EQ(recording.log().damage(), "");
@@ -48,7 +49,7 @@ TEST_F(RecordingTest, HoldsEveryTickAsItIsKept) {
 }
 
 TEST_F(RecordingTest, AnyRangeOfTicksCanBeRead) {
-  SCOPED_TRACE(testing::Message() << "recording_seed " << recording_seed);
+  SCOPED_TRACE(testing::Message() << "recording_seed " << test::seed(recording_seed));
   record(1100);
   const Recording recording(path_);
   for (const auto& [first, last] :
@@ -61,8 +62,8 @@ TEST_F(RecordingTest, AnyRangeOfTicksCanBeRead) {
 }
 
 TEST(TickOp, WhatIsKeptIsKeptAgainUnchanged) {
-  SCOPED_TRACE(testing::Message() << "recording_seed " << recording_seed);
-  std::mt19937 random(recording_seed);
+  SCOPED_TRACE(testing::Message() << "recording_seed " << test::seed(recording_seed));
+  std::mt19937 random(test::seed(recording_seed));
   for (uint32_t tick = 0; tick < 500; ++tick) {
     const TickReport report = test::random_report(random, tick);
     const TickReport kept = as_recorded(report, world_from_grid());
@@ -72,8 +73,8 @@ TEST(TickOp, WhatIsKeptIsKeptAgainUnchanged) {
 }
 
 TEST(TickOp, ToolIsWhereItWasInTheWorld) {
-  SCOPED_TRACE(testing::Message() << "recording_seed " << recording_seed);
-  std::mt19937 random(recording_seed);
+  SCOPED_TRACE(testing::Message() << "recording_seed " << test::seed(recording_seed));
+  std::mt19937 random(test::seed(recording_seed));
   for (int i = 0; i < 200; ++i) {
     TickReport report = test::random_report(random, 1);
     const Pose grid_from_world = (report.world_from_bone_rest * world_from_grid()).inverse();
@@ -133,7 +134,7 @@ class FillingSink final : public LogSink {
 };
 
 TEST_F(RecordingTest, AFullDiskIsSaidAndWhatCameBeforeIsWhole) {
-  SCOPED_TRACE(testing::Message() << "recording_seed " << recording_seed);
+  SCOPED_TRACE(testing::Message() << "recording_seed " << test::seed(recording_seed));
   Recorder recorder(std::make_unique<FillingSink>(create_log_file(path_), 200'000), session_.header(),
                     RecordedCutting::segment(0), session_.follower.data());
   session_.run(recorder, 4000);

@@ -6,6 +6,7 @@
 
 #include "core/file.hpp"
 #include "support/expect_error.hpp"
+#include "support/seed.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/tick_reports.hpp"
 
@@ -44,7 +45,7 @@ struct Trace {
 TEST(TraceCsv, EveryRowHasAsManyCellsAsTheHeader) {
   const test::TemporaryFolder folder;
   const auto path = folder.path() / "trace.csv";
-  std::mt19937 random(31);
+  std::mt19937 random(test::seed(31));
   TraceCsv trace(path, voxel_volume_mm3);
   for (uint32_t tick = 0; tick < 50; ++tick) trace.add(test::random_report(random, tick));
   trace.add({});
@@ -59,7 +60,7 @@ TEST(TraceCsv, EveryRowHasAsManyCellsAsTheHeader) {
 TEST(TraceCsv, NumbersReadBackExactly) {
   const test::TemporaryFolder folder;
   const auto path = folder.path() / "trace.csv";
-  std::mt19937 random(32);
+  std::mt19937 random(test::seed(32));
   std::vector<TickReport> reports;
   for (uint32_t tick = 0; tick < 20; ++tick) reports.push_back(test::random_report(random, tick));
   TraceCsv trace(path, voxel_volume_mm3);

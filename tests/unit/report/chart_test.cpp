@@ -7,6 +7,7 @@
 #include <random>
 
 #include "report/canvas.hpp"
+#include "support/seed.hpp"
 
 namespace ream::report {
 namespace {
@@ -46,7 +47,7 @@ Chart ramp() {
 }
 
 TEST(RoundNumbers, AreRoundAscendAndFit) {
-  std::mt19937 random(51);
+  std::mt19937 random(test::seed(51));
   std::uniform_real_distribution<double> exponent(-4.0, 5.0), part(-1.0, 1.0);
   for (int round = 0; round < 500; ++round) {
     const double min = part(random) * std::pow(10.0, exponent(random));

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "support/random_pose.hpp"
+#include "support/seed.hpp"
 
 namespace ream::report {
 namespace {
@@ -20,7 +21,7 @@ record::TickReport tick(const Pose& world_from_plan, bool engaged, double thrust
 }
 
 TEST(TraceSummary, HoldsExtremesOfEveryPart) {
-  std::mt19937 random(31);
+  std::mt19937 random(test::seed(31));
   const Pose world_from_plan = test::random_pose(random);
   std::uniform_real_distribution<double> thrust(0.0, 90.0);
   for (const uint32_t ticks : {1u, 719u, 720u, 721u, 5000u, 100'003u}) {
@@ -50,7 +51,7 @@ TEST(TraceSummary, HoldsExtremesOfEveryPart) {
 }
 
 TEST(TraceSummary, DepthCountsFromFirstContactInTheBone) {
-  std::mt19937 random(32);
+  std::mt19937 random(test::seed(32));
   const Pose world_from_plan = test::random_pose(random);
   TraceSummary trace(4, world_from_plan.inverse());
   trace.add(tick(world_from_plan, false, 0.0, -7.0));

@@ -11,8 +11,8 @@ namespace {
 
 KeptBenchmark some_benchmark(const std::string& name) {
   KeptBenchmark made;
-  made.benchmark =
-      score::make_benchmark(name, {{"a", test::some_metrics(1.0)}, {"b", test::some_metrics(3.0)}});
+  made.benchmark = score::make_benchmark(
+      name, {{"a", nullptr, test::some_metrics(1.0)}, {"b", nullptr, test::some_metrics(3.0)}});
   return made;
 }
 

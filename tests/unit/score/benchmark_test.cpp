@@ -10,13 +10,12 @@
 namespace ream::score {
 namespace {
 
-using nlohmann::json;
 using test::expect_error;
 
-std::vector<MeasuredSession> experts(const char* metric, const std::vector<double>& values) {
-  std::vector<MeasuredSession> sessions;
+std::vector<EndedSession> experts(const char* metric, const std::vector<double>& values) {
+  std::vector<EndedSession> sessions;
   for (size_t i = 0; i < values.size(); ++i)
-    sessions.push_back({"expert-" + std::to_string(i + 1), {{metric, values[i]}}});
+    sessions.push_back({"expert-" + std::to_string(i + 1), nullptr, {{metric, values[i]}}});
   return sessions;
 }
 
@@ -88,7 +87,7 @@ TEST(Benchmark, IsReachedAtTheMeanOrBetter) {
   EXPECT_FALSE(results[1].reached);
   EXPECT_FALSE(results[2].reached);
   EXPECT_FALSE(results[2].value);
-  const json told = comparison_json(b, {{"duration_s", 30.0}, {"sparc", -2.1}, {"ldlj", nullptr}});
+  const nlohmann::json told = comparison_json(b, {{"duration_s", 30.0}, {"sparc", -2.1}, {"ldlj", nullptr}});
   EXPECT_EQ(told["reached"], 1);
   EXPECT_EQ(told["of"], 3);
 }
@@ -103,15 +102,15 @@ TEST(Benchmark, IsReachedByExpertsWhoAreAllAlike) {
 
 TEST(Benchmark, IsWrittenAsItIsRead) {
   const Benchmark b = make_benchmark("ours", experts("seating_percent", {90, 91, 92, 90, 90, 90, 20}));
-  const json written = benchmark_json(b);
+  const nlohmann::json written = benchmark_json(b);
   EXPECT_EQ(benchmark_json(benchmark_from_json(written, "b")), written);
   EXPECT_EQ(benchmark_hash(benchmark_from_json(written, "b")), benchmark_hash(b));
-  const json schema = read_json_file(test::source_folder() + "/proto/benchmark.schema.json");
-  EXPECT_EQ(test::SchemaChecker(schema).faults(schema, written), std::vector<std::string>{});
-  json bad = written;
+  const nlohmann::json schema = read_json_file(test::source_folder() + "/proto/benchmark.schema.json");
+  EXPECT_EQ(test::schema_faults(schema, written), std::vector<std::string>{});
+  nlohmann::json bad = written;
   bad["metrics"][0]["better"] = "between";
   expect_error(ErrorKind::invalid_input, "better", [&] { benchmark_from_json(bad, "b"); });
-  bad["metrics"] = json::array();
+  bad["metrics"] = nlohmann::json::array();
   expect_error(ErrorKind::invalid_input, "metrics", [&] { benchmark_from_json(bad, "b"); });
 }
 

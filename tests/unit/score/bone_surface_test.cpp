@@ -6,6 +6,7 @@
 #include <random>
 
 #include "support/random_pose.hpp"
+#include "support/seed.hpp"
 #include "support/test_bone.hpp"
 
 namespace ream::score {
@@ -52,7 +53,7 @@ Errors errors_along_lines(const voxel::BoneModel& bone, const Vec3& outward, dou
 }
 
 TEST(SurfaceFinder, PutsPlanesWhereTheyAre) {
-  std::mt19937 random(71);
+  std::mt19937 random(test::seed(71));
   std::uniform_real_distribution<double> number(-1.0, 1.0);
   for (int round = 0; round < 60; ++round) {
     const Vec3 outward = Vec3(0.5 * number(random), 0.5 * number(random), 1.0).normalized();
@@ -66,7 +67,7 @@ TEST(SurfaceFinder, PutsPlanesWhereTheyAre) {
 }
 
 TEST(SurfaceFinder, IsExactAcrossAVoxelAxis) {
-  std::mt19937 random(72);
+  std::mt19937 random(test::seed(72));
   for (const double offset_mm : {0.0, 0.013, 0.05, 0.081, 0.1, 0.137, 0.19}) {
     const voxel::BoneModel bone = half_space(Vec3::UnitZ(), offset_mm, 0.2, 1.0);
     const Errors e = errors_along_lines(bone, Vec3::UnitZ(), offset_mm, -Vec3::UnitZ(), random);
@@ -76,7 +77,7 @@ TEST(SurfaceFinder, IsExactAcrossAVoxelAxis) {
 }
 
 TEST(SurfaceFinder, AScansBlurIsNoMatter) {
-  std::mt19937 random(73);
+  std::mt19937 random(test::seed(73));
   const Vec3 outward = Vec3(0.2, -0.3, 1.0).normalized();
   const voxel::BoneModel bone = half_space(outward, 0.07, 0.2, 5.0);
   const Errors e = errors_along_lines(bone, outward, 0.07, -outward, random);
@@ -95,7 +96,7 @@ TEST(SurfaceFinder, TellsWhereBoneIsNot) {
 }
 
 TEST(SurfaceFinder, WorksInAnyGridFrame) {
-  std::mt19937 random(74);
+  std::mt19937 random(test::seed(74));
   voxel::BoneModel bone = half_space(Vec3::UnitZ(), 0.05, 0.2, 1.0);
   const Vec3 middle = bone.grid.bounds_mm().centre();
   const Pose world_from_grid = test::random_pose(random, 40.0);

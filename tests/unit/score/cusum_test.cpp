@@ -6,6 +6,7 @@
 #include <random>
 
 #include "support/expect_error.hpp"
+#include "support/seed.hpp"
 
 namespace ream::score {
 namespace {
@@ -38,7 +39,7 @@ TEST(Cusum, MatchesThePublishedNumbers) {
 /// Wald's test as it is defined: the likelihood ratio of p1 against p0, compared with (1-beta)/alpha and
 /// beta/(1-alpha).
 TEST(Cusum, DecidesAsTheLikelihoodRatioDoes) {
-  std::mt19937 random(91);
+  std::mt19937 random(test::seed(91));
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   for (int round = 0; round < 200; ++round) {
     CusumParameters p;
@@ -68,7 +69,7 @@ TEST(Cusum, DecidesAsTheLikelihoodRatioDoes) {
 TEST(Cusum, KeepsItsErrorRates) {
   const CusumParameters p;
   const auto told_first = [&](double failing, Standing wanted) {
-    std::mt19937 random(92);
+    std::mt19937 random(test::seed(92));
     std::uniform_real_distribution<double> uniform(0.0, 1.0);
     int told = 0;
     constexpr int trainees = 4000;

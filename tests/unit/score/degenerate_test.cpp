@@ -18,7 +18,7 @@ namespace {
 
 using test::AnalyticGlenoid;
 
-constexpr double voxel_mm = 0.5;
+constexpr double block_voxel_mm = 0.5;
 
 Task degenerate_task_on(const AnalyticGlenoid& glenoid) {
   Task task;
@@ -84,7 +84,7 @@ MetricsAccumulator straight_cut(const Task& task, double depth_mm, const Vec3& t
 
 TEST(DegenerateSession, ThatNeverTouchedBoneSaysSo) {
   const AnalyticGlenoid glenoid;
-  const voxel::BoneModel bone = test::bone_of(glenoid, voxel_mm);
+  const voxel::BoneModel bone = test::bone_of(glenoid, block_voxel_mm);
   const Task task = degenerate_task_on(glenoid);
   const nlohmann::json metrics = scored(task, bone, bone.coverage, no_ticks(task));
   expect_sound(metrics, "untouched");
@@ -96,7 +96,7 @@ TEST(DegenerateSession, ThatNeverTouchedBoneSaysSo) {
 
 TEST(DegenerateSession, ThatLeftNoBoneSaysSo) {
   const AnalyticGlenoid glenoid;
-  const voxel::BoneModel bone = test::bone_of(glenoid, voxel_mm);
+  const voxel::BoneModel bone = test::bone_of(glenoid, block_voxel_mm);
   const Task task = degenerate_task_on(glenoid);
   const nlohmann::json metrics =
       scored(task, bone, std::vector<uint8_t>(bone.coverage.size(), 0), straight_cut(task, 20.0));
@@ -109,7 +109,7 @@ TEST(DegenerateSession, ThatLeftNoBoneSaysSo) {
 
 TEST(DegenerateSession, AbortedInItsFirstTicksSaysWhatItCan) {
   const AnalyticGlenoid glenoid;
-  const voxel::BoneModel bone = test::bone_of(glenoid, voxel_mm);
+  const voxel::BoneModel bone = test::bone_of(glenoid, block_voxel_mm);
   const Task task = degenerate_task_on(glenoid);
   MetricsAccumulator ticks = no_ticks(task);
   record::TickReport r;
@@ -123,7 +123,7 @@ TEST(DegenerateSession, AbortedInItsFirstTicksSaysWhatItCan) {
 
 TEST(DegenerateSession, WithoutLandmarksOrPlanSaysWhatItCan) {
   const AnalyticGlenoid glenoid;
-  const voxel::BoneModel bone = test::bone_of(glenoid, voxel_mm);
+  const voxel::BoneModel bone = test::bone_of(glenoid, block_voxel_mm);
   Task task = degenerate_task_on(glenoid);
   task.anatomy.landmarks.reset();
   nlohmann::json metrics = scored(task, bone, bone.coverage, straight_cut(task, 1.0));
@@ -144,7 +144,7 @@ TEST(DegenerateSession, WithoutLandmarksOrPlanSaysWhatItCan) {
 
 TEST(DegenerateSession, OfAPlanBesideTheBoneSaysSo) {
   const AnalyticGlenoid glenoid;
-  const voxel::BoneModel bone = test::bone_of(glenoid, voxel_mm);
+  const voxel::BoneModel bone = test::bone_of(glenoid, block_voxel_mm);
   Task task = degenerate_task_on(glenoid);
   task.plan->entry_mm += 60.0 * Vec3::UnitZ();
   const nlohmann::json metrics = scored(task, bone, bone.coverage, straight_cut(task, 1.0));
@@ -196,7 +196,7 @@ TEST(MirroredCase, HasIdenticalScores) {
     const auto score_of = [&](case_::Side side) {
       AnalyticGlenoid glenoid = right;
       glenoid.shoulder.side = side;
-      voxel::BoneModel bone = test::bone_of(glenoid, voxel_mm);
+      voxel::BoneModel bone = test::bone_of(glenoid, block_voxel_mm);
       Task task = degenerate_task_on(glenoid);
       // The tool's deepest pose, in the right shoulder's plan frame; a left one's is its mirror image.
       Task right_task = degenerate_task_on(right);
@@ -209,8 +209,8 @@ TEST(MirroredCase, HasIdenticalScores) {
         const Vec3 offset = p - (apex - 30.0 * axis);
         const double beyond =
             std::max(offset.norm() - 30.0, (offset - offset.dot(axis) * axis).norm() - 11.0);
-        left[i] = std::min(left[i],
-                           static_cast<uint8_t>(std::clamp(127.5 + 255.0 * beyond / voxel_mm, 0.0, 255.0)));
+        left[i] = std::min(
+            left[i], static_cast<uint8_t>(std::clamp(127.5 + 255.0 * beyond / block_voxel_mm, 0.0, 255.0)));
       }
       CutLine line;
       const Pose plan_from_world = world_from_plan(task).inverse();

@@ -12,15 +12,13 @@
 namespace ream::score {
 namespace {
 
-using nlohmann::json;
-
 TEST(DeviationFile, HoldsEachFieldWhereItSays) {
   const test::TemporaryFolder folder;
   const DeviationFields fields{{0, 5, -128, 127}, {-1, -2, -3, -4}};
   write_deviation(folder.path() / "deviation.json", "reamed.ply", 4, fields);
-  const json told = read_json_file(folder.path() / "deviation.json");
-  const json schema = read_json_file(test::source_folder() + "/proto/deviation.schema.json");
-  EXPECT_EQ(test::SchemaChecker(schema).faults(schema, told), std::vector<std::string>{});
+  const nlohmann::json told = read_json_file(folder.path() / "deviation.json");
+  const nlohmann::json schema = read_json_file(test::source_folder() + "/proto/deviation.schema.json");
+  EXPECT_EQ(test::schema_faults(schema, told), std::vector<std::string>{});
   EXPECT_EQ(told["mesh"], "reamed.ply");
   EXPECT_EQ(told["step_mm"], 0.03125);
   const auto bytes = read_binary_file(folder.path() / told["file"].get<std::string>());
@@ -33,7 +31,7 @@ TEST(DeviationFile, HoldsEachFieldWhereItSays) {
 TEST(DeviationFile, LeavesOutWhatThereIsNothingToCompareWith) {
   const test::TemporaryFolder folder;
   write_deviation(folder.path() / "deviation.json", "reamed.ply", 2, {{1, 2}, {}});
-  const json told = read_json_file(folder.path() / "deviation.json");
+  const nlohmann::json told = read_json_file(folder.path() / "deviation.json");
   ASSERT_EQ(told["fields"].size(), 1u);
   EXPECT_EQ(told["fields"][0]["name"], "plan");
   EXPECT_EQ(read_binary_file(folder.path() / "deviation.bin").size(), 2u);

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "score/metrics.hpp"
+#include "support/seed.hpp"
 #include "support/tick_reports.hpp"
 
 namespace ream::score {
@@ -84,7 +85,7 @@ TEST(Handling, PassesArePartedByHalfASecond) {
 }
 
 TEST(Handling, PathIsInTheBoneThatMoves) {
-  std::mt19937 random(8);
+  std::mt19937 random(test::seed(8));
   MetricsAccumulator metrics(0.008, Pose{});
   for (int i = 0; i <= 100; ++i) {
     TickReport r = pressing(0.01 * i, 20.0, 0, 1);

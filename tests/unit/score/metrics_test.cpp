@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "support/seed.hpp"
 #include "support/tick_reports.hpp"
 
 namespace ream::score {
@@ -51,7 +52,7 @@ TEST(Metrics, VolumesAddUpByClass) {
 }
 
 TEST(Metrics, DepthCountsFromFirstContactAlongThePlansAxis) {
-  std::mt19937 random(41);
+  std::mt19937 random(test::seed(41));
   const Pose world_from_plan = test::random_pose(random);
   MetricsAccumulator accumulator(0.008, world_from_plan.inverse());
   accumulator.add(in_the_air(world_from_plan, 9.0));
@@ -67,7 +68,7 @@ TEST(Metrics, DepthCountsFromFirstContactAlongThePlansAxis) {
 }
 
 TEST(Metrics, DepthIsInTheBoneThatMoves) {
-  std::mt19937 random(42);
+  std::mt19937 random(test::seed(42));
   const Pose world_from_plan = test::random_pose(random);
   MetricsAccumulator accumulator(0.008, world_from_plan.inverse());
   for (const double axial_mm : {0.2, 0.9, 1.4}) {
@@ -131,7 +132,7 @@ TEST(Metrics, ApparentStiffnessNeedsASpinningToolThatAdvances) {
 }
 
 TEST(Metrics, HashIsTheLastTicks) {
-  std::mt19937 random(42);
+  std::mt19937 random(test::seed(42));
   MetricsAccumulator accumulator(0.008, Pose{});
   TickReport last;
   for (uint32_t tick = 0; tick < 5; ++tick) accumulator.add(last = test::random_report(random, tick));
@@ -140,7 +141,7 @@ TEST(Metrics, HashIsTheLastTicks) {
 
 TEST(Metrics, EqualRunsGiveEqualBytes) {
   const auto text = [] {
-    std::mt19937 random(43);
+    std::mt19937 random(test::seed(43));
     MetricsAccumulator accumulator(0.008, Pose{});
     for (uint32_t tick = 0; tick < 500; ++tick) accumulator.add(test::random_report(random, tick));
     return session_metrics_json(accumulator, {}, 26.0, nullptr).dump();

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "support/random_pose.hpp"
+#include "support/seed.hpp"
 
 namespace ream::score {
 namespace {
@@ -19,7 +20,7 @@ RayLattice lattice(Side side = Side::right) {
 }
 
 TEST(RayLattice, GoesIntoTheWorldAndBack) {
-  std::mt19937 random(5);
+  std::mt19937 random(test::seed(5));
   const RayLattice rays = lattice();
   for (int i = 0; i < 20; ++i) {
     const Vec3 p = test::random_vector(random, 10.0);
@@ -30,7 +31,7 @@ TEST(RayLattice, GoesIntoTheWorldAndBack) {
 }
 
 TEST(RayLattice, OfAMirroredCaseIsItsMirrorImageToTheBit) {
-  std::mt19937 random(6);
+  std::mt19937 random(test::seed(6));
   for (int round = 0; round < 10; ++round) {
     const Vec3 origin = test::random_vector(random, 100.0),
                along = test::random_vector(random, 1.0).normalized();

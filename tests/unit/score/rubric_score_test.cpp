@@ -7,15 +7,13 @@
 namespace ream::score {
 namespace {
 
-using nlohmann::json;
-
-Rubric rubric(const json& criteria, std::optional<double> pass_points = std::nullopt) {
-  json value = {{"name", "first year"}, {"version", 3}, {"criteria", criteria}};
+Rubric rubric(const nlohmann::json& criteria, std::optional<double> pass_points = std::nullopt) {
+  nlohmann::json value = {{"name", "first year"}, {"version", 3}, {"criteria", criteria}};
   if (pass_points) value["pass_points"] = *pass_points;
   return rubric_from_json(value, "rubric");
 }
 
-json limited(const char* metric, bool critical = false, double weight = 1.0) {
+nlohmann::json limited(const char* metric, bool critical = false, double weight = 1.0) {
   return {{"metric", metric},
           {"critical", critical},
           {"weight", weight},
@@ -23,10 +21,10 @@ json limited(const char* metric, bool critical = false, double weight = 1.0) {
 }
 
 TEST(RubricScore, IsTheWeightedMeanOfWhatIsSaid) {
-  const json metrics = {{"thrust_n", 60.0},
-                        {"depth_mm", 1.5},
-                        {"missing_n", nullptr},
-                        {"missing", {{"missing_n", "nobody knows"}}}};
+  const nlohmann::json metrics = {{"thrust_n", 60.0},
+                                  {"depth_mm", 1.5},
+                                  {"missing_n", nullptr},
+                                  {"missing", {{"missing_n", "nobody knows"}}}};
   const Rubric r = rubric({{{"metric", "thrust_n"}, {"none", 100}, {"full", 20}, {"weight", 3}},
                            {{"metric", "depth_mm"}, {"none", 0}, {"full", 2}},
                            {{"metric", "missing_n"}, {"none", 0}, {"full", 1}, {"weight", 4}}});
@@ -36,7 +34,7 @@ TEST(RubricScore, IsTheWeightedMeanOfWhatIsSaid) {
   EXPECT_FALSE(score.criteria[2].points) << "no points for what the session does not say";
   EXPECT_EQ(score.criteria[2].missing_reason, "nobody knows");
   EXPECT_FALSE(score.outcome) << "the rubric has neither mark nor critical criteria";
-  const json told = score_json(r, score);
+  const nlohmann::json told = score_json(r, score);
   EXPECT_EQ(told["rubric"], "first year");
   EXPECT_EQ(told["version"], 3);
   EXPECT_EQ(told["hash"].get<std::string>().size(), 16u);
@@ -45,34 +43,39 @@ TEST(RubricScore, IsTheWeightedMeanOfWhatIsSaid) {
 }
 
 TEST(RubricScore, BandsGivePointsAndVerdicts) {
-  const auto at = [](const json& criterion, double value) {
-    const Rubric r = rubric(json::array({criterion}));
+  const auto at = [](const nlohmann::json& criterion, double value) {
+    const Rubric r = rubric(nlohmann::json::array({criterion}));
     return std::pair(points_of(r.criteria[0], value), verdict(r.criteria[0].judged_by(), value));
   };
-  const json less = limited("x");
+  const nlohmann::json less = limited("x");
   EXPECT_EQ(at(less, 2.0), std::pair(100.0, std::optional(Verdict::pass)));
   EXPECT_EQ(at(less, 3.0), std::pair(50.0, std::optional(Verdict::warn)));
   EXPECT_EQ(at(less, 4.0), std::pair(0.0, std::optional(Verdict::warn)));
   EXPECT_EQ(at(less, 4.1), std::pair(0.0, std::optional(Verdict::fail)));
-  const json more = {{"metric", "x"}, {"band", {{"better", "more"}, {"pass", 90.0}, {"warn", 80.0}}}};
+  const nlohmann::json more = {{"metric", "x"},
+                               {"band", {{"better", "more"}, {"pass", 90.0}, {"warn", 80.0}}}};
   EXPECT_EQ(at(more, 95.0), std::pair(100.0, std::optional(Verdict::pass)));
   EXPECT_EQ(at(more, 87.5), std::pair(75.0, std::optional(Verdict::warn)));
   EXPECT_EQ(at(more, 79.0), std::pair(0.0, std::optional(Verdict::fail)));
-  const json between = {{"metric", "x"}, {"band", {{"better", "between"}, {"low", 35.0}, {"pass", 70.0}}}};
+  const nlohmann::json between = {{"metric", "x"},
+                                  {"band", {{"better", "between"}, {"low", 35.0}, {"pass", 70.0}}}};
   EXPECT_EQ(at(between, 35.0), std::pair(100.0, std::optional(Verdict::pass)));
   EXPECT_EQ(at(between, 71.0), std::pair(50.0, std::optional(Verdict::warn)));
-  const json sharp = {{"metric", "x"}, {"band", {{"better", "less"}, {"pass", 104.0}, {"warn", 104.0}}}};
+  const nlohmann::json sharp = {{"metric", "x"},
+                                {"band", {{"better", "less"}, {"pass", 104.0}, {"warn", 104.0}}}};
   EXPECT_EQ(at(sharp, 104.0), std::pair(100.0, std::optional(Verdict::pass)));
   EXPECT_EQ(at(sharp, 104.5), std::pair(0.0, std::optional(Verdict::fail)));
 }
 
 TEST(RubricScore, ABandOfTheRubricStandsBeforeTheCatalogues) {
-  const json metrics = {{"version_error_deg", 4.0}};
-  const Score by_catalogue = apply_rubric(rubric(json::array({{{"metric", "version_error_deg"}}})), metrics);
+  const nlohmann::json metrics = {{"version_error_deg", 4.0}};
+  const Score by_catalogue =
+      apply_rubric(rubric(nlohmann::json::array({{{"metric", "version_error_deg"}}})), metrics);
   EXPECT_EQ(by_catalogue.criteria[0].verdict, Verdict::pass);
-  const json strict = {{"metric", "version_error_deg"},
-                       {"band", {{"better", "less"}, {"pass", 1}, {"warn", 3}}}};
-  EXPECT_EQ(apply_rubric(rubric(json::array({strict})), metrics).criteria[0].verdict, Verdict::fail);
+  const nlohmann::json strict = {{"metric", "version_error_deg"},
+                                 {"band", {{"better", "less"}, {"pass", 1}, {"warn", 3}}}};
+  EXPECT_EQ(apply_rubric(rubric(nlohmann::json::array({strict})), metrics).criteria[0].verdict,
+            Verdict::fail);
 }
 
 TEST(RubricScore, ACriticalCriterionDecidesWhateverThePoints) {
@@ -86,8 +89,9 @@ TEST(RubricScore, ACriticalCriterionDecidesWhateverThePoints) {
   EXPECT_EQ(apply_rubric(r, {{"breach_mm", nullptr}, {"error_mm", 0.0}}).outcome, Outcome::undecided);
   EXPECT_EQ(apply_rubric(r, {{"breach_mm", nullptr}, {"error_mm", 9.0}}).outcome, Outcome::fail)
       << "too few points, whatever the breach is";
-  EXPECT_EQ(apply_rubric(rubric(json::array({limited("breach_mm", true)})), {{"breach_mm", 0.0}}).outcome,
-            Outcome::pass)
+  EXPECT_EQ(
+      apply_rubric(rubric(nlohmann::json::array({limited("breach_mm", true)})), {{"breach_mm", 0.0}}).outcome,
+      Outcome::pass)
       << "without a mark the critical criteria alone decide";
 }
 
@@ -113,7 +117,7 @@ TEST(RubricScore, TooLittleSaidIsNotDecided) {
 }
 
 TEST(RubricScore, OldMetricsDoNotSayWhatIsMeasuredSince) {
-  const json since = json::array({{{"metric", "version_error_deg"}}});
+  const nlohmann::json since = nlohmann::json::array({{{"metric", "version_error_deg"}}});
   const Score score = apply_rubric(rubric(since), {{"duration_s", 3.0}});
   EXPECT_FALSE(score.criteria[0].value);
   EXPECT_NE(score.criteria[0].missing_reason.find("score the session anew"), std::string::npos);

@@ -15,19 +15,19 @@
 namespace ream::score {
 namespace {
 
-using nlohmann::json;
 using test::expect_error;
 
-const json metrics = {{"thrust_n", 60.0}, {"depth_mm", 1.5}, {"missing_n", nullptr}, {"hash", "ab"}};
+const nlohmann::json metrics = {
+    {"thrust_n", 60.0}, {"depth_mm", 1.5}, {"missing_n", nullptr}, {"hash", "ab"}};
 
 class RubricTest : public testing::Test {
  protected:
-  std::filesystem::path file(const json& rubric) {
+  std::filesystem::path file(const nlohmann::json& rubric) {
     const auto path = folder_.path() / "rubric.json";
     write_file_atomically(path, rubric.dump());
     return path;
   }
-  Rubric rubric(const json& criteria) {
+  Rubric rubric(const nlohmann::json& criteria) {
     return load_rubric(file({{"name", "first year"}, {"version", 3}, {"criteria", criteria}}));
   }
   test::TemporaryFolder folder_;
@@ -56,28 +56,28 @@ TEST_F(RubricTest, FilesOfTheFirstFormAreStillRead) {
 }
 
 TEST_F(RubricTest, IsWrittenAsItIsRead) {
-  const json whole = {{"name", "all"},
-                      {"version", 7},
-                      {"remark", "by hand"},
-                      {"pass_points", 60.0},
-                      {"least_said_percent", 40.0},
-                      {"criteria",
-                       {{{"metric", "thrust_n"}, {"none", 9.0}, {"full", 1.0}, {"weight", 2.0}},
-                        {{"metric", "depth_mm"},
-                         {"weight", 1.0},
-                         {"critical", true},
-                         {"band", {{"better", "less"}, {"pass", 2.0}, {"warn", 3.0}}}},
-                        {{"metric", "missing_n"},
-                         {"weight", 1.0},
-                         {"band", {{"better", "between"}, {"low", 1.0}, {"pass", 3.0}}}},
-                        {{"metric", "version_error_deg"}, {"weight", 1.0}}}}};
+  const nlohmann::json whole = {{"name", "all"},
+                                {"version", 7},
+                                {"remark", "by hand"},
+                                {"pass_points", 60.0},
+                                {"least_said_percent", 40.0},
+                                {"criteria",
+                                 {{{"metric", "thrust_n"}, {"none", 9.0}, {"full", 1.0}, {"weight", 2.0}},
+                                  {{"metric", "depth_mm"},
+                                   {"weight", 1.0},
+                                   {"critical", true},
+                                   {"band", {{"better", "less"}, {"pass", 2.0}, {"warn", 3.0}}}},
+                                  {{"metric", "missing_n"},
+                                   {"weight", 1.0},
+                                   {"band", {{"better", "between"}, {"low", 1.0}, {"pass", 3.0}}}},
+                                  {{"metric", "version_error_deg"}, {"weight", 1.0}}}}};
   EXPECT_EQ(rubric_json(load_rubric(file(whole))), whole);
-  const json schema = read_json_file(test::source_folder() + "/proto/rubric.schema.json");
-  EXPECT_EQ(test::SchemaChecker(schema).faults(schema, whole), std::vector<std::string>{});
+  const nlohmann::json schema = read_json_file(test::source_folder() + "/proto/rubric.schema.json");
+  EXPECT_EQ(test::schema_faults(schema, whole), std::vector<std::string>{});
 }
 
 TEST_F(RubricTest, HashTellsRubricsApart) {
-  const json one = {{{"metric", "thrust_n"}, {"none", 100}, {"full", 20}}};
+  const nlohmann::json one = {{{"metric", "thrust_n"}, {"none", 100}, {"full", 20}}};
   const Rubric a = rubric(one);
   Rubric b = a;
   EXPECT_EQ(rubric_hash(a), rubric_hash(b));
@@ -90,25 +90,25 @@ TEST_F(RubricTest, HashTellsRubricsApart) {
 
 TEST(StandardRubric, JudgesByMetricsOfTheCatalogue) {
   const Rubric& standard = standard_rubric();
-  const json schema = read_json_file(test::source_folder() + "/proto/rubric.schema.json");
-  EXPECT_EQ(test::SchemaChecker(schema).faults(schema, rubric_json(standard)), std::vector<std::string>{});
+  const nlohmann::json schema = read_json_file(test::source_folder() + "/proto/rubric.schema.json");
+  EXPECT_EQ(test::schema_faults(schema, rubric_json(standard)), std::vector<std::string>{});
   for (const Criterion& c : standard.criteria) EXPECT_NE(find_metric(c.metric), nullptr) << c.metric;
   EXPECT_TRUE(std::any_of(standard.criteria.begin(), standard.criteria.end(),
                           [](const Criterion& c) { return c.metric == "vault_breach_mm" && c.critical; }));
 }
 
 TEST_F(RubricTest, UnusableRubricsAreRefusedByName) {
-  const json one = {{"metric", "thrust_n"}, {"none", 0}, {"full", 1}};
-  const auto refused = [&](const json& rubric_json, const std::string& word) {
+  const nlohmann::json one = {{"metric", "thrust_n"}, {"none", 0}, {"full", 1}};
+  const auto refused = [&](const nlohmann::json& rubric_json, const std::string& word) {
     expect_error(ErrorKind::invalid_input, word, [&] { load_rubric(file(rubric_json)); });
   };
   refused({{"version", 1}, {"criteria", {one}}}, "name");
   refused({{"name", "a"}, {"version", 0}, {"criteria", {one}}}, "version");
-  refused({{"name", "a"}, {"version", 1}, {"criteria", json::array()}}, "criteria");
+  refused({{"name", "a"}, {"version", 1}, {"criteria", nlohmann::json::array()}}, "criteria");
   refused({{"name", "a"}, {"version", 1}, {"criteria", {{{"metric", "x"}, {"none", 1}, {"full", 1}}}}},
           "full");
   refused({{"name", "a"}, {"version", 1}, {"criteria", {one}}, {"extra", 1}}, "extra");
-  const auto criterion_refused = [&](const json& criterion, const std::string& word) {
+  const auto criterion_refused = [&](const nlohmann::json& criterion, const std::string& word) {
     refused({{"name", "a"}, {"version", 1}, {"criteria", {criterion}}}, word);
   };
   criterion_refused({{"metric", "thrust_n"}}, "thrust_n");

@@ -8,6 +8,7 @@
 #include "score/vault_clearance.hpp"
 #include "support/expect_error.hpp"
 #include "support/random_pose.hpp"
+#include "support/seed.hpp"
 
 namespace ream::score {
 namespace {
@@ -49,7 +50,7 @@ std::vector<Vec3> cap(const Vec3& centre, double radius, double noise, std::mt19
 }
 
 TEST(SphereFit, FindsASphereByItsCap) {
-  std::mt19937 random(15);
+  std::mt19937 random(test::seed(15));
   const Vec3 centre(100.0, -50.0, 30.0);
   const auto exact = fit_sphere(cap(centre, 35.0, 0.0, random));
   EXPECT_NEAR((exact->centre_mm - centre).norm(), 0.0, 1e-6);
@@ -74,7 +75,7 @@ TEST(SphereFit, OfWhatIsNoSphereIsNotSaid) {
 }
 
 TEST(PlaneFit, FindsAPlane) {
-  std::mt19937 random(16);
+  std::mt19937 random(test::seed(16));
   std::uniform_real_distribution<double> number(-10.0, 10.0);
   const Pose pose = test::random_pose(random, 20.0);
   std::vector<Vec3> points;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/units.hpp"
+#include "support/seed.hpp"
 
 namespace ream::score {
 namespace {
@@ -77,7 +78,7 @@ TEST(Smoothness, IsThatOfTheAuthorsProgram) {
 }
 
 TEST(Smoothness, IsThatOfAPlainTransformOnAnySpeed) {
-  std::mt19937 random(907);
+  std::mt19937 random(test::seed(907));
   std::uniform_real_distribution<double> number(-1.0, 1.0);
   for (const size_t count : {20u, 33u, 64u, 65u, 150u}) {
     std::vector<double> speed(count);

@@ -18,7 +18,7 @@ using stream::Surface;
 using test::RecordedCutting;
 
 constexpr uint32_t reamer_changed_at = 1500, ticks_in_all = 3130;
-constexpr unsigned seed = 4711;
+constexpr uint32_t replay_picture_seed = 4711;
 constexpr auto patience = std::chrono::minutes(1);
 
 using Surfaces = std::map<uint32_t, Surface>;
@@ -136,7 +136,7 @@ class ReplayPictureTest : public testing::Test {
 
   test::TemporaryFolder folder_;
   const std::filesystem::path path_ = folder_.path() / "recording.ream";
-  RecordedCutting session_{seed, Vec3i(40, 24, 24)};
+  RecordedCutting session_{test::seed(replay_picture_seed), Vec3i(40, 24, 24)};
   case_::Case before_;
   stream::Fanout fanout_;
   std::optional<record::Recording> recording_;

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "core/file.hpp"
-#include "session/scoring/kept_score.hpp"
+#include "session/scoring/score_document.hpp"
 #include "support/json_schema.hpp"
 #include "support/places.hpp"
 
@@ -59,12 +59,12 @@ TEST(ScoreTable, ItsCodebookExplainsEveryColumn) {
 
 TEST(ScoreDocument, FitsItsSchemaAndHoldsTheRubric) {
   const json schema = read_json_file(test::source_folder() + "/proto/score.schema.json");
-  score::Benchmark benchmark{"ours", {}, {{"duration_s", score::Better::less, 20.0, 1.0, 3, {}}}};
-  for (const score::Benchmark* compared :
-       {static_cast<const score::Benchmark*>(nullptr), static_cast<const score::Benchmark*>(&benchmark)}) {
+  const auto benchmark = std::make_shared<const score::Benchmark>(
+      score::Benchmark{"ours", {}, {{"duration_s", score::Better::less, 20.0, 1.0, 3, {}}}});
+  for (const auto& compared : {std::shared_ptr<const score::Benchmark>(), benchmark}) {
     const json document =
-        score_document({{"theatre", true}}, some_metrics(), score::standard_rubric(), compared);
-    EXPECT_EQ(test::SchemaChecker(schema).faults(schema, document), std::vector<std::string>{});
+        score_document("ream", {{"theatre", true}}, some_metrics(), {score::standard_rubric(), "", compared});
+    EXPECT_EQ(test::schema_faults(schema, document), std::vector<std::string>{});
     EXPECT_EQ(document["theatre"], true);
     EXPECT_EQ(document["rubric"], score::rubric_json(score::standard_rubric()));
     EXPECT_EQ(document["benchmark"].is_null(), compared == nullptr);

@@ -43,7 +43,7 @@ Scored run(const RandomReaming& reaming, const TemporaryFolder& folder) {
   session::Simulation simulation(session::build_setup(request, data));
   std::filesystem::create_directories(out);
   const std::vector<uint8_t> start = simulation.bone_case.bone.coverage;
-  const session::HeadlessResult result = session::run_headless(simulation, start, out, false);
+  const session::SessionFiles::Results result = session::run_headless(simulation, start, out, false);
   return {result.metrics, reaming_truth(reaming, out / "trace.csv")};
 }
 

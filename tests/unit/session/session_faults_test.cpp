@@ -7,7 +7,7 @@
 #include "core/data_folder.hpp"
 #include "record/recording.hpp"
 #include "session/folder/black_box_files.hpp"
-#include "session/live/reaming_session.hpp"
+#include "session/live/live_session.hpp"
 #include "session/service/session_service.hpp"
 #include "support/device_wire.hpp"
 #include "support/recorded_reaming.hpp"
@@ -49,14 +49,13 @@ class Client {
 class SessionFaults : public testing::Test {
  protected:
   SessionFaults() { fs::create_directories(sessions_folder(reaming.data())); }
-  std::unique_ptr<ReamingSession> network_session() {
+  std::unique_ptr<LiveSession> network_session() {
     SessionRequest request;
     request.id = "faulty";
     request.case_id = "slab";
     request.script = "practice";
     request.device = "network";
-    return std::make_unique<ReamingSession>(SessionContext{reaming.data(), 1, "cpu", sim::Realtime::off},
-                                            request);
+    return LiveSession::create(SessionContext{reaming.data(), 1, "cpu", sim::Realtime::off}, request);
   }
   fs::path folder() const { return sessions_folder(reaming.data()) / "faulty"; }
   static void until(const std::function<bool()>& reached) {

@@ -17,23 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// No database: every list looks at the folders.
-struct WithoutDatabase {
-  const std::string url;
-};
-
-std::string list_name(const std::type_info& store) {
-  return store == typeid(WithoutDatabase)  ? "Folders"
-         : store == typeid(test::OnSqlite) ? "Sqlite"
-                                           : "Postgresql";
-}
-struct Names {
-  template <typename Store>
-  static std::string GetName(int) {
-    return list_name(typeid(Store));
-  }
-};
-
 /// A folder of sessions.
 class Sessions {
  public:
@@ -71,10 +54,7 @@ Ids ids_of(const SessionPage& page) {
 template <typename Store>
 class SessionRegisterTest : public testing::Test {
  protected:
-  std::shared_ptr<store::Database> open() const {
-    return store_.url.empty() ? nullptr : std::make_shared<store::Database>(store_.url);
-  }
-  void begin() { register_ = std::make_unique<SessionRegister>(sessions.archive, open()); }
+  void begin() { register_ = std::make_unique<SessionRegister>(sessions.archive, database); }
   SessionPage page(const store::SessionQuery& query = {}, std::vector<SessionRecord> held = {}) {
     if (!register_) begin();
     return register_->list(query, std::move(held));
@@ -85,13 +65,11 @@ class SessionRegisterTest : public testing::Test {
   void end() { register_.reset(); }
 
   const Sessions sessions{};
+  const Store store{};
+  store::Database database{store.url};
   std::unique_ptr<SessionRegister> register_;
-
- private:
-  const Store store_{};
 };
-using Ways = testing::Types<WithoutDatabase, test::OnSqlite, test::OnPostgresql>;
-TYPED_TEST_SUITE(SessionRegisterTest, Ways, Names);
+TYPED_TEST_SUITE(SessionRegisterTest, test::BothStores, test::StoreNames);
 
 TYPED_TEST(SessionRegisterTest, TellsWhatTheFoldersSay) {
   this->sessions.put("older", "2025-03-01T12:00:00Z", "fault",
@@ -282,8 +260,7 @@ TYPED_TEST(SessionIndexUpkeepTest, ADamagedIndexLosesNoSession) {
   for (const char* id : {"aaaa", "bbbb", "cccc"}) this->sessions.put(id, "2025-03-01T12:00:00Z", "finished");
   EXPECT_EQ(this->listed().size(), 3u);
   this->end();
-  const auto database = this->open();
-  store::SessionIndex index(*database);
+  store::SessionIndex index(this->database);
   index.remove({"aaaa"});
   auto row = index.get("bbbb").value();
   row.record = "{";
@@ -301,12 +278,11 @@ TYPED_TEST(SessionIndexUpkeepTest, IsMadeAnewWhenAsked) {
   for (const char* id : {"aaaa", "bbbb"}) this->sessions.put(id, "2025-03-01T12:00:00Z", "finished");
   EXPECT_EQ(this->listed().size(), 2u);
   this->end();
-  const auto database = this->open();
-  store::SessionIndex index(*database);
+  store::SessionIndex index(this->database);
   auto row = index.get("bbbb").value();
   row.state = "fault";  // which the stamp does not tell
   index.put({row});
-  EXPECT_EQ(rebuild_index(this->sessions.archive, *database), 2u);
+  EXPECT_EQ(rebuild_index(this->sessions.archive, this->database), 2u);
   EXPECT_EQ(index.get("bbbb")->state, "finished");
 }
 
@@ -323,18 +299,17 @@ TEST(SessionIndexOutage, ListsAreRefusedAndThenHoldEverything) {
   test::PostgresServer server;
   const Sessions sessions{};
   sessions.put("aaaa", "2025-03-01T12:00:00Z", "finished");
-  const auto database = std::make_shared<store::Database>(server.make_database());
+  store::Database database(server.make_database());
   SessionRegister all(sessions.archive, database);
   EXPECT_EQ(ids_of(all.list({}, {})), Ids{"aaaa"});
   server.stop();
   sessions.put("bbbb", "2025-03-02T12:00:00Z", "finished");
   all.changed("bbbb");
   for (int i = 0; i < 3; ++i)
-    test::expect_error(ErrorKind::unavailable, database->name() + " does not answer",
+    test::expect_error(ErrorKind::unavailable, database.name() + " does not answer",
                        [&] { all.list({}, {}); });
   for (int i = 0; i < 150; ++i) sessions.put("s" + std::to_string(i), "2025-03-01T12:00:00Z", "finished");
-  test::expect_error(ErrorKind::unavailable, database->name() + " does not answer",
-                     [&] { all.list({}, {}); });
+  test::expect_error(ErrorKind::unavailable, database.name() + " does not answer", [&] { all.list({}, {}); });
   server.start();
   const auto latest = std::chrono::steady_clock::now() + std::chrono::minutes(1);
   for (size_t total = 0; total != 152;) {

@@ -29,8 +29,9 @@ class SessionRemovalTest : public testing::Test {
 
   const test::TemporaryFolder folder;
   const fs::path sessions = folder.path() / "sessions";
+  store::Database database{"sqlite:" + (folder.path() / "ream.db").string()};
   test::FakeEngine engine;
-  SessionService service{engine, {3, 2}, sessions};
+  SessionService service{engine, {3, 2}, sessions, database};
 };
 
 TEST_F(SessionRemovalTest, GoesToTheTrashWholeAndComesBackWhole) {
@@ -98,7 +99,7 @@ TEST_F(SessionRemovalTest, AServerThatWasEndedMeanwhileLeavesOneOrTheOther) {
   folder.write("sessions/noted/deleted.json", R"({"deleted_utc": "2026-01-31T12:00:00Z"})");
   folder.write("trash/.erased-gone-abc/recording.ream", "half gone");
   folder.write("trash/unnoted/session.json", R"({"case": "demo", "script": "demo"})");
-  const SessionService again(engine, {3, 2}, sessions);
+  const SessionService again(engine, {3, 2}, sessions, database);
   EXPECT_EQ(again.get("noted").status.state, SessionState::finished);
   EXPECT_FALSE(fs::exists(folder.path() / "trash/.erased-gone-abc"));
   ASSERT_EQ(again.deleted().size(), 1u);
@@ -122,6 +123,25 @@ TEST_F(SessionRemovalTest, OfManyAtOnceOneDeletes) {
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(done, 1);
   EXPECT_EQ(refused, 5);
+}
+
+/// To destroy it would wait for its loop, and end the process with all other sessions.
+TEST_F(SessionRemovalTest, OneWhoseLoopStandsStillIsHeldToTheEnd) {
+  const int alive = test::FakeSession::alive();
+  {
+    test::FakeEngine its_engine;
+    store::Database its_database{"sqlite:" + (folder.path() / "other.db").string()};
+    SessionService its_service(its_engine, {3, 0}, folder.path() / "others", its_database);
+    const std::string id = its_service.create({{}, "demo", "demo", {}}).request.id;
+    its_engine.made(0).stand_still(true);
+    its_service.stop(id);
+    its_service.create({{}, "demo", "demo", {}});
+    EXPECT_NO_THROW(its_service.get(id)) << "no surplus";
+    its_service.remove(id);
+    expect_error(ErrorKind::not_found, id, [&] { its_service.get(id); });
+    EXPECT_EQ(test::FakeSession::alive(), alive + 2);
+  }
+  EXPECT_EQ(test::FakeSession::alive(), alive);
 }
 
 }  // namespace

@@ -19,11 +19,12 @@ SessionRequest demo() { return {{}, "demo", "demo", {}}; }
 
 class SessionServiceTest : public testing::Test {
  protected:
-  SessionServiceTest() : service(engine, {3, 2}, folder.path()) {}
+  SessionServiceTest() : service(engine, {3, 2}, folder.path(), database) {}
   std::string create() { return service.create(demo()).request.id; }
 
   const int alive_before = FakeSession::alive();
-  const test::TemporaryFolder folder;
+  const test::TemporaryFolder folder, store;
+  store::Database database{"sqlite:" + (store.path() / "ream.db").string()};
   test::FakeEngine engine;
   SessionService service;
 };
@@ -66,6 +67,36 @@ TEST_F(SessionServiceTest, TheirMomentsOfCreationAreInTheOrderOfCreation) {
     newest = made.request.created_utc;
     service.stop(made.request.id);
   }
+}
+
+TEST_F(SessionServiceTest, OneTraineeDoesNotTakeAllPlaces) {
+  SessionRequest own = demo(), others = demo();
+  own.trainee_id = "tom";
+  others.trainee_id = "tess";
+  const std::string first = service.create(own, true).request.id;
+  service.create(own, true);
+  expect_error(ErrorKind::conflict, "2 of your sessions are live", [&] { service.create(own, true); });
+  EXPECT_NO_THROW(service.reset(first, true)) << "one goes for one that comes";
+  expect_error(ErrorKind::conflict, "stop one first", [&] { service.resume(first, "", true); });
+  const std::string last = service.create(others, true).request.id;
+  service.stop(last);
+  EXPECT_NO_THROW(service.create(own)) << "staff may have more of them";
+  expect_error(ErrorKind::unavailable, "3 sessions are live", [&] { service.create(others, true); });
+}
+
+TEST_F(SessionServiceTest, SessionsThatNobodyStartsEnd) {
+  const std::string waits = create(), runs = create();
+  service.start(runs);
+  const auto now = std::chrono::steady_clock::now();
+  service.end_unstarted(now + std::chrono::minutes(9));
+  EXPECT_EQ(service.get(waits).status.state, SessionState::created);
+  service.end_unstarted(now + std::chrono::minutes(11));
+  EXPECT_EQ(service.get(waits).status.state, SessionState::stopped);
+  EXPECT_EQ(service.get(runs).status.state, SessionState::running);
+  SessionService patient(engine, {3, 2, 2, std::nullopt}, folder.path(), database);
+  const std::string kept = patient.create(demo()).request.id;
+  patient.end_unstarted(now + std::chrono::hours(1000));
+  EXPECT_EQ(patient.get(kept).status.state, SessionState::created);
 }
 
 TEST_F(SessionServiceTest, NoMoreLiveSessionsThanStated) {

@@ -1,4 +1,5 @@
 #include "shell/meridian.hpp"
+#include "support/seed.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +9,7 @@
 namespace ream::shell {
 namespace {
 
-constexpr unsigned seed = 20181;
+constexpr uint32_t meridian_seed = 20181;
 
 /// Distance to points set densely on the profile; at most half a step too long.
 double brute_force_distance(const ToolProfile& profile, double r, double z, double step_mm) {
@@ -40,11 +41,11 @@ bool brute_force_inside(const ToolProfile& profile, double r, double z) {
 class MeridianOf : public testing::TestWithParam<const char*> {};
 
 TEST_P(MeridianOf, AgreesWithBruteForce) {
-  RecordProperty("seed", static_cast<int>(seed));
-  SCOPED_TRACE("seed " + std::to_string(seed));
+  RecordProperty("seed", static_cast<int>(test::seed(meridian_seed)));
+  SCOPED_TRACE("seed " + std::to_string(test::seed(meridian_seed)));
   const Tool tool = make_tool(GetParam());
   const Meridian meridian(tool.profile, 1.0);
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed(meridian_seed));
   std::uniform_real_distribution<double> radius(0.0, tool.profile.max_radius_mm() + 2.0),
       height(tool.profile.min_z_mm() - 2.0, tool.profile.max_z_mm() + 2.0);
   const double step = 0.01;
@@ -69,7 +70,7 @@ TEST_P(MeridianOf, AgreesWithBruteForce) {
 TEST_P(MeridianOf, NormalLeadsToTheSurface) {
   const Tool tool = make_tool(GetParam());
   const Meridian meridian(tool.profile, 1.0);
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed(meridian_seed));
   std::uniform_int_distribution<size_t> segment(0, tool.profile.roles.size() - 1);
   std::uniform_real_distribution<double> along(0.0, 1.0), off(-0.2, 0.2);
   for (int i = 0; i < 500; ++i) {

@@ -8,6 +8,7 @@
 #include <queue>
 
 #include "core/error.hpp"
+#include "support/seed.hpp"
 #include "support/test_meshes.hpp"
 
 namespace ream::shell {
@@ -138,7 +139,7 @@ TEST(SurfaceVoxelizer, TwentySixIsTheSupercoverByAnIndependentTest) {
 }
 
 TEST(SurfaceVoxelizer, SixMarksTheCellOfEveryCrossingBetweenFaceNeighbours) {
-  std::mt19937 random(11);
+  std::mt19937 random(test::seed(11));
   const TriangleMesh all = random_triangles(random, 200, 10.0f);
   size_t crossings = 0;
   for (size_t i = 0; i < all.triangles.size(); ++i) {
@@ -166,7 +167,7 @@ TEST(SurfaceVoxelizer, SixMarksTheCellOfEveryCrossingBetweenFaceNeighbours) {
 }
 
 TEST(SurfaceVoxelizer, TwentySixContainsSix) {
-  std::mt19937 random(21);
+  std::mt19937 random(test::seed(21));
   const TriangleMesh mesh = random_triangles(random, 400, 20.0f);
   const SurfaceVoxels thin = voxelized(mesh, 0.23, Separability::six);
   const SurfaceVoxels thick = voxelized(mesh, 0.23, Separability::twenty_six);

@@ -6,11 +6,12 @@
 #include <random>
 
 #include "support/expect_error.hpp"
+#include "support/seed.hpp"
 
 namespace ream::shell {
 namespace {
 
-constexpr unsigned seed = 20182;
+constexpr uint32_t swept_profile_seed = 20182;
 constexpr double margin_mm = 1.0;
 
 float at(const SweptProfile& table, double radius_mm, double z_mm) {
@@ -28,13 +29,14 @@ bool near_a_corner(const SweptProfile& table, double rim_z_mm, double r, double 
 TEST(SweptDistance, IsThatOfTheBallAheadOfTheCap) {
   const ToolProfile profile = make_tool("sphere 20").profile;
   const double rim_z = std::sqrt(400.0 - 18.25 * 18.25) - 20.0;
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed(swept_profile_seed));
   std::uniform_real_distribution<double> share(0.0, 0.98), off(-0.4, 1.0);
   for (int i = 0; i < 1000; ++i) {
     const double angle = share(random) * std::asin(18.25 / 20.0), reach = 20.0 + off(random);
     const double r = reach * std::sin(angle), z = reach * std::cos(angle) - 20.0;
     if (z < rim_z + 0.4) continue;  // the back may be nearer
-    EXPECT_NEAR(swept_distance_mm(profile, r, z), reach - 20.0, 5e-4) << "seed " << seed;
+    EXPECT_NEAR(swept_distance_mm(profile, r, z), reach - 20.0, 5e-4)
+        << "seed " << test::seed(swept_profile_seed);
   }
 }
 
@@ -71,14 +73,15 @@ TEST(SweptDistance, AgreesWithDenseSampling) {
   }
   const auto inside = [&](double r, double z) { return z > back_z && r < outer && std::hypot(r, z + R) < R; };
   const ToolProfile profile = make_tool("sphere 20").profile;
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed(swept_profile_seed));
   std::uniform_real_distribution<double> radius(0.0, 20.0), height(back_z - 2.0, 2.0);
   for (int i = 0; i < 300; ++i) {
     const double r = radius(random), z = height(random);
     double nearest = 1e300;
     for (const ProfilePoint& p : dense) nearest = std::min(nearest, std::hypot(r - p.radius_mm, z - p.z_mm));
     if (nearest < 1e-3) continue;
-    EXPECT_NEAR(swept_distance_mm(profile, r, z), inside(r, z) ? -nearest : nearest, 1e-3) << "seed " << seed;
+    EXPECT_NEAR(swept_distance_mm(profile, r, z), inside(r, z) ? -nearest : nearest, 1e-3)
+        << "seed " << test::seed(swept_profile_seed);
   }
 }
 
@@ -87,7 +90,7 @@ class SweptTable : public testing::TestWithParam<const char*> {};
 TEST_P(SweptTable, IsWithin5MicrometresAtTheCuttingSurface) {
   const Tool tool = make_tool(GetParam());
   const SweptProfile table = swept_profile(tool.profile, margin_mm);
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed(swept_profile_seed));
   std::uniform_real_distribution<double> off(-0.3, 0.9), along(0.0, 1.0);
   double rim_z = 0.0;
   for (size_t i = 0; i < tool.profile.roles.size(); ++i)
@@ -107,19 +110,20 @@ TEST_P(SweptTable, IsWithin5MicrometresAtTheCuttingSurface) {
       worst = std::max(worst, std::abs(at(table, r, z) - swept_distance_mm(tool.profile, r, z)));
     }
   EXPECT_GT(tried, 500);
-  EXPECT_LT(worst, 0.005) << "seed " << seed;
+  EXPECT_LT(worst, 0.005) << "seed " << test::seed(swept_profile_seed);
 }
 
 TEST_P(SweptTable, SignAgreesAwayFromTheSurface) {
   const Tool tool = make_tool(GetParam());
   const SweptProfile table = swept_profile(tool.profile, margin_mm);
-  std::mt19937 random(seed);
+  std::mt19937 random(test::seed(swept_profile_seed));
   std::uniform_real_distribution<double> radius(0.0, table.max_radius_mm + 0.9),
       height(table.body_min_z_mm - 0.9, table.body_max_z_mm + 0.9);
   for (int i = 0; i < 5000; ++i) {
     const double r = radius(random), z = height(random), exact = swept_distance_mm(tool.profile, r, z);
     if (std::abs(exact) < 0.03) continue;
-    EXPECT_EQ(at(table, r, z) < 0.0f, exact < 0.0) << r << " " << z << " seed " << seed;
+    EXPECT_EQ(at(table, r, z) < 0.0f, exact < 0.0)
+        << r << " " << z << " seed " << test::seed(swept_profile_seed);
     EXPECT_NEAR(at(table, r, z), exact, 0.03);
   }
 }

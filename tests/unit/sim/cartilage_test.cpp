@@ -9,7 +9,7 @@
 namespace ream::test {
 namespace {
 
-constexpr double surface_mm = 9.0, cartilage_mm = 2.0, force_n = 40.0, bone_g_cc = 1.5;
+constexpr double surface_mm = 9.0, cartilage_mm = 2.0, press_force_n = 40.0, bone_g_cc = 1.5;
 constexpr auto cartilage = static_cast<size_t>(voxel::BoneClass::cartilage),
                cortical = static_cast<size_t>(voxel::BoneClass::cortical);
 
@@ -22,7 +22,7 @@ std::vector<record::TickReport> reamed(double duration_s, force::VibrationSource
         if (bone.grid.centre_mm({u, v, w}).z() > surface_mm - cartilage_mm)
           bone.density.writable()[bone.grid.index(u, v, w)] = voxel::cartilage_code;
   const case_::Plan plan = slab_plan(bone, surface_mm);
-  const device::Script script = steady_push(force_n, duration_s);
+  const device::Script script = steady_push(press_force_n, duration_s);
   sim::Settings settings = SmallRun::settings(script, "cpu");
   settings.vibration.source = vibration;
   return SmallRun(std::move(bone), plan, "sphere 8,5", script, settings).run();
@@ -35,7 +35,7 @@ double depth_mm(const record::TickReport& report) {
 TEST(Cartilage, IsReamedAtItsOwnFeedAndThenBoneAtIts) {
   const auto reports = reamed(9.0, force::VibrationSource::off);
   ASSERT_EQ(reports.size(), 9000u);
-  const double feed_mm_s = force_n / force::reference_thrust_n * force::cartilage_feed_mm_s;
+  const double feed_mm_s = press_force_n / force::reference_thrust_n * force::cartilage_feed_mm_s;
   const auto &early = reports[1500], &late = reports[4500];
   EXPECT_NEAR((depth_mm(late) - depth_mm(early)) / 3.0, feed_mm_s, 0.02 * feed_mm_s);
   int64_t removed = 0;

@@ -5,7 +5,7 @@
 namespace ream::test {
 namespace {
 
-constexpr double profile_surface_mm = 9.0, thrust_n = 52.0;
+constexpr double profile_surface_mm = 9.0, profile_thrust_n = 52.0;
 
 /// A hand that waits out the start-up ramp in the air, then leans on the bone; the force scale is such that
 /// the thrust takes most of what the device can do.
@@ -13,9 +13,9 @@ device::Script leaning(const device::DeviceTraits& traits) {
   device::Script script;
   script.device_profile = traits.profile;
   script.duration_s = 6.0;
-  script.force_scale = thrust_n / (0.8 * traits.force_max_n);
+  script.force_scale = profile_thrust_n / (0.8 * traits.force_max_n);
   script.hand.start_mm = Vec3(0.1, -0.1, -1.0);
-  script.hand.force_profile = {{0.0, 0.0}, {2.2, 0.0}, {3.2, thrust_n}};
+  script.hand.force_profile = {{0.0, 0.0}, {2.2, 0.0}, {3.2, profile_thrust_n}};
   script.hand.tremor_rms_n = 1.0;
   script.hand.correction_gain = 0.3;
   script.hand.wrist = device::Wrist{};
@@ -45,7 +45,7 @@ TEST_P(EveryDevice, LetsAHandReamWithinItsLimits) {
     felt_sum_n += script.force_scale * reports[i].hand_force_n.norm();
   }
   // The tremor and the arm's damping take and give a newton or two.
-  EXPECT_NEAR(thrust_sum_n / 1000.0, thrust_n, 2.0);
+  EXPECT_NEAR(thrust_sum_n / 1000.0, profile_thrust_n, 2.0);
   EXPECT_NEAR(feed_sum_mm_s / 1000.0, 0.25, 0.015);
   EXPECT_NEAR(felt_sum_n / thrust_sum_n, 1.0, 0.01) << "the hand feels what the tool presses with";
 }

@@ -11,7 +11,7 @@
 namespace ream::test {
 namespace {
 
-constexpr double guided_surface_mm = 12.0, stiffness_n_mm = 100.0, clearance_mm = 0.1;
+constexpr double guided_surface_mm = 12.0, wall_stiffness_n_mm = 100.0, clearance_mm = 0.1;
 constexpr const char* nippled = "sphere 8,5 nipple 1.5,4";
 
 case_::Plan guided_plan(const voxel::BoneModel& bone, case_::GuideKind kind, double hole_depth_mm = 8.0) {
@@ -32,7 +32,7 @@ device::Script poses(std::vector<device::TimedPose> list, bool spindle = false) 
   device::Script script;
   script.kind = device::ScriptKind::poses;
   script.duration_s = list.back().t_s + 0.3;
-  script.stiffness_n_mm = stiffness_n_mm;
+  script.stiffness_n_mm = wall_stiffness_n_mm;
   script.poses = std::move(list);
   script.buttons = {{0.0, spindle, false}};
   return script;
@@ -57,7 +57,7 @@ TEST(Guided, TheWallPushesBackAtTheClearanceWithoutBoneContact) {
   EXPECT_NEAR(sideways(in_plan(run, reports.back().world_from_tool, 2.0)), clearance_mm, 0.01);
   EXPECT_LE(sideways(tip), clearance_mm + 1e-6);
   const Vec3 hand = run.model.world_from_plan.rotation.transpose() * reports.back().hand_force_n;
-  EXPECT_NEAR(hand.x(), -stiffness_n_mm * (0.5 - clearance_mm), 0.02 * stiffness_n_mm * 0.4);
+  EXPECT_NEAR(hand.x(), -wall_stiffness_n_mm * (0.5 - clearance_mm), 0.02 * wall_stiffness_n_mm * 0.4);
   EXPECT_NEAR(hand.y(), 0.0, 1e-3);
   EXPECT_LE(hand.z(), 1e-9);
 }
@@ -96,7 +96,7 @@ TEST(Guided, ASeatedCapResistsSidewaysAndTilt) {
   const Vec3 force = plan_from_world * reports.back().hand_force_n;
   const Vec3 torque = plan_from_world * reports.back().hand_torque_n_mm;
   EXPECT_LT(force.x(), -20.0);
-  EXPECT_LT(torque.y(), -0.3 * 1000.0 * stiffness_n_mm * (0.05 - tilt));
+  EXPECT_LT(torque.y(), -0.3 * 1000.0 * wall_stiffness_n_mm * (0.05 - tilt));
 }
 
 /// A hand that pushes along a line through the mouth of the hole, tilted so that it leans sideways.

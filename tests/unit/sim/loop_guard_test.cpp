@@ -17,15 +17,15 @@ using namespace std::chrono_literals;
 
 /// The guard's time goes on only as a test says, so that no machine that is busy elsewhere can trip it.
 std::atomic<int64_t> now_ns{1};
-std::atomic<int> asked{0};
+std::atomic<int> clock_reads{0};
 int64_t test_clock() {
-  ++asked;
+  ++clock_reads;
   return now_ns;
 }
 void pass(std::chrono::nanoseconds time) { now_ns += time.count(); }
 /// The guard has judged the time as it is.
 void wait_for_its_look() {
-  wait_until("the guard", [before = asked.load()] { return asked >= before + 2; });
+  wait_until("the guard", [before = clock_reads.load()] { return clock_reads >= before + 2; });
 }
 
 /// A hand whose ticks take a millisecond each and whose driver, against its word, waits in read() from some

@@ -1,4 +1,5 @@
 #include "sim/realtime.hpp"
+#include "support/seed.hpp"
 
 #include <gtest/gtest.h>
 #include <sched.h>
@@ -84,7 +85,7 @@ TEST(Realtime, WordsNameEverythingThatWasRefused) {
 }
 
 TEST(WakeMargin, SettlesWhereOneWakeUpInAHundredIsLater) {
-  const unsigned seed = 6;
+  const uint32_t seed = test::seed(6);
   std::mt19937 random(seed);
   std::exponential_distribution<double> late_us(0.05);  // p99 is 20 ln 100 = 92.1 us
   sim::WakeMargin margin;

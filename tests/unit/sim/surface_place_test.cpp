@@ -5,13 +5,14 @@
 #include <random>
 
 #include "support/random_pose.hpp"
+#include "support/seed.hpp"
 
 namespace ream::sim {
 namespace {
 
 TEST(SurfacePlace, OfASphereIsItsCentrePlusTheRadius) {
   const SurfacePlace place(shell::make_tool("sphere 8").profile);
-  constexpr unsigned seed = 5;
+  const uint32_t seed = test::seed(5);
   std::cout << "seed " << seed << '\n';
   std::mt19937 random(seed);
   for (int i = 0; i < 500; ++i) {

@@ -4,6 +4,7 @@
 
 #include "sim/approach.hpp"
 #include "support/random_pose.hpp"
+#include "support/seed.hpp"
 #include "support/small_run.hpp"
 #include "support/watched_backend.hpp"
 
@@ -93,7 +94,7 @@ Pose start_pose(const WallRun& w, std::mt19937& random, const Vec3& direction) {
 }
 
 TEST(ThinWall, IsMetAtAnySpeedOfTheHandFromAnySide) {
-  constexpr unsigned seed = 20260301;
+  const uint32_t seed = test::seed(20260301);
   std::cout << "seed " << seed << '\n';
   std::mt19937 random(seed);
   const char* tools[] = {"sphere 4,3", "ellipse 3,2 nipple 1,2", "sphere 3,3 back 1.25"};
@@ -126,7 +127,7 @@ TEST(ThinWall, IsMetAtAnySpeedOfTheHandFromAnySide) {
 }
 
 TEST(ThinWall, ATurningReamerMeetsItBeforeItCuts) {
-  constexpr unsigned seed = 20260304;
+  const uint32_t seed = test::seed(20260304);
   std::cout << "seed " << seed << '\n';
   std::mt19937 random(seed);
   for (int i = 0; i < 15; ++i) {
@@ -148,7 +149,7 @@ TEST(ThinWall, ATurningReamerMeetsItBeforeItCuts) {
 }
 
 TEST(ThinWall, WithdrawingAndPlungingMeetsItEveryTime) {
-  constexpr unsigned seed = 20260302;
+  const uint32_t seed = test::seed(20260302);
   std::cout << "seed " << seed << '\n';
   std::mt19937 random(seed);
   for (int i = 0; i < 12; ++i) {
@@ -191,7 +192,7 @@ TEST(Approach, LooksOnlyWhereTheDistanceFieldLeavesDoubt) {
 }
 
 TEST(Approach, ThePathBoundHoldsForEveryPointOnTheWay) {
-  constexpr unsigned seed = 20260303;
+  const uint32_t seed = test::seed(20260303);
   std::mt19937 random(seed);
   WallRun w({Vec3::UnitZ(), 2.0}, "ellipse 3,2 nipple 1,2");
   for (int i = 0; i < 200; ++i) {

@@ -95,7 +95,7 @@ TEST(Mailbox, AnEmptyPictureIsCompleteToo) {
 }
 
 TEST(Mailbox, MessagesStayNearTheirSize) {
-  std::mt19937 random(3);
+  std::mt19937 random(test::seed(3));
   surface::BlockMesh mesh;
   for (uint32_t i = 0; i < 3000; ++i) {
     const auto r = [&] { return static_cast<uint16_t>(random() % 65536); };

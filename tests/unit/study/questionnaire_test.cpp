@@ -51,9 +51,8 @@ bool taken(const json& value) {
 TEST(Questionnaire, OursIsAsTheSchemaSaysAndAsksForWhatMatters) {
   const json file = read_json_file(proto / "questionnaires/face_validity_1.json");
   const json schema = read_json_file(proto / "questionnaire.schema.json");
-  EXPECT_EQ(test::SchemaChecker(schema).faults(schema, file), std::vector<std::string>());
-  EXPECT_EQ(test::SchemaChecker(schema).faults(schema, to_json(face_validity_questionnaire())),
-            std::vector<std::string>());
+  EXPECT_EQ(test::schema_faults(schema, file), std::vector<std::string>());
+  EXPECT_EQ(test::schema_faults(schema, to_json(face_validity_questionnaire())), std::vector<std::string>());
   std::set<std::string> ids;
   for (const auto& item : face_validity_questionnaire().items) ids.insert(item.id);
   for (const char* asked : {"bone_appearance", "force_cortical", "force_cancellous", "vibration", "sound",
@@ -72,13 +71,13 @@ TEST(Questionnaire, ComesBackFromItsJsonTheSame) {
 /// Every key of every part is taken away, and replaced by values of all kinds; reader and schema must agree.
 TEST(Questionnaire, IsReadExactlyAsTheSchemaSays) {
   const json schema = read_json_file(proto / "questionnaire.schema.json");
-  const test::SchemaChecker checker(schema);
+  const JsonSchema rules(schema, schema);
   const std::vector<json> others = {nullptr,        true,         0,    5,  7.5,   "",      "a",
                                     "text",         "A b",        "de", {}, {"x"}, "en-GB", "likert",
                                     json::object(), json::array()};
   int agreed_refusals = 0;
   const auto compare = [&](const json& value) {
-    const bool fits = checker.faults(schema, value).empty();
+    const bool fits = rules.faults(value).empty();
     EXPECT_EQ(taken(value), fits) << value;
     agreed_refusals += fits ? 0 : 1;
   };

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <random>
 
+#include "score/metric_catalogue.hpp"
+#include "study/study_columns.hpp"
 #include "support/seed.hpp"
 
 namespace ream::study {
@@ -35,14 +37,15 @@ std::vector<Participant> participants() {
 
 StudyAttempt attempt(const std::string& code, const std::string& utc, const std::string& state,
                      double depth_mm, bool given_up = false) {
-  return {code,
-          "demo",
-          "practice",
-          "browser",
-          "touch",
-          state,
-          utc,
-          given_up,
+  session::SessionRecord record;
+  record.request.participant = code;
+  record.request.case_id = "demo";
+  record.request.script = "practice";
+  record.request.created_utc = utc;
+  if (given_up) record.request.followed_by = "the next";
+  record.status.state = session_state_from(state).value();
+  record.status.device = {"browser", "touch", "", {}};
+  return {record,
           {{"reaming_depth_mm", depth_mm},
            {"axial_thrust_mean_n", 40.25},
            {"apparent_stiffness_n_mm", nullptr},
@@ -136,6 +139,15 @@ TEST(StudyExport, TheCodebookExplainsEveryColumnWithItsUnit) {
   EXPECT_EQ(unit("reaming_depth_mm"), "mm");
   EXPECT_EQ(unit("axial_thrust_mean_n"), "N");
   EXPECT_TRUE(unit("case").is_null());
+}
+
+TEST(StudyExport, MetricsAreExplainedAsTheCatalogueDoes) {
+  for (const score::Metric& metric : score::metric_catalogue()) {
+    const session::ExportColumn column = metric_column(std::string(metric.key));
+    EXPECT_EQ(column.unit, metric.unit) << metric.key;
+    EXPECT_NE(column.words.find(metric.definition), std::string::npos) << column.words;
+  }
+  EXPECT_EQ(metric_column("axial_thrust_excess_n_s").unit, "N s");
 }
 
 TEST(StudyExport, AnEmptyStudyHasHeadingsOnly) {

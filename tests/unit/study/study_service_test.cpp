@@ -4,7 +4,7 @@
 
 #include <regex>
 
-#include "api/study_json.hpp"
+#include "api/replies.hpp"
 #include "core/new_id.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
@@ -35,17 +35,24 @@ int refused(Action&& action) {
   return 0;
 }
 
+/// A server with two users and every case but one.
+class FakeServer final : public StudyDependencies {
+ public:
+  explicit FakeServer(const std::vector<StudyAttempt>& attempts) : attempts_(attempts) {}
+  std::optional<std::string> name_of_user(const std::string& id) const override {
+    return id == ada.user_id   ? std::optional(ada.name)
+           : id == bob.user_id ? std::optional(bob.name)
+                               : std::nullopt;
+  }
+  bool has_case(const std::string& id) const override { return id != "missing"; }
+  std::vector<StudyAttempt> attempts(const std::string&) const override { return attempts_; }
+
+ private:
+  const std::vector<StudyAttempt>& attempts_;
+};
+
 class StudyServiceTest : public testing::Test {
  protected:
-  StudyDependencies dependencies() {
-    return {[](const std::string& id) {
-              return id == ada.user_id   ? std::optional(ada.name)
-                     : id == bob.user_id ? std::optional(bob.name)
-                                         : std::nullopt;
-            },
-            [](const std::string& id) { return id != "missing"; },
-            [this](const std::string&) { return attempts_; }};
-  }
   static StudyDraft draft(const std::vector<std::string>& cases = {"demo", "hard"}) {
     return {"First year",
             "Who presses too hard?",
@@ -66,7 +73,7 @@ class StudyServiceTest : public testing::Test {
   test::TemporaryFolder folder_;
   store::Database database_{"sqlite:" + (folder_.path() / "ream.db").string()};
   std::vector<StudyAttempt> attempts_;
-  StudyService service_{database_, dependencies()};
+  StudyService service_{database_, std::make_unique<FakeServer>(attempts_)};
 };
 
 TEST_F(StudyServiceTest, KeepsWhatAStudyIsMadeOf) {
@@ -204,8 +211,11 @@ TEST_F(StudyServiceTest, WhoRunsTheStudyAnswersForThoseWithoutAnAccount) {
 TEST_F(StudyServiceTest, WhoWithdrawsIsForgotten) {
   const std::string id = made(), code = join(ada, id);
   service_.answer(ada, id, code, answers());
-  attempts_.push_back(
-      {code, "demo", "practice", "browser", "", "finished", "2026-01-01T00:00:00Z", false, {}});
+  StudyAttempt attempt;
+  attempt.session.request.participant = code;
+  attempt.session.request.created_utc = "2026-01-01T00:00:00Z";
+  attempt.session.status.state = SessionState::finished;
+  attempts_.push_back(attempt);
   EXPECT_EQ(service_.export_all(the_operator, id).sessions.rows.size(), 1u);
   service_.withdraw(id, code);
   EXPECT_TRUE(service_.persons(the_operator, id).empty());

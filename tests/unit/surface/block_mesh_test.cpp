@@ -164,7 +164,7 @@ TEST(BlockMesh, NormalsOfASphereArePointingOutwardsWithinTwoDegrees) {
 }
 
 TEST(Octahedral, ComesBackWithinOneDegree) {
-  std::mt19937 random(7);
+  std::mt19937 random(test::seed(7));
   std::normal_distribution<float> normal;
   for (int i = 0; i < 20000; ++i) {
     const Vec3f n = Vec3f(normal(random), normal(random), normal(random)).normalized();

@@ -7,12 +7,13 @@
 #include <random>
 
 #include "support/random_bone.hpp"
+#include "support/seed.hpp"
 #include "voxel/solid_cells.hpp"
 
 namespace ream::voxel {
 namespace {
 
-constexpr unsigned seed = 20267;
+constexpr uint32_t brick_distance_seed = 20267;
 
 /// Chebyshev distance from a point to the nearest box of a solid voxel, voxel units.
 float true_distance(const BoneModel& bone, const Vec3f& p) {
@@ -27,8 +28,8 @@ float true_distance(const BoneModel& bone, const Vec3f& p) {
 }
 
 TEST(BrickDistance, IsTheChebyshevDistanceBetweenBricks) {
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  SCOPED_TRACE(testing::Message() << "seed " << test::seed(brick_distance_seed));
+  std::mt19937 random(test::seed(brick_distance_seed));
   for (int round = 0; round < 20; ++round) {
     const BoneModel bone = test::random_bone(random, {56, 40, 24}, 5e-5 * (round + 1));
     const BrickDistance field = brick_distance(bone);
@@ -47,8 +48,8 @@ TEST(BrickDistance, IsTheChebyshevDistanceBetweenBricks) {
 }
 
 TEST(BrickDistance, NeverExceedsTheTrueDistance) {
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  SCOPED_TRACE(testing::Message() << "seed " << test::seed(brick_distance_seed));
+  std::mt19937 random(test::seed(brick_distance_seed));
   std::uniform_real_distribution<float> place(-30.0f, 90.0f);
   for (int round = 0; round < 10; ++round) {
     const BoneModel bone = test::random_bone(random, {56, 40, 24}, 2e-4);
@@ -72,8 +73,8 @@ TEST(BrickDistance, IsUsefulFarFromBone) {
 }
 
 TEST(BrickDistance, StaysABoundWhileBoneIsRemoved) {
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  SCOPED_TRACE(testing::Message() << "seed " << test::seed(brick_distance_seed));
+  std::mt19937 random(test::seed(brick_distance_seed));
   BoneModel bone = test::random_bone(random, {32, 32, 32}, 0.002);
   const BrickDistance field = brick_distance(bone);
   std::uniform_real_distribution<float> place(-8.0f, 40.0f);

@@ -3,12 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "support/random_bone.hpp"
+#include "support/seed.hpp"
 
 namespace ream::voxel {
 namespace {
 
 TEST(BrickOrder, PutsEveryVoxelOfTheRowsWhereTheGridSaysAndBack) {
-  constexpr unsigned seed = 20311;
+  const uint32_t seed = test::seed(20311);
   SCOPED_TRACE(testing::Message() << "seed " << seed);
   std::mt19937 random(seed);
   const BoneModel bone = test::random_bone(random, {24, 8, 16}, 0.8);

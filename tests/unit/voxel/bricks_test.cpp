@@ -7,15 +7,16 @@
 #include <thread>
 
 #include "support/random_bone.hpp"
+#include "support/seed.hpp"
 
 namespace ream::voxel {
 namespace {
 
-constexpr unsigned seed = 20268;
+constexpr uint32_t bricks_seed = 20268;
 
 TEST(Bricks, ReadTheirVoxelsWithXFastest) {
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  SCOPED_TRACE(testing::Message() << "seed " << test::seed(bricks_seed));
+  std::mt19937 random(test::seed(bricks_seed));
   const BoneModel bone = test::random_bone(random, {24, 16, 32}, 0.7);
   for (uint32_t b = 0; b < bone.grid.brick_count(); ++b) {
     uint8_t image[brick_voxels];
@@ -27,8 +28,8 @@ TEST(Bricks, ReadTheirVoxelsWithXFastest) {
 }
 
 TEST(Bricks, WritingWhatWasReadCopiesTheGridAndNothingElse) {
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  SCOPED_TRACE(testing::Message() << "seed " << test::seed(bricks_seed));
+  std::mt19937 random(test::seed(bricks_seed));
   const BoneModel bone = test::random_bone(random, {24, 16, 32}, 0.7);
   std::vector<uint8_t> copy(bone.coverage.size(), 0);
   uint8_t image[brick_voxels];
@@ -80,8 +81,8 @@ TEST(BrickSender, KeepsWhatAFullRingRefusesAndSendsItsNewestImageLater) {
 }
 
 TEST(BrickSender, LosesNothingWhenTheFollowerIsSlow) {
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  SCOPED_TRACE(testing::Message() << "seed " << test::seed(bricks_seed));
+  std::mt19937 random(test::seed(bricks_seed));
   BoneModel bone = test::random_bone(random, {64, 32, 32}, 0.9);
   Replica replica(bone);
   BrickRing ring(4);

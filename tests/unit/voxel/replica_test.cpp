@@ -6,12 +6,13 @@
 #include <random>
 
 #include "support/random_bone.hpp"
+#include "support/seed.hpp"
 
 namespace ream::voxel {
 namespace {
 
 TEST(Replica, StartsAsACopyAndTakesBricks) {
-  std::mt19937 random(20269);
+  std::mt19937 random(test::seed(20269));
   BoneModel bone = test::random_bone(random, {40, 32, 24}, 0.5);
   Replica replica(bone);
   EXPECT_EQ(replica.coverage(), bone.coverage);

@@ -3,11 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "support/random_bone.hpp"
+#include "support/seed.hpp"
 
 namespace ream::voxel {
 namespace {
 
-constexpr unsigned seed = 20312;
+constexpr uint32_t solid_cells_seed = 20312;
 
 /// Half of the bricks whole, the others with random coverage.
 BoneModel patchy_bone(std::mt19937& random) {
@@ -32,8 +33,8 @@ uint16_t expected_word(const BoneModel& bone, uint32_t brick) {
 }
 
 TEST(SolidCells, SayOfEachCellWhetherAnyAndAllVoxelsAreSolid) {
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  SCOPED_TRACE(testing::Message() << "seed " << test::seed(solid_cells_seed));
+  std::mt19937 random(test::seed(solid_cells_seed));
   const BoneModel bone = patchy_bone(random);
   const SolidCells cells(bone);
   int whole = 0;
@@ -46,8 +47,8 @@ TEST(SolidCells, SayOfEachCellWhetherAnyAndAllVoxelsAreSolid) {
 }
 
 TEST(SolidCells, TheBoxIsThatOfTheSolidCellsWhateverGoes) {
-  SCOPED_TRACE(testing::Message() << "seed " << seed);
-  std::mt19937 random(seed);
+  SCOPED_TRACE(testing::Message() << "seed " << test::seed(solid_cells_seed));
+  std::mt19937 random(test::seed(solid_cells_seed));
   BoneModel bone = make_bone(test::grid_of({40, 24, 32}, {0.5, 0.25, 1.0}));
   for (int i = 0; i < 60; ++i) bone.coverage[random() % bone.coverage.size()] = 200;
   SolidCells cells(bone);

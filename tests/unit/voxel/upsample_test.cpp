@@ -6,6 +6,7 @@
 
 #include "core/hash.hpp"
 #include "support/expect_error.hpp"
+#include "support/seed.hpp"
 
 namespace ream::voxel {
 namespace {
@@ -73,7 +74,7 @@ TEST(Upsample, LinearStaysLinearInside) {
 }
 
 TEST(Upsample, RoundsTheExactValueToNearest) {
-  constexpr uint64_t seed = 7;
+  const uint32_t seed = test::seed(7);
   RecordProperty("random_seed", static_cast<int>(seed));
   const Vec3i dims(4, 3, 5);
   std::vector<int16_t> in(60);

@@ -7,6 +7,7 @@
 
 #include "support/expect_error.hpp"
 #include "support/random_bone.hpp"
+#include "support/seed.hpp"
 
 namespace ream::voxel {
 namespace {
@@ -48,7 +49,7 @@ TEST(VoxelGrid, IndexesMoreThanFourThousandMillionVoxels) {
 }
 
 TEST(VoxelGrid, CentresLieInTheirVoxel) {
-  constexpr unsigned seed = 20265;
+  const uint32_t seed = test::seed(20265);
   SCOPED_TRACE(testing::Message() << "seed " << seed);
   std::mt19937 random(seed);
   const VoxelGrid grid = grid_of({16, 8, 24}, {0.3, 0.7, 1.1});

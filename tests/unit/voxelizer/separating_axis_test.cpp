@@ -9,6 +9,7 @@
 
 #include "geometry/mesh_io.hpp"
 #include "support/awkward_triangles.hpp"
+#include "support/seed.hpp"
 #include "support/shared_data.hpp"
 #include "voxelizer/voxelizer.hpp"
 
@@ -46,7 +47,7 @@ bool bit(const VoxelSet& set, int u, int v, int w) {
 }
 
 TEST(SeparatingAxis, TwentyThousandAwkwardTrianglesMarkTheirSupercover) {
-  constexpr unsigned seed = 20261122;
+  const uint32_t seed = test::seed(20261122);
   std::cout << "seed " << seed << '\n';
   std::mt19937 random(seed);
   Voxelizer voxelizer(1);
@@ -85,7 +86,7 @@ TEST(SeparatingAxis, TwentyThousandAwkwardTrianglesMarkTheirSupercover) {
 
 /// Triangles are marked eight at a time, with others of their size: none may touch what is another's.
 TEST(SeparatingAxis, ManyTrianglesMarkWhatEachMarksAlone) {
-  constexpr unsigned seed = 4711;
+  const uint32_t seed = test::seed(4711);
   std::cout << "seed " << seed << '\n';
   std::mt19937 random(seed);
   Voxelizer voxelizer(2);

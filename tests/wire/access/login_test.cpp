@@ -10,6 +10,31 @@ namespace {
 using access::CredentialKind;
 using access::Role;
 
+void expect_sent_away(RawWebSocket& viewer) {
+  RawWebSocket::Message message = viewer.receive();
+  while (!message.close_code()) message = viewer.receive();
+  EXPECT_EQ(message.close_code(), 4003);
+  EXPECT_EQ(message.payload.substr(2), "access has ended; log in again");
+}
+
+/// A server without users.
+class OpenBeginningTest : public AccessTest {};
+
+TEST_F(OpenBeginningTest, WhatWasOpenedThenEndsWithTheFirstUser) {
+  start();
+  const json made = json::parse(request("POST", all, {}, R"({"case": "planned", "script": "demo"})").body);
+  RawWebSocket events(server->port(), "/api/v1/events", {}),
+      viewer(server->port(), all + "/" + made.at("id").get<std::string>() + "/stream", {});
+  EXPECT_EQ(request("POST", "/api/v1/links", {}, R"({"name": "for a year"})").status, 409);
+  EXPECT_EQ(request("POST", "/api/v1/users", {},
+                    R"({"name": "anna", "role": "operator", "password": "password of anna"})")
+                .status,
+            201);
+  expect_sent_away(events);
+  expect_sent_away(viewer);
+  EXPECT_EQ(request("GET", all).status, 401);
+}
+
 class LoginTest : public PersonaTest {
  protected:
   /// Who the server takes that for; empty: nobody.
@@ -23,12 +48,6 @@ class LoginTest : public PersonaTest {
   std::string origin() const { return "http://127.0.0.1:" + std::to_string(server->port()); }
   RawWebSocket watch(const std::string& session, const Sent& sent) {
     return RawWebSocket(server->port(), all + "/" + session + "/stream", sent);
-  }
-  static void expect_sent_away(RawWebSocket& viewer) {
-    RawWebSocket::Message message = viewer.receive();
-    while (!message.close_code()) message = viewer.receive();
-    EXPECT_EQ(message.close_code(), 4003);
-    EXPECT_EQ(message.payload.substr(2), "access has ended; log in again");
   }
 };
 
@@ -59,6 +78,7 @@ TEST_F(LoginTest, OverTlsItsCookieNeverLeavesTls) {
       std::to_string(body.size()) + "\r\n\r\n" + body);
   const HttpReply reply = receive_reply(socket);
   EXPECT_EQ(reply.status, 200) << reply.body;
+  EXPECT_TRUE(reply.headers.at("set-cookie").starts_with("__Host-ream_session="));
   EXPECT_TRUE(reply.headers.at("set-cookie").ends_with("; Secure"));
 }
 
@@ -235,7 +255,7 @@ TEST_F(LoginTest, WatchingKeepsALoginAlive) {
     clock.pass(std::chrono::minutes(100));
     const std::string now = utc_text(clock.function()());
     for (int tries = 0; tries < 1000; ++tries) {
-      const auto rows = gatehouse().credentials.list(CredentialKind::cookie, tom_id);
+      const auto rows = access_control().credentials.list(CredentialKind::cookie, tom_id);
       if (!rows.empty() && rows[0].last_used_utc == now) break;
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }

@@ -2,7 +2,7 @@
 #include <functional>
 
 #include "access/secret.hpp"
-#include "api/rights.hpp"
+#include "api/routes.hpp"
 #include "wire/contract/access_fixture.hpp"
 
 namespace ream::test {
@@ -30,6 +30,7 @@ class PersonaTest : public AccessTest {
  protected:
   void SetUp() override {
     options.sessions.live = 100'000;
+    options.sessions.of_trainee = 100'000;
     options.sessions.kept = 100'000;
     options.replays.open = 100'000;
     options.data_folder = folder.path() / "data";
@@ -41,7 +42,7 @@ class PersonaTest : public AccessTest {
     disabled_id = add_user("dora", access::Role::operator_);
     access::UserChange change;
     change.enabled = false;
-    gatehouse().users.change(disabled_id, change);
+    access_control().users.change(disabled_id, change);
   }
 
   /// What a page of that user sends, without the cost of a login.
@@ -65,7 +66,7 @@ class PersonaTest : public AccessTest {
   Sent unknown_token() { return bearer({{}, access::make_credential_secret().text}); }
   Sent revoked_token() {
     const auto issued = issue(access::CredentialKind::token, {operator_id, {}, "", "", ""});
-    gatehouse().credentials.revoke(issued.row.id);
+    access_control().credentials.revoke(issued.row.id);
     return bearer(issued);
   }
 

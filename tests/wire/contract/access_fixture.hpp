@@ -1,28 +1,57 @@
 #pragma once
+#include <latch>
+#include <thread>
+
 #include "support/hand_clock.hpp"
 #include "wire/contract/contract_fixture.hpp"
 
 namespace ream::test {
 
-/// A server with a database, whose clock goes by hand. Everybody's password is "password of <name>".
+/// Keeps the only connection of a database to itself, so that all others wait for one in vain.
+class DatabaseHog {
+ public:
+  explicit DatabaseHog(store::Database& database) : thread_([this, &database] { hold(database); }) {
+    held_.wait();
+  }
+  ~DatabaseHog() {
+    released_.count_down();
+    thread_.join();
+  }
+
+ private:
+  void hold(store::Database& database) {
+    for (bool holds = false; !holds;) try {
+        database.read([&](store::Sql&) {
+          holds = true;
+          held_.count_down();
+          released_.wait();
+        });
+      } catch (const Error&) {  // somebody else has it for a moment
+      }
+  }
+
+  std::latch held_{1}, released_{1};
+  std::thread thread_;
+};
+
+/// A server whose clock goes by hand. Everybody's password is "password of <name>".
 class AccessTest : public ContractTest {
  protected:
   using Sent = std::map<std::string, std::string>;
 
   AccessTest() {
-    options.database = std::make_shared<store::Database>("sqlite:" + (folder.path() / "ream.db").string());
-    options.gatehouse.now = clock.function();
-    options.gatehouse.cost = {1, size_t{8} << 10};
+    options.access.now = clock.function();
+    options.access.cost = {1, size_t{8} << 10};
   }
 
-  access::AccessControl& gatehouse() { return *server->gatehouse(); }
+  access::AccessControl& access_control() { return server->access_control(); }
 
   /// Id of a new user.
   std::string add_user(const std::string& name, access::Role role) {
-    return gatehouse().users.add({name, "", role, access::Secret("password of " + name)}).id;
+    return access_control().users.add({name, "", role, access::Secret("password of " + name)}).id;
   }
   access::IssuedCredential issue(access::CredentialKind kind, const access::NewCredential& wanted) {
-    return gatehouse().credentials.issue(kind, wanted);
+    return access_control().credentials.issue(kind, wanted);
   }
   /// What a program of that user sends.
   Sent token_of(const std::string& user_id, std::optional<access::Role> limit = std::nullopt) {
@@ -30,6 +59,14 @@ class AccessTest : public ContractTest {
   }
   static Sent bearer(const access::IssuedCredential& token) {
     return {{"Authorization", "Bearer " + token.secret.reveal()}};
+  }
+
+  /// A server whose database can be asked nothing as long as the hog lives.
+  std::unique_ptr<DatabaseHog> start_without_database() {
+    options.database = std::make_shared<store::Database>(
+        database_url(), store::DatabaseLimits{.connections = 1, .patience = std::chrono::milliseconds(50)});
+    start();
+    return std::make_unique<DatabaseHog>(*options.database);
   }
 
   HttpReply log_in(const std::string& name, const std::string& password) {

@@ -1,5 +1,6 @@
 #include <future>
 
+#include "api/routes.hpp"
 #include "contract_fixture.hpp"
 #include "support/places.hpp"
 
@@ -207,7 +208,7 @@ TEST_F(ServerContractTest, ServesWhatIsDescribedAndNothingElse) {
   for (const auto& [path, item] : contract.at("paths").items())
     for (const auto& [verb, operation] : item.items())
       if (verb != "parameters") described.insert(upper(verb) + " " + path);
-  for (const auto& route : server->routes()) served.insert(route.method + " " + route.pattern);
+  for (const auto& route : api::routes()) served.insert(route.method + " " + route.pattern);
   EXPECT_EQ(served, described);
 }
 
@@ -264,7 +265,7 @@ TEST_F(ServerContractTest, TakesExactlyTheBodiesThatTheSchemaTakes) {
                            R"({"case": "planned", "device": "network", "device_profile": ""})",
                            R"({"case": "planned", "device_profile": 3})",
                            R"({"case": "planned", "script": "demo", "Case": "x"})"}) {
-    const bool fits = checker.faults(schema, json::parse(body)).empty();
+    const bool fits = faults(schema, json::parse(body)).empty();
     EXPECT_EQ(post(all, body).status, fits ? 201 : 422) << body;
   }
 }
@@ -281,7 +282,7 @@ TEST_F(ServerContractTest, TakesExactlyTheChangesOfPlaybackThatTheSchemaTakes) {
         R"({"speed": 16})", R"({"speed": 16.1})", R"({"speed": -1})", R"({"speed": "2"})",
         R"({"position_s": 0})", R"({"position_s": 10})", R"({"position_s": -0.1})",
         R"({"position_s": 1, "speed": 2, "playing": false})", R"({"position": 1})"}) {
-    const bool fits = checker.faults(schema, json::parse(body)).empty();
+    const bool fits = faults(schema, json::parse(body)).empty();
     EXPECT_EQ(post(path, body).status, fits ? 200 : 422) << body;
   }
 }
@@ -308,7 +309,7 @@ TEST_F(ServerContractTest, TakesExactlyTheRemarksThatTheSchemaTakes) {
         std::string(R"({"words": "here", "place_mm": [1, 2, 3e6]})"),
         std::string(R"({"words": "here", "place_mm": [1, -2, 3.5]})"),
         std::string(R"({"words": "here", "colour": 1})")}) {
-    const bool fits = checker.faults(schema, json::parse(body)).empty();
+    const bool fits = faults(schema, json::parse(body)).empty();
     EXPECT_EQ(post(path + "/annotations", body).status, fits ? 201 : 422) << body.substr(0, 100);
   }
 }

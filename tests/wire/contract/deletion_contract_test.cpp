@@ -88,7 +88,7 @@ TEST_F(DeletionContractTest, ATraineeDeletesTheirOwnButNoneOfAStudy) {
   EXPECT_EQ(request("POST", all + "/toms/restore", operator_).status, 200);
   EXPECT_EQ(request("DELETE", all + "/studied", operator_).status, 204);
   std::vector<std::string> actions;
-  for (const auto& row : gatehouse().audit.list(INT64_MAX, 3))
+  for (const auto& row : access_control().audit.list(INT64_MAX, 3))
     actions.push_back(row.action + " " + row.object);
   EXPECT_EQ(actions, (std::vector<std::string>{"session.delete studied", "session.restore toms",
                                                "session.delete toms"}));
@@ -133,7 +133,7 @@ TEST_F(DeletionContractTest, ByTheRulesOldSessionsGoAndThoseOfAnOpenStudyStay) {
   const auto wait_until_erased = [&](const std::string& id) {
     const std::string action = "session.erase";
     for (;;)
-      for (const auto& row : gatehouse().audit.list(INT64_MAX, 100))
+      for (const auto& row : access_control().audit.list(INT64_MAX, 100))
         if (row.action == action && row.object == id) return row;
   };
   for (const char* id : {"first", "second", "third"}) EXPECT_EQ(wait_until_erased(id).name, "retention");

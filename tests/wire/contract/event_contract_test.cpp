@@ -10,8 +10,7 @@ class EventContractTest : public ContractTest {
     const RawWebSocket::Message message = listener.receive();
     EXPECT_EQ(message.opcode, 1) << "a text";
     const json told = json::parse(message.payload);
-    for (const std::string& fault :
-         checker.faults(contract.at("components").at("schemas").at("ChangeMessage"), told))
+    for (const std::string& fault : faults(contract.at("components").at("schemas").at("ChangeMessage"), told))
       ADD_FAILURE() << fault << " in " << message.payload;
     return told;
   }

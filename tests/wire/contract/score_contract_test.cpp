@@ -183,7 +183,7 @@ TEST_F(ScoreContractTest, TakesExactlyTheRubricsThatTheSchemaTakes) {
        R"({"name": "A", "version": 1, "mark": 70, "criteria": [{"metric": "version_error_deg"}]})",
        R"({"name": "A", "version": 1, "criteria": [{"metric": "version_error_deg", "critical": true}]})"}) {
     const json wanted = {{"id", "r" + std::to_string(next++)}, {"rubric", json::parse(text)}};
-    const bool fits = checker.faults(schema, wanted.at("rubric")).empty();
+    const bool fits = faults(schema, wanted.at("rubric")).empty();
     const HttpReply reply = post(rubrics, wanted.dump());
     EXPECT_EQ(reply.status, fits ? 201 : 422) << text << reply.body;
     EXPECT_TRUE(fits || !json::parse(reply.body).at("detail").get<std::string>().empty()) << text;

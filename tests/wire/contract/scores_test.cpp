@@ -56,7 +56,7 @@ TEST_F(ScoresTest, AreKeptWithTheRubricAsItWas) {
   EXPECT_EQ(told(all + "/good").at("score"),
             (json{{"points", 80.0}, {"outcome", "pass"}, {"rubric", "Simple"}, {"version", 1}}));
   const json schema = read_json_file(source_folder() + "/proto/score.schema.json");
-  EXPECT_TRUE(SchemaChecker(schema).faults(schema, kept("good", "score.json")).empty());
+  EXPECT_TRUE(schema_faults(schema, kept("good", "score.json")).empty());
 }
 
 TEST_F(ScoresTest, OfARunningSessionAreThoseSoFar) {

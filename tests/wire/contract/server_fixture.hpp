@@ -33,12 +33,14 @@ class ServerTest : public testing::Test {
     folder.write("cases/broken/case.json", "{\"id\": ");
     folder.write("web/index.html", "<html>page</html>");
     options.listen.port = 0;
+    options.database = std::make_shared<store::Database>(database_url());
     options.cases_folder = folder.path() / "cases";
     options.web_folder = folder.path() / "web";
     options.engine = engine;
     options.sessions_folder = folder.path() / "sessions";
   }
 
+  std::string database_url() const { return "sqlite:" + (folder.path() / "ream.db").string(); }
   void start() {
     server = std::make_unique<api::Server>(options);
     server->start();

@@ -1,4 +1,5 @@
 #include <random>
+#include "api/routes.hpp"
 
 #include "access_fixture.hpp"
 #include "support/seed.hpp"
@@ -47,7 +48,7 @@ class StudyBlindingTest : public AccessTest {
   void add_person(const std::string& join_code) {
     Person person{{}, made_up(), "Dr. " + made_up() + " " + made_up(), {}, {}};
     const access::Secret password("password of " + person.login);
-    person.id = gatehouse().users.add({person.login, person.name, Role::trainee, password}).id;
+    person.id = access_control().users.add({person.login, person.name, Role::trainee, password}).id;
     person.token = token_of(person.id);
     const std::string level = random() % 2 ? "novice" : "expert";
     person.code =
@@ -90,7 +91,7 @@ class StudyBlindingTest : public AccessTest {
   /// Every GET route of the server with every id that there is. A route with a new parameter must be added.
   std::vector<std::string> everything() const {
     std::vector<std::string> paths;
-    for (const auto& route : server->routes()) {
+    for (const auto& route : api::routes()) {
       if (route.method != "GET" || route.pattern.starts_with("/api/v1/users")) continue;
       std::vector<std::string> filled = {route.pattern};
       fill(filled, "{code}", {people[0].code, people[1].code});

@@ -173,9 +173,8 @@ class StudyContractTest : public AccessTest {
     expect("DELETE", one_study, studies + "/" + other, 404, anna);
   }
 
-  void without_a_database() {
-    options.database = nullptr;
-    start();
+  void while_the_database_is_away() {
+    const auto hog = start_without_database();
     for (const auto& [operation, status] : described({"studies"})) {
       if (status != 503) continue;
       const std::string method = operation.substr(0, operation.find(' '));
@@ -213,7 +212,7 @@ TEST_F(StudyContractTest, EveryDescribedReplyIsGivenAsDescribed) {
   exporting();
   ending();
   forgetting();
-  without_a_database();
+  while_the_database_is_away();
   expect_all_given({"studies"});
 }
 

@@ -1,4 +1,4 @@
-import type { CtDescription, Triple } from '../wire/rest_types';
+import type { CaseCt, Triple } from '../wire/rest_types';
 import type { VoxelAxis } from '../wire/case_api';
 
 export const voxelAxes: readonly VoxelAxis[] = ['u', 'v', 'w'];
@@ -25,7 +25,7 @@ export class VolumeFrame {
   readonly directions: readonly [Triple, Triple, Triple];
   private readonly origin: Triple;
 
-  constructor(ct: Pick<CtDescription, 'dims' | 'spacing_mm' | 'world_from_volume'>) {
+  constructor(ct: Pick<CaseCt, 'dims' | 'spacing_mm' | 'world_from_volume'>) {
     const { rotation: r, translation_mm } = ct.world_from_volume;
     this.dims = ct.dims;
     this.spacingMm = ct.spacing_mm;

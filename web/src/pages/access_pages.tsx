@@ -9,7 +9,7 @@ import { PasswordPanel } from '../panels/access/password_panel';
 import { TokenPanel } from '../panels/access/token_panel';
 import { UserTable } from '../panels/access/user_table';
 import { PageHeader } from '../panels/common/page_header';
-import { Remark } from '../panels/common/fields';
+import { Message } from '../panels/common/fields';
 import { useIdentity } from '../panels/common/site_nav';
 import { Remote } from '../state/remote';
 import { AccessApi } from '../wire/access_api';
@@ -27,21 +27,21 @@ export function UsersPage() {
   const list = users.value.value;
   const nameOf = (id: string) => list?.find((user) => user.id === id)?.name ?? id;
   return (
-    <div class="page desk-page">
+    <div class="page content-page">
       <PageHeader here="users" />
-      <main class="desk">
-        <section class="desk-panel" aria-labelledby="users-title">
+      <main class="content">
+        <section class="content-panel" aria-labelledby="users-title">
           <h2 id="users-title">{accessText.users}</h2>
           {users.problem.value !== null && (
-            <Remark kind="bad" testId="users-problem">
+            <Message kind="bad" testId="users-problem">
               {users.problem.value}
-            </Remark>
+            </Message>
           )}
           {list === null && users.problem.value === null && <p class="soft">{accessText.loading}</p>}
           {list?.length === 0 && (
-            <Remark kind="warn">
+            <Message kind="warn">
               {accessText.noUsers} {accessText.firstUser}
-            </Remark>
+            </Message>
           )}
           {list !== null && list.length > 0 && <UserTable api={api} users={users} />}
           {list !== null && <AddUser api={api} users={users} />}
@@ -57,9 +57,9 @@ export function UsersPage() {
 export function AccountPage() {
   const identity = useIdentity();
   return (
-    <div class="page desk-page">
+    <div class="page content-page">
       <PageHeader here="account" />
-      <main class="desk" aria-label={accessText.account}>
+      <main class="content" aria-label={accessText.account}>
         <PasswordPanel api={loginApi} />
         <TokenPanel api={api} userId={identity.userId.value} />
         {identity.may.value.teach && <LinkPanel api={api} />}

@@ -40,10 +40,12 @@ function Entrance({ identity, children }: { identity: Identity; children: preact
       return <>{children}</>;
     case 'unknown':
       return <LoginPage />;
-    case 'asking':
+    case 'checking':
       return (
-        <p class="page-opening" role="status" data-testid="asking">
-          {identity.problem.value === null ? appText.askingWho : `${identity.problem.value} ${appText.stillAsking}`}
+        <p class="page-opening" role="status" data-testid="checking-login">
+          {identity.problem.value === null
+            ? appText.checkingLogin
+            : `${identity.problem.value} ${appText.retryingLogin}`}
         </p>
       );
   }
@@ -87,8 +89,8 @@ function Page({ route, live, identity }: { route: Route; live: LivePageParts; id
 
 function NotForYou() {
   return (
-    <p class="page-opening" role="status" data-testid="not-for-you">
-      {appText.notForYou} <a href={addressOfRoute({ kind: 'live' })}>{appText.backToLivePage}</a>
+    <p class="page-opening" role="status" data-testid="forbidden">
+      {appText.forbidden} <a href={addressOfRoute({ kind: 'live' })}>{appText.backToLivePage}</a>
     </p>
   );
 }
@@ -102,9 +104,9 @@ async function startReaming(
   if (store.replayId.value !== null) watcher.leaveReplay();
   const sessionId = await watcher.practise(caseId, theatre);
   if (sessionId === null) {
-    const said = store.problem.value ?? noAnswer;
+    const reason = store.problem.value ?? noAnswer;
     store.problem.value = null;
-    throw new Error(said);
+    throw new Error(reason);
   }
   window.location.hash = '';
   practice.steer(sessionId);

@@ -3,7 +3,7 @@ import { useEffect } from 'preact/hooks';
 
 import { caseText } from '../text/case_text';
 import { CaseHeader } from '../panels/case/case_header';
-import { Remark } from '../panels/common/fields';
+import { Message } from '../panels/common/fields';
 import { NewCasePanel } from '../panels/case/new_case_panel';
 import type { CaseListController } from '../state/case/new_case';
 import { addressOfRoute } from '../state/route';
@@ -28,9 +28,9 @@ export function CasesPage({ controller, mayEdit }: { controller: CaseListControl
       <main class="case-list">
         <h2>{caseText.cases}</h2>
         {problem !== null && (
-          <Remark kind="bad">
+          <Message kind="bad">
             {caseText.listFailed}: {problem}
-          </Remark>
+          </Message>
         )}
         {cases === null && problem === null && <p class="soft">{caseText.loadingCases}</p>}
         {cases?.length === 0 && <p class="soft">{caseText.noCases}</p>}
@@ -59,7 +59,7 @@ export function CasesPage({ controller, mayEdit }: { controller: CaseListControl
 }
 
 function CaseRow({ one, controller, mayEdit }: { one: CaseSummary; controller: CaseListController; mayEdit: boolean }) {
-  const asking = useSignal(false);
+  const confirming = useSignal(false);
   const name = one.name || one.id;
   const ready = one.stage === 'built' && one.planned;
   return (
@@ -80,22 +80,22 @@ function CaseRow({ one, controller, mayEdit }: { one: CaseSummary; controller: C
         {one.dims === null ? <span class="soft">{caseText.notBuilt}</span> : caseText.dims(one.dims)}
         {one.spacing_mm !== null && <span class="soft case-id">{caseText.spacing(one.spacing_mm)}</span>}
       </td>
-      <td class="row-deeds">
-        {asking.value ? (
-          <span class="really" role="alert">
-            {caseText.removeReally(name)}
+      <td class="row-actions">
+        {confirming.value ? (
+          <span class="confirm" role="alert">
+            {caseText.removeConfirm(name)}
             <button
               type="button"
               class="warn-button"
-              data-testid={`really-remove-${one.id}`}
+              data-testid={`confirm-remove-${one.id}`}
               onClick={() => {
-                asking.value = false;
+                confirming.value = false;
                 void controller.remove(one.id);
               }}
             >
               {caseText.removeYes}
             </button>
-            <Button onClick={() => (asking.value = false)}>{caseText.keep}</Button>
+            <Button onClick={() => (confirming.value = false)}>{caseText.keep}</Button>
           </span>
         ) : (
           <>
@@ -112,7 +112,7 @@ function CaseRow({ one, controller, mayEdit }: { one: CaseSummary; controller: C
                 class="plain-button"
                 data-testid={`remove-${one.id}`}
                 aria-label={caseText.removeCase(name)}
-                onClick={() => (asking.value = true)}
+                onClick={() => (confirming.value = true)}
               >
                 {caseText.remove}
               </button>

@@ -25,9 +25,9 @@ export function DashboardPage({ live }: { live: LivePageParts }) {
     window.location.hash = '';
   };
   return (
-    <div class="page desk-page">
+    <div class="page content-page">
       <PageHeader here="dashboard" />
-      <main class="desk dashboard" data-testid="dashboard">
+      <main class="content dashboard" data-testid="dashboard">
         <LivePanel board={dashboard.board} watch={watch} />
         <RecentPanel ended={dashboard.ended} replay={(id) => replay(live, id)} />
         <LearningPanel dashboard={dashboard} own={own} hasUsers={identity.hasUsers.value} />

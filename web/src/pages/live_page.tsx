@@ -11,7 +11,7 @@ import { Picture } from '../panels/live/picture';
 import { PlaybackBar } from '../panels/picture/playback_bar';
 import { PracticeBar } from '../panels/live/practice_bar';
 import { ProblemBanner } from '../panels/common/problem_banner';
-import { RemarksPanel } from '../panels/live/remarks_panel';
+import { AnnotationsPanel } from '../panels/live/annotations_panel';
 import { ReplayPanel } from '../panels/live/replay_panel';
 import { RunPanel } from '../panels/live/run_panel';
 import { SessionList } from '../panels/live/session_list';
@@ -19,7 +19,7 @@ import type { BoneScene } from '../scene/scene';
 import type { Alarms } from '../state/alarms';
 import type { Latency } from '../state/latency';
 import type { LiveCase } from '../state/live_case';
-import type { LiveRemarks } from '../state/live_remarks';
+import type { LiveAnnotations } from '../state/live_annotations';
 import type { Practice } from '../state/practice';
 import type { PracticeStore } from '../state/practice_store';
 import type { Sound } from '../state/sound';
@@ -39,7 +39,7 @@ export interface LivePageParts {
   alarms: Alarms;
   sound: Sound;
   latency: Latency;
-  remarks: LiveRemarks;
+  annotations: LiveAnnotations;
   theatreWanted: Signal<boolean>;
   practice: Practice;
   practiceStore: PracticeStore;
@@ -81,7 +81,7 @@ export function LivePage(parts: LivePageParts) {
           <Figures store={store} />
           <Results store={store} />
         </div>
-        {!store.replaying.value && <RemarksPanel store={store} remarks={parts.remarks} />}
+        {!store.replaying.value && <AnnotationsPanel store={store} annotations={parts.annotations} />}
         <SessionList store={store} watcher={watcher} />
         {!store.replaying.value && <HealthPanel store={store} practice={practiceStore} />}
       </aside>

@@ -29,7 +29,7 @@ export function LoginPage() {
           {appText.product} <span class="tagline">{appText.tagline}</span>
         </h1>
         {problem !== null && (
-          <p class="remark remark-bad" role="alert" data-testid="login-problem">
+          <p class="message message-bad" role="alert" data-testid="login-problem">
             {sentence(problem)}
           </p>
         )}

@@ -2,7 +2,7 @@ import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 
 import { PageHeader } from '../panels/common/page_header';
-import { Remark } from '../panels/common/fields';
+import { Message } from '../panels/common/fields';
 import { Question, questionId } from '../panels/study/question';
 import { Remote } from '../state/remote';
 import { addressOfRoute } from '../state/route';
@@ -40,20 +40,20 @@ export function QuestionnairePage({ api, studyId, code }: Parts) {
   const loaded = sheet.value.value;
   const back = addressOfRoute({ kind: 'study', id: studyId });
   return (
-    <div class="page desk-page">
+    <div class="page content-page">
       <PageHeader here="questionnaire" />
-      <main class="desk">
-        <section class="desk-panel questionnaire">
+      <main class="content">
+        <section class="content-panel questionnaire">
           <p>
             <a href={back} data-testid="back-to-study">
               ‹ {loaded?.study.name ?? studyText.backToStudy}
             </a>
           </p>
-          {sheet.problem.value !== null && <Remark kind="bad">{sheet.problem.value}</Remark>}
+          {sheet.problem.value !== null && <Message kind="bad">{sheet.problem.value}</Message>}
           {loaded === null && sheet.problem.value === null && <p class="soft">{studyText.loading}</p>}
           {loaded?.sheet === null && <p>{studyText.noQuestions}</p>}
-          {loaded?.study.state === 'closed' && <Remark kind="warn">{studyText.closedHint}</Remark>}
-          {loaded?.theirs && <Remark kind="warn">{studyText.theirAnswers}</Remark>}
+          {loaded?.study.state === 'closed' && <Message kind="warn">{studyText.closedHint}</Message>}
+          {loaded?.theirs && <Message kind="warn">{studyText.theirAnswers}</Message>}
           {loaded?.sheet && (
             <Sheet
               sheet={loaded.sheet}
@@ -77,13 +77,13 @@ interface SheetParts {
 
 function Sheet({ sheet, code, readOnly, send }: SheetParts) {
   const busy = useSignal(false);
-  const said = useSignal<{ kind: 'soft' | 'bad'; text: string } | null>(null);
+  const status = useSignal<{ kind: 'soft' | 'bad'; text: string } | null>(null);
   const { questionnaire } = sheet;
   const missing = sheet.missing.value;
   const submit = async (event: Event) => {
     event.preventDefault();
     sheet.tried.value = true;
-    said.value = null;
+    status.value = null;
     if (missing.length > 0) {
       goToFirstMissing(sheet);
       return;
@@ -92,9 +92,9 @@ function Sheet({ sheet, code, readOnly, send }: SheetParts) {
     try {
       await send(sheet);
       sheet.sent();
-      said.value = { kind: 'soft', text: studyText.sent };
+      status.value = { kind: 'soft', text: studyText.sent };
     } catch (error) {
-      said.value = { kind: 'bad', text: messageOf(error) };
+      status.value = { kind: 'bad', text: messageOf(error) };
     } finally {
       busy.value = false;
     }
@@ -116,21 +116,21 @@ function Sheet({ sheet, code, readOnly, send }: SheetParts) {
         ))}
         <div class="questionnaire-end">
           <p class="soft" data-testid="progress">
-            {studyText.progress(sheet.answered.value, sheet.asked.length)}
+            {studyText.progress(sheet.answered.value, sheet.requiredItems.length)}
           </p>
           {sheet.tried.value && missing.length > 0 && (
-            <p class="remark remark-bad" role="alert" data-testid="missing">
+            <p class="message message-bad" role="alert" data-testid="missing">
               {studyText.missing(missing.length)}{' '}
               <button type="button" class="link-button" onClick={() => goToFirstMissing(sheet)}>
                 {studyText.toFirstMissing}
               </button>
             </p>
           )}
-          {said.value !== null && (
+          {status.value !== null && (
             <div role="status">
-              <Remark kind={said.value.kind} testId="answers-said">
-                {said.value.text}
-              </Remark>
+              <Message kind={status.value.kind} testId="answers-status">
+                {status.value.text}
+              </Message>
             </div>
           )}
           <Button submit look="main" testId="send-answers" disabled={busy.value}>

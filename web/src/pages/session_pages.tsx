@@ -3,7 +3,7 @@ import '../styles/pages.css';
 import { useEffect, useMemo, useRef } from 'preact/hooks';
 
 import { PageHeader } from '../panels/common/page_header';
-import { Remark } from '../panels/common/fields';
+import { Message } from '../panels/common/fields';
 import { FilterBar } from '../panels/sessions/filter_bar';
 import { SessionTable } from '../panels/sessions/session_table';
 import { sessionText } from '../text/session_text';
@@ -46,23 +46,23 @@ export function SessionsPage({ live }: { live: LivePageParts }) {
   const page = browser.page.value.value;
   const problem = browser.page.problem.value;
   return (
-    <div class="page desk-page">
+    <div class="page content-page">
       <PageHeader here="sessions" />
-      <main class="desk" ref={workspace}>
-        <section class="desk-panel" aria-labelledby="sessions-title">
-          <div class="desk-head">
+      <main class="content" ref={workspace}>
+        <section class="content-panel" aria-labelledby="sessions-title">
+          <div class="content-head">
             <h2 id="sessions-title">{sessionText.sessions}</h2>
             {page !== null && (
-              <span class="soft desk-count" role="status" data-testid="session-count">
+              <span class="soft content-count" role="status" data-testid="session-count">
                 {sessionText.count(page.total)}
               </span>
             )}
           </div>
           <FilterBar browser={browser} />
           {problem !== null && (
-            <Remark kind="bad" testId="sessions-problem">
+            <Message kind="bad" testId="sessions-problem">
               {problem}
-            </Remark>
+            </Message>
           )}
           <Deleted />
           {page === null && problem === null && <p class="soft">{sessionText.loading}</p>}
@@ -86,12 +86,12 @@ function Deleted() {
   if (session === null) return null;
   return (
     <div role="status">
-      <Remark kind="soft" testId="deleted">
+      <Message kind="soft" testId="deleted">
         {sessionText.deleted(session.id)}{' '}
         <button type="button" class="link-button" data-testid="restore" onClick={() => void browser.restore()}>
           {sessionText.restore}
         </button>
-      </Remark>
+      </Message>
     </div>
   );
 }
@@ -101,7 +101,7 @@ function Pages() {
   const next = browser.page.value.value?.next ?? null;
   if (at === 1 && next === null) return null;
   return (
-    <nav class="desk-form pages" aria-label={sessionText.page(at)}>
+    <nav class="content-form pages" aria-label={sessionText.page(at)}>
       <Button testId="previous-page" disabled={at === 1} onClick={() => void browser.previous()}>
         {sessionText.previousPage}
       </Button>

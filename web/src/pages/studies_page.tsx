@@ -1,7 +1,7 @@
 import { useEffect, useMemo } from 'preact/hooks';
 
 import { PageHeader } from '../panels/common/page_header';
-import { Remark } from '../panels/common/fields';
+import { Message } from '../panels/common/fields';
 import { dayAndTime } from '../text/format';
 import { useIdentity } from '../panels/common/site_nav';
 import { JoinPanel } from '../panels/study/join_panel';
@@ -21,12 +21,12 @@ export function StudiesPage({ api }: { api: StudyApi }) {
   const list = studies.value.value;
   const open = (id: string) => (window.location.hash = addressOfRoute({ kind: 'study', id }));
   return (
-    <div class="page desk-page">
+    <div class="page content-page">
       <PageHeader here="studies" />
-      <main class="desk">
-        <section class="desk-panel" aria-labelledby="studies-title">
+      <main class="content">
+        <section class="content-panel" aria-labelledby="studies-title">
           <h2 id="studies-title">{studyText.studies}</h2>
-          {studies.problem.value !== null && <Remark kind="bad">{studies.problem.value}</Remark>}
+          {studies.problem.value !== null && <Message kind="bad">{studies.problem.value}</Message>}
           {list === null && studies.problem.value === null && <p class="soft">{studyText.loading}</p>}
           {list?.length === 0 && <p class="soft">{may.teach ? studyText.none : studyText.noneForYou}</p>}
           {list !== null && list.length > 0 && <Table studies={list} mayRun={may.teach} />}
@@ -40,8 +40,8 @@ export function StudiesPage({ api }: { api: StudyApi }) {
 
 function Table({ studies, mayRun }: { studies: readonly Study[]; mayRun: boolean }) {
   return (
-    <div class="desk-scroll">
-      <table class="desk-table" data-testid="studies">
+    <div class="table-scroll">
+      <table class="data-table" data-testid="studies">
         <thead>
           <tr>
             <th scope="col">{studyText.nameColumn}</th>

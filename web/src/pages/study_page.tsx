@@ -1,10 +1,10 @@
 import { useEffect, useMemo } from 'preact/hooks';
 
 import { PageHeader } from '../panels/common/page_header';
-import { Remark } from '../panels/common/fields';
+import { Message } from '../panels/common/fields';
 import { useIdentity } from '../panels/common/site_nav';
 import { EnrolPanel } from '../panels/study/enrol_panel';
-import { ExportPanel, LifePanel } from '../panels/study/life_panel';
+import { ExportPanel, StudyStatePanel } from '../panels/study/study_state_panel';
 import { ParticipantTable } from '../panels/study/participant_table';
 import { TrainPanel } from '../panels/study/train_panel';
 import { Remote } from '../state/remote';
@@ -38,19 +38,19 @@ export function StudyPage({ api, id, train }: Parts) {
   };
   const removed = () => (window.location.hash = addressOfRoute({ kind: 'studies' }));
   return (
-    <div class="page desk-page">
+    <div class="page content-page">
       <PageHeader here="study" />
-      <main class="desk">
-        <section class="desk-panel">
+      <main class="content">
+        <section class="content-panel">
           <p>
             <a href={addressOfRoute({ kind: 'studies' })} data-testid="all-studies">
               ‹ {studyText.backToList}
             </a>
           </p>
           {studies.problem.value !== null && (
-            <Remark kind="bad" testId="study-problem">
+            <Message kind="bad" testId="study-problem">
               {studies.problem.value}
-            </Remark>
+            </Message>
           )}
           {study === null && studies.problem.value === null && <p class="soft">{studyText.loading}</p>}
           {study !== null && <About {...{ api, study, studies, mayRun: may.teach, empty, removed }} />}
@@ -75,25 +75,25 @@ interface AboutParts {
 function About({ api, study, studies, mayRun, empty, removed }: AboutParts) {
   return (
     <>
-      <div class="desk-head">
+      <div class="content-head">
         <h2 data-testid="study-title">{study.name}</h2>
         <span class={study.state === 'open' ? 'chip chip-good' : 'chip'} data-testid="study-state">
           {studyText.states[study.state]}
         </span>
         {!study.blinded && <span class="chip chip-warn">{studyText.unblinded}</span>}
-        {mayRun && <LifePanel {...{ api, study, studies, empty }} onRemoved={removed} />}
+        {mayRun && <StudyStatePanel {...{ api, study, studies, empty }} onRemoved={removed} />}
       </div>
       {study.description !== '' && <p class="study-about">{study.description}</p>}
       <p class="soft">
         {studyText.cases}: {study.cases.join(', ')}
-        {study.device !== null && ` · ${studyText.device}: ${deviceWords(study.device)}`}
+        {study.device !== null && ` · ${studyText.device}: ${deviceText(study.device)}`}
         {study.questionnaire && ` · ${studyText.questionnaire}: ${study.questionnaire.title}`}
       </p>
     </>
   );
 }
 
-function deviceWords(name: string): string {
+function deviceText(name: string): string {
   return studyText.devices.find(([device]) => device === name)?.[1].toLowerCase() ?? name;
 }
 

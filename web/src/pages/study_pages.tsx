@@ -37,9 +37,9 @@ async function train(
   if (store.replayId.value !== null) watcher.leaveReplay();
   const session = await watcher.train(studyId, participant, caseId);
   if (session === null) {
-    const said = store.problem.value ?? noAnswer;
+    const reason = store.problem.value ?? noAnswer;
     store.problem.value = null;
-    return said;
+    return reason;
   }
   window.location.hash = '';
   if (session.device.name === 'browser') practice.steer(session.id);

@@ -17,7 +17,7 @@ export function TraineePage(parts: LivePageParts) {
     <div class="trainee-page" data-testid="trainee-page" data-theatre={theatre}>
       <Picture store={store} practice={practiceStore} scene={scene} view={view} alarms={alarms} bare={true}>
         <div class="trainee-bar" role="group" aria-label={appText.practice}>
-          {practiceStore.steering.value && <Pedals {...parts} />}
+          {practiceStore.steering.value && <HoldButtons {...parts} />}
           <SoundButton sound={sound} />
           <button type="button" class="strip-button" aria-keyshortcuts="F" onClick={() => void fullScreen()}>
             {liveText.fullScreen}
@@ -47,11 +47,11 @@ export function TraineePage(parts: LivePageParts) {
 }
 
 /** What hands without keys need; pushing is the pointer's. */
-function Pedals({ practiceStore, scene }: LivePageParts) {
+function HoldButtons({ practiceStore, scene }: LivePageParts) {
   const { hand } = practiceStore;
-  const press = (act: () => void) => () => {
+  const press = (action: () => void) => () => {
     hand.takeHold();
-    act();
+    action();
     scene.canvas.focus({ preventScroll: true });
   };
   return (

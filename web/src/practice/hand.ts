@@ -1,6 +1,6 @@
 import { signal, type Signal } from '@preact/signals';
 
-import type { Wish } from '../wire/device_messages';
+import type { SteeringInput } from '../wire/device_messages';
 import { leanMaxDeg, limited, sidewaysMaxMm, type Beside, type PlanFrame } from './plan_frame';
 
 /** Force that a full push reaches, simulated N, as the person chooses it. */
@@ -102,7 +102,7 @@ export class Hand {
     this.pushN.value = wanted <= 0 ? wanted : Math.min(wanted, Math.max(this.pushN.value, 0) + riseNPerS * seconds);
   }
 
-  wish(plan: PlanFrame): Wish {
+  input(plan: PlanFrame): SteeringInput {
     return {
       sidewaysMm: plan.sideways(this.place.value).toArray(),
       lean: plan.leant(this.lean.value).toArray(),

@@ -57,10 +57,10 @@ export class KeyHand {
   private onDown(event: KeyboardEvent): boolean {
     if (isArrow(event.key)) return this.onArrow(event, event.key);
     if (event.ctrlKey) return false;
-    const act = this.action(event.key);
-    if (act === null) return false;
+    const action = this.action(event.key);
+    if (action === null) return false;
     this.hand.takeHold();
-    if (!event.repeat || event.key === '+' || event.key === '=' || event.key === '-') act();
+    if (!event.repeat || event.key === '+' || event.key === '=' || event.key === '-') action();
     return true;
   }
 

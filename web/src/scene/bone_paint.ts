@@ -23,7 +23,7 @@ varying vec3 vKinds;
 varying vec3 vInTool;
 #endif
 `;
-const passOn = `
+const vertexAssignment = `
 #include <project_vertex>
 #ifdef ${painted}
 vKinds = vec3(boneKind == 0.0, boneKind == 1.0, boneKind == 2.0);
@@ -89,7 +89,7 @@ export class BonePaint {
         kindColour: { value: [cancellous, cortical, cartilage].map((colour) => new Color(colour)) },
         touchedColour: { value: new Color(contactColour) },
       });
-      shader.vertexShader = inVertex + shader.vertexShader.replace('#include <project_vertex>', passOn);
+      shader.vertexShader = inVertex + shader.vertexShader.replace('#include <project_vertex>', vertexAssignment);
       shader.fragmentShader = inFragment + shader.fragmentShader.replace('#include <color_fragment>', paintKinds);
       paintInside(shader, renderer);
     };

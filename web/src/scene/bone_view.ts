@@ -11,7 +11,7 @@ const settleEveryMs = 30;
 const lookAgainMs = 500;
 
 /** What is seen in place of the streamed bone, in the frame of the bone at rest. */
-export interface InsteadOfBone {
+export interface BoneReplacement {
   readonly object: Object3D;
   /** As BoneView has it. */
   setLook(opacity: number, cuts: Plane[]): void;
@@ -26,7 +26,7 @@ export class BoneView {
   readonly paint = new BonePaint();
   private shown: BonePicture | null = null;
   private incoming: BonePicture | null = null;
-  private instead: InsteadOfBone | null = null;
+  private instead: BoneReplacement | null = null;
   private settling: ReturnType<typeof setTimeout> | undefined;
 
   /** `onSettled` hears whenever regions are drawn otherwise without a call from outside: each wants a picture of its own. */
@@ -55,7 +55,7 @@ export class BoneView {
   }
 
   /** Shows something else in the bone's place; null: the bone again. */
-  showInstead(other: InsteadOfBone | null): void {
+  replaceBone(other: BoneReplacement | null): void {
     this.instead?.object.removeFromParent();
     this.instead = other;
     if (other !== null) this.group.add(other.object);
@@ -64,7 +64,7 @@ export class BoneView {
 
   dispose(): void {
     clearTimeout(this.settling);
-    this.showInstead(null);
+    this.replaceBone(null);
     this.shown?.dispose();
     this.incoming?.dispose();
     this.paint.dispose();

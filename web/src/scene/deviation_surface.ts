@@ -13,7 +13,7 @@ import { paletteOf, type ScaleName } from '../state/review/deviation_scale';
 import type { DeviationCode } from '../wire/review_api';
 import type { SortedSurface } from '../wire/surface_worker';
 import { boneMaterial, lookOfBone } from './bone_material';
-import type { InsteadOfBone } from './bone_view';
+import type { BoneReplacement } from './bone_view';
 import { haveBoxes } from './line_hits';
 
 const declareInVertex = `
@@ -23,7 +23,7 @@ varying float vDeviation;
 varying float vKnown;
 `;
 /** What is between a known and an unknown corner is unknown. */
-const passOn = `
+const vertexAssignment = `
 #include <begin_vertex>
 vKnown = deviation == unknownCode ? 0.0 : 1.0;
 vDeviation = deviation == unknownCode ? 0.0 : deviation;
@@ -49,7 +49,7 @@ gl_FragColor = vec4(mapped, gl_FragColor.a);
 `;
 
 /** The surface that a session left, painted by how far it lies from something; in the CT's frame. */
-export class DeviationSurface implements InsteadOfBone {
+export class DeviationSurface implements BoneReplacement {
   readonly object: Mesh;
   private readonly material: MeshStandardMaterial;
   private readonly palette = new DataTexture(new Uint8Array(256 * 4), 256, 1);
@@ -97,7 +97,7 @@ export class DeviationSurface implements InsteadOfBone {
     material.onBeforeCompile = (shader, renderer) => {
       shader.uniforms.palette = { value: this.palette };
       shader.uniforms.unknownCode = this.unknownCode;
-      shader.vertexShader = declareInVertex + shader.vertexShader.replace('#include <begin_vertex>', passOn);
+      shader.vertexShader = declareInVertex + shader.vertexShader.replace('#include <begin_vertex>', vertexAssignment);
       shader.fragmentShader =
         declareInFragment + shader.fragmentShader.replace('#include <dithering_fragment>', paintMap);
       paintBone(shader, renderer);

@@ -11,7 +11,7 @@ export class FrameRequest {
   private timer: ReturnType<typeof setTimeout> | undefined;
   private frame: number | null = null;
   private disposed = false;
-  private waiters: (() => void)[] = [];
+  private resolvers: (() => void)[] = [];
 
   /** With `frames` more than 1 the browser has that many frames for each drawing. */
   constructor(
@@ -49,7 +49,7 @@ export class FrameRequest {
 
   /** Until what was asked for is drawn or given up. */
   done(): Promise<void> {
-    return new Promise((resolve) => this.waiters.push(resolve));
+    return new Promise((resolve) => this.resolvers.push(resolve));
   }
 
   private waitFor(frames: number): void {
@@ -63,8 +63,8 @@ export class FrameRequest {
   private end(draw?: () => void): void {
     this.frame = null;
     pending.delete(this);
-    const waiters = this.waiters.splice(0);
+    const resolvers = this.resolvers.splice(0);
     draw?.();
-    for (const resolve of waiters) resolve();
+    for (const resolve of resolvers) resolve();
   }
 }

@@ -12,6 +12,8 @@ import {
   type WebGLRenderer,
 } from 'three';
 
+import { messageOf } from '../wire/rest';
+
 /** The bone is seen so many times its size, at this distance from the eyes when the headset is put on. */
 const magnification = 4;
 const beginsAtMm = 550;
@@ -52,7 +54,7 @@ export class Headset {
   readonly camera = new PerspectiveCamera(60, 1, near, far);
   /** Metres around the wearer's head at first into the world's mm. */
   readonly room = new Group();
-  private readonly sign = new HeadsetSign();
+  private readonly caption = new HeadsetCaption();
   private grabbed: { hand: Group; begun: Matrix4; room: Matrix4 } | null = null;
   private drawnAtMs = 0;
   private readonly stops: (() => void)[] = [];
@@ -60,10 +62,10 @@ export class Headset {
   constructor(
     private readonly renderer: WebGLRenderer,
     private readonly draw: () => void,
-    private readonly onTakenOff: () => void,
+    private readonly onEnd: () => void,
   ) {
     this.room.matrixAutoUpdate = false;
-    this.camera.add(this.sign.mesh);
+    this.camera.add(this.caption.mesh);
     this.room.add(this.camera);
     for (const hand of this.hands()) this.room.add(hand);
     void this.look();
@@ -72,18 +74,21 @@ export class Headset {
     this.stops.push(() => navigator.xr?.removeEventListener('devicechange', looksAgain));
   }
 
-  show(words: HeadsetMessage): void {
-    this.sign.show(words);
+  show(message: HeadsetMessage): void {
+    this.caption.show(message);
   }
 
-  /** To be called at a person's click: browsers let nobody else put it on. */
-  async putOn(from: Standpoint): Promise<void> {
+  /**
+   * To be called at a person's click: browsers let nobody else put it on. `standpoint` is read once the headset is
+   * ready, which may be seconds later.
+   */
+  async putOn(standpoint: () => Standpoint): Promise<void> {
     if (this.worn.value || navigator.xr === undefined) return;
     this.problem.value = null;
     try {
       const session = await navigator.xr.requestSession('immersive-vr', { optionalFeatures: ['local-floor'] });
-      session.addEventListener('end', () => this.takenOff());
-      this.stand(from);
+      session.addEventListener('end', () => this.onSessionEnd());
+      this.place(standpoint());
       const { xr } = this.renderer;
       xr.enabled = true;
       xr.setReferenceSpaceType('local');
@@ -93,8 +98,15 @@ export class Headset {
       this.renderer.setAnimationLoop(() => this.frame());
     } catch (error) {
       this.renderer.xr.enabled = false;
-      this.problem.value = error instanceof Error ? error.message : String(error);
+      this.problem.value = messageOf(error);
     }
+  }
+
+  /** Places the wearer before the target; also while the headset is worn, when its bone arrives. Ends a grab. */
+  place(from: Standpoint): void {
+    this.grabbed = null;
+    this.room.matrix.copy(roomBefore(from, magnification));
+    this.room.updateMatrixWorld(true);
   }
 
   async takeOff(): Promise<void> {
@@ -104,7 +116,7 @@ export class Headset {
   dispose(): void {
     for (const stop of this.stops) stop();
     void this.takeOff();
-    this.sign.dispose();
+    this.caption.dispose();
   }
 
   private async look(): Promise<void> {
@@ -112,12 +124,12 @@ export class Headset {
     this.available.value = (await navigator.xr?.isSessionSupported('immersive-vr').catch(() => false)) ?? false;
   }
 
-  private takenOff(): void {
+  private onSessionEnd(): void {
     this.renderer.setAnimationLoop(null);
     this.renderer.xr.enabled = false;
     this.grabbed = null;
     this.worn.value = false;
-    this.onTakenOff();
+    this.onEnd();
   }
 
   private hands(): Group[] {
@@ -129,11 +141,6 @@ export class Headset {
       });
       return hand;
     });
-  }
-
-  private stand(from: Standpoint): void {
-    this.room.matrix.copy(roomBefore(from, magnification));
-    this.room.updateMatrixWorld(true);
   }
 
   private grab(hand: Group): void {
@@ -209,9 +216,9 @@ const below = 0.3;
 const width = 0.6;
 
 /** A line of words that stays in sight: below the middle, wherever the head turns. */
-export class HeadsetSign {
-  private readonly paper = document.createElement('canvas');
-  private readonly texture = new CanvasTexture(this.paper);
+export class HeadsetCaption {
+  private readonly canvas = document.createElement('canvas');
+  private readonly texture = new CanvasTexture(this.canvas);
   private readonly material = new MeshBasicMaterial({
     map: this.texture,
     transparent: true,
@@ -222,29 +229,29 @@ export class HeadsetSign {
   private shown: HeadsetMessage = { text: '', warns: false };
 
   constructor() {
-    this.paper.width = widthPx;
-    this.paper.height = heightPx;
+    this.canvas.width = widthPx;
+    this.canvas.height = heightPx;
     this.mesh.position.set(0, -below, -ahead);
     this.mesh.renderOrder = 1000;
     this.mesh.visible = false;
   }
 
-  show(words: HeadsetMessage): void {
-    if (words.text === this.shown.text && words.warns === this.shown.warns) return;
-    this.shown = words;
-    this.mesh.visible = words.text !== '';
-    const ink = this.paper.getContext('2d');
-    if (ink === null) return;
-    ink.clearRect(0, 0, widthPx, heightPx);
-    ink.fillStyle = words.warns ? '#8c1d18' : 'rgb(20 28 32 / 0.86)';
-    ink.beginPath();
-    ink.roundRect(0, 0, widthPx, heightPx, 24);
-    ink.fill();
-    ink.fillStyle = '#ffffff';
-    ink.font = '600 46px system-ui, sans-serif';
-    ink.textAlign = 'center';
-    ink.textBaseline = 'middle';
-    ink.fillText(words.text, widthPx / 2, heightPx / 2, widthPx - 40);
+  show(message: HeadsetMessage): void {
+    if (message.text === this.shown.text && message.warns === this.shown.warns) return;
+    this.shown = message;
+    this.mesh.visible = message.text !== '';
+    const context = this.canvas.getContext('2d');
+    if (context === null) return;
+    context.clearRect(0, 0, widthPx, heightPx);
+    context.fillStyle = message.warns ? '#8c1d18' : 'rgb(20 28 32 / 0.86)';
+    context.beginPath();
+    context.roundRect(0, 0, widthPx, heightPx, 24);
+    context.fill();
+    context.fillStyle = '#ffffff';
+    context.font = '600 46px system-ui, sans-serif';
+    context.textAlign = 'center';
+    context.textBaseline = 'middle';
+    context.fillText(message.text, widthPx / 2, heightPx / 2, widthPx - 40);
     this.texture.needsUpdate = true;
   }
 

@@ -7,10 +7,10 @@ import type { Store } from '../state/store';
 export function headsetMessage(store: Store): HeadsetMessage {
   const hello = store.hello.value;
   if (hello === null || !store.upToDate.value) return { text: liveText.headsetNotLive, warns: true };
-  const told = store.telemetry.value;
+  const telemetry = store.telemetry.value;
   const figures = [
-    `${fixed(told?.thrustN.at(-1), 0)} N`,
-    liveText.headsetDepth(fixed(told?.depthMm, 1), fixed(hello.plannedDepthMm, 1)),
+    `${fixed(telemetry?.thrustN.at(-1), 0)} N`,
+    liveText.headsetDepth(fixed(telemetry?.depthMm, 1), fixed(hello.plannedDepthMm, 1)),
   ].join('   ');
   if (!store.replaying.value) return { text: `${liveText.headsetLive}   ${figures}`, warns: false };
   const at = minutes((store.playback.value?.positionTicks ?? 0) / 1000);

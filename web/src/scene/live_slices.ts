@@ -9,7 +9,7 @@ import { numberOf, VolumeFrame } from '../ct/volume_frame';
 import { windowPresets } from '../ct/window_level';
 import type { Store } from '../state/store';
 import { CaseApi } from '../wire/case_api';
-import type { CtDescription } from '../wire/rest_types';
+import type { CaseCt } from '../wire/rest_types';
 import type { Hello, Pose, Triple } from '../wire/messages';
 import { FrameRequest } from './frame_request';
 import { SlicePicture } from './slice_picture';
@@ -30,7 +30,7 @@ interface View {
   picture: SlicePicture;
 }
 
-/** Slices of the CT through the tip of the reamer, with its outline and the planned axis, as the stream tells them. */
+/** Slices of the CT through the tip of the reamer, with its outline and the planned axis, as the stream sends them. */
 export class LiveSlices {
   /** Why a slice is not there; null: it is, or on its way. */
   readonly problem = signal<string | null>(null);
@@ -45,7 +45,7 @@ export class LiveSlices {
 
   constructor(
     private readonly store: Store,
-    private readonly ct: CtDescription,
+    private readonly ct: CaseCt,
     caseId: string,
   ) {
     this.frame = new VolumeFrame(ct);

@@ -29,13 +29,13 @@ export class ReviewView {
   ) {
     const { scene } = this;
     scene.extras.add(this.marks.group);
-    scene.onDrawn = () => camera.drew(scene);
-    scene.onTaken = () => settings.view.change({ camera: 'own' });
+    scene.onDrawn = () => camera.onDrawn(scene);
+    scene.onInteraction = () => settings.view.change({ camera: 'own' });
     camera.add(scene);
     this.listen();
   }
 
-  /** Shows what the session tells, until this is disposed of. `leads`: its reamer is what the surgeon's eye follows. */
+  /** Shows the session, until this is disposed of. `leads`: its reamer is what the surgeon's eye follows. */
   follow(session: ReviewSession, leads: () => boolean): void {
     const { scene, settings } = this;
     const { store } = session;
@@ -72,7 +72,7 @@ export class ReviewView {
     this.camera.remove(this.scene);
     this.scene.onDrawn = () => undefined;
     this.marks.clear();
-    this.scene.showInstead(null);
+    this.scene.replaceBone(null);
     this.painted?.on.dispose();
     this.scene.dispose();
   }
@@ -80,7 +80,7 @@ export class ReviewView {
   private showMap(session: ReviewSession): void {
     const map = session.mapShown.value;
     const scale = this.settings.scale.value;
-    if (map === null) return this.scene.showInstead(null);
+    if (map === null) return this.scene.replaceBone(null);
     if (this.painted?.surface !== map.surface) {
       this.painted?.on.dispose();
       this.painted = { surface: map.surface, on: new DeviationSurface(map.surface) };
@@ -88,7 +88,7 @@ export class ReviewView {
     const { on } = this.painted;
     on.paint(map.deviation.bytes, map.deviation.code);
     on.setScale(scale);
-    this.scene.showInstead(on);
+    this.scene.replaceBone(on);
   }
 
   private listen(): void {

@@ -17,12 +17,12 @@ import type { SteeredView } from '../practice/pointer_hand';
 import { plainView, type ViewChoices } from '../state/view_settings';
 import type { Hello, MeshDelta, Pose, ToolMesh } from '../wire/messages';
 import { AimView } from './aim_view';
-import { BoneView, type InsteadOfBone } from './bone_view';
-import { CameraRig, type ViewName } from './camera_rig';
+import { BoneView, type BoneReplacement } from './bone_view';
+import { OrbitCamera, type ViewName } from './orbit_camera';
 import { watchContext } from './context_watch';
 import { planeThroughAxis, sectionPlanes } from './cut_planes';
 import { FrameRequest } from './frame_request';
-import { Headset } from './headset';
+import { Headset, type Standpoint } from './headset';
 import { OperatingLights } from './lights';
 import type { Eye } from './shared_eye';
 import { drawsInSoftware } from './software_drawing';
@@ -48,7 +48,7 @@ export class BoneScene implements SteeredView {
   private readonly tool = new ToolView();
   private readonly aim = new AimView();
   private readonly lights: OperatingLights;
-  private readonly rig: CameraRig;
+  private readonly orbit: OrbitCamera;
   private readonly surgeon: SurgeonCamera;
   /** Makes what lies behind the nearest bone unseen where the bone is seen through. */
   private readonly depthOnly = new MeshBasicMaterial({ colorWrite: false });
@@ -63,7 +63,7 @@ export class BoneScene implements SteeredView {
   /** Hears of every picture that was drawn. */
   onDrawn: () => void = () => undefined;
   /** Hears that somebody begins to turn or zoom the picture by hand. */
-  onTaken: () => void = () => undefined;
+  onInteraction: () => void = () => undefined;
 
   /** Throws where the browser offers no WebGL. */
   constructor() {
@@ -71,12 +71,12 @@ export class BoneScene implements SteeredView {
     this.renderer.toneMapping = NeutralToneMapping;
     this.renderer.toneMappingExposure = 1.05;
     this.renderer.localClippingEnabled = true;
-    this.rig = new CameraRig(
+    this.orbit = new OrbitCamera(
       this.canvas,
       () => this.invalidate(),
-      () => this.onTaken(),
+      () => this.onInteraction(),
     );
-    this.surgeon = new SurgeonCamera(this.rig);
+    this.surgeon = new SurgeonCamera(this.orbit);
     this.lights = new OperatingLights(this.scene);
     this.headset = new Headset(
       this.renderer,
@@ -104,7 +104,7 @@ export class BoneScene implements SteeredView {
   }
   /** All that is seen of the bone; what lies on the negative side of any of `cuts` (world frame) is not. */
   get seenBone(): { group: Group; cuts: Plane[] } {
-    return { group: this.bone.group, cuts: this.cuts(this.rig.camera) };
+    return { group: this.bone.group, cuts: this.cuts(this.orbit.camera) };
   }
 
   dispose(): void {
@@ -115,23 +115,26 @@ export class BoneScene implements SteeredView {
   }
 
   /** Something else in the bone's place; null: the bone again. */
-  showInstead(other: InsteadOfBone | null): void {
-    this.bone.showInstead(other);
+  replaceBone(other: BoneReplacement | null): void {
+    this.bone.replaceBone(other);
     this.invalidate();
   }
 
   /** At a person's click; what is seen begins from where the picture is seen. */
-  putOnHeadset(): void {
+  enterHeadset(): void {
+    void this.headset.putOn(() => this.standpoint());
+  }
+  private standpoint(): Standpoint {
     const { target, towardsEye } = this.eye();
-    void this.headset.putOn({ target, eye: target.clone().add(towardsEye) });
+    return { target, eye: target.clone().add(towardsEye) };
   }
 
   /** From where the picture is seen. */
   eye(): Eye {
-    return { ...this.rig.eyePose(this.rig.screenDirections().up), distanceMm: this.rig.distanceMm };
+    return { ...this.orbit.eyePose(this.orbit.screenDirections().up), distanceMm: this.orbit.distanceMm };
   }
   setEye(eye: Eye): void {
-    this.rig.setEyePose(eye, eye.distanceMm);
+    this.orbit.setEyePose(eye, eye.distanceMm);
     this.invalidate();
   }
 
@@ -139,12 +142,14 @@ export class BoneScene implements SteeredView {
   begin(hello: Hello): void {
     this.bone.begin(hello);
     this.setTool(hello.tool);
-    this.rig.setPlan(hello);
+    this.orbit.setPlan(hello);
     this.plan = new PlanFrame(hello);
     this.surgeon.setPlan(this.plan);
     if (this.framedCase !== hello.caseId) {
       this.framedCase = hello.caseId;
-      this.rig.look('plan');
+      this.orbit.look('plan');
+      // Who wears the headset already was placed before nothing, or before another bone.
+      this.headset.place(this.standpoint());
     }
     this.invalidate();
   }
@@ -154,7 +159,7 @@ export class BoneScene implements SteeredView {
     this.invalidate();
   }
 
-  /** Another reamer from here on; drawn once its pose is told. */
+  /** Another reamer from here on; drawn once its pose is known. */
   setTool(tool: ToolMesh): void {
     this.tool.setMesh(tool);
     this.bone.paint.setTool(tool);
@@ -200,32 +205,32 @@ export class BoneScene implements SteeredView {
 
   /** Where the hand aims beside the plan; null: nobody steers here, and the picture is turned by pointer and keys. */
   setAim(plan: PlanFrame | null, place: Beside): void {
-    this.rig.setGuided(plan !== null);
+    this.orbit.setGuided(plan !== null);
     this.aim.set(plan, place);
     this.invalidate();
   }
 
   rayAt(clientX: number, clientY: number): Ray {
-    return this.rig.rayAt(clientX, clientY);
+    return this.orbit.rayAt(clientX, clientY);
   }
 
   screenAxes(plan: PlanFrame): ScreenAxes {
-    const { right, up } = this.rig.screenDirections();
+    const { right, up } = this.orbit.screenDirections();
     return { right: plan.beside(right), up: plan.beside(up) };
   }
 
   turnBy(rightPx: number, downPx: number): void {
-    this.rig.turnBy(rightPx, downPx);
+    this.orbit.turnBy(rightPx, downPx);
     this.invalidate();
   }
 
   zoomBy(factor: number): void {
-    this.rig.zoom(factor);
+    this.orbit.zoom(factor);
     this.invalidate();
   }
 
   look(view: ViewName): void {
-    this.rig.look(view);
+    this.orbit.look(view);
     this.invalidate();
   }
 
@@ -238,7 +243,7 @@ export class BoneScene implements SteeredView {
     if (this.lost.value) return;
     const beganMs = performance.now();
     const worn = this.headset.worn.peek();
-    const camera = worn ? this.headset.camera : this.rig.camera;
+    const camera = worn ? this.headset.camera : this.orbit.camera;
     const moving = this.surgeon.step(Math.min((beganMs - this.drawnAtMs) / 1000, longestStepS));
     this.drawnAtMs = beganMs;
     if (!worn) camera.updateMatrixWorld();
@@ -257,7 +262,7 @@ export class BoneScene implements SteeredView {
   /** Through the nearest bone the reamer is seen, but none of the bone behind. */
   private drawSeenThrough(cuts: Plane[], camera: PerspectiveCamera): void {
     const { renderer, scene } = this;
-    const aimShown = this.aim.group.visible;
+    const showAim = this.aim.group.visible;
     const passes: [bone: boolean, others: boolean, material: MeshBasicMaterial | null][] = [
       [false, true, null],
       [true, false, this.depthOnly],
@@ -271,14 +276,14 @@ export class BoneScene implements SteeredView {
       this.bone.group.visible = bone;
       this.tool.group.visible = others && toolShown;
       this.extras.visible = others;
-      this.aim.group.visible = others && aimShown;
+      this.aim.group.visible = others && showAim;
       scene.overrideMaterial = material;
       renderer.render(scene, camera);
     }
     scene.overrideMaterial = null;
     this.bone.group.visible = true;
     this.tool.group.visible = toolShown;
-    this.aim.group.visible = aimShown;
+    this.aim.group.visible = showAim;
     this.extras.visible = true;
     renderer.autoClear = true;
   }
@@ -304,7 +309,7 @@ export class BoneScene implements SteeredView {
     if (clientWidth === 0 || clientHeight === 0 || this.headset.worn.peek()) return;
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, pixelRatioMax));
     this.renderer.setSize(clientWidth, clientHeight, false);
-    this.rig.resize(clientWidth / clientHeight);
+    this.orbit.resize(clientWidth / clientHeight);
     this.draw();
   }
 }

@@ -1,25 +1,25 @@
 import { type EyeOnPlan, eyeFromPlan, eyeOnPlan, isSameEye } from './shared_eye';
 import type { BoneScene } from './scene';
 
-type Seen = Pick<BoneScene, 'planFrame' | 'eye' | 'setEye'>;
+type SharedScene = Pick<BoneScene, 'planFrame' | 'eye' | 'setEye'>;
 
 /** One camera for several pictures: whichever is turned, all others are seen from there. */
 export class SharedCamera {
-  private readonly scenes = new Set<Seen>();
+  private readonly scenes = new Set<SharedScene>();
   /** Those that have been seen from where the others are. */
-  private readonly joined = new WeakSet<Seen>();
+  private readonly joined = new WeakSet<SharedScene>();
   private eye: EyeOnPlan | null = null;
 
-  add(scene: Seen): void {
+  add(scene: SharedScene): void {
     this.scenes.add(scene);
   }
-  remove(scene: Seen): void {
+  remove(scene: SharedScene): void {
     this.scenes.delete(scene);
     if (this.scenes.size === 0) this.eye = null;
   }
 
-  /** To be told of every picture that was drawn. */
-  drew(scene: Seen): void {
+  /** To be called after every frame. */
+  onDrawn(scene: SharedScene): void {
     const plan = scene.planFrame;
     if (plan === null || !this.scenes.has(scene)) return;
     const first = !this.joined.has(scene);

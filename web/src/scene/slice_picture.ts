@@ -4,6 +4,7 @@ import type { SliceCache, SliceKey } from '../ct/slice_cache';
 import type { SliceLayout } from '../ct/slice_layout';
 import { numberOf, voxelAxes, type VolumeFrame } from '../ct/volume_frame';
 import { brightnessTable, type WindowLevel } from '../ct/window_level';
+import { messageOf } from '../wire/rest';
 
 export interface SliceWanted {
   plane: SlicePlane;
@@ -88,7 +89,7 @@ export class SlicePicture {
       },
       (error: unknown) => {
         if (error instanceof DOMException && error.name === 'AbortError') return;
-        this.problem = error instanceof Error ? error.message : String(error);
+        this.problem = messageOf(error);
         this.retryAtMs = performance.now() + retryAfterMs;
         setTimeout(this.onArrived, retryAfterMs);
         this.onArrived();

@@ -9,7 +9,7 @@ import type { Framed } from '../state/case/case_store';
 import type { PointMark, ViewMarks } from '../state/case/view_marks';
 import type { Triple } from '../wire/rest_types';
 import { FrameRequest } from './frame_request';
-import { SliceHand } from './slice_hand';
+import { SliceInput } from './slice_input';
 import { drawOverlay, markAt, type OverlayWanted } from './slice_overlay';
 import { SlicePicture } from './slice_picture';
 
@@ -95,7 +95,7 @@ export class SliceView {
       else this.moveCrossHair(plane.down.axis, arrow[1] * plane.down.sign);
       return true;
     }
-    const deeds: Record<string, () => void> = {
+    const actions: Record<string, () => void> = {
       PageUp: () => this.scroll(-1),
       PageDown: () => this.scroll(1),
       '+': () => this.zoomAtCrossHair(zoomStep),
@@ -103,9 +103,9 @@ export class SliceView {
       '-': () => this.zoomAtCrossHair(1 / zoomStep),
       Home: () => this.fit({ box: null }),
     };
-    const deed = deeds[event.key];
-    deed?.();
-    return deed !== undefined;
+    const action = actions[event.key];
+    action?.();
+    return action !== undefined;
   }
 
   /** Everything that the picture depends on. */
@@ -202,7 +202,7 @@ export class SliceView {
 
   private listen(): void {
     const { store } = this.controller;
-    new SliceHand(this.canvas, {
+    new SliceInput(this.canvas, {
       takeHold: (at) => this.takeHold(at),
       moveHeld: (at) => this.held !== null && this.moveHeld(this.held, at),
       letGo: () => (this.held = null),
@@ -223,7 +223,7 @@ export class SliceView {
   private hover(at: PicturePoint | null): void {
     const overlay = this.overlay();
     const mark = at === null || overlay === null ? null : markAt(at, overlay);
-    this.canvas.classList.toggle('grips', mark !== null && this.marks.draggable(mark));
+    this.canvas.classList.toggle('draggable', mark !== null && this.marks.draggable(mark));
   }
 
   private takeHold(at: PicturePoint): boolean {
@@ -250,9 +250,9 @@ export class SliceView {
     this.marks.move(held, frame.worldFromVoxel(voxel));
   }
 
-  private withVoxel(at: PicturePoint, deed: (voxel: Triple, frame: VolumeFrame) => void): void {
+  private withVoxel(at: PicturePoint, action: (voxel: Triple, frame: VolumeFrame) => void): void {
     const overlay = this.overlay();
-    if (overlay !== null) deed(overlay.layout.toVoxel(at, overlay.crossHair), overlay.frame);
+    if (overlay !== null) action(overlay.layout.toVoxel(at, overlay.crossHair), overlay.frame);
   }
 
   private pan(rightPx: number, downPx: number): void {

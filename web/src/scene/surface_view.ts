@@ -21,10 +21,11 @@ import { planeNames } from '../ct/orientation';
 import { add, subtract } from '../ct/volume_frame';
 import type { CaseController } from '../state/case/case_controller';
 import type { PlanMark, PointMark, ViewMarks } from '../state/case/view_marks';
+import { messageOf } from '../wire/rest';
 import type { Triple } from '../wire/rest_types';
 import { MeshLoader } from '../wire/mesh_loader';
 import type { Surface } from '../wire/ply';
-import { CameraRig } from './camera_rig';
+import { OrbitCamera } from './orbit_camera';
 import { type ContextWatch, watchContext } from './context_watch';
 import { FrameRequest } from './frame_request';
 import { OperatingLights } from './lights';
@@ -64,7 +65,7 @@ export class SurfaceView {
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly lights: OperatingLights;
-  private readonly rig: CameraRig;
+  private readonly orbit: OrbitCamera;
   private readonly loader = new MeshLoader();
   private readonly boneMaterial = new MeshStandardMaterial({ color: 0xf2e8d5, roughness: 0.72, metalness: 0 });
   private bone: Mesh | null = null;
@@ -90,7 +91,7 @@ export class SurfaceView {
     this.context = watchContext(this.canvas, () => this.resize());
     this.canvas.tabIndex = 0;
     this.listenForClicks();
-    this.rig = new CameraRig(this.canvas, () => this.invalidate());
+    this.orbit = new OrbitCamera(this.canvas, () => this.invalidate());
     this.lights = new OperatingLights(this.scene);
     this.scene.add(this.crossHair, this.points);
     const resizes = new ResizeObserver(() => this.resize());
@@ -127,14 +128,14 @@ export class SurfaceView {
   look(view: 'side' | 'front' | 'glenoid'): void {
     const glenoid = this.glenoid();
     if (view === 'glenoid' && glenoid !== null) {
-      this.rig.setPlan(glenoid);
-      this.rig.look('plan');
+      this.orbit.setPlan(glenoid);
+      this.orbit.look('plan');
     } else if (this.surface !== null) {
       const { low, high } = this.surface;
       const centre = add(low, high).map((value) => value / 2) as Triple;
       const radius = Math.hypot(...subtract(high, low)) / 2;
-      this.rig.setPlan({ axisEntryMm: centre, axisDirection: this.medial() }, Math.max(radius, 10));
-      this.rig.look(view === 'front' ? 'side' : 'axis');
+      this.orbit.setPlan({ axisEntryMm: centre, axisDirection: this.medial() }, Math.max(radius, 10));
+      this.orbit.look(view === 'front' ? 'side' : 'axis');
     }
     this.invalidate();
   }
@@ -173,7 +174,7 @@ export class SurfaceView {
       this.show(surface);
       store.surface.value = { kind: 'shown' };
     } catch (error) {
-      store.surface.value = { kind: 'failed', words: error instanceof Error ? error.message : String(error) };
+      store.surface.value = { kind: 'failed', message: messageOf(error) };
     }
   }
 
@@ -254,7 +255,7 @@ export class SurfaceView {
         this.held = this.markUnder(event);
         if (this.held === null) return;
         // The point is moved, not the view.
-        this.rig.setGuided(true);
+        this.orbit.setGuided(true);
         this.canvas.setPointerCapture(event.pointerId);
       },
       { capture: true },
@@ -269,7 +270,7 @@ export class SurfaceView {
     this.canvas.addEventListener('pointerup', (event) => {
       const held = this.held;
       this.held = null;
-      this.rig.setGuided(false);
+      this.orbit.setGuided(false);
       const still = start !== null && isNear(event, start);
       start = null;
       if (!still || event.button !== 0) return;
@@ -278,7 +279,7 @@ export class SurfaceView {
     });
     this.canvas.addEventListener('pointercancel', () => {
       this.held = null;
-      this.rig.setGuided(false);
+      this.orbit.setGuided(false);
     });
   }
 
@@ -294,7 +295,7 @@ export class SurfaceView {
   private pick(event: MouseEvent): Triple | null {
     if (this.bone === null) return null;
     const before = performance.now();
-    const { origin, direction } = this.rig.rayAt(event.clientX, event.clientY);
+    const { origin, direction } = this.orbit.rayAt(event.clientX, event.clientY);
     const hit = new Raycaster(origin, direction).intersectObject(this.bone, false)[0];
     this.lastPickMs = performance.now() - before;
     return hit === undefined ? null : hit.point.toArray();
@@ -321,7 +322,7 @@ export class SurfaceView {
 
   private draw(): void {
     if (this.lost.value) return;
-    const { camera } = this.rig;
+    const { camera } = this.orbit;
     camera.updateMatrixWorld();
     this.lights.follow(camera);
     this.renderer.render(this.scene, camera);
@@ -340,7 +341,7 @@ export class SurfaceView {
     if (clientWidth === 0 || clientHeight === 0) return;
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, pixelRatioMax));
     this.renderer.setSize(clientWidth, clientHeight, false);
-    this.rig.resize(clientWidth / clientHeight);
+    this.orbit.resize(clientWidth / clientHeight);
     this.draw();
   }
 }

@@ -1,7 +1,7 @@
 import { Vector3 } from 'three';
 
 import type { PlanFrame } from '../practice/plan_frame';
-import { superior, type CameraRig } from './camera_rig';
+import { superior, type OrbitCamera } from './orbit_camera';
 import { arrived, gone, surgeonsEye } from './surgeon_eye';
 
 /** After this time it has gone two thirds of its way. */
@@ -17,7 +17,7 @@ export class SurgeonCamera {
   private up = superior.clone();
   private readonly still = window.matchMedia('(prefers-reduced-motion: reduce)');
 
-  constructor(private readonly rig: CameraRig) {}
+  constructor(private readonly orbit: OrbitCamera) {}
 
   setPlan(plan: PlanFrame): void {
     this.plan = plan;
@@ -35,17 +35,17 @@ export class SurgeonCamera {
 
   /** Goes on for so long; whether there is more way to go. */
   step(seconds: number): boolean {
-    const { plan, rig } = this;
+    const { plan, orbit } = this;
     if (plan === null) return false;
     const share = this.still.matches ? 1 : 1 - Math.exp(-seconds / glideS);
-    const now = rig.eyePose(this.up);
+    const now = orbit.eyePose(this.up);
     const goal = this.following ? surgeonsEye(plan, this.tool) : { ...now, up: superior };
-    const goalMm = this.following ? rig.fittingDistance() : rig.distanceMm;
-    const reached = arrived(now, goal) && Math.abs(goalMm - rig.distanceMm) < nearEnoughMm;
+    const goalMm = this.following ? orbit.fittingDistance() : orbit.distanceMm;
+    const reached = arrived(now, goal) && Math.abs(goalMm - orbit.distanceMm) < nearEnoughMm;
     const next = reached ? goal : gone(now, goal, share);
     this.up = next.up;
-    const distanceMm = rig.distanceMm + (goalMm - rig.distanceMm) * (reached ? 1 : share);
-    if (this.following || !reached || !this.settled) rig.setEyePose(next, distanceMm);
+    const distanceMm = orbit.distanceMm + (goalMm - orbit.distanceMm) * (reached ? 1 : share);
+    if (this.following || !reached || !this.settled) orbit.setEyePose(next, distanceMm);
     this.settled = reached;
     return !reached;
   }

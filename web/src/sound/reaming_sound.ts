@@ -1,5 +1,5 @@
 /** What of a session is heard. Of this moment, or nothing. */
-export interface Heard {
+export interface SoundInput {
   spindleOn: boolean;
   /** Simulated, N. */
   thrustN: number;
@@ -8,7 +8,7 @@ export interface Heard {
   densityGCc: number;
   /** Of what is engaged, 0 to 1. */
   corticalShare: number;
-  /** That the hand feels, g; null where it is not told, then it is that published for the bone. */
+  /** That the hand feels, g; null where it is not known: then the value published for the bone. */
   vibrationG: number | null;
 }
 
@@ -43,21 +43,21 @@ const fullFeedMmS = 0.05;
 const rubbingShare = 0.45;
 
 /** The sound of a spinning reamer: a hum that a push slows, and a noise that is brighter in harder bone. */
-export function soundOf(heard: Heard): SoundParameters {
-  if (!heard.spindleOn) return silence;
-  const push = share(heard.thrustN / slowestAtN);
-  const cortical = share(heard.corticalShare);
-  const engaged = heard.densityGCc > 0 && heard.thrustN > 0;
+export function soundOf(input: SoundInput): SoundParameters {
+  if (!input.spindleOn) return silence;
+  const push = share(input.thrustN / slowestAtN);
+  const cortical = share(input.corticalShare);
+  const engaged = input.densityGCc > 0 && input.thrustN > 0;
   return {
     motorHz: motorHz * (1 - motorSlowsBy * push),
     motorGain: motorGain * (1 + 0.5 * push),
     cuttingHz: cancellousHz * (corticalHz / cancellousHz) ** cortical,
-    cuttingGain: engaged ? Math.min(strengthG(heard, cortical) * gainPerG, cuttingGainMost) : 0,
+    cuttingGain: engaged ? Math.min(strengthG(input, cortical) * gainPerG, cuttingGainMost) : 0,
   };
 }
 
 /** How strongly it shakes, g rms. */
-function strengthG({ vibrationG, thrustN, feedRateMmS }: Heard, cortical: number): number {
+function strengthG({ vibrationG, thrustN, feedRateMmS }: SoundInput, cortical: number): number {
   if (vibrationG !== null) return Math.abs(vibrationG);
   const published = cancellousGRms + (corticalGRms - cancellousGRms) * cortical;
   const cutting = rubbingShare + (1 - rubbingShare) * share(feedRateMmS / fullFeedMmS);

@@ -23,7 +23,7 @@ export class SoundOutput {
     }
   }
 
-  tell(parameters: SoundParameters): void {
+  setParameters(parameters: SoundParameters): void {
     this.node.port.postMessage(parameters);
   }
 

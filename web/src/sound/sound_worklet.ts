@@ -1,4 +1,4 @@
-/** The browser's audio thread: makes the sound there, by what the page tells. */
+/** The browser's audio thread: makes the sound from the parameters that the page sends. */
 import type { SoundParameters } from './reaming_sound';
 import { Synthesizer } from './synthesizer';
 
@@ -14,7 +14,7 @@ class ReamingProcessor extends AudioWorkletProcessor {
 
   constructor() {
     super();
-    this.port.onmessage = (event: MessageEvent<SoundParameters>) => this.synthesizer.tell(event.data);
+    this.port.onmessage = (event: MessageEvent<SoundParameters>) => this.synthesizer.setParameters(event.data);
   }
 
   process(_inputs: unknown, outputs: Float32Array[][]): boolean {

@@ -1,8 +1,8 @@
 import { silence, type SoundParameters } from './reaming_sound';
 
-/** Without news for so long nothing is heard: what was last told is not of now. */
+/** Without an update for so long it is silent: the last parameters are out of date. */
 export const silentAfterS = 0.3;
-/** Gains and pitches reach what was told after about this time, so that nothing clicks. */
+/** Gains and pitches reach their targets after about this time, so that nothing clicks. */
 const smoothS = 0.025;
 /** The band of the cutting noise is this part of its middle wide. */
 const bandShare = 0.9;
@@ -11,9 +11,9 @@ const roughHzShare = 0.25;
 
 /** Makes the sound of the reamer sample by sample. The same calls give the same samples. */
 export class Synthesizer {
-  private told: SoundParameters = silence;
+  private target: SoundParameters = silence;
   private now: SoundParameters = { ...silence };
-  private sinceToldS = Infinity;
+  private sinceUpdateS = Infinity;
   private motorTurns = 0;
   private roughTurns = 0;
   private noise = 0x2545f491;
@@ -22,22 +22,22 @@ export class Synthesizer {
 
   constructor(private readonly sampleRate: number) {}
 
-  /** What is heard from here on, if more news follows soon. */
-  tell(parameters: SoundParameters): void {
-    this.told = parameters;
-    this.sinceToldS = 0;
+  /** What is heard from here on, as long as updates follow. */
+  setParameters(parameters: SoundParameters): void {
+    this.target = parameters;
+    this.sinceUpdateS = 0;
   }
 
   /** Fills the next samples, each within -1 and 1. */
   render(out: Float32Array): void {
     const stepS = 1 / this.sampleRate;
-    const goal = this.sinceToldS > silentAfterS ? { ...this.told, motorGain: 0, cuttingGain: 0 } : this.told;
+    const goal = this.sinceUpdateS > silentAfterS ? { ...this.target, motorGain: 0, cuttingGain: 0 } : this.target;
     const towards = 1 - Math.exp(-stepS / smoothS);
     for (let i = 0; i < out.length; ++i) {
       this.approach(goal, towards);
       out[i] = Math.tanh(this.motor(stepS) + this.cutting(stepS));
     }
-    this.sinceToldS += out.length * stepS;
+    this.sinceUpdateS += out.length * stepS;
   }
 
   private approach(goal: SoundParameters, share: number): void {

@@ -23,7 +23,7 @@ export interface Alarm {
   value: number;
 }
 
-/** Excess thrust is told a while longer than it lasts, so that it can be read. Ticks are those of the session. */
+/** Excess thrust is shown a while longer than it lasts, so that it can be read. Ticks are those of the session. */
 export class ThrustWatch {
   private peaks: { tick: number; newtons: number }[] = [];
 

@@ -5,21 +5,21 @@ import { ApiError, credentials, messageOf } from '../wire/rest';
 import { appText } from '../text/app_text';
 import { sentence } from '../text/format';
 import { permissionsOf } from './permissions';
-import type { Visitor } from '../wire/rest_types';
+import type { Login } from '../wire/rest_types';
 
 /**
- * - asking: the server has not said yet who this is; `problem` says when it does not answer
+ * - checking: the server has not said yet who this is; `problem` says when it does not answer
  * - unknown: somebody must log in
  * - known: a user, a viewer by link, or anybody on a server without users
  */
-export type IdentityPhase = 'asking' | 'unknown' | 'known';
+export type IdentityPhase = 'checking' | 'unknown' | 'known';
 
-const askAgainMs = 2000;
+const retryAfterMs = 2000;
 
 /** Who uses the page. */
 export class Identity {
-  readonly phase = signal<IdentityPhase>('asking');
-  readonly visitor = signal<Visitor | null>(null);
+  readonly phase = signal<IdentityPhase>('checking');
+  readonly visitor = signal<Login | null>(null);
   /** Words about why the page asks for a login, or why it was refused. */
   readonly problem = signal<string | null>(null);
   /** A request is under way. */
@@ -36,14 +36,14 @@ export class Identity {
   readonly name = computed(() => this.visitor.value?.user?.display_name || this.visitor.value?.user?.name || null);
 
   /** Who used the page before the login ended. */
-  private before: Visitor | null = null;
+  private before: Login | null = null;
 
   constructor(
     private readonly api: LoginApi,
     /** Somebody else uses the page from here on: what it knows is not for them. */
     private readonly onOther: () => void,
   ) {
-    credentials.onRefused = () => this.end(this.endedWords());
+    credentials.onRefused = () => this.end(this.endedText());
     credentials.renew = () => this.renew();
   }
 
@@ -58,7 +58,7 @@ export class Identity {
         return this.take(visitor);
       } catch (error) {
         this.problem.value = messageOf(error);
-        await new Promise((resolve) => setTimeout(resolve, askAgainMs));
+        await new Promise((resolve) => setTimeout(resolve, retryAfterMs));
       }
     }
   }
@@ -93,13 +93,13 @@ export class Identity {
     });
   }
 
-  private endedWords(): string {
+  private endedText(): string {
     if (!this.hasUsers.peek()) return appText.loginNeededNow;
     return this.visitor.peek()?.role === 'viewer' ? appText.linkEnded : appText.loginEnded;
   }
 
   /** Refused, the visitor is who they were. */
-  private async enterByLink(secret: string, visitor: Visitor): Promise<Visitor> {
+  private async enterByLink(secret: string, visitor: Login): Promise<Login> {
     try {
       return await this.api.useLink(secret);
     } catch (error) {
@@ -110,7 +110,7 @@ export class Identity {
     }
   }
 
-  private take(visitor: Visitor): void {
+  private take(visitor: Login): void {
     const known = !visitor.login_needed || visitor.role !== null;
     const other = known && this.before !== null && !isSame(this.before, visitor);
     credentials.csrfToken = visitor.csrf_token;
@@ -155,10 +155,10 @@ export class Identity {
   }
 }
 
-function refusedLink(said: string): string {
-  return `${appText.linkRefusedText} ${sentence(said)}`;
+function refusedLink(reason: string): string {
+  return `${appText.linkRefusedText} ${sentence(reason)}`;
 }
 
-function isSame(a: Visitor, b: Visitor): boolean {
+function isSame(a: Login, b: Login): boolean {
   return a.role === b.role && a.user?.id === b.user?.id && a.only_session === b.only_session;
 }

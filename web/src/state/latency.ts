@@ -4,7 +4,7 @@ const keptSamples = 600;
 /** Older delays say nothing about now. */
 const keptMs = 20_000;
 const leastSamples = 10;
-/** Sendings that no tick was told for are given up after so many. */
+/** Sent inputs that no tick has answered are given up after so many. */
 const waitingMost = 256;
 
 /** The newest delays, and what 95 of 100 of them stay under. Times are of one clock, ms. */
@@ -77,11 +77,11 @@ export class Latency {
     this.drawnTick = -1;
     this.hand.clear();
     this.drawing.clear();
-    this.tell(0);
+    this.publish(0);
   }
 
   /** To be called now and then. */
-  tell(nowMs: number): void {
+  publish(nowMs: number): void {
     this.handMs.value = this.hand.p95(nowMs);
     this.drawingMs.value = this.drawing.p95(nowMs);
   }

@@ -1,6 +1,6 @@
 import { batch, effect, signal } from '@preact/signals';
 
-import type { CtDescription } from '../wire/rest_types';
+import type { CaseCt } from '../wire/rest_types';
 import { requestJson } from '../wire/rest';
 import type { Store } from './store';
 import type { ScapulaPoints } from './tool_angles';
@@ -9,7 +9,7 @@ import type { ScapulaPoints } from './tool_angles';
 export class LiveCase {
   /** Null where there are none, or where they are not for this person. */
   readonly landmarks = signal<ScapulaPoints | null>(null);
-  readonly ct = signal<CtDescription | null>(null);
+  readonly ct = signal<CaseCt | null>(null);
   /** Whether there is an answer: nothing more is on its way. */
   readonly known = signal(false);
 
@@ -44,5 +44,5 @@ export class LiveCase {
 
 interface CaseAnswer {
   landmarks: ScapulaPoints | null;
-  ct: CtDescription | null;
+  ct: CaseCt | null;
 }

@@ -5,6 +5,6 @@ import type { Scrubber } from './scrubber';
 export interface Player {
   /** Goes to moments of it. */
   readonly scrubber: Scrubber;
-  /** Plays, rests or changes the speed; problems are told elsewhere. */
+  /** Plays, rests or changes the speed; problems are shown elsewhere. */
   play(change: PlaybackChange): Promise<void>;
 }

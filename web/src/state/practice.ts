@@ -25,7 +25,7 @@ export interface PracticeWindow {
   remembered: Pick<Storage, 'getItem' | 'setItem' | 'removeItem'>;
 }
 
-/** Steers one session with mouse, touch, keys and gamepad: gathers the hand's wish and keeps the device connection. */
+/** Steers one session with mouse, touch, keys and gamepad: sends the hand's input and keeps the device connection. */
 export class Practice {
   private readonly link: DeviceLink;
   private readonly keys: KeyHand;
@@ -117,7 +117,7 @@ export class Practice {
   /** The page is left or covered: at once, since timers of a hidden page are slow. */
   letGo(): void {
     this.practice.hand.letGo();
-    this.tellWish();
+    this.sendInput();
   }
 
   private step(): void {
@@ -136,11 +136,11 @@ export class Practice {
       hand.step(seconds);
     });
     this.rumble.play(gamepad?.vibrationActuator, now);
-    this.tellWish();
+    this.sendInput();
   }
 
-  private tellWish(): void {
+  private sendInput(): void {
     const plan = this.practice.plan.value;
-    if (plan !== null) this.socket.wish(this.practice.hand.wish(plan));
+    if (plan !== null) this.socket.steer(this.practice.hand.input(plan));
   }
 }

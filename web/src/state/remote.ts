@@ -2,7 +2,7 @@ import { batch, signal } from '@preact/signals';
 
 import { messageOf } from '../wire/rest';
 
-/** Something that the server has, as it was last read, and what is done about it; problems are told in words. */
+/** Something that the server has, as it was last read, and what is done about it; problems are messages for people. */
 export class Remote<T> {
   readonly value = signal<T | null>(null);
   /** What went wrong last; of a deed it stays until the next one, of a reading until one succeeds. */
@@ -10,24 +10,24 @@ export class Remote<T> {
   /** The last reading failed: `value` is an older one. */
   readonly stale = signal(false);
   readonly busy = signal(false);
-  private asked = 0;
+  private requestNumber = 0;
   private actionFailed = false;
 
-  constructor(private readonly ask: () => Promise<T>) {}
+  constructor(private readonly load: () => Promise<T>) {}
 
   /** Of two readings at once the later one counts. */
   async read(): Promise<void> {
-    const number = ++this.asked;
+    const number = ++this.requestNumber;
     try {
-      const value = await this.ask();
-      if (number !== this.asked) return;
+      const value = await this.load();
+      if (number !== this.requestNumber) return;
       batch(() => {
         this.value.value = value;
         this.stale.value = false;
         if (!this.actionFailed) this.problem.value = null;
       });
     } catch (error) {
-      if (number === this.asked) {
+      if (number === this.requestNumber) {
         this.fail(error, false);
         this.stale.value = true;
       }
@@ -52,8 +52,8 @@ export class Remote<T> {
     }
   }
 
-  private fail(error: unknown, deed: boolean): void {
+  private fail(error: unknown, action: boolean): void {
     this.problem.value = messageOf(error);
-    this.actionFailed = deed;
+    this.actionFailed = action;
   }
 }

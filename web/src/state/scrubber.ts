@@ -22,8 +22,8 @@ export class Scrubber {
     if (!this.sending) void this.sendAll();
   }
 
-  /** The stream has told where the replay stands. */
-  streamTold(): void {
+  /** The stream has sent the position of the replay. */
+  onStreamUpdate(): void {
     if (!this.sending) this.wantedS.value = null;
   }
 

@@ -1,13 +1,13 @@
 import { effect, signal } from '@preact/signals';
 
 import { liveText } from '../text/live_text';
-import { type Heard, silence, type SoundParameters, soundOf } from '../sound/reaming_sound';
+import { type SoundInput, silence, type SoundParameters, soundOf } from '../sound/reaming_sound';
 import type { PracticeStore } from './practice_store';
 import type { Store } from './store';
 
 /** Where sound goes. */
 export interface SoundSink {
-  tell(parameters: SoundParameters): void;
+  setParameters(parameters: SoundParameters): void;
   close(): void;
 }
 
@@ -16,8 +16,8 @@ export class Sound {
   readonly on = signal(false);
   /** Words of why there is no sound. */
   readonly problem = signal<string | null>(null);
-  /** What was told last; for who looks at it. */
-  readonly told = signal<SoundParameters>(silence);
+  /** The newest parameters; for tests and the readout. */
+  readonly parameters = signal<SoundParameters>(silence);
   private sink: SoundSink | null = null;
 
   constructor(
@@ -27,8 +27,8 @@ export class Sound {
   ) {
     effect(() => {
       const parameters = this.now();
-      this.told.value = parameters;
-      this.sink?.tell(parameters);
+      this.parameters.value = parameters;
+      this.sink?.setParameters(parameters);
     });
   }
 
@@ -54,18 +54,18 @@ export class Sound {
 
   private now(): SoundParameters {
     const { store, practice } = this;
-    // Each batch is told, also one that is as the one before: news that stops lets the sound stop.
+    // Every batch updates the sound, also one equal to the last: when telemetry stops, so does the sound.
     const t = store.telemetry.value;
     if (!this.on.value || t === null || !store.upToDate.value) return silence;
     const moves = store.playback.value === null ? store.sessionState.value === 'running' : store.playback.value.playing;
     if (!moves) return silence;
     const steered = practice.steering.value ? practice.feedback.peek() : null;
-    const heard: Heard = { ...t, thrustN: t.thrustN.at(-1) ?? 0, vibrationG: rootMeanSquare(t.vibrationG) };
+    const input: SoundInput = { ...t, thrustN: t.thrustN.at(-1) ?? 0, vibrationG: rootMeanSquare(t.vibrationG) };
     // The hand's is of one moment and of either sign: it may only add.
-    const told = soundOf(heard);
-    if (steered === null) return told;
-    const felt = soundOf({ ...heard, vibrationG: steered.vibrationG });
-    return { ...told, cuttingGain: Math.max(told.cuttingGain, felt.cuttingGain) };
+    const parameters = soundOf(input);
+    if (steered === null) return parameters;
+    const felt = soundOf({ ...input, vibrationG: steered.vibrationG });
+    return { ...parameters, cuttingGain: Math.max(parameters.cuttingGain, felt.cuttingGain) };
   }
 }
 

@@ -70,28 +70,28 @@ export class Store {
   readonly replaying = computed(() => this.replayId.value !== null || (this.hello.value?.replayOf ?? '') !== '');
   /** How long what came last was on its way, beyond what it always takes; ms. Grows where the link is too slow. */
   readonly behindMs = signal(0);
-  /** What is read as numbers: the last moment as it was told, and how late; nothing of a session that is left. */
+  /** What is read as numbers: the newest telemetry, and how late; nothing of a session that is left. */
   readonly reading = throttled(
     computed(() => ({
-      told: this.telemetry.value,
+      telemetry: this.telemetry.value,
       behindMs: this.behindMs.value,
       traceRevision: this.traceRevision.value,
     })),
     readEveryMs,
-    ({ told }) => told === null,
+    ({ telemetry }) => telemetry === null,
   );
   /** In the server's words, why the session rests; empty: it does not. */
   readonly fault = computed(() => this.telemetry.value?.fault ?? '');
   readonly farBehind = computed(() => this.behindMs.value > behindAtMostMs);
-  /** Whether what is shown is all that the stream has told, of the present or of a recording. */
+  /** Whether what is shown is all that the stream has sent, of the present or of a recording. */
   readonly upToDate = computed(
     () => this.link.value.kind === 'live' && this.pictureComplete.value && !this.farBehind.value,
   );
   /** Whether the reamer is seen on bone; of a session that has ended the bone is seen as it was left. */
   readonly touching = computed(() => {
-    const told = this.telemetry.value;
-    const ended = told?.state === 'finished' || told?.state === 'stopped' || told?.state === 'fault';
-    return this.upToDate.value && !ended && (told?.densityGCc ?? 0) > 0;
+    const telemetry = this.telemetry.value;
+    const ended = telemetry?.state === 'finished' || telemetry?.state === 'stopped' || telemetry?.state === 'fault';
+    return this.upToDate.value && !ended && (telemetry?.densityGCc ?? 0) > 0;
   });
   /** Whether what is shown is the present state of the simulator. */
   readonly live = computed(() => this.upToDate.value && !this.replaying.value);

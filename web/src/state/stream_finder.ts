@@ -95,7 +95,7 @@ export class StreamFinder {
   }
 
   /** Damage may be found, and marks be made, while the replay is open. */
-  takeNotes(replay: Replay): void {
+  update(replay: Replay): void {
     batch(() => {
       this.store.marks.value = replay.marks;
       this.store.recordingWarning.value = replay.warning;
@@ -107,7 +107,7 @@ export class StreamFinder {
     return { id: chosenId ?? this.store.sessionId.value, chosen: chosenId !== null };
   }
 
-  /** The list has the newest sessions only, which the watched one may not be; where it has been deleted, it is told. */
+  /** The list has the newest sessions only; the watched one may be older. If it has been deleted, this says so. */
   private async withWatched(sessions: readonly Session[]): Promise<readonly Session[]> {
     const { id } = this.watched();
     if (id === null || sessions.some((session) => session.id === id)) return sessions;
@@ -127,7 +127,7 @@ export class StreamFinder {
       batch(() => {
         this.store.sessionId.value = replay.id;
         this.store.sessionState.value = 'replaying';
-        this.takeNotes(replay);
+        this.update(replay);
       });
       return this.api.streamUrl(replay.id);
     } catch (error) {

@@ -15,7 +15,7 @@ export class Theme {
     this.choice.value === 'system' ? (this.systemDark.value ? 'dark' : 'light') : this.choice.value,
   );
 
-  /** Takes up what was chosen last and follows the system; `show` is told now and at every change. */
+  /** Takes up what was chosen last and follows the system; `show` is called now and at every change. */
   begin(storage: Kept, darkScheme: Scheme, show: (theme: 'light' | 'dark') => void): void {
     const kept = keptIn(storage);
     this.choice.value = choices.find((one) => one === kept) ?? 'system';

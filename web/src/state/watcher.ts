@@ -5,7 +5,7 @@ import { Link, type LinkState } from '../wire/link';
 import type { Hello, MeshDelta, StreamMessage, Telemetry, ToolMesh } from '../wire/messages';
 import type { StreamSocket } from '../wire/stream_socket';
 import { appText } from '../text/app_text';
-import { noAnswer } from '../wire/rest';
+import { messageOf, noAnswer } from '../wire/rest';
 import { isActive } from './choose_session';
 import { Lateness } from './lateness';
 import { Scrubber } from './scrubber';
@@ -52,7 +52,7 @@ export class Watcher {
     });
     this.scrubber = new Scrubber(
       (positionS) => this.changeReplay({ position_s: positionS }),
-      (error) => this.tell(error),
+      (error) => this.showError(error),
     );
   }
 
@@ -83,7 +83,7 @@ export class Watcher {
     this.turn();
   }
 
-  /** Starts the watched session if it waits to be started, else a new one; problems are told in the store. */
+  /** Starts the watched session if it waits to be started, else a new one; problems go to the store. */
   async runDemo(): Promise<void> {
     await this.carryOut(async () => {
       const waiting = this.store.sessionState.value === 'created' ? this.store.sessionId.value : null;
@@ -187,14 +187,14 @@ export class Watcher {
 
   /** Plays, rests or changes the speed of the watched replay. */
   async play(change: PlaybackChange): Promise<void> {
-    await this.changeReplay(change).catch((error: unknown) => this.tell(error));
+    await this.changeReplay(change).catch((error: unknown) => this.showError(error));
   }
 
   private async changeReplay(change: PlaybackChange): Promise<void> {
     const id = this.store.replayId.value;
     if (id === null) return;
     const replay = await this.api.changePlayback(id, change);
-    if (id === this.store.replayId.value) this.finder.takeNotes(replay);
+    if (id === this.store.replayId.value) this.finder.update(replay);
   }
 
   private async startNew() {
@@ -217,14 +217,14 @@ export class Watcher {
     try {
       await action();
     } catch (error) {
-      this.tell(error);
+      this.showError(error);
     } finally {
       this.store.busy.value = false;
     }
   }
 
-  private tell(error: unknown): void {
-    this.store.problem.value = error instanceof Error ? error.message : String(error);
+  private showError(error: unknown): void {
+    this.store.problem.value = messageOf(error);
   }
 
   /** Leaves what is shown for what is to be watched now; until that has come, what is shown is of before. */
@@ -312,12 +312,12 @@ export class Watcher {
     const ended = this.store.sessionState.value !== telemetry.state;
     this.store.telemetry.value = telemetry;
     this.store.playback.value = telemetry.playback;
-    if (telemetry.playback !== null) this.scrubber.streamTold();
+    if (telemetry.playback !== null) this.scrubber.onStreamUpdate();
     this.store.sessionState.value = telemetry.state;
     if (ended) void this.readMetrics();
   }
 
-  /** What a session that rests told last is its newest, however late it came. */
+  /** The last telemetry of a paused session is its newest, however late it came. */
   private behind({ stampMs, receivedMs, state }: Telemetry): number {
     if (stampMs === 0 || receivedMs === undefined) return 0;
     const behindMs = this.lateness.of(stampMs, receivedMs);
@@ -356,13 +356,13 @@ export class Watcher {
   }
 
   private async readSessions(): Promise<readonly Session[]> {
-    const askedMs = Date.now();
+    const requestedMs = Date.now();
     try {
       const sessions = await Promise.race([this.api.sessions(), noAnswerAfter(answerWithinMs)]);
       this.store.sessions.value = sessions;
       return sessions;
     } catch (error) {
-      const silent = !this.sendsAllTheTime() && (this.store.lastMessageMs.value ?? 0) <= askedMs;
+      const silent = !this.sendsAllTheTime() && (this.store.lastMessageMs.value ?? 0) <= requestedMs;
       if (silent && error instanceof ApiError && error.status === 0) this.link.giveUp(error.message);
       return [];
     }

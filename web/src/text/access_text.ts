@@ -1,7 +1,7 @@
 /** Texts of the pages about users and access; loaded with them. */
 export const accessText = {
   users: 'Users',
-  loading: 'Asking the simulator…',
+  loading: 'Loading…',
   noUsers: 'There are no users: everybody who reaches this server may do everything.',
   firstUser: 'As soon as there is one a login is needed, so the first is an operator: you.',
   nameColumn: 'Login name',
@@ -20,11 +20,12 @@ export const accessText = {
   disableUser: (name: string) => `Disable ${name}`,
   enableUser: (name: string) => `Enable ${name}`,
   resetPassword: 'New password',
+  resetPasswordEnds: 'Ends all logins and revokes tokens and viewer links of the user.',
   resetPasswordOf: (name: string) => `New password for ${name}`,
   setPassword: 'Set',
   remove: 'Remove',
   removeUser: (name: string) => `Remove ${name}`,
-  removeReally: (name: string) => `Remove ${name}? Sessions and cases stay.`,
+  removeConfirm: (name: string) => `Remove ${name}? Sessions and cases stay.`,
   removeYes: 'Remove',
   keep: 'Keep',
   cancel: 'Cancel',
@@ -33,7 +34,7 @@ export const accessText = {
   addUser: 'Add a user',
   add: 'Add',
   password: 'Password',
-  passwordRule: 'A password has at least 10 characters; a sentence is good.',
+  passwordRule: 'A password has at least 10 characters and is no common word or row of keys; a sentence is good.',
 
   tokens: 'Access tokens',
   tokensHint: 'For programs. Sent as “Authorization: Bearer …”; whoever has one may do what you may.',
@@ -73,5 +74,7 @@ export const accessText = {
   newPassword: 'New password',
   newPasswordAgain: 'New password again',
   passwordsDiffer: 'The two new passwords differ.',
-  passwordChanged: 'The password is changed. Other logins of yours have ended.',
+  passwordEnds: 'A new password ends all other logins and revokes your tokens and viewer links.',
+  passwordChanged:
+    'The password is changed. You are logged out everywhere else; your tokens and viewer links are revoked.',
 };

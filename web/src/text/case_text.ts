@@ -2,13 +2,13 @@
 import type { PlaneName } from '../ct/orientation';
 import type { StepName, StepState } from '../state/case/case_steps';
 import type { LandmarkName } from '../state/case/landmark_names';
-import type { Guide, Job, SeedName, Side, Stage, WalchClass } from '../wire/rest_types';
+import type { Guide, Job, SeedName, Side, CaseStage, WalchClass } from '../wire/rest_types';
 
 export const caseText = {
   cases: 'Cases',
   sides: { left: 'Left shoulder', right: 'Right shoulder' } satisfies Record<Side, string>,
   sideShort: { left: 'Left', right: 'Right' } satisfies Record<Side, string>,
-  stages: { ct: 'CT only', segmented: 'Bone marked', built: 'Ready to ream' } satisfies Record<Stage, string>,
+  stages: { ct: 'CT only', segmented: 'Bone marked', built: 'Ready to ream' } satisfies Record<CaseStage, string>,
   stageNoPlan: 'Bone built, no plan',
   caseColumn: 'Case',
   sideColumn: 'Side',
@@ -25,12 +25,12 @@ export const caseText = {
   openCase: (name: string) => `Open ${name}`,
   remove: 'Delete',
   removeCase: (name: string) => `Delete ${name}`,
-  removeReally: (name: string) => `Delete “${name}” with its CT for good?`,
+  removeConfirm: (name: string) => `Delete “${name}” with its CT for good?`,
   removeYes: 'Delete for good',
   keep: 'Keep it',
-  loadingCases: 'Reading the list of cases…',
+  loadingCases: 'Loading…',
   noCases: 'There are no cases yet. Make the first one from a CT.',
-  listFailed: 'The list of cases could not be read',
+  listFailed: 'The list of cases could not be loaded',
   tryAgain: 'Try again',
 
   newCase: 'New case from a CT',
@@ -42,7 +42,7 @@ export const caseText = {
   chooseOther: 'Choose another file',
   fileChosen: (name: string, megabytes: string) => `${name} · ${megabytes} MB`,
   whichSide: 'Which shoulder is it?',
-  sideMustBeChosen: 'Say which shoulder it is: the page does not guess.',
+  sideMustBeChosen: 'Choose which shoulder it is.',
   caseName: 'Name (optional)',
   caseNameHint: 'For example: Right shoulder, teaching case 3',
   moreChoices: 'More',
@@ -50,20 +50,20 @@ export const caseText = {
   make: 'Upload and read',
   goOn: 'Go on',
   uploading: (percent: string, sent: string, all: string) => `Sending: ${percent} % (${sent} of ${all} MB)`,
-  uploadWaiting: 'The link is broken; the upload goes on by itself as soon as it is back.',
+  uploadWaiting: 'The link is lost; the upload continues by itself when it is back.',
   uploadFailed: 'The upload has stopped',
   uploadFailedHint: 'What has arrived is kept. “Go on” continues where it stopped.',
-  importFailed: 'The file could not be made a case',
-  importFailedHint: 'Choose another file, or change what is said above and try again.',
+  importFailed: 'No case could be made from this file',
+  importFailedHint: 'Choose another file, or change the settings above and try again.',
   cancel: 'Cancel',
-  jobSilent: 'The simulator does not answer; this is the last that was heard.',
+  jobSilent: 'The simulator does not answer; this is its last report.',
   jobKind: (kind: Job['kind']): string => {
-    const words: Partial<Record<Job['kind'], string>> = {
+    const labels: Partial<Record<Job['kind'], string>> = {
       import: 'Reading the CT',
       segmentation: 'Finding the bones',
       build: 'Building the bone',
     };
-    return words[kind] ?? kind;
+    return labels[kind] ?? kind;
   },
   jobState: (job: Job) =>
     job.state === 'waiting'
@@ -71,7 +71,7 @@ export const caseText = {
       : job.state === 'cancelled'
         ? 'Cancelled'
         : job.state === 'failed'
-          ? 'Did not work'
+          ? 'Failed'
           : job.step,
   percent: (share: number) => `${Math.floor(share * 100)} %`,
   dismiss: 'Dismiss',
@@ -210,7 +210,7 @@ export const caseText = {
   unsaved: 'Not saved yet',
   saveFailed: (why: string) => `Not saved: ${why}`,
   saveAgain: 'Save again',
-  conflict: 'Somebody else changed the landmarks meanwhile.',
+  conflict: 'Somebody else has changed the landmarks.',
   keepMine: 'Keep mine',
   takeTheirs: 'Take theirs',
 
@@ -286,8 +286,8 @@ export const caseText = {
   planOutdated: 'Landmarks were changed after this plan was kept. Propose again, or keep it as it is.',
   keepPlan: 'Keep this plan',
   overrideTitle: 'This asks for more than reaming should correct',
-  overrideReason: 'Why it is to be done all the same',
-  overrideKeep: 'Keep it all the same',
+  overrideReason: 'Why it should be done anyway',
+  overrideKeep: 'Keep it anyway',
   planNeeds: 'A plan needs the seven landmarks first.',
 
   buildHint: 'Makes the bone that is reamed: finer voxels, density from the CT’s grey values.',

@@ -8,9 +8,9 @@ export function fixed(value: number | null | undefined, decimals: number): strin
 }
 
 /** The server's words as a sentence. */
-export function sentence(said: string): string {
-  if (said === '') return '';
-  const text = said.charAt(0).toUpperCase() + said.slice(1);
+export function sentence(reason: string): string {
+  if (reason === '') return '';
+  const text = reason.charAt(0).toUpperCase() + reason.slice(1);
   return /[.!?…]$/.test(text) ? text : `${text}.`;
 }
 

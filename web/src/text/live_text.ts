@@ -55,12 +55,12 @@ export const liveText = {
   superior: 'superior',
   inferior: 'inferior',
 
-  remarks: 'Remarks',
-  remarkLabel: 'Remark on this moment',
-  remarkHint: 'Remark on this moment…',
-  keepRemark: 'Keep',
-  keepRemarkAt: (time: string) => `Keep at ${time}`,
-  moreRemarks: (count: number) => `${count} more on the review`,
+  annotations: 'Remarks',
+  annotationLabel: 'Remark on this moment',
+  annotationHint: 'Remark on this moment…',
+  keepAnnotation: 'Keep',
+  keepAnnotationAt: (time: string) => `Keep at ${time}`,
+  moreAnnotations: (count: number) => `${count} more on the review`,
 
   alarms: 'Alarms',
   thrustExcess: 'Thrust too high',

@@ -14,33 +14,33 @@ export const reviewText = {
   closePane: (id: string) => `Close session ${id}, keep the other`,
   theatre: 'Theatre',
   theatreHint: 'Reamed in theatre mode: nothing but the bone was shown, no gauges and no plan.',
-  fault: (said: string) => `It ended with a fault: ${said}`,
+  fault: (reason: string) => `It ended with a fault: ${reason}`,
 
-  trouble: {
+  errors: {
     gone: {
-      title: 'This session is not there',
+      title: 'This session does not exist',
       text: 'It was deleted, or the address is wrong. Instructors and operators can take a deleted session back right after deleting it in the list of sessions, or by “restore” of the REST interface.',
     },
     live: {
-      title: 'This session goes on',
-      text: 'It can be reviewed when it has ended; until then watch it in the live view.',
+      title: 'This session is still running',
+      text: 'You can review it when it has ended; until then, watch it in the live view.',
     },
     damaged: {
       title: 'The recording cannot be shown',
-      text: (said: string) =>
-        `It is damaged or was never written: ${said} What is known of the score stands beside; “ream replay SESSION” on the server says where the damage is.`,
+      text: (reason: string) =>
+        `It is damaged or was never written: ${reason} What is known of the score is beside it; run “ream replay SESSION” on the server to see where the damage is.`,
     },
     forbidden: {
-      title: 'This session is not for you',
-      text: 'It is somebody else’s. Ask an instructor for a link to it, or log in as who reamed it.',
+      title: 'You have no access to this session',
+      text: 'It belongs to somebody else. Ask an instructor for a link, or log in as its trainee.',
     },
     silent: {
       title: 'The simulator does not answer',
-      text: 'The network is cut, or the server is not running. What is shown stays as it was; it is tried again.',
+      text: 'The network is down, or the server is not running. The page keeps what it shows and tries again.',
     },
     other: {
       title: 'That did not work',
-      text: (said: string) => said,
+      text: (reason: string) => reason,
     },
   },
   tryAgain: 'Try again',
@@ -52,18 +52,18 @@ export const reviewText = {
   after: 'After',
   beforeHint: 'The bone before reaming',
   afterHint: 'The bone as the session left it',
-  momentSays: (depth: string, thrust: string, removed: string) =>
+  momentStatus: (depth: string, thrust: string, removed: string) =>
     `depth ${depth} mm · thrust ${thrust} N · removed ${removed} mm³`,
   events: (count: number) => `Events (${count})`,
   noEvents: 'None.',
   previousEvent: 'Event before',
   nextEvent: 'Next event',
   thrustChart: (most: string) => `Axial thrust over the whole session, up to ${most} N`,
-  noTrace: (said: string) => `The force over the session is not there: ${said}`,
+  noTrace: (reason: string) => `The force over the session could not be loaded: ${reason}`,
   noTraceForViewers: 'The force over the session is not part of what a viewer link shows.',
-  remark: 'Remark',
-  remarkHint: 'What is to be said of this moment',
-  addRemark: 'Keep remark',
+  annotation: 'Remark',
+  annotationHint: 'What is to be said of this moment',
+  addAnnotation: 'Keep remark',
 
   surface: 'Surface',
   mapName: { none: 'Bone', plan: 'To plan', implant: 'To implant' } as Record<MapName | 'none', string>,
@@ -93,14 +93,14 @@ export const reviewText = {
   breach: 'Breach of the vault',
   breachNone: 'none: the component’s pegs stay within the outer cortex',
   breachBy: (mm: string) => `the component’s pegs reach ${mm} mm through the outer cortex`,
-  breachUnsaid: (why: string) => `cannot be said: ${why}`,
+  breachMissing: (why: string) => `not known: ${why}`,
   noMap: {
-    silent: 'The map is not there: the simulator does not answer. Choose it again when it does.',
+    silent: 'The map could not be loaded: the simulator does not answer. Choose it again when it does.',
     forbidden: 'Maps are not part of what a viewer link shows. Log in to see them.',
-    nothing: (said: string) => `There is no such map: ${said}. A plan is made on the case’s page, before reaming.`,
-    damaged: (said: string) =>
-      `The map cannot be made, for the recording is damaged: ${said} What can be replayed is still shown.`,
-    other: (said: string) => `The map could not be made: ${said} Choose it again to try once more.`,
+    nothing: (reason: string) => `There is no such map: ${reason}. A plan is made on the case’s page, before reaming.`,
+    damaged: (reason: string) =>
+      `The map cannot be made because the recording is damaged: ${reason} What can be replayed is still shown.`,
+    other: (reason: string) => `The map could not be made: ${reason} Choose it again to try once more.`,
     mismatch: 'The map does not fit the surface. Choose it again.',
   },
   deviationHere: (mm: string, side: 'proud' | 'even' | 'beyond') => (side === 'even' ? `${mm} mm` : `${mm} mm ${side}`),
@@ -109,7 +109,7 @@ export const reviewText = {
   measureHint:
     'Click two places of the bone, or point the middle of the picture at them with the arrow keys and press Enter.',
   measureFirst: 'Click a place of the bone, or turn it to the middle of the picture and press Enter.',
-  measureSecond: 'And the second one.',
+  measureSecond: 'Click a second place.',
   measureMissed: 'There is no bone at that place.',
   measureClear: 'Clear',
   distance: 'Distance',
@@ -131,12 +131,12 @@ export const reviewText = {
   noOutcome: 'Judged by nobody: the rubric decides nothing.',
   rubric: (name: string, version: number, passPoints: number | undefined) =>
     `Rubric “${name}”, version ${version}${passPoints === undefined ? '' : `; ${passPoints} points pass`}`,
-  saidPercent: (percent: string) => `The points rest on ${percent} % of the rubric’s weights.`,
-  scoreLoading: 'Asking for the score…',
-  noScore: (said: string) => `The score is not there: ${said}`,
+  measuredPercent: (percent: string) => `The points rest on ${percent} % of the rubric’s weights.`,
+  scoreLoading: 'Loading the score…',
+  noScore: (reason: string) => `The score could not be loaded: ${reason}`,
   countsForMark: 'What the mark rests on',
-  measuredToo: (count: number) => `Measured, too (${count})`,
-  unsaid: (count: number) => `Could not be said (${count})`,
+  otherMetrics: (count: number) => `Measured, too (${count})`,
+  missing: (count: number) => `Could not be said (${count})`,
   metricColumn: 'Metric',
   valueColumn: 'Value',
   pointsColumn: 'Points',
@@ -163,7 +163,7 @@ export const reviewText = {
   },
   weight: 'Weight',
   weightOf: (weight: string, points: string) => `${weight}; ${points} points`,
-  whyUnsaid: 'Why not said',
+  missingReason: 'Why it is missing',
   units: {
     deg: '°',
     mm: 'mm',
@@ -197,7 +197,7 @@ export const reviewText = {
   scoreFileHint: 'Every metric with definition, unit, source and limits',
   making: (percent: string) => `making, ${percent} %`,
   ready: 'Again',
-  exportFailed: (what: string, said: string) => `${what} could not be made: ${said}`,
+  exportFailed: (what: string, reason: string) => `${what} could not be made: ${reason}`,
   filesForbidden: 'Files are not part of what a viewer link shows. Log in to have them.',
   shareHere: 'Share',
   linkHint: 'A link to this review for somebody without an account',

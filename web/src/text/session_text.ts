@@ -1,9 +1,9 @@
 /** Texts of the page of all sessions; loaded with it. */
 export const sessionText = {
   sessions: 'Sessions',
-  loading: 'Asking the simulator…',
-  none: 'There is no session yet. Practise, or run the demo, in the live view.',
-  noneFits: 'No session fits.',
+  loading: 'Loading…',
+  none: 'There are no sessions yet. Practise or run the demo in the live view.',
+  noneFits: 'No sessions match.',
   count: (total: number) => (total === 1 ? '1 session' : `${total} sessions`),
   search: 'Search',
   searchHint: 'Title, case, name or code',
@@ -37,7 +37,7 @@ export const sessionText = {
   replay: 'Replay',
   remove: 'Delete',
   removeOf: (id: string) => `Delete session ${id}`,
-  removeReally: 'Delete it with its recording?',
+  removeConfirm: 'Delete it with its recording?',
   keep: 'Keep',
   deleted: (id: string) => `Session ${id} is deleted.`,
   restore: 'Restore it',

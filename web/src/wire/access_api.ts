@@ -1,7 +1,7 @@
 import { RestClient } from './rest_client';
 import type { NewUser, Token, User, UserChange, ViewerLink } from './rest_types';
 
-/** Something made with a secret that is told this once. */
+/** Something made with a secret that is sent this once. */
 interface Issued {
   id: string;
   secret: string;

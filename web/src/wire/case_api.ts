@@ -3,7 +3,7 @@ import { RestClient } from './rest_client';
 import type {
   AssessedPlan,
   BuildSettings,
-  CaseDetails,
+  Case,
   CaseSummary,
   Job,
   Landmarks,
@@ -39,7 +39,7 @@ export class CaseApi {
     }
     return all;
   }
-  case(id: string): Promise<CaseDetails> {
+  case(id: string): Promise<Case> {
     return this.rest.json('get', '/api/v1/cases/{id}', { path: { id } });
   }
   async remove(id: string): Promise<void> {
@@ -99,10 +99,10 @@ export class CaseApi {
   segment(id: string, body: SegmentationSettings): Promise<Job> {
     return this.rest.json('post', '/api/v1/cases/{id}/segmentation', { path: { id }, body });
   }
-  undoSegmentation(id: string): Promise<CaseDetails> {
+  undoSegmentation(id: string): Promise<Case> {
     return this.rest.json('post', '/api/v1/cases/{id}/segmentation/undo', { path: { id } });
   }
-  putLandmarks(id: string, body: Landmarks): Promise<CaseDetails> {
+  putLandmarks(id: string, body: Landmarks): Promise<Case> {
     return this.rest.json('put', '/api/v1/cases/{id}/landmarks', { path: { id }, body });
   }
   measures(id: string): Promise<Measures> {

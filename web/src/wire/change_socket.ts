@@ -48,11 +48,11 @@ export class ChangeSocket {
   private connect(): void {
     const socket = this.open(`${this.base.replace(/^http/, 'ws')}/api/v1/events`);
     this.socket = socket;
-    socket.onmessage = (event: MessageEvent<unknown>) => this.hear(event.data);
+    socket.onmessage = (event: MessageEvent<unknown>) => this.receive(event.data);
     socket.onclose = () => this.lose();
   }
 
-  private hear(text: unknown): void {
+  private receive(text: unknown): void {
     const change = changeIn(text);
     if (change === null) return;
     this.backoff.reset();

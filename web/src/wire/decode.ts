@@ -4,24 +4,12 @@ import { decodeBlock } from './decode_block';
 import { Body } from './generated/ream/wire/body';
 import { Hello as WireHello } from './generated/ream/wire/hello';
 import { MeshDelta as WireMeshDelta } from './generated/ream/wire/mesh-delta';
-import type { Playback as WirePlayback } from './generated/ream/wire/playback';
-import type { Pose as WirePose } from './generated/ream/wire/pose';
 import { ServerMessage } from './generated/ream/wire/server-message';
-import { SessionState as WireState } from './generated/ream/wire/session-state';
 import { Telemetry as WireTelemetry } from './generated/ream/wire/telemetry';
 import { ToolChange } from './generated/ream/wire/tool-change';
-import type { Vec3 } from './generated/ream/wire/vec3';
-import type {
-  Hello,
-  MeshDelta,
-  Playback,
-  Pose,
-  SessionState,
-  StreamMessage,
-  Telemetry,
-  ToolMesh,
-  Triple,
-} from './messages';
+import type { Hello, MeshDelta, StreamMessage, ToolMesh } from './messages';
+import { pose, triple, type Triple } from './pose';
+import { decodeTelemetry } from './telemetry';
 
 /** Decodes one connection's messages in order; the first must be the hello. Throws on anything else. */
 export class StreamDecoder {
@@ -106,79 +94,6 @@ function decodeMesh(delta: WireMeshDelta, voxelSpacingMm: Triple): MeshDelta {
     blocks.push(decodeBlock(requireTable(delta.blocks(i)), voxelSpacingMm));
   }
   return { blocks, keyComplete: delta.keyComplete() };
-}
-
-function decodeTelemetry(t: WireTelemetry): Telemetry {
-  return {
-    firstTick: t.firstTick(),
-    tickStride: Math.max(t.tickStride(), 1),
-    thrustN: Float32Array.from(t.thrustNArray() ?? []),
-    feedRatesMmS: Float32Array.from(t.feedRateMmSArray() ?? []),
-    vibrationG: Float32Array.from(t.vibrationGArray() ?? []),
-    tick: t.tick(),
-    handForceN: last(t.handForceNArray()),
-    torqueNMm: last(t.torqueNMmArray()),
-    feedRateMmS: last(t.feedRateMmSArray()),
-    densityGCc: last(t.densityGCcArray()),
-    worldFromTool: pose(t.worldFromTool()),
-    worldFromHandle: pose(t.worldFromHandle()),
-    spindleOn: t.spindleOn(),
-    state: sessionState(t.state()),
-    depthMm: t.depthMm(),
-    removedVolumeMm3: t.removedVolumeMm3(),
-    corticalShare: t.corticalShare(),
-    dropped: t.dropped(),
-    tickMeanUs: t.tickMeanUs(),
-    tickP99Us: t.tickP99Us(),
-    ticksMissed: t.ticksMissed(),
-    fault: t.fault() ?? '',
-    worldFromBoneRest: pose(t.worldFromBoneRest()),
-    playback: decodePlayback(t.playback()),
-    stampMs: Number(t.stampUs()) / 1000,
-  };
-}
-
-function decodePlayback(p: WirePlayback | null): Playback | null {
-  if (p === null) return null;
-  return { positionTicks: p.positionTicks(), speed: p.speed(), playing: p.playing(), jump: p.jump() };
-}
-
-function sessionState(state: WireState): SessionState {
-  switch (state) {
-    case WireState.created:
-      return 'created';
-    case WireState.running:
-      return 'running';
-    case WireState.paused:
-      return 'paused';
-    case WireState.finished:
-      return 'finished';
-    case WireState.stopped:
-      return 'stopped';
-    case WireState.fault:
-      return 'fault';
-    case WireState.interrupted:
-      return 'interrupted';
-    case WireState.replaying:
-      return 'replaying';
-    default:
-      throw new Error(`unknown session state ${String(state)}`);
-  }
-}
-
-function last(values: Float32Array | null): number {
-  return values?.at(-1) ?? 0;
-}
-
-function triple(v: Vec3 | null, absent: Triple): Triple {
-  return v === null ? absent : [v.x(), v.y(), v.z()];
-}
-
-function pose(p: WirePose | null): Pose | null {
-  const q = p?.rotation() ?? null;
-  const t = p?.translationMm() ?? null;
-  if (q === null || t === null) return null;
-  return { rotationXyzw: [q.x(), q.y(), q.z(), q.w()], translationMm: [t.x(), t.y(), t.z()] };
 }
 
 function requireTable<T>(table: T | null): T {

@@ -44,7 +44,7 @@ export function decodeBlock(block: MeshBlock, voxelSpacingMm: Triple): BlockSurf
 
 /** Unpacks 2 bits a vertex into the fourth of each normal's numbers. */
 function putClasses(normals: Int16Array, vertexCount: number, packed: Uint8Array | null): void {
-  const told = packed !== null && packed.length >= Math.ceil(vertexCount / 4);
+  const hasClasses = packed !== null && packed.length >= Math.ceil(vertexCount / 4);
   for (let i = 0; i < vertexCount; ++i)
-    normals[4 * i + 3] = told ? ((packed[i >> 2] ?? 0) >> (2 * (i & 3))) & 3 : unknownClass;
+    normals[4 * i + 3] = hasClasses ? ((packed[i >> 2] ?? 0) >> (2 * (i & 3))) & 3 : unknownClass;
 }

@@ -15,7 +15,7 @@ import {
   type Feedback,
   type PoseLink,
   type Welcome,
-  type Wish,
+  type SteeringInput,
 } from './device_messages';
 
 /** The greeting that begins a connection. */
@@ -39,17 +39,17 @@ export interface SteeringTimes {
   echoAgeUs: number;
 }
 
-export function encodeSteering(wish: Wish, times: SteeringTimes): Uint8Array<ArrayBuffer> {
+export function encodeSteering(input: SteeringInput, times: SteeringTimes): Uint8Array<ArrayBuffer> {
   const b = new Builder(160);
   Steering.startSteering(b);
   Steering.addSequence(b, times.sequence);
   Steering.addSentUs(b, times.sentUs);
   Steering.addEchoUs(b, times.echoUs);
   Steering.addEchoAgeUs(b, times.echoAgeUs);
-  Steering.addSidewaysMm(b, Vec3.createVec3(b, ...wish.sidewaysMm));
-  Steering.addLean(b, Vec3.createVec3(b, ...wish.lean));
-  Steering.addPushN(b, wish.pushN);
-  Steering.addButtons(b, buttons(wish));
+  Steering.addSidewaysMm(b, Vec3.createVec3(b, ...input.sidewaysMm));
+  Steering.addLean(b, Vec3.createVec3(b, ...input.lean));
+  Steering.addPushN(b, input.pushN);
+  Steering.addButtons(b, buttons(input));
   return finish(b, DeviceBody.Steering, Steering.endSteering(b));
 }
 
@@ -66,11 +66,11 @@ export function decodeDeviceMessage(bytes: Uint8Array): DeviceReport {
   throw new Error(`device message of type ${String(message.bodyType())} from the server`);
 }
 
-function buttons(wish: Wish): Button {
+function buttons(input: SteeringInput): Button {
   return (
-    (wish.spindleOn ? Button.spindle : 0) |
-    (wish.paused || !wish.held ? Button.pause : 0) |
-    (wish.held ? Button.deadman : 0)
+    (input.spindleOn ? Button.spindle : 0) |
+    (input.paused || !input.held ? Button.pause : 0) |
+    (input.held ? Button.deadman : 0)
   );
 }
 

@@ -28,7 +28,7 @@ export const deviceSilentAfterMs = 700;
 export const deviceLostAfterMs = 3000;
 const catchUpMs = 50;
 
-/** Keeps one device connection open: connects, notices loss and silence, and tries again until it is told goodbye. */
+/** Keeps one device connection open: connects, notices loss and silence, and reconnects until it is closed. */
 export class DeviceLink {
   private url: string | null = null;
   private state: DeviceLinkState = { kind: 'connecting' };
@@ -56,13 +56,13 @@ export class DeviceLink {
     if (this.url === null) return;
     if (this.state.kind === 'lost') this.set({ kind: 'lost', retryAtMs: null });
     this.callbacks.socket.open(this.url, {
-      onReport: (report) => this.hear(report),
+      onReport: (report) => this.receive(report),
       onClosed: (code, reason) => this.onClosed(code, reason),
     });
     this.silenceTimer = setTimeout(() => this.lose(), deviceLostAfterMs);
   }
 
-  private hear(report: DeviceReport): void {
+  private receive(report: DeviceReport): void {
     if (report.kind === 'welcome') {
       if (report.welcome.protocolRevision !== deviceProtocolRevision) {
         this.end(`device protocol ${report.welcome.protocolRevision}, this page speaks ${deviceProtocolRevision}`);

@@ -4,7 +4,7 @@ import type { Triple } from './messages';
 export const deviceProtocolRevision = 1;
 
 /** What the person wants the simulated hand to do; world frame. */
-export interface Wish {
+export interface SteeringInput {
   /** From the planned entry, square to the planned axis. */
   sidewaysMm: Triple;
   /** Where the tool's axis should point, of any length but 0. */
@@ -17,7 +17,7 @@ export interface Wish {
   held: boolean;
 }
 
-/** How the server takes the newest wish: used, a little old, too old so that the force fades, or none for too long. */
+/** How the server takes the newest input: used, a little old, too old so that the force fades, or none for too long. */
 export type PoseLink = 'fresh' | 'held' | 'fading' | 'lost';
 
 export interface Welcome {
@@ -27,13 +27,13 @@ export interface Welcome {
 }
 
 export interface Feedback {
-  /** Newest wish that the server has taken. */
+  /** Newest input that the server has taken. */
   sequence: number;
   /** The server's clock. */
   stampUs: bigint;
   /** Newest tick by then. */
   tick: number;
-  /** When the wish of `sequence` was sent, ms since 1970 by this computer's clock; null where that was long ago. */
+  /** When the input of `sequence` was sent, ms since 1970 by this computer's clock; null where that was long ago. */
   sentMs: number | null;
   link: PoseLink;
   thrustN: number;
@@ -48,7 +48,7 @@ export type DeviceReport = { kind: 'welcome'; welcome: Welcome } | { kind: 'feed
 
 /** Page to worker. Each `open` closes what was open before; `connection` numbers the answers. */
 export type DeviceWorkerRequest =
-  { kind: 'open'; connection: number; url: string } | { kind: 'wish'; wish: Wish } | { kind: 'close' };
+  { kind: 'open'; connection: number; url: string } | { kind: 'steer'; input: SteeringInput } | { kind: 'close' };
 
 /** Worker to page. `closed` comes once per opened connection that was not closed by request. */
 export type DeviceWorkerReport =

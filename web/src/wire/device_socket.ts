@@ -1,4 +1,4 @@
-import type { DeviceReport, DeviceWorkerReport, DeviceWorkerRequest, Wish } from './device_messages';
+import type { DeviceReport, DeviceWorkerReport, DeviceWorkerRequest, SteeringInput } from './device_messages';
 
 export interface DeviceHandlers {
   onReport(report: DeviceReport): void;
@@ -9,8 +9,8 @@ export interface DeviceHandlers {
 /** One device connection at a time; opening another ends the one before, which is not heard of again. */
 export interface DeviceSocket {
   open(url: string, handlers: DeviceHandlers): void;
-  /** The newest wish is sent again and again, until there is a newer one. */
-  wish(wish: Wish): void;
+  /** The newest input is sent again and again, until there is a newer one. */
+  steer(input: SteeringInput): void;
   close(): void;
 }
 
@@ -26,8 +26,8 @@ export class WorkerDeviceSocket implements DeviceSocket {
     this.send({ kind: 'open', connection: ++this.connection, url });
   }
 
-  wish(wish: Wish): void {
-    this.send({ kind: 'wish', wish });
+  steer(input: SteeringInput): void {
+    this.send({ kind: 'steer', input });
   }
 
   close(): void {
@@ -38,14 +38,14 @@ export class WorkerDeviceSocket implements DeviceSocket {
   private create(): Worker {
     const worker = new Worker(new URL('./device_worker.ts', import.meta.url), { type: 'module' });
     worker.onmessage = (event: MessageEvent<DeviceWorkerReport>) => {
-      const said = event.data;
+      const message = event.data;
       const handlers = this.handlers;
-      if (said.connection !== this.connection || handlers === null) return;
-      if (said.kind === 'report') {
-        handlers.onReport(said.report);
+      if (message.connection !== this.connection || handlers === null) return;
+      if (message.kind === 'report') {
+        handlers.onReport(message.report);
       } else {
         this.handlers = null;
-        handlers.onClosed(said.code, said.reason);
+        handlers.onClosed(message.code, message.reason);
       }
     };
     return worker;

@@ -1,21 +1,21 @@
 /** Worker: owns the device's WebSocket and its beat, so that a page that is busy drawing does not hold up the hand. */
 import type { DeviceWorkerReport, DeviceWorkerRequest } from './device_messages';
-import { DeviceTalk } from './device_talk';
+import { DeviceProtocol } from './device_protocol';
 
 const beatMs = 12;
-/** The page is told at most this often; what it shows changes no faster. */
+/** The page gets a report at most this often; what it shows changes no faster. */
 const reportMs = 30;
 
 // The DOM's typing of `self` is a window's.
 const page = self as unknown as { postMessage(report: DeviceWorkerReport): void };
 
 let socket: WebSocket | null = null;
-let talk: DeviceTalk | null = null;
+let protocol: DeviceProtocol | null = null;
 let beat: ReturnType<typeof setInterval> | undefined;
 
 function drop(): void {
   clearInterval(beat);
-  talk = null;
+  protocol = null;
   if (socket === null) return;
   socket.onopen = socket.onmessage = socket.onclose = null;
   socket.close();
@@ -27,16 +27,16 @@ function open(connection: number, url: string): void {
   const opened = new WebSocket(url);
   socket = opened;
   opened.binaryType = 'arraybuffer';
-  const talking = new DeviceTalk(opened, () => performance.now(), performance.timeOrigin);
+  const newProtocol = new DeviceProtocol(opened, () => performance.now(), performance.timeOrigin);
   opened.onopen = () => {
-    talk = talking;
-    talking.greet();
-    beat = setInterval(() => talking.beat(), beatMs);
+    protocol = newProtocol;
+    newProtocol.greet();
+    beat = setInterval(() => newProtocol.beat(), beatMs);
   };
   let reportedMs = -Infinity;
   opened.onmessage = (event: MessageEvent<ArrayBuffer>) => {
     try {
-      const report = talking.hear(new Uint8Array(event.data));
+      const report = newProtocol.receive(new Uint8Array(event.data));
       const now = performance.now();
       if (report.kind === 'feedback' && now - reportedMs < reportMs) return;
       reportedMs = now;
@@ -57,5 +57,5 @@ self.onmessage = (event: MessageEvent<DeviceWorkerRequest>) => {
   const request = event.data;
   if (request.kind === 'close') drop();
   else if (request.kind === 'open') open(request.connection, request.url);
-  else talk?.setWish(request.wish);
+  else protocol?.setInput(request.input);
 };

@@ -1,5 +1,6 @@
 import { Backoff } from './backoff';
 import { protocolRevision, type StreamMessage } from './messages';
+import { messageOf } from './rest';
 import type { StreamSocket } from './stream_socket';
 
 /**
@@ -42,7 +43,7 @@ export class Link {
   private attempt = 0;
   private retryTimer: ReturnType<typeof setTimeout> | undefined;
   private silenceTimer: ReturnType<typeof setTimeout> | undefined;
-  private lastHeardMs = 0;
+  private lastMessageMs = 0;
   private trafficExpected = false;
 
   constructor(private readonly callbacks: LinkCallbacks) {}
@@ -90,15 +91,15 @@ export class Link {
       }
       this.silenceTimer = setTimeout(() => this.lose('no hello from the server'), helloWithinMs);
       this.callbacks.socket.open(url, {
-        onMessage: (message) => this.hear(message),
+        onMessage: (message) => this.receive(message),
         onClosed: (reason) => this.lose(reason),
       });
     } catch (error) {
-      if (attempt === this.attempt) this.lose(error instanceof Error ? error.message : String(error));
+      if (attempt === this.attempt) this.lose(messageOf(error));
     }
   }
 
-  private hear(message: StreamMessage): void {
+  private receive(message: StreamMessage): void {
     if (message.kind === 'hello') {
       if (message.hello.protocolRevision !== protocolRevision) {
         this.stop();
@@ -107,7 +108,7 @@ export class Link {
       }
       this.backoff.reset();
     }
-    this.lastHeardMs = Date.now();
+    this.lastMessageMs = Date.now();
     if (this.state.kind !== 'live') this.set({ kind: 'live' });
     this.listen();
     this.callbacks.onMessage(message);
@@ -117,7 +118,7 @@ export class Link {
     clearTimeout(this.silenceTimer);
     if (!this.trafficExpected) return;
     this.silenceTimer = setTimeout(() => {
-      this.set({ kind: 'silent', sinceMs: this.lastHeardMs });
+      this.set({ kind: 'silent', sinceMs: this.lastMessageMs });
       this.silenceTimer = setTimeout(() => this.lose(''), lostAfterSilenceMs - silentAfterMs);
     }, silentAfterMs);
   }

@@ -1,5 +1,5 @@
 import { RestClient } from './rest_client';
-import type { Visitor } from './rest_types';
+import type { Login } from './rest_types';
 
 /** Calls of the REST interface that say who asks; `base` is the server's origin. */
 export class LoginApi {
@@ -9,16 +9,16 @@ export class LoginApi {
     this.rest = new RestClient(base);
   }
 
-  whoAmI(): Promise<Visitor> {
+  whoAmI(): Promise<Login> {
     return this.rest.json('get', '/api/v1/login', { quiet: true });
   }
-  logIn(name: string, password: string): Promise<Visitor> {
+  logIn(name: string, password: string): Promise<Login> {
     return this.rest.json('post', '/api/v1/login', { body: { name, password }, quiet: true });
   }
   async logOut(): Promise<void> {
     await this.rest.request('delete', '/api/v1/login', { quiet: true });
   }
-  useLink(secret: string): Promise<Visitor> {
+  useLink(secret: string): Promise<Login> {
     return this.rest.json('post', '/api/v1/login/link', { body: { secret }, quiet: true });
   }
   async changePassword(password: string, newPassword: string): Promise<void> {

@@ -12,14 +12,14 @@ export class MeshLoader {
     this.worker ??= new Worker(new URL('./mesh_worker.ts', import.meta.url), { type: 'module' });
     const { worker } = this;
     return new Promise((resolve, reject) => {
-      const hear = (event: MessageEvent<MeshReport>) => {
+      const receive = (event: MessageEvent<MeshReport>) => {
         if (event.data.id !== request.id) return;
-        worker.removeEventListener('message', hear);
+        worker.removeEventListener('message', receive);
         if (request.id !== this.newest) resolve(null);
         else if ('problem' in event.data) reject(new Error(event.data.problem));
         else resolve(event.data.surface);
       };
-      worker.addEventListener('message', hear);
+      worker.addEventListener('message', receive);
       worker.postMessage(request);
     });
   }

@@ -11,8 +11,8 @@ export type MeshReport = { id: number; surface: Surface } | { id: number; proble
 async function fetchSurface({ id, url }: MeshRequest): Promise<void> {
   const response = await fetch(url, { cache: 'no-cache' });
   if (!response.ok) {
-    const said = (await response.json().catch(() => null)) as { detail?: string } | null;
-    throw new Error(said?.detail ?? String(response.status));
+    const body = (await response.json().catch(() => null)) as { detail?: string } | null;
+    throw new Error(body?.detail ?? String(response.status));
   }
   const surface = readPly(await response.arrayBuffer());
   const { positions, normals, indices } = surface;

@@ -1,3 +1,6 @@
+import type { Pose, Triple } from './pose';
+import type { Playback, SessionState, Telemetry } from './telemetry';
+
 /**
  * What the stream worker hands to the page, decoded. Lengths mm, forces N, times in ticks of 1 ms; the world frame is
  * the CT's LPS (x to the patient's left, y posterior, z superior).
@@ -6,16 +9,7 @@
 /** The stream this page understands; see Hello.protocol_revision in proto/stream.fbs. */
 export const protocolRevision = 1;
 
-export type Triple = readonly [number, number, number];
-
-/** Rigid pose: rotate by the unit quaternion (x, y, z, w), then translate. */
-export interface Pose {
-  rotationXyzw: readonly [number, number, number, number];
-  translationMm: Triple;
-}
-
-export type SessionState =
-  'created' | 'running' | 'paused' | 'finished' | 'stopped' | 'fault' | 'interrupted' | 'replaying';
+export type { Playback, SessionState, Telemetry, Pose, Triple };
 
 export interface ToolMesh {
   name: string;
@@ -60,7 +54,7 @@ export interface BlockSurface {
   positions: Uint16Array<ArrayBuffer>;
   /**
    * Four per vertex: a direction in signed 1/32767, voxel frame, see stretchedNormals; then the class of the bone under
-   * it: 0 cancellous, 1 cortical, 2 cartilage, -1 where the server does not tell.
+   * it: 0 cancellous, 1 cortical, 2 cartilage, -1 where the server does not send it.
    */
   normals: Int16Array<ArrayBuffer>;
   /** Triangles, counter-clockwise from outside. */
@@ -70,51 +64,6 @@ export interface BlockSurface {
 export interface MeshDelta {
   blocks: BlockSurface[];
   keyComplete: boolean;
-}
-
-/** Where a replay stands; times are those of the recording. */
-export interface Playback {
-  positionTicks: number;
-  speed: number;
-  playing: boolean;
-  /** Grows with every jump: a trace of another jump does not belong to this one. */
-  jump: number;
-}
-
-/** A batch of the force trace (entry i is of tick firstTick + i * tickStride) and the newest state. */
-export interface Telemetry {
-  firstTick: number;
-  tickStride: number;
-  thrustN: Float32Array<ArrayBuffer>;
-  feedRatesMmS: Float32Array<ArrayBuffer>;
-  /** Acceleration of the reamer beside what contact does. Empty where the server does not tell it. */
-  vibrationG: Float32Array<ArrayBuffer>;
-  /** The newest tick of all, and what held then. */
-  tick: number;
-  handForceN: number;
-  torqueNMm: number;
-  feedRateMmS: number;
-  densityGCc: number;
-  worldFromTool: Pose | null;
-  worldFromHandle: Pose | null;
-  spindleOn: boolean;
-  state: SessionState;
-  depthMm: number;
-  removedVolumeMm3: number;
-  corticalShare: number;
-  dropped: number;
-  tickMeanUs: number;
-  tickP99Us: number;
-  ticksMissed: number;
-  fault: string;
-  /** How far the bone has moved from where the hello has it; null while it is held rigidly. */
-  worldFromBoneRest: Pose | null;
-  /** Null for what is live. */
-  playback: Playback | null;
-  /** When it was on its way, by the server's own clock, ms; 0: not told. */
-  stampMs: number;
-  /** When it came, ms since 1970 by this computer's clock; absent where nobody has looked at the clock. */
-  receivedMs?: number;
 }
 
 export type StreamMessage =

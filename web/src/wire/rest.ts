@@ -94,10 +94,10 @@ export async function requestJson<T>(url: string, method: Method, options: CallO
 /** Words of an RFC 9457 problem, or of the bare status where the body is none. */
 async function problem(response: Response): Promise<ApiError> {
   const body = (await response.json().catch(() => null)) as { title?: unknown; detail?: unknown } | null;
-  const said = [body?.detail, body?.title].find((text): text is string => typeof text === 'string' && text !== '');
+  const message = [body?.detail, body?.title].find((text): text is string => typeof text === 'string' && text !== '');
   const wait = Number(response.headers.get('retry-after') ?? NaN);
   return new ApiError(
-    said ?? `The simulator answered with an error (${response.status}).`,
+    message ?? `The simulator answered with an error (${response.status}).`,
     response.status,
     Number.isFinite(wait) && wait > 0 ? wait : null,
   );

@@ -1,4 +1,4 @@
-/** What the REST interface sends and takes, as proto/openapi.yaml has it, under the names of the page. */
+/** What the REST interface sends and takes, as proto/openapi.yaml has it, and types taken from it. */
 import type * as wire from './generated/openapi';
 
 export type {
@@ -7,13 +7,23 @@ export type {
   Answer,
   AssessedPlan,
   Band,
+  BonePart,
+  BuildSettings,
+  Case,
+  CaseBuilt,
+  CaseCt,
+  CaseSegmentation,
+  CaseStage,
   CaseSummary,
   ChoiceItem,
   Experience,
+  GivenAnswers,
   Job,
   Landmarks,
   Learning,
   LikertItem,
+  Link as ViewerLink,
+  Login,
   Mark,
   Measures,
   Metrics,
@@ -22,11 +32,16 @@ export type {
   NewPlan,
   NewStudy,
   NewUser,
+  NormalValue,
   Outcome,
   Participant,
   Plan,
+  PlanAssessment,
+  PlanTargets,
   PlaybackChange,
+  Point as Triple,
   Questionnaire,
+  QuestionnaireItem,
   Reamer,
   Replay,
   Role,
@@ -36,44 +51,21 @@ export type {
   Session,
   SessionChange,
   Side,
-  Standing,
   Study,
   TextItem,
+  Times,
   Token,
   Upload,
   User,
   UserChange,
   Verdict,
 } from './generated/openapi';
-export type {
-  BonePart,
-  BuildSettings as BuildSettings,
-  Case as CaseDetails,
-  CaseBuilt as BuiltBone,
-  CaseCt as CtDescription,
-  CaseSegmentation as Segmentation,
-  CaseStage as Stage,
-  DeviceLink as DeviceHealth,
-  GivenAnswers as Answers,
-  Link as ViewerLink,
-  Login as Visitor,
-  NormalValue as NormalRange,
-  PlanAssessment as Assessment,
-  PlanTargets as PlanTargets,
-  Point as Triple,
-  QuestionnaireItem as Item,
-  Times as Timing,
-} from './generated/openapi';
 
-/** All settings, each as it is wanted. */
-export type WantedSettings = Required<wire.SegmentationSettings>;
+/** Every setting with a value. */
+export type FullSegmentationSettings = Required<wire.SegmentationSettings>;
 export type Guide = wire.Plan['guide'];
-export type HumeralHead = NonNullable<wire.Landmarks['humeral_head']>;
 export type WalchClass = NonNullable<wire.Landmarks['walch']>;
-/** Landmarks that are points, by their keys. */
-export type PointName = Exclude<keyof wire.Landmarks, 'humeral_head' | 'biconcavity_mm' | 'walch'>;
 export type SeedName = keyof NonNullable<wire.SegmentationSettings['seeds']>;
-export type LearningSession = wire.Learning['sessions'][number];
 /** One page of the list of sessions. */
 export type SessionPage = Pick<wire.SessionList, 'sessions' | 'next' | 'total'>;
 export type Person = wire.PersonList['persons'][number];

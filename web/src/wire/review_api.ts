@@ -54,8 +54,8 @@ export class ReviewApi {
   async annotations(id: string): Promise<Annotation[]> {
     return (await this.rest.json('get', '/api/v1/sessions/{id}/annotations', { path: { id } })).annotations;
   }
-  annotate(id: string, words: string, atS: number): Promise<Annotation> {
-    const body = { words, at_s: atS };
+  annotate(id: string, text: string, atS: number): Promise<Annotation> {
+    const body = { words: text, at_s: atS };
     return this.rest.json('post', '/api/v1/sessions/{id}/annotations', { path: { id }, body });
   }
 

@@ -1,5 +1,5 @@
 import { RestClient } from './rest_client';
-import type { Answers, NewParticipant, NewStudy, Participant, Person, Study } from './rest_types';
+import type { GivenAnswers, NewParticipant, NewStudy, Participant, Person, Study } from './rest_types';
 
 export type ExportTable = 'sessions' | 'answers' | 'groups';
 
@@ -49,7 +49,7 @@ export class StudyApi {
   async withdraw(id: string, code: string): Promise<void> {
     await this.rest.request('delete', '/api/v1/studies/{id}/participants/{code}', { path: { id, code } });
   }
-  answer(id: string, code: string, body: Answers): Promise<Participant> {
+  answer(id: string, code: string, body: GivenAnswers): Promise<Participant> {
     return this.rest.json('put', '/api/v1/studies/{id}/participants/{code}/answers', { path: { id, code }, body });
   }
   async persons(id: string): Promise<Person[]> {

@@ -12,10 +12,10 @@ export function loadSurface(
 ): Promise<SortedSurface> {
   return new Promise((resolve, reject) => {
     const worker = new Worker(new URL('./surface_worker.ts', import.meta.url), { type: 'module' });
-    const end = (act: () => void) => {
+    const end = (settle: () => void) => {
       worker.terminate();
       signal.removeEventListener('abort', giveUp);
-      act();
+      settle();
     };
     const giveUp = () => end(() => reject(new DOMException('given up', 'AbortError')));
     signal.addEventListener('abort', giveUp);
@@ -25,7 +25,7 @@ export function loadSurface(
       else if (data.kind === 'surface') end(() => resolve(data.surface));
       else {
         if (data.status === 401) credentials.onRefused?.();
-        end(() => reject(new ApiError(data.words, data.status)));
+        end(() => reject(new ApiError(data.message, data.status)));
       }
     };
     worker.postMessage(request);

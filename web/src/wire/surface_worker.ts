@@ -21,7 +21,7 @@ export interface SortedSurface extends Surface {
 export type SurfaceReport =
   | { kind: 'making'; share: number }
   | { kind: 'surface'; surface: SortedSurface }
-  | { kind: 'problem'; words: string; status: number };
+  | { kind: 'problem'; message: string; status: number };
 
 // The DOM's typing of `self` is a window's; a worker's postMessage takes the transfer list in second place.
 const page = self as unknown as { postMessage(report: SurfaceReport, transfer?: ArrayBuffer[]): void };
@@ -31,15 +31,15 @@ async function get(url: string): Promise<Response> {
     throw new ApiError('', 0);
   });
   if (response.ok) return response;
-  const said = (await response.json().catch(() => null)) as { detail?: string } | null;
-  throw new ApiError(said?.detail ?? String(response.status), response.status);
+  const body = (await response.json().catch(() => null)) as { detail?: string } | null;
+  throw new ApiError(body?.detail ?? String(response.status), response.status);
 }
 
 async function fetchSurface({ url, jobs }: SurfaceRequest): Promise<void> {
-  const ask = async (id: string) => (await (await get(jobs + encodeURIComponent(id))).json()) as PendingJob;
+  const getJob = async (id: string) => (await (await get(jobs + encodeURIComponent(id))).json()) as PendingJob;
   const response = await fetchOnceReady(
     () => get(url),
-    ask,
+    getJob,
     (share) => page.postMessage({ kind: 'making', share }),
   );
   const surface = readPly(await response.arrayBuffer());
@@ -55,7 +55,7 @@ async function fetchSurface({ url, jobs }: SurfaceRequest): Promise<void> {
 
 self.onmessage = (event: MessageEvent<SurfaceRequest>) => {
   fetchSurface(event.data).catch((error: unknown) => {
-    const words = error instanceof Error ? error.message : String(error);
-    page.postMessage({ kind: 'problem', words, status: error instanceof ApiError ? error.status : 0 });
+    const message = error instanceof Error ? error.message : String(error);
+    page.postMessage({ kind: 'problem', message, status: error instanceof ApiError ? error.status : 0 });
   });
 };

@@ -24,7 +24,7 @@ describe('Hand', () => {
     }
     expect(hand.pushN.value).toBe(50);
     hand.push('mouse', 0);
-    expect(hand.wish(plan).pushN).toBe(0);
+    expect(hand.input(plan).pushN).toBe(0);
   });
 
   it('pushes while any one does, as hard as the hardest, and withdraws before all', () => {
@@ -64,21 +64,21 @@ describe('Hand', () => {
     hand.toggleSpindle();
     hand.push('mouse', 1);
     wait(1);
-    expect(hand.wish(plan)).toMatchObject({ spindleOn: true, held: true });
+    expect(hand.input(plan)).toMatchObject({ spindleOn: true, held: true });
     hand.letGo();
-    expect(hand.wish(plan)).toMatchObject({ pushN: 0, spindleOn: false, held: false });
+    expect(hand.input(plan)).toMatchObject({ pushN: 0, spindleOn: false, held: false });
     wait(1);
     expect(hand.pushN.value).toBe(0);
     hand.takeHold();
     wait(1);
-    expect(hand.wish(plan)).toMatchObject({ pushN: 0, spindleOn: false, held: true });
+    expect(hand.input(plan)).toMatchObject({ pushN: 0, spindleOn: false, held: true });
   });
 
   it('does not push while it rests', () => {
     hand.push('mouse', 1);
     wait(1);
     hand.togglePause();
-    expect(hand.wish(plan)).toMatchObject({ pushN: 0, paused: true });
+    expect(hand.input(plan)).toMatchObject({ pushN: 0, paused: true });
     hand.push('keys', 1);
     wait(1);
     expect(hand.pushN.value).toBe(0);

@@ -65,7 +65,7 @@ describe('PointerHand', () => {
       if (!hand.spindleOn.value) hand.toggleSpindle();
       surface.fire('pointerdown', { buttons: 1 });
       surface.fire(type, at);
-      expect(hand.wish(plan)).toMatchObject({ pushN: 0, spindleOn: false, held: false });
+      expect(hand.input(plan)).toMatchObject({ pushN: 0, spindleOn: false, held: false });
       expect(pushN()).toBe(0);
     }
     surface.fire('pointermove', {});

@@ -41,7 +41,7 @@ function drawn(picture: BonePicture): string[] {
   return found.sort();
 }
 
-function told(surfaces: Iterable<BlockSurface>): string[] {
+function trianglesOf(surfaces: Iterable<BlockSurface>): string[] {
   const found: string[] = [];
   for (const { block, positions, normals, indices } of surfaces) {
     const corner = (at: number): Corner => [
@@ -85,10 +85,10 @@ describe('BonePicture', () => {
         picture.apply(surface, nowMs);
         newest.set(block, surface);
         if (random() < 0.3) picture.settleOne(nowMs);
-        if (step % 20 === 0) expect(drawn(picture)).toEqual(told(newest.values()));
+        if (step % 20 === 0) expect(drawn(picture)).toEqual(trianglesOf(newest.values()));
       }
       while (picture.settleOne(1e9));
-      expect(drawn(picture)).toEqual(told(newest.values()));
+      expect(drawn(picture)).toEqual(trianglesOf(newest.values()));
       expect(picture.restless).toBe(false);
       // Nothing is kept of what is not seen any more.
       const seen = [...newest.values()].filter(({ indices }) => indices.length > 0);
@@ -130,7 +130,7 @@ describe('BonePicture', () => {
   it('lets go of blocks that are reamed away beside others that stay', () => {
     const picture = settledRow(randomNumbers(22));
     const before = drawnIndices(picture);
-    const count = told([fullSurface(randomNumbers(22), 0, 0)]).length * 3;
+    const count = trianglesOf([fullSurface(randomNumbers(22), 0, 0)]).length * 3;
     picture.apply(emptySurface(0, 1), 100);
     expect(picture.settleOne(settledMs)).toBe(true);
     expect(drawnIndices(picture)).toBe(before - count);
@@ -185,7 +185,7 @@ describe('BonePicture', () => {
     picture.apply(newer, 0);
     while (picture.settleOne(settledMs));
     picture.apply(randomSurface(random, 9, 4), settledMs);
-    expect(drawn(picture)).toEqual(told([newer]));
+    expect(drawn(picture)).toEqual(trianglesOf([newer]));
   });
 
   it('leaves nothing behind', () => {

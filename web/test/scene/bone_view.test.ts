@@ -45,16 +45,16 @@ describe('BoneView', () => {
   afterEach(() => void vi.useRealTimers());
 
   it('tells of each region that is drawn otherwise, so that none waits for the next picture', () => {
-    const meshesTold: number[] = [];
-    const view: BoneView = shownBone(() => meshesTold.push(view.group.children[0]?.children.length ?? NaN));
+    const meshMessages: number[] = [];
+    const view: BoneView = shownBone(() => meshMessages.push(view.group.children[0]?.children.length ?? NaN));
     vi.advanceTimersByTime(10_000);
-    expect(meshesTold).toEqual([1]);
+    expect(meshMessages).toEqual([1]);
     // Two blocks in each of three regions.
     view.apply(delta([4, 5, 8, 9, 12, 13], 2, false));
     vi.advanceTimersByTime(1000);
-    expect(meshesTold).toEqual([1]);
+    expect(meshMessages).toEqual([1]);
     vi.advanceTimersByTime(10_000);
-    expect(meshesTold).toEqual([1, 6, 5, 4]);
+    expect(meshMessages).toEqual([1, 6, 5, 4]);
     view.dispose();
   });
 

@@ -1,7 +1,7 @@
-import { Matrix4, Quaternion, Vector3 } from 'three';
-import { describe, expect, it } from 'vitest';
+import { Group, Matrix4, Quaternion, Vector3, type WebGLRenderer } from 'three';
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 
-import { carried, grown, roomBefore } from '../../src/scene/headset';
+import { carried, grown, Headset, roomBefore, type Standpoint } from '../../src/scene/headset';
 
 const target = new Vector3(100, -40, 30);
 const close = (a: Vector3, b: Vector3) => expect(a.distanceTo(b)).toBeLessThan(1e-6);
@@ -39,5 +39,75 @@ describe('the room of a headset', () => {
     close(seen(larger, target.clone().add(new Vector3(0, 0, 10))), new Vector3(0, 0.08, -0.55));
     const most = grown(room, head, 1e6);
     expect(1000 / new Vector3().setFromMatrixScale(most).x).toBeCloseTo(20, 6);
+  });
+});
+
+describe('a headset', () => {
+  const nothing: Standpoint = { eye: new Vector3(1, 0, 0), target: new Vector3() };
+  const bone: Standpoint = { eye: new Vector3(300, -40, 30), target };
+  let controllers: Group[];
+  let frame: (() => void) | null;
+  let allow: () => void;
+
+  beforeEach(() => {
+    const session = { addEventListener: vi.fn(), inputSources: [] };
+    const xr = {
+      isSessionSupported: () => Promise.resolve(true),
+      requestSession: () => new Promise((resolve) => (allow = () => resolve(session))),
+      addEventListener: vi.fn(),
+    };
+    vi.stubGlobal('navigator', { xr });
+    vi.stubGlobal('document', { createElement: () => ({ getContext: () => null }) });
+    controllers = [new Group(), new Group()];
+    frame = null;
+  });
+  afterEach(() => vi.unstubAllGlobals());
+
+  function headset(): Headset {
+    const xr = {
+      enabled: false,
+      getController: (i: number) => controllers[i],
+      getSession: () => null,
+      setReferenceSpaceType: vi.fn(),
+      setSession: () => Promise.resolve(),
+    };
+    const renderer = { xr, setAnimationLoop: (loop: (() => void) | null) => void (frame = loop) };
+    return new Headset(renderer as unknown as WebGLRenderer, vi.fn(), vi.fn());
+  }
+  const expectBeforeTheEyes = (worn: Headset) => close(seen(worn.room.matrix, target), new Vector3(0, 0, -0.55));
+
+  it('places the wearer before a bone that arrives once it is worn', async () => {
+    const worn = headset();
+    const put = worn.putOn(() => nothing);
+    allow();
+    await put;
+    expect(worn.worn.value).toBe(true);
+    close(seen(worn.room.matrix, nothing.target), new Vector3(0, 0, -0.55));
+    worn.place(bone);
+    frame?.();
+    expectBeforeTheEyes(worn);
+  });
+
+  it('begins at a bone that arrives while the browser still asks the person', async () => {
+    const worn = headset();
+    let from = nothing;
+    const put = worn.putOn(() => from);
+    from = bone;
+    allow();
+    await put;
+    expectBeforeTheEyes(worn);
+  });
+
+  it('ends a grab where it places the wearer', async () => {
+    const worn = headset();
+    const put = worn.putOn(() => nothing);
+    allow();
+    await put;
+    const [hand] = controllers;
+    hand?.dispatchEvent({ type: 'selectstart' } as never);
+    worn.place(bone);
+    hand?.position.set(0.3, 0, 0);
+    frame?.();
+    expectBeforeTheEyes(worn);
   });
 });

@@ -25,12 +25,12 @@ class FakeScene {
   eye = () => this.at;
   setEye(eye: Eye): void {
     this.at = eye;
-    if (++this.drawn < 20) this.camera.drew(this);
+    if (++this.drawn < 20) this.camera.onDrawn(this);
   }
   /** By hand. */
   turn(change: Partial<Eye>): void {
     this.at = { ...this.at, ...change };
-    this.camera.drew(this);
+    this.camera.onDrawn(this);
   }
 }
 
@@ -38,8 +38,8 @@ describe('shared camera', () => {
   it('moves all others with the one that is turned, without end being called for', () => {
     const camera = new SharedCamera();
     const [a, b] = [new FakeScene(camera), new FakeScene(camera, [50, 0, 0])];
-    camera.drew(a);
-    camera.drew(b);
+    camera.onDrawn(a);
+    camera.onDrawn(b);
     b.turn({ distanceMm: 70, towardsEye: new Vector3(0, 1, 0) });
     expect(a.eye().distanceMm).toBe(70);
     expect(a.eye().towardsEye.distanceTo(new Vector3(0, 1, 0))).toBeLessThan(1e-9);
@@ -59,7 +59,7 @@ describe('shared camera', () => {
     const a = new FakeScene(camera);
     a.turn({ distanceMm: 60 });
     const b = new FakeScene(camera);
-    camera.drew(b);
+    camera.onDrawn(b);
     expect(b.eye().distanceMm).toBe(60);
     expect(a.eye().distanceMm).toBe(60);
   });

@@ -1,11 +1,11 @@
 import { describe, expect, it } from 'vitest';
 
-import { type Heard, silence, soundOf } from '../../src/sound/reaming_sound';
+import { type SoundInput, silence, soundOf } from '../../src/sound/reaming_sound';
 import { silentAfterS, Synthesizer } from '../../src/sound/synthesizer';
 
 const rate = 48000;
 const block = 128;
-const seated: Heard = {
+const seated: SoundInput = {
   spindleOn: true,
   thrustN: 52,
   feedRateMmS: 0.2,
@@ -26,11 +26,11 @@ const crossings = (samples: Float32Array) =>
   (samples.length / rate);
 
 /** What it sounds like after it has settled. */
-function sound(heard: Heard): Float32Array {
+function sound(heard: SoundInput): Float32Array {
   const synthesizer = new Synthesizer(rate);
-  synthesizer.tell(soundOf(heard));
+  synthesizer.setParameters(soundOf(heard));
   rendered(synthesizer, 0.1);
-  synthesizer.tell(soundOf(heard));
+  synthesizer.setParameters(soundOf(heard));
   return rendered(synthesizer, 0.2);
 }
 
@@ -88,18 +88,18 @@ describe('the synthesizer', () => {
 
   it('falls silent when there is no more news, and comes back with it', () => {
     const synthesizer = new Synthesizer(rate);
-    synthesizer.tell(soundOf(seated));
+    synthesizer.setParameters(soundOf(seated));
     expect(rms(rendered(synthesizer, silentAfterS * 0.9))).toBeGreaterThan(0.02);
     rendered(synthesizer, 0.5);
     expect(rms(rendered(synthesizer, 0.2))).toBeLessThan(1e-4);
-    synthesizer.tell(soundOf(seated));
+    synthesizer.setParameters(soundOf(seated));
     rendered(synthesizer, 0.1);
     expect(rms(rendered(synthesizer, 0.1))).toBeGreaterThan(0.02);
   });
 
   it('does not click: it begins and ends gradually', () => {
     const synthesizer = new Synthesizer(rate);
-    synthesizer.tell(soundOf({ ...seated, densityGCc: 0 }));
+    synthesizer.setParameters(soundOf({ ...seated, densityGCc: 0 }));
     const begins = rendered(synthesizer, 0.01);
     const steepest = begins.reduce((most, x, i) => Math.max(most, Math.abs(x - (begins[i - 1] ?? 0))), 0);
     expect(steepest).toBeLessThan(0.03);

@@ -4,9 +4,9 @@ import { Identity } from '../../src/state/identity';
 import type { LoginApi } from '../../src/wire/login_api';
 import { ApiError, credentials } from '../../src/wire/rest';
 import { appText } from '../../src/text/app_text';
-import type { Visitor } from '../../src/wire/rest_types';
+import type { Login } from '../../src/wire/rest_types';
 
-const visitor = (role: Visitor['role'], name: string | null = null, csrf: string | null = 'proof'): Visitor => ({
+const visitor = (role: Login['role'], name: string | null = null, csrf: string | null = 'proof'): Login => ({
   login_needed: true,
   role,
   user: name === null ? null : { id: `id-${name}`, name, display_name: '' },
@@ -14,17 +14,17 @@ const visitor = (role: Visitor['role'], name: string | null = null, csrf: string
   csrf_token: role === null ? null : csrf,
   expires_utc: null,
 });
-const open: Visitor = { ...visitor('operator'), login_needed: false, csrf_token: null };
+const open: Login = { ...visitor('operator'), login_needed: false, csrf_token: null };
 
 /** The server's side of logging in. */
 class FakeLogin {
-  present: Visitor = visitor(null);
+  present: Login = visitor(null);
   down = false;
-  asked: string[] = [];
+  requests: string[] = [];
   refusal: ApiError | null = null;
 
-  private answer(what: string, next: Visitor): Promise<Visitor> {
-    this.asked.push(what);
+  private answer(what: string, next: Login): Promise<Login> {
+    this.requests.push(what);
     if (this.down) return Promise.reject(new ApiError('no answer', 0));
     if (this.refusal !== null) return Promise.reject(this.refusal);
     this.present = next;
@@ -62,7 +62,7 @@ describe('Identity', () => {
     login.down = true;
     const found = identity.find(null);
     await vi.advanceTimersByTimeAsync(0);
-    expect(identity.phase.value).toBe('asking');
+    expect(identity.phase.value).toBe('checking');
     expect(identity.problem.value).toBe('no answer');
     login.down = false;
     await vi.advanceTimersByTimeAsync(2000);
@@ -101,13 +101,13 @@ describe('Identity', () => {
 
   it('comes in by a viewer link to look only, unless somebody is logged in already', async () => {
     await identity.find('secret');
-    expect(login.asked).toEqual(['link secret']);
+    expect(login.requests).toEqual(['link secret']);
     expect(identity.may.value).toMatchObject({ ream: false, readCases: false, takePart: false });
     login.present = visitor('instructor', 'ines');
-    login.asked = [];
+    login.requests = [];
     const other = new Identity(login as unknown as LoginApi, () => undefined);
     await other.find('secret');
-    expect(login.asked).toEqual([]);
+    expect(login.requests).toEqual([]);
     expect(other.may.value.teach).toBe(true);
   });
 

@@ -32,7 +32,7 @@ describe('the latency of the picture', () => {
       latency.drawn(i * 100 + 9, at + 25, at + 30);
       latency.drawn(i * 100 + 40, at + 60, at + 66);
     }
-    latency.tell(2000);
+    latency.publish(2000);
     expect(latency.handMs.value).toBe(66);
     expect(latency.drawingMs.value).toBe(6);
   });
@@ -40,7 +40,7 @@ describe('the latency of the picture', () => {
   it('counts a picture of a tick once', () => {
     const latency = new Latency();
     for (let i = 0; i < 40; ++i) latency.drawn(5, 0, i * 10);
-    latency.tell(400);
+    latency.publish(400);
     expect(latency.drawingMs.value).toBeNull();
   });
 
@@ -50,13 +50,13 @@ describe('the latency of the picture', () => {
       latency.taken({ sentMs: i, tick: 1000 + i });
       latency.drawn(1000 + i, i, i + 9);
     }
-    latency.tell(30);
+    latency.publish(30);
     expect(latency.handMs.value).toBe(9);
     latency.taken({ sentMs: 30, tick: 1030 });
     latency.forget();
     expect(latency.handMs.value).toBeNull();
     for (let i = 0; i < 20; ++i) latency.drawn(5000 + i, 900, 901);
-    latency.tell(901);
+    latency.publish(901);
     expect(latency.handMs.value).toBeNull();
   });
 });

@@ -63,14 +63,14 @@ describe('Practice', () => {
   it('steers once the picture is there, sixty times a second', () => {
     vi.advanceTimersByTime(200);
     expect(socket.opened).toEqual(['ws://s1']);
-    expect(socket.wishes).toHaveLength(0);
+    expect(socket.inputs).toHaveLength(0);
     begin();
     expect(practiceStore.steering.value).toBe(true);
     surface.fire('pointerdown', { buttons: 1 });
     vi.advanceTimersByTime(1000);
-    expect(socket.wishes.length).toBeGreaterThan(55);
-    expect(socket.wishes.length).toBeLessThan(70);
-    expect(socket.wishes.at(-1)).toMatchObject({ pushN: practiceStore.hand.levelN.value, held: true });
+    expect(socket.inputs.length).toBeGreaterThan(55);
+    expect(socket.inputs.length).toBeLessThan(70);
+    expect(socket.inputs.at(-1)).toMatchObject({ pushN: practiceStore.hand.levelN.value, held: true });
   });
 
   it('lets go at once when it is told to, and stays so while nobody attends', () => {
@@ -78,15 +78,15 @@ describe('Practice', () => {
     surface.fire('pointerdown', { buttons: 1 });
     vi.advanceTimersByTime(1000);
     practice.letGo();
-    expect(socket.wishes.at(-1)).toMatchObject({ pushN: 0, spindleOn: false, held: false });
+    expect(socket.inputs.at(-1)).toMatchObject({ pushN: 0, spindleOn: false, held: false });
     attended = false;
     surface.fire('pointermove', {});
     vi.advanceTimersByTime(100);
-    expect(socket.wishes.at(-1)).toMatchObject({ held: false });
+    expect(socket.inputs.at(-1)).toMatchObject({ held: false });
     attended = true;
     surface.fire('pointermove', {});
     vi.advanceTimersByTime(100);
-    expect(socket.wishes.at(-1)).toMatchObject({ held: true, pushN: 0 });
+    expect(socket.inputs.at(-1)).toMatchObject({ held: true, pushN: 0 });
   });
 
   it('pushes no more after the connection was lost, until it is pressed anew', () => {
@@ -99,7 +99,7 @@ describe('Practice', () => {
     expect(socket.opened).toHaveLength(2);
     begin();
     vi.advanceTimersByTime(500);
-    expect(socket.wishes.at(-1)).toMatchObject({ pushN: 0 });
+    expect(socket.inputs.at(-1)).toMatchObject({ pushN: 0 });
   });
 
   it('ends with the session, and with another session in the picture', () => {
@@ -114,9 +114,9 @@ describe('Practice', () => {
     practice.steer('s1');
     store.sessionId.value = 's2';
     expect(practiceStore.sessionId.value).toBeNull();
-    const sent = socket.wishes.length;
+    const sent = socket.inputs.length;
     vi.advanceTimersByTime(1000);
-    expect(socket.wishes).toHaveLength(sent);
+    expect(socket.inputs).toHaveLength(sent);
   });
 
   it('says why when the server sends it away', () => {
@@ -133,13 +133,13 @@ describe('Practice', () => {
     gamepad = { axes: [0, 0, 0, 0], buttons, vibrationActuator: { playEffect } } as unknown as Gamepad;
     vi.advanceTimersByTime(600);
     expect(practiceStore.gamepad.value).toBe(true);
-    expect(socket.wishes.at(-1)?.pushN).toBe(practiceStore.hand.levelN.value);
+    expect(socket.inputs.at(-1)?.pushN).toBe(practiceStore.hand.levelN.value);
     expect(playEffect).not.toHaveBeenCalled();
     for (let i = 0; i < 30; ++i) socket.handlers?.onReport(feedback({ vibrationG: 0.35 }));
     vi.advanceTimersByTime(400);
     expect(playEffect.mock.calls.length).toBeGreaterThanOrEqual(4);
     gamepad = null;
     vi.advanceTimersByTime(50);
-    expect(socket.wishes.at(-1)?.pushN).toBe(0);
+    expect(socket.inputs.at(-1)?.pushN).toBe(0);
   });
 });

@@ -4,10 +4,10 @@ import { Scrubber } from '../../src/state/scrubber';
 
 /** A server that answers when the test lets it. */
 class SlowServer {
-  readonly asked: number[] = [];
+  readonly requests: number[] = [];
   private readonly waiting: { done: () => void; refuse: (error: Error) => void }[] = [];
   send = (positionS: number) => {
-    this.asked.push(positionS);
+    this.requests.push(positionS);
     return new Promise<void>((done, refuse) => this.waiting.push({ done, refuse }));
   };
   async answer(): Promise<void> {
@@ -33,23 +33,23 @@ describe('Scrubber', () => {
   it('sends one position at a time, and of those wanted meanwhile only the newest', async () => {
     const { server, scrubber } = scene();
     for (const s of [1, 2, 3, 4]) scrubber.seek(s);
-    expect(server.asked).toEqual([1]);
+    expect(server.requests).toEqual([1]);
     await server.answer();
-    expect(server.asked).toEqual([1, 4]);
+    expect(server.requests).toEqual([1, 4]);
     await server.answer();
-    expect(server.asked).toEqual([1, 4]);
+    expect(server.requests).toEqual([1, 4]);
     scrubber.seek(5);
-    expect(server.asked).toEqual([1, 4, 5]);
+    expect(server.requests).toEqual([1, 4, 5]);
   });
 
   it('shows what is wanted until the stream speaks after the answer', async () => {
     const { server, scrubber } = scene();
     scrubber.seek(7);
-    scrubber.streamTold();
+    scrubber.onStreamUpdate();
     expect(scrubber.wantedS.value).toBe(7);
     await server.answer();
     expect(scrubber.wantedS.value).toBe(7);
-    scrubber.streamTold();
+    scrubber.onStreamUpdate();
     expect(scrubber.wantedS.value).toBeNull();
   });
 
@@ -60,6 +60,6 @@ describe('Scrubber', () => {
     await server.refuse();
     expect(problems).toHaveLength(1);
     expect(scrubber.wantedS.value).toBeNull();
-    expect(server.asked).toEqual([1]);
+    expect(server.requests).toEqual([1]);
   });
 });

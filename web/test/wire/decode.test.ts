@@ -166,8 +166,8 @@ describe('StreamDecoder of a replay', () => {
     Telemetry.startTelemetry(c);
     Telemetry.addState(c, SessionState.replaying);
     Telemetry.addPlayback(c, playback);
-    const told = decoder.decode(message(c, Body.Telemetry, Telemetry.endTelemetry(c)));
-    expect(told).toMatchObject({
+    const decoded = decoder.decode(message(c, Body.Telemetry, Telemetry.endTelemetry(c)));
+    expect(decoded).toMatchObject({
       telemetry: { state: 'replaying', playback: { positionTicks: 133, speed: 0.25, playing: true, jump: 7 } },
     });
   });

@@ -19,7 +19,7 @@ function read<T>(bytes: Uint8Array, type: DeviceBody, body: T): T {
 }
 
 /** All that a Steering says. */
-function said(bytes: Uint8Array) {
+function decoded(bytes: Uint8Array) {
   const s = read(bytes, DeviceBody.Steering, new Steering());
   const [sideways, lean] = [s.sidewaysMm(), s.lean()];
   return {
@@ -36,7 +36,7 @@ function said(bytes: Uint8Array) {
 
 describe('device messages', () => {
   it('writes a Steering as the schema has it', () => {
-    const wish = {
+    const input = {
       sidewaysMm: [1.5, -2.5, 0],
       lean: [0, 0.25, -1],
       pushN: 52.5,
@@ -45,11 +45,11 @@ describe('device messages', () => {
       held: false,
     } as const;
     const times = { sequence: 7, sentUs: 16666n, echoUs: 5n, echoAgeUs: 16000 };
-    expect(said(encodeSteering(wish, times))).toEqual(said(golden('device_steering')));
-    const held = encodeSteering({ ...wish, paused: false, held: true }, times);
-    expect(said(held).buttons).toBe(Button.spindle | Button.deadman);
+    expect(decoded(encodeSteering(input, times))).toEqual(decoded(golden('device_steering')));
+    const held = encodeSteering({ ...input, paused: false, held: true }, times);
+    expect(decoded(held).buttons).toBe(Button.spindle | Button.deadman);
     // Servers that do not look at the deadman of a Steering rest the session all the same.
-    expect(said(encodeSteering({ ...wish, paused: false }, times)).buttons & Button.pause).toBe(Button.pause);
+    expect(decoded(encodeSteering({ ...input, paused: false }, times)).buttons & Button.pause).toBe(Button.pause);
   });
 
   it('greets as the schema has it', () => {

@@ -1,10 +1,10 @@
-import type { DeviceReport, Feedback, Wish } from '../../src/wire/device_messages';
+import type { DeviceReport, Feedback, SteeringInput } from '../../src/wire/device_messages';
 import type { DeviceHandlers, DeviceSocket } from '../../src/wire/device_socket';
 
 /** A device connection whose server is the test. */
 export class FakeDeviceSocket implements DeviceSocket {
   readonly opened: string[] = [];
-  readonly wishes: Wish[] = [];
+  readonly inputs: SteeringInput[] = [];
   closed = 0;
   handlers: DeviceHandlers | null = null;
 
@@ -12,8 +12,8 @@ export class FakeDeviceSocket implements DeviceSocket {
     this.opened.push(url);
     this.handlers = handlers;
   }
-  wish(wish: Wish): void {
-    this.wishes.push(wish);
+  steer(input: SteeringInput): void {
+    this.inputs.push(input);
   }
   close(): void {
     ++this.closed;
@@ -26,7 +26,7 @@ export function welcome(protocolRevision = 1): DeviceReport {
 }
 
 export function feedback(change: Partial<Feedback> = {}): DeviceReport {
-  const calm: Feedback = {
+  const idleFeedback: Feedback = {
     sequence: 1,
     stampUs: 1n,
     tick: 1,
@@ -37,5 +37,5 @@ export function feedback(change: Partial<Feedback> = {}): DeviceReport {
     engaged: false,
     rttMs: 1,
   };
-  return { kind: 'feedback', feedback: { ...calm, ...change } };
+  return { kind: 'feedback', feedback: { ...idleFeedback, ...change } };
 }

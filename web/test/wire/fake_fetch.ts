@@ -1,6 +1,6 @@
 import { vi } from 'vitest';
 
-export interface Asked {
+export interface FakeRequest {
   method: string;
   path: string;
   headers: Record<string, string>;
@@ -9,19 +9,19 @@ export interface Asked {
 
 /** Answers the page's calls in place of a server, and remembers them. */
 export class FakeFetch {
-  readonly asked: Asked[] = [];
+  readonly requests: FakeRequest[] = [];
 
-  constructor(private readonly answer: (asked: Asked) => Response | Promise<Response>) {
+  constructor(private readonly answer: (requests: FakeRequest) => Response | Promise<Response>) {
     vi.stubGlobal('fetch', (url: string, init: RequestInit) => {
       const body = typeof init.body === 'string' ? (JSON.parse(init.body) as unknown) : undefined;
-      const asked = {
+      const requests = {
         method: init.method ?? 'GET',
         path: new URL(url).pathname + new URL(url).search,
         headers: init.headers as Record<string, string>,
         body,
       };
-      this.asked.push(asked);
-      return Promise.resolve(this.answer(asked));
+      this.requests.push(requests);
+      return Promise.resolve(this.answer(requests));
     });
   }
 }

@@ -25,7 +25,7 @@ describe('requests', () => {
     await requestJson(`${base}/a`, 'GET');
     for (const method of ['POST', 'PUT', 'PATCH', 'DELETE'] as const)
       await requestJson(`${base}/a`, method, { body: {} });
-    expect(server.asked.map((asked) => asked.headers['x-csrf-token'])).toEqual([
+    expect(server.requests.map((requests) => requests.headers['x-csrf-token'])).toEqual([
       undefined,
       undefined,
       'proof',
@@ -37,12 +37,12 @@ describe('requests', () => {
 
   it('tell when the login has ended, but for those that ask who one is', async () => {
     new FakeFetch(() => problem(401, 'log in first'));
-    let told = 0;
-    credentials.onRefused = () => ++told;
+    let refusals = 0;
+    credentials.onRefused = () => ++refusals;
     expect((await failure(requestJson(`${base}/a`, 'GET')))?.status).toBe(401);
-    expect(told).toBe(1);
+    expect(refusals).toBe(1);
     await failure(requestJson(`${base}/a`, 'POST', { quiet: true }));
-    expect(told).toBe(1);
+    expect(refusals).toBe(1);
   });
 
   it('are sent once more where the proof was of an earlier login', async () => {
@@ -55,11 +55,11 @@ describe('requests', () => {
       return Promise.resolve(true);
     };
     expect(await requestJson(`${base}/a`, 'POST')).toEqual({ done: true });
-    expect(server.asked).toHaveLength(2);
+    expect(server.requests).toHaveLength(2);
     credentials.csrfToken = 'old';
     credentials.renew = () => Promise.resolve(false);
     expect((await failure(requestJson(`${base}/a`, 'POST')))?.status).toBe(403);
-    expect(server.asked).toHaveLength(3);
+    expect(server.requests).toHaveLength(3);
   });
 
   it('say how long to wait before another try', async () => {

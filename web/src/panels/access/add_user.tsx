@@ -24,7 +24,7 @@ export function AddUser({ api, users }: { api: AccessApi; users: Remote<User[]> 
     if (made !== null) wanted.value = blank('trainee');
   };
   return (
-    <form class="desk-form" aria-label={accessText.addUser} onSubmit={(event) => void add(event)}>
+    <form class="content-form" aria-label={accessText.addUser} onSubmit={(event) => void add(event)}>
       <TextLine
         {...{ label: accessText.nameColumn, testId: 'add-name', required: true, value: wanted.value.name }}
         {...{ autocomplete: 'off', verbatim: true }}

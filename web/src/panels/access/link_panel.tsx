@@ -4,7 +4,7 @@ import { accessText } from '../../text/access_text';
 import { Remote } from '../../state/remote';
 import type { AccessApi } from '../../wire/access_api';
 import { dayAndTime } from '../../text/format';
-import { Remark } from '../common/fields';
+import { Message } from '../common/fields';
 import { ConfirmButton } from '../common/confirm_dialog';
 import { MakeLink } from './make_link';
 
@@ -14,13 +14,13 @@ export function LinkPanel({ api }: { api: AccessApi }) {
   useEffect(() => void links.read(), [links]);
   const list = links.value.value;
   return (
-    <section class="desk-panel" aria-labelledby="links-title">
+    <section class="content-panel" aria-labelledby="links-title">
       <h2 id="links-title">{accessText.links}</h2>
       <p class="soft">{accessText.linksHint}</p>
-      {links.problem.value !== null && <Remark kind="bad">{links.problem.value}</Remark>}
+      {links.problem.value !== null && <Message kind="bad">{links.problem.value}</Message>}
       {list !== null && list.length > 0 && (
-        <div class="desk-scroll">
-          <table class="desk-table" data-testid="links">
+        <div class="table-scroll">
+          <table class="data-table" data-testid="links">
             <thead>
               <tr>
                 <th scope="col">{accessText.linkName}</th>
@@ -37,7 +37,7 @@ export function LinkPanel({ api }: { api: AccessApi }) {
                   <td>{link.session === null ? accessText.allSessions : accessText.oneSession(link.session)}</td>
                   <td>{link.last_used_utc === null ? accessText.never : dayAndTime(link.last_used_utc)}</td>
                   <td>{dayAndTime(link.expires_utc)}</td>
-                  <td class="deeds">
+                  <td class="actions">
                     <ConfirmButton
                       label={accessText.revoke}
                       describe={accessText.revokeLink(link.name || link.id)}

@@ -4,7 +4,7 @@ import { accessText } from '../../text/access_text';
 import { addressOfLink } from '../../state/watch_link';
 import { type AccessApi, utcInDays } from '../../wire/access_api';
 import { messageOf } from '../../wire/rest';
-import { Remark } from '../common/fields';
+import { Message } from '../common/fields';
 import { SecretOnce } from '../common/secret_once';
 import { Choice, Count, TextLine } from '../common/form_fields';
 import { Button } from '../common/button';
@@ -45,7 +45,7 @@ export function MakeLink({ api, session, review, onMade }: Parts) {
   };
   return (
     <>
-      <form class="desk-form" onSubmit={(event) => void make(event)}>
+      <form class="content-form" onSubmit={(event) => void make(event)}>
         <TextLine
           {...{ label: accessText.linkName, testId: 'link-name', autocomplete: 'off', value: name.value }}
           onInput={(typed) => (name.value = typed)}
@@ -68,7 +68,7 @@ export function MakeLink({ api, session, review, onMade }: Parts) {
           {accessText.makeLink}
         </Button>
       </form>
-      {problem.value !== null && <Remark kind="bad">{problem.value}</Remark>}
+      {problem.value !== null && <Message kind="bad">{problem.value}</Message>}
       {address.value !== null && <SecretOnce label={accessText.links} text={address.value} testId="link-address" />}
     </>
   );

@@ -3,7 +3,7 @@ import { useSignal } from '@preact/signals';
 import { accessText } from '../../text/access_text';
 import type { LoginApi } from '../../wire/login_api';
 import { messageOf } from '../../wire/rest';
-import { Remark } from '../common/fields';
+import { Message } from '../common/fields';
 import { TextLine } from '../common/form_fields';
 import { Button } from '../common/button';
 
@@ -11,19 +11,19 @@ import { Button } from '../common/button';
 export function PasswordPanel({ api }: { api: LoginApi }) {
   const fields = { present: useSignal(''), wanted: useSignal(''), again: useSignal('') };
   const busy = useSignal(false);
-  const said = useSignal<{ kind: 'bad' | 'soft'; text: string } | null>(null);
+  const status = useSignal<{ kind: 'bad' | 'soft'; text: string } | null>(null);
   const change = async (event: Event) => {
     event.preventDefault();
     if (fields.wanted.value !== fields.again.value) {
-      said.value = { kind: 'bad', text: accessText.passwordsDiffer };
+      status.value = { kind: 'bad', text: accessText.passwordsDiffer };
       return;
     }
     busy.value = true;
     try {
       await api.changePassword(fields.present.value, fields.wanted.value);
-      said.value = { kind: 'soft', text: accessText.passwordChanged };
+      status.value = { kind: 'soft', text: accessText.passwordChanged };
     } catch (error) {
-      said.value = { kind: 'bad', text: messageOf(error) };
+      status.value = { kind: 'bad', text: messageOf(error) };
     } finally {
       for (const field of Object.values(fields)) field.value = '';
       busy.value = false;
@@ -35,10 +35,11 @@ export function PasswordPanel({ api }: { api: LoginApi }) {
     ['again', accessText.newPasswordAgain, 'new-password'],
   ] as const;
   return (
-    <section class="desk-panel" aria-labelledby="password-title">
+    <section class="content-panel" aria-labelledby="password-title">
       <h2 id="password-title">{accessText.changePassword}</h2>
       <p class="soft">{accessText.passwordRule}</p>
-      <form class="desk-form" onSubmit={(event) => void change(event)}>
+      <p class="soft">{accessText.passwordEnds}</p>
+      <form class="content-form" onSubmit={(event) => void change(event)}>
         {rows.map(([key, label, autocomplete]) => (
           <TextLine
             key={key}
@@ -51,10 +52,10 @@ export function PasswordPanel({ api }: { api: LoginApi }) {
           {accessText.changePassword}
         </Button>
       </form>
-      {said.value !== null && (
-        <Remark kind={said.value.kind} testId="password-said">
-          {said.value.text}
-        </Remark>
+      {status.value !== null && (
+        <Message kind={status.value.kind} testId="password-status">
+          {status.value.text}
+        </Message>
       )}
     </section>
   );

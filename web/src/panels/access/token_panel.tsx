@@ -5,7 +5,7 @@ import { accessText } from '../../text/access_text';
 import { Remote } from '../../state/remote';
 import { type AccessApi, utcInDays } from '../../wire/access_api';
 import { dayAndTime } from '../../text/format';
-import { Remark } from '../common/fields';
+import { Message } from '../common/fields';
 import { ConfirmButton } from '../common/confirm_dialog';
 import { SecretOnce } from '../common/secret_once';
 import { Count, TextLine } from '../common/form_fields';
@@ -26,16 +26,16 @@ export function TokenPanel({ api, userId, nameOf }: Parts) {
   useEffect(() => void tokens.read(), [tokens]);
   const list = tokens.value.value;
   return (
-    <section class="desk-panel" aria-labelledby="tokens-title">
+    <section class="content-panel" aria-labelledby="tokens-title">
       <h2 id="tokens-title">{accessText.tokens}</h2>
       <p class="soft">
         {accessText.tokensHint} <a href="./api">{accessText.apiPage}</a>
       </p>
-      {tokens.problem.value !== null && <Remark kind="bad">{tokens.problem.value}</Remark>}
+      {tokens.problem.value !== null && <Message kind="bad">{tokens.problem.value}</Message>}
       {list?.length === 0 && <p class="soft">{accessText.noTokens}</p>}
       {list !== null && list.length > 0 && (
-        <div class="desk-scroll">
-          <table class="desk-table" data-testid="tokens">
+        <div class="table-scroll">
+          <table class="data-table" data-testid="tokens">
             <thead>
               <tr>
                 <th scope="col">{accessText.tokenName}</th>
@@ -52,7 +52,7 @@ export function TokenPanel({ api, userId, nameOf }: Parts) {
                   {nameOf !== undefined && <td>{nameOf(token.user_id)}</td>}
                   <td>{token.last_used_utc === null ? accessText.never : dayAndTime(token.last_used_utc)}</td>
                   <td>{dayAndTime(token.expires_utc)}</td>
-                  <td class="deeds">
+                  <td class="actions">
                     <ConfirmButton
                       label={accessText.revoke}
                       describe={accessText.revokeToken(token.name)}
@@ -87,7 +87,7 @@ function MakeToken({ api, tokens }: { api: AccessApi; tokens: Remote<unknown> })
   };
   return (
     <>
-      <form class="desk-form" onSubmit={(event) => void make(event)}>
+      <form class="content-form" onSubmit={(event) => void make(event)}>
         <TextLine
           {...{
             label: accessText.tokenName,

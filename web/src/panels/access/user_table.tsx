@@ -20,8 +20,8 @@ interface Parts {
 export function UserTable({ api, users }: Parts) {
   const list = users.value.value ?? [];
   return (
-    <div class="desk-scroll">
-      <table class={users.stale.value ? 'desk-table stale' : 'desk-table'} data-testid="users">
+    <div class="table-scroll">
+      <table class={users.stale.value ? 'data-table stale' : 'data-table'} data-testid="users">
         <thead>
           <tr>
             <th scope="col">{accessText.nameColumn}</th>
@@ -74,7 +74,7 @@ function UserRow({ user, api, users }: Parts & { user: User }) {
         </span>
       </td>
       <td>{dayAndTime(user.created_utc)}</td>
-      <td class="deeds">
+      <td class="actions">
         <NewPassword user={user} busy={busy} onSet={(password) => change({ password })} />
         <Button
           testId={`enable-${user.name}`}
@@ -87,7 +87,7 @@ function UserRow({ user, api, users }: Parts & { user: User }) {
         <ConfirmButton
           label={accessText.remove}
           describe={accessText.removeUser(user.name)}
-          question={accessText.removeReally(user.name)}
+          question={accessText.removeConfirm(user.name)}
           yes={accessText.removeYes}
           no={accessText.keep}
           testId={`remove-${user.name}`}
@@ -122,7 +122,7 @@ function NewPassword({ user, busy, onSet }: { user: User; busy: boolean; onSet: 
   };
   return (
     <form
-      class="really"
+      class="confirm"
       onSubmit={(event) => {
         event.preventDefault();
         onSet(password.value);
@@ -143,6 +143,7 @@ function NewPassword({ user, busy, onSet }: { user: User; busy: boolean; onSet: 
         {accessText.setPassword}
       </Button>
       <Button onClick={close}>{accessText.cancel}</Button>
+      <p class="soft">{accessText.resetPasswordEnds}</p>
     </form>
   );
 }

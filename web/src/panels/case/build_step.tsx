@@ -3,9 +3,9 @@ import { useSignal } from '@preact/signals';
 import { caseText } from '../../text/case_text';
 import type { CaseController } from '../../state/case/case_controller';
 import { isUnderWay } from '../../state/case/job_watch';
-import type { BuiltBone } from '../../wire/rest_types';
+import type { CaseBuilt } from '../../wire/rest_types';
 import { fixed } from '../../text/format';
-import { Remark, SelectField, SliderField } from '../common/fields';
+import { Message, SelectField, SliderField } from '../common/fields';
 import { Button } from '../common/button';
 
 const finest = 8;
@@ -47,7 +47,7 @@ export function BuildStep({ controller }: { controller: CaseController }) {
         testId="cartilage"
         onChange={(thickness) => (cartilageMm.value = thickness)}
       />
-      {lacksCentre && found !== null && <Remark kind="warn">{caseText.buildNeedsCentre}</Remark>}
+      {lacksCentre && found !== null && <Message kind="warn">{caseText.buildNeedsCentre}</Message>}
       <div class="buttons">
         <Button
           look="main"
@@ -69,11 +69,11 @@ export function BuildStep({ controller }: { controller: CaseController }) {
   );
 }
 
-function Built({ built, outdated }: { built: BuiltBone; outdated: boolean }) {
+function Built({ built, outdated }: { built: CaseBuilt; outdated: boolean }) {
   const [low, high] = built.density_range_g_cc;
   return (
     <section data-testid="built">
-      {outdated && <Remark kind="warn">{caseText.builtOutdated}</Remark>}
+      {outdated && <Message kind="warn">{caseText.builtOutdated}</Message>}
       <h3>{caseText.built}</h3>
       <ul class="facts">
         <li>{caseText.builtVoxels(fixed(built.bone_voxels / 1e6, 2))}</li>

@@ -1,10 +1,10 @@
 import { caseText } from '../../text/case_text';
-import type { CaseDetails } from '../../wire/rest_types';
+import type { Case } from '../../wire/rest_types';
 import { appText } from '../../text/app_text';
 import { SiteNav, HeaderEnd } from '../common/site_nav';
 
 /** Which case this is, and the ways to the other pages. */
-export function CaseHeader({ details }: { details: CaseDetails | null }) {
+export function CaseHeader({ details }: { details: Case | null }) {
   return (
     <header class="header">
       <h1 class="product">{appText.product}</h1>

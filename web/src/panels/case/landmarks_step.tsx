@@ -134,7 +134,7 @@ function SaveLine({ controller, state }: { controller: CaseController; state: Sa
       {state.kind === 'unsaved' && caseText.unsaved}
       {state.kind === 'failed' && (
         <>
-          {caseText.saveFailed(state.words)}
+          {caseText.saveFailed(state.message)}
           <Button testId="save-again" onClick={() => void landmarks.saveNow()}>
             {caseText.saveAgain}
           </Button>

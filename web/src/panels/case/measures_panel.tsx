@@ -1,10 +1,10 @@
 import { caseText } from '../../text/case_text';
 import type { LandmarkEditor } from '../../state/case/landmark_editor';
 import type { LandmarkName } from '../../state/case/landmark_names';
-import type { Measures, NormalRange } from '../../wire/rest_types';
+import type { Measures, NormalValue } from '../../wire/rest_types';
 import { fixed } from '../../text/format';
 import { inclinationText, versionText } from './angle_text';
-import { Remark } from '../common/fields';
+import { Message } from '../common/fields';
 
 /** What the server measures from the saved landmarks, beside what is normal; dimmed while it is of older ones. */
 export function MeasuresPanel({ controller }: { controller: LandmarkEditor }) {
@@ -12,7 +12,7 @@ export function MeasuresPanel({ controller }: { controller: LandmarkEditor }) {
   const problem = controller.measuresProblem.value;
   const isFresh = controller.measured.value;
   if (measures === null)
-    return problem === null ? null : <Remark kind="bad">{caseText.measuresFailed(problem)}</Remark>;
+    return problem === null ? null : <Message kind="bad">{caseText.measuresFailed(problem)}</Message>;
   return (
     <section class={isFresh ? 'measures' : 'measures stale'} data-testid="measures" data-fresh={isFresh}>
       <h3>
@@ -50,11 +50,11 @@ function Figures({ measures }: { measures: Measures }) {
           testId="inclination-friedman"
         />
       </Block>
-      <Block title={caseText.subluxation} normal={normalText(normal.subluxation_percent, percentWords)}>
-        <Row name={caseText.againstScapula} value={percentWords(measures.subluxation_percent)} testId="subluxation" />
+      <Block title={caseText.subluxation} normal={normalText(normal.subluxation_percent, percentText)}>
+        <Row name={caseText.againstScapula} value={percentText(measures.subluxation_percent)} testId="subluxation" />
         <Row
           name={caseText.againstFace}
-          value={percentWords(measures.subluxation_glenoid_percent)}
+          value={percentText(measures.subluxation_glenoid_percent)}
           testId="subluxation-glenoid"
         />
       </Block>
@@ -64,7 +64,7 @@ function Figures({ measures }: { measures: Measures }) {
             <Row
               key={name}
               name={caseText.biconcavityFigures[name] ?? name}
-              value={biconcavityWords(name, value)}
+              value={biconcavityText(name, value)}
               testId={`biconcavity-${name}`}
             />
           ))}
@@ -101,19 +101,19 @@ function Row({ name, value, testId }: { name: string; value: string; testId: str
   );
 }
 
-const percentWords = (percent: number | null | undefined): string =>
+const percentText = (percent: number | null | undefined): string =>
   percent === null || percent === undefined ? caseText.unknown : caseText.percentValue(fixed(percent, 0));
 
-function normalText(range: NormalRange | undefined, inWords: (value: number) => string): string | null {
+function normalText(range: NormalValue | undefined, format: (value: number) => string): string | null {
   if (range === undefined) return null;
   const { mean, low, high, source } = range;
-  const spread = low === undefined || high === undefined ? null : caseText.normalRange(inWords(low), inWords(high));
-  return caseText.normal(spread === null ? inWords(mean) : `${inWords(mean)}; ${spread}`, source);
+  const spread = low === undefined || high === undefined ? null : caseText.normalRange(format(low), format(high));
+  return caseText.normal(spread === null ? format(mean) : `${format(mean)}; ${spread}`, source);
 }
 
 function nameOf(key: string): string {
   return key === 'biconcavity_mm' ? caseText.biconcavity : (caseText.landmarkNames[key as LandmarkName] ?? key);
 }
 
-const biconcavityWords = (name: string, degrees: number): string =>
+const biconcavityText = (name: string, degrees: number): string =>
   name === 'between_deg' ? caseText.fixed(fixed(degrees, 1), '°') : versionText(degrees);

@@ -4,7 +4,7 @@ import { caseText } from '../../text/case_text';
 import type { CaseListController, NewCaseState } from '../../state/case/new_case';
 import type { Side } from '../../wire/rest_types';
 import { fixed } from '../../text/format';
-import { Remark } from '../common/fields';
+import { Message } from '../common/fields';
 import { JobProgress, ProgressBar } from './job_progress';
 import { Button } from '../common/button';
 
@@ -41,13 +41,13 @@ export function NewCasePanel({ controller }: { controller: CaseListController })
           placeholder={caseText.caseNameHint}
           data-testid="case-name"
           disabled={underWay}
-          value={controller.wishes.value.name}
+          value={controller.options.value.name}
           onInput={(event) =>
-            (controller.wishes.value = { ...controller.wishes.value, name: event.currentTarget.value })
+            (controller.options.value = { ...controller.options.value, name: event.currentTarget.value })
           }
         />
       </label>
-      <details class="more" open={controller.wishes.value.seriesUid !== ''}>
+      <details class="more" open={controller.options.value.seriesUid !== ''}>
         <summary>{caseText.moreChoices}</summary>
         <label class="field">
           {caseText.seriesUid}
@@ -55,9 +55,9 @@ export function NewCasePanel({ controller }: { controller: CaseListController })
             type="text"
             data-testid="series-uid"
             disabled={underWay}
-            value={controller.wishes.value.seriesUid}
+            value={controller.options.value.seriesUid}
             onInput={(event) =>
-              (controller.wishes.value = { ...controller.wishes.value, seriesUid: event.currentTarget.value })
+              (controller.options.value = { ...controller.options.value, seriesUid: event.currentTarget.value })
             }
           />
         </label>
@@ -165,10 +165,10 @@ function Progress({ controller, state }: { controller: CaseListController; state
     case 'failed': {
       const during = state.during === 'upload';
       return (
-        <Remark kind="bad" testId="new-case-failed">
-          <strong>{during ? caseText.uploadFailed : caseText.importFailed}.</strong> {state.words}{' '}
+        <Message kind="bad" testId="new-case-failed">
+          <strong>{during ? caseText.uploadFailed : caseText.importFailed}.</strong> {state.message}{' '}
           {during ? caseText.uploadFailedHint : caseText.importFailedHint}
-        </Remark>
+        </Message>
       );
     }
   }

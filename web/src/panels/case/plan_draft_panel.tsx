@@ -4,17 +4,17 @@ import { caseText } from '../../text/case_text';
 import type { CaseController } from '../../state/case/case_controller';
 import type { PlanDraft } from '../../state/case/case_store';
 import { add, length } from '../../ct/volume_frame';
-import type { Assessment, Plan, Triple } from '../../wire/rest_types';
+import type { PlanAssessment, Plan, Triple } from '../../wire/rest_types';
 import { fixed } from '../../text/format';
 import { inclinationText, versionText } from './angle_text';
-import { NumberBox, NumberField, Remark } from '../common/fields';
+import { NumberBox, NumberField, Message } from '../common/fields';
 import { Button } from '../common/button';
 
 /** The proposed or kept plan by numbers, what it would do, and keeping it. */
 export function PlanDraftPanel({ controller, draft }: { controller: CaseController; draft: PlanDraft }) {
   const { plan, assessment, isAssessed, kept } = draft;
   const change = (part: Partial<Plan>) => controller.draftPlan({ ...plan, ...part });
-  const asked = controller.store.overrideAsked.value;
+  const overrideReason = controller.store.overrideRequired.value;
   return (
     <section class="plan-draft" data-testid="plan-draft" data-kept={kept}>
       <p class={kept ? 'good' : 'warn-text'} data-testid="plan-state">
@@ -45,10 +45,10 @@ export function PlanDraftPanel({ controller, draft }: { controller: CaseControll
         onChange={(depth_mm) => change({ depth_mm })}
       />
       <PlanFacts plan={plan} />
-      {assessment !== null && !isAssessed && <Remark kind="warn">{caseText.planChanged}</Remark>}
+      {assessment !== null && !isAssessed && <Message kind="warn">{caseText.planChanged}</Message>}
       {assessment !== null && <AssessmentFigures assessment={assessment} stale={!isAssessed} />}
-      {asked !== null || (isAssessed && assessment?.needs_override === true) ? (
-        <Override controller={controller} words={asked} kept={kept} />
+      {overrideReason !== null || (isAssessed && assessment?.needs_override === true) ? (
+        <Override controller={controller} message={overrideReason} kept={kept} />
       ) : (
         <div class="buttons">
           <Button
@@ -81,7 +81,7 @@ function PlanFacts({ plan }: { plan: Plan }) {
   );
 }
 
-function AssessmentFigures({ assessment, stale }: { assessment: Assessment; stale: boolean }) {
+function AssessmentFigures({ assessment, stale }: { assessment: PlanAssessment; stale: boolean }) {
   const { correction_deg, version_after_deg, inclination_after_deg, vault_depth_mm, warnings } = assessment;
   return (
     <>
@@ -102,22 +102,30 @@ function AssessmentFigures({ assessment, stale }: { assessment: Assessment; stal
         )}
       </dl>
       {warnings.map((warning) => (
-        <Remark kind="warn" key={warning} testId="plan-warning">
+        <Message kind="warn" key={warning} testId="plan-warning">
           {warning}
-        </Remark>
+        </Message>
       ))}
     </>
   );
 }
 
 /** Keeping what is refused without a reason. */
-function Override({ controller, words, kept }: { controller: CaseController; words: string | null; kept: boolean }) {
+function Override({
+  controller,
+  message,
+  kept,
+}: {
+  controller: CaseController;
+  message: string | null;
+  kept: boolean;
+}) {
   const [reason, setReason] = useState('');
   if (kept) return null;
   return (
     <div class="override" role="alert" data-testid="override">
       <p>
-        <strong>{caseText.overrideTitle}.</strong> {words}
+        <strong>{caseText.overrideTitle}.</strong> {message}
       </p>
       <label>
         {caseText.overrideReason}

@@ -6,11 +6,11 @@ import type { CaseController } from '../../state/case/case_controller';
 import { neededNames, pointOf } from '../../state/case/landmark_names';
 import type { Guide, PlanTargets, Reamer } from '../../wire/rest_types';
 import { fixed } from '../../text/format';
-import { CheckField, NumberBox, NumberField, Remark, SelectField } from '../common/fields';
+import { CheckField, NumberBox, NumberField, Message, SelectField } from '../common/fields';
 import { PlanDraftPanel } from './plan_draft_panel';
 import { Button } from '../common/button';
 
-/** What is wished of the plan (null: left to the server); the wishes last as long as the page is open. */
+/** Targets of the plan (null: the server chooses); they last as long as the page is open. */
 export class PlanTargetsStore {
   readonly versionDeg = signal<number | null>(0);
   /** Null: as it is, within 10 degrees. */
@@ -24,7 +24,7 @@ export class PlanTargetsStore {
   readonly pilot = signal<{ diameterMm: number; depthMm: number } | null>(null);
   readonly guide = signal<Guide | null>(null);
 
-  wishes(): PlanTargets {
+  request(): PlanTargets {
     const pilot = this.pilot.value;
     const all = {
       version_deg: this.versionDeg.value,
@@ -40,8 +40,8 @@ export class PlanTargetsStore {
   }
 }
 
-/** A proposal from what is wished, the plan by numbers, and keeping it. */
-export function PlanStep({ controller, wishes }: { controller: CaseController; wishes: PlanTargetsStore }) {
+/** A proposal from targets, the plan by numbers, and keeping it. */
+export function PlanStep({ controller, targets }: { controller: CaseController; targets: PlanTargetsStore }) {
   const { store } = controller;
   const landmarks = controller.landmarks.landmarks.value;
   const placed = neededNames.every((name) => pointOf(landmarks, name) !== null);
@@ -49,96 +49,98 @@ export function PlanStep({ controller, wishes }: { controller: CaseController; w
   return (
     <>
       <p class="soft">{placed ? caseText.planHint : caseText.planNeeds}</p>
-      <TargetFields wishes={wishes} reamers={store.reamers.value} />
+      <TargetFields targets={targets} reamers={store.reamers.value} />
       <div class="buttons">
         <Button
           look="main"
           testId="propose"
           disabled={!placed || store.busy.value}
-          onClick={() => void controller.proposePlan(wishes.wishes())}
+          onClick={() => void controller.proposePlan(targets.request())}
         >
           {draft === null ? caseText.propose : caseText.proposeAgain}
         </Button>
       </div>
-      {store.planBeforeLandmarks.value && draft?.kept === true && <Remark kind="warn">{caseText.planOutdated}</Remark>}
+      {store.planBeforeLandmarks.value && draft?.kept === true && (
+        <Message kind="warn">{caseText.planOutdated}</Message>
+      )}
       {draft !== null && <PlanDraftPanel controller={controller} draft={draft} />}
     </>
   );
 }
 
-function TargetFields({ wishes, reamers }: { wishes: PlanTargetsStore; reamers: readonly Reamer[] }) {
+function TargetFields({ targets, reamers }: { targets: PlanTargetsStore; reamers: readonly Reamer[] }) {
   return (
     <>
-      <AngleFields wishes={wishes} />
+      <AngleFields targets={targets} />
       <NumberField
-        {...{ label: caseText.depth, unit: caseText.mm, value: wishes.depthMm.value, low: 0, high: 15, step: 0.5 }}
+        {...{ label: caseText.depth, unit: caseText.mm, value: targets.depthMm.value, low: 0, high: 15, step: 0.5 }}
         testId="wanted-depth"
-        onChange={(value) => (wishes.depthMm.value = value)}
+        onChange={(value) => (targets.depthMm.value = value)}
       />
       <GivenNumber
         label={caseText.implantRadius}
-        value={wishes.implantRadiusMm.value}
+        value={targets.implantRadiusMm.value}
         {...{ low: 20, high: 60, usual: 32, testId: 'implant-radius' }}
-        onChange={(value) => (wishes.implantRadiusMm.value = value)}
+        onChange={(value) => (targets.implantRadiusMm.value = value)}
       />
-      <ReamerFields wishes={wishes} reamers={reamers} />
-      <PilotFields wishes={wishes} />
+      <ReamerFields targets={targets} reamers={reamers} />
+      <PilotFields targets={targets} />
     </>
   );
 }
 
-function AngleFields({ wishes }: { wishes: PlanTargetsStore }) {
+function AngleFields({ targets }: { targets: PlanTargetsStore }) {
   return (
     <>
       <SignedAngle
         label={caseText.wantedVersion}
-        value={wishes.versionDeg.value}
+        value={targets.versionDeg.value}
         positive={caseText.anteversionWord}
         negative={caseText.retroversionWord}
         testId="wanted-version"
-        onChange={(degrees) => (wishes.versionDeg.value = degrees)}
+        onChange={(degrees) => (targets.versionDeg.value = degrees)}
       />
       <SignedAngle
         label={caseText.wantedInclination}
-        value={wishes.inclinationDeg.value}
+        value={targets.inclinationDeg.value}
         positive={caseText.superiorWord}
         negative={caseText.inferiorWord}
         unset={caseText.inclinationKept}
         testId="wanted-inclination"
-        onChange={(degrees) => (wishes.inclinationDeg.value = degrees)}
+        onChange={(degrees) => (targets.inclinationDeg.value = degrees)}
       />
     </>
   );
 }
 
 /** The reamer and what leads it. */
-function ReamerFields({ wishes, reamers }: { wishes: PlanTargetsStore; reamers: readonly Reamer[] }) {
+function ReamerFields({ targets, reamers }: { targets: PlanTargetsStore; reamers: readonly Reamer[] }) {
   return (
     <>
       <SelectField
         label={caseText.reamer}
-        value={wishes.reamer.value ?? ''}
+        value={targets.reamer.value ?? ''}
         options={[['', caseText.reamerDefault], ...reamers.map((one) => [one.name, reamerText(one)] as const)]}
         testId="reamer"
-        onChange={(name) => (wishes.reamer.value = name === '' ? null : name)}
+        onChange={(name) => (targets.reamer.value = name === '' ? null : name)}
       />
       <SelectField<Guide | ''>
         label={caseText.guide}
-        value={wishes.guide.value ?? ''}
+        value={targets.guide.value ?? ''}
         options={[
           ['', caseText.byReamer],
           ...(['none', 'nipple', 'pin'] as const).map((guide) => [guide, caseText.guides[guide]] as const),
         ]}
         testId="guide"
-        onChange={(guide) => (wishes.guide.value = guide === '' ? null : guide)}
+        onChange={(guide) => (targets.guide.value = guide === '' ? null : guide)}
       />
     </>
   );
 }
 
-function PilotFields({ wishes }: { wishes: PlanTargetsStore }) {
+function PilotFields({ targets }: { targets: PlanTargetsStore }) {
   const mm = caseText.mm;
-  const pilot = wishes.pilot.value;
+  const pilot = targets.pilot.value;
   return (
     <>
       <SelectField<'' | 'given'>
@@ -149,19 +151,19 @@ function PilotFields({ wishes }: { wishes: PlanTargetsStore }) {
           ['given', caseText.pilotGiven],
         ]}
         testId="pilot"
-        onChange={(given) => (wishes.pilot.value = given === '' ? null : { diameterMm: 6.2, depthMm: 12 })}
+        onChange={(given) => (targets.pilot.value = given === '' ? null : { diameterMm: 6.2, depthMm: 12 })}
       />
       {pilot !== null && (
         <>
           <NumberField
             {...{ label: caseText.pilotDiameter, unit: mm, value: pilot.diameterMm, low: 1, high: 12, step: 0.1 }}
             testId="pilot-diameter"
-            onChange={(diameterMm) => (wishes.pilot.value = { ...pilot, diameterMm })}
+            onChange={(diameterMm) => (targets.pilot.value = { ...pilot, diameterMm })}
           />
           <NumberField
             {...{ label: caseText.pilotDepth, unit: mm, value: pilot.depthMm, low: 1, high: 40, step: 0.5 }}
             testId="pilot-depth"
-            onChange={(depthMm) => (wishes.pilot.value = { ...pilot, depthMm })}
+            onChange={(depthMm) => (targets.pilot.value = { ...pilot, depthMm })}
           />
         </>
       )}
@@ -247,7 +249,7 @@ function SignedAngle({ label, value, positive, negative, unset, testId, onChange
         )}
         <select
           aria-label={label}
-          data-testid={`${testId}-way`}
+          data-testid={`${testId}-direction`}
           value={way}
           onChange={({ currentTarget: { value: chosen } }) => {
             setNegativeAtZero(chosen === negative);

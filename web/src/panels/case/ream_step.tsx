@@ -2,9 +2,10 @@ import { useSignal } from '@preact/signals';
 
 import { caseText } from '../../text/case_text';
 import { liveText } from '../../text/live_text';
-import { type CaseController, wordsOf } from '../../state/case/case_controller';
+import { messageOf } from '../../wire/rest';
+import type { CaseController } from '../../state/case/case_controller';
 import type { StepName, StepState } from '../../state/case/case_steps';
-import { CheckField, Remark } from '../common/fields';
+import { CheckField, Message } from '../common/fields';
 import { Button } from '../common/button';
 
 interface Parts {
@@ -30,7 +31,7 @@ export function ReamStep({ controller, states, startReaming }: Parts) {
       await controller.landmarks.saveNow();
       await startReaming(controller.caseId, theatre.value);
     } catch (error) {
-      store.problem.value = wordsOf(error);
+      store.problem.value = messageOf(error);
     } finally {
       starting.value = false;
     }
@@ -42,7 +43,7 @@ export function ReamStep({ controller, states, startReaming }: Parts) {
           ? caseText.reamNeeds(lacking.map((name) => caseText.steps[name].toLowerCase()).join(', '))
           : caseText.reamHint}
       </p>
-      {outdated && lacking.length === 0 && <Remark kind="warn">{caseText.reamOutdated}</Remark>}
+      {outdated && lacking.length === 0 && <Message kind="warn">{caseText.reamOutdated}</Message>}
       <CheckField
         label={liveText.theatreMode}
         hint={liveText.theatreHint}

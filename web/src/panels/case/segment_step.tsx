@@ -4,9 +4,9 @@ import { type CaseController, settingsOf } from '../../state/case/case_controlle
 import { isUnderWay } from '../../state/case/job_watch';
 import { addressOfRoute } from '../../state/route';
 import { seedNames } from '../../state/case/view_marks';
-import type { CtDescription, SeedName, Segmentation, WantedSettings } from '../../wire/rest_types';
+import type { CaseCt, SeedName, CaseSegmentation, FullSegmentationSettings } from '../../wire/rest_types';
 import { fixed } from '../../text/format';
-import { CheckField, Remark, SliderField } from '../common/fields';
+import { CheckField, Message, SliderField } from '../common/fields';
 import { Button } from '../common/button';
 
 /** Threshold, smoothing, joints and seeds; finding the bones, and what was found. */
@@ -15,10 +15,10 @@ export function SegmentStep({ controller }: { controller: CaseController }) {
   const details = store.details.value;
   const settings = store.settings.value;
   const ct = details?.ct ?? null;
-  if (settings === null || ct === null) return <Remark kind="soft">{caseText.noCt}</Remark>;
+  if (settings === null || ct === null) return <Message kind="soft">{caseText.noCt}</Message>;
   const found = details?.segmentation ?? null;
   const blocked = store.busy.value || isUnderWay(store.job.value);
-  const change = (part: Partial<WantedSettings>) => (store.settings.value = { ...settings, ...part });
+  const change = (part: Partial<FullSegmentationSettings>) => (store.settings.value = { ...settings, ...part });
   return (
     <>
       <p class="soft">{caseText.segmentHint}</p>
@@ -60,9 +60,9 @@ export function SegmentStep({ controller }: { controller: CaseController }) {
         </Button>
       </div>
       {found !== null && !sameSettings(settingsOf(ct, found), settings) && (
-        <Remark kind="warn" testId="settings-changed">
+        <Message kind="warn" testId="settings-changed">
           {caseText.settingsChanged}
-        </Remark>
+        </Message>
       )}
       {found !== null && <PartList controller={controller} found={found} />}
       <details class="seeds">
@@ -81,7 +81,7 @@ async function openOtherSide(controller: CaseController): Promise<void> {
   if (id !== null) window.location.hash = addressOfRoute({ kind: 'case', id });
 }
 
-function ThresholdField({ ct, value, onChange }: { ct: CtDescription; value: number; onChange: (hu: number) => void }) {
+function ThresholdField({ ct, value, onChange }: { ct: CaseCt; value: number; onChange: (hu: number) => void }) {
   const suggested = Math.round(ct.suggested_threshold_hu);
   const low = Math.max(Math.ceil(ct.hu_min), -200);
   const high = Math.max(Math.min(Math.floor(ct.hu_max), 1200), low + 1);
@@ -104,7 +104,7 @@ function ThresholdField({ ct, value, onChange }: { ct: CtDescription; value: num
   );
 }
 
-function SeedList({ controller, settings }: { controller: CaseController; settings: WantedSettings }) {
+function SeedList({ controller, settings }: { controller: CaseController; settings: FullSegmentationSettings }) {
   const { store } = controller;
   const armed = store.armed.value;
   const remove = (name: SeedName) => {
@@ -151,7 +151,7 @@ function SeedList({ controller, settings }: { controller: CaseController; settin
   );
 }
 
-function PartList({ controller, found }: { controller: CaseController; found: Segmentation }) {
+function PartList({ controller, found }: { controller: CaseController; found: CaseSegmentation }) {
   return (
     <>
       <h3>{caseText.parts}</h3>
@@ -179,15 +179,15 @@ function PartList({ controller, found }: { controller: CaseController; found: Se
         })}
       </ul>
       {found.warnings.map((warning) => (
-        <Remark kind="warn" key={warning}>
+        <Message kind="warn" key={warning}>
           {warning}
-        </Remark>
+        </Message>
       ))}
     </>
   );
 }
 
-function sameSettings(a: WantedSettings, b: WantedSettings): boolean {
+function sameSettings(a: FullSegmentationSettings, b: FullSegmentationSettings): boolean {
   return (
     Math.abs(a.threshold_hu - b.threshold_hu) < 0.5 &&
     Math.abs(a.sigma_mm - b.sigma_mm) < 1e-6 &&

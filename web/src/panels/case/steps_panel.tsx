@@ -5,7 +5,7 @@ import { caseText } from '../../text/case_text';
 import type { CaseController } from '../../state/case/case_controller';
 import { type StepName, type StepState, stepNames, stepStates } from '../../state/case/case_steps';
 import { BuildStep } from './build_step';
-import { Remark } from '../common/fields';
+import { Message } from '../common/fields';
 import { JobProgress } from './job_progress';
 import { LandmarksStep } from './landmarks_step';
 import { MeasuresPanel } from './measures_panel';
@@ -20,7 +20,7 @@ interface Parts {
 
 /** The steps from a CT to a reamed bone, one of them open. */
 export function StepsPanel({ controller, startReaming }: Parts) {
-  const wishes = useMemo(() => new PlanTargetsStore(), []);
+  const targets = useMemo(() => new PlanTargetsStore(), []);
   const { store } = controller;
   const details = store.details.value;
   if (details === null) return null;
@@ -32,7 +32,7 @@ export function StepsPanel({ controller, startReaming }: Parts) {
   const content: Record<StepName, () => ComponentChildren> = {
     segment: () => <SegmentStep controller={controller} />,
     landmarks: () => <LandmarksStep controller={controller} />,
-    plan: () => <PlanStep controller={controller} wishes={wishes} />,
+    plan: () => <PlanStep controller={controller} targets={targets} />,
     build: () => <BuildStep controller={controller} />,
     ream: () => <ReamStep {...{ controller, states, startReaming }} />,
   };
@@ -48,9 +48,9 @@ export function StepsPanel({ controller, startReaming }: Parts) {
         <details class="case-warnings">
           <summary>{caseText.warnings}</summary>
           {details.warnings.map((warning) => (
-            <Remark kind="soft" key={warning}>
+            <Message kind="soft" key={warning}>
               {warning}
-            </Remark>
+            </Message>
           ))}
         </details>
       )}

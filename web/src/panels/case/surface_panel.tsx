@@ -91,7 +91,7 @@ function noteOf(state: SurfaceState): string | null {
     case 'loading':
       return caseText.surfaceLoading;
     case 'failed':
-      return caseText.surfaceFailed(state.words);
+      return caseText.surfaceFailed(state.message);
     case 'shown':
       return null;
   }

@@ -18,9 +18,9 @@ interface Parts {
 
 /** A button for what cannot be undone: it asks first. */
 export function ConfirmButton({ label, describe, question, yes, no, testId, disabled, onYes }: Parts) {
-  const asking = useSignal(false);
-  const button = useFocusAfter<HTMLButtonElement>(asking.value);
-  if (!asking.value)
+  const confirming = useSignal(false);
+  const button = useFocusAfter<HTMLButtonElement>(confirming.value);
+  if (!confirming.value)
     return (
       <button
         type="button"
@@ -29,34 +29,34 @@ export function ConfirmButton({ label, describe, question, yes, no, testId, disa
         aria-label={describe}
         disabled={disabled}
         ref={button}
-        onClick={() => (asking.value = true)}
+        onClick={() => (confirming.value = true)}
       >
         {label}
       </button>
     );
   return (
     <span
-      class="really"
+      class="confirm"
       role="alert"
       onKeyDown={(event) => {
-        if (event.key === 'Escape') asking.value = false;
+        if (event.key === 'Escape') confirming.value = false;
       }}
     >
       {question}
       <button
         type="button"
         class="warn-button"
-        data-testid={`really-${testId}`}
+        data-testid={`confirm-${testId}`}
         disabled={disabled}
         ref={button}
         onClick={() => {
-          asking.value = false;
+          confirming.value = false;
           onYes();
         }}
       >
         {yes}
       </button>
-      <Button onClick={() => (asking.value = false)}>{no}</Button>
+      <Button onClick={() => (confirming.value = false)}>{no}</Button>
     </span>
   );
 }

@@ -147,8 +147,8 @@ export function SelectField<T extends string>({ label, value, options, testId, o
   );
 }
 
-/** A short remark; the look says how serious it is. What went wrong may come in the server's words. */
-export function Remark({
+/** A short message; the look says how serious it is. What went wrong may come in the server's words. */
+export function Message({
   kind,
   testId,
   children,
@@ -158,7 +158,7 @@ export function Remark({
   children: ComponentChildren;
 }) {
   return (
-    <p class={`remark remark-${kind}`} role={kind === 'bad' ? 'alert' : undefined} data-testid={testId}>
+    <p class={`message message-${kind}`} role={kind === 'bad' ? 'alert' : undefined} data-testid={testId}>
       {kind === 'bad' && typeof children === 'string' ? sentence(children) : children}
     </p>
   );

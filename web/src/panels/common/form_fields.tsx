@@ -19,9 +19,9 @@ export function Choice({ label, testId, value, options, required, onChange }: Ch
         value={value}
         onChange={(event) => onChange(event.currentTarget.value)}
       >
-        {options.map(([id, words]) => (
+        {options.map(([id, label]) => (
           <option key={id} value={id}>
-            {words}
+            {label}
           </option>
         ))}
       </select>

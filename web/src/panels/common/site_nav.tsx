@@ -17,7 +17,7 @@ export function useIdentity(): Identity {
 }
 
 function waysFor(may: Permissions): (readonly [Route, string])[] {
-  const ways: readonly (readonly [Route, string, boolean])[] = [
+  const links: readonly (readonly [Route, string, boolean])[] = [
     [{ kind: 'dashboard' }, appText.dashboard, may.ream],
     [{ kind: 'live' }, appText.live, true],
     [{ kind: 'sessions' }, appText.sessionsPage, may.ream],
@@ -25,7 +25,7 @@ function waysFor(may: Permissions): (readonly [Route, string])[] {
     [{ kind: 'studies' }, appText.studies, may.takePart],
     [{ kind: 'users' }, appText.users, may.operate],
   ];
-  return ways.flatMap(([route, text, offered]) => (offered ? [[route, text] as const] : []));
+  return links.flatMap(([route, text, offered]) => (offered ? [[route, text] as const] : []));
 }
 
 /** The ways to the pages that the user may see. */
@@ -33,7 +33,7 @@ export function SiteNav({ here }: { here: Route['kind'] }) {
   const shown = waysFor(useIdentity().may.value);
   if (shown.length < 2) return null;
   return (
-    <nav class="ways" aria-label={appText.pages}>
+    <nav class="site-links" aria-label={appText.pages}>
       {shown.map(([route, text]) => (
         <a
           key={route.kind}
@@ -65,7 +65,12 @@ function WhoAmI() {
   if (!identity.hasUsers.value || role === null) return null;
   const name = identity.name.value;
   return (
-    <div class="who" data-testid="who" data-role={role} title={role === 'viewer' ? appText.viewerHint : undefined}>
+    <div
+      class="current-user"
+      data-testid="current-user"
+      data-role={role}
+      title={role === 'viewer' ? appText.viewerHint : undefined}
+    >
       <span class="visually-hidden">{appText.whoLabel} </span>
       {name !== null && (
         <a href={addressOfRoute({ kind: 'account' })} data-testid="to-account" title={appText.account}>

@@ -5,12 +5,12 @@ interface ToggleParts {
   letter: string;
   hint: string;
   on: boolean;
-  act: () => void;
+  onToggle: () => void;
   children: string;
 }
 
 /** One of the buttons under the picture that is on or off, also by its key. */
-export function ViewToggle({ id, letter, hint, on, act, children }: ToggleParts) {
+export function ViewToggle({ id, letter, hint, on, onToggle, children }: ToggleParts) {
   return (
     <button
       type="button"
@@ -19,7 +19,7 @@ export function ViewToggle({ id, letter, hint, on, act, children }: ToggleParts)
       aria-pressed={on}
       aria-keyshortcuts={letter}
       title={liveText.key(hint, letter)}
-      onClick={act}
+      onClick={onToggle}
     >
       {children}
     </button>

@@ -67,7 +67,7 @@ export function CurveChart({ title, points, value, scale, lines, decimals }: Par
                 </text>
               ),
           )}
-          <polyline points={shown.map((one) => `${one.x},${one.y}`).join(' ')} class="curve-way" />
+          <polyline points={shown.map((one) => `${one.x},${one.y}`).join(' ')} class="curve-line" />
           {shown.map((one) => (
             <g
               key={one.point.session}

@@ -3,7 +3,7 @@ import { type CurvePoint, curveOfLearning, curveOfSessions, scaleFor } from '../
 import type { Dashboard } from '../../state/dashboard/dashboard';
 import type { Learning } from '../../wire/rest_types';
 import { dayAndTime, fixed } from '../../text/format';
-import { Remark } from '../common/fields';
+import { Message } from '../common/fields';
 import { CurveChart } from './curve_chart';
 import { OutcomeMark } from './outcome_mark';
 
@@ -17,16 +17,16 @@ interface Parts {
 /** How somebody comes on, session after session. */
 export function LearningPanel({ dashboard, own, hasUsers }: Parts) {
   const { learners, learner, learning, ended } = dashboard;
-  const told = learning.value.value;
+  const curves = learning.value.value;
   const somebody = own || learner.value !== null;
   const sessions = ended.value.value;
   const alone = sessions !== null && !somebody;
   return (
-    <section class="desk-panel learning" aria-labelledby="learning-title">
-      <div class="desk-head">
+    <section class="content-panel learning" aria-labelledby="learning-title">
+      <div class="content-head">
         <h2 id="learning-title">{dashboardText.learning}</h2>
         {learners.value.length > 0 && (
-          <label class="learner-choice desk-count">
+          <label class="learner-choice content-count">
             <span class="soft">{dashboardText.ofWhom}</span>
             <select
               data-testid="learner"
@@ -43,11 +43,11 @@ export function LearningPanel({ dashboard, own, hasUsers }: Parts) {
         )}
       </div>
       {somebody && learning.problem.value !== null && (
-        <Remark kind="bad" testId="learning-problem">
+        <Message kind="bad" testId="learning-problem">
           {learning.problem.value}
-        </Remark>
+        </Message>
       )}
-      {somebody && told !== null && <Course learning={told} own={own} />}
+      {somebody && curves !== null && <Course learning={curves} own={own} />}
       {alone && <Alone points={curveOfSessions(sessions)} hasUsers={hasUsers} />}
     </section>
   );
@@ -126,7 +126,7 @@ function Table({ points }: { points: readonly CurvePoint[] }) {
   return (
     <details class="curve-table">
       <summary>{dashboardText.asTable}</summary>
-      <table class="desk-table" data-testid="curve-table">
+      <table class="data-table" data-testid="curve-table">
         <thead>
           <tr>
             <th scope="col" class="number">

@@ -2,20 +2,20 @@ import { dashboardText } from '../../text/dashboard_text';
 import type { LiveBoard } from '../../state/dashboard/live_board';
 import { addressOfRoute } from '../../state/route';
 import { clock, sentence } from '../../text/format';
-import { Remark } from '../common/fields';
+import { Message } from '../common/fields';
 import { LiveTile } from './live_tile';
 
 /** What goes on now, and whether that is known. */
 export function LivePanel({ board, watch }: { board: LiveBoard; watch: (id: string) => void }) {
   const tiles = board.tiles.value;
-  const heardMs = board.heardMs.value;
+  const heardMs = board.updatedMs.value;
   const stale = board.stale.value;
   return (
-    <section class="desk-panel live-now" aria-labelledby="live-now-title">
-      <div class="desk-head">
+    <section class="content-panel live-now" aria-labelledby="live-now-title">
+      <div class="content-head">
         <h2 id="live-now-title">{dashboardText.liveNow}</h2>
         {heardMs !== null && tiles.length > 0 && (
-          <span class="soft desk-count" data-testid="live-count">
+          <span class="soft content-count" data-testid="live-count">
             {dashboardText.liveCount(tiles.length)}
           </span>
         )}
@@ -44,14 +44,14 @@ export function LivePanel({ board, watch }: { board: LiveBoard; watch: (id: stri
 
 /** In words, as soon as news stop. */
 function News({ board }: { board: LiveBoard }) {
-  const heardMs = board.heardMs.value;
+  const heardMs = board.updatedMs.value;
   const problem = board.problem.value;
   if (!board.stale.value && problem === null) return null;
   return (
-    <Remark kind="bad" testId="no-news">
+    <Message kind="bad" testId="no-updates">
       {`${problem === null ? '' : `${sentence(problem)} `}${
-        heardMs === null ? dashboardText.neverHeard : dashboardText.noNews(clock(heardMs))
+        heardMs === null ? dashboardText.neverLoaded : dashboardText.noUpdates(clock(heardMs))
       }`}
-    </Remark>
+    </Message>
   );
 }

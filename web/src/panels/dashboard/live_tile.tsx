@@ -6,7 +6,7 @@ import { appText } from '../../text/app_text';
 import { clock, fixed, minutes } from '../../text/format';
 
 /** Who trains, in words that are never empty. */
-export function whoOf({ trainee, participant, device, title }: Session): string {
+export function traineeLabel({ trainee, participant, device, title }: Session): string {
   if (trainee) return trainee;
   if (participant) return dashboardText.byParticipant(participant);
   if (title) return title;
@@ -16,7 +16,7 @@ export function whoOf({ trainee, participant, device, title }: Session): string 
 /** One session under way: who, what the bone looks like, the figures that matter, and what is wrong. */
 export function LiveTile({ tile, old, watch }: { tile: Tile; old: boolean; watch: (id: string) => void }) {
   const { session } = tile;
-  const who = whoOf(session);
+  const who = traineeLabel(session);
   const titleId = `tile-${session.id}`;
   return (
     <li
@@ -26,7 +26,7 @@ export function LiveTile({ tile, old, watch }: { tile: Tile; old: boolean; watch
       data-stale={old}
     >
       <Thumbnail tile={tile} />
-      <div class="tile-words">
+      <div class="tile-text">
         <div class="tile-head">
           <h3 id={titleId}>
             <button
@@ -49,7 +49,7 @@ export function LiveTile({ tile, old, watch }: { tile: Tile; old: boolean; watch
           {session.theatre && `, ${dashboardText.theatre}`}
         </p>
         <Figures tile={tile} />
-        <AlarmWords alarms={old ? [] : alarmsOf(tile)} />
+        <AlarmChips alarms={old ? [] : alarmsOf(tile)} />
       </div>
     </li>
   );
@@ -98,7 +98,7 @@ function Pair({ name, children }: { name: string; children: preact.ComponentChil
 }
 
 /** Announced when they begin; their figures are only to be seen. */
-function AlarmWords({ alarms }: { alarms: readonly TileAlarm[] }) {
+function AlarmChips({ alarms }: { alarms: readonly TileAlarm[] }) {
   return (
     <div class="tile-alarms" role="status" aria-label={dashboardText.alarms}>
       {alarms.map((alarm) => (
@@ -110,17 +110,17 @@ function AlarmWords({ alarms }: { alarms: readonly TileAlarm[] }) {
               <path d="M12 1.8 23 21.5H1zM11 8.5v6.5h2V8.5zm0 8.2v2.3h2v-2.3z" fill-rule="evenodd" />
             )}
           </svg>
-          {wordsOfAlarm(alarm)}
+          {alarmText(alarm)}
         </p>
       ))}
     </div>
   );
 }
 
-function wordsOfAlarm({ kind, value, said }: TileAlarm): string {
+function alarmText({ kind, value, message }: TileAlarm): string {
   switch (kind) {
     case 'fault':
-      return said ?? appText.fault;
+      return message ?? appText.fault;
     case 'vault':
       return dashboardText.alarmVault(fixed(value, 1));
     case 'depth':

@@ -7,8 +7,8 @@ import { addressOfRoute } from '../../state/route';
 import type { Session } from '../../wire/rest_types';
 import { appText } from '../../text/app_text';
 import { dayAndTime, fixed } from '../../text/format';
-import { Remark } from '../common/fields';
-import { whoOf } from './live_tile';
+import { Message } from '../common/fields';
+import { traineeLabel } from './live_tile';
 import { OutcomeMark } from './outcome_mark';
 import { Button } from '../common/button';
 
@@ -26,17 +26,17 @@ export function RecentPanel({ ended, replay }: Parts) {
   const sessions = ended.value.value;
   const problem = failed.value ?? ended.problem.value;
   return (
-    <section class="desk-panel recent" aria-labelledby="recent-title">
-      <div class="desk-head">
+    <section class="content-panel recent" aria-labelledby="recent-title">
+      <div class="content-head">
         <h2 id="recent-title">{dashboardText.recent}</h2>
-        <a class="desk-count" href={addressOfRoute({ kind: 'sessions' })}>
+        <a class="content-count" href={addressOfRoute({ kind: 'sessions' })}>
           {dashboardText.allSessions}
         </a>
       </div>
       {problem !== null && (
-        <Remark kind="bad" testId="recent-problem">
+        <Message kind="bad" testId="recent-problem">
           {problem}
-        </Remark>
+        </Message>
       )}
       {ended.stale.value && sessions !== null && <p class="soft">{dashboardText.outOfDate}</p>}
       {sessions === null && problem === null && <p class="soft">{dashboardText.loading}</p>}
@@ -46,8 +46,8 @@ export function RecentPanel({ ended, replay }: Parts) {
         </p>
       )}
       {sessions !== null && sessions.length > 0 && (
-        <div class="desk-scroll">
-          <table class={ended.stale.value ? 'desk-table stale' : 'desk-table'} data-testid="recent">
+        <div class="table-scroll">
+          <table class={ended.stale.value ? 'data-table stale' : 'data-table'} data-testid="recent">
             <thead>
               <tr>
                 <th scope="col">{dashboardText.when}</th>
@@ -58,7 +58,7 @@ export function RecentPanel({ ended, replay }: Parts) {
                 </th>
                 <th scope="col">{dashboardText.result}</th>
                 <th scope="col">
-                  <span class="visually-hidden">{dashboardText.deeds}</span>
+                  <span class="visually-hidden">{dashboardText.actions}</span>
                 </th>
               </tr>
             </thead>
@@ -82,7 +82,7 @@ function Row({ session, replay }: { session: Session; replay: () => Promise<unkn
   return (
     <tr data-testid={`recent-${session.id}`}>
       <td>{dayAndTime(session.created_utc)}</td>
-      <td>{whoOf(session)}</td>
+      <td>{traineeLabel(session)}</td>
       <td>{session.case}</td>
       <td class="number" data-testid={`points-${session.id}`}>
         {fixed(session.score?.points, 0)}
@@ -96,7 +96,7 @@ function Row({ session, replay }: { session: Session; replay: () => Promise<unkn
           <OutcomeMark outcome={session.score?.outcome ?? null} />
         )}
       </td>
-      <td class="deeds">
+      <td class="actions">
         {canBeReplayed(session) && (
           <Button
             testId={`recent-replay-${session.id}`}

@@ -6,8 +6,8 @@ import { fixed } from '../../text/format';
 /** Reaming depth against the plan. */
 export function DepthMeter({ store }: { store: Store }) {
   const plannedMm = store.hello.value?.plannedDepthMm ?? 0;
-  const toldMm = store.reading.value.told?.depthMm ?? NaN;
-  const depthMm = Number.isFinite(toldMm) ? toldMm : null;
+  const telemetryDepthMm = store.reading.value.telemetry?.depthMm ?? NaN;
+  const depthMm = Number.isFinite(telemetryDepthMm) ? telemetryDepthMm : null;
   const share = plannedMm > 0 && depthMm !== null ? Math.min(Math.max(depthMm / plannedMm, 0), 1) : 0;
   const pastMm = depthMm === null ? 0 : depthMm - plannedMm;
   const past = plannedMm > 0 && pastMm > reachedWithinMm;
@@ -29,16 +29,16 @@ export function DepthMeter({ store }: { store: Store }) {
         aria-valuemin={0}
         aria-valuemax={plannedMm}
         aria-valuenow={depthMm ?? 0}
-        aria-valuetext={depthWords(depthMm, plannedMm)}
+        aria-valuetext={depthText(depthMm, plannedMm)}
       >
         <div style={{ width: `${(share * 100).toFixed(1)}%` }} />
       </div>
-      <p class="soft depth-words">{depthWords(depthMm, plannedMm)}</p>
+      <p class="soft depth-text">{depthText(depthMm, plannedMm)}</p>
     </section>
   );
 }
 
-function depthWords(depthMm: number | null, plannedMm: number): string {
+function depthText(depthMm: number | null, plannedMm: number): string {
   if (depthMm === null || plannedMm <= 0) return appText.none;
   const leftMm = plannedMm - depthMm;
   if (leftMm > reachedWithinMm) return appText.depthLeft(fixed(leftMm, 2));

@@ -30,7 +30,7 @@ export function Figure({
 /** The numbers of the moment; a dash where none is known. */
 export function Figures({ store }: { store: Store }) {
   const hello = store.hello.value;
-  const t = store.reading.value.told;
+  const t = store.reading.value.telemetry;
   const engaged = t !== null && t.densityGCc > 0;
   return (
     <dl class="figures">

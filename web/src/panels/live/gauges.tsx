@@ -18,7 +18,7 @@ const reachDeg = 15;
 /** Where the reamer points and how deep it is, each against the plan. */
 export function Gauges({ store, liveCase }: { store: Store; liveCase: LiveCase }) {
   const hello = store.hello.value;
-  const telemetry = store.reading.value.told;
+  const telemetry = store.reading.value.telemetry;
   if (hello === null) return <DepthMeter store={store} />;
   const plan = new PlanFrame(hello);
   const frame = faceFrame(plan, liveCase.landmarks.value);
@@ -45,7 +45,7 @@ export function Gauges({ store, liveCase }: { store: Store; liveCase: LiveCase }
         say={named ? liveText.inclinationIs : liveText.inclinationOff}
         ends={[liveText.inferior, liveText.superior]}
       />
-      {!named && <p class="soft gauge-remark">{liveText.noLandmarks}</p>}
+      {!named && <p class="soft gauge-note">{liveText.noLandmarks}</p>}
       <DepthMeter store={store} />
     </section>
   );
@@ -92,7 +92,7 @@ function AngleGauge({ id, name, now, planned, say, ends }: AngleParts) {
         <span class="gauge-plan" />
         {off !== null && <span class="gauge-mark" style={{ left: `${place.toFixed(1)}%` }} />}
       </div>
-      <p class="soft gauge-words">
+      <p class="soft gauge-text">
         <span>← {ends[0]}</span>
         <span data-testid={`${id}-plan`}>
           {look === 'good' || look === 'unknown' ? '' : look === 'warn' ? '▲ ' : '⬣ '}

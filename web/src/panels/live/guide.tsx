@@ -67,7 +67,7 @@ function useSteps(store: Store, practice: PracticeStore): (readonly [text: strin
     pressed && practice.offPlanMm.value < aimedWithinMm,
     practice.hand.spindleOn.value,
     pressed && practice.hand.spindleOn.value,
-    plannedMm > 0 && (store.reading.value.told?.depthMm ?? 0) >= plannedMm - 0.05,
+    plannedMm > 0 && (store.reading.value.telemetry?.depthMm ?? 0) >= plannedMm - 0.05,
   ];
   const [done, setDone] = useState<readonly boolean[]>([false, false, false, false]);
   const session = practice.sessionId.value;

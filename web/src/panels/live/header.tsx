@@ -3,7 +3,7 @@ import type { LinkState } from '../../wire/link';
 import { appText } from '../../text/app_text';
 import { SiteNav, HeaderEnd } from '../common/site_nav';
 
-const linkWords: Record<LinkState['kind'], string> = {
+const linkStateText: Record<LinkState['kind'], string> = {
   connecting: appText.linkConnecting,
   live: appText.linkLive,
   nothing: appText.linkNothing,
@@ -32,7 +32,7 @@ export function Header({ store }: { store: Store }) {
       <HeaderEnd />
       <p class={`link link-${look}`} role="status" data-testid="link-state" data-link={link}>
         <span class="link-dot" aria-hidden="true" />
-        {look === 'replay' ? appText.linkReplay : linkWords[link]}
+        {look === 'replay' ? appText.linkReplay : linkStateText[link]}
       </p>
     </header>
   );

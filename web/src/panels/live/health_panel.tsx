@@ -1,6 +1,6 @@
 import type { PracticeStore } from '../../state/practice_store';
 import type { Store } from '../../state/store';
-import type { Session, Timing } from '../../wire/rest_types';
+import type { Session, Times } from '../../wire/rest_types';
 import { appText } from '../../text/app_text';
 import { Figure } from './figures';
 import { fixed } from '../../text/format';
@@ -12,7 +12,7 @@ export const lateAbovePercent = 0.1;
 export function missedPercent(store: Store): number | null {
   const details = store.details.value;
   const session = details !== null && details.id === store.sessionId.value ? details : null;
-  const telemetry = store.reading.value.told;
+  const telemetry = store.reading.value.telemetry;
   const missed = telemetry?.ticksMissed ?? session?.loop.missed ?? null;
   const ticks = telemetry?.tick ?? session?.tick ?? 0;
   return missed === null || ticks === 0 ? null : (missed / ticks) * 100;
@@ -58,7 +58,7 @@ function Loop({ session }: { session: Session | null }) {
   );
 }
 
-function Lateness({ timing }: { timing: Timing }) {
+function Lateness({ timing }: { timing: Times }) {
   return (
     <>
       <Pair name={appText.lateness} a={timing.p50_us} b={timing.p99_us} />

@@ -42,7 +42,7 @@ export function Picture({ store, practice, scene, view, alarms, bare, children }
     const { canvas } = scene;
     canvas.setAttribute('role', steering ? 'application' : 'img');
     canvas.setAttribute('aria-label', steering ? appText.practiceLabel : appText.sceneLabel);
-    canvas.classList.toggle('steered', steering);
+    canvas.classList.toggle('steering', steering);
     if (steering) canvas.focus({ preventScroll: true });
   }, [scene, steering]);
 

@@ -74,7 +74,7 @@ function afterClick(event: MouseEvent, toPicture: () => void): void {
   if (event.detail > 0) toPicture();
 }
 
-/** The push as it is wished and the thrust that comes of it (a mark), and below how hard a full push is; one scale. */
+/** The push as it is set and the thrust that comes of it (a mark), and below how hard a full push is; one scale. */
 function PushMeter({ practice }: { practice: PracticeStore }) {
   const { hand } = practice;
   const pushN = hand.pushN.value;
@@ -153,7 +153,7 @@ function HandState({ practice }: { practice: PracticeStore }) {
     <p class={`hand-link link-${look}`} data-testid="hand-link" data-link={link} title={appText.handLink}>
       <span class="link-dot" aria-hidden="true" />
       <span role="status">
-        {handWords(practice)}
+        {deviceStateText(practice)}
         {practice.gamepad.value && ` · ${appText.gamepadFound}`}
       </span>
       {feedback !== null && feedback.rttMs !== null && (
@@ -163,7 +163,7 @@ function HandState({ practice }: { practice: PracticeStore }) {
   );
 }
 
-function handWords(practice: PracticeStore): string {
+function deviceStateText(practice: PracticeStore): string {
   switch (practice.link.value.kind) {
     case 'connecting':
       return appText.handConnecting;

@@ -8,7 +8,7 @@ type Notice = readonly [look: Look, title: string, text: string];
 interface Parts {
   store: Store;
   practice: PracticeStore;
-  /** In theatre nobody is told how deep it is. */
+  /** In theatre mode the depth is not shown. */
   theatre: boolean;
 }
 
@@ -52,7 +52,7 @@ function ofHand(store: Store, practice: PracticeStore, theatre: boolean): Notice
     return ['silent', appText.noticeSpindleOff, appText.noticeSpindleOffText];
   if (theatre) return null;
   const plannedMm = store.hello.value?.plannedDepthMm ?? 0;
-  if (pushing && plannedMm > 0 && (store.reading.value.told?.depthMm ?? 0) >= plannedMm)
+  if (pushing && plannedMm > 0 && (store.reading.value.telemetry?.depthMm ?? 0) >= plannedMm)
     return ['lost', appText.noticeDepth, appText.noticeDepthText];
   return null;
 }

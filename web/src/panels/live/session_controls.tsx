@@ -21,8 +21,8 @@ interface Parts {
 
 /** Pausing the watched session, and beginning it anew on intact bone. */
 export function SessionControls({ store, watcher, practice, practiceStore }: Parts) {
-  const asking = useSignal(false);
-  const button = useFocusAfter<HTMLButtonElement>(asking.value);
+  const confirming = useSignal(false);
+  const button = useFocusAfter<HTMLButtonElement>(confirming.value);
   const shared = useSignal<string | null>(null);
   const identity = useIdentity();
   const details = store.details.value;
@@ -30,26 +30,26 @@ export function SessionControls({ store, watcher, practice, practiceStore }: Par
   const busy = store.busy.value;
   const held = details.held;
   const reset = async () => {
-    asking.value = false;
+    confirming.value = false;
     const steered = practiceStore.sessionId.value === details.id;
     const next = await watcher.reset();
     if (next !== null && steered) practice.steer(next);
   };
-  if (asking.value)
+  if (confirming.value)
     return (
-      <p class="session-controls really" role="alert">
-        {appText.resetReally}
+      <p class="session-controls confirm" role="alert">
+        {appText.resetConfirm}
         <button
           type="button"
           class="warn-button"
-          data-testid="really-reset"
+          data-testid="confirm-reset"
           disabled={busy}
           ref={button}
           onClick={() => void reset()}
         >
           {appText.resetYes}
         </button>
-        <Button onClick={() => (asking.value = false)}>{appText.no}</Button>
+        <Button onClick={() => (confirming.value = false)}>{appText.no}</Button>
       </p>
     );
   const mayShare = identity.may.value.teach && identity.hasUsers.value;
@@ -70,7 +70,7 @@ export function SessionControls({ store, watcher, practice, practiceStore }: Par
           title={appText.resetHint}
           ref={button}
           disabled={busy}
-          onClick={() => (asking.value = true)}
+          onClick={() => (confirming.value = true)}
         >
           {appText.resetSession}
         </button>

@@ -10,19 +10,19 @@ export function SessionLabels({ store }: { store: Store }) {
   const details = store.details.value;
   if (details === null || details.id !== store.sessionId.value) return null;
   const { participant, study } = details;
-  const said = labelsOf(details);
+  const labels = labelsOf(details);
   const ended = !store.active.value && details.state !== 'created';
   const answers = identity.may.value.takePart && ended && study && participant;
-  if (said.length === 0 && !answers) return null;
+  if (labels.length === 0 && !answers) return null;
   return (
     <>
-      {said.length > 0 && (
+      {labels.length > 0 && (
         <p class="session-labels soft" data-testid="session-labels">
-          {said.join(' · ')}
+          {labels.join(' · ')}
         </p>
       )}
       {answers && (
-        <p class="remark" data-testid="questionnaire-notice">
+        <p class="message" data-testid="questionnaire-notice">
           {appText.questionnaireOpen}{' '}
           <a href={addressOfRoute({ kind: 'questionnaire', id: study, participant })}>{appText.toQuestionnaire}</a>
         </p>

@@ -4,18 +4,18 @@ import { useEffect } from 'preact/hooks';
 const repeating = new Set(['[', ']']);
 
 /** Keys that work wherever nobody writes, by their lower-case names; none may be one of the practising hand's. */
-export function useLiveKeys(deeds: Readonly<Record<string, () => void>>): void {
+export function useLiveKeys(actions: Readonly<Record<string, () => void>>): void {
   useEffect(() => {
     const onKey = (event: KeyboardEvent) => {
       if (event.defaultPrevented || event.ctrlKey || event.altKey || event.metaKey || writes(event.target)) return;
-      const deed = deeds[event.key.toLowerCase()];
-      if (deed === undefined) return;
+      const action = actions[event.key.toLowerCase()];
+      if (action === undefined) return;
       event.preventDefault();
-      if (!event.repeat || repeating.has(event.key)) deed();
+      if (!event.repeat || repeating.has(event.key)) action();
     };
     document.addEventListener('keydown', onKey);
     return () => document.removeEventListener('keydown', onKey);
-  }, [deeds]);
+  }, [actions]);
 }
 
 function writes(target: EventTarget | null): boolean {

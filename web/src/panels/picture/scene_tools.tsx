@@ -25,7 +25,7 @@ const keyed = signal<SectionName>('axial');
 /** What the picture shows: the camera, and how the bone is seen. All of it also by keys. */
 export function SceneTools({ view }: { view: ViewSettings }) {
   const keys = useMemo(
-    () => Object.fromEntries(Object.entries(deeds).map(([key, deed]) => [key, () => deed(view)])),
+    () => Object.fromEntries(Object.entries(actions).map(([key, action]) => [key, () => action(view)])),
     [view],
   );
   useLiveKeys(keys);
@@ -38,11 +38,11 @@ export function SceneTools({ view }: { view: ViewSettings }) {
         letter="V"
         on={camera === 'trainee'}
         hint={liveText.traineeCameraHint}
-        act={() => deeds.v?.(view)}
+        onToggle={() => actions.v?.(view)}
       >
         {liveText.traineeCamera}
       </ViewToggle>
-      <ViewToggle id="cut-away" letter="C" on={cutAway} hint={liveText.cutAwayHint} act={() => deeds.c?.(view)}>
+      <ViewToggle id="cut-away" letter="C" on={cutAway} hint={liveText.cutAwayHint} onToggle={() => actions.c?.(view)}>
         {liveText.cutAway}
       </ViewToggle>
       <ViewToggle
@@ -50,11 +50,17 @@ export function SceneTools({ view }: { view: ViewSettings }) {
         letter="X"
         on={seeThrough}
         hint={liveText.seeThroughHint}
-        act={() => deeds.x?.(view)}
+        onToggle={() => actions.x?.(view)}
       >
         {liveText.seeThrough}
       </ViewToggle>
-      <ViewToggle id="bone-kinds" letter="K" on={boneKinds} hint={liveText.boneKindsHint} act={() => deeds.k?.(view)}>
+      <ViewToggle
+        id="bone-kinds"
+        letter="K"
+        on={boneKinds}
+        hint={liveText.boneKindsHint}
+        onToggle={() => actions.k?.(view)}
+      >
         {liveText.boneKinds}
       </ViewToggle>
       <button
@@ -190,7 +196,7 @@ const moveSection = (view: ViewSettings, byMm: number) => {
 };
 
 /** By key; none of them is one of the practising hand's. */
-const deeds: Record<string, (view: ViewSettings) => void> = {
+const actions: Record<string, (view: ViewSettings) => void> = {
   v: (view) => view.change({ camera: view.choices.value.camera === 'own' ? 'trainee' : 'own' }),
   c: (view) => view.change({ cutAway: !view.choices.value.cutAway }),
   k: (view) => view.change({ boneKinds: !view.choices.value.boneKinds }),

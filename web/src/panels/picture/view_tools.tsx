@@ -1,7 +1,7 @@
 import type { Signal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 
-import type { ViewName } from '../../scene/camera_rig';
+import type { ViewName } from '../../scene/orbit_camera';
 import type { BoneScene } from '../../scene/scene';
 import type { ViewSettings } from '../../state/view_settings';
 import { appText } from '../../text/app_text';
@@ -15,7 +15,7 @@ const views: readonly (readonly [ViewName, string])[] = [
 ];
 
 interface Parts {
-  scene: Pick<BoneScene, 'look' | 'headset' | 'putOnHeadset'>;
+  scene: Pick<BoneScene, 'look' | 'headset' | 'enterHeadset'>;
   view: ViewSettings;
   reamerShown: Signal<boolean>;
   children?: ComponentChildren;
@@ -40,7 +40,7 @@ export function ViewTools({ scene, view, reamerShown, children }: Parts) {
       ))}
       <SceneTools view={view} />
       {children}
-      <HeadsetButton headset={scene.headset} putOn={() => scene.putOnHeadset()} />
+      <HeadsetButton headset={scene.headset} putOn={() => scene.enterHeadset()} />
       <ReamerChoice shown={reamerShown} />
     </div>
   );

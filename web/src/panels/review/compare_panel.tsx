@@ -8,7 +8,7 @@ import { addressOfRoute } from '../../state/route';
 import { everything } from '../../state/sessions/session_browser';
 import type { Session } from '../../wire/rest_types';
 import { SessionListApi } from '../../wire/session_list_api';
-import { Remark } from '../common/fields';
+import { Message } from '../common/fields';
 import { dayAndTime, minutes } from '../../text/format';
 
 /** Sessions of the same case, to be shown beside the first. */
@@ -33,7 +33,7 @@ export function ComparePanel({ panes }: { panes: readonly Pane[] }) {
     <section class="review-panel" aria-labelledby="compare-title" data-testid="compare">
       <h2 id="compare-title">{reviewText.compare}</h2>
       {second !== undefined && <p class="soft">{otherCase ? reviewText.otherCase : reviewText.sameCamera}</p>}
-      {found.problem.value !== null && <Remark kind="bad">{found.problem.value}</Remark>}
+      {found.problem.value !== null && <Message kind="bad">{found.problem.value}</Message>}
       {others.length > 0 && (
         <label class="compare-choice">
           {reviewText.compareWith}{' '}
@@ -49,7 +49,7 @@ export function ComparePanel({ panes }: { panes: readonly Pane[] }) {
             <option value="">{reviewText.compareChoose}</option>
             {others.map((one) => (
               <option key={one.id} value={one.id}>
-                {optionWords(one, one.id === first.id)}
+                {optionLabel(one, one.id === first.id)}
               </option>
             ))}
           </select>
@@ -59,9 +59,9 @@ export function ComparePanel({ panes }: { panes: readonly Pane[] }) {
   );
 }
 
-function optionWords(session: Session, same: boolean): string {
+function optionLabel(session: Session, same: boolean): string {
   const { title, trainee, participant, created_utc: when, duration_s: length } = session;
-  const said = [title || session.id, trainee || participant || '', dayAndTime(when), minutes(length)];
-  if (same) said.push(`(${reviewText.compareSelf})`);
-  return said.filter((text) => text !== '').join(' · ');
+  const parts = [title || session.id, trainee || participant || '', dayAndTime(when), minutes(length)];
+  if (same) parts.push(`(${reviewText.compareSelf})`);
+  return parts.filter((text) => text !== '').join(' · ');
 }

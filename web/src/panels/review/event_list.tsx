@@ -5,12 +5,12 @@ import { reviewText } from '../../text/review_text';
 import type { ReviewSession } from '../../state/review/review_session';
 import { messageOf } from '../../wire/rest';
 import { appText } from '../../text/app_text';
-import { Remark } from '../common/fields';
+import { Message } from '../common/fields';
 import { minutes } from '../../text/format';
 import { useIdentity } from '../common/site_nav';
 import { Button } from '../common/button';
 
-/** What happened, to be gone to one by one; and the present moment's remark. */
+/** What happened, to be gone to one by one; and a new annotation of the present moment. */
 export function EventList({ session }: { session: ReviewSession }) {
   const marks = session.marks.value;
   const usable = session.store.playback.value !== null;
@@ -46,14 +46,14 @@ export function EventList({ session }: { session: ReviewSession }) {
               </li>
             ))}
           </ol>
-          {may.ream && <NewRemark session={session} />}
+          {may.ream && <AnnotationForm session={session} />}
         </div>
       </details>
     </div>
   );
 }
 
-function NewRemark({ session }: { session: ReviewSession }) {
+function AnnotationForm({ session }: { session: ReviewSession }) {
   const text = useSignal('');
   const busy = useSignal(false);
   const problem = useSignal<string | null>(null);
@@ -71,25 +71,25 @@ function NewRemark({ session }: { session: ReviewSession }) {
     }
   };
   return (
-    <form class="new-remark" onSubmit={(event) => void keep(event)}>
+    <form class="annotation-form" onSubmit={(event) => void keep(event)}>
       <input
         type="text"
         maxLength={400}
-        data-testid="remark"
-        aria-label={`${reviewText.remark} ${minutes(session.positionS.value)}`}
-        placeholder={reviewText.remarkHint}
+        data-testid="annotation"
+        aria-label={`${reviewText.annotation} ${minutes(session.positionS.value)}`}
+        placeholder={reviewText.annotationHint}
         value={text.value}
         onInput={(event) => (text.value = event.currentTarget.value)}
       />
       <Button
         submit
 
-        testId="add-remark"
+        testId="add-annotation"
         disabled={busy.value || text.value.trim() === ''}
       >
-        {reviewText.addRemark}
+        {reviewText.addAnnotation}
       </Button>
-      {problem.value !== null && <Remark kind="bad">{problem.value}</Remark>}
+      {problem.value !== null && <Message kind="bad">{problem.value}</Message>}
     </form>
   );
 }

@@ -11,7 +11,7 @@ export function FactsPanel({ panes }: { panes: readonly Pane[] }) {
         const details = session.details.value;
         const hello = session.store.hello.value;
         const who = details?.trainee || details?.participant || '';
-        const said = [
+        const facts = [
           who === '' ? '' : appText.trainedBy(who),
           (details?.attempt ?? 1) > 1 ? appText.attempt(details?.attempt ?? 1) : '',
           details === null ? '' : dayAndTime(details.created_utc),
@@ -33,8 +33,8 @@ export function FactsPanel({ panes }: { panes: readonly Pane[] }) {
                 </span>
               )}
             </h2>
-            <p class="soft">{said.join(' · ')}</p>
-            {details?.fault && <p class="remark remark-bad">{reviewText.fault(details.fault)}</p>}
+            <p class="soft">{facts.join(' · ')}</p>
+            {details?.fault && <p class="message message-bad">{reviewText.fault(details.fault)}</p>}
           </div>
         );
       })}

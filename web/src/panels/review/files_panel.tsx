@@ -4,7 +4,7 @@ import { reviewText } from '../../text/review_text';
 import type { ReviewSession } from '../../state/review/review_session';
 import { messageOf } from '../../wire/rest';
 import { exportFormats, type ExportFormat, type ReviewApi } from '../../wire/review_api';
-import { Remark } from '../common/fields';
+import { Message } from '../common/fields';
 import { fixed, sentence } from '../../text/format';
 import { lazyPart } from '../common/lazy_part';
 import { useIdentity } from '../common/site_nav';
@@ -79,9 +79,9 @@ function ExportButton({ session, review, format }: ExportParts) {
         {share.value !== null && <span role="status"> {reviewText.making(fixed(share.value * 100, 0))}</span>}
       </Button>
       {problem.value !== null && (
-        <Remark kind="bad" testId={`export-problem-${format}`}>
+        <Message kind="bad" testId={`export-problem-${format}`}>
           {problem.value}
-        </Remark>
+        </Message>
       )}
     </>
   );
@@ -89,7 +89,7 @@ function ExportButton({ session, review, format }: ExportParts) {
 
 function Sharing({ session, mayShare, open }: { session: ReviewSession; mayShare: boolean; open: boolean }) {
   const shown = useSignal(false);
-  const said = useSignal<string>(reviewText.copyAddress);
+  const buttonText = useSignal<string>(reviewText.copyAddress);
   if (open)
     return (
       <p class="soft share-open">
@@ -100,12 +100,12 @@ function Sharing({ session, mayShare, open }: { session: ReviewSession; mayShare
           data-testid="copy-address"
           onClick={() =>
             void navigator.clipboard.writeText(window.location.href).then(
-              () => (said.value = reviewText.copied),
-              () => (said.value = reviewText.notCopied),
+              () => (buttonText.value = reviewText.copied),
+              () => (buttonText.value = reviewText.notCopied),
             )
           }
         >
-          {said.value}
+          {buttonText.value}
         </button>
       </p>
     );

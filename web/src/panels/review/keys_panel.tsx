@@ -6,10 +6,10 @@ export function KeysPanel() {
     <details class="review-panel">
       <summary>{reviewText.keys}</summary>
       <dl class="review-keys">
-        {reviewText.keyList.map(([key, deed]) => (
+        {reviewText.keyList.map(([key, action]) => (
           <div key={key}>
             <dt>{key}</dt>
-            <dd>{deed}</dd>
+            <dd>{action}</dd>
           </div>
         ))}
       </dl>

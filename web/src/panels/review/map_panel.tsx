@@ -102,7 +102,7 @@ function ClassRow({ of, shares }: { of: DeviationClass; shares: readonly (number
     <tr>
       <th scope="row">
         <Swatch colour={of.colour} hatched={of.hatched} />
-        {classWords(of)}
+        {classText(of)}
         {of.hatched && <span class="visually-hidden"> {reviewText.hatched}</span>}
       </th>
       {shares.map((share, pane) => (
@@ -116,13 +116,13 @@ function ClassRow({ of, shares }: { of: DeviationClass; shares: readonly (number
 
 /** Of one surface: whether pegs would breach the vault, and what is beyond the map's range. */
 function SurfaceFacts({ pane, map, place, of }: { pane: Pane; map: ReadyMap; place: number; of: number }) {
-  const { breached, words } = breachText(pane.session.score.value.value);
+  const { breached, message } = breachText(pane.session.score.value.value);
   return (
     <div class="map-facts">
       <p class={breached === true ? 'breach breach-bad' : 'breach'} data-testid={`breach-${place}`}>
         {of > 1 && <span class="pane-number">{place + 1}</span>}
         <span aria-hidden="true">{breached === true ? '⬣ ' : breached === null ? '? ' : '● '}</span>
-        <strong>{reviewText.breach}:</strong> {words}
+        <strong>{reviewText.breach}:</strong> {message}
       </p>
       {map !== null && map.beyondRange > 0 && (
         <p class="soft">
@@ -139,7 +139,7 @@ function readyMap(state: MapState, scale: ScaleName) {
   return { ...deviationShares(bytes, scale, code), rangeMm: code.rangeMm };
 }
 
-function classWords({ fromMm, toMm, side }: DeviationClass): string {
+function classText({ fromMm, toMm, side }: DeviationClass): string {
   const [near, far] = side === 'proud' ? [-toMm, -fromMm] : [fromMm, toMm];
   const mm = (value: number) => String(value);
   if (side === 'even') return reviewText.classWithin(mm(toMm));

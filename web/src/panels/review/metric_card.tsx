@@ -23,7 +23,7 @@ export function MetricCard({ pointed, scores }: { pointed: Pointed; scores: read
   const found = scores.map((score) => score?.metrics.find(({ metric }) => metric === pointed.metric) ?? null);
   const metric = found.find((one) => one !== null);
   if (metric === undefined || metric === null) return null;
-  const unsaid = found.find((one) => one?.missing)?.missing ?? null;
+  const missing = found.find((one) => one?.missing)?.missing ?? null;
   const rows: [string, string][] = [
     [reviewText.definition, sentence(metric.definition)],
     [reviewText.unit, metric.unit === null ? reviewText.noUnit : unitName(metric.unit)],
@@ -36,7 +36,7 @@ export function MetricCard({ pointed, scores }: { pointed: Pointed; scores: read
       reviewText.weight,
       reviewText.weightOf(number(metric.weight), metric.points === null ? '–' : number(metric.points)),
     ]);
-  if (unsaid !== null) rows.push([reviewText.whyUnsaid, sentence(unsaid)]);
+  if (missing !== null) rows.push([reviewText.missingReason, sentence(missing)]);
   return (
     <div class="metric-card" id="metric-card" role="tooltip" ref={card} data-testid="metric-card">
       <p class="metric-title">

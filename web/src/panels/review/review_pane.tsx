@@ -78,10 +78,10 @@ function PaneTitle({ place, workspace }: { place: number; workspace: ReviewWorks
   );
 }
 
-function momentWords({ store }: ReviewSession): string {
+function momentText({ store }: ReviewSession): string {
   const now = store.upToDate.value ? store.telemetry.value : null;
   const thrust = now?.thrustN.at(-1);
-  return reviewText.momentSays(fixed(now?.depthMm, 2), fixed(thrust, 1), fixed(now?.removedVolumeMm3, 0));
+  return reviewText.momentStatus(fixed(now?.depthMm, 2), fixed(thrust, 1), fixed(now?.removedVolumeMm3, 0));
 }
 
 function PanePicture({ pane, workspace }: { pane: Pane; workspace: ReviewWorkspace }) {
@@ -98,7 +98,7 @@ function PanePicture({ pane, workspace }: { pane: Pane; workspace: ReviewWorkspa
     return () => canvas.remove();
   }, [view]);
   const measuring = workspace.settings.measuring.value;
-  const trouble = session.trouble.value;
+  const error = session.error.value;
   const stale = store.hasPicture.value && !store.upToDate.value;
   const map = session.map.state.value;
   const shown = session.mapShown.value;
@@ -111,10 +111,10 @@ function PanePicture({ pane, workspace }: { pane: Pane; workspace: ReviewWorkspa
     >
       <div class="canvas-place" ref={place} />
       {measuring && <span class="aim-cross" aria-hidden="true" />}
-      <p class="chip moment-says" data-testid="moment-says">
-        {momentWords(session)}
+      <p class="chip moment-status" data-testid="moment-status">
+        {momentText(session)}
       </p>
-      {trouble === null ? <LinkNotice store={store} mayReam={false} /> : <TroubleNotice session={session} />}
+      {error === null ? <LinkNotice store={store} mayReam={false} /> : <SessionErrorNotice session={session} />}
       {store.recordingWarning.value !== null && (
         <p class="picture-note note-top" role="status" data-testid="recording-warning">
           {appText.recordingDamaged(store.recordingWarning.value)}
@@ -128,7 +128,7 @@ function PanePicture({ pane, workspace }: { pane: Pane; workspace: ReviewWorkspa
       )}
       {map.kind === 'problem' && (
         <p class="picture-note note-bad" role="alert" data-testid="map-problem">
-          {map.words}
+          {map.message}
         </p>
       )}
       {map.kind === 'ready' && shown === null && (
@@ -145,15 +145,15 @@ function PanePicture({ pane, workspace }: { pane: Pane; workspace: ReviewWorkspa
   );
 }
 
-function TroubleNotice({ session }: { session: ReviewSession }) {
-  const trouble = session.trouble.value;
-  if (trouble === null) return null;
-  const away = trouble.kind === 'live';
+function SessionErrorNotice({ session }: { session: ReviewSession }) {
+  const error = session.error.value;
+  if (error === null) return null;
+  const away = error.kind === 'live';
   return (
-    <div class="notice notice-lost" role="alert" data-testid="trouble" data-kind={trouble.kind}>
-      <p class="notice-title">{trouble.title}</p>
-      <p>{trouble.text}</p>
-      <p class="notice-deeds">
+    <div class="notice notice-lost" role="alert" data-testid="session-error" data-kind={error.kind}>
+      <p class="notice-title">{error.title}</p>
+      <p>{error.text}</p>
+      <p class="notice-actions">
         <Button onClick={() => session.tryAgain()}>{reviewText.tryAgain}</Button>
         <a href={addressOfRoute(away ? { kind: 'live' } : { kind: 'sessions' })}>
           {away ? reviewText.toLive : reviewText.toSessions}

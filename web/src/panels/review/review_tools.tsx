@@ -20,7 +20,7 @@ export function ReviewTools({ workspace }: { workspace: ReviewWorkspace }) {
           letter="T"
           hint={liveText.slicesHint}
           on={settings.slicesOpen.value}
-          act={() => (settings.slicesOpen.value = !settings.slicesOpen.peek())}
+          onToggle={() => (settings.slicesOpen.value = !settings.slicesOpen.peek())}
         >
           {liveText.slices}
         </ViewToggle>
@@ -29,7 +29,7 @@ export function ReviewTools({ workspace }: { workspace: ReviewWorkspace }) {
           letter="E"
           hint={reviewText.measureHint}
           on={settings.measuring.value}
-          act={() => (settings.measuring.value = !settings.measuring.peek())}
+          onToggle={() => (settings.measuring.value = !settings.measuring.peek())}
         >
           {reviewText.measure}
         </ViewToggle>

@@ -46,7 +46,7 @@ function Mark({ score, problem, place, several }: MarkParts) {
         {problem === null ? reviewText.scoreLoading : reviewText.noScore(sentence(problem))}
       </p>
     );
-  const { points, outcome, rubric, reasons, theatre, said_percent: said } = score;
+  const { points, outcome, rubric, reasons, theatre, said_percent: measuredPercent } = score;
   return (
     <div class="mark-of" data-testid={`mark-${place}`}>
       <p class="overall">
@@ -65,7 +65,7 @@ function Mark({ score, problem, place, several }: MarkParts) {
       </p>
       <p class="soft">
         {reviewText.rubric(rubric.rubric.name, rubric.version, rubric.rubric.pass_points)}.{' '}
-        {said < 100 && reviewText.saidPercent(fixed(said, 0))}
+        {measuredPercent < 100 && reviewText.measuredPercent(fixed(measuredPercent, 0))}
       </p>
       {reasons.length > 0 && (
         <ul class="reasons">
@@ -85,16 +85,16 @@ interface MetricsParts {
 }
 
 function Metrics({ scores, first, pointed }: MetricsParts) {
-  const { counting, measured, unsaid } = useMemo(() => groupedMetrics(first), [first]);
+  const { counting, measured, missing } = useMemo(() => groupedMetrics(first), [first]);
   const parts = { scores, pointed };
   return (
     <>
       <MetricTable {...parts} title={reviewText.countsForMark} metrics={counting} counting />
       <details>
-        <summary data-testid="measured-too">{reviewText.measuredToo(measured.length)}</summary>
-        <MetricTable {...parts} title={reviewText.measuredToo(measured.length)} metrics={measured} />
+        <summary data-testid="other-metrics">{reviewText.otherMetrics(measured.length)}</summary>
+        <MetricTable {...parts} title={reviewText.otherMetrics(measured.length)} metrics={measured} />
       </details>
-      {unsaid.length > 0 && <MissingMetrics metrics={unsaid} />}
+      {missing.length > 0 && <MissingMetrics metrics={missing} />}
     </>
   );
 }
@@ -103,8 +103,8 @@ function Metrics({ scores, first, pointed }: MetricsParts) {
 function MissingMetrics({ metrics }: { metrics: readonly ScoredMetric[] }) {
   return (
     <details>
-      <summary data-testid="unsaid">{reviewText.unsaid(metrics.length)}</summary>
-      <dl class="unsaid-list">
+      <summary data-testid="missing-metrics">{reviewText.missing(metrics.length)}</summary>
+      <dl class="missing-list">
         {metrics.map((metric) => (
           <div key={metric.metric}>
             <dt>{metric.name}</dt>

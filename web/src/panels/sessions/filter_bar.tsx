@@ -29,7 +29,7 @@ export function FilterBar({ browser }: { browser: SessionBrowser }) {
     void browser.show({ ...everything, sort, descending });
   };
   return (
-    <form class="desk-form filters" role="search" onSubmit={(event) => event.preventDefault()}>
+    <form class="content-form filters" role="search" onSubmit={(event) => event.preventDefault()}>
       <TextLine
         {...{ label: sessionText.search, placeholder: sessionText.searchHint, testId: 'search', value: text.value }}
         {...{ type: 'search', maxLength: 200 }}

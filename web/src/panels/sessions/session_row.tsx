@@ -39,7 +39,7 @@ export function SessionRow({ session, browser, watch, replay }: Parts) {
         <span class={`session-word session-${session.state}`}>{appText.state[session.state]}</span>
       </td>
       <td class="number">{minutes(session.duration_s)}</td>
-      <td class="deeds">
+      <td class="actions">
         {live && session.streamable && (
           <Button
             testId={`watch-${session.id}`}
@@ -72,7 +72,7 @@ export function SessionRow({ session, browser, watch, replay }: Parts) {
           <ConfirmButton
             label={sessionText.remove}
             describe={sessionText.removeOf(session.id)}
-            question={sessionText.removeReally}
+            question={sessionText.removeConfirm}
             yes={sessionText.remove}
             no={sessionText.keep}
             testId={`remove-${session.id}`}

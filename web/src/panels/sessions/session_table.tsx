@@ -24,8 +24,8 @@ export function SessionTable({ browser, watch, replay }: Parts) {
   const { sort, descending } = browser.query.value;
   const sessions = browser.page.value.value?.sessions ?? [];
   return (
-    <div class="desk-scroll">
-      <table class={browser.page.stale.value ? 'desk-table stale' : 'desk-table'} data-testid="session-table">
+    <div class="table-scroll">
+      <table class={browser.page.stale.value ? 'data-table stale' : 'data-table'} data-testid="session-table">
         <thead>
           <tr>
             {columns.map(([key, name]) => (

@@ -5,7 +5,7 @@ import { studyText } from '../../text/study_text';
 import { AccessApi } from '../../wire/access_api';
 import type { StudyApi } from '../../wire/study_api';
 import type { NewParticipant, Participant, Study } from '../../wire/rest_types';
-import { Remark } from '../common/fields';
+import { Message } from '../common/fields';
 import { Choice, TextLine } from '../common/form_fields';
 import { useRemote } from '../common/use_remote';
 import { useIdentity } from '../common/site_nav';
@@ -44,14 +44,14 @@ export function EnrolPanel({ api, study, participants }: Parts) {
     background.value = nobodys;
   };
   return (
-    <section class="desk-panel" aria-labelledby="enrol-title">
+    <section class="content-panel" aria-labelledby="enrol-title">
       <h2 id="enrol-title">{studyText.enrol}</h2>
       {study.join_code !== null && identity.hasUsers.value && (
         <p class="soft">
           {studyText.enrolHint} {studyText.joinCode}: <strong data-testid="study-join-code">{study.join_code}</strong>
         </p>
       )}
-      <form class="desk-form" onSubmit={(event) => void enrol(event)}>
+      <form class="content-form" onSubmit={(event) => void enrol(event)}>
         <PersonFields person={person} />
         <ExperienceFields background={background} />
         <Button submit look="main" testId="enrol" disabled={participants.busy.value}>
@@ -60,9 +60,9 @@ export function EnrolPanel({ api, study, participants }: Parts) {
       </form>
       {made.value !== null && (
         <div role="status">
-          <Remark kind="soft" testId="enrolled">
+          <Message kind="soft" testId="enrolled">
             {studyText.enrolled(made.value)}
-          </Remark>
+          </Message>
         </div>
       )}
     </section>
@@ -88,7 +88,7 @@ function PersonFields({ person }: { person: Signal<Person> }) {
     <>
       {operate && (
         <Choice
-          {...{ label: studyText.enrolPerson, testId: 'enrol-who', value: who }}
+          {...{ label: studyText.enrolPerson, testId: 'enrol-user', value: who }}
           options={[['', studyText.enrolNobody], [guest, studyText.enrolGuest], ...known]}
           onChange={(chosen) => (person.value = { who: chosen, guestName })}
         />

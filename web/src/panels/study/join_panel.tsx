@@ -3,7 +3,7 @@ import { useSignal } from '@preact/signals';
 import { studyText } from '../../text/study_text';
 import { messageOf } from '../../wire/rest';
 import type { StudyApi } from '../../wire/study_api';
-import { Remark } from '../common/fields';
+import { Message } from '../common/fields';
 import { type Background, ExperienceFields } from './experience_fields';
 import { TextLine } from '../common/form_fields';
 import { Button } from '../common/button';
@@ -26,10 +26,10 @@ export function JoinPanel({ api, onJoined }: { api: StudyApi; onJoined: (studyId
     }
   };
   return (
-    <section class="desk-panel" aria-labelledby="join-title">
+    <section class="content-panel" aria-labelledby="join-title">
       <h2 id="join-title">{studyText.join}</h2>
       <p class="soft">{studyText.joinHint}</p>
-      <form class="desk-form" onSubmit={(event) => void join(event)}>
+      <form class="content-form" onSubmit={(event) => void join(event)}>
         <TextLine
           {...{ label: studyText.joinCode, testId: 'join-code', required: true, value: code.value }}
           {...{ autocomplete: 'off', verbatim: true }}
@@ -41,9 +41,9 @@ export function JoinPanel({ api, onJoined }: { api: StudyApi; onJoined: (studyId
         </Button>
       </form>
       {problem.value !== null && (
-        <Remark kind="bad" testId="join-problem">
+        <Message kind="bad" testId="join-problem">
           {problem.value}
-        </Remark>
+        </Message>
       )}
     </section>
   );

@@ -1,11 +1,11 @@
 import { useMemo } from 'preact/hooks';
 
-import { type Asking, StudyDraft } from '../../state/study/study_draft';
+import { type QuestionnaireChoice, StudyDraft } from '../../state/study/study_draft';
 import { studyText } from '../../text/study_text';
 import { CaseApi } from '../../wire/case_api';
 import { messageOf } from '../../wire/rest';
 import type { StudyApi } from '../../wire/study_api';
-import { Remark } from '../common/fields';
+import { Message } from '../common/fields';
 import { Choice, TextLine } from '../common/form_fields';
 import { useRemote } from '../common/use_remote';
 import { Button } from '../common/button';
@@ -23,9 +23,9 @@ export function MakeStudy({ api, onMade }: { api: StudyApi; onMade: (studyId: st
     }
   };
   return (
-    <section class="desk-panel" aria-labelledby="make-title">
+    <section class="content-panel" aria-labelledby="make-title">
       <h2 id="make-title">{studyText.make}</h2>
-      <form class="desk-form" onSubmit={(event) => void make(event)}>
+      <form class="content-form" onSubmit={(event) => void make(event)}>
         <TextLine
           {...{ label: studyText.name, testId: 'study-name', required: true, maxLength: 200, value: draft.name.value }}
           onInput={(name) => (draft.name.value = name)}
@@ -47,15 +47,15 @@ export function MakeStudy({ api, onMade }: { api: StudyApi; onMade: (studyId: st
         </Button>
       </form>
       {draft.problem.value !== null && (
-        <Remark kind="bad" testId="make-problem">
+        <Message kind="bad" testId="make-problem">
           {draft.problem.value}
-        </Remark>
+        </Message>
       )}
     </section>
   );
 }
 
-const questionnaires: readonly (readonly [Asking, string])[] = [
+const questionnaires: readonly (readonly [QuestionnaireChoice, string])[] = [
   ['ours', studyText.ownQuestionnaire],
   ['none', studyText.noQuestionnaire],
   ['file', studyText.fileQuestionnaire],
@@ -65,11 +65,11 @@ function QuestionnaireFields({ draft }: { draft: StudyDraft }) {
   return (
     <>
       <Choice
-        {...{ label: studyText.questionnaire, testId: 'study-questionnaire', value: draft.asking.value }}
+        {...{ label: studyText.questionnaire, testId: 'study-questionnaire', value: draft.questionnaireChoice.value }}
         options={questionnaires}
-        onChange={(asking) => (draft.asking.value = asking as Asking)}
+        onChange={(value) => (draft.questionnaireChoice.value = value as QuestionnaireChoice)}
       />
-      {draft.asking.value === 'file' && (
+      {draft.questionnaireChoice.value === 'file' && (
         <label>
           {studyText.questionnaireFile}
           <input

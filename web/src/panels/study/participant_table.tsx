@@ -6,7 +6,7 @@ import { studyText } from '../../text/study_text';
 import { messageOf } from '../../wire/rest';
 import type { StudyApi } from '../../wire/study_api';
 import type { Participant, Person, Study } from '../../wire/rest_types';
-import { Remark } from '../common/fields';
+import { Message } from '../common/fields';
 import { ConfirmButton } from '../common/confirm_dialog';
 import { useIdentity } from '../common/site_nav';
 import { Button } from '../common/button';
@@ -34,8 +34,8 @@ export function ParticipantTable({ api, study, participants }: Parts) {
     }
   };
   return (
-    <section class="desk-panel" aria-labelledby="participants-title">
-      <div class="desk-head">
+    <section class="content-panel" aria-labelledby="participants-title">
+      <div class="content-head">
         <h2 id="participants-title">{studyText.participants}</h2>
         {mayKnow && persons.value === null && list !== null && list.length > 0 && (
           <Button testId="show-persons" title={studyText.personsHint} onClick={() => void look()}>
@@ -44,13 +44,13 @@ export function ParticipantTable({ api, study, participants }: Parts) {
         )}
       </div>
       {(problem.value ?? participants.problem.value) !== null && (
-        <Remark kind="bad">{problem.value ?? participants.problem.value}</Remark>
+        <Message kind="bad">{problem.value ?? participants.problem.value}</Message>
       )}
       {hidden && <p class="soft">{studyText.hiddenHint}</p>}
       {list?.length === 0 && <p class="soft">{studyText.noParticipants}</p>}
       {list !== null && list.length > 0 && (
-        <div class="desk-scroll">
-          <table class="desk-table" data-testid="participants">
+        <div class="table-scroll">
+          <table class="data-table" data-testid="participants">
             <thead>
               <tr>
                 <th scope="col">{studyText.code}</th>
@@ -112,7 +112,7 @@ function Row({
           </span>
         )}
       </td>
-      <td class="deeds">
+      <td class="actions">
         {study.questionnaire && (one.answers !== null || (!one.has_account && study.state === 'open')) && (
           <a
             class="plain-button"
@@ -126,7 +126,7 @@ function Row({
           <ConfirmButton
             label={studyText.withdraw}
             describe={studyText.withdrawOf(one.code)}
-            question={studyText.withdrawReally(one.code)}
+            question={studyText.withdrawConfirm(one.code)}
             yes={studyText.withdraw}
             no={studyText.keep}
             testId={`withdraw-${one.code}`}

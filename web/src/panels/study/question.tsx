@@ -1,14 +1,14 @@
 import type { AnswerSheet } from '../../state/study/answer_sheet';
 import { studyText } from '../../text/study_text';
-import type { ChoiceItem, Item, LikertItem, TextItem } from '../../wire/rest_types';
+import type { ChoiceItem, QuestionnaireItem, LikertItem, TextItem } from '../../wire/rest_types';
 
-interface Parts<T extends Item> {
+interface Parts<T extends QuestionnaireItem> {
   item: T;
   sheet: AnswerSheet;
 }
 
 /** One thing that is asked, as a group that keys and screen readers know: radio buttons, boxes or a text. */
-export function Question({ item, sheet }: Parts<Item>) {
+export function Question({ item, sheet }: Parts<QuestionnaireItem>) {
   const bad = sheet.tried.value && sheet.missing.value.includes(item);
   const id = questionId(item);
   if (item.kind === 'text') return <TextQuestion item={item} sheet={sheet} bad={bad} />;
@@ -21,16 +21,16 @@ export function Question({ item, sheet }: Parts<Item>) {
       aria-describedby={bad ? `${id}-fault` : undefined}
     >
       <legend>
-        <Words item={item} />
+        <QuestionText item={item} />
       </legend>
       {item.kind === 'likert' && <LikertAnswers item={item} sheet={sheet} />}
       {item.kind === 'choice' && <ChoiceAnswers item={item} sheet={sheet} />}
-      {bad && <Fault of={id} words={studyText.needed} />}
+      {bad && <Fault of={id} message={studyText.needed} />}
     </fieldset>
   );
 }
 
-function Words({ item }: { item: Item }) {
+function QuestionText({ item }: { item: QuestionnaireItem }) {
   return (
     <>
       {item.words} {!item.required && <span class="soft">({studyText.optional})</span>}
@@ -39,16 +39,16 @@ function Words({ item }: { item: Item }) {
 }
 
 /** What is wrong with an answer. */
-function Fault({ of, words }: { of: string; words: string }) {
+function Fault({ of, message }: { of: string; message: string }) {
   return (
     <p id={`${of}-fault`} class="question-fault">
-      {words}
+      {message}
     </p>
   );
 }
 
 /** Of the element that a question is. */
-export function questionId(item: Item): string {
+export function questionId(item: QuestionnaireItem): string {
   return `question-${item.id}`;
 }
 
@@ -129,7 +129,7 @@ function TextQuestion({ item, sheet, bad }: Parts<TextItem> & { bad: boolean }) 
   return (
     <div class={bad ? 'question question-bad' : 'question'} data-testid={`question-${item.id}`}>
       <label for={id}>
-        <Words item={item} />
+        <QuestionText item={item} />
       </label>
       <textarea
         id={id}
@@ -140,7 +140,7 @@ function TextQuestion({ item, sheet, bad }: Parts<TextItem> & { bad: boolean }) 
         value={text}
         onInput={(event) => sheet.set(item.id, event.currentTarget.value || undefined)}
       />
-      {(bad || tooLong) && <Fault of={id} words={tooLong ? studyText.tooLong(item.longest) : studyText.needed} />}
+      {(bad || tooLong) && <Fault of={id} message={tooLong ? studyText.tooLong(item.longest) : studyText.needed} />}
     </div>
   );
 }

@@ -31,14 +31,14 @@ export function TrainPanel({ study, codes, train }: Parts) {
   };
   if (study.state === 'closed' || (own === null && codes.length === 0)) return null;
   return (
-    <section class="desk-panel" aria-labelledby="train-title">
+    <section class="content-panel" aria-labelledby="train-title">
       <h2 id="train-title">{own === null ? studyText.train : studyText.yourPart}</h2>
       {own !== null && (
         <p class="soft" data-testid="own-code">
           {studyText.yourCode(own)}
         </p>
       )}
-      <form class="desk-form" onSubmit={(event) => void start(event)}>
+      <form class="content-form" onSubmit={(event) => void start(event)}>
         {may.teach && codes.length > 0 && (
           <Choice
             {...{ label: studyText.trainsAs, testId: 'train-as', required: true, value: participant ?? '' }}

@@ -4,18 +4,18 @@ import { SliceCache } from '../../ct/slice_cache';
 import type { CaseApi } from '../../wire/case_api';
 import type {
   BuildSettings,
-  CaseDetails,
-  CtDescription,
+  Case,
+  CaseCt,
   Job,
   BonePart,
   NewPlan,
   Plan,
   PlanTargets,
-  Segmentation,
-  WantedSettings,
+  CaseSegmentation,
+  FullSegmentationSettings,
   Triple,
 } from '../../wire/rest_types';
-import { ApiError } from '../../wire/rest';
+import { ApiError, messageOf } from '../../wire/rest';
 import { type Armed, CaseStore } from './case_store';
 import { nextStep, stepStates } from './case_steps';
 import { followJob, isUnderWay, pause } from './job_watch';
@@ -70,7 +70,7 @@ export class CaseController {
       const underWay = jobs.find(isUnderWay);
       if (underWay !== undefined) void this.follow(underWay);
     } catch (error) {
-      store.loadProblem.value = wordsOf(error);
+      store.loadProblem.value = messageOf(error);
     }
   }
 
@@ -85,32 +85,32 @@ export class CaseController {
     return this.api.meshUrl(this.caseId);
   }
 
-  segment(settings: WantedSettings): Promise<void> {
-    return this.carryOut(async () => void (await this.follow(await this.api.segment(this.caseId, settings))));
+  segment(settings: FullSegmentationSettings): Promise<void> {
+    return this.run(async () => void (await this.follow(await this.api.segment(this.caseId, settings))));
   }
   undoSegmentation(): Promise<void> {
-    return this.carryOut(async () => {
+    return this.run(async () => {
       const details = await this.api.undoSegmentation(this.caseId);
       this.take(details);
       if (details.ct !== null) this.store.settings.value = settingsOf(details.ct, details.segmentation);
     });
   }
-  build(wishes: BuildSettings): Promise<void> {
-    return this.carryOut(async () => void (await this.follow(await this.api.build(this.caseId, wishes))));
+  build(settings: BuildSettings): Promise<void> {
+    return this.run(async () => void (await this.follow(await this.api.build(this.caseId, settings))));
   }
   cancelJob(): Promise<void> {
-    return this.carryOut(async () => {
+    return this.run(async () => {
       const job = this.store.job.value;
       if (job !== null) this.store.job.value = await this.api.cancel(job.id);
     });
   }
 
-  proposePlan(wishes: PlanTargets): Promise<void> {
-    return this.carryOut(async () => {
+  proposePlan(targets: PlanTargets): Promise<void> {
+    return this.run(async () => {
       await this.landmarks.saveNow();
-      const { plan, assessment } = await this.api.proposePlan(this.caseId, wishes);
+      const { plan, assessment } = await this.api.proposePlan(this.caseId, targets);
       this.store.draft.value = { plan, assessment, isAssessed: true, kept: false };
-      this.store.overrideAsked.value = null;
+      this.store.overrideRequired.value = null;
       this.lookAt(plan.entry_mm);
     });
   }
@@ -123,30 +123,30 @@ export class CaseController {
     delete plan.override_reason;
     batch(() => {
       this.store.draft.value = { plan, assessment: draft?.assessment ?? null, isAssessed: false, kept: false };
-      this.store.overrideAsked.value = null;
+      this.store.overrideRequired.value = null;
     });
   }
 
   /** Makes the draft the case's plan; `override` is the reason for a correction that is refused without one. */
   keepPlan(override: string | null): Promise<void> {
-    return this.carryOut(async () => {
+    return this.run(async () => {
       const draft = this.store.draft.value;
       if (draft === null) return;
       const overriding = override === null ? {} : { override: true, override_reason: override };
       const { pilot_diameter_mm: diameter, pilot_depth_mm: depth, ...plan } = draft.plan;
       const pilot = diameter === null || depth === null ? {} : { pilot_diameter_mm: diameter, pilot_depth_mm: depth };
-      const asked: NewPlan = { ...plan, ...pilot, ...overriding };
+      const newPlan: NewPlan = { ...plan, ...pilot, ...overriding };
       try {
-        const { plan, assessment } = await this.api.putPlan(this.caseId, asked);
+        const { plan, assessment } = await this.api.putPlan(this.caseId, newPlan);
         batch(() => {
           this.store.draft.value = { plan, assessment, isAssessed: true, kept: true };
-          this.store.overrideAsked.value = null;
+          this.store.overrideRequired.value = null;
           this.store.planBeforeLandmarks.value = false;
         });
         this.take(await this.api.case(this.caseId));
       } catch (error) {
         if (!(error instanceof ApiError) || error.status !== 409) throw error;
-        this.store.overrideAsked.value = error.message;
+        this.store.overrideRequired.value = error.message;
       }
     });
   }
@@ -223,7 +223,7 @@ export class CaseController {
   /** A case of the same CT for the other shoulder; its id once it is there. */
   async copyForOtherSide(): Promise<string | null> {
     let made: string | null = null;
-    await this.carryOut(async () => {
+    await this.run(async () => {
       const side = this.store.details.value?.side === 'left' ? 'right' : 'left';
       const job = await this.follow(await this.api.copyCase(this.caseId, side));
       if (job?.state === 'done') made = job.case_id;
@@ -264,7 +264,7 @@ export class CaseController {
     return ended;
   }
 
-  private take(details: CaseDetails): void {
+  private take(details: Case): void {
     const { store } = this;
     const before = store.details.value;
     batch(() => {
@@ -279,14 +279,14 @@ export class CaseController {
     });
   }
 
-  private async carryOut(action: () => Promise<void>): Promise<void> {
+  private async run(action: () => Promise<void>): Promise<void> {
     const { store } = this;
     store.busy.value = true;
     store.problem.value = null;
     try {
       await action();
     } catch (error) {
-      store.problem.value = wordsOf(error);
+      store.problem.value = messageOf(error);
     } finally {
       store.busy.value = false;
     }
@@ -294,10 +294,8 @@ export class CaseController {
 }
 
 /** With which the bones were found, or what is suggested before. */
-export function settingsOf(ct: CtDescription, found: Segmentation | null): WantedSettings {
+export function settingsOf(ct: CaseCt, found: CaseSegmentation | null): FullSegmentationSettings {
   const { settings = {} } = found ?? {};
   const threshold_hu = settings.threshold_hu ?? found?.threshold_hu ?? Math.round(ct.suggested_threshold_hu);
   return { sigma_mm: 0, separate: true, seeds: {}, fill_holes: true, ...settings, threshold_hu };
 }
-
-export const wordsOf = (error: unknown): string => (error instanceof Error ? error.message : String(error));

@@ -1,4 +1,4 @@
-import type { CaseDetails } from '../../wire/rest_types';
+import type { Case } from '../../wire/rest_types';
 import { neededNames, type PlacedLandmarks, pointOf } from './landmark_names';
 
 export const stepNames = ['segment', 'landmarks', 'plan', 'build', 'ream'] as const;
@@ -7,7 +7,7 @@ export type StepName = (typeof stepNames)[number];
 export type StepState = 'done' | 'todo' | 'outdated' | 'blocked';
 
 export interface StepFacts {
-  details: Pick<CaseDetails, 'ct' | 'segmentation' | 'plan' | 'built' | 'stage'>;
+  details: Pick<Case, 'ct' | 'segmentation' | 'plan' | 'built' | 'stage'>;
   landmarks: PlacedLandmarks;
   /** Landmarks were changed after the plan was kept. */
   planBeforeLandmarks: boolean;

@@ -5,13 +5,13 @@ import type { VoxelBox } from '../../ct/slice_layout';
 import { VolumeFrame } from '../../ct/volume_frame';
 import { type WindowLevel, windowPresets } from '../../ct/window_level';
 import type {
-  Assessment,
-  CaseDetails,
+  PlanAssessment,
+  Case,
   Job,
   Plan,
   Reamer,
   SeedName,
-  WantedSettings,
+  FullSegmentationSettings,
   Triple,
 } from '../../wire/rest_types';
 import type { StepName } from './case_steps';
@@ -23,7 +23,7 @@ export type Armed = { kind: 'landmark'; name: LandmarkName } | { kind: 'seed'; n
 /** A plan that is worked on. */
 export interface PlanDraft {
   plan: Plan;
-  assessment: Assessment | null;
+  assessment: PlanAssessment | null;
   /** The assessment is of this plan, not of one before it was changed by hand. */
   isAssessed: boolean;
   /** The server has it as the case's plan. */
@@ -35,11 +35,11 @@ export interface Framed {
 }
 
 export type SurfaceState =
-  { kind: 'none' } | { kind: 'loading' } | { kind: 'shown' } | { kind: 'failed'; words: string };
+  { kind: 'none' } | { kind: 'loading' } | { kind: 'shown' } | { kind: 'failed'; message: string };
 
 /** What the Case page knows of its case. Written by the controller and by what the user's hand does to the views. */
 export class CaseStore {
-  readonly details = signal<CaseDetails | null>(null);
+  readonly details = signal<Case | null>(null);
   /** Why the case cannot be shown. */
   readonly loadProblem = signal<string | null>(null);
   /** What last went wrong at the user's hand. */
@@ -64,14 +64,14 @@ export class CaseStore {
   readonly previewShown = signal(true);
 
   /** As the sliders stand; null until the case is known. */
-  readonly settings = signal<WantedSettings | null>(null);
+  readonly settings = signal<FullSegmentationSettings | null>(null);
 
   readonly reamers = signal<readonly Reamer[]>([]);
   readonly draft = signal<PlanDraft | null>(null);
   /** Landmarks were changed after the plan was kept. */
   readonly planBeforeLandmarks = signal(false);
   /** The server asks for an override, with its reason. */
-  readonly overrideAsked = signal<string | null>(null);
+  readonly overrideRequired = signal<string | null>(null);
 
   readonly surface = signal<SurfaceState>({ kind: 'none' });
 

@@ -10,7 +10,7 @@ export const isUnderWay = (job: Job | null): boolean => job?.state === 'waiting'
 export interface JobCallbacks {
   api: Pick<CaseApi, 'job'>;
   onJob: (job: Job) => void;
-  /** Whether the server does not answer; what was last told may be old. */
+  /** Whether the server does not answer; its last report may be old. */
   onSilence: (silent: boolean) => void;
   pause: (ms: number) => Promise<void>;
 }

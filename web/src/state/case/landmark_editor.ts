@@ -1,7 +1,8 @@
 import { batch, computed, signal } from '@preact/signals';
 
 import type { CaseApi } from '../../wire/case_api';
-import type { CaseDetails, Landmarks, Measures } from '../../wire/rest_types';
+import { messageOf } from '../../wire/rest';
+import type { Case, Landmarks, Measures } from '../../wire/rest_types';
 import { landmarksOf, placedFrom, type PlacedLandmarks, sameLandmarks } from './landmark_names';
 
 const saveAfterMs = 350;
@@ -16,7 +17,7 @@ export type SaveState =
   | { kind: 'saved' }
   | { kind: 'unsaved' }
   | { kind: 'saving' }
-  | { kind: 'failed'; words: string }
+  | { kind: 'failed'; message: string }
   | { kind: 'conflict'; theirs: Landmarks };
 
 export type LandmarkApi = Pick<CaseApi, 'case' | 'putLandmarks' | 'measures' | 'putLandmarksOnLeaving'>;
@@ -34,7 +35,7 @@ export class LandmarkEditor {
   );
   private readonly measuredOf = signal<PlacedLandmarks | null>(null);
 
-  /** As the server last told them to this page. */
+  /** As the server last sent them to this page. */
   private known: Landmarks = {};
   private timer: ReturnType<typeof setTimeout> | undefined;
   private saving = false;
@@ -44,7 +45,7 @@ export class LandmarkEditor {
     private readonly api: LandmarkApi,
     private readonly caseId: string,
     /** The server's case after a save. */
-    private readonly onSaved: (saved: CaseDetails) => void,
+    private readonly onSaved: (saved: Case) => void,
   ) {}
 
   /** The server's landmarks, at the beginning or because they are to be taken. */
@@ -96,7 +97,7 @@ export class LandmarkEditor {
       this.save.value = this.landmarks.value === sent ? { kind: 'saved' } : { kind: 'unsaved' };
       if (this.save.value.kind === 'saved') await this.measure();
     } catch (error) {
-      this.save.value = { kind: 'failed', words: error instanceof Error ? error.message : String(error) };
+      this.save.value = { kind: 'failed', message: messageOf(error) };
     } finally {
       this.saving = false;
       if (this.save.value.kind === 'unsaved' && !this.ended) this.change(this.landmarks.value);
@@ -117,7 +118,7 @@ export class LandmarkEditor {
       if (of !== this.landmarks.value) return;
       batch(() => {
         this.measures.value = null;
-        this.measuresProblem.value = error instanceof Error ? error.message : String(error);
+        this.measuresProblem.value = messageOf(error);
       });
     }
   }

@@ -1,12 +1,14 @@
-import type { HumeralHead, Landmarks, PointName, Triple, WalchClass } from '../../wire/rest_types';
+import type { Landmarks, Triple, WalchClass } from '../../wire/rest_types';
 
 export const biconcavityNames = ['biconcavity_0', 'biconcavity_1', 'biconcavity_2'] as const;
 type BiconcavityName = (typeof biconcavityNames)[number];
+/** Landmarks that are points, by their keys. */
+type PointName = Exclude<keyof Landmarks, 'humeral_head' | 'biconcavity_mm' | 'walch'>;
 export type LandmarkName = PointName | 'humeral_head' | BiconcavityName;
 
 /** What is placed on the page; the points of a biconcave face one by one, unlike in landmarks.json. */
 export type PlacedLandmarks = Partial<Record<PointName | BiconcavityName, Triple>> & {
-  humeral_head?: HumeralHead;
+  humeral_head?: NonNullable<Landmarks['humeral_head']>;
   walch?: WalchClass;
 };
 

@@ -2,7 +2,7 @@ import { batch, signal } from '@preact/signals';
 
 import type { CaseApi } from '../../wire/case_api';
 import type { CaseSummary, Job, Side } from '../../wire/rest_types';
-import { wordsOf } from './case_controller';
+import { messageOf } from '../../wire/rest';
 import { followJob, pause } from './job_watch';
 import { dropUpload, forgetUpload, uploadFile, type UploadSource } from './upload';
 
@@ -16,7 +16,7 @@ export type NewCaseState =
   | { kind: 'idle' }
   | { kind: 'uploading'; received: number; bytes: number; waiting: boolean }
   | { kind: 'importing'; job: Job; silent: boolean }
-  | { kind: 'failed'; during: 'upload' | 'import'; words: string };
+  | { kind: 'failed'; during: 'upload' | 'import'; message: string };
 
 export interface NewCaseOptions {
   name: string;
@@ -32,7 +32,7 @@ export class CaseListController {
   readonly file = signal<UploadSource | null>(null);
   /** Never guessed: the user says which shoulder it is. */
   readonly side = signal<Side | null>(null);
-  readonly wishes = signal<NewCaseOptions>({ name: '', seriesUid: '' });
+  readonly options = signal<NewCaseOptions>({ name: '', seriesUid: '' });
   readonly state = signal<NewCaseState>({ kind: 'idle' });
   private abort = new AbortController();
 
@@ -52,7 +52,7 @@ export class CaseListController {
         this.listProblem.value = null;
       });
     } catch (error) {
-      this.listProblem.value = wordsOf(error);
+      this.listProblem.value = messageOf(error);
     }
   }
 
@@ -65,7 +65,7 @@ export class CaseListController {
     try {
       await this.api.remove(id);
     } catch (error) {
-      this.listProblem.value = wordsOf(error);
+      this.listProblem.value = messageOf(error);
       return;
     }
     await this.readCases();
@@ -82,7 +82,7 @@ export class CaseListController {
     try {
       const uploadId = await this.upload(file, signal);
       during = 'import';
-      const { name, seriesUid } = this.wishes.value;
+      const { name, seriesUid } = this.options.value;
       const first = await this.api.importCase({
         upload_id: uploadId,
         side,
@@ -96,20 +96,20 @@ export class CaseListController {
         batch(() => {
           this.file.value = null;
           this.side.value = null;
-          this.wishes.value = { name: '', seriesUid: '' };
+          this.options.value = { name: '', seriesUid: '' };
           this.state.value = { kind: 'idle' };
         });
         if (job.case_id !== null) this.onReady(job.case_id);
       } else if (job?.state === 'failed') {
-        const words = job.problem?.detail ?? job.problem?.title ?? job.step;
-        this.state.value = { kind: 'failed', during, words };
+        const message = job.problem?.detail ?? job.problem?.title ?? job.step;
+        this.state.value = { kind: 'failed', during, message };
       } else {
         this.state.value = { kind: 'idle' };
       }
       await this.readCases();
     } catch (error) {
       if (signal.aborted) await dropUpload(file, this);
-      this.state.value = signal.aborted ? { kind: 'idle' } : { kind: 'failed', during, words: wordsOf(error) };
+      this.state.value = signal.aborted ? { kind: 'idle' } : { kind: 'failed', during, message: messageOf(error) };
     }
   }
 
@@ -122,7 +122,7 @@ export class CaseListController {
 
   private async upload(file: UploadSource, signal: AbortSignal): Promise<string> {
     this.state.value = { kind: 'uploading', received: 0, bytes: file.size, waiting: false };
-    const tell = (change: { received?: number; waiting?: boolean }) => {
+    const reportProgress = (change: { received?: number; waiting?: boolean }) => {
       const state = this.state.value;
       if (state.kind === 'uploading') this.state.value = { ...state, ...change };
     };
@@ -131,8 +131,8 @@ export class CaseListController {
       {
         api: this.api,
         remembered: this.remembered,
-        onProgress: (received) => tell({ received }),
-        onWaiting: (waiting) => tell({ waiting }),
+        onProgress: (received) => reportProgress({ received }),
+        onWaiting: (waiting) => reportProgress({ waiting }),
         pause,
       },
       signal,

@@ -9,7 +9,7 @@ import { LiveBoard } from './live_board';
 
 /** Sessions that have ended and are looked through for who has trained. */
 export const endedLooked = 100;
-/** Where no change is told these are read all the same, ms. */
+/** Without a change event these are read again after so long, ms. */
 const readEndedEveryMs = 30_000;
 
 type Socket = Pick<ChangeSocket, 'start' | 'stop'>;
@@ -41,7 +41,7 @@ export class Dashboard {
   ) {
     this.board = new LiveBoard(api);
     this.ended = new Remote(() => api.ended(endedLooked));
-    this.learning = new Remote(() => api.learning(this.asked()));
+    this.learning = new Remote(() => api.learning(this.learnerQuery()));
     this.socket = socketFor({
       onChange: (change) => this.take(change),
       onLost: () => this.board.loseTouch(),
@@ -82,7 +82,7 @@ export class Dashboard {
     void this.learning.read();
   }
 
-  private asked(): Learner {
+  private learnerQuery(): Learner {
     if (this.own.peek()) return {};
     const { trainee, participant } = this.learner.peek() ?? {};
     return { trainee, participant };

@@ -18,7 +18,7 @@ export interface Tile {
   /** The reading before that. */
   before: Metrics | null;
   /** When `soFar` came, ms; null: never. */
-  heardMs: number | null;
+  updatedMs: number | null;
   plannedDepthMm: number | null;
   /** Address of the newest picture, and when it came; null: none yet. */
   picture: string | null;
@@ -39,12 +39,12 @@ export class LiveBoard {
   /** Words about what failed last; null: nothing since. */
   readonly problem = signal<string | null>(null);
   /** When the sessions were last heard of, ms; null: never. */
-  readonly heardMs = signal<number | null>(null);
+  readonly updatedMs = signal<number | null>(null);
   private readonly nowMs = signal(Date.now());
   private readonly lost = signal(false);
   /** Nothing of what is shown is known to be so now. */
   readonly stale = computed(
-    () => this.heardMs.value !== null && (this.lost.value || this.nowMs.value - this.heardMs.value > staleAfterMs),
+    () => this.updatedMs.value !== null && (this.lost.value || this.nowMs.value - this.updatedMs.value > staleAfterMs),
   );
 
   private timers: ReturnType<typeof setInterval>[] = [];
@@ -55,7 +55,7 @@ export class LiveBoard {
   private turn = 0;
   private readonly plans = new Map<string, number | null>();
   /** When a picture of a session was last asked for, ms. */
-  private readonly askedForPicture = new Map<string, number>();
+  private readonly pictureRequestMs = new Map<string, number>();
 
   constructor(
     private readonly source: LiveSource,
@@ -81,7 +81,7 @@ export class LiveBoard {
     this.forgetPicturesBut([]);
     batch(() => {
       this.tiles.value = [];
-      this.heardMs.value = null;
+      this.updatedMs.value = null;
       this.problem.value = null;
       this.lost.value = false;
     });
@@ -107,7 +107,7 @@ export class LiveBoard {
       batch(() => {
         this.forgetPicturesBut(sessions);
         this.tiles.value = sessions.map((session) => this.tileOf(session));
-        this.heardMs.value = this.nowMs.value = Date.now();
+        this.updatedMs.value = this.nowMs.value = Date.now();
         this.lost.value = false;
         this.problem.value = null;
       });
@@ -135,14 +135,14 @@ export class LiveBoard {
 
   /** Whether the figures of one tile are older than what counts as known. */
   isOld(tile: Tile): boolean {
-    return this.stale.value || (tile.heardMs !== null && this.nowMs.value - tile.heardMs > staleAfterMs);
+    return this.stale.value || (tile.updatedMs !== null && this.nowMs.value - tile.updatedMs > staleAfterMs);
   }
 
   private forgetPicturesBut(sessions: readonly Session[]): void {
     for (const { session, picture } of this.tiles.value) {
       if (sessions.some((one) => one.id === session.id)) continue;
       if (picture !== null) this.forget(picture);
-      this.askedForPicture.delete(session.id);
+      this.pictureRequestMs.delete(session.id);
     }
   }
 
@@ -150,7 +150,7 @@ export class LiveBoard {
     const known = this.tiles.value.find((tile) => tile.session.id === session.id);
     const plannedDepthMm = this.plans.get(session.case) ?? null;
     if (known !== undefined) return { ...known, session, plannedDepthMm };
-    return { session, soFar: null, before: null, heardMs: null, plannedDepthMm, picture: null, pictureMs: null };
+    return { session, soFar: null, before: null, updatedMs: null, plannedDepthMm, picture: null, pictureMs: null };
   }
 
   /** Figures are a supplement: without them the tile says what it knows. */
@@ -165,7 +165,7 @@ export class LiveBoard {
     this.change(session.id, (tile) =>
       soFar === null
         ? { ...tile, plannedDepthMm }
-        : { ...tile, plannedDepthMm, before: tile.soFar, soFar, heardMs: Date.now() },
+        : { ...tile, plannedDepthMm, before: tile.soFar, soFar, updatedMs: Date.now() },
     );
   }
 
@@ -177,13 +177,13 @@ export class LiveBoard {
   /** The picture that is most due, if any is. */
   private async drawNext(): Promise<void> {
     const now = Date.now();
-    const asked = (tile: Tile) => this.askedForPicture.get(tile.session.id) ?? -Infinity;
-    const [due] = [...this.tiles.value].sort((a, b) => asked(a) - asked(b));
-    if (this.drawing || due === undefined || now - asked(due) < pictureEveryMs) return;
+    const requestedMs = (tile: Tile) => this.pictureRequestMs.get(tile.session.id) ?? -Infinity;
+    const [due] = [...this.tiles.value].sort((a, b) => requestedMs(a) - requestedMs(b));
+    if (this.drawing || due === undefined || now - requestedMs(due) < pictureEveryMs) return;
     this.drawing = true;
     const { turn } = this;
     const { id } = due.session;
-    this.askedForPicture.set(id, now);
+    this.pictureRequestMs.set(id, now);
     const blob = await this.source.picture(id).catch(() => null);
     if (turn !== this.turn) return;
     this.drawing = false;

@@ -10,7 +10,7 @@ export interface TileAlarm {
   /** mm or percent; null where there is no figure. */
   value: number | null;
   /** The server's words, of a fault. */
-  said: string | null;
+  message: string | null;
 }
 
 /** One session as it was last read, and as it was read before. */
@@ -21,11 +21,15 @@ export interface Reading {
   plannedDepthMm: number | null;
 }
 
-/** What is wrong in a session that is under way, the worst first. Thrust is told while it is too high, not afterwards. */
+/** What is wrong in a session that is under way, worst first. Thrust is reported only while it is too high. */
 export function alarmsOf({ session, soFar, before, plannedDepthMm }: Reading): TileAlarm[] {
   const found: TileAlarm[] = [];
-  const add = (kind: TileAlarm['kind'], level: TileAlarm['level'], value: number | null, said: string | null = null) =>
-    found.push({ kind, level, value, said });
+  const add = (
+    kind: TileAlarm['kind'],
+    level: TileAlarm['level'],
+    value: number | null,
+    message: string | null = null,
+  ) => found.push({ kind, level, value, message });
   if (session.fault !== null && session.fault !== '') add('fault', 'bad', null, session.fault);
   const breachMm = soFar?.vault_breach_mm ?? 0;
   if (breachMm > 0) add('vault', 'bad', breachMm);

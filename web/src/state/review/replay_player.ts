@@ -45,7 +45,7 @@ export class ReplayPlayer implements Player {
     });
     this.scrubber = new Scrubber(
       (positionS) => this.change({ position_s: positionS }),
-      (error) => this.tell(error),
+      (error) => this.showError(error),
     );
   }
 
@@ -73,14 +73,14 @@ export class ReplayPlayer implements Player {
   }
 
   async play(change: PlaybackChange): Promise<void> {
-    await this.change(change).catch((error: unknown) => this.tell(error));
+    await this.change(change).catch((error: unknown) => this.showError(error));
   }
 
   private async change(change: PlaybackChange): Promise<void> {
     const id = this.replayId;
     if (id === null) return;
     if (change.position_s !== undefined) this.leftAtS = change.position_s;
-    this.takeNotes(await this.api.changePlayback(id, change));
+    this.update(await this.api.changePlayback(id, change));
   }
 
   /** Null where there is nothing to stream, and nothing is tried again. */
@@ -90,8 +90,8 @@ export class ReplayPlayer implements Player {
     try {
       const replay = await this.api.openReplay(this.sessionId);
       this.replayId = replay.id;
-      this.takeNotes(replay);
-      if (this.leftAtS > 0) this.takeNotes(await this.api.changePlayback(replay.id, { position_s: this.leftAtS }));
+      this.update(replay);
+      if (this.leftAtS > 0) this.update(await this.api.changePlayback(replay.id, { position_s: this.leftAtS }));
       return this.api.streamUrl(replay.id);
     } catch (error) {
       if (!isRefusal(error)) throw error;
@@ -106,7 +106,7 @@ export class ReplayPlayer implements Player {
     const id = this.replayId;
     if (id === null) return null;
     try {
-      this.takeNotes(await this.api.replay(id));
+      this.update(await this.api.replay(id));
       return id;
     } catch (error) {
       if (!(error instanceof ApiError) || error.status !== 404) throw error;
@@ -116,7 +116,7 @@ export class ReplayPlayer implements Player {
   }
 
   /** Damage may be found, and marks be made, while it is open. */
-  private takeNotes(replay: Replay): void {
+  private update(replay: Replay): void {
     batch(() => {
       this.store.replayId.value = replay.id;
       this.store.sessionId.value = replay.id;
@@ -157,10 +157,10 @@ export class ReplayPlayer implements Player {
     store.playback.value = telemetry.playback;
     if (telemetry.playback === null) return;
     this.leftAtS = telemetry.playback.positionTicks / 1000;
-    this.scrubber.streamTold();
+    this.scrubber.onStreamUpdate();
   }
 
-  private tell(error: unknown): void {
+  private showError(error: unknown): void {
     this.store.problem.value = messageOf(error);
   }
 }

@@ -13,7 +13,7 @@ import { type Picture, ReplayPlayer } from './replay_player';
 import { readTrace, type SessionTrace, traceStride } from './session_trace';
 import { SurfaceMap } from './surface_map';
 import { eventsOfTrace, isEnd, mergedMarks, neighbouringMark } from './timeline';
-import { type Trouble, troubleWithSession } from './trouble';
+import { type SessionError, sessionErrorOf } from './session_error';
 import type { Mark, Session } from '../../wire/rest_types';
 
 /** A deleted session is noticed after this time. */
@@ -48,7 +48,7 @@ export class ReviewSession {
   /** Nothing was at the place that was pointed at last. */
   readonly missed = signal(false);
   /** Null until they are read; a replay knows those that were there when it was opened. */
-  private readonly remarks = signal<readonly Mark[] | null>(null);
+  private readonly annotations = signal<readonly Mark[] | null>(null);
   private readonly gone = signal<ApiError | null>(null);
   private readonly timer: ReturnType<typeof setInterval>;
   private readonly stopFollowing: () => void;
@@ -68,13 +68,13 @@ export class ReviewSession {
   });
   readonly atStart = computed(() => this.store.playback.value?.positionTicks === 0);
   readonly marks = computed(() => {
-    const [trace, remarks] = [this.trace.value, this.remarks.value];
-    const recorded = this.store.marks.value.filter(({ kind }) => remarks === null || kind !== 'annotation');
-    return mergedMarks([...recorded, ...(remarks ?? [])], trace === null ? [] : eventsOfTrace(trace));
+    const [trace, annotations] = [this.trace.value, this.annotations.value];
+    const recorded = this.store.marks.value.filter(({ kind }) => annotations === null || kind !== 'annotation');
+    return mergedMarks([...recorded, ...(annotations ?? [])], trace === null ? [] : eventsOfTrace(trace));
   });
-  readonly trouble = computed<Trouble | null>(() => {
+  readonly error = computed<SessionError | null>(() => {
     const refused = this.gone.value ?? this.player.refused.value;
-    return refused === null ? null : troubleWithSession(refused);
+    return refused === null ? null : sessionErrorOf(refused);
   });
   /** The map that is seen now: it is of the end. */
   readonly mapShown = computed(() => {
@@ -106,7 +106,7 @@ export class ReviewSession {
     this.player.start();
     void this.readDetails();
     void this.score.read();
-    void this.readRemarks();
+    void this.readAnnotations();
   }
 
   /** After something could not be had. */
@@ -161,18 +161,18 @@ export class ReviewSession {
     if (place !== null) this.places.value = withPlace(this.places.peek(), place);
   }
 
-  /** Keeps a remark on the present moment; throws ApiError. */
-  async annotate(words: string): Promise<void> {
+  /** Keeps an annotation of the present moment; throws ApiError. */
+  async annotate(text: string): Promise<void> {
     const atS = this.positionS.peek();
-    await this.sources.review.annotate(this.id, words, atS);
-    await this.readRemarks();
+    await this.sources.review.annotate(this.id, text, atS);
+    await this.readAnnotations();
   }
 
   /** Without them those are shown that the replay knows. */
-  private async readRemarks(): Promise<void> {
+  private async readAnnotations(): Promise<void> {
     const found = await this.sources.review.annotations(this.id).catch(() => null);
     if (found === null || this.disposed) return;
-    this.remarks.value = found.map(({ at_s, words }) => ({ at_s, kind: 'annotation', words }));
+    this.annotations.value = found.map(({ at_s, words }) => ({ at_s, kind: 'annotation', words }));
   }
 
   private async readDetails(): Promise<void> {

@@ -48,7 +48,7 @@ export interface MetricGroups {
   /** That the rubric asks for, weightiest first; also those that could not be said. */
   counting: ScoredMetric[];
   measured: ScoredMetric[];
-  unsaid: ScoredMetric[];
+  missing: ScoredMetric[];
 }
 
 /** Metrics as a reader wants them: first what the mark rests on. */
@@ -59,16 +59,16 @@ export function groupedMetrics({ metrics }: Pick<Score, 'metrics'>): MetricGroup
   return {
     counting,
     measured: rest.filter(({ value }) => value !== null),
-    unsaid: metrics.filter(({ value }) => value === null),
+    missing: metrics.filter(({ value }) => value === null),
   };
 }
 
 /** What the score says of the vault, in words. */
-export function breachText(score: Pick<Score, 'metrics'> | null): { breached: boolean | null; words: string } {
+export function breachText(score: Pick<Score, 'metrics'> | null): { breached: boolean | null; message: string } {
   const metric = score?.metrics.find(({ metric }) => metric === 'vault_breach_mm');
   const value = metric?.value ?? null;
   if (metric === undefined || value === null)
-    return { breached: null, words: reviewText.breachUnsaid(metric?.missing ?? reviewText.scoreLoading) };
-  if (value <= 0) return { breached: false, words: reviewText.breachNone };
-  return { breached: true, words: reviewText.breachBy(number(value)) };
+    return { breached: null, message: reviewText.breachMissing(metric?.missing ?? reviewText.scoreLoading) };
+  if (value <= 0) return { breached: false, message: reviewText.breachNone };
+  return { breached: true, message: reviewText.breachBy(number(value)) };
 }

@@ -1,16 +1,16 @@
 import { batch, signal } from '@preact/signals';
 
-import { ApiError } from '../../wire/rest';
+import { ApiError, messageOf } from '../../wire/rest';
 import type { DeviationBytes, MapName } from '../../wire/review_api';
 import type { SortedSurface } from '../../wire/surface_worker';
 import { reviewText } from '../../text/review_text';
-import { troubleWithMap } from './trouble';
+import { mapErrorMessage } from './session_error';
 
 export type MapState =
   | { kind: 'none' }
   | { kind: 'making'; name: MapName; share: number }
   | { kind: 'ready'; name: MapName; surface: SortedSurface; deviation: DeviationBytes }
-  | { kind: 'problem'; name: MapName; words: string };
+  | { kind: 'problem'; name: MapName; message: string };
 
 type OnProgress = (share: number) => void;
 
@@ -55,7 +55,7 @@ export class SurfaceMap {
       this.take(name, surface, deviation);
     } catch (error) {
       if (mine !== this.underWay || mine.signal.aborted) return;
-      this.state.value = { kind: 'problem', name, words: wordsOfMap(error) };
+      this.state.value = { kind: 'problem', name, message: mapErrorText(error) };
     }
   }
 
@@ -72,12 +72,12 @@ export class SurfaceMap {
       }
       this.surface = null;
       this.deviations.clear();
-      this.state.value = { kind: 'problem', name, words: reviewText.noMap.mismatch };
+      this.state.value = { kind: 'problem', name, message: reviewText.noMap.mismatch };
     });
   }
 }
 
-function wordsOfMap(error: unknown): string {
-  if (error instanceof ApiError) return troubleWithMap(error);
-  return reviewText.noMap.other(error instanceof Error ? error.message : String(error));
+function mapErrorText(error: unknown): string {
+  if (error instanceof ApiError) return mapErrorMessage(error);
+  return reviewText.noMap.other(messageOf(error));
 }

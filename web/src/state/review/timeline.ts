@@ -9,33 +9,33 @@ export const excessN = 78;
 /** Another moment of the same kind within this time is the same event, s. */
 const sameEventS = 0.5;
 
-/** What a session's forces tell of what happened; times are as fine as the trace. */
+/** Events found in the forces of a session; times are as fine as the trace. */
 export function eventsOfTrace({ timesS, thrustN, spindleOn }: SessionTrace): Mark[] {
   const events: Mark[] = [];
   const lastOf = new Map<string, number>();
-  const happen = (kind: string, atS: number, said = '') => {
+  const addEvent = (kind: string, atS: number, detail = '') => {
     const before = lastOf.get(kind);
     lastOf.set(kind, atS);
-    if (before === undefined || atS - before >= sameEventS) events.push({ at_s: atS, kind, words: said });
+    if (before === undefined || atS - before >= sameEventS) events.push({ at_s: atS, kind, words: detail });
   };
   let pressed = false;
   let excess = false;
   timesS.forEach((atS, i) => {
     const thrust = thrustN[i] ?? 0;
     const turning = spindleOn[i] ?? false;
-    if (turning !== (spindleOn[i - 1] ?? false)) happen(turning ? 'spindle-on' : 'spindle-off', atS);
-    if (!pressed && thrust >= pressedFromN) happen('contact', atS);
-    if (pressed && thrust < letGoBelowN) happen('withdrawn', atS);
+    if (turning !== (spindleOn[i - 1] ?? false)) addEvent(turning ? 'spindle-on' : 'spindle-off', atS);
+    if (!pressed && thrust >= pressedFromN) addEvent('contact', atS);
+    if (pressed && thrust < letGoBelowN) addEvent('withdrawn', atS);
     pressed = pressed ? thrust >= letGoBelowN : thrust >= pressedFromN;
-    if (!excess && thrust > excessN) happen('excess', atS, thrust.toFixed(0));
+    if (!excess && thrust > excessN) addEvent('excess', atS, thrust.toFixed(0));
     excess = thrust > excessN;
   });
   return events;
 }
 
-/** The recording's own marks and those that the forces tell, in order of time. */
-export function mergedMarks(recorded: readonly Mark[], told: readonly Mark[]): Mark[] {
-  return [...recorded, ...told].sort((a, b) => a.at_s - b.at_s);
+/** The recording's own marks and those found in the forces, in order of time. */
+export function mergedMarks(recorded: readonly Mark[], detected: readonly Mark[]): Mark[] {
+  return [...recorded, ...detected].sort((a, b) => a.at_s - b.at_s);
 }
 
 /** The next mark after a moment, or the one before; null: there is none. At a mark, that mark is neither. */

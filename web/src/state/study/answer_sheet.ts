@@ -1,10 +1,10 @@
 import { computed, signal } from '@preact/signals';
 
-import type { Answer, Answers, Item, Questionnaire } from '../../wire/rest_types';
+import type { Answer, GivenAnswers, QuestionnaireItem, Questionnaire } from '../../wire/rest_types';
 
 /** What one participant answers, while it is filled in. */
 export class AnswerSheet {
-  readonly answers = signal<Answers>({});
+  readonly answers = signal<GivenAnswers>({});
   /** Whether sending was tried, so that what is missing is shown. */
   readonly tried = signal(false);
 
@@ -12,18 +12,18 @@ export class AnswerSheet {
   readonly missing = computed(() =>
     this.questionnaire.items.filter((item) => !isAnswered(item, this.answers.value[item.id])),
   );
-  readonly answered = computed(() => this.asked.filter((item) => isGiven(this.answers.value[item.id])).length);
+  readonly answered = computed(() => this.requiredItems.filter((item) => isGiven(this.answers.value[item.id])).length);
   /** Items that have to be answered. */
-  readonly asked: readonly Item[];
+  readonly requiredItems: readonly QuestionnaireItem[];
 
   constructor(
     readonly questionnaire: Questionnaire,
     private readonly remembered: Pick<Storage, 'getItem' | 'setItem' | 'removeItem'>,
     /** Under which a draft is remembered while the page is open. */
     private readonly key: string,
-    given: Answers | null,
+    given: GivenAnswers | null,
   ) {
-    this.asked = questionnaire.items.filter((item) => item.required);
+    this.requiredItems = questionnaire.items.filter((item) => item.required);
     this.answers.value = this.draft() ?? given ?? {};
   }
 
@@ -48,9 +48,9 @@ export class AnswerSheet {
     this.remembered.removeItem(this.key);
   }
 
-  private draft(): Answers | null {
+  private draft(): GivenAnswers | null {
     try {
-      const kept = JSON.parse(this.remembered.getItem(this.key) ?? 'null') as Answers | null;
+      const kept = JSON.parse(this.remembered.getItem(this.key) ?? 'null') as GivenAnswers | null;
       const known = new Set(this.questionnaire.items.map((item) => item.id));
       return kept === null ? null : Object.fromEntries(Object.entries(kept).filter(([id]) => known.has(id)));
     } catch {
@@ -63,14 +63,14 @@ function isGiven(answer: Answer | undefined): boolean {
   return answer !== undefined && answer !== '' && !(Array.isArray(answer) && answer.length === 0);
 }
 
-function isAnswered(item: Item, answer: Answer | undefined): boolean {
+function isAnswered(item: QuestionnaireItem, answer: Answer | undefined): boolean {
   if (item.kind === 'text' && typeof answer === 'string' && [...answer].length > item.longest) return false;
   return !item.required || isGiven(answer);
 }
 
 /** Items that stand together under a heading, in order. */
-export function sectionsOf(questionnaire: Questionnaire): { section: string; items: Item[] }[] {
-  const sections: { section: string; items: Item[] }[] = [];
+export function sectionsOf(questionnaire: Questionnaire): { section: string; items: QuestionnaireItem[] }[] {
+  const sections: { section: string; items: QuestionnaireItem[] }[] = [];
   for (const item of questionnaire.items) {
     const last = sections.at(-1);
     if (last?.section === item.section) last.items.push(item);

@@ -4,7 +4,7 @@ import { studyText } from '../../text/study_text';
 import type { NewStudy } from '../../wire/rest_types';
 
 /** Whose questionnaire a study asks. */
-export type Asking = 'ours' | 'none' | 'file';
+export type QuestionnaireChoice = 'ours' | 'none' | 'file';
 
 /** A study as it is being filled in. */
 export class StudyDraft {
@@ -13,13 +13,16 @@ export class StudyDraft {
   readonly cases = signal<readonly string[]>(['demo']);
   /** Empty: the server's usual one. */
   readonly device = signal('browser');
-  readonly asking = signal<Asking>('ours');
-  readonly questionnaire = signal<Record<string, unknown> | null>(null);
+  readonly questionnaireChoice = signal<QuestionnaireChoice>('ours');
+  /** From a file; whether it is one, the server says. */
+  readonly questionnaire = signal<NewStudy['questionnaire']>(null);
   /** Why the questionnaire's file cannot be used, or the study not be made. */
   readonly problem = signal<string | null>(null);
 
   get complete(): boolean {
-    return this.cases.value.length > 0 && (this.asking.value !== 'file' || this.questionnaire.value !== null);
+    return (
+      this.cases.value.length > 0 && (this.questionnaireChoice.value !== 'file' || this.questionnaire.value !== null)
+    );
   }
 
   toggleCase(id: string): void {
@@ -32,7 +35,7 @@ export class StudyDraft {
     this.problem.value = null;
     if (file === undefined) return;
     try {
-      this.questionnaire.value = JSON.parse(await file.text()) as Record<string, unknown>;
+      this.questionnaire.value = JSON.parse(await file.text()) as NewStudy['questionnaire'];
     } catch {
       this.problem.value = studyText.fileUnreadable;
     }
@@ -40,13 +43,15 @@ export class StudyDraft {
 
   /** What the server is asked for. */
   study(): NewStudy {
-    const asking = this.asking.value;
+    const questionnaireChoice = this.questionnaireChoice.value;
     return {
       name: this.name.value.trim(),
       description: this.description.value.trim(),
       cases: [...this.cases.value],
       ...(this.device.value === '' ? {} : { device: this.device.value }),
-      ...(asking === 'ours' ? {} : { questionnaire: asking === 'none' ? null : this.questionnaire.value }),
+      ...(questionnaireChoice === 'ours'
+        ? {}
+        : { questionnaire: questionnaireChoice === 'none' ? null : this.questionnaire.value }),
     };
   }
 }

@@ -58,7 +58,7 @@ describe('a plotted trace', () => {
       frames.set(++frame, draw);
       return frame;
     });
-    vi.stubGlobal('cancelAnimationFrame', (asked: number) => frames.delete(asked));
+    vi.stubGlobal('cancelAnimationFrame', (requests: number) => frames.delete(requests));
     vi.stubGlobal('getComputedStyle', () => ({ getPropertyValue: () => '' }));
     vi.stubGlobal(
       'ResizeObserver',

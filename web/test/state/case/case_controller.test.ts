@@ -1,4 +1,4 @@
-// The page's keepers against the fake server, over HTTP.
+// The page's case controllers against the fake server, over HTTP.
 import { afterAll, beforeAll, describe, expect, it, vi } from 'vitest';
 
 import { truth } from '../../../../tests/support/fake_case/ct';
@@ -43,7 +43,7 @@ async function newCase(): Promise<CaseController> {
   return controller;
 }
 
-describe('CasesKeeper', () => {
+describe('CaseListController', () => {
   it('makes nothing before it knows which shoulder it is', async () => {
     cases.choose(file('shoulder.zip', 100));
     await cases.make();
@@ -65,7 +65,7 @@ describe('CasesKeeper', () => {
     cases.side.value = 'left';
     await cases.make();
     expect(cases.state.value).toMatchObject({ kind: 'failed', during: 'import' });
-    expect(cases.state.value).toHaveProperty('words', expect.stringContaining('no image could be read'));
+    expect(cases.state.value).toHaveProperty('message', expect.stringContaining('no image could be read'));
   });
 
   it('ends an import that is not wanted', async () => {
@@ -107,7 +107,7 @@ describe('CaseController', () => {
     await controller.proposePlan({ version_deg: 12 });
     expect(store.draft.value).toMatchObject({ kept: false, isAssessed: true });
     await controller.keepPlan(null);
-    expect(store.overrideAsked.value).toContain('override');
+    expect(store.overrideRequired.value).toContain('override');
     expect(store.draft.value?.kept).toBe(false);
     await controller.keepPlan('for teaching');
     expect(store.draft.value?.kept).toBe(true);

@@ -2,12 +2,12 @@ import { describe, expect, it } from 'vitest';
 
 import { nextStep, type StepFacts, stepStates } from '../../../src/state/case/case_steps';
 import { neededNames, type PlacedLandmarks, withPoint } from '../../../src/state/case/landmark_names';
-import type { CaseDetails } from '../../../src/wire/rest_types';
+import type { Case } from '../../../src/wire/rest_types';
 
-const ct = {} as CaseDetails['ct'];
-const segmentation = (revision: number) => ({ revision }) as CaseDetails['segmentation'];
-const built = (of: number) => ({ segmentation_revision: of }) as CaseDetails['built'];
-const plan = {} as CaseDetails['plan'];
+const ct = {} as Case['ct'];
+const segmentation = (revision: number) => ({ revision }) as Case['segmentation'];
+const built = (of: number) => ({ segmentation_revision: of }) as Case['built'];
+const plan = {} as Case['plan'];
 const allPlaced = neededNames.reduce<PlacedLandmarks>((placed, name) => withPoint(placed, name, [1, 2, 3]), {});
 
 function facts(details: Partial<StepFacts['details']>, others: Partial<StepFacts> = {}): StepFacts {

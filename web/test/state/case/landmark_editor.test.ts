@@ -2,7 +2,7 @@ import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 
 import { LandmarkEditor } from '../../../src/state/case/landmark_editor';
 import { landmarksOf, nextMissing, placedFrom, sameLandmarks, withPoint } from '../../../src/state/case/landmark_names';
-import type { CaseDetails, Landmarks, Measures } from '../../../src/wire/rest_types';
+import type { Case, Landmarks, Measures } from '../../../src/wire/rest_types';
 import { ApiError } from '../../../src/wire/rest';
 
 class FakeLandmarks {
@@ -15,12 +15,12 @@ class FakeLandmarks {
   private answer<T>(value: () => T): Promise<T> {
     return this.down ? Promise.reject(new ApiError('no answer', 0)) : Promise.resolve().then(value);
   }
-  case = () => this.answer(() => ({ landmarks: this.onServer }) as CaseDetails);
+  case = () => this.answer(() => ({ landmarks: this.onServer }) as Case);
   putLandmarks = (_id: string, landmarks: Landmarks) =>
     this.answer(() => {
       this.puts.push(landmarks);
       this.onServer = landmarks;
-      return { landmarks } as CaseDetails;
+      return { landmarks } as Case;
     });
   measures = () => this.answer(() => ({ version_3d_deg: ++this.measured }) as Measures);
   putLandmarksOnLeaving = (_id: string, landmarks: Landmarks) => {
@@ -58,7 +58,7 @@ describe('LandmarkEditor', () => {
     api.down = true;
     place(1);
     await settle();
-    expect(controller.save.value).toEqual({ kind: 'failed', words: 'no answer' });
+    expect(controller.save.value).toEqual({ kind: 'failed', message: 'no answer' });
     expect(controller.measured.value).toBe(false);
     api.down = false;
     await controller.saveNow();

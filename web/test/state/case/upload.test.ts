@@ -8,7 +8,7 @@ import { ApiError } from '../../../src/wire/rest';
 class FakeUploads {
   readonly kept = new Map<string, { upload: Upload; bytes: number[] }>();
   /** What happens to the next pieces: lost before they arrive, or their answer lost. */
-  readonly mishaps: ('lost' | 'unanswered' | 'refused' | null)[] = [];
+  readonly failures: ('lost' | 'unanswered' | 'refused' | null)[] = [];
   pieces = 0;
 
   private find(id: string) {
@@ -26,15 +26,15 @@ class FakeUploads {
   sendPiece = (id: string, offset: number, body: Uint8Array) =>
     Promise.resolve().then(() => {
       ++this.pieces;
-      const mishap = this.mishaps.shift() ?? null;
-      if (mishap === 'lost') throw new ApiError('no answer', 0);
-      if (mishap === 'refused') throw new ApiError('too large', 413);
+      const failure = this.failures.shift() ?? null;
+      if (failure === 'lost') throw new ApiError('no answer', 0);
+      if (failure === 'refused') throw new ApiError('too large', 413);
       const { upload, bytes } = this.find(id);
       if (offset !== upload.received) throw new ApiError(`begins at ${upload.received}`, 409);
       expect(body.length).toBeLessThanOrEqual(pieceBytes);
       bytes.push(...body.subarray(0, 4));
       upload.received += body.length;
-      if (mishap === 'unanswered') throw new ApiError('no answer', 0);
+      if (failure === 'unanswered') throw new ApiError('no answer', 0);
       return { ...upload };
     });
 }
@@ -48,14 +48,14 @@ const file: UploadSource = {
 };
 
 let api: FakeUploads;
-let told: number[];
+let progress: number[];
 let waits: boolean[];
 let memory: Map<string, string>;
 let callbacks: UploadCallbacks;
 
 beforeEach(() => {
   api = new FakeUploads();
-  told = [];
+  progress = [];
   waits = [];
   memory = new Map();
   callbacks = {
@@ -65,7 +65,7 @@ beforeEach(() => {
       setItem: (key, value) => void memory.set(key, value),
       removeItem: (key) => void memory.delete(key),
     },
-    onProgress: (received) => told.push(received),
+    onProgress: (received) => progress.push(received),
     onWaiting: (waiting) => waits.push(waiting),
     pause: () => Promise.resolve(),
   };
@@ -78,12 +78,12 @@ describe('uploadFile', () => {
     const upload = await uploadFile(file, callbacks, never);
     expect(upload.received).toBe(size);
     expect(api.pieces).toBe(3);
-    expect(told).toEqual([0, pieceBytes, 2 * pieceBytes, size]);
+    expect(progress).toEqual([0, pieceBytes, 2 * pieceBytes, size]);
     expect(waits).toEqual([]);
   });
 
   it('goes on after pieces and answers were lost, sending nothing twice', async () => {
-    api.mishaps.push(null, 'lost', 'unanswered', null);
+    api.failures.push(null, 'lost', 'unanswered', null);
     const upload = await uploadFile(file, callbacks, never);
     expect(upload.received).toBe(size);
     expect(waits[0]).toBe(true);
@@ -92,16 +92,16 @@ describe('uploadFile', () => {
   });
 
   it('gives up after a while, and goes on from there when tried again', async () => {
-    api.mishaps.push(null, ...Array.from({ length: 6 }, () => 'lost' as const));
+    api.failures.push(null, ...Array.from({ length: 6 }, () => 'lost' as const));
     await expect(uploadFile(file, callbacks, never)).rejects.toThrow('no answer');
-    told = [];
+    progress = [];
     await uploadFile(file, callbacks, never);
-    expect(told[0]).toBe(pieceBytes);
+    expect(progress[0]).toBe(pieceBytes);
     expect(api.kept.size).toBe(1);
   });
 
   it('does not repeat what the server refuses', async () => {
-    api.mishaps.push('refused');
+    api.failures.push('refused');
     await expect(uploadFile(file, callbacks, never)).rejects.toThrow('too large');
     expect(api.pieces).toBe(1);
   });

@@ -9,7 +9,7 @@ import { ApiError } from '../../../src/wire/rest';
 const ended = (id: string, traineeId: string) => ({ id, trainee_id: traineeId, trainee: traineeId }) as Session;
 
 describe('Dashboard', () => {
-  let asked: Learner[];
+  let requests: Learner[];
   let list: Session[];
   let fails: boolean;
   let handlers: ChangeHandlers;
@@ -19,7 +19,7 @@ describe('Dashboard', () => {
 
   beforeEach(() => {
     vi.useFakeTimers();
-    asked = [];
+    requests = [];
     list = [ended('2', 'tom'), ended('1', 'ada')];
     fails = false;
     const answer = <T>(value: T): Promise<T> =>
@@ -28,7 +28,7 @@ describe('Dashboard', () => {
       live: () => answer([]),
       ended: () => answer(list),
       learning: (learner: Learner) => {
-        asked.push(learner);
+        requests.push(learner);
         return answer({ sessions: [] } as unknown as Learning);
       },
     } as unknown as DashboardApi;
@@ -45,18 +45,18 @@ describe('Dashboard', () => {
   it('shows the learning of whoever trained last, and of whom is chosen', async () => {
     leave = dashboard.follow(false);
     await settle();
-    expect(asked).toEqual([{ trainee: 'tom', participant: undefined }]);
+    expect(requests).toEqual([{ trainee: 'tom', participant: undefined }]);
     dashboard.choose('trainee ada');
     expect(dashboard.learning.value.value).toBeNull();
     await settle();
-    expect(asked.at(-1)?.trainee).toBe('ada');
+    expect(requests.at(-1)?.trainee).toBe('ada');
     expect(dashboard.learner.value?.name).toBe('ada');
   });
 
   it('asks for a trainee’s own learning without a name, and offers nobody else’s', async () => {
     leave = dashboard.follow(true);
     await settle();
-    expect(asked).toEqual([{}]);
+    expect(requests).toEqual([{}]);
     expect(dashboard.learners.value).toEqual([]);
   });
 

@@ -17,17 +17,17 @@ class FakeSource implements LiveSource {
   fails: Error | null = null;
   silent = false;
   depthMm = 0;
-  asked: string[] = [];
+  requests: string[] = [];
   pictureFails = false;
 
   live = (): Promise<Session[]> => this.answer(this.sessions);
   soFar = (): Promise<Metrics> => this.answer({ reaming_depth_mm: (this.depthMm += 1) } as Metrics);
   plannedDepthMm = (caseId: string): Promise<number | null> => {
-    this.asked.push(`plan ${caseId}`);
+    this.requests.push(`plan ${caseId}`);
     return this.answer(2.5);
   };
   picture = (id: string): Promise<Blob> => {
-    this.asked.push(`picture ${id}`);
+    this.requests.push(`picture ${id}`);
     return this.pictureFails ? Promise.reject(new ApiError('busy', 503)) : this.answer({} as Blob);
   };
 
@@ -76,7 +76,7 @@ describe('LiveBoard', () => {
     });
     await pass(readEveryMs);
     expect(board.tiles.value[0]).toMatchObject({ soFar: { reaming_depth_mm: 2 }, before: { reaming_depth_mm: 1 } });
-    expect(source.asked).toEqual(['plan demo', 'picture a']);
+    expect(source.requests).toEqual(['plan demo', 'picture a']);
     expect(board.stale.value).toBe(false);
   });
 
@@ -115,9 +115,9 @@ describe('LiveBoard', () => {
   it('asks for pictures one after the other and of each not too often, and keeps none it does not show', async () => {
     source.sessions = [session('a'), session('b'), session('c')];
     await pass(3 * readEveryMs);
-    expect(source.asked.filter((one) => one.startsWith('picture'))).toEqual(['picture a', 'picture b', 'picture c']);
+    expect(source.requests.filter((one) => one.startsWith('picture'))).toEqual(['picture a', 'picture b', 'picture c']);
     await pass(pictureEveryMs);
-    expect(source.asked.filter((one) => one === 'picture a')).toHaveLength(2);
+    expect(source.requests.filter((one) => one === 'picture a')).toHaveLength(2);
     expect(kept.size).toBe(3);
     source.sessions = [session('b')];
     await pass(readEveryMs);

@@ -3,11 +3,11 @@ import { describe, expect, it } from 'vitest';
 import { alarmsOf, type Reading } from '../../../src/state/dashboard/tile_alarms';
 import { someMetrics, someSession } from '../../wire/some_answers';
 
-const calm = someMetrics({ axial_thrust_excess_n_s: 2, vault_breach_mm: 0 });
+const normalMetrics = someMetrics({ axial_thrust_excess_n_s: 2, vault_breach_mm: 0 });
 const loop = { ...someSession().loop, missed: 5 };
 const session = someSession({ tick: 10_000, loop });
 const kinds = (reading: Partial<Reading>) =>
-  alarmsOf({ session, soFar: calm, before: calm, plannedDepthMm: 2, ...reading }).map(
+  alarmsOf({ session, soFar: normalMetrics, before: normalMetrics, plannedDepthMm: 2, ...reading }).map(
     ({ kind, level }) => `${kind} ${level}`,
   );
 
@@ -19,20 +19,20 @@ describe('alarmsOf', () => {
   });
 
   it('tells thrust only while its excess grows', () => {
-    expect(kinds({ soFar: { ...calm, axial_thrust_excess_n_s: 2.5 } })).toEqual(['thrust bad']);
+    expect(kinds({ soFar: { ...normalMetrics, axial_thrust_excess_n_s: 2.5 } })).toEqual(['thrust bad']);
   });
 
   it('tells depth past the plan, worse from a millimetre on', () => {
-    expect(kinds({ soFar: { ...calm, reaming_depth_mm: 2.4 } })).toEqual(['depth warn']);
-    expect(kinds({ soFar: { ...calm, reaming_depth_mm: 3.4 } })).toEqual(['depth bad']);
-    expect(kinds({ soFar: { ...calm, reaming_depth_mm: 3.4 }, plannedDepthMm: null })).toEqual([]);
+    expect(kinds({ soFar: { ...normalMetrics, reaming_depth_mm: 2.4 } })).toEqual(['depth warn']);
+    expect(kinds({ soFar: { ...normalMetrics, reaming_depth_mm: 3.4 } })).toEqual(['depth bad']);
+    expect(kinds({ soFar: { ...normalMetrics, reaming_depth_mm: 3.4 }, plannedDepthMm: null })).toEqual([]);
   });
 
   it('tells what is bad before what is not', () => {
     expect(
       kinds({
         session: { ...session, loop: { ...loop, missed: 50 }, fault: 'the device is lost' },
-        soFar: { ...calm, vault_breach_mm: 0.4 },
+        soFar: { ...normalMetrics, vault_breach_mm: 0.4 },
       }),
     ).toEqual(['fault bad', 'vault bad', 'late warn']);
   });

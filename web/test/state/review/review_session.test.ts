@@ -15,8 +15,8 @@ const corners = 4;
 function begin(change: Partial<ReviewSources['review']> = {}) {
   const socket = new FakeSocket();
   const changes: PlaybackChange[] = [];
-  const asked: string[] = [];
-  const remarks = [someAnnotation(5, 'here')];
+  const requests: string[] = [];
+  const annotations = [someAnnotation(5, 'here')];
   const replay = someReplay({ marks: [{ at_s: 5, kind: 'annotation', words: 'here' }] });
   const details = { id: 'abcd', tick: 10_000, duration_s: 10, state: 'finished', case: 'demo' } as Session;
   const sources: ReviewSources = {
@@ -33,24 +33,24 @@ function begin(change: Partial<ReviewSources['review']> = {}) {
       session: () => Promise.resolve(details),
       score: () => Promise.resolve({ points: 92, metrics: [] } as unknown as Score),
       trace: (_, stride) => {
-        asked.push(`trace ${stride}`);
+        requests.push(`trace ${stride}`);
         return Promise.resolve('t_s,thrust_n,spindle_on\n0,0,0\n1,0,1\n2,40,1\n3,0,1\n');
       },
       deviation: (_, to) => {
-        asked.push(to);
+        requests.push(to);
         return Promise.resolve({ bytes: new Int8Array(corners), code });
       },
-      annotations: () => Promise.resolve(remarks),
-      annotate: (_, words, atS) => {
-        const made = someAnnotation(atS, words);
-        remarks.push(made);
+      annotations: () => Promise.resolve(annotations),
+      annotate: (_, text, atS) => {
+        const made = someAnnotation(atS, text);
+        annotations.push(made);
         return Promise.resolve(made);
       },
       ...change,
     },
     socket,
     surface: () => {
-      asked.push('surface');
+      requests.push('surface');
       return Promise.resolve({ positions: new Float32Array(corners * 3) } as unknown as SortedSurface);
     },
     mayReadTrace: true,
@@ -58,7 +58,7 @@ function begin(change: Partial<ReviewSources['review']> = {}) {
   const picture = { begin: () => undefined, apply: () => undefined, setTool: () => undefined };
   const session = new ReviewSession('abcd', sources, picture);
   session.start();
-  return { session, socket, changes, asked, sources };
+  return { session, socket, changes, requests, sources };
 }
 
 const settle = () => vi.advanceTimersByTimeAsync(0);
@@ -109,7 +109,7 @@ describe('session under review', () => {
   });
 
   it('shows a map at the end only, where choosing one leads', async () => {
-    const { session, socket, changes, asked } = await opened();
+    const { session, socket, changes, requests } = await opened();
     session.chooseMap('plan');
     await settle();
     expect(changes).toContainEqual({ position_s: 10 });
@@ -127,7 +127,7 @@ describe('session under review', () => {
     session.chooseMap('plan');
     await settle();
     // What was fetched is kept.
-    expect(asked.filter((what) => what !== 'trace 17')).toEqual(['plan', 'surface', 'implant']);
+    expect(requests.filter((what) => what !== 'trace 17')).toEqual(['plan', 'surface', 'implant']);
     session.dispose();
   });
 
@@ -144,7 +144,7 @@ describe('session under review', () => {
       await settle();
       const state = session.map.state.value;
       expect(state.kind).toBe('problem');
-      expect(state.kind === 'problem' && state.words.length).toBeGreaterThan(20);
+      expect(state.kind === 'problem' && state.message.length).toBeGreaterThan(20);
     }
     status = 0;
     session.chooseMap('plan');
@@ -159,7 +159,7 @@ describe('session under review', () => {
     });
     session.chooseMap('implant');
     await settle();
-    expect(session.map.state.value).toMatchObject({ kind: 'problem', words: reviewText.noMap.mismatch });
+    expect(session.map.state.value).toMatchObject({ kind: 'problem', message: reviewText.noMap.mismatch });
     session.dispose();
   });
 
@@ -169,15 +169,15 @@ describe('session under review', () => {
     const { session, socket } = await opened({
       session: () => (gone ? Promise.reject(new ApiError('no session', 404)) : Promise.resolve(details)),
     });
-    expect(session.trouble.value).toBeNull();
+    expect(session.error.value).toBeNull();
     gone = true;
     await vi.advanceTimersByTimeAsync(10_000);
-    expect(session.trouble.value?.kind).toBe('gone');
+    expect(session.error.value?.kind).toBe('gone');
     expect(session.store.upToDate.value).toBe(false);
     expect(socket.handlers).toBeNull();
     gone = false;
     await vi.advanceTimersByTimeAsync(10_000);
-    expect(session.trouble.value).toBeNull();
+    expect(session.error.value).toBeNull();
     expect(socket.handlers).not.toBeNull();
     session.dispose();
   });
@@ -197,11 +197,11 @@ describe('session under review', () => {
   });
 
   it('asks for nothing any more once it is left', async () => {
-    const { session, socket, asked } = await opened();
+    const { session, socket, requests } = await opened();
     session.dispose();
-    const before = asked.length;
+    const before = requests.length;
     await vi.advanceTimersByTimeAsync(60_000);
-    expect(asked).toHaveLength(before);
+    expect(requests).toHaveLength(before);
     expect(socket.handlers).toBeNull();
   });
 });

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 
 import { bandText, breachText, groupedMetrics, number, valueText } from '../../../src/state/review/score_text';
-import { troubleWithSession } from '../../../src/state/review/trouble';
+import { sessionErrorOf } from '../../../src/state/review/session_error';
 import type { ScoredMetric } from '../../../src/wire/rest_types';
 
 const metric = (changes: Partial<ScoredMetric>): ScoredMetric => ({
@@ -44,7 +44,7 @@ describe('words of a score', () => {
   });
 
   it('puts what decides first, then what weighs most, and lists what could not be said', () => {
-    const { counting, measured, unsaid } = groupedMetrics({
+    const { counting, measured, missing } = groupedMetrics({
       metrics: [
         metric({ metric: 'a', weight: 1 }),
         metric({ metric: 'b', weight: 3 }),
@@ -56,7 +56,7 @@ describe('words of a score', () => {
     });
     expect(counting.map((each) => each.metric)).toEqual(['c', 'b', 'd', 'a']);
     expect(measured.map((each) => each.metric)).toEqual(['e']);
-    expect(unsaid.map((each) => each.metric)).toEqual(['d', 'f']);
+    expect(missing.map((each) => each.metric)).toEqual(['d', 'f']);
   });
 
   it('says of the vault whether it is breached, and why it cannot', () => {
@@ -65,14 +65,14 @@ describe('words of a score', () => {
     });
     expect(breachText(vault({ value: 0 })).breached).toBe(false);
     expect(breachText(vault({ value: 1.234 }))).toMatchObject({ breached: true });
-    expect(breachText(vault({ value: 1.234 })).words).toContain('1.23 mm');
+    expect(breachText(vault({ value: 1.234 })).message).toContain('1.23 mm');
     expect(breachText(vault({ value: null, missing: 'no implant can be seated' }))).toMatchObject({ breached: null });
-    expect(breachText(vault({ value: null, missing: 'no implant can be seated' })).words).toContain('no implant');
+    expect(breachText(vault({ value: null, missing: 'no implant can be seated' })).message).toContain('no implant');
     expect(breachText(null).breached).toBeNull();
   });
 
   it('says of every refusal what can be done', () => {
-    const kinds = [404, 409, 422, 403, 0, 500].map((status) => troubleWithSession({ status, message: 'said so.' }));
+    const kinds = [404, 409, 422, 403, 0, 500].map((status) => sessionErrorOf({ status, message: 'said so.' }));
     expect(new Set(kinds.map(({ kind }) => kind)).size).toBe(kinds.length);
     for (const { title, text } of kinds) expect(title.length * text.length).toBeGreaterThan(0);
     expect(kinds[2]?.text).toContain('said so.');

@@ -8,22 +8,22 @@ import { queryOf, type SessionListApi, type SessionQuery } from '../../../src/wi
 const session = (id: string) => ({ id }) as Session;
 
 class FakeList {
-  asked: string[] = [];
+  requests: string[] = [];
   all = ['a', 'b', 'c'];
   fails: ApiError | null = null;
 
   page = (query: SessionQuery, cursor: string | null): Promise<SessionPage> => {
-    this.asked.push(`${query.text}|${query.descending ? '-' : ''}${query.sort}|${cursor ?? ''}`);
+    this.requests.push(`${query.text}|${query.descending ? '-' : ''}${query.sort}|${cursor ?? ''}`);
     const at = cursor === null ? 0 : Number(cursor);
     const next = at + 1 < this.all.length ? String(at + 1) : null;
     return Promise.resolve({ sessions: [session(this.all[at] ?? '')], next, total: this.all.length });
   };
-  private deed(): Promise<Session> {
+  private update(): Promise<Session> {
     return this.fails === null ? Promise.resolve(session('x')) : Promise.reject(this.fails);
   }
-  change = () => this.deed();
-  remove = () => this.deed().then(() => undefined);
-  restore = () => this.deed();
+  change = () => this.update();
+  remove = () => this.update().then(() => undefined);
+  restore = () => this.update();
 }
 
 describe('SessionBrowser', () => {
@@ -63,14 +63,14 @@ describe('SessionBrowser', () => {
   it('begins at the first page with other filters or another order', async () => {
     await browser.next();
     await browser.show({ text: 'slab' });
-    expect(list.asked.at(-1)).toBe('slab|-created_utc|');
+    expect(list.requests.at(-1)).toBe('slab|-created_utc|');
     await browser.next();
     await browser.sortBy('trainee');
-    expect(list.asked.at(-1)).toBe('slab|trainee|');
+    expect(list.requests.at(-1)).toBe('slab|trainee|');
     await browser.sortBy('trainee');
-    expect(list.asked.at(-1)).toBe('slab|-trainee|');
+    expect(list.requests.at(-1)).toBe('slab|-trainee|');
     await browser.sortBy('created_utc');
-    expect(list.asked.at(-1)).toBe('slab|-created_utc|');
+    expect(list.requests.at(-1)).toBe('slab|-created_utc|');
   });
 
   it('says what could not be done, and offers to take a deletion back', async () => {

@@ -1,9 +1,9 @@
 import { beforeEach, describe, expect, it } from 'vitest';
 
 import { AnswerSheet, sectionsOf } from '../../../src/state/study/answer_sheet';
-import type { Item, Questionnaire } from '../../../src/wire/rest_types';
+import type { QuestionnaireItem, Questionnaire } from '../../../src/wire/rest_types';
 
-const likert = (id: string, section: string): Item => ({
+const likert = (id: string, section: string): QuestionnaireItem => ({
   kind: 'likert',
   id,
   section,

@@ -1,0 +1,26 @@
+#pragma once
+#include <nlohmann/json_fwd.hpp>
+
+#include "access/users.hpp"
+#include "jobs/job_service.hpp"
+#include "session/folder/session_folder.hpp"
+#include "session/service/replay_service.hpp"
+#include "study/study.hpp"
+
+namespace ream::api {
+
+// What several handlers answer, as openapi.yaml has it.
+
+nlohmann::json to_json(const session::SessionRecord& record);
+nlohmann::json to_json(const session::ReplayRecord& record);
+nlohmann::json to_json(const study::Participant& participant);
+nlohmann::json user_json(const access::User& user);
+
+/// 201 with the new thing and where it is.
+net::Response created(const std::string& where, const nlohmann::json& body);
+/// 202 with the job and where to ask about it.
+net::Response accepted(const jobs::JobRecord& job);
+/// 204.
+net::Response no_content();
+
+}  // namespace ream::api

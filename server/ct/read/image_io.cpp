@@ -1,0 +1,42 @@
+#include "ct/read/image_io.hpp"
+
+#include <itkMetaImageIO.h>
+#include <itkNiftiImageIO.h>
+#include <itkNrrdImageIO.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+
+namespace ream::ct {
+namespace fs = std::filesystem;
+
+bool is_volume_file(const fs::path& path) {
+  const std::string name = path.filename().string();
+  for (const char* ending : {".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd"})
+    if (name.ends_with(ending)) return fs::is_regular_file(path);
+  return false;
+}
+
+itk::ImageIOBase::Pointer image_io_for(const fs::path& path) {
+  const std::string name = path.filename().string();
+  const auto ends = [&](const char* ending) { return name.ends_with(ending); };
+  if (ends(".nrrd") || ends(".nhdr")) return itk::NrrdImageIO::New().GetPointer();
+  if (ends(".nii") || ends(".nii.gz")) return itk::NiftiImageIO::New().GetPointer();
+  if (ends(".mha") || ends(".mhd")) return itk::MetaImageIO::New().GetPointer();
+  throw Error(ErrorKind::invalid_input,
+              path.string() +
+                  " is not a volume that can be read; give a folder of DICOM slices or a .nrrd, "
+                  ".nii, .nii.gz, .mha, .mhd or .txt (rows x y z gray) file");
+}
+
+std::string short_reason(const itk::ExceptionObject& e) {
+  std::string text = e.GetDescription();
+  const auto colon = text.find("): ");
+  if (colon != std::string::npos) text = text.substr(colon + 3);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text;
+}
+
+}  // namespace ream::ct

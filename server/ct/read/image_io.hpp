@@ -1,0 +1,19 @@
+#pragma once
+#include <itkImageIOBase.h>
+
+#include <filesystem>
+#include <string>
+
+namespace ream::ct {
+
+/// Whether the name is that of a NRRD, NIfTI or MetaImage file.
+bool is_volume_file(const std::filesystem::path& path);
+
+/// The library's reader and writer of such a file. Error invalid_input for other names, says which there are.
+/// Only ream-reader reads with it.
+itk::ImageIOBase::Pointer image_io_for(const std::filesystem::path& path);
+
+/// First sentence of an ITK exception, without its source place and line breaks.
+std::string short_reason(const itk::ExceptionObject& e);
+
+}  // namespace ream::ct

@@ -1,0 +1,261 @@
+#include "isolation/reader_process.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/sysinfo.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <thread>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/file_descriptor.hpp"
+#include "isolation/reader_service.hpp"
+
+namespace ream::isolation {
+namespace fs = std::filesystem;
+using nlohmann::json;
+namespace {
+
+constexpr int look_every_ms = 100;
+constexpr auto ending_takes = std::chrono::seconds(2);
+constexpr size_t max_request_bytes = 32768, max_answer_bytes = 16 << 20, max_words = 1000;
+constexpr int max_answer_depth = 12;
+
+fs::path program_of(const ReaderJob& job) {
+  if (!job.program.empty()) return job.program;
+  std::error_code failed;
+  return fs::read_symlink("/proc/self/exe", failed).parent_path() / "ream-reader";
+}
+
+Error cannot_start(const std::string& why) {
+  return {ErrorKind::io, "cannot start the program that reads files from outside: " + why};
+}
+
+/// Out of the way of the descriptors that the reader is given.
+FileDescriptor moved_up(int descriptor) {
+  FileDescriptor moved(::fcntl(descriptor, F_DUPFD_CLOEXEC, answer_descriptor + 1));
+  if (!moved) throw cannot_start(std::strerror(errno));
+  return moved;
+}
+
+FileDescriptor opened(const fs::path& path) {
+  FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY));
+  if (!file) throw Error(ErrorKind::io, "cannot read " + path.string() + ": " + std::strerror(errno));
+  return moved_up(file.get());
+}
+
+struct Pipe {
+  FileDescriptor out, in;
+};
+
+Pipe new_pipe() {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw cannot_start(std::strerror(errno));
+  const FileDescriptor out(ends[0]), in(ends[1]);
+  return {moved_up(ends[0]), moved_up(ends[1])};
+}
+
+/// A running program; ends with this object.
+class Child {
+ public:
+  Child(const fs::path& program, int input, int output, int requests, int answers) {
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    ::posix_spawn_file_actions_init(&actions);
+    ::posix_spawnattr_init(&attributes);
+    for (int standard = 0; standard < 3; ++standard)
+      ::posix_spawn_file_actions_addopen(&actions, standard, "/dev/null", O_RDWR, 0);
+    ::posix_spawn_file_actions_adddup2(&actions, input, input_descriptor);
+    ::posix_spawn_file_actions_adddup2(&actions, output, output_descriptor);
+    ::posix_spawn_file_actions_adddup2(&actions, requests, request_descriptor);
+    ::posix_spawn_file_actions_adddup2(&actions, answers, answer_descriptor);
+    ::posix_spawn_file_actions_addclosefrom_np(&actions, answer_descriptor + 1);
+    sigset_t none, all;
+    ::sigemptyset(&none);
+    ::sigfillset(&all);
+    ::posix_spawnattr_setsigmask(&attributes, &none);
+    ::posix_spawnattr_setsigdefault(&attributes, &all);
+    ::posix_spawnattr_setflags(&attributes,
+                               POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSID);
+    std::string name = program.string();
+    std::array<char*, 2> arguments{name.data(), nullptr};
+    std::array<char*, 1> no_environment{nullptr};
+    const int failed =
+        ::posix_spawn(&id_, name.c_str(), &actions, &attributes, arguments.data(), no_environment.data());
+    ::posix_spawn_file_actions_destroy(&actions);
+    ::posix_spawnattr_destroy(&attributes);
+    if (failed != 0) id_ = -1;
+    if (failed != 0) throw cannot_start(name + ": " + std::strerror(failed));
+  }
+  ~Child() { ended(std::chrono::seconds(0)); }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  /// Its status as waitpid says it; what still runs after `patience` is ended.
+  int ended(std::chrono::milliseconds patience) {
+    int status = 0;
+    const auto latest = std::chrono::steady_clock::now() + patience;
+    while (id_ > 0 && ::waitpid(id_, &status, WNOHANG) == 0) {
+      if (std::chrono::steady_clock::now() >= latest) {
+        ::kill(id_, SIGKILL);
+        ::waitpid(id_, &status, 0);
+        break;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    id_ = -1;
+    return status;
+  }
+
+ private:
+  pid_t id_ = -1;
+};
+
+uint64_t free_memory() {
+  std::ifstream in("/proc/meminfo");
+  for (std::string key, rest; in >> key && std::getline(in, rest);)
+    if (key == "MemAvailable:") return std::stoull(rest) * 1024;
+  struct sysinfo info {};
+  ::sysinfo(&info);
+  return uint64_t{info.freeram} * info.mem_unit;
+}
+
+void send_request(const FileDescriptor& to, const ReaderJob& job) {
+  const uint64_t memory = job.limits.memory_bytes > 0 ? job.limits.memory_bytes : free_memory() / 4 * 3;
+  const std::string text = json{
+      {"task", job.task},
+      {"input", job.input.string()},
+      {"with_folder", job.with_folder},
+      {"options", job.options},
+      {"memory_bytes", memory},
+      {"file_bytes", job.limits.file_bytes},
+      {"processor_s", job.limits.processor_s},
+      {"parent", ::getpid()}}.dump(-1, ' ', false, json::error_handler_t::replace);
+  if (text.size() > max_request_bytes || ::write(to.get(), text.data(), text.size()) < 0)
+    throw cannot_start("the job has too many words");
+}
+
+/// One line, bounded, without control characters.
+std::string one_line(std::string words) {
+  if (words.size() > max_words) words = words.substr(0, max_words) + " ...";
+  for (char& c : words)
+    if (static_cast<unsigned char>(c) < ' ' || c == 127) c = ' ';
+  return words;
+}
+
+/// Nothing where it is no object, or nests deeper than an answer does.
+json parsed(const std::string& line) {
+  bool deep = false;
+  const auto look = [&](int depth, json::parse_event_t, json&) {
+    deep = deep || depth > max_answer_depth;
+    return !deep;
+  };
+  json message = json::parse(line, look, false);
+  return message.is_object() && !deep ? message : json::object();
+}
+
+/// What the reader says, line by line, until its answer or its end (null).
+class Answers {
+ public:
+  Answers(const FileDescriptor& from, const Progress& progress) : from_(from), progress_(progress) {}
+
+  json wait() {
+    while (true) {
+      pollfd waiting{from_.get(), POLLIN, 0};
+      if (::poll(&waiting, 1, look_every_ms) <= 0) {
+        progress_(share_, step_);
+        continue;
+      }
+      std::array<char, 65536> piece{};
+      const ssize_t n = ::read(from_.get(), piece.data(), piece.size());
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0 || text_.size() > max_answer_bytes) return {};
+      text_.append(piece.data(), static_cast<size_t>(n));
+      if (json answer = whole_lines(); !answer.is_null()) return answer;
+    }
+  }
+
+ private:
+  json whole_lines() {
+    for (size_t end; (end = text_.find('\n')) != std::string::npos;) {
+      const json message = parsed(text_.substr(0, end));
+      text_.erase(0, end + 1);
+      if (message.contains("answer") || message.contains("error")) return message;
+      if (const auto share = message.find("share"); share != message.end() && share->is_number())
+        share_ = std::clamp(share->get<double>(), share_, 1.0);
+      if (const auto step = message.find("step"); step != message.end() && step->is_string())
+        step_ = one_line(step->get<std::string>());
+      progress_(share_, step_);
+    }
+    return {};
+  }
+
+  const FileDescriptor& from_;
+  const Progress& progress_;
+  std::string text_, step_ = "reading";
+  double share_ = 0.0;
+};
+
+Error what_ended_it(const ReaderJob& job, int status) {
+  std::string why = "the reader ended without an answer";
+  if (WIFSIGNALED(status)) {
+    const int signal = WTERMSIG(status);
+    why = signal == SIGXCPU
+              ? "it took more than " + std::to_string(job.limits.processor_s) + " s of processor time"
+          : signal == SIGXFSZ ? "what is in it is larger than is taken"
+          : signal == SIGKILL ? "the reader had to be ended, as memory ran out or it answered without end"
+                              : std::string("the reader crashed on it (") + ::strsignal(signal) + ")";
+  }
+  return {ErrorKind::invalid_input,
+          job.input.string() + " cannot be read: " + why + "; it may be damaged, or not what its name says"};
+}
+
+ErrorKind kind_of(const json& message) {
+  const auto kind = message.find("kind");
+  if (kind == message.end() || !kind->is_number_unsigned()) return ErrorKind::invalid_input;
+  const auto value = kind->get<uint64_t>();
+  return value <= static_cast<uint64_t>(ErrorKind::io) ? static_cast<ErrorKind>(value)
+                                                       : ErrorKind::invalid_input;
+}
+
+}  // namespace
+
+fs::path ReaderResult::file(const std::string& name) const {
+  const fs::path path = folder_->path() / name;
+  std::error_code failed;
+  if (!fs::is_regular_file(fs::symlink_status(path, failed)))
+    throw Error(ErrorKind::io, "the reader answered without writing " + name);
+  return path;
+}
+
+ReaderResult read_isolated(const ReaderJob& job, const Progress& progress) {
+  std::error_code failed;
+  if (!fs::exists(job.input, failed))
+    throw Error(ErrorKind::not_found, "no such file or folder: " + job.input.string());
+  const FileDescriptor input = opened(job.with_folder ? fs::absolute(job.input).parent_path() : job.input);
+  auto folder = std::make_unique<TemporaryFolder>(
+      (job.scratch.empty() ? fs::temp_directory_path() : job.scratch) / "ream-read");
+  const FileDescriptor output = opened(folder->path());
+  Pipe requests = new_pipe(), answers = new_pipe();
+  Child child(program_of(job), input.get(), output.get(), requests.out.get(), answers.in.get());
+  send_request(requests.in, job);  // a pipe takes it whole
+  requests = {{}, {}};
+  answers.in = {};
+  const json message = Answers(answers.out, progress).wait();
+  if (const auto error = message.find("error"); error != message.end() && error->is_string())
+    throw Error(kind_of(message), one_line(error->get<std::string>()));
+  if (!message.contains("answer")) throw what_ended_it(job, child.ended(ending_takes));
+  return {message["answer"], std::move(folder)};
+}
+
+}  // namespace ream::isolation

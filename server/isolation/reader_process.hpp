@@ -1,0 +1,54 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/progress.hpp"
+#include "core/temporary_file.hpp"
+
+namespace ream::isolation {
+
+/// What one run of ream-reader may use.
+struct ReaderLimits {
+  uint64_t memory_bytes = 0;  ///< of address space; 0: three quarters of what this machine has free
+  uint64_t file_bytes = uint64_t{16} << 30;  ///< of each file that it writes
+  unsigned processor_s = 1800;
+};
+
+/// A file from outside, and what is to be read out of it.
+struct ReaderJob {
+  std::filesystem::path program = {};  ///< empty: ream-reader, beside the program that runs
+  std::string task;                    ///< a name that it knows
+  std::filesystem::path input;         ///< a file or a folder
+  bool with_folder = false;  ///< the file's folder may be read too: its header names other files there
+  nlohmann::json options = nlohmann::json::object();
+  ReaderLimits limits;
+  std::filesystem::path scratch;  ///< folder for what it writes; empty: the system's for temporary files
+};
+
+/// What it answered. The files that it wrote go away with this object. Both come from a process that a file
+/// may have taken over: check every number before it is used.
+class ReaderResult {
+ public:
+  ReaderResult(nlohmann::json answer, std::unique_ptr<TemporaryFolder> folder)
+      : answer_(std::move(answer)), folder_(std::move(folder)) {}
+
+  const nlohmann::json& answer() const { return answer_; }
+  /// A regular file directly in the output folder. Throws Error io when there is no such file.
+  std::filesystem::path file(const std::string& name) const;
+  const std::filesystem::path& folder() const { return folder_->path(); }
+
+ private:
+  nlohmann::json answer_;
+  std::unique_ptr<TemporaryFolder> folder_;
+};
+
+/// Reads a file from outside in a process of its own, the program ream-reader, which sees nothing but this
+/// file and an empty folder (sandbox.hpp). Waits for it; the process ends with this call, also when
+/// `progress` throws. Errors: not_found; what the reader says, one line that names the input; invalid_input
+/// when it crashed or went beyond its limits; io when it cannot be started.
+ReaderResult read_isolated(const ReaderJob& job, const Progress& progress = no_progress);
+
+}  // namespace ream::isolation

@@ -1,0 +1,116 @@
+#include "isolation/reader_service.hpp"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cstdlib>
+#include <iostream>
+
+#include "core/error.hpp"
+#include "core/file_descriptor.hpp"
+#include "isolation/sandbox.hpp"
+
+namespace ream::isolation {
+namespace fs = std::filesystem;
+using nlohmann::json;
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr auto between_reports = std::chrono::milliseconds(50);
+
+/// One line of JSON. Text that is no UTF-8, as file names may be, is mended.
+void send(const json& message) {
+  const std::string line = message.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+  for (size_t sent = 0; sent < line.size();) {
+    const ssize_t n = ::write(answer_descriptor, line.data() + sent, line.size() - sent);
+    if (n <= 0) std::_Exit(EXIT_FAILURE);
+    sent += static_cast<size_t>(n);
+  }
+}
+
+json take_request() {
+  std::string text;
+  std::array<char, 4096> piece{};
+  for (ssize_t n; (n = ::read(request_descriptor, piece.data(), piece.size())) > 0;)
+    text.append(piece.data(), static_cast<size_t>(n));
+  return json::parse(text, nullptr, false);
+}
+
+/// The path of the input in this process, under its own name, as readers go by endings; and what stands for
+/// it in messages.
+struct Input {
+  fs::path path;
+  std::string inside, given;
+};
+
+Input open_input(const json& request) {
+  const fs::path given = request.at("input").get<std::string>();
+  const bool with_folder = request.at("with_folder").get<bool>();
+  const fs::path name = given.has_filename() ? given.filename() : fs::path("input");
+  const fs::path descriptor = "/proc/self/fd/" + std::to_string(input_descriptor);
+  fs::create_directory("input");
+  if (with_folder) {
+    fs::create_symlink(descriptor, "input/folder");
+    return {fs::path("input/folder") / name, "input/folder", given.parent_path().string()};
+  }
+  fs::create_symlink(descriptor, "input" / name);
+  return {"input" / name, ("input" / name).string(), given.string()};
+}
+
+std::string as_given(std::string message, const Input& input) {
+  for (size_t at = 0; (at = message.find(input.inside, at)) != std::string::npos; at += input.given.size())
+    message.replace(at, input.inside.size(), input.given);
+  return message;
+}
+
+Progress reporting() {
+  return
+      [last = Clock::time_point(), last_step = std::string()](double share, std::string_view step) mutable {
+        if (Clock::now() - last < between_reports && step == last_step) return;
+        last = Clock::now();
+        last_step = step;
+        send({{"share", share}, {"step", last_step}});
+      };
+}
+
+json done(const std::map<std::string, ReaderTask>& tasks, const json& request) {
+  const Input input = open_input(request);
+  const auto failed = [&](ErrorKind kind, const std::string& words) {
+    return json{{"error", as_given(words, input)}, {"kind", static_cast<int>(kind)}};
+  };
+  try {
+    const SandboxLimits limits{request.at("memory_bytes").get<uint64_t>(),
+                               request.at("file_bytes").get<uint64_t>(),
+                               request.at("processor_s").get<unsigned>()};
+    enter_sandbox(input_descriptor, output_descriptor, limits);
+    return {{"answer", tasks.at(request.at("task"))(input.path, request.at("options"), reporting())}};
+  } catch (const Error& error) {
+    return failed(error.kind(), error.what());
+  } catch (const std::bad_alloc&) {
+    return failed(ErrorKind::invalid_input,
+                  input.inside + " does not fit into the memory that is free for reading");
+  } catch (const std::exception& error) {
+    return failed(ErrorKind::invalid_input, input.inside + " cannot be read: " + error.what());
+  }
+}
+
+}  // namespace
+
+void serve_one_job(const std::map<std::string, ReaderTask>& tasks) {
+  if (::fcntl(request_descriptor, F_GETFD) < 0 || ::fcntl(answer_descriptor, F_GETFD) < 0) {
+    std::cerr << "ream-reader is started by ream; there is nothing to call by hand\n";
+    std::_Exit(2);
+  }
+  const json request = take_request();
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const bool orphaned = !request.is_object() || request.value("parent", -1) != ::getppid();
+  if (orphaned || ::fchdir(output_descriptor) != 0) std::_Exit(2);
+  send(done(tasks, request));
+  std::_Exit(EXIT_SUCCESS);
+}
+
+}  // namespace ream::isolation

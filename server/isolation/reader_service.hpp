@@ -1,0 +1,28 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/progress.hpp"
+
+namespace ream::isolation {
+
+/// Reads `input` (a path inside the sandbox) and writes into the working folder. Returns the answer.
+using ReaderTask = std::function<nlohmann::json(const std::filesystem::path& input,
+                                                const nlohmann::json& options, const Progress& progress)>;
+
+/// The reader's side of read_isolated(): takes one job from the descriptors that it was started with, enters
+/// the sandbox, does it, answers, and ends the process. Exit code 2 when it was not started by that function.
+[[noreturn]] void serve_one_job(const std::map<std::string, ReaderTask>& tasks);
+
+/// Descriptors that the reader is started with.
+enum ReaderDescriptor : int {
+  input_descriptor = 3,
+  output_descriptor,
+  request_descriptor,
+  answer_descriptor
+};
+
+}  // namespace ream::isolation

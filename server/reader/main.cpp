@@ -1,0 +1,80 @@
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "ct/read/volume_answer.hpp"
+#include "isolation/reader_service.hpp"
+#include "reader/ct_files.hpp"
+#include "reader/ct_source.hpp"
+#include "reader/gray_values.hpp"
+
+namespace ream::reader {
+namespace fs = std::filesystem;
+using nlohmann::json;
+namespace {
+
+constexpr double unpacking_share = 0.2;
+constexpr uint64_t megabyte = 1'000'000;
+const char* const values_file = "values";
+
+/// What was read, its values in a file.
+json written(const HuVolume& volume) {
+  ct::write_values(values_file, volume.hu.data(), volume.hu.size());
+  return ct::answer_of(volume);
+}
+
+/// The work on a folder or file, or on the one that an archive holds.
+template <typename Work>
+json from_source(const fs::path& input, const Progress& progress, Work&& work) {
+  const CtSource source(input, part_of(progress, 0.0, unpacking_share), ".");
+  return source.read(
+      [&](const fs::path& path) { return work(path, part_of(progress, unpacking_share, 1.0)); });
+}
+
+json ct_task(const fs::path& input, const json& options, const Progress& progress) {
+  return from_source(input, progress, [&](const fs::path& path, const Progress& reading) {
+    ReadOptions read;
+    read.series_uid = options.at("series_uid");
+    read.keep_names = options.at("keep_names");
+    const HuVolume volume = read_ct_files(path, read, reading);
+    const uint64_t bytes = 2 * volume.voxel_count(), most = options.at("max_bytes").get<uint64_t>();
+    if (bytes > most)
+      throw Error(ErrorKind::invalid_input, input.string() + " unpacks to a volume of " +
+                                                std::to_string(bytes / megabyte) +
+                                                " MB; of a file of this size at most " +
+                                                std::to_string(most / megabyte) + " MB are taken");
+    return written(volume);
+  });
+}
+
+json labels_task(const fs::path& input, const json&, const Progress&) {
+  return written(read_volume_file(input));
+}
+
+bool is_text(const fs::path& path) {
+  const std::string ending = lower(path.extension().string());
+  return ending == ".txt" || ending == ".csv" || ending == ".xyz";
+}
+
+json gray_task(const fs::path& input, const json& options, const Progress& progress) {
+  return from_source(input, progress, [&](const fs::path& path, const Progress& reading) {
+    if (is_text(path)) {
+      fs::rename(path, "rows");
+      return json{{"rows", true}};
+    }
+    const GrayValues values = write_gray_values(path, values_file, options.at("max_bytes"), reading);
+    return json{
+        {"volume", ct::answer_of(values.place)},
+        {"gray", {{"offset", values.gray.offset}, {"step", values.gray.step}, {"exact", values.gray.exact}}}};
+  });
+}
+
+}  // namespace
+}  // namespace ream::reader
+
+int main() {
+  using namespace ream;
+  isolation::serve_one_job(
+      {{"ct", reader::ct_task}, {"labels", reader::labels_task}, {"gray", reader::gray_task}});
+}

@@ -1,0 +1,133 @@
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "ct/read/gray_volume.hpp"
+#include "ct/read/read_ct.hpp"
+#include "isolation/sandbox.hpp"
+#include "store/zip_archive.hpp"
+#include "support/expect_error.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace ream::ct {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Volumes whose headers ask for a file of somebody else. Whatever is read of them must not hold its bytes.
+class HostileVolume : public testing::Test {
+ protected:
+  static constexpr int side = 8;
+  static constexpr int16_t secret_value = 1234;
+
+  HostileVolume() {
+    fs::create_directories(folder_.path() / "given");
+    fs::create_directories(folder_.path() / "private");
+    std::ofstream out(secret(), std::ios::binary);
+    for (int i = 0; i < side * side * side; ++i)
+      out.write(reinterpret_cast<const char*>(&secret_value), sizeof secret_value);
+  }
+
+  fs::path secret() const { return folder_.path() / "private/secret.raw"; }
+
+  /// Refused, or read without a byte of the secret.
+  void expect_kept(const std::string& name, const std::string& header, bool voxels = true) {
+    const fs::path file = folder_.path() / "given" / name;
+    std::ofstream(file, std::ios::binary)
+        << header << (voxels ? std::string(side * side * side * 2, '\1') : std::string());
+    const auto look = [&](const fs::path& path) {
+      try {
+        for (const int16_t hu : read_ct(path).hu) ASSERT_NE(hu, secret_value) << path << '\n' << header;
+      } catch (const Error& error) {
+        EXPECT_TRUE(error.kind() == ErrorKind::invalid_input || error.kind() == ErrorKind::not_found)
+            << error.what();
+      }
+    };
+    look(file);
+    const fs::path zip = folder_.path() / "given.zip";
+    store::write_zip(zip, {{file, "deep/er/" + name}});
+    look(zip);
+    fs::remove(zip);
+    fs::remove(file);
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+std::string nrrd(const std::string& line) {
+  return "NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 8 8 8\n"
+         "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\nendian: little\nencoding: raw\n" +
+         line + "\n\n";
+}
+
+std::string meta(const std::string& lines) {
+  return "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\nCompressedData = "
+         "False\n"
+         "TransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = 0 0 0\nElementSpacing = 1 1 1\nDimSize = 8 8 8\n"
+         "ElementType = MET_SHORT\n" +
+         lines + "\n";
+}
+
+TEST_F(HostileVolume, NoSpellingOfANrrdReadsAFileOfSomebodyElse) {
+  const std::string by_path = secret().string(), upwards = "../private/secret.raw";
+  for (const std::string& to :
+       {by_path, upwards, "./" + upwards, "./given/../" + upwards, "/proc/self/root" + by_path})
+    for (const char* key : {"data file: ", "datafile: ", "Data File: ", "DATA FILE:", "DataFile: ",
+                            "data  file: ", "data\tfile: ", " data file: ", "data file:= ", "datafile:="}) {
+      expect_kept("a.nrrd", nrrd(key + to));
+      expect_kept("a.nhdr", nrrd(key + to), false);
+    }
+  expect_kept("a.nhdr", nrrd("data file: LIST\n" + by_path), false);
+  expect_kept("a.nhdr", nrrd("data file: " + by_path + "%d 0 0 1"), false);
+  expect_kept("a.nrrd", nrrd("byte skip: -1\ndata file: " + by_path));
+}
+
+TEST_F(HostileVolume, NoSpellingOfAMetaImageReadsAFileOfSomebodyElse) {
+  const std::string by_path = secret().string(), upwards = "../private/secret.raw";
+  for (const std::string& to : {by_path, upwards, std::string("/proc/self/root") + by_path})
+    for (const char* before :
+         {"", "Element DataFile = LOCAL\n", "elementdatafile = LOCAL\n", "ElementDataFile2 = LOCAL\n",
+          "Comment = ElementDataFile = LOCAL\n", "ElementDataFile : LOCAL\n"}) {
+      expect_kept("a.mha", meta(std::string(before) + "ElementDataFile = " + to));
+      expect_kept("a.mhd", meta(std::string(before) + "ElementDataFile = " + to), false);
+      expect_kept("a.mhd", meta(std::string(before) + "ElementDataFile = LIST\n" + to), false);
+      expect_kept("a.mhd", meta(std::string(before) + "ElementDataFile=" + to), false);
+    }
+}
+
+TEST_F(HostileVolume, ALinkInAFolderLeadsNowhere) {
+  if (isolation::sandbox_support().landlock == 0) GTEST_SKIP() << "this kernel has no Landlock";
+  fs::create_symlink(secret(), folder_.path() / "given/beside.raw");
+  std::ofstream(folder_.path() / "given/a.nhdr") << nrrd("data file: beside.raw");
+  EXPECT_THROW(read_ct(folder_.path() / "given/a.nhdr"), Error);
+  EXPECT_THROW(GrayVolume(folder_.path() / "given/a.nhdr"), Error);
+}
+
+/// A megabyte of zeros, packed, of 64-bit voxels that unpack to gigabytes.
+TEST_F(HostileVolume, ASmallFileUnpacksToASmallVolume) {
+  const fs::path file = folder_.path() / "given/bomb.nrrd";
+  std::ofstream(file) << "NRRD0004\ntype: double\ndimension: 3\nspace: LPS\nsizes: 400 400 500\n"
+                         "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\nendian: little\n"
+                         "encoding: gzip\n\n";
+  const gzFile packed = ::gzopen(file.c_str(), "ab9");
+  const std::string zeros(1 << 20, '\0');
+  for (uint64_t left = uint64_t{400} * 400 * 500 * 8; left > 0;) {
+    const auto piece = static_cast<unsigned>(std::min<uint64_t>(left, zeros.size()));
+    ASSERT_EQ(::gzwrite(packed, zeros.data(), piece), static_cast<int>(piece));
+    left -= piece;
+  }
+  ::gzclose(packed);
+  ASSERT_LT(fs::file_size(file), 1'000'000u);
+  ReadOptions options;
+  options.max_bytes = 48 << 20;
+  test::expect_error(ErrorKind::invalid_input,
+                     "bomb.nrrd unpacks to a volume of 160 MB; of a file of this size at most 50 MB",
+                     [&] { read_ct(file, options); });
+}
+
+}  // namespace
+}  // namespace ream::ct

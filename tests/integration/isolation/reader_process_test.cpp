@@ -1,0 +1,185 @@
+#include "isolation/reader_process.hpp"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "isolation/sandbox.hpp"
+#include "support/expect_error.hpp"
+#include "support/places.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace ream::isolation {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::expect_error;
+
+/// Runs tasks of tests/integration/isolation/probe.cpp, a reader that a file has taken over.
+class ReaderProcess : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::create_directory(scratch());
+    fs::create_directory(folder_.path() / "in");
+    write("in/given.txt", "words of a stranger");
+    write("secret.txt", "a secret");
+  }
+  void TearDown() override { EXPECT_TRUE(fs::is_empty(scratch())) << "something of a reader is left"; }
+
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_.path() / name) << text;
+  }
+  fs::path scratch() const { return folder_.path() / "scratch"; }
+  fs::path given() const { return folder_.path() / "in/given.txt"; }
+
+  ReaderJob job(const std::string& task, const json& options = json::object()) const {
+    ReaderJob made;
+    made.program = fs::path(test::build_folder()) / "isolation_probe";
+    made.task = task;
+    made.input = given();
+    made.options = options;
+    made.scratch = scratch();
+    return made;
+  }
+  json answer(const std::string& task, const json& options = json::object()) const {
+    return read_isolated(job(task, options)).answer();
+  }
+  void expect_refused(const ReaderJob& wrong, const std::string& words) const {
+    expect_error(ErrorKind::invalid_input, words, [&] { read_isolated(wrong); });
+    expect_error(ErrorKind::invalid_input, "given.txt", [&] { read_isolated(wrong); });
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(ReaderProcess, ReadsWhatItIsGivenAndWritesBesideNothingElse) {
+  std::vector<std::string> steps;
+  {
+    const ReaderResult result =
+        read_isolated(job("read"), [&](double, std::string_view step) { steps.emplace_back(step); });
+    EXPECT_EQ(result.answer()["text"], "words of a stranger");
+    EXPECT_EQ(read_text_file(result.file("copy")), "words of a stranger");
+    expect_error(ErrorKind::io, "missing", [&] { result.file("missing"); });
+  }
+  ASSERT_FALSE(steps.empty());
+  EXPECT_EQ(steps.back(), "half way");
+  ReaderJob folder = job("read");
+  folder.input = folder_.path() / "in";
+  EXPECT_EQ(read_isolated(folder).answer()["below"], json::array({"given.txt"}));
+  ReaderJob missing = job("read");
+  missing.input = folder_.path() / "nowhere";
+  expect_error(ErrorKind::not_found, "nowhere", [&] { read_isolated(missing); });
+}
+
+TEST_F(ReaderProcess, CannotReachAnyOtherFile) {
+  if (sandbox_support().landlock == 0) GTEST_SKIP() << "this kernel has no Landlock";
+  write("in/sibling.txt", "of another patient");
+  const std::string secret = (folder_.path() / "secret.txt").string();
+  const std::string own_environment = "/proc/" + std::to_string(::getpid()) + "/environ",
+                    sibling = (folder_.path() / "in/sibling.txt").string();
+  const std::vector<std::string> paths{secret,
+                                       "../../secret.txt",
+                                       "/etc/passwd",
+                                       "/proc/self/environ",
+                                       "/proc/self/cmdline",
+                                       own_environment,
+                                       "/proc/self/root" + secret,
+                                       "/proc/self/cwd/../../secret.txt",
+                                       sibling,
+                                       "/dev/mem",
+                                       "/dev/shm/probe"};
+  for (const std::string& path : paths) {
+    const json told = answer("reach", {{"path", path}});
+    for (const char* way : {"read", "write", "create", "remove"})
+      EXPECT_NE(told[way], "done") << way << " " << path;
+  }
+  EXPECT_EQ(read_text_file(secret), "a secret");
+  const json own = answer("reach", {{"path", given().string()}});
+  EXPECT_EQ(own["read"], "done");
+  EXPECT_NE(own["write"], "done");
+  EXPECT_NE(own["remove"], "done");
+}
+
+TEST_F(ReaderProcess, HasNoNetworkNoProgramsNoSignalsAndNoSecrets) {
+  if (!sandbox_support().seccomp) GTEST_SKIP() << "this kernel has no seccomp";
+  ::setenv("REAM_PROBE_SECRET", "a secret", 1);
+  const json told = answer("call", {{"parent", ::getpid()}});
+  for (const char* what : {"tcp", "udp", "unix", "fork", "exec", "signal", "code"})
+    EXPECT_EQ(told[what], "Operation not permitted") << what;
+  EXPECT_EQ(told["environment"], "empty");
+  EXPECT_EQ(told["descriptors"], json::array());
+  EXPECT_EQ(told["thread"], 7);
+}
+
+TEST_F(ReaderProcess, StaysWithinItsLimits) {
+  ReaderJob memory = job("take_memory");
+  memory.limits.memory_bytes = uint64_t{512} << 20;
+  expect_refused(memory, "does not fit into the memory");
+  ReaderJob disk = job("take_disk");
+  disk.limits.file_bytes = 8 << 20;
+  expect_refused(disk, "larger than is taken");
+  ReaderJob processor = job("spin");
+  processor.limits.processor_s = 1;
+  expect_refused(processor, "more than 1 s of processor time");
+}
+
+TEST_F(ReaderProcess, ItsCrashIsOneSentence) {
+  expect_refused(job("crash", {{"how", "segfault"}}), "crashed on it (Segmentation fault)");
+  expect_refused(job("crash", {{"how", "abort"}}), "crashed on it (Aborted)");
+  expect_refused(job("crash", {{"how", "exit"}}), "without an answer");
+  expect_refused(job("crash", {{"how", "throw"}}), "a library gave up");
+  expect_refused(job("no_such_task"), "cannot be read");
+}
+
+TEST_F(ReaderProcess, ItsAnswersAreNotTrusted) {
+  const auto odd = [&](const std::string& text, size_t times = 1) {
+    return job("answer_oddly", {{"text", text}, {"times", times}});
+  };
+  const std::string deep(10000, '[');
+  for (const std::string& text :
+       {std::string("no JSON at all\n"), std::string("\n\n"), "{\"answer\":" + deep + "\n",
+        "{\"answer\":" + std::string(5000, '[') + std::string(5000, ']') + "}\n",
+        std::string("{\"error\": {\"a\": 1}}\n"), std::string("{\"share\": \"x\"}\n")})
+    EXPECT_THROW(read_isolated(odd(text)), Error) << text.substr(0, 40);
+  EXPECT_THROW(read_isolated(odd(std::string(10000, 'x'), 4000)), Error);
+  try {
+    read_isolated(odd("{\"error\": \"one\\ntwo\\u001b[31m" + std::string(9000, 'x') + "\", \"kind\": 99}\n"));
+    ADD_FAILURE() << "an error was taken for an answer";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::invalid_input);
+    EXPECT_LT(std::string(error.what()).size(), 1100u);
+    EXPECT_EQ(std::string(error.what()).find_first_of("\n\033"), std::string::npos);
+  }
+}
+
+TEST_F(ReaderProcess, EndsWhenItsWorkIsCancelled) {
+  int calls = 0;
+  EXPECT_THROW(read_isolated(job("sleep"),
+                             [&](double, std::string_view) {
+                               if (++calls == 3) throw Error(ErrorKind::cancelled, "cancelled");
+                             }),
+               Error);
+}
+
+TEST_F(ReaderProcess, WithoutItsProgramItSaysSo) {
+  ReaderJob lost = job("read");
+  lost.program = folder_.path() / "nowhere/ream-reader";
+  expect_error(ErrorKind::io, "nowhere/ream-reader: No such file", [&] { read_isolated(lost); });
+}
+
+TEST_F(ReaderProcess, ATwistedNameOfAFileIsNoPath) {
+  for (const char* name : {"-rf", "a b\tc", "\xff\xfe", "%s%n", "input", "folder", "..x"}) {
+    write(std::string("in/") + name, "words");
+    ReaderJob odd = job("read");
+    odd.input = folder_.path() / "in" / name;
+    EXPECT_EQ(read_isolated(odd).answer()["text"], "words") << name;
+  }
+}
+
+}  // namespace
+}  // namespace ream::isolation

@@ -1,0 +1,81 @@
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+#include "core/file.hpp"
+#include "store/credential_table.hpp"
+#include "store/dialect.hpp"
+#include "store/idempotency_table.hpp"
+#include "store/migrations.hpp"
+#include "store/session_index.hpp"
+#include "store/sql.hpp"
+#include "store/study_table.hpp"
+#include "store/user_table.hpp"
+#include "support/places.hpp"
+#include "support/test_databases.hpp"
+
+namespace ream::store {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Databases as earlier versions left them: golden/after_NNN.sql, in the words of migrations. They are never
+/// changed; each new step gets a file of its own.
+std::vector<fs::path> golden_files() {
+  std::vector<fs::path> files;
+  for (const auto& entry :
+       fs::directory_iterator(fs::path(test::source_folder()) / "tests/integration/store/golden"))
+    files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+template <typename Store>
+class GoldenDatabasesTest : public test::TestDatabase<Store> {
+ protected:
+  /// The database is as the file says, and nothing else.
+  void become(const fs::path& file) {
+    const std::string text = read_text_file(file);
+    this->database().run([&](Sql& sql) {
+      auto names = table_names();
+      names.insert(names.begin(), "migrations");
+      for (auto name = names.rbegin(); name != names.rend(); ++name) sql << "DROP TABLE IF EXISTS " + *name;
+      for (size_t from = 0, end = text.find(";\n"); end != std::string::npos; end = text.find(";\n", from)) {
+        sql << in_dialect(sql, text.substr(from, end - from));
+        from = end + 2;
+      }
+    });
+  }
+};
+TYPED_TEST_SUITE(GoldenDatabasesTest, test::BothStores, test::StoreNames);
+
+TYPED_TEST(GoldenDatabasesTest, ThereIsOneForEachStep) {
+  std::vector<int> steps, files;
+  for (const Migration& step : migrations()) steps.push_back(step.number);
+  for (const fs::path& file : golden_files()) files.push_back(std::stoi(file.stem().string().substr(6)));
+  EXPECT_EQ(files, steps);
+}
+
+TYPED_TEST(GoldenDatabasesTest, AreOpenedWithAllTheirRows) {
+  for (const fs::path& file : golden_files()) {
+    SCOPED_TRACE(file.filename());
+    const int step = std::stoi(file.stem().string().substr(6));
+    this->become(file);
+    const auto today = this->open_again();
+    const auto session = SessionIndex(*today).get("abcd2345");
+    ASSERT_TRUE(session);
+    EXPECT_EQ(session->trainee, "Anna");
+    EXPECT_EQ(session->points.has_value(), step >= 40);
+    if (step < 10) continue;
+    EXPECT_EQ(UserTable(*today, "operator").find_by_name("anna")->id, "u1");
+    const CredentialTable credentials(*today);
+    EXPECT_TRUE(credentials.find("t1"));
+    EXPECT_EQ(credentials.find("l1").has_value(), step >= 50) << "nobody's links end with step 50";
+    EXPECT_TRUE(step < 20 || IdempotencyTable(*today).find("u1", "k1"));
+    if (step < 30) continue;
+    EXPECT_EQ(StudyTable(*today).codes_of("u1").at("st1"), "P01");
+  }
+}
+
+}  // namespace
+}  // namespace ream::store
