@@ -19,6 +19,7 @@
 
 #include "core/error.hpp"
 #include "core/file_descriptor.hpp"
+#include "core/json.hpp"
 #include "isolation/reader_service.hpp"
 
 namespace ream::isolation {
@@ -29,7 +30,6 @@ namespace {
 constexpr int look_every_ms = 100;
 constexpr auto ending_takes = std::chrono::seconds(2);
 constexpr size_t max_request_bytes = 32768, max_answer_bytes = 16 << 20, max_words = 1000;
-constexpr int max_answer_depth = 12;
 
 fs::path program_of(const ReaderJob& job) {
   if (!job.program.empty()) return job.program;
@@ -153,15 +153,10 @@ std::string one_line(std::string words) {
   return words;
 }
 
-/// Nothing where it is no object, or nests deeper than an answer does.
+/// Nothing where it is no object.
 json parsed(const std::string& line) {
-  bool deep = false;
-  const auto look = [&](int depth, json::parse_event_t, json&) {
-    deep = deep || depth > max_answer_depth;
-    return !deep;
-  };
-  json message = json::parse(line, look, false);
-  return message.is_object() && !deep ? message : json::object();
+  json message = parse_json_or_discard(line);
+  return message.is_object() ? message : json::object();
 }
 
 /// What the reader says, line by line, until its answer or its end (null).

@@ -12,6 +12,7 @@
 
 #include "core/error.hpp"
 #include "core/file_descriptor.hpp"
+#include "core/json.hpp"
 #include "isolation/sandbox.hpp"
 
 namespace ream::isolation {
@@ -37,7 +38,7 @@ json take_request() {
   std::array<char, 4096> piece{};
   for (ssize_t n; (n = ::read(request_descriptor, piece.data(), piece.size())) > 0;)
     text.append(piece.data(), static_cast<size_t>(n));
-  return json::parse(text, nullptr, false);
+  return parse_json_or_discard(text);
 }
 
 /// The path of the input in this process, under its own name, as readers go by endings; and what stands for

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include "unit/layering/source_shape.hpp"
@@ -214,6 +215,21 @@ void check_kernel_includes(const fs::path& root, std::vector<std::string>& found
     }
 }
 
+/// Lines of server/ that match, but for those of the files named: "FILE:LINE: words".
+std::vector<std::string> lines_with(const fs::path& root, const std::regex& pattern,
+                                    const std::set<std::string>& but, const std::string& words) {
+  std::vector<std::string> found;
+  for (const fs::path& file : files_under(root / "server")) {
+    if (but.contains(name_of(root / "server", file))) continue;
+    std::ifstream in(file);
+    std::string line;
+    for (int number = 1; std::getline(in, line); ++number)
+      if (std::regex_search(line, pattern))
+        found.push_back(name_of(root, file) + ":" + std::to_string(number) + ": " + words);
+  }
+  return found;
+}
+
 }  // namespace
 
 const Rooms& allowed_rooms() {
@@ -271,17 +287,14 @@ std::vector<std::string> thread_violations(const fs::path& root) {
       "std::j?thread "
       "*[({]|std::jthread|std::async|pthread_create|\\bthreads?_?[({]\\[|(threads|workers|helpers)_?\\."
       "emplace_back");
-  std::vector<std::string> found;
-  for (const fs::path& file : files_under(root / "server")) {
-    if (name_of(root, file) == "server/core/signal_handlers.hpp") continue;
-    std::ifstream in(file);
-    std::string line;
-    for (int number = 1; std::getline(in, line); ++number)
-      if (std::regex_search(line, started))
-        found.push_back(name_of(root, file) + ":" + std::to_string(number) +
-                        ": use start_thread() or start_task()");
-  }
-  return found;
+  return lines_with(root, started, {"core/signal_handlers.hpp"}, "use start_thread() or start_task()");
+}
+
+std::vector<std::string> json_violations(const fs::path& root) {
+  static const std::regex parsed("json::(parse|accept|sax_parse|from_\\w+) *\\(|>> *\\w*json\\b");
+  // The second reads a file of this project while it is built.
+  return lines_with(root, parsed, {"core/json.cpp", "record/make_ops.cpp"},
+                    "use parse_json() or parse_json_or_discard()");
 }
 
 std::vector<std::string> length_violations(const fs::path& root) {

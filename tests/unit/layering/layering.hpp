@@ -29,6 +29,10 @@ std::vector<std::string> length_violations(const std::filesystem::path& root);
 /// them a stack for signals.
 std::vector<std::string> thread_violations(const std::filesystem::path& root);
 
+/// Text of server/ that is read as JSON otherwise than by core's parse_json() and parse_json_or_discard(),
+/// which bound its depth.
+std::vector<std::string> json_violations(const std::filesystem::path& root);
+
 /// Functions of server/ with more lines than `server_limits` has.
 std::vector<std::string> function_violations(const std::filesystem::path& root);
 

@@ -39,6 +39,11 @@ TEST(Layering, ThreadsHaveASignalStack) {
   EXPECT_TRUE(found.empty()) << lines(found);
 }
 
+TEST(Layering, JsonIsReadToABoundedDepth) {
+  const Found found = json_violations(test::source_folder());
+  EXPECT_TRUE(found.empty()) << lines(found);
+}
+
 TEST(Layering, FunctionsAreShort) {
   const Found found = function_violations(test::source_folder());
   EXPECT_TRUE(found.empty()) << lines(found);
@@ -141,6 +146,18 @@ TEST(LayeringChecker, NamesAThreadWithoutASignalStack) {
                    "server/sim/a.cpp:4: use start_thread() or start_task()",
                    "server/sim/a.cpp:5: use start_thread() or start_task()",
                    "server/sim/a.cpp:6: use start_thread() or start_task()"}));
+}
+
+TEST(LayeringChecker, NamesJsonThatIsReadToAnyDepth) {
+  const test::TemporaryFolder tree;
+  tree.write("server/core/json.cpp", "json::sax_parse(text, &builder)\n");
+  tree.write("server/api/a.cpp",
+             "parse_json(text);\nauto a = nlohmann::json::parse(text);\nin >> json;\nstream << json;\n"
+             "json::accept(text);\njson::from_cbor(bytes);\n");
+  const std::string words = ": use parse_json() or parse_json_or_discard()";
+  EXPECT_EQ(json_violations(tree.path()),
+            (Found{"server/api/a.cpp:2" + words, "server/api/a.cpp:3" + words, "server/api/a.cpp:5" + words,
+                   "server/api/a.cpp:6" + words}));
 }
 
 TEST(LayeringChecker, KernelsStandAlone) {

@@ -1,38 +1,9 @@
 #pragma once
-#include <latch>
-#include <thread>
-
+#include "support/database_hog.hpp"
 #include "support/hand_clock.hpp"
 #include "wire/contract/contract_fixture.hpp"
 
 namespace ream::test {
-
-/// Keeps the only connection of a database to itself, so that all others wait for one in vain.
-class DatabaseHog {
- public:
-  explicit DatabaseHog(store::Database& database) : thread_([this, &database] { hold(database); }) {
-    held_.wait();
-  }
-  ~DatabaseHog() {
-    released_.count_down();
-    thread_.join();
-  }
-
- private:
-  void hold(store::Database& database) {
-    for (bool holds = false; !holds;) try {
-        database.read([&](store::Sql&) {
-          holds = true;
-          held_.count_down();
-          released_.wait();
-        });
-      } catch (const Error&) {  // somebody else has it for a moment
-      }
-  }
-
-  std::latch held_{1}, released_{1};
-  std::thread thread_;
-};
 
 /// A server whose clock goes by hand. Everybody's password is "password of <name>".
 class AccessTest : public ContractTest {

@@ -6,6 +6,7 @@
 
 #include "record/recording.hpp"
 #include "store/database.hpp"
+#include "support/database_hog.hpp"
 #include "support/live_server.hpp"
 #include "support/postgres_server.hpp"
 
@@ -140,6 +141,29 @@ TEST(Outage, NothingIsLostAndTheSessionNeverNotices) {
   EXPECT_TRUE(server.get(id).at("fault").is_null());
   server.post("/" + id + "/stop");
   EXPECT_FALSE(server.reaming().verify(server.folder(id) / "recording.ream").difference);
+}
+
+TEST(Outage, ASessionCanBePausedWhileEveryUsualWorkerWaits) {
+  const TemporaryFolder folder;
+  const auto database = std::make_shared<store::Database>(
+      "sqlite:" + (folder.path() / "ream.db").string(),
+      store::DatabaseLimits{.connections = 1, .patience = std::chrono::minutes(2)});
+  const LiveServer server([&](api::ServerOptions& options) { options.database = database; });
+  write_file_atomically(server.reaming().data() / "scripts/long.json",
+                        RecordedReaming::push("ideal", 600.0).dump());
+  const std::string id = server.run({{"case", "slab"}, {"script", "long"}});
+  std::vector<std::unique_ptr<RawSocket>> waiting;
+  {
+    const DatabaseHog hog(*database);
+    for (int i = 0; i < 20; ++i) {
+      waiting.push_back(std::make_unique<RawSocket>(server.port()));
+      waiting.back()->send("GET /api/v1/sessions?limit=5 HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    }
+    EXPECT_EQ(http_request(server.port(), "GET", "/healthz").status, 200);
+    EXPECT_EQ(server.post("/" + id + "/pause").at("state"), "paused");
+  }
+  // They waited for the hog, or they could not have been answered.
+  for (const auto& socket : waiting) EXPECT_EQ(receive_reply(*socket).status, 200);
 }
 
 }  // namespace
