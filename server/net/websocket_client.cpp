@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "net/channel.hpp"
 
 namespace ream::net {
 namespace asio = boost::asio;
@@ -24,14 +25,14 @@ constexpr std::chrono::milliseconds close_timeout{200};
 
 struct WebSocketClient::Parts {
   asio::io_context io{1};
-  websocket::stream<tcp::socket> stream{io};
+  websocket::stream<Channel, false> stream{Channel(tcp::socket(io))};
   boost::beast::flat_buffer incoming;
   std::string place;     ///< host and port, for people
   bool reading = false;  ///< a read is under way, across calls
   std::optional<error_code> read_result;
   bool open = false;
 
-  tcp::socket& socket() { return stream.next_layer(); }
+  tcp::socket& socket() { return stream.next_layer().next_layer(); }
 
   /// Lets `result` come about; false when it has not in its time.
   bool wait_for(const std::optional<error_code>& result, Milliseconds timeout) {

@@ -226,7 +226,7 @@ class WebSocketConnection final : public Connection,
 
   Engine& engine_;
   std::unique_ptr<WebSocketSession> session_;
-  websocket::stream<Channel> stream_;
+  websocket::stream<Channel, false> stream_;
   Watchdog watchdog_;
   TokenBucket messages_;
   FrameMeter frames_;

@@ -50,13 +50,13 @@ test('cuts the bone along the reamer and along the planes of the body, and remem
 
   await page.getByTestId('cut-away').click();
   await expect(page.getByTestId('cut-away')).toHaveAttribute('aria-pressed', 'true');
-  expect(await changed(page, whole)).toBeGreaterThan(3000);
+  await expect.poll(() => changed(page, whole)).toBeGreaterThan(3000);
   await page.screenshot({ path: info.outputPath('cut-away.png') });
   await page.keyboard.press('c');
-  expect(await changed(page, whole)).toBeLessThan(200);
+  await expect.poll(() => changed(page, whole)).toBeLessThan(200);
 
   await page.getByTestId('see-through').click();
-  expect(await changed(page, whole)).toBeGreaterThan(3000);
+  await expect.poll(() => changed(page, whole)).toBeGreaterThan(3000);
   await page.screenshot({ path: info.outputPath('see-through.png') });
   await page.keyboard.press('x');
 
@@ -70,7 +70,7 @@ test('cuts the bone along the reamer and along the planes of the body, and remem
   await offset.focus();
   for (let i = 0; i < 12; ++i) await page.keyboard.press('ArrowRight');
   await expect(offset).toHaveValue('6');
-  expect(await changed(page, atEntry)).toBeGreaterThan(1000);
+  await expect.poll(() => changed(page, atEntry)).toBeGreaterThan(1000);
   await page.keyboard.press('[');
   await expect(offset).toHaveValue('5');
   await page.getByTestId('section-axial-flip').click();
@@ -86,6 +86,7 @@ test('cuts the bone along the reamer and along the planes of the body, and remem
 
 test('glides to the surgeon’s eye and gives the view back to the hand that turns it', async ({ page }, info) => {
   await open(page);
+  await untilStill(page);
   const own = await bone(page);
   await page.keyboard.press('v');
   await expect(page.getByTestId('trainee-camera')).toHaveAttribute('aria-pressed', 'true');
@@ -97,9 +98,9 @@ test('glides to the surgeon’s eye and gives the view back to the hand that tur
   await page.keyboard.press('ArrowLeft');
   await expect(page.getByTestId('trainee-camera')).toHaveAttribute('aria-pressed', 'false');
   await untilStill(page);
-  expect(await changed(page, surgeon)).toBeGreaterThan(1000);
+  await expect.poll(() => changed(page, surgeon)).toBeGreaterThan(1000);
   await page.getByTestId('view-plan').click();
-  expect(await changed(page, own)).toBeLessThan(200);
+  await expect.poll(() => changed(page, own)).toBeLessThan(200);
 });
 
 test('always says how late picture and loop are, and sounds only when asked', async ({ page }, info) => {
