@@ -75,24 +75,28 @@ Server::Server(ServerOptions options)
       listener_(router_, options.listen),
       readiness_(std::move(options.prepare)),
       watch_(sessions_, *feed_),
-      unstarted_("sessions that nobody starts", [this] {
+      unused_("sessions that nobody starts and uploads that nobody goes on with", [this] {
         sessions_.end_unstarted();
+        uploads_.remove_idle();
         return std::chrono::seconds(5);
       }) {}
 
 Server::~Server() { stop(); }
 
 void Server::start() {
+  // What an earlier server did not come to send.
+  std::error_code none;
+  std::filesystem::remove_all(services_.temporary_folder, none);
   listener_.start();
   retention_.begin();
-  unstarted_.start();
+  unused_.start();
 }
 
 void Server::stop() {
   listener_.stop();
   retention_.stop();
   watch_.stop();
-  unstarted_.stop();
+  unused_.stop();
   jobs_.shut_down();
   replays_.shut_down();
   sessions_.shut_down();

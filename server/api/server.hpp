@@ -80,7 +80,7 @@ class Server {
   net::Listener listener_;
   Readiness readiness_;
   SessionWatch watch_;
-  PeriodicTask unstarted_;  ///< ends sessions that nobody starts
+  PeriodicTask unused_;  ///< ends sessions that nobody starts, removes uploads that nobody uses
 };
 
 }  // namespace ream::api

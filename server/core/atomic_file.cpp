@@ -1,6 +1,7 @@
 #include "core/atomic_file.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -42,6 +43,7 @@ AtomicFile::AtomicFile(fs::path final_path)
   require_replaceable(final_);
   fd_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (fd_ < 0) fail();
+  ::flock(fd_, LOCK_EX | LOCK_NB);  // says that its owner lives (leftovers.hpp)
 }
 
 AtomicFile::~AtomicFile() {
@@ -108,6 +110,7 @@ AtomicFolder::AtomicFolder(fs::path final_path, bool replace)
        p = p.parent_path())
     made_parents_.push_back(p);
   make_writable_folder(temporary_);
+  lock_ = FileLock::attempt_existing(temporary_);
 }
 
 AtomicFolder::~AtomicFolder() {

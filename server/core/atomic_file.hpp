@@ -2,9 +2,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
+
+#include "core/file_lock.hpp"
 
 namespace ream {
 
@@ -67,6 +70,7 @@ class AtomicFolder {
 
  private:
   std::filesystem::path final_, temporary_;
+  std::optional<FileLock> lock_;                     ///< says that its owner lives (leftovers.hpp)
   std::vector<std::filesystem::path> made_parents_;  ///< innermost first
   bool committed_ = false;
 };

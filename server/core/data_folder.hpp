@@ -8,8 +8,12 @@ namespace ream {
 /// Not created.
 std::filesystem::path data_folder(const std::filesystem::path& chosen);
 
-/// Creates it and proves that files can be written there. Error io.
+/// Creates it, for its owner alone, and proves that files can be written there. Error io.
 void make_data_folder(const std::filesystem::path& data);
+/// What to do about a data folder that other users of this machine can read; empty where none can.
+std::string data_folder_warning(const std::filesystem::path& data);
+/// From here on what this program makes is for its owner alone, as what lies in the data folder should be.
+void restrict_new_files_to_owner() noexcept;
 
 std::filesystem::path cases_folder(const std::filesystem::path& data);
 std::filesystem::path sessions_folder(const std::filesystem::path& data);

@@ -29,6 +29,12 @@ std::optional<FileLock> FileLock::attempt(const std::filesystem::path& path) {
   throw Error(ErrorKind::io, "cannot lock " + path.string() + ": " + std::strerror(errno));
 }
 
+std::optional<FileLock> FileLock::attempt_existing(const std::filesystem::path& path) {
+  FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+  if (!file || flock_uninterrupted(file.get(), LOCK_EX | LOCK_NB) != 0) return std::nullopt;
+  return FileLock(std::move(file));
+}
+
 bool FileLock::held(const std::filesystem::path& path) {
   const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   return file && flock_uninterrupted(file.get(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;

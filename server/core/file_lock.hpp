@@ -12,6 +12,9 @@ class FileLock {
  public:
   /// Makes the file if need be. Empty when somebody else holds it. Throws Error io.
   static std::optional<FileLock> attempt(const std::filesystem::path& path);
+  /// Of a file or folder that is there. Empty when somebody else holds it, it is gone, or the file system has
+  /// no locks.
+  static std::optional<FileLock> attempt_existing(const std::filesystem::path& path);
   /// Whether somebody holds it; false without such a file. Makes nothing.
   static bool held(const std::filesystem::path& path);
 

@@ -36,6 +36,7 @@ TemporaryFolder::TemporaryFolder(const fs::path& beside) {
   if (::mkdtemp(name.data()) == nullptr)
     throw Error(ErrorKind::io, "cannot write " + beside.string() + ": " + std::strerror(errno));
   path_ = name;
+  lock_ = FileLock::attempt_existing(path_);
 }
 
 TemporaryFolder::~TemporaryFolder() {

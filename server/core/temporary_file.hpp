@@ -1,6 +1,9 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
+
+#include "core/file_lock.hpp"
 
 namespace ream {
 
@@ -33,6 +36,7 @@ class TemporaryFolder {
 
  private:
   std::filesystem::path path_;
+  std::optional<FileLock> lock_;  ///< says that its owner lives (leftovers.hpp)
 };
 
 }  // namespace ream

@@ -108,6 +108,11 @@ TlsContext::TlsContext(const TlsOptions& options)
   SSL_CTX_set_session_cache_mode(context, SSL_SESS_CACHE_OFF);
   warning_ = use_certificates(context, options.certificate_chain);
   use_key(context, options);
+  struct stat key {};
+  if (::stat(options.key.c_str(), &key) == 0 && (key.st_mode & (S_IRWXG | S_IRWXO)) != 0)
+    warning_ += (warning_.empty() ? "" : "; ") +
+                ("other users of this machine can read " + options.key.string()) + "; run chmod 600 " +
+                options.key.string();
 }
 
 TlsContext::~TlsContext() = default;

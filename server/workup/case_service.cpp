@@ -7,6 +7,7 @@
 #include "case/plan.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/new_id.hpp"
 #include "core/text.hpp"
 #include "ct/build/ct_workspace.hpp"
 #include "ct/build/import.hpp"
@@ -102,11 +103,11 @@ std::string CaseService::unused_id(const std::string& wanted) const {
 
 jobs::JobRecord CaseService::import(const NewCase& wanted, UploadStore& uploads) {
   const Upload upload = uploads.get(wanted.upload_id);
-  const std::string stem = upload.name.substr(0, upload.name.find('.'));
   if (!wanted.id.empty() && fs::exists(cases_folder_ / wanted.id))
     throw Error(ErrorKind::conflict, "there is a case '" + wanted.id + "' already; choose another id");
-  const std::string id = wanted.id.empty() ? unused_id(ct::case_id_from(stem)) : wanted.id;
-  const std::string name = wanted.name.empty() ? stem : wanted.name;
+  // Names of files from a hospital are often those of patients.
+  const std::string id = wanted.id.empty() ? unused_id("case-" + random_id()) : wanted.id;
+  const std::string name = wanted.name.empty() ? id : wanted.name;
   if (jobs_.busy(id)) throw Error(ErrorKind::conflict, "a case '" + id + "' is being made; wait for it");
   const auto taken = std::make_shared<TakenUpload>(uploads.take(wanted.upload_id));
   return jobs_.submit({"import", id}, [this, taken, id, name, wanted](const Progress& progress) {

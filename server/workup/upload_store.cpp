@@ -40,7 +40,7 @@ UploadStore::UploadStore(fs::path folder, UploadLimits limits) : folder_(std::mo
 
 fs::path UploadStore::file_of(const Upload& upload) const { return folder_ / upload.id / upload.name; }
 
-Upload& UploadStore::find(const std::string& id) {
+UploadStore::Entry& UploadStore::find(const std::string& id) {
   const auto found = uploads_.find(id);
   if (found == uploads_.end())
     throw Error(ErrorKind::not_found, "no upload '" + id + "'; begin one with POST /api/v1/uploads");
@@ -51,7 +51,7 @@ Upload UploadStore::create(const std::string& name, uint64_t bytes) {
   check_name(name);
   const std::lock_guard lock(mutex_);
   uint64_t announced = 0;
-  for (const auto& [id, upload] : uploads_) announced += upload.bytes;
+  for (const auto& [id, entry] : uploads_) announced += entry.upload.bytes;
   if (bytes > limits_.file_bytes)
     throw net::RequestError(413, "'" + name + "' is larger than a file may be, " +
                                      std::to_string(limits_.file_bytes >> 20) + " MiB");
@@ -62,25 +62,26 @@ Upload UploadStore::create(const std::string& name, uint64_t bytes) {
   make_writable_folder(folder_ / upload.id);
   if (!std::ofstream(file_of(upload), std::ios::binary))
     throw Error(ErrorKind::io, "cannot write " + file_of(upload).string());
-  uploads_[upload.id] = upload;
+  uploads_[upload.id] = {upload, Clock::now()};
   return upload;
 }
 
 Upload UploadStore::get(const std::string& id) const {
   const std::lock_guard lock(mutex_);
-  return const_cast<UploadStore*>(this)->find(id);
+  return const_cast<UploadStore*>(this)->find(id).upload;
 }
 
 std::vector<Upload> UploadStore::list() const {
   const std::lock_guard lock(mutex_);
   std::vector<Upload> all;
-  for (const auto& [id, upload] : uploads_) all.push_back(upload);
+  for (const auto& [id, entry] : uploads_) all.push_back(entry.upload);
   return all;
 }
 
 Upload UploadStore::append(const std::string& id, uint64_t offset, std::string_view piece) {
   const std::lock_guard lock(mutex_);
-  Upload& upload = find(id);
+  Entry& entry = find(id);
+  Upload& upload = entry.upload;
   if (offset != upload.received)
     throw Error(ErrorKind::conflict, "the piece begins at " + std::to_string(offset) + ", but " +
                                          std::to_string(upload.received) +
@@ -94,12 +95,13 @@ Upload UploadStore::append(const std::string& id, uint64_t offset, std::string_v
   file.close();
   if (!file) throw Error(ErrorKind::io, "cannot write " + file_of(upload).string() + "; is the disk full?");
   upload.received += piece.size();
+  entry.used = Clock::now();
   return upload;
 }
 
 void UploadStore::remove(const std::string& id) {
   const std::lock_guard lock(mutex_);
-  const Upload upload = find(id);
+  const Upload upload = find(id).upload;
   uploads_.erase(id);
   std::error_code ignored;
   fs::remove_all(folder_ / upload.id, ignored);
@@ -107,13 +109,24 @@ void UploadStore::remove(const std::string& id) {
 
 fs::path UploadStore::take(const std::string& id) {
   const std::lock_guard lock(mutex_);
-  const Upload upload = find(id);
+  const Upload upload = find(id).upload;
   if (upload.received != upload.bytes)
     throw Error(ErrorKind::conflict, "'" + upload.name +
                                          "' is not complete: " + std::to_string(upload.received) + " of " +
                                          std::to_string(upload.bytes) + " bytes have come");
   uploads_.erase(id);
   return file_of(upload);
+}
+
+void UploadStore::remove_idle(Clock::time_point now) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(uploads_, [&](const auto& held) {
+    const Entry& entry = held.second;
+    if (now - entry.used < limits_.idle) return false;
+    std::error_code ignored;
+    fs::remove_all(folder_ / entry.upload.id, ignored);
+    return true;
+  });
 }
 
 }  // namespace ream::workup

@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -20,6 +21,8 @@ struct UploadLimits {
   uint64_t file_bytes = uint64_t{8} << 30;  ///< one file
   uint64_t all_bytes = uint64_t{32} << 30;  ///< what all uploads together announce
   size_t count = 64;
+  std::chrono::minutes idle{24 *
+                            60};  ///< what nobody goes on with for so long may be patients' data left behind
 };
 
 /// Files that clients send in pieces, each kept as <folder>/<id>/<name>, so that memory stays bounded and a
@@ -44,14 +47,22 @@ class UploadStore {
   /// the file. Error conflict when it is not complete.
   std::filesystem::path take(const std::string& id);
 
+  using Clock = std::chrono::steady_clock;
+  /// Removes those that nobody has gone on with for UploadLimits::idle.
+  void remove_idle(Clock::time_point now = Clock::now());
+
  private:
-  Upload& find(const std::string& id);
+  struct Entry {
+    Upload upload;
+    Clock::time_point used;
+  };
+  Entry& find(const std::string& id);
   std::filesystem::path file_of(const Upload& upload) const;
 
   const std::filesystem::path folder_;
   const UploadLimits limits_;
   mutable std::mutex mutex_;
-  std::map<std::string, Upload> uploads_;
+  std::map<std::string, Entry> uploads_;
 };
 
 }  // namespace ream::workup

@@ -13,6 +13,7 @@
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
+#include "core/leftovers.hpp"
 #include "core/log.hpp"
 
 namespace ream::app {
@@ -45,6 +46,8 @@ void back_up(const BackupOptions& options, const GlobalOptions& global) {
     throw Error(ErrorKind::not_found, "there is no data folder " + data.string() + " to back up; see --data");
   require_replaceable(options.file);
   catch_interrupts();
+  remove_leftovers(data);
+  remove_leftovers_beside(options.file);
   const auto database = open_database(global.db, data);
   BackupReport report;
   {
@@ -67,6 +70,7 @@ void back_up(const BackupOptions& options, const GlobalOptions& global) {
 }
 
 void restore(const BackupOptions& options, const GlobalOptions& global) {
+  restrict_new_files_to_owner();
   const fs::path data = data_folder(global.data);
   require_backup(options.file);
   catch_interrupts();

@@ -18,6 +18,7 @@
 #include "core/file.hpp"
 #include "core/file_lock.hpp"
 #include "core/interrupt.hpp"
+#include "core/leftovers.hpp"
 #include "core/log.hpp"
 #include "ct/phantom/phantom_case.hpp"
 #include "device/registry/device_registry.hpp"
@@ -118,6 +119,7 @@ void log_sandbox() {
 }
 
 void serve(const ServeOptions& options, const GlobalOptions& global) {
+  restrict_new_files_to_owner();
   session::SessionContext context;
   context.data = data_folder(global.data);
   context.server_epoch = static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::microseconds>(
@@ -138,6 +140,9 @@ void serve(const ServeOptions& options, const GlobalOptions& global) {
     throw Error(ErrorKind::conflict, "a server runs on " + context.data.string() +
                                          "; stop it, or choose another folder with --data");
   make_writable_folder(sessions_folder(context.data));
+  if (const size_t removed = remove_leftovers(context.data); removed > 0)
+    log::warn("removed " + std::to_string(removed) +
+              " unfinished files and folders of a program that was ended");
   for (const std::string& line : session::recover_sessions(context.data)) log::warn(line);
   catch_interrupts();
 
@@ -160,6 +165,7 @@ void serve(const ServeOptions& options, const GlobalOptions& global) {
   api::Server server(std::move(server_options));
   server.start();
 
+  if (const std::string warning = data_folder_warning(context.data); !warning.empty()) log::warn(warning);
   log_sandbox();
   tell_address(server_url(options.address, server.port()), watched ? &*watched : nullptr,
                server.access_control(), global.json);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "support/expect_error.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace ream {
 namespace {
@@ -51,6 +52,20 @@ TEST(DataFolder, SaysWhatToDoWithoutAny) {
 TEST(DataFolder, CasesAndSessionsAreBelowIt) {
   EXPECT_EQ(cases_folder("/srv/ream"), "/srv/ream/cases");
   EXPECT_EQ(sessions_folder("/srv/ream"), "/srv/ream/sessions");
+}
+
+TEST(DataFolder, IsForItsOwnerAlone) {
+  const test::TemporaryFolder parent;
+  const std::filesystem::path data = parent.path() / "deep" / "data";
+  make_data_folder(data);
+  EXPECT_EQ(std::filesystem::status(data).permissions(), std::filesystem::perms::owner_all);
+  EXPECT_EQ(data_folder_warning(data), "");
+  EXPECT_EQ(data_folder_warning(parent.path() / "none"), "");
+  std::filesystem::permissions(data, std::filesystem::perms(0750));
+  EXPECT_NE(data_folder_warning(data).find("chmod 700 " + data.string()), std::string::npos);
+  make_data_folder(data);
+  EXPECT_EQ(std::filesystem::status(data).permissions(), std::filesystem::perms(0750))
+      << "as its owner has it";
 }
 
 }  // namespace

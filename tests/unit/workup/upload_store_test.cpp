@@ -72,5 +72,17 @@ TEST_F(UploadStoreTest, WhatAnEarlierServerLeftIsRemoved) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "old"));
 }
 
+TEST_F(UploadStoreTest, WhatNobodyGoesOnWithIsRemoved) {
+  const auto begun = store.create("DOE_Jane.zip", 4);
+  const auto now = UploadStore::Clock::now();
+  store.remove_idle(now + std::chrono::hours(23));
+  EXPECT_EQ(store.list().size(), 1u);
+  store.append(begun.id, 0, "ab");
+  store.remove_idle(now + std::chrono::hours(25));
+  EXPECT_TRUE(store.list().empty());
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "uploads" / begun.id));
+  EXPECT_EQ(kind_of([&] { store.append(begun.id, 2, "cd"); }), ErrorKind::not_found);
+}
+
 }  // namespace
 }  // namespace ream::workup

@@ -39,8 +39,8 @@ class CaseContractTest : public ContractTest {
     return http_request(server->port(), "PUT", uploads + "/" + id + "?offset=" + std::to_string(offset),
                         bytes, octets);
   }
-  std::string whole_upload() {
-    const std::string id = begin_upload();
+  std::string whole_upload(const std::string& name = "shoulder.nrrd") {
+    const std::string id = begin_upload(name);
     for (size_t at = 0; at < file.size(); at += most)
       EXPECT_EQ(put_piece(id, at, file.substr(at, most)).status, 200);
     return id;
@@ -315,6 +315,17 @@ TEST_F(CaseContractTest, AReamerIsNamedAndNeverAPath) {
   const HttpReply reply = http_request(server->port(), "PUT", cases + "/planned/plan", body);
   EXPECT_EQ(reply.status, 422) << reply.body;
   EXPECT_EQ(reply.body.find("root"), std::string::npos);
+}
+
+TEST_F(CaseContractTest, NoNameOfAFileBecomesTheCases) {
+  start();
+  const std::string upload = whole_upload("DOE_Jane_19560312.nrrd");
+  const json job = ended(post(cases, json{{"upload_id", upload}, {"side", "right"}}.dump()));
+  EXPECT_EQ(job.at("state"), "done") << job;
+  for (const std::string& text : {job.dump(), get(cases).body, get("/api/v1/jobs").body,
+                                  get(cases + "/" + job.at("case_id").get<std::string>()).body})
+    for (const char* part : {"DOE", "doe", "Jane", "jane", "1956"})
+      EXPECT_EQ(text.find(part), std::string::npos) << text;
 }
 
 }  // namespace

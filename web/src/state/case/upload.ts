@@ -26,7 +26,8 @@ export interface UploadCallbacks {
   pause: (ms: number) => Promise<void>;
 }
 
-const nameOf = (file: UploadSource) => `ream.upload.${file.name}.${file.size}.${file.lastModified}`;
+/** Without the file's name, which is often the patient's: it would stay on this computer. */
+const keyOf = (file: UploadSource) => `ream.upload.${file.size}.${file.lastModified}`;
 
 /**
  * Sends a file in pieces and gives its upload, going on where the server is after a break. Throws ApiError when the
@@ -55,27 +56,27 @@ export async function uploadFile(file: UploadSource, callbacks: UploadCallbacks,
 
 /** The upload is no longer of use, because it became a case or is not wanted. */
 export function forgetUpload(file: UploadSource, remembered: UploadCallbacks['remembered']): void {
-  remembered.removeItem(nameOf(file));
+  remembered.removeItem(keyOf(file));
 }
 
 /** What has arrived of a file is not wanted any more. */
 export async function dropUpload(file: UploadSource, { api, remembered }: Pick<UploadCallbacks, 'api' | 'remembered'>) {
-  const id = remembered.getItem(nameOf(file));
+  const id = remembered.getItem(keyOf(file));
   forgetUpload(file, remembered);
   if (id !== null) await api.dropUpload(id).catch(() => undefined);
 }
 
 async function begin(file: UploadSource, { api, remembered }: UploadCallbacks): Promise<Upload> {
-  const earlier = remembered.getItem(nameOf(file));
+  const earlier = remembered.getItem(keyOf(file));
   if (earlier !== null) {
     const known = await api.upload(earlier).catch((error: unknown) => {
       if (error instanceof ApiError && error.status === 404) return null;
       throw error;
     });
-    if (known !== null && known.bytes === file.size) return known;
+    if (known !== null && known.bytes === file.size && known.name === file.name) return known;
   }
   const made = await api.beginUpload(file.name, file.size);
-  remembered.setItem(nameOf(file), made.id);
+  remembered.setItem(keyOf(file), made.id);
   return made;
 }
 

@@ -107,9 +107,21 @@ describe('uploadFile', () => {
   });
 
   it('begins anew when the server has forgotten the upload', async () => {
-    callbacks.remembered.setItem('ream.upload.shoulder.zip.2621440.5', 'gone');
+    callbacks.remembered.setItem('ream.upload.2621440.5', 'gone');
     const upload = await uploadFile(file, callbacks, never);
     expect(upload.id).toBe('u1');
+  });
+
+  it('leaves no name of a file, which is often a patient, on this computer', async () => {
+    await uploadFile({ ...file, name: 'DOE_Jane_19560312.zip' }, callbacks, never);
+    expect(memory.size).toBe(1);
+    expect([...memory].join()).not.toMatch(/doe|jane|1956/i);
+  });
+
+  it('does not go on with a file of another name', async () => {
+    await uploadFile(file, callbacks, never);
+    await uploadFile({ ...file, name: 'other.zip' }, callbacks, never);
+    expect(api.kept.size).toBe(2);
   });
 
   it('does not take another file of the same name for it', async () => {

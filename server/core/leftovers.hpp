@@ -1,0 +1,15 @@
+#pragma once
+#include <cstddef>
+#include <filesystem>
+
+namespace ream {
+
+/// Removes from a data folder, and from the system's folder for temporary files, what was under construction
+/// when an earlier program was killed: AtomicFile, AtomicFolder, TemporaryFolder, and cases on their way out.
+/// Whoever still works on such a thing holds a lock on it, so this may be called at any time. Returns how
+/// many files and folders are gone; what cannot be removed stays.
+size_t remove_leftovers(const std::filesystem::path& data);
+/// The same for TemporaryFolders that were made beside a file.
+size_t remove_leftovers_beside(const std::filesystem::path& file);
+
+}  // namespace ream
