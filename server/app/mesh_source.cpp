@@ -42,43 +42,30 @@ void set_frame(fe::ElementModel& model, const Pose& world_from_grid) {
     model.world_from_mesh = world_from_grid;
 }
 
-bool is_text(const fs::path& path) {
-  const std::string ending = path.extension();
-  return ending == ".txt" || ending == ".csv" || ending == ".xyz";
-}
-
-fe::ElementModel from_rows(const fs::path& path, const MeshSource& source, fe::MemoryBudget& budget,
-                           const Progress& progress) {
-  fe::ElementModel model = fe::read_text_rows(path, budget, progress);
-  if (source.threshold) fe::remove_below(model, *source.threshold, budget);
-  return model;
-}
-
-fe::ElementModel from_volume(const fs::path& path, const MeshSource& source, fe::MemoryBudget& budget,
+fe::ElementModel from_volume(const fs::path& path, const MeshSource& source, MemoryBudget& budget,
                              const Progress& progress) {
   const ct::GrayVolume volume(path, budget.left(), part_of(progress, 0.0, 0.4));
-  if (!volume.rows().empty()) return from_rows(volume.rows(), source, budget, part_of(progress, 0.4, 1.0));
   fe::ElementModel model;
   model.gray = volume.gray();
   model.spacing_mm = volume.spacing_mm();
   set_frame(model, volume.world_from_volume());
   model.remarks = volume.warnings();
-  model.source = "a volume";
+  model.source = volume.partly_given() ? "text rows x y z gray" : "a volume";
   std::vector<bool> bone(65536);
   for (size_t code = 0; code < bone.size(); ++code) {
     const double value = model.gray.value(static_cast<double>(code));
-    bone[code] = source.threshold ? value >= *source.threshold : value > 0.0;
+    bone[code] = source.threshold ? value >= *source.threshold : volume.partly_given() || value > 0.0;
   }
   const auto read = [&](int w, std::span<int32_t> codes) {
-    std::vector<uint16_t> layer(codes.size());
-    volume.read_layer(w, layer);
-    for (size_t i = 0; i < codes.size(); ++i) codes[i] = bone[layer[i]] ? int32_t{layer[i]} : fe::no_element;
+    volume.read_layer(w, codes);
+    for (int32_t& code : codes)
+      if (code == ct::GrayVolume::no_code || !bone[static_cast<size_t>(code)]) code = fe::no_element;
   };
   fe::fill_from_layers(model, volume.dims(), read, budget, part_of(progress, 0.4, 1.0));
   return model;
 }
 
-fe::ElementModel from_bone(const voxel::BoneModel& bone, const MeshSource& source, fe::MemoryBudget& budget,
+fe::ElementModel from_bone(const voxel::BoneModel& bone, const MeshSource& source, MemoryBudget& budget,
                            const Progress& progress) {
   budget.take(2 * bone.grid.voxel_count(), "the bone of the case");
   fe::ElementModel model;
@@ -107,7 +94,7 @@ fe::ElementModel from_bone(const voxel::BoneModel& bone, const MeshSource& sourc
   return model;
 }
 
-fe::ElementModel from_session(const MeshSource& source, fe::MemoryBudget& budget, const Progress& progress) {
+fe::ElementModel from_session(const MeshSource& source, MemoryBudget& budget, const Progress& progress) {
   session::ExportRequest request;
   request.recording = session::recording_path(source.name, source.data);
   request.case_name = source.case_name;
@@ -123,7 +110,7 @@ fe::ElementModel from_session(const MeshSource& source, fe::MemoryBudget& budget
   return model;
 }
 
-fe::ElementModel from_case(const MeshSource& source, fe::MemoryBudget& budget, const Progress& progress) {
+fe::ElementModel from_case(const MeshSource& source, MemoryBudget& budget, const Progress& progress) {
   progress(0.0, "reading the case");
   std::error_code failed;
   const fs::path path(source.name);
@@ -136,15 +123,13 @@ fe::ElementModel from_case(const MeshSource& source, fe::MemoryBudget& budget, c
 
 }  // namespace
 
-fe::ElementModel open_mesh_source(const MeshSource& source, fe::MemoryBudget& budget,
-                                  const Progress& progress) {
+fe::ElementModel open_mesh_source(const MeshSource& source, MemoryBudget& budget, const Progress& progress) {
   switch (kind_of(source)) {
     case Kind::case_folder: return from_case(source, budget, progress);
     case Kind::session: return from_session(source, budget, progress);
     case Kind::volume: break;
   }
-  return is_text(source.name) ? from_rows(source.name, source, budget, progress)
-                              : from_volume(source.name, source, budget, progress);
+  return from_volume(source.name, source, budget, progress);
 }
 
 }  // namespace ream::app

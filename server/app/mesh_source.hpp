@@ -3,9 +3,9 @@
 #include <optional>
 #include <string>
 
+#include "core/memory_budget.hpp"
 #include "core/progress.hpp"
 #include "fe/element_model.hpp"
-#include "fe/memory_budget.hpp"
 
 namespace ream::app {
 
@@ -23,7 +23,7 @@ struct MeshSource {
 
 /// Voxels of bone with their gray values. Of a case the bone as it is before reaming, its pilot hole not cut;
 /// of a session what it left. Cartilage is no bone. Errors: not_found, invalid_input, those of recordings.
-fe::ElementModel open_mesh_source(const MeshSource& source, fe::MemoryBudget& budget,
+fe::ElementModel open_mesh_source(const MeshSource& source, MemoryBudget& budget,
                                   const Progress& progress = no_progress);
 
 }  // namespace ream::app

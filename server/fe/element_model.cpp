@@ -102,24 +102,4 @@ void fill_from_layers(ElementModel& model, const Vec3i& dims, const LayerReader&
       part_of(progress, 0.5, 1.0), "reading gray values");
 }
 
-void remove_below(ElementModel& model, double threshold, MemoryBudget& budget) {
-  const VoxelMask before = model.mask;
-  uint64_t element = 0;
-  std::vector<uint16_t> scratch;
-  for (int w = 0; w < before.dims().z(); ++w)
-    for (int v = 0; v < before.dims().y(); ++v) {
-      const size_t count = set_bits(before.row(v, w), before.words_per_row());
-      if (count == 0) continue;
-      const auto codes = model.codes.read(element, count, scratch);
-      element += count;
-      const uint16_t* code = codes.data();
-      uint64_t* row = model.mask.row(v, w);
-      for_each_run(before.row(v, w), before.words_per_row(), [&](int begin, int end) {
-        for (int u = begin; u < end; ++u)
-          if (model.gray.value(*code++) < threshold) row[u / 64] &= ~(uint64_t{1} << (u % 64));
-      });
-    }
-  keep_elements(before, model, budget);
-}
-
 }  // namespace ream::fe

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/memory_budget.hpp"
 #include "core/progress.hpp"
-#include "fe/memory_budget.hpp"
 #include "fe/voxel_mask.hpp"
 #include "geometry/pose.hpp"
 #include "voxel/gray_scale.hpp"
@@ -67,9 +67,6 @@ inline constexpr int32_t no_element = -1;
 void fill_from_layers(ElementModel& model, const Vec3i& dims, const LayerReader& read, MemoryBudget& budget,
                       const Progress& progress = no_progress);
 
-/// Takes elements whose gray value is below the threshold out of the model.
-void remove_below(ElementModel& model, double threshold, MemoryBudget& budget);
-
 /// Splits every voxel into factor^3 (thesis section 2.2): the volume stays what it was. Gray values are
 /// interpolated linearly between voxel centres (voxel::upsample_tap); where a neighbour is no element, the
 /// voxel's own value stands for it, so that no value outside the bone matters. Exact in whole numbers,
@@ -77,15 +74,6 @@ void remove_below(ElementModel& model, double threshold, MemoryBudget& budget);
 /// outside 1 to voxel::max_upsample_factor.
 ElementModel refined(ElementModel model, int factor, MemoryBudget& budget,
                      const Progress& progress = no_progress);
-
-/// Reads the thesis' text rows of a segmented bone: `x y z gray` a line, one line for each voxel that is
-/// bone, in any order (section 2.1). x y z are voxel centres, LPS mm, on a regular grid of which any part may
-/// be missing; or voxel indices, where a line `# spacing_mm X Y Z` says their size. Blanks, tabs, commas or
-/// semicolons between; empty lines and those that begin with # are passed over. Memory is 12 bytes a row and
-/// the grid's bits; what the budget has no room for goes to the disk. On two threads. Errors: invalid_input
-/// naming file and line (no four numbers, a voxel off the grid or given twice), not_found, io, cancelled.
-ElementModel read_text_rows(const std::filesystem::path& path, MemoryBudget& budget,
-                            const Progress& progress = no_progress);
 
 /// What hung together by faces before all but the largest part was taken away.
 struct ComponentCount {

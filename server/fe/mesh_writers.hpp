@@ -3,10 +3,10 @@
 #include <string>
 
 #include "core/atomic_file.hpp"
+#include "core/memory_budget.hpp"
 #include "core/progress.hpp"
 #include "fe/element_model.hpp"
 #include "fe/materials.hpp"
-#include "fe/memory_budget.hpp"
 #include "fe/node_numbering.hpp"
 
 namespace ream::fe {

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "core/error.hpp"
+#include "ct/read/ct_file_names.hpp"
 #include "reader/dicom_file.hpp"
 #include "reader/volume_file.hpp"
 
@@ -17,21 +18,14 @@ constexpr int sampled_rows = 512;
 constexpr int64_t smoother_factor = 4;
 constexpr int64_t suspicious_step = 100;  // mean step between neighbours, of which no CT comes near
 
-enum class Kind { volume, rows, dicom };
-
-std::string ending_of(const fs::path& path) {
-  const std::string name = path.filename().string();
-  return name.ends_with(".nii.gz") ? ".nii.gz" : path.extension().string();
-}
+using Kind = ct::CtFileKind;
 
 /// By the name's ending; a file without a known one may still be DICOM, whose names are anything.
 Kind kind_of(const fs::path& path) {
   if (fs::is_directory(path)) return Kind::dicom;
-  const std::string ending = ending_of(path);
-  if (ending == ".txt" || ending == ".csv" || ending == ".xyz") return Kind::rows;
-  if (ending == ".dcm" || ending == ".DCM") return Kind::dicom;
-  if (ct::is_volume_file(path)) return Kind::volume;
-  return fs::is_regular_file(path) && is_dicom(path) ? Kind::dicom : Kind::volume;
+  const Kind kind = ct::kind_by_name(path);
+  const bool named = kind == Kind::volume || kind == Kind::rows || kind == Kind::dicom;
+  return named || !fs::is_regular_file(path) || !is_dicom(path) ? kind : Kind::dicom;
 }
 
 /// Warns when the values cannot be HU: eight bits without a sign, or air near 0 and soft tissue near 1000.
@@ -97,7 +91,8 @@ HuVolume read_file(const fs::path& path, Kind kind, const ReadOptions& options, 
   warn_of_gray_values(volume);
   warn_of_thickness(volume, 0.0);
   // A file's name may be a patient's.
-  volume.source = kind == Kind::rows ? "text rows x y z gray" : "volume file (" + ending_of(path) + ")";
+  volume.source =
+      kind == Kind::rows ? "text rows x y z gray" : "volume file (" + ct::ct_file_ending(path) + ")";
   if (options.keep_names) volume.source += " " + path.filename().string();
   progress(1.0, "reading slices");
   return volume;

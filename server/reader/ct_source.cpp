@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "ct/read/ct_file_names.hpp"
 #include "reader/ct_files.hpp"
 #include "store/zip_archive.hpp"
 
@@ -18,14 +19,10 @@ constexpr uint64_t max_unpacked_bytes = uint64_t{8} << 30, always_unpacked_bytes
 constexpr uint64_t max_archive_packing = 200;          // slices pack to a third, label maps to a hundredth
 constexpr uint64_t spare_bytes = uint64_t{256} << 20;  // left free on the disk
 
-bool ends_with_one_of(const std::string& name, std::initializer_list<const char*> endings) {
-  return std::any_of(endings.begin(), endings.end(), [&](const char* e) { return name.ends_with(e); });
-}
-
 bool is_zip(const fs::path& path) {
   std::error_code failed;
   if (!fs::is_regular_file(path, failed)) return false;
-  if (lower(path.extension().string()) == ".zip") return true;
+  if (ct::ct_file_ending(path) == ".zip") return true;
   std::ifstream in(path, std::ios::binary);
   std::string start(4, '\0');
   in.read(start.data(), 4);
@@ -60,15 +57,16 @@ FoundFiles contents_of(const fs::path& folder, const fs::path& zip) {
     if (entry->is_directory() && (name == "__macosx" || name.starts_with('.')))
       entry.disable_recursion_pending();
     if (!entry->is_regular_file() || name.starts_with('.')) continue;
-    if (ends_with_one_of(name, {".zip", ".7z", ".rar", ".tar", ".tar.gz", ".tgz"}))
+    const ct::CtFileKind kind = ct::kind_by_name(entry->path());
+    if (kind == ct::CtFileKind::archive || is_zip(entry->path()))
       throw Error(ErrorKind::invalid_input,
                   zip.string() + " holds another archive; unpack that one and zip the CT itself");
-    if (ends_with_one_of(name, {".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd"}))
+    if (kind == ct::CtFileKind::volume)
       contents.volumes.push_back(entry->path());
-    else if (ends_with_one_of(name, {".txt", ".csv", ".xyz"}))
+    else if (kind == ct::CtFileKind::rows)
       contents.texts.push_back(entry->path());
     else if (!contents.dicom)
-      contents.dicom = ends_with_one_of(name, {".dcm"}) || is_dicom(entry->path());
+      contents.dicom = kind == ct::CtFileKind::dicom || is_dicom(entry->path());
   }
   return contents;
 }

@@ -1,9 +1,15 @@
 #include "reader/dicom_file.hpp"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <memory>
+#include <new>
 #include <string_view>
+
+#include "core/error.hpp"
 
 namespace ream::reader {
 namespace {
@@ -15,6 +21,7 @@ constexpr uint32_t item = 0xfffee000u, item_end = 0xfffee00du, sequence_end = 0x
 constexpr int max_depth = 16;
 constexpr size_t max_items = 100000;
 constexpr uint32_t max_value_bytes = 4096;
+constexpr size_t max_inflated_bytes = size_t{1} << 30;
 
 constexpr std::array<uint32_t, 17> text_tags = {0x00080005, 0x00080008, 0x00080060, 0x0008103e, 0x00100010,
                                                 0x00100020, 0x00180050, 0x0020000e, 0x00200013, 0x00200032,
@@ -46,8 +53,10 @@ class Parser {
  private:
   bool read(void* to, uint64_t bytes) {
     if (bytes > size_ - position_) return false;
-    in_.read(static_cast<char*>(to), static_cast<std::streamsize>(bytes));
+    const uint64_t at = position_;
     position_ += bytes;
+    if (!result_.inflated.empty()) return result_.inflated.copy(static_cast<char*>(to), bytes, at) == bytes;
+    in_.read(static_cast<char*>(to), static_cast<std::streamsize>(bytes));
     return static_cast<bool>(in_);
   }
   bool skip(uint64_t bytes) {
@@ -77,6 +86,8 @@ class Parser {
   bool elements(DicomSet& set, bool implicit, uint64_t end, bool open, int depth);
   bool sequence(const Element& e, DicomSet& set, bool implicit, int depth);
   bool fragments();
+  /// Goes on in what the rest of the file is packed from.
+  bool inflate_rest();
 
   std::ifstream in_;
   uint64_t size_ = 0, position_ = 0;
@@ -211,6 +222,30 @@ bool Parser::elements(DicomSet& set, bool implicit, uint64_t end, bool open, int
   return !open && position_ == end;
 }
 
+bool Parser::inflate_rest() {
+  std::string packed(size_ - position_, '\0');
+  if (!read(packed.data(), packed.size())) return false;
+  z_stream stream{};
+  constexpr int without_header = -15;
+  if (::inflateInit2(&stream, without_header) != Z_OK) throw std::bad_alloc();
+  const std::unique_ptr<z_stream, decltype(&::inflateEnd)> ends(&stream, ::inflateEnd);
+  stream.next_in = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_in = static_cast<uInt>(std::min<size_t>(packed.size(), UINT32_MAX));
+  std::string& to = result_.inflated;
+  std::vector<char> piece(1 << 20);
+  for (int state = Z_OK; state == Z_OK && to.size() <= max_inflated_bytes;) {
+    stream.next_out = reinterpret_cast<Bytef*>(piece.data());
+    stream.avail_out = static_cast<uInt>(piece.size());
+    state = ::inflate(&stream, Z_NO_FLUSH);
+    to.append(piece.data(), piece.size() - stream.avail_out);
+    if (state != Z_STREAM_END) continue;
+    size_ = to.size();
+    position_ = 0;
+    return size_ > 0;
+  }
+  return false;
+}
+
 DicomFile Parser::parse() {
   std::array<char, 4> marker{};
   bool implicit = false;
@@ -221,8 +256,7 @@ DicomFile Parser::parse() {
     result_.big_endian = syntax == "1.2.840.10008.1.2.2";
     implicit = syntax == "1.2.840.10008.1.2";
     result_.transfer_syntax = syntax;
-    // What follows is packed as a whole; retired for CT.
-    if (syntax == "1.2.840.10008.1.2.1.99") return result_;
+    if (syntax == "1.2.840.10008.1.2.1.99" && !inflate_rest()) return result_;
   } else if (bare_data_set(implicit)) {
     result_.transfer_syntax = implicit ? "1.2.840.10008.1.2" : "1.2.840.10008.1.2.1";
   } else {
@@ -235,6 +269,21 @@ DicomFile Parser::parse() {
 }
 
 }  // namespace
+
+std::string DicomFile::bytes_at(const std::filesystem::path& file, const Piece& piece) const {
+  std::string bytes(piece.bytes, '\0');
+  if (!inflated.empty()) {
+    inflated.copy(bytes.data(), bytes.size(), piece.at);
+    return bytes;
+  }
+  std::ifstream in(file, std::ios::binary);
+  in.seekg(static_cast<std::streamoff>(piece.at));
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!in)
+    throw Error(ErrorKind::invalid_input,
+                file.string() + ": the pixels cannot be read, the file was changed while it was read");
+  return bytes;
+}
 
 DicomFile parse_dicom(const std::filesystem::path& file) { return Parser(file).parse(); }
 

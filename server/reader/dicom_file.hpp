@@ -32,12 +32,17 @@ struct DicomFile {
   };
   bool packed = false;
   std::vector<Piece>
-      pixels;  ///< where they lie: one piece; of packed ones the offset table, then the fragments
+      pixels;            ///< where they lie: one piece; of packed ones the offset table, then the fragments
+  std::string inflated;  ///< of a deflated file: what the pieces are places of, instead of the file
+
+  /// Throws Error invalid_input when they are not there any more.
+  std::string bytes_at(const std::filesystem::path& file, const Piece& piece) const;
 };
 
-/// Takes a file apart (DICOM PS3.5 and PS3.10; implicit and explicit, little and big endian; also old files
-/// without a preamble). Every length is held against the file's. Done here, not by the library that unpacks
-/// pixels, because that one ends the program on some damaged headers and takes missing pixels for zeros.
+/// Takes a file apart (DICOM PS3.5 and PS3.10; implicit and explicit, little and big endian, deflated; also
+/// old files without a preamble). Every length is held against the file's. Done here, not by the library that
+/// unpacks pixels, because that one ends the program on some damaged headers and takes missing pixels for
+/// zeros.
 DicomFile parse_dicom(const std::filesystem::path& file);
 
 }  // namespace ream::reader

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 
 #include "core/error.hpp"
 
@@ -28,10 +27,13 @@ uint32_t four_at(std::string_view bytes, size_t at) {
 
 std::string contradiction(bool fits) { return fits ? "" : "their stream contradicts the header"; }
 
+/// Of a value in memory, as the library unpacks one of so many bits.
+int unpacked_bytes_of(unsigned bits) { return bits <= 8 ? 1 : bits <= 16 ? 2 : 4; }
+
 const char* const damaged = "the headers of their stream are damaged";
 
 /// The frame header of JPEG 2000 (SIZ) follows the start at once.
-std::string jpeg_2000_problem(std::string_view bytes, int columns, int rows) {
+std::string jpeg_2000_problem(std::string_view bytes, int columns, int rows, int bytes_a_value) {
   constexpr size_t header_bytes = 2 + 2 + 38 + 3;
   constexpr unsigned size_marker = 0xff51;
   if (bytes.size() < header_bytes || two_at(bytes, 2) != size_marker) return damaged;
@@ -39,6 +41,7 @@ std::string jpeg_2000_problem(std::string_view bytes, int columns, int rows) {
                  top = four_at(bytes, 20);
   return contradiction(right > left && bottom > top && right - left == static_cast<uint32_t>(columns) &&
                        bottom - top == static_cast<uint32_t>(rows) && two_at(bytes, 40) == 1 &&
+                       unpacked_bytes_of((byte_at(bytes, 42) & 0x7f) + 1) == bytes_a_value &&
                        byte_at(bytes, 43) == 1 && byte_at(bytes, 44) == 1);
 }
 
@@ -48,7 +51,7 @@ bool starts_frame(unsigned marker) {
 }
 
 /// Segments up to the frame header (SOF): marker, length, content.
-std::string jpeg_problem(std::string_view bytes, int columns, int rows) {
+std::string jpeg_problem(std::string_view bytes, int columns, int rows, int bytes_a_value) {
   size_t at = 2;
   while (at + 4 <= bytes.size()) {
     if (byte_at(bytes, at) != 0xff) return damaged;
@@ -64,7 +67,8 @@ std::string jpeg_problem(std::string_view bytes, int columns, int rows) {
       if (length != one_component) return contradiction(false);
       const unsigned precision = byte_at(bytes, at + 4);
       return contradiction(
-          precision >= 2 && precision <= 16 && two_at(bytes, at + 5) == static_cast<unsigned>(rows) &&
+          precision >= 2 && precision <= 16 && unpacked_bytes_of(precision) == bytes_a_value &&
+          two_at(bytes, at + 5) == static_cast<unsigned>(rows) &&
           two_at(bytes, at + 7) == static_cast<unsigned>(columns) && byte_at(bytes, at + 9) == 1);
     }
     at += 2 + length;
@@ -98,8 +102,8 @@ std::string packed_frame_problem(std::string_view bytes, int columns, int rows, 
   if (rle) return rle_problem(bytes, bytes_a_value);
   const auto tail = bytes.substr(bytes.size() - std::min(bytes.size(), max_filling_bytes));
   if (tail.find("\xff\xd9") == std::string_view::npos) return "their stream is cut short";
-  if (bytes.starts_with("\xff\x4f")) return jpeg_2000_problem(bytes, columns, rows);
-  return bytes.starts_with("\xff\xd8") ? jpeg_problem(bytes, columns, rows) : damaged;
+  if (bytes.starts_with("\xff\x4f")) return jpeg_2000_problem(bytes, columns, rows, bytes_a_value);
+  return bytes.starts_with("\xff\xd8") ? jpeg_problem(bytes, columns, rows, bytes_a_value) : damaged;
 }
 
 /// Padding among the values of tissue cannot be told from tissue (some writers state 0 for everything).
@@ -109,20 +113,11 @@ Error unreadable(const std::filesystem::path& file, const std::string& why) {
   return {ErrorKind::invalid_input, file.string() + ": the pixels cannot be read, " + why};
 }
 
-std::string bytes_at(std::ifstream& in, const DicomFile::Piece& piece, const std::filesystem::path& file) {
-  std::string bytes(piece.bytes, '\0');
-  in.seekg(static_cast<std::streamoff>(piece.at));
-  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!in) throw unreadable(file, "the file was changed while it was read");
-  return bytes;
-}
-
 /// The packed pictures, one for each frame; a single frame may come in many fragments.
 std::vector<std::string> packed_frames(const DicomSlice& slice, const DicomFile& file) {
-  std::ifstream in(slice.file, std::ios::binary);
   std::vector<std::string> frames;
   for (size_t i = 1; i < file.pixels.size(); ++i) {
-    std::string bytes = bytes_at(in, file.pixels[i], slice.file);
+    std::string bytes = file.bytes_at(slice.file, file.pixels[i]);
     if (slice.frames == 1 && !frames.empty())
       frames[0] += bytes;
     else
@@ -154,8 +149,7 @@ std::vector<char> DicomPixels::plain(const DicomSlice& slice, const DicomFile& f
   const uint64_t before = static_cast<uint64_t>(slice.frame) * bytes;
   if (file.pixels.size() != 1 || file.pixels[0].bytes < before + bytes)
     throw unreadable(slice.file, "there are fewer than the header says");
-  std::ifstream in(slice.file, std::ios::binary);
-  const std::string raw = bytes_at(in, {file.pixels[0].at + before, bytes}, slice.file);
+  const std::string raw = file.bytes_at(slice.file, {file.pixels[0].at + before, bytes});
   std::vector<char> values(raw.begin(), raw.end());
   if (file.big_endian)
     for (size_t i = 0; i < values.size(); i += width)

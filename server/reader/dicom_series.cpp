@@ -5,6 +5,8 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
+#include "ct/read/ct_file_names.hpp"
 #include "reader/slice_stack.hpp"
 
 namespace ream::reader {
@@ -43,7 +45,7 @@ std::vector<fs::path> files_below(const fs::path& path) {
 
 /// Whether the file holds pictures; refuses what is damaged.
 bool holds_an_image(const fs::path& path, const DicomFile& file, int& imageless) {
-  const bool named_dicom = path.extension() == ".dcm" || path.extension() == ".DCM";
+  const bool named_dicom = ct::kind_by_name(path) == ct::CtFileKind::dicom;
   if (file.state == DicomState::damaged || (file.state == DicomState::not_dicom && named_dicom))
     throw Error(ErrorKind::invalid_input,
                 path.string() + " is cut short or not DICOM; copy it again from its source or take it away");
@@ -122,9 +124,20 @@ const Series& chosen(const DicomScan& scan, const std::string& uid, const fs::pa
   return *found;
 }
 
+/// Hounsfield units by another name than the standard's HU: "hu", "Houndsfield Unit", "[hnsf'U]" are written.
+bool means_hu(const std::string& value_type) {
+  std::string letters = lower(value_type);
+  std::erase_if(letters, [](char c) { return c < 'a' || c > 'z'; });
+  const bool spelt_out = letters.starts_with("houn") && letters.find('f') != std::string::npos;
+  return value_type != "HU" && (letters == "hu" || letters == "hnsfu" || spelt_out);
+}
+
 void warn_of_value_type(HuVolume& volume, const DicomSlice& slice) {
   if (slice.value_type == "unscaled")
     volume.warnings.push_back("the slices do not say how to scale their values; they were taken as HU");
+  else if (means_hu(slice.value_type))
+    volume.warnings.push_back("the slices call their values '" + slice.value_type +
+                              "'; this was taken as HU");
   else if (!slice.value_type.empty() && slice.value_type != "HU" && slice.value_type != "US")
     volume.warnings.push_back("the slices hold " + slice.value_type +
                               ", not HU; thresholds and densities will not fit");

@@ -142,8 +142,9 @@ void read_values_rule(DicomSlice& slice, const DicomSet& set, const Attributes& 
              intercept = attributes.numbers(values_macro, 0x0028, 0x1052);
   slice.slope = slope.empty() ? 1.0 : slope[0];
   slice.intercept = intercept.empty() ? 0.0 : intercept[0];
-  slice.value_type =
-      slope.empty() && intercept.empty() ? "unscaled" : attributes.text(values_macro, 0x0028, 0x1054);
+  slice.value_type = slope.empty() && intercept.empty()
+                         ? "unscaled"
+                         : readable(attributes.text(values_macro, 0x0028, 0x1054), "");
   if (!std::isfinite(slice.slope) || !std::isfinite(slice.intercept) || slice.slope == 0.0)
     slice.unusable = "whose rescale slope or intercept cannot be used";
   const bool is_signed = whole_number(set, 0x0028, 0x0103).value_or(0) == 1;

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "core/error.hpp"
+#include "ct/read/ct_file_names.hpp"
 #include "ct/read/volume_answer.hpp"
 #include "reader/ct_files.hpp"
 #include "reader/volume_file.hpp"
@@ -128,12 +129,8 @@ GrayValues write_ct(const fs::path& path, const fs::path& values, const Progress
 
 GrayValues write_gray_values(const fs::path& path, const fs::path& values, uint64_t max_bytes,
                              const Progress& progress) {
-  GrayValues result = ct::is_volume_file(path) ? write_layers(path, values, max_bytes, progress)
-                                               : write_ct(path, values, progress);
-  if (!result.gray.exact)
-    result.place.warnings.emplace_back(
-        "gray values were rounded to 65,536 steps between the least and the greatest");
-  return result;
+  return ct::kind_by_name(path) == ct::CtFileKind::volume ? write_layers(path, values, max_bytes, progress)
+                                                          : write_ct(path, values, progress);
 }
 
 }  // namespace ream::reader

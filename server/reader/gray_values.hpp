@@ -19,4 +19,12 @@ struct GrayValues {
 GrayValues write_gray_values(const std::filesystem::path& path, const std::filesystem::path& values,
                              uint64_t max_bytes, const Progress& progress);
 
+/// The same of text rows, which need not give every voxel: a bit for each voxel (ct::given_words_per_layer)
+/// to `given`, the codes of those that have a row to `values`. Memory is 12 bytes a row, the bits, and the
+/// codes of a few layers; what `max_bytes` has no room for goes to the disk. On two threads. Errors as
+/// read_text_rows, but for missing voxels.
+GrayValues write_row_values(const std::filesystem::path& path, const std::filesystem::path& given,
+                            const std::filesystem::path& values, uint64_t max_bytes,
+                            const Progress& progress);
+
 }  // namespace ream::reader

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "core/text.hpp"
+#include "ct/read/ct_file_names.hpp"
 #include "ct/read/volume_answer.hpp"
 #include "isolation/reader_service.hpp"
 #include "reader/ct_files.hpp"
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double unpacking_share = 0.2;
 constexpr uint64_t megabyte = 1'000'000;
-const char* const values_file = "values";
+const char *const values_file = "values", *const given_file = "given";
 
 /// What was read, its values in a file.
 json written(const HuVolume& volume) {
@@ -52,21 +52,20 @@ json labels_task(const fs::path& input, const json&, const Progress&) {
   return written(read_volume_file(input));
 }
 
-bool is_text(const fs::path& path) {
-  const std::string ending = lower(path.extension().string());
-  return ending == ".txt" || ending == ".csv" || ending == ".xyz";
-}
-
 json gray_task(const fs::path& input, const json& options, const Progress& progress) {
   return from_source(input, progress, [&](const fs::path& path, const Progress& reading) {
-    if (is_text(path)) {
-      fs::rename(path, "rows");
-      return json{{"rows", true}};
-    }
-    const GrayValues values = write_gray_values(path, values_file, options.at("max_bytes"), reading);
-    return json{
+    const bool rows = ct::kind_by_name(path) == ct::CtFileKind::rows;
+    const uint64_t max_bytes = options.at("max_bytes");
+    GrayValues values = rows ? write_row_values(path, given_file, values_file, max_bytes, reading)
+                             : write_gray_values(path, values_file, max_bytes, reading);
+    if (!values.gray.exact)
+      values.place.warnings.emplace_back(
+          "gray values were rounded to 65,536 steps between the least and the greatest");
+    json answer{
         {"volume", ct::answer_of(values.place)},
         {"gray", {{"offset", values.gray.offset}, {"step", values.gray.step}, {"exact", values.gray.exact}}}};
+    if (rows) answer["given"] = true;
+    return answer;
   });
 }
 

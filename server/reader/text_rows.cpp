@@ -1,258 +1,269 @@
-#include "reader/ct_files.hpp"
-
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
-#include <charconv>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <optional>
-#include <string_view>
 
 #include "core/error.hpp"
+#include "core/thread_pool.hpp"
+#include "ct/read/volume_answer.hpp"
+#include "reader/ct_files.hpp"
+#include "reader/gray_values.hpp"
+#include "reader/row_store.hpp"
 
 namespace ream::reader {
-namespace fs = std::filesystem;
 namespace {
 
-constexpr size_t piece_bytes = 1 << 20;
-constexpr size_t max_line_bytes = 4096;
-constexpr size_t max_places = 8192;           // along one axis
-constexpr double gap_tolerance = 0.08;        // of a voxel, for positions rounded when written
-constexpr double same_place = 1e-3;           // of a voxel: two ways to write one position
-constexpr uint64_t progress_every = 1 << 16;  // lines
+using ct::given_words_per_layer;
+using Axes = std::array<RowAxis, 3>;
 
-struct Row {
-  std::array<double, 3> at{};
-  double gray = 0.0;
-  uint64_t line = 0;
-};
+/// A grid may have so many voxels for each row, and this many whatever its rows.
+constexpr uint64_t max_voxels_per_row = 2000, always_voxels = 100'000'000;
+constexpr int max_row_side = 65535;
+constexpr uint64_t dense_bytes = 1'000'000'000;  // of memory for rows, before they go to the disk
 
-bool separates(char c) { return c == ' ' || c == '\t' || c == ',' || c == ';' || c == '\r'; }
-
-/// Numbers at the start of a line; false when there are fewer or something else follows.
-template <size_t count>
-bool parse_numbers(const char* from, const char* end, std::array<double, count>& numbers) {
-  for (double& number : numbers) {
-    while (from != end && separates(*from)) ++from;
-    const auto parsed = std::from_chars(from, end, number);
-    if (parsed.ec != std::errc() || !std::isfinite(number)) return false;
-    from = parsed.ptr;
-    if (from != end && !separates(*from)) return false;
+Axes axes_of(const RowStore& store, const std::string& file) {
+  Axes axes;
+  for (size_t k = 0; k < 3; ++k) {
+    std::vector<RowPlace> places;
+    for (size_t t = 0; t < RowStore::threads; ++t)
+      for (const RowPlace& place : store.parser(t).places[k].places()) places.push_back(place);
+    std::optional<RowPlace> off;
+    axes[k] = axis_of(std::move(places), off);
+    if (off)
+      throw Error(ErrorKind::invalid_input,
+                  file + " line " + std::to_string(store.line_of_byte(off->first_byte)) + ": its " +
+                      "xyz"[k] + " lies on no regular grid with the others");
   }
-  while (from != end && separates(*from)) ++from;
-  return from == end;
+  return axes;
 }
 
-/// A text file in pieces.
-class Rows {
- public:
-  Rows(const fs::path& path, const Progress& progress)
-      : path_(path), progress_(progress), in_(path, std::ios::binary), size_(fs::file_size(path)) {
-    if (!in_) throw Error(ErrorKind::io, "cannot read " + path.string());
+/// Places the grid; `spacing_mm` from a comment.
+void set_grid(HuVolume& volume, Axes& axes, const std::optional<Vec3>& spacing_mm, const std::string& file) {
+  double step = 0.0;
+  bool whole = true;
+  for (const RowAxis& axis : axes) {
+    if (axis.count > 1) step = step > 0.0 ? std::min(step, axis.step) : axis.step;
+    whole = whole && (axis.count == 1 || axis.step == 1.0) && axis.first == std::floor(axis.first) &&
+            axis.first >= 0.0;
   }
-
-  Error wrong(uint64_t line, const std::string& why) const {
-    return {ErrorKind::invalid_input, path_.string() + " line " + std::to_string(line) + ": " + why};
-  }
-
-  /// Calls use(row) for every row.
-  template <typename Use>
-  void each(Use&& use) {
-    std::string text;
-    while (in_) {
-      const size_t kept = text.size();
-      text.resize(kept + piece_bytes);
-      in_.read(text.data() + kept, static_cast<std::streamsize>(piece_bytes));
-      text.resize(kept + static_cast<size_t>(in_.gcount()));
-      read_ += static_cast<uint64_t>(in_.gcount());
-      if (!in_ && !text.empty() && text.back() != '\n') text += '\n';
-      const char *at = text.data(), *end = at + text.size();
-      while (const char* stop =
-                 static_cast<const char*>(std::memchr(at, '\n', static_cast<size_t>(end - at)))) {
-        line(at, stop, use);
-        at = stop + 1;
-      }
-      text.erase(0, static_cast<size_t>(at - text.data()));
-      if (text.size() > max_line_bytes) throw wrong(line_ + 1, "is too long for 'x y z gray'");
-    }
-  }
-
-  std::optional<Vec3> spacing_mm;  ///< from a comment
-
- private:
-  template <typename Use>
-  void line(const char* from, const char* end, Use&& use) {
-    ++line_;
-    if (line_ % progress_every == 0)
-      progress_(static_cast<double>(read_) / static_cast<double>(size_), "reading rows");
-    while (from != end && separates(*from)) ++from;
-    if (from == end) return;
-    if (*from == '#') return comment(from, end);
-    std::array<double, 4> numbers{};
-    if (!parse_numbers(from, end, numbers)) throw wrong(line_, "is not four finite numbers 'x y z gray'");
-    use(Row{{numbers[0], numbers[1], numbers[2]}, numbers[3], line_});
-  }
-
-  void comment(const char* from, const char* end) {
-    const std::string_view words(from, static_cast<size_t>(end - from)), key = "# spacing_mm";
-    if (!words.starts_with(key)) return;
-    std::array<double, 3> numbers{};
-    if (!parse_numbers(from + key.size(), end, numbers) ||
-        !(*std::min_element(numbers.begin(), numbers.end()) > 0.0))
-      throw wrong(line_, "'# spacing_mm' needs three positive numbers");
-    spacing_mm = Vec3(numbers[0], numbers[1], numbers[2]);
-  }
-
-  fs::path path_;
-  const Progress& progress_;
-  std::ifstream in_;
-  uint64_t size_ = 0, read_ = 0, line_ = 0;
-};
-
-/// The different positions along one axis, each with the first line that has it.
-class Places {
- public:
-  Places() : table_(4 * max_places) {}
-
-  /// False when there are too many for a grid.
-  bool add(double at, uint64_t line) {
-    if (at == last_) return true;
-    last_ = at;
-    auto slot = (std::bit_cast<uint64_t>(at + 0.0) * 0x9e3779b97f4a7c15u) >> 49;
-    while (table_[slot].line != 0) {
-      if (table_[slot].at == at) return true;
-      slot = (slot + 1) % table_.size();
-    }
-    if (++count_ > max_places) return false;
-    table_[slot] = {at, line};
-    return true;
-  }
-
-  struct Place {
-    double at = 0.0;
-    uint64_t line = 0;  // 0: no place
-  };
-  std::vector<Place> sorted() const {
-    std::vector<Place> places;
-    std::copy_if(table_.begin(), table_.end(), std::back_inserter(places),
-                 [](const Place& p) { return p.line != 0; });
-    std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.at < b.at; });
-    return places;
-  }
-
- private:
-  std::vector<Place> table_;
-  size_t count_ = 0;
-  double last_ = std::nan("");
-};
-
-struct Axis {
-  double first = 0.0, step = 1.0;
-  int count = 0;
-  bool indices = false;  // 0, 1, 2, ...
-};
-
-/// Positions that are one but for the way they are written are merged; what is left must be evenly spaced.
-Axis axis_of(const Places& all, char name, const Rows& rows, const std::string& file) {
-  auto places = all.sorted();
-  const double length = places.back().at - places.front().at;
-  const double same = same_place * length / static_cast<double>(places.size());
-  const auto written_otherwise = [&](const auto& a, const auto& b) { return b.at - a.at <= same; };
-  places.erase(std::unique(places.begin(), places.end(), written_otherwise), places.end());
-  if (places.size() < 2)
-    throw Error(ErrorKind::invalid_input,
-                file + " has a single " + name + "; a volume has at least two voxels along each axis");
-  std::vector<double> gaps;
-  for (size_t i = 1; i < places.size(); ++i) gaps.push_back(places[i].at - places[i - 1].at);
-  std::nth_element(gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2), gaps.end());
-  const double usual = gaps[gaps.size() / 2];
-  Axis axis;
-  axis.first = places.front().at;
-  axis.count = static_cast<int>(places.size());
-  axis.step = (places.back().at - axis.first) / (axis.count - 1);
-  const auto refuse = [&](const Places::Place& place) {
-    return rows.wrong(place.line, std::string("its ") + name + " lies on no regular grid with the others");
-  };
-  for (size_t i = 1; i < places.size(); ++i)
-    if (std::abs(places[i].at - places[i - 1].at - usual) > gap_tolerance * usual) throw refuse(places[i]);
-  for (size_t i = 1; i < places.size(); ++i)
-    if (std::abs(places[i].at - axis.first - static_cast<double>(i) * axis.step) > gap_tolerance * axis.step)
-      throw refuse(places[i]);
-  axis.indices = axis.first == 0.0 && axis.step == 1.0;
-  return axis;
-}
-
-void set_place(HuVolume& volume, const std::array<Axis, 3>& axes, const std::optional<Vec3>& spacing_mm) {
-  const bool indices = axes[0].indices && axes[1].indices && axes[2].indices;
   for (int k = 0; k < 3; ++k) {
-    volume.dims[k] = axes[static_cast<size_t>(k)].count;
-    volume.spacing_mm[k] = axes[static_cast<size_t>(k)].step;
-    volume.world_from_volume.translation_mm[k] =
-        axes[static_cast<size_t>(k)].first - 0.5 * volume.spacing_mm[k];
+    RowAxis& axis = axes[static_cast<size_t>(k)];
+    double& corner = volume.world_from_volume.translation_mm[k];
+    volume.dims[k] = axis.count;
+    if (spacing_mm && whole) {
+      volume.spacing_mm[k] = (*spacing_mm)[k];
+      corner = (axis.first - 0.5) * volume.spacing_mm[k];
+      continue;
+    }
+    if (axis.count == 1 && spacing_mm) axis.step = (*spacing_mm)[k];
+    if (axis.count == 1 && !(axis.step > 0.0)) axis.step = step;
+    if (!(axis.step > 0.0))
+      throw Error(ErrorKind::invalid_input,
+                  file +
+                      " holds a single voxel, which says nothing of its size; put a line "
+                      "'# spacing_mm X Y Z' before it");
+    volume.spacing_mm[k] = axis.step;
+    corner = axis.first - 0.5 * axis.step;
   }
-  if (!indices) return;
-  volume.spacing_mm = spacing_mm.value_or(Vec3::Ones());
-  volume.world_from_volume.translation_mm = -0.5 * volume.spacing_mm;
-  if (!spacing_mm)
+  if (whole && !spacing_mm && step == 1.0)
     volume.warnings.push_back(
-        "the rows give voxel indices without a size; voxels of 1 mm were taken (a line '# spacing_mm X Y Z' "
-        "before the rows says otherwise)");
+        "the rows give whole numbers, which were taken as mm: voxels of 1 mm; if they are voxel indices, put "
+        "a line '# spacing_mm X Y Z' before the rows");
 }
+
+void check_size(const Axes& axes, uint64_t rows, const std::string& file) {
+  const double voxels = static_cast<double>(axes[0].count) * axes[1].count * axes[2].count;
+  const bool sparse = voxels > static_cast<double>(always_voxels) &&
+                      voxels > static_cast<double>(max_voxels_per_row) * static_cast<double>(rows);
+  const int longest = std::max({axes[0].count, axes[1].count, axes[2].count});
+  if (sparse || voxels > max_ct_voxels || longest > max_row_side)
+    throw Error(ErrorKind::invalid_input,
+                file + " spans " + std::to_string(axes[0].count) + " x " + std::to_string(axes[1].count) +
+                    " x " + std::to_string(axes[2].count) + " voxels with " + std::to_string(rows) +
+                    " rows only; are some far off? (a volume has at most 1e9 voxels, 65,535 along an axis)");
+}
+
+/// The rows of a file on the grid that they make.
+class RowGrid {
+ public:
+  RowGrid(const std::filesystem::path& path, MemoryBudget& budget, const Progress& progress)
+      : file_(path.string()), store_(path, budget, progress) {
+    if (store_.size() == 0) throw Error(ErrorKind::invalid_input, file_ + " holds no rows 'x y z gray'");
+    Axes axes = axes_of(store_, file_);
+    check_size(axes, store_.size(), file_);
+    std::optional<Vec3> spacing_mm;
+    for (size_t t = 0; t < RowStore::threads; ++t)
+      if (store_.parser(t).spacing_mm) spacing_mm = store_.parser(t).spacing_mm;
+    set_grid(place, axes, spacing_mm, file_);
+    place.source = "text rows x y z gray";
+    for (size_t t = 0; t < RowStore::threads; ++t)
+      for (size_t k = 0; k < 3; ++k)
+        for (const RowPlace& at : store_.parser(t).places[k].places())
+          index_[t][k].push_back(axes[k].index(at.at));
+  }
+
+  uint64_t rows() const { return store_.size(); }
+  const std::string& file() const { return file_; }
+
+  voxel::GrayScale gray() const {
+    voxel::GrayScaleFinder finder;
+    for (size_t t = 0; t < RowStore::threads; ++t) finder.add(store_.parser(t).gray);
+    return finder.scale();
+  }
+
+  /// Calls use(voxel, gray) for every row, blocks of rows on two threads.
+  template <typename Use>
+  void each(Use&& use) const {
+    parallel_for(2, store_.blocks(), [&](size_t block) {
+      each_of(block, [&](const Vec3i& voxel, float gray, size_t) { use(voxel, gray); });
+    });
+  }
+
+  /// Names the first row whose voxel an earlier one gave.
+  [[noreturn]] void refuse_repeated() const {
+    std::vector<bool> seen(place.voxel_count());
+    for (size_t block = 0; block < store_.blocks(); ++block)
+      each_of(block, [&](const Vec3i& o, float, size_t row) {
+        const size_t i = place.index(o.x(), o.y(), o.z());
+        if (seen[i])
+          throw Error(ErrorKind::invalid_input, file_ + " line " +
+                                                    std::to_string(store_.line_of_row(block, row)) +
+                                                    ": gives a voxel that an earlier line gave already");
+        seen[i] = true;
+      });
+    throw Error(ErrorKind::invalid_input, file_ + " was changed while it was read");
+  }
+
+  HuVolume place;  ///< everything but the values
+
+ private:
+  template <typename Use>
+  void each_of(size_t block, Use&& use) const {
+    std::vector<RowRecord> scratch;
+    const auto& index = index_[store_.parser_of(block)];
+    size_t number = 0;
+    for (const RowRecord& row : store_.rows(block, scratch))
+      use(Vec3i(index[0][row.place[0]], index[1][row.place[1]], index[2][row.place[2]]), row.gray, number++);
+  }
+
+  std::string file_;
+  RowStore store_;
+  std::array<std::array<std::vector<int>, 3>, RowStore::threads> index_;
+};
+
+/// Which voxels have a row: a bit each, a layer in whole words.
+class GivenVoxels {
+ public:
+  GivenVoxels(const RowGrid& grid, MemoryBudget& budget) : dims_(grid.place.dims) {
+    budget.take(given_words_per_layer(dims_) * layers() * sizeof(uint64_t), "the grid of " + grid.file());
+    words_.resize(given_words_per_layer(dims_) * layers());
+    std::atomic<bool> once{true};
+    grid.each([&](const Vec3i& o, float) {
+      const uint64_t bit = uint64_t{1} << bit_of(o) % 64;
+      const std::atomic_ref word(words_[bit_of(o) / 64]);
+      if ((word.fetch_or(bit, std::memory_order_relaxed) & bit) != 0) once = false;
+    });
+    if (!once) grid.refuse_repeated();
+    uint64_t sum = 0;
+    for (size_t i = 0; i < words_.size(); ++i) {
+      if (i % counted_words == 0) before_.push_back(sum);
+      sum += static_cast<uint64_t>(std::popcount(words_[i]));
+    }
+    before_.push_back(sum);
+  }
+
+  /// How many given voxels come before it.
+  uint64_t number_of(const Vec3i& o) const {
+    const uint64_t at = bit_of(o), word = at / 64;
+    return before_word(word) +
+           static_cast<uint64_t>(std::popcount(words_[word] & ((uint64_t{1} << at % 64) - 1)));
+  }
+  uint64_t before_layer(int w) const {
+    return before_word(static_cast<uint64_t>(w) * given_words_per_layer(dims_));
+  }
+  const std::vector<uint64_t>& words() const { return words_; }
+
+ private:
+  static constexpr size_t counted_words = 8;
+
+  size_t layers() const { return static_cast<size_t>(dims_.z()); }
+  uint64_t bit_of(const Vec3i& o) const {
+    return 64 * given_words_per_layer(dims_) * static_cast<uint64_t>(o.z()) +
+           static_cast<uint64_t>(o.y()) * static_cast<uint64_t>(dims_.x()) + static_cast<uint64_t>(o.x());
+  }
+  uint64_t before_word(uint64_t word) const {
+    if (word == words_.size()) return before_.back();
+    uint64_t sum = before_[word / counted_words];
+    for (uint64_t i = word - word % counted_words; i < word; ++i)
+      sum += static_cast<uint64_t>(std::popcount(words_[i]));
+    return sum;
+  }
+
+  Vec3i dims_;
+  std::vector<uint64_t> words_, before_;
+};
 
 }  // namespace
 
-HuVolume read_text_rows(const fs::path& path, const Progress& progress) {
-  if (!fs::is_regular_file(path)) throw Error(ErrorKind::not_found, "no such file: " + path.string());
-  const std::string file = path.string();
-  const Progress first_half = part_of(progress, 0.0, 0.5), second_half = part_of(progress, 0.5, 1.0);
-  std::array<Places, 3> places;
-  uint64_t count = 0;
-  Rows first(path, first_half);
-  first.each([&](const Row& row) {
-    ++count;
-    for (size_t k = 0; k < 3; ++k)
-      if (!places[k].add(row.at[k], row.line))
-        throw first.wrong(row.line, std::string("more than 8192 different ") + "xyz"[k] +
-                                        " so far; the rows are on no regular grid");
-  });
-  if (count == 0) throw Error(ErrorKind::invalid_input, file + " holds no rows 'x y z gray'");
-  std::array<Axis, 3> axes;
-  for (size_t k = 0; k < 3; ++k) axes[k] = axis_of(places[k], "xyz"[k], first, file);
-  HuVolume volume;
-  set_place(volume, axes, first.spacing_mm);
-  if (static_cast<double>(volume.dims.x()) * volume.dims.y() * volume.dims.z() > max_ct_voxels)
-    throw Error(ErrorKind::invalid_input, file + " spans a grid of more than 1e9 voxels");
+GrayValues write_row_values(const std::filesystem::path& path, const std::filesystem::path& given_file,
+                            const std::filesystem::path& values_file, uint64_t max_bytes,
+                            const Progress& progress) {
+  MemoryBudget budget = MemoryBudget::with_left(max_bytes, ".");
+  RowGrid grid(path, budget, progress);
+  GrayValues result{{}, grid.gray()};
+  const GivenVoxels given(grid, budget);
+  ct::write_values(given_file, given.words().data(),
+                   given.words().size() * sizeof(uint64_t) / sizeof(uint16_t));
+  const int layers = grid.place.dims.z();
+  std::vector<uint16_t> codes;
+  for (int first = 0, end = 0; first < layers; first = end) {
+    const uint64_t before = given.before_layer(first);
+    for (end = first + 1; end < layers; ++end)
+      if ((given.before_layer(end + 1) - before) * sizeof(uint16_t) > budget.left() / 2) break;
+    codes.resize(given.before_layer(end) - before);
+    grid.each([&](const Vec3i& o, float gray) {
+      if (o.z() >= first && o.z() < end)
+        codes[given.number_of(o) - before] = result.gray.code(static_cast<double>(gray));
+    });
+    ct::write_values(values_file, codes.data(), codes.size());
+  }
+  result.place = std::move(grid.place);
+  return result;
+}
+
+HuVolume read_text_rows(const std::filesystem::path& path, const Progress& progress) {
+  MemoryBudget budget(dense_bytes, ".");
+  RowGrid grid(path, budget, progress);
+  HuVolume volume = grid.place;
+  for (int k = 0; k < 3; ++k)
+    if (volume.dims[k] < 2)
+      throw Error(ErrorKind::invalid_input, grid.file() + " has a single " + "xyz"[k] +
+                                                "; a volume has at least two voxels along each axis");
   // Before memory is taken: a few far rows must not claim a large grid.
-  if (count < volume.voxel_count() / 2)
-    throw Error(ErrorKind::invalid_input, file + " has " + std::to_string(count) + " rows for a grid of " +
-                                              std::to_string(volume.voxel_count()) +
+  if (grid.rows() < volume.voxel_count() / 2)
+    throw Error(ErrorKind::invalid_input, grid.file() + " has " + std::to_string(grid.rows()) +
+                                              " rows for a grid of " + std::to_string(volume.voxel_count()) +
                                               " voxels; every voxel needs one");
   volume.hu.assign(volume.voxel_count(), 0);
-  std::vector<bool> seen(volume.voxel_count());
-  Rows second(path, second_half);
-  second.each([&](const Row& row) {
-    Vec3i o;
-    for (int k = 0; k < 3; ++k) {
-      const Axis& axis = axes[static_cast<size_t>(k)];
-      o[k] = static_cast<int>(std::floor((row.at[static_cast<size_t>(k)] - axis.first) / axis.step + 0.5));
-    }
-    if (!volume.contains(o)) throw second.wrong(row.line, "the file was changed while it was read");
+  std::vector<uint8_t> seen(volume.voxel_count());
+  std::atomic<bool> once{true};
+  grid.each([&](const Vec3i& o, float gray) {
     const size_t i = volume.index(o.x(), o.y(), o.z());
-    if (seen[i]) throw second.wrong(row.line, "gives a voxel that an earlier line gave already");
-    seen[i] = true;
-    volume.hu[i] = static_cast<int16_t>(std::clamp(std::floor(row.gray + 0.5), -32768.0, 32767.0));
+    if (std::atomic_ref(seen[i]).exchange(1, std::memory_order_relaxed) != 0)
+      once = false;
+    else
+      volume.hu[i] = static_cast<int16_t>(std::clamp(std::floor(gray + 0.5f), -32768.0f, 32767.0f));
   });
-  const auto hole = static_cast<size_t>(std::find(seen.begin(), seen.end(), false) - seen.begin());
-  if (hole < seen.size()) {
-    const auto nx = static_cast<size_t>(volume.dims.x()), ny = static_cast<size_t>(volume.dims.y());
-    throw Error(ErrorKind::invalid_input, file + ": no row gives voxel " + std::to_string(hole % nx) + " " +
-                                              std::to_string(hole / nx % ny) + " " +
-                                              std::to_string(hole / nx / ny) + " of the grid");
-  }
-  volume.source = path.filename().string();
-  return volume;
+  if (!once) grid.refuse_repeated();
+  const auto hole = static_cast<size_t>(std::find(seen.begin(), seen.end(), 0) - seen.begin());
+  progress(1.0, "reading rows");
+  if (hole == seen.size()) return volume;
+  const auto nx = static_cast<size_t>(volume.dims.x()), ny = static_cast<size_t>(volume.dims.y());
+  throw Error(ErrorKind::invalid_input, grid.file() + ": no row gives voxel " + std::to_string(hole % nx) +
+                                            " " + std::to_string(hole / nx % ny) + " " +
+                                            std::to_string(hole / nx / ny) + " of the grid");
 }
 
 }  // namespace ream::reader

@@ -13,10 +13,12 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <optional>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "reader/ct_files.hpp"
+#include "reader/nifti2.hpp"
 
 namespace ream::reader {
 namespace fs = std::filesystem;
@@ -25,7 +27,6 @@ namespace {
 constexpr size_t max_header_bytes = 4 << 20;
 constexpr double max_deflation = 1100.0;  // zlib's limit is 1032
 constexpr double nifti_axis_tolerance = 1e-3, same_size_tolerance = 0.01;
-constexpr uint64_t nifti_header_bytes = 352;  // with the four bytes that always follow it
 
 const char* const unknown_axes =
     "the file does not say how its axes lie in the patient; they were taken as left, posterior, superior, so "
@@ -118,16 +119,28 @@ struct CloseGzip {
   void operator()(gzFile_s* file) const { gzclose(file); }
 };
 
-/// The fields of a NIfTI-1 header that decide (nifti1.h); numbers in the byte order of the file.
+/// The fields of a NIfTI header that decide, as NIfTI-1 has them (nifti1.h); numbers in the byte order of the
+/// file.
 class NiftiHeader {
  public:
   explicit NiftiHeader(const fs::path& path) {
     const std::unique_ptr<gzFile_s, CloseGzip> file(gzopen(path.c_str(), "rb"));
-    if (!file || gzread(file.get(), bytes_.data(), static_cast<unsigned>(bytes_.size())) < 348)
-      refuse(path, "it is cut short or no NIfTI file");
-    swapped_ = at<int32_t>(0) != 348;
-    if (at<int32_t>(0) != 348) refuse(path, "it is no NIfTI-1 file");
+    const int got = file ? gzread(file.get(), bytes_.data(), static_cast<unsigned>(bytes_.size())) : -1;
+    if (got < static_cast<int>(nifti1_header_bytes)) refuse(path, "it is cut short or no NIfTI file");
+    for (const bool swapped : {false, true}) {
+      swapped_ = swapped;
+      if (at<int32_t>(0) == static_cast<int32_t>(nifti1_header_bytes)) return;
+      if (at<int32_t>(0) != static_cast<int32_t>(nifti2_header_bytes)) continue;
+      if (got < static_cast<int>(nifti2_header_bytes)) refuse(path, "it is cut short");
+      narrowed_ = nifti1_of(bytes_, swapped, path.string());
+      bytes_ = narrowed_->bytes;
+      return;
+    }
+    refuse(path, "it is no NIfTI file");
   }
+  /// Of a NIfTI-2 file; all else here is as NIfTI-1 has it.
+  const std::optional<Nifti1Header>& narrowed() const { return narrowed_; }
+
   template <typename T>
   T at(size_t offset) const {
     std::array<char, sizeof(T)> raw{};
@@ -139,8 +152,9 @@ class NiftiHeader {
   }
 
  private:
-  std::array<char, 352> bytes_{};
+  std::string bytes_ = std::string(nifti2_header_bytes, '\0');
   bool swapped_ = false;
+  std::optional<Nifti1Header> narrowed_;
 };
 
 /// The library silently orthonormalizes a sheared sform, or takes the qform instead.
@@ -349,9 +363,9 @@ std::string VolumeHeader::field(const char* key) const {
 
 void VolumeHeader::check_nrrd() {
   // The library turns RAS into LPS; others it gets wrong or leaves as they are.
-  std::string space = field("space");
-  for (char& c : space)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const std::string space = lower(field("space"));
+  if (space.ends_with("-time") || space == "last" || space == "rast" || space == "lpst")
+    refuse(path_, "its space " + space + " has an axis of time; save one moment as left-posterior-superior");
   const bool known = space == "left-posterior-superior" || space == "lps" ||
                      space == "right-anterior-superior" || space == "ras";
   if (!known && (space.starts_with("left-") || space.starts_with("right-") || space == "las"))
@@ -394,14 +408,20 @@ void VolumeHeader::check_meta() {
 
 void VolumeHeader::check_nifti() {
   const NiftiHeader header(path_);
-  check(nifti_claims(header, path_), path_, path_);
+  const Claims claims = nifti_claims(header, path_);
+  check(claims, path_, path_);
   check_nifti_axes(header, path_);
+  if (header.narrowed()) {
+    double bytes = claims.bits / 8.0;
+    for (const double n : claims.dims) bytes *= n;
+    readable_ = write_as_nifti1(path_, *header.narrowed(), static_cast<uint64_t>(bytes));
+  }
   if (header.at<int16_t>(252) <= 0 && header.at<int16_t>(254) <= 0) warnings_.emplace_back(unknown_axes);
 }
 
 void VolumeHeader::check_complete(uint64_t image_bytes) const {
   if (format_ == Format::nifti) {
-    if (unpacked_bytes(path_) < nifti_header_bytes + image_bytes) cut_short(path_);
+    if (unpacked_bytes(readable_) < nifti1_voxels_begin + image_bytes) cut_short(path_);
   } else if (format_ == Format::meta) {
     const uint64_t before = voxels_ == path_ ? end_ : 0;
     if (field("CompressedData").starts_with('T'))

@@ -120,7 +120,7 @@ void print(const fe::MeshReport& r, const FemeshOptions& options, double time_ms
 }
 
 /// Reads a mesh that is there already.
-void check_file(const FemeshOptions& options, const fe::MemoryBudget& budget, const GlobalOptions& global) {
+void check_file(const FemeshOptions& options, const MemoryBudget& budget, const GlobalOptions& global) {
   const TerminalProgress progress;
   const fe::MeshFacts facts =
       fe::check_mesh_file(options.input, fe::format_of(options.input), budget, std::cref(progress));
@@ -139,10 +139,10 @@ void check_file(const FemeshOptions& options, const fe::MemoryBudget& budget, co
 
 void femesh(const FemeshOptions& options, const GlobalOptions& global) {
   catch_interrupts();
-  fe::MemoryBudget budget;
+  MemoryBudget budget;
   if (options.memory_mb > 0) {
     const fs::path folder = options.out.has_parent_path() ? options.out.parent_path() : fs::path(".");
-    budget = fe::MemoryBudget(options.memory_mb * 1'000'000, folder);
+    budget = MemoryBudget(options.memory_mb * 1'000'000, folder);
   }
   if (options.out.empty()) {
     if (!options.check) throw Error(ErrorKind::usage, "--out is required: a file that ends in .inp or .vtu");

@@ -2,11 +2,14 @@
 
 #include <fcntl.h>
 
+#include <algorithm>
+#include <bit>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "core/file_descriptor.hpp"
 #include "core/json_reader.hpp"
+#include "ct/read/ct_file_names.hpp"
 #include "ct/read/volume_answer.hpp"
 #include "isolation/reader_process.hpp"
 
@@ -27,9 +30,25 @@ isolation::ReaderResult read_codes(const fs::path& path, uint64_t max_bytes, con
   isolation::ReaderJob job;
   job.task = "gray";
   job.input = path;
-  job.with_folder = path.extension() == ".nhdr" || path.extension() == ".mhd";
+  job.with_folder = names_another_file(path);
   job.options = {{"max_bytes", max_bytes}};
   return isolation::read_isolated(job, progress);
+}
+
+FileDescriptor opened(const fs::path& file) {
+  return FileDescriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
+}
+
+template <typename T>
+void read_at(const FileDescriptor& file, uint64_t first, std::span<T> values) {
+  const auto bytes = std::as_writable_bytes(values);
+  if (!file || file.read_at(first * sizeof(T), bytes) != static_cast<ssize_t>(bytes.size()))
+    throw Error(ErrorKind::io,
+                "the values of the volume cannot be read back; is the disk for temporary files full?");
+}
+
+size_t layer_voxels(const Vec3i& dims) {
+  return static_cast<size_t>(dims.x()) * static_cast<size_t>(dims.y());
 }
 
 }  // namespace
@@ -37,16 +56,30 @@ isolation::ReaderResult read_codes(const fs::path& path, uint64_t max_bytes, con
 struct GrayVolume::Contents {
   Contents(const fs::path& path, uint64_t max_bytes, const Progress& progress)
       : read(read_codes(path, max_bytes, progress)) {
-    if (read.answer().contains("rows")) return;
     place = volume_from(read.answer()["volume"], true);
     gray = scale_from(read.answer()["gray"]);
-    file = FileDescriptor(::open(read.file("values").c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
+    values = opened(read.file("values"));
+    if (!read.answer().contains("given")) return;
+    given = opened(read.file("given"));
+    for (int w = 0; w < place.dims.z(); ++w) {
+      uint64_t sum = before.empty() ? 0 : before.back();
+      if (before.empty()) before.push_back(0);
+      for (const uint64_t word : given_words(w)) sum += static_cast<uint64_t>(std::popcount(word));
+      before.push_back(sum);
+    }
+  }
+
+  std::vector<uint64_t> given_words(int w) const {
+    std::vector<uint64_t> words(given_words_per_layer(place.dims));
+    read_at(given, static_cast<uint64_t>(w) * words.size(), std::span(words));
+    return words;
   }
 
   isolation::ReaderResult read;
   HuVolume place;  ///< everything but the values
   voxel::GrayScale gray;
-  FileDescriptor file;
+  FileDescriptor values, given;  ///< given: none where every voxel has a value
+  std::vector<uint64_t> before;  ///< given voxels before each layer
 };
 
 GrayVolume::GrayVolume(const fs::path& path, uint64_t max_bytes, const Progress& progress)
@@ -61,17 +94,26 @@ const Vec3& GrayVolume::spacing_mm() const { return contents_->place.spacing_mm;
 const Pose& GrayVolume::world_from_volume() const { return contents_->place.world_from_volume; }
 const voxel::GrayScale& GrayVolume::gray() const { return contents_->gray; }
 const std::vector<std::string>& GrayVolume::warnings() const { return contents_->place.warnings; }
+bool GrayVolume::partly_given() const { return static_cast<bool>(contents_->given); }
 
-fs::path GrayVolume::rows() const { return contents_->file ? fs::path() : contents_->read.file("rows"); }
-
-void GrayVolume::read_layer(int w, std::span<uint16_t> codes) const {
-  const Vec3i& dims = contents_->place.dims;
-  const auto layer =
-      std::as_writable_bytes(codes.first(static_cast<size_t>(dims.x()) * static_cast<size_t>(dims.y())));
-  if (contents_->file.read_at(static_cast<uint64_t>(w) * layer.size(), layer) !=
-      static_cast<ssize_t>(layer.size()))
-    throw Error(ErrorKind::io,
-                "the values of the volume cannot be read back; is the disk for temporary files full?");
+void GrayVolume::read_layer(int w, std::span<int32_t> codes) const {
+  const Contents& from = *contents_;
+  const size_t count = layer_voxels(from.place.dims);
+  const auto layer = static_cast<size_t>(w);
+  if (!partly_given()) {
+    std::vector<uint16_t> values(count);
+    read_at(from.values, layer * count, std::span(values));
+    std::copy(values.begin(), values.end(), codes.begin());
+    return;
+  }
+  const std::vector<uint64_t> given = from.given_words(w);
+  std::vector<uint16_t> values(from.before[layer + 1] - from.before[layer]);
+  read_at(from.values, from.before[layer], std::span(values));
+  size_t next = 0;
+  for (size_t i = 0; i < count; ++i) {
+    const bool has = (given[i / 64] >> i % 64 & 1u) != 0 && next < values.size();
+    codes[i] = has ? int32_t{values[next++]} : no_code;
+  }
 }
 
 }  // namespace ream::ct

@@ -2,6 +2,8 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "core/progress.hpp"
 #include "ct/hu_volume.hpp"
@@ -13,11 +15,11 @@ namespace ream::ct {
 /// as codes of a scale, exactly where that can be (voxel::GrayScale).
 class GrayVolume {
  public:
-  /// A folder of DICOM slices, a NRRD, NIfTI or MetaImage file, or a zip archive of one, as read_ct takes
-  /// them. ream-reader writes the values into a temporary file, from which layers are read: memory here is a
-  /// layer. What lies unpacked in a .nrrd or .mha file it reads layer by layer, everything else whole, unless
-  /// that takes more than `max_bytes` of memory. Errors: those of read_ct; invalid_input that says what to
-  /// do where it would take more.
+  /// A folder of DICOM slices, a NRRD, NIfTI or MetaImage file, text rows, or a zip archive of one, as
+  /// read_ct takes them; but rows need not give every voxel. ream-reader writes the values into a temporary
+  /// file, from which layers are read: memory here is a layer. What lies unpacked in a .nrrd or .mha file it
+  /// reads layer by layer, everything else whole, unless that takes more than `max_bytes` of memory. Errors:
+  /// those of read_ct; invalid_input that says what to do where it would take more.
   explicit GrayVolume(const std::filesystem::path& path, uint64_t max_bytes = UINT64_MAX,
                       const Progress& progress = no_progress);
   ~GrayVolume();
@@ -29,12 +31,12 @@ class GrayVolume {
   const Pose& world_from_volume() const;
   const voxel::GrayScale& gray() const;
   const std::vector<std::string>& warnings() const;
-  /// Where the archive held text rows `x y z gray`: that file, unpacked, and nothing else is known. Else
-  /// empty.
-  std::filesystem::path rows() const;
+  /// Whether only some voxels have a value, as in text rows of a segmented bone.
+  bool partly_given() const;
 
-  /// Codes of layer w, x fastest, dims.x * dims.y of them. Thread-safe. Throws Error io.
-  void read_layer(int w, std::span<uint16_t> codes) const;
+  /// Codes of layer w, or no_code, x fastest, dims.x * dims.y of them. Thread-safe. Throws Error io.
+  void read_layer(int w, std::span<int32_t> codes) const;
+  static constexpr int32_t no_code = -1;
 
  private:
   struct Contents;

@@ -7,23 +7,16 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "ct/read/ct_file_names.hpp"
 
 namespace ream::ct {
 namespace fs = std::filesystem;
 
-bool is_volume_file(const fs::path& path) {
-  const std::string name = path.filename().string();
-  for (const char* ending : {".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd"})
-    if (name.ends_with(ending)) return fs::is_regular_file(path);
-  return false;
-}
-
 itk::ImageIOBase::Pointer image_io_for(const fs::path& path) {
-  const std::string name = path.filename().string();
-  const auto ends = [&](const char* ending) { return name.ends_with(ending); };
-  if (ends(".nrrd") || ends(".nhdr")) return itk::NrrdImageIO::New().GetPointer();
-  if (ends(".nii") || ends(".nii.gz")) return itk::NiftiImageIO::New().GetPointer();
-  if (ends(".mha") || ends(".mhd")) return itk::MetaImageIO::New().GetPointer();
+  const std::string ending = ct_file_ending(path);
+  if (ending == ".nrrd" || ending == ".nhdr") return itk::NrrdImageIO::New().GetPointer();
+  if (ending == ".nii" || ending == ".nii.gz") return itk::NiftiImageIO::New().GetPointer();
+  if (ending == ".mha" || ending == ".mhd") return itk::MetaImageIO::New().GetPointer();
   throw Error(ErrorKind::invalid_input,
               path.string() +
                   " is not a volume that can be read; give a folder of DICOM slices or a .nrrd, "

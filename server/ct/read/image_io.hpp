@@ -6,9 +6,6 @@
 
 namespace ream::ct {
 
-/// Whether the name is that of a NRRD, NIfTI or MetaImage file.
-bool is_volume_file(const std::filesystem::path& path);
-
 /// The library's reader and writer of such a file. Error invalid_input for other names, says which there are.
 /// Only ream-reader reads with it.
 itk::ImageIOBase::Pointer image_io_for(const std::filesystem::path& path);

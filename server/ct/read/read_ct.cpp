@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/file_descriptor.hpp"
+#include "ct/read/ct_file_names.hpp"
 #include "ct/read/volume_answer.hpp"
 #include "isolation/reader_process.hpp"
 
@@ -13,11 +14,6 @@ namespace ream::ct {
 namespace {
 
 constexpr double reading_share = 0.95;
-
-/// The header of these names the file with the voxels, which lies beside it.
-bool names_another_file(const std::filesystem::path& path) {
-  return path.extension() == ".nhdr" || path.extension() == ".mhd";
-}
 
 void load_values(HuVolume& volume, const std::filesystem::path& file) {
   const FileDescriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));

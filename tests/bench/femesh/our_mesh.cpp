@@ -52,7 +52,7 @@ uint64_t make_explicit(const fe::ElementModel& model, const fe::NodeNumbering& n
 fe::ElementModel model_of(const Foam& foam, const std::vector<uint16_t>& gray, double& ms) {
   fe::ElementModel model;
   model.spacing_mm = foam.spacing_mm();
-  fe::MemoryBudget budget;
+  MemoryBudget budget;
   const Vec3i dims = foam.dims();
   const size_t layer = static_cast<size_t>(dims.x()) * static_cast<size_t>(dims.y());
   const auto read = [&](int w, std::span<int32_t> codes) {
@@ -78,7 +78,7 @@ std::vector<uint16_t> dense_gray(const Foam& foam) {
 
 OurMesh our_mesh(const Foam& foam, int upsample, double bin_width) {
   OurMesh mesh;
-  fe::MemoryBudget budget;
+  MemoryBudget budget;
   fe::ElementModel model = model_of(foam, dense_gray(foam), mesh.grid_ms);
   mesh.components_ms =
       timed_ms([&] { mesh.islands = fe::keep_largest_component(model, budget).components - 1; });

@@ -37,6 +37,21 @@ TEST_F(Femesh, TextRowsBecomeAMeshThatIsChecked) {
             8000);
 }
 
+TEST_F(Femesh, TextRowsAsMimicsWritesThem) {
+  std::string text;
+  for (int i = 0; i < 4 * 4 * 4; ++i) {
+    char row[100];
+    std::snprintf(row, sizeof row, "+%d.83437000E+001, +%d.28356900E+002, -%d.00000000E+001,    %+d\r\n",
+                  1 + i % 4, 1 + i / 4 % 4, 1 + i / 16, 327 - i);
+    text += row;
+  }
+  write("mimics.txt", text);
+  const auto made = answer(
+      {"femesh", "mimics.txt", "--out", "mesh.inp", "--modulus", "0,10", "--threshold", "300", "--check"});
+  EXPECT_EQ(made["elements"], 28);  // 327 down to 300
+  EXPECT_NEAR(made["volume_mm3"], 28 * 10.0 * 100.0 * 10.0, 1e-3);
+}
+
 TEST_F(Femesh, VolumesOfEveryKindAreTheSameMesh) {
   for (const std::string format : {"nrrd", "nifti", "dicom"})
     succeed({"phantom", "--out", format, "--spacing-mm", "2", "--format", format, "--random-seed", "5"});
@@ -98,7 +113,7 @@ TEST_F(Femesh, AFullDiskLeavesNothingBehind) {
   rows(40);
   const auto before = tree();
   const std::string command = build_folder() + "/ream femesh rows.txt --modulus 1,1 --out mesh.inp";
-  EXPECT_EQ(start_program({"/bin/sh", "-c", "ulimit -f 200; exec " + command}, "full")
+  EXPECT_EQ(start_program({"/bin/sh", "-c", "ulimit -S -f 200; exec " + command}, "full")
                 ->wait(std::chrono::seconds(60)),
             1);
   EXPECT_NE(printed("full.err").find("cannot write mesh.inp"), std::string::npos) << printed("full.err");

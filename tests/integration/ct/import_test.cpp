@@ -94,6 +94,38 @@ TEST(Import, OfThePhantomEqualsTheCaseMadeInMemory) {
   EXPECT_TRUE(imported.warnings.empty());
 }
 
+/// As Mimics prints a number: a sign and three digits of exponent.
+std::string as_mimics_prints(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%+.8E", value);
+  const std::string words = text;
+  return words.substr(0, words.size() - 2) + "0" + words.substr(words.size() - 2);
+}
+
+TEST(Import, OfRowsAsMimicsWritesThemIsThatOfTheVolume) {
+  const test::TemporaryFolder folder;
+  const Vec3 centre = phantom().truth.glenoid.centre_mm;
+  const HuVolume volume = cropped(phantom().volume, {centre.array() - 9.0, centre.array() + 9.0});
+  write_volume_file(volume, folder.path() / "ct.nrrd");
+  std::ofstream rows(folder.path() / "ct.txt");
+  for (int w = 0; w < volume.dims.z(); ++w)
+    for (int v = 0; v < volume.dims.y(); ++v)
+      for (int u = 0; u < volume.dims.x(); ++u) {
+        const Vec3 at = volume.world_of_centre({u, v, w});
+        char gray[20];
+        std::snprintf(gray, sizeof gray, ",%+8d\r\n", volume.hu[volume.index(u, v, w)]);
+        rows << as_mimics_prints(at.x()) << ", " << as_mimics_prints(at.y()) << ", "
+             << as_mimics_prints(at.z()) << gray;
+      }
+  rows.close();
+  const case_::Case from_volume = import_ct(folder.path() / "ct.nrrd", "a", options_in_the_vault());
+  const case_::Case from_rows = import_ct(folder.path() / "ct.txt", "b", options_in_the_vault());
+  EXPECT_GT(from_rows.bone.filled_voxels(), 1000u);
+  EXPECT_EQ(from_rows.bone.grid.dims, from_volume.bone.grid.dims);
+  EXPECT_EQ(from_rows.bone.coverage, from_volume.bone.coverage);
+  EXPECT_EQ(from_rows.bone.density, from_volume.bone.density);
+}
+
 TEST(Import, ALabelMapOfACropTellsTheBone) {
   const test::TemporaryFolder folder;
   HuVolume volume = phantom().volume;

@@ -12,10 +12,9 @@ namespace ream::fe::test {
 
 /// A model of the voxels whose gray value is not negative.
 inline ElementModel model_of(const Vec3i& dims, const std::function<int(int, int, int)>& gray,
-                             double spacing_mm = 0.5) {
+                             double spacing_mm = 0.5, MemoryBudget budget = {}) {
   ElementModel model;
   model.spacing_mm = Vec3::Constant(spacing_mm);
-  MemoryBudget budget;
   const auto read = [&](int w, std::span<int32_t> codes) {
     size_t i = 0;
     for (int v = 0; v < dims.y(); ++v)

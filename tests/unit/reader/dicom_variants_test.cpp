@@ -49,7 +49,9 @@ TEST_P(TransferSyntaxes, GiveBackTheVolume) {
 }
 
 TEST_P(TransferSyntaxes, ATruncatedSliceIsNamed) {
-  for (const double share : {0.999, 0.8, 0.5, 0.2, 0.05}) {
+  // GDCM writes eight bytes behind a deflated stream that mean nothing.
+  const double nearly = GetParam() == Syntax::DeflatedExplicitVRLittleEndian ? 0.99 : 0.999;
+  for (const double share : {nearly, 0.8, 0.5, 0.2, 0.05}) {
     const test::TemporaryFolder folder;
     write_dicom_folder(stack_of_variants(), folder.path(), 1);
     for (int i = 1; i <= 4; ++i) test::transcode(slice_file(folder.path(), i), GetParam());
@@ -63,12 +65,32 @@ INSTANTIATE_TEST_SUITE_P(Dicom, TransferSyntaxes,
                          testing::Values(Syntax::ImplicitVRLittleEndian, Syntax::ExplicitVRLittleEndian,
                                          Syntax::ExplicitVRBigEndian, Syntax::JPEGLosslessProcess14_1,
                                          Syntax::JPEGLosslessProcess14, Syntax::JPEGLSLossless,
-                                         Syntax::JPEG2000Lossless, Syntax::RLELossless),
+                                         Syntax::JPEG2000Lossless, Syntax::RLELossless,
+                                         Syntax::DeflatedExplicitVRLittleEndian),
                          [](const auto& syntax) {
                            std::string name = Syntax::GetTSString(syntax.param);
                            std::replace(name.begin(), name.end(), '.', '_');
                            return name;
                          });
+
+TEST(DicomVariants, HounsfieldUnitsByOtherNamesAreHuWithARemark) {
+  const test::TemporaryFolder folder;
+  write_dicom_folder(stack_of_variants(2), folder.path(), 1);
+  const auto remarks_on = [&](const std::string& type) {
+    for (int i = 1; i <= 2; ++i) test::set_text(slice_file(folder.path(), i), 0x0028, 0x1054, type);
+    return read_ct_files(folder.path());
+  };
+  EXPECT_TRUE(remarks_on("HU").warnings.empty());
+  EXPECT_TRUE(remarks_on("US").warnings.empty());
+  for (const char* name : {"hu", "Hu", "Houndsfield Unit", "Houndsfield", "Hounsfield Units", "HOUNSFIELD"}) {
+    const HuVolume volume = remarks_on(name);
+    EXPECT_TRUE(mentions(volume, std::string("'") + name + "'; this was taken as HU")) << name;
+    EXPECT_FALSE(mentions(volume, "not HU")) << name;
+    EXPECT_EQ(volume.hu, stack_of_variants(2).hu);
+  }
+  for (const char* name : {"OD", "Z_EFF", "hounds", "MGML", "HUE"})
+    EXPECT_TRUE(mentions(remarks_on(name), std::string("the slices hold ") + name + ", not HU")) << name;
+}
 
 TEST(DicomVariants, RescalingIsEachSlicesOwn) {
   const test::TemporaryFolder folder;

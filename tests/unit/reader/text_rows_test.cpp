@@ -74,6 +74,28 @@ TEST(TextRows, IndicesAreVoxelsOfOneMillimetreUnlessSaid) {
   EXPECT_FALSE(test::mentions(sized, "voxels of 1 mm"));
 }
 
+TEST(TextRows, MimicsExportIsACt) {
+  const TemporaryFolder folder;
+  const Vec3 first(18.3437, 128.3569, -21.0), step(0.390625, 0.390625, 1.0);
+  std::string text;
+  for (int w = 0; w < 3; ++w)
+    for (int v = 0; v < 4; ++v)
+      for (int u = 0; u < 5; ++u) {
+        // As that program prints: a sign, three digits of exponent, commas, gray in a column of its own.
+        const auto number = [](double value) {
+          char digits[40];
+          std::snprintf(digits, sizeof digits, "%+.8E", value);
+          std::string words = digits;
+          return words.insert(words.size() - 2, "0");
+        };
+        char gray_column[20];
+        std::snprintf(gray_column, sizeof gray_column, "%+8d", gray(u, v, w));
+        text += number(first.x() + u * step.x()) + ", " + number(first.y() + v * step.y()) + ", " +
+                number(first.z() + w * step.z()) + "," + gray_column + "\r\n";
+      }
+  expect_grid(read_ct_files(folder.write("scan.txt", text)), first, step);
+}
+
 TEST(TextRows, FractionsOfGrayAreRoundedAndHugeOnesClamped) {
   const TemporaryFolder folder;
   const HuVolume volume = read_text_rows(folder.write(
@@ -124,17 +146,18 @@ TEST(TextRows, WhatIsNoGridIsRefusedWithItsLine) {
   auto hole = good;
   hole.erase(hole.begin() + 6);
   refused(hole, "a.txt: no row gives voxel 0 2 0");
-  refused({good[0]}, "a.txt has a single x");
+  refused({good[0]}, "a.txt holds a single voxel");
+  refused({"0 0 0 1", "1 0 0 1"}, "a.txt has a single y");
   refused({}, "a.txt holds no rows");
   refused({std::string(100000, '1')}, "a.txt line 1");
   refused(with(7, good[6] + "9999999.5 0.5 0.5 3"), "a.txt line 7");
   std::vector<std::string> cloud;
-  for (int i = 0; i < 9000; ++i) cloud.push_back(std::to_string(0.1234567 * i * i) + " 0 0 1");
-  refused(cloud, "a.txt line 8193: more than 8192 different x");
+  for (int i = 0; i < 70000; ++i) cloud.push_back(std::to_string(0.1234567 * i * i) + " 0 0 1");
+  refused(cloud, "more than 65,535 different x");
   std::vector<std::string> diagonal;
-  for (int i = 0; i < 900; ++i)
+  for (int i = 0; i < 400; ++i)
     diagonal.push_back(std::to_string(i) + " " + std::to_string(i) + " " + std::to_string(i) + " 1");
-  refused(diagonal, "a.txt has 900 rows for a grid of 729000000 voxels");
+  refused(diagonal, "a.txt has 400 rows for a grid of 64000000 voxels");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include <Eigen/LU>
+#include "core/text.hpp"
 #include "ct/read/write_volume.hpp"
 #include "reader/ct_files.hpp"
 #include "support/expect_error.hpp"
@@ -131,12 +132,27 @@ TEST(VolumeAxes, NrrdOfEverySpaceAndHandedness) {
   const auto file = folder.path() / "ct.nrrd";
   for (const Mat3& mirror : {Mat3(Mat3::Identity()), Mat3(Vec3(1, 1, -1).asDiagonal())}) {
     const Mat3 steps = rotation_from_small_vector({-0.4, 0.1, 0.3}) * mirror * spacing.asDiagonal();
-    write_nrrd(file, "left-posterior-superior", steps, origin);
-    expect_places(read_ct_files(file), volume_dims, origin, steps);
-    write_nrrd(file, "right-anterior-superior", lps_from_ras * steps, lps_from_ras * origin);
-    expect_places(read_ct_files(file), volume_dims, origin, steps);
-    write_nrrd(file, "left-anterior-superior", steps, origin);
-    test::expect_error(ErrorKind::invalid_input, "left-anterior-superior", [&] { read_ct_files(file); });
+    for (const char* space : {"left-posterior-superior", "LPS", "lps", "Left-Posterior-Superior"}) {
+      SCOPED_TRACE(space);
+      write_nrrd(file, space, steps, origin);
+      expect_places(read_ct_files(file), volume_dims, origin, steps);
+      EXPECT_TRUE(read_ct_files(file).warnings.empty());
+    }
+    for (const char* space : {"right-anterior-superior", "RAS", "ras", "Right-Anterior-Superior"}) {
+      SCOPED_TRACE(space);
+      write_nrrd(file, space, lps_from_ras * steps, lps_from_ras * origin);
+      expect_places(read_ct_files(file), volume_dims, origin, steps);
+      EXPECT_TRUE(read_ct_files(file).warnings.empty());
+    }
+    for (const char* space : {"left-anterior-superior", "LAS"}) {
+      write_nrrd(file, space, steps, origin);
+      test::expect_error(ErrorKind::invalid_input, lower(space), [&] { read_ct_files(file); });
+    }
+    for (const char* space : {"left-posterior-superior-time", "right-anterior-superior-time", "LPST", "RAST",
+                              "LAST", "scanner-xyz-time", "3D-right-handed-time"}) {
+      write_nrrd(file, space, steps, origin);
+      test::expect_error(ErrorKind::invalid_input, "axis of time", [&] { read_ct_files(file); });
+    }
     write_nrrd(file, "3D-right-handed", steps, origin);
     const HuVolume unknown = read_ct_files(file);
     expect_places(unknown, volume_dims, origin, steps);

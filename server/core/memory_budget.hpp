@@ -7,9 +7,10 @@
 
 #include "core/file_descriptor.hpp"
 
-namespace ream::fe {
+namespace ream {
 
-/// How much memory a mesh may take, and where goes what does not fit. Large things ask before they are made.
+/// How much memory some work may take, and where goes what does not fit. Large things ask before they are
+/// made.
 class MemoryBudget {
  public:
   /// No limit.
@@ -17,6 +18,8 @@ class MemoryBudget {
   /// `limit_bytes` of the whole process; `folder` for temporary files without a name, which go away with the
   /// process whatever ends it.
   MemoryBudget(uint64_t limit_bytes, std::filesystem::path folder);
+  /// So that `left_bytes` are left, as in a process that takes over a part of another's work.
+  static MemoryBudget with_left(uint64_t left_bytes, std::filesystem::path folder);
 
   /// What is left; never below what a few buffers take.
   uint64_t left() const;
@@ -48,4 +51,4 @@ class SpillFile {
   FileDescriptor file_;
 };
 
-}  // namespace ream::fe
+}  // namespace ream

@@ -1,4 +1,4 @@
-#include "fe/row_parser.hpp"
+#include "reader/row_parser.hpp"
 
 #include <string.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string_view>
 
-namespace ream::fe {
+namespace ream::reader {
 namespace {
 
 constexpr size_t table_size = 1 << 18;
@@ -19,6 +19,12 @@ uint64_t hash_of(const char* text, size_t length) {
   uint64_t hash = length;
   for (size_t i = 0; i < length; ++i) hash = (hash ^ static_cast<unsigned char>(text[i])) * 0x100000001b3u;
   return (hash * 0x9e3779b97f4a7c15u) >> 46;
+}
+
+/// std::from_chars, but with a plus before the number, as other programs write it.
+std::from_chars_result read_number(const char* from, const char* end, double& number) {
+  const bool plus = end - from > 1 && from[0] == '+' && from[1] != '-' && from[1] != '+';
+  return std::from_chars(plus ? from + 1 : from, end, number);
 }
 
 struct Gap {
@@ -111,7 +117,7 @@ std::optional<uint16_t> RowPlaces::look_up(const char* at, size_t length, uint64
       return static_cast<uint16_t>(table_[slot] - 1);
   }
   Text text;
-  const auto parsed = std::from_chars(at, at + length, text.place.at);
+  const auto parsed = read_number(at, at + length, text.place.at);
   if (parsed.ec != std::errc() || parsed.ptr != at + length || !std::isfinite(text.place.at) || full())
     return {};
   std::memcpy(text.text, at, length);
@@ -161,7 +167,8 @@ bool separates(char c) { return c == ' ' || c == '\t' || c == ',' || c == ';' ||
 bool read_gray(const char* at, float& gray) {
   bool minus = false;
   const char* digit = at;
-  if (*digit == '-') minus = true, ++digit;
+  if (*digit == '-') minus = true;
+  if (*digit == '-' || *digit == '+') ++digit;
   int32_t whole = 0;
   const char* const first = digit;
   while (*digit >= '0' && *digit <= '9' && digit - first < 7) whole = 10 * whole + (*digit++ - '0');
@@ -170,7 +177,7 @@ bool read_gray(const char* at, float& gray) {
     at = digit;
   } else {
     double value = 0.0;
-    const auto parsed = std::from_chars(at, at + 64, value);
+    const auto parsed = read_number(at, at + 64, value);
     gray = static_cast<float>(value);
     if (parsed.ec != std::errc() || !std::isfinite(gray)) return false;
     at = parsed.ptr;
@@ -229,7 +236,7 @@ std::optional<std::string> RowParser::comment(const char* at, const char* end) {
   at += key.size();
   for (int k = 0; k < 3; ++k) {
     while (at < end && separates(*at)) ++at;
-    const auto parsed = std::from_chars(at, end, spacing[k]);
+    const auto parsed = read_number(at, end, spacing[k]);
     if (parsed.ec != std::errc() || !(spacing[k] > 0.0) || !std::isfinite(spacing[k]))
       return "'# spacing_mm' needs three positive numbers";
     at = parsed.ptr;
@@ -238,4 +245,4 @@ std::optional<std::string> RowParser::comment(const char* at, const char* end) {
   return {};
 }
 
-}  // namespace ream::fe
+}  // namespace ream::reader

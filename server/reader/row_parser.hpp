@@ -9,7 +9,7 @@
 #include "geometry/vec.hpp"
 #include "voxel/gray_scale.hpp"
 
-namespace ream::fe {
+namespace ream::reader {
 
 /// A position along one axis as text rows give it.
 struct RowPlace {
@@ -97,4 +97,4 @@ class RowParser {
   std::optional<std::string> comment(const char* at, const char* end);
 };
 
-}  // namespace ream::fe
+}  // namespace ream::reader

@@ -1,4 +1,4 @@
-#include "fe/memory_budget.hpp"
+#include "core/memory_budget.hpp"
 
 #include <fcntl.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@
 
 #include "core/error.hpp"
 
-namespace ream::fe {
+namespace ream {
 namespace {
 
 constexpr uint64_t megabyte = 1'000'000;
@@ -24,6 +24,10 @@ constexpr uint64_t min_bytes = 4 * megabyte;
 
 MemoryBudget::MemoryBudget(uint64_t limit_bytes, std::filesystem::path folder)
     : limit_(limit_bytes), used_(always_bytes), folder_(std::move(folder)) {}
+
+MemoryBudget MemoryBudget::with_left(uint64_t left_bytes, std::filesystem::path folder) {
+  return {left_bytes > UINT64_MAX - always_bytes ? UINT64_MAX : left_bytes + always_bytes, std::move(folder)};
+}
 
 uint64_t MemoryBudget::left() const {
   if (limit_ == UINT64_MAX) return UINT64_MAX;
@@ -62,4 +66,4 @@ void SpillFile::read_at(uint64_t offset, std::span<std::byte> bytes) const {
   if (got < 0 || static_cast<size_t>(got) < bytes.size()) fail();
 }
 
-}  // namespace ream::fe
+}  // namespace ream
