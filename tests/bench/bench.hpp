@@ -29,6 +29,8 @@ struct Options {
 /// From a CT to a bone in memory.
 std::vector<Row> case_suite(const Options& options);
 std::vector<Row> collide_suite(const Options& options);
+/// Whether files that wish a server ill get at the haptic loop, at memory, or at other files.
+std::vector<Row> hostile_suite(const Options& options);
 /// Whether the haptic loop is on time in a served session.
 std::vector<Row> loop_suite(const Options& options);
 /// What recording costs, and how soon any moment of a recording opens.

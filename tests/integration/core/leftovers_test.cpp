@@ -103,7 +103,7 @@ TEST_F(LeftoversTest, NothingElseIsTouched) {
                      "rubrics/a.b.tmp",
                      "sessions/abcdefgh/recording.ream",
                      ".hidden/file",
-                     ".not.quite7/file",
+                     ".not.quite77/file",
                      "temporary/ream-read.txt",
                      "temporary/other.AbCdEf/file"};
   for (const std::string& name : others) folder.write(name, "kept");
