@@ -134,8 +134,7 @@ void expect_between_bounds(const MeshReport& report, const Reactions& r, bool fu
 
 /// A block of 20^3 voxels from (x,y,z) of the micro-CT, below `threshold` empty.
 ElementModel crop(const ct::GrayVolume& volume, const Vec3i& first, int threshold) {
-  std::vector<uint16_t> layer(static_cast<size_t>(volume.dims().x()) *
-                              static_cast<size_t>(volume.dims().y()));
+  std::vector<int32_t> layer(static_cast<size_t>(volume.dims().x()) * static_cast<size_t>(volume.dims().y()));
   std::vector<int> gray;
   for (int w = 0; w < 20; ++w) {
     volume.read_layer(first.z() + w, layer);
