@@ -36,6 +36,14 @@ size_t remove_from(const fs::path& folder, const IsLeftover& is_leftover) {
   return removed;
 }
 
+size_t remove_from_folders_in(const fs::path& parent, const IsLeftover& is_leftover) {
+  std::error_code failed;
+  size_t removed = 0;
+  for (fs::directory_iterator next(parent, failed), end; !failed && next != end; next.increment(failed))
+    if (fs::is_directory(next->symlink_status(failed))) removed += remove_from(next->path(), is_leftover);
+  return removed;
+}
+
 bool under_construction(const std::string& name) {
   static const std::regex atomic(R"(.*\.[0-9]+(\.old)?\.tmp)");
   return std::regex_match(name, atomic);
@@ -62,6 +70,8 @@ size_t remove_leftovers(const fs::path& data) {
   for (const fs::path& folder :
        {cases_folder(data), sessions_folder(data), rubrics_folder(data), benchmarks_folder(data)})
     removed += remove_from(folder, under_construction);
+  for (const fs::path& parent : {cases_folder(data), sessions_folder(data)})
+    removed += remove_from_folders_in(parent, under_construction);
   const fs::path system = fs::temp_directory_path(none);
   return none ? removed : removed + remove_from(system, temporary_folder_of_system);
 }

@@ -75,8 +75,9 @@ class LeftoversTest : public testing::Test {
 };
 
 TEST_F(LeftoversTest, OfAKilledProcessAreRemovedAndOfALivingOneNot) {
+  fs::create_directory(data / "sessions/abcdefgh");
   Maker maker([&] {
-    static AtomicFile file(data / "rubrics/one.json");
+    static AtomicFile file(data / "rubrics/one.json"), session(data / "sessions/abcdefgh/session.json");
     static AtomicFolder made(data / "cases/doe-jane");
     static TemporaryFolder backup(data / ".backup"), read(data / "temporary/ream-read");
     write_file_atomically(made.path() / "ct.json", "a patient's");
@@ -87,8 +88,8 @@ TEST_F(LeftoversTest, OfAKilledProcessAreRemovedAndOfALivingOneNot) {
   EXPECT_EQ(remove_leftovers(data), 0u);
   EXPECT_GE(everything().size(), 6u);
   maker.kill();
-  EXPECT_EQ(remove_leftovers(data), 4u);
-  EXPECT_EQ(everything(), Names{});
+  EXPECT_EQ(remove_leftovers(data), 5u);
+  EXPECT_EQ(everything(), Names{"sessions/abcdefgh"});
 }
 
 TEST_F(LeftoversTest, CasesOnTheirWayOutAreRemoved) {
