@@ -7,7 +7,7 @@ export default defineConfig({
   timeout: 180_000,
   // What is waited for comes late on a busy machine.
   expect: { timeout: 20_000 },
-  workers: 1,
+  workers: 2,
   // A test that passes at the second try has found a fault.
   retries: 0,
   reporter: [['list']],

@@ -9,7 +9,7 @@
 namespace ream::api {
 namespace {
 
-constexpr size_t longest_key = 200, largest_body = 256 * 1024;
+constexpr size_t longest_key = 200, largest_body = size_t{256} * 1024, most_in_memory = 1000;
 
 bool is_key(std::string_view key) {
   return !key.empty() && key.size() <= longest_key &&
@@ -45,11 +45,17 @@ std::string text_of(const net::SharedBytes& body) {
 int64_t Idempotency::oldest_ms() const { return in_ms(now_() - kept_for); }
 
 std::optional<store::StoredResponse> Idempotency::find(const Name& name) {
-  auto found = table_.find(name.first, name.second);
+  std::optional<store::StoredResponse> found;
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto kept = in_memory_.find(name); kept != in_memory_.end()) found = kept->second;
+  }
+  if (!found) found = table_.find(name.first, name.second);
   return found && found->at_ms >= oldest_ms() ? found : std::nullopt;
 }
 
-void Idempotency::keep(const Name& name, const std::string& request, const net::Response& response) {
+void Idempotency::keep(const Name& name, const std::string& request, const net::Response& response,
+                       Place place) {
   if (response.status >= 300 || response.body_bytes() > largest_body) return;
   const store::StoredResponse answer{name.first,
                                      name.second,
@@ -59,6 +65,15 @@ void Idempotency::keep(const Name& name, const std::string& request, const net::
                                      std::string(response.header("Location")),
                                      text_of(response.body),
                                      in_ms(now_())};
+  if (place == Place::memory) {
+    const std::lock_guard lock(mutex_);
+    in_memory_[name] = answer;
+    if (in_memory_.size() > most_in_memory)
+      in_memory_.erase(
+          std::min_element(in_memory_.begin(), in_memory_.end(),
+                           [](const auto& a, const auto& b) { return a.second.at_ms < b.second.at_ms; }));
+    return;
+  }
   try {
     table_.put(answer);
   } catch (const Error& error) {
@@ -66,7 +81,7 @@ void Idempotency::keep(const Name& name, const std::string& request, const net::
   }
 }
 
-net::Response Idempotency::answer(const net::Request& request, const net::Handler& next) {
+net::Response Idempotency::answer(const net::Request& request, const net::Handler& next, Place place) {
   const std::string_view key = request.header(header);
   if (!request.headers.contains(header)) return next(request);
   if (!is_key(key))
@@ -93,10 +108,20 @@ net::Response Idempotency::answer(const net::Request& request, const net::Handle
     return response_of(*before);
   }
   net::Response response = next(request);
-  keep(name, print, response);
+  keep(name, print, response, place);
   return response;
 }
 
-void Idempotency::forget_old() { table_.remove_before(oldest_ms()); }
+void Idempotency::forget_old() {
+  table_.remove_before(oldest_ms());
+  const std::lock_guard lock(mutex_);
+  std::erase_if(in_memory_, [oldest = oldest_ms()](const auto& kept) { return kept.second.at_ms < oldest; });
+}
+
+void Idempotency::forget_about(const std::string& id) {
+  table_.remove_about(id);
+  const std::lock_guard lock(mutex_);
+  std::erase_if(in_memory_, [&](const auto& kept) { return kept.first.first == id; });
+}
 
 }  // namespace ream::api

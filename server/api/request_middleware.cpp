@@ -76,7 +76,8 @@ net::Response RequestMiddleware::answer(const net::Request& request, size_t numb
     return response;
   };
   if (contract_.takes_idempotency_key(request.method, route.pattern))
-    return idempotency_.answer(request, done);
+    return idempotency_.answer(
+        request, done, route.names_a_file ? Idempotency::Place::memory : Idempotency::Place::database);
   return net::conditional(request, done(request));
 }
 

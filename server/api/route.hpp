@@ -67,6 +67,7 @@ struct Route {
   std::variant<RequestHandler, SocketHandler> handler;
   RouteChange change = {};
   net::Urgency urgency = net::Urgency::usual;
+  bool names_a_file = false;  ///< its answer holds a sender's file name, often a patient's: kept on no disk
 };
 
 }  // namespace ream::api

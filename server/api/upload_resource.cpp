@@ -49,7 +49,7 @@ std::vector<Route> upload_routes() {
   using access::staff;
   const std::string all = "/api/v1/uploads", one = all + "/{id}";
   return {{"GET", all, staff, not_audited, list_uploads},
-          {"POST", all, staff, changes("upload.begin"), begin_upload},
+          {"POST", all, staff, changes("upload.begin"), begin_upload, {}, net::Urgency::usual, true},
           {"GET", one, staff, not_audited, get_upload},
           {"PUT", one, staff, not_audited, append_upload},
           {"DELETE", one, staff, changes("upload.remove"), remove_upload}};

@@ -1,8 +1,5 @@
 #include "app/restore_backup.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 
@@ -23,14 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double unpacked_share = 0.8;
-
-/// Everything unpacked so far survives a loss of power from here on.
-void sync_all(const fs::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool synced = descriptor >= 0 && ::syncfs(descriptor) == 0;
-  if (descriptor >= 0) ::close(descriptor);
-  if (!synced) throw Error(ErrorKind::io, "cannot write " + folder.string());
-}
 
 uint64_t files_below(const fs::path& folder) {
   uint64_t count = 0;
@@ -125,6 +114,7 @@ void put_in_place(const fs::path& unpacked, const fs::path& data, const fs::path
     if (holds_anything(data / name)) moves.move(data / name, aside / name);
   for (const std::string& name : kept_folders(unpacked)) moves.move(unpacked / name, data / name);
   if (moves.none()) return;
+  if (!aside.empty()) sync_folder(aside);  // first, so that what is there is never nowhere
   sync_folder(data);
 }
 
@@ -175,7 +165,7 @@ RestoreReport restore_backup(store::Database& database, const fs::path& data, co
     throw Error(ErrorKind::invalid_input, file.string() + " holds " + std::to_string(files) +
                                               " files of the " + std::to_string(manifest.files) +
                                               " that it should; it is not whole");
-  sync_all(scratch.path());
+  sync_tree(scratch.path());
 
   const fs::path aside = made_aside(database, present, data);
   try {

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <string>
 
@@ -126,20 +127,27 @@ void AtomicFolder::commit() {
       throw Error(ErrorKind::io, "cannot write folder " + final_.string() + ": " + failed.message());
   };
   std::error_code failed, ignored;
-  fs::path old = final_;
-  old += "." + std::to_string(::getpid()) + ".old.tmp";
-  const bool had_old = fs::exists(final_, ignored);
-  if (had_old) {
-    fs::remove_all(old, ignored);
-    fs::rename(final_, old, failed);
+  sync_tree(temporary_);
+  // The old folder takes the temporary name in the same moment, so that there is always one.
+  const bool exchanged =
+      ::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, final_.c_str(), RENAME_EXCHANGE) == 0;
+  if (!exchanged) {
+    fs::path old = final_;
+    old += "." + std::to_string(::getpid()) + ".old.tmp";
+    const bool had_old = fs::exists(final_, ignored);
+    if (had_old) {
+      fs::remove_all(old, ignored);
+      fs::rename(final_, old, failed);
+      check(failed);
+    }
+    fs::rename(temporary_, final_, failed);
+    if (failed && had_old) fs::rename(old, final_, ignored);
     check(failed);
+    if (had_old) fs::remove_all(old, ignored);
   }
-  fs::rename(temporary_, final_, failed);
-  if (failed && had_old) fs::rename(old, final_, ignored);
-  check(failed);
   committed_ = true;
-  if (had_old) fs::remove_all(old, ignored);
   sync_folder(final_.parent_path());
+  if (exchanged) fs::remove_all(temporary_, ignored);
 }
 
 }  // namespace ream

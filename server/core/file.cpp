@@ -10,6 +10,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/file_descriptor.hpp"
 #include "core/json.hpp"
 
 namespace ream {
@@ -49,6 +50,23 @@ void sync_folder(const fs::path& folder) {
   ::close(fd);
 }
 
+void sync_file(const fs::path& file) {
+  const FileDescriptor opened(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!opened || ::fsync(opened.get()) != 0)
+    throw Error(ErrorKind::io, "cannot write " + file.string() + ": " + reason());
+}
+
+void sync_tree(const fs::path& folder) {
+  std::error_code failed;
+  for (fs::recursive_directory_iterator next(folder, failed), end; !failed && next != end;
+       next.increment(failed)) {
+    const fs::file_type type = next->symlink_status(failed).type();
+    if (type == fs::file_type::regular || type == fs::file_type::directory) sync_file(next->path());
+  }
+  if (failed) throw Error(ErrorKind::io, "cannot read " + folder.string() + ": " + failed.message());
+  sync_file(folder);
+}
+
 void write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {
   AtomicFile file(path);
   file.write_at(0, bytes);
@@ -79,6 +97,9 @@ nlohmann::json read_json_file(const fs::path& path) {
 
 void make_writable_folder(const fs::path& path) {
   std::error_code failed;
+  std::vector<fs::path> parents;  // of what is made
+  for (fs::path made = path; !made.empty() && !fs::exists(made, failed); made = made.parent_path())
+    parents.push_back(made.parent_path());
   fs::create_directories(path, failed);
   if (failed) throw Error(ErrorKind::io, "cannot create folder " + path.string() + ": " + failed.message());
   const fs::path probe = path / ("probe." + std::to_string(::getpid()) + ".tmp");
@@ -86,7 +107,7 @@ void make_writable_folder(const fs::path& path) {
   if (fd < 0) throw Error(ErrorKind::io, "cannot write in folder " + path.string() + ": " + reason());
   ::close(fd);
   ::unlink(probe.c_str());
-  sync_folder(path.parent_path());
+  for (const fs::path& parent : parents) sync_folder(parent);
 }
 
 void read_zstd_file(const fs::path& path, std::span<std::byte> raw, const char* description) {

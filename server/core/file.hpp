@@ -30,7 +30,14 @@ void write_json_file(const std::filesystem::path& path, const nlohmann::json& js
 /// it.
 void sync_folder(const std::filesystem::path& folder);
 
-/// Creates `path` and its parents and proves that a file can be written there. Throws Error io.
+/// What a file holds survives a loss of power from here on. Throws Error io.
+void sync_file(const std::filesystem::path& file);
+/// Files and names of a whole folder survive a loss of power from here on, but not yet its own name. Throws
+/// Error io.
+void sync_tree(const std::filesystem::path& folder);
+
+/// Creates `path` and its parents, so that they survive a loss of power, and proves that a file can be
+/// written there. Throws Error io.
 void make_writable_folder(const std::filesystem::path& path);
 
 /// Reads a file that holds one zstd frame of exactly the size of `raw`, as `description` (the name of a file

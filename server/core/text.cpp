@@ -17,6 +17,13 @@ std::string lower(std::string_view text) {
   return small;
 }
 
+std::string one_line(std::string text, size_t max_bytes) {
+  if (text.size() > max_bytes) text = text.substr(0, max_bytes) + " ...";
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ' || c == 127) c = ' ';
+  return text;
+}
+
 std::string hex_of(std::string_view bytes) {
   std::string hex;
   hex.reserve(2 * bytes.size());

@@ -9,6 +9,10 @@ namespace ream {
 /// The text with A to Z as small letters, whatever the locale; other bytes stay.
 std::string lower(std::string_view text);
 
+/// Foreign words on one line: control characters become blanks; what is longer than `max_bytes` ends in
+/// "...".
+std::string one_line(std::string text, size_t max_bytes);
+
 /// Two lower-case digits for every byte.
 std::string hex_of(std::string_view bytes);
 /// The bytes of what hex_of() gave; empty for what is no hex.

@@ -20,6 +20,7 @@
 #include "core/error.hpp"
 #include "core/file_descriptor.hpp"
 #include "core/json.hpp"
+#include "core/text.hpp"
 #include "isolation/reader_service.hpp"
 
 namespace ream::isolation {
@@ -145,14 +146,6 @@ void send_request(const FileDescriptor& to, const ReaderJob& job) {
     throw cannot_start("the job has too many words");
 }
 
-/// One line, bounded, without control characters.
-std::string one_line(std::string words) {
-  if (words.size() > max_words) words = words.substr(0, max_words) + " ...";
-  for (char& c : words)
-    if (static_cast<unsigned char>(c) < ' ' || c == 127) c = ' ';
-  return words;
-}
-
 /// Nothing where it is no object.
 json parsed(const std::string& line) {
   json message = parse_json_or_discard(line);
@@ -189,7 +182,7 @@ class Answers {
       if (const auto share = message.find("share"); share != message.end() && share->is_number())
         share_ = std::clamp(share->get<double>(), share_, 1.0);
       if (const auto step = message.find("step"); step != message.end() && step->is_string())
-        step_ = one_line(step->get<std::string>());
+        step_ = one_line(step->get<std::string>(), max_words);
       progress_(share_, step_);
     }
     return {};
@@ -215,6 +208,20 @@ Error what_ended_it(const ReaderJob& job, int status) {
           job.input.string() + " cannot be read: " + why + "; it may be damaged, or not what its name says"};
 }
 
+/// What it wrote is files and folders, so that no name below leads elsewhere or waits for somebody. The links
+/// to its input, which it makes before it is closed off, are taken away.
+void check_output(const fs::path& folder) {
+  std::error_code failed;
+  fs::remove_all(folder / "input", failed);
+  for (fs::recursive_directory_iterator next(folder, failed), end; !failed && next != end;
+       next.increment(failed)) {
+    const fs::file_type type = next->symlink_status(failed).type();
+    if (!failed && type != fs::file_type::regular && type != fs::file_type::directory)
+      throw Error(ErrorKind::io, "the reader wrote something that is neither a file nor a folder");
+  }
+  if (failed) throw Error(ErrorKind::io, "what the reader wrote cannot be looked at: " + failed.message());
+}
+
 ErrorKind kind_of(const json& message) {
   const auto kind = message.find("kind");
   if (kind == message.end() || !kind->is_number_unsigned()) return ErrorKind::invalid_input;
@@ -233,6 +240,20 @@ fs::path ReaderResult::file(const std::string& name) const {
   return path;
 }
 
+size_t ReaderResult::count_in(const std::string& name, size_t value_bytes, uint64_t max_bytes) const {
+  const uint64_t bytes = fs::file_size(file(name));
+  if (bytes > max_bytes || bytes % value_bytes != 0)
+    throw Error(ErrorKind::io,
+                "the reader wrote " + std::to_string(bytes) + " bytes of " + name + ", which cannot be");
+  return bytes / value_bytes;
+}
+
+void ReaderResult::read(const std::string& name, std::span<std::byte> into) const {
+  const FileDescriptor in(::open(file(name).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
+  if (!in || in.read_at(0, into) != static_cast<ssize_t>(into.size()))
+    throw Error(ErrorKind::io, "what the reader wrote as " + name + " cannot be read");
+}
+
 ReaderResult read_isolated(const ReaderJob& job, const Progress& progress) {
   std::error_code failed;
   if (!fs::exists(job.input, failed))
@@ -248,8 +269,10 @@ ReaderResult read_isolated(const ReaderJob& job, const Progress& progress) {
   answers.in = {};
   const json message = Answers(answers.out, progress).wait();
   if (const auto error = message.find("error"); error != message.end() && error->is_string())
-    throw Error(kind_of(message), one_line(error->get<std::string>()));
+    throw Error(kind_of(message), one_line(error->get<std::string>(), max_words));
   if (!message.contains("answer")) throw what_ended_it(job, child.ended(ending_takes));
+  child.ended(std::chrono::seconds(0));  // from here on nobody changes what it wrote
+  check_output(folder->path());
   return {message["answer"], std::move(folder)};
 }
 

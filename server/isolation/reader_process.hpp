@@ -3,7 +3,10 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
+#include <type_traits>
+#include <vector>
 
 #include "core/progress.hpp"
 #include "core/temporary_file.hpp"
@@ -38,9 +41,21 @@ class ReaderResult {
   const nlohmann::json& answer() const { return answer_; }
   /// A regular file directly in the output folder. Throws Error io when there is no such file.
   std::filesystem::path file(const std::string& name) const;
+  /// What such a file holds, as this machine has it in memory; at most `max_bytes`. Throws Error io for more,
+  /// or for a part of a value.
+  template <typename Value>
+  std::vector<Value> values(const std::string& name, uint64_t max_bytes) const {
+    static_assert(std::is_standard_layout_v<Value>);
+    std::vector<Value> all(count_in(name, sizeof(Value), max_bytes));
+    read(name, std::as_writable_bytes(std::span(all)));
+    return all;
+  }
   const std::filesystem::path& folder() const { return folder_->path(); }
 
  private:
+  size_t count_in(const std::string& name, size_t value_bytes, uint64_t max_bytes) const;
+  void read(const std::string& name, std::span<std::byte> into) const;
+
   nlohmann::json answer_;
   std::unique_ptr<TemporaryFolder> folder_;
 };

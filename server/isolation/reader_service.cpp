@@ -8,6 +8,7 @@
 #include <array>
 #include <chrono>
 #include <cstdlib>
+#include <fstream>
 #include <iostream>
 
 #include "core/error.hpp"
@@ -100,6 +101,12 @@ json done(const std::map<std::string, ReaderTask>& tasks, const json& request) {
 }
 
 }  // namespace
+
+void write_values(const std::string& name, std::span<const std::byte> values) {
+  std::ofstream out(name, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size()));
+  if (!out.flush()) throw Error(ErrorKind::io, "there is no room on the disk for what is read");
+}
 
 void serve_one_job(const std::map<std::string, ReaderTask>& tasks) {
   if (::fcntl(request_descriptor, F_GETFD) < 0 || ::fcntl(answer_descriptor, F_GETFD) < 0) {

@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 
 #include "core/progress.hpp"
@@ -16,6 +17,9 @@ using ReaderTask = std::function<nlohmann::json(const std::filesystem::path& inp
 /// The reader's side of read_isolated(): takes one job from the descriptors that it was started with, enters
 /// the sandbox, does it, answers, and ends the process. Exit code 2 when it was not started by that function.
 [[noreturn]] void serve_one_job(const std::map<std::string, ReaderTask>& tasks);
+
+/// Writes a file into the output folder, for ReaderResult::values. Throws Error io.
+void write_values(const std::string& name, std::span<const std::byte> values);
 
 /// Descriptors that the reader is started with.
 enum ReaderDescriptor : int {

@@ -26,9 +26,13 @@ namespace {
   throw Error(ErrorKind::io, "the reader cannot be closed off: " + what + ": " + std::strerror(error));
 }
 
-void limit(int resource, uint64_t to, const char* what, uint64_t margin = 0) {
-  const rlimit bounds{to, to + margin};
-  if (::setrlimit(static_cast<__rlimit_resource_t>(resource), &bounds) != 0) fail(what);
+/// The lower of this and of what the process may have anyhow: an administrator's limit is kept.
+void limit(__rlimit_resource_t resource, uint64_t to, const char* what, uint64_t margin = 0) {
+  rlimit bounds{};
+  if (::getrlimit(resource, &bounds) != 0) fail(what);
+  bounds.rlim_max = std::min<rlim_t>(to + margin, bounds.rlim_max);
+  bounds.rlim_cur = std::min<rlim_t>(to, bounds.rlim_max);
+  if (::setrlimit(resource, &bounds) != 0) fail(what);
 }
 
 /// Best effort: without these the reader is only a worse neighbour.
@@ -88,7 +92,7 @@ void close_files_off(int version, int input, int output) {
   allow_below(rules.get(), output,
               all & ~uint64_t{LANDLOCK_ACCESS_FS_EXECUTE | LANDLOCK_ACCESS_FS_MAKE_CHAR |
                               LANDLOCK_ACCESS_FS_MAKE_BLOCK | LANDLOCK_ACCESS_FS_MAKE_SOCK |
-                              LANDLOCK_ACCESS_FS_MAKE_FIFO},
+                              LANDLOCK_ACCESS_FS_MAKE_FIFO | LANDLOCK_ACCESS_FS_MAKE_SYM},
               "its output");
   if (::syscall(SYS_landlock_restrict_self, rules.get(), 0) != 0) fail("Landlock");
 }

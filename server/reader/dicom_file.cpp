@@ -23,10 +23,10 @@ constexpr size_t max_items = 100000;
 constexpr uint32_t max_value_bytes = 4096;
 constexpr size_t max_inflated_bytes = size_t{1} << 30;
 
-constexpr std::array<uint32_t, 17> text_tags = {0x00080005, 0x00080008, 0x00080060, 0x0008103e, 0x00100010,
+constexpr std::array<uint32_t, 18> text_tags = {0x00080005, 0x00080008, 0x00080060, 0x0008103e, 0x00100010,
                                                 0x00100020, 0x00180050, 0x0020000e, 0x00200013, 0x00200032,
-                                                0x00200037, 0x00280004, 0x00280008, 0x00280030, 0x00281052,
-                                                0x00281053, 0x00281054};
+                                                0x00200037, 0x00280004, 0x00280008, 0x00280030, 0x00280301,
+                                                0x00281052, 0x00281053, 0x00281054};
 constexpr std::array<uint32_t, 8> number_tags = {0x00280002, 0x00280010, 0x00280011, 0x00280100,
                                                  0x00280101, 0x00280103, 0x00280120, 0x00280121};
 constexpr std::array<uint32_t, 6> sequence_tags = {0x52009229, 0x52009230, 0x00209113,

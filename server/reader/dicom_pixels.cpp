@@ -76,8 +76,25 @@ std::string jpeg_problem(std::string_view bytes, int columns, int rows, int byte
   return damaged;
 }
 
+constexpr unsigned no_run = 0x80;
+
+/// A segment's runs are of as many values as the picture has; then come only filling bytes.
+std::string rle_segment_problem(std::string_view segment, size_t values) {
+  size_t at = 0, count = 0;
+  while (count < values && at < segment.size()) {
+    const unsigned head = byte_at(segment, at++);
+    if (head == no_run) continue;
+    count += head < no_run ? head + 1 : 257 - head;
+    at += head < no_run ? head + 1 : 1;
+  }
+  if (count < values || at > segment.size()) return "their stream is cut short";
+  const bool filled = std::all_of(segment.begin() + static_cast<std::ptrdiff_t>(at), segment.end(),
+                                  [](char c) { return c == 0 || static_cast<unsigned char>(c) == no_run; });
+  return contradiction(count == values && filled);
+}
+
 /// Segments, one for each byte of a value, begin where the header says; little endian.
-std::string rle_problem(std::string_view bytes, int bytes_a_value) {
+std::string rle_problem(std::string_view bytes, size_t values, int bytes_a_value) {
   constexpr size_t header_bytes = 64;
   if (bytes.size() < header_bytes) return damaged;
   const auto number = [&](size_t k) {
@@ -91,15 +108,20 @@ std::string rle_problem(std::string_view bytes, int bytes_a_value) {
       return damaged;
     last = number(k);
   }
+  for (size_t k = 1; k <= number(0); ++k) {
+    const size_t end = k < number(0) ? number(k + 1) : bytes.size();
+    std::string problem = rle_segment_problem(bytes.substr(number(k), end - number(k)), values);
+    if (!problem.empty()) return problem;
+  }
   return "";
 }
 
 /// What keeps a packed picture (JPEG, JPEG-LS, JPEG 2000; or RLE when `rle`) from being one of a single value
 /// a pixel, that many columns and rows, and whole; empty when nothing does. Read from the stream's own
-/// headers (ITU-T T.81, T.87, T.800; DICOM PS3.5 annex G), because the library ends the program, or fills up
-/// with what it likes, where they contradict what DICOM says.
+/// headers (ITU-T T.81, T.87, T.800), or its runs (DICOM PS3.5 annex G), because the library ends the
+/// program, or fills up with what it likes, where they contradict what DICOM says.
 std::string packed_frame_problem(std::string_view bytes, int columns, int rows, int bytes_a_value, bool rle) {
-  if (rle) return rle_problem(bytes, bytes_a_value);
+  if (rle) return rle_problem(bytes, static_cast<size_t>(columns) * static_cast<size_t>(rows), bytes_a_value);
   const auto tail = bytes.substr(bytes.size() - std::min(bytes.size(), max_filling_bytes));
   if (tail.find("\xff\xd9") == std::string_view::npos) return "their stream is cut short";
   if (bytes.starts_with("\xff\x4f")) return jpeg_2000_problem(bytes, columns, rows, bytes_a_value);

@@ -53,6 +53,12 @@ bool holds_an_image(const fs::path& path, const DicomFile& file, int& imageless)
   return file.state == DicomState::whole;
 }
 
+/// A word of the standard's for modalities and kinds of values is short; what is longer may be of a person.
+std::string short_word(const std::string& word) {
+  constexpr size_t longest_word = 16;
+  return word.size() > longest_word ? "something else" : word;
+}
+
 /// Looks at every file below a folder, or at one file. Hidden files, files that are not DICOM and DICOM
 /// without pictures are passed over. Errors: invalid_input (names the file) for a file that is cut short or
 /// says impossible things; cancelled.
@@ -68,7 +74,7 @@ DicomScan scan_dicom(const fs::path& path, const Progress& progress) {
     if (!holds_an_image(files[i], file, imageless)) continue;
     for (DicomSlice& slice : describe_dicom(files[i], file)) {
       if (slice.modality != "CT") {
-        modalities.insert(slice.modality);
+        modalities.insert(short_word(slice.modality));
         ++other;
       } else if (slice.localizer) {
         ++localizers;
@@ -132,14 +138,24 @@ bool means_hu(const std::string& value_type) {
   return value_type != "HU" && (letters == "hu" || letters == "hnsfu" || spelt_out);
 }
 
+void warn_of_burnt_in(HuVolume& volume, const std::vector<DicomSlice>& slices) {
+  const auto count =
+      std::count_if(slices.begin(), slices.end(), [](const DicomSlice& slice) { return slice.burnt_in; });
+  if (count > 0)
+    volume.warnings.push_back(
+        std::to_string(count) +
+        " slices say that words are burnt into their pictures, perhaps whose they are; look "
+        "through them, and delete the case if they tell");
+}
+
 void warn_of_value_type(HuVolume& volume, const DicomSlice& slice) {
   if (slice.value_type == "unscaled")
     volume.warnings.push_back("the slices do not say how to scale their values; they were taken as HU");
   else if (means_hu(slice.value_type))
-    volume.warnings.push_back("the slices call their values '" + slice.value_type +
+    volume.warnings.push_back("the slices call their values '" + short_word(slice.value_type) +
                               "'; this was taken as HU");
   else if (!slice.value_type.empty() && slice.value_type != "HU" && slice.value_type != "US")
-    volume.warnings.push_back("the slices hold " + slice.value_type +
+    volume.warnings.push_back("the slices hold " + short_word(slice.value_type) +
                               ", not HU; thresholds and densities will not fit");
 }
 
@@ -159,6 +175,7 @@ HuVolume read_dicom_folder(const fs::path& path, const ReadOptions& options, con
   volume.warnings.insert(volume.warnings.end(), stack.warnings.begin(), stack.warnings.end());
   load_stack(volume, stack, path.string(), part_of(progress, scanning_share, 1.0));
   const DicomSlice& first = stack.slices.front();
+  warn_of_burnt_in(volume, stack.slices);
   warn_of_value_type(volume, first);
   warn_of_thickness(volume, first.spacing_mm.z());
   if (options.keep_names) volume.patient = first.patient;

@@ -16,6 +16,7 @@ struct DicomSlice {
   std::string series_uid, description, modality, value_type;  ///< value_type: RescaleType, "HU" in a CT
   std::string unusable;    ///< why it cannot be a slice of a volume; empty when it can
   bool localizer = false;  ///< a survey picture (ImageType)
+  bool burnt_in = false;   ///< words are part of the picture (BurnedInAnnotation)
   int columns = 0, rows = 0;
   int bits_allocated = 16, bits_stored = 16;
   bool is_signed = false;

@@ -8,6 +8,9 @@
 #include "reader/ct_files.hpp"
 #include "reader/ct_source.hpp"
 #include "reader/gray_values.hpp"
+#include "reader/mesh_file.hpp"
+#include "reader/session_archive.hpp"
+#include "reader/vibration_file.hpp"
 
 namespace ream::reader {
 namespace fs = std::filesystem;
@@ -69,11 +72,38 @@ json gray_task(const fs::path& input, const json& options, const Progress& progr
   });
 }
 
+json mesh_task(const fs::path& input, const json&, const Progress&) {
+  const TriangleMesh mesh = read_mesh_file(input);
+  isolation::write_values("vertices", std::as_bytes(std::span(mesh.vertices_mm)));
+  isolation::write_values("triangles", std::as_bytes(std::span(mesh.triangles)));
+  return json::object();
+}
+
+json vibration_task(const fs::path& input, const json& options, const Progress&) {
+  const VibrationRecording recording = read_vibration_file(input, options.at("rate_hz"));
+  isolation::write_values("samples", std::as_bytes(std::span(recording.samples)));
+  return {{"rate_hz", recording.rate_hz}};
+}
+
+json session_task(const fs::path& input, const json& options, const Progress& progress) {
+  if (options.at("only_ask")) return {{"holds_session", holds_session(input)}};
+  const char* const folder = "session_bundle";
+  fs::create_directory(folder);
+  const SessionArchive archive = unpack_session(input, folder, progress);
+  json answer{{"case_id", archive.case_id}, {"recorded_case", archive.recorded_case}};
+  if (archive.enclosed_case) answer["enclosed_case"] = *archive.enclosed_case;
+  return answer;
+}
+
 }  // namespace
 }  // namespace ream::reader
 
 int main() {
   using namespace ream;
-  isolation::serve_one_job(
-      {{"ct", reader::ct_task}, {"labels", reader::labels_task}, {"gray", reader::gray_task}});
+  isolation::serve_one_job({{"ct", reader::ct_task},
+                            {"labels", reader::labels_task},
+                            {"gray", reader::gray_task},
+                            {"mesh", reader::mesh_task},
+                            {"session", reader::session_task},
+                            {"vibration", reader::vibration_task}});
 }

@@ -77,8 +77,10 @@ fs::path beside(const fs::path& path, const std::string& name) {
   if (name.empty() || name.find_first_of("/\\%") != std::string::npos || name.starts_with("LIST"))
     refuse(path, "its voxels must be in one file beside it, not in '" + name.substr(0, 100) + "'");
   const fs::path holder = path.parent_path() / name;
-  if (!fs::is_regular_file(holder))
-    throw Error(ErrorKind::not_found, "no such file: " + holder.string() + ", named by " + path.string());
+  std::error_code failed;
+  if (!fs::is_regular_file(holder, failed))
+    throw Error(ErrorKind::not_found, "no such file: " + (path.parent_path() / name.substr(0, 100)).string() +
+                                          ", named by " + path.string());
   return holder;
 }
 
@@ -330,6 +332,11 @@ TextHeader text_header(const fs::path& path, char separator, const std::string& 
   return header;
 }
 
+/// As the library of MetaImage takes a word for true.
+bool says_yes(const std::string& word) {
+  return !word.empty() && std::string_view("Tt1").find(word[0]) != std::string_view::npos;
+}
+
 }  // namespace
 
 VolumeHeader::VolumeHeader(const fs::path& path) : path_(path), readable_(path), voxels_(path) {
@@ -400,7 +407,7 @@ void VolumeHeader::check_meta() {
     claims.sizes_mm.insert(claims.sizes_mm.end(), sizes.begin(), sizes.end());
   }
   claims.bits = meta_bits(field("ElementType"));
-  claims.packed = field("CompressedData").starts_with('T');
+  claims.packed = says_yes(field("CompressedData"));
   const std::string data = field("ElementDataFile");
   if (data != "LOCAL" && data != "Local" && data != "local") voxels_ = beside(path_, data);
   check(claims, path_, voxels_);
@@ -424,7 +431,7 @@ void VolumeHeader::check_complete(uint64_t image_bytes) const {
     if (unpacked_bytes(readable_) < nifti1_voxels_begin + image_bytes) cut_short(path_);
   } else if (format_ == Format::meta) {
     const uint64_t before = voxels_ == path_ ? end_ : 0;
-    if (field("CompressedData").starts_with('T'))
+    if (says_yes(field("CompressedData")))
       check_deflated(voxels_, before, image_bytes);
     else if (fs::file_size(voxels_) < before + image_bytes)
       cut_short(voxels_);
@@ -441,10 +448,11 @@ uint64_t VolumeHeader::raw_begin(uint64_t image_bytes) const {
   bool raw = voxels_ == path_ && end_ + image_bytes == fs::file_size(path_);
   if (ending == ".nrrd")
     raw = raw && field("encoding") == "raw" && !fields_.contains("lineskip") &&
-          !fields_.contains("byteskip") && field("endian") != "big";
+          !fields_.contains("byteskip") && (field("endian").empty() || field("endian") == "little");
   else if (ending == ".mha")
-    raw = raw && !fields_.contains("HeaderSize") && !field("CompressedData").starts_with('T') &&
-          !field("ElementByteOrderMSB").starts_with('T') && !field("BinaryDataByteOrderMSB").starts_with('T');
+    raw = raw && !fields_.contains("HeaderSize") && says_yes(field("BinaryData")) &&
+          !says_yes(field("CompressedData")) && !says_yes(field("ElementByteOrderMSB")) &&
+          !says_yes(field("BinaryDataByteOrderMSB"));
   else
     raw = false;
   return raw ? end_ : 0;

@@ -7,7 +7,8 @@
 
 namespace ream::record {
 
-/// Where a log's bytes go: a file, or in tests one that fails. Used by one thread.
+/// Where a log's bytes go: a file, or in tests one that fails. One thread appends; another may sync
+/// meanwhile.
 class LogSink {
  public:
   virtual ~LogSink() = default;

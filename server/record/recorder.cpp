@@ -123,7 +123,7 @@ BrickCoverages starts_of(const BrickCoverages& changed, const RecordedBone& bone
 
 }  // namespace
 
-/// The thread and what it shares with the follower.
+/// The two threads and what they share with the follower.
 struct Recorder::Impl {
   Impl(OpLogWriter log, ChunkEncoder bricks, const uint8_t* start)
       : writer(std::move(log)), encoder(std::move(bricks)), start_coverage(start) {}
@@ -133,8 +133,15 @@ struct Recorder::Impl {
       const std::lock_guard lock(mutex);
       leaving = true;
     }
+    stop_threads();
+  }
+
+  /// After `leaving` was set: what waits is written; a sync that is due no more.
+  void stop_threads() {
     wake.notify_one();
+    written.notify_one();
     if (thread.joinable()) thread.join();
+    if (sync_thread.joinable()) sync_thread.join();
   }
 
   void begin(const ops::Segment& segment, const ops::Header* header) {
@@ -143,6 +150,7 @@ struct Recorder::Impl {
     writer.close_chunk();
     writer.sync();
     bytes_written = writer.bytes_written();
+    sync_thread = start_thread([this] { sync_in_time(); });
     thread = start_thread([this] { write_chunks(); });
   }
 
@@ -153,7 +161,8 @@ struct Recorder::Impl {
       ChunkContents contents;
       {
         std::unique_lock lock(mutex);
-        if (!wait_for_chunk(lock)) return;
+        wake.wait(lock, [this] { return leaving || !queue.empty(); });
+        if (queue.empty()) return;
         queued_bytes -= queue.front().bytes();
         contents = std::move(queue.front());
         queue.pop_front();
@@ -173,27 +182,31 @@ struct Recorder::Impl {
     }
   }
 
-  /// False when there is nothing more to do. What has been written is synced in time, also when nothing
-  /// follows.
-  bool wait_for_chunk(std::unique_lock<std::mutex>& lock) {
-    const auto something = [this] { return leaving || !queue.empty(); };
-    while (unsynced && !failed) {
-      if (wake.wait_until(lock, sync_due, something)) return !queue.empty();
-      lock.unlock();
-      sync();
-      lock.lock();
-    }
-    wake.wait(lock, something);
-    return !queue.empty();
-  }
-
   void write(ChunkContents contents) {
     encoder.encode(std::move(contents), writer);
     writer.close_chunk();
     bytes_written = writer.bytes_written();
-    if (!unsynced) sync_due = SteadyClock::now() + sync_interval;
-    unsynced = true;
-    if (SteadyClock::now() >= sync_due) sync();
+    {
+      const std::lock_guard lock(mutex);
+      if (!unsynced) sync_due = SteadyClock::now() + sync_interval;
+      unsynced = true;
+    }
+    written.notify_one();
+  }
+
+  /// A thread of its own: on a busy disk a sync takes seconds, and chunks must be in the file meanwhile,
+  /// where the end of the program does not reach them.
+  void sync_in_time() {
+    ::setpriority(PRIO_PROCESS, 0, recorder_nice);
+    std::unique_lock lock(mutex);
+    for (;;) {
+      written.wait(lock, [this] { return leaving || unsynced; });
+      if (written.wait_until(lock, sync_due, [this] { return leaving; }) || leaving) return;
+      unsynced = false;
+      lock.unlock();
+      if (!failed) sync();
+      lock.lock();
+    }
   }
 
   void sync() {
@@ -202,7 +215,6 @@ struct Recorder::Impl {
     } catch (const std::exception& e) {
       fail(e.what());
     }
-    unsynced = false;
   }
 
   void fail(const std::string& why) {
@@ -253,10 +265,8 @@ struct Recorder::Impl {
   bool rest_was_sent() const { return finishing && images.empty(); }
 
   // The thread's.
-  OpLogWriter writer;
+  OpLogWriter writer;  ///< but for its sync()
   ChunkEncoder encoder;
-  bool unsynced = false;
-  SteadyClock::time_point sync_due;
 
   // The follower's.
   const uint8_t* start_coverage;
@@ -267,17 +277,19 @@ struct Recorder::Impl {
   std::deque<ChangedBrick> images;     ///< not yet in a chunk
   std::unordered_set<uint32_t> known;  ///< bricks whose start the encoder has
 
-  // Of both.
+  // Of all.
   mutable std::mutex mutex;
-  std::condition_variable wake, done;
+  std::condition_variable wake, written, done;
   std::deque<ChunkContents> queue;
   size_t in_hand = 0, queued_bytes = 0;
   bool leaving = false;
+  bool unsynced = false;             ///< something was written since the last sync began
+  SteadyClock::time_point sync_due;  ///< when it was, of that
   std::string words;
   std::atomic<bool> failed{false};
   std::atomic<double> cpu_s{0.0};
   std::atomic<uint64_t> bytes_written{0};
-  std::thread thread;
+  std::thread thread, sync_thread;
 };
 
 Recorder::Recorder(std::unique_ptr<LogSink> sink, const ops::Header& header, const ops::Segment& segment,
@@ -344,13 +356,8 @@ void Recorder::finish(const std::string& state) {
     impl.done.wait(lock, [&] { return impl.queue.empty() && impl.in_hand == 0; });
     impl.leaving = true;
   }
-  impl.wake.notify_one();
-  impl.thread.join();
-  if (!impl.failed) try {
-      impl.writer.sync();
-    } catch (const Error& e) {
-      impl.fail(e.what());
-    }
+  impl.stop_threads();
+  if (!impl.failed) impl.sync();
   if (impl.failed) throw Error(ErrorKind::io, failure());
 }
 

@@ -18,9 +18,10 @@ inline constexpr uint32_t max_ticks_per_chunk = 4 * ticks_per_chunk;
 inline constexpr size_t max_waiting_bytes = size_t{512} << 20;  ///< a disk that is later has failed
 
 /// Writes recording.ream on a thread of its own. add() only hands over; a chunk of 250 ticks (a few more
-/// while brick images are behind), the bricks that they changed, and a checkpoint are encoded, compressed,
-/// appended and from time to time fsynced by the thread. A failure (a full disk) stops the writing, not the
-/// caller: failure() says it, and what was written before is whole. Used by one follower thread.
+/// while brick images are behind), the bricks that they changed, and a checkpoint are encoded, compressed and
+/// appended by the thread; a second one fsyncs from time to time, while the first goes on. A failure (a full
+/// disk) stops the writing, not the caller: failure() says it, and what was written before is whole. Used by
+/// one follower thread.
 class Recorder {
  public:
   /// A new recording, which can be read from here on. `start_coverage` is read for bricks that change for the

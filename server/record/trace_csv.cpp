@@ -8,6 +8,7 @@
 
 #include "core/clock.hpp"
 #include "core/error.hpp"
+#include "core/file.hpp"
 
 namespace ream::record {
 namespace {
@@ -98,7 +99,8 @@ void TraceCsv::finish() {
     fail_to_write_trace(path_);
   std::fclose(file_);
   file_ = nullptr;
-  if (std::rename(temporary_.c_str(), path_.c_str()) == 0) return;
+  if (std::rename(temporary_.c_str(), path_.c_str()) == 0)
+    return sync_folder(std::filesystem::path(path_).parent_path());
   const int why = errno;
   ::unlink(temporary_.c_str());
   errno = why;

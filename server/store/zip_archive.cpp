@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 #include <zip.h>
 
 #include <cerrno>
@@ -12,7 +11,7 @@
 #include <memory>
 
 #include "core/error.hpp"
-#include "core/file_descriptor.hpp"
+#include "core/file.hpp"
 
 namespace ream::store {
 namespace {
@@ -94,11 +93,6 @@ void write_entry(zip_t* archive, const ArchiveEntry& entry, const fs::path& zip)
                            0);
 }
 
-bool sync_file(const fs::path& path) {
-  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  return file && ::fsync(file.get()) == 0;
-}
-
 Error unusable(const fs::path& zip, const std::string& name, const std::string& why) {
   std::string shown = name.substr(0, 100);
   for (char& c : shown)
@@ -143,7 +137,7 @@ std::vector<std::string> checked_names(zip_t* archive, const fs::path& zip, cons
 
 /// Copies at most `limit` bytes out and returns how many there were.
 uint64_t unpack_entry(zip_t* archive, zip_uint64_t index, const std::string& name, const fs::path& zip,
-                      const fs::path& to, uint64_t limit, bool durable) {
+                      const fs::path& to, uint64_t limit) {
   std::unique_ptr<zip_file_t, CloseEntry> entry(zip_fopen_index(archive, index, 0));
   if (!entry) throw unusable(zip, name, std::string("cannot be read: ") + zip_strerror(archive));
   std::error_code failed;
@@ -163,8 +157,7 @@ uint64_t unpack_entry(zip_t* archive, zip_uint64_t index, const std::string& nam
     if (std::fwrite(piece.data(), 1, static_cast<size_t>(got), file.get()) != static_cast<size_t>(got))
       throw Error(ErrorKind::io, "cannot write " + to.string());
   }
-  if (std::fflush(file.get()) != 0 || (durable && ::fsync(fileno(file.get())) != 0))
-    throw Error(ErrorKind::io, "cannot write " + to.string());
+  if (std::fflush(file.get()) != 0) throw Error(ErrorKind::io, "cannot write " + to.string());
   return total;
 }
 
@@ -191,14 +184,19 @@ void write_zip(const fs::path& path, const std::vector<ArchiveEntry>& entries, c
     if (packing.refusal) std::rethrow_exception(packing.refusal);
     throw Error(ErrorKind::io, "cannot write " + path.string() + ": " + zip_strerror(archive.get()));
   }
-  archive.release();  // closing has freed it
+  static_cast<void>(archive.release());  // closing has freed it
   std::error_code failed, ignored;
-  const bool synced = sync_file(temporary);
-  if (synced) fs::rename(temporary, path, failed);
-  if (!synced || failed) {
+  try {
+    sync_file(temporary);
+  } catch (const Error&) {
+    failed = std::make_error_code(std::errc::io_error);
+  }
+  if (!failed) fs::rename(temporary, path, failed);
+  if (failed) {
     fs::remove(temporary, ignored);
     throw Error(ErrorKind::io, "cannot write " + path.string());
   }
+  sync_folder(path.parent_path());
 }
 
 std::vector<std::string> zip_names(const fs::path& path) {
@@ -218,9 +216,10 @@ void unpack_zip(const fs::path& path, const fs::path& folder, const UnpackLimits
   for (size_t i = 0; i < names.size(); ++i) {
     progress(static_cast<double>(i) / static_cast<double>(names.size()), "unpacking");
     if (names[i].back() == '/') continue;
-    room -= unpack_entry(archive.get(), i, names[i], path, folder / names[i], room, limits.durable);
+    room -= unpack_entry(archive.get(), i, names[i], path, folder / names[i], room);
     if (limits.keep_times) keep_time(archive.get(), i, folder / names[i]);
   }
+  if (limits.durable) sync_tree(folder);
 }
 
 }  // namespace ream::store

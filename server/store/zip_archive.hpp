@@ -24,7 +24,7 @@ void write_zip(const std::filesystem::path& path, const std::vector<ArchiveEntry
 struct UnpackLimits {
   uint64_t entries = 1000;
   uint64_t bytes = uint64_t{16} << 30;
-  bool durable = true;  ///< every file survives a loss of power once unpacked; not needed for passing ones
+  bool durable = true;  ///< all of them survive a loss of power once unpacked; not needed for passing ones
   bool keep_times = false;  ///< files are as old as the archive says
 };
 

@@ -187,6 +187,7 @@ void CaseService::remove(const std::string& id) {
   std::error_code failed;
   fs::rename(folder, gone, failed);
   if (failed) throw Error(ErrorKind::io, "cannot delete " + folder.string() + ": " + failed.message());
+  sync_folder(cases_folder_);
   fs::remove_all(gone, failed);
   cache_.forget(id);
 }

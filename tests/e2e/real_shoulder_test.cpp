@@ -19,11 +19,11 @@ constexpr double envelope_tolerance_mm = 0.02;
 
 case_::Case right_shoulder() {
   ct::ImportOptions options;
-  options.roi_mm = Aabb{Vec3(-152, -26, 202), Vec3(-106, 20, 251)};
+  options.build.roi_mm = Aabb{Vec3(-152, -26, 202), Vec3(-106, 20, 251)};
   options.side = case_::Side::right;
   options.label = shared_data("ct/shoulder_right_label.nii.gz");
-  options.segmentation.upsample = 8;
-  case_::Case c = ct::import_ct(shared_data("ct/shoulder_dicom"), "right-shoulder", options);
+  options.build.upsample = 8;
+  case_::Case c = ct::import_ct(shared_data("ct/shoulder_dicom"), "right-shoulder", options).made;
   case_::Plan plan;
   plan.axis_direction = Vec3(0.706, 0.708, 0.0).normalized();
   const auto entry = case_::surface_along(c.bone, Vec3(-133.5, -6.4, 225.6), plan.axis_direction);

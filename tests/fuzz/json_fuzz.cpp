@@ -1,4 +1,5 @@
 // JSON of requests and files: bodies, landmarks, plans, scripts.
+#include <contract.hpp>
 #include <nlohmann/json.hpp>
 
 #include "api/request_contract.hpp"
@@ -68,7 +69,41 @@ void read_twice(const nlohmann::json& json, Read read) {
   require(to_json(read(once, "request")) == once, "what was written is read as something else");
 }
 
+struct Operation {
+  const char *method, *pattern;
+};
+/// Of the server itself; those with the widest bodies.
+constexpr Operation operations[] = {{"POST", "/api/v1/sessions"},
+                                    {"PATCH", "/api/v1/sessions/{id}"},
+                                    {"POST", "/api/v1/sessions/{id}/annotations"},
+                                    {"POST", "/api/v1/sessions/{id}/exports"},
+                                    {"POST", "/api/v1/cases"},
+                                    {"POST", "/api/v1/cases/{id}/segmentation"},
+                                    {"POST", "/api/v1/cases/{id}/build"},
+                                    {"PUT", "/api/v1/cases/{id}/plan"},
+                                    {"POST", "/api/v1/studies"},
+                                    {"PUT", "/api/v1/studies/{id}"},
+                                    {"PUT", "/api/v1/studies/{id}/participants/{code}/answers"},
+                                    {"POST", "/api/v1/rubrics"},
+                                    {"POST", "/api/v1/benchmarks"},
+                                    {"POST", "/api/v1/rescorings"},
+                                    {"POST", "/api/v1/users"}};
+
+void check_served(uint8_t which, std::string_view text) {
+  static const api::Contract contract{std::string(embedded::contract::find("openapi.yaml"))};
+  const Operation& operation = operations[which % std::size(operations)];
+  net::Request request = request_with(text);
+  request.method = operation.method;
+  request.parameters = {{"id", "a"}, {"code", "b"}};
+  contract.check(request, operation.pattern);
+  require(request.json != nullptr, "a body was let through unread");
+}
+
 void read(uint8_t kind, std::string_view text) {
+  if (kind >= 0x80) {
+    check_served(kind & 0x7f, text);
+    return;
+  }
   if (kind % 4 == 0) {
     read_body(text);
     return;

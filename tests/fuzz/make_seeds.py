@@ -7,6 +7,8 @@ import struct
 import sys
 from pathlib import Path
 
+import file_seeds
+
 GOLDEN = Path(__file__).resolve().parents[2] / "proto/golden"
 HELLO, HANDLE, STEERING = (
     (GOLDEN / f"device_{name}.bin").read_bytes() for name in ("hello", "handle", "steering")
@@ -88,6 +90,9 @@ def json() -> list[bytes]:
                 '"pilot_diameter_mm": 6.2, "pilot_depth_mm": 8}'),
             (3, '{"device": "hand", "duration_s": 3, "hand": {"start_mm": [0, 0, -1], "force_profile":'
                 '[{"t_s": 0, "force_n": 45}]}, "buttons": [{"t_s": 1, "spindle": false}]}'),
+            (0x80, '{"case": "demo", "script": "demo", "force_scale": 1.5, "theatre": true}'),
+            (0x88, '{"title": "a", "tasks": [{"case": "demo", "script": "demo"}], "questionnaire": {"items": [{}]}}'),
+            (0x8B, '{"name": "a", "criteria": [{"metric": "duration_s", "bands": [{"from": 0, "points": 5}]}]}'),
             (3, '{"device": "poses", "poses": [{"t_s": 0, "place_mm": [0, 0, 0]}]}'),
         )
     ]
@@ -98,7 +103,7 @@ def recording() -> list[bytes]:
 
 
 def main() -> None:
-    for make in (http, headers, device_messages, websocket, json, recording):
+    for make in (http, headers, device_messages, websocket, json, recording, *file_seeds.ALL):
         folder = Path(sys.argv[1]) / make.__name__
         folder.mkdir(parents=True, exist_ok=True)
         for number, seed in enumerate(make(), 1):

@@ -14,8 +14,6 @@ namespace {
 
 constexpr double mg_per_g = 1000.0;
 
-constexpr double seed_reach_mm = 2.0;
-
 /// Calls visit(u, v, w) for the voxels of the 3x3x3 around (u,v,w) that lie in the volume, without itself.
 template <typename Visit>
 void each_neighbour(const Vec3i& dims, int u, int v, int w, Visit&& visit) {
@@ -159,29 +157,13 @@ double hu_of_apparent_density(double density_g_cc, const case_::Calibration& cal
   return (qct * mg_per_g - calibration.intercept_mg_cc) / calibration.slope_mg_cc_per_hu;
 }
 
-Mask segment(HuVolume& volume, const SegmentationOptions& options) {
-  smooth(volume, options.sigma_mm);
-  Mask mask = above_threshold(volume, options.threshold_hu);
-  if (count_set(mask) == 0)
-    throw Error(ErrorKind::invalid_input,
-                "no voxel reaches the threshold of " + std::to_string(std::lround(options.threshold_hu)) +
-                    " HU (the highest is " +
-                    std::to_string(*std::max_element(volume.hu.begin(), volume.hu.end())) +
-                    "); lower --threshold-hu or choose another region");
-  if (!options.grow_from_mm) return largest_part(mask, volume.dims);
-  const auto seed = nearest_set(mask, volume, *options.grow_from_mm, seed_reach_mm);
-  if (!seed)
-    throw Error(ErrorKind::invalid_input,
-                "no bone within 2 mm of the seed " + text_of_point(*options.grow_from_mm) +
-                    " mm; give --grow-from a point in the bone (LPS) or lower --threshold-hu");
-  return grown_from(mask, volume.dims, *seed);
-}
-
-voxel::BoneModel bone_from_mask(const HuVolume& volume, Mask mask, const SegmentationOptions& options) {
+voxel::BoneModel bone_of_whole_volume(const HuVolume& volume, Mask mask, int upsample,
+                                      const case_::Calibration& calibration) {
   if (count_set(mask) == 0) throw Error(ErrorKind::invalid_input, "the segmentation holds no bone");
-  check_factor(options.upsample);
+  check_factor(upsample);
+  check_size(volume.dims, upsample);
   fill_voids(mask, volume.dims);
-  return upsampled(volume, resolve_surface(volume, mask), options.upsample, options.calibration, no_progress);
+  return upsampled(volume, resolve_surface(volume, mask), upsample, calibration, no_progress);
 }
 
 voxel::BoneModel bone_from_mask(const HuVolume& volume, const Mask& mask, const BoneSettings& settings,

@@ -15,27 +15,8 @@ double apparent_density_g_cc(double hu, const case_::Calibration& calibration);
 /// Its inverse: the HU that a bone of that apparent density has.
 double hu_of_apparent_density(double density_g_cc, const case_::Calibration& calibration);
 
-/// What turns a CT into bone. Points are world (LPS) mm.
-struct SegmentationOptions {
-  double sigma_mm = 0.0;             ///< Gaussian before the threshold
-  double threshold_hu = 200.0;       ///< bone is at least this
-  std::optional<Vec3> grow_from_mm;  ///< part to keep; without it, the largest part
-  int upsample = 1;                  ///< 1 to 16 per axis
-  case_::Calibration calibration;    ///< its threshold_hu is set from threshold_hu
-};
-
 /// HU that partial volume at the surface is measured against: muscle and joint fluid.
 inline constexpr double soft_tissue_hu = 40.0;
-
-/// Mask by threshold and region growing. `volume` is smoothed in place first. Throws Error invalid_input when
-/// nothing reaches the threshold or no bone lies within 2 mm of the seed.
-Mask segment(HuVolume& volume, const SegmentationOptions& options);
-
-/// Bone of a mask over a CT: voids filled; at the surface, how full a voxel is follows from its HU between
-/// soft tissue and the densest bone beside it (so the surface is sub-voxel and thin sheets survive), and
-/// density is that of the bone within, not of the mix; both upsampled (voxel/upsample.hpp) and padded to
-/// whole bricks.
-voxel::BoneModel bone_from_mask(const HuVolume& volume, Mask mask, const SegmentationOptions& options);
 
 /// What makes a mask over a CT a bone to ream.
 struct BoneSettings {
@@ -44,11 +25,17 @@ struct BoneSettings {
   case_::Calibration calibration;
 };
 
-/// As above, but only the part of the mask within the region of interest, and with an empty CT voxel on every
+/// Bone of a mask over a CT: voids filled; at the surface, how full a voxel is follows from its HU between
+/// soft tissue and the densest bone beside it (so the surface is sub-voxel and thin sheets survive), and
+/// density is that of the bone within, not of the mix; both upsampled (voxel/upsample.hpp) and padded to
+/// whole bricks. Only the part of the mask within the region of interest, with an empty CT voxel on every
 /// side so that the surface is closed where the region cuts the bone. Throws Error invalid_input for an empty
 /// mask, no bone within the region, a bad factor, or more than 1.5e9 voxels.
 voxel::BoneModel bone_from_mask(const HuVolume& volume, const Mask& mask, const BoneSettings& settings,
                                 const Progress& progress);
+/// The same over the grid of the whole volume, open where the volume cuts the bone.
+voxel::BoneModel bone_of_whole_volume(const HuVolume& volume, Mask mask, int upsample,
+                                      const case_::Calibration& calibration);
 
 /// Region of interest around a glenoid: a box along the world's axes of 60 mm across, 60 mm front to back and
 /// 70 mm high, about a point 15 mm medial of the centre (`lateral` need not be a unit vector).

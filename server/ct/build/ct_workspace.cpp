@@ -65,8 +65,7 @@ std::vector<uint8_t> load_labels(const fs::path& case_folder, const Workup& work
   return labels;
 }
 
-Workup write_workup(const fs::path& folder, const std::string& id, const std::string& name, case_::Side side,
-                    const HuVolume& volume) {
+Workup new_workup(const std::string& id, const std::string& name, case_::Side side, const HuVolume& volume) {
   Workup workup;
   workup.id = id;
   workup.name = name;
@@ -80,16 +79,30 @@ Workup write_workup(const fs::path& folder, const std::string& id, const std::st
   workup.hu_min = *low;
   workup.hu_max = *high;
   workup.suggested_threshold_hu = suggested_threshold_hu(volume);
-  fs::create_directories(folder / "ct");
-  write_zstd_file(hu_of(folder), std::as_bytes(std::span(volume.hu)));
-  save_workup(folder, workup);
   return workup;
+}
+
+void record_segmentation(Workup& workup, const SegmentationSettings& settings, const Segmentation& made) {
+  workup.segmentations.push_back({++workup.last_revision, settings, made.threshold_hu, made.parts, made.head,
+                                  made.glenoid_mm, made.warnings});
+  if (workup.segmentations.size() > kept_segmentations)
+    workup.segmentations.erase(workup.segmentations.begin());
+}
+
+void write_workup(const fs::path& folder, const Workup& workup, const std::vector<int16_t>& hu,
+                  const std::vector<uint8_t>& labels) {
+  fs::create_directories(folder / "ct");
+  write_zstd_file(hu_of(folder), std::as_bytes(std::span(hu)));
+  if (workup.segmentation())
+    write_zstd_file(labels_of(folder, workup.last_revision), std::as_bytes(std::span(labels)));
+  save_workup(folder, workup);
 }
 
 Workup create_workup(const fs::path& case_folder, const std::string& id, const std::string& name,
                      case_::Side side, const HuVolume& volume) {
+  const Workup workup = new_workup(id, name, side, volume);
   AtomicFolder folder(case_folder);
-  Workup workup = write_workup(folder.path(), id, name, side, volume);
+  write_workup(folder.path(), workup, volume.hu, {});
   folder.commit();
   return workup;
 }
@@ -114,12 +127,8 @@ Workup copy_workup(const fs::path& from, const fs::path& to, const std::string& 
 void add_segmentation(const fs::path& case_folder, Workup& workup, const SegmentationSettings& settings,
                       const Segmentation& made) {
   Workup changed = workup;
-  const int revision = ++changed.last_revision;
-  changed.segmentations.push_back(
-      {revision, settings, made.threshold_hu, made.parts, made.head, made.glenoid_mm, made.warnings});
-  if (changed.segmentations.size() > kept_segmentations)
-    changed.segmentations.erase(changed.segmentations.begin());
-  write_zstd_file(labels_of(case_folder, revision), std::as_bytes(std::span(made.labels)));
+  record_segmentation(changed, settings, made);
+  write_zstd_file(labels_of(case_folder, changed.last_revision), std::as_bytes(std::span(made.labels)));
   save_workup(case_folder, changed);
   remove_forgotten(case_folder, changed);
   workup = std::move(changed);

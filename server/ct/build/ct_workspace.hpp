@@ -30,6 +30,7 @@ struct SegmentationRecord {
 struct BuildSettings {
   int upsample = 4;                ///< parts of a CT voxel per axis, 1 to 16
   bool around_glenoid = true;      ///< else the whole CT
+  std::optional<Aabb> roi_mm;      ///< LPS; this instead of the box around the glenoid; no key of its own
   double cartilage_mm = 0.0;       ///< thickness of synthetic cartilage; 0: none
   case_::Calibration calibration;  ///< its threshold is the segmentation's
 };
@@ -73,9 +74,15 @@ std::vector<int16_t> load_hu(const std::filesystem::path& case_folder, const Wor
 std::vector<uint8_t> load_labels(const std::filesystem::path& case_folder, const Workup& workup,
                                  int revision);
 
-/// Writes the CT into a folder in progress. Range and suggested threshold are found here. Error io.
-Workup write_workup(const std::filesystem::path& folder, const std::string& id, const std::string& name,
-                    case_::Side side, const HuVolume& volume);
+/// What is known of a CT that was read: its place, range and suggested threshold. Nothing is written.
+Workup new_workup(const std::string& id, const std::string& name, case_::Side side, const HuVolume& volume);
+/// What ct.json says of a segmentation becomes the one that counts; its labels are not kept here.
+void record_segmentation(Workup& workup, const SegmentationSettings& settings, const Segmentation& made);
+
+/// Writes CT, labels of the newest segmentation (where there is one) and ct.json into a folder in progress.
+/// Error io.
+void write_workup(const std::filesystem::path& folder, const Workup& workup, const std::vector<int16_t>& hu,
+                  const std::vector<uint8_t>& labels);
 
 /// A new case folder that holds nothing but the CT; it appears whole or not at all. Errors: conflict when the
 /// folder exists; io.
@@ -101,10 +108,26 @@ void save_workup(const std::filesystem::path& case_folder, const Workup& workup)
 voxel::BoneModel scapula_of(const Workup& workup, const std::vector<int16_t>& hu,
                             const std::vector<uint8_t>& labels);
 
-/// The case that comes out: scapula cropped, upsampled and, where asked, covered with cartilage; with the
-/// glenoid frame and the ROI that was taken in `workup.built`. Errors: conflict without a segmentation, or
-/// naming the landmarks that are missing (glenoid centre for the ROI, rim points for cartilage);
-/// invalid_input for too many voxels.
+/// Where the glenoid is and how it faces, as far as it is known; world (LPS).
+struct GlenoidPlace {
+  std::optional<Vec3> centre_mm;
+  Vec3 lateral;                             ///< from the scapula to the joint, of any length
+  std::optional<case_::GlenoidFrame> face;  ///< what cartilage is laid on
+};
+/// As the landmarks say that somebody placed; a face needs its centre and the four points of its rim.
+GlenoidPlace glenoid_place(const case_::Landmarks& landmarks, case_::Side side);
+/// As a segmentation found it beside the humeral head; `centre_mm` instead of its own where given. The face
+/// looks at the head, or to the patient's side and front without one.
+GlenoidPlace glenoid_place(const SegmentationRecord& segmentation, case_::Side side,
+                           const std::optional<Vec3>& centre_mm);
+
+/// The case that comes out: scapula cropped, upsampled and, where asked, covered with cartilage; the ROI that
+/// was taken is in `workup.built`. Errors: conflict without a segmentation, or naming the landmarks that are
+/// missing (glenoid centre for the ROI, rim points for cartilage); invalid_input for too many voxels or a
+/// bone that fills none.
+case_::Case build_from(Workup& workup, const std::vector<int16_t>& hu, const std::vector<uint8_t>& labels,
+                       const GlenoidPlace& glenoid, const BuildSettings& settings, const Progress& progress);
+/// The same on landmarks; the case knows its glenoid's frame then.
 case_::Case build_from(Workup& workup, const std::vector<int16_t>& hu, const std::vector<uint8_t>& labels,
                        const case_::Landmarks& landmarks, const BuildSettings& settings,
                        const Progress& progress);

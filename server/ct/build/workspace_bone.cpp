@@ -33,33 +33,22 @@ case_::Calibration calibration_of(const Workup& workup, const BuildSettings& set
   return calibration;
 }
 
-/// Without a trigonum, the joint faces the patient's side.
-Vec3 lateral_of(const case_::Landmarks& landmarks, case_::Side side) {
-  if (landmarks.trigonum_mm) return *landmarks.glenoid_centre_mm - *landmarks.trigonum_mm;
-  return side == case_::Side::right ? Vec3(-Vec3::UnitX()) : Vec3(Vec3::UnitX());
-}
+/// Towards the joint where nothing better is known: to the patient's side and front.
+Vec3 usual_lateral(case_::Side side) { return {side == case_::Side::right ? -0.8 : 0.8, -0.6, 0.0}; }
 
-std::optional<Aabb> roi_for(const Workup& workup, const case_::Landmarks& landmarks,
+std::optional<Aabb> roi_for(const Workup& workup, const GlenoidPlace& glenoid,
                             const BuildSettings& settings) {
-  if (!settings.around_glenoid) return std::nullopt;
-  if (!landmarks.glenoid_centre_mm)
+  if (settings.roi_mm || !settings.around_glenoid) return settings.roi_mm;
+  if (!glenoid.centre_mm)
     throw Error(ErrorKind::conflict, "case '" + workup.id +
                                          "' has no glenoid centre yet; place that landmark, or build the "
                                          "whole scapula");
-  return glenoid_roi_mm(*landmarks.glenoid_centre_mm, lateral_of(landmarks, workup.side));
+  return glenoid_roi_mm(*glenoid.centre_mm, glenoid.lateral);
 }
 
 Aabb box_of(const voxel::VoxelGrid& grid) {
   const Vec3 size = (grid.dims.cast<double>().array() * grid.spacing_mm.array()).matrix();
   return Aabb{Vec3::Zero(), size}.transformed(grid.world_from_grid);
-}
-
-/// The glenoid's own frame where enough landmarks are placed.
-std::optional<case_::GlenoidFrame> frame_of(const case_::Landmarks& landmarks, case_::Side side) {
-  const bool whole = landmarks.glenoid_centre_mm && landmarks.superior_rim_mm && landmarks.inferior_rim_mm &&
-                     landmarks.anterior_rim_mm && landmarks.posterior_rim_mm;
-  if (!whole) return std::nullopt;
-  return case_::glenoid_frame(landmarks, side);
 }
 
 CartilageSettings cartilage_of(const BuildSettings& settings) {
@@ -77,17 +66,38 @@ voxel::BoneModel scapula_of(const Workup& workup, const std::vector<int16_t>& hu
                         BoneSettings{std::nullopt, 1, calibration_of(workup, {})}, no_progress);
 }
 
+GlenoidPlace glenoid_place(const case_::Landmarks& landmarks, case_::Side side) {
+  GlenoidPlace place{landmarks.glenoid_centre_mm, usual_lateral(side), std::nullopt};
+  if (place.centre_mm && landmarks.trigonum_mm) place.lateral = *place.centre_mm - *landmarks.trigonum_mm;
+  const bool whole = place.centre_mm && landmarks.superior_rim_mm && landmarks.inferior_rim_mm &&
+                     landmarks.anterior_rim_mm && landmarks.posterior_rim_mm;
+  if (whole) place.face = case_::glenoid_frame(landmarks, side);
+  return place;
+}
+
+GlenoidPlace glenoid_place(const SegmentationRecord& segmentation, case_::Side side,
+                           const std::optional<Vec3>& centre_mm) {
+  GlenoidPlace place{centre_mm ? centre_mm : segmentation.glenoid_mm, usual_lateral(side), std::nullopt};
+  if (!place.centre_mm) return place;
+  case_::GlenoidFrame& face = place.face.emplace();
+  face.centre_mm = *place.centre_mm;
+  face.lateral = segmentation.head ? (segmentation.head->centre_mm - *place.centre_mm).normalized()
+                                   : usual_lateral(side);
+  const Vec3 across = Vec3::UnitZ().cross(face.lateral).normalized();
+  face.superior = face.lateral.cross(across);  // as near to the body's axis as may be
+  face.anterior = across.y() < 0.0 ? across : Vec3(-across);
+  return place;
+}
+
 case_::Case build_from(Workup& workup, const std::vector<int16_t>& hu, const std::vector<uint8_t>& labels,
-                       const case_::Landmarks& landmarks, const BuildSettings& settings,
-                       const Progress& progress) {
+                       const GlenoidPlace& glenoid, const BuildSettings& settings, const Progress& progress) {
   if (!workup.segmentation()) throw no_scapula(workup);
-  case_::Case result;
-  result.glenoid = frame_of(landmarks, workup.side);
-  if (settings.cartilage_mm > 0.0 && !result.glenoid)
+  if (settings.cartilage_mm > 0.0 && !glenoid.face)
     throw Error(ErrorKind::conflict, "case '" + workup.id +
                                          "' needs the glenoid centre and the four rim points before "
                                          "cartilage can be laid on its face");
-  const std::optional<Aabb> roi = roi_for(workup, landmarks, settings);
+  const std::optional<Aabb> roi = roi_for(workup, glenoid, settings);
+  case_::Case result;
   result.id = workup.id;
   result.name = workup.name;
   result.source = workup.volume.source;
@@ -98,9 +108,22 @@ case_::Case build_from(Workup& workup, const std::vector<int16_t>& hu, const std
   result.calibration = calibration_of(workup, settings);
   result.bone = bone_from_mask(volume_of(workup, hu), scapula_mask(workup, labels),
                                BoneSettings{roi, settings.upsample, result.calibration}, progress);
-  if (settings.cartilage_mm > 0.0) add_cartilage(result.bone, *result.glenoid, cartilage_of(settings));
+  if (settings.cartilage_mm > 0.0) add_cartilage(result.bone, *glenoid.face, cartilage_of(settings));
+  if (result.bone.filled_voxels() == 0)
+    throw Error(ErrorKind::invalid_input,
+                "the segmentation holds no bone that fills half a voxel; segment with another threshold or "
+                "choose another upsampling");
   workup.built = build_record(result.bone, settings, workup.segmentation()->revision);
   return result;
+}
+
+case_::Case build_from(Workup& workup, const std::vector<int16_t>& hu, const std::vector<uint8_t>& labels,
+                       const case_::Landmarks& landmarks, const BuildSettings& settings,
+                       const Progress& progress) {
+  const GlenoidPlace glenoid = glenoid_place(landmarks, workup.side);
+  case_::Case made = build_from(workup, hu, labels, glenoid, settings, progress);
+  made.glenoid = glenoid.face;
+  return made;
 }
 
 BuildRecord build_record(const voxel::BoneModel& bone, const BuildSettings& settings,

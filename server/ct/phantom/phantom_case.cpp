@@ -7,8 +7,18 @@
 namespace ream::ct {
 namespace {
 
-constexpr double seed_depth_mm = 5.0;  // in the vault, under the plate
+constexpr double seed_depth_mm = 5.0, seed_reach_mm = 2.0;  // in the vault, under the plate
 constexpr double demo_depth_mm = 1.0;  // within the subchondral plate, and what the demo script reaches
+
+/// What of the phantom grows from within the vault.
+Mask scapula_of(const Phantom& phantom, double threshold_hu) {
+  const case_::GlenoidFrame& glenoid = phantom.truth.glenoid;
+  const Vec3 inside = glenoid.centre_mm - seed_depth_mm * glenoid.lateral;
+  const Mask bone = above_threshold(phantom.volume, threshold_hu);
+  const auto seed = nearest_set(bone, phantom.volume, inside, seed_reach_mm);
+  if (!seed) throw Error(ErrorKind::invalid_input, "the phantom's vault holds no bone of its threshold");
+  return grown_from(bone, phantom.volume.dims, *seed);
+}
 
 Segmentation segmentation_of(const HuVolume& volume, const Mask& mask, double threshold_hu) {
   Segmentation segmentation;
@@ -20,33 +30,22 @@ Segmentation segmentation_of(const HuVolume& volume, const Mask& mask, double th
   return segmentation;
 }
 
-Imported import_phantom(const std::string& id, const PhantomParams& params, int upsample) {
-  Phantom phantom = make_phantom(params);
+case_::Case case_of(const Phantom& phantom, const Mask& mask, const std::string& id,
+                    const PhantomParams& params, int upsample) {
   const case_::GlenoidFrame& glenoid = phantom.truth.glenoid;
-  SegmentationOptions options;
-  options.upsample = upsample;
-  options.calibration = params.calibration;
-  options.threshold_hu = params.calibration.threshold_hu;
-  options.grow_from_mm = glenoid.centre_mm - seed_depth_mm * glenoid.lateral;
-  Mask mask = segment(phantom.volume, options);
-
-  Imported imported;
-  imported.segmentation = segmentation_of(phantom.volume, mask, options.threshold_hu);
-  imported.landmarks = phantom.truth.landmarks;
-  case_::Case& result = imported.made;
+  case_::Case result;
   result.id = id;
   result.name = "Phantom shoulder, " + case_::to_text(params.side);
   result.source = phantom.volume.source;
   result.side = params.side;
-  result.bone = bone_from_mask(phantom.volume, std::move(mask), options);
-  result.calibration = options.calibration;
+  result.bone = bone_of_whole_volume(phantom.volume, mask, upsample, params.calibration);
+  result.calibration = params.calibration;
   result.glenoid = glenoid;
   case_::Plan plan;
   plan.entry_mm = glenoid.centre_mm;
   plan.axis_direction = -glenoid.lateral;
   result.plan = plan;
-  imported.volume = std::move(phantom.volume);
-  return imported;
+  return result;
 }
 
 }  // namespace
@@ -74,19 +73,35 @@ PhantomPreset phantom_preset(const std::string& name) {
 }
 
 case_::Case make_phantom_case(const std::string& id, const PhantomParams& params, int upsample) {
-  return import_phantom(id, params, upsample).made;
+  const Phantom phantom = make_phantom(params);
+  return case_of(phantom, scapula_of(phantom, params.calibration.threshold_hu), id, params, upsample);
 }
 
 case_::Case load_or_make_demo_case(const std::filesystem::path& data_folder) {
   const auto folder = data_folder / "cases" / "demo";
   if (std::filesystem::exists(folder / "case.json")) return case_::load_case(folder);
-  const PhantomPreset preset = phantom_preset("demo");
-  Imported demo = import_phantom("demo", preset.params, preset.upsample);
+  const auto [params, upsample] = phantom_preset("demo");
+  Phantom phantom = make_phantom(params);
+  SegmentationSettings settings;
+  settings.threshold_hu = params.calibration.threshold_hu;
+  settings.side = params.side;
+  const Mask mask = scapula_of(phantom, *settings.threshold_hu);
+  Segmentation segmentation = segmentation_of(phantom.volume, mask, *settings.threshold_hu);
+
+  Imported demo;
+  demo.made = case_of(phantom, mask, "demo", params, upsample);
   demo.made.plan->depth_mm = demo_depth_mm;
-  ImportOptions options;
-  options.segmentation.upsample = preset.upsample;
-  options.shoulder.emplace().threshold_hu = demo.segmentation->threshold_hu;
-  save_imported(demo, options, folder, true);
+  demo.landmarks = phantom.truth.landmarks;
+  demo.workup = new_workup(demo.made.id, demo.made.name, params.side, phantom.volume);
+  record_segmentation(demo.workup, settings, segmentation);
+  BuildSettings build;
+  build.upsample = upsample;
+  build.around_glenoid = false;
+  build.calibration = params.calibration;
+  demo.workup.built = build_record(demo.made.bone, build, demo.workup.segmentation()->revision);
+  demo.hu = std::move(phantom.volume.hu);
+  demo.labels = std::move(segmentation.labels);
+  save_imported(demo, folder, true);
   return demo.made;
 }
 

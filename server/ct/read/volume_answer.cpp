@@ -1,12 +1,12 @@
 #include "ct/read/volume_answer.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "core/json_reader.hpp"
+#include "core/text.hpp"
 #include "ct/read/read_ct.hpp"
 
 namespace ream::ct {
@@ -16,14 +16,6 @@ namespace {
 constexpr int max_side = 65535;
 constexpr double max_mm = 1.0e6, rotation_tolerance = 1e-6;
 constexpr size_t max_warnings = 200, max_warning_bytes = 1000;
-
-/// Bounded, on one line.
-std::string plain(std::string text) {
-  text.resize(std::min(text.size(), max_warning_bytes));
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 32; }, ' ');
-  return text;
-}
 
 Error impossible(const std::string& what) {
   return {ErrorKind::io, "the reader answered with an impossible volume: " + what};
@@ -67,11 +59,14 @@ HuVolume volume_from(const json& answer, bool flat) {
   if (!((r.transpose() * r - Mat3::Identity()).cwiseAbs().maxCoeff() < rotation_tolerance) ||
       r.determinant() < 0.0)
     throw impossible("its axes");
-  volume.source = plain(reader.text("source"));
+  volume.source = one_line(reader.text("source"), max_warning_bytes);
   for (const std::string& warning : reader.texts_or_none("warnings"))
-    if (volume.warnings.size() < max_warnings) volume.warnings.push_back(plain(warning));
+    if (volume.warnings.size() < max_warnings)
+      volume.warnings.push_back(one_line(warning, max_warning_bytes));
   const auto patient = reader.texts_or_none("patient");
-  if (patient.size() == 2) volume.patient = PatientNames{plain(patient[0]), plain(patient[1])};
+  if (patient.size() == 2)
+    volume.patient =
+        PatientNames{one_line(patient[0], max_warning_bytes), one_line(patient[1], max_warning_bytes)};
   return volume;
 }
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "core/error.hpp"
+#include "core/file.hpp"
 #include "core/hash.hpp"
 #include "ct/read/image_io.hpp"
 
@@ -147,7 +148,9 @@ void write_label_map(const HuVolume& ct, const std::vector<uint8_t>& labels, con
     io->SetFileName(unfinished.string());
     io->WriteImageInformation();
     io->Write(labels.data());
+    sync_file(unfinished);
     fs::rename(unfinished, path);
+    sync_folder(path.parent_path());
   } catch (const itk::ExceptionObject& e) {
     std::error_code ignored;
     fs::remove(unfinished, ignored);

@@ -140,17 +140,6 @@ void warn(Segmentation& result, const HuVolume& volume, const SegmentationSettin
 
 }  // namespace
 
-std::string to_text(BoneLabel label) {
-  switch (label) {
-    case BoneLabel::none: return "none";
-    case BoneLabel::scapula: return "scapula";
-    case BoneLabel::humerus: return "humerus";
-    case BoneLabel::clavicle: return "clavicle";
-    case BoneLabel::other: return "other";
-  }
-  return "other";
-}
-
 Segmentation segment_shoulder(const HuVolume& given, const SegmentationSettings& settings,
                               const Progress& progress) {
   progress(0.0, "finding the threshold");

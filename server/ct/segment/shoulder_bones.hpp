@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,7 +17,10 @@ namespace ream::ct {
 /// side; the other shoulder's are `other`, as ribs and spine.
 enum class BoneLabel : uint8_t { none = 0, scapula = 1, humerus = 2, clavicle = 3, other = 4 };
 inline constexpr int bone_label_count = 5;
-std::string to_text(BoneLabel label);
+inline std::string to_text(BoneLabel label) {
+  constexpr const char* words[] = {"none", "scapula", "humerus", "clavicle", "other"};
+  return words[std::min(static_cast<size_t>(label), std::size(words) - 1)];
+}
 
 /// Points in bones, world (LPS) mm, that replace what is found by itself.
 struct Seeds {

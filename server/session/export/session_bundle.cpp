@@ -2,6 +2,8 @@
 #include "session/folder/black_box_files.hpp"
 
 #include <algorithm>
+#include <array>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -11,6 +13,7 @@
 #include "core/hash.hpp"
 #include "core/log.hpp"
 #include "core/temporary_file.hpp"
+#include "isolation/reader_process.hpp"
 #include "session/folder/session_labels.hpp"
 #include "session/simulation/recorded_session.hpp"
 #include "session/simulation/simulation.hpp"
@@ -67,6 +70,28 @@ void relabel(const fs::path& folder, const SessionRequest& labels, const fs::pat
     if (entry.name == "session/session.json") entry.file = made / "session.json";
 }
 
+bool is_zip(const fs::path& file) {
+  std::array<char, 2> begin{};
+  return std::ifstream(file, std::ios::binary).read(begin.data(), begin.size()) && begin[0] == 'P' &&
+         begin[1] == 'K';
+}
+
+/// Moves the regular files of these names, if they are there.
+void take_files(const fs::path& from, const std::set<std::string>& names, const fs::path& to) {
+  fs::create_directory(to);
+  for (const std::string& name : names)
+    if (fs::is_regular_file(fs::symlink_status(from / name))) fs::rename(from / name, to / name);
+}
+
+/// Whom a session of another machine is of is nobody here, or somebody else.
+void drop_labels(const fs::path& session_file) {
+  nlohmann::json session = read_json_file(session_file);
+  if (!session.is_object())
+    throw Error(ErrorKind::invalid_input, "session.json of the bundle holds no session");
+  for (const char* key : {"trainee_id", "trainee", "study", "participant"}) session.erase(key);
+  write_json_file(session_file, session);
+}
+
 nlohmann::json read_bundle_json(const fs::path& folder, const fs::path& zip) {
   const nlohmann::json bundle = read_json_file(folder / "bundle.json");
   const auto refuse = [&](const std::string& why) {
@@ -108,40 +133,56 @@ void write_session_bundle(const fs::path& recording_file, const std::string& cas
 
 bool is_session_bundle(const fs::path& file) {
   std::error_code failed;
-  if (!fs::is_regular_file(file, failed)) return false;
+  if (!fs::is_regular_file(file, failed) || !is_zip(file)) return false;
+  isolation::ReaderJob job;
+  job.task = "session";
+  job.input = file;
+  job.options = {{"only_ask", true}};
   try {
-    const auto names = store::zip_names(file);
-    return std::find(names.begin(), names.end(), "bundle.json") != names.end();
+    return isolation::read_isolated(job).answer().value("holds_session", false);
   } catch (const Error&) {
-    return false;
+    return false;  // what it is instead is said by who reads it
   }
 }
 
-std::string import_session_bundle(const fs::path& zip, const fs::path& data) {
+std::string import_session_bundle(const fs::path& zip, const fs::path& data, bool keep_labels) {
   make_writable_folder(sessions_folder(data));
   make_writable_folder(cases_folder(data));
-  const TemporaryFolder unpacked(data / ("." + zip.filename().string()));
-  store::unpack_zip(zip, unpacked.path());
-  const nlohmann::json bundle = read_bundle_json(unpacked.path(), zip);
+  isolation::ReaderJob job;
+  job.task = "session";
+  job.input = zip;
+  job.options = {{"only_ask", false}};
+  job.scratch = data;
+  const isolation::ReaderResult read = isolation::read_isolated(job);
+  const fs::path unpacked = read.folder() / "session_bundle";
+  const nlohmann::json bundle = read_bundle_json(unpacked, zip);
   const std::string session = bundle["session"], case_id = bundle["case"];
   const fs::path session_to = sessions_folder(data) / session, case_to = cases_folder(data) / case_id;
   if (fs::exists(session_to))
     throw Error(ErrorKind::conflict, "session '" + session + "' is in the data folder already");
-  const record::Recording recording(unpacked.path() / "session" / "recording.ream",
-                                    record::Recording::Trust::checked);
   const bool known = fs::exists(case_to);
-  const uint64_t hash = case_::case_hash(case_::load_case(known ? case_to : unpacked.path() / "case"));
-  if (hash != recording.header().case_hash || recording.header().case_id != case_id)
+  const nlohmann::json hash = known ? nlohmann::json(case_::case_hash(case_::load_case(case_to)))
+                                    : read.answer().value("enclosed_case", nlohmann::json());
+  if (hash.is_null() || hash != read.answer().value("recorded_case", nlohmann::json()) ||
+      read.answer().value("case_id", "") != case_id)
     throw Error(
         ErrorKind::conflict,
         known ? "another case '" + case_id + "' is in the data folder; import with --data into one of its own"
               : zip.string() + " holds a case that is not its session's");
-  if (!known) fs::rename(unpacked.path() / "case", case_to);
+  const TemporaryFolder made(data / "bundle");
+  std::set<std::string> names = session_files;
+  for (const fs::path& box : black_boxes_in(unpacked / "session")) names.insert(box.filename().string());
+  take_files(unpacked / "session", names, made.path() / "session");
+  if (!keep_labels && fs::exists(made.path() / "session/session.json"))
+    drop_labels(made.path() / "session/session.json");
+  if (!known) take_files(unpacked / "case", case_files, made.path() / "case");
+  sync_tree(made.path());
+  if (!known) fs::rename(made.path() / "case", case_to);
   std::error_code failed;
-  fs::rename(unpacked.path() / "session", session_to, failed);
+  fs::rename(made.path() / "session", session_to, failed);
   if (failed) {
     std::error_code ignored;
-    if (!known) fs::rename(case_to, unpacked.path() / "case", ignored);
+    if (!known) fs::rename(case_to, made.path() / "case", ignored);
     throw Error(ErrorKind::io, "cannot write " + session_to.string() + ": " + failed.message());
   }
   sync_folder(cases_folder(data));

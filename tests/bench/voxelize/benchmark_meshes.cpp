@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "geometry/mesh_io.hpp"
 #include "support/shared_data.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace ream::bench {
 namespace {
@@ -35,7 +36,9 @@ const std::vector<BenchmarkMesh>& benchmark_meshes() {
 std::optional<TriangleMesh> load_benchmark_mesh(const BenchmarkMesh& which) {
   const std::filesystem::path path = test::shared_data(which.file);
   if (!std::filesystem::exists(path)) return std::nullopt;
-  TriangleMesh mesh = path.extension() == ".gz" ? parse_ply(unpacked(path), path) : load_mesh(path);
+  const test::TemporaryFolder folder;
+  TriangleMesh mesh =
+      load_mesh(path.extension() == ".gz" ? folder.write(path.stem().string(), unpacked(path)) : path);
   const Aabb box = mesh.bounds();
   const auto scale = static_cast<float>(which.longest_mm / (box.max - box.min).maxCoeff());
   for (Vec3f& vertex : mesh.vertices_mm) vertex *= scale;

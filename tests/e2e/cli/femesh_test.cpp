@@ -109,6 +109,21 @@ TEST_F(Femesh, WhatCannotBeMeshedIsNamed) {
   refuse_rows(1, "line 65", {"--modulus", "1,1"});
 }
 
+TEST_F(Femesh, AnAdministratorsLimitOfFilesHoldsForTheReader) {
+  rows(40);
+  const std::string command = build_folder() + "/ream femesh rows.txt --modulus 1,1 --out mesh.inp";
+  EXPECT_EQ(start_program({"/bin/sh", "-c", "ulimit -f 40000; exec " + command}, "limited")
+                ->wait(std::chrono::seconds(60)),
+            0)
+      << printed("limited.err");
+  EXPECT_EQ(start_program({"/bin/sh", "-c", "ulimit -f 20; exec " + command}, "little")
+                ->wait(std::chrono::seconds(60)),
+            1);
+  EXPECT_NE(printed("little.err").find("rows.txt cannot be read: what is in it is larger than is taken"),
+            std::string::npos)
+      << printed("little.err");
+}
+
 TEST_F(Femesh, AFullDiskLeavesNothingBehind) {
   rows(40);
   const auto before = tree();

@@ -1,5 +1,6 @@
 #include "core/file.hpp"
 #include "e2e/cli/command_line.hpp"
+#include "store/zip_archive.hpp"
 
 namespace ream::test {
 namespace {
@@ -48,6 +49,34 @@ TEST_F(RecordedSession, GoesToAnotherMachineInOneFile) {
   succeed({"export", id, "--out", "there.ply", "--data", "elsewhere"});
   EXPECT_TRUE(text_of("there.ply").starts_with("ply\n"));
   refuse(1, id, {"import", "bundle.zip", "--data", "elsewhere"});
+}
+
+TEST_F(RecordedSession, OfABundleOnlyItsFilesAreTakenAndNobodysName) {
+  succeed({"export", "run", "--out", "bundle.zip"});
+  const fs::path opened = folder() / "opened", session = opened / "session/session.json";
+  fs::create_directory(opened);
+  store::unpack_zip(folder() / "bundle.zip", opened);
+  json labels = {{"id", "run"}, {"title", "First try"}};
+  for (const char* key : {"trainee_id", "trainee", "study", "participant"}) labels[key] = "somebody";
+  write_json_file(session, labels);
+  std::vector<store::ArchiveEntry> entries;
+  for (const std::string& name : store::zip_names(folder() / "bundle.zip"))
+    entries.push_back({opened / name, name});
+  std::erase_if(entries, [](const auto& entry) { return entry.name == "session/session.json"; });
+  entries.push_back({session, "session/session.json"});
+  for (const char* extra :
+       {"session/lock", "session/black-box-x.csv", "session/deep/trace.csv", "case/ct.nrrd", "x.json"})
+    entries.push_back({session, extra});
+  store::write_zip(folder() / "other.zip", entries);
+  const std::string id = answer({"import", "other.zip", "--data", "elsewhere"}).at("session");
+  const fs::path taken = folder() / "elsewhere/sessions" / id;
+  EXPECT_EQ(json_of(taken.string() + "/session.json"), (json{{"id", "run"}, {"title", "First try"}}));
+  for (const char* extra : {"lock", "black-box-x.csv", "deep"})
+    EXPECT_FALSE(fs::exists(taken / extra)) << extra;
+  EXPECT_FALSE(fs::exists(folder() / "elsewhere/cases/demo/ct.nrrd"));
+  EXPECT_TRUE(fs::exists(taken / "recording.ream"));
+  answer({"import", "other.zip", "--data", "third", "--keep-labels"});
+  EXPECT_EQ(json_of("third/sessions/" + id + "/session.json"), labels);
 }
 
 TEST_F(RecordedSession, ADamagedBundleLeavesNothing) {

@@ -58,6 +58,43 @@ TEST_F(Nifti2, IsReadPlainAndPacked) {
   }
 }
 
+/// Numbers of a NIfTI-2 header: how many bytes each, from where on, how many of them.
+struct HeaderNumbers {
+  size_t bytes, begin, count;
+};
+
+/// The same file as a big-endian machine writes it.
+std::string big_endian(std::string bytes) {
+  const auto swap = [&](size_t at, size_t width) {
+    std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                 bytes.begin() + static_cast<std::ptrdiff_t>(at + width));
+  };
+  for (const HeaderNumbers numbers : {HeaderNumbers{4, 0, 1},
+                                      {2, 12, 2},
+                                      {8, 16, 8},
+                                      {8, 80, 11 + 8},
+                                      {8, 224, 2},
+                                      {4, 344, 2},
+                                      {8, 352, 6 + 12},
+                                      {4, 496, 3}})
+    for (size_t i = 0; i < numbers.count; ++i) swap(numbers.begin + i * numbers.bytes, numbers.bytes);
+  constexpr size_t voxels = 544;
+  for (size_t at = voxels; at + 1 < bytes.size(); at += 2) swap(at, 2);
+  return bytes;
+}
+
+TEST_F(Nifti2, BigEndianOnesAreRead) {
+  const fs::path file = folder_.write("big.nii", big_endian(read_text_file(written("ct.nii"))));
+  expect_volume(read_ct(file));
+  EXPECT_TRUE(read_ct(file).warnings.empty());
+  EXPECT_EQ(GrayVolume(file).dims(), Vec3i(7, 5, 4));
+  const std::string whole = read_text_file(file);
+  refuse("cut short", whole.substr(0, whole.size() - 1));
+  std::string larger = whole;
+  larger[16 + 8 + 6] = 1;  // 256 voxels more along x
+  refuse("more voxels than the file holds", larger);
+}
+
 TEST_F(Nifti2, WhatItsHeaderCannotMeanIsRefused) {
   const std::string good = read_text_file(written("ct.nii"));
   const auto with = [&](size_t at, auto value) {

@@ -33,11 +33,11 @@ TEST(SharedCt, RightGlenoidImportsAtFullResolution) {
   REAM_SKIP_WITHOUT(dicom);
   REAM_SKIP_WITHOUT(label);
   ImportOptions options;
-  options.roi_mm = right_glenoid;
+  options.build.roi_mm = right_glenoid;
   options.label = label;
   options.side = case_::Side::right;
-  options.segmentation.upsample = 8;
-  const case_::Case c = import_ct(dicom, "right", options);
+  options.build.upsample = 8;
+  const case_::Case c = import_ct(dicom, "right", options).made;
   EXPECT_GE(c.bone.grid.dims.minCoeff(), 300);
   // The face met along its axis, as measured on the label map with a sphere fit.
   const auto entry = case_::surface_along(c.bone, {-133.5, -6.4, 225.6}, {0.706, 0.708, 0});

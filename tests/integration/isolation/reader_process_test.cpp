@@ -1,4 +1,5 @@
 #include "isolation/reader_process.hpp"
+#include "isolation/reader_service.hpp"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -164,6 +165,18 @@ TEST_F(ReaderProcess, EndsWhenItsWorkIsCancelled) {
                                if (++calls == 3) throw Error(ErrorKind::cancelled, "cancelled");
                              }),
                Error);
+}
+
+TEST_F(ReaderProcess, NothingButFilesAndFoldersIsTakenFromIt) {
+  for (const std::string odd :
+       {"ln -s /etc leads", "mkdir -p a/b && ln -s ../../in a/b/leads", "mkfifo waits"}) {
+    write("reader", "#!/bin/sh\ncd /proc/self/fd/" + std::to_string(output_descriptor) + "\n" + odd +
+                        "\necho '{\"answer\": {}}' >&" + std::to_string(answer_descriptor) + "\n");
+    fs::permissions(folder_.path() / "reader", fs::perms::owner_all);
+    ReaderJob taken_over = job("read");
+    taken_over.program = folder_.path() / "reader";
+    expect_error(ErrorKind::io, "neither a file nor a folder", [&] { read_isolated(taken_over); });
+  }
 }
 
 TEST_F(ReaderProcess, WithoutItsProgramItSaysSo) {

@@ -132,5 +132,31 @@ TEST_F(IdempotencyTest, AnswersAreKeptOverARestart) {
   EXPECT_EQ(made, 1);
 }
 
+TEST_F(IdempotencyTest, WhatNoDiskMayKeepIsKeptInMemory) {
+  const auto ask_in_memory = [&](const std::string& key, const std::string& user = {}) {
+    return idempotency->answer(
+        request(key, "{}", user),
+        [&](const net::Request&) {
+          return net::bytes_response(201, "application/json", net::share(std::to_string(++made)));
+        },
+        Idempotency::Place::memory);
+  };
+  EXPECT_EQ(text(ask_in_memory("k1")), "1");
+  EXPECT_EQ(text(ask_in_memory("k1")), "1");
+  EXPECT_EQ(status_of(request("k1", "{\"another\": 1}")), 422);
+  EXPECT_EQ(store::IdempotencyTable(database()).find("", "k1"), std::nullopt);
+  EXPECT_EQ(text(ask_in_memory("k1", "anna")), "2");
+  idempotency->forget_about("anna");
+  EXPECT_EQ(text(ask_in_memory("k1", "anna")), "3");
+  now += std::chrono::hours(25);
+  idempotency->forget_old();
+  for (int i = 0; i < 1001; ++i) {
+    ask_in_memory("many" + std::to_string(i));
+    now += std::chrono::milliseconds(1);
+  }
+  EXPECT_EQ(text(ask_in_memory("many1")), "5") << "the last 1000 are there";
+  EXPECT_EQ(text(ask_in_memory("many0")), "1005");
+}
+
 }  // namespace
 }  // namespace ream::api

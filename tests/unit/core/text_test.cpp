@@ -13,6 +13,13 @@ TEST(Lower, MakesOnlyTheLettersOfAsciiSmall) {
   EXPECT_EQ(lower(""), "");
 }
 
+TEST(OneLine, HasNoControlCharactersAndAnEnd) {
+  EXPECT_EQ(one_line("a\nb\tc\x7f\x1b[31m", 100), "a b c  [31m");
+  EXPECT_EQ(one_line("f\xc3\xbcnf", 100), "f\xc3\xbcnf");
+  EXPECT_EQ(one_line("0123456789", 10), "0123456789");
+  EXPECT_EQ(one_line("0123456789a", 10), "0123456789 ...");
+}
+
 TEST(Hex, OfEveryByteComesBack) {
   std::string bytes;
   for (int byte = 0; byte < 256; ++byte) bytes += static_cast<char>(byte);

@@ -219,11 +219,14 @@ TEST(PhantomDensity, WithinTwoPercentThroughTheImport) {
     ImportOptions options;
     options.side = params.side;
     options.segmentation.threshold_hu = 100.0;
+    options.build.upsample = 1;
+    options.build.around_glenoid = false;
     const Phantom phantom = make_phantom(params);
-    options.segmentation.grow_from_mm = phantom.truth.glenoid.centre_mm - 5.0 * phantom.truth.glenoid.lateral;
+    options.segmentation.seeds.scapula_mm =
+        phantom.truth.glenoid.centre_mm - 5.0 * phantom.truth.glenoid.lateral;
     const auto file = folder.path() / "ct.nrrd";
     write_volume_file(phantom.volume, file);
-    const DensityErrors errors = density_errors(import_ct(file, "phantom", options), params);
+    const DensityErrors errors = density_errors(import_ct(file, "phantom", options).made, params);
     std::printf("%s %s: ", to_text(params.type).c_str(), case_::to_text(params.side).c_str());
     errors.voxel.print("density error of voxels without noise");
     ASSERT_GT(errors.voxel.count, 500);

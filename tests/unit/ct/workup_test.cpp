@@ -95,7 +95,8 @@ TEST_F(WorkupTest, BuildsACaseAroundTheGlenoidAndKeepsTheRest) {
   const auto hu = load_hu(at, workup);
   const auto labels = load_labels(at, workup, 1);
   const case_::Landmarks& landmarks = coarse_phantom().truth.landmarks;
-  EXPECT_THROW(build_from(workup, hu, labels, {}, {}, no_progress), Error) << "no glenoid centre";
+  EXPECT_THROW(build_from(workup, hu, labels, case_::Landmarks{}, {}, no_progress), Error)
+      << "no glenoid centre";
   BuildSettings settings;
   settings.upsample = 2;
   const case_::Case built = build_from(workup, hu, labels, landmarks, settings, no_progress);

@@ -2,12 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <limits>
 
 #include "core/file.hpp"
+#include "core/json.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -15,9 +13,6 @@ namespace ream {
 namespace {
 
 using test::expect_error;
-
-constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinite = std::numeric_limits<float>::infinity();
 
 /// A closed box with its corners at the origin and (a, b, c): 8 vertices, 12 triangles.
 TriangleMesh box_mesh(float a, float b, float c) {
@@ -29,219 +24,82 @@ TriangleMesh box_mesh(float a, float b, float c) {
   return mesh;
 }
 
-template <typename T>
-void put(std::string& out, T value) {
-  out.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-std::string binary_stl(const TriangleMesh& mesh) {
-  std::string out(80, ' ');
-  put(out, static_cast<uint32_t>(mesh.triangles.size()));
-  for (const auto& t : mesh.triangles) {
-    for (int i = 0; i < 3; ++i) put(out, 0.0f);
-    for (const uint32_t v : t)
-      for (int i = 0; i < 3; ++i) put(out, mesh.vertices_mm[v][i]);
-    put(out, uint16_t{0});
-  }
-  return out;
-}
-
-std::string text_stl(const TriangleMesh& mesh) {
-  std::string out = "solid box\n";
-  for (const auto& t : mesh.triangles) {
-    out += "facet normal 0 0 0\nouter loop\n";
-    for (const uint32_t v : t) {
-      const Vec3f& p = mesh.vertices_mm[v];
-      out += "vertex " + std::to_string(p.x()) + " " + std::to_string(p.y()) + " " + std::to_string(p.z()) +
-             "\n";
-    }
-    out += "endloop\nendfacet\n";
-  }
-  return out + "endsolid box\n";
-}
-
-std::string obj(const TriangleMesh& mesh) {
-  std::string out;
-  for (const Vec3f& p : mesh.vertices_mm)
-    out += "v " + std::to_string(p.x()) + " " + std::to_string(p.y()) + " " + std::to_string(p.z()) + "\n";
-  for (const auto& t : mesh.triangles)
-    out += "f " + std::to_string(t[0] + 1) + " " + std::to_string(t[1] + 1) + " " + std::to_string(t[2] + 1) +
-           "\n";
-  return out;
-}
-
 std::string ply(const TriangleMesh& mesh) {
   const test::TemporaryFolder folder;
   write_ply(folder.path() / "mesh.ply", mesh);
   return read_text_file(folder.path() / "mesh.ply");
 }
 
-/// Each triangle as its corner positions, smallest corner first, all sorted: equal for equal surfaces.
-std::vector<std::array<float, 9>> surface(const TriangleMesh& mesh) {
-  std::vector<std::array<float, 9>> triangles;
-  for (const auto& t : mesh.triangles) {
-    std::array<std::array<float, 3>, 3> corners;
-    for (size_t k = 0; k < 3; ++k)
-      for (int i = 0; i < 3; ++i) corners[k][static_cast<size_t>(i)] = mesh.vertices_mm[t[k]][i];
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    std::array<float, 9> flat;
-    std::memcpy(flat.data(), corners.data(), sizeof flat);
-    triangles.push_back(flat);
+/// A GLB file of `copies` nodes, each the same `triangles` triangles. They are of 4 bytes each in the file.
+std::string glb_of_copies(int copies, int triangles) {
+  nlohmann::json nodes = nlohmann::json::array(), all = nlohmann::json::array();
+  for (int i = 0; i < copies; ++i) {
+    nodes.push_back({{"mesh", 0}});
+    all.push_back(i);
   }
-  std::sort(triangles.begin(), triangles.end());
-  return triangles;
-}
-
-struct Format {
-  const char* name;
-  const char* file;
-  std::string (*write)(const TriangleMesh&);
-};
-
-std::ostream& operator<<(std::ostream& out, const Format& format) { return out << format.name; }
-
-class MeshFormat : public testing::TestWithParam<Format> {
- protected:
-  TriangleMesh load(const std::string& bytes) const {
-    return load_mesh(folder_.write(GetParam().file, bytes));
-  }
-  void expect_refused(const std::string& bytes) const {
-    expect_error(ErrorKind::invalid_input, GetParam().file, [&] { load(bytes); });
-  }
-
- private:
-  test::TemporaryFolder folder_;
-};
-
-TEST_P(MeshFormat, GivesTheSameSurfaceWithJoinedVertices) {
-  const TriangleMesh box = box_mesh(3, 4, 5.5f);
-  const TriangleMesh loaded = load(GetParam().write(box));
-  EXPECT_EQ(loaded.vertices_mm.size(), 8u);
-  EXPECT_EQ(surface(loaded), surface(box));
-  EXPECT_NEAR(loaded.volume_mm3(), 66.0, 1e-4);
-}
-
-TEST_P(MeshFormat, RefusesVerticesThatAreNotFinite) {
-  for (const float bad : {not_a_number, infinite, -infinite}) {
-    TriangleMesh mesh = box_mesh(3, 4, 5);
-    mesh.vertices_mm[5].y() = bad;
-    expect_refused(GetParam().write(mesh));
-  }
-}
-
-TEST_P(MeshFormat, RefusesAFileWithoutTriangles) {
-  expect_refused(GetParam().write(TriangleMesh{}));
-  expect_refused("");
-}
-
-TEST_P(MeshFormat, DropsDegenerateTriangles) {
-  TriangleMesh mesh = box_mesh(3, 4, 5);
-  mesh.triangles.push_back({1, 1, 2});
-  EXPECT_EQ(surface(load(GetParam().write(mesh))), surface(box_mesh(3, 4, 5)));
-  mesh.triangles = {{1, 1, 2}};
-  expect_refused(GetParam().write(mesh));
-}
-
-TEST_P(MeshFormat, RefusesWhatIsNoMesh) { expect_refused("this is not a mesh\n\x01\x02\x03"); }
-
-INSTANTIATE_TEST_SUITE_P(MeshIo, MeshFormat,
-                         testing::Values(Format{"binary_stl", "mesh.stl", binary_stl},
-                                         Format{"text_stl", "mesh.stl", text_stl},
-                                         Format{"obj", "mesh.obj", obj}, Format{"ply", "mesh.ply", ply}),
-                         [](const auto& format) { return std::string(format.param.name); });
-
-TEST(MeshIo, RefusesTruncatedBinaryFiles) {
-  const test::TemporaryFolder folder;
-  const TriangleMesh box = box_mesh(3, 4, 5);
-  for (const std::string& bytes : {binary_stl(box), ply(box)}) {
-    const char* const name = bytes.starts_with("ply") ? "cut.ply" : "cut.stl";
-    for (size_t length = 0; length < bytes.size(); length += 7)
-      expect_error(ErrorKind::invalid_input, name,
-                   [&] { load_mesh(folder.write(name, std::string_view(bytes).substr(0, length))); });
-    expect_error(ErrorKind::invalid_input, name,
-                 [&] { load_mesh(folder.write(name, std::string_view(bytes).substr(0, bytes.size() - 1))); });
-  }
-}
-
-TEST(MeshIo, RefusesATruncatedTextStl) {
-  const test::TemporaryFolder folder;
-  const std::string bytes = text_stl(box_mesh(3, 4, 5));
-  for (size_t length = 0; length < bytes.size() - 12; length += 37)
-    expect_error(ErrorKind::invalid_input, "cut.stl",
-                 [&] { load_mesh(folder.write("cut.stl", std::string_view(bytes).substr(0, length))); });
-}
-
-TEST(MeshIo, ReadsTextAndBigEndianPlyWithPolygonsAndOtherProperties) {
-  const test::TemporaryFolder folder;
-  const std::string elements =
-      "comment made by hand\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
-      "property uchar red\nelement other 1\nproperty list uchar short numbers\nelement face 1\n"
-      "property list uchar uint vertex_index\nend_header\n";
-  const std::string text = "ply\r\nformat ascii 1.0\r\n" + elements +
-                           "0 0 0 255\n2 0 0 0\n2 3 0 9\n0 3 1e-1 1\n3 7 -8 9\n4 0 1 2 3\n";
-  std::string big = "ply\nformat binary_big_endian 1.0\n" + elements;
-  const auto put_big = [&](auto value) {
-    std::string bytes;
-    put(bytes, value);
-    big.append(bytes.rbegin(), bytes.rend());
+  std::string body;
+  const auto put = [&](auto value) { body.append(reinterpret_cast<const char*>(&value), sizeof value); };
+  for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f}) put(x);
+  for (int i = 0; i < triangles; ++i)
+    for (uint8_t k = 0; k < 3; ++k) put(k);
+  while (body.size() % 4 != 0) body += '\0';
+  const nlohmann::json json = {
+      {"asset", {{"version", "2.0"}}},
+      {"scene", 0},
+      {"scenes", {{{"nodes", all}}}},
+      {"nodes", nodes},
+      {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}}}}}},
+      {"accessors",
+       {{{"bufferView", 0},
+         {"componentType", 5126},
+         {"count", 3},
+         {"type", "VEC3"},
+         {"min", {0, 0, 0}},
+         {"max", {1, 1, 0}}},
+        {{"bufferView", 1}, {"componentType", 5121}, {"count", 3 * triangles}, {"type", "SCALAR"}}}},
+      {"bufferViews",
+       {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 36}},
+        {{"buffer", 0}, {"byteOffset", 36}, {"byteLength", 3 * triangles}}}},
+      {"buffers", {{{"byteLength", body.size()}}}}};
+  std::string text = json.dump();
+  while (text.size() % 4 != 0) text += ' ';
+  std::string out = "glTF";
+  const auto word = [&](size_t value) {
+    const auto four = static_cast<uint32_t>(value);
+    out.append(reinterpret_cast<const char*>(&four), sizeof four);
   };
-  const double positions[4][3] = {{0, 0, 0}, {2, 0, 0}, {2, 3, 0}, {0, 3, 0.1}};
-  for (const auto& p : positions) {
-    for (const double c : p) put_big(c);
-    put_big(uint8_t{255});
-  }
-  put_big(uint8_t{1});
-  put_big(int16_t{-8});
-  put_big(uint8_t{4});
-  for (uint32_t i = 0; i < 4; ++i) put_big(i);
-  for (const std::string& bytes : {text, big}) {
-    const TriangleMesh mesh = load_mesh(folder.write("polygon.PLY", bytes));
-    ASSERT_EQ(mesh.triangles.size(), 2u);
-    EXPECT_EQ(mesh.bounds().max, Vec3(2, 3, 0.1f));
-    EXPECT_EQ(mesh.vertices_mm[mesh.triangles[1][2]], Vec3f(0, 3, 0.1f));
-  }
+  word(2);
+  word(12 + 8 + text.size() + 8 + body.size());
+  word(text.size());
+  out += "JSON" + text;
+  word(body.size());
+  out.append("BIN\0", 4);
+  return out + body;
 }
 
-TEST(MeshIo, RefusesPlyHeadersThatMakeNoSense) {
+TEST(MeshIo, GivesWhatWasWritten) {
   const test::TemporaryFolder folder;
-  const std::string begin = "ply\nformat ascii 1.0\n";
-  for (const std::string& bytes :
-       {std::string("ply\nformat ascii 1.0\nelement vertex 1"), std::string("ply\nend_header\n"),
-        std::string("plx\nformat ascii 1.0\nend_header\n"),
-        std::string("ply\nformat morse 1.0\nend_header\n"), begin + "property float x\nend_header\n",
-        begin + "element vertex\nend_header\n", begin + "element vertex 1\nproperty half x\nend_header\n1\n",
-        begin + "element vertex 99999999999999\nproperty float x\nend_header\n1 2 3\n",
-        begin + "element vertex 99999999999999\nend_header\n",
-        begin + "element face 1\nproperty list uint int vertex_indices\nend_header\n4000000000 1 2 3\n",
-        begin + "element face 1\nproperty list int int vertex_indices\nend_header\n-1\n",
-        begin + "element vertex 1\nproperty float x\nend_header\none\n"})
-    expect_error(ErrorKind::invalid_input, "odd.ply", [&] { load_mesh(folder.write("odd.ply", bytes)); });
-}
-
-TEST(MeshIo, RefusesIndicesWithoutVertex) {
-  const test::TemporaryFolder folder;
-  TriangleMesh mesh = box_mesh(3, 4, 5);
-  mesh.triangles.push_back({0, 1, 8});
-  for (const Format& format : {Format{"", "mesh.obj", obj}, Format{"", "mesh.ply", ply}})
-    expect_error(ErrorKind::invalid_input, format.file,
-                 [&] { load_mesh(folder.write(format.file, format.write(mesh))); });
+  const TriangleMesh box = box_mesh(3, 4, 5.5f);
+  const TriangleMesh loaded = load_mesh(folder.write("box.ply", ply(box)));
+  EXPECT_EQ(loaded.vertices_mm.size(), 8u);
+  EXPECT_EQ(loaded.triangles.size(), 12u);
+  EXPECT_DOUBLE_EQ(loaded.volume_mm3(), 66.0);
+  EXPECT_EQ(load_mesh(folder.write("one.glb", glb_of_copies(1, 1))).triangles.size(), 1u);
 }
 
 TEST(MeshIo, TellsAMissingFileFromABadOne) {
   const test::TemporaryFolder folder;
-  expect_error(ErrorKind::not_found, "absent.stl", [&] { load_mesh(folder.path() / "absent.stl"); });
-  expect_error(ErrorKind::invalid_input, folder.path().string(), [&] { load_mesh(folder.path()); });
-  expect_error(ErrorKind::invalid_input, "mesh.unknown",
-               [&] { load_mesh(folder.write("mesh.unknown", "x")); });
+  const std::string absent = (folder.path() / "absent.stl").string();
+  expect_error(ErrorKind::not_found, "no such mesh: " + absent, [&] { load_mesh(absent); });
+  const auto bad = folder.write("bad.stl", "solid");
+  expect_error(ErrorKind::invalid_input, "mesh " + bad.string() + " cannot be used: it is cut off",
+               [&] { load_mesh(bad); });
 }
 
-TEST(MeshIo, MergesAllParts) {
+TEST(MeshIo, AFewBytesThatMakeMillionsOfTrianglesAreRefused) {
   const test::TemporaryFolder folder;
-  const std::string two =
-      "o one\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no two\nv 0 0 5\nv 1 0 5\nv 0 1 5\nf 4 5 6\n";
-  const TriangleMesh mesh = load_mesh(folder.write("two.obj", two));
-  EXPECT_EQ(mesh.triangles.size(), 2u);
-  EXPECT_EQ(mesh.bounds().max, Vec3(1, 1, 5));
+  const auto small = folder.write("copies.glb", glb_of_copies(200, 8000));
+  expect_error(ErrorKind::invalid_input, small.string(), [&] { load_mesh(small); });
 }
 
 TEST(WritePly, KeepsNormalsWherePresentAndIsDeterministic) {

@@ -90,6 +90,18 @@ TEST(DicomVariants, HounsfieldUnitsByOtherNamesAreHuWithARemark) {
   }
   for (const char* name : {"OD", "Z_EFF", "hounds", "MGML", "HUE"})
     EXPECT_TRUE(mentions(remarks_on(name), std::string("the slices hold ") + name + ", not HU")) << name;
+  EXPECT_TRUE(mentions(remarks_on("Jane Doe, 12 March 1956"), "the slices hold something else, not HU"));
+  EXPECT_TRUE(mentions(remarks_on("Hounsfield of Jane Doe"), "their values 'something else'"));
+}
+
+TEST(DicomVariants, WordsBurntIntoThePictureAreRemarkedOn) {
+  const test::TemporaryFolder folder;
+  write_dicom_folder(stack_of_variants(), folder.path(), 1);
+  test::set_text(slice_file(folder.path(), 1), 0x0028, 0x0301, "NO");
+  EXPECT_TRUE(read_ct_files(folder.path()).warnings.empty());
+  for (int i = 2; i <= 4; ++i) test::set_text(slice_file(folder.path(), i), 0x0028, 0x0301, "YES");
+  EXPECT_TRUE(
+      mentions(read_ct_files(folder.path()), "3 slices say that words are burnt into their pictures"));
 }
 
 TEST(DicomVariants, RescalingIsEachSlicesOwn) {

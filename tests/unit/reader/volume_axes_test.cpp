@@ -7,6 +7,7 @@
 #include "core/text.hpp"
 #include "ct/read/write_volume.hpp"
 #include "reader/ct_files.hpp"
+#include "reader/volume_file.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/reader/changed_dicom.hpp"
@@ -213,6 +214,40 @@ TEST(VolumeAxes, EveryFormatWrittenGivesBackTheWorld) {
   write_dicom_folder(volume, folder.path() / "series", 3);
   expect_places(read_ct_files(folder.path() / "series"), volume_dims, volume.world_of_centre(Vec3i::Zero()),
                 steps);
+}
+
+/// What is called raw may be read past the library, so both must take its bytes for the same voxels.
+TEST(VolumeAxes, VoxelsAreRawOnlyWhereTheLibraryReadsThemAsTheyLie) {
+  const TemporaryFolder folder;
+  const auto begin_of = [&](const std::string& more) {
+    const auto file = folder.write("a.mha", "ObjectType = Image\nNDims = 3\n" + more +
+                                                "DimSize = 2 2 2\nElementSpacing = 1 1 1\n"
+                                                "ElementType = MET_SHORT\nElementDataFile = LOCAL\n"
+                                                "1 2 3 4 5 6 7 8 ");
+    VolumeFile opened(file);
+    return opened.header().raw_begin(opened.image_bytes());
+  };
+  EXPECT_GT(begin_of("BinaryData = True\n"), 0u);
+  EXPECT_GT(begin_of("BinaryData = true\nBinaryDataByteOrderMSB = False\n"), 0u);
+  EXPECT_EQ(begin_of("BinaryData = False\n"), 0u);
+  EXPECT_EQ(begin_of(""), 0u);
+  EXPECT_EQ(begin_of("BinaryData = True\nBinaryDataByteOrderMSB = true\n"), 0u);
+  EXPECT_EQ(begin_of("BinaryData = True\nElementByteOrderMSB = 1\n"), 0u);
+}
+
+TEST(VolumeAxes, ANameOfVoxelsThatIsTooLongForAFileIsNoFile) {
+  const TemporaryFolder folder;
+  const std::string longest(5000, 'x');
+  const auto meta = folder.write("a.mhd",
+                                 "ObjectType = Image\nNDims = 3\nBinaryData = True\nDimSize = 2 2 2\n"
+                                 "ElementType = MET_SHORT\nElementDataFile = " +
+                                     longest + "\n");
+  const auto nrrd = folder.write("a.nhdr",
+                                 "NRRD0004\ntype: short\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n"
+                                 "data file: " +
+                                     longest + "\n");
+  for (const auto& file : {meta, nrrd})
+    test::expect_error(ErrorKind::not_found, "no such file", [&] { read_volume_file(file); });
 }
 
 }  // namespace

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <future>
+#include <thread>
+
+#include "core/clock.hpp"
 #include "support/expect_error.hpp"
 #include "support/recorded_cutting.hpp"
 #include "support/seed.hpp"
@@ -114,6 +118,44 @@ TEST_F(RecordingTest, IsReadableFromTheStart) {
   EXPECT_EQ(recording.header().case_id, "test");
   EXPECT_FALSE(recording.end());
   EXPECT_TRUE(recording.ticks(0, 10).empty());
+}
+
+/// A disk so busy that a sync does not come back until it is released.
+class BusySink final : public LogSink {
+ public:
+  BusySink(std::unique_ptr<LogSink> file, std::promise<void>& waits, std::future<void> released)
+      : file_(std::move(file)), waits_(waits), released_(std::move(released)) {}
+  void append(std::span<const std::byte> bytes) override { file_->append(bytes); }
+  void sync() override {
+    if (syncs_++ == 0) return file_->sync();  // the one with which a recording begins
+    if (syncs_ == 2) {
+      waits_.set_value();
+      released_.wait();
+    }
+    file_->sync();
+  }
+
+ private:
+  std::unique_ptr<LogSink> file_;
+  std::promise<void>& waits_;
+  const std::future<void> released_;
+  int syncs_ = 0;
+};
+
+TEST_F(RecordingTest, ChunksAreInTheFileWhileASyncWaits) {
+  std::promise<void> waits, release;
+  Recorder recorder(std::make_unique<BusySink>(create_log_file(path_), waits, release.get_future()),
+                    session_.header(), RecordedCutting::segment(0), session_.follower.data());
+  session_.run(recorder, 1000);
+  waits.get_future().wait();
+  session_.run(recorder, 1000);
+  const auto late = SteadyClock::now() + std::chrono::seconds(60);
+  while (recorder.waiting_chunks() > 0 && SteadyClock::now() < late)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_EQ(Recording(path_).tick_count(), 2000u);
+  release.set_value();
+  recorder.finish("finished");
+  EXPECT_TRUE(Recording(path_).end());
 }
 
 /// Takes so many bytes and then is as a full disk.

@@ -112,6 +112,13 @@ TEST_F(SessionArchiveTest, RunsOfTheCommandLineAreThereToo) {
   EXPECT_EQ(record.request.created_utc.size(), std::string("2025-03-01T12:00:00Z").size());
 }
 
+TEST_F(SessionArchiveTest, AnImpossibleNumberOfAttemptsIsBounded) {
+  put("aaaa", "2025-03-01T12:00:00Z", "stopped", {{"attempt", 4.4e86}});
+  EXPECT_EQ(archive.find("aaaa")->request.attempt, 1'000'000);
+  put("bbbb", "2025-03-01T12:00:00Z", "stopped", {{"attempt", -3}});
+  EXPECT_EQ(archive.find("bbbb")->request.attempt, 1);
+}
+
 TEST_F(SessionArchiveTest, IdsAreNoPathsAndAMissingFolderIsEmpty) {
   put("aaaa", "2025-03-01T12:00:00Z", "stopped");
   for (const char* id : {"..", ".", "", "aaaa/..", "/etc", "AAAA"}) EXPECT_FALSE(archive.find(id)) << id;

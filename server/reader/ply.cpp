@@ -1,4 +1,4 @@
-#include "geometry/mesh_io.hpp"
+#include "reader/mesh_file.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -11,28 +11,28 @@
 
 #include "core/error.hpp"
 
-namespace ream {
+namespace ream::reader {
 namespace {
 
-enum class Type { i8, u8, i16, u16, i32, u32, f32, f64 };
-enum class Encoding { text, little_endian, big_endian };
+enum class PlyType { i8, u8, i16, u16, i32, u32, f32, f64 };
+enum class PlyEncoding { text, little_endian, big_endian };
 
-struct Property {
+struct PlyProperty {
   std::string name;
-  Type type = Type::f32;
+  PlyType type = PlyType::f32;
   bool is_list = false;
-  Type count_type = Type::u8;
+  PlyType count_type = PlyType::u8;
 };
 
-struct Element {
+struct PlyElement {
   std::string name;
   size_t count = 0;
-  std::vector<Property> properties;
+  std::vector<PlyProperty> properties;
 };
 
-struct Header {
-  Encoding encoding = Encoding::text;
-  std::vector<Element> elements;
+struct PlyHeader {
+  PlyEncoding encoding = PlyEncoding::text;
+  std::vector<PlyElement> elements;
   size_t size = 0;  ///< bytes up to and with the line end_header
 };
 
@@ -41,25 +41,25 @@ struct PlyFault {
   std::string what;
 };
 
-Type type_of(const std::string& word) {
+PlyType type_of(const std::string& word) {
   static constexpr struct {
     const char *name, *other_name;
   } names[] = {{"char", "int8"}, {"uchar", "uint8"}, {"short", "int16"},   {"ushort", "uint16"},
                {"int", "int32"}, {"uint", "uint32"}, {"float", "float32"}, {"double", "float64"}};
   for (int i = 0; i < 8; ++i)
-    if (word == names[i].name || word == names[i].other_name) return static_cast<Type>(i);
+    if (word == names[i].name || word == names[i].other_name) return static_cast<PlyType>(i);
   throw PlyFault{"its header names an unknown type '" + word + "'"};
 }
 
-Encoding encoding_of(const std::string& word) {
-  if (word == "ascii") return Encoding::text;
-  if (word == "binary_little_endian") return Encoding::little_endian;
-  if (word == "binary_big_endian") return Encoding::big_endian;
+PlyEncoding encoding_of(const std::string& word) {
+  if (word == "ascii") return PlyEncoding::text;
+  if (word == "binary_little_endian") return PlyEncoding::little_endian;
+  if (word == "binary_big_endian") return PlyEncoding::big_endian;
   throw PlyFault{"its header names an unknown format '" + word + "'"};
 }
 
-Property property_of(std::istringstream& words) {
-  Property property;
+PlyProperty property_of(std::istringstream& words) {
+  PlyProperty property;
   std::string type, count_type;
   words >> type;
   if (type == "list") {
@@ -72,8 +72,8 @@ Property property_of(std::istringstream& words) {
   return property;
 }
 
-Header parse_header(std::string_view bytes) {
-  Header header;
+PlyHeader parse_header(std::string_view bytes) {
+  PlyHeader header;
   bool has_format = false;
   for (size_t begin = 0;;) {
     const size_t end = bytes.find('\n', begin);
@@ -88,7 +88,7 @@ Header parse_header(std::string_view bytes) {
       header.encoding = encoding_of(word);
       has_format = true;
     } else if (keyword == "element") {
-      Element& element = header.elements.emplace_back();
+      PlyElement& element = header.elements.emplace_back();
       if (!(words >> element.name >> element.count))
         throw PlyFault{"its header has an element without a count"};
     } else if (keyword == "property") {
@@ -104,11 +104,11 @@ Header parse_header(std::string_view bytes) {
 }
 
 /// Takes number after number from the file's body.
-class Body {
+class PlyBody {
  public:
-  Body(std::string_view bytes, Encoding encoding) : rest_(bytes), encoding_(encoding) {}
+  PlyBody(std::string_view bytes, PlyEncoding encoding) : rest_(bytes), encoding_(encoding) {}
 
-  double next(Type type) { return encoding_ == Encoding::text ? next_word() : next_binary(type); }
+  double next(PlyType type) { return encoding_ == PlyEncoding::text ? next_word() : next_binary(type); }
   size_t bytes_left() const { return rest_.size(); }
 
  private:
@@ -123,16 +123,16 @@ class Body {
     return value;
   }
 
-  double next_binary(Type type) {
+  double next_binary(PlyType type) {
     switch (type) {
-      case Type::i8: return take<int8_t>();
-      case Type::u8: return take<uint8_t>();
-      case Type::i16: return take<int16_t>();
-      case Type::u16: return take<uint16_t>();
-      case Type::i32: return take<int32_t>();
-      case Type::u32: return take<uint32_t>();
-      case Type::f32: return static_cast<double>(take<float>());
-      case Type::f64: return take<double>();
+      case PlyType::i8: return take<int8_t>();
+      case PlyType::u8: return take<uint8_t>();
+      case PlyType::i16: return take<int16_t>();
+      case PlyType::u16: return take<uint16_t>();
+      case PlyType::i32: return take<int32_t>();
+      case PlyType::u32: return take<uint32_t>();
+      case PlyType::f32: return static_cast<double>(take<float>());
+      case PlyType::f64: return take<double>();
     }
     return 0.0;
   }
@@ -143,7 +143,7 @@ class Body {
     char bytes[sizeof(T)];
     std::memcpy(bytes, rest_.data(), sizeof(T));
     rest_.remove_prefix(sizeof(T));
-    const bool file_is_little = encoding_ == Encoding::little_endian;
+    const bool file_is_little = encoding_ == PlyEncoding::little_endian;
     if (file_is_little != (std::endian::native == std::endian::little))
       std::reverse(bytes, bytes + sizeof(T));
     T value;
@@ -152,7 +152,7 @@ class Body {
   }
 
   std::string_view rest_;
-  Encoding encoding_;
+  PlyEncoding encoding_;
 };
 
 /// A whole number in [0, end) or a PlyFault.
@@ -161,7 +161,7 @@ uint32_t whole_number(double value, double end, const char* what) {
   return static_cast<uint32_t>(value);
 }
 
-std::vector<double> next_list(const Property& property, Body& body) {
+std::vector<double> next_list(const PlyProperty& property, PlyBody& body) {
   const uint32_t count =
       whole_number(body.next(property.count_type), 4294967296.0, "it has a list of impossible length");
   if (count > body.bytes_left()) throw PlyFault{"it is cut off"};
@@ -172,6 +172,7 @@ std::vector<double> next_list(const Property& property, Body& body) {
 
 void add_fan(const std::vector<double>& polygon, TriangleMesh& mesh) {
   std::vector<uint32_t> corners;
+  corners.reserve(polygon.size());
   for (const double index : polygon)
     corners.push_back(whole_number(index, static_cast<double>(mesh.vertices_mm.size()),
                                    "a triangle names a vertex that does not exist"));
@@ -179,12 +180,12 @@ void add_fan(const std::vector<double>& polygon, TriangleMesh& mesh) {
     mesh.triangles.push_back({corners[0], corners[k - 1], corners[k]});
 }
 
-void read_element(const Element& element, Body& body, TriangleMesh& mesh) {
+void read_element(const PlyElement& element, PlyBody& body, TriangleMesh& mesh) {
   if (element.properties.empty()) return;
   const bool is_vertex = element.name == "vertex", is_face = element.name == "face";
   for (size_t i = 0; i < element.count; ++i) {
     Vec3f position = Vec3f::Zero();
-    for (const Property& property : element.properties) {
+    for (const PlyProperty& property : element.properties) {
       if (property.is_list) {
         const auto values = next_list(property, body);
         if (is_face && (property.name == "vertex_indices" || property.name == "vertex_index"))
@@ -203,14 +204,14 @@ void read_element(const Element& element, Body& body, TriangleMesh& mesh) {
 
 TriangleMesh parse_ply(std::string_view bytes, const std::filesystem::path& path) {
   try {
-    const Header header = parse_header(bytes);
-    Body body(bytes.substr(header.size), header.encoding);
+    const PlyHeader header = parse_header(bytes);
+    PlyBody body(bytes.substr(header.size), header.encoding);
     TriangleMesh mesh;
-    for (const Element& element : header.elements) read_element(element, body, mesh);
+    for (const PlyElement& element : header.elements) read_element(element, body, mesh);
     return mesh;
   } catch (const PlyFault& fault) {
     throw Error(ErrorKind::invalid_input, "mesh " + path.string() + " cannot be used: " + fault.what);
   }
 }
 
-}  // namespace ream
+}  // namespace ream::reader
