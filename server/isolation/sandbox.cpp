@@ -15,6 +15,7 @@
 #include <cerrno>
 #include <cstring>
 #include <memory>
+#include <sstream>
 
 #include "core/error.hpp"
 #include "core/file_descriptor.hpp"
@@ -98,86 +99,19 @@ void close_files_off(int version, int input, int output) {
 }
 
 /// Calls that reading needs: files, memory, time, its own threads and signals. All others fail with EPERM.
-constexpr int allowed_calls[] = {SCMP_SYS(read),
-                                 SCMP_SYS(write),
-                                 SCMP_SYS(readv),
-                                 SCMP_SYS(writev),
-                                 SCMP_SYS(pread64),
-                                 SCMP_SYS(pwrite64),
-                                 SCMP_SYS(open),
-                                 SCMP_SYS(openat),
-                                 SCMP_SYS(close),
-                                 SCMP_SYS(lseek),
-                                 SCMP_SYS(fstat),
-                                 SCMP_SYS(stat),
-                                 SCMP_SYS(lstat),
-                                 SCMP_SYS(newfstatat),
-                                 SCMP_SYS(statx),
-                                 SCMP_SYS(statfs),
-                                 SCMP_SYS(fstatfs),
-                                 SCMP_SYS(access),
-                                 SCMP_SYS(faccessat),
-                                 SCMP_SYS(faccessat2),
-                                 SCMP_SYS(getdents64),
-                                 SCMP_SYS(getcwd),
-                                 SCMP_SYS(readlink),
-                                 SCMP_SYS(readlinkat),
-                                 SCMP_SYS(mkdir),
-                                 SCMP_SYS(mkdirat),
-                                 SCMP_SYS(rename),
-                                 SCMP_SYS(renameat),
-                                 SCMP_SYS(renameat2),
-                                 SCMP_SYS(unlink),
-                                 SCMP_SYS(unlinkat),
-                                 SCMP_SYS(rmdir),
-                                 SCMP_SYS(ftruncate),
-                                 SCMP_SYS(fallocate),
-                                 SCMP_SYS(fsync),
-                                 SCMP_SYS(fdatasync),
-                                 SCMP_SYS(fcntl),
-                                 SCMP_SYS(fadvise64),
-                                 SCMP_SYS(chmod),
-                                 SCMP_SYS(fchmod),
-                                 SCMP_SYS(fchmodat),
-                                 SCMP_SYS(utimensat),
-                                 SCMP_SYS(umask),
-                                 SCMP_SYS(dup),
-                                 SCMP_SYS(poll),
-                                 SCMP_SYS(ppoll),
-                                 SCMP_SYS(brk),
-                                 SCMP_SYS(munmap),
-                                 SCMP_SYS(mremap),
-                                 SCMP_SYS(madvise),
-                                 SCMP_SYS(futex),
-                                 SCMP_SYS(set_robust_list),
-                                 SCMP_SYS(rseq),
-                                 SCMP_SYS(rt_sigaction),
-                                 SCMP_SYS(rt_sigprocmask),
-                                 SCMP_SYS(rt_sigreturn),
-                                 SCMP_SYS(sigaltstack),
-                                 SCMP_SYS(restart_syscall),
-                                 SCMP_SYS(exit),
-                                 SCMP_SYS(exit_group),
-                                 SCMP_SYS(getpid),
-                                 SCMP_SYS(gettid),
-                                 SCMP_SYS(getuid),
-                                 SCMP_SYS(geteuid),
-                                 SCMP_SYS(getgid),
-                                 SCMP_SYS(getegid),
-                                 SCMP_SYS(getrandom),
-                                 SCMP_SYS(getrusage),
-                                 SCMP_SYS(getrlimit),
-                                 SCMP_SYS(uname),
-                                 SCMP_SYS(sysinfo),
-                                 SCMP_SYS(times),
-                                 SCMP_SYS(time),
-                                 SCMP_SYS(gettimeofday),
-                                 SCMP_SYS(clock_gettime),
-                                 SCMP_SYS(clock_getres),
-                                 SCMP_SYS(nanosleep),
-                                 SCMP_SYS(clock_nanosleep),
-                                 SCMP_SYS(sched_yield),
-                                 SCMP_SYS(sched_getaffinity)};
+/// None changes what Landlock does not govern (modes, times, owners and attributes of files) or acts on a
+/// process.
+constexpr const char* allowed_calls =
+    "read write readv writev pread64 pwrite64 open openat close lseek fstat stat lstat newfstatat statx "
+    "statfs fstatfs access faccessat faccessat2 getdents64 getcwd readlink readlinkat mkdir mkdirat "
+    "rename renameat renameat2 unlink unlinkat rmdir ftruncate fallocate fsync fdatasync fadvise64 umask "
+    "dup poll ppoll brk munmap mremap madvise futex set_robust_list rseq rt_sigaction rt_sigprocmask "
+    "rt_sigreturn sigaltstack restart_syscall exit exit_group getpid gettid getuid geteuid getgid getegid "
+    "getrandom getrusage getrlimit uname sysinfo times time gettimeofday clock_gettime clock_getres "
+    "nanosleep clock_nanosleep sched_yield sched_getaffinity";
+/// Of fcntl(). Its others let a descriptor that the server shares signal the server (F_SETOWN, F_SETSIG,
+/// O_ASYNC).
+constexpr int allowed_descriptor_commands[] = {F_GETFD, F_SETFD, F_GETFL, F_DUPFD_CLOEXEC};
 
 scmp_arg_cmp equal(unsigned argument, uint64_t value) { return {argument, SCMP_CMP_EQ, value, 0}; }
 scmp_arg_cmp without(unsigned argument, uint64_t bits) { return {argument, SCMP_CMP_MASKED_EQ, bits, 0}; }
@@ -189,7 +123,12 @@ void close_calls_off() {
   const auto check = [](int result) {
     if (result != 0) fail("seccomp", -result);
   };
-  for (const int call : allowed_calls) check(::seccomp_rule_add(filter.get(), SCMP_ACT_ALLOW, call, 0));
+  std::istringstream calls(allowed_calls);
+  for (std::string name; calls >> name;)
+    check(::seccomp_rule_add(filter.get(), SCMP_ACT_ALLOW, ::seccomp_syscall_resolve_name(name.c_str()), 0));
+  for (const int command : allowed_descriptor_commands)
+    check(::seccomp_rule_add(filter.get(), SCMP_ACT_ALLOW, SCMP_SYS(fcntl), 1,
+                             equal(1, static_cast<uint64_t>(command))));
   // Memory, but none that could be run: every library is loaded by now.
   for (const int call : {SCMP_SYS(mmap), SCMP_SYS(mprotect)})
     check(::seccomp_rule_add(filter.get(), SCMP_ACT_ALLOW, call, 1, without(2, PROT_EXEC)));

@@ -1,12 +1,21 @@
 /// A reader that does what a file might make a reader do. Every task answers with what it got.
 #include <arpa/inet.h>
 #include <fcntl.h>
+#include <sched.h>
 #include <signal.h>
+#include <sys/file.h>
+#include <sys/ioctl.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/ptrace.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
@@ -77,6 +86,97 @@ json call(const fs::path&, const json& options, const ream::Progress&) {
   return told;
 }
 
+/// A call that reading does not need, by which a process changes files that it does not own the way to, or
+/// another process.
+struct Misuse {
+  const char* name;
+  long number;
+  std::array<long, 4> arguments;
+};
+
+long address(const void* of) { return reinterpret_cast<long>(of); }
+
+/// `path` is another file of the user, `parent` the process that started this one.
+std::vector<Misuse> misuses(const char* path, long parent, const void* scratch) {
+  constexpr long here = AT_FDCWD, input = ream::isolation::input_descriptor,
+                 shared = ream::isolation::answer_descriptor, open_pipe = O_WRONLY | O_ASYNC;
+  const long file = address(path), memory = address(scratch);
+  return {{"chmod", SYS_chmod, {file, 0777}},
+          {"fchmod", SYS_fchmod, {input, 0777}},
+          {"fchmodat", SYS_fchmodat, {here, file, 0777}},
+          {"fchmodat2", 452, {here, file, 0777, 0}},
+          {"chown", SYS_chown, {file, -1, -1}},
+          {"fchown", SYS_fchown, {input, -1, -1}},
+          {"utime", SYS_utime, {file, 0}},
+          {"utimes", SYS_utimes, {file, 0}},
+          {"utimensat", SYS_utimensat, {here, file, 0, 0}},
+          {"setxattr", SYS_setxattr, {file, address("user.a"), address("a"), 1}},
+          {"fsetxattr", SYS_fsetxattr, {input, address("user.a"), address("a"), 1}},
+          {"truncate", SYS_truncate, {file, 0}},
+          {"flock", SYS_flock, {input, LOCK_EX | LOCK_NB}},
+          {"inotify_init1", SYS_inotify_init1, {0}},
+          {"open_by_handle_at", SYS_open_by_handle_at, {here, memory, 0}},
+          {"fcntl F_SETOWN", SYS_fcntl, {shared, F_SETOWN, parent}},
+          {"fcntl F_SETOWN_EX", SYS_fcntl, {shared, F_SETOWN_EX, memory}},
+          {"fcntl F_SETSIG", SYS_fcntl, {shared, F_SETSIG, SIGKILL}},
+          {"fcntl F_SETFL", SYS_fcntl, {shared, F_SETFL, open_pipe}},
+          {"fcntl F_SETLEASE", SYS_fcntl, {input, F_SETLEASE, F_RDLCK}},
+          {"fcntl F_NOTIFY", SYS_fcntl, {input, F_NOTIFY, DN_MODIFY}},
+          {"fcntl F_SETPIPE_SZ", SYS_fcntl, {shared, F_SETPIPE_SZ, 1 << 20}},
+          {"fcntl F_ADD_SEALS", SYS_fcntl, {shared, F_ADD_SEALS, 0}},
+          {"fcntl F_SETOWN, hidden", SYS_fcntl, {shared, (1L << 32) | F_SETOWN, parent}},
+          {"ioctl FIOASYNC", SYS_ioctl, {shared, FIOASYNC, memory}},
+          {"ioctl FIOSETOWN", SYS_ioctl, {shared, FIOSETOWN, memory}},
+          {"ioctl SIOCSPGRP", SYS_ioctl, {shared, SIOCSPGRP, memory}},
+          {"prctl", SYS_prctl, {PR_SET_PTRACER, -1}},
+          {"ptrace", SYS_ptrace, {PTRACE_SEIZE, parent, 0, 0}},
+          {"process_vm_readv", SYS_process_vm_readv, {parent, memory, 0, memory}},
+          {"process_vm_writev", SYS_process_vm_writev, {parent, memory, 0, memory}},
+          {"pidfd_open", SYS_pidfd_open, {parent, 0}},
+          {"pidfd_send_signal", SYS_pidfd_send_signal, {input, 0, 0, 0}},
+          {"pidfd_getfd", SYS_pidfd_getfd, {input, 0, 0}},
+          {"kcmp", SYS_kcmp, {parent, parent, 0, 0}},
+          {"kill", SYS_kill, {parent, 0}},
+          {"tkill", SYS_tkill, {parent, 0}},
+          {"tgkill", SYS_tgkill, {parent, parent, 0}},
+          {"rt_sigqueueinfo", SYS_rt_sigqueueinfo, {parent, 0, memory}},
+          {"timer_create", SYS_timer_create, {CLOCK_MONOTONIC, 0, memory}},
+          {"setitimer", SYS_setitimer, {ITIMER_REAL, memory, 0}},
+          {"sched_setaffinity", SYS_sched_setaffinity, {parent, 8, memory}},
+          {"sched_setscheduler", SYS_sched_setscheduler, {parent, SCHED_OTHER, memory}},
+          {"sched_setattr", SYS_sched_setattr, {parent, memory, 0}},
+          {"setpriority", SYS_setpriority, {PRIO_PROCESS, parent, 19}},
+          {"ioprio_set", SYS_ioprio_set, {1, parent, 3 << 13}},
+          {"prlimit64", SYS_prlimit64, {parent, RLIMIT_CPU, memory, 0}},
+          {"setrlimit", SYS_setrlimit, {RLIMIT_CORE, memory}},
+          {"move_pages", SYS_move_pages, {parent, 0, 0, 0}},
+          {"process_madvise", 440, {input, memory, 1, 0}},
+          {"unshare", SYS_unshare, {0}},
+          {"setns", SYS_setns, {input, 0}},
+          {"mount", SYS_mount, {0, file, 0, 0}},
+          {"chroot", SYS_chroot, {file}},
+          {"io_uring_setup", SYS_io_uring_setup, {1, memory}},
+          {"bpf", SYS_bpf, {0, memory, 0}},
+          {"perf_event_open", SYS_perf_event_open, {memory, parent, -1, -1}},
+          {"userfaultfd", SYS_userfaultfd, {0}},
+          {"keyctl", SYS_keyctl, {0, -3, 0}},
+          {"memfd_create", SYS_memfd_create, {file, 0}},
+          {"shmget", SYS_shmget, {0, 4096, 0600}},
+          {"mq_open", SYS_mq_open, {file, O_RDONLY}},
+          {"personality", SYS_personality, {0}},
+          {"setsid", SYS_setsid, {}}};
+}
+
+json misuse(const fs::path&, const json& options, const ream::Progress&) {
+  const std::string path = options.at("path");
+  std::array<char, 4096> scratch{};
+  json told;
+  for (const Misuse& one : misuses(path.c_str(), options.at("parent").get<long>(), scratch.data()))
+    told[one.name] = outcome(
+        ::syscall(one.number, one.arguments[0], one.arguments[1], one.arguments[2], one.arguments[3], 0, 0));
+  return told;
+}
+
 json take_memory(const fs::path&, const json&, const ream::Progress&) {
   std::vector<std::vector<char>> kept;
   while (true) kept.emplace_back(16 << 20, 'x');
@@ -122,6 +222,7 @@ int main() {
   ream::isolation::serve_one_job({{"read", read_input},
                                   {"reach", reach},
                                   {"call", call},
+                                  {"misuse", misuse},
                                   {"take_memory", take_memory},
                                   {"take_disk", take_disk},
                                   {"spin", spin},

@@ -117,6 +117,18 @@ TEST_F(ReaderProcess, HasNoNetworkNoProgramsNoSignalsAndNoSecrets) {
   EXPECT_EQ(told["thread"], 7);
 }
 
+TEST_F(ReaderProcess, ChangesNoFileOfTheUserAndNoOtherProcess) {
+  if (!sandbox_support().seccomp) GTEST_SKIP() << "this kernel has no seccomp";
+  const fs::path secret = folder_.path() / "secret.txt";
+  fs::permissions(secret, fs::perms::owner_read | fs::perms::owner_write);
+  const auto written = fs::last_write_time(secret);
+  const json told = answer("misuse", {{"parent", ::getpid()}, {"path", secret.string()}});
+  EXPECT_GT(told.size(), 60u);
+  for (const auto& [what, outcome] : told.items()) EXPECT_EQ(outcome, "Operation not permitted") << what;
+  EXPECT_EQ(fs::status(secret).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+  EXPECT_EQ(fs::last_write_time(secret), written);
+}
+
 TEST_F(ReaderProcess, StaysWithinItsLimits) {
   ReaderJob memory = job("take_memory");
   memory.limits.memory_bytes = uint64_t{512} << 20;
