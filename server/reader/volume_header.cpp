@@ -159,9 +159,22 @@ class NiftiHeader {
   std::optional<Nifti1Header> narrowed_;
 };
 
+/// The library ends the program where axes that it uses are no numbers, or a flat image's have no length.
+void check_nifti_numbers(const NiftiHeader& header, const fs::path& path) {
+  if (header.at<int16_t>(40) < 3)
+    throw Error(ErrorKind::invalid_input, path.string() + " is a flat image; a CT has three dimensions");
+  constexpr size_t qform = 256, sform = 280, after_sform = 328;
+  const size_t begin = header.at<int16_t>(252) > 0 ? qform : sform;
+  const size_t end = header.at<int16_t>(254) > 0 ? after_sform : sform;
+  for (size_t at = begin; at < end; at += sizeof(float))
+    if (!std::isfinite(header.at<float>(at)))
+      refuse(path, "its header says how its axes lie in something that is no number");
+}
+
 /// The library silently orthonormalizes a sheared sform, or takes the qform instead.
 void check_nifti_axes(const NiftiHeader& header, const fs::path& path) {
-  if (header.at<int16_t>(254) <= 0 || header.at<int16_t>(40) < 3) return;
+  check_nifti_numbers(header, path);
+  if (header.at<int16_t>(254) <= 0) return;
   Mat3 columns;
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column)

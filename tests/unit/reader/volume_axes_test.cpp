@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <fstream>
 
@@ -108,6 +109,39 @@ TEST(VolumeAxes, NiftiByItsQuaternion) {
   const Mat3 ras_steps = half_turn * spacing.asDiagonal();
   write_nifti(file, ras_steps, origin, true);
   expect_places(read_ct_files(file), volume_dims, lps_from_ras * origin, lps_from_ras * ras_steps);
+}
+
+/// The library would end the program (its SVD asserts that all numbers are finite).
+TEST(VolumeAxes, NiftiWhoseAxesAreNoNumbersIsRefused) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "ct.nii";
+  const auto write_number = [&](std::streamoff at, float value) {
+    std::fstream out(file, std::ios::binary | std::ios::in | std::ios::out);
+    out.seekp(at);
+    out.write(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  for (const bool by_quaternion : {false, true})
+    for (std::streamoff at = by_quaternion ? 256 : 280; at < (by_quaternion ? 280 : 328); at += 4)
+      for (const float value : {std::nanf(""), HUGE_VALF}) {
+        write_nifti(file, spacing.asDiagonal(), origin, by_quaternion);
+        write_number(at, value);
+        test::expect_error(ErrorKind::invalid_input, "no number", [&] { read_ct_files(file); });
+      }
+}
+
+TEST(VolumeAxes, AFlatNiftiImageIsRefusedBeforeTheLibrarySeesIt) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "ct.nii";
+  write_nifti(file, spacing.asDiagonal(), origin, false);
+  const int16_t dimensions = 2;
+  std::fstream out(file, std::ios::binary | std::ios::in | std::ios::out);
+  out.seekp(40);
+  out.write(reinterpret_cast<const char*>(&dimensions), sizeof dimensions);
+  out.seekp(280);
+  out << std::string(48, '\0');
+  out.close();
+  test::expect_error(ErrorKind::invalid_input, "is a flat image; a CT has three dimensions",
+                     [&] { read_ct_files(file); });
 }
 
 std::string three(const Vec3& v) {
