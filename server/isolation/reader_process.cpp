@@ -152,13 +152,19 @@ json parsed(const std::string& line) {
   return message.is_object() ? message : json::object();
 }
 
+Error unreadable(const ReaderJob& job, const std::string& why) {
+  return {ErrorKind::invalid_input,
+          job.input.string() + " cannot be read: " + why + "; it may be damaged, or not what its name says"};
+}
+
 /// What the reader says, line by line, until its answer or its end (null).
 class Answers {
  public:
   Answers(const FileDescriptor& from, const Progress& progress) : from_(from), progress_(progress) {}
 
-  json wait() {
-    while (true) {
+  json wait(const ReaderJob& job) {
+    const auto latest = std::chrono::steady_clock::now() + job.limits.time;
+    while (std::chrono::steady_clock::now() < latest) {
       pollfd waiting{from_.get(), POLLIN, 0};
       if (::poll(&waiting, 1, look_every_ms) <= 0) {
         progress_(share_, step_);
@@ -171,6 +177,9 @@ class Answers {
       text_.append(piece.data(), static_cast<size_t>(n));
       if (json answer = whole_lines(); !answer.is_null()) return answer;
     }
+    throw unreadable(
+        job, "the reader did not answer within " +
+                 std::to_string(std::chrono::ceil<std::chrono::seconds>(job.limits.time).count()) + " s");
   }
 
  private:
@@ -204,8 +213,7 @@ Error what_ended_it(const ReaderJob& job, int status) {
           : signal == SIGKILL ? "the reader had to be ended, as memory ran out or it answered without end"
                               : std::string("the reader crashed on it (") + ::strsignal(signal) + ")";
   }
-  return {ErrorKind::invalid_input,
-          job.input.string() + " cannot be read: " + why + "; it may be damaged, or not what its name says"};
+  return unreadable(job, why);
 }
 
 /// What it wrote is files and folders, so that no name below leads elsewhere or waits for somebody. The links
@@ -248,6 +256,12 @@ size_t ReaderResult::count_in(const std::string& name, size_t value_bytes, uint6
   return bytes / value_bytes;
 }
 
+void ReaderResult::require_bytes(const std::string& name, uint64_t bytes) const {
+  if (const uint64_t written = fs::file_size(file(name)); written != bytes)
+    throw Error(ErrorKind::io, "the reader wrote " + std::to_string(written) + " bytes of " + name +
+                                   ", but its answer needs " + std::to_string(bytes));
+}
+
 void ReaderResult::read(const std::string& name, std::span<std::byte> into) const {
   const FileDescriptor in(::open(file(name).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
   if (!in || in.read_at(0, into) != static_cast<ssize_t>(into.size()))
@@ -260,14 +274,14 @@ ReaderResult read_isolated(const ReaderJob& job, const Progress& progress) {
     throw Error(ErrorKind::not_found, "no such file or folder: " + job.input.string());
   const FileDescriptor input = opened(job.with_folder ? fs::absolute(job.input).parent_path() : job.input);
   auto folder = std::make_unique<TemporaryFolder>(
-      (job.scratch.empty() ? fs::temp_directory_path() : job.scratch) / "ream-read");
+      job.scratch.empty() ? fs::temp_directory_path() / "ream-read" : job.scratch / ".ream-read");
   const FileDescriptor output = opened(folder->path());
   Pipe requests = new_pipe(), answers = new_pipe();
   Child child(program_of(job), input.get(), output.get(), requests.out.get(), answers.in.get());
   send_request(requests.in, job);  // a pipe takes it whole
   requests = {{}, {}};
   answers.in = {};
-  const json message = Answers(answers.out, progress).wait();
+  const json message = Answers(answers.out, progress).wait(job);
   if (const auto error = message.find("error"); error != message.end() && error->is_string())
     throw Error(kind_of(message), one_line(error->get<std::string>(), max_words));
   if (!message.contains("answer")) throw what_ended_it(job, child.ended(ending_takes));

@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -13,11 +14,15 @@
 
 namespace ream::isolation {
 
+/// Also a reader that only sleeps ends after this; one that works is ended by its processor time long before.
+inline constexpr std::chrono::hours max_reading_time{2};
+
 /// What one run of ream-reader may use.
 struct ReaderLimits {
   uint64_t memory_bytes = 0;  ///< of address space; 0: three quarters of what this machine has free
   uint64_t file_bytes = uint64_t{16} << 30;  ///< of each file that it writes
   unsigned processor_s = 1800;
+  std::chrono::milliseconds time = max_reading_time;
 };
 
 /// A file from outside, and what is to be read out of it.
@@ -50,6 +55,8 @@ class ReaderResult {
     read(name, std::as_writable_bytes(std::span(all)));
     return all;
   }
+  /// Throws Error io unless such a file is so long.
+  void require_bytes(const std::string& name, uint64_t bytes) const;
   const std::filesystem::path& folder() const { return folder_->path(); }
 
  private:

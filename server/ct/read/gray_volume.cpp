@@ -26,8 +26,10 @@ voxel::GrayScale scale_from(const nlohmann::json& answer) {
   return scale;
 }
 
-isolation::ReaderResult read_codes(const fs::path& path, uint64_t max_bytes, const Progress& progress) {
+isolation::ReaderResult read_codes(const fs::path& path, uint64_t max_bytes, const Progress& progress,
+                                   const fs::path& reader) {
   isolation::ReaderJob job;
+  job.program = reader;
   job.task = "gray";
   job.input = path;
   job.with_folder = names_another_file(path);
@@ -54,12 +56,16 @@ size_t layer_voxels(const Vec3i& dims) {
 }  // namespace
 
 struct GrayVolume::Contents {
-  Contents(const fs::path& path, uint64_t max_bytes, const Progress& progress)
-      : read(read_codes(path, max_bytes, progress)) {
+  explicit Contents(isolation::ReaderResult&& result) : read(std::move(result)) {
     place = volume_from(read.answer()["volume"], true);
     gray = scale_from(read.answer()["gray"]);
     values = opened(read.file("values"));
-    if (!read.answer().contains("given")) return;
+    if (!read.answer().contains("given")) {
+      read.require_bytes("values", sizeof(uint16_t) * place.voxel_count());
+      return;
+    }
+    const uint64_t words = given_words_per_layer(place.dims) * static_cast<uint64_t>(place.dims.z());
+    read.require_bytes("given", sizeof(uint64_t) * words);
     given = opened(read.file("given"));
     for (int w = 0; w < place.dims.z(); ++w) {
       uint64_t sum = before.empty() ? 0 : before.back();
@@ -67,6 +73,7 @@ struct GrayVolume::Contents {
       for (const uint64_t word : given_words(w)) sum += static_cast<uint64_t>(std::popcount(word));
       before.push_back(sum);
     }
+    read.require_bytes("values", sizeof(uint16_t) * before.back());
   }
 
   std::vector<uint64_t> given_words(int w) const {
@@ -82,8 +89,9 @@ struct GrayVolume::Contents {
   std::vector<uint64_t> before;  ///< given voxels before each layer
 };
 
-GrayVolume::GrayVolume(const fs::path& path, uint64_t max_bytes, const Progress& progress)
-    : contents_(std::make_unique<Contents>(path, max_bytes, progress)) {}
+GrayVolume::GrayVolume(const fs::path& path, uint64_t max_bytes, const Progress& progress,
+                       const fs::path& reader)
+    : contents_(std::make_unique<Contents>(read_codes(path, max_bytes, progress, reader))) {}
 
 GrayVolume::~GrayVolume() = default;
 GrayVolume::GrayVolume(GrayVolume&&) noexcept = default;

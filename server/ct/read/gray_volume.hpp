@@ -19,9 +19,10 @@ class GrayVolume {
   /// read_ct takes them; but rows need not give every voxel. ream-reader writes the values into a temporary
   /// file, from which layers are read: memory here is a layer. What lies unpacked in a .nrrd or .mha file it
   /// reads layer by layer, everything else whole, unless that takes more than `max_bytes` of memory. Errors:
-  /// those of read_ct; invalid_input that says what to do where it would take more.
+  /// those of read_ct; invalid_input that says what to do where it would take more. `reader`: as in
+  /// ReadOptions.
   explicit GrayVolume(const std::filesystem::path& path, uint64_t max_bytes = UINT64_MAX,
-                      const Progress& progress = no_progress);
+                      const Progress& progress = no_progress, const std::filesystem::path& reader = {});
   ~GrayVolume();
   GrayVolume(GrayVolume&&) noexcept;
   GrayVolume& operator=(GrayVolume&&) noexcept;

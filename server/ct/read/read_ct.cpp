@@ -1,11 +1,8 @@
 #include "ct/read/read_ct.hpp"
 
-#include <fcntl.h>
-
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "core/file_descriptor.hpp"
 #include "ct/read/ct_file_names.hpp"
 #include "ct/read/volume_answer.hpp"
 #include "isolation/reader_process.hpp"
@@ -15,17 +12,10 @@ namespace {
 
 constexpr double reading_share = 0.95;
 
-void load_values(HuVolume& volume, const std::filesystem::path& file) {
-  const FileDescriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
-  volume.hu.resize(volume.voxel_count());
-  const auto bytes = std::as_writable_bytes(std::span(volume.hu));
-  if (!in || in.read_at(0, bytes) != static_cast<ssize_t>(bytes.size()))
-    throw Error(ErrorKind::io, "the reader wrote fewer values than its volume has");
-}
-
 HuVolume read(const char* task, const std::filesystem::path& path, const ReadOptions& options,
               const Progress& progress) {
   isolation::ReaderJob job;
+  job.program = options.reader;
   job.task = task;
   job.input = path;
   job.with_folder = names_another_file(path);
@@ -35,7 +25,13 @@ HuVolume read(const char* task, const std::filesystem::path& path, const ReadOpt
   job.scratch = options.scratch;
   const isolation::ReaderResult result = isolation::read_isolated(job, part_of(progress, 0.0, reading_share));
   HuVolume volume = volume_from(result.answer(), true);
-  load_values(volume, result.file("values"));
+  const uint64_t bytes = sizeof(int16_t) * volume.voxel_count();
+  if (bytes > options.max_bytes)
+    throw Error(ErrorKind::io, "the reader answered with a volume of " + std::to_string(bytes) +
+                                   " bytes, where at most " + std::to_string(options.max_bytes) +
+                                   " are taken");
+  result.require_bytes("values", bytes);
+  volume.hu = result.values<int16_t>("values", bytes);
   return volume;
 }
 

@@ -16,6 +16,8 @@ struct ReadOptions {
   uint64_t max_bytes = uint64_t{4} << 30;  ///< of the volume: two a voxel
   std::filesystem::path scratch =
       {};  ///< folder for what is unpacked; empty: the system's for temporary files
+  std::filesystem::path reader =
+      {};  ///< the program that reads; empty: ream-reader, beside the one that runs
 };
 
 /// Reads a CT: a folder of DICOM slices (or one DICOM file of many), one NRRD, NIfTI or MetaImage file (.nrrd

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <zlib.h>
 
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include "core/file.hpp"
 #include "ct/read/gray_volume.hpp"
 #include "ct/read/read_ct.hpp"
+#include "isolation/reader_service.hpp"
 #include "isolation/sandbox.hpp"
 #include "store/zip_archive.hpp"
 #include "support/expect_error.hpp"
@@ -127,6 +129,44 @@ TEST_F(HostileVolume, ASmallFileUnpacksToASmallVolume) {
   test::expect_error(ErrorKind::invalid_input,
                      "bomb.nrrd unpacks to a volume of 160 MB; of a file of this size at most 50 MB",
                      [&] { read_ct(file, options); });
+}
+
+/// What a file that took the reader over may answer: sides of 1.6 GB, over files of its choice.
+TEST_F(HostileVolume, ClaimsOfTheReaderAreHeldAgainstItsFilesBeforeMemoryIsTaken) {
+  const fs::path given = folder_.path() / "given/a.nrrd";
+  std::ofstream(given) << "words";
+  const auto answering = [&](const std::string& files, const std::string& answer) {
+    const fs::path program = folder_.path() / "reader";
+    std::ofstream(program) << "#!/bin/sh\ncd /proc/self/fd/" << isolation::output_descriptor << '\n'
+                           << files << "\necho '{\"answer\": " << answer << "}' >&"
+                           << isolation::answer_descriptor << '\n';
+    fs::permissions(program, fs::perms::owner_all);
+    return program;
+  };
+  const std::string volume = R"({"dims": [800, 1000, 1000], "spacing_mm": [1, 1, 1], "source": "x", )"
+                             R"("rotation": [1, 0, 0, 0, 1, 0, 0, 0, 1], "origin_mm": [0, 0, 0]})";
+  const std::string gray = R"({"gray": {"offset": 0, "step": 1, "exact": true}, "volume": )" + volume;
+  rusage before{}, after{};
+  ::getrusage(RUSAGE_SELF, &before);
+  const auto refused = [&](const std::string& words, const std::string& files, uint64_t max_bytes) {
+    ReadOptions options;
+    options.max_bytes = max_bytes;
+    options.reader = answering(files, volume);
+    test::expect_error(ErrorKind::io, words, [&] { read_ct(given, options); });
+  };
+  refused("at most 1000000 are taken", "truncate -s 1600000000 values", 1'000'000);
+  refused("20 bytes of values, but its answer needs 1600000000", "truncate -s 20 values", 2'000'000'000);
+  refused("1600000001 bytes of values", "truncate -s 1600000001 values", 2'000'000'000);
+  refused("without writing values", ":", 2'000'000'000);
+  const auto gray_refused = [&](const std::string& words, const std::string& files, const std::string& end) {
+    const fs::path program = answering(files, gray + end);
+    test::expect_error(ErrorKind::io, words, [&] { GrayVolume(given, UINT64_MAX, no_progress, program); });
+  };
+  gray_refused("20 bytes of values", "truncate -s 20 values", "}");
+  gray_refused("20 bytes of given", "truncate -s 20 values given", R"(, "given": true})");
+  gray_refused("needs 0", "truncate -s 20 values; truncate -s 100000000 given", R"(, "given": true})");
+  ::getrusage(RUSAGE_SELF, &after);
+  EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 100'000) << "kB";
 }
 
 }  // namespace

@@ -198,6 +198,14 @@ json sleep_long(const fs::path&, const json&, const ream::Progress&) {
   while (true) std::this_thread::sleep_for(std::chrono::seconds(1));
 }
 
+/// Never says anything but how far it is.
+json tell(const fs::path&, const json&, const ream::Progress& progress) {
+  for (int i = 0;; ++i) {
+    progress(0.5, std::to_string(i));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
 json crash(const fs::path&, const json& options, const ream::Progress&) {
   if (options.at("how") == "abort") std::abort();
   if (options.at("how") == "exit") std::_Exit(0);
@@ -227,6 +235,7 @@ int main() {
                                   {"take_disk", take_disk},
                                   {"spin", spin},
                                   {"sleep", sleep_long},
+                                  {"tell", tell},
                                   {"crash", crash},
                                   {"answer_oddly", answer_oddly}});
 }

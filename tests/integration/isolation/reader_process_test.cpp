@@ -179,6 +179,15 @@ TEST_F(ReaderProcess, EndsWhenItsWorkIsCancelled) {
                Error);
 }
 
+TEST_F(ReaderProcess, EndsAfterItsTimeAlsoWhenItSleepsOrOnlyTellsProgress) {
+  const auto refused_in_time = [&](ReaderJob slow) {
+    slow.limits.time = std::chrono::milliseconds(300);
+    expect_refused(slow, "did not answer within 1 s");
+  };
+  refused_in_time(job("sleep"));
+  refused_in_time(job("tell"));
+}
+
 TEST_F(ReaderProcess, NothingButFilesAndFoldersIsTakenFromIt) {
   for (const std::string odd :
        {"ln -s /etc leads", "mkdir -p a/b && ln -s ../../in a/b/leads", "mkfifo waits"}) {
