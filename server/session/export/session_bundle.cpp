@@ -169,7 +169,7 @@ std::string import_session_bundle(const fs::path& zip, const fs::path& data, boo
         ErrorKind::conflict,
         known ? "another case '" + case_id + "' is in the data folder; import with --data into one of its own"
               : zip.string() + " holds a case that is not its session's");
-  const TemporaryFolder made(data / "bundle");
+  const TemporaryFolder made(data / ".bundle");
   std::set<std::string> names = session_files;
   for (const fs::path& box : black_boxes_in(unpacked / "session")) names.insert(box.filename().string());
   take_files(unpacked / "session", names, made.path() / "session");

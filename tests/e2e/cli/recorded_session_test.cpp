@@ -1,3 +1,7 @@
+#include <signal.h>
+
+#include <thread>
+
 #include "core/file.hpp"
 #include "e2e/cli/command_line.hpp"
 #include "store/zip_archive.hpp"
@@ -77,6 +81,33 @@ TEST_F(RecordedSession, OfABundleOnlyItsFilesAreTakenAndNobodysName) {
   EXPECT_TRUE(fs::exists(taken / "recording.ream"));
   answer({"import", "other.zip", "--data", "third", "--keep-labels"});
   EXPECT_EQ(json_of("third/sessions/" + id + "/session.json"), labels);
+}
+
+TEST_F(RecordedSession, WhatAKilledImportLeavesIsInNoBackupAndIsRemoved) {
+  succeed({"export", "run", "--out", "bundle.zip"});
+  const fs::path data = folder() / "elsewhere";
+  const auto passing = [&data] {
+    std::error_code gone;
+    std::vector<std::string> names;
+    for (fs::directory_iterator next(data, gone), end; !gone && next != end; next.increment(gone))
+      if (const std::string name = next->path().filename();
+          next->is_directory(gone) && name != "sessions" && name != "cases")
+        names.push_back(name);
+    return names;
+  };
+  for (int attempt = 0; attempt < 20 && passing().empty(); ++attempt) {
+    fs::remove_all(data);
+    const auto import = start({"import", "bundle.zip", "--data", "elsewhere"}, "import");
+    while (!import->ended() && passing().empty()) std::this_thread::yield();
+    import->send_signal(SIGKILL);
+    import->wait(std::chrono::seconds(10));
+  }
+  const std::vector<std::string> left = passing();
+  ASSERT_FALSE(left.empty());
+  answer({"backup", "all.zip", "--data", "elsewhere"});
+  for (const std::string& name : store::zip_names(folder() / "all.zip"))
+    for (const std::string& folder : left) EXPECT_EQ(name.find(folder), std::string::npos) << name;
+  for (const std::string& name : left) EXPECT_FALSE(fs::exists(data / name)) << name;
 }
 
 TEST_F(RecordedSession, ADamagedBundleLeavesNothing) {
