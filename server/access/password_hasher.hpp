@@ -59,8 +59,8 @@ inline constexpr size_t min_password_length = 10;  ///< characters
 inline constexpr size_t max_password_bytes = 1000;
 
 /// Error invalid_input, without a word of the password, unless it is UTF-8 of the right length and none of
-/// those that are tried first: repetitions, rows of keys, common words with figures, little more than the
-/// user's `name`.
+/// those that are tried first: repetitions, rows of keys, one or two common words with figures
+/// (common_words.txt), little more than the user's `name`.
 void require_good_password(const Secret& password, const std::string& name = {});
 
 }  // namespace ream::access
