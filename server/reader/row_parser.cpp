@@ -10,7 +10,7 @@
 namespace ream::reader {
 namespace {
 
-constexpr size_t table_size = 1 << 18;
+constexpr size_t min_table_size = 64;
 constexpr size_t max_text_bytes = 30;
 constexpr double grid_tolerance = 0.08;  // of a voxel, for positions rounded when written
 constexpr double same_place = 1e-3;      // of a voxel: two ways to write one position
@@ -18,7 +18,7 @@ constexpr double same_place = 1e-3;      // of a voxel: two ways to write one po
 uint64_t hash_of(const char* text, size_t length) {
   uint64_t hash = length;
   for (size_t i = 0; i < length; ++i) hash = (hash ^ static_cast<unsigned char>(text[i])) * 0x100000001b3u;
-  return (hash * 0x9e3779b97f4a7c15u) >> 46;
+  return (hash * 0x9e3779b97f4a7c15u) >> 32;
 }
 
 /// std::from_chars, but with a plus before the number, as other programs write it.
@@ -80,7 +80,7 @@ double step_of(const std::vector<RowPlace>& places) {
 
 }  // namespace
 
-RowPlaces::RowPlaces() : table_(table_size) {}
+RowPlaces::RowPlaces() : table_(min_table_size) {}
 
 std::optional<uint16_t> RowPlaces::read(const char*& at, uint64_t line_byte) {
   if (!places_.empty()) {
@@ -110,8 +110,8 @@ std::optional<uint16_t> RowPlaces::read(const char*& at, uint64_t line_byte) {
 }
 
 std::optional<uint16_t> RowPlaces::look_up(const char* at, size_t length, uint64_t line_byte) {
-  size_t slot = hash_of(at, length);
-  for (; table_[slot] != 0; slot = (slot + 1) % table_size) {
+  size_t slot = hash_of(at, length) % table_.size();
+  for (; table_[slot] != 0; slot = (slot + 1) % table_.size()) {
     const Text& text = places_[table_[slot] - 1];
     if (text.length == length && std::memcmp(text.text, at, length) == 0)
       return static_cast<uint16_t>(table_[slot] - 1);
@@ -125,7 +125,18 @@ std::optional<uint16_t> RowPlaces::look_up(const char* at, size_t length, uint64
   text.place.first_byte = line_byte;
   places_.push_back(text);
   table_[slot] = static_cast<uint32_t>(places_.size());
+  if (2 * places_.size() > table_.size()) grow_table();
   return static_cast<uint16_t>(places_.size() - 1);
+}
+
+/// A small file must not pay for the table of a large one.
+void RowPlaces::grow_table() {
+  table_.assign(4 * table_.size(), 0);
+  for (size_t i = 0; i < places_.size(); ++i) {
+    size_t slot = hash_of(places_[i].text, places_[i].length) % table_.size();
+    while (table_[slot] != 0) slot = (slot + 1) % table_.size();
+    table_[slot] = static_cast<uint32_t>(i + 1);
+  }
 }
 
 std::vector<RowPlace> RowPlaces::places() const {

@@ -46,6 +46,7 @@ class RowPlaces {
   static bool ends_number(char c) {
     return c == ' ' || c == '\t' || c == ',' || c == ';' || c == '\r' || c == '\n';
   }
+  void grow_table();
   std::optional<uint16_t> look_up(const char* at, size_t length, uint64_t line_byte);
 
   std::vector<Text> places_;

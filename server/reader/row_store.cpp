@@ -120,7 +120,7 @@ std::span<const RowRecord> RowStore::rows(size_t block, std::vector<RowRecord>& 
 
 uint64_t RowStore::line_of_byte(uint64_t byte) const {
   uint64_t line = 1;
-  std::vector<char> text(block_bytes);
+  std::vector<char> text(std::min(block_bytes, byte));
   for (uint64_t at = 0; at < byte;) {
     const ssize_t n = file_.read_at(
         at, std::as_writable_bytes(std::span(text).first(std::min<uint64_t>(text.size(), byte - at))));

@@ -124,6 +124,21 @@ TEST(TextRows, PiecesOfTheFileDoNotShow) {
   EXPECT_GT(last, 0.5);
 }
 
+TEST(TextRows, ALongAxisInAnyOrder) {
+  constexpr int side = 60000;
+  std::vector<std::string> lines;
+  for (int u = 0; u < side; ++u)
+    for (int v = 0; v < 2; ++v)
+      for (int w = 0; w < 2; ++w)
+        lines.push_back(std::to_string(u) + " " + std::to_string(v) + " " + std::to_string(w) + " " +
+                        std::to_string(u % 3000 + v));
+  std::shuffle(lines.begin(), lines.end(), std::mt19937(test::seed(12)));
+  const TemporaryFolder folder;
+  const HuVolume volume = read_text_rows(folder.write("a.txt", joined(lines)));
+  ASSERT_EQ(volume.dims, Vec3i(side, 2, 2));
+  for (int u = 0; u < side; ++u) ASSERT_EQ(volume.hu[volume.index(u, 1, 1)], u % 3000 + 1);
+}
+
 TEST(TextRows, WhatIsNoGridIsRefusedWithItsLine) {
   const TemporaryFolder folder;
   const auto good = rows({0.5, 0.5, 0.5}, {1, 1, 1}, 1);
