@@ -1,4 +1,5 @@
-// What the compiler and the linker were told, looked for in the program as it was built (build/ream).
+// What the compiler and the linker were told, looked for in the programs as they were built: the server, and
+// what reads strangers' files for it.
 #include <elf.h>
 #include <gtest/gtest.h>
 
@@ -86,12 +87,16 @@ class Elf {
   std::string_view names_;
 };
 
-class Hardening : public testing::Test {
+class Hardening : public testing::TestWithParam<const char*> {
  protected:
-  const Elf program_{build_folder() + "/ream"};
+  const Elf program_{build_folder() + "/" + GetParam()};
 };
+INSTANTIATE_TEST_SUITE_P(Programs, Hardening, testing::Values("ream", "ream-reader"),
+                         [](const auto& program) {
+                           return std::string(program.param) == "ream" ? "Server" : "Reader";
+                         });
 
-TEST_F(Hardening, TheProgramLiesAnywhereAndNothingOfItIsBothWrittenAndRun) {
+TEST_P(Hardening, TheProgramLiesAnywhereAndNothingOfItIsBothWrittenAndRun) {
   EXPECT_EQ(program_.type(), ET_DYN);
   EXPECT_TRUE(program_.dynamic(DT_FLAGS_1) & DF_1_PIE);
   const Elf64_Phdr* stack = program_.segment(PT_GNU_STACK);
@@ -99,22 +104,22 @@ TEST_F(Hardening, TheProgramLiesAnywhereAndNothingOfItIsBothWrittenAndRun) {
   EXPECT_FALSE(stack->p_flags & PF_X);
 }
 
-TEST_F(Hardening, AddressesOfFunctionsAreFoundAtTheStartAndNotWrittenAgain) {
+TEST_P(Hardening, AddressesOfFunctionsAreFoundAtTheStartAndNotWrittenAgain) {
   EXPECT_NE(program_.segment(PT_GNU_RELRO), nullptr);
   EXPECT_TRUE((program_.dynamic(DT_FLAGS) & DF_BIND_NOW) || (program_.dynamic(DT_FLAGS_1) & DF_1_NOW));
 }
 
-TEST_F(Hardening, StacksAndBuffersAreChecked) {
+TEST_P(Hardening, StacksAndBuffersAreChecked) {
   EXPECT_TRUE(program_.needs("__stack_chk_fail")) << "-fstack-protector-strong";
   EXPECT_TRUE(program_.needs("_chk")) << "memcpy and its kin: -D_FORTIFY_SOURCE=2";
 }
 
-TEST_F(Hardening, ContainersAreChecked) {
+TEST_P(Hardening, ContainersAreChecked) {
   EXPECT_TRUE(program_.needs("__glibcxx_assert_failPKciS0_S0_")) << "-D_GLIBCXX_ASSERTIONS";
 }
 
 #if defined(__x86_64__)
-TEST_F(Hardening, StacksGrowPageByPageAndJumpsHaveTheirTargets) {
+TEST_P(Hardening, StacksGrowPageByPageAndJumpsHaveTheirTargets) {
   constexpr std::string_view touch{"\x48\x83\x0c\x24\x00", 5};  // or qword [rsp], 0
   EXPECT_GT(program_.count_in_code(touch), 0u) << "-fstack-clash-protection";
   constexpr std::string_view target{"\xf3\x0f\x1e\xfa", 4};  // endbr64
