@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "api/replies.hpp"
+#include "app/restore_backup.hpp"
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
+#include "core/file.hpp"
 #include "core/file_lock.hpp"
+#include "core/json.hpp"
+#include "session/folder/recorded_annotations.hpp"
 #include "session/folder/session_folder.hpp"
 #include "session/folder/session_labels.hpp"
 #include "store/session_index.hpp"
@@ -33,19 +38,74 @@ bool is_of(const access::User& user, const session::SessionRequest& request) {
   return !request.trainee.empty() && (request.trainee == user.name || request.trainee == user.display_name);
 }
 
-/// In the sessions' folder and the trash.
+/// What restoring has moved aside in the data folder.
+std::vector<fs::path> folders_aside(const fs::path& data) {
+  std::vector<fs::path> folders;
+  for (const auto& entry : fs::directory_iterator(data))
+    if (entry.path().filename().string().starts_with(moved_aside)) folders.push_back(entry.path());
+  return folders;
+}
+
+/// In the sessions' folder and the trash, also of what was moved aside.
+std::vector<fs::path> session_folders(const fs::path& data) {
+  std::vector<fs::path> found, places{data};
+  for (const fs::path& aside : folders_aside(data)) places.push_back(aside);
+  for (const fs::path& place : places)
+    for (const fs::path& sessions : {sessions_folder(place), place / "trash"}) {
+      std::error_code failed;
+      for (const auto& entry : fs::directory_iterator(sessions, failed)) found.push_back(entry.path());
+    }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 std::vector<PersonSession> sessions_of(const access::User& user, const fs::path& data) {
   std::vector<PersonSession> found;
-  for (const fs::path& place : {sessions_folder(data), data / "trash"}) {
+  for (const fs::path& folder : session_folders(data)) try {
+      const session::SessionRecord record = session::read_session_folder(folder);
+      if (is_of(user, record.request)) found.push_back({folder, record.request});
+    } catch (const Error&) {  // no session, or one that nobody can read
+    }
+  return found;
+}
+
+bool names_person(const json& row, const access::User& user) {
+  return std::any_of(row.begin(), row.end(), [&](const json& cell) {
+    if (!cell.is_string()) return false;
+    const auto& text = cell.get_ref<const std::string&>();
+    return text == user.name || text == user.display_name || text.find(user.id) != std::string::npos ||
+           text.find(json(user.display_name).dump()) != std::string::npos;
+  });
+}
+
+/// Of a table that was moved aside: rows that name the person go; those of the audit log lose who and what.
+void forget_rows(const fs::path& file, const access::User& user) {
+  std::istringstream in(read_text_file(file));
+  std::string line, kept;
+  std::getline(in, line);
+  const json columns = parse_json_or_discard(line);
+  for (kept = line + "\n"; std::getline(in, line);) {
+    json row = parse_json_or_discard(line);
+    if (!row.is_array() || !names_person(row, user)) {
+      kept += line + "\n";
+    } else if (file.stem() == "audit") {
+      for (size_t i = 0; i < row.size(); ++i)
+        if (columns.at(i) == "name" || columns.at(i) == "address" || columns.at(i) == "detail") row[i] = "";
+      kept += row.dump() + "\n";
+    }
+  }
+  write_file_atomically(file, kept);
+}
+
+void forget_aside(const fs::path& data, const access::User& user, ForgetReport& report) {
+  for (const fs::path& aside : folders_aside(data)) {
     std::error_code failed;
-    for (const auto& entry : fs::directory_iterator(place, failed)) try {
-        const session::SessionRecord record = session::read_session_folder(entry.path());
-        if (is_of(user, record.request)) found.push_back({entry.path(), record.request});
-      } catch (const Error&) {  // no session, or one that nobody can read
+    for (const auto& entry : fs::directory_iterator(aside / "tables", failed)) try {
+        forget_rows(entry.path(), user);
+      } catch (const std::exception& failure) {
+        report.left.push_back(entry.path().string() + ": " + failure.what());
       }
   }
-  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.folder < b.folder; });
-  return found;
 }
 
 void forget_sessions(store::Database& database, const fs::path& data, const access::User& user,
@@ -61,6 +121,12 @@ void forget_sessions(store::Database& database, const fs::path& data, const acce
       report.left.push_back(session.folder.string() + ": " + failure.what());
     }
   }
+  for (const fs::path& folder : session_folders(data)) try {
+      session::forget_authors(folder, {user.name, user.display_name});
+    } catch (const Error& failure) {
+      if (failure.kind() != ErrorKind::invalid_input)  // not so damaged that nobody can read remarks in it
+        report.left.push_back(folder.string() + ": " + failure.what());
+    }
   report.sessions = changed.size();
   store::SessionIndex(database).remove(changed);
 }
@@ -108,6 +174,7 @@ ForgetReport forget_person(store::Database& database, access::AccessControl& acc
   access_control.users.change(user.id, disabled);
   ForgetReport report;
   forget_sessions(database, data, user, report);
+  forget_aside(data, user, report);
   if (!report.left.empty()) return report;
   store::StudyTable(database).forget_person(user.id);
   access_control.users.remove(user.id);

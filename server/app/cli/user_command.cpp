@@ -201,8 +201,8 @@ void forget(const UserOptions& options, const GlobalOptions& global) {
       forget_person(*office.database, office.access_control, data_folder(global.data), user);
   if (!report.left.empty()) {
     for (const std::string& line : report.left) std::cerr << line << '\n';
-    throw Error(ErrorKind::conflict, std::to_string(report.left.size()) + " sessions still name '" +
-                                         user.name + "', who is disabled; see above, then forget again");
+    throw Error(ErrorKind::conflict, std::to_string(report.left.size()) + " places still name '" + user.name +
+                                         "', who is disabled; see above, then forget again");
   }
   office.note("user.forget", user.id, "");
   tell(global, {{"forgotten", user.id}, {"sessions", report.sessions}, {"audit_rows", report.audit_rows}},

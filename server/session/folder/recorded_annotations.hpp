@@ -22,4 +22,8 @@ void require_undamaged(const record::Recording& recording, const std::filesystem
 /// end; io, with nothing written.
 Annotation annotate_recording(const std::filesystem::path& folder, const NewAnnotation& note);
 
+/// Remarks of these authors are of nobody from here on, in a recording that is written anew. Errors: conflict
+/// when a process has the session or the recording is damaged; io, with the old recording in its place.
+void forget_authors(const std::filesystem::path& folder, const std::vector<std::string>& authors);
+
 }  // namespace ream::session

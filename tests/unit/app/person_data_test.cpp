@@ -6,8 +6,11 @@
 #include "core/data_folder.hpp"
 #include "core/file.hpp"
 #include "core/file_lock.hpp"
+#include "session/folder/recorded_annotations.hpp"
 #include "store/idempotency_table.hpp"
 #include "store/study_table.hpp"
+#include "store/table_files.hpp"
+#include "support/example_log.hpp"
 #include "support/expect_error.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_databases.hpp"
@@ -79,6 +82,51 @@ TYPED_TEST(PersonDataTest, NothingOfAForgottenPersonStays) {
   for (const store::AuditRow& row : this->access_control.audit.list(INT64_MAX, 10))
     EXPECT_EQ((row.name + row.detail + row.address).find_first_of("Tt9"), std::string::npos) << row.number;
   EXPECT_TRUE(this->access_control.audit.check().faults.empty());
+}
+
+TYPED_TEST(PersonDataTest, NothingStaysInRemarksBlackBoxesStudiesAndWhatWasMovedAside) {
+  this->put("sessions/s1", this->tina.id, "Tina Tester");
+  this->put("sessions/s3", this->anna.id, "Anna");
+  for (const std::string session : {"sessions/s1", "sessions/s3"}) {
+    test::write_example_log(record::create_log_file(this->data.path() / session / "recording.ream"));
+    for (const std::string author : {"Tina Tester", "Anna"})
+      session::annotate_recording(this->data.path() / session, {"too deep", author, {}, {}});
+  }
+  this->data.write("sessions/s1/black-box-7.csv", "tick,thrust_n\n7,1\n");
+  store::StudyTable studies(this->database());
+  studies.add({"s", "study", "", "open", "join", "{}", "", "2026-01-31T12:00:00Z", "", ""});
+  studies.enrol({"code-1", "s", "", 0, ""}, store::PersonRow{"code-1", this->tina.id, "Tina Tester"});
+  studies.set_answers("s", "code-1", R"({"liked": 4})");
+  this->access_control.audit.note({this->tina.id, "Tina Tester", "trainee", "c1", "10.0.0.9"}, "login", "",
+                                  "");
+  const fs::path aside = this->data.path() / "before-restore-2026-01-31T12-00-00Z";
+  fs::create_directories(aside / "tables");
+  store::write_table_files(this->database(), aside / "tables");
+  fs::copy(this->data.path() / "sessions", aside / "sessions", fs::copy_options::recursive);
+  ASSERT_EQ(export_person(this->database(), this->access_control, this->data.path(), this->tina)
+                .at("sessions")
+                .size(),
+            2u);
+  const ForgetReport report = this->forget();
+  EXPECT_TRUE(report.left.empty()) << report.left.front();
+  EXPECT_FALSE(this->is_in_a_file("Tina"));
+  EXPECT_FALSE(this->is_in_a_file("\"tina\""));
+  EXPECT_FALSE(this->is_in_a_file("10.0.0.9"));
+  EXPECT_TRUE(this->is_in_a_file("\"anna\"")) << "of others nothing goes";
+  EXPECT_EQ(read_text_file(aside / "tables/users.jsonl").find(this->tina.id), std::string::npos);
+  EXPECT_EQ(read_text_file(aside / "tables/credentials.jsonl").find(this->tina.id), std::string::npos);
+  for (const fs::path& folder : {this->data.path(), aside})
+    for (const char* session : {"sessions/s1", "sessions/s3"}) {
+      const auto remarks = session::recorded_annotations(folder / session);
+      ASSERT_EQ(remarks.size(), 3u) << session;
+      EXPECT_EQ(remarks[1].author, "");
+      EXPECT_EQ(remarks[1].words, "too deep");
+      EXPECT_EQ(remarks[2].author, "Anna");
+      EXPECT_TRUE(record::Recording(folder / session / "recording.ream").log().damage().empty());
+    }
+  EXPECT_TRUE(fs::exists(this->data.path() / "sessions/s1/black-box-7.csv"));
+  EXPECT_EQ(studies.participant("s", "code-1")->answers, R"({"liked": 4})");
+  EXPECT_FALSE(studies.person("s", "code-1"));
 }
 
 TYPED_TEST(PersonDataTest, IsNotBegunWhereItCannotBeDone) {
