@@ -14,6 +14,8 @@ using boost::system::error_code;
 namespace {
 
 constexpr std::string_view line_end = "\r\n", head_end = "\r\n\r\n";
+/// The line of the last chunk, "0", and two line ends: the library asserts that it sees as many at once.
+constexpr size_t last_chunk_bytes = 5;
 constexpr size_t chunk_line_bytes = 4096;  ///< of a chunk's line, and of all trailer lines together
 
 [[noreturn]] void refuse_request(const std::string& what) {
@@ -183,7 +185,10 @@ void RequestParser::read_body() {
   auto& parser = message_->parser;
   error_code failed;
   size_t used = 0;
-  while (used < waiting_.size() && !parser.is_done() && !failed)
+  const auto may_end_here = [&] {
+    return parser.chunked() && waiting_[used] == '0' && waiting_.size() - used < last_chunk_bytes;
+  };
+  while (used < waiting_.size() && !may_end_here() && !parser.is_done() && !failed)
     used += parser.put(boost::asio::const_buffer(waiting_.data() + used, waiting_.size() - used), failed);
   waiting_.erase(0, used);
   if (failed == http::error::body_limit)

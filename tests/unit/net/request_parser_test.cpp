@@ -67,6 +67,21 @@ TEST_F(RequestParserTest, ChunkedBodyWithTrailersThatChangeNothing) {
   EXPECT_EQ(parser.announced_bytes(), std::nullopt);
 }
 
+/// The library's own check ended the program where the line of the last chunk came, and then a byte or two.
+TEST_F(RequestParserTest, AnEmptyChunkedBodyMayComeInAnyPieces) {
+  const std::string head = "POST / HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n";
+  for (const std::string body : {"0\r\n\r\n", "0\r\nX: y\r\n\r\n", "0;a=b\r\n\r\n", "1\r\nz\r\n0\r\n\r\n"})
+    for (size_t first = 1; first < body.size(); ++first)
+      for (size_t second = first; second < body.size(); ++second) {
+        RequestParser parser(limits);
+        parser.feed(head);
+        for (const std::string& piece :
+             {body.substr(0, first), body.substr(first, second - first), body.substr(second)})
+          parser.feed(piece);
+        EXPECT_EQ(parser.stage(), Stage::whole) << body << " cut at " << first << " and " << second;
+      }
+}
+
 /// Three requests in one stream, however it is cut.
 TEST_F(RequestParserTest, ReadsTheSameHoweverTheBytesAreCut) {
   const std::string stream =
