@@ -53,7 +53,7 @@ net::Response get_deviation(const Services& services, const net::Request& reques
     return field(id, folder, request.query.at("to"));
   if (!fs::is_regular_file(session::recording_file(folder), failed))
     throw Error(ErrorKind::not_found, "session '" + id + "' left no recording; it was never started");
-  return accepted(work_in_folder(services.jobs, "deviation", record, folder,
+  return accepted(work_in_folder(services.jobs, "deviation", request.caller, record, folder,
                                  [&engine = services.engine](const fs::path& work, const Progress& progress) {
                                    engine.write_deviations(work, work / description_name, progress);
                                  }));

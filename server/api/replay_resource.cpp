@@ -5,6 +5,7 @@
 #include "api/request_values.hpp"
 #include "api/routes.hpp"
 #include "api/services.hpp"
+#include "api/visibility.hpp"
 #include "core/error.hpp"
 
 namespace ream::api {
@@ -21,7 +22,7 @@ net::Response create_replay(const Services& services, const net::Request& reques
     throw Error(ErrorKind::conflict, "session '" + id + "' is " + to_text(of.status.state) +
                                          "; it can be replayed when it has ended");
   const session::ReplayRecord record =
-      services.replays.create({{}, id, of.request.case_id, of.request.script});
+      services.replays.create({{}, id, of.request.case_id, of.request.script, counted_for(request.caller)});
   return created("/api/v1/sessions/" + record.request.id, to_json(record));
 }
 

@@ -93,7 +93,7 @@ net::Response kept_or_made(const Services& services, const net::Request& request
                               {folder / name, format.media_type, record.request.id + "." + format.ending()});
   const session::ExportOrder order{record.request};
   return accepted(work_in_folder(
-      services.jobs, kind, record, folder,
+      services.jobs, kind, request.caller, record, folder,
       [&engine = services.engine, &format, order, name](const fs::path& place, const Progress& progress) {
         engine.write_export(format, order, place / name, progress);
       }));
@@ -148,7 +148,11 @@ net::Response export_session(const Services& services, const net::Request& reque
   existing(session::recording_file(services.sessions.folder_of(id)), id, "recording");
   order.session = record.request;
   services.engine.check_export(format, order);
-  const jobs::JobOrder job{"export", {}, id, std::make_shared<const session::SessionRequest>(record.request)};
+  const jobs::JobOrder job{"export",
+                           {},
+                           id,
+                           std::make_shared<const session::SessionRequest>(record.request),
+                           counted_for(request.caller)};
   return accepted(services.jobs.submit_file(
       job, [&engine = services.engine, &format, order](const fs::path& folder, const Progress& progress) {
         const std::string name = order.session.id + "." + format.ending();

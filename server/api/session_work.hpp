@@ -4,6 +4,7 @@
 
 #include "core/file_lock.hpp"
 #include "jobs/job_service.hpp"
+#include "net/message.hpp"
 #include "session/folder/session_folder.hpp"
 
 namespace ream::api {
@@ -15,8 +16,8 @@ FileLock lock_of_ended(const std::filesystem::path& folder);
 /// of one kind once at a time, so that who asks again gets the same job. Errors: those of
 /// JobService::submit().
 jobs::JobRecord work_in_folder(
-    jobs::JobService& jobs, const std::string& kind, const session::SessionRecord& record,
-    const std::filesystem::path& folder,
+    jobs::JobService& jobs, const std::string& kind, const net::Caller& caller,
+    const session::SessionRecord& record, const std::filesystem::path& folder,
     const std::function<void(const std::filesystem::path&, const Progress&)>& work);
 
 }  // namespace ream::api

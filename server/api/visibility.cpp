@@ -24,6 +24,11 @@ bool may_see(const net::Caller& caller, const session::SessionRequest& session) 
   }
 }
 
+std::string counted_for(const net::Caller& caller) {
+  if (access::is_staff(caller.role)) return {};
+  return caller.user_id.empty() ? caller.credential : caller.user_id;
+}
+
 void refuse_unseen(const std::string& id) {
   throw Error(ErrorKind::not_found, "no session '" + id + "'; GET /api/v1/sessions lists them");
 }

@@ -32,6 +32,10 @@ class ServedSessions final : public SessionFinder {
 /// of the one their link is for or, when it is for none in particular, of all.
 bool may_see(const net::Caller& caller, const session::SessionRequest& session);
 
+/// For whom the places of jobs and replays that a caller takes are counted: the user or link of trainees and
+/// viewers; empty for operators and instructors, who may take all.
+std::string counted_for(const net::Caller& caller);
+
 /// Error not_found, in the words of a session that does not exist.
 [[noreturn]] void refuse_unseen(const std::string& id);
 

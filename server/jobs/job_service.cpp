@@ -116,6 +116,13 @@ JobRecord JobService::add(const JobOrder& order, const std::shared_ptr<Job>& job
     if (!order.case_id.empty() && busy_locked(order.case_id))
       throw Error(ErrorKind::conflict,
                   "other work on case '" + order.case_id + "' is not done; wait for it or cancel it");
+    const auto own = std::count_if(jobs_.begin(), jobs_.end(), [&](const auto& other) {
+      return is_open(other->record.state) && other->record.order.counted_for == order.counted_for;
+    });
+    if (!order.counted_for.empty() && own >= static_cast<std::ptrdiff_t>(options_.of_caller))
+      throw Error(ErrorKind::unavailable, std::to_string(options_.of_caller) +
+                                              " jobs of yours wait or run, as many as you may have at once; "
+                                              "wait for one or cancel it");
     const auto waiting = std::count_if(jobs_.begin(), jobs_.end(),
                                        [](const auto& other) { return is_open(other->record.state); });
     if (waiting >= static_cast<std::ptrdiff_t>(most_waiting))

@@ -24,6 +24,7 @@ struct JobOptions {
   /// Told of every change, from the thread that makes it; must not wait.
   std::function<void(const JobRecord&)> on_change = {};
   WallClock now = machine_clock();
+  size_t of_caller = 4;  ///< jobs of one trainee that wait or run
 };
 
 /// Does long work one after the other, on a thread that gives way to everything else (a running haptic loop
@@ -43,7 +44,8 @@ class JobService {
   JobService(const JobService&) = delete;
   JobService& operator=(const JobService&) = delete;
 
-  /// Error conflict while other work on that case waits or runs; unavailable when too much waits.
+  /// Error conflict while other work on that case waits or runs; unavailable when too much waits, of all or
+  /// of whom the order is counted for.
   JobRecord submit(const JobOrder& order, Work work);
   JobRecord submit_file(const JobOrder& order, FileWork work);
   /// Work of that kind on that session that waits or runs; none otherwise.

@@ -16,6 +16,7 @@ struct ReplayRequest {
   std::string id;         ///< of the replay, given by the server
   std::string replay_of;  ///< id of a session that has ended
   std::string case_id, script;
+  std::string counted_for = {};  ///< whose places it takes (ReplayLimits::of_caller); empty: not limited
 };
 
 /// A moment that is worth finding.

@@ -65,18 +65,27 @@ ReplayService::Entries ReplayService::take_unattended() {
 }
 
 /// Gives the replay that has to go for it, if any.
-std::shared_ptr<ReplayService::Entry> ReplayService::reserve_place() {
+std::shared_ptr<ReplayService::Entry> ReplayService::reserve_place(const std::string& caller) {
   const std::lock_guard lock(mutex_);
   if (closed_) throw Error(ErrorKind::unavailable, "the server is stopping");
   std::shared_ptr<Entry> leaving;
-  if (entries_.size() + being_made_ >= limits_.open) {
+  const auto is_own = [&](const auto& entry) { return entry->request.counted_for == caller; };
+  const size_t own = being_made_.count(caller) +
+                     static_cast<size_t>(std::count_if(entries_.begin(), entries_.end(), is_own));
+  const bool only_own = !caller.empty() && own >= limits_.of_caller;
+  if (only_own || entries_.size() + being_made_.size() >= limits_.open) {
     auto least_watched = entries_.end();
     double unwatched_s = 0.0;
     for (auto entry = entries_.begin(); entry != entries_.end(); ++entry)
-      if (const double s = (*entry)->running->status().unwatched_s; s > unwatched_s) {
+      if (const double s = (*entry)->running->status().unwatched_s;
+          s > unwatched_s && (!only_own || is_own(*entry))) {
         least_watched = entry;
         unwatched_s = s;
       }
+    if (least_watched == entries_.end() && only_own)
+      throw Error(ErrorKind::conflict, std::to_string(limits_.of_caller) +
+                                           " of your replays are watched, as many as you may have at once; "
+                                           "stop one first");
     if (least_watched == entries_.end())
       throw Error(ErrorKind::unavailable,
                   std::to_string(limits_.open) +
@@ -84,12 +93,13 @@ std::shared_ptr<ReplayService::Entry> ReplayService::reserve_place() {
     leaving = std::move(*least_watched);
     entries_.erase(least_watched);
   }
-  ++being_made_;
+  being_made_.insert(caller);
   return leaving;
 }
 
 ReplayRecord ReplayService::create(ReplayRequest wanted) {
-  reserve_place().reset();
+  const std::string caller = wanted.counted_for;
+  reserve_place(caller).reset();
   auto entry = std::make_shared<Entry>();
   try {
     wanted.id = "r" + random_id();  // longer than any session's, so that it is none's
@@ -98,11 +108,11 @@ ReplayRecord ReplayService::create(ReplayRequest wanted) {
     entry->running = engine_.replay(entry->request);
   } catch (...) {
     const std::lock_guard lock(mutex_);
-    --being_made_;
+    free_place(caller);
     throw;
   }
   const std::lock_guard lock(mutex_);
-  --being_made_;
+  free_place(caller);
   if (closed_) throw Error(ErrorKind::unavailable, "the server is stopping");
   entries_.push_back(entry);
   return entry->record();

@@ -3,6 +3,8 @@
 #include <condition_variable>
 #include <memory>
 #include <mutex>
+#include <set>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -12,7 +14,8 @@
 namespace ream::session {
 
 struct ReplayLimits {
-  size_t open = 4;  ///< at once
+  size_t open = 4;       ///< at once
+  size_t of_caller = 2;  ///< of those, one trainee's or viewer's
   /// A replay that for so long nobody has watched or asked about ends by itself.
   std::chrono::milliseconds unattended = std::chrono::minutes(15);
   std::chrono::milliseconds look_every = std::chrono::seconds(30);  ///< for such replays
@@ -37,7 +40,8 @@ class ReplayService {
   ReplayService& operator=(const ReplayService&) = delete;
 
   /// `wanted.id` is chosen here. When as many are open as may be, the one that has gone unwatched for longest
-  /// is ended. Errors: unavailable when all are watched; those of the engine.
+  /// is ended, of the caller's own when these are as many as one may have. Errors: conflict when all those
+  /// are watched; unavailable when all are; those of the engine.
   ReplayRecord create(ReplayRequest wanted);
   bool has(const std::string& id) const;
   /// Newest first.
@@ -59,15 +63,16 @@ class ReplayService {
   struct Entry;
   using Entries = std::vector<std::shared_ptr<Entry>>;
   std::shared_ptr<Entry> find(const std::string& id) const;
-  std::shared_ptr<Entry> reserve_place();
+  std::shared_ptr<Entry> reserve_place(const std::string& caller);
+  void free_place(const std::string& caller) { being_made_.erase(being_made_.find(caller)); }
   void end_unattended();
   Entries take_unattended();
 
   SessionEngine& engine_;
   const ReplayLimits limits_;
   mutable std::mutex mutex_;
-  Entries entries_;  ///< oldest first
-  size_t being_made_ = 0;
+  Entries entries_;                        ///< oldest first
+  std::multiset<std::string> being_made_;  ///< for whom
   bool closed_ = false;
   std::condition_variable closing_;
   std::thread cleanup_thread_;  ///< ends unattended replays

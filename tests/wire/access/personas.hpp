@@ -33,6 +33,7 @@ class PersonaTest : public AccessTest {
     options.sessions.of_trainee = 100'000;
     options.sessions.kept = 100'000;
     options.replays.open = 100'000;
+    options.replays.of_caller = 100'000;
     options.data_folder = folder.path() / "data";
     start();
     operator_id = add_user("olga", access::Role::operator_);
