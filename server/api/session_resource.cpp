@@ -74,6 +74,7 @@ net::Response create_session(const Services& services, const net::Request& reque
   services.readiness.require_prepared();
   take_study(services, request.caller, wanted);
   if (wanted.study.empty()) name_trainee(request.caller, wanted);
+  wanted.at_most_scripts_scale = wanted.study.empty() && is_trainee(request.caller);
   if (wanted.device.empty()) wanted.device = services.default_device;
   if (wanted.script.empty()) wanted.script = wanted.device == "script" ? "demo" : "practice";
   return created_session(services, request,

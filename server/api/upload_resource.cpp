@@ -10,32 +10,38 @@
 namespace ream::api {
 namespace {
 
-nlohmann::json upload_json(const workup::Upload& upload) {
-  return {{"id", upload.id}, {"name", upload.name}, {"bytes", upload.bytes}, {"received", upload.received}};
+/// A file's name may be a patient's: others than the sender and operators learn its ending only.
+nlohmann::json upload_json(const net::Request& request, const workup::Upload& upload) {
+  const bool open = request.caller.role == "operator" || upload.owner == request.caller.user_id;
+  return {{"id", upload.id},
+          {"name", open ? upload.name : "*" + upload.name.substr(upload.name.rfind('.'))},
+          {"bytes", upload.bytes},
+          {"received", upload.received}};
 }
 
 net::Response begin_upload(const Services& services, const net::Request& request) {
   const nlohmann::json& body = body_of(request);
-  const workup::Upload upload =
-      services.uploads.create(body.at("name"), static_cast<uint64_t>(body.at("bytes").get<double>()));
-  return created("/api/v1/uploads/" + upload.id, upload_json(upload));
+  const workup::Upload upload = services.uploads.create(
+      body.at("name"), static_cast<uint64_t>(body.at("bytes").get<double>()), request.caller.user_id);
+  return created("/api/v1/uploads/" + upload.id, upload_json(request, upload));
 }
 
 net::Response append_upload(const Services& services, const net::Request& request) {
   if (request.header("content-type") != "application/octet-stream")
     throw net::RequestError(415, "a piece of a file must be sent as application/octet-stream");
   const auto offset = static_cast<uint64_t>(query_number(request, "offset", 0.0));
-  return net::json_response(200, upload_json(services.uploads.append(id_of(request), offset, request.body)));
+  return net::json_response(
+      200, upload_json(request, services.uploads.append(id_of(request), offset, request.body)));
 }
 
 net::Response list_uploads(const Services& services, const net::Request& request) {
   std::vector<nlohmann::json> all;
-  for (const workup::Upload& upload : services.uploads.list()) all.push_back(upload_json(upload));
+  for (const workup::Upload& upload : services.uploads.list()) all.push_back(upload_json(request, upload));
   return page_of(request, "uploads", std::move(all), "name");
 }
 
 net::Response get_upload(const Services& services, const net::Request& request) {
-  return net::json_response(200, upload_json(services.uploads.get(id_of(request))));
+  return net::json_response(200, upload_json(request, services.uploads.get(id_of(request))));
 }
 
 net::Response remove_upload(const Services& services, const net::Request& request) {

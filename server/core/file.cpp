@@ -44,10 +44,11 @@ std::vector<std::byte> read_binary_file(const fs::path& path) {
 }
 
 void sync_folder(const fs::path& folder) {
-  const int fd = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY);
-  if (fd < 0) return;
-  ::fsync(fd);
-  ::close(fd);
+  const FileDescriptor opened(
+      ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!opened && errno == EACCES) return;  // names can be made in it, but it cannot be opened
+  if ((!opened || ::fsync(opened.get()) != 0) && errno != EINVAL && errno != ENOTSUP)
+    throw Error(ErrorKind::io, "cannot sync folder " + folder.string() + ": " + reason());
 }
 
 void sync_file(const fs::path& file) {

@@ -27,7 +27,7 @@ nlohmann::json read_json_file(const std::filesystem::path& path);
 void write_json_file(const std::filesystem::path& path, const nlohmann::json& json);
 
 /// Names that were made in the folder survive a loss of power from here on, where the file system can promise
-/// it.
+/// it. Throws Error io.
 void sync_folder(const std::filesystem::path& folder);
 
 /// What a file holds survives a loss of power from here on. Throws Error io.

@@ -17,20 +17,21 @@ namespace ream::session {
 struct SessionRequest {
   std::string id;  ///< given by the server
   std::string case_id, script;
-  std::optional<double> force_scale;  ///< simulated N per hand N; none: the script's
-  std::string device = "script";      ///< name in the registry of devices: script, network, browser, ...
-  std::string device_profile = {};    ///< what it can render; empty: the script's
-  std::string created_utc = {};       ///< "2025-03-01T12:00:00.250Z", given by the server
-  std::string trainee_id = {};        ///< user who trains; empty without users
-  std::string trainee = {};           ///< the same for people
-  std::string study = {};             ///< id of the study that it belongs to; empty: none
-  std::string participant = {};       ///< code under which the study knows the trainee
-  std::string title = {};             ///< what people call it; may be empty
-  std::string reset_of = {};          ///< session that this one is another attempt of; empty: none
-  int attempt = 1;                    ///< 2 after the first reset, and so on
-  std::string followed_by = {};       ///< session that went on from intact bone; empty: none
-  bool keep = false;                  ///< never deleted by the rules of retention
-  bool theatre = false;               ///< nothing but the bone is shown while reaming
+  std::optional<double> force_scale;   ///< simulated N per hand N; none: the script's
+  bool at_most_scripts_scale = false;  ///< more than the script's force_scale is refused
+  std::string device = "script";       ///< name in the registry of devices: script, network, browser, ...
+  std::string device_profile = {};     ///< what it can render; empty: the script's
+  std::string created_utc = {};        ///< "2025-03-01T12:00:00.250Z", given by the server
+  std::string trainee_id = {};         ///< user who trains; empty without users
+  std::string trainee = {};            ///< the same for people
+  std::string study = {};              ///< id of the study that it belongs to; empty: none
+  std::string participant = {};        ///< code under which the study knows the trainee
+  std::string title = {};              ///< what people call it; may be empty
+  std::string reset_of = {};           ///< session that this one is another attempt of; empty: none
+  int attempt = 1;                     ///< 2 after the first reset, and so on
+  std::string followed_by = {};        ///< session that went on from intact bone; empty: none
+  bool keep = false;                   ///< never deleted by the rules of retention
+  bool theatre = false;                ///< nothing but the bone is shown while reaming
 };
 
 /// How the session's device is doing.

@@ -47,7 +47,7 @@ UploadStore::Entry& UploadStore::find(const std::string& id) {
   return found->second;
 }
 
-Upload UploadStore::create(const std::string& name, uint64_t bytes) {
+Upload UploadStore::create(const std::string& name, uint64_t bytes, const std::string& owner) {
   check_name(name);
   const std::lock_guard lock(mutex_);
   uint64_t announced = 0;
@@ -58,7 +58,7 @@ Upload UploadStore::create(const std::string& name, uint64_t bytes) {
   if (announced + bytes > limits_.all_bytes || uploads_.size() >= limits_.count)
     throw net::RequestError(413,
                             "too many uploads wait to be used; delete one (DELETE /api/v1/uploads/{id})");
-  Upload upload{random_id(), name, bytes, 0};
+  Upload upload{random_id(), name, bytes, 0, owner};
   make_writable_folder(folder_ / upload.id);
   if (!std::ofstream(file_of(upload), std::ios::binary))
     throw Error(ErrorKind::io, "cannot write " + file_of(upload).string());
@@ -88,7 +88,7 @@ Upload UploadStore::append(const std::string& id, uint64_t offset, std::string_v
                                          " bytes have come; go on from there");
   if (offset + piece.size() > upload.bytes)
     throw Error(ErrorKind::conflict, "the piece goes beyond the " + std::to_string(upload.bytes) +
-                                         " bytes that were announced for '" + upload.name + "'");
+                                         " bytes that were announced for upload '" + id + "'");
   std::fstream file(file_of(upload), std::ios::binary | std::ios::in | std::ios::out);
   file.seekp(static_cast<std::streamoff>(offset));
   file.write(piece.data(), static_cast<std::streamsize>(piece.size()));
@@ -111,7 +111,7 @@ fs::path UploadStore::take(const std::string& id) {
   const std::lock_guard lock(mutex_);
   const Upload upload = find(id).upload;
   if (upload.received != upload.bytes)
-    throw Error(ErrorKind::conflict, "'" + upload.name +
+    throw Error(ErrorKind::conflict, "upload '" + id +
                                          "' is not complete: " + std::to_string(upload.received) + " of " +
                                          std::to_string(upload.bytes) + " bytes have come");
   uploads_.erase(id);

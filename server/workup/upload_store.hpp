@@ -15,6 +15,7 @@ struct Upload {
   std::string id, name;  ///< name: what the sender calls the file, for its extension and for people
   uint64_t bytes = 0;    ///< whole size, as announced
   uint64_t received = 0;
+  std::string owner = {};  ///< user who sends it; empty without users
 };
 
 struct UploadLimits {
@@ -34,7 +35,7 @@ class UploadStore {
 
   /// `name` must be a plain file name with an extension that a CT may have. Errors: invalid_input;
   /// RequestError 413 beyond the limits; io.
-  Upload create(const std::string& name, uint64_t bytes);
+  Upload create(const std::string& name, uint64_t bytes, const std::string& owner = {});
   Upload get(const std::string& id) const;
   std::vector<Upload> list() const;
   /// Appends a piece at `offset`. Errors: conflict when that is not where the file ends so far or when the

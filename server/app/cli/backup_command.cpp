@@ -70,7 +70,6 @@ void back_up(const BackupOptions& options, const GlobalOptions& global) {
 }
 
 void restore(const BackupOptions& options, const GlobalOptions& global) {
-  restrict_new_files_to_owner();
   const fs::path data = data_folder(global.data);
   require_backup(options.file);
   catch_interrupts();

@@ -96,7 +96,6 @@ void import_bundle(const ImportOptions& options, const GlobalOptions& global) {
 }
 
 void import_case(const ImportOptions& options, const GlobalOptions& global) {
-  restrict_new_files_to_owner();
   if (session::is_session_bundle(options.path)) return import_bundle(options, global);
   if (options.out.empty()) throw Error(ErrorKind::usage, "--out is required: the name of the new case");
   const auto out = case_path(options.out, global.data);

@@ -119,7 +119,6 @@ void log_sandbox() {
 }
 
 void serve(const ServeOptions& options, const GlobalOptions& global) {
-  restrict_new_files_to_owner();
   session::SessionContext context;
   context.data = data_folder(global.data);
   context.server_epoch = static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::microseconds>(

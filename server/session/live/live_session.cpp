@@ -26,6 +26,7 @@ RunRequest run_request(const SessionContext& context, const SessionRequest& requ
   run.backend = context.backend;
   run.tool_spacing_mm = context.tool_spacing_mm;
   run.force_scale = request.force_scale;
+  run.at_most_scripts_scale = request.at_most_scripts_scale;
   run.device = request.device;
   run.device_profile = request.device_profile;
   return run;

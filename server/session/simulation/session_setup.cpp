@@ -2,6 +2,7 @@
 
 #include "core/units.hpp"
 #include "device/registry/device_registry.hpp"
+#include "net/problem.hpp"
 #include "session/simulation/find_case.hpp"
 #include "session/simulation/simulation.hpp"
 #include "sim/settings.hpp"
@@ -41,6 +42,10 @@ device::Script find_script(const RunRequest& request) {
   device::Script script = request.script_name == "demo"       ? device::demo_script()
                           : request.script_name == "practice" ? device::practice_script()
                                                               : device::load_script(request.script_name);
+  if (request.at_most_scripts_scale && request.force_scale && *request.force_scale > script.force_scale)
+    throw net::RequestError(403, "force_scale is above the script's own, " +
+                                     std::to_string(script.force_scale) +
+                                     "; only instructors and operators may choose more");
   if (request.force_scale) script.force_scale = *request.force_scale;
   return script;
 }

@@ -24,7 +24,8 @@ struct RunRequest {
   std::string tool;        ///< empty: the plan's reamer
   std::optional<shell::ToolAxis> tool_axis;
   double tool_spacing_mm = 0.2;
-  std::optional<double> force_scale;  ///< overrides the script's
+  std::optional<double> force_scale;   ///< overrides the script's
+  bool at_most_scripts_scale = false;  ///< more than the script's is refused
   uint64_t random_seed = 1;
   std::string device = "script";  ///< device/registry/device_registry.hpp
   std::string device_profile;     ///< empty: the script's

@@ -1,3 +1,5 @@
+#include <sys/stat.h>
+
 #include <signal.h>
 
 #include <algorithm>
@@ -41,6 +43,23 @@ class Simulate : public CommandLine {
     EXPECT_EQ(to_hex(last.grid_hash), metrics.at("grid_hash"));
   }
 };
+
+TEST_F(Simulate, WhatIsBelowTheDataFolderIsForItsOwnerAlone) {
+  const mode_t before = ::umask(0022);
+  succeed({"phantom", "--out", (folder() / "data/phantom").string()});
+  succeed(
+      {"simulate", "--case", "demo", "--script", short_script(), "--out", "data/run", "--backend", "cpu"});
+  ::umask(before);
+  size_t count = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder() / "data")) {
+    ++count;
+    EXPECT_EQ(entry.status().permissions() &
+                  (std::filesystem::perms::group_all | std::filesystem::perms::others_all),
+              std::filesystem::perms::none)
+        << entry.path();
+  }
+  EXPECT_GT(count, 5u);
+}
 
 TEST_F(Simulate, TheDemoRemovesBoneAlikeOnEveryBackend) {
   for (const char* backend : {"cpu", "opencl"}) {

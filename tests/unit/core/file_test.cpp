@@ -37,6 +37,14 @@ class FileSizeLimit {
   sighandler_t previous_handler_ = nullptr;
 };
 
+TEST(File, AFolderThatCannotBeSyncedIsSaid) {
+  const test::TemporaryFolder folder;
+  EXPECT_NO_THROW(sync_folder(folder.path()));
+  EXPECT_NO_THROW(sync_folder({})) << "the present one";
+  expect_error(ErrorKind::io, "cannot sync folder", [&] { sync_folder(folder.path() / "missing"); });
+  EXPECT_NO_THROW(sync_folder("/proc/self/fd")) << "a file system that cannot promise it";
+}
+
 TEST(File, ReadsBackWhatWasWritten) {
   const test::TemporaryFolder folder;
   std::string text(70'000, 'x');
