@@ -1,5 +1,6 @@
 #pragma once
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -16,6 +17,8 @@ struct Upload {
   uint64_t bytes = 0;    ///< whole size, as announced
   uint64_t received = 0;
 };
+
+inline constexpr size_t max_upload_name = 200;
 
 struct UploadLimits {
   uint64_t file_bytes = uint64_t{8} << 30;  ///< one file

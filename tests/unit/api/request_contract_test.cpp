@@ -7,10 +7,12 @@
 #include <regex>
 #include <set>
 
+#include "api/idempotency.hpp"
 #include "api/request_values.hpp"
 #include "api/yaml_json.hpp"
 #include "net/problem.hpp"
 #include "support/json_schema.hpp"
+#include "workup/upload_store.hpp"
 
 namespace ream::api {
 namespace {
@@ -286,6 +288,15 @@ TEST(RequestContract, NoRequestIsOpen) {
   }
   EXPECT_GT(bodies, 25u);
   EXPECT_EQ(schemas.open, std::vector<std::string>());
+}
+
+TEST(RequestContract, LimitsThatTheCodeKeepsAreThoseOfTheContract) {
+  const json document = json_from_yaml(std::string(embedded::contract::find("openapi.yaml")));
+  const auto longest = [&](const std::string& schema) {
+    return document.at(json::json_pointer("/components/" + schema + "/maxLength")).get<size_t>();
+  };
+  EXPECT_EQ(longest("parameters/IdempotencyKey/schema"), Idempotency::max_key_length);
+  EXPECT_EQ(longest("schemas/NewUpload/properties/name"), workup::max_upload_name);
 }
 
 TEST(RequestContract, DeepBodiesAreNoJson) {
