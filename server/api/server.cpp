@@ -73,7 +73,7 @@ Server::Server(ServerOptions options)
       middleware_(services_, served_, contract_, idempotency_, stream_watch_),
       router_(router_for(options)),
       listener_(router_, options.listen),
-      readiness_(std::move(options.prepare)),
+      readiness_(*engine_, options.make_demo_case),
       watch_(sessions_, *feed_),
       unused_("sessions that nobody starts and uploads that nobody goes on with", [this] {
         sessions_.end_unstarted();

@@ -20,7 +20,6 @@
 #include "core/interrupt.hpp"
 #include "core/leftovers.hpp"
 #include "core/log.hpp"
-#include "ct/phantom/phantom_case.hpp"
 #include "device/registry/device_registry.hpp"
 #include "isolation/sandbox.hpp"
 #include "openigtlink/server.hpp"
@@ -161,7 +160,7 @@ void serve(const ServeOptions& options, const GlobalOptions& global) {
   server_options.retention.most_at_once_percent = options.delete_at_once_percent;
   server_options.sessions.unstarted = std::chrono::minutes(options.end_unstarted_minutes);
   if (options.end_unstarted_minutes == 0) server_options.sessions.unstarted.reset();
-  server_options.prepare = [context] { ct::load_or_make_demo_case(context.data); };
+  server_options.make_demo_case = true;
   api::Server server(std::move(server_options));
   server.start();
 
