@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "session/folder/index_upkeep.hpp"
@@ -31,14 +32,12 @@ class SessionRegister {
   void changed(const std::string& id) { upkeep_.changed(id); }
 
  private:
-  struct Listed {
-    store::SessionRow row;
-    SessionRecord record;
-  };
+  using RowAndRecord = std::pair<store::SessionRow, SessionRecord>;
+
   std::optional<SessionRecord> found(const std::string& id) const;
   std::vector<std::string> add_from_folders(std::vector<SessionRecord>& here);
   size_t add_from_index(const store::SessionQuery& query, const std::vector<std::string>& except,
-                        std::vector<Listed>& listed);
+                        std::vector<RowAndRecord>& listed);
 
   const SessionArchive& archive_;
   store::Database& database_;

@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 struct EveryCase final : study::StudyDependencies {
   std::optional<std::string> name_of_user(const std::string&) const override { return std::nullopt; }
   bool has_case(const std::string&) const override { return true; }
-  std::vector<study::StudyAttempt> attempts(const std::string&) const override { return {}; }
+  std::vector<session::SessionRecord> sessions(const std::string&) const override { return {}; }
+  nlohmann::json metrics(const std::string&) const override { return nlohmann::json::object(); }
 };
 
 class RetentionTest : public test::TestDatabase<test::OnSqlite> {
