@@ -43,9 +43,7 @@ net::Response get_score(const Services& services, const net::Request& request) {
 net::Response score_anew(const Services& services, const net::Request& request) {
   const std::string& id = id_of(request);
   const session::SessionRecord record = services.sessions.get(id);
-  if (is_live(record.status.state))
-    throw Error(ErrorKind::conflict, "session '" + id + "' is " + to_text(record.status.state) +
-                                         "; its score can be kept when it has ended");
+  require_ended(record, "its score can be kept when it has ended");
   const fs::path folder = services.sessions.folder_of(id);
   const json metrics = services.sessions.metrics(id);
   const session::Judge judge =

@@ -142,9 +142,7 @@ net::Response export_session(const Services& services, const net::Request& reque
   session::ExportOrder order = order_in(body, format);
   const session::SessionRecord record = seen_session(services, request);
   const std::string id = record.request.id;
-  if (is_live(record.status.state))
-    throw Error(ErrorKind::conflict, "session '" + id + "' is " + to_text(record.status.state) +
-                                         "; it can be exported when it has ended");
+  require_ended(record, "it can be exported when it has ended");
   existing(session::recording_file(services.sessions.folder_of(id)), id, "recording");
   order.session = record.request;
   services.engine.check_export(format, order);
