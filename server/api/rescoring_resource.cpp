@@ -54,7 +54,8 @@ json rescored(const Rescoring& all, const std::string& id, session::SessionMeasu
       all.engine->program(), read_json_file(session::session_json(folder)), metrics, all.judge);
   session::write_results(folder, metrics, document);
   all.sessions->note_results(id);
-  all.feed->tell({"session", id, "scored", std::make_shared<const session::SessionRequest>(record.request)});
+  all.feed->publish(
+      {"session", id, "scored", std::make_shared<const session::SessionRequest>(record.request)});
   const json& score = document.at("score");
   return {{"session", id}, {"points", score.at("points")}, {"outcome", score.at("outcome")}};
 }

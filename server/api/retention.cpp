@@ -118,10 +118,10 @@ bool Retention::clock_is_even() {
 }
 
 bool Retention::may_go(size_t count, size_t of, const std::string& what) {
-  if (count <= always_may_go || count * 100 <= of * static_cast<size_t>(rules_.most_at_once_percent))
+  if (count <= always_may_go || count * 100 <= of * static_cast<size_t>(rules_.max_at_once_percent))
     return true;
   reason_ = std::to_string(count) + " of " + std::to_string(of) + " " + what +
-            " are due to go at once, more than " + std::to_string(rules_.most_at_once_percent) +
+            " are due to go at once, more than " + std::to_string(rules_.max_at_once_percent) +
             " %; if the clock is right, start the server with --delete-at-once-percent 100";
   return false;
 }
@@ -189,7 +189,7 @@ void Retention::delete_by_rule(const session::SessionRecord& record) {
   }
   tools_.replays.stop_all_of(id);
   audit("session.delete", id, "by rule: older than " + days_text(rules_.keep_sessions_days.value_or(0)));
-  tools_.feed.tell(
+  tools_.feed.publish(
       {"session", id, "deleted", std::make_shared<const session::SessionRequest>(record.request)});
 }
 
@@ -222,7 +222,7 @@ void Retention::erase(const session::DeletedSession& deleted) {
   }
   audit("session.erase", deleted.id,
         "by rule: deleted more than " + days_text(rules_.keep_deleted_days) + " ago");
-  tools_.feed.tell({"session", deleted.id, "erased"});
+  tools_.feed.publish({"session", deleted.id, "erased"});
 }
 
 }  // namespace ream::api

@@ -31,7 +31,7 @@ struct RetentionRules {
   /// Time that nobody sets, suspension included: what the wall clock is held against.
   std::function<std::chrono::nanoseconds()> running = time_since_boot;
   /// Most of the sessions, and of sessions and trash together, that may go in one look. Up to 20 always may.
-  int most_at_once_percent = 50;
+  int max_at_once_percent = 50;
 };
 
 /// What the rules of retention are carried out with. All outlive Retention.
@@ -51,7 +51,7 @@ struct RetentionTools {
 ///
 /// Time decides what goes, and a clock may be wrong. So nothing is deleted or erased because of its age while
 /// the wall clock has moved against the time the machine has been on by more than ten minutes within the last
-/// day, nor when more than RetentionRules::most_at_once_percent would go at once: held() says so then, and
+/// day, nor when more than RetentionRules::max_at_once_percent would go at once: held() says so then, and
 /// the log. What is erased as nothing is to be kept is no matter of time.
 class Retention {
  public:

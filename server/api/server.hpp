@@ -51,7 +51,7 @@ class Server {
 
  private:
   net::Router router_for(const ServerOptions& options) const;
-  void tell(const jobs::JobRecord& job);
+  void publish(const jobs::JobRecord& job);
 
   // Order matters: nothing is prepared before the port is ours. stop() has ended the listener before any of
   // these goes.

@@ -39,7 +39,7 @@ void SessionWatch::look() {
     now[id] = state;
     const auto before = known_.find(id);
     if (before != known_.end() && before->second == state) continue;
-    feed_.tell(
+    feed_.publish(
         {"session", id, to_text(state), std::make_shared<const session::SessionRequest>(record.request)});
   }
   known_ = std::move(now);

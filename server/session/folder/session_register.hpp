@@ -28,7 +28,7 @@ class SessionRegister {
   /// cursor or text; unavailable while the database cannot be reached.
   SessionPage list(const store::SessionQuery& query, std::vector<SessionRecord> held);
 
-  /// Something of this session's folder was changed, so that its row is to be made anew.
+  /// Something of this session's folder was changed, so that its row is to be rebuilt.
   void changed(const std::string& id) { upkeep_.changed(id); }
 
  private:
