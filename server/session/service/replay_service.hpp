@@ -1,11 +1,10 @@
 #pragma once
 #include <chrono>
-#include <condition_variable>
 #include <memory>
 #include <mutex>
-#include <thread>
 #include <vector>
 
+#include "core/periodic_task.hpp"
 #include "session/running_replay.hpp"
 #include "session/service/session_engine.hpp"
 
@@ -32,7 +31,7 @@ class ReplayService {
  public:
   /// `engine` outlives it.
   ReplayService(SessionEngine& engine, ReplayLimits limits);
-  ~ReplayService();
+  ~ReplayService() { shut_down(); }
   ReplayService(const ReplayService&) = delete;
   ReplayService& operator=(const ReplayService&) = delete;
 
@@ -69,8 +68,7 @@ class ReplayService {
   Entries entries_;  ///< oldest first
   size_t being_made_ = 0;
   bool closed_ = false;
-  std::condition_variable closing_;
-  std::thread cleanup_thread_;  ///< ends unattended replays
+  PeriodicTask cleanup_;  ///< ends unattended replays
 };
 
 }  // namespace ream::session
