@@ -7,10 +7,13 @@
 #include <regex>
 #include <set>
 
+#include "access/password_hasher.hpp"
 #include "api/idempotency.hpp"
+#include "api/json_page.hpp"
 #include "api/request_values.hpp"
 #include "api/yaml_json.hpp"
 #include "net/problem.hpp"
+#include "session/running_replay.hpp"
 #include "support/json_schema.hpp"
 #include "workup/upload_store.hpp"
 
@@ -292,11 +295,20 @@ TEST(RequestContract, NoRequestIsOpen) {
 
 TEST(RequestContract, LimitsThatTheCodeKeepsAreThoseOfTheContract) {
   const json document = json_from_yaml(std::string(embedded::contract::find("openapi.yaml")));
-  const auto longest = [&](const std::string& schema) {
-    return document.at(json::json_pointer("/components/" + schema + "/maxLength")).get<size_t>();
+  const auto limit = [&](const std::string& place) {
+    return document.at("components").at(json::json_pointer("/" + place)).get<double>();
   };
-  EXPECT_EQ(longest("parameters/IdempotencyKey/schema"), Idempotency::max_key_length);
-  EXPECT_EQ(longest("schemas/NewUpload/properties/name"), workup::max_upload_name);
+  EXPECT_EQ(limit("parameters/IdempotencyKey/schema/maxLength"), Idempotency::max_key_length);
+  EXPECT_EQ(limit("parameters/Limit/schema/default"), default_page_size);
+  EXPECT_EQ(limit("schemas/NewUpload/properties/name/maxLength"), workup::max_upload_name);
+  for (const char* body : {"NewUser", "UserChange"}) {
+    const std::string password = "schemas/" + std::string(body) + "/properties/password/";
+    EXPECT_EQ(limit(password + "minLength"), access::min_password_length) << body;
+    EXPECT_EQ(limit(password + "maxLength"), access::max_password_bytes) << body;
+  }
+  const std::string speed = "schemas/Playback/properties/speed/";
+  EXPECT_EQ(limit(speed + "minimum"), session::slowest_playback);
+  EXPECT_EQ(limit(speed + "maximum"), session::fastest_playback);
 }
 
 TEST(RequestContract, DeepBodiesAreNoJson) {
