@@ -27,9 +27,9 @@ std::terminate_handler default_terminate = nullptr;
 
 /// Puts it back by hand: whoever else had a handler (PoCL, the compiler in it) is not asked.
 void restore_default_action(int signal) noexcept {
-  struct sigaction usual {};
-  usual.sa_handler = SIG_DFL;
-  ::sigaction(signal, &usual, nullptr);
+  struct sigaction action {};
+  action.sa_handler = SIG_DFL;
+  ::sigaction(signal, &action, nullptr);
 }
 
 /// The process is about to end, and a device that does not return must not keep it from that.
@@ -59,7 +59,7 @@ void on_terminate() {
   default_terminate();
 }
 
-void on_patience_over(int) {
+void on_end_timeout(int) {
   end_process_without_force(
       "it was told to end and has not; sessions that were not closed are recovered at the "
       "next start");
@@ -69,8 +69,9 @@ void on_patience_over(int) {
 
 void take_force_away_on_crash() {
   for (const int signal : crashes) keep_handler(signal, on_crash, SA_NODEFER);
-  keep_handler(SIGALRM, on_patience_over);
-  if (const auto before = std::set_terminate(on_terminate); before != on_terminate) default_terminate = before;
+  keep_handler(SIGALRM, on_end_timeout);
+  if (const auto before = std::set_terminate(on_terminate); before != on_terminate)
+    default_terminate = before;
 }
 
 void end_process_without_force(const char* words) noexcept {
