@@ -35,7 +35,7 @@ constexpr std::array rows{"abcdefghijklmnopqrstuvwxyz",
                           "zxcvbnm",
                           "yxcvbnm",
                           "1qaz2wsx3edc4rfv5tgb6yhn7ujm8ik9ol0p"};
-constexpr size_t shortest_run = 3, most_beside_runs = 3, longest_period = 9, least_beside_name = 6,
+constexpr size_t min_run = 3, max_beside_runs = 3, max_period = 9, min_beside_name = 6,
                  max_common_length = 40;
 
 size_t bytes_of_character(unsigned char first) {
@@ -66,7 +66,7 @@ size_t run_at(const std::string& text, size_t at) {
   size_t longest = 1;
   for (const std::string row : rows)
     for (const std::string& way : {row, std::string(row.rbegin(), row.rend())})
-      for (size_t length = shortest_run; at + length <= text.size(); ++length) {
+      for (size_t length = min_run; at + length <= text.size(); ++length) {
         if (way.find(text.substr(at, length)) == std::string::npos) break;
         longest = std::max(longest, length);
       }
@@ -77,14 +77,14 @@ bool is_typed_along_rows(const std::string& text) {
   size_t beside = 0;
   for (size_t at = 0; at < text.size();) {
     const size_t run = run_at(text, at);
-    if (run < shortest_run) ++beside;
+    if (run < min_run) ++beside;
     at += run;
   }
-  return beside <= most_beside_runs;
+  return beside <= max_beside_runs;
 }
 
 bool is_repeated(const std::string& text) {
-  for (size_t period = 1; period <= std::min(longest_period, text.size() / 2); ++period)
+  for (size_t period = 1; period <= std::min(max_period, text.size() / 2); ++period)
     if (std::equal(text.begin() + static_cast<std::ptrdiff_t>(period), text.end(), text.begin())) return true;
   return false;
 }
@@ -94,7 +94,7 @@ bool is_little_more_than(std::string text, const std::string& name) {
   const size_t before = text.size();
   for (size_t at = text.find(name); at != std::string::npos; at = text.find(name, at))
     text.erase(at, name.size());
-  return text.size() < before && text.size() < least_beside_name;
+  return text.size() < before && text.size() < min_beside_name;
 }
 
 bool is_letter(unsigned char c) { return std::isalpha(c) != 0 || c >= 0x80; }
@@ -160,11 +160,11 @@ bool are_common(std::string_view word, const std::string& name) {
 
 /// Common words, perhaps with figures for letters, and with figures and signs around or between them.
 bool is_common(std::string_view text, const std::string& name) {
-  constexpr size_t most_for_letters = 2;  // of the figures at an end
+  constexpr size_t max_for_letters = 2;  // of the figures at an end
   const std::string_view core = without_ends(text);
   const auto first = static_cast<size_t>(core.begin() - text.begin()), last = first + core.size();
-  for (size_t begin = first - std::min(first, most_for_letters); begin <= first; ++begin)
-    for (size_t end = last; end <= std::min(text.size(), last + most_for_letters); ++end)
+  for (size_t begin = first - std::min(first, max_for_letters); begin <= first; ++begin)
+    for (size_t end = last; end <= std::min(text.size(), last + max_for_letters); ++end)
       for (const bool replace : {false, true})
         for (const char one : {'i', 'l'})
           if (are_common(letters_of(text.substr(begin, end - begin), one, replace), name)) return true;

@@ -14,7 +14,7 @@ using nlohmann::json;
 namespace {
 
 const std::string benchmarks_path = "/api/v1/benchmarks";
-constexpr size_t fewest_to_contrast = 3;
+constexpr size_t min_to_contrast = 3;
 
 json summary_json(const score::KeptBenchmark& kept) {
   return {{"id", kept.id},
@@ -31,14 +31,14 @@ json benchmark_json(const score::KeptBenchmark& kept, const net::Caller& caller)
   json lines = score::benchmark_json(kept.benchmark).at("metrics");
   for (json& line : lines)
     if (!to_staff) line["dropped"] = json::array();
-  json told = summary_json(kept);
-  told["expert_sessions"] = to_staff ? json(kept.benchmark.sessions) : json(nullptr);
-  told["novice_sessions"] = to_staff ? json(kept.novices) : json(nullptr);
-  told["rubric"] = or_null(kept.rubric);
-  told["density"] = or_null(kept.density);
-  told["lines"] = std::move(lines);
-  told["cuts"] = kept.cuts;
-  return told;
+  json view = summary_json(kept);
+  view["expert_sessions"] = to_staff ? json(kept.benchmark.sessions) : json(nullptr);
+  view["novice_sessions"] = to_staff ? json(kept.novices) : json(nullptr);
+  view["rubric"] = or_null(kept.rubric);
+  view["density"] = or_null(kept.density);
+  view["lines"] = std::move(lines);
+  view["cuts"] = kept.cuts;
+  return view;
 }
 
 /// What sessions say; each must have ended and left metrics. `key` names them in the request.
@@ -63,35 +63,35 @@ std::vector<score::EndedSession> measured(const Services& services, const std::v
   return sessions;
 }
 
-struct Wishes {
+struct BenchmarkRequest {
   std::string name, rubric;
   score::Density density = score::Density::normal;
   std::vector<std::string> experts, novices;
 };
 
-Wishes wishes_in(const json& body) {
-  Wishes wishes{body.at("name"), text_in(body, "rubric"),
-                score::density_from_text(body.value("density", "normal")),
-                different_texts_in(body, "experts"), different_texts_in(body, "novices")};
-  if (!wishes.novices.empty() && wishes.experts.size() < fewest_to_contrast)
+BenchmarkRequest benchmark_request_in(const json& body) {
+  BenchmarkRequest wanted{body.at("name"), text_in(body, "rubric"),
+                          score::density_from_text(body.value("density", "normal")),
+                          different_texts_in(body, "experts"), different_texts_in(body, "novices")};
+  if (!wanted.novices.empty() && wanted.experts.size() < min_to_contrast)
     throw net::RequestError(422, "pass marks need three sessions of experts and three of novices",
                             {{"#/experts", "must have three or more to be contrasted"}});
-  return wishes;
+  return wanted;
 }
 
 net::Response create_benchmark(const Services& services, const net::Request& request) {
-  const Wishes wishes = wishes_in(body_of(request));
-  const session::Judge judge = services.stores.judge_by(wishes.rubric);
+  const BenchmarkRequest wanted = benchmark_request_in(body_of(request));
+  const session::Judge judge = services.stores.judge_by(wanted.rubric);
   score::KeptBenchmark made;
   services.executor.run([&] {
-    const auto experts = measured(services, wishes.experts, "experts");
-    const auto novices = measured(services, wishes.novices, "novices");
-    made.benchmark = score::make_benchmark(wishes.name, experts);
+    const auto experts = measured(services, wanted.experts, "experts");
+    const auto novices = measured(services, wanted.novices, "novices");
+    made.benchmark = score::make_benchmark(wanted.name, experts);
     if (novices.empty()) return;
-    made.novices = wishes.novices;
+    made.novices = wanted.novices;
     made.rubric = judge.rubric_id + "@" + std::to_string(judge.rubric.version);
-    made.density = score::to_text(wishes.density);
-    made.cuts = score::group_cuts_json(novices, experts, judge.rubric, wishes.density);
+    made.density = score::to_text(wanted.density);
+    made.cuts = score::group_cuts_json(novices, experts, judge.rubric, wanted.density);
   });
   if (made.benchmark.lines.empty())
     throw net::RequestError(422, "the experts' sessions say nothing that others could be compared with",

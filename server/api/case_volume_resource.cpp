@@ -28,7 +28,7 @@ int index_of(const std::string& text) {
 
 net::SharedBytes shared(net::Bytes bytes) { return std::make_shared<const net::Bytes>(std::move(bytes)); }
 
-/// Kept by no cache: what an address shows changes when its case is made anew.
+/// Kept by no cache: what an address shows changes when its case is made again.
 net::Response get_slice(const Services& services, const net::Request& request) {
   const auto& parameters = request.parameters;
   std::optional<int> revision;  // the segmentation that a client believes to look at

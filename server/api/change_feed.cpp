@@ -79,9 +79,9 @@ class ChangeFeed::Listener final : public net::WebSocketSession {
   uint64_t number_ = 0;
 };
 
-ChangeFeed::ChangeFeed(size_t most_kept) : most_kept_(most_kept), newest_(first_number()) {}
+ChangeFeed::ChangeFeed(size_t max_kept) : max_kept_(max_kept), newest_(first_number()) {}
 
-void ChangeFeed::tell(const Change& change) {
+void ChangeFeed::publish(const Change& change) {
   std::vector<std::function<void()>> wakes;
   {
     const std::lock_guard lock(mutex_);
@@ -92,7 +92,7 @@ void ChangeFeed::tell(const Change& change) {
                               {"utc", utc_now()},
                               {"id", change.id},
                               {"change", change.change}})});
-    if (kept_.size() > most_kept_) kept_.pop_front();
+    if (kept_.size() > max_kept_) kept_.pop_front();
     for (const Waker& waker : wakers_) wakes.push_back(waker.wake);
   }
   for (const auto& wake : wakes) wake();

@@ -27,9 +27,9 @@ struct Change {
 /// Numbers grow over restarts of the server. Thread-safe.
 class ChangeFeed : public std::enable_shared_from_this<ChangeFeed> {
  public:
-  explicit ChangeFeed(size_t most_kept = 1000);
+  explicit ChangeFeed(size_t max_kept = 1000);
 
-  void tell(const Change& change);
+  void publish(const Change& change);
 
   /// Sends JSON texts: "hello" with the newest number, then every change that `caller` may know of. `since`:
   /// the last number that the client has seen; what it has missed comes after the hello, or, where that is
@@ -55,7 +55,7 @@ class ChangeFeed : public std::enable_shared_from_this<ChangeFeed> {
   /// The next after `number` that the caller may know of; `number` becomes its own.
   Next next_after(uint64_t& number, const net::Caller& caller) const;
 
-  const size_t most_kept_;
+  const size_t max_kept_;
   mutable std::mutex mutex_;
   std::deque<Kept> kept_;  ///< oldest first, without gaps
   uint64_t newest_;

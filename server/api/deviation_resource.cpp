@@ -44,9 +44,7 @@ net::Response field(const std::string& id, const fs::path& folder, const std::st
 net::Response get_deviation(const Services& services, const net::Request& request) {
   const std::string& id = id_of(request);
   const session::SessionRecord record = services.sessions.get(id);
-  if (is_live(record.status.state))
-    throw Error(ErrorKind::conflict, "session '" + id + "' is " + to_text(record.status.state) +
-                                         "; its surface is compared when it has ended");
+  require_ended(record, "its surface is compared when it has ended");
   const fs::path folder = services.sessions.folder_of(id);
   std::error_code failed;
   if (fs::is_regular_file(folder / description_name, failed))

@@ -9,10 +9,10 @@
 namespace ream::api {
 namespace {
 
-constexpr size_t longest_key = 200, largest_body = size_t{256} * 1024, most_in_memory = 1000;
+constexpr size_t max_body_bytes = size_t{256} * 1024, max_in_memory = 1000;
 
 bool is_key(std::string_view key) {
-  return !key.empty() && key.size() <= longest_key &&
+  return !key.empty() && key.size() <= Idempotency::max_key_length &&
          std::all_of(key.begin(), key.end(), [](char c) { return c > 0x20 && c < 0x7f; });
 }
 
@@ -56,7 +56,7 @@ std::optional<store::StoredResponse> Idempotency::find(const Name& name) {
 
 void Idempotency::keep(const Name& name, const std::string& request, const net::Response& response,
                        Place place) {
-  if (response.status >= 300 || response.body_bytes() > largest_body) return;
+  if (response.status >= 300 || response.body_bytes() > max_body_bytes) return;
   const store::StoredResponse answer{name.first,
                                      name.second,
                                      request,
@@ -68,7 +68,7 @@ void Idempotency::keep(const Name& name, const std::string& request, const net::
   if (place == Place::memory) {
     const std::lock_guard lock(mutex_);
     in_memory_[name] = answer;
-    if (in_memory_.size() > most_in_memory)
+    if (in_memory_.size() > max_in_memory)
       in_memory_.erase(
           std::min_element(in_memory_.begin(), in_memory_.end(),
                            [](const auto& a, const auto& b) { return a.second.at_ms < b.second.at_ms; }));
@@ -86,7 +86,7 @@ net::Response Idempotency::answer(const net::Request& request, const net::Handle
   if (!request.headers.contains(header)) return next(request);
   if (!is_key(key))
     throw net::RequestError(
-        400, "Idempotency-Key must be 1 to " + std::to_string(longest_key) + " visible ASCII characters");
+        400, "Idempotency-Key must be 1 to " + std::to_string(max_key_length) + " visible ASCII characters");
   const Name name(request.caller.user_id, key);
   const std::string print = print_of(request);
   {

@@ -14,7 +14,7 @@ namespace ream::api {
 
 /// Lets a sender repeat a request that makes something (its answer was lost, say) without making it twice:
 /// requests with the same Idempotency-Key of the same caller get the same answer for a day. Kept in the
-/// database, for each caller the last 1000 answers of at most 8 MiB. Thread-safe.
+/// database, for each caller the last 1000 answers of at most 256 KiB. Thread-safe.
 class Idempotency {
  public:
   enum class Place {
@@ -22,6 +22,7 @@ class Idempotency {
     memory,  ///< the last 1000 of all callers, until the server ends: answers that no disk may keep
   };
   static constexpr std::chrono::hours kept_for{24};
+  static constexpr size_t max_key_length = 200;
   static constexpr const char* header = "idempotency-key";
 
   /// `database` outlives it.

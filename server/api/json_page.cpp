@@ -56,7 +56,7 @@ json place_of(const std::string& cursor, const Order& order) {
 
 size_t limit_of(const net::Request& request) {
   const auto given = request.query.find("limit");
-  return given == request.query.end() ? usual_page : parse_json(given->second).get<size_t>();
+  return given == request.query.end() ? default_page_size : parse_json(given->second).get<size_t>();
 }
 
 std::string next_link(const net::Request& request, const std::string& cursor) {
@@ -75,8 +75,8 @@ net::Response page_response(const net::Request& request, const std::string& name
 }
 
 net::Response page_of(const net::Request& request, const std::string& name, std::vector<json> items,
-                      const std::string& usual_sort) {
-  const std::string sort = query_text(request, "sort", usual_sort),
+                      const std::string& default_sort) {
+  const std::string sort = query_text(request, "sort", default_sort),
                     cursor = query_text(request, "cursor", "");
   const Order order{sort.starts_with('-') ? sort.substr(1) : sort, sort.starts_with('-')};
   const size_t limit = limit_of(request), total = items.size();

@@ -8,7 +8,7 @@
 namespace ream::api {
 
 /// Most items of a page of a list where the request does not say.
-inline constexpr size_t usual_page = 50;
+inline constexpr size_t default_page_size = 50;
 
 /// ?limit of a request, which the contract has checked.
 size_t limit_of(const net::Request& request);
@@ -25,6 +25,6 @@ net::Response page_response(const net::Request& request, const std::string& name
 /// theirs, behind "-" for the other way about; ?limit and ?cursor as everywhere. Error invalid_input for a
 /// cursor that this list has not given.
 net::Response page_of(const net::Request& request, const std::string& name, std::vector<nlohmann::json> items,
-                      const std::string& usual_sort);
+                      const std::string& default_sort);
 
 }  // namespace ream::api

@@ -7,18 +7,12 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "net/problem.hpp"
-#include "score/learning_curve.hpp"
+#include "session/scoring/ended_sessions.hpp"
 
 namespace ream::api {
 namespace fs = std::filesystem;
 using nlohmann::json;
 namespace {
-
-/// A session of a trainee that has ended and left metrics.
-struct Attempt {
-  score::LearningPoint point;
-  json metrics;
-};
 
 /// Of one person: by user, by the code of a study, or by the name that was given where there are no users.
 store::SessionQuery query_of(const net::Request& request) {
@@ -49,9 +43,9 @@ bool is_named(const session::SessionRecord& record, const std::string& name) {
   return record.request.trainee_id.empty() && record.request.trainee == name;
 }
 
-std::vector<Attempt> attempts_of(const Services& services, const net::Request& request,
-                                 const score::Rubric& rubric) {
-  std::vector<Attempt> attempts;
+/// Those that have left metrics.
+std::vector<session::EndedSession> attempts_of(const Services& services, const net::Request& request) {
+  std::vector<session::EndedSession> attempts;
   const std::string name = query_text(request, "name");
   for (const session::SessionRecord& record :
        sessions_for(request.caller, services.sessions, query_of(request)).sessions) {
@@ -60,28 +54,25 @@ std::vector<Attempt> attempts_of(const Services& services, const net::Request& r
     const fs::path folder = services.sessions.folder_of(id);
     std::error_code failed;
     if (is_live(record.status.state) || !fs::exists(session::metrics_json(folder), failed)) continue;
-    Attempt attempt;
-    attempt.metrics = read_json_file(session::metrics_json(folder));
-    const score::Score score = score::apply_rubric(rubric, attempt.metrics);
-    attempt.point = {
-        id, record.request.created_utc, record.request.theatre, score.points, score.outcome, std::nullopt};
-    attempts.push_back(std::move(attempt));
+    attempts.push_back({id,
+                        {{"created_utc", record.request.created_utc}, {"theatre", record.request.theatre}},
+                        read_json_file(session::metrics_json(folder))});
   }
   return attempts;
 }
 
 /// Proficiency-based progression: in which sessions all lines were reached.
 json progression(const std::string& id, const score::Benchmark& benchmark,
-                 const std::vector<Attempt>& attempts) {
+                 const std::vector<session::EndedSession>& attempts) {
   json sessions = json::array();
   json first;
-  for (const Attempt& attempt : attempts) {
+  for (const session::EndedSession& attempt : attempts) {
     size_t reached = 0;
     for (const score::BenchmarkResult& result : score::compare_with(benchmark, attempt.metrics))
       reached += result.reached ? 1 : 0;
     const bool all = reached == benchmark.lines.size();
-    if (all && first.is_null()) first = attempt.point.session;
-    sessions.push_back({{"session", attempt.point.session}, {"reached", reached}, {"proficient", all}});
+    if (all && first.is_null()) first = attempt.id;
+    sessions.push_back({{"session", attempt.id}, {"reached", reached}, {"proficient", all}});
   }
   const bool proficient = !sessions.empty() && sessions.back().at("proficient").get<bool>();
   return {{"id", id},
@@ -101,16 +92,19 @@ net::Response get_learning(const Services& services, const net::Request& request
   cusum.alpha = query_number(request, "alpha", cusum.alpha);
   cusum.beta = query_number(request, "beta", cusum.beta);
   score::cusum_limits(cusum);
-  std::vector<Attempt> attempts;
-  services.executor.run([&] { attempts = attempts_of(services, request, judge.rubric); });
+  std::vector<session::EndedSession> attempts;
   std::vector<score::LearningPoint> points;
-  for (const Attempt& attempt : attempts) points.push_back(attempt.point);
-  json told = score::learning_json(score::learning_curve(cusum, std::move(points)));
-  for (json& session : told["sessions"])
+  services.executor.run([&] {
+    attempts = attempts_of(services, request);
+    for (const session::EndedSession& attempt : attempts)
+      points.push_back(session::learning_point(attempt, score::apply_rubric(judge.rubric, attempt.metrics)));
+  });
+  json view = score::learning_json(score::learning_curve(cusum, std::move(points)));
+  for (json& session : view["sessions"])
     if (!session.contains("standing")) session["standing"] = nullptr;
-  told["rubric"] = {{"id", judge.rubric_id}, {"version", judge.rubric.version}};
-  told["benchmark"] = judge.benchmark ? progression(benchmark, *judge.benchmark, attempts) : json(nullptr);
-  return net::json_response(200, told);
+  view["rubric"] = {{"id", judge.rubric_id}, {"version", judge.rubric.version}};
+  view["benchmark"] = judge.benchmark ? progression(benchmark, *judge.benchmark, attempts) : json(nullptr);
+  return net::json_response(200, view);
 }
 
 }  // namespace

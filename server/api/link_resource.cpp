@@ -46,9 +46,9 @@ net::Response add_link(const Services& services, const net::Request& request) {
       services.access_control.credentials.issue(CredentialKind::link, wanted);
   services.audit(request, "link.add", issued.row.id,
                  issued.row.session_id.empty() ? "all sessions" : "session " + issued.row.session_id);
-  json told = link_json(issued.row);
-  told["secret"] = issued.secret.reveal();
-  return net::json_response(201, told);
+  json view = link_json(issued.row);
+  view["secret"] = issued.secret.reveal();
+  return net::json_response(201, view);
 }
 
 net::Response revoke_link(const Services& services, const net::Request& request) {

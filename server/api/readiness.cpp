@@ -6,16 +6,16 @@
 
 namespace ream::api {
 
-Readiness::Readiness(std::function<void()> prepare) {
-  if (!prepare) {
+Readiness::Readiness(session::SessionEngine& engine, bool make_demo_case) {
+  if (!make_demo_case) {
     stage_ = Stage::ready;
     return;
   }
-  thread_ = start_thread([this, prepare = std::move(prepare)] {
+  thread_ = start_thread([this, &engine] {
     Stage stage = Stage::ready;
     std::string reason;
     try {
-      prepare();
+      engine.make_demo_case();
     } catch (const std::exception& failure) {
       stage = Stage::failed;
       reason = failure.what();

@@ -1,18 +1,18 @@
 #pragma once
-#include <functional>
 #include <mutex>
 #include <string>
 #include <thread>
 
+#include "session/service/session_engine.hpp"
+
 namespace ream::api {
 
-/// What must be made before the first session (the demo case, say), done once in the background while the
-/// server answers already. Thread-safe.
+/// Makes the demo case in the background, once, while the server answers already. Thread-safe.
 class Readiness {
  public:
-  /// Begins at once; an empty function is ready at once.
-  explicit Readiness(std::function<void()> prepare);
-  /// Waits for the preparation.
+  /// Begins at once; ready at once where nothing is to be made.
+  Readiness(session::SessionEngine& engine, bool make_demo_case);
+  /// Waits for the case.
   ~Readiness();
   Readiness(const Readiness&) = delete;
   Readiness& operator=(const Readiness&) = delete;

@@ -5,6 +5,7 @@
 #include "api/request_values.hpp"
 #include "api/routes.hpp"
 #include "api/services.hpp"
+#include "api/session_work.hpp"
 #include "api/visibility.hpp"
 #include "core/error.hpp"
 
@@ -18,9 +19,7 @@ net::Response create_replay(const Services& services, const net::Request& reques
   services.readiness.require_prepared();
   const std::string& id = id_of(request);
   const session::SessionRecord of = services.sessions.get(id);
-  if (is_live(of.status.state))
-    throw Error(ErrorKind::conflict, "session '" + id + "' is " + to_text(of.status.state) +
-                                         "; it can be replayed when it has ended");
+  require_ended(of, "it can be replayed when it has ended");
   const session::ReplayRecord record =
       services.replays.create({{}, id, of.request.case_id, of.request.script, counted_for(request.caller)});
   return created("/api/v1/sessions/" + record.request.id, to_json(record));

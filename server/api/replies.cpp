@@ -14,8 +14,8 @@ json times_json(const TimingSummary& times) { return timing_json(times, TimingKe
 
 json loop_json(const sim::LoopHealth& loop) {
   const sim::RealtimeGrant& grant = loop.realtime;
-  json told = times_json(loop.tick_us);
-  told.update({{"missed", loop.missed},
+  json view = times_json(loop.tick_us);
+  view.update({{"missed", loop.missed},
                {"lateness", times_json(loop.lateness_us)},
                {"read", times_json(loop.read_us)},
                {"step", times_json(loop.step_us)},
@@ -23,7 +23,7 @@ json loop_json(const sim::LoopHealth& loop) {
                {"realtime", grant.fifo},
                {"memory_locked", grant.locked},
                {"cpu", grant.cpu < 0 ? json(nullptr) : json(grant.cpu)}});
-  return told;
+  return view;
 }
 
 json device_json(const session::DeviceLinkStatus& device) {
@@ -48,8 +48,8 @@ json mark_json(const session::SessionMark& mark) {
 
 json to_json(const session::SessionRecord& record) {
   const session::SessionStatus& status = record.status;
-  json told = session::labels_json(record.request);
-  told.update({{"id", record.request.id},
+  json view = session::labels_json(record.request);
+  view.update({{"id", record.request.id},
                {"kind", "session"},
                {"case", record.request.case_id},
                {"script", record.request.script},
@@ -64,7 +64,7 @@ json to_json(const session::SessionRecord& record) {
                {"score", record.mark ? mark_json(*record.mark) : json(nullptr)},
                {"loop", loop_json(status.loop)},
                {"device", device_json(status.device)}});
-  return told;
+  return view;
 }
 
 json to_json(const study::Participant& participant) {

@@ -72,7 +72,7 @@ net::Response RequestMiddleware::answer(const net::Request& request, size_t numb
   const Route& route = routes()[number];
   const net::Handler done = [&](const net::Request& passed) {
     net::Response response = audited(passed, route, next);
-    tell(passed, route, response);
+    publish_change(passed, route, response);
     return response;
   };
   if (contract_.takes_idempotency_key(request.method, route.pattern))
@@ -89,18 +89,18 @@ std::unique_ptr<net::WebSocketSession> RequestMiddleware::opened(
   return stream_watch_.watched(request, std::move(session));
 }
 
-/// The change was made; that it cannot be told is no reason to say it failed.
-void RequestMiddleware::tell(const net::Request& request, const Route& route,
-                             const net::Response& response) const {
+/// The change was made; that it cannot be announced is no reason to say it failed.
+void RequestMiddleware::publish_change(const net::Request& request, const Route& route,
+                                       const net::Response& response) const {
   try {
     auto change = change_made(request, route, response);
     if (!change) return;
     if (change->kind == "session" || change->kind == "replay")
       if (auto session = sessions_.session_of(request.parameters.at("id")))
         change->session = std::make_shared<const session::SessionRequest>(std::move(*session));
-    services_.feed.tell(*change);
+    services_.feed.publish(*change);
   } catch (const std::exception& failure) {
-    log::warn(std::string("a change could not be told: ") + failure.what());
+    log::warn(std::string("a change could not be announced: ") + failure.what());
   }
 }
 

@@ -33,7 +33,7 @@ class RequestMiddleware final : public net::RequestPolicy {
 
  private:
   net::Response audited(const net::Request& request, const Route& route, const net::Handler& handler) const;
-  void tell(const net::Request& request, const Route& route, const net::Response& response) const;
+  void publish_change(const net::Request& request, const Route& route, const net::Response& response) const;
 
   const Services& services_;
   const SessionFinder& sessions_;

@@ -39,12 +39,8 @@ std::vector<std::string> ids_by_filter(const Services& services, const net::Requ
 }
 
 std::vector<std::string> ids_named(const Services& services, const std::vector<std::string>& named) {
-  for (size_t i = 0; i < named.size(); ++i) {
-    const session::SessionRecord record = services.sessions.get(named[i]);
-    if (is_live(record.status.state))
-      throw Error(ErrorKind::conflict, "session '" + named[i] + "' is " + to_text(record.status.state) +
-                                           "; it can be scored anew when it has ended");
-  }
+  for (const std::string& id : named)
+    require_ended(services.sessions.get(id), "it can be scored anew when it has ended");
   return named;
 }
 
@@ -58,7 +54,8 @@ json rescored(const Rescoring& all, const std::string& id, session::SessionMeasu
       all.engine->program(), read_json_file(session::session_json(folder)), metrics, all.judge);
   session::write_results(folder, metrics, document);
   all.sessions->note_results(id);
-  all.feed->tell({"session", id, "scored", std::make_shared<const session::SessionRequest>(record.request)});
+  all.feed->publish(
+      {"session", id, "scored", std::make_shared<const session::SessionRequest>(record.request)});
   const json& score = document.at("score");
   return {{"session", id}, {"points", score.at("points")}, {"outcome", score.at("outcome")}};
 }

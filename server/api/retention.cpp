@@ -1,11 +1,10 @@
 #include "api/retention.hpp"
 
+#include <algorithm>
 #include <ctime>
 
 #include "core/error.hpp"
 #include "core/log.hpp"
-#include "core/signal_handlers.hpp"
-#include "core/thread_pool.hpp"
 
 namespace ream::api {
 namespace {
@@ -39,30 +38,18 @@ std::chrono::nanoseconds time_since_boot() {
 }
 
 Retention::Retention(RetentionRules rules, RetentionTools tools)
-    : rules_(std::move(rules)), tools_(std::move(tools)) {}
-
-Retention::~Retention() { stop(); }
-
-void Retention::begin() {
-  thread_ = start_thread([this] { work(); });
-}
-
-void Retention::stop() {
-  {
-    const std::lock_guard lock(mutex_);
-    stopping_ = true;
-  }
-  changed_.notify_all();
-  if (thread_.joinable()) thread_.join();
-}
+    : rules_(std::move(rules)),
+      tools_(std::move(tools)),
+      task_(
+          "the rules of retention could not be carried out",
+          [this] {
+            look();
+            return rules_.look_every;
+          },
+          std::min(rules_.look_every, again_after)) {}
 
 void Retention::was_deleted() {
-  if (rules_.keep_deleted_days > 0) return;
-  {
-    const std::lock_guard lock(mutex_);
-    look_wanted_ = true;
-  }
-  changed_.notify_all();
+  if (rules_.keep_deleted_days <= 0) task_.wake();
 }
 
 std::string Retention::ends_utc(const std::string& deleted_utc) const {
@@ -70,31 +57,6 @@ std::string Retention::ends_utc(const std::string& deleted_utc) const {
 }
 
 std::string Retention::days_ago(int days) const { return ream::utc_text(rules_.now() - day * days); }
-
-bool Retention::stopping() {
-  const std::lock_guard lock(mutex_);
-  return stopping_;
-}
-
-void Retention::work() {
-  lower_thread_priority();
-  std::unique_lock lock(mutex_);
-  std::chrono::milliseconds wait{0};
-  while (!stopping_) {
-    changed_.wait_for(lock, wait, [this] { return stopping_ || look_wanted_; });
-    if (stopping_) return;
-    look_wanted_ = false;
-    lock.unlock();
-    wait = rules_.look_every;
-    try {
-      look();
-    } catch (...) {
-      log::current_exception("the rules of retention could not be carried out");
-      wait = std::min(wait, again_after);
-    }
-    lock.lock();
-  }
-}
 
 std::string Retention::held() const {
   const std::lock_guard lock(mutex_);
@@ -118,10 +80,10 @@ bool Retention::clock_is_even() {
 }
 
 bool Retention::may_go(size_t count, size_t of, const std::string& what) {
-  if (count <= always_may_go || count * 100 <= of * static_cast<size_t>(rules_.most_at_once_percent))
+  if (count <= always_may_go || count * 100 <= of * static_cast<size_t>(rules_.max_at_once_percent))
     return true;
   reason_ = std::to_string(count) + " of " + std::to_string(of) + " " + what +
-            " are due to go at once, more than " + std::to_string(rules_.most_at_once_percent) +
+            " are due to go at once, more than " + std::to_string(rules_.max_at_once_percent) +
             " %; if the clock is right, start the server with --delete-at-once-percent 100";
   return false;
 }
@@ -162,7 +124,7 @@ std::vector<session::SessionRecord> Retention::due_sessions(size_t& all) {
       if (session.study.empty() || tools_.studies.is_closed(session.study)) due.push_back(std::move(record));
     }
     query.cursor = old.next;
-  } while (!query.cursor.empty() && !stopping());
+  } while (!query.cursor.empty() && !task_.stopping());
   return due;
 }
 
@@ -171,7 +133,7 @@ void Retention::delete_old_sessions() {
   const std::vector<session::SessionRecord> due = due_sessions(all);
   if (!may_go(due.size(), all, "sessions")) return;
   for (const session::SessionRecord& record : due) {
-    if (stopping()) return;
+    if (task_.stopping()) return;
     delete_by_rule(record);
   }
 }
@@ -189,7 +151,7 @@ void Retention::delete_by_rule(const session::SessionRecord& record) {
   }
   tools_.replays.stop_all_of(id);
   audit("session.delete", id, "by rule: older than " + days_text(rules_.keep_sessions_days.value_or(0)));
-  tools_.feed.tell(
+  tools_.feed.publish(
       {"session", id, "deleted", std::make_shared<const session::SessionRequest>(record.request)});
 }
 
@@ -206,7 +168,7 @@ void Retention::erase_deleted_sessions() {
       return;
   }
   for (const session::DeletedSession& deleted : due) {
-    if (stopping()) return;
+    if (task_.stopping()) return;
     erase(deleted);
   }
 }
@@ -222,7 +184,7 @@ void Retention::erase(const session::DeletedSession& deleted) {
   }
   audit("session.erase", deleted.id,
         "by rule: deleted more than " + days_text(rules_.keep_deleted_days) + " ago");
-  tools_.feed.tell({"session", deleted.id, "erased"});
+  tools_.feed.publish({"session", deleted.id, "erased"});
 }
 
 }  // namespace ream::api

@@ -1,16 +1,15 @@
 #pragma once
 #include <chrono>
-#include <condition_variable>
 #include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "access/access_control.hpp"
 #include "api/change_feed.hpp"
 #include "api/idempotency.hpp"
+#include "core/periodic_task.hpp"
 #include "core/utc.hpp"
 #include "jobs/job_service.hpp"
 #include "session/service/replay_service.hpp"
@@ -31,7 +30,7 @@ struct RetentionRules {
   /// Time that nobody sets, suspension included: what the wall clock is held against.
   std::function<std::chrono::nanoseconds()> running = time_since_boot;
   /// Most of the sessions, and of sessions and trash together, that may go in one look. Up to 20 always may.
-  int most_at_once_percent = 50;
+  int max_at_once_percent = 50;
 };
 
 /// What the rules of retention are carried out with. All outlive Retention.
@@ -51,17 +50,14 @@ struct RetentionTools {
 ///
 /// Time decides what goes, and a clock may be wrong. So nothing is deleted or erased because of its age while
 /// the wall clock has moved against the time the machine has been on by more than ten minutes within the last
-/// day, nor when more than RetentionRules::most_at_once_percent would go at once: held() says so then, and
+/// day, nor when more than RetentionRules::max_at_once_percent would go at once: held() says so then, and
 /// the log. What is erased as nothing is to be kept is no matter of time.
 class Retention {
  public:
   Retention(RetentionRules rules, RetentionTools tools);
-  ~Retention();
-  Retention(const Retention&) = delete;
-  Retention& operator=(const Retention&) = delete;
 
   /// Nothing is done before.
-  void begin();
+  void begin() { task_.start(); }
   /// Something was deleted by hand. Looks at once where that is not to be kept.
   void was_deleted();
   /// Why sessions that are due are not deleted at present; empty: nothing is held back.
@@ -69,10 +65,9 @@ class Retention {
   /// When a session that was deleted then is erased.
   std::string ends_utc(const std::string& deleted_utc) const;
   /// May be called twice.
-  void stop();
+  void stop() { task_.stop(); }
 
  private:
-  void work();
   void look();
   bool clock_is_even();
   /// Whether so many of so many may go; notes why not.
@@ -84,7 +79,6 @@ class Retention {
   void erase(const session::DeletedSession& deleted);
   void audit(const std::string& action, const std::string& session_id, const std::string& detail);
   std::string days_ago(int days) const;
-  bool stopping();
 
   struct ClockReading {
     UtcMoment wall;
@@ -97,9 +91,7 @@ class Retention {
   std::string reason_;                                ///< of this look
   mutable std::mutex mutex_;
   std::string held_;
-  std::condition_variable changed_;
-  bool stopping_ = false, look_wanted_ = true;
-  std::thread thread_;
+  PeriodicTask task_;
 };
 
 }  // namespace ream::api

@@ -17,7 +17,7 @@ namespace {
 /// What a score says of the session itself, which has no file before its start.
 json about(const session::SessionRecord& record) { return {{"theatre", record.request.theatre}}; }
 
-net::Response told(const std::string& id, const std::string& standing, const json& document) {
+net::Response score_response(const std::string& id, const std::string& standing, const json& document) {
   json score = session::explained_score(document);
   score["session"] = id;
   score["standing"] = standing;
@@ -33,19 +33,17 @@ net::Response get_score(const Services& services, const net::Request& request) {
   const std::string rubric = query_text(request, "rubric"), benchmark = query_text(request, "benchmark");
   std::error_code failed;
   if (!live && rubric.empty() && benchmark.empty() && fs::exists(session::score_json(folder), failed))
-    return told(id, "kept", read_json_file(session::score_json(folder)));
+    return score_response(id, "kept", read_json_file(session::score_json(folder)));
   const session::Judge judge = services.stores.judge_by(rubric, benchmark);
   const json metrics = services.sessions.metrics(id);
-  return told(id, live ? "live" : "computed",
-              session::score_document(services.engine.program(), about(record), metrics, judge));
+  return score_response(id, live ? "live" : "computed",
+                        session::score_document(services.engine.program(), about(record), metrics, judge));
 }
 
 net::Response score_anew(const Services& services, const net::Request& request) {
   const std::string& id = id_of(request);
   const session::SessionRecord record = services.sessions.get(id);
-  if (is_live(record.status.state))
-    throw Error(ErrorKind::conflict, "session '" + id + "' is " + to_text(record.status.state) +
-                                         "; its score can be kept when it has ended");
+  require_ended(record, "its score can be kept when it has ended");
   const fs::path folder = services.sessions.folder_of(id);
   const json metrics = services.sessions.metrics(id);
   const session::Judge judge =
@@ -54,7 +52,7 @@ net::Response score_anew(const Services& services, const net::Request& request) 
   const json document = session::score_document(services.engine.program(), about(record), metrics, judge);
   session::write_results(folder, metrics, document);
   services.sessions.note_results(id);
-  return told(id, "kept", document);
+  return score_response(id, "kept", document);
 }
 
 /// Those with metrics, of all that the caller may see.

@@ -16,10 +16,10 @@ std::filesystem::path under(const std::filesystem::path& data_folder, const char
 }  // namespace
 
 /// What it works on is worth reading again when it is done.
-void Server::tell(const jobs::JobRecord& job) {
-  feed_->tell({"job", job.id, to_text(job.state), job.order.session});
+void Server::publish(const jobs::JobRecord& job) {
+  feed_->publish({"job", job.id, to_text(job.state), job.order.session});
   if (job.state != jobs::JobState::done) return;
-  if (!job.order.case_id.empty()) feed_->tell({"case", job.order.case_id, "changed"});
+  if (!job.order.case_id.empty()) feed_->publish({"case", job.order.case_id, "changed"});
 }
 
 net::Router Server::router_for(const ServerOptions& options) const {
@@ -40,7 +40,7 @@ Server::Server(ServerOptions options)
       stores_{score::RubricStore(under(options.data_folder, "rubrics")),
               score::BenchmarkStore(under(options.data_folder, "benchmarks")), !options.data_folder.empty()},
       jobs_({under(options.data_folder, "jobs"), std::chrono::hours(24), 256,
-             [this](const jobs::JobRecord& job) { tell(job); }}),
+             [this](const jobs::JobRecord& job) { publish(job); }}),
       access_control_(*database_, options.access),
       stream_watch_(access_control_),
       sessions_(*engine_, options.sessions, options.sessions_folder, *database_),
@@ -73,7 +73,7 @@ Server::Server(ServerOptions options)
       middleware_(services_, served_, contract_, idempotency_, stream_watch_),
       router_(router_for(options)),
       listener_(router_, options.listen),
-      readiness_(std::move(options.prepare)),
+      readiness_(*engine_, options.make_demo_case),
       watch_(sessions_, *feed_),
       unused_("sessions that nobody starts and uploads that nobody goes on with", [this] {
         sessions_.end_unstarted();

@@ -1,6 +1,5 @@
 #pragma once
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <string>
 
@@ -27,7 +26,7 @@ struct ServerOptions {
   /// has no users, everybody may do everything.
   std::shared_ptr<store::Database> database;
   access::AccessOptions access;
-  std::function<void()> prepare;  ///< run once in the background; /readyz is 503 until it is done
+  bool make_demo_case = false;  ///< in the background; /readyz is 503 until it is there
 };
 
 /// The whole server: REST resources, streams and page over one listener.
@@ -52,7 +51,7 @@ class Server {
 
  private:
   net::Router router_for(const ServerOptions& options) const;
-  void tell(const jobs::JobRecord& job);
+  void publish(const jobs::JobRecord& job);
 
   // Order matters: nothing is prepared before the port is ours. stop() has ended the listener before any of
   // these goes.

@@ -16,9 +16,9 @@ net::Response get_health(const Services&, const net::Request&) {
 
 net::Response get_readiness(const Services& services, const net::Request&) {
   services.readiness.require_ready();
-  nlohmann::json told = {{"status", "ready"}};
-  if (const std::string held = services.retention.held(); !held.empty()) told["retention_held"] = held;
-  return net::json_response(200, told);
+  nlohmann::json view = {{"status", "ready"}};
+  if (const std::string held = services.retention.held(); !held.empty()) view["retention_held"] = held;
+  return net::json_response(200, view);
 }
 
 net::Response get_gauges(const Services& services, const net::Request&) {

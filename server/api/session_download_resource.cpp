@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 namespace {
 
-constexpr double most_rows_at_once = 1e6;
+constexpr double max_rows_at_once = 1e6;
 
 session::SessionRecord seen_session(const Services& services, const net::Request& request) {
   return services.seen(request.caller, services.sessions.get(id_of(request)));
@@ -52,7 +52,7 @@ session::TracePart part_of(const net::Request& request) {
 
 void require_few_rows(const session::TracePart& part, double duration_s) {
   const double span_s = std::min(part.to_s.value_or(duration_s), duration_s) - part.from_s;
-  if (span_s / tick_s / part.stride > most_rows_at_once)
+  if (span_s / tick_s / part.stride > max_rows_at_once)
     throw net::RequestError(
         422,
         "that would be more than a million rows; ask for a part (from_s, to_s, stride) or "
@@ -142,9 +142,7 @@ net::Response export_session(const Services& services, const net::Request& reque
   session::ExportOrder order = order_in(body, format);
   const session::SessionRecord record = seen_session(services, request);
   const std::string id = record.request.id;
-  if (is_live(record.status.state))
-    throw Error(ErrorKind::conflict, "session '" + id + "' is " + to_text(record.status.state) +
-                                         "; it can be exported when it has ended");
+  require_ended(record, "it can be exported when it has ended");
   existing(session::recording_file(services.sessions.folder_of(id)), id, "recording");
   order.session = record.request;
   services.engine.check_export(format, order);

@@ -12,9 +12,9 @@ namespace ream::api {
 using nlohmann::json;
 namespace {
 
-void tell_session(const Services& services, const session::SessionRecord& record, const char* change) {
-  services.feed.tell({"session", record.request.id, change,
-                      std::make_shared<const session::SessionRequest>(record.request)});
+void publish_session(const Services& services, const session::SessionRecord& record, const char* change) {
+  services.feed.publish({"session", record.request.id, change,
+                         std::make_shared<const session::SessionRequest>(record.request)});
 }
 
 net::Response remove_session(const Services& services, const net::Request& request) {
@@ -25,7 +25,7 @@ net::Response remove_session(const Services& services, const net::Request& reque
     throw net::RequestError(403, "a session of a study is deleted by those who run the study");
   const session::SessionRecord record = services.sessions.remove(id);
   services.replays.stop_all_of(id);
-  tell_session(services, record, "deleted");
+  publish_session(services, record, "deleted");
   services.retention.was_deleted();
   return no_content();
 }
@@ -45,7 +45,7 @@ json deleted_json(const Services& services, const study::Blinding& blinding,
 
 net::Response restore_session(const Services& services, const net::Request& request) {
   const session::SessionRecord record = services.sessions.restore(id_of(request));
-  tell_session(services, record, "restored");
+  publish_session(services, record, "restored");
   return net::json_response(200, to_json(services.seen(request.caller, record)));
 }
 

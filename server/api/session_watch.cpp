@@ -1,34 +1,19 @@
 #include "api/session_watch.hpp"
 
-#include "core/log.hpp"
-#include "core/signal_handlers.hpp"
-
 namespace ream::api {
 
 SessionWatch::SessionWatch(const session::SessionService& sessions, ChangeFeed& feed,
                            std::chrono::milliseconds look_every)
-    : sessions_(sessions), feed_(feed) {
-  thread_ = start_thread([this, look_every] {
-    std::unique_lock lock(mutex_);
-    while (!leaving_changed_.wait_for(lock, look_every, [this] { return leaving_; })) {
-      try {
-        look();
-      } catch (...) {
-        log::current_exception("changes of sessions could not be told");
-      }
-    }
-  });
-}
-
-SessionWatch::~SessionWatch() { stop(); }
-
-void SessionWatch::stop() {
-  {
-    const std::lock_guard lock(mutex_);
-    leaving_ = true;
-  }
-  leaving_changed_.notify_all();
-  if (thread_.joinable()) thread_.join();
+    : sessions_(sessions),
+      feed_(feed),
+      task_(
+          "changes of sessions could not be announced",
+          [this, look_every] {
+            look();
+            return look_every;
+          },
+          look_every) {
+  task_.start(look_every, false);
 }
 
 void SessionWatch::look() {
@@ -39,7 +24,7 @@ void SessionWatch::look() {
     now[id] = state;
     const auto before = known_.find(id);
     if (before != known_.end() && before->second == state) continue;
-    feed_.tell(
+    feed_.publish(
         {"session", id, to_text(state), std::make_shared<const session::SessionRequest>(record.request)});
   }
   known_ = std::move(now);

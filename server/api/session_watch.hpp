@@ -1,11 +1,9 @@
 #pragma once
 #include <chrono>
-#include <condition_variable>
 #include <map>
-#include <mutex>
-#include <thread>
 
 #include "api/change_feed.hpp"
+#include "core/periodic_task.hpp"
 #include "session/service/session_service.hpp"
 
 namespace ream::api {
@@ -17,11 +15,8 @@ class SessionWatch {
   /// Both outlive it.
   SessionWatch(const session::SessionService& sessions, ChangeFeed& feed,
                std::chrono::milliseconds look_every = std::chrono::milliseconds(100));
-  ~SessionWatch();
-  SessionWatch(const SessionWatch&) = delete;
-  SessionWatch& operator=(const SessionWatch&) = delete;
 
-  void stop();
+  void stop() { task_.stop(); }
 
  private:
   void look();
@@ -29,10 +24,7 @@ class SessionWatch {
   const session::SessionService& sessions_;
   ChangeFeed& feed_;
   std::map<std::string, SessionState> known_;
-  std::mutex mutex_;
-  std::condition_variable leaving_changed_;
-  bool leaving_ = false;
-  std::thread thread_;
+  PeriodicTask task_;
 };
 
 }  // namespace ream::api

@@ -5,6 +5,12 @@
 namespace ream::api {
 namespace fs = std::filesystem;
 
+void require_ended(const session::SessionRecord& record, const std::string& what) {
+  if (is_live(record.status.state))
+    throw Error(ErrorKind::conflict,
+                "session '" + record.request.id + "' is " + to_text(record.status.state) + "; " + what);
+}
+
 FileLock lock_of_ended(const fs::path& folder) {
   auto lock = FileLock::attempt(session::lock_file(folder));
   if (!lock)

@@ -9,6 +9,9 @@
 
 namespace ream::api {
 
+/// Error conflict for one that has not ended; `what` can be done then, for people.
+void require_ended(const session::SessionRecord& record, const std::string& what);
+
 /// Keeps others from changing the files of a session that has ended. Error conflict while somebody does.
 FileLock lock_of_ended(const std::filesystem::path& folder);
 

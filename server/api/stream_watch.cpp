@@ -4,9 +4,6 @@
 #include <atomic>
 #include <functional>
 
-#include "core/log.hpp"
-#include "core/signal_handlers.hpp"
-
 namespace ream::api {
 
 /// What the watch knows of one open WebSocket.
@@ -61,20 +58,19 @@ class StreamWatch::WatchedSession final : public net::WebSocketSession {
 };
 
 StreamWatch::StreamWatch(access::AccessControl& access_control, std::chrono::milliseconds look_every)
-    : access_control_(access_control), look_every_(look_every) {
+    : access_control_(access_control),
+      task_(
+          "whether streams may go on could not be asked",
+          [this, look_every] {
+            look();
+            return look_every;
+          },
+          look_every) {
   access_control_.credentials.on_change([this](const std::vector<std::string>& ids) { end(ids); });
-  thread_ = start_thread([this] { look(); });
+  task_.start(look_every, false);
 }
 
-StreamWatch::~StreamWatch() {
-  access_control_.credentials.on_change({});
-  {
-    const std::lock_guard lock(mutex_);
-    stopped_ = true;
-  }
-  changed_.notify_all();
-  thread_.join();
-}
+StreamWatch::~StreamWatch() { access_control_.credentials.on_change({}); }
 
 std::unique_ptr<net::WebSocketSession> StreamWatch::watched(const net::Request& request,
                                                             std::unique_ptr<net::WebSocketSession> inner) {
@@ -104,26 +100,13 @@ void StreamWatch::end(const std::vector<std::string>& credentials) {
       stream->end();
 }
 
-void StreamWatch::look() {
-  std::unique_lock lock(mutex_);
-  while (!changed_.wait_for(lock, look_every_, [this] { return stopped_; })) {
-    lock.unlock();
-    try {
-      look_at_all();
-    } catch (...) {
-      log::current_exception("whether streams may go on could not be asked");
-    }
-    lock.lock();
-  }
-}
-
 bool StreamWatch::may_go_on(const Stream& stream) {
   if (stream.caller.credential.empty()) return !access_control_.users.any();
   const auto identity = access_control_.credentials.identify_again(stream.caller.credential);
   return identity && access::to_text(identity->role) == stream.caller.role;
 }
 
-void StreamWatch::look_at_all() {
+void StreamWatch::look() {
   for (const auto& stream : open_streams())
     if (!stream->ended && !may_go_on(*stream)) stream->end();
 }

@@ -1,14 +1,13 @@
 #pragma once
 #include <chrono>
-#include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <set>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "access/access_control.hpp"
+#include "core/periodic_task.hpp"
 #include "net/message.hpp"
 #include "net/websocket.hpp"
 
@@ -38,18 +37,14 @@ class StreamWatch {
   class WatchedSession;
   void end(const std::vector<std::string>& credentials);
   void look();
-  void look_at_all();
   /// Whether the stream's caller would be let in again, with the same role.
   bool may_go_on(const Stream& stream);
   std::vector<std::shared_ptr<Stream>> open_streams();
 
   access::AccessControl& access_control_;
-  const std::chrono::milliseconds look_every_;
   std::mutex mutex_;
-  std::condition_variable changed_;
   std::vector<std::weak_ptr<Stream>> streams_;
-  bool stopped_ = false;
-  std::thread thread_;
+  PeriodicTask task_;
 };
 
 }  // namespace ream::api

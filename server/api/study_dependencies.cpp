@@ -29,21 +29,16 @@ class ServerDependencies final : public study::StudyDependencies {
     return is_name(case_id) && workup::is_case_folder(cases_folder_ / case_id);
   }
 
-  std::vector<study::StudyAttempt> attempts(const std::string& study_id) const override {
+  std::vector<session::SessionRecord> sessions(const std::string& study_id) const override {
     store::SessionQuery query;
     query.study = study_id;
     query.limit = SIZE_MAX;
-    std::vector<study::StudyAttempt> attempts;
-    for (session::SessionRecord& record : sessions_.list(query).sessions) {
-      if (is_live(record.status.state) || record.status.tick == 0) continue;
-      nlohmann::json metrics = metrics_of(record.request.id);
-      attempts.push_back({std::move(record), std::move(metrics)});
-    }
-    return attempts;
+    std::vector<session::SessionRecord> all = sessions_.list(query).sessions;
+    std::erase_if(all, [](const auto& one) { return is_live(one.status.state) || one.status.tick == 0; });
+    return all;
   }
 
- private:
-  nlohmann::json metrics_of(const std::string& session_id) const {
+  nlohmann::json metrics(const std::string& session_id) const override {
     try {
       return sessions_.metrics(session_id);
     } catch (const Error& missing) {
@@ -52,6 +47,7 @@ class ServerDependencies final : public study::StudyDependencies {
     }
   }
 
+ private:
   const std::filesystem::path cases_folder_;
   session::SessionService& sessions_;
   access::AccessControl& access_control_;

@@ -19,13 +19,13 @@ const std::string& code_of(const net::Request& request) { return request.paramet
 struct StudyView {
   const study::Study& study;
   bool to_staff = false;
-  int64_t participants = 0;  ///< told to staff
+  int64_t participants = 0;  ///< for staff only
   std::string own_code;      ///< of the caller; empty: does not take part
 };
 
 /// Without the questionnaire.
-json summary_json(const StudyView& told) {
-  const study::Study& study = told.study;
+json summary_json(const StudyView& view) {
+  const study::Study& study = view.study;
   return {{"id", study.id},
           {"name", study.name},
           {"description", study.description},
@@ -38,14 +38,14 @@ json summary_json(const StudyView& told) {
           {"script", or_null(study.settings.script)},
           {"device", or_null(study.settings.device)},
           {"device_profile", or_null(study.settings.device_profile)},
-          {"join_code", told.to_staff ? json(study.join_code) : json(nullptr)},
-          {"participants", told.to_staff ? json(told.participants) : json(nullptr)},
-          {"participant", or_null(told.own_code)}};
+          {"join_code", view.to_staff ? json(study.join_code) : json(nullptr)},
+          {"participants", view.to_staff ? json(view.participants) : json(nullptr)},
+          {"participant", or_null(view.own_code)}};
 }
 
-json study_json(const StudyView& told) {
-  json all = summary_json(told);
-  all["questionnaire"] = told.study.questionnaire ? to_json(*told.study.questionnaire) : json(nullptr);
+json study_json(const StudyView& view) {
+  json all = summary_json(view);
+  all["questionnaire"] = view.study.questionnaire ? to_json(*view.study.questionnaire) : json(nullptr);
   return all;
 }
 
@@ -103,9 +103,9 @@ net::Response join_study(const Services& services, const net::Request& request) 
   const study::NewParticipant about = new_participant_from(body_of(request));
   const auto [id, participant] = services.studies.join(request.caller, about);
   services.audit(request, "study.join", id, "");
-  json told = to_json(participant);
-  told["study"] = id;
-  return created(studies_path + "/" + id + "/participants/" + participant.code, told);
+  json view = to_json(participant);
+  view["study"] = id;
+  return created(studies_path + "/" + id + "/participants/" + participant.code, view);
 }
 
 net::Response enrol_participant(const Services& services, const net::Request& request) {

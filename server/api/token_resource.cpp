@@ -61,9 +61,9 @@ net::Response add_token(const Services& services, const net::Request& request) {
   const access::IssuedCredential issued =
       services.access_control.credentials.issue(CredentialKind::token, wanted);
   services.audit(request, "token.add", issued.row.id, issued.row.name);
-  json told = token_json(issued.row);
-  told["secret"] = issued.secret.reveal();
-  return net::json_response(201, told);
+  json view = token_json(issued.row);
+  view["secret"] = issued.secret.reveal();
+  return net::json_response(201, view);
 }
 
 net::Response revoke_token(const Services& services, const net::Request& request) {

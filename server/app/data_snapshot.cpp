@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_attempts = 5;
+constexpr int max_attempts = 5;
 
 bool passing(const std::string& name) {
   return name.front() == '.' || name.ends_with(".tmp") || name == "lock";
@@ -63,7 +63,7 @@ bool hold(const fs::path& file, const fs::path& to) {
 /// All files of one session or case. None when it has gone.
 std::vector<Seen> hold_all(const fs::path& folder, const fs::path& to) {
   std::vector<Seen> files = look(folder);
-  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+  for (int attempt = 0; attempt < max_attempts; ++attempt) {
     std::error_code ignored;
     fs::remove_all(to, ignored);
     const bool held = std::all_of(files.begin(), files.end(),

@@ -21,9 +21,9 @@ using device::LinkState;
 const Vec3 world_up = Vec3::UnitZ();  // the world is LPS
 constexpr double wall_below_mm = 10.0;
 constexpr double wall_stiffness_n_mm = 0.2, share_of_stiffness = 0.25;
-constexpr double most_force_n = 1.0, share_of_force = 0.1;
-constexpr double farthest_mm = 2000.0;
-constexpr double least_motion_mm = 1.0;
+constexpr double max_force_n = 1.0, share_of_force = 0.1;
+constexpr double max_distance_mm = 2000.0;
+constexpr double min_motion_mm = 1.0;
 constexpr double few_poses_hz = 200.0;
 
 class Trial {
@@ -32,7 +32,7 @@ class Trial {
       : device_(device), times_(times), watchdog_(device.traits().stale) {
     const device::DeviceTraits& traits = device.traits();
     stiffness_n_mm_ = std::min(wall_stiffness_n_mm, share_of_stiffness * traits.stiffness_max_n_mm);
-    force_max_n_ = std::min(most_force_n, share_of_force * traits.force_max_n);
+    force_max_n_ = std::min(max_force_n, share_of_force * traits.force_max_n);
     seen_.fade_ms = traits.stale.fade_ms;
   }
 
@@ -96,7 +96,7 @@ class Trial {
       seen_.age_max_ms = std::max(seen_.age_max_ms, input.age_ms);
     }
     const Vec3& place_mm = input.world_from_handle.translation_mm;
-    if (!input.world_from_handle.rotation.allFinite() || !(place_mm.array().abs() < farthest_mm).all()) {
+    if (!input.world_from_handle.rotation.allFinite() || !(place_mm.array().abs() < max_distance_mm).all()) {
       ++seen_.wild_poses;
       return;
     }
@@ -175,7 +175,7 @@ std::vector<std::string> verdict_words(const DeviceTrial& t) {
   else
     words.push_back("usable");
   if (!t.connected) return words;
-  if (t.moved_mm.norm() < least_motion_mm)
+  if (t.moved_mm.norm() < min_motion_mm)
     words.push_back("the handle did not move, so its axes were not seen");
   else if (t.wall_s == 0.0)
     words.push_back("the wall was not touched; press downwards to feel it");

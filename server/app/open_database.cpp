@@ -9,7 +9,7 @@
 namespace ream::app {
 namespace {
 
-std::string usual_url(const std::filesystem::path& data) { return "sqlite:" + (data / "ream.db").string(); }
+std::string default_url(const std::filesystem::path& data) { return "sqlite:" + (data / "ream.db").string(); }
 
 }  // namespace
 
@@ -23,12 +23,12 @@ std::string database_url(const std::string& chosen, const std::filesystem::path&
     return chosen;
   }
   if (const char* url = std::getenv("REAM_DB"); url != nullptr && *url != '\0') return url;
-  return usual_url(data);
+  return default_url(data);
 }
 
 std::shared_ptr<store::Database> open_database(const std::string& chosen, const std::filesystem::path& data) {
   const std::string url = database_url(chosen, data);
-  if (url == usual_url(data)) make_data_folder(data);
+  if (url == default_url(data)) make_data_folder(data);
   return std::make_shared<store::Database>(url);
 }
 

@@ -1,6 +1,7 @@
 #include "app/person_data.hpp"
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -26,11 +27,6 @@ using nlohmann::json;
 
 constexpr const char* forgotten_name = "forgotten";
 constexpr int audit_rows_at_once = 1000;
-
-struct PersonSession {
-  fs::path folder;
-  session::SessionRequest request;
-};
 
 /// Sessions of a time without users have a name only.
 bool is_of(const access::User& user, const session::SessionRequest& request) {
@@ -59,11 +55,12 @@ std::vector<fs::path> session_folders(const fs::path& data) {
   return found;
 }
 
-std::vector<PersonSession> sessions_of(const access::User& user, const fs::path& data) {
-  std::vector<PersonSession> found;
+/// By folder.
+std::map<fs::path, session::SessionRequest> sessions_of(const access::User& user, const fs::path& data) {
+  std::map<fs::path, session::SessionRequest> found;
   for (const fs::path& folder : session_folders(data)) try {
       const session::SessionRecord record = session::read_session_folder(folder);
-      if (is_of(user, record.request)) found.push_back({folder, record.request});
+      if (is_of(user, record.request)) found.emplace(folder, record.request);
     } catch (const Error&) {  // no session, or one that nobody can read
     }
   return found;
@@ -111,14 +108,14 @@ void forget_aside(const fs::path& data, const access::User& user, ForgetReport& 
 void forget_sessions(store::Database& database, const fs::path& data, const access::User& user,
                      ForgetReport& report) {
   std::vector<std::string> changed;
-  for (PersonSession& session : sessions_of(user, data)) {
-    if (session.request.trainee == forgotten_name) continue;
-    session.request.trainee = forgotten_name;
+  for (auto& [folder, request] : sessions_of(user, data)) {
+    if (request.trainee == forgotten_name) continue;
+    request.trainee = forgotten_name;
     try {
-      session::relabel_folder(session.folder, session.request);
-      changed.push_back(session.folder.filename().string());
+      session::relabel_folder(folder, request);
+      changed.push_back(folder.filename().string());
     } catch (const Error& failure) {
-      report.left.push_back(session.folder.string() + ": " + failure.what());
+      report.left.push_back(folder.string() + ": " + failure.what());
     }
   }
   for (const fs::path& folder : session_folders(data)) try {
@@ -185,10 +182,10 @@ ForgetReport forget_person(store::Database& database, access::AccessControl& acc
 json export_person(store::Database& database, const access::AccessControl& access_control,
                    const fs::path& data, const access::User& user) {
   json sessions = json::array();
-  for (const PersonSession& session : sessions_of(user, data)) {
-    json labels = session::labels_json(session.request);
-    labels["folder"] = fs::relative(session.folder, data).string();
-    labels["created_utc"] = session.request.created_utc;
+  for (const auto& [folder, request] : sessions_of(user, data)) {
+    json labels = session::labels_json(request);
+    labels["folder"] = fs::relative(folder, data).string();
+    labels["created_utc"] = request.created_utc;
     sessions.push_back(std::move(labels));
   }
   json studies = json::array();

@@ -9,10 +9,10 @@
 namespace ream {
 namespace {
 
-volatile sig_atomic_t signalled = 0, patience_s = 0;
+volatile sig_atomic_t signalled = 0, timeout_s = 0;
 
 void remember_signal(int) {
-  if (signalled == 0) ::alarm(static_cast<unsigned>(patience_s));
+  if (signalled == 0) ::alarm(static_cast<unsigned>(timeout_s));
   signalled = 1;
 }
 
@@ -23,8 +23,8 @@ bool is_ignored(int signal) {
 
 }  // namespace
 
-void catch_interrupts(std::chrono::seconds patience) {
-  patience_s = static_cast<sig_atomic_t>(patience.count());
+void catch_interrupts(std::chrono::seconds timeout) {
+  timeout_s = static_cast<sig_atomic_t>(timeout.count());
   for (const int signal : {SIGINT, SIGTERM, SIGQUIT}) keep_handler(signal, remember_signal);
   keep_handler(SIGHUP, is_ignored(SIGHUP) ? SIG_IGN : remember_signal);
 }

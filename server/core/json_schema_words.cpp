@@ -38,13 +38,13 @@ std::string range_words(const json& schema) {
   return words;
 }
 
-std::string count_words(const json& schema, const char* least_key, const char* most_key, const char* unit) {
-  const bool least = schema.contains(least_key), most = schema.contains(most_key);
-  if (least && most && schema[least_key] == schema[most_key])
-    return " of " + schema[least_key].dump() + " " + unit;
-  if (least && most) return " of " + schema[least_key].dump() + " to " + schema[most_key].dump() + " " + unit;
-  if (least) return " of at least " + schema[least_key].dump() + " " + unit;
-  return most ? " of at most " + schema[most_key].dump() + " " + unit : "";
+std::string count_words(const json& schema, const char* min_key, const char* max_key, const char* unit) {
+  const bool least = schema.contains(min_key), most = schema.contains(max_key);
+  if (least && most && schema[min_key] == schema[max_key])
+    return " of " + schema[min_key].dump() + " " + unit;
+  if (least && most) return " of " + schema[min_key].dump() + " to " + schema[max_key].dump() + " " + unit;
+  if (least) return " of at least " + schema[min_key].dump() + " " + unit;
+  return most ? " of at most " + schema[max_key].dump() + " " + unit : "";
 }
 
 std::string type_words(const json& schema, const std::string& type) {

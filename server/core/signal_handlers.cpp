@@ -13,7 +13,7 @@ namespace {
 
 constexpr int signals = 32;  ///< those with names; real-time signals are nobody's here
 /// A handler may call a device, and the kernel puts the processor's whole state beneath it.
-constexpr size_t least_stack_bytes = 65536;
+constexpr size_t min_stack_bytes = 65536;
 
 std::mutex handlers_mutex;
 std::array<struct sigaction, signals> kept_actions;
@@ -52,7 +52,7 @@ bool restore_handlers() noexcept {
 
 SignalStack::SignalStack() noexcept {
   const auto page = static_cast<size_t>(std::max(4096L, ::sysconf(_SC_PAGESIZE)));
-  const auto wanted = std::max(least_stack_bytes, static_cast<size_t>(std::max(0L, ::sysconf(_SC_SIGSTKSZ))));
+  const auto wanted = std::max(min_stack_bytes, static_cast<size_t>(std::max(0L, ::sysconf(_SC_SIGSTKSZ))));
   const size_t bytes = page + (wanted + page - 1) / page * page;
   void* memory = ::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_STACK, -1, 0);
   // Without memory for it, the thread goes without: only an overflow of its own stack is worse for that.

@@ -6,7 +6,7 @@ namespace ream {
 namespace {
 
 constexpr std::string_view digits = "0123456789abcdef";
-constexpr size_t longest_id = 64;
+constexpr size_t max_id_length = 64;
 
 }  // namespace
 
@@ -57,7 +57,7 @@ std::string pointer_to(const std::string& key) {
 }
 
 bool is_name(const std::string& text) {
-  return !text.empty() && text.size() <= longest_id &&
+  return !text.empty() && text.size() <= max_id_length &&
          text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos;
 }
 

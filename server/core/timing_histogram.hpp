@@ -46,20 +46,20 @@ class TimingHistogram {
     double* us;
   };
   static constexpr size_t fine_bins_a_us = 10, fine_us = 20, fine_bins = fine_bins_a_us * fine_us;
-  static constexpr size_t longest_us = 20000;
+  static constexpr size_t max_binned_us = 20000;
 
   static size_t bin_of(double us) noexcept {
     if (!(us > 0.0)) return 0;
     if (us < static_cast<double>(fine_us)) return static_cast<size_t>(us * fine_bins_a_us);
-    if (us < static_cast<double>(longest_us)) return fine_bins + static_cast<size_t>(us) - fine_us;
-    return fine_bins + longest_us - fine_us;
+    if (us < static_cast<double>(max_binned_us)) return fine_bins + static_cast<size_t>(us) - fine_us;
+    return fine_bins + max_binned_us - fine_us;
   }
   static double upper_edge_us(size_t bin) noexcept {
     return bin < fine_bins ? static_cast<double>(bin + 1) / fine_bins_a_us
                            : static_cast<double>(bin - fine_bins + fine_us + 1);
   }
 
-  std::array<uint32_t, fine_bins + longest_us - fine_us + 1> bins_{};
+  std::array<uint32_t, fine_bins + max_binned_us - fine_us + 1> bins_{};
   uint64_t count_ = 0;
   double sum_us_ = 0.0, max_us_ = 0.0;
 };

@@ -19,23 +19,23 @@ std::array<std::atomic<HapticDevice*>, 64> watched{};
 static_assert(std::atomic<HapticDevice*>::is_always_lock_free);
 
 constexpr std::array crashes{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS, SIGXCPU};
-constexpr int longest_wait_ms = 1000, look_every_ms = 10;
-constexpr unsigned longest_release_s = 2;
+constexpr int max_wait_ms = 1000, look_every_ms = 10;
+constexpr unsigned max_release_s = 2;
 
 std::atomic<pid_t> crashed_thread{0};
-std::terminate_handler usual_terminate = nullptr;
+std::terminate_handler default_terminate = nullptr;
 
 /// Puts it back by hand: whoever else had a handler (PoCL, the compiler in it) is not asked.
-void take_usual_action(int signal) noexcept {
-  struct sigaction usual {};
-  usual.sa_handler = SIG_DFL;
-  ::sigaction(signal, &usual, nullptr);
+void restore_default_action(int signal) noexcept {
+  struct sigaction action {};
+  action.sa_handler = SIG_DFL;
+  ::sigaction(signal, &action, nullptr);
 }
 
 /// The process is about to end, and a device that does not return must not keep it from that.
 void take_all_force_away() noexcept {
-  take_usual_action(SIGALRM);
-  ::alarm(longest_release_s);
+  restore_default_action(SIGALRM);
+  ::alarm(max_release_s);
   for (auto& place : watched)
     if (HapticDevice* device = place.load(std::memory_order_acquire)) device->take_force_away();
 }
@@ -48,18 +48,18 @@ void on_crash(int signal) {
   if (crashed_thread.compare_exchange_strong(first, here))
     take_all_force_away();
   else if (first != here)
-    for (int waited_ms = 0; waited_ms < longest_wait_ms; waited_ms += look_every_ms)
+    for (int waited_ms = 0; waited_ms < max_wait_ms; waited_ms += look_every_ms)
       ::poll(nullptr, 0, look_every_ms);
-  take_usual_action(signal);
+  restore_default_action(signal);
   ::raise(signal);
 }
 
 void on_terminate() {
   take_all_force_away();
-  usual_terminate();
+  default_terminate();
 }
 
-void on_patience_over(int) {
+void on_end_timeout(int) {
   end_process_without_force(
       "it was told to end and has not; sessions that were not closed are recovered at the "
       "next start");
@@ -69,8 +69,9 @@ void on_patience_over(int) {
 
 void take_force_away_on_crash() {
   for (const int signal : crashes) keep_handler(signal, on_crash, SA_NODEFER);
-  keep_handler(SIGALRM, on_patience_over);
-  if (const auto before = std::set_terminate(on_terminate); before != on_terminate) usual_terminate = before;
+  keep_handler(SIGALRM, on_end_timeout);
+  if (const auto before = std::set_terminate(on_terminate); before != on_terminate)
+    default_terminate = before;
 }
 
 void end_process_without_force(const char* words) noexcept {

@@ -9,6 +9,7 @@
 #include "core/file.hpp"
 #include "core/json.hpp"
 #include "core/json_reader.hpp"
+#include "device/profiles.hpp"
 
 namespace ream::device {
 namespace {
@@ -130,10 +131,7 @@ Mat3 handle_from_tool(const DeviceSetup& setup) {
 
 DeviceSetup default_device_setup(const std::string& device) {
   DeviceSetup setup;
-  // Haply's Inverse3: y away from the person, z up; Force Dimension's: x towards the person, z up; 3D
-  // Systems': the person's frame.
-  if (device == "haply") setup.person_from_device = person_from_axes("x,z,-y");
-  if (device == "forcedimension") setup.person_from_device = person_from_axes("y,z,x");
+  setup.person_from_device = person_from_axes(device_axes(device));
   setup.handle_from_tool = setup.person_from_device.transpose() * person_from_tool;
   return setup;
 }

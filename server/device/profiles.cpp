@@ -104,4 +104,10 @@ std::vector<std::string> device_profile_names() {
   return names;
 }
 
+const char* device_axes(const std::string& device) {
+  if (device == "haply") return "x,z,-y";          // y away from the person, z up
+  if (device == "forcedimension") return "y,z,x";  // x towards the person, z up
+  return "x,y,z";                                  // the person's own, as 3D Systems' devices
+}
+
 }  // namespace ream::device

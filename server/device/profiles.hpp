@@ -14,4 +14,7 @@ DeviceTraits device_profile(const std::string& name);
 /// Every name that device_profile knows, in the order of its table.
 std::vector<std::string> device_profile_names();
 
+/// The axes of a kind of device, "haply" say, that go to the person's right, up and towards them.
+const char* device_axes(const std::string& device);
+
 }  // namespace ream::device

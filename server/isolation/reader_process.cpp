@@ -102,10 +102,10 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// Its status as waitpid says it; what still runs after `patience` is ended.
-  int ended(std::chrono::milliseconds patience) {
+  /// Its status as waitpid says it; what still runs after `timeout` is ended.
+  int ended(std::chrono::milliseconds timeout) {
     int status = 0;
-    const auto latest = std::chrono::steady_clock::now() + patience;
+    const auto latest = std::chrono::steady_clock::now() + timeout;
     while (id_ > 0 && ::waitpid(id_, &status, WNOHANG) == 0) {
       if (std::chrono::steady_clock::now() >= latest) {
         ::kill(id_, SIGKILL);

@@ -15,9 +15,9 @@ namespace ream::jobs {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr size_t most_waiting = 16;
-/// Progress is told no more often than this.
-constexpr int64_t told_every_ns = 500'000'000;
+constexpr size_t max_waiting = 16;
+/// Progress is announced no more often than this.
+constexpr int64_t announce_interval_ns = 500'000'000;
 
 void remove_quietly(const fs::path& path) {
   std::error_code ignored;
@@ -36,7 +36,7 @@ struct JobService::Job {
   JobRecord record;
   Work work;  ///< until it runs
   std::atomic<bool> cancel_wanted{false};
-  int64_t told_ns = 0;
+  int64_t announced_ns = 0;
 };
 
 std::string to_text(JobState state) {
@@ -71,11 +71,11 @@ void JobService::shut_down() {
 
 fs::path JobService::folder_of(const Job& job) const { return options_.folder / job.record.id; }
 
-void JobService::tell(const JobRecord& record) const {
+void JobService::notify(const JobRecord& record) const {
   try {
     if (options_.on_change) options_.on_change(record);
   } catch (...) {
-    log::current_exception("a change of a job could not be told");
+    log::current_exception("a change of a job could not be announced");
   }
 }
 
@@ -102,7 +102,7 @@ std::optional<JobRecord> JobService::open_on_session(const std::string& kind,
 
 /// With the mutex held.
 void JobService::forget_surplus() {
-  while (jobs_.size() > options_.most_kept && !is_open(jobs_.front()->record.state)) {
+  while (jobs_.size() > options_.max_kept && !is_open(jobs_.front()->record.state)) {
     if (jobs_.front()->record.result) remove_quietly(folder_of(*jobs_.front()));
     jobs_.pop_front();
   }
@@ -125,7 +125,7 @@ JobRecord JobService::add(const JobOrder& order, const std::shared_ptr<Job>& job
                                               "wait for one or cancel it");
     const auto waiting = std::count_if(jobs_.begin(), jobs_.end(),
                                        [](const auto& other) { return is_open(other->record.state); });
-    if (waiting >= static_cast<std::ptrdiff_t>(most_waiting))
+    if (waiting >= static_cast<std::ptrdiff_t>(max_waiting))
       throw Error(ErrorKind::unavailable, "too much work waits already; try again later");
     job->record.id = random_id();
     job->record.number = ++submitted_;
@@ -137,7 +137,7 @@ JobRecord JobService::add(const JobOrder& order, const std::shared_ptr<Job>& job
     record = job->record;
   }
   changed_.notify_all();
-  tell(record);
+  notify(record);
   return record;
 }
 
@@ -195,7 +195,7 @@ JobRecord JobService::cancel(const std::string& id) {
     job->record.ended_utc = ream::utc_text(options_.now());
     record = job->record;
   }
-  tell(record);
+  notify(record);
   return record;
 }
 
@@ -235,7 +235,7 @@ void JobService::work() {
 
 void JobService::note_progress(Job& job, double share, std::string_view step) {
   const int64_t now_ns = steady_ns();
-  const bool worth_telling = now_ns - job.told_ns > told_every_ns;
+  const bool is_due = now_ns - job.announced_ns > announce_interval_ns;
   JobRecord record;
   {
     const std::lock_guard lock(mutex_);
@@ -243,9 +243,9 @@ void JobService::note_progress(Job& job, double share, std::string_view step) {
     job.record.step = step;
     record = job.record;
   }
-  if (!worth_telling) return;
-  job.told_ns = now_ns;
-  tell(record);
+  if (!is_due) return;
+  job.announced_ns = now_ns;
+  notify(record);
 }
 
 void JobService::end(Job& job, JobState state, ErrorKind kind, const std::string& problem) {
@@ -259,7 +259,7 @@ void JobService::end(Job& job, JobState state, ErrorKind kind, const std::string
     if (state == JobState::done) job.record.share = 1.0;
     record = job.record;
   }
-  tell(record);
+  notify(record);
 }
 
 void JobService::run(const std::shared_ptr<Job>& job) {

@@ -20,7 +20,7 @@ struct JobOptions {
   /// left there is removed. Empty: work makes none.
   std::filesystem::path folder = {};
   std::chrono::seconds results_kept = std::chrono::hours(24);
-  size_t most_kept = 256;  ///< ended jobs that can be asked about
+  size_t max_kept = 256;  ///< ended jobs that can be asked about
   /// Told of every change, from the thread that makes it; must not wait.
   std::function<void(const JobRecord&)> on_change = {};
   WallClock now = machine_clock();
@@ -70,7 +70,7 @@ class JobService {
   void run(const std::shared_ptr<Job>& job);
   void note_progress(Job& job, double share, std::string_view step);
   void end(Job& job, JobState state, ErrorKind kind, const std::string& problem);
-  void tell(const JobRecord& record) const;
+  void notify(const JobRecord& record) const;
   std::filesystem::path folder_of(const Job& job) const;
   void forget_surplus();
   std::shared_ptr<Job> find(const std::string& id) const;

@@ -7,14 +7,14 @@
 namespace ream::jobs {
 namespace {
 
-constexpr int most_inside = 2;  // one works, one waits
+constexpr int max_inside = 2;  // one works, one waits
 
 }  // namespace
 
 void LowPriorityExecutor::run(const std::function<void()>& work) {
   {
     const std::lock_guard lock(mutex_);
-    if (inside_ == most_inside)
+    if (inside_ == max_inside)
       throw Error(ErrorKind::unavailable,
                   "other files are being made; try again in a few seconds, or ask for an export");
     ++inside_;

@@ -148,7 +148,7 @@ void RenewedTls::look() {
     if (!renewed->warning().empty()) log::warn(renewed->warning());
     const std::lock_guard lock(mutex_);
     context_ = std::move(renewed);
-    log::info("the certificate in " + options_.certificate_chain.string() + " is read anew");
+    log::info("the certificate in " + options_.certificate_chain.string() + " has been reloaded");
   } catch (const Error& failure) {
     log::warn(std::string("the old certificate goes on: ") + failure.what());
   }

@@ -55,8 +55,8 @@ bool holds_an_image(const fs::path& path, const DicomFile& file, int& imageless)
 
 /// A word of the standard's for modalities and kinds of values is short; what is longer may be of a person.
 std::string short_word(const std::string& word) {
-  constexpr size_t longest_word = 16;
-  return word.size() > longest_word ? "something else" : word;
+  constexpr size_t max_word_length = 16;
+  return word.size() > max_word_length ? "something else" : word;
 }
 
 /// Looks at every file below a folder, or at one file. Hidden files, files that are not DICOM and DICOM

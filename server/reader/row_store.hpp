@@ -32,7 +32,7 @@ class RowStore {
   /// Valid until `scratch` changes. Thread-safe.
   std::span<const RowRecord> rows(size_t block, std::vector<RowRecord>& scratch) const;
 
-  /// The line of a place in the file, and of a row of a block; read anew.
+  /// The line of a place in the file, and of a row of a block; read again.
   uint64_t line_of_byte(uint64_t byte) const;
   uint64_t line_of_row(size_t block, size_t row) const;
 

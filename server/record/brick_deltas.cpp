@@ -40,7 +40,7 @@ ops::Bytes BrickDeltaWriter::take() {
 }
 
 void read_brick_deltas(const ops::Bricks& op, size_t brick_count,
-                       const std::function<void(uint32_t brick, const uint8_t* falls)>& told) {
+                       const std::function<void(uint32_t brick, const uint8_t* falls)>& visit) {
   constexpr size_t bytes_a_brick = 4 + voxel::brick_voxels;
   if (op.images.size() != bytes_a_brick * op.count)
     throw Error(ErrorKind::invalid_input,
@@ -51,8 +51,8 @@ void read_brick_deltas(const ops::Bricks& op, size_t brick_count,
     if (brick >= brick_count)
       throw Error(ErrorKind::invalid_input, "the bricks after tick " + std::to_string(op.tick) +
                                                 " are not all in the grid; is this the recording's case?");
-    told(static_cast<uint32_t>(brick),
-         reinterpret_cast<const uint8_t*>(op.images.data()) + 4 * op.count + voxel::brick_voxels * i);
+    visit(static_cast<uint32_t>(brick),
+          reinterpret_cast<const uint8_t*>(op.images.data()) + 4 * op.count + voxel::brick_voxels * i);
   }
 }
 

@@ -37,6 +37,6 @@ class BrickDeltaWriter {
 /// Calls `told` with each brick's index and its 512 falls. Error invalid_input when the bytes do not fit the
 /// count or a brick is not among `brick_count`.
 void read_brick_deltas(const ops::Bricks& op, size_t brick_count,
-                       const std::function<void(uint32_t brick, const uint8_t* falls)>& told);
+                       const std::function<void(uint32_t brick, const uint8_t* falls)>& visit);
 
 }  // namespace ream::record

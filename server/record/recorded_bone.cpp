@@ -54,7 +54,7 @@ size_t RecordedBone::key_at_or_before(size_t chunk) const {
   return chunks.size();
 }
 
-void RecordedBone::seek(uint32_t ticks, const std::function<void(const voxel::BrickImage&)>& told) {
+void RecordedBone::seek(uint32_t ticks, const std::function<void(const voxel::BrickImage&)>& visit) {
   const std::vector<ChunkPlace>& chunks = recording_.log().chunks();
   size_t target = 0;  // all chunks before it are wanted
   for (size_t i = 0; i < chunks.size(); ++i)
@@ -77,7 +77,7 @@ void RecordedBone::seek(uint32_t ticks, const std::function<void(const voxel::Br
     image.brick = brick;
     image.tick = ticks_;
     std::memcpy(image.coverage, now(brick), voxel::brick_voxels);
-    told(image);
+    visit(image);
   }
   if (damaged) std::rethrow_exception(damaged);
 }

@@ -19,7 +19,7 @@ class RecordedBone {
   /// Goes to the last moment at or before `ticks` ticks have passed, forwards or backwards, and tells every
   /// brick that now differs from what it was before the call. Error invalid_input for a damaged chunk; then
   /// it stands at the last whole moment on the way, told as always.
-  void seek(uint32_t ticks, const std::function<void(const voxel::BrickImage&)>& told);
+  void seek(uint32_t ticks, const std::function<void(const voxel::BrickImage&)>& visit);
   /// Ticks that have passed at this moment.
   uint32_t ticks() const { return ticks_; }
   /// Of the whole coverage at this moment, from the start's hash on; equals BoneModel::coverage_hash().

@@ -208,13 +208,13 @@ std::vector<ops::Tick> Recording::rows_of(size_t i) const {
 }
 
 void Recording::for_each_tick(uint32_t first, uint32_t last,
-                              const std::function<void(const ops::Tick&)>& told) const {
+                              const std::function<void(const ops::Tick&)>& visit) const {
   for (const size_t i : tick_chunks_) {
     const ChunkPlace& place = log_.chunks()[i];
     if (place.first_tick >= last) break;
     if (place.first_tick + place.ticks <= first) continue;
     for (const ops::Tick& row : rows_of(i))
-      if (row.tick >= first && row.tick < last) told(row);
+      if (row.tick >= first && row.tick < last) visit(row);
   }
 }
 

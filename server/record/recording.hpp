@@ -40,7 +40,7 @@ class Recording {
 
   /// Calls `told` with ticks first..last-1 (of those there are), in order.
   /// Error invalid_input at the first damaged chunk; ticks before it have been told.
-  void for_each_tick(uint32_t first, uint32_t last, const std::function<void(const ops::Tick&)>& told) const;
+  void for_each_tick(uint32_t first, uint32_t last, const std::function<void(const ops::Tick&)>& visit) const;
   std::vector<ops::Tick> ticks(uint32_t first, uint32_t last) const;
   /// Of the chunk that holds the tick; the last chunk with ticks for ticks beyond it.
   size_t chunk_of(uint32_t tick) const;

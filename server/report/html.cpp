@@ -101,7 +101,7 @@ std::string mark_cell(const MetricLine& line) {
   const std::string critical = line.critical && line.mark == Mark::fail ? ", decides" : "";
   const std::string word = mark_word(line.mark);
   return element("td", escaped(mark_sign(line.mark) + " " + word + critical),
-                 "mark mark-" + (line.mark == Mark::missing ? std::string("unsaid") : word));
+                 "mark mark-" + (line.mark == Mark::missing ? std::string("missing") : word));
 }
 
 std::string table(const MetricTable& table) {

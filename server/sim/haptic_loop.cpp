@@ -15,11 +15,11 @@ constexpr uint32_t publish_every_ticks = 500;
 constexpr uint32_t summaries = 5;
 constexpr std::chrono::milliseconds look_for_end{1};
 /// What has not come back by then does not: drivers give up after a second or two.
-constexpr std::chrono::seconds longest_return{10};
+constexpr std::chrono::seconds max_return_time{10};
 
 template <typename Condition>
 bool comes_true_in_time(Condition condition) noexcept {
-  const auto latest = SteadyClock::now() + longest_return;
+  const auto latest = SteadyClock::now() + max_return_time;
   while (!condition() && SteadyClock::now() < latest) std::this_thread::sleep_for(look_for_end);
   return condition();
 }

@@ -21,7 +21,7 @@ bool cut_profile(State& state, const QuantisedPose& pose, collide::RemovalSums& 
 }
 
 /// Solid cells, followers and devices with memory of their own learn of changed bricks.
-bool tell(State& state, std::span<const uint32_t> changed) noexcept {
+bool publish_changes(State& state, std::span<const uint32_t> changed) noexcept {
   for (const uint32_t brick : changed) {
     state.cells.set(
         brick, voxel::SolidCells::word_of(state.bone.coverage.data() + state.bone.grid.brick_base(brick)));
@@ -46,7 +46,7 @@ bool remove_bone(State& state, const QuantisedPose& pose, TickReport& report) no
   const std::span<const uint32_t> changed =
       by_decay ? state.backend.decay->changed_bricks()
                : std::span<const uint32_t>(state.changed.data(), state.changed_count);
-  if (!tell(state, changed)) return false;
+  if (!publish_changes(state, changed)) return false;
   for (size_t k = 0; k < 3; ++k) report.coverage_removed[k] = sums.coverage_removed[k];
   report.changed_bricks = sums.changed_bricks;
   if (sums.changed_bricks != 0) {

@@ -64,7 +64,7 @@ ConnectionPool::~ConnectionPool() = default;
 std::unique_ptr<ConnectionPool::Lease> ConnectionPool::take() {
   {
     std::unique_lock lock(mutex_);
-    if (!freed_.wait_for(lock, limits_.patience, [this] { return in_use_ < limits_.connections; }))
+    if (!freed_.wait_for(lock, limits_.timeout, [this] { return in_use_ < limits_.connections; }))
       throw Error(ErrorKind::unavailable,
                   "the database at " + url_.shown + " is busy (all connections are in use); try again");
     ++in_use_;

@@ -18,7 +18,7 @@ using Sql = soci::session;
 struct DatabaseLimits {
   size_t connections = 4;  ///< open at once
   /// How long one waits for a free connection, or for SQLite's one writer.
-  std::chrono::milliseconds patience{5000};
+  std::chrono::milliseconds timeout{5000};
   std::chrono::milliseconds statement{10000};  ///< longest time of one statement (PostgreSQL)
   /// Longest time of one transaction, after which the server is taken to hang (PostgreSQL).
   std::chrono::milliseconds transaction{15000};

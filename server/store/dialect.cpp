@@ -53,7 +53,7 @@ const PGconn* connection_of(Sql& sql) {
 std::unique_ptr<Sql> open_sqlite(const DatabaseUrl& url, const DatabaseLimits& limits) {
   make_private_file(url.file);
   auto sql = std::make_unique<Sql>(soci::sqlite3, "dbname=\"" + url.file.string() + "\"");
-  *sql << "PRAGMA busy_timeout = " << limits.patience.count();
+  *sql << "PRAGMA busy_timeout = " << limits.timeout.count();
   *sql << "PRAGMA journal_mode = WAL";
   *sql << "PRAGMA synchronous = FULL";
   *sql << "PRAGMA foreign_keys = ON";
@@ -63,7 +63,7 @@ std::unique_ptr<Sql> open_sqlite(const DatabaseUrl& url, const DatabaseLimits& l
 std::unique_ptr<Sql> open_postgresql(const DatabaseUrl& url, const DatabaseLimits& limits) {
   auto sql = std::make_unique<Sql>(soci::postgresql, url.connect);
   *sql << "SET statement_timeout = " << limits.statement.count();
-  *sql << "SET lock_timeout = " << limits.patience.count();
+  *sql << "SET lock_timeout = " << limits.timeout.count();
   *sql << "SET idle_in_transaction_session_timeout = 60000";
   *sql << "SET client_min_messages = error";
   return sql;

@@ -36,7 +36,7 @@ struct Packing {
   const Progress& progress;
   std::exception_ptr refusal;
 
-  static void tell(zip_t*, double share, void* state) noexcept {
+  static void report_progress(zip_t*, double share, void* state) noexcept {
     auto& self = *static_cast<Packing*>(state);
     try {
       if (!self.refusal) self.progress(share, "packing");
@@ -178,7 +178,8 @@ void write_zip(const fs::path& path, const std::vector<ArchiveEntry>& entries, c
   if (!archive) throw Error(ErrorKind::io, "cannot write " + path.string() + ": " + message_of(code));
   for (const ArchiveEntry& entry : entries) write_entry(archive.get(), entry, path);
   Packing packing{progress, nullptr};
-  zip_register_progress_callback_with_state(archive.get(), progress_step, &Packing::tell, nullptr, &packing);
+  zip_register_progress_callback_with_state(archive.get(), progress_step, &Packing::report_progress, nullptr,
+                                            &packing);
   zip_register_cancel_callback_with_state(archive.get(), &Packing::cancelled, nullptr, &packing);
   if (zip_close(archive.get()) != 0) {
     if (packing.refusal) std::rethrow_exception(packing.refusal);

@@ -14,9 +14,10 @@ using nlohmann::json;
 using Kind = QuestionnaireItem::Kind;
 namespace {
 
-constexpr size_t most_items = 200, most_options = 50;
-constexpr size_t longest_title = 200, longest_words = 1000, longest_introduction = 4000;
-constexpr size_t usual_text = 2000, longest_text = 10000;
+// As the schema and the contract say; questionnaire_test.cpp holds them together.
+constexpr size_t max_items = 200, max_options = 50;
+constexpr size_t max_title = 200, max_words = 1000, max_introduction = 4000;
+constexpr size_t default_text = 2000, max_text = 10000;
 
 bool is_item_id(const std::string& text) {
   return !text.empty() && text.size() <= 64 && text.front() >= 'a' && text.front() <= 'z' &&
@@ -36,45 +37,46 @@ std::string item_id(JsonReader& reader) {
   return id;
 }
 
-std::string words_of(JsonReader& reader, const std::string& key, size_t longest) {
+std::string words_of(JsonReader& reader, const std::string& key, size_t max_length) {
   const std::string words = reader.text(key);
-  if (words.empty() || characters(words) > longest)
-    reader.refuse(key, "must be 1 to " + std::to_string(longest) + " characters long");
+  if (words.empty() || characters(words) > max_length)
+    reader.refuse(key, "must be 1 to " + std::to_string(max_length) + " characters long");
   return words;
 }
 
-std::string words_or(JsonReader& reader, const std::string& key, const std::string& usual, size_t longest) {
-  const std::string words = reader.text_or(key, usual);
-  if (characters(words) > longest)
-    reader.refuse(key, "must be at most " + std::to_string(longest) + " characters long");
+std::string words_or(JsonReader& reader, const std::string& key, const std::string& fallback,
+                     size_t max_length) {
+  const std::string words = reader.text_or(key, fallback);
+  if (characters(words) > max_length)
+    reader.refuse(key, "must be at most " + std::to_string(max_length) + " characters long");
   return words;
 }
 
 void read_likert(JsonReader& reader, QuestionnaireItem& item) {
   item.points = static_cast<int>(reader.integer("points"));
   if (item.points != 5 && item.points != 7) reader.refuse("points", "must be 5 or 7");
-  item.low = reader.has("low") ? words_of(reader, "low", longest_words) : "Strongly disagree";
-  item.high = reader.has("high") ? words_of(reader, "high", longest_words) : "Strongly agree";
+  item.low = reader.has("low") ? words_of(reader, "low", max_words) : "Strongly disagree";
+  item.high = reader.has("high") ? words_of(reader, "high", max_words) : "Strongly agree";
   item.cannot_judge = reader.boolean_or("cannot_judge", false);
 }
 
 void read_choice(JsonReader& reader, QuestionnaireItem& item) {
   std::set<std::string> ids;
   for (JsonReader& option : reader.objects("options")) {
-    item.options.push_back({item_id(option), words_of(option, "words", longest_words)});
+    item.options.push_back({item_id(option), words_of(option, "words", max_words)});
     option.finish();
     if (!ids.insert(item.options.back().id).second) option.refuse("id", "is that of another option too");
   }
-  if (item.options.size() < 2 || item.options.size() > most_options)
-    reader.refuse("options", "must be 2 to " + std::to_string(most_options) + " of them");
+  if (item.options.size() < 2 || item.options.size() > max_options)
+    reader.refuse("options", "must be 2 to " + std::to_string(max_options) + " of them");
   item.several = reader.boolean_or("several", false);
 }
 
 QuestionnaireItem item_from(JsonReader& reader) {
   QuestionnaireItem item;
   item.id = item_id(reader);
-  item.section = words_or(reader, "section", "", longest_title);
-  item.words = words_of(reader, "words", longest_words);
+  item.section = words_or(reader, "section", "", max_title);
+  item.words = words_of(reader, "words", max_words);
   const std::string kind = reader.text("kind");
   if (kind == "likert") {
     read_likert(reader, item);
@@ -83,7 +85,7 @@ QuestionnaireItem item_from(JsonReader& reader) {
     read_choice(reader, item);
   } else if (kind == "text") {
     item.kind = Kind::text;
-    item.longest = static_cast<size_t>(reader.integer_or("longest", usual_text, 1, longest_text));
+    item.longest = static_cast<size_t>(reader.integer_or("longest", default_text, 1, max_text));
   } else {
     reader.refuse("kind", "must be likert, choice or text");
   }
@@ -120,24 +122,24 @@ std::string fault_of(const QuestionnaireItem& item, const json& value) {
 }
 
 json to_json(const QuestionnaireItem& item) {
-  json told = {
+  json written = {
       {"id", item.id}, {"section", item.section}, {"words", item.words}, {"required", item.required}};
   switch (item.kind) {
     case Kind::likert:
-      told.update({{"kind", "likert"},
-                   {"points", item.points},
-                   {"low", item.low},
-                   {"high", item.high},
-                   {"cannot_judge", item.cannot_judge}});
+      written.update({{"kind", "likert"},
+                      {"points", item.points},
+                      {"low", item.low},
+                      {"high", item.high},
+                      {"cannot_judge", item.cannot_judge}});
       break;
     case Kind::choice:
-      told.update({{"kind", "choice"}, {"options", json::array()}, {"several", item.several}});
+      written.update({{"kind", "choice"}, {"options", json::array()}, {"several", item.several}});
       for (const auto& option : item.options)
-        told["options"].push_back({{"id", option.id}, {"words", option.words}});
+        written["options"].push_back({{"id", option.id}, {"words", option.words}});
       break;
-    case Kind::text: told.update({{"kind", "text"}, {"longest", item.longest}}); break;
+    case Kind::text: written.update({{"kind", "text"}, {"longest", item.longest}}); break;
   }
-  return told;
+  return written;
 }
 
 }  // namespace
@@ -146,8 +148,8 @@ Questionnaire questionnaire_from(const json& value) {
   JsonReader reader(value, "questionnaire");
   Questionnaire questionnaire;
   questionnaire.id = item_id(reader);
-  questionnaire.title = words_of(reader, "title", longest_title);
-  questionnaire.introduction = words_or(reader, "introduction", "", longest_introduction);
+  questionnaire.title = words_of(reader, "title", max_title);
+  questionnaire.introduction = words_or(reader, "introduction", "", max_introduction);
   questionnaire.language = reader.text_or("language", "en");
   if (!is_language(questionnaire.language)) reader.refuse("language", "must be as \"en\" or \"en-GB\"");
   std::set<std::string> ids;
@@ -155,8 +157,8 @@ Questionnaire questionnaire_from(const json& value) {
     questionnaire.items.push_back(item_from(item));
     if (!ids.insert(questionnaire.items.back().id).second) item.refuse("id", "is that of another item too");
   }
-  if (questionnaire.items.empty() || questionnaire.items.size() > most_items)
-    reader.refuse("items", "must be 1 to " + std::to_string(most_items) + " of them");
+  if (questionnaire.items.empty() || questionnaire.items.size() > max_items)
+    reader.refuse("items", "must be 1 to " + std::to_string(max_items) + " of them");
   reader.finish();
   return questionnaire;
 }

@@ -27,7 +27,7 @@ void collect_figures(const json& metrics, const std::string& prefix, Values& fig
 
 struct Row {
   const Participant* participant = nullptr;
-  const StudyAttempt* attempt = nullptr;
+  const session::SessionRecord* session = nullptr;
   int number = 0, day = 0;
   Values figures;
 };
@@ -43,21 +43,25 @@ int64_t day_of(const std::string& utc) {
   return date.ok() ? std::chrono::sys_days(date).time_since_epoch().count() : 0;
 }
 
-const std::string& created(const StudyAttempt& attempt) { return attempt.session.request.created_utc; }
+const std::string& created(const session::SessionRecord& session) { return session.request.created_utc; }
+
+/// The participant went back to intact bone in a session of its own.
+bool given_up(const session::SessionRecord& session) { return !session.request.followed_by.empty(); }
 
 std::vector<Row> rows_of(const std::vector<Participant>& participants,
-                         const std::vector<StudyAttempt>& attempts) {
+                         const std::vector<session::SessionRecord>& sessions,
+                         const MetricsOfSession& metrics) {
   std::vector<Row> rows;
   for (const Participant& participant : participants) {
-    std::vector<const StudyAttempt*> own;
-    for (const StudyAttempt& attempt : attempts)
-      if (attempt.session.request.participant == participant.code) own.push_back(&attempt);
+    std::vector<const session::SessionRecord*> own;
+    for (const session::SessionRecord& session : sessions)
+      if (session.request.participant == participant.code) own.push_back(&session);
     std::stable_sort(own.begin(), own.end(),
                      [](const auto* a, const auto* b) { return created(*a) < created(*b); });
     for (size_t i = 0; i < own.size(); ++i) {
       Row row{&participant, own[i], static_cast<int>(i + 1), 0, {}};
       row.day = static_cast<int>(day_of(created(*own[i])) - day_of(created(*own.front()))) + 1;
-      collect_figures(own[i]->metrics, "", row.figures);
+      collect_figures(metrics(own[i]->request.id), "", row.figures);
       rows.push_back(std::move(row));
     }
   }
@@ -76,8 +80,8 @@ session::ExportTable sessions_table(const Study& study, const std::vector<Row>& 
   const std::set<std::string> figures = names_of_figures(rows);
   for (const std::string& name : figures) table.columns.push_back(metric_column(name));
   for (const Row& row : rows) {
-    const session::SessionRequest& request = row.attempt->session.request;
-    const session::SessionStatus& status = row.attempt->session.status;
+    const session::SessionRequest& request = row.session->request;
+    const session::SessionStatus& status = row.session->status;
     std::vector<json> cells = {study.id,
                                row.participant->code,
                                row.participant->experience,
@@ -89,7 +93,7 @@ session::ExportTable sessions_table(const Study& study, const std::vector<Row>& 
                                status.device.name,
                                status.device.profile,
                                to_text(status.state),
-                               row.attempt->given_up()};
+                               given_up(*row.session)};
     for (const std::string& name : figures) {
       const auto found = row.figures.find(name);
       cells.push_back(found == row.figures.end() ? json(nullptr) : found->second);
@@ -132,8 +136,8 @@ double median_of(std::vector<double> values) {
 Groups groups_of_sessions(const std::vector<Row>& rows) {
   std::map<const Participant*, std::map<std::string, std::vector<double>>> own;
   for (const Row& row : rows) {
-    const SessionState state = row.attempt->session.status.state;
-    if (row.attempt->given_up() || (state != SessionState::finished && state != SessionState::stopped))
+    const SessionState state = row.session->status.state;
+    if (given_up(*row.session) || (state != SessionState::finished && state != SessionState::stopped))
       continue;
     for (const auto& [name, value] : row.figures) own[row.participant][name].push_back(plain(value));
   }
@@ -176,10 +180,10 @@ double quantile(const std::vector<double>& sorted, double share) {
 }
 
 StudyExport export_of(const Study& study, const std::vector<Participant>& participants,
-                      const std::vector<StudyAttempt>& attempts) {
+                      const std::vector<session::SessionRecord>& sessions, const MetricsOfSession& metrics) {
   std::vector<Participant> by_code = participants;
   std::sort(by_code.begin(), by_code.end(), [](const auto& a, const auto& b) { return a.code < b.code; });
-  const std::vector<Row> rows = rows_of(by_code, attempts);
+  const std::vector<Row> rows = rows_of(by_code, sessions, metrics);
   StudyExport all{
       sessions_table(study, rows), answers_table(study, by_code), {"groups", group_columns(), {}}};
   add_groups(all.groups, study, "metric", groups_of_sessions(rows));

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -9,15 +10,6 @@
 
 namespace ream::study {
 
-/// One session of a study, as an export needs it. Its dates are used for order and day only, and never told.
-struct StudyAttempt {
-  session::SessionRecord session;
-  nlohmann::json metrics;  ///< metrics.json
-
-  /// The participant went back to intact bone in a session of its own.
-  bool given_up() const { return !session.request.followed_by.empty(); }
-};
-
 /// What leaves a study: no names, no ids of users or sessions, no dates; of time only the day since the
 /// participant's first session.
 struct StudyExport {
@@ -26,9 +18,13 @@ struct StudyExport {
   session::ExportTable groups;    ///< a row an experience level and figure: n, median, quartiles
 };
 
-/// Attempts of participants that are not in the list are left out.
+/// What metrics.json says of a session, by its id.
+using MetricsOfSession = std::function<nlohmann::json(const std::string&)>;
+
+/// Sessions of participants that are not in the list are left out. Dates of sessions are used for order and
+/// day only.
 StudyExport export_of(const Study& study, const std::vector<Participant>& participants,
-                      const std::vector<StudyAttempt>& attempts);
+                      const std::vector<session::SessionRecord>& sessions, const MetricsOfSession& metrics);
 
 /// What the columns of all tables mean.
 nlohmann::json codebook_of(const Study& study, const StudyExport& all);

@@ -79,7 +79,8 @@ void StudyService::withdraw(const std::string& id, const std::string& code) {
 StudyExport StudyService::everything(const Study& study) const {
   std::vector<Participant> all;
   for (const store::ParticipantRow& row : table_.participants(study.id)) all.push_back(participant_of(row));
-  return export_of(study, all, dependencies_->attempts(study.id));
+  return export_of(study, all, dependencies_->sessions(study.id),
+                   [this](const std::string& id) { return dependencies_->metrics(id); });
 }
 
 StudyExport StudyService::export_all(const net::Caller& caller, const std::string& id) const {

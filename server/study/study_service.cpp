@@ -13,7 +13,7 @@ using nlohmann::json;
 namespace {
 
 /// A code that is taken is drawn again; that it is taken so often means something else is wrong.
-constexpr int most_draws = 20;
+constexpr int max_draws = 20;
 
 Error unknown_study(const std::string& id) {
   return {ErrorKind::not_found, "no study '" + id + "'; GET /api/v1/studies lists them"};
@@ -143,7 +143,7 @@ Participant StudyService::add_participant(const Study& study, const NewParticipa
       table_.enrol(row_of(study.id, participant), linked);
       return participant;
     } catch (const Error& failure) {
-      if (failure.kind() != ErrorKind::conflict || draw == most_draws) throw;
+      if (failure.kind() != ErrorKind::conflict || draw == max_draws) throw;
       if (person && !table_.code_of(study.id, person->user_id).empty())
         throw Error(ErrorKind::conflict, (person->name.empty() ? "this person" : person->name) +
                                              " takes part in the study already");

@@ -35,8 +35,10 @@ class StudyDependencies {
   /// Name of a user, none for an unknown id.
   virtual std::optional<std::string> name_of_user(const std::string& user_id) const = 0;
   virtual bool has_case(const std::string& case_id) const = 0;
-  /// All sessions of a study that have ended and left metrics.
-  virtual std::vector<StudyAttempt> attempts(const std::string& study_id) const = 0;
+  /// All sessions of a study that have run and ended.
+  virtual std::vector<session::SessionRecord> sessions(const std::string& study_id) const = 0;
+  /// What metrics.json says of one; an empty object where it left none.
+  virtual nlohmann::json metrics(const std::string& session_id) const = 0;
 };
 
 /// Studies and who takes part in them. Who a participant is stays hidden from all but operators and the

@@ -24,8 +24,8 @@ namespace {
 
 constexpr double read_share = 0.8;
 constexpr uint64_t always_taken_bytes = 32 << 20, max_packing = 16;
-constexpr size_t longest_id = 60;
-constexpr double most_fine_voxels = 2.0e7;  // beyond, a surface is sampled every other voxel
+constexpr size_t max_id_length = 60;
+constexpr double max_fine_voxels = 2.0e7;  // beyond, a surface is sampled every other voxel
 
 template <typename T>
 net::Bytes bytes_of(const std::vector<T>& values) {
@@ -95,7 +95,7 @@ ct::Workup CaseService::workup(const std::string& id) const {
 }
 
 std::string CaseService::unused_id(const std::string& wanted) const {
-  const std::string base = wanted.substr(0, longest_id);
+  const std::string base = wanted.substr(0, max_id_length);
   std::string id = base;
   for (int n = 2; fs::exists(cases_folder_ / id); ++n) id = base + "-" + std::to_string(n);
   return id;
@@ -267,7 +267,7 @@ void CaseService::write_volume(const std::string& id, const fs::path& file) {
 
 std::string CaseService::mesh(const std::string& id) {
   const auto bone = surface_of(id);
-  const bool coarse = static_cast<double>(bone->grid.voxel_count()) > most_fine_voxels;
+  const bool coarse = static_cast<double>(bone->grid.voxel_count()) > max_fine_voxels;
   const TriangleMesh mesh = surface::whole_surface(bone->grid, bone->coverage.data(), 1, coarse ? 2 : 1);
   return ply_of(mesh.transformed(bone->grid.world_from_grid), case_::frame_in_words(side_of(id)));
 }

@@ -6,7 +6,7 @@ namespace ream::workup {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr size_t most_items = 6;
+constexpr size_t max_items = 6;
 
 }  // namespace
 
@@ -31,7 +31,7 @@ std::shared_ptr<const T> CtCache::find_or_make(const std::string& case_id, const
   const std::lock_guard lock(mutex_);
   if (auto found = look()) return found;
   items_.push_front({case_id, what, made});
-  if (items_.size() > most_items) items_.pop_back();
+  if (items_.size() > max_items) items_.pop_back();
   return made;
 }
 

@@ -13,14 +13,14 @@ namespace ream::workup {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr size_t max_file_name = 200;
 constexpr std::array endings{".zip", ".nrrd", ".nii", ".nii.gz", ".mha", ".txt", ".dcm"};
 
 void check_name(const std::string& name) {
   const auto refuse = [&](const std::string& why) {
     throw net::RequestError(422, "the upload cannot be used: 'name' " + why, {{"#/name", why}});
   };
-  if (name.empty() || name.size() > max_file_name) refuse("must be 1 to 200 characters long");
+  if (name.empty() || name.size() > max_upload_name)
+    refuse("must be 1 to " + std::to_string(max_upload_name) + " characters long");
   if (name.front() == '.' || name.find_first_of("/\\") != std::string::npos ||
       std::any_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }))
     refuse("must be a plain file name");

@@ -1,5 +1,6 @@
 #pragma once
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -17,6 +18,8 @@ struct Upload {
   uint64_t received = 0;
   std::string owner = {};  ///< user who sends it; empty without users
 };
+
+inline constexpr size_t max_upload_name = 200;
 
 struct UploadLimits {
   uint64_t file_bytes = uint64_t{8} << 30;  ///< one file

@@ -23,18 +23,18 @@ struct Order {
   double requests_per_s = 0.0, duration_s = 0.0;
 };
 
-struct Wish {
+struct PlannedRequest {
   const char* method;
   std::string target, body;
   int status;
 };
 
 /// What is asked in turn: every twentieth request changes something.
-std::vector<Wish> wishes_of(const Door& door) {
+std::vector<PlannedRequest> requests_of(const Door& door) {
   const std::string sessions = "/api/v1/sessions", one = door.session_path();
-  std::vector<Wish> wishes;
+  std::vector<PlannedRequest> requests;
   const auto get = [&](const std::string& target, int times = 1) {
-    for (int i = 0; i < times; ++i) wishes.push_back({"GET", target, "", 200});
+    for (int i = 0; i < times; ++i) requests.push_back({"GET", target, "", 200});
   };
   get(one, 6);
   get(sessions + "?limit=50");
@@ -48,8 +48,8 @@ std::vector<Wish> wishes_of(const Door& door) {
   get("/metrics");
   get("/api/v1/openapi.yaml");
   get("/healthz");
-  wishes.push_back({"POST", one + "/annotations", R"({"words": "Look at the rim"})", 201});
-  return wishes;
+  requests.push_back({"POST", one + "/annotations", R"({"words": "Look at the rim"})", 201});
+  return requests;
 }
 
 /// One of the workers: every `workers`th request, on one connection, or on one of its own for each.
@@ -59,14 +59,14 @@ class Worker {
       : order_(order), number_(number), keeps_connection_(number % 2 == 0), start_(start) {}
 
   void work() {
-    const std::vector<Wish> wishes = wishes_of(order_.door);
+    const std::vector<PlannedRequest> requests = requests_of(order_.door);
     const auto count = static_cast<size_t>(order_.requests_per_s * order_.duration_s);
     for (size_t i = static_cast<size_t>(number_); i < count; i += workers) {
       const auto due =
           start_ + std::chrono::duration_cast<SteadyClock::duration>(
                        std::chrono::duration<double>(static_cast<double>(i) / order_.requests_per_s));
       std::this_thread::sleep_until(due);
-      if (!ask(wishes[(i / workers * 7 + i) % wishes.size()])) ++failed;
+      if (!ask(requests[(i / workers * 7 + i) % requests.size()])) ++failed;
       times_ms.push_back(elapsed_us(due) * 1e-3);
     }
   }
@@ -75,20 +75,20 @@ class Worker {
   uint64_t failed = 0;
 
  private:
-  bool ask(const Wish& wish) {
+  bool ask(const PlannedRequest& planned) {
     try {
       if (!socket_ || !keeps_connection_) socket_ = std::make_unique<test::RawSocket>(order_.door.port);
-      std::string head = std::string(wish.method) + " " + wish.target +
+      std::string head = std::string(planned.method) + " " + planned.target +
                          " HTTP/1.1\r\nHost: localhost\r\nAuthorization: " + order_.door.authorization() +
                          "\r\n";
-      if (!wish.body.empty())
-        head +=
-            "Content-Type: application/json\r\nContent-Length: " + std::to_string(wish.body.size()) + "\r\n";
-      socket_->send(head + "\r\n" + wish.body);
+      if (!planned.body.empty())
+        head += "Content-Type: application/json\r\nContent-Length: " + std::to_string(planned.body.size()) +
+                "\r\n";
+      socket_->send(head + "\r\n" + planned.body);
       const auto reply = test::receive_reply(*socket_);
-      const bool good = reply.status == wish.status;
+      const bool good = reply.status == planned.status;
       if (!good)
-        fprintf(stderr, "%s %s %d %s\n", wish.method, wish.target.c_str(), reply.status,
+        fprintf(stderr, "%s %s %d %s\n", planned.method, planned.target.c_str(), reply.status,
                 reply.body.substr(0, 200).c_str());
       if (!good) socket_.reset();
       return good;

@@ -168,7 +168,6 @@ std::unique_ptr<api::Server> server_on(const test::TemporaryFolder& sessions,
   options.sessions_folder = sessions.path();
   options.database = std::move(database);
   options.engine = std::make_shared<test::FakeEngine>();
-  options.prepare = [] {};
   return std::make_unique<api::Server>(std::move(options));
 }
 

@@ -19,6 +19,7 @@ namespace ream::test {
 class FakeEngine : public session::SessionEngine {
  public:
   std::string program() const override { return "ream of a test"; }
+  void make_demo_case() override { demo_case(); }
 
   std::unique_ptr<session::RunningSession> make(const session::SessionRequest& request) override {
     if (request.case_id == "missing") throw Error(ErrorKind::not_found, "no case 'missing'");
@@ -75,6 +76,7 @@ class FakeEngine : public session::SessionEngine {
     return *replays_.at(index);
   }
 
+  std::function<void()> demo_case = [] {};      ///< called when it is to be made
   std::function<void()> refuse;                 ///< called before each session is made
   std::function<void()> refuse_replay = [] {};  ///< and before each replay
   double first_unwatched_s = 1.0;               ///< of replays to be made

@@ -29,7 +29,6 @@ class LiveServer {
     options.sessions_folder = sessions_folder(context.data);
     options.sessions.live = 16;
     options.engine = std::make_shared<session::SimulationEngine>(context);
-    options.prepare = [] {};
     options.database = std::make_shared<store::Database>("sqlite:" + (reaming_.data() / "ream.db").string());
     if (adjust) adjust(options);
     server_ = std::make_unique<api::Server>(std::move(options));

@@ -27,16 +27,16 @@ void write_pem(const std::filesystem::path& path, Write write) {
 }  // namespace
 
 void make_certificate(const std::filesystem::path& certificate, const std::filesystem::path& key,
-                      const CertificateWishes& wishes) {
+                      const CertificateOptions& options) {
   const std::unique_ptr<EVP_PKEY, void (*)(EVP_PKEY*)> pair(
-      wishes.rsa_bits > 0 ? EVP_RSA_gen(static_cast<unsigned>(wishes.rsa_bits)) : EVP_EC_gen("P-256"),
+      options.rsa_bits > 0 ? EVP_RSA_gen(static_cast<unsigned>(options.rsa_bits)) : EVP_EC_gen("P-256"),
       EVP_PKEY_free);
   require(pair != nullptr, "key");
   const std::unique_ptr<X509, void (*)(X509*)> made(X509_new(), X509_free);
   X509_set_version(made.get(), X509_VERSION_3);
   ASN1_INTEGER_set(X509_get_serialNumber(made.get()), 1);
-  X509_gmtime_adj(X509_getm_notBefore(made.get()), wishes.begins_in_days * day_s);
-  X509_gmtime_adj(X509_getm_notAfter(made.get()), wishes.ends_in_days * day_s);
+  X509_gmtime_adj(X509_getm_notBefore(made.get()), options.begins_in_days * day_s);
+  X509_gmtime_adj(X509_getm_notAfter(made.get()), options.ends_in_days * day_s);
   X509_set_pubkey(made.get(), pair.get());
   X509_NAME* name = X509_get_subject_name(made.get());
   X509_NAME_add_entry_by_txt(name, "CN", MBSTRING_ASC, reinterpret_cast<const unsigned char*>("localhost"),

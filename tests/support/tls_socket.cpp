@@ -11,14 +11,14 @@ struct TlsSocket::Parts {
   std::unique_ptr<SSL, void (*)(SSL*)> tls{nullptr, SSL_free};
 };
 
-TlsSocket::TlsSocket(uint16_t port, const Wishes& wishes)
+TlsSocket::TlsSocket(uint16_t port, const Settings& settings)
     : RawSocket(port), parts_(std::make_unique<Parts>()) {
   SSL_CTX* context = parts_->context.get();
   // A server that refuses the version must be able to say so: what we offer is not cut down by us.
   SSL_CTX_set_security_level(context, 0);
   SSL_CTX_set_min_proto_version(context, TLS1_VERSION);
-  if (wishes.most_version > 0) SSL_CTX_set_max_proto_version(context, wishes.most_version);
-  if (!wishes.ciphers.empty()) SSL_CTX_set_cipher_list(context, wishes.ciphers.c_str());
+  if (settings.max_version > 0) SSL_CTX_set_max_proto_version(context, settings.max_version);
+  if (!settings.ciphers.empty()) SSL_CTX_set_cipher_list(context, settings.ciphers.c_str());
   parts_->tls.reset(SSL_new(context));
   SSL_set_fd(parts_->tls.get(), descriptor());
   if (SSL_connect(parts_->tls.get()) != 1) throw std::runtime_error("the TLS handshake failed");

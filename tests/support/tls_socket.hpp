@@ -9,13 +9,13 @@ namespace ream::test {
 /// RawSocket under TLS, by OpenSSL's own blocking calls. It trusts anybody.
 class TlsSocket final : public RawSocket {
  public:
-  struct Wishes {
-    int most_version = 0;      ///< TLS1_2_VERSION, say; 0: the newest
+  struct Settings {
+    int max_version = 0;       ///< TLS1_2_VERSION, say; 0: the newest
     std::string ciphers = {};  ///< of TLS 1.2; empty: the usual
   };
   /// Throws when the handshake fails.
-  explicit TlsSocket(uint16_t port, const Wishes& wishes);
-  explicit TlsSocket(uint16_t port) : TlsSocket(port, Wishes{}) {}
+  explicit TlsSocket(uint16_t port, const Settings& settings);
+  explicit TlsSocket(uint16_t port) : TlsSocket(port, Settings{}) {}
   ~TlsSocket() override;
 
   /// "TLSv1.3", say.

@@ -55,7 +55,7 @@ device::Script trial_script(const std::string& profile) {
   return script;
 }
 
-constexpr int longest_wait_ms = 60'000;
+constexpr int max_wait_ms = 60'000;
 
 /// Where the handle of a device begins before a person who sits upright: a scripted hand pushes downwards,
 /// for others ahead is level.
@@ -127,7 +127,7 @@ device::DeviceSetup shown_setup(const DevicesOptions& options, const device::Dev
   HandleReader reader(*made.device, before, trial_start(options.setup));
   for (int waited_ms = 0; !reader.answers(); waited_ms += 50) {
     throw_if_interrupted();
-    if (waited_ms > longest_wait_ms)
+    if (waited_ms > max_wait_ms)
       throw Error(ErrorKind::unavailable, "no pose came in a minute; check that the device is connected");
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }

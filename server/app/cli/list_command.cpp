@@ -83,7 +83,7 @@ void list(const ListOptions& options, const GlobalOptions& global) {
       throw Error(ErrorKind::usage, "only sessions have an index; give list sessions --rebuild-index");
     const size_t count = session::rebuild_index(session::SessionArchive(sessions_folder(data)),
                                                 *open_database(global.db, data));
-    log::info("the index of sessions is made anew: " + std::to_string(count));
+    log::info("the index of sessions has been rebuilt: " + std::to_string(count));
   }
   const nlohmann::json rows = cases ? listed_cases(data) : listed_sessions(data);
   if (global.json) {
@@ -102,7 +102,7 @@ void add_list_command(CLI::App& app, GlobalOptions& global) {
       ->required()
       ->check(CLI::IsMember({"cases", "sessions"}));
   command->add_flag("--rebuild-index", options->rebuild_index,
-                    "Make the index of sessions in the database anew from their folders first");
+                    "Rebuild the index of sessions in the database from their folders first");
   command->callback([options, &global] { list(*options, global); });
 }
 

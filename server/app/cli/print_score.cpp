@@ -47,10 +47,10 @@ void print_metrics(const json& metrics, const json& score) {
   }
 }
 
-void print_unsaid(const json& metrics) {
-  const std::vector<report::Fact> unsaid = report::missing_metrics(metrics);
-  if (!unsaid.empty()) std::cout << "  not said:\n";
-  for (const report::Fact& fact : unsaid)
+void print_missing(const json& metrics) {
+  const std::vector<report::Fact> missing = report::missing_metrics(metrics);
+  if (!missing.empty()) std::cout << "  not said:\n";
+  for (const report::Fact& fact : missing)
     std::cout << "    " << fact.value << ":\n      " << fact.name << '\n';
 }
 
@@ -64,7 +64,7 @@ void print_score(const std::string& session, const json& document) {
             << (document.at("theatre") == true ? "on" : "off") << ")\n";
   for (const json& reason : score.at("reasons")) std::cout << "  " << reason.get<std::string>() << '\n';
   print_metrics(document.at("metrics"), score);
-  print_unsaid(document.at("metrics"));
+  print_missing(document.at("metrics"));
   if (const json& benchmark = document.at("benchmark"); !benchmark.is_null())
     std::cout << "  benchmark " << benchmark.at("benchmark").get<std::string>() << ": "
               << benchmark.at("reached") << " of " << benchmark.at("of") << " reached\n";

@@ -20,7 +20,6 @@
 #include "core/interrupt.hpp"
 #include "core/leftovers.hpp"
 #include "core/log.hpp"
-#include "ct/phantom/phantom_case.hpp"
 #include "device/registry/device_registry.hpp"
 #include "isolation/sandbox.hpp"
 #include "openigtlink/server.hpp"
@@ -33,7 +32,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_days = 36500, most_minutes = 7 * 24 * 60;
+constexpr int max_days = 36500, max_minutes = 7 * 24 * 60;
 
 struct ServeOptions {
   ServerAddress address;
@@ -92,13 +91,14 @@ std::string viewer_link(access::AccessControl& access_control, const std::string
 }
 
 /// The viewer link goes to a person or a program that asked for it, never into a file of logs.
-void tell_address(const std::string& url, const openigtlink::Server* watched,
-                  access::AccessControl& access_control, bool for_programs) {
+void print_address(const std::string& url, const openigtlink::Server* watched,
+                   access::AccessControl& access_control, bool for_programs) {
   if (for_programs) {
-    nlohmann::json told = {{"url", url}};
-    if (watched != nullptr) told["openigtlink_port"] = watched->port();
-    if (const std::string link = viewer_link(access_control, url); !link.empty()) told["viewer_link"] = link;
-    std::cout << told.dump() << std::endl;
+    nlohmann::json address = {{"url", url}};
+    if (watched != nullptr) address["openigtlink_port"] = watched->port();
+    if (const std::string link = viewer_link(access_control, url); !link.empty())
+      address["viewer_link"] = link;
+    std::cout << address.dump() << std::endl;
     return;
   }
   std::cout << "ream is at " << url << "  (Ctrl-C ends it)" << std::endl;
@@ -157,17 +157,17 @@ void serve(const ServeOptions& options, const GlobalOptions& global) {
   server_options.default_device = options.device;
   server_options.retention.keep_sessions_days = options.keep_sessions_days;
   server_options.retention.keep_deleted_days = options.keep_deleted_days;
-  server_options.retention.most_at_once_percent = options.delete_at_once_percent;
+  server_options.retention.max_at_once_percent = options.delete_at_once_percent;
   server_options.sessions.unstarted = std::chrono::minutes(options.end_unstarted_minutes);
   if (options.end_unstarted_minutes == 0) server_options.sessions.unstarted.reset();
-  server_options.prepare = [context] { ct::load_or_make_demo_case(context.data); };
+  server_options.make_demo_case = true;
   api::Server server(std::move(server_options));
   server.start();
 
   if (const std::string warning = data_folder_warning(context.data); !warning.empty()) log::warn(warning);
   log_sandbox();
-  tell_address(server_url(options.address, server.port()), watched ? &*watched : nullptr,
-               server.access_control(), global.json);
+  print_address(server_url(options.address, server.port()), watched ? &*watched : nullptr,
+                server.access_control(), global.json);
   while (!interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   log::info("stopping: sessions end without force, recordings are closed");
   server.stop();
@@ -205,11 +205,11 @@ void add_serve_command(CLI::App& app, GlobalOptions& global) {
   command
       ->add_option("--keep-sessions-days", options->keep_sessions_days,
                    "Delete sessions that are older; default: never")
-      ->check(CLI::Range(1, most_days));
+      ->check(CLI::Range(1, max_days));
   command
       ->add_option("--keep-deleted-days", options->keep_deleted_days,
                    "Keep deleted sessions for so long, so that they can be restored; 0: not at all")
-      ->check(CLI::Range(0, most_days))
+      ->check(CLI::Range(0, max_days))
       ->capture_default_str();
   command
       ->add_option("--delete-at-once-percent", options->delete_at_once_percent,
@@ -219,7 +219,7 @@ void add_serve_command(CLI::App& app, GlobalOptions& global) {
   command
       ->add_option("--end-unstarted-minutes", options->end_unstarted_minutes,
                    "End sessions that nobody has started for so long; 0: never")
-      ->check(CLI::Range(0, most_minutes))
+      ->check(CLI::Range(0, max_minutes))
       ->capture_default_str();
   command->callback([options, &global] { serve(*options, global); });
 }

@@ -59,7 +59,7 @@ json to_json(const store::CredentialRow& row) {
           {"last_used_utc", or_null(row.last_used_utc)}};
 }
 
-void tell(const GlobalOptions& global, const json& for_programs, const std::string& for_people) {
+void print_result(const GlobalOptions& global, const json& for_programs, const std::string& for_people) {
   std::cout << (global.json ? for_programs.dump() : for_people) << '\n';
 }
 
@@ -80,9 +80,9 @@ void add(const UserOptions& options, const GlobalOptions& global) {
   wanted.password = ask_new_password(name);
   const access::User user = office.access_control.users.add(wanted);
   office.note("user.add", user.id, user.name + " as " + access::to_text(user.role));
-  tell(global, api::user_json(user),
-       user.name + " is " + access::to_text(user.role) +
-           (first ? "; from now on everybody has to log in" : ""));
+  print_result(global, api::user_json(user),
+               user.name + " is " + access::to_text(user.role) +
+                   (first ? "; from now on everybody has to log in" : ""));
 }
 
 void print_row(const json& row, const std::string& kind, const std::string& owner) {
@@ -97,27 +97,27 @@ void print_row(const json& row, const std::string& kind, const std::string& owne
 void list(const GlobalOptions& global) {
   Office office(global);
   std::map<std::string, std::string> names;
-  json told = {{"users", json::array()}, {"tokens", json::array()}, {"links", json::array()}};
+  json all = {{"users", json::array()}, {"tokens", json::array()}, {"links", json::array()}};
   for (const access::User& user : office.access_control.users.list()) {
-    told["users"].push_back(api::user_json(user));
+    all["users"].push_back(api::user_json(user));
     names[user.id] = user.name;
   }
   for (const auto& row : office.access_control.credentials.list(CredentialKind::token, ""))
-    told["tokens"].push_back(to_json(row));
+    all["tokens"].push_back(to_json(row));
   for (const auto& row : office.access_control.credentials.list(CredentialKind::link, ""))
-    told["links"].push_back(to_json(row));
+    all["links"].push_back(to_json(row));
   if (global.json) {
-    std::cout << told.dump() << '\n';
+    std::cout << all.dump() << '\n';
     return;
   }
-  if (told["users"].empty())
+  if (all["users"].empty())
     std::cerr << "no users: who reaches the server may do everything; ream user add NAME adds an operator\n";
-  for (const json& user : told["users"])
+  for (const json& user : all["users"])
     std::cout << "user\t" << user.at("id").get<std::string>() << '\t' << user.at("name").get<std::string>()
               << '\t' << user.at("role").get<std::string>()
               << (user.at("enabled").get<bool>() ? "" : "\tdisabled") << '\n';
-  for (const json& token : told["tokens"]) print_row(token, "token", names[token.at("user_id")]);
-  for (const json& link : told["links"]) print_row(link, "link", names[link.at("user_id")]);
+  for (const json& token : all["tokens"]) print_row(token, "token", names[token.at("user_id")]);
+  for (const json& link : all["links"]) print_row(link, "link", names[link.at("user_id")]);
 }
 
 void make_token(const UserOptions& options, const GlobalOptions& global) {
@@ -135,9 +135,9 @@ void make_token(const UserOptions& options, const GlobalOptions& global) {
   const access::IssuedCredential issued =
       office.access_control.credentials.issue(CredentialKind::token, wanted);
   office.note("token.add", issued.row.id, issued.row.name);
-  json told = to_json(issued.row);
-  told["secret"] = issued.secret.reveal();
-  tell(global, told, issued.secret.reveal());
+  json credential = to_json(issued.row);
+  credential["secret"] = issued.secret.reveal();
+  print_result(global, credential, issued.secret.reveal());
   if (!global.json) std::cerr << "until " << issued.row.expires_utc << "; it is not shown again\n";
 }
 
@@ -148,8 +148,8 @@ void revoke(const UserOptions& options, const GlobalOptions& global) {
     if (const auto row = credentials.find(options.credential, kind)) {
       credentials.revoke(row->id);
       office.note(access::to_text(kind) + ".revoke", row->id, row->name);
-      tell(global, {{"revoked", row->id}, {"kind", access::to_text(kind)}},
-           access::to_text(kind) + " " + row->id + " is revoked");
+      print_result(global, {{"revoked", row->id}, {"kind", access::to_text(kind)}},
+                   access::to_text(kind) + " " + row->id + " is revoked");
       return;
     }
   throw Error(ErrorKind::not_found,
@@ -161,7 +161,7 @@ void change(const std::string& name, const access::UserChange& change, const std
   Office office(global);
   const access::User user = office.access_control.users.change(office.user(name).id, change);
   office.note("user.change", user.id, user.name + ": " + words);
-  tell(global, api::user_json(user), user.name + ": " + words);
+  print_result(global, api::user_json(user), user.name + ": " + words);
 }
 
 void set_password(const UserOptions& options, const GlobalOptions& global) {
@@ -190,7 +190,7 @@ void remove(const UserOptions& options, const GlobalOptions& global) {
   const access::User user = office.user(options.name);
   office.access_control.users.remove(user.id);
   office.note("user.remove", user.id, user.name);
-  tell(global, {{"removed", user.id}}, user.name + " is removed");
+  print_result(global, {{"removed", user.id}}, user.name + " is removed");
 }
 
 void forget(const UserOptions& options, const GlobalOptions& global) {
@@ -205,9 +205,10 @@ void forget(const UserOptions& options, const GlobalOptions& global) {
                                          "', who is disabled; see above, then forget again");
   }
   office.note("user.forget", user.id, "");
-  tell(global, {{"forgotten", user.id}, {"sessions", report.sessions}, {"audit_rows", report.audit_rows}},
-       user.name + " is forgotten: " + std::to_string(report.sessions) + " sessions and " +
-           std::to_string(report.audit_rows) + " rows of the audit log are without a name");
+  print_result(global,
+               {{"forgotten", user.id}, {"sessions", report.sessions}, {"audit_rows", report.audit_rows}},
+               user.name + " is forgotten: " + std::to_string(report.sessions) + " sessions and " +
+                   std::to_string(report.audit_rows) + " rows of the audit log are without a name");
   if (!global.json)
     std::cerr << "backups and what was downloaded still hold the name; results of jobs go within a day\n";
 }

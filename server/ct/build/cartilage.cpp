@@ -72,7 +72,7 @@ Tilt tilt_at(const ArticularFace& face, const std::vector<double>& heights, int 
 
 /// Keeps the cells that belong to the centre's sheet; false when the centre has none.
 bool keep_sheet(ArticularFace& face, double reach_mm) {
-  constexpr double greatest_rise = 1.8;  // of a step, a little over the steepest slope
+  constexpr double max_rise = 1.8;  // of a step, a little over the steepest slope
   const auto on_face = [&](int s, int a) {
     return std::hypot(s, a) * face.step_mm <= reach_mm && face.cosine[face.index(s, a)] >= min_cosine;
   };
@@ -86,7 +86,7 @@ bool keep_sheet(ArticularFace& face, double reach_mm) {
       if (std::max(std::abs(ns), std::abs(na)) > face.half_cells || !on_face(ns, na)) continue;
       const size_t n = face.index(ns, na);
       const double rise = std::abs(face.height_mm[n] - face.height_mm[face.index(s, a)]);
-      if (kept[n] || rise > greatest_rise * face.step_mm) continue;
+      if (kept[n] || rise > max_rise * face.step_mm) continue;
       kept[n] = 1;
       pending.emplace_back(ns, na);
     }

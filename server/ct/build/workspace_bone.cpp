@@ -34,7 +34,7 @@ case_::Calibration calibration_of(const Workup& workup, const BuildSettings& set
 }
 
 /// Towards the joint where nothing better is known: to the patient's side and front.
-Vec3 usual_lateral(case_::Side side) { return {side == case_::Side::right ? -0.8 : 0.8, -0.6, 0.0}; }
+Vec3 default_lateral(case_::Side side) { return {side == case_::Side::right ? -0.8 : 0.8, -0.6, 0.0}; }
 
 std::optional<Aabb> roi_for(const Workup& workup, const GlenoidPlace& glenoid,
                             const BuildSettings& settings) {
@@ -67,7 +67,7 @@ voxel::BoneModel scapula_of(const Workup& workup, const std::vector<int16_t>& hu
 }
 
 GlenoidPlace glenoid_place(const case_::Landmarks& landmarks, case_::Side side) {
-  GlenoidPlace place{landmarks.glenoid_centre_mm, usual_lateral(side), std::nullopt};
+  GlenoidPlace place{landmarks.glenoid_centre_mm, default_lateral(side), std::nullopt};
   if (place.centre_mm && landmarks.trigonum_mm) place.lateral = *place.centre_mm - *landmarks.trigonum_mm;
   const bool whole = place.centre_mm && landmarks.superior_rim_mm && landmarks.inferior_rim_mm &&
                      landmarks.anterior_rim_mm && landmarks.posterior_rim_mm;
@@ -77,12 +77,12 @@ GlenoidPlace glenoid_place(const case_::Landmarks& landmarks, case_::Side side) 
 
 GlenoidPlace glenoid_place(const SegmentationRecord& segmentation, case_::Side side,
                            const std::optional<Vec3>& centre_mm) {
-  GlenoidPlace place{centre_mm ? centre_mm : segmentation.glenoid_mm, usual_lateral(side), std::nullopt};
+  GlenoidPlace place{centre_mm ? centre_mm : segmentation.glenoid_mm, default_lateral(side), std::nullopt};
   if (!place.centre_mm) return place;
   case_::GlenoidFrame& face = place.face.emplace();
   face.centre_mm = *place.centre_mm;
   face.lateral = segmentation.head ? (segmentation.head->centre_mm - *place.centre_mm).normalized()
-                                   : usual_lateral(side);
+                                   : default_lateral(side);
   const Vec3 across = Vec3::UnitZ().cross(face.lateral).normalized();
   face.superior = face.lateral.cross(across);  // as near to the body's axis as may be
   face.anterior = across.y() < 0.0 ? across : Vec3(-across);

@@ -38,9 +38,9 @@ void join(Graph& graph, size_t a, size_t b, int32_t forth, int32_t back) {
 
 /// What parting two neighbours costs, by the lesser of their HU and the deeper of their valleys.
 int32_t cost_of_cut(int hu, int valley_hu, double threshold_hu, double face_mm2) {
-  constexpr double unit = 1000.0, scale_hu = 150.0, valley_scale_hu = 60.0, greatest = 100.0;
+  constexpr double unit = 1000.0, scale_hu = 150.0, valley_scale_hu = 60.0, max_cost = 100.0;
   const double above = std::max(0.0, hu - threshold_hu) / scale_hu, valley = valley_hu / valley_scale_hu;
-  const double cost = std::min(greatest, (1.0 + above * above) / (1.0 + valley * valley));
+  const double cost = std::min(max_cost, (1.0 + above * above) / (1.0 + valley * valley));
   return static_cast<int32_t>(std::lround(std::max(1.0, unit * face_mm2 * cost)));
 }
 

@@ -50,8 +50,8 @@ void each_part(Mask& mask, const Vec3i& dims, Visit&& visit) {
 
 /// Of the bone that is neither scapula nor humerus, the clavicle: the part with its seed or, without one, the
 /// largest that comes near the top of the head.
-void tell_clavicle(std::vector<uint8_t>& labels, const HuVolume& volume,
-                   const std::optional<HumeralHead>& head) {
+void separate_clavicle(std::vector<uint8_t>& labels, const HuVolume& volume,
+                       const std::optional<HumeralHead>& head) {
   constexpr double near_top_mm = 40.0;
   Mask pending(labels.size());
   bool seeded = false;
@@ -109,7 +109,7 @@ std::vector<uint8_t> labels_of_region(const HuVolume& region, const Segmentation
   } else {
     spread_unseparated(region, threshold_hu, labels);
   }
-  tell_clavicle(labels, region, head);
+  separate_clavicle(labels, region, head);
   if (!settings.fill_holes) return labels;
   progress(0.5, "closing thin bone");
   WholeBoneSettings whole;

@@ -10,7 +10,7 @@ constexpr int bin_hu = 8, histogram_lowest_hu = 0, histogram_highest_hu = 2000,
               bin_count = (histogram_highest_hu - histogram_lowest_hu) / bin_hu;
 constexpr int soft_tissue_bins = 150 / bin_hu;
 constexpr double half_width_per_deviation = 1.1774;  // sqrt(2 ln 2), of a normal distribution
-constexpr double customary_threshold_hu = 226.0, least_threshold_hu = 100.0, greatest_threshold_hu = 500.0;
+constexpr double customary_threshold_hu = 226.0, min_threshold_hu = 100.0, max_threshold_hu = 500.0;
 constexpr double deviations_of_noise = 4.0;
 
 std::vector<size_t> histogram_of(const HuVolume& volume) {
@@ -64,7 +64,7 @@ double suggested_threshold_hu(const HuVolume& volume) {
   const double otsu = histogram_lowest_hu + bin_hu * static_cast<double>(three_class_limits(counts)[0]);
   const SoftTissue soft = soft_tissue_in(counts);
   const double above_noise = soft.hu + deviations_of_noise * soft.deviation_hu;
-  return std::floor(std::clamp(std::max(otsu, above_noise), least_threshold_hu, greatest_threshold_hu) + 0.5);
+  return std::floor(std::clamp(std::max(otsu, above_noise), min_threshold_hu, max_threshold_hu) + 0.5);
 }
 
 }  // namespace ream::ct

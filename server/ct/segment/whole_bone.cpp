@@ -42,14 +42,14 @@ class WaitingByHu {
 };
 
 /// Pieces larger than this part of the bone are bones of their own.
-constexpr double largest_piece_share = 0.25;
+constexpr double max_piece_share = 0.25;
 
 /// Sets free pieces of dense voxels that come within `reach_mm` of the bone.
 void add_pieces(Mask& bone, const Mask& free_dense, const Vec3i& dims, const Vec3& spacing_mm,
                 double reach_mm) {
   const std::vector<float> distance = distance_to_set_mm(bone, dims, spacing_mm);
   const Steps steps(dims);
-  const auto largest = static_cast<size_t>(largest_piece_share * static_cast<double>(count_set(bone)));
+  const auto largest = static_cast<size_t>(max_piece_share * static_cast<double>(count_set(bone)));
   Mask pending = free_dense;
   std::vector<size_t> piece;
   for (size_t start = 0; start < pending.size(); ++start) {

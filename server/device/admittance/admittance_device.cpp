@@ -13,7 +13,6 @@ namespace {
 
 /// How firmly tool and machine keep together where limits hold the machine back, critically damped.
 constexpr double holding_rad_s = 30.0;
-constexpr double n_per_kg_mm_s2 = 1.0e-3;
 /// Nothing said for so long while the sensor is zeroed: it is not there.
 constexpr int max_silent_samples = 500;
 

@@ -4,6 +4,9 @@
 
 namespace ream::device {
 
+/// Force in N of a mass in kg that is accelerated in mm/s^2.
+inline constexpr double n_per_kg_mm_s2 = 1.0e-3;
+
 /// What a machine that senses force and moves can do, in its own frame.
 struct MachineLimits {
   MotionLimits motion;

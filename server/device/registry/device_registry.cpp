@@ -24,10 +24,10 @@ DeviceInfo offer_of(const std::string& name, const std::string& about, const std
   return {name, about, true, "", traits.force_max_n, traits.degrees_of_freedom};
 }
 
-std::string profile_of(const DeviceRequest& request, const std::string& usual) {
+std::string profile_of(const DeviceRequest& request, const std::string& fallback) {
   if (!request.profile.empty()) return request.profile;
   const bool said = request.script->kind == ScriptKind::remote && !request.script->device_profile.empty();
-  return said ? request.script->device_profile : usual;
+  return said ? request.script->device_profile : fallback;
 }
 
 void require_fitting_profile(const std::string& device, const std::vector<std::string>& fitting,
@@ -60,43 +60,44 @@ DeviceKind scripted() {
 }
 
 DeviceKind network() {
-  static const std::string usual = "touch";
-  return {"network", usual,
+  static const std::string profile = "touch";
+  return {"network", profile,
           [](const std::filesystem::path&) {
-            return offer_of("network", "A haptic device whose own computer connects over the network", usual);
+            return offer_of("network", "A haptic device whose own computer connects over the network",
+                            profile);
           },
           [](const DeviceRequest& request) {
             auto link = std::make_shared<RemoteLink>();
             return MadeDevice{
-                mapped(request, std::make_unique<NetworkDevice>(profile_of(request, usual), link)), link};
+                mapped(request, std::make_unique<NetworkDevice>(profile_of(request, profile), link)), link};
           }};
 }
 
 DeviceKind browser() {
-  static const std::string usual = "ideal";
-  return {"browser", usual,
+  static const std::string profile = "ideal";
+  return {"browser", profile,
           [](const std::filesystem::path&) {
             return offer_of("browser", "Mouse, touch screen, keys or gamepad, in the page of the session",
-                            usual);
+                            profile);
           },
           [](const DeviceRequest& request) {
             auto link = std::make_shared<RemoteLink>();
-            return MadeDevice{make_steered_hand_device(profile_of(request, usual), request.world_from_plan,
+            return MadeDevice{make_steered_hand_device(profile_of(request, profile), request.world_from_plan,
                                                        request.script->force_scale, link),
                               link};
           }};
 }
 
 /// A simulated machine that senses force and moves, in the hand of the script.
-DeviceKind plant(const PlantParameters& parameters, const std::string& usual, const std::string& about) {
-  return {parameters.name, usual,
-          [&parameters, usual, about](const std::filesystem::path&) {
-            return offer_of(parameters.name, about, usual);
+DeviceKind plant(const PlantParameters& parameters, const std::string& profile, const std::string& about) {
+  return {parameters.name, profile,
+          [&parameters, profile, about](const std::filesystem::path&) {
+            return offer_of(parameters.name, about, profile);
           },
-          [&parameters, usual](const DeviceRequest& request) {
+          [&parameters, profile](const DeviceRequest& request) {
             const Pose plan_from_start{rotation_from_small_vector(request.script->hand.tilt_rad),
                                        request.script->hand.start_mm};
-            auto machine = make_admittance_plant(parameters, device_profile(profile_of(request, usual)),
+            auto machine = make_admittance_plant(parameters, device_profile(profile_of(request, profile)),
                                                  *request.script, request.random_seed);
             return MadeDevice{std::make_unique<AdmittanceDevice>(std::move(machine),
                                                                  request.world_from_plan * plan_from_start),
@@ -133,13 +134,13 @@ const DeviceKind& device_kind(const std::string& name) {
 
 void settle_for_device(const std::string& device, const std::string& profile, Script& script) {
   const DeviceKind& kind = device_kind(device);
-  if (kind.usual_profile.empty()) {
+  if (kind.default_profile.empty()) {
     if (!profile.empty())
       throw Error(ErrorKind::invalid_input,
                   "device_profile '" + profile + "' is asked for, but a script says its own");
     return;
   }
-  const std::string resolved = profile_of({device, profile, &script, {}, 1, {}}, kind.usual_profile);
+  const std::string resolved = profile_of({device, profile, &script, {}, 1, {}}, kind.default_profile);
   if (!kind.profiles.empty()) require_fitting_profile(device, kind.profiles, resolved);
   fit_to_remote(resolved, script);
 }

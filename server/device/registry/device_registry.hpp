@@ -39,7 +39,7 @@ struct DeviceInfo {
 struct DeviceKind {
   std::string name;
   /// What it renders with (device/profiles.hpp) unless somebody says otherwise; empty: scripts say.
-  std::string usual_profile;
+  std::string default_profile;
   /// `data`: where set-ups of devices are kept.
   std::function<DeviceInfo(const std::filesystem::path& data)> offer;
   std::function<MadeDevice(const DeviceRequest&)> make;

@@ -2,6 +2,7 @@
 
 #include "core/clock.hpp"
 #include "core/error.hpp"
+#include "device/admittance/admittance_machine.hpp"
 #include "device/simulated/scripted_device.hpp"
 
 namespace ream::device {
@@ -12,7 +13,6 @@ constexpr double speed_control_s = 0.004, contact_after_s = 0.02, under_way_afte
 /// How firmly the robot keeps its line and orientation. Engineering choice.
 constexpr double line_stiffness_n_mm = 20.0, line_damping_n_s_mm = 0.2;
 constexpr double turn_stiffness_n_mm_rad = 5.0e4, turn_damping_n_mm_s_rad = 500.0;
-constexpr double n_per_kg_mm_s2 = 1.0e-3;
 
 /// The experiments' robot (thesis 5.1) as an admittance device: it drives along its line until something
 /// holds it up, then presses with a force that rises linearly and stays, and when the tool has advanced far

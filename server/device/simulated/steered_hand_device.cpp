@@ -124,7 +124,7 @@ class SteeredHandDevice final : public HapticDevice {
     return way - axis * axis.dot(way);
   }
 
-  /// 1 while wishes come; falls to nothing when they do not.
+  /// 1 while poses come; falls to nothing when they do not.
   double grip() const noexcept {
     return std::clamp(1.0 - (end_.age_ms() - traits_.stale.fade_ms) / release_ms, 0.0, 1.0);
   }

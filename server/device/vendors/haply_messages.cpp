@@ -14,7 +14,7 @@ using nlohmann::json;
 /// In the order in which they are preferred.
 constexpr std::array grips{"wireless_verse_grip", "custom_verse_grip", "verse_grip"};
 constexpr double micro = 1.0e6;
-constexpr double unit_within = 0.01;
+constexpr double max_length_error = 0.01;
 
 void append(std::string& text, double value) {
   const double rounded = std::round(value * micro) / micro + 0.0;
@@ -70,7 +70,7 @@ bool take_turn(const json& value, std::array<double, 4>& last) {
       !take_number(value, "z", q[3]))
     return false;
   const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  if (!(std::abs(length - 1.0) <= unit_within)) return false;
+  if (!(std::abs(length - 1.0) <= max_length_error)) return false;
   for (double& part : q) part /= length;
   last = q;
   return true;

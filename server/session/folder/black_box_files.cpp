@@ -39,7 +39,7 @@ fs::path write_black_box(const sim::BlackBox& box, const fs::path& folder, uint3
   box.write(path);
   std::vector<fs::path> boxes = black_boxes_in(folder);
   std::error_code ignored;
-  for (size_t i = 0; i + most_black_boxes < boxes.size(); ++i) fs::remove(boxes[i], ignored);
+  for (size_t i = 0; i + max_black_boxes < boxes.size(); ++i) fs::remove(boxes[i], ignored);
   return path;
 }
 

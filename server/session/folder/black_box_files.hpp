@@ -7,7 +7,7 @@
 namespace ream::session {
 
 /// A session's folder keeps this many black boxes, of the newest faults.
-inline constexpr size_t most_black_boxes = 8;
+inline constexpr size_t max_black_boxes = 8;
 
 /// Writes the last seconds before `tick` to black-box-<tick>.csv in the folder, and removes the oldest where
 /// there would be too many. Returns the path. Error io.

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr size_t batch = 200;
 /// So many may be read from their folders for one list.
 constexpr size_t few = 100;
-constexpr std::chrono::seconds patience{5}, pause{1};
+constexpr std::chrono::seconds wait_timeout{5}, pause{1};
 
 /// Of a folder: changes when a name in it comes or goes. Zero while it changed so lately that the file
 /// system's clock could not tell another change.
@@ -72,7 +72,7 @@ std::vector<std::string> IndexUpkeep::behind() {
     compare_names();
     compare_unsettled();
   }
-  if (!changed_.wait_for(lock, patience,
+  if (!changed_.wait_for(lock, wait_timeout,
                          [this] { return failure_ || (compared_ && waiting_.size() <= few); }))
     throw Error(ErrorKind::unavailable, "the index of sessions is being made, " +
                                             std::to_string(waiting_.size()) +

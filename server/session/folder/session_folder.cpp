@@ -68,28 +68,25 @@ json mark_in(const fs::path& folder) {
   }
 }
 
-/// What a session's files say; `timing` and `mark` may be null.
-struct SessionJson {
-  json session, timing, mark;
-};
-
-SessionJson read_files(const fs::path& folder) {
-  SessionJson files{read_json_file(session_json(folder)), nullptr, nullptr};
+/// What a session's files say, as the index keeps it: "session", "timing" and "mark", the last two may be
+/// null.
+json read_files(const fs::path& folder) {
+  json files = {{"session", read_json_file(session_json(folder))}, {"timing", nullptr}};
   std::error_code failed;
   if (const fs::path file = folder / "timing.json"; fs::exists(file, failed))
-    files.timing = read_json_file(file);
+    files["timing"] = read_json_file(file);
   return files;
 }
 
 /// Throws json::exception, as the next.
-void complete(SessionJson& files, const fs::path& folder) {
-  if (files.session.value("created_utc", "").empty())
-    files.session["created_utc"] = changed_utc(session_json(folder));
-  files.mark = mark_in(folder);
+void complete(json& files, const fs::path& folder) {
+  if (files["session"].value("created_utc", "").empty())
+    files["session"]["created_utc"] = changed_utc(session_json(folder));
+  files["mark"] = mark_in(folder);
 }
 
-SessionRecord record_of(const SessionJson& files, const fs::path& folder) {
-  const auto& [session, timing, mark] = files;
+SessionRecord record_of(const json& files, const fs::path& folder) {
+  const json &session = files.at("session"), &timing = files.at("timing");
   SessionRecord record;
   record.streamable = false;
   record.request.id = folder.filename().string();
@@ -114,7 +111,7 @@ SessionRecord record_of(const SessionJson& files, const fs::path& folder) {
     if (!session.contains("ticks")) status.tick = timing.value("ticks", 0u);
   }
   status.duration_s = status.tick * tick_s;
-  if (!is_live(status.state)) record.mark = mark_from(mark);
+  if (!is_live(status.state)) record.mark = mark_from(files.value("mark", json()));
   return record;
 }
 
@@ -152,7 +149,7 @@ fs::path recording_file(const fs::path& folder) { return folder / "recording.rea
 fs::path lock_file(const fs::path& folder) { return folder / "lock"; }
 
 SessionRecord read_session_folder(const fs::path& folder) {
-  SessionJson files = read_files(folder);
+  json files = read_files(folder);
   return checked(folder, [&] {
     complete(files, folder);
     return record_of(files, folder);
@@ -183,25 +180,18 @@ store::SessionRow row_of(const SessionRecord& record) {
 }
 
 store::SessionRow read_session_row(const fs::path& folder, int64_t stamp) {
-  SessionJson files = read_files(folder);
+  json files = read_files(folder);
   return checked(folder, [&] {
     complete(files, folder);
     store::SessionRow row = row_of(record_of(files, folder));
-    row.record = json{{"session", std::move(files.session)},
-                      {"timing", std::move(files.timing)},
-                      {"mark", std::move(files.mark)}}
-                     .dump();
+    row.record = files.dump();
     row.stamp = stamp;
     return row;
   });
 }
 
 SessionRecord record_of(const store::SessionRow& row, const fs::path& folder) {
-  return checked(folder, [&] {
-    const json files = parse_json_or_discard(row.record);
-    return record_of(SessionJson{files.at("session"), files.at("timing"), files.value("mark", json())},
-                     folder);
-  });
+  return checked(folder, [&] { return record_of(parse_json_or_discard(row.record), folder); });
 }
 
 int64_t session_stamp(const fs::path& folder) {

@@ -24,7 +24,7 @@ constexpr std::array text_labels{TextLabel{"trainee_id", &SessionRequest::traine
                                  TextLabel{"reset_of", &SessionRequest::reset_of},
                                  TextLabel{"followed_by", &SessionRequest::followed_by}};
 
-constexpr double most_attempts = 1e6;
+constexpr double max_attempts = 1e6;
 
 }  // namespace
 
@@ -37,7 +37,7 @@ void apply(const SessionChange& change, SessionRequest& request) {
 
 void read_labels(const json& session, SessionRequest& request) {
   for (const TextLabel& label : text_labels) request.*label.text = session.value(label.key, "");
-  request.attempt = static_cast<int>(std::clamp(session.value("attempt", 1.0), 1.0, most_attempts));
+  request.attempt = static_cast<int>(std::clamp(session.value("attempt", 1.0), 1.0, max_attempts));
   request.keep = session.value("keep", false);
   request.theatre = session.value("theatre", false);
 }

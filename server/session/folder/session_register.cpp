@@ -32,7 +32,8 @@ std::vector<std::string> SessionRegister::add_from_folders(std::vector<SessionRe
 
 /// Returns how many there are in all.
 size_t SessionRegister::add_from_index(const store::SessionQuery& query,
-                                       const std::vector<std::string>& except, std::vector<Listed>& listed) {
+                                       const std::vector<std::string>& except,
+                                       std::vector<RowAndRecord>& listed) {
   auto [rows, total] = store::SessionIndex(database_).find(query, except);
   for (store::SessionRow& row : rows) {
     std::optional<SessionRecord> record;
@@ -42,7 +43,7 @@ size_t SessionRegister::add_from_index(const store::SessionQuery& query,
       upkeep_.changed(row.id);
       record = found(row.id);
     }
-    if (record) listed.push_back({std::move(row), std::move(*record)});
+    if (record) listed.emplace_back(std::move(row), std::move(*record));
   }
   return total;
 }
@@ -51,21 +52,21 @@ SessionPage SessionRegister::list(const store::SessionQuery& query, std::vector<
   const auto place = store::place_of_cursor(query);
   const std::vector<std::string> except = add_from_folders(held);
   SessionPage page;
-  std::vector<Listed> listed;
+  std::vector<RowAndRecord> listed;
   for (SessionRecord& record : held) {
     store::SessionRow row = row_of(record);
     if (!store::matches(query, row)) continue;
     ++page.total;
-    if (!place || store::behind(query, *place, row)) listed.push_back({std::move(row), std::move(record)});
+    if (!place || store::behind(query, *place, row)) listed.emplace_back(std::move(row), std::move(record));
   }
   page.total += add_from_index(query, except, listed);
   std::sort(listed.begin(), listed.end(),
-            [&](const Listed& a, const Listed& b) { return store::precedes(query, a.row, b.row); });
+            [&](const auto& a, const auto& b) { return store::precedes(query, a.first, b.first); });
   if (listed.size() > query.limit) {
     listed.resize(query.limit);
-    if (!listed.empty()) page.next = store::cursor_behind(query, listed.back().row);
+    if (!listed.empty()) page.next = store::cursor_behind(query, listed.back().first);
   }
-  for (Listed& each : listed) page.sessions.push_back(std::move(each.record));
+  for (auto& [row, record] : listed) page.sessions.push_back(std::move(record));
   return page;
 }
 

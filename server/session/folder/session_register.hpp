@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "session/folder/index_upkeep.hpp"
@@ -27,18 +28,16 @@ class SessionRegister {
   /// cursor or text; unavailable while the database cannot be reached.
   SessionPage list(const store::SessionQuery& query, std::vector<SessionRecord> held);
 
-  /// Something of this session's folder was changed, so that its row is to be made anew.
+  /// Something of this session's folder was changed, so that its row is to be rebuilt.
   void changed(const std::string& id) { upkeep_.changed(id); }
 
  private:
-  struct Listed {
-    store::SessionRow row;
-    SessionRecord record;
-  };
+  using RowAndRecord = std::pair<store::SessionRow, SessionRecord>;
+
   std::optional<SessionRecord> found(const std::string& id) const;
   std::vector<std::string> add_from_folders(std::vector<SessionRecord>& here);
   size_t add_from_index(const store::SessionQuery& query, const std::vector<std::string>& except,
-                        std::vector<Listed>& listed);
+                        std::vector<RowAndRecord>& listed);
 
   const SessionArchive& archive_;
   store::Database& database_;

@@ -14,7 +14,7 @@ namespace ream::session {
 namespace {
 
 /// A first touch or two is always a little soft; longer than this is worth a word.
-constexpr double told_weakened_s = 2.0;
+constexpr double min_reported_weakened_s = 2.0;
 
 /// Nobody's tick is late in virtual time, so the recording may have every changed brick at once.
 constexpr int bricks_a_tick_without_hurry = 8192;
@@ -22,7 +22,7 @@ constexpr int bricks_a_tick_without_hurry = 8192;
 constexpr size_t enough_waiting_chunks = 16;
 
 /// A loop that stands still for longer than this will not come back.
-constexpr int64_t longest_standstill_ms = 5000;
+constexpr int64_t max_standstill_ms = 5000;
 
 [[noreturn]] void throw_fault(const sim::BlackBox& box, sim::LoopEnd end) {
   box.write("ream-black-box.csv");
@@ -51,7 +51,7 @@ SessionFiles::Results run_headless(Simulation& simulation, std::span<const uint8
   loop.start();
   while (!loop.ended()) {
     throw_if_interrupted();
-    if (loop.stood_still_ms() > longest_standstill_ms) throw_fault(recent, sim::LoopEnd::stood_still);
+    if (loop.stood_still_ms() > max_standstill_ms) throw_fault(recent, sim::LoopEnd::stood_still);
     const bool late = files.recorder().waiting_chunks() > enough_waiting_chunks;
     if (late || !rings.drain(take_brick, take_report))
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -65,7 +65,7 @@ SessionFiles::Results run_headless(Simulation& simulation, std::span<const uint8
   if (health.failed_over_tick >= 0) log::warn(sim::failover_message(health.failed_over_tick));
   SessionFiles::Results results = files.finish(health);
   if (const double weakened_s = results.metrics.at("weakened_time_s").get<double>();
-      weakened_s > told_weakened_s)
+      weakened_s > min_reported_weakened_s)
     log::warn("the hand felt less than it asked for during " + std::to_string(weakened_s) + " s, as " +
               simulation.device->traits().profile + " renders no more; a larger force_scale helps");
   return results;

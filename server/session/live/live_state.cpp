@@ -10,7 +10,7 @@ namespace ream::session {
 namespace {
 
 /// A loop ticks again within a few ms, or stands still and its session ends by itself.
-constexpr std::chrono::seconds longest_wait{2};
+constexpr std::chrono::seconds max_wait{2};
 
 }  // namespace
 
@@ -43,7 +43,7 @@ void LiveState::stop() {
 
 void LiveState::wait_until_held(bool held) {
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, longest_wait, [&] { return status_.held == held || ended_; });
+  changed_.wait_for(lock, max_wait, [&] { return status_.held == held || ended_; });
 }
 
 bool LiveState::relabel(const SessionRequest& request) {
@@ -69,7 +69,7 @@ std::vector<uint8_t> LiveState::coverage() {
   const std::lock_guard one_at_a_time(copying_);
   std::unique_lock lock(mutex_);
   wanted_coverage_ = &coverage;
-  if (changed_.wait_for(lock, longest_wait, [this] { return wanted_coverage_ == nullptr; })) return coverage;
+  if (changed_.wait_for(lock, max_wait, [this] { return wanted_coverage_ == nullptr; })) return coverage;
   wanted_coverage_ = nullptr;
   throw Error(ErrorKind::unavailable, "session '" + labels_.id + "' does not answer; try again");
 }

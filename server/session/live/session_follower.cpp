@@ -15,7 +15,7 @@ constexpr auto follower_period = std::chrono::milliseconds(5);
 /// A session that rests tells its viewers so this often, so that a silent link is a broken one.
 constexpr int64_t heartbeat_ns = 500'000'000;
 /// A loop that stands still for longer than this will not come back: its session ends without it.
-constexpr int64_t longest_standstill_ns = 1'000'000'000;
+constexpr int64_t max_standstill_ns = 1'000'000'000;
 
 SessionState end_state(sim::LoopEnd end) {
   if (end == sim::LoopEnd::finished) return SessionState::finished;
@@ -205,7 +205,7 @@ void SessionFollower::note_standstill() {
     batcher_.add(sample_);
     batcher_.flush();
   }
-  if (now_ns - standstill_since_ns_ > longest_standstill_ns) throw Error(ErrorKind::unavailable, words);
+  if (now_ns - standstill_since_ns_ > max_standstill_ns) throw Error(ErrorKind::unavailable, words);
 }
 
 std::string SessionFollower::fault_message(sim::LoopEnd end) const {

@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr uint64_t most_cut_bytes = 1'000'000;
+constexpr uint64_t max_cut_bytes = 1'000'000;
 
 std::string seconds(uint32_t ticks) {
   char text[32];
@@ -85,7 +85,7 @@ void remove_temporaries(const fs::path& folder) {
 void keep_what_is_cut(const record::OpLogReader& log) {
   const uint64_t size = fs::file_size(log.path()), cut = size - log.whole_bytes();
   const uint64_t chunk = log.chunks().empty() ? 0 : log.chunks().back().stored_bytes;
-  if (cut <= std::min(chunk, most_cut_bytes)) return;
+  if (cut <= std::min(chunk, max_cut_bytes)) return;
   std::ifstream from(log.path(), std::ios::binary);
   from.seekg(static_cast<std::streamoff>(log.whole_bytes()));
   fs::path kept = log.path();

@@ -8,7 +8,6 @@
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "core/new_id.hpp"
-#include "core/signal_handlers.hpp"
 #include "session/service/session_socket.hpp"
 
 namespace ream::session {
@@ -28,34 +27,28 @@ struct ReplayService::Entry {
   }
 };
 
-ReplayService::ReplayService(SessionEngine& engine, ReplayLimits limits) : engine_(engine), limits_(limits) {
-  cleanup_thread_ = start_thread([this] { end_unattended(); });
-}
-
-ReplayService::~ReplayService() {
-  shut_down();
-  cleanup_thread_.join();
+ReplayService::ReplayService(SessionEngine& engine, ReplayLimits limits)
+    : engine_(engine),
+      limits_(limits),
+      cleanup_(
+          "a replay that nobody watches could not be ended",
+          [this] {
+            end_unattended();
+            return limits_.look_every;
+          },
+          limits_.look_every) {
+  cleanup_.start(limits_.look_every, false);
 }
 
 void ReplayService::end_unattended() {
-  std::unique_lock lock(mutex_);
-  while (!closing_.wait_for(lock, limits_.look_every, [this] { return closed_; })) {
-    try {
-      Entries ending = take_unattended();
-      lock.unlock();
-      for (const auto& entry : ending) {
-        log::info("replay of session " + entry->request.replay_of + " ends: nobody has watched it for long");
-        entry->running->stop();
-      }
-    } catch (...) {
-      log::current_exception("a replay that nobody watches could not be ended");
-    }
-    if (!lock.owns_lock()) lock.lock();
+  for (const auto& entry : take_unattended()) {
+    log::info("replay of session " + entry->request.replay_of + " ends: nobody has watched it for long");
+    entry->running->stop();
   }
 }
 
-/// Under the lock.
 ReplayService::Entries ReplayService::take_unattended() {
+  const std::lock_guard lock(mutex_);
   const auto first = std::stable_partition(entries_.begin(), entries_.end(), [this](const auto& entry) {
     return !entry->unattended_for(limits_.unattended);
   });
@@ -191,7 +184,6 @@ void ReplayService::shut_down() {
     closed_ = true;
     entries.swap(entries_);
   }
-  closing_.notify_all();
   for (const auto& entry : entries) entry->running->stop();
 }
 

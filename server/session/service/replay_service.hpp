@@ -1,13 +1,12 @@
 #pragma once
 #include <chrono>
-#include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <set>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "core/periodic_task.hpp"
 #include "session/running_replay.hpp"
 #include "session/service/session_engine.hpp"
 
@@ -35,7 +34,7 @@ class ReplayService {
  public:
   /// `engine` outlives it.
   ReplayService(SessionEngine& engine, ReplayLimits limits);
-  ~ReplayService();
+  ~ReplayService() { shut_down(); }
   ReplayService(const ReplayService&) = delete;
   ReplayService& operator=(const ReplayService&) = delete;
 
@@ -74,8 +73,7 @@ class ReplayService {
   Entries entries_;                        ///< oldest first
   std::multiset<std::string> being_made_;  ///< for whom
   bool closed_ = false;
-  std::condition_variable closing_;
-  std::thread cleanup_thread_;  ///< ends unattended replays
+  PeriodicTask cleanup_;  ///< ends unattended replays
 };
 
 }  // namespace ream::session

@@ -28,6 +28,9 @@ class SessionEngine {
   /// The program and its version: "ream 0.1.0".
   virtual std::string program() const = 0;
 
+  /// Makes the case `demo` where it is not there yet; takes seconds.
+  virtual void make_demo_case() = 0;
+
   /// A session ready to start. Errors: not_found (case, script), conflict (case without a plan),
   /// invalid_input, unavailable.
   virtual std::unique_ptr<RunningSession> make(const SessionRequest& request) = 0;

@@ -114,7 +114,7 @@ SessionRecord SessionService::restart(const SessionRecord& before, bool by_train
   try {
     if (ran) start(next->id());
   } catch (const Error& error) {
-    log::warn("session " + next->id() + " was made anew but does not run: " + error.what());
+    log::warn("session " + next->id() + " was created again but does not run: " + error.what());
   }
   return next->record();
 }

@@ -3,6 +3,7 @@
 #include "core/data_folder.hpp"
 #include "core/log.hpp"
 #include "core/version.hpp"
+#include "ct/phantom/phantom_case.hpp"
 #include "score/rubric_store.hpp"
 #include "session/export/export_formats.hpp"
 #include "session/folder/session_folder.hpp"
@@ -45,6 +46,8 @@ ExportRequest export_request_of(const ExportFormat& format, const ExportOrder& o
 }  // namespace
 
 std::string SimulationEngine::program() const { return version_text(); }
+
+void SimulationEngine::make_demo_case() { ct::load_or_make_demo_case(context_.data); }
 
 std::unique_ptr<RunningSession> SimulationEngine::make(const SessionRequest& request) {
   return LiveSession::create(context_, request);

@@ -10,6 +10,7 @@ class SimulationEngine final : public SessionEngine {
   explicit SimulationEngine(SessionContext context) : context_(std::move(context)) {}
 
   std::string program() const override;
+  void make_demo_case() override;
   std::unique_ptr<RunningSession> make(const SessionRequest& request) override;
   std::unique_ptr<RunningSession> resume(const SessionRequest& request, const std::string& reamer) override;
   std::unique_ptr<RunningReplay> replay(const ReplayRequest& request) override;

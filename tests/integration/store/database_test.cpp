@@ -126,7 +126,7 @@ TYPED_TEST(DatabaseTest, AReaderSeesOneState) {
 TYPED_TEST(DatabaseTest, SaysThatItIsBusyWhenNoConnectionGetsFree) {
   DatabaseLimits limits;
   limits.connections = 1;
-  limits.patience = std::chrono::milliseconds(20);
+  limits.timeout = std::chrono::milliseconds(20);
   Database narrow(this->url(), limits);
   narrow.read([&](Sql&) {
     std::thread([&] {
@@ -157,7 +157,7 @@ TEST(SqliteDatabase, WaitsForTheOneWriterOnlySoLong) {
   const test::OnSqlite store;
   Database first(store.url);
   DatabaseLimits limits;
-  limits.patience = std::chrono::milliseconds(20);
+  limits.timeout = std::chrono::milliseconds(20);
   Database second(store.url, limits);
   first.run([&](Sql&) {
     std::thread([&] {

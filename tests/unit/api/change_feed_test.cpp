@@ -36,7 +36,7 @@ class ChangeFeedTest : public testing::Test {
 };
 
 TEST_F(ChangeFeedTest, GreetsAndTellsInOrderAndWakesWhoListens) {
-  feed->tell({"case", "before", "changed"});
+  feed->publish({"case", "before", "changed"});
   const auto listener = feed->listen(caller_of("operator"), {});
   EXPECT_TRUE(listener->sends_text());
   int woken = 0;
@@ -45,8 +45,8 @@ TEST_F(ChangeFeedTest, GreetsAndTellsInOrderAndWakesWhoListens) {
   ASSERT_EQ(hello.size(), 1u);
   EXPECT_EQ(hello[0].at("kind"), "hello");
   EXPECT_EQ(hello[0].at("missed"), false);
-  feed->tell({"case", "demo", "changed"});
-  feed->tell({"job", "j1", "done"});
+  feed->publish({"case", "demo", "changed"});
+  feed->publish({"job", "j1", "done"});
   EXPECT_EQ(woken, 2);
   const auto told = heard(*listener);
   ASSERT_EQ(told.size(), 2u);
@@ -55,20 +55,20 @@ TEST_F(ChangeFeedTest, GreetsAndTellsInOrderAndWakesWhoListens) {
   EXPECT_EQ(told[0].at("number").get<uint64_t>(), hello[0].at("number").get<uint64_t>() + 1);
   EXPECT_EQ(told[1].at("number").get<uint64_t>(), hello[0].at("number").get<uint64_t>() + 2);
   listener->on_close();
-  feed->tell({"case", "demo", "changed"});
+  feed->publish({"case", "demo", "changed"});
   EXPECT_EQ(woken, 2);
 }
 
 TEST_F(ChangeFeedTest, WhoComesBackMissesNothingOrIsToldSo) {
   const auto first = feed->listen(caller_of("operator"), {});
   const uint64_t number = heard(*first).at(0).at("number");
-  for (const char* id : {"a", "b", "c"}) feed->tell({"case", id, "changed"});
+  for (const char* id : {"a", "b", "c"}) feed->publish({"case", id, "changed"});
   const auto told = heard(*feed->listen(caller_of("operator"), number + 1));
   ASSERT_EQ(told.size(), 3u);
   EXPECT_EQ(told[0].at("missed"), false);
   EXPECT_EQ(told[1].at("id"), "b");
   EXPECT_EQ(told[2].at("id"), "c");
-  for (const char* id : {"d", "e", "f"}) feed->tell({"case", id, "changed"});
+  for (const char* id : {"d", "e", "f"}) feed->publish({"case", id, "changed"});
   const auto late = heard(*feed->listen(caller_of("operator"), number));
   ASSERT_EQ(late.size(), 1u);
   EXPECT_EQ(late[0].at("missed"), true);
@@ -81,11 +81,11 @@ TEST_F(ChangeFeedTest, WhoComesBackMissesNothingOrIsToldSo) {
 TEST_F(ChangeFeedTest, WhoIsTooSlowIsToldToReadAgain) {
   const auto listener = feed->listen(caller_of("operator"), {});
   heard(*listener);
-  for (int i = 0; i < 10; ++i) feed->tell({"case", std::to_string(i), "changed"});
+  for (int i = 0; i < 10; ++i) feed->publish({"case", std::to_string(i), "changed"});
   const auto told = heard(*listener);
   ASSERT_EQ(told.size(), 1u);
   EXPECT_EQ(told[0].at("kind"), "missed");
-  feed->tell({"case", "next", "changed"});
+  feed->publish({"case", "next", "changed"});
   EXPECT_EQ(heard(*listener).at(0).at("id"), "next");
 }
 
@@ -95,10 +95,10 @@ TEST_F(ChangeFeedTest, EverybodyHearsWhatTheyMayKnow) {
              teacher = feed->listen(caller_of("instructor"), {}),
              watcher = feed->listen(caller_of("viewer", ""), {});
   for (const auto& each : {&anna, &ben, &teacher, &watcher}) heard(**each);
-  feed->tell({"session", "abcd2345", "running", session_of("anna")});
-  feed->tell({"user", "anna", "changed"});
-  feed->tell({"case", "demo", "changed"});
-  feed->tell({"job", "j1", "done"});
+  feed->publish({"session", "abcd2345", "running", session_of("anna")});
+  feed->publish({"user", "anna", "changed"});
+  feed->publish({"case", "demo", "changed"});
+  feed->publish({"job", "j1", "done"});
   const auto count = [](net::WebSocketSession& listener) { return heard(listener).size(); };
   EXPECT_EQ(count(*anna), 2u);
   EXPECT_EQ(count(*ben), 1u);

@@ -5,25 +5,31 @@
 #include <future>
 
 #include "support/expect_error.hpp"
+#include "support/fake_engine.hpp"
 
 namespace ream::api {
 namespace {
 
 TEST(Readiness, NothingToPrepareIsReady) {
-  const Readiness readiness({});
+  test::FakeEngine engine;
+  const Readiness readiness(engine, false);
   EXPECT_NO_THROW(readiness.require_ready());
 }
 
 TEST(Readiness, IsNotReadyWhilePreparing) {
   std::promise<void> release;
-  Readiness readiness([&] { release.get_future().wait(); });
+  test::FakeEngine engine;
+  engine.demo_case = [&] { release.get_future().wait(); };
+  const Readiness readiness(engine, true);
   test::expect_error(ErrorKind::unavailable, "preparing", [&] { readiness.require_ready(); });
   test::expect_error(ErrorKind::unavailable, "preparing", [&] { readiness.require_prepared(); });
   release.set_value();
 }
 
 TEST(Readiness, FailureIsToldButDoesNotStandInTheWayOfOtherThings) {
-  Readiness readiness([] { throw Error(ErrorKind::io, "disk full"); });
+  test::FakeEngine engine;
+  engine.demo_case = [] { throw Error(ErrorKind::io, "disk full"); };
+  const Readiness readiness(engine, true);
   const auto prepared = [&] {
     try {
       readiness.require_prepared();

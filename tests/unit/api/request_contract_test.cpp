@@ -7,10 +7,15 @@
 #include <regex>
 #include <set>
 
+#include "access/password_hasher.hpp"
+#include "api/idempotency.hpp"
+#include "api/json_page.hpp"
 #include "api/request_values.hpp"
 #include "api/yaml_json.hpp"
 #include "net/problem.hpp"
+#include "session/running_replay.hpp"
 #include "support/json_schema.hpp"
+#include "workup/upload_store.hpp"
 
 namespace ream::api {
 namespace {
@@ -286,6 +291,24 @@ TEST(RequestContract, NoRequestIsOpen) {
   }
   EXPECT_GT(bodies, 25u);
   EXPECT_EQ(schemas.open, std::vector<std::string>());
+}
+
+TEST(RequestContract, LimitsThatTheCodeKeepsAreThoseOfTheContract) {
+  const json document = json_from_yaml(std::string(embedded::contract::find("openapi.yaml")));
+  const auto limit = [&](const std::string& place) {
+    return document.at("components").at(json::json_pointer("/" + place)).get<double>();
+  };
+  EXPECT_EQ(limit("parameters/IdempotencyKey/schema/maxLength"), Idempotency::max_key_length);
+  EXPECT_EQ(limit("parameters/Limit/schema/default"), default_page_size);
+  EXPECT_EQ(limit("schemas/NewUpload/properties/name/maxLength"), workup::max_upload_name);
+  for (const char* body : {"NewUser", "UserChange"}) {
+    const std::string password = "schemas/" + std::string(body) + "/properties/password/";
+    EXPECT_EQ(limit(password + "minLength"), access::min_password_length) << body;
+    EXPECT_EQ(limit(password + "maxLength"), access::max_password_bytes) << body;
+  }
+  const std::string speed = "schemas/Playback/properties/speed/";
+  EXPECT_EQ(limit(speed + "minimum"), session::slowest_playback);
+  EXPECT_EQ(limit(speed + "maximum"), session::fastest_playback);
 }
 
 TEST(RequestContract, DeepBodiesAreNoJson) {

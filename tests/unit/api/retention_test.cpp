@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 struct EveryCase final : study::StudyDependencies {
   std::optional<std::string> name_of_user(const std::string&) const override { return std::nullopt; }
   bool has_case(const std::string&) const override { return true; }
-  std::vector<study::StudyAttempt> attempts(const std::string&) const override { return {}; }
+  std::vector<session::SessionRecord> sessions(const std::string&) const override { return {}; }
+  nlohmann::json metrics(const std::string&) const override { return nlohmann::json::object(); }
 };
 
 class RetentionTest : public test::TestDatabase<test::OnSqlite> {
@@ -127,7 +128,7 @@ TEST_F(RetentionTest, TheTrashIsEmptiedInTime) {
 
 TEST_F(RetentionTest, ManyPagesOfOldSessionsGoAtOnce) {
   for (int i = 0; i < 450; ++i) put("s" + std::to_string(i), 31 + i % 7);
-  rules.most_at_once_percent = 100;
+  rules.max_at_once_percent = 100;
   look(30, 0);
   EXPECT_TRUE(fs::is_empty(folder.path() / "sessions"));
   EXPECT_TRUE(fs::is_empty(folder.path() / "trash"));
@@ -143,7 +144,7 @@ TEST_F(RetentionTest, NothingGoesWhenTooMuchWouldGoAtOnce) {
   look(std::nullopt, 30, std::chrono::hours(24 * 365));
   EXPECT_TRUE(is_in_trash("s0"));
   EXPECT_NE(held.find("30 of 30"), std::string::npos) << held;
-  rules.most_at_once_percent = 100;
+  rules.max_at_once_percent = 100;
   look(std::nullopt, 30, std::chrono::hours(24 * 365));
   EXPECT_FALSE(is_in_trash("s0"));
   EXPECT_EQ(held, "");

@@ -6,13 +6,15 @@
 
 #include "support/expect_error.hpp"
 #include "support/random_pose.hpp"
+#include "support/seed.hpp"
 
 namespace ream::app {
 namespace {
 
 /// A person who does as they are told: at each question about a motion the handle has gone that way.
 struct Person {
-  explicit Person(uint32_t seed) : random(seed), device_from_person(test::random_pose(random).rotation) {}
+  explicit Person(uint32_t number)
+      : random(test::seed(number)), device_from_person(test::random_pose(random).rotation) {}
 
   device::DeviceSetup set_up(const std::string& answers, std::vector<Vec3> motions,
                              const device::DeviceSetup& before = {}) {

@@ -9,6 +9,7 @@
 #include "reader/ct_files.hpp"
 #include "reader/dicom_file.hpp"
 #include "support/expect_error.hpp"
+#include "support/seed.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/reader/changed_dicom.hpp"
 
@@ -122,10 +123,9 @@ TEST(DicomRepairs, AStraySliceIsLeftOut) {
 }
 
 TEST(DicomRepairs, OrderOfFilesAndDirectionDoNotMatter) {
-  const uint32_t random_seed = 7;
   std::vector<double> heights;
   for (int i = 0; i < 10; ++i) heights.push_back(1.2 * i);
-  std::shuffle(heights.begin(), heights.end(), std::mt19937(random_seed));
+  std::shuffle(heights.begin(), heights.end(), std::mt19937(test::seed()));
   const Mat3 oblique = rotation_from_small_vector({0.7, -0.4, 0.2});
   std::vector<Vec3> places;
   for (const double h : heights) places.push_back(Vec3(5, 6, 7) + h * oblique.col(2));

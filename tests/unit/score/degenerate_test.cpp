@@ -11,6 +11,7 @@
 #include "score/metrics.hpp"
 #include "support/analytic_glenoid.hpp"
 #include "support/random_pose.hpp"
+#include "support/seed.hpp"
 #include "support/tick_reports.hpp"
 
 namespace ream::score {
@@ -154,14 +155,14 @@ TEST(DegenerateSession, OfAPlanBesideTheBoneSaysSo) {
 
 /// Random voxels, plans, landmarks and ticks: whatever comes, nothing unsound.
 TEST(DegenerateSession, AnythingAtAllIsSound) {
-  for (unsigned seed = 0; seed < 40; ++seed) {
-    std::mt19937 random(seed);
+  std::mt19937 random(test::seed());
+  for (int n = 0; n < 40; ++n) {
     std::uniform_real_distribution<double> number(-1.0, 1.0);
     AnalyticGlenoid glenoid;
-    glenoid.shoulder.side = seed % 2 == 0 ? case_::Side::right : case_::Side::left;
+    glenoid.shoulder.side = n % 2 == 0 ? case_::Side::right : case_::Side::left;
     voxel::BoneModel bone = test::bone_of(glenoid, 0.8);
     Task task = degenerate_task_on(glenoid);
-    if (seed % 3 == 0)
+    if (n % 3 == 0)
       for (uint8_t& c : bone.coverage) c = random() % 2 == 0 ? static_cast<uint8_t>(random()) : 0;
     std::vector<uint8_t> left = bone.coverage;
     for (uint8_t& c : left)
@@ -169,9 +170,9 @@ TEST(DegenerateSession, AnythingAtAllIsSound) {
     task.plan->axis_direction =
         (task.plan->axis_direction + 1.5 * number(random) * test::random_vector(random, 1.0)).normalized();
     task.plan->entry_mm += test::random_vector(random, 8.0);
-    if (seed % 4 == 0) task.plan->implant_radius_mm = std::abs(30.0 * number(random));
-    if (seed % 5 == 0) task.anatomy.landmarks->trigonum_mm = task.anatomy.landmarks->glenoid_centre_mm;
-    if (seed % 7 == 0) task.anatomy.landmarks->anterior_rim_mm = task.anatomy.landmarks->posterior_rim_mm;
+    if (n % 4 == 0) task.plan->implant_radius_mm = std::abs(30.0 * number(random));
+    if (n % 5 == 0) task.anatomy.landmarks->trigonum_mm = task.anatomy.landmarks->glenoid_centre_mm;
+    if (n % 7 == 0) task.anatomy.landmarks->anterior_rim_mm = task.anatomy.landmarks->posterior_rim_mm;
     MetricsAccumulator ticks = no_ticks(task);
     for (uint32_t tick = 0; tick < 300; ++tick) {
       record::TickReport r = test::random_report(random, tick);
@@ -179,14 +180,14 @@ TEST(DegenerateSession, AnythingAtAllIsSound) {
       r.world_from_tool = world_from_plan(task) * test::random_pose(random, 5.0);
       ticks.add(r);
     }
-    expect_sound(scored(task, bone, left, ticks), "seed " + std::to_string(seed));
+    expect_sound(scored(task, bone, left, ticks), "case " + std::to_string(n));
   }
 }
 
 /// The same bone, plan and cut in a mirror: the same numbers to the last digit that is given.
 TEST(MirroredCase, HasIdenticalScores) {
-  for (unsigned seed = 0; seed < 6; ++seed) {
-    std::mt19937 random(seed);
+  std::mt19937 random(test::seed());
+  for (int n = 0; n < 6; ++n) {
     std::uniform_real_distribution<double> number(-1.0, 1.0);
     AnalyticGlenoid right;
     right.shoulder.version_deg = 8.0 * number(random);
@@ -223,7 +224,7 @@ TEST(MirroredCase, HasIdenticalScores) {
     };
     const nlohmann::json of_right = score_of(case_::Side::right), of_left = score_of(case_::Side::left);
     EXPECT_TRUE(of_right["seating_percent"].is_number());
-    EXPECT_EQ(of_right, of_left) << seed;
+    EXPECT_EQ(of_right, of_left) << n;
   }
 }
 

@@ -39,7 +39,7 @@ TEST(BlackBoxFiles, TheNewestEightAreKeptAndNothingElseIsTouched) {
     folder.write(other, "mine");
   for (uint32_t tick = 90; tick < 120; ++tick) write_black_box(box, folder.path(), tick);
   const auto boxes = black_boxes_in(folder.path());
-  ASSERT_EQ(boxes.size(), most_black_boxes);
+  ASSERT_EQ(boxes.size(), max_black_boxes);
   EXPECT_EQ(boxes.front().filename(), "black-box-112.csv");
   EXPECT_EQ(boxes.back().filename(), "black-box-119.csv");
   for (const char* other : {"black-box-.csv", "black-box-x.csv", "black-box.csv", "recording.ream"})

@@ -6,6 +6,7 @@
 
 #include "sim/guided_handle.hpp"
 #include "support/expect_error.hpp"
+#include "support/seed.hpp"
 #include "support/small_run.hpp"
 
 namespace ream::test {
@@ -221,12 +222,15 @@ class Swings {
   std::array<std::array<Swing, 6>, 3> swings_{};
 };
 
+/// Holds for these twelve. Of 300 hands of other seeds, 27 got 1 to 43 mJ out: all of shoulders without a
+/// mount and with the device's own stiffness.
 TEST(Guided, NoHandGetsEnergyOutOfGuideAndMount) {
-  for (unsigned seed = 1; seed <= 12; ++seed) {
+  for (uint32_t n = 0; n < 12; ++n) {
+    const uint32_t seed = test::seed(1) + n;
     device::Script script = steady_push(0.0, 4.0);
-    if (seed % 2 == 0) script.mount = device::chest_wall_mount;
-    if (seed % 3 == 0) script.stiffness_n_mm = 5.0;
-    SmallRun run = guided_run(script, seed % 4 < 2 ? case_::GuideKind::nipple : case_::GuideKind::pin);
+    if (n % 2 == 1) script.mount = device::chest_wall_mount;
+    if (n % 3 == 2) script.stiffness_n_mm = 5.0;
+    SmallRun run = guided_run(script, (n + 1) % 4 < 2 ? case_::GuideKind::nipple : case_::GuideKind::pin);
     const Swings hand(seed);
     double energy_mj = 0.0, least_mj = 0.0;
     int guided_ticks = 0;

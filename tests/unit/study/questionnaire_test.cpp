@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "api/yaml_json.hpp"
 #include "core/file.hpp"
 #include "support/expect_error.hpp"
 #include "support/json_schema.hpp"
@@ -68,19 +69,30 @@ TEST(Questionnaire, ComesBackFromItsJsonTheSame) {
   EXPECT_EQ(told["items"][4]["required"], false);
 }
 
-/// Every key of every part is taken away, and replaced by values of all kinds; reader and schema must agree.
-TEST(Questionnaire, IsReadExactlyAsTheSchemaSays) {
+/// What a questionnaire may be: its schema, and requests by the contract.
+struct Rules {
   const json schema = read_json_file(proto / "questionnaire.schema.json");
-  const JsonSchema rules(schema, schema);
+  const json contract = api::json_from_yaml(read_text_file(proto / "openapi.yaml"));
+  const JsonSchema by_schema{schema, schema};
+  const JsonSchema by_contract{contract.at("components").at("schemas").at("NewQuestionnaire"), contract};
+
+  /// Whether it fits; reader, schema and contract must agree.
+  bool fits(const json& value) const {
+    const bool fits = by_schema.faults(value).empty();
+    EXPECT_EQ(by_contract.faults(value).empty(), fits) << value;
+    EXPECT_EQ(taken(value), fits) << value;
+    return fits;
+  }
+};
+
+/// Every key of every part is taken away, and replaced by values of all kinds.
+TEST(Questionnaire, IsReadExactlyAsTheSchemaSays) {
+  const Rules rules;
   const std::vector<json> others = {nullptr,        true,         0,    5,  7.5,   "",      "a",
                                     "text",         "A b",        "de", {}, {"x"}, "en-GB", "likert",
                                     json::object(), json::array()};
   int agreed_refusals = 0;
-  const auto compare = [&](const json& value) {
-    const bool fits = rules.faults(value).empty();
-    EXPECT_EQ(taken(value), fits) << value;
-    agreed_refusals += fits ? 0 : 1;
-  };
+  const auto compare = [&](const json& value) { agreed_refusals += rules.fits(value) ? 0 : 1; };
   const json flat = small().flatten();
   for (const auto& [pointer, ignored] : flat.items()) {
     json lacking = flat;
@@ -98,6 +110,37 @@ TEST(Questionnaire, IsReadExactlyAsTheSchemaSays) {
     compare(changed);
   }
   EXPECT_GT(agreed_refusals, 100);
+}
+
+/// Lengths and counts at their limits and one beyond.
+TEST(Questionnaire, HasTheLimitsOfTheSchemaAndTheContract) {
+  const Rules rules;
+  const auto expect_limit = [&](const std::string& place, const std::string& limit, const auto& value_of) {
+    const size_t largest = rules.schema.at(json::json_pointer(limit)).get<size_t>();
+    for (const size_t size : {largest, largest + 1}) {
+      json changed = small();
+      changed[json::json_pointer(place)] = value_of(size);
+      EXPECT_EQ(rules.fits(changed), size == largest) << place << " of " << size;
+    }
+  };
+  const auto text = [](size_t size) { return json(std::string(size, 'x')); };
+  const auto many = [](const json& first) {
+    return [first](size_t size) {
+      json all(size, first);
+      for (size_t i = 0; i < size; ++i) all[i]["id"] = "n" + std::to_string(i);
+      return all;
+    };
+  };
+  expect_limit("/title", "/properties/title/maxLength", text);
+  expect_limit("/introduction", "/properties/introduction/maxLength", text);
+  for (const char* place : {"/items/0/words", "/items/0/low", "/items/0/high", "/items/2/options/0/words"})
+    expect_limit(place, "/$defs/words/maxLength", text);
+  expect_limit("/items/0/section", "/$defs/section/maxLength", text);
+  expect_limit("/items/4/longest", "/$defs/text/properties/longest/maximum",
+               [](size_t size) { return json(size); });
+  expect_limit("/items", "/properties/items/maxItems", many(small()["items"][0]));
+  expect_limit("/items/2/options", "/$defs/choice/properties/options/maxItems",
+               many(small()["items"][2]["options"][0]));
 }
 
 TEST(Questionnaire, TwoItemsOrOptionsCannotHaveOneId) {

@@ -35,9 +35,11 @@ std::vector<Participant> participants() {
           {"Z9-XYZ", "novice", 3, std::nullopt, false}};
 }
 
-StudyAttempt attempt(const std::string& code, const std::string& utc, const std::string& state,
-                     double depth_mm, bool given_up = false) {
+/// Its id says how deep it went.
+session::SessionRecord attempt(const std::string& code, const std::string& utc, const std::string& state,
+                               double depth_mm, bool given_up = false) {
   session::SessionRecord record;
+  record.request.id = std::to_string(depth_mm);
   record.request.participant = code;
   record.request.case_id = "demo";
   record.request.script = "practice";
@@ -45,16 +47,20 @@ StudyAttempt attempt(const std::string& code, const std::string& utc, const std:
   if (given_up) record.request.followed_by = "the next";
   record.status.state = session_state_from(state).value();
   record.status.device = {"browser", "touch", "", {}};
-  return {record,
-          {{"reaming_depth_mm", depth_mm},
-           {"axial_thrust_mean_n", 40.25},
-           {"apparent_stiffness_n_mm", nullptr},
-           {"session_hash", "0123456789abcdef"},
-           {"grid_hash", "0123456789abcdef"},
-           {"score", {{"points", depth_mm * 10}, {"passed", depth_mm > 1.0}, {"name", "first year"}}}}};
+  return record;
 }
 
-std::vector<StudyAttempt> attempts() {
+json metrics(const std::string& session_id) {
+  const double depth_mm = std::stod(session_id);
+  return {{"reaming_depth_mm", depth_mm},
+          {"axial_thrust_mean_n", 40.25},
+          {"apparent_stiffness_n_mm", nullptr},
+          {"session_hash", "0123456789abcdef"},
+          {"grid_hash", "0123456789abcdef"},
+          {"score", {{"points", depth_mm * 10}, {"passed", depth_mm > 1.0}, {"name", "first year"}}}};
+}
+
+std::vector<session::SessionRecord> attempts() {
   return {attempt("K7-F3M", "2026-03-02T00:10:00Z", "finished", 2.0),
           attempt("K7-F3M", "2026-02-27T23:50:00Z", "stopped", 1.0),
           attempt("B2-C4D", "2026-02-28T09:00:00Z", "finished", 3.0),
@@ -66,7 +72,7 @@ std::vector<StudyAttempt> attempts() {
 
 TEST(StudyExport, SessionsAreByParticipantAndAttemptWithoutDates) {
   EXPECT_EQ(
-      session::csv_of(export_of(study(), participants(), attempts()).sessions),
+      session::csv_of(export_of(study(), participants(), attempts(), metrics).sessions),
       "study,participant,experience,procedures_done,attempt,study_day,case,script,device,device_profile,"
       "state,given_up,axial_thrust_mean_n,reaming_depth_mm,score.passed,score.points\r\n"
       "s1,B2-C4D,expert,250,1,1,demo,practice,browser,touch,finished,0,40.25,3.0,1,30.0\r\n"
@@ -78,7 +84,7 @@ TEST(StudyExport, SessionsAreByParticipantAndAttemptWithoutDates) {
 }
 
 TEST(StudyExport, AnswersAreByParticipantAndSafeForSpreadsheets) {
-  EXPECT_EQ(session::csv_of(export_of(study(), participants(), attempts()).answers),
+  EXPECT_EQ(session::csv_of(export_of(study(), participants(), attempts(), metrics).answers),
             "study,participant,experience,procedures_done,answered,force,hand,tools,remarks\r\n"
             "s1,B2-C4D,expert,250,1,4,left,saw,\"good, \"\"real\"\"\nfeel\"\r\n"
             "s1,K7-F3M,novice,0,1,,,saw;drill,'=1+1\r\n"
@@ -86,7 +92,7 @@ TEST(StudyExport, AnswersAreByParticipantAndSafeForSpreadsheets) {
 }
 
 TEST(StudyExport, InJsonCannotJudgeIsToldApartFromNoAnswer) {
-  const json answers = session::json_of(export_of(study(), participants(), attempts()).answers);
+  const json answers = session::json_of(export_of(study(), participants(), attempts(), metrics).answers);
   EXPECT_TRUE(answers[1].at("force").is_null());
   EXPECT_FALSE(answers[1].contains("hand"));
   EXPECT_EQ(answers[1].at("remarks"), "=1+1");
@@ -96,7 +102,7 @@ TEST(StudyExport, InJsonCannotJudgeIsToldApartFromNoAnswer) {
 
 /// Of K7-F3M the median of 1 and 2 counts (a fault does not), of Z9-XYZ 4 (what was given up does not).
 TEST(StudyExport, GroupsCountEachParticipantOnce) {
-  EXPECT_EQ(session::csv_of(export_of(study(), participants(), attempts()).groups),
+  EXPECT_EQ(session::csv_of(export_of(study(), participants(), attempts(), metrics).groups),
             "study,experience,kind,name,n,median,quartile_1,quartile_3\r\n"
             "s1,novice,metric,axial_thrust_mean_n,2,40.25,40.25,40.25\r\n"
             "s1,novice,metric,reaming_depth_mm,2,2.75,2.125,3.375\r\n"
@@ -119,7 +125,7 @@ TEST(StudyExport, QuartilesAreThoseOfR) {
 }
 
 TEST(StudyExport, TheCodebookExplainsEveryColumnWithItsUnit) {
-  const StudyExport all = export_of(study(), participants(), attempts());
+  const StudyExport all = export_of(study(), participants(), attempts(), metrics);
   const json codebook = codebook_of(study(), all);
   EXPECT_EQ(codebook.at("questionnaire"), "q_1");
   for (const session::ExportTable* table : {&all.sessions, &all.answers, &all.groups}) {
@@ -153,7 +159,7 @@ TEST(StudyExport, MetricsAreExplainedAsTheCatalogueDoes) {
 TEST(StudyExport, AnEmptyStudyHasHeadingsOnly) {
   Study asks_nothing = study();
   asks_nothing.questionnaire.reset();
-  const StudyExport all = export_of(asks_nothing, {}, {});
+  const StudyExport all = export_of(asks_nothing, {}, {}, metrics);
   EXPECT_TRUE(all.sessions.rows.empty());
   EXPECT_TRUE(session::json_of(all.groups).empty());
   EXPECT_EQ(session::csv_of(all.answers), "study,participant,experience,procedures_done,answered\r\n");
@@ -162,13 +168,13 @@ TEST(StudyExport, AnEmptyStudyHasHeadingsOnly) {
 /// In whatever order sessions were found, the export is the same: it says nothing about who came when.
 TEST(StudyExport, DoesNotDependOnTheOrderOfWhatItIsMadeOf) {
   std::mt19937 random(test::seed());
-  const StudyExport first = export_of(study(), participants(), attempts());
+  const StudyExport first = export_of(study(), participants(), attempts(), metrics);
   for (int turn = 0; turn < 50; ++turn) {
     auto people = participants();
     auto sessions = attempts();
     std::shuffle(people.begin(), people.end(), random);
     std::shuffle(sessions.begin(), sessions.end(), random);
-    const StudyExport again = export_of(study(), people, sessions);
+    const StudyExport again = export_of(study(), people, sessions, metrics);
     EXPECT_EQ(session::csv_of(again.sessions), session::csv_of(first.sessions));
     EXPECT_EQ(session::csv_of(again.answers), session::csv_of(first.answers));
     EXPECT_EQ(session::csv_of(again.groups), session::csv_of(first.groups));

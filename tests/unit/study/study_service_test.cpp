@@ -38,17 +38,18 @@ int refused(Action&& action) {
 /// A server with two users and every case but one.
 class FakeServer final : public StudyDependencies {
  public:
-  explicit FakeServer(const std::vector<StudyAttempt>& attempts) : attempts_(attempts) {}
+  explicit FakeServer(const std::vector<session::SessionRecord>& sessions) : sessions_(sessions) {}
   std::optional<std::string> name_of_user(const std::string& id) const override {
     return id == ada.user_id   ? std::optional(ada.name)
            : id == bob.user_id ? std::optional(bob.name)
                                : std::nullopt;
   }
   bool has_case(const std::string& id) const override { return id != "missing"; }
-  std::vector<StudyAttempt> attempts(const std::string&) const override { return attempts_; }
+  std::vector<session::SessionRecord> sessions(const std::string&) const override { return sessions_; }
+  json metrics(const std::string&) const override { return json::object(); }
 
  private:
-  const std::vector<StudyAttempt>& attempts_;
+  const std::vector<session::SessionRecord>& sessions_;
 };
 
 class StudyServiceTest : public testing::Test {
@@ -72,8 +73,8 @@ class StudyServiceTest : public testing::Test {
 
   test::TemporaryFolder folder_;
   store::Database database_{"sqlite:" + (folder_.path() / "ream.db").string()};
-  std::vector<StudyAttempt> attempts_;
-  StudyService service_{database_, std::make_unique<FakeServer>(attempts_)};
+  std::vector<session::SessionRecord> sessions_;
+  StudyService service_{database_, std::make_unique<FakeServer>(sessions_)};
 };
 
 TEST_F(StudyServiceTest, KeepsWhatAStudyIsMadeOf) {
@@ -211,11 +212,11 @@ TEST_F(StudyServiceTest, WhoRunsTheStudyAnswersForThoseWithoutAnAccount) {
 TEST_F(StudyServiceTest, WhoWithdrawsIsForgotten) {
   const std::string id = made(), code = join(ada, id);
   service_.answer(ada, id, code, answers());
-  StudyAttempt attempt;
-  attempt.session.request.participant = code;
-  attempt.session.request.created_utc = "2026-01-01T00:00:00Z";
-  attempt.session.status.state = SessionState::finished;
-  attempts_.push_back(attempt);
+  session::SessionRecord session;
+  session.request.participant = code;
+  session.request.created_utc = "2026-01-01T00:00:00Z";
+  session.status.state = SessionState::finished;
+  sessions_.push_back(session);
   EXPECT_EQ(service_.export_all(the_operator, id).sessions.rows.size(), 1u);
   service_.withdraw(id, code);
   EXPECT_TRUE(service_.persons(the_operator, id).empty());

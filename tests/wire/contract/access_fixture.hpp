@@ -35,7 +35,7 @@ class AccessTest : public ContractTest {
   /// A server whose database can be asked nothing as long as the hog lives.
   std::unique_ptr<DatabaseHog> start_without_database() {
     options.database = std::make_shared<store::Database>(
-        database_url(), store::DatabaseLimits{.connections = 1, .patience = std::chrono::milliseconds(50)});
+        database_url(), store::DatabaseLimits{.connections = 1, .timeout = std::chrono::milliseconds(50)});
     start();
     return std::make_unique<DatabaseHog>(*options.database);
   }

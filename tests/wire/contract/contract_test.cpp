@@ -214,7 +214,8 @@ TEST_F(ServerContractTest, ServesWhatIsDescribedAndNothingElse) {
 
 TEST_F(ServerContractTest, EveryDescribedReplyIsGivenAsDescribed) {
   std::promise<void> release;
-  options.prepare = [&] { release.get_future().wait(); };
+  engine->demo_case = [&] { release.get_future().wait(); };
+  options.make_demo_case = true;
   folder.write("sessions/earlier/session.json",
                R"({"case": "planned", "script": "demo", "state": "stopped"})");
   start();

@@ -147,7 +147,7 @@ TEST(Outage, ASessionCanBePausedWhileEveryUsualWorkerWaits) {
   const TemporaryFolder folder;
   const auto database = std::make_shared<store::Database>(
       "sqlite:" + (folder.path() / "ream.db").string(),
-      store::DatabaseLimits{.connections = 1, .patience = std::chrono::minutes(2)});
+      store::DatabaseLimits{.connections = 1, .timeout = std::chrono::minutes(2)});
   const LiveServer server([&](api::ServerOptions& options) { options.database = database; });
   write_file_atomically(server.reaming().data() / "scripts/long.json",
                         RecordedReaming::push("ideal", 600.0).dump());

@@ -10,7 +10,7 @@ import { theme } from '../../state/theme';
 /** Of the browser's frames at least so many for each drawing, so that a slow computer keeps them for the picture. */
 const framesEach = 3;
 /** More are not told apart in the width of the panel. */
-const mostPoints = 700;
+const maxPoints = 700;
 
 /** How a column of the trace is drawn. */
 export interface PlotKind {
@@ -52,7 +52,7 @@ export function keepPlotted(element: HTMLElement, store: Store, kind: PlotKind):
   let plot = createPlot(element, kind);
 
   const redraw = () => {
-    const { seconds, values } = store.trace.line(kind.column, plotSeconds, mostPoints);
+    const { seconds, values } = store.trace.line(kind.column, plotSeconds, maxPoints);
     plot.setData([seconds, values]);
   };
   const drawing = new FrameRequest(redraw, framesEach);
