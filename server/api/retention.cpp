@@ -56,7 +56,8 @@ std::string Retention::ends_utc(const std::string& deleted_utc) const {
   return ream::utc_text(utc_moment(deleted_utc) + day * rules_.keep_deleted_days);
 }
 
-std::string Retention::days_ago(int days) const { return ream::utc_text(rules_.now() - day * days); }
+/// One reading of the clock decides a whole look: what moves it meanwhile is found by the next.
+std::string Retention::days_ago(int days) const { return ream::utc_text(last_reading_->wall - day * days); }
 
 std::string Retention::held() const {
   const std::lock_guard lock(mutex_);
