@@ -44,6 +44,7 @@ class Channel {
   using next_layer_type = Socket;
   using error_code = boost::system::error_code;
   using EndHandler = std::function<void(error_code)>;
+  using SomeHandler = std::function<void(error_code, size_t)>;
 
   explicit Channel(Socket socket);
   /// The one left behind keeps its executor: somebody may still be about to ask it to close.
@@ -75,14 +76,32 @@ class Channel {
   /// Tells the peer that nothing more comes. With TLS the peer is waited for.
   void async_end_sending(EndHandler handler);
 
+  /// Reads what comes below TLS, for nobody.
+  void async_discard(boost::asio::mutable_buffer into, SomeHandler handler);
+
   /// All that is pending ends with operation_aborted.
   void close() noexcept;
 
+  /// `over` is called once, when the channel is closed and nothing is pending on it: from then on it may be
+  /// destroyed, though somebody may still wait for a turn that never comes.
+  void when_over(EndHandler over);
+
  private:
+  /// Outlives the channel: a handler may destroy it.
+  struct Pending : std::enable_shared_from_this<Pending> {
+    explicit Pending(executor_type of) : executor(std::move(of)) {}
+    executor_type executor;
+    size_t operations = 0;
+    bool closed = false;
+    EndHandler over;
+
+    void end_one();
+    void check();
+    bool idle() const { return closed && operations == 0; }
+  };
   using Tls = boost::asio::ssl::stream<Socket&>;
   using MutableBuffers = BufferList<boost::asio::mutable_buffer>;
   using ConstBuffers = BufferList<boost::asio::const_buffer>;
-  using SomeHandler = std::function<void(error_code, size_t)>;
 
   /// Handlers can be moved only, functions are copied.
   template <typename Handler>
@@ -94,6 +113,7 @@ class Channel {
     };
   }
 
+  SomeHandler counted(SomeHandler handler);
   void read_some(const MutableBuffers& into, SomeHandler handler);
   void write_some(const ConstBuffers& from, SomeHandler handler);
   void show_received(const MutableBuffers& buffers, size_t bytes) const;
@@ -102,6 +122,7 @@ class Channel {
   std::unique_ptr<Socket> socket_;  ///< stays where it is when the channel moves
   std::unique_ptr<Tls> tls_;
   std::function<void(std::span<const std::byte>)> on_received_;
+  std::shared_ptr<Pending> pending_;
 };
 
 /// What Beast asks of a stream that it does not know: how a WebSocket's connection ends after its last word.

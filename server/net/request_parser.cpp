@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/string_body.hpp>
+#include <functional>
 
 #include "core/text.hpp"
 #include "net/problem.hpp"
@@ -63,11 +64,9 @@ void take_line(std::string_view line, const Limits& limits, Framing& framing) {
 }
 
 /// Of a head that may not have come whole yet: refuses what is too large, stray CR or LF and control
-/// characters; those before `from` have been looked at.
+/// characters; those before `from` have been looked at. The first fault counts, however the bytes come.
 void require_plain_beginning(std::string_view beginning, size_t from, const Limits& limits) {
-  if (beginning.size() > limits.header_bytes)
-    throw RequestError(431, "the request header is over " + std::to_string(limits.header_bytes) + " bytes");
-  for (size_t i = from; i < beginning.size(); ++i) {
+  for (size_t i = from; i < std::min(beginning.size(), limits.header_bytes); ++i) {
     const auto c = static_cast<unsigned char>(beginning[i]);
     if (c == '\r') {
       if (i + 1 < beginning.size() && beginning[i + 1] != '\n') refuse_request("a stray CR");
@@ -77,6 +76,8 @@ void require_plain_beginning(std::string_view beginning, size_t from, const Limi
       refuse_request("a control character in its header");
     }
   }
+  if (beginning.size() > limits.header_bytes)
+    throw RequestError(431, "the request header is over " + std::to_string(limits.header_bytes) + " bytes");
 }
 
 /// Refuses a request's head that is too large or that two readers could read differently (request smuggling):
@@ -119,6 +120,21 @@ Request request_of(const http::request<http::string_body>& message) {
 }  // namespace
 
 struct RequestParser::Message {
+  explicit Message(const Limits& limits) : body_left(limits.body_bytes) {
+    parser.header_limit(static_cast<uint32_t>(limits.header_bytes));
+    // The library takes a chunk off its own limit each time it looks at the chunk's line, as often as more of
+    // that comes: only a body of an announced length is left to it.
+    parser.body_limit(limits.body_bytes);
+    parser.on_chunk_header(take_chunk);
+  }
+  Message(const Message&) = delete;
+
+  uint64_t body_left;  ///< bytes, of a chunked body
+  std::function<void(uint64_t, beast::string_view, error_code&)> take_chunk =
+      [this](uint64_t bytes, beast::string_view, error_code& failed) {
+        if (bytes > body_left) failed = http::error::body_limit;
+        body_left -= std::min(bytes, body_left);
+      };
   http::request_parser<http::string_body> parser;
 };
 
@@ -159,10 +175,8 @@ void RequestParser::advance() {
 void RequestParser::read_head(size_t end) {
   const std::string_view head(waiting_.data(), end);
   require_plain_head(head, limits_);
-  message_ = std::make_unique<Message>();
+  message_ = std::make_unique<Message>(limits_);
   auto& parser = message_->parser;
-  parser.header_limit(static_cast<uint32_t>(limits_.header_bytes));
-  parser.body_limit(limits_.body_bytes);
   error_code failed;
   const size_t used = parser.put(boost::asio::const_buffer(head.data(), head.size()), failed);
   if (failed == http::error::body_limit)
@@ -176,6 +190,7 @@ void RequestParser::read_head(size_t end) {
   wants_continue_ = newest && lower(std::string(request_.header("expect"))) == "100-continue";
   announced_bytes_ =
       parser.chunked() ? std::nullopt : std::optional<uint64_t>(parser.content_length().value_or(0));
+  if (parser.chunked()) parser.body_limit(boost::none);
   parser.eager(true);
   waiting_.erase(0, end);
   stage_ = parser.is_done() ? Stage::whole : Stage::body;

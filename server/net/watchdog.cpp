@@ -31,15 +31,14 @@ void Watchdog::close_lingering(std::chrono::milliseconds linger, std::shared_ptr
       [this, owner = std::move(owner)](error_code) mutable { drain_input(std::move(owner)); });
 }
 
-/// Below TLS: what still comes is for nobody.
 void Watchdog::drain_input(std::shared_ptr<void> owner) {
-  channel_.next_layer().async_read_some(boost::asio::buffer(discarded_),
-                                        [this, owner = std::move(owner)](error_code failed, size_t) mutable {
-                                          if (failed)
-                                            close();
-                                          else
-                                            drain_input(std::move(owner));
-                                        });
+  channel_.async_discard(boost::asio::buffer(discarded_),
+                         [this, owner = std::move(owner)](error_code failed, size_t) {
+                           if (failed)
+                             close();
+                           else
+                             drain_input(owner);
+                         });
 }
 
 }  // namespace ream::net

@@ -37,8 +37,9 @@ class WebSocketConnection final : public Connection,
       : Connection(std::move(ends.peer_key)),
         engine_(engine),
         session_(std::move(session)),
-        stream_(std::move(channel)),
-        watchdog_(stream_.next_layer()),
+        executor_(channel.get_executor()),
+        stream_(std::in_place, std::move(channel)),
+        watchdog_(stream_->next_layer()),
         messages_(engine.limits.websocket_messages, TokenBucket::Clock::now()),
         wake_(std::make_shared<WakeHandle>()) {}
 
@@ -54,23 +55,25 @@ class WebSocketConnection final : public Connection,
     auto timeouts = websocket::stream_base::timeout::suggested(beast::role_type::server);
     timeouts.idle_timeout = engine_.limits.idle;
     timeouts.keep_alive_pings = true;
-    stream_.set_option(timeouts);
+    stream_->set_option(timeouts);
     const bool encrypted = request.encrypted;
-    stream_.set_option(websocket::stream_base::decorator([encrypted](websocket::response_type& response) {
+    stream_->set_option(websocket::stream_base::decorator([encrypted](websocket::response_type& response) {
       for (const auto& [name, value] : security_headers(encrypted)) response.set(name, value);
     }));
-    stream_.next_layer().watch_received([this](std::span<const std::byte> bytes) { take_from_rate(bytes); });
-    stream_.read_message_max(engine_.limits.websocket_message_bytes);
-    stream_.auto_fragment(false);
-    stream_.text(session_->sends_text());
-    stream_.async_accept(handshake_of(request), [self = shared_from_this()](error_code failed) {
+    stream_->next_layer().watch_received([this](std::span<const std::byte> bytes) { take_from_rate(bytes); });
+    stream_->next_layer().when_over([weak = weak_from_this()](error_code) {
+      if (const auto self = weak.lock()) self->drop_stream();
+    });
+    stream_->read_message_max(engine_.limits.websocket_message_bytes);
+    stream_->auto_fragment(false);
+    stream_->text(session_->sends_text());
+    stream_->async_accept(handshake_of(request), [self = shared_from_this()](error_code failed) {
       if (!failed) self->on_accepted();
     });
   }
 
   void shut_down() override {
-    asio::post(stream_.get_executor(),
-               [self = shared_from_this()] { self->close(websocket::close_code::going_away); });
+    asio::post(executor_, [self = shared_from_this()] { self->close(websocket::close_code::going_away); });
   }
 
   void abandon() noexcept override { finish(); }
@@ -101,7 +104,7 @@ class WebSocketConnection final : public Connection,
   /// With the wake handle held. The last owner may be on its way out: then there is nobody to wake.
   void post_send_next() {
     if (auto self = weak_from_this().lock())
-      asio::post(stream_.get_executor(), [self = std::move(self)] {
+      asio::post(executor_, [self = std::move(self)] {
         self->wake_->requested = false;
         self->send_next();
       });
@@ -116,8 +119,9 @@ class WebSocketConnection final : public Connection,
     outgoing_ = std::move(*message);
     writing_ = true;
     watchdog_.arm(engine_.limits.write, shared_from_this());
-    stream_.async_write(asio::buffer(outgoing_->data(), outgoing_->size()),
-                        [self = shared_from_this()](error_code failed, size_t) { self->on_written(failed); });
+    stream_->async_write(
+        asio::buffer(outgoing_->data(), outgoing_->size()),
+        [self = shared_from_this()](error_code failed, size_t) { self->on_written(failed); });
   }
 
   void close_if_ended() {
@@ -142,7 +146,7 @@ class WebSocketConnection final : public Connection,
   }
 
   void read() {
-    stream_.async_read_some(incoming_, 0, [self = shared_from_this()](error_code failed, size_t) {
+    stream_->async_read_some(incoming_, 0, [self = shared_from_this()](error_code failed, size_t) {
       if (failed)
         self->end();
       else
@@ -152,12 +156,13 @@ class WebSocketConnection final : public Connection,
 
   void on_piece() {
     if (closing_ || finished_) return;
-    if (stream_.is_message_done()) {
+    if (stream_->is_message_done()) {
       const auto data = incoming_.data();
       guarded([&] { session_->on_message({static_cast<const std::byte*>(data.data()), data.size()}); });
       incoming_.consume(incoming_.size());
     }
-    read();
+    // What is still pending ends by the closing handshake, which reads by itself.
+    if (!closing_) read();
   }
 
   /// Every frame counts, those too that never become a message.
@@ -166,7 +171,7 @@ class WebSocketConnection final : public Connection,
         static_cast<double>(frames_.count(bytes)) + static_cast<double>(bytes.size()) / bytes_per_message;
     if (messages_.take(cost, TokenBucket::Clock::now()) <= 0.0) return;
     // In the middle of a read: what follows from it must wait.
-    asio::post(stream_.get_executor(), [self = shared_from_this()] {
+    asio::post(executor_, [self = shared_from_this()] {
       self->close({websocket::close_code::policy_error, "too many messages"});
     });
   }
@@ -188,7 +193,7 @@ class WebSocketConnection final : public Connection,
       return;
     }
     close_within_linger();
-    stream_.async_close(reason, [self = shared_from_this()](error_code) { self->end(); });
+    stream_->async_close(reason, [self = shared_from_this()](error_code) { self->end(); });
   }
 
   void close_within_linger() {
@@ -210,7 +215,16 @@ class WebSocketConnection final : public Connection,
   void finish() noexcept {
     finished_ = true;
     notify_closed();
-    watchdog_.close();
+    if (stream_) watchdog_.close();
+  }
+
+  /// The channel is closed and nothing is pending on it. A stream whose reader found the peer in the wrong
+  /// while a close was on its way waits for ever, each for the other, and both own this connection.
+  void drop_stream() noexcept {
+    finished_ = true;
+    notify_closed();
+    watchdog_.disarm();
+    stream_.reset();
   }
 
   /// The session hears of the end, once, and is not called again.
@@ -226,7 +240,8 @@ class WebSocketConnection final : public Connection,
 
   Engine& engine_;
   std::unique_ptr<WebSocketSession> session_;
-  websocket::stream<Channel, false> stream_;
+  const Channel::executor_type executor_;
+  std::optional<websocket::stream<Channel, false>> stream_;  ///< none: over
   Watchdog watchdog_;
   TokenBucket messages_;
   FrameMeter frames_;

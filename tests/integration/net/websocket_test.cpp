@@ -185,6 +185,35 @@ TEST_F(WebSocketTest, FailingSessionIsClosedWith1011) {
   EXPECT_TRUE(desk->wait_closed());
 }
 
+/// With a mask of zeros.
+std::string frame(char first, const std::string& payload) {
+  return std::string{first, static_cast<char>(0x80 | payload.size())} + std::string(4, '\0') + payload;
+}
+
+/// Where the reader finds the peer in the wrong while our close is on its way, each may wait for the other.
+TEST_F(WebSocketTest, AClosedConnectionGivesUpItsPlaceWhateverItsReaderStillFinds) {
+  options.limits.linger = 100ms;
+  options.limits.connections = 2;
+  const uint16_t port = start();
+  const auto is_served = [port] {
+    try {
+      return test::http_request(port, "GET", "/hello").status == 200;
+    } catch (const std::runtime_error&) {
+      return false;
+    }
+  };
+  for (int i = 0; i < 5; ++i) {
+    RawWebSocket client(port, "/stream/1");
+    client.socket().send(frame('\x82', "fail") + frame('\x89', "") + frame('\x80', "x"));
+    if (i % 2 == 0) client.socket().end_sending();
+    const auto until = std::chrono::steady_clock::now() + 15s;
+    bool served = false;
+    while (!(served = is_served()) && std::chrono::steady_clock::now() < until)
+      std::this_thread::sleep_for(10ms);
+    ASSERT_TRUE(served) << "after " << i + 1 << " such peers";
+  }
+}
+
 TEST_F(WebSocketTest, OversizedMessageEndsTheConnection) {
   options.limits.websocket_message_bytes = 1000;
   RawWebSocket client(start(), "/stream/1");

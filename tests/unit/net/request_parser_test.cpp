@@ -182,6 +182,22 @@ TEST_F(RequestParserTest, ChunksAreBounded) {
   EXPECT_EQ(status_with(coding, "0\r\nContent-Length: 5\r\n\r\n"), 400);
 }
 
+/// The library takes a chunk off its limit each time it looks at a line whose quotes go on beyond it.
+TEST_F(RequestParserTest, AChunkCountsOnceHoweverItsLineComes) {
+  const std::string request =
+      "POST / HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n64;x=\"\r\n" +
+      std::string(200, 'q') + "\"\r\n";
+  EXPECT_EQ(status_of(request), 400);
+  RequestParser parser(limits);
+  int status = 0;
+  try {
+    for (const char byte : request) parser.feed({&byte, 1});
+  } catch (const RequestError& refusal) {
+    status = refusal.status();
+  }
+  EXPECT_EQ(status, 400);
+}
+
 TEST_F(RequestParserTest, WaitsForContinueOnlyWhenAsked) {
   RequestParser parser(limits);
   parser.feed("POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 3\r\nExpect: 100-Continue\r\n\r\n");
