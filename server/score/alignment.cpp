@@ -144,14 +144,11 @@ void measure_plan(const Task& task, MetricResults& results) {
   }
 }
 
-void measure_alignment(const NativeGlenoid& native, const CutLine& line, double reaming_depth_mm,
-                       MetricResults& results) {
+void measure_alignment(const NativeGlenoid& native, const CutLine& line, MetricResults& results) {
   const Task& task = native.task();
   results.set_missing(Basis::achieved_axis, no_plan);
   measure_angles(task, native.rays().world_direction(line.direction), results);
-  if (!task.plan) return;
-  measure_places(native, line, results);
-  results.set("depth_error_mm", std::abs(reaming_depth_mm - task.plan->depth_mm));
+  if (task.plan) measure_places(native, line, results);
 }
 
 void measure_rim(const Task& task, const std::optional<Vec3>& normal, MetricResults& results) {

@@ -17,9 +17,8 @@ CutLine in_lattice(const RayLattice& rays, const CutLine& plan_line, const Pose&
 /// correct.
 void measure_plan(const Task& task, MetricResults& results);
 
-/// Achieved axis against the plan: angles, entry, centre, depth. `line`: frame of the lattice.
-void measure_alignment(const NativeGlenoid& native, const CutLine& line, double reaming_depth_mm,
-                       MetricResults& results);
+/// Achieved axis against the plan: angles, entry, centre. `line`: frame of the lattice.
+void measure_alignment(const NativeGlenoid& native, const CutLine& line, MetricResults& results);
 
 /// Angles of the plane through the rim of what was reamed; `normal`: world, lateral, empty without a rim.
 void measure_rim(const Task& task, const std::optional<Vec3>& normal, MetricResults& results);

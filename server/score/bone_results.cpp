@@ -5,14 +5,13 @@
 
 #include "core/units.hpp"
 #include "score/alignment.hpp"
+#include "score/depth_gauge.hpp"
 #include "score/sphere_fit.hpp"
 #include "score/vault_clearance.hpp"
 
 namespace ream::score {
 namespace {
 
-/// A ray counts as reamed when so much of its face is gone (engineering judgement).
-constexpr double reamed_mm = 0.05;
 constexpr int directions = 360;
 constexpr double inside_rim_mm = 1.0;
 
@@ -63,28 +62,6 @@ std::optional<Vec3> rim_point(const RayLattice& rays, const AchievedFace& face,
 /// Of what was reamed, so much must still have bone for its shape to be spoken of.
 constexpr double min_share_left = 0.1;
 
-struct Greatest {
-  double removed_mm = 0.0, past_subchondral_mm = 0.0;
-
-  void take(double removed, double past_subchondral) {
-    removed_mm = std::max(removed_mm, removed);
-    past_subchondral_mm = std::max(past_subchondral_mm, past_subchondral);
-  }
-};
-
-/// Whether a ray and all four beside it meet what is left of the face: along the edge that a cut leaves where
-/// it comes out through the wall, the surface is rounded off.
-bool is_over_bone(const NativeGlenoid& native, const AchievedFace& face, size_t ray) {
-  const auto meets = [&](int i) {
-    return i >= 0 && native.face()[static_cast<size_t>(i)] &&
-           face.surface_mm[static_cast<size_t>(i)] != no_surface_mm;
-  };
-  const RayLattice& rays = native.rays();
-  return meets(static_cast<int>(ray)) && meets(rays.neighbour(ray, 1, 0)) &&
-         meets(rays.neighbour(ray, -1, 0)) && meets(rays.neighbour(ray, 0, 1)) &&
-         meets(rays.neighbour(ray, 0, -1));
-}
-
 bool has_face(const NativeGlenoid& native) {
   for (const uint8_t face : native.face())
     if (face) return true;
@@ -118,24 +95,16 @@ std::optional<Vec3> rim_normal(const NativeGlenoid& native, const AchievedFace& 
 
 /// Greatest and mean depth, medialization, footprint.
 void measure_depths(const NativeGlenoid& native, const AchievedFace& face, MetricResults& results) {
-  const RayLattice& rays = native.rays();
-  // Rays at the edge of a vault that narrows leave the bone sideways; how deep the reamer went is seen where
-  // bone is left under it.
-  Greatest over_bone, anywhere;
   double sum = 0.0;
   size_t count = 0;
-  for (size_t ray = 0; ray < rays.size(); ++ray) {
-    const double removed = face.removed_mm[ray];
+  for (const double removed : face.removed_mm) {
     if (removed < reamed_mm) continue;
     ++count;
     sum += removed;
-    const double past_subchondral = native.surface_mm()[ray] + removed - native.subchondral_mm()[ray];
-    anywhere.take(removed, past_subchondral);
-    if (is_over_bone(native, face, ray)) over_bone.take(removed, past_subchondral);
   }
-  const Greatest& greatest = over_bone.removed_mm > 0.0 ? over_bone : anywhere;
-  results.set("footprint_area_mm2", static_cast<double>(count) * rays.cell_area_mm2());
-  results.set("depth_max_mm", greatest.removed_mm);
+  const GreatestDepth greatest = greatest_depth(native, face);
+  set_depth(native.task(), greatest.removed_mm, results);
+  results.set("footprint_area_mm2", static_cast<double>(count) * native.rays().cell_area_mm2());
   results.set("medialization_mm", greatest.past_subchondral_mm);
   results.set("depth_mean_mm", count > 0 ? sum / static_cast<double>(count) : 0.0);
 }
@@ -178,9 +147,13 @@ void measure_plate(const NativeGlenoid& native, const AchievedFace& face, const 
 
 }  // namespace
 
+void set_depth(const Task& task, double depth_mm, MetricResults& results) {
+  results.set("reaming_depth_mm", depth_mm);
+  if (task.plan) results.set("depth_error_mm", std::abs(depth_mm - task.plan->depth_mm));
+}
+
 MetricResults bone_results(const NativeGlenoid& native, const CoverageView& left,
-                           const std::optional<CutLine>& plan_line, const Pose& world_from_plan,
-                           double reaming_depth_mm) {
+                           const std::optional<CutLine>& plan_line, const Pose& world_from_plan) {
   MetricResults results;
   measure_plan(native.task(), results);
   if (!has_face(native)) {
@@ -194,11 +167,12 @@ MetricResults bone_results(const NativeGlenoid& native, const CoverageView& left
     const char* untouched = "no bone was removed";
     for (const Basis basis : {Basis::reamed_bone, Basis::achieved_axis})
       results.set_missing(basis, untouched);
+    results.set("reaming_depth_mm", 0.0);
     return results;
   }
   const CutLine line = in_lattice(native.rays(), *plan_line, world_from_plan);
   const AchievedFace face = achieved_face(native, left);
-  measure_alignment(native, line, reaming_depth_mm, results);
+  measure_alignment(native, line, results);
   measure_depths(native, face, results);
   measure_congruity(native, face, results);
   measure_rim(native.task(), rim_normal(native, face), results);

@@ -7,8 +7,10 @@ namespace ream::score {
 /// Everything that bone and achieved axis tell; never throws. `plan_line`: CutAxis::line(), empty when
 /// nothing was cut; `world_from_plan`: its frame. `left`: what remains, with the bone at rest.
 MetricResults bone_results(const NativeGlenoid& native, const CoverageView& left,
-                           const std::optional<CutLine>& plan_line, const Pose& world_from_plan,
-                           double reaming_depth_mm);
+                           const std::optional<CutLine>& plan_line, const Pose& world_from_plan);
+
+/// Sets how deep the reaming is, see DepthGauge, and how far that is from the plan.
+void set_depth(const Task& task, double depth_mm, MetricResults& results);
 
 /// The same of a bone that cannot be measured: all of it is missing, for this reason.
 MetricResults missing_bone_results(const std::string& reason);

@@ -105,17 +105,18 @@ std::optional<double> SurfaceFinder::out_of_bone(const Vec3& point_mm, const Vec
   return std::nullopt;
 }
 
+double SurfaceFinder::depth(const RayLattice& rays, size_t ray, double from_mm) const {
+  if (from_mm == no_surface_mm) return no_surface_mm;
+  const Vec3 along = rays.world_direction(Vec3::UnitZ()), start = rays.world(ray, 0.0);
+  const auto span = span_in_grid(start, along);
+  if (!span) return no_surface_mm;
+  return into_bone(start, along, std::max(span->first, from_mm - reach_mm_), span->second)
+      .value_or(no_surface_mm);
+}
+
 std::vector<double> SurfaceFinder::depths(const RayLattice& rays, const std::vector<double>& from_mm) const {
-  std::vector<double> found(rays.size(), no_surface_mm);
-  const Vec3 along = rays.world_direction(Vec3::UnitZ());
-  for (size_t ray = 0; ray < rays.size(); ++ray) {
-    if (from_mm[ray] == no_surface_mm) continue;
-    const Vec3 start = rays.world(ray, 0.0);
-    const auto span = span_in_grid(start, along);
-    if (!span) continue;
-    const double from = std::max(span->first, from_mm[ray] - reach_mm_);
-    found[ray] = into_bone(start, along, from, span->second).value_or(no_surface_mm);
-  }
+  std::vector<double> found;
+  for (size_t ray = 0; ray < rays.size(); ++ray) found.push_back(depth(rays, ray, from_mm[ray]));
   return found;
 }
 

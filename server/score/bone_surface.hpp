@@ -35,6 +35,9 @@ class SurfaceFinder {
   /// Coverage at a world point, 0 to 255.
   double coverage_at(const Vec3& world_mm) const;
 
+  /// Depth along a ray from `from_mm` (less a little) on; no_surface_mm where nothing is met, and for
+  /// `from_mm` itself being that.
+  double depth(const RayLattice& rays, size_t ray, double from_mm) const;
   /// Depths along every ray from `from_mm[ray]` (less a little) on; no_surface_mm where none is met.
   std::vector<double> depths(const RayLattice& rays, const std::vector<double>& from_mm) const;
   /// The same from outside the grid on.

@@ -26,16 +26,24 @@ CuttingMeridian back_of(const NativeGlenoid& native) {
 
 }  // namespace
 
+AchievedRay achieved_ray(const NativeGlenoid& native, const SurfaceFinder& left, size_t ray) {
+  AchievedRay now;
+  now.surface_mm = left.depth(native.rays(), ray, native.surface_mm()[ray]);
+  if (!native.face()[ray]) return now;
+  const double before = native.surface_mm()[ray], gone = native.exit_mm()[ray];
+  now.removed_mm = std::max(0.0, std::min(now.surface_mm, gone) - before);
+  if (now.surface_mm >= gone) now.surface_mm = no_surface_mm;
+  if (now.removed_mm == no_surface_mm) now.removed_mm = 0.0;
+  return now;
+}
+
 AchievedFace achieved_face(const NativeGlenoid& native, const CoverageView& left) {
-  const RayLattice& rays = native.rays();
   const SurfaceFinder finder(left);
-  AchievedFace face{finder.depths(rays, native.surface_mm()), std::vector<double>(rays.size(), 0.0)};
-  for (size_t ray = 0; ray < rays.size(); ++ray) {
-    if (!native.face()[ray]) continue;
-    const double before = native.surface_mm()[ray], gone = native.exit_mm()[ray];
-    face.removed_mm[ray] = std::max(0.0, std::min(face.surface_mm[ray], gone) - before);
-    if (face.surface_mm[ray] >= gone) face.surface_mm[ray] = no_surface_mm;
-    if (face.removed_mm[ray] == no_surface_mm) face.removed_mm[ray] = 0.0;
+  AchievedFace face;
+  for (size_t ray = 0; ray < native.rays().size(); ++ray) {
+    const AchievedRay now = achieved_ray(native, finder, ray);
+    face.surface_mm.push_back(now.surface_mm);
+    face.removed_mm.push_back(now.removed_mm);
   }
   return face;
 }

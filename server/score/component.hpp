@@ -18,6 +18,12 @@ struct AchievedFace {
   std::vector<double> removed_mm;
 };
 
+/// One ray of it.
+struct AchievedRay {
+  double surface_mm = no_surface_mm, removed_mm = 0.0;
+};
+AchievedRay achieved_ray(const NativeGlenoid& native, const SurfaceFinder& left, size_t ray);
+
 /// `left`: what remains of the bone, with the bone at rest.
 AchievedFace achieved_face(const NativeGlenoid& native, const CoverageView& left);
 

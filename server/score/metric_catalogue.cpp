@@ -119,11 +119,8 @@ constexpr Metric catalogue[] = {
     {"removed_volume_cartilage_mm3", "Cartilage volume removed", "mm3", "Of it, cartilage.", no_limits,
      tested, checked_sum, bone, ticks, not_negative, only_reported},
     {"reaming_depth_mm", "Reaming depth", "mm",
-     "How far the tool's apex went along the planned axis from first contact while removing.", no_limits,
-     tested, "exact but for where contact begins", bone, ticks, not_negative, only_reported},
-    {"depth_max_mm", "Greatest depth", "mm",
      "Greatest depth of removed bone and cartilage along the planned axis over the face, where bone is left "
-     "under it and without the pilot hole.",
+     "under it and without the pilot hole. Zero is where the reamer on the planned axis touches first.",
      "Frich 1998: plate of 1.9 mm; limits stand with medialization", judgement, half_voxel, bone, reamed_bone,
      not_negative, only_reported},
     {"depth_mean_mm", "Mean depth", "mm",

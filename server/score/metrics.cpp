@@ -14,12 +14,7 @@ void MetricsAccumulator::add(const record::TickReport& r) {
   session_hash_ = r.session_hash;
   const Vec3 in_bone_mm = r.world_from_bone_rest.inverse().point(r.world_from_tool.translation_mm);
   const double axial_mm = plan_from_world_.point(in_bone_mm).z();
-  if (r.engaged && !touched_) {
-    first_contact_mm_ = deepest_mm_ = axial_mm;
-    touched_ = true;
-  }
   for (size_t k = 0; k < voxel::bone_class_count; ++k) coverage_removed_[k] += r.coverage_removed[k];
-  if (touched_ && r.changed_bricks > 0) deepest_mm_ = std::max(deepest_mm_, axial_mm);
   const Pose bone_from_tool = r.world_from_bone_rest.inverse() * r.world_from_tool;
   cut_axis_.add(plan_from_world_ * bone_from_tool,
                 r.coverage_removed[0] + r.coverage_removed[1] + r.coverage_removed[2]);
@@ -41,7 +36,6 @@ MetricResults MetricsAccumulator::results() const {
   results.set_exact("removed_volume_cortical_mm3", removed_mm3(voxel::BoneClass::cortical));
   results.set_exact("removed_volume_cancellous_mm3", removed_mm3(voxel::BoneClass::cancellous));
   results.set_exact("removed_volume_cartilage_mm3", removed_mm3(voxel::BoneClass::cartilage));
-  results.set_exact("reaming_depth_mm", reaming_depth_mm());
   handling_.write(results);
   return results;
 }

@@ -21,8 +21,6 @@ class MetricsAccumulator {
   /// Every metric that rests on ticks or on an episode among them.
   MetricResults results() const;
   double removed_volume_mm3() const;
-  /// How far the tool's apex went along the planned axis from first contact while removing, mm.
-  double reaming_depth_mm() const { return touched_ ? deepest_mm_ - first_contact_mm_ : 0.0; }
   double duration_s() const { return handling_.duration_s(); }
   uint64_t session_hash() const { return session_hash_; }
   /// Along which line the tool cut last; plan frame.
@@ -34,8 +32,6 @@ class MetricsAccumulator {
   double voxel_volume_mm3_;
   Pose plan_from_world_;
   int64_t coverage_removed_[voxel::bone_class_count] = {};
-  bool touched_ = false;
-  double first_contact_mm_ = 0.0, deepest_mm_ = 0.0;
   uint64_t session_hash_ = 0;
   CutAxis cut_axis_;
   Handling handling_;

@@ -53,7 +53,7 @@ class LiveScoring {
         force_scale_(simulation.model.settings.force_scale),
         left_(std::move(start)),
         ticks_(grid_.voxel_volume_mm3(), simulation.model.world_from_plan.inverse()),
-        live_(*simulation.native, simulation.model.world_from_plan) {}
+        live_(simulation.native, simulation.model.world_from_plan) {}
 
   void take(const voxel::BrickImage& image) {
     voxel::write_brick(grid_, left_.data(), image.brick, image.coverage);

@@ -10,6 +10,7 @@
 #include "core/clock.hpp"
 #include "record/recorder.hpp"
 #include "session/replay/replay_picture.hpp"
+#include "session/simulation/session_setup.hpp"
 #include "sim/step.hpp"
 #include "stream/fanout.hpp"
 
@@ -102,6 +103,8 @@ void add_rows(const std::string& what, const std::vector<double>& ms, std::vecto
 void add_seek_rows(const case_::Case& bone_case, const std::filesystem::path& folder,
                    std::vector<Row>& rows) {
   case_::Case before = bone_case;
+  const auto native = session::measured_glenoid(before, {before.side, std::nullopt, before.glenoid},
+                                                shell::make_tool(before.plan->reamer));
   case_::cut_pilot_hole(before.bone, *before.plan);
   const std::filesystem::path file = folder / "hour.ream";
   write_hour(ream_at_full_thrust(bone_case), before.bone, file);
@@ -129,7 +132,7 @@ void add_seek_rows(const case_::Case& bone_case, const std::filesystem::path& fo
       recording, before.bone.grid.world_from_grid,
       {before.bone.grid.voxel_volume_mm3(), sim::world_from_plan(*before.plan).inverse()});
   timeline.wait_for(recording.tick_count(), std::chrono::minutes(10));
-  session::ReplayPicture picture(recording, before, timeline, stream::HelloInfo{}, fanout);
+  session::ReplayPicture picture(recording, before, native, timeline, stream::HelloInfo{}, fanout);
   const auto viewer = fanout.subscribe({}, 1);
   while (viewer->next()) {
   }

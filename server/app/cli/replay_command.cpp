@@ -82,12 +82,14 @@ void end_with(uint32_t tick, const std::optional<record::Difference>& difference
 
 void review(const ReplayOptions& options, const GlobalOptions& global, const record::Recording& recording,
             case_::Case bone_case) {
+  const auto native =
+      session::glenoid_if_known(recording, bone_case, options.case_name, data_folder(global.data));
   const session::Review found =
-      session::review_recording(recording, std::move(bone_case), until_tick(options));
+      session::review_recording(recording, std::move(bone_case), native, until_tick(options));
   json answer = about(recording, found.ticks);
   answer["checkpoints"] = found.checkpoints;
   answer["removed_volume_mm3"] = found.removed_volume_mm3;
-  answer["reaming_depth_mm"] = found.reaming_depth_mm;
+  answer["reaming_depth_mm"] = found.reaming_depth_mm ? json(*found.reaming_depth_mm) : json();
   answer["session_hash"] = to_hex(found.session_hash);
   answer["grid_hash"] = to_hex(found.grid_hash);
   if (found.grid_ticks != found.ticks) answer["grid_ticks"] = found.grid_ticks;

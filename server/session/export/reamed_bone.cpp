@@ -5,8 +5,8 @@
 #include "score/alignment.hpp"
 #include "score/deviation.hpp"
 #include "session/simulation/find_case.hpp"
+#include "session/simulation/recorded_session.hpp"
 #include "session/simulation/recorded_setup.hpp"
-#include "session/simulation/session_setup.hpp"
 #include "session/simulation/simulation.hpp"
 #include "sim/model.hpp"
 #include "surface/block_mesh.hpp"
@@ -75,9 +75,7 @@ void compare(const score::Task& task, const score::Placements& placements, const
 ComparedBone reamed_bone(const record::Recording& recording, const score::MetricsAccumulator& ticks,
                          const std::string& case_name, const std::filesystem::path& data) {
   case_::Case bone_case = recorded_case(recording, case_name, data);
-  const case_::Anatomy anatomy = recorded_anatomy(recording, bone_case, case_name, data);
-  const shell::Tool reamer = tool_of(recorded_reamer(recording, recording.segments().back()));
-  const auto native = measured_glenoid(bone_case, anatomy, reamer);
+  const auto native = recorded_glenoid(recording, bone_case, case_name, data);
   const Coverages coverages = coverages_of(recording, bone_case);
   const voxel::VoxelGrid& grid = bone_case.bone.grid;
 

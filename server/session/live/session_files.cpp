@@ -170,7 +170,7 @@ score::MetricResults SessionFiles::bone_results() const {
   if (!simulation_.native) return score::missing_bone_results("the bone before the session is not known");
   const voxel::BoneModel& bone = simulation_.bone_case.bone;
   return score::bone_results(*simulation_.native, {bone.grid, bone.coverage.data()}, metrics_.cut_line(),
-                             simulation_.model.world_from_plan, metrics_.reaming_depth_mm());
+                             simulation_.model.world_from_plan);
 }
 
 SessionFiles::Results SessionFiles::finish(const sim::LoopHealth& health, const RunEnd& end) {

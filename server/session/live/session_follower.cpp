@@ -35,7 +35,7 @@ SessionFollower::SessionFollower(const Simulation& simulation, LoopRings& rings,
       state_(state),
       publisher_(simulation.bone_case.bone, fanout),
       batcher_(fanout),
-      live_score_(*simulation.native, simulation.model.world_from_plan),
+      live_score_(simulation.native, simulation.model.world_from_plan),
       status_(state.status()) {
   sample_.tick = status_.tick;
   sample_.world_from_tool = sample_.world_from_handle =
@@ -152,7 +152,7 @@ void SessionFollower::note_progress() {
   const int64_t now_ns = steady_ns();
   live_score_.update(metrics, {simulation_.bone_case.bone.grid, coverage()}, now_ns);
   const sim::LoopHealth health = loop_.health();
-  update_sample(metrics, health, sample_);
+  update_sample(metrics, live_score_.depth_mm(), health, sample_);
   if (health.failed_over_tick >= 0 && !failover_reported_) {
     failover_reported_ = true;
     log::warn("session " + id_ + ": " + sim::failover_message(health.failed_over_tick));

@@ -40,9 +40,9 @@ void update_sample(const record::TickReport& r, stream::TelemetrySample& sample)
   sample.cortical_share = static_cast<float>(r.share[static_cast<size_t>(voxel::BoneClass::cortical)]);
 }
 
-void update_sample(const score::MetricsAccumulator& metrics, const sim::LoopHealth& health,
+void update_sample(const score::MetricsAccumulator& metrics, double depth_mm, const sim::LoopHealth& health,
                    stream::TelemetrySample& sample) {
-  sample.depth_mm = static_cast<float>(metrics.reaming_depth_mm());
+  sample.depth_mm = static_cast<float>(depth_mm);
   sample.removed_volume_mm3 = static_cast<float>(metrics.removed_volume_mm3());
   sample.tick_mean_us = static_cast<float>(health.tick_us.mean_us);
   sample.tick_p99_us = static_cast<float>(health.tick_us.p99_us);

@@ -14,8 +14,8 @@ stream::HelloInfo make_hello(const case_::Case& c, const case_::Plan& plan, cons
 
 /// What viewers are told of one tick. Where the bone is, is left out where it has not moved.
 void update_sample(const record::TickReport& report, stream::TelemetrySample& sample);
-/// The same of a session so far.
-void update_sample(const score::MetricsAccumulator& metrics, const sim::LoopHealth& health,
+/// The same of a session so far; `depth_mm` as LiveScore has it.
+void update_sample(const score::MetricsAccumulator& metrics, double depth_mm, const sim::LoopHealth& health,
                    stream::TelemetrySample& sample);
 
 }  // namespace ream::session

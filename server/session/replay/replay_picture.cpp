@@ -5,6 +5,7 @@
 
 #include "core/clock.hpp"
 #include "core/error.hpp"
+#include "score/live_score.hpp"
 #include "session/live/stream_messages.hpp"
 #include "session/simulation/reamer.hpp"
 
@@ -17,15 +18,18 @@ constexpr uint32_t history_ticks = 20'000, history_stride = 10;
 }  // namespace
 
 ReplayPicture::ReplayPicture(const record::Recording& recording, const case_::Case& before,
+                             const std::shared_ptr<const score::NativeGlenoid>& native,
                              const MetricsTimeline& timeline, stream::HelloInfo hello, stream::Fanout& fanout)
     : recording_(recording),
       world_from_grid_(before.bone.grid.world_from_grid),
       timeline_(timeline),
       hello_(std::move(hello)),
       fanout_(fanout),
+      grid_(before.bone.grid),
       bone_(recording, before.bone.grid, before.bone.coverage),
       publisher_(before.bone, fanout),
       batcher_(fanout) {
+  if (native) gauge_.emplace(native);
   const shell::Tool tool = tool_of_segment(0);
   hello_.tool = tool.mesh;
   hello_.tool_name = tool.name;
@@ -47,6 +51,7 @@ void ReplayPicture::show(const ReplayMoment& moment) {
     play_to(moment.position_ticks);
   }
   show_tool();
+  measure_depth(jumped);
   catch_up_metrics();
   // Ticks that were played have told of changes themselves.
   if (jumped || (changed && !moved)) publish_state(SessionState::replaying);
@@ -82,6 +87,7 @@ void ReplayPicture::jump_to(const ReplayMoment& moment) {
   metrics_ = std::move(metrics);
   sample_ = {};
   settle(moment, ticks);
+  measure_depth(true);
   show_metrics();
   publish_history(history);
   if (ticks > 0) {
@@ -182,9 +188,18 @@ void ReplayPicture::catch_up_metrics() {
   show_metrics();
 }
 
+/// Of the bone on the viewers' screens.
+void ReplayPicture::measure_depth(bool jumped) {
+  const int64_t now_ns = steady_ns();
+  if (!gauge_ || bone_.ticks() == measured_ticks_ || (!jumped && now_ns < depth_due_ns_)) return;
+  depth_mm_ = gauge_->measure({grid_, publisher_.replica().coverage().data()});
+  measured_ticks_ = bone_.ticks();
+  depth_due_ns_ = now_ns + score::LiveScore::publish_period_ns;
+}
+
 void ReplayPicture::show_metrics() {
   constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
-  sample_.depth_mm = metrics_ ? static_cast<float>(metrics_->reaming_depth_mm()) : unknown;
+  sample_.depth_mm = depth_mm_ ? static_cast<float>(*depth_mm_) : unknown;
   sample_.removed_volume_mm3 = metrics_ ? static_cast<float>(metrics_->removed_volume_mm3()) : unknown;
 }
 

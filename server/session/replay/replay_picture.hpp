@@ -5,6 +5,7 @@
 
 #include "case/case.hpp"
 #include "record/recorded_bone.hpp"
+#include "score/depth_gauge.hpp"
 #include "session/replay/metrics_timeline.hpp"
 #include "shell/tool.hpp"
 #include "stream/fanout.hpp"
@@ -25,10 +26,12 @@ struct ReplayMoment {
 /// fine; poses, forces and metrics by its ticks. Used by one thread.
 class ReplayPicture {
  public:
-  /// Publishes the hello and the first whole picture. `before`: bone before tick 0; `hello` lacks only the
-  /// tool. What is given outlives this, `hello` apart. Errors: those of Recording and of tools.
+  /// Publishes the hello and the first whole picture. `before`: bone before tick 0; `native`: before its
+  /// pilot hole was cut, null where the recording does not say what it is measured against; `hello` lacks
+  /// only the tool. What is given outlives this, `hello` apart. Errors: those of Recording and of tools.
   ReplayPicture(const record::Recording& recording, const case_::Case& before,
-                const MetricsTimeline& timeline, stream::HelloInfo hello, stream::Fanout& fanout);
+                const std::shared_ptr<const score::NativeGlenoid>& native, const MetricsTimeline& timeline,
+                stream::HelloInfo hello, stream::Fanout& fanout);
 
   /// Forwards without a jump every tick between is shown too. Error invalid_input for a damaged chunk: a jump
   /// has then changed nothing, and playing stands before that chunk.
@@ -43,6 +46,8 @@ class ReplayPicture {
   /// The bone that is shown: after how many ticks, and the hash of its coverage.
   uint32_t bone_ticks() const { return bone_.ticks(); }
   uint64_t bone_hash() const { return bone_.coverage_hash(); }
+  /// How deep the reaming of that bone is, up to a tenth of a second old; empty: not known.
+  std::optional<double> depth_mm() const { return depth_mm_; }
 
  private:
   void jump_to(const ReplayMoment& moment);
@@ -50,6 +55,7 @@ class ReplayPicture {
   void seek_bone(uint32_t ticks);
   void show_tool();
   void catch_up_metrics();
+  void measure_depth(bool jumped);
   void show_metrics();
   void settle(const ReplayMoment& moment, uint32_t position_ticks);
   std::vector<record::ops::Tick> history_before(uint32_t end_tick) const;
@@ -62,12 +68,17 @@ class ReplayPicture {
   const MetricsTimeline& timeline_;
   stream::HelloInfo hello_;
   stream::Fanout& fanout_;
+  const voxel::VoxelGrid grid_;
   record::RecordedBone bone_;
+  std::optional<score::DepthGauge> gauge_;
   stream::MeshPublisher publisher_;
   stream::TelemetryBatcher batcher_;
   stream::TelemetrySample sample_;                    ///< the newest
   std::optional<score::MetricsAccumulator> metrics_;  ///< of what is shown; empty: not known yet
-  std::vector<record::ops::Tick> window_;             ///< of one chunk
+  std::optional<double> depth_mm_;
+  uint32_t measured_ticks_ = UINT32_MAX;  ///< bone_.ticks() of depth_mm_
+  int64_t depth_due_ns_ = 0;
+  std::vector<record::ops::Tick> window_;  ///< of one chunk
   ReplayMoment shown_;
   size_t segment_ = 0;
 };

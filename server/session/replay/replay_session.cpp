@@ -35,10 +35,12 @@ double recorded_force_max_n(const record::Recording& recording) {
   return sim::settings_from_json(settings, place).limits.force_max_n;
 }
 
-case_::Case bone_before(const record::Recording& recording, const std::filesystem::path& data) {
+ReplaySession::Bone bone_before(const record::Recording& recording, const std::filesystem::path& data) {
   if (recording.tick_count() == 0)
     throw Error(ErrorKind::invalid_input, recording.log().path().string() + " holds no tick to show");
-  return case_of(recording, {}, data);
+  case_::Case native = recorded_case(recording, {}, data);
+  auto glenoid = glenoid_if_known(recording, native, {}, data);
+  return {as_before_tick_0(recording, std::move(native)), std::move(glenoid)};
 }
 
 /// What the session said of itself when it ended; null where it left none that can be read.
@@ -73,12 +75,13 @@ ReplaySession::ReplaySession(const SessionContext& context, const ReplayRequest&
       request_(request),
       recording_(sessions_folder(context.data) / request.replay_of / "recording.ream"),
       kept_metrics_(kept_metrics(sessions_folder(context.data) / request.replay_of)),
-      bone_case_(bone_before(recording_, context.data)),
-      timeline_(recording_, bone_case_.bone.grid.world_from_grid, no_metrics(bone_case_)),
+      bone_(bone_before(recording_, context.data)),
+      timeline_(recording_, bone_.start.bone.grid.world_from_grid, no_metrics(bone_.start)),
       fanout_(std::make_shared<stream::Fanout>()),
-      picture_(recording_, bone_case_, timeline_, hello(), *fanout_),
+      picture_(recording_, bone_.start, bone_.native, timeline_, hello(), *fanout_),
       playhead_(recording_.tick_count()) {
   bone_hash_ = picture_.bone_hash();
+  depth_mm_ = picture_.depth_mm();
   last_watched_ns_ = steady_ns();
   follower_ = start_thread([this] { follow(); });
 }
@@ -86,7 +89,7 @@ ReplaySession::ReplaySession(const SessionContext& context, const ReplayRequest&
 ReplaySession::~ReplaySession() { stop(); }
 
 stream::HelloInfo ReplaySession::hello() const {
-  stream::HelloInfo info = make_hello(bone_case_, *bone_case_.plan, {});
+  stream::HelloInfo info = make_hello(bone_.start, *bone_.start.plan, {});
   info.session_id = request_.id;
   info.server_epoch = context_.server_epoch;
   info.force_scale = recording_.header().force_scale;
@@ -139,15 +142,19 @@ std::vector<ReplayMark> ReplaySession::marks() const {
 nlohmann::json ReplaySession::metrics() const {
   uint32_t ticks = 0;
   std::optional<uint64_t> grid_hash;
+  std::optional<double> depth_mm;
   {
     const std::lock_guard lock(mutex_);
     ticks = playhead_.position_ticks();
     if (bone_ticks_ == ticks) grid_hash = bone_hash_;
+    depth_mm = depth_mm_;
   }
-  nlohmann::json now = score::session_metrics_json(
-      timeline_.wait_for(ticks, metrics_timeout),
-      score::missing_bone_results("the bone is measured at the session's end only"),
-      recording_.header().force_scale, grid_hash ? &*grid_hash : nullptr);
+  score::MetricResults of_bone =
+      score::missing_bone_results("the bone is measured at the session's end only");
+  if (depth_mm) of_bone.set("reaming_depth_mm", *depth_mm);
+  nlohmann::json now =
+      score::session_metrics_json(timeline_.wait_for(ticks, metrics_timeout), of_bone,
+                                  recording_.header().force_scale, grid_hash ? &*grid_hash : nullptr);
   return same_moment(kept_metrics_, now) ? kept_metrics_ : now;
 }
 
@@ -198,6 +205,7 @@ void ReplaySession::follow() {
     std::unique_lock lock(mutex_);
     bone_ticks_ = picture_.bone_ticks();
     bone_hash_ = picture_.bone_hash();
+    depth_mm_ = picture_.depth_mm();
     changed_.wait_for(lock, replay_period, [&] { return ended_ || playhead_.jumps() != moment.jump; });
   }
 }

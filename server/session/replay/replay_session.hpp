@@ -15,6 +15,12 @@ namespace ream::session {
 /// The replay of a recording in the folder of a session: one thread moves its picture on as it is told.
 class ReplaySession final : public RunningReplay {
  public:
+  /// The bone of a recording.
+  struct Bone {
+    case_::Case start;                                   ///< before tick 0
+    std::shared_ptr<const score::NativeGlenoid> native;  ///< null: the recording does not tell enough
+  };
+
   /// Rests at the start, which viewers who join get at once. Errors: those of Recording and of case and tool;
   /// invalid_input when no tick was recorded; conflict when the case's bone is not the one that was recorded.
   ReplaySession(const SessionContext& context, const ReplayRequest& request);
@@ -38,7 +44,7 @@ class ReplaySession final : public RunningReplay {
   const ReplayRequest request_;
   const record::Recording recording_;
   const nlohmann::json kept_metrics_;  ///< of the session, at its end; or null
-  const case_::Case bone_case_;        ///< before tick 0
+  const Bone bone_;
   const MetricsTimeline timeline_;
   const std::shared_ptr<stream::Fanout> fanout_;
   ReplayPicture picture_;  ///< of the thread, as the next two
@@ -51,6 +57,7 @@ class ReplaySession final : public RunningReplay {
   std::string fault_;
   uint64_t bone_hash_ = 0;
   uint32_t bone_ticks_ = 0;
+  std::optional<double> depth_mm_;  ///< as the picture's
   int64_t last_watched_ns_ = 0;
   bool ended_ = false;
   std::mutex stopping_;  ///< one stop() at a time

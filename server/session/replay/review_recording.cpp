@@ -6,7 +6,9 @@
 #include "core/hash.hpp"
 #include "core/interrupt.hpp"
 #include "record/recorded_bone.hpp"
+#include "score/depth_gauge.hpp"
 #include "score/metrics.hpp"
+#include "session/simulation/recorded_session.hpp"
 #include "session/simulation/simulation.hpp"
 
 namespace ream::session {
@@ -23,18 +25,22 @@ void compare(Review& review, const record::ops::Checkpoint& checkpoint, uint64_t
     review.difference = {"bone", "grid_hash", to_hex(checkpoint.grid_hash), to_hex(bone.coverage_hash())};
 }
 
+double depth_of(const record::RecordedBone& bone, const voxel::BoneModel& start,
+                const std::shared_ptr<const score::NativeGlenoid>& native) {
+  std::vector<uint8_t> left(start.coverage.begin(), start.coverage.end());
+  bone.write_to(left);
+  return score::DepthGauge(native).measure({start.grid, left.data()});
+}
+
 }  // namespace
 
-Review review_recording(const record::Recording& recording, case_::Case bone_case, uint32_t until_tick) {
-  voxel::BoneModel& start = bone_case.bone;
-  case_::cut_pilot_hole(start, plan_of(bone_case));
-  if (const uint64_t hash = start.coverage_hash(); hash != recording.header().start_grid_hash)
-    throw Error(ErrorKind::conflict, "the bone before the first tick is not what was recorded (its hash is " +
-                                         to_hex(hash) + ", recorded " +
-                                         to_hex(recording.header().start_grid_hash) + ")");
+Review review_recording(const record::Recording& recording, case_::Case bone_case,
+                        const std::shared_ptr<const score::NativeGlenoid>& native, uint32_t until_tick) {
+  const case_::Case before = as_before_tick_0(recording, std::move(bone_case));
+  const voxel::BoneModel& start = before.bone;
   record::RecordedBone bone(recording, start.grid, start.coverage);
   score::MetricsAccumulator metrics(start.grid.voxel_volume_mm3(),
-                                    sim::world_from_plan(plan_of(bone_case)).inverse());
+                                    sim::world_from_plan(plan_of(before)).inverse());
   Review review;
   const uint32_t end = std::min(until_tick, recording.tick_count());
   uint32_t first = 0;
@@ -56,7 +62,7 @@ Review review_recording(const record::Recording& recording, case_::Case bone_cas
   read_ticks(end);
   bone.seek(end, nothing);
   review.removed_volume_mm3 = metrics.removed_volume_mm3();
-  review.reaming_depth_mm = metrics.reaming_depth_mm();
+  if (native) review.reaming_depth_mm = depth_of(bone, start, native);
   review.session_hash = metrics.session_hash();
   review.grid_hash = bone.coverage_hash();
   review.grid_ticks = bone.ticks();

@@ -2,8 +2,10 @@
 
 #include "core/data_folder.hpp"
 #include "core/error.hpp"
+#include "core/log.hpp"
 #include "session/simulation/find_case.hpp"
 #include "session/simulation/recorded_setup.hpp"
+#include "session/simulation/session_setup.hpp"
 #include "sim/model.hpp"
 
 namespace ream::session {
@@ -36,12 +38,38 @@ score::MetricsAccumulator accumulated(const record::Recording& recording, const 
   return metrics;
 }
 
+std::shared_ptr<const score::NativeGlenoid> recorded_glenoid(const record::Recording& recording,
+                                                             const case_::Case& native,
+                                                             const std::string& case_name,
+                                                             const fs::path& data) {
+  if (recording.segments().empty())
+    throw Error(ErrorKind::invalid_input,
+                recording.log().path().string() + " does not say which reamer was used");
+  const case_::Anatomy anatomy = recorded_anatomy(recording, native, case_name, data);
+  return measured_glenoid(native, anatomy, tool_of(recorded_reamer(recording, recording.segments().back())));
+}
+
+std::shared_ptr<const score::NativeGlenoid> glenoid_if_known(const record::Recording& recording,
+                                                             const case_::Case& native,
+                                                             const std::string& case_name,
+                                                             const fs::path& data) {
+  try {
+    return recorded_glenoid(recording, native, case_name, data);
+  } catch (const Error& e) {
+    log::warn(std::string("nothing tells how deep the reaming is: ") + e.what());
+    return nullptr;
+  }
+}
+
 case_::Case case_of(const record::Recording& recording, const std::string& case_name, const fs::path& data) {
-  case_::Case c = recorded_case(recording, case_name, data);
-  case_::cut_pilot_hole(c.bone, *c.plan);
-  if (c.bone.coverage_hash() != recording.header().start_grid_hash)
-    throw Error(ErrorKind::conflict, "the bone of case '" + c.id + "' is not that of the recording");
-  return c;
+  return as_before_tick_0(recording, recorded_case(recording, case_name, data));
+}
+
+case_::Case as_before_tick_0(const record::Recording& recording, case_::Case native) {
+  case_::cut_pilot_hole(native.bone, plan_of(native));
+  if (native.bone.coverage_hash() != recording.header().start_grid_hash)
+    throw Error(ErrorKind::conflict, "the bone of case '" + native.id + "' is not that of the recording");
+  return native;
 }
 
 }  // namespace ream::session

@@ -6,6 +6,7 @@
 #include "core/progress.hpp"
 #include "record/recording.hpp"
 #include "score/metrics.hpp"
+#include "score/native_glenoid.hpp"
 
 namespace ream::session {
 
@@ -24,5 +25,20 @@ score::MetricsAccumulator accumulated(const record::Recording& recording,
 /// has changed since.
 case_::Case case_of(const record::Recording& recording, const std::string& case_name,
                     const std::filesystem::path& data);
+
+/// The recorded_case() as it was before tick 0: its pilot hole cut. Error conflict as above.
+case_::Case as_before_tick_0(const record::Recording& recording, case_::Case native);
+
+/// What a recording's session is measured against, with the last reamer that it used. `native`: the
+/// recorded_case(); `case_name` as above. Errors: invalid_input.
+std::shared_ptr<const score::NativeGlenoid> recorded_glenoid(const record::Recording& recording,
+                                                             const case_::Case& native,
+                                                             const std::string& case_name,
+                                                             const std::filesystem::path& data);
+/// The same, or null and a warning in the log where an old recording does not tell enough.
+std::shared_ptr<const score::NativeGlenoid> glenoid_if_known(const record::Recording& recording,
+                                                             const case_::Case& native,
+                                                             const std::string& case_name,
+                                                             const std::filesystem::path& data);
 
 }  // namespace ream::session

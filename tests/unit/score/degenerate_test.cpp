@@ -61,7 +61,7 @@ nlohmann::json scored(const Task& task, const voxel::BoneModel& native, const st
                       const MetricsAccumulator& ticks) {
   const NativeGlenoid glenoid(task, native);
   const MetricResults results = bone_results(glenoid, {native.grid, left.data()}, ticks.cut_line(),
-                                             world_from_plan(task), ticks.reaming_depth_mm());
+                                             world_from_plan(task));
   return session_metrics_json(ticks, results, 1.0, nullptr);
 }
 
@@ -105,7 +105,7 @@ TEST(DegenerateSession, ThatLeftNoBoneSaysSo) {
   EXPECT_TRUE(metrics["seating_percent"].is_null());
   EXPECT_TRUE(metrics["congruity_mm"].is_null());
   EXPECT_EQ(metrics["plate_preserved_percent"], 0.0);
-  EXPECT_GT(metrics["depth_max_mm"].get<double>(), 15.0);
+  EXPECT_GT(metrics["reaming_depth_mm"].get<double>(), 15.0);
 }
 
 TEST(DegenerateSession, AbortedInItsFirstTicksSaysWhatItCan) {
@@ -218,8 +218,7 @@ TEST(MirroredCase, HasIdenticalScores) {
       line.apex_mm = plan_from_world.point(apex);
       line.direction = plan_from_world.direction(axis);
       line.deepest_mm = line.apex_mm.z();
-      return bone_results(NativeGlenoid(task, bone), {bone.grid, left.data()}, line, world_from_plan(task),
-                          1.0)
+      return bone_results(NativeGlenoid(task, bone), {bone.grid, left.data()}, line, world_from_plan(task))
           .to_json();
     };
     const nlohmann::json of_right = score_of(case_::Side::right), of_left = score_of(case_::Side::left);

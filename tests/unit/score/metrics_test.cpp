@@ -32,7 +32,7 @@ TEST(Metrics, NothingHappenedIsAllZero) {
   MetricsAccumulator accumulator(0.008, Pose{});
   const MetricResults m = accumulator.results();
   for (const double value :
-       {*m.value("removed_volume_mm3"), *m.value("reaming_depth_mm"), *m.value("axial_thrust_mean_n"),
+       {*m.value("removed_volume_mm3"), *m.value("axial_thrust_mean_n"),
         *m.value("axial_thrust_peak_n"), *m.value("duration_s"), *m.value("contact_time_s")})
     EXPECT_EQ(value, 0.0);
 }
@@ -49,35 +49,6 @@ TEST(Metrics, VolumesAddUpByClass) {
   EXPECT_DOUBLE_EQ(*m.value("removed_volume_cortical_mm3"), 3.0);
   EXPECT_DOUBLE_EQ(*m.value("removed_volume_cartilage_mm3"), 0.3);
   EXPECT_DOUBLE_EQ(*m.value("removed_volume_mm3"), 4.8);
-}
-
-TEST(Metrics, DepthCountsFromFirstContactAlongThePlansAxis) {
-  std::mt19937 random(test::seed(41));
-  const Pose world_from_plan = test::random_pose(random);
-  MetricsAccumulator accumulator(0.008, world_from_plan.inverse());
-  accumulator.add(in_the_air(world_from_plan, 9.0));
-  EXPECT_EQ(accumulator.reaming_depth_mm(), 0.0);
-  accumulator.add(contact(world_from_plan, -0.4, 10.0));
-  EXPECT_NEAR(accumulator.reaming_depth_mm(), 0.0, 1e-9);
-  accumulator.add(contact(world_from_plan, 1.1, 10.0));
-  accumulator.add(contact(world_from_plan, 0.7, 10.0));
-  // Deeper without removing (a tool pressed into bone it does not cut) does not count.
-  accumulator.add(contact(world_from_plan, 2.0, 10.0, false));
-  accumulator.add(in_the_air(world_from_plan, -9.0));
-  EXPECT_NEAR(accumulator.reaming_depth_mm(), 1.5, 1e-9);
-}
-
-TEST(Metrics, DepthIsInTheBoneThatMoves) {
-  std::mt19937 random(test::seed(42));
-  const Pose world_from_plan = test::random_pose(random);
-  MetricsAccumulator accumulator(0.008, world_from_plan.inverse());
-  for (const double axial_mm : {0.2, 0.9, 1.4}) {
-    TickReport r = contact(world_from_plan, axial_mm, 52.0);
-    r.world_from_bone_rest = test::random_pose(random, 5.0);
-    r.world_from_tool = r.world_from_bone_rest * r.world_from_tool;
-    accumulator.add(r);
-  }
-  EXPECT_NEAR(accumulator.reaming_depth_mm(), 1.2, 1e-9);
 }
 
 TEST(Metrics, ThrustIsOfTicksInContactWithTheSpindleOn) {
@@ -159,7 +130,7 @@ TEST(MetricsJson, HasTheKeysThatScriptsRelyOn) {
   const nlohmann::json json = session_metrics_json(accumulator, {}, 26.0, &grid_hash);
   for (const char* key :
        {"removed_volume_mm3", "removed_volume_cortical_mm3", "removed_volume_cancellous_mm3",
-        "reaming_depth_mm", "axial_thrust_mean_n", "axial_thrust_peak_n", "duration_s", "force_scale"}) {
+        "axial_thrust_mean_n", "axial_thrust_peak_n", "duration_s", "force_scale"}) {
     ASSERT_TRUE(json.contains(key)) << key;
     EXPECT_TRUE(json[key].is_number()) << key;
   }

@@ -104,7 +104,7 @@ class ReplayPictureTest : public testing::Test {
   void open() {
     recording_.emplace(path_);
     timeline_.emplace(*recording_, before_.bone.grid.world_from_grid, start());
-    picture_.emplace(*recording_, before_, *timeline_, stream::HelloInfo{}, fanout_);
+    picture_.emplace(*recording_, before_, native_, *timeline_, stream::HelloInfo{}, fanout_);
     viewer_.mailbox = fanout_.subscribe({}, 1);
     viewer_.pull();
   }
@@ -134,10 +134,24 @@ class ReplayPictureTest : public testing::Test {
     return ticks == 0 ? session_.start : session_.after.at(ticks);
   }
 
+  /// A block of which the bone of the session is what is left; measured from above.
+  std::shared_ptr<const score::NativeGlenoid> session_native() const {
+    const voxel::VoxelGrid& grid = before_.bone.grid;
+    score::Task task;
+    task.plan = case_::Plan{};
+    task.plan->entry_mm = grid.world_from_grid.point(grid.bounds_mm().centre());
+    task.plan->axis_direction = grid.world_from_grid.direction(-Vec3::UnitZ());
+    task.reamer = shell::make_tool("sphere 10,4").profile;
+    voxel::BoneModel block = before_.bone;
+    std::fill(block.coverage.begin(), block.coverage.end(), uint8_t{255});
+    return std::make_shared<const score::NativeGlenoid>(task, block);
+  }
+
   test::TemporaryFolder folder_;
   const std::filesystem::path path_ = folder_.path() / "recording.ream";
   RecordedCutting session_{test::seed(replay_picture_seed), Vec3i(40, 24, 24)};
   case_::Case before_;
+  std::shared_ptr<const score::NativeGlenoid> native_;
   stream::Fanout fanout_;
   std::optional<record::Recording> recording_;
   std::optional<MetricsTimeline> timeline_;
@@ -238,9 +252,23 @@ TEST_F(ReplayPictureTest, MetricsAreThoseUpToTheMoment) {
       metrics.add(record::as_recorded(session_.reports[tick], before_.bone.grid.world_from_grid));
     jump(ticks);
     EXPECT_EQ(viewer_.removed_mm3, static_cast<float>(metrics.removed_volume_mm3())) << ticks;
-    EXPECT_EQ(viewer_.depth_mm, static_cast<float>(metrics.reaming_depth_mm())) << ticks;
+    EXPECT_TRUE(std::isnan(viewer_.depth_mm)) << "nothing says what this bone is measured against";
     EXPECT_EQ(timeline_->wait_for(ticks, patience).session_hash(), metrics.session_hash());
   }
+}
+
+TEST_F(ReplayPictureTest, DepthIsThatOfTheBoneThatIsShown) {
+  native_ = session_native();
+  open();
+  const score::DepthGauge gauge(native_);
+  float deepest = 0.0f;
+  for (const uint32_t ticks : {2999u, 7u, 0u, ticks_in_all, 1000u}) {
+    jump(ticks);
+    const auto left = coverage_after(picture_->bone_ticks());
+    EXPECT_EQ(viewer_.depth_mm, static_cast<float>(gauge.measure({before_.bone.grid, left.data()}))) << ticks;
+    deepest = std::max(deepest, viewer_.depth_mm);
+  }
+  EXPECT_GT(deepest, score::reamed_mm);
 }
 
 TEST_F(ReplayPictureTest, ADamagedMomentIsSaidAndAllBeforeItCanBeSeen) {

@@ -62,7 +62,7 @@ constexpr Figure figures[] = {
     {"version_rim_deg", &ReamingTruth::rim_version_deg, 0.5},
     {"inclination_rim_deg", &ReamingTruth::rim_inclination_deg, 0.5},
     {"entry_error_mm", &ReamingTruth::entry_error_mm, 0.1},
-    {"depth_max_mm", &ReamingTruth::depth_max_mm, 0.5 * voxel_mm},
+    {"reaming_depth_mm", &ReamingTruth::depth_max_mm, 0.5 * voxel_mm},
     {"depth_mean_mm", &ReamingTruth::depth_mean_mm, 0.5 * voxel_mm},
     {"removed_volume_mm3", &ReamingTruth::volume_mm3, 0.0, 0.005},
     {"seating_percent", &ReamingTruth::seating_percent, 1.0},

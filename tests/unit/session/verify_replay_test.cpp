@@ -35,7 +35,11 @@ std::vector<std::string> every_backend() {
 
 void expect_the_same_everywhere(const RecordedReaming& reaming, const std::filesystem::path& path) {
   const record::Recording recording(path);
-  const Review review = review_recording(recording, recorded_case(recording, "", reaming.data()), UINT32_MAX);
+  const case_::Case native = recorded_case(recording, "", reaming.data());
+  const Review review = review_recording(recording, native,
+                                         recorded_glenoid(recording, native, "", reaming.data()), UINT32_MAX);
+  ASSERT_TRUE(review.reaming_depth_mm);
+  EXPECT_GT(*review.reaming_depth_mm, 0.05);
   EXPECT_FALSE(review.difference.has_value());
   EXPECT_GT(review.removed_volume_mm3, 0.05);
   EXPECT_EQ(review.ticks, recording.tick_count());
@@ -293,7 +297,7 @@ TEST_F(Deceived, ABoneThatWasNotSo) {
   const VerifyResult result = reaming_.verify(path);
   expect_difference(result, 749, "bone", "grid_hash");
   const Review review =
-      review_recording(recording, recorded_case(recording, "", reaming_.data()), UINT32_MAX);
+      review_recording(recording, recorded_case(recording, "", reaming_.data()), nullptr, UINT32_MAX);
   ASSERT_TRUE(review.difference.has_value());
   EXPECT_EQ(review.difference_tick, 749u);
   EXPECT_EQ(review.difference->field, "grid_hash");

@@ -173,6 +173,8 @@ export const appText = {
   nowIs: (value: string, unit: string) => `now ${value} ${unit}`,
   hand: 'At the hand',
   depth: 'Depth',
+  depthMeaning:
+    'How deep bone is gone along the planned axis. Zero is where the reamer on that axis touches the bone first.',
   depthOf: (planned: string) => `of ${planned} mm planned`,
   depthLeft: (mm: string) => `${mm} mm to go`,
   depthReached: 'Planned depth reached',

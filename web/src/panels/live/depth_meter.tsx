@@ -12,7 +12,7 @@ export function DepthMeter({ store }: { store: Store }) {
   const pastMm = depthMm === null ? 0 : depthMm - plannedMm;
   const past = plannedMm > 0 && pastMm > reachedWithinMm;
   return (
-    <section class="depth" aria-labelledby="depth-title">
+    <section class="depth" aria-labelledby="depth-title" title={appText.depthMeaning}>
       <div class="depth-head">
         <h2 id="depth-title">{appText.depth}</h2>
         <p>

@@ -1,0 +1,95 @@
+#include "score/depth_gauge.hpp"
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace ream::score {
+namespace {
+
+constexpr int stride = 4;              // rays between those that are looked at first
+constexpr size_t deepest_places = 12;  // around so many of them all rays are looked at
+
+/// Whether a ray and all four beside it meet what is left of the face: along the edge that a cut leaves where
+/// it comes out through the wall, the surface is rounded off.
+template <typename SurfaceOf>
+bool is_over_bone(const NativeGlenoid& native, size_t ray, SurfaceOf surface_of) {
+  const auto meets = [&](int i) {
+    return i >= 0 && native.face()[static_cast<size_t>(i)] &&
+           surface_of(static_cast<size_t>(i)) != no_surface_mm;
+  };
+  const RayLattice& rays = native.rays();
+  return meets(static_cast<int>(ray)) && meets(rays.neighbour(ray, 1, 0)) &&
+         meets(rays.neighbour(ray, -1, 0)) && meets(rays.neighbour(ray, 0, 1)) &&
+         meets(rays.neighbour(ray, 0, -1));
+}
+
+/// Rays of one bone, each looked at once.
+class RayProbe {
+ public:
+  RayProbe(const NativeGlenoid& native, const CoverageView& left) : native_(native), finder_(left) {}
+
+  const AchievedRay& at(size_t ray) {
+    const auto known = known_.find(ray);
+    return known != known_.end() ? known->second
+                                 : known_.emplace(ray, achieved_ray(native_, finder_, ray)).first->second;
+  }
+
+ private:
+  const NativeGlenoid& native_;
+  const SurfaceFinder finder_;
+  std::unordered_map<size_t, AchievedRay> known_;
+};
+
+}  // namespace
+
+GreatestDepth greatest_depth(const NativeGlenoid& native, const AchievedFace& face) {
+  GreatestDepth over_bone, anywhere;
+  const auto surface_of = [&](size_t ray) { return face.surface_mm[ray]; };
+  for (size_t ray = 0; ray < native.rays().size(); ++ray) {
+    const double removed = face.removed_mm[ray];
+    if (removed < reamed_mm) continue;
+    const double past = native.surface_mm()[ray] + removed - native.subchondral_mm()[ray];
+    const auto take = [&](GreatestDepth& greatest) {
+      greatest.removed_mm = std::max(greatest.removed_mm, removed);
+      greatest.past_subchondral_mm = std::max(greatest.past_subchondral_mm, past);
+    };
+    take(anywhere);
+    if (is_over_bone(native, ray, surface_of)) take(over_bone);
+  }
+  return over_bone.removed_mm > 0.0 ? over_bone : anywhere;
+}
+
+DepthGauge::DepthGauge(std::shared_ptr<const NativeGlenoid> native) : native_(std::move(native)) {
+  native_->rays().thinned(stride, coarse_);
+  std::erase_if(coarse_, [this](size_t ray) { return !native_->face()[ray]; });
+}
+
+double DepthGauge::measure(const CoverageView& left) const {
+  RayProbe probe(*native_, left);
+  std::vector<size_t> reamed;
+  for (const size_t ray : coarse_)
+    if (probe.at(ray).removed_mm >= reamed_mm) reamed.push_back(ray);
+  const auto deeper = [&](size_t a, size_t b) { return probe.at(a).removed_mm > probe.at(b).removed_mm; };
+  const size_t places = std::min(deepest_places, reamed.size());
+  std::partial_sort(reamed.begin(), reamed.begin() + static_cast<std::ptrdiff_t>(places), reamed.end(),
+                    deeper);
+  double over_bone = 0.0, anywhere = 0.0;
+  const auto look = [&](size_t ray) {
+    if (!native_->face()[ray] || probe.at(ray).removed_mm < reamed_mm) return;
+    anywhere = std::max(anywhere, probe.at(ray).removed_mm);
+    if (probe.at(ray).removed_mm > over_bone &&
+        is_over_bone(*native_, ray, [&](size_t beside) { return probe.at(beside).surface_mm; }))
+      over_bone = probe.at(ray).removed_mm;
+  };
+  for (size_t place = 0; place < reamed.size(); ++place) {
+    look(reamed[place]);
+    for (int i = 0; place < places && i < (2 * stride - 1) * (2 * stride - 1); ++i) {
+      const int across = i % (2 * stride - 1) - stride + 1, up = i / (2 * stride - 1) - stride + 1;
+      if (const int ray = native_->rays().neighbour(reamed[place], across, up); ray >= 0)
+        look(static_cast<size_t>(ray));
+    }
+  }
+  return over_bone > 0.0 ? over_bone : anywhere;
+}
+
+}  // namespace ream::score
