@@ -12,6 +12,7 @@
 #include "record/tick_report.hpp"
 #include "session/replay/review_recording.hpp"
 #include "session/simulation/find_case.hpp"
+#include "session/simulation/recorded_session.hpp"
 #include "session/simulation/recorded_setup.hpp"
 #include "session/simulation/session_setup.hpp"
 #include "support/changed_recording.hpp"
