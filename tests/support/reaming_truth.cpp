@@ -209,14 +209,15 @@ class Reamed {
 };
 
 /// Lines along a direction over a disc about an axis.
-std::vector<Line> lattice(const Vec3& origin, const Vec3& direction, double reach_mm) {
+std::vector<Line> lattice(const Vec3& origin, const Vec3& direction, double reach_mm,
+                          double spacing_mm = step_mm) {
   const Mat3 turn = rotation_with_z_along(direction);
   std::vector<Line> lines;
-  const int half = static_cast<int>(reach_mm / step_mm);
+  const int half = static_cast<int>(reach_mm / spacing_mm);
   for (int row = -half; row <= half; ++row)
     for (int column = -half; column <= half; ++column) {
       Line line;
-      line.x = (column + 0.37) * step_mm, line.y = (row - 0.21) * step_mm;
+      line.x = (column + 0.37) * spacing_mm, line.y = (row - 0.21) * spacing_mm;
       if (std::hypot(line.x, line.y) > reach_mm) continue;
       line.point = origin + line.x * turn.col(0) + line.y * turn.col(1);
       line.direction = turn.col(2);
@@ -370,6 +371,60 @@ std::string ReamerShape::words() const {
     text << "ellipse " << across_mm << ',' << along_mm;
   if (nipple_mm > 0.0) text << " nipple " << nipple_mm << ",8";
   return text.str();
+}
+
+struct DepthTruth::Lines {
+  struct Gone {
+    Line line;
+    double to = 0.0;  ///< how far the reamer has swept it, from line.face on
+  };
+  PlannedReaming planned;
+  GlenoidFormulas glenoid;
+  std::vector<Gone> all;
+
+  Interval within_bone(const Line& line, const Pose& world_from_tool) const {
+    const Pose tool_from_world = world_from_tool.inverse();
+    Interval in =
+        within(planned.reamer, tool_from_world.point(line.point), tool_from_world.direction(line.direction));
+    in.from = std::max(in.from, line.face);
+    return in;
+  }
+};
+
+DepthTruth::DepthTruth(const PlannedReaming& planned)
+    : lines_(std::make_unique<Lines>(Lines{planned, GlenoidFormulas(planned.glenoid), {}})) {
+  constexpr double spacing_mm = 0.25, around_mm = 4.0;
+  for (Line& line : lattice(planned.plan.entry_mm, planned.plan.axis_direction,
+                            planned.reamer.outer_mm + around_mm, spacing_mm)) {
+    line.face =
+        on_sphere(lines_->glenoid.sphere_centre(), planned.glenoid.radius_mm, line.point, line.direction);
+    if (line.face == nothing) continue;
+    line.beyond_wall_mm = lines_->glenoid.beyond_wall_mm(line.point + line.face * line.direction);
+    if (counts(planned, line)) lines_->all.push_back({line, line.face});
+  }
+}
+
+DepthTruth::~DepthTruth() = default;
+
+void DepthTruth::cut_at(const Pose& world_from_tool) {
+  for (Lines::Gone& gone : lines_->all) {
+    const Interval in = lines_->within_bone(gone.line, world_from_tool);
+    if (!in.empty()) gone.to = std::max(gone.to, in.to);
+  }
+}
+
+bool DepthTruth::touches(const Pose& world_from_tool) const {
+  return std::any_of(lines_->all.begin(), lines_->all.end(), [&](const Lines::Gone& gone) {
+    return !lines_->within_bone(gone.line, world_from_tool).empty();
+  });
+}
+
+double DepthTruth::depth_mm() const {
+  double deepest = 0.0;
+  for (const auto& [line, to] : lines_->all)
+    if (to - line.face > deepest && lines_->glenoid.solid(line.point + to * line.direction))
+      deepest = to - line.face;
+  return deepest;
 }
 
 ReamingTruth reaming_truth(const PlannedReaming& planned, const std::filesystem::path& trace_csv) {

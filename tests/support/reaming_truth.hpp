@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 #include "case/case.hpp"
@@ -34,6 +35,24 @@ struct ReamingTruth {
   double depth_max_mm = 0.0, depth_mean_mm = 0.0, footprint_mm2 = 0.0;
   double seating_percent = 0.0, plate_percent = 0.0;
   double rim_version_deg = 0.0, rim_inclination_deg = 0.0;
+};
+
+/// How deep the bone is gone along the plan while it is being reamed, by the glenoid's formulas and the
+/// reamer's poses alone, on lines a quarter of a millimetre apart.
+class DepthTruth {
+ public:
+  explicit DepthTruth(const PlannedReaming& planned);
+  ~DepthTruth();
+
+  /// The reamer stood there and cut.
+  void cut_at(const Pose& world_from_tool);
+  /// Whether the reamer reaches into the untouched glenoid there.
+  bool touches(const Pose& world_from_tool) const;
+  double depth_mm() const;
+
+ private:
+  struct Lines;
+  std::unique_ptr<Lines> lines_;
 };
 
 ReamingTruth reaming_truth(const PlannedReaming& planned, const std::filesystem::path& trace_csv);

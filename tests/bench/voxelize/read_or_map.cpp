@@ -13,7 +13,7 @@
 namespace ream::bench {
 namespace {
 
-constexpr int rounds = 9;
+constexpr int read_rounds = 9;
 constexpr double megabytes[] = {0.1, 1.0, 4.0, 10.0, 50.0, 190.0};
 
 double median(std::vector<double> values) {
@@ -56,7 +56,7 @@ std::vector<Row> read_or_map(const gpu::Queue& queue, std::ostream* tables) {
     queue.finish();
     std::vector<uint8_t> host(bytes, 0);
     std::vector<double> read, map;
-    for (int i = 0; i < rounds; ++i) {
+    for (int i = 0; i < read_rounds; ++i) {
       read.push_back(read_ms(queue, buffer, host));
       map.push_back(map_ms(queue, buffer));
     }
