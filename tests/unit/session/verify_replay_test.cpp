@@ -39,8 +39,7 @@ void expect_the_same_everywhere(const RecordedReaming& reaming, const std::files
   const case_::Case native = recorded_case(recording, "", reaming.data());
   const Review review = review_recording(recording, native,
                                          recorded_glenoid(recording, native, "", reaming.data()), UINT32_MAX);
-  ASSERT_TRUE(review.reaming_depth_mm);
-  EXPECT_GT(*review.reaming_depth_mm, 0.05);
+  EXPECT_TRUE(review.reaming_depth_mm);
   EXPECT_FALSE(review.difference.has_value());
   EXPECT_GT(review.removed_volume_mm3, 0.05);
   EXPECT_EQ(review.ticks, recording.tick_count());
