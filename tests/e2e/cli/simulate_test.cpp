@@ -109,7 +109,7 @@ TEST_F(Simulate, EveryFeedModelSaysSoAndFeedsAsTheSpindleTurns) {
   script["spindle_rpm"] = 312.0;
   script["specimen_factor"] = 0.95;
   write("fast.json", script.dump());
-  double law_depth_mm = 0.0;
+  double law_mm3 = 0.0;
   for (const char* model : {"empirical", "oblique", "scraping"}) {
     SCOPED_TRACE(model);
     const std::string out = std::string("model-") + model;
@@ -124,14 +124,14 @@ TEST_F(Simulate, EveryFeedModelSaysSoAndFeedsAsTheSpindleTurns) {
       EXPECT_EQ(description.at("specimen_factor"), 0.95);
       EXPECT_EQ(description.contains("feed_table_hash"), std::string(model) != "scraping");
     }
-    const double depth_mm = json_of(out + "/metrics.json").at("reaming_depth_mm");
-    if (std::string(model) == "empirical") law_depth_mm = depth_mm;
+    const double removed_mm3 = json_of(out + "/metrics.json").at("removed_volume_mm3");
+    if (std::string(model) == "empirical") law_mm3 = removed_mm3;
     if (std::string(model) == "oblique") {
-      EXPECT_NEAR(depth_mm, law_depth_mm, 0.02 * law_depth_mm);
+      EXPECT_NEAR(removed_mm3, law_mm3, 0.04 * law_mm3);
     }
   }
   succeed({"simulate", "--case", "demo", "--script", short_script(), "--out", "slow"});
-  EXPECT_LT(json_of("slow/metrics.json").at("reaming_depth_mm").get<double>(), 0.7 * law_depth_mm);
+  EXPECT_LT(json_of("slow/metrics.json").at("removed_volume_mm3").get<double>(), 0.65 * law_mm3);
 }
 
 TEST_F(Simulate, WithoutAnOutputFolderItTakesTheNextFreeNumber) {
