@@ -282,7 +282,7 @@ export const caseText = {
   after: 'After reaming',
   planKept: 'This is the plan of the case.',
   planDraft: 'A proposal, not kept yet.',
-  planChanged: 'Changed by hand: the figures are of the plan before. Keep the plan to have it assessed anew.',
+  planChanged: 'Changed by hand: the figures are of the plan before. Keep the plan to have it assessed again.',
   planOutdated: 'Landmarks were changed after this plan was kept. Propose again, or keep it as it is.',
   keepPlan: 'Keep this plan',
   overrideTitle: 'This asks for more than reaming should correct',
@@ -303,7 +303,7 @@ export const caseText = {
   builtVoxels: (millions: string) => `${millions} million voxels of bone`,
   builtDensity: (low: string, high: string) => `Density ${low} to ${high} g/cm³`,
   builtUpsample: (times: number) => `${times} × finer than the CT`,
-  builtOutdated: 'The bones were found anew since this bone was built. Build it again.',
+  builtOutdated: 'The bones were found again after this bone was built. Build it again.',
   buildNeeds: 'The bones must be found first.',
   buildNeedsCentre: 'Place the glenoid centre first, or build the whole scapula.',
 

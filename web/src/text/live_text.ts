@@ -74,7 +74,7 @@ export const liveText = {
   handDelay: 'Hand to picture',
   handDelayHint:
     'From the moment at which your hand was sampled to the end of drawing what it did; 95 of 100 are faster.',
-  drawDelay: 'News to picture',
+  drawDelay: 'Picture delay',
   drawDelayHint:
     'From the arrival of a message to the end of drawing it, 95 of 100 are faster; and how much longer than usual it was on its way.',
   loop: 'Loop',
