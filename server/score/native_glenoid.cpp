@@ -193,12 +193,15 @@ OuterCortex::OuterCortex(const voxel::BoneModel& native, const Aabb& world_box_m
       found.emplace_back(key_of(cell_of(offset, min_spacing_mm)), offset.cast<float>());
     });
   }
-  const auto by_key = [](const auto& a, const auto& b) { return a.first < b.first; };
-  std::stable_sort(found.begin(), found.end(), by_key);
+  // Of a cell the point nearest to the middle of all is kept: that is the same in a mirror image.
+  const auto before = [](const auto& a, const auto& b) {
+    return a.first != b.first ? a.first < b.first : a.second.squaredNorm() < b.second.squaredNorm();
+  };
+  std::stable_sort(found.begin(), found.end(), before);
   const auto same = [](const auto& a, const auto& b) { return a.first == b.first; };
   found.erase(std::unique(found.begin(), found.end(), same), found.end());
   for (auto& [key, point] : found) key = key_of(cell_of(point.cast<double>(), cell_mm));
-  std::stable_sort(found.begin(), found.end(), by_key);
+  std::stable_sort(found.begin(), found.end(), before);
   points_mm_.reserve(found.size());
   for (const auto& [key, point] : found) {
     auto& range = cells_.try_emplace(key, static_cast<uint32_t>(points_mm_.size()), 0u).first->second;

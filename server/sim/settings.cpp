@@ -162,6 +162,7 @@ void for_each_field(Visitor& v, Either<device::ScapulaMount> auto& mount) {
 
 template <typename Visitor>
 void for_each_field(Visitor& v, Either<Settings> auto& settings) {
+  v.field("physics", settings.physics);
   v.field("removal", settings.removal);
   v.field("decay_levels", settings.decay_levels);
   v.field("tool_spacing_mm", settings.tool_spacing_mm);
@@ -200,6 +201,7 @@ json to_json(const Settings& settings) {
 
 Settings settings_from_json(const json& value, const std::string& place) {
   Settings settings;
+  settings.physics = 1;
   Reader reader(value, place);
   for_each_field(reader, settings);
   reader.finish();

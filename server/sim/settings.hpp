@@ -21,8 +21,13 @@ const char* to_text(RemovalLaw law);
 /// The words of to_text; Error invalid_input for others.
 RemovalLaw removal_law_from_text(const std::string& text);
 
+/// What this build computes. Raised whenever the same input gives other bits. Recordings and scores name the
+/// one that they were made with; those from before it was written are of revision 1.
+inline constexpr int physics_revision = 1;
+
 /// How a session is to be simulated; everything that the same input needs to give the same bits.
 struct Settings {
+  int physics = physics_revision;
   std::string backend = "cpu";  ///< auto, cpu, opencl or opencl:N
   RemovalLaw removal = RemovalLaw::profile;
   int decay_levels = collide::default_decay_levels;  ///< see collide/decay.hpp

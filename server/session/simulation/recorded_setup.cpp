@@ -67,6 +67,11 @@ SimulationSetup recorded_setup(const record::Recording& recording, const record:
   parts.reamer = recorded_reamer(recording, segment);
   parts.tool = tool_of(parts.reamer);
   parts.settings = recorded_settings(recording, backend);
+  if (const int made_with = parts.settings.physics; made_with != sim::physics_revision)
+    throw Error(ErrorKind::conflict, recording.log().path().string() + " was made with physics revision " +
+                                         std::to_string(made_with) + ", and this build computes revision " +
+                                         std::to_string(sim::physics_revision) +
+                                         "; it can be watched and scored, but not computed again or resumed");
   parts.from = from;
   return parts;
 }

@@ -23,7 +23,8 @@ sim::Settings recorded_settings(const record::Recording& recording, const std::s
 Reamer recorded_reamer(const record::Recording& recording, const record::ops::Segment& segment);
 
 /// A segment's simulation once more, without device or script. `bone_case` is the case_as_recorded(), its
-/// coverage as the segment finds it; `from` likewise. Errors: those above; of tool_of.
+/// coverage as the segment finds it; `from` likewise. Errors: those above; conflict for another physics; of
+/// tool_of.
 SimulationSetup recorded_setup(const record::Recording& recording, const record::ops::Segment& segment,
                                case_::Case bone_case, const sim::ResumeState& from,
                                const std::string& backend);

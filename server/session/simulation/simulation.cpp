@@ -61,6 +61,7 @@ Simulation::Simulation(SimulationSetup parts)
 nlohmann::json Simulation::description() const {
   nlohmann::json description = {
       {"build", version_text()},
+      {"physics", model.settings.physics},
       {"case", bone_case.id},
       {"case_name", bone_case.name},
       {"side", case_::to_text(bone_case.side)},

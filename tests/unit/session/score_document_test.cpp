@@ -41,12 +41,14 @@ TEST(ScoreDocument, FitsItsSchemaWithAndWithoutAStoredRubric) {
     EXPECT_EQ(test::schema_faults(schema, document), std::vector<std::string>{});
     EXPECT_EQ(document.at("rubric_id").is_null(), *id == 0);
     EXPECT_EQ(document.at("theatre"), false);
+    EXPECT_EQ(document.at("physics"), 1) << "of a session from before it was said";
   }
 }
 
 TEST(ScoreDocument, IsExplainedMetricByMetric) {
-  const json score = explained_score(
-      score_document("ream", {{"theatre", true}}, test::some_metrics(1.5), {rubric(), "simple", nullptr}));
+  const json score = explained_score(score_document("ream", {{"theatre", true}, {"physics", 7}},
+                                                    test::some_metrics(1.5), {rubric(), "simple", nullptr}));
+  EXPECT_EQ(score.at("physics"), 7);
   std::set<std::string> keys;
   for (const json& each : score.at("metrics")) keys.insert(each.at("metric").get<std::string>());
   EXPECT_EQ(keys.size(), score::metric_catalogue().size());

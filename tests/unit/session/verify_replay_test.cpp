@@ -15,6 +15,7 @@
 #include "session/simulation/recorded_session.hpp"
 #include "session/simulation/recorded_setup.hpp"
 #include "session/simulation/session_setup.hpp"
+#include "sim/settings.hpp"
 #include "support/changed_recording.hpp"
 #include "support/expect_error.hpp"
 #include "support/recorded_reaming.hpp"
@@ -325,6 +326,21 @@ TEST_F(Deceived, AnotherSeed) {
     h.tables = tables.dump();
   });
   expect_difference(reaming_.verify(twice), 0, "vibration", "vibration_g");
+}
+
+TEST_F(Deceived, AnotherPhysicsIsSaidAndNotComputed) {
+  const auto path = changed<record::ops::Header>([](auto& h) {
+    json settings = json::parse(h.settings);
+    EXPECT_EQ(settings.at("physics"), sim::physics_revision);
+    settings["physics"] = sim::physics_revision + 1;
+    h.settings = settings.dump();
+  });
+  test::expect_error(ErrorKind::conflict, "physics revision " + std::to_string(sim::physics_revision + 1),
+                     [&] { reaming_.verify(path); });
+  const record::Recording recording(path);
+  const Review review =
+      review_recording(recording, recorded_case(recording, "", reaming_.data()), nullptr, UINT32_MAX);
+  EXPECT_FALSE(review.difference.has_value()) << "it can still be gone through";
 }
 
 TEST_F(Deceived, OtherSettingsOtherPlanOtherReamer) {
