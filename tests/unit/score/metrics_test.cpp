@@ -32,8 +32,8 @@ TEST(Metrics, NothingHappenedIsAllZero) {
   MetricsAccumulator accumulator(0.008, Pose{});
   const MetricResults m = accumulator.results();
   for (const double value :
-       {*m.value("removed_volume_mm3"), *m.value("axial_thrust_mean_n"),
-        *m.value("axial_thrust_peak_n"), *m.value("duration_s"), *m.value("contact_time_s")})
+       {*m.value("removed_volume_mm3"), *m.value("axial_thrust_mean_n"), *m.value("axial_thrust_peak_n"),
+        *m.value("duration_s"), *m.value("contact_time_s")})
     EXPECT_EQ(value, 0.0);
 }
 
