@@ -42,7 +42,8 @@ std::vector<Row> score_suite(const Options& options);
 /// How soon many sessions are listed and filtered, on both kinds of database.
 std::vector<Row> store_suite(const Options& options);
 std::vector<Row> surface_suite(const Options& options);
-/// Whether what is felt and said is what happens to the bone, by formulas that share nothing with the product.
+/// Whether what is felt and said is what happens to the bone, by formulas that share nothing with the
+/// product.
 std::vector<Row> truth_suite(const Options& options);
 /// Force against the thesis' chapter 5.
 std::vector<Row> validate_suite(const Options& options);

@@ -60,8 +60,8 @@ void expect_sound(const nlohmann::json& metrics, const std::string& what) {
 nlohmann::json scored(const Task& task, const voxel::BoneModel& native, const std::vector<uint8_t>& left,
                       const MetricsAccumulator& ticks) {
   const NativeGlenoid glenoid(task, native);
-  const MetricResults results = bone_results(glenoid, {native.grid, left.data()}, ticks.cut_line(),
-                                             world_from_plan(task));
+  const MetricResults results =
+      bone_results(glenoid, {native.grid, left.data()}, ticks.cut_line(), world_from_plan(task));
   return session_metrics_json(ticks, results, 1.0, nullptr);
 }
 
