@@ -8,6 +8,8 @@ namespace {
 
 constexpr int stride = 4;              // rays between those that are looked at first
 constexpr size_t deepest_places = 12;  // around so many of them all rays are looked at
+constexpr double near_deepest_mm =
+    0.1;  // rays that are this much less deep may have a deeper one beside them
 
 /// Whether a ray and all four beside it meet what is left of the face: along the edge that a cut leaves where
 /// it comes out through the wall, the surface is rounded off.
@@ -28,6 +30,10 @@ class RayProbe {
  public:
   RayProbe(const NativeGlenoid& native, const CoverageView& left) : native_(native), finder_(left) {}
 
+  /// Whether bone is left where a ray would be that deep: then it is not.
+  bool has_bone_at(size_t ray, double depth_mm) const {
+    return finder_.coverage_at(native_.rays().world(ray, native_.surface_mm()[ray] + depth_mm)) > 127.5;
+  }
   const AchievedRay& at(size_t ray) {
     const auto known = known_.find(ray);
     return known != known_.end() ? known->second
@@ -64,11 +70,26 @@ DepthGauge::DepthGauge(std::shared_ptr<const NativeGlenoid> native) : native_(st
   std::erase_if(coarse_, [this](size_t ray) { return !native_->face()[ray]; });
 }
 
-double DepthGauge::measure(const CoverageView& left) const {
+double DepthGauge::measure(const CoverageView& left) {
+  if (coarse_.empty()) return 0.0;
   RayProbe probe(*native_, left);
+  const auto surface_of = [&](size_t ray) { return probe.at(ray).surface_mm; };
   std::vector<size_t> reamed;
+  double deepest_mm = 0.0;
+  const auto take = [&](size_t ray) {
+    if (probe.has_bone_at(ray, std::max(reamed_mm, deepest_mm - near_deepest_mm))) return;
+    const double removed_mm = probe.at(ray).removed_mm;
+    if (removed_mm < reamed_mm) return;
+    reamed.push_back(ray);
+    if (removed_mm <= deepest_mm || !is_over_bone(*native_, ray, surface_of)) return;
+    deepest_mm = removed_mm;
+    deepest_ = ray;
+  };
+  const size_t first =
+      std::find(coarse_.begin(), coarse_.end(), deepest_) == coarse_.end() ? coarse_[0] : deepest_;
+  take(first);
   for (const size_t ray : coarse_)
-    if (probe.at(ray).removed_mm >= reamed_mm) reamed.push_back(ray);
+    if (ray != first) take(ray);
   const auto deeper = [&](size_t a, size_t b) { return probe.at(a).removed_mm > probe.at(b).removed_mm; };
   const size_t places = std::min(deepest_places, reamed.size());
   std::partial_sort(reamed.begin(), reamed.begin() + static_cast<std::ptrdiff_t>(places), reamed.end(),
@@ -77,8 +98,7 @@ double DepthGauge::measure(const CoverageView& left) const {
   const auto look = [&](size_t ray) {
     if (!native_->face()[ray] || probe.at(ray).removed_mm < reamed_mm) return;
     anywhere = std::max(anywhere, probe.at(ray).removed_mm);
-    if (probe.at(ray).removed_mm > over_bone &&
-        is_over_bone(*native_, ray, [&](size_t beside) { return probe.at(beside).surface_mm; }))
+    if (probe.at(ray).removed_mm > over_bone && is_over_bone(*native_, ray, surface_of))
       over_bone = probe.at(ray).removed_mm;
   };
   for (size_t place = 0; place < reamed.size(); ++place) {

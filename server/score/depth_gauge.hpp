@@ -29,13 +29,14 @@ class DepthGauge {
   explicit DepthGauge(std::shared_ptr<const NativeGlenoid> native);
 
   /// greatest_depth().removed_mm but for places less than 1 mm wide. `left`: what remains, with the bone at
-  /// rest. About 2 ms for a glenoid.
-  double measure(const CoverageView& left) const;
+  /// rest. Begins at the ray that was deepest before, so that of most others one look says that they are not.
+  double measure(const CoverageView& left);
   bool has_face() const { return !coarse_.empty(); }
 
  private:
   std::shared_ptr<const NativeGlenoid> native_;
   std::vector<size_t> coarse_;  ///< rays of the face
+  size_t deepest_ = 0;          ///< among them, in the measurement before
 };
 
 }  // namespace ream::score

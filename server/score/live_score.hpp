@@ -33,7 +33,7 @@ class LiveScore {
   double depth_mm() const { return depth_mm_; }
 
  private:
-  const DepthGauge gauge_;
+  DepthGauge gauge_;
   const NativeGlenoid native_;
   const Pose world_from_plan_;
   MetricResults results_;

@@ -53,7 +53,7 @@ Gauged ream(const test::RandomReaming& reaming, double voxel_mm) {
   const test::TemporaryFolder folder;
   session::Simulation simulation(setup_of(reaming, voxel_mm, folder));
   const voxel::BoneModel& bone = simulation.bone_case.bone;
-  const score::DepthGauge gauge(simulation.native);
+  score::DepthGauge gauge(simulation.native);
   test::DepthTruth truth(reaming);
   Gauged gauged;
   Vec3 last_mm = Vec3::Constant(1e9);

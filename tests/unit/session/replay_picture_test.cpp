@@ -260,7 +260,7 @@ TEST_F(ReplayPictureTest, MetricsAreThoseUpToTheMoment) {
 TEST_F(ReplayPictureTest, DepthIsThatOfTheBoneThatIsShown) {
   native_ = session_native();
   open();
-  const score::DepthGauge gauge(native_);
+  score::DepthGauge gauge(native_);
   float deepest = 0.0f;
   for (const uint32_t ticks : {2999u, 7u, 0u, ticks_in_all, 1000u}) {
     jump(ticks);
