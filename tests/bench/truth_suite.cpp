@@ -4,18 +4,13 @@
 #include <ostream>
 
 #include "bench/bench.hpp"
-#include "case/landmarks.hpp"
-#include "core/file.hpp"
 #include "score/depth_gauge.hpp"
-#include "session/simulation/session_setup.hpp"
 #include "sim/step.hpp"
-#include "support/random_reaming.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/reaming_setup.hpp"
 
 namespace ream::bench {
 namespace {
 
-constexpr double robot_spacing_mm = 0.4;  // of the points that feel; what is cut does not depend on it
 constexpr uint32_t gauge_ticks = 100;
 constexpr double same_place_mm = 0.002;
 
@@ -30,28 +25,9 @@ struct Gauged {
   }
 };
 
-session::SimulationSetup setup_of(const test::RandomReaming& reaming, double voxel_mm,
-                                  const test::TemporaryFolder& folder) {
-  const auto data = folder.path() / "data";
-  case_::Case c;
-  c.id = c.name = "glenoid";
-  c.side = reaming.glenoid.shoulder.side;
-  c.bone = test::bone_of(reaming.glenoid, voxel_mm);
-  c.plan = reaming.plan;
-  case_::save_case(c, data / "cases/glenoid");
-  case_::save_landmarks(test::shoulder_landmarks(reaming.glenoid.shoulder), data / "cases/glenoid");
-  write_file_atomically(folder.path() / "script.json", reaming.script.dump());
-  session::RunRequest request;
-  request.case_name = "glenoid";
-  request.script_name = (folder.path() / "script.json").string();
-  request.backend = "cpu";
-  request.tool_spacing_mm = robot_spacing_mm;
-  return session::build_setup(request, data);
-}
-
 Gauged ream(const test::RandomReaming& reaming, double voxel_mm) {
   const test::TemporaryFolder folder;
-  session::Simulation simulation(setup_of(reaming, voxel_mm, folder));
+  session::Simulation simulation(test::setup_of(reaming, voxel_mm, folder));
   const voxel::BoneModel& bone = simulation.bone_case.bone;
   score::DepthGauge gauge(simulation.native);
   test::DepthTruth truth(reaming);

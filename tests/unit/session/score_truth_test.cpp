@@ -6,18 +6,13 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "case/landmarks.hpp"
-#include "core/file.hpp"
 #include "session/live/headless_run.hpp"
-#include "session/simulation/session_setup.hpp"
-#include "support/random_reaming.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/reaming_setup.hpp"
 
 namespace ream::test {
 namespace {
 
 constexpr double voxel_mm = 0.2;
-constexpr double robot_spacing_mm = 0.4;  // of the points that feel; what is cut does not depend on it
 
 /// metrics.json of a reaming, and what must come out.
 struct Scored {
@@ -26,21 +21,8 @@ struct Scored {
 };
 
 Scored run(const RandomReaming& reaming, const TemporaryFolder& folder) {
-  const auto data = folder.path() / "data", out = folder.path() / "out";
-  case_::Case c;
-  c.id = c.name = "glenoid";
-  c.side = reaming.glenoid.shoulder.side;
-  c.bone = bone_of(reaming.glenoid, voxel_mm);
-  c.plan = reaming.plan;
-  case_::save_case(c, data / "cases/glenoid");
-  case_::save_landmarks(shoulder_landmarks(reaming.glenoid.shoulder), data / "cases/glenoid");
-  write_file_atomically(folder.path() / "script.json", reaming.script.dump());
-  session::RunRequest request;
-  request.case_name = "glenoid";
-  request.script_name = (folder.path() / "script.json").string();
-  request.backend = "cpu";
-  request.tool_spacing_mm = robot_spacing_mm;
-  session::Simulation simulation(session::build_setup(request, data));
+  const auto out = folder.path() / "out";
+  session::Simulation simulation(setup_of(reaming, voxel_mm, folder));
   std::filesystem::create_directories(out);
   const std::vector<uint8_t> start = simulation.bone_case.bone.coverage;
   const session::SessionFiles::Results result = session::run_headless(simulation, start, out, false);
