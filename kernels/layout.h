@@ -56,14 +56,17 @@ struct AffineArguments {
 #define REAM_PLACE_BITS 9
 #define REAM_AZIMUTH_BITS 10
 #define REAM_AZIMUTH_SHIFT 14
-#define REAM_SOLID_COVERAGE 128
+// collide/contact/surface_judge.hpp.
+#define REAM_JUDGE_TOLERANCE 8
+#define REAM_JUDGE_FRACTION_BITS 8
+#define REAM_JUDGE_ROTATION_BITS 7
 #define REAM_CARTILAGE_CODE 255
 
 // Chunks of the largest block.
 #define REAM_CONTACT_BLOCK_CHUNKS 32
 
 struct ContactArguments {
-  ream_int32 per_unit[9];  // VoxelTransform
+  ream_int32 per_unit[9], normal_rotation[9];  // VoxelTransform
   ream_int32 bits;
   ream_int32 dims[3];
   ream_int32 brick_row, brick_slice;

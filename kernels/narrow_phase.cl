@@ -2,7 +2,8 @@
 #include "layout.h"
 #include "bone_parts.h"
 
-// Contact sums of the shell's due chunks: whole numbers only. Twin of server/collide/contact/contact_kernel.cpp.
+// Contact sums of the shell's due chunks: whole numbers only. Twin of server/collide/contact/contact_kernel.cpp and
+// surface_judge.hpp.
 // LANES work-items a group: 1 where work-items are loops (CPU), and one takes a share of the chunks in a row, each as
 // vectors; elsewhere a multiple of the warp, a group takes every G-th chunk and its lanes one point at a time.
 
@@ -11,7 +12,8 @@
 
 // What both forms of the kernel take: the shell and its due chunks, the bone's cells, the answer, and the bone.
 #define CONTACT_PARAMETERS                                                                                      \
-  global const uint *places, global const ushort *directions, global const struct ContactBlockLayout *blocks,   \
+  global const uint *places, global const ushort *directions, global const uint *normals,                       \
+      global const struct ContactBlockLayout *blocks,                                                            \
       global const struct DueChunkLayout *due, global const uint *meridian, global const uint *azimuth,         \
       global const ushort *cells, struct ContactArguments arguments, global long *partial,                      \
       global uchar *touched, BONE_PARTS(global const uchar, coverage), BONE_PARTS(global const uchar, density)
@@ -61,15 +63,40 @@ static int sum16(int16 v) {
   return c.x + c.y;
 }
 
-// Voxels of sixteen probes and their cells' state: 0x101 in solid bone, 1 where the voxel decides, 0 elsewhere.
-static int16 probe(uint16 place, int16 present, global const struct DueChunkLayout* at,
-                   const struct ContactArguments* a, global const ushort* cells, int16* voxel) {
+// Moves places, in 2^-bits voxel, to the voxels that decide; returns the least coverages that engage.
+static int16 move_to_ramp(uint16 normal, const struct ContactArguments* a, int16* u, int16* v, int16* w) {
+  const int16 packed = as_int16(normal), x = (packed << 24) >> 24, y = (packed << 16) >> 24, z = (packed << 8) >> 24;
+  const int halfway = 1 << (REAM_JUDGE_ROTATION_BITS - 1), shift = a->bits - REAM_JUDGE_FRACTION_BITS;
+  const int mask = (1 << REAM_JUDGE_FRACTION_BITS) - 1;
+  const int* r = a->normal_rotation;
+  const int16 n0 = (r[0] * x + r[1] * y + r[2] * z + halfway) >> REAM_JUDGE_ROTATION_BITS;
+  const int16 n1 = (r[3] * x + r[4] * y + r[5] * z + halfway) >> REAM_JUDGE_ROTATION_BITS;
+  const int16 n2 = (r[6] * x + r[7] * y + r[8] * z + halfway) >> REAM_JUDGE_ROTATION_BITS;
+  const int16 projected = n0 * ((*u >> shift) & mask) + n1 * ((*v >> shift) & mask) + n2 * ((*w >> shift) & mask) + halfway;
+  int16 level = 128 + n0 + n1 + n2 - (projected >> REAM_JUDGE_ROTATION_BITS);
+  const int16 l0 = as_int16(abs(n0)), l1 = as_int16(abs(n1)), l2 = as_int16(abs(n2)), longest = max(max(l0, l1), l2);
+  const int16 step = 2 * longest, out = level < 1, in = (level > 255) & (level - step >= 1);
+  level += (step & out) - (step & in);
+  // 1 outwards, -1 inwards, and the other way where the normal leads down the axis.
+  const int16 moves = in - out;
+  const int16 axis0 = l0 == longest, axis1 = ~axis0 & (l1 == longest), axis2 = ~axis0 & ~axis1;
+  *u = (*u >> a->bits) + (select(moves, -moves, n0 < 0) & axis0);
+  *v = (*v >> a->bits) + (select(moves, -moves, n1 < 0) & axis1);
+  *w = (*w >> a->bits) + (select(moves, -moves, n2 < 0) & axis2);
+  return max(min(level, 255) - REAM_JUDGE_TOLERANCE, 1);
+}
+
+// The voxels that decide about sixteen probes, the coverages that they need and their cells' state: 0x101 in full
+// bone, 1 where the voxel decides, 0 elsewhere.
+static int16 probe(uint16 place, uint16 normal, int16 present, global const struct DueChunkLayout* at,
+                   const struct ContactArguments* a, global const ushort* cells, int16* voxel, int16* needed) {
   const int* m = a->per_unit;
   const int16 x = convert_int16(place & PLACE_MASK), y = convert_int16(place >> REAM_PLACE_BITS & PLACE_MASK),
               z = convert_int16(place >> (2 * REAM_PLACE_BITS) & PLACE_MASK);
-  const int16 u = (m[0] * x + m[1] * y + m[2] * z + at->base[0]) >> a->bits;
-  const int16 v = (m[3] * x + m[4] * y + m[5] * z + at->base[1]) >> a->bits;
-  const int16 w = (m[6] * x + m[7] * y + m[8] * z + at->base[2]) >> a->bits;
+  int16 u = m[0] * x + m[1] * y + m[2] * z + at->base[0];
+  int16 v = m[3] * x + m[4] * y + m[5] * z + at->base[1];
+  int16 w = m[6] * x + m[7] * y + m[8] * z + at->base[2];
+  *needed = move_to_ramp(normal, a, &u, &v, &w);
   const int16 inside = present & (as_uint16(u) < (uint)a->dims[0]) & (as_uint16(v) < (uint)a->dims[1]) &
                        (as_uint16(w) < (uint)a->dims[2]);
   const int16 brick = ((u >> 3) + (v >> 3) * a->brick_row + (w >> 3) * a->brick_slice) & inside;
@@ -198,12 +225,13 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void contact_sums(CONTACT_
     for (; end < last && due[end].block == due[first].block; ++end) {
       global const struct DueChunkLayout* chunk = due + end;
       const uint16 place = vload16(0, places + chunk->first);
-      int16 voxel;
-      const int16 state = probe(place, lane < (int)chunk->count, chunk, &arguments, cells, &voxel);
+      int16 voxel, needed;
+      const int16 state =
+          probe(place, vload16(0, normals + chunk->first), lane < (int)chunk->count, chunk, &arguments, cells, &voxel, &needed);
       int16 engaged = state == 0x101;
       const int16 unsure = state == 1;
       if (any(unsure))
-        engaged |= unsure & (bytes_at(PASS_PARTS(coverage), voxel, unsure) >= REAM_SOLID_COVERAGE);
+        engaged |= unsure & (bytes_at(PASS_PARTS(coverage), voxel, unsure) >= needed);
       engaged_of[end - first] = engaged;
       touched[end] = any(engaged) != 0;
       if (!any(engaged)) continue;
@@ -237,19 +265,42 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void contact_sums(CONTACT_
 
 #else
 
-static bool is_engaged(uint place, global const struct DueChunkLayout* at, const struct ContactArguments* a,
-                       global const ushort* cells, BONE_PARTS(global const uchar, coverage), int* voxel) {
+// Moves a place, in 2^-bits voxel, to the voxel that decides; returns the least coverage that engages.
+static int move_to_ramp(uint normal, const struct ContactArguments* a, int* at) {
+  const int x = (char)normal, y = (char)(normal >> 8), z = (char)(normal >> 16);
+  const int halfway = 1 << (REAM_JUDGE_ROTATION_BITS - 1);
+  int level = 128, projected = halfway, step = 0, axis = 0, outwards = 1;
+  for (int i = 0; i < 3; ++i) {
+    const int* r = a->normal_rotation + 3 * i;
+    const int n = (r[0] * x + r[1] * y + r[2] * z + halfway) >> REAM_JUDGE_ROTATION_BITS;
+    level += n;
+    projected += n * ((at[i] >> (a->bits - REAM_JUDGE_FRACTION_BITS)) & ((1 << REAM_JUDGE_FRACTION_BITS) - 1));
+    at[i] >>= a->bits;
+    if (2 * abs(n) <= (uint)step) continue;
+    step = 2 * abs(n);
+    axis = i;
+    outwards = n < 0 ? -1 : 1;
+  }
+  level -= projected >> REAM_JUDGE_ROTATION_BITS;
+  const int moves = level < 1 ? 1 : (level > 255 && level - step >= 1 ? -1 : 0);
+  at[axis] += moves * outwards;
+  return max(min(level + moves * step, 255) - REAM_JUDGE_TOLERANCE, 1);
+}
+
+static bool is_engaged(uint place, uint normal, global const struct DueChunkLayout* at,
+                       const struct ContactArguments* a, global const ushort* cells,
+                       BONE_PARTS(global const uchar, coverage), int* voxel) {
   const int* m = a->per_unit;
   const int x = place & PLACE_MASK, y = place >> REAM_PLACE_BITS & PLACE_MASK,
             z = place >> (2 * REAM_PLACE_BITS) & PLACE_MASK;
-  const int u = (m[0] * x + m[1] * y + m[2] * z + at->base[0]) >> a->bits;
-  const int v = (m[3] * x + m[4] * y + m[5] * z + at->base[1]) >> a->bits;
-  const int w = (m[6] * x + m[7] * y + m[8] * z + at->base[2]) >> a->bits;
+  int c[3];
+  for (int i = 0; i < 3; ++i) c[i] = m[3 * i] * x + m[3 * i + 1] * y + m[3 * i + 2] * z + at->base[i];
+  const int needed = move_to_ramp(normal, a, c), u = c[0], v = c[1], w = c[2];
   if ((uint)u >= (uint)a->dims[0] || (uint)v >= (uint)a->dims[1] || (uint)w >= (uint)a->dims[2]) return false;
   const int brick = (u >> 3) + (v >> 3) * a->brick_row + (w >> 3) * a->brick_slice;
   const int state = cells[brick] >> (((u >> 2) & 1) | ((v >> 1) & 2) | (w & 4)) & 0x101;
   *voxel = (brick << 9) | (u & 7) | (v & 7) << 3 | (w & 7) << 6;
-  return state == 0x101 || (state == 1 && *AT_VOXEL(coverage, *voxel) >= REAM_SOLID_COVERAGE);
+  return state == 0x101 || (state == 1 && *AT_VOXEL(coverage, *voxel) >= needed);
 }
 
 // Adds every lane's value k to sums[k], and clears the lane's own values.
@@ -297,7 +348,7 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void contact_sums(CONT
     if (i >= chunk->count) continue;
     const uint point = chunk->first + i, place = places[point];
     int voxel;
-    if (!is_engaged(place, chunk, &arguments, cells, PASS_PARTS(coverage), &voxel)) continue;
+    if (!is_engaged(place, normals[point], chunk, &arguments, cells, PASS_PARTS(coverage), &voxel)) continue;
     touched[s] = 1;
     const struct ContactBlockLayout block = blocks[chunk->block];
     if (block.guiding) {

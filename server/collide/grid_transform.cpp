@@ -1,14 +1,20 @@
 #include "collide/grid_transform.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace ream::collide {
 namespace {
 
-constexpr int fine_bits = 40, max_bits = 20, rotation_bits = 30;
+/// `min_bits`: of a place in its voxel that contact is judged by (collide/contact/surface_judge.hpp).
+constexpr int fine_bits = 40, min_bits = 8, max_bits = 20, rotation_bits = 30;
 constexpr int64_t reach_voxels = 128;  // how far outside the grid coordinates must still fit
 constexpr double max_factor = 32767.0;
 constexpr double mm_per_nm = 1e-6;
+/// Of VoxelTransform::normal_rotation: bits of its fraction, and the largest, at which products with normals
+/// still fit 16 bits once shifted.
+constexpr int normal_bits = 7;
+constexpr int64_t max_normal = 16384;
 
 int64_t rounded(double x) { return static_cast<int64_t>(x < 0.0 ? x - 0.5 : x + 0.5); }
 
@@ -56,12 +62,16 @@ VoxelTransform voxel_transform(const QuantisedPose& grid_from_tool, const voxel:
                                double place_unit_mm) noexcept {
   VoxelTransform t;
   t.bits = fitting_bits(grid, place_unit_mm);
+  assert(t.bits >= min_bits);
   for (size_t i = 0; i < 3; ++i) {
     const double spacing_mm = grid.spacing_mm[static_cast<Eigen::Index>(i)];
     const double units = place_unit_mm / spacing_mm;
+    const double edges = spacing_mm / grid.min_spacing_mm() * power_of_two(normal_bits - rotation_bits);
     for (size_t j = 0; j < 3; ++j) {
       const auto r = static_cast<double>(grid_from_tool.rotation_q30[3 * i + j]);
       t.per_unit[3 * i + j] = static_cast<int32_t>(rounded(r * units * power_of_two(t.bits - rotation_bits)));
+      t.normal_rotation[3 * i + j] =
+          static_cast<int32_t>(std::clamp(rounded(r * edges), -max_normal, max_normal));
       t.fine[3 * i + j] = rounded(r * units * power_of_two(fine_bits - rotation_bits));
     }
     t.origin_fine[i] = rounded(static_cast<double>(grid_from_tool.translation_nm[i]) *

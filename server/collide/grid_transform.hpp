@@ -27,6 +27,9 @@ GridAffine tool_from_voxel(const QuantisedPose& grid_from_tool, const voxel::Vox
 struct VoxelTransform {
   int bits = 0;
   std::array<int32_t, 9> per_unit{};  ///< row by row, each within 16 bits
+  /// Takes normals of the tool frame to the grid's axes, times the voxel's edge along each in smallest edges;
+  /// row by row in 1/128 (collide/contact/surface_judge.hpp).
+  std::array<int32_t, 9> normal_rotation{};
   /// The same and the tool's origin in 2^-40 voxel, for the blocks' origins.
   std::array<int64_t, 9> fine{};
   std::array<int64_t, 3> origin_fine{};

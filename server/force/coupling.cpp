@@ -11,6 +11,9 @@ namespace {
 
 /// How much harder than the spring over one tick a blocked direction is.
 constexpr double blocked_to_spring = 1.0e7;
+/// Along the axis, of the mean outward normal: above this the tool is held by bone behind it, not beside or
+/// ahead.
+constexpr double bone_behind = 0.5;
 
 double at(const Mat6& m, size_t i, size_t j) { return m[6 * i + j]; }
 
@@ -92,8 +95,8 @@ CouplingStep couple(const CouplingParameters& p, const Resistance& resistance, c
     step.wrench_on_tool[i] = stiffness[i] * stretch[i];
   }
   // The matrix knows no sides: normals that differ make it hold on to a tool that is drawn back along a wall.
-  // That is not felt.
-  if (resistance.outward.z() < 0.0) step.wrench_on_tool[2] = std::max(0.0, step.wrench_on_tool[2]);
+  // That is not felt, unless the bone lies behind.
+  if (resistance.outward.z() < bone_behind) step.wrench_on_tool[2] = std::max(0.0, step.wrench_on_tool[2]);
   return step;
 }
 

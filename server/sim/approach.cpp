@@ -8,8 +8,8 @@
 namespace ream::sim {
 namespace {
 
-/// Covers the rounding of the spheres' places.
-constexpr float slack_voxels = 1.5f;
+/// Covers the rounding of the spheres' places, and that bone is felt in the voxel next to a probe's.
+constexpr float slack_voxels = 2.5f;
 
 /// Path, mm, that every probe of the tool may go from where it stands, in any direction, without meeting
 /// bone: a lower bound from the distance field, 0 near bone. Removal only adds to it.
@@ -37,11 +37,33 @@ Approach look(const Model& model, State& state) noexcept {
   Approach found;
   const QuantisedPose pose = quantised(state.world_from_grid.inverse() * state.world_from_tool);
   const collide::Voi voi = collide::broad_phase(state.cells.bounds_mm(), model.tool_box_tool,
-                                                dequantised(pose), model.thin_step_mm);
+                                                dequantised(pose), model.contact_reach_mm);
   found.ok = work_or_fail_over(
       state, [&](const Backend& backend) { return backend.narrow_phase->contact(pose, voi, found.sums); });
   state.free_path_mm = found.ok && found.sums.engaged() == 0 ? 0.0 : -1.0;
   return found;
+}
+
+/// Where contact begins on the way from `world_from_free`, where the tool touches nothing, to where it stands
+/// and touches: halves the way until it is short enough. The tool ends where it touches.
+Approach first_touch(const Model& model, State& state, Pose world_from_free, const Approach& there) noexcept {
+  Approach touching = there;
+  Pose world_from_touch = state.world_from_tool;
+  double way_mm = path_bound_mm(model, world_from_free, world_from_touch);
+  for (; way_mm > touch_within_voxels * model.thin_step_mm && touching.ok; way_mm *= 0.5) {
+    const Pose world_from_middle = between(world_from_free, world_from_touch, 0.5);
+    state.world_from_tool = world_from_middle;
+    const Approach found = look(model, state);
+    if (found.ok && found.sums.engaged() == 0) {
+      world_from_free = world_from_middle;
+      continue;
+    }
+    touching = found;
+    world_from_touch = world_from_middle;
+  }
+  state.world_from_tool = world_from_touch;
+  state.free_path_mm = -1.0;
+  return touching;
 }
 
 }  // namespace
@@ -71,11 +93,14 @@ Approach approach(const Model& model, State& state, const Pose& world_from_handl
       state.free_path_mm = std::max(state.free_path_mm, clearance_mm(model, state));
     const bool blind = state.free_path_mm >= std::min(left_mm, look_every_mm);
     const double step_mm = std::min(left_mm, blind ? state.free_path_mm : look_every_mm);
+    const Pose world_from_free = state.world_from_tool;
     state.world_from_tool = step_mm >= left_mm
                                 ? world_from_handle
                                 : between(state.world_from_tool, world_from_handle, step_mm / left_mm);
     state.free_path_mm -= step_mm;
-    if (!blind) found = look(model, state);
+    if (blind) continue;
+    found = look(model, state);
+    if (found.ok && found.sums.engaged() > 0) return first_touch(model, state, world_from_free, found);
   }
   return found;
 }

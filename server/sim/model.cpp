@@ -28,8 +28,11 @@ Model make_model(const case_::Plan& plan, voxel::BoneModel& bone, shell::Tool to
   model.profile =
       shell::swept_profile(model.tool.profile, collide::RemovalSchedule::needed_margin_mm(bone.grid));
   const shell::PointShell points = shell::make_point_shell(model.tool, settings.tool_spacing_mm);
-  model.contact_shell = collide::make_contact_shell(points, bone.grid.spacing_mm.maxCoeff());
-  if (settings.removal == RemovalLaw::decay) model.decay_shell = collide::make_decay_shell(points);
+  const bool by_decay = settings.removal == RemovalLaw::decay;
+  model.contact_shell = collide::make_contact_shell(
+      points, bone.grid.spacing_mm.maxCoeff(),
+      by_decay ? collide::ContactRule::one_voxel_out : collide::ContactRule::at_surface);
+  if (by_decay) model.decay_shell = collide::make_decay_shell(points);
   model.distance = voxel::brick_distance(bone);
   if (model.distance.nothing())
     throw Error(ErrorKind::invalid_input, "the case holds no bone; import it again with a lower threshold");
@@ -48,6 +51,8 @@ Model make_model(const case_::Plan& plan, voxel::BoneModel& bone, shell::Tool to
   model.guide = make_guide(model);
   model.mount = stable_mount(model);
   model.thin_step_mm = bone.grid.min_spacing_mm();
+  // Half a voxel's diagonal, and one to the voxel next to a probe's.
+  model.contact_reach_mm = 2.0 * bone.grid.spacing_mm.maxCoeff();
   return model;
 }
 

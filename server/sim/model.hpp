@@ -35,6 +35,8 @@ struct Model {
   std::optional<device::ScapulaMount> mount;  ///< as simulated, see sim/scapula_mount.hpp
   double thin_step_mm =
       0.1;  ///< no point of the tool moves farther between two looks for contact (one voxel)
+  /// As near as bone must be to a point of the tool to be felt by it, at most.
+  double contact_reach_mm = 0.2;
 };
 
 /// Prepares a planned case for a tool: cuts the pilot hole into `bone` and builds the rest. Errors: conflict

@@ -79,19 +79,6 @@ Pose moved_within_a_voxel(const Model& model, const Pose& world_from_tool, const
   return path_mm <= limit_mm ? whole : moved(world_from_tool, motion, limit_mm / path_mm);
 }
 
-/// Bone is felt up to a voxel ahead of the surface that cuts, so that cutting does not clear its own contact.
-/// A tool that comes back to a place it has reamed would feel that voxel as bone and sink through it at the
-/// feed law's pace, cutting nothing. So until lips bite, and when they have gone this far without, what they
-/// meet counts as a gap that hardly resists. Bone that is cut is looked at every 1/64 voxel.
-constexpr double bites_within_voxels = 0.125;
-constexpr double gap_resistance_share = 0.01;
-
-bool bites(const Model& model, const State& state) {
-  if (!state.last_bite_mm) return false;
-  const Vec3 now_mm = state.world_from_grid.inverse().point(state.world_from_tool.translation_mm);
-  return (now_mm - *state.last_bite_mm).norm() < bites_within_voxels * model.thin_step_mm;
-}
-
 /// How the engaged surface slid in the tick before.
 force::Sliding sliding(const Model& model, const State& state, const force::EngagedBone& bone,
                        const Vec3& outward, bool spindle_on) {
@@ -149,10 +136,8 @@ ToolLoad press(const Model& model, State& state, const collide::ContactSums& sum
       bone.any() ? model.feed->load(bone, state.thrust_n) : force::CuttingLoad{};
   const force::Vec6 delta = handle_minus_tool(state.world_from_tool, input.world_from_handle);
   const force::CouplingParameters coupling = yielding(model, state);
-  const bool biting = bites(model, state);
-  const double resistance_n_s_mm = cutting.resistance_n_s_mm * (biting ? 1.0 : gap_resistance_share);
   const auto press_when = [&](bool cuts) {
-    force::Resistance resistance = contact_resistance(model, sums, resistance_n_s_mm, cuts);
+    force::Resistance resistance = contact_resistance(model, sums, cutting.resistance_n_s_mm, cuts);
     force::add_friction(sliding(model, state, bone, resistance.outward, input.spindle_on), resistance);
     return Pressed{force::couple(coupling, resistance, delta, tick_s), resistance.outward};
   };
@@ -174,12 +159,12 @@ ToolLoad press(const Model& model, State& state, const collide::ContactSums& sum
   load.spring = {Vec3(w[0], w[1], w[2]), Vec3(w[3], w[4], w[5])};
   load.unlimited_force_n = model.coupling.stiffness_n_mm * Vec3(delta[0], delta[1], delta[2]).norm();
   load.cuts = cuts;
-  if (cuts && biting) load.spindle_torque_n_mm = cutting.torque_arm_mm * std::max(0.0, w[2]);
+  if (cuts) load.spindle_torque_n_mm = cutting.torque_arm_mm * std::max(0.0, w[2]);
   state.normal_force_n = std::max(0.0, pressed.normal_force_n());
 
   report.engaged = true;
   report.weakened = coupled.yielded;
-  report.cutting = cuts && biting;
+  report.cutting = cuts;
   report.thrust_n = w[2];
   report.torque_n_mm = load.spring.torque_n_mm.norm();
   report.spindle_torque_n_mm = load.spindle_torque_n_mm;

@@ -50,7 +50,6 @@ bool remove_bone(State& state, const QuantisedPose& pose, TickReport& report) no
   for (size_t k = 0; k < 3; ++k) report.coverage_removed[k] = sums.coverage_removed[k];
   report.changed_bricks = sums.changed_bricks;
   if (sums.changed_bricks != 0) {
-    state.last_bite_mm = dequantised(pose).translation_mm;
     state.session_hash = hash_combine(state.session_hash, sums.change_hash);
   }
   return true;

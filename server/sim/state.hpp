@@ -53,8 +53,6 @@ struct State {
   double free_path_mm = -1.0;
   size_t nearest_block = 0;  ///< of the shell to bone, when that was last looked for
   force::Vec6 tool_twist{};  ///< of the last tick, tool frame: mm/s, rad/s
-  /// Where in the grid the tool's origin was when this contact last took bone away; empty before it has.
-  std::optional<Vec3> last_bite_mm;
   double thrust_n = 0.0;        ///< simulated, of the last tick
   double normal_force_n = 0.0;  ///< simulated, of the last tick, that presses tool and bone together
   HandOutput output;

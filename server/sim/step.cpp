@@ -107,7 +107,6 @@ StepStatus step(const Model& model, State& state, const device::DeviceInput& raw
 
   if (!load.cuts) state.schedule.pass(report.grid_from_tool);
   if (load.cuts && !remove_bone(state, report.grid_from_tool, report)) return StepStatus::collision_failed;
-  if (!report.engaged) state.last_bite_mm.reset();
 
   report.failed_over = state.failed_over_tick == report.tick;
   report.vibration_g = state.vibration.next_g(vibration_input(model, report));

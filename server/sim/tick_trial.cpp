@@ -61,8 +61,8 @@ double TickTrial::tick_us(Backend& backend, double depth_mm, int number) const {
 
 bool TickTrial::look(collide::NarrowPhase& narrow_phase, double depth_mm, collide::ContactSums& sums) const {
   const QuantisedPose pose = quantised(grid_from_plan_ * Pose{Mat3::Identity(), Vec3(0.0, 0.0, depth_mm)});
-  const collide::Voi voi =
-      collide::broad_phase(cells_.bounds_mm(), model_.tool_box_tool, dequantised(pose), model_.thin_step_mm);
+  const collide::Voi voi = collide::broad_phase(cells_.bounds_mm(), model_.tool_box_tool, dequantised(pose),
+                                                model_.contact_reach_mm);
   return narrow_phase.contact(pose, voi, sums);
 }
 

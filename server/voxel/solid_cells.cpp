@@ -8,8 +8,6 @@ namespace {
 /// Cells of a brick that lie in its low (0) or high (1) half along each axis.
 constexpr uint8_t half_of_brick[3][2] = {{0x55, 0xaa}, {0x33, 0xcc}, {0x0f, 0xf0}};
 
-constexpr uint64_t top_bits = 0x8080808080808080ull;
-
 }  // namespace
 
 SolidCells::SolidCells(const BoneModel& bone)
@@ -27,7 +25,7 @@ SolidCells::SolidCells(const BoneModel& bone)
 }
 
 uint16_t SolidCells::word_of(const uint8_t* brick_coverage) noexcept {
-  // Solid is the top bit of a coverage; a row of eight voxels crosses two cells, its low and its high half.
+  // A row of eight voxels crosses two cells, its low and its high half.
   uint32_t word = 0;
   for (int pair = 0; pair < 4; ++pair) {
     const uint8_t* first_row = brick_coverage + (pair % 2) * cell_edge * 8 + (pair / 2) * cell_edge * 64;
@@ -39,13 +37,11 @@ uint16_t SolidCells::word_of(const uint8_t* brick_coverage) noexcept {
         some |= row;
         all &= row;
       }
-    some &= top_bits;
-    all &= top_bits;
     for (int half = 0; half < 2; ++half) {
       const auto some_half = static_cast<uint32_t>(some >> (32 * half)),
                  all_half = static_cast<uint32_t>(all >> (32 * half));
       word |= static_cast<uint32_t>(some_half != 0) << (2 * pair + half);
-      word |= static_cast<uint32_t>(all_half == static_cast<uint32_t>(top_bits)) << (8 + 2 * pair + half);
+      word |= static_cast<uint32_t>(all_half == 0xffffffffu) << (8 + 2 * pair + half);
     }
   }
   return static_cast<uint16_t>(word);

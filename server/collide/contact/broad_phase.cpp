@@ -6,8 +6,9 @@
 namespace ream::collide {
 namespace {
 
-/// Covers the rounding of the centre's coordinates and of the probes' places, voxels.
-constexpr float slack_voxels = 1.0f;
+/// Covers the rounding of the centre's coordinates and of the probes' places, and that a point may be judged
+/// by a voxel next to its own; voxels.
+constexpr float slack_voxels = 2.0f;
 
 Vec3f centre_of(const ContactShell& shell, uint32_t block) noexcept {
   return {shell.centre_x_mm[block], shell.centre_y_mm[block], shell.centre_z_mm[block]};

@@ -29,8 +29,8 @@ class BoneGap {
   BoneGap(const voxel::BrickDistance& distance, const voxel::VoxelGrid& grid,
           const QuantisedPose& grid_from_tool) noexcept;
 
-  /// Lower bound of how far, in voxels, the block's probes are from solid bone, but for the rounding of the
-  /// sphere's place, which is below a voxel; not above 0 when they may touch.
+  /// Lower bound of how far, in voxels, the block's probes are from bone, but for the rounding of the
+  /// sphere's place, which is below a voxel. They touch no farther than a voxel from it.
   float voxels(const ContactShell& shell, uint32_t block) const noexcept;
   float voxels_per_mm() const noexcept { return voxels_per_mm_; }
 

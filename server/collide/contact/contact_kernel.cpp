@@ -1,5 +1,6 @@
 #include "collide/contact/contact_kernel.hpp"
 
+#include "collide/contact/surface_judge.hpp"
 #include "core/vector_clones.hpp"
 
 namespace ream::collide {
@@ -7,36 +8,57 @@ namespace {
 
 constexpr int32_t some_bit = 0x1, all_bit = 0x100, any_cell = 0xff;
 
-/// Per point of a chunk: the voxel its probe lies in, what its cell says (all_bit and some_bit in solid bone,
-/// some_bit where the voxel decides, 0 in the air and outside the grid), and whether its brick has solid
-/// cells.
+/// Per point of a chunk: the voxel that decides, its least coverage that engages, what its cell says (all_bit
+/// and some_bit in full bone, some_bit where the voxel decides, 0 in the air and outside the grid), and
+/// whether its brick has bone.
 struct Probed {
   alignas(64) int32_t voxel[chunk_points];
+  alignas(64) int32_t needed[chunk_points];
   alignas(64) int32_t state[chunk_points];
   alignas(64) int32_t in_brick[chunk_points];
 };
 
-/// Straight-line arithmetic, so that it vectorizes. Reads whole chunks: places are padded.
-REAM_VECTOR_CLONES void probe(const ContactView& view, const DueChunk& chunk, Probed& shared_probed) {
+/// Normals of points that look at the voxel that they lie in, whatever its level.
+constexpr uint32_t no_normals[chunk_points] = {};
+
+constexpr int32_t signed_byte(uint32_t word, int index) {
+  return static_cast<int32_t>(static_cast<int8_t>(word >> (8 * index)));
+}
+
+/// Straight-line arithmetic, so that it vectorizes. Reads whole chunks: places and normals are padded.
+REAM_VECTOR_CLONES void probe(const ContactView& view, const DueChunk& chunk,
+                              const uint32_t* __restrict normals, Probed& shared_probed) {
   const uint32_t* __restrict places = view.places + chunk.first;
   const auto m = view.per_unit;
+  const auto rotation = view.normal_rotation;
   const auto base = chunk.base;
   const auto count = static_cast<int>(chunk.count);
-  const int bits = view.bits;
+  const int bits = view.bits, fraction_shift = bits - judge_fraction_bits;
+  constexpr int32_t fraction_mask = (1 << judge_fraction_bits) - 1;
   const auto dx = static_cast<uint32_t>(view.dims[0]), dy = static_cast<uint32_t>(view.dims[1]),
              dz = static_cast<uint32_t>(view.dims[2]);
   const int brick_row = view.brick_row, brick_slice = view.brick_slice;
   const uint16_t* __restrict cells = view.cells;
   int32_t* __restrict voxel = shared_probed.voxel;
+  int32_t* __restrict needed = shared_probed.needed;
   int32_t* __restrict state = shared_probed.state;
   int32_t* __restrict in_brick = shared_probed.in_brick;
   for (int i = 0; i < chunk_points; ++i) {
     const auto x = static_cast<int32_t>(places[i] & place_mask),
                y = static_cast<int32_t>(places[i] >> place_bits & place_mask),
                z = static_cast<int32_t>(places[i] >> (2 * place_bits) & place_mask);
-    const int32_t u = (m[0] * x + m[1] * y + m[2] * z + base[0]) >> bits;
-    const int32_t v = (m[3] * x + m[4] * y + m[5] * z + base[1]) >> bits;
-    const int32_t w = (m[6] * x + m[7] * y + m[8] * z + base[2]) >> bits;
+    const int32_t at_u = m[0] * x + m[1] * y + m[2] * z + base[0];
+    const int32_t at_v = m[3] * x + m[4] * y + m[5] * z + base[1];
+    const int32_t at_w = m[6] * x + m[7] * y + m[8] * z + base[2];
+    ColumnLevel column = column_level(
+        rotation, {signed_byte(normals[i], 0), signed_byte(normals[i], 1), signed_byte(normals[i], 2)},
+        {(at_u >> fraction_shift) & fraction_mask, (at_v >> fraction_shift) & fraction_mask,
+         (at_w >> fraction_shift) & fraction_mask});
+    const int32_t moves = moves_to_ramp(column);
+    needed[i] = needed_coverage(column.level);
+    const int32_t u = (at_u >> bits) + (column.axis == 0 ? moves : 0);
+    const int32_t v = (at_v >> bits) + (column.axis == 1 ? moves : 0);
+    const int32_t w = (at_w >> bits) + (column.axis == 2 ? moves : 0);
     // Outside points look at voxel 0 and are dropped by the mask.
     const int32_t inside = (static_cast<uint32_t>(u) < dx ? -1 : 0) &
                            (static_cast<uint32_t>(v) < dy ? -1 : 0) &
@@ -56,8 +78,8 @@ uint32_t engaged_points(const ContactView& view, const Probed& probed) {
   for (uint32_t i = 0; i < chunk_points; ++i) {
     const int32_t state = probed.state[i];
     if (state == 0) continue;
-    const bool solid = state != some_bit || view.coverage[probed.voxel[i]] >= voxel::solid_coverage;
-    engaged |= static_cast<uint32_t>(solid) << i;
+    const bool meets = state != some_bit || view.coverage[probed.voxel[i]] >= probed.needed[i];
+    engaged |= static_cast<uint32_t>(meets) << i;
   }
   return engaged;
 }
@@ -103,7 +125,7 @@ void look_at_block(const ContactView& view, std::span<const DueChunk> chunks, ui
   uint32_t total = 0;
   for (size_t i = 0; i < chunks.size(); ++i) {
     Probed probed;
-    probe(view, chunks[i], probed);
+    probe(view, chunks[i], view.normals + chunks[i].first, probed);
     engaged[i] = engaged_points(view, probed);
     touched[i] = engaged[i] != 0;
     total += static_cast<uint32_t>(__builtin_popcount(engaged[i]));
@@ -128,8 +150,7 @@ void look(const ContactView& view, std::span<const DueChunk> chunks, uint8_t* to
   }
 }
 
-bool meets(const ContactView& view, const Probed& probed, Clearance clearance) {
-  if (clearance == Clearance::voxel) return engaged_points(view, probed) != 0;
+bool meets(const Probed& probed, Clearance clearance) {
   int32_t any = 0;
   for (size_t i = 0; i < chunk_points; ++i)
     any |= clearance == Clearance::brick ? probed.in_brick[i] : probed.state[i];
@@ -139,8 +160,8 @@ bool meets(const ContactView& view, const Probed& probed, Clearance clearance) {
 bool is_clear(const ContactView& view, const DueChunk& chunk, Clearance clearance) noexcept {
   for (int corner = 0; corner < 8; ++corner) {
     Probed probed;
-    probe(view, shifted(view, chunk, clearance, corner), probed);
-    if (meets(view, probed, clearance)) return false;
+    probe(view, shifted(view, chunk, clearance, corner), no_normals, probed);
+    if (meets(probed, clearance)) return false;
   }
   return true;
 }
@@ -153,6 +174,7 @@ ContactView contact_view(const NarrowPhaseInput& input) noexcept {
   const Vec3i dims = input.bone.grid.dims, bricks = input.bone.grid.brick_dims();
   return {input.shell.places.data(),
           input.shell.directions.data(),
+          input.shell.normals.data(),
           input.shell.blocks.data(),
           &input.shell.table,
           input.cells.words().data(),
@@ -163,11 +185,12 @@ ContactView contact_view(const NarrowPhaseInput& input) noexcept {
           bricks.x() * bricks.y(),
           voxel::first_cortical_code(input.bone.cortical_threshold_g_cc),
           {},
+          {},
           0};
 }
 
 DueChunk shifted(const ContactView& view, const DueChunk& chunk, Clearance clearance, int corner) noexcept {
-  const auto reach = static_cast<int32_t>(clearance_voxels(clearance) * static_cast<float>(1 << view.bits));
+  const auto reach = static_cast<int32_t>(cube_reach_voxels(clearance) * static_cast<float>(1 << view.bits));
   DueChunk moved = chunk;
   for (size_t i = 0; i < 3; ++i) moved.base[i] += corner >> i & 1 ? reach : -reach;
   return moved;

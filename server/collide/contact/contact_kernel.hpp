@@ -10,6 +10,7 @@ namespace ream::collide {
 struct ContactView {
   const uint32_t* places;
   const uint16_t* directions;
+  const uint32_t* normals;
   const ContactBlock* blocks;
   const DirectionTable* table;
   const uint16_t* cells;    ///< SolidCells::words
@@ -18,8 +19,14 @@ struct ContactView {
   int32_t dims[3];
   int32_t brick_row, brick_slice;  ///< bricks per row and per layer
   int32_t first_cortical_code;     ///< lowest density code of cortical bone
-  std::array<int32_t, 9> per_unit;
+  std::array<int32_t, 9> per_unit, normal_rotation;
   int bits;
+
+  void look_from(const VoxelTransform& transform) noexcept {
+    per_unit = transform.per_unit;
+    normal_rotation = transform.normal_rotation;
+    bits = transform.bits;
+  }
 };
 
 /// The view of one look; what does not change between looks is taken from `input`.
@@ -33,12 +40,15 @@ struct DueChunk {
   std::array<int32_t, 3> base;
 };
 
-/// How far every probe is from solid bone, told by what the corners of a cube around it meet: cubes a little
-/// smaller than a brick, a cell or a voxel reach into no more than eight of them.
-enum class Clearance { brick, cell, voxel };
-constexpr float clearance_voxels(Clearance clearance) {
-  return clearance == Clearance::brick ? 3.875f : clearance == Clearance::cell ? 1.875f : 0.4375f;
+/// How far every probe is from bone, told by what the corners of a cube around it meet: cubes a little
+/// smaller than a brick or a cell reach into no more than eight of them.
+enum class Clearance { brick, cell };
+/// Half the cube's edge.
+constexpr float cube_reach_voxels(Clearance clearance) {
+  return clearance == Clearance::brick ? 3.875f : 1.875f;
 }
+/// How far a probe may move from there without touching: a point may be judged by a voxel next to its own.
+constexpr float clearance_voxels(Clearance clearance) { return cube_reach_voxels(clearance) - 1.0f; }
 
 /// The chunk moved to one of the eight corners of the cube of that clearance around it.
 DueChunk shifted(const ContactView& view, const DueChunk& chunk, Clearance clearance, int corner) noexcept;
@@ -46,7 +56,7 @@ DueChunk shifted(const ContactView& view, const DueChunk& chunk, Clearance clear
 /// Adds the engaged points of the chunks, which are in rising order, to the sums; touched[i] becomes 1 when
 /// chunk i has any, else 0.
 using Look = void (*)(const ContactView&, std::span<const DueChunk>, uint8_t* touched, ContactSums&) noexcept;
-/// True when no probe of the chunk comes nearer to solid bone than that.
+/// True when no probe of the chunk comes nearer to bone than that.
 using IsClear = bool (*)(const ContactView&, const DueChunk&, Clearance) noexcept;
 
 struct ContactKernels {

@@ -6,6 +6,8 @@
 #include <bit>
 #include <cstring>
 
+#include "collide/contact/surface_judge.hpp"
+
 #define REAM_AVX512 __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,avx512vnni,bmi2")))
 
 namespace ream::collide {
@@ -25,7 +27,8 @@ inline int pair(int32_t low, int32_t high) {
 
 /// What a look needs of the view in registers.
 struct Lens {
-  __m512i xy[3], z[3], dims[3], brick_row, brick_slice, brick_steps, bits;
+  __m512i xy[3], z[3], dims[3], brick_row, brick_slice, brick_steps, bits, fraction_shift;
+  __m512i normal_xz[3], normal_y[3];
   bool small_grid;  ///< a layer's bricks can be counted in 15 bits, so brick_steps serves
 };
 
@@ -34,6 +37,9 @@ REAM_AVX512 inline Lens lens_of(const ContactView& view) {
   for (size_t i = 0; i < 3; ++i) {
     l.xy[i] = _mm512_set1_epi32(pair(view.per_unit[3 * i], view.per_unit[3 * i + 1]));
     l.z[i] = _mm512_set1_epi32(pair(view.per_unit[3 * i + 2], 0));
+    const int32_t* rotation = view.normal_rotation.data() + 3 * i;
+    l.normal_xz[i] = _mm512_set1_epi32(pair(rotation[0], rotation[2]));
+    l.normal_y[i] = _mm512_set1_epi32(pair(rotation[1], 0));
     l.dims[i] = _mm512_set1_epi32(view.dims[i]);
   }
   l.brick_row = _mm512_set1_epi32(view.brick_row);
@@ -41,13 +47,14 @@ REAM_AVX512 inline Lens lens_of(const ContactView& view) {
   l.brick_steps = _mm512_set1_epi32(pair(view.brick_row, view.brick_slice));
   l.small_grid = view.brick_slice <= INT16_MAX;
   l.bits = _mm512_set1_epi32(view.bits);
+  l.fraction_shift = _mm512_set1_epi32(view.bits - judge_fraction_bits);
   return l;
 }
 
+/// In 2^-bits voxel.
 REAM_AVX512 inline __m512i coordinate(const Lens& l, size_t i, __m512i xy, __m512i z, int32_t base) {
-  const __m512i sum = _mm512_add_epi32(_mm512_add_epi32(pair_products(xy, l.xy[i]), pair_products(z, l.z[i])),
-                                       _mm512_set1_epi32(base));
-  return _mm512_srav_epi32(sum, l.bits);
+  return _mm512_add_epi32(_mm512_add_epi32(pair_products(xy, l.xy[i]), pair_products(z, l.z[i])),
+                          _mm512_set1_epi32(base));
 }
 
 REAM_AVX512 inline __m512i low_bits(__m512i value, int mask) {
@@ -68,7 +75,54 @@ REAM_AVX512 inline __m512i gather_bytes(__mmask16 mask, __m512i index, const uin
   return low_bits(_mm512_srlv_epi32(words, shift), 0xff);
 }
 
-/// Voxels of sixteen probes, their cells' words, and where the cells' bits lie in them.
+/// Voxels of sixteen probes.
+struct Voxels {
+  __m512i u, v, w;
+};
+
+/// Moves to the voxels that decide and gives their least coverages that engage: twin of surface_judge.hpp.
+/// `places` are in 2^-bits voxel.
+REAM_AVX512 inline __m512i move_to_ramp(const Lens& l, __m512i normals, const __m512i places[3],
+                                        Voxels& voxels) {
+  // Bytes x y z 0 as signed pairs (x, z) and (y, 0).
+  const __m512i xz = _mm512_srai_epi16(_mm512_slli_epi16(normals, 8), 8), y = _mm512_srai_epi16(normals, 8);
+  const __m512i zero = _mm512_setzero_si512(), one = _mm512_set1_epi32(1), full = _mm512_set1_epi32(255);
+  const __m512i half = _mm512_set1_epi32(1 << (judge_rotation_bits - 1));
+  __m512i n[3], length[3], along = _mm512_set1_epi32(128), projected = half;
+  for (size_t i = 0; i < 3; ++i) {
+    n[i] = _mm512_srai_epi32(
+        _mm512_dpwssd_epi32(_mm512_dpwssd_epi32(half, xz, l.normal_xz[i]), y, l.normal_y[i]),
+        judge_rotation_bits);
+    length[i] = _mm512_abs_epi32(n[i]);
+    along = _mm512_add_epi32(along, n[i]);
+    const __m512i fraction =
+        low_bits(_mm512_srlv_epi32(places[i], l.fraction_shift), (1 << judge_fraction_bits) - 1);
+    projected = _mm512_dpwssd_epi32(projected, n[i], fraction);
+  }
+  __m512i level = _mm512_sub_epi32(along, _mm512_srai_epi32(projected, judge_rotation_bits));
+  const __m512i longest = _mm512_max_epi32(_mm512_max_epi32(length[0], length[1]), length[2]);
+  const __m512i step = _mm512_slli_epi32(longest, 1);
+  const __mmask16 out = _mm512_cmplt_epi32_mask(level, one);
+  const __mmask16 in =
+      _mm512_mask_cmpge_epi32_mask(_mm512_cmpgt_epi32_mask(level, full), _mm512_sub_epi32(level, step), one);
+  level = _mm512_mask_add_epi32(level, out, level, step);
+  level = _mm512_mask_sub_epi32(level, in, level, step);
+  __mmask16 left = out | in;
+  __m512i* const coordinates[3] = {&voxels.u, &voxels.v, &voxels.w};
+  for (size_t i = 0; i < 3; ++i) {
+    const __mmask16 here = _mm512_mask_cmpeq_epi32_mask(left, length[i], longest);
+    left &= static_cast<__mmask16>(~here);
+    const __mmask16 negative = _mm512_cmplt_epi32_mask(n[i], zero);
+    const auto up = static_cast<__mmask16>(here & (out ^ negative));
+    const auto down = static_cast<__mmask16>(here & ~(out ^ negative));
+    *coordinates[i] = _mm512_mask_add_epi32(*coordinates[i], up, *coordinates[i], one);
+    *coordinates[i] = _mm512_mask_sub_epi32(*coordinates[i], down, *coordinates[i], one);
+  }
+  const __m512i tolerance = _mm512_set1_epi32(judge_tolerance_levels);
+  return _mm512_max_epi32(_mm512_sub_epi32(_mm512_min_epi32(level, full), tolerance), one);
+}
+
+/// Voxels that decide about sixteen probes, their cells' words, and where the cells' bits lie in them.
 struct Probed {
   __m512i u, v, w, brick, words, cell;
 
@@ -89,17 +143,26 @@ REAM_AVX512 inline __m512i brick_of(const Lens& l, __m512i u, __m512i v, __m512i
                                               _mm512_mullo_epi32(_mm512_srli_epi32(w, 3), l.brick_slice)));
 }
 
-REAM_AVX512 inline Probed probe(const uint32_t* places, const uint16_t* cells, const Lens& l,
-                                const DueChunk& chunk) {
+/// Normals of points that look at the voxel that they lie in, whatever its level.
+alignas(64) constexpr uint32_t no_normals[lanes] = {};
+
+/// `normals` are the chunk's; `needed` takes the least coverages that engage.
+REAM_AVX512 inline Probed probe(const uint32_t* places, const uint32_t* normals, const uint16_t* cells,
+                                const Lens& l, const DueChunk& chunk, __m512i& needed) {
   const auto present = static_cast<__mmask16>((1u << chunk.count) - 1);
   const __m512i place = _mm512_loadu_si512(places + chunk.first);
   const __m512i xy = or_bits(low_bits(place, place_mask), _mm512_slli_epi32(place, 16 - place_bits),
                              static_cast<int>(place_mask << 16));
   const __m512i z = low_bits(_mm512_srli_epi32(place, 2 * place_bits), place_mask);
+  const __m512i at[3] = {coordinate(l, 0, xy, z, chunk.base[0]), coordinate(l, 1, xy, z, chunk.base[1]),
+                         coordinate(l, 2, xy, z, chunk.base[2])};
+  Voxels voxels{_mm512_srav_epi32(at[0], l.bits), _mm512_srav_epi32(at[1], l.bits),
+                _mm512_srav_epi32(at[2], l.bits)};
+  needed = move_to_ramp(l, _mm512_loadu_si512(normals), at, voxels);
   Probed p;
-  p.u = coordinate(l, 0, xy, z, chunk.base[0]);
-  p.v = coordinate(l, 1, xy, z, chunk.base[1]);
-  p.w = coordinate(l, 2, xy, z, chunk.base[2]);
+  p.u = voxels.u;
+  p.v = voxels.v;
+  p.w = voxels.w;
   __mmask16 inside = _mm512_mask_cmplt_epu32_mask(present, p.u, l.dims[0]);
   inside = _mm512_mask_cmplt_epu32_mask(inside, p.v, l.dims[1]);
   inside = _mm512_mask_cmplt_epu32_mask(inside, p.w, l.dims[2]);
@@ -110,9 +173,9 @@ REAM_AVX512 inline Probed probe(const uint32_t* places, const uint16_t* cells, c
   return p;
 }
 
-/// Points that lie in wholly solid cells, and those whose voxel decides.
+/// Points that lie in wholly full cells, and those whose voxel decides.
 struct Decided {
-  __mmask16 solid, unsure;
+  __mmask16 full, unsure;
 };
 
 REAM_AVX512 inline Decided decided(const Probed& p) {
@@ -123,20 +186,18 @@ REAM_AVX512 inline Decided decided(const Probed& p) {
 }
 
 /// True when any of the probes meets something of the size that the clearance is about.
-REAM_AVX512 inline bool meets(const ContactView& view, const Probed& p, Clearance clearance) {
+REAM_AVX512 inline bool meets(const Probed& p, Clearance clearance) {
   if (clearance == Clearance::brick) return _mm512_test_epi32_mask(p.words, _mm512_set1_epi32(0xff)) != 0;
   const Decided d = decided(p);
-  if (clearance == Clearance::cell) return (d.solid | d.unsure) != 0;
-  if (d.solid != 0) return true;
-  return _mm512_mask_test_epi32_mask(d.unsure, gather_bytes(d.unsure, p.voxel(), view.coverage),
-                                     _mm512_set1_epi32(voxel::solid_coverage)) != 0;
+  return (d.full | d.unsure) != 0;
 }
 
 REAM_AVX512 bool is_clear(const ContactView& view, const DueChunk& chunk, Clearance clearance) noexcept {
   const Lens lens = lens_of(view);
   for (int corner = 0; corner < 8; ++corner) {
     const DueChunk moved = shifted(view, chunk, clearance, corner);
-    if (meets(view, probe(view.places, view.cells, lens, moved), clearance)) return false;
+    __m512i needed;
+    if (meets(probe(view.places, no_normals, view.cells, lens, moved, needed), clearance)) return false;
   }
   return true;
 }
@@ -164,27 +225,30 @@ struct List {
 struct Batch {
   alignas(64) int32_t voxel[batch_points];
   __mmask16 engaged[batch_chunks], unsure[batch_chunks];
-  List unsure_voxels;
-  /// One bit for each unsure voxel, in order: it is solid. Padded, as eight bytes are read at once.
+  List unsure_voxels, needed;  ///< and the coverages that they need to engage
+  /// One bit for each unsure voxel, in order: it engages. Padded, as eight bytes are read at once.
   uint16_t answers[batch_chunks + 4];
   List densities;      ///< voxels of engaged cutting points
   List directions[2];  ///< of engaged points of blocks that are not wholly engaged: cutting, guiding
 };
 
 REAM_AVX512 void find_voxels(const ContactView& view, std::span<const DueChunk> chunks, Batch& batch) {
-  batch.unsure_voxels.count = 0;
+  batch.unsure_voxels.count = batch.needed.count = 0;
   // Copies, so that the compiler knows that stores do not change them.
   const Lens lens = lens_of(view);
   const uint32_t* const places = view.places;
+  const uint32_t* const normals = view.normals;
   const uint16_t* const cells = view.cells;
   for (size_t i = 0; i < chunks.size(); ++i) {
-    const Probed p = probe(places, cells, lens, chunks[i]);
+    __m512i needed;
+    const Probed p = probe(places, normals + chunks[i].first, cells, lens, chunks[i], needed);
     const Decided d = decided(p);
     const __m512i voxel = p.voxel();
     _mm512_store_si512(batch.voxel + i * lanes, voxel);
-    batch.engaged[i] = d.solid;
+    batch.engaged[i] = d.full;
     batch.unsure[i] = d.unsure;
     batch.unsure_voxels.append(d.unsure, voxel);
+    batch.needed.append(d.unsure, needed);
   }
 }
 
@@ -192,7 +256,7 @@ REAM_AVX512 void ask_voxels(const ContactView& view, Batch& batch) {
   const List& list = batch.unsure_voxels;
   for (size_t i = 0; i < list.count; i += lanes) {
     const __m512i coverage = gather_bytes(list.present(i), _mm512_load_si512(list.items + i), view.coverage);
-    batch.answers[i / lanes] = _mm512_test_epi32_mask(coverage, _mm512_set1_epi32(voxel::solid_coverage));
+    batch.answers[i / lanes] = _mm512_cmpge_epi32_mask(coverage, _mm512_load_si512(batch.needed.items + i));
   }
 }
 

@@ -119,7 +119,7 @@ bool ContactSchedule::worth_measuring(Clearance clearance) const noexcept {
 void ContactSchedule::measure(const ContactView& view, IsClear is_clear, const DueChunk& due) noexcept {
   const ContactBlock& block = in_.shell.blocks[due.block];
   const uint32_t chunk = in_.shell.first_chunks[due.block] + (due.first - block.first) / chunk_points;
-  for (const Clearance clearance : {Clearance::brick, Clearance::cell, Clearance::voxel})
+  for (const Clearance clearance : {Clearance::brick, Clearance::cell})
     if (worth_measuring(clearance) && is_clear(view, due, clearance)) {
       chunk_due_at_[chunk] = static_cast<float>(odometer_.voxels()) + clearance_voxels(clearance);
       return;

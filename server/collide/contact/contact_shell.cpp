@@ -18,7 +18,7 @@ int coded(double value) { return static_cast<int>(std::lround(value * unit_code)
 struct Probe {
   Vec3 place_mm;
   int normal_radial, normal_z, arm, weight;
-  uint32_t azimuth;
+  uint32_t azimuth, normal;
   bool guiding;
 };
 
@@ -31,19 +31,53 @@ Vec3 guiding_probe(const Vec3& surface_mm, const Vec3& normal, double length_mm)
   return surface_mm - length_mm * normal - inwards_mm * radial;
 }
 
-Probe probe_of(const shell::PointShell& shell, const shell::ShellPoint& p, double probe_length_mm,
-               double moment_length_mm) {
+uint32_t packed_normal(const Vec3& normal) {
+  uint32_t packed = 0;
+  for (int i = 0; i < 3; ++i) packed |= (static_cast<uint32_t>(coded(normal[i])) & 0xff) << (8 * i);
+  return packed;
+}
+
+/// Room between a probe and the rim, voxels: the centre of the voxel that a point is judged by lies this
+/// near.
+constexpr double rim_room_voxels = 0.75;
+/// Where the surface turns into the tool's side there is no rim: |normal z| below this.
+constexpr double min_rim_slope = 0.35;
+
+/// On the cutting surface, along its meridian away from a rim of radius `rim_mm` that is nearer than
+/// `room_mm`.
+Vec3 inside_rim(const Vec3& surface_mm, const Vec3& normal, double rim_mm, double room_mm) {
+  const double radius_mm = std::hypot(surface_mm.x(), surface_mm.y());
+  const double missing_mm = room_mm - (rim_mm - radius_mm);
+  if (missing_mm <= 0.0 || normal.z() < min_rim_slope || radius_mm <= room_mm) return surface_mm;
+  const Vec3 radial(surface_mm.x() / radius_mm, surface_mm.y() / radius_mm, 0.0);
+  const Vec3 inwards = -normal.z() * radial + normal.dot(radial) * Vec3::UnitZ();
+  return surface_mm + std::min(missing_mm / normal.z(), room_mm / min_rim_slope) * inwards;
+}
+
+/// What all probes of a shell are made with.
+struct ProbeRule {
+  double length_mm, moment_length_mm, rim_mm;
+  ContactRule contact;
+
+  Vec3 place_mm(const Vec3& surface_mm, const Vec3& normal, bool guiding) const {
+    if (guiding) return guiding_probe(surface_mm, normal, length_mm);
+    if (contact == ContactRule::one_voxel_out) return surface_mm + length_mm * normal;
+    return inside_rim(surface_mm, normal, rim_mm, rim_room_voxels * length_mm);
+  }
+};
+
+Probe probe_of(const shell::PointShell& shell, const shell::ShellPoint& p, const ProbeRule& rule) {
   const Vec3 normal = p.normal.cast<double>(), surface = shell.surface_point_mm(p);
   const double radius_mm = std::hypot(surface.x(), surface.y());
   const double angle = radius_mm > 0.0 ? std::atan2(surface.y(), surface.x()) : 0.0;
   const double radial = normal.x() * std::cos(angle) + normal.y() * std::sin(angle);
   Probe probe{};
   probe.guiding = p.role != shell::SurfaceRole::cutting;
-  probe.place_mm = probe.guiding ? guiding_probe(surface, normal, probe_length_mm)
-                                 : Vec3(surface + probe_length_mm * normal);
+  probe.place_mm = rule.place_mm(surface, normal, probe.guiding);
+  if (!probe.guiding && rule.contact == ContactRule::at_surface) probe.normal = packed_normal(normal);
   probe.normal_radial = coded(radial);
   probe.normal_z = coded(normal.z());
-  probe.arm = coded((radius_mm * normal.z() - surface.z() * radial) / moment_length_mm);
+  probe.arm = coded((radius_mm * normal.z() - surface.z() * radial) / rule.moment_length_mm);
   probe.weight = p.area_weight;
   probe.azimuth = static_cast<uint32_t>(std::lround(angle / (2.0 * pi) * azimuth_count)) % azimuth_count;
   return probe;
@@ -140,6 +174,7 @@ void add_block(const std::vector<Probe>& probes, const Run& run, const MeridianE
     out.places[i] = static_cast<uint32_t>(place.x()) | static_cast<uint32_t>(place.y()) << place_bits |
                     static_cast<uint32_t>(place.z()) << (2 * place_bits) | (direction >> 16) << 27;
     out.directions[i] = static_cast<uint16_t>(direction);
+    out.normals[i] = p.normal;
     add_products(out.table.vector(direction), block.whole);
     block.height_units = std::max(block.height_units, place.z());
     radius_mm = std::max(radius_mm, (out.probe_mm(block, i) - centre).norm());
@@ -165,23 +200,28 @@ Vec3 ContactShell::probe_mm(const ContactBlock& block, size_t point) const {
 }
 
 size_t ContactShell::bytes() const {
-  return places.size() * sizeof(uint32_t) + directions.size() * sizeof(uint16_t) +
+  return (places.size() + normals.size()) * sizeof(uint32_t) + directions.size() * sizeof(uint16_t) +
          blocks.size() * (sizeof(ContactBlock) + sizeof(uint32_t) + 4 * sizeof(float)) +
          (table.meridian.size() + table.azimuth.size()) * sizeof(uint32_t);
 }
 
-ContactShell make_contact_shell(const shell::PointShell& shell, double probe_length_mm) {
+ContactShell make_contact_shell(const shell::PointShell& shell, double probe_length_mm, ContactRule rule) {
   ContactShell out;
   out.probe_length_mm = probe_length_mm;
   out.cell_area_mm2 = shell.spacing_mm * shell.spacing_mm;
-  double longest = 0.0;
-  for (const auto& p : shell.points) longest = std::max(longest, shell.surface_point_mm(p).norm());
+  double longest = 0.0, rim_mm = 0.0;
+  for (const auto& p : shell.points) {
+    const Vec3 surface_mm = shell.surface_point_mm(p);
+    longest = std::max(longest, surface_mm.norm());
+    if (p.role == shell::SurfaceRole::cutting)
+      rim_mm = std::max(rim_mm, std::hypot(surface_mm.x(), surface_mm.y()));
+  }
   out.moment_length_mm = std::max(longest, 1.0);
 
   std::vector<Probe> probes;
   probes.reserve(shell.points.size());
-  for (const auto& p : shell.points)
-    probes.push_back(probe_of(shell, p, probe_length_mm, out.moment_length_mm));
+  const ProbeRule probe_rule{probe_length_mm, out.moment_length_mm, rim_mm, rule};
+  for (const auto& p : shell.points) probes.push_back(probe_of(shell, p, probe_rule));
   const std::vector<Run> runs = sorted_into_runs(shell, probes);
   const MeridianEntries entries(probes);
   out.table = {entries.table(), azimuth_table()};
@@ -194,6 +234,7 @@ ContactShell make_contact_shell(const shell::PointShell& shell, double probe_len
   out.first_chunks = {0};
   out.places.resize(probes.size() + chunk_points);
   out.directions.resize(probes.size() + chunk_points);
+  out.normals.resize(probes.size() + chunk_points);
   for (const Run& run : runs) add_block(probes, run, entries, out);
   return out;
 }

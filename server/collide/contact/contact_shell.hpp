@@ -71,11 +71,21 @@ struct ContactBlock {
   std::array<int32_t, 21> whole{};  ///< ContactProducts of all its points
 };
 
+/// When a cutting point feels bone.
+enum class ContactRule {
+  /// When the surface that it lies on meets the bone's (collide/contact/surface_judge.hpp).
+  at_surface,
+  /// When the voxel one voxel out along its normal is solid: for removal by decay, which takes the voxels
+  /// that
+  /// points lie in and would clear its own contact.
+  one_voxel_out,
+};
+
 /// A PointShell made ready for one grid: where each point probes for bone and what it adds when it meets
-/// some. Six bytes a point and less than two for its block. Read-only, shared by all narrow phases.
+/// some. Ten bytes a point and less than two for its block. Read-only, shared by all narrow phases.
 ///
-/// Cutting points probe one voxel out from the true surface along the normal (DESIGN 3: engaged when bone
-/// lies within one voxel, for removal must not clear its own contact). Guiding points have no such need and
+/// Cutting points probe on the true surface; within three quarters of a voxel of the rim, that much inside
+/// it, since bone beside the rim is never cut and shall not be felt as if it were under it. Guiding points
 /// probe one voxel below the surface, end faces also two nearer to the axis: corners of voxels, which stand
 /// out by up to 0.87 edges, shall not stop a nipple at the mouth of a hole that is barely wider, and its side
 /// meets the wall of the hole before its end does.
@@ -84,6 +94,9 @@ struct ContactShell {
   /// the five high bits of the direction code. Padded by a chunk, as the directions, to be read in chunks.
   std::vector<uint32_t> places;
   std::vector<uint16_t> directions;  ///< low sixteen bits of the direction code
+  /// Where bone's surface decides: the unit normal, tool frame, in 1/127, a signed byte each, x lowest. 0 for
+  /// points that meet whatever voxel they probe. Padded as the places.
+  std::vector<uint32_t> normals;
   std::vector<ContactBlock> blocks;
   std::vector<uint32_t> first_chunks;  ///< of the blocks, and one more: the number of chunks
   /// Bounding spheres of the blocks' probes, tool frame, mm; struct of arrays for the culling.
@@ -109,6 +122,7 @@ inline constexpr int place_bits = 9;
 inline constexpr uint32_t place_mask = (1u << place_bits) - 1;
 
 /// `probe_length_mm`: the grid's largest voxel edge.
-ContactShell make_contact_shell(const shell::PointShell& shell, double probe_length_mm);
+ContactShell make_contact_shell(const shell::PointShell& shell, double probe_length_mm,
+                                ContactRule rule = ContactRule::at_surface);
 
 }  // namespace ream::collide

@@ -16,8 +16,7 @@ class NarrowPhaseCpu final : public NarrowPhase {
     sums = {};
     if (!voi.touching) return true;
     const VoxelTransform transform = voxel_transform(grid_from_tool, in_.bone.grid, in_.shell.place_unit_mm);
-    view_.per_unit = transform.per_unit;
-    view_.bits = transform.bits;
+    view_.look_from(transform);
     const auto due = schedule_.due(grid_from_tool, voi, transform);
     functions_.look(view_, due, touched_.data(), sums);
     schedule_.visited(view_, functions_.is_clear, touched_);

@@ -57,8 +57,7 @@ void add_products_to(ContactSums::Part& part, const Products& products, int64_t 
 }
 
 /// What the narrow phases share: the prepared shell, the bone they look at, and what culls. Bone and cells
-/// are read live, so removal between two calls is seen. A point is engaged when its probe lies in a solid
-/// voxel.
+/// are read live, so removal between two calls is seen. When a point is engaged: surface_judge.hpp.
 struct NarrowPhaseInput {
   const ContactShell& shell;
   const voxel::BoneModel& bone;

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "collide/contact/contact_schedule.hpp"
+#include "collide/contact/surface_judge.hpp"
 #include "core/error.hpp"
 #include "gpu/program.hpp"
 #include "kernels/layout.h"
@@ -14,7 +15,9 @@ namespace {
 static_assert(REAM_CONTACT_PRODUCTS == std::tuple_size_v<ContactProducts>);
 static_assert(REAM_PLACE_BITS == place_bits && REAM_AZIMUTH_BITS == azimuth_bits);
 static_assert(REAM_AZIMUTH_SHIFT == azimuth_shift);
-static_assert(REAM_SOLID_COVERAGE == voxel::solid_coverage && REAM_CARTILAGE_CODE == voxel::cartilage_code);
+static_assert(REAM_CARTILAGE_CODE == voxel::cartilage_code && REAM_JUDGE_TOLERANCE == judge_tolerance_levels);
+static_assert(REAM_JUDGE_FRACTION_BITS == judge_fraction_bits &&
+              REAM_JUDGE_ROTATION_BITS == judge_rotation_bits);
 static_assert(sizeof(DueChunk) == sizeof(layout::DueChunkLayout));
 static_assert(REAM_CONTACT_CHUNK == chunk_points && REAM_CONTACT_BLOCK_CHUNKS == max_block_chunks);
 
@@ -62,6 +65,7 @@ class NarrowPhaseCl final : public NarrowPhase {
         arguments_(constant_arguments(input.bone)),
         places_(gpu::Buffer::copy_of(bone_->queue, std::span(input.shell.places))),
         directions_(gpu::Buffer::copy_of(bone_->queue, std::span(input.shell.directions))),
+        normals_(gpu::Buffer::copy_of(bone_->queue, std::span(input.shell.normals))),
         blocks_(block_table(bone_->queue, input.shell)),
         meridian_(gpu::Buffer::copy_of(bone_->queue, std::span(input.shell.table.meridian))),
         azimuth_(gpu::Buffer::copy_of(bone_->queue, std::span(input.shell.table.azimuth))),
@@ -70,8 +74,8 @@ class NarrowPhaseCl final : public NarrowPhase {
         partial_buffer_(gpu::Buffer::over(bone_->queue, std::span(partial_))),
         touched_buffer_(gpu::Buffer::over(bone_->queue, std::span(touched_))),
         patch_buffer_(gpu::Buffer::over(bone_->queue, std::span(patches_))) {
-    kernel_.set_all(places_, directions_, blocks_, due_buffer_, meridian_, azimuth_, cells_, arguments_,
-                    partial_buffer_, touched_buffer_, bone_->coverage, bone_->density);
+    kernel_.set_all(places_, directions_, normals_, blocks_, due_buffer_, meridian_, azimuth_, cells_,
+                    arguments_, partial_buffer_, touched_buffer_, bone_->coverage, bone_->density);
     patch_kernel_.set_all(patch_buffer_, uint32_t{0}, cells_);
     ContactSums warm;
     patch_kernel_.enqueue(bone_->queue, max_patches, patch_lanes);
@@ -83,8 +87,7 @@ class NarrowPhaseCl final : public NarrowPhase {
     sums = {};
     if (!voi.touching) return true;
     const VoxelTransform transform = voxel_transform(grid_from_tool, in_.bone.grid, in_.shell.place_unit_mm);
-    view_.per_unit = transform.per_unit;
-    view_.bits = transform.bits;
+    view_.look_from(transform);
     const auto due = schedule_.due(grid_from_tool, voi, transform);
     if (due.empty()) return true;
     std::copy(due.begin(), due.end(), due_.begin());
@@ -112,6 +115,7 @@ class NarrowPhaseCl final : public NarrowPhase {
   void run(const VoxelTransform& transform, size_t chunks, ContactSums& sums) {
     const gpu::Queue& queue = bone_->queue;
     std::copy(transform.per_unit.begin(), transform.per_unit.end(), arguments_.per_unit);
+    std::copy(transform.normal_rotation.begin(), transform.normal_rotation.end(), arguments_.normal_rotation);
     arguments_.bits = transform.bits;
     arguments_.chunks = static_cast<uint32_t>(chunks);
     kernel_.set(arguments_index, arguments_);
@@ -147,7 +151,7 @@ class NarrowPhaseCl final : public NarrowPhase {
     sums.deepest = std::max(sums.deepest, group[REAM_CONTACT_DEEPEST]);
   }
 
-  static constexpr unsigned arguments_index = 7;
+  static constexpr unsigned arguments_index = 8;
   static constexpr size_t max_patches = 1024, patch_lanes = 64;
 
   NarrowPhaseInput in_;
@@ -163,8 +167,8 @@ class NarrowPhaseCl final : public NarrowPhase {
   std::vector<int64_t> partial_;
   std::vector<layout::CellPatch> patches_;
   layout::ContactArguments arguments_;
-  gpu::Buffer places_, directions_, blocks_, meridian_, azimuth_, cells_, due_buffer_, partial_buffer_,
-      touched_buffer_, patch_buffer_;
+  gpu::Buffer places_, directions_, normals_, blocks_, meridian_, azimuth_, cells_, due_buffer_,
+      partial_buffer_, touched_buffer_, patch_buffer_;
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "ct/build/bone_from_mask.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -99,6 +100,15 @@ void check_size(const Vec3i& dims, int n) {
                                               "interest or a smaller factor");
 }
 
+/// Interpolation makes of the scan's one voxel at the surface a ramp of `n`. Contact and removal need one a
+/// voxel wide, with the surface where it was.
+void sharpen(std::vector<uint8_t>& coverage, int n) {
+  std::array<uint8_t, 256> sharp;
+  for (int c = 0; c < 256; ++c)
+    sharp[static_cast<size_t>(c)] = static_cast<uint8_t>(std::clamp((255 + n * (2 * c - 255)) / 2, 0, 255));
+  for (uint8_t& c : coverage) c = sharp[c];
+}
+
 /// Both upsampled and padded to whole bricks.
 voxel::BoneModel upsampled(const HuVolume& volume, SurfaceVoxels surface, int n,
                            const case_::Calibration& calibration, const Progress& progress) {
@@ -114,8 +124,10 @@ voxel::BoneModel upsampled(const HuVolume& volume, SurfaceVoxels surface, int n,
   bone.grid.world_from_grid = volume.world_from_volume;
   voxel::validate(bone.grid);
   progress(0.1, "upsampling the surface");
-  bone.coverage = voxel::bricks_from_rows(
-      bone.grid, voxel::upsample_trilinear(std::span<const uint8_t>(surface.coverage), to, n));
+  std::vector<uint8_t> coverage =
+      voxel::upsample_trilinear(std::span<const uint8_t>(surface.coverage), to, n);
+  sharpen(coverage, n);
+  bone.coverage = voxel::bricks_from_rows(bone.grid, coverage);
   progress(0.4, "upsampling the density");
   bone.density = voxel::bricks_from_rows(
       bone.grid, density_codes(voxel::upsample_trilinear(std::span<const int16_t>(surface.bone_hu), to, n),

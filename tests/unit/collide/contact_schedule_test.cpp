@@ -88,8 +88,7 @@ TEST(ContactSchedule, AToolAtRestIsVisitedWhereItTouchesAndHardlyElsewhere) {
       collide::broad_phase(walk.cells.bounds_mm(), walk.contact.bounds_mm, dequantised(pose), 0.25);
   const collide::VoxelTransform transform =
       collide::voxel_transform(pose, walk.bone.grid, walk.contact.place_unit_mm);
-  view.per_unit = transform.per_unit;
-  view.bits = transform.bits;
+  view.look_from(transform);
   std::vector<uint8_t> touched(walk.contact.chunk_count());
   size_t first_due = 0, last_due = 0, last_touched = 0;
   for (int i = 0; i < 200; ++i) {

@@ -48,6 +48,48 @@ void add(collide::ContactSums::Part& part, const collide::ContactVector& v) {
     for (size_t b = a; b < 6; ++b) part.second[slot++] += v.weight * g[a] * g[b];
 }
 
+/// The voxel that judges a cutting point, and what removal would leave of it, in doubles: the one of the
+/// column through the point whose centre is nearest to the surface, if removal leaves part of it.
+struct Judge {
+  Vec3i at;
+  double kept = 0.0;
+};
+
+Judge judge(const voxel::VoxelGrid& grid, const Vec3& point, const Vec3& normal) {
+  const auto kept = [&](const Vec3i& at) {
+    const Vec3 centre = (at.cast<double>().array() + 0.5) * grid.spacing_mm.array();
+    return 127.5 + 255.0 * normal.dot(centre - point) / grid.min_spacing_mm();
+  };
+  Eigen::Index axis = 0;
+  normal.cwiseProduct(grid.spacing_mm).cwiseAbs().maxCoeff(&axis);
+  Judge best{grid.voxel_at(point)};
+  best.kept = kept(best.at);
+  for (const int step : {-1, 1}) {
+    Vec3i at = grid.voxel_at(point);
+    at[axis] += step;
+    if (best.kept > 0.0 && best.kept < 255.0) break;
+    if (std::abs(kept(at) - 127.5) < std::abs(best.kept - 127.5)) best = {at, kept(at)};
+  }
+  return best;
+}
+
+bool engages(const ContactScene& s, const Vec3& point, const Vec3& normal, Vec3i& at) {
+  double needed = voxel::solid_coverage - 8.0;
+  at = s.bone.grid.voxel_at(point);
+  if (normal != Vec3::Zero()) {
+    const Judge by = judge(s.bone.grid, point, normal);
+    at = by.at;
+    needed = std::max(1.0, std::min(by.kept, 255.0) - 8.0);
+  }
+  return s.bone.grid.contains(at) && s.bone.coverage[s.bone.grid.index(at)] >= needed;
+}
+
+Vec3 normal_of(const collide::ContactShell& shell, uint32_t point) {
+  Vec3 normal;
+  for (int k = 0; k < 3; ++k) normal[k] = static_cast<int8_t>(shell.normals[point] >> (8 * k));
+  return normal == Vec3::Zero() ? normal : normal.normalized();
+}
+
 /// Independent reference: every point, no culling, no cells, positions in doubles.
 collide::ContactSums reference(const ContactScene& s, const QuantisedPose& pose) {
   collide::ContactSums sums;
@@ -57,8 +99,8 @@ collide::ContactSums reference(const ContactScene& s, const QuantisedPose& pose)
   for (const collide::ContactBlock& block : s.shell.blocks)
     for (uint32_t i = block.first; i < block.first + block.count; ++i) {
       const Vec3 probe = s.shell.probe_mm(block, i);
-      const Vec3i at = s.bone.grid.voxel_at(grid_from_tool.point(probe));
-      if (!s.bone.grid.contains(at) || s.bone.coverage[s.bone.grid.index(at)] < voxel::solid_coverage)
+      Vec3i at;
+      if (!engages(s, grid_from_tool.point(probe), grid_from_tool.direction(normal_of(s.shell, i)), at))
         continue;
       add(block.guiding ? sums.guiding : sums.cutting, s.shell.table.vector(s.shell.direction(i)));
       if (block.guiding) continue;
@@ -85,20 +127,21 @@ TEST(NarrowPhase, CulledWholeNumberSumsMatchAFullSearchInDoubles) {
     pose.translation_mm = Vec3(8, 8, 8) + random_vector(random, 7.0);
     const QuantisedPose q = quantised(pose);
     const collide::ContactSums got = s.contact(*phase, q), expected = reference(s, q);
-    // A probe within rounding of a voxel border may fall either way: none, or a handful of points.
+    // A point within rounding of the surface or of a voxel's border may fall either way: a handful of points.
     EXPECT_NEAR(static_cast<double>(got.engaged()), static_cast<double>(expected.engaged()),
-                3.0 + 0.002 * static_cast<double>(expected.engaged()))
+                6.0 + 0.01 * static_cast<double>(expected.engaged()))
         << "seed " << seed << " case " << i;
     const bool same_points =
         got.cutting.points == expected.cutting.points && got.guiding.points == expected.guiding.points;
-    if (same_points && got.cutting.first[6] == expected.cutting.first[6] && got.deepest == expected.deepest) {
+    if (same_points && got.cutting.first == expected.cutting.first &&
+        got.guiding.first == expected.guiding.first && got.deepest == expected.deepest) {
       EXPECT_EQ(got, expected) << "seed " << seed << " case " << i;
       ++equal;
     }
     engaged += got.engaged();
   }
   EXPECT_GT(engaged, 100000);
-  EXPECT_GT(equal, 100) << "hardly ever the same points: nothing was compared";
+  EXPECT_GT(equal, 50) << "hardly ever the same points: nothing was compared";
 }
 
 /// Bone with holes, half-covered voxels and every density, looked at by both C++ forms while it is cut away.
@@ -159,10 +202,9 @@ TEST(NarrowPhase, SumsOfAFlatContactAreThoseOfTheGeometry) {
   const auto phase = collide::make_narrow_phase_cpu(s.input());
   Pose grid_from_tool{rotation_with_z_along(-Vec3::UnitZ()), Vec3(8.0, 8.0, 7.0)};
   const collide::ContactSums sums = s.contact(*phase, quantised(grid_from_tool));
-  // The apex is 1 mm below the surface: the engaged cap of the probes has area 2 pi R h.
+  // The apex is 1 mm below the surface: the engaged cap has area 2 pi R h.
   const double area_mm2 = static_cast<double>(sums.cutting.first[6]) / 16.0 * s.shell.cell_area_mm2;
-  const double probe_depth_mm = 1.0 + s.shell.probe_length_mm;
-  const double cap_mm2 = 2.0 * 3.14159265 * 6.0 * probe_depth_mm * 6.0 / (6.0 + s.shell.probe_length_mm);
+  const double cap_mm2 = 2.0 * 3.14159265 * 6.0 * 1.0;
   EXPECT_NEAR(area_mm2, cap_mm2, 0.06 * cap_mm2);
   EXPECT_EQ(sums.guiding.points, 0);
   EXPECT_EQ(sums.class_points[static_cast<size_t>(voxel::BoneClass::cortical)], sums.cutting.points);

@@ -67,7 +67,11 @@ TEST(Reaming, StandingSpindleIsARigidWall) {
   SmallRun run(std::move(bone), plan, "sphere 8,5", script);
   const auto reports = run.run();
   EXPECT_EQ(run.bone.coverage_hash(), before);
-  EXPECT_LT(settled_feed(reports, 1000), 1e-3);
+  // Sideways it may creep: a round tip that touches in one point of its shell sticks by friction alone.
+  const Vec3 way_mm =
+      reports.back().world_from_tool.translation_mm - reports[1000].world_from_tool.translation_mm;
+  EXPECT_LT(std::abs(way_mm.dot(plan.axis_direction)), 1e-3);
+  EXPECT_LT(way_mm.norm(), 0.01);
   EXPECT_NEAR(reports.back().thrust_n, 52.0, 1.0);
 }
 
