@@ -44,13 +44,15 @@ struct AffineArguments {
 };
 
 // Narrow phase (collide/contact/contact_shell.hpp, narrow_phase.hpp). A work-group's sums, 64-bit: products
-// and points of the cutting, then of the guiding blocks, then points and densities by class, then the depth key.
-#define REAM_CONTACT_PRODUCTS 21
-#define REAM_CONTACT_PART_SUMS 22
-#define REAM_CONTACT_CLASS_POINTS 44
-#define REAM_CONTACT_CLASS_DENSITY 47
-#define REAM_CONTACT_DEEPEST 50
-#define REAM_CONTACT_SUMS 51
+// and points of the cutting, then of the guiding blocks, then weights and densities by class, the resistance, and the
+// depth key.
+#define REAM_CONTACT_PRODUCTS 24
+#define REAM_CONTACT_PART_SUMS 25
+#define REAM_CONTACT_CLASS_WEIGHT 50
+#define REAM_CONTACT_CLASS_DENSITY 53
+#define REAM_CONTACT_RESISTANCE 56
+#define REAM_CONTACT_DEEPEST 57
+#define REAM_CONTACT_SUMS 58
 // Points of a chunk; a work-item of a processor takes them at once. Places and directions are padded by as many.
 #define REAM_CONTACT_CHUNK 16
 #define REAM_PLACE_BITS 9

@@ -14,8 +14,9 @@
 #define CONTACT_PARAMETERS                                                                                      \
   global const uint *places, global const ushort *directions, global const uint *normals,                       \
       global const struct ContactBlockLayout *blocks,                                                            \
-      global const struct DueChunkLayout *due, global const uint *meridian, global const uint *azimuth,         \
-      global const ushort *cells, struct ContactArguments arguments, global long *partial,                      \
+      global const struct DueChunkLayout *due, global const uint *meridian, global const uint *areas,           \
+      global const uint *azimuth, global const uint *resistances, global const ushort *cells,                    \
+      struct ContactArguments arguments, global long *partial,                      \
       global uchar *touched, BONE_PARTS(global const uchar, coverage), BONE_PARTS(global const uchar, density)
 
 #if LANES > 1
@@ -24,9 +25,9 @@ static int turned(int product) {
   return (product + (1 << (REAM_AZIMUTH_SHIFT - 1))) >> REAM_AZIMUTH_SHIFT;
 }
 
-// Adds w g_i g_j, w g_i and w of one point.
-static void add_products(uint place, uint low_direction, global const uint* meridian, global const uint* azimuth,
-                         int* products) {
+// Adds ContactProducts of one point.
+static void add_products(uint place, uint low_direction, global const uint* meridian, global const uint* areas,
+                         global const uint* azimuth, int* products) {
   const uint direction = low_direction | (place >> 27) << 16;
   const uint m = meridian[direction >> REAM_AZIMUTH_BITS];
   const uint a = azimuth[direction & ((1u << REAM_AZIMUTH_BITS) - 1)];
@@ -37,7 +38,10 @@ static void add_products(uint place, uint low_direction, global const uint* meri
   for (int i = 0; i < 5; ++i)
     for (int j = i; j < 5; ++j) products[k++] += weight * g[i] * g[j];
   for (int i = 0; i < 5; ++i) products[k++] += weight * g[i];
-  products[k] += weight;
+  products[k++] += weight * turned(127 * cosine);
+  products[k++] += weight * turned(127 * sine);
+  products[k++] += weight;
+  products[k] += (int)areas[direction >> REAM_AZIMUTH_BITS];
 }
 
 static long depth_key(int origin_z_units, uint place, uint point) {
@@ -51,8 +55,8 @@ static int class_of(int code, int first_cortical_code) {
 
 #endif
 
-// Points between two additions to the 64-bit sums; 451,612 a point stay below 2^31.
-#define POINTS_A_FLUSH 4096
+// Points between two additions to the 64-bit sums; 4,112,895 a point stay below 2^31.
+#define POINTS_A_FLUSH 512
 
 #if LANES == 1
 
@@ -151,7 +155,7 @@ static void flush(SideSums* side, global long* sums) {
 }
 
 static void add_chunk(uint16 place, uint16 low_direction, int16 engaged, global const uint* meridian,
-                      global const uint* azimuth, SideSums* side) {
+                      global const uint* areas, global const uint* azimuth, SideSums* side) {
   const int16 direction = convert_int16(low_direction | (place >> 27) << 16) & engaged;
   const int16 m = words_at(meridian, direction >> REAM_AZIMUTH_BITS);
   const int16 a = words_at(azimuth, direction & ((1 << REAM_AZIMUTH_BITS) - 1));
@@ -165,31 +169,41 @@ static void add_chunk(uint16 place, uint16 low_direction, int16 engaged, global 
     for (int j = i; j < 5; ++j) side->products[k++] += weighted * g[j];
   }
   for (int i = 0; i < 5; ++i) side->products[k++] += weight * g[i];
-  side->products[k] += weight;
+  side->products[k++] += weight * turned16(127 * cosine);
+  side->products[k++] += weight * turned16(127 * sine);
+  side->products[k++] += weight;
+  side->products[k] += words_at(areas, direction >> REAM_AZIMUTH_BITS) & engaged;
   ++side->chunks;
 }
 
 // Sums over cutting points, lane by lane.
 typedef struct {
-  int16 points, cortical_points, cartilage_points, density, cortical_density;
+  int16 weight, cortical_weight, cartilage_weight, density, cortical_density;
+  long16 resistance;
 } ClassSums;
 
-static void add_density(int16 code, int16 engaged, int first_cortical_code, ClassSums* sums) {
-  const int16 cartilage = engaged & (code == REAM_CARTILAGE_CODE);
-  const int16 cortical = engaged & ~cartilage & (code >= first_cortical_code);
-  sums->points -= engaged;
-  sums->density += code;
-  sums->cortical_density += code & cortical;
-  sums->cortical_points -= cortical;
-  sums->cartilage_points -= cartilage;
+// `weight` and `code` are 0 where nothing is engaged.
+static void add_density(int16 code, int16 weight, int first_cortical_code, global const uint* resistances,
+                        ClassSums* sums) {
+  const int16 cartilage = code == REAM_CARTILAGE_CODE, cortical = ~cartilage & (code >= first_cortical_code);
+  sums->weight += weight;
+  sums->density += weight * code;
+  sums->cortical_density += weight * code & cortical;
+  sums->cortical_weight += weight & cortical;
+  sums->cartilage_weight += weight & cartilage;
+  sums->resistance += convert_long16(weight * words_at(resistances, code));
 }
 
 static void write_classes(const ClassSums* s, global long* sums) {
-  const int cortical = sum16(s->cortical_points), cartilage = sum16(s->cartilage_points);
-  const int cortical_codes = sum16(s->cortical_density), cartilage_codes = cartilage * REAM_CARTILAGE_CODE;
-  sums[REAM_CONTACT_CLASS_POINTS] = sum16(s->points) - cortical - cartilage;
-  sums[REAM_CONTACT_CLASS_POINTS + 1] = cortical;
-  sums[REAM_CONTACT_CLASS_POINTS + 2] = cartilage;
+  const long cortical = sum16(s->cortical_weight), cartilage = sum16(s->cartilage_weight);
+  const long cortical_codes = sum16(s->cortical_density), cartilage_codes = cartilage * REAM_CARTILAGE_CODE;
+  sums[REAM_CONTACT_CLASS_WEIGHT] = sum16(s->weight) - cortical - cartilage;
+  sums[REAM_CONTACT_CLASS_WEIGHT + 1] = cortical;
+  sums[REAM_CONTACT_CLASS_WEIGHT + 2] = cartilage;
+  long resistances[16], resistance = 0;
+  vstore16(s->resistance, 0, resistances);
+  for (int i = 0; i < 16; ++i) resistance += resistances[i];
+  sums[REAM_CONTACT_RESISTANCE] = resistance;
   sums[REAM_CONTACT_CLASS_DENSITY] = sum16(s->density) - cortical_codes - cartilage_codes;
   sums[REAM_CONTACT_CLASS_DENSITY + 1] = cortical_codes;
   sums[REAM_CONTACT_CLASS_DENSITY + 2] = cartilage_codes;
@@ -213,7 +227,7 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void contact_sums(CONTACT_
   const int16 lane = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   SideSums side;
   clear(&side);
-  ClassSums classes = {0, 0, 0, 0, 0};
+  ClassSums classes = {0, 0, 0, 0, 0, 0};
   uint guiding = 0;
   const uint share = (arguments.chunks + get_num_groups(0) - 1) / get_num_groups(0);
   const uint last = min(arguments.chunks, ((uint)get_group_id(0) + 1) * share);
@@ -224,10 +238,10 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void contact_sums(CONTACT_
     int16 engaged_of[REAM_CONTACT_BLOCK_CHUNKS], points = 0;
     for (; end < last && due[end].block == due[first].block; ++end) {
       global const struct DueChunkLayout* chunk = due + end;
-      const uint16 place = vload16(0, places + chunk->first);
+      const uint16 place = vload16(0, places + chunk->first), normal = vload16(0, normals + chunk->first);
       int16 voxel, needed;
       const int16 state =
-          probe(place, vload16(0, normals + chunk->first), lane < (int)chunk->count, chunk, &arguments, cells, &voxel, &needed);
+          probe(place, normal, lane < (int)chunk->count, chunk, &arguments, cells, &voxel, &needed);
       int16 engaged = state == 0x101;
       const int16 unsure = state == 1;
       if (any(unsure))
@@ -237,7 +251,8 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void contact_sums(CONTACT_
       if (!any(engaged)) continue;
       points -= engaged;
       if (block->guiding) continue;
-      add_density(bytes_at(PASS_PARTS(density), voxel, engaged) & engaged, engaged, arguments.first_cortical_code, &classes);
+      add_density(bytes_at(PASS_PARTS(density), voxel, engaged) & engaged, convert_int16(normal >> 24) & engaged,
+                  arguments.first_cortical_code, resistances, &classes);
       if (deepest == NO_POINT || block->origin_z_units + block->height_units > (int)(deepest >> 32))
         deepest = deeper(deepest, block->origin_z_units, place, engaged, chunk->first);
     }
@@ -256,7 +271,7 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void contact_sums(CONTACT_
     for (uint s = first; s < end; ++s)
       if (any(engaged_of[s - first]))
         add_chunk(vload16(0, places + due[s].first), convert_uint16(vload16(0, directions + due[s].first)),
-                  engaged_of[s - first], meridian, azimuth, &side);
+                  engaged_of[s - first], meridian, areas, azimuth, &side);
   }
   flush(&side, sums + guiding * REAM_CONTACT_PART_SUMS);
   write_classes(&classes, sums);
@@ -327,9 +342,9 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void contact_sums(CONT
   for (uint k = lane; k < REAM_CONTACT_DEEPEST; k += LANES) sums[k] = 0;
   for (uint s = group + lane * groups; s < arguments.chunks; s += LANES * groups) touched[s] = 0;
   barrier(CLK_GLOBAL_MEM_FENCE);
-  int cut[REAM_CONTACT_PART_SUMS], guided[REAM_CONTACT_PART_SUMS], classes[6];
+  int cut[REAM_CONTACT_PART_SUMS], guided[REAM_CONTACT_PART_SUMS], classes[7];
   for (int k = 0; k < REAM_CONTACT_PART_SUMS; ++k) cut[k] = guided[k] = 0;
-  for (int k = 0; k < 6; ++k) classes[k] = 0;
+  for (int k = 0; k < 7; ++k) classes[k] = 0;
   long deepest = NO_POINT;
 
   // The group's points in a row, LANES at a time; every lane takes as many turns, so that all flush together.
@@ -339,7 +354,7 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void contact_sums(CONT
     if (turn % POINTS_A_FLUSH == POINTS_A_FLUSH - 1) {
       flush(cut, REAM_CONTACT_PART_SUMS, scratch, sums);
       flush(guided, REAM_CONTACT_PART_SUMS, scratch, sums + REAM_CONTACT_PART_SUMS);
-      flush(classes, 6, scratch, sums + REAM_CONTACT_CLASS_POINTS);
+      flush(classes, 7, scratch, sums + REAM_CONTACT_CLASS_WEIGHT);
     }
     const uint item = turn * LANES + lane, own = item / REAM_CONTACT_CHUNK, i = item % REAM_CONTACT_CHUNK;
     if (own >= own_chunks) continue;
@@ -352,22 +367,24 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void contact_sums(CONT
     touched[s] = 1;
     const struct ContactBlockLayout block = blocks[chunk->block];
     if (block.guiding) {
-      add_products(place, directions[point], meridian, azimuth, guided);
+      add_products(place, directions[point], meridian, areas, azimuth, guided);
       ++guided[REAM_CONTACT_PRODUCTS];
       continue;
     }
-    add_products(place, directions[point], meridian, azimuth, cut);
+    add_products(place, directions[point], meridian, areas, azimuth, cut);
     ++cut[REAM_CONTACT_PRODUCTS];
     const int code = *AT_VOXEL(density, voxel), bone_class = class_of(code, arguments.first_cortical_code);
+    const int weight = (int)(normals[point] >> 24);
     for (int k = 0; k < 3; ++k) {
-      classes[k] += k == bone_class;
-      classes[3 + k] += k == bone_class ? code : 0;
+      classes[k] += k == bone_class ? weight : 0;
+      classes[3 + k] += k == bone_class ? weight * code : 0;
     }
+    classes[6] += weight * (int)resistances[code];
     deepest = max(deepest, depth_key(block.origin_z_units, place, point));
   }
   flush(cut, REAM_CONTACT_PART_SUMS, scratch, sums);
   flush(guided, REAM_CONTACT_PART_SUMS, scratch, sums + REAM_CONTACT_PART_SUMS);
-  flush(classes, 6, scratch, sums + REAM_CONTACT_CLASS_POINTS);
+  flush(classes, 7, scratch, sums + REAM_CONTACT_CLASS_WEIGHT);
   deepest_of[lane] = deepest;
   barrier(CLK_LOCAL_MEM_FENCE);
   if (lane == 0) {

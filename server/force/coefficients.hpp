@@ -53,6 +53,17 @@ struct CuttingCoefficients {
   double speed_exponent = 0.0;
   double friction_depth_exponent = 0.0;  ///< -0.9 to 0.9
   double friction_speed_exponent = 0.0;  ///< -0.9 to 0.9
+
+  // Of EdgeFeedModel (edge_load.hpp):
+  /// Edge that was engaged in the thesis' experiments, mm, above 0: its reamer wholly in contact with a face
+  /// of 37.5 x 24.4 mm. Its true contact is unknown; specific energies of drilling say 7 to 25.
+  double edge_reference_mm = 60.0;
+  /// phi, 0 to below 1: part of the load that is there however thin the chip. The thesis saw feed grow about
+  /// linearly with thrust (5.2), which is 0; single saw teeth have 0.6 to 0.9.
+  double edge_threshold_share = 0.0;
+  /// mu_c: load along the lips' path over the load along the surface's normal. Torque of drills in human bone
+  /// over thrust and radius says 1.0 to 1.2 (MacAvelia 2012); range 0.5 to 1.8.
+  double tangential_ratio = 1.0;
 };
 
 /// Where the power laws are 1: depth of cut (0.05 mm a revolution on five lips) in mm, and speed of a lip

@@ -80,7 +80,7 @@ CouplingStep couple(const CouplingParameters& p, const Resistance& resistance, c
     for (size_t j = 0; j < 6; ++j)
       system[6 * i + j] = resistance.cutting[6 * i + j] + guiding_scale * resistance.guiding[6 * i + j];
     system[6 * i + i] += stiffness[i] * tick_s;
-    right[i] = stiffness[i] * meeting[i];
+    right[i] = stiffness[i] * meeting[i] + resistance.pull[i];
   }
   const Vec6 twist = solve(system, right);
 
@@ -106,7 +106,7 @@ void add_friction(const Sliding& sliding, Resistance& resistance) noexcept {
   const double speed_mm_s =
       std::max(sticking_speed_mm_s,
                std::sqrt(sliding.along_speed_mm_s * sliding.along_speed_mm_s + spin_mm_s * spin_mm_s));
-  const double damping_n_s_mm = friction_coefficient * sliding.normal_force_n / speed_mm_s;
+  const double damping_n_s_mm = sliding.friction * sliding.normal_force_n / speed_mm_s;
   // The point's velocity is v + w x p, its part across n is what rubs: b J^T (1 - n n^T) J.
   const Vec3& n = resistance.outward;
   const Mat3 across = damping_n_s_mm * (Mat3::Identity() - n * n.transpose());

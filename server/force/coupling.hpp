@@ -26,6 +26,8 @@ struct Resistance {
   Mat6 guiding{};  ///< directions that are blocked outright (nipple, rim, standing spindle), any positive
                    ///< scale
   Vec3 outward = Vec3::Zero();  ///< mean outward normal of what is engaged, unit, or zero without contact
+  /// What pulls the tool whether it moves or not: the lips' sideways force, N and N mm.
+  Vec6 pull{};
 };
 
 struct CouplingStep {
@@ -57,6 +59,7 @@ struct Sliding {
   double along_speed_mm_s = 0.0;  ///< of that point across the contact normal, of the tick before
   double turn_speed_rad_s = 0.0;  ///< of the cutting surface about the tool's axis: spindle and handle
   double mean_radius_mm = 0.0;    ///< of the engaged surface about the tool's axis
+  double friction = friction_coefficient;
 };
 
 /// Adds friction at the engaged surface to the resistance: across `outward` for sliding, about the axis for

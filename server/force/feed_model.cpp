@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "force/edge_load.hpp"
 
 namespace ream::force {
 namespace {
@@ -108,7 +109,9 @@ std::unique_ptr<FeedModel> make(const FeedSettings& settings, const CuttingTool&
 }
 
 constexpr std::array models{
-    FeedModelEntry{"empirical", "the thesis' law", make<EmpiricalFeedModel>},
+    FeedModelEntry{"edge", "load along the engaged cutting edge", make<EdgeFeedModel>},
+    FeedModelEntry{"thesis", "the thesis' law, whatever part of the reamer touches",
+                   make<EmpiricalFeedModel>},
     FeedModelEntry{"oblique", "cutting mechanics of its appendix A", make<ObliqueFeedModel>},
     FeedModelEntry{"scraping", "experimental: wear, resistance grows with the engaged area",
                    make<ScrapingFeedModel>}};
@@ -180,6 +183,7 @@ const char* to_text(FeedKind kind) { return models[static_cast<size_t>(kind)].na
 std::optional<FeedKind> find_feed_kind(std::string_view name) {
   for (size_t i = 0; i < models.size(); ++i)
     if (name == models[i].name) return static_cast<FeedKind>(i);
+  if (name == "empirical") return FeedKind::empirical;
   return std::nullopt;
 }
 

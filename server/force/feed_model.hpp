@@ -15,9 +15,13 @@ namespace ream::force {
 
 /// Bone under the cutting surface in one tick, by class in the order cancellous, cortical, cartilage.
 struct EngagedBone {
-  std::array<double, 3> share{};  ///< of the engaged cutting points; sums to 1, or all 0 without contact
+  std::array<double, 3> share{};         ///< of the engaged cutting edge; sums to 1, or all 0 without contact
   std::array<double, 3> density_g_cc{};  ///< mean of the class
   double area_mm2 = 0.0;                 ///< of the cutting surface that is engaged
+  /// Cutting edge that resists motion along the axis (or across it, where that is more): its length times the
+  /// squared cosine between normal and motion.
+  double edge_mm = 0.0;
+  double resistance_s_mm = 0.0;  ///< mean of 1 / reference_feed_mm_s over the engaged edge
 
   bool any() const { return share[0] + share[1] + share[2] > 0.0; }
   double mean_density_g_cc() const {
@@ -29,6 +33,9 @@ struct EngagedBone {
 struct CuttingLoad {
   double resistance_n_s_mm = 0.0;  ///< of full axial contact: thrust divided by feed rate
   double torque_arm_mm = 0.0;      ///< torque that turns the spindle, divided by thrust
+  /// Load along the lips' path over that along the normal, wherever edge is engaged: gives torque and
+  /// sideways force by place. 0: the model knows only torque_arm_mm.
+  double tangential_ratio = 0.0;
 };
 
 /// How fast a spinning reamer sinks into bone, and what turns it. Deterministic and free of side effects:
@@ -42,10 +49,10 @@ class FeedModel {
   virtual uint64_t table_hash() const noexcept { return 0; }
 };
 
-enum class FeedKind { empirical, oblique, scraping };
+enum class FeedKind { edge, empirical, oblique, scraping };
 
 struct FeedSettings {
-  FeedKind kind = FeedKind::empirical;
+  FeedKind kind = FeedKind::empirical;  ///< recordings from before there was a choice
   /// Above 0. Every model keeps the feed per revolution at a given thrust (what machining assumes;
   /// engineering choice), so that the feed rate is proportional to it; at reference_spindle_rad_s it is the
   /// thesis' law.
@@ -73,11 +80,11 @@ struct FeedModelEntry {
 std::span<const FeedModelEntry> feed_models();
 
 const char* to_text(FeedKind kind);
-/// The model of that name; empty for any other.
+/// The model of that name, or of its earlier name; empty for any other.
 std::optional<FeedKind> find_feed_kind(std::string_view name);
 /// The same; Error usage naming all models for any other.
 FeedKind feed_kind_from_text(const std::string& text);
-/// All names for messages, each between `quote`s: "empirical, oblique or scraping".
+/// All names for messages, each between `quote`s: "edge, thesis, oblique or scraping".
 std::string feed_model_names(const std::string& quote = "");
 
 /// Errors: invalid_input when the lip cuts nothing, or its thrust does not rise with the feed.

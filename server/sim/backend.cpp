@@ -83,7 +83,8 @@ std::vector<Candidate> candidates_of(const Model& model, voxel::BoneModel& bone,
 Backend make_cpp_backend(const Model& model, voxel::BoneModel& bone, const voxel::SolidCells& cells) {
   Backend backend;
   backend.name = "cpu";
-  backend.narrow_phase = collide::make_narrow_phase_cpu({model.contact_shell, bone, model.distance, cells});
+  backend.narrow_phase =
+      collide::make_narrow_phase_cpu({model.contact_shell, bone, model.distance, cells, model.resistances});
   if (model.settings.removal == RemovalLaw::decay)
     backend.decay = collide::make_decay_cpu({model.decay_shell, bone, model.settings.decay_levels});
   else
@@ -97,8 +98,8 @@ Backend make_opencl_backend(const Model& model, voxel::BoneModel& bone, const vo
   const auto shape = collide::LaunchShape::fitting(device);
   Backend backend;
   backend.name = "opencl: " + device.name;
-  backend.narrow_phase =
-      collide::make_narrow_phase_cl({model.contact_shell, bone, model.distance, cells}, buffers, shape);
+  backend.narrow_phase = collide::make_narrow_phase_cl(
+      {model.contact_shell, bone, model.distance, cells, model.resistances}, buffers, shape);
   if (model.settings.removal == RemovalLaw::decay)
     backend.decay =
         collide::make_decay_cl({model.decay_shell, bone, model.settings.decay_levels}, buffers, shape);

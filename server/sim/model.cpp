@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/huge_pages.hpp"
+#include "force/edge_load.hpp"
 #include "sim/cutting_surface.hpp"
 #include "sim/guided_handle.hpp"
 #include "sim/scapula_mount.hpp"
@@ -13,6 +14,19 @@ namespace ream::sim {
 
 Pose world_from_plan(const case_::Plan& plan) {
   return {rotation_with_z_along(plan.axis_direction), plan.entry_mm};
+}
+
+collide::ResistanceTable resistance_table() {
+  collide::ResistanceTable table;
+  for (size_t code = 0; code < table.size(); ++code) {
+    const double feed_mm_s =
+        code == voxel::cartilage_code
+            ? force::cartilage_feed_mm_s
+            : force::reference_feed_mm_s(static_cast<double>(code) * voxel::density_step_g_cc);
+    table[code] =
+        static_cast<uint32_t>(std::clamp(std::lround(resistance_codes_s_mm / feed_mm_s), 1L, 4095L));
+  }
+  return table;
 }
 
 Model make_model(const case_::Plan& plan, voxel::BoneModel& bone, shell::Tool tool,
@@ -32,6 +46,7 @@ Model make_model(const case_::Plan& plan, voxel::BoneModel& bone, shell::Tool to
   model.contact_shell = collide::make_contact_shell(
       points, bone.grid.spacing_mm.maxCoeff(),
       by_decay ? collide::ContactRule::one_voxel_out : collide::ContactRule::at_surface);
+  model.resistances = resistance_table();
   if (by_decay) model.decay_shell = collide::make_decay_shell(points);
   model.distance = voxel::brick_distance(bone);
   if (model.distance.nothing())

@@ -29,23 +29,34 @@ double max_translational(const collide::ContactSums::Part& part) {
   return static_cast<double>(std::max({part.second[0], part.second[6], part.second[11]}));
 }
 
-/// Shares, mean densities and area of what the cutting surface engages.
+/// Of weights and components of the contact sums: 1/127 each.
+constexpr double component = 1.0 / 127.0;
+
+/// Cutting edge of one unit of weight, mm: area / edge_radius_mm of all lips, as r comes in by the weight.
+double edge_mm_of_weight(const Model& model) {
+  const double area_mm2 = model.contact_shell.cell_area_mm2 / shell::area_weights_a_face;
+  return force::lip_count / (2.0 * pi * collide::edge_radius_mm) * area_mm2;
+}
+
+/// Shares, mean densities, area and edge of what the cutting surface engages.
 force::EngagedBone engaged_bone(const Model& model, const collide::ContactSums& sums) noexcept {
   force::EngagedBone bone;
   int64_t total = 0;
-  for (const int64_t n : sums.class_points) total += n;
+  for (const int64_t weight : sums.class_weight) total += weight;
   if (total == 0) return bone;
-  const double spacing_mm = model.settings.tool_spacing_mm;
   bone.area_mm2 =
-      static_cast<double>(sums.cutting.first[6]) / shell::area_weights_a_face * spacing_mm * spacing_mm;
+      static_cast<double>(sums.cutting.area) / shell::area_weights_a_face * model.contact_shell.cell_area_mm2;
+  bone.edge_mm = max_translational(sums.cutting) * component * component * edge_mm_of_weight(model);
+  bone.resistance_s_mm =
+      static_cast<double>(sums.resistance) / static_cast<double>(total) / resistance_codes_s_mm;
   for (size_t k = 0; k < 3; ++k) {
-    if (sums.class_points[k] == 0) continue;
-    const auto points = static_cast<double>(sums.class_points[k]);
-    bone.share[k] = points / static_cast<double>(total);
+    if (sums.class_weight[k] == 0) continue;
+    const auto weight = static_cast<double>(sums.class_weight[k]);
+    bone.share[k] = weight / static_cast<double>(total);
     bone.density_g_cc[k] =
         k == static_cast<size_t>(voxel::BoneClass::cartilage)
             ? voxel::cartilage_density_g_cc
-            : static_cast<double>(sums.class_density[k]) * voxel::density_step_g_cc / points;
+            : static_cast<double>(sums.class_density[k]) * voxel::density_step_g_cc / weight;
   }
   return bone;
 }
@@ -79,6 +90,33 @@ Pose moved_within_a_voxel(const Model& model, const Pose& world_from_tool, const
   return path_mm <= limit_mm ? whole : moved(world_from_tool, motion, limit_mm / path_mm);
 }
 
+/// Sum of weight times normal over the cutting part.
+Vec3 weighted_normal(const collide::ContactSums& sums) {
+  return component * Vec3(static_cast<double>(sums.cutting.first[0]),
+                          static_cast<double>(sums.cutting.first[1]),
+                          static_cast<double>(sums.cutting.first[2]));
+}
+
+/// What the lips' load along their path does to the tool, tool frame: each drags against its motion, the
+/// spindle's, which is about +z. Its part about the axis is the spindle's affair.
+force::Vec6 sideways_pull(const collide::ContactSums& sums, double load_n, double height_mm) {
+  const Vec3 force_n =
+      load_n * component *
+      Vec3(static_cast<double>(sums.cutting.around[1]), -static_cast<double>(sums.cutting.around[0]), 0.0);
+  return {force_n.x(), force_n.y(), 0.0, -height_mm * force_n.y(), height_mm * force_n.x(), 0.0};
+}
+
+/// Load of the edge along its normal, N per unit of weight, that gives the force with which the cut resisted
+/// this motion.
+double edge_load_n(const force::Resistance& cut, const force::Vec6& motion, const Vec3& normal) {
+  double along_n = 0.0;
+  for (size_t i = 0; i < 3; ++i)
+    for (size_t j = 0; j < 6; ++j)
+      along_n += normal[static_cast<Eigen::Index>(i)] * cut.cutting[6 * i + j] * motion[j] / tick_s;
+  const double squared = normal.squaredNorm();
+  return squared > 0.0 ? std::max(0.0, along_n / squared) : 0.0;
+}
+
 /// How the engaged surface slid in the tick before.
 force::Sliding sliding(const Model& model, const State& state, const force::EngagedBone& bone,
                        const Vec3& outward, bool spindle_on) {
@@ -105,6 +143,7 @@ force::CouplingParameters yielding(const Model& model, const State& state) {
 
 struct Pressed {
   force::CouplingStep step;
+  force::Resistance resistance;  ///< without friction
   Vec3 outward;
 
   /// Simulated, that presses the tool against the bone.
@@ -138,8 +177,14 @@ ToolLoad press(const Model& model, State& state, const collide::ContactSums& sum
   const force::CouplingParameters coupling = yielding(model, state);
   const auto press_when = [&](bool cuts) {
     force::Resistance resistance = contact_resistance(model, sums, cutting.resistance_n_s_mm, cuts);
-    force::add_friction(sliding(model, state, bone, resistance.outward, input.spindle_on), resistance);
-    return Pressed{force::couple(coupling, resistance, delta, tick_s), resistance.outward};
+    const force::Resistance without_friction = resistance;
+    force::Sliding slid = sliding(model, state, bone, resistance.outward, input.spindle_on);
+    if (cuts && cutting.tangential_ratio > 0.0) {
+      slid.friction = cutting.tangential_ratio;
+      resistance.pull = sideways_pull(sums, cutting.tangential_ratio * state.edge_load_n, slid.point_mm.z());
+    }
+    force::add_friction(slid, resistance);
+    return Pressed{force::couple(coupling, resistance, delta, tick_s), without_friction, resistance.outward};
   };
   bool cuts = input.spindle_on;
   Pressed pressed = press_when(cuts);
@@ -159,7 +204,13 @@ ToolLoad press(const Model& model, State& state, const collide::ContactSums& sum
   load.spring = {Vec3(w[0], w[1], w[2]), Vec3(w[3], w[4], w[5])};
   load.unlimited_force_n = model.coupling.stiffness_n_mm * Vec3(delta[0], delta[1], delta[2]).norm();
   load.cuts = cuts;
-  if (cuts) load.spindle_torque_n_mm = cutting.torque_arm_mm * std::max(0.0, w[2]);
+  state.edge_load_n =
+      cuts ? edge_load_n(pressed.resistance, coupled.tool_motion, weighted_normal(sums)) : 0.0;
+  if (cuts && cutting.tangential_ratio > 0.0)
+    load.spindle_torque_n_mm = cutting.tangential_ratio * state.edge_load_n * collide::edge_radius_mm *
+                               static_cast<double>(sums.cutting.area);
+  else if (cuts)
+    load.spindle_torque_n_mm = cutting.torque_arm_mm * std::max(0.0, w[2]);
   state.normal_force_n = std::max(0.0, pressed.normal_force_n());
 
   report.engaged = true;

@@ -111,6 +111,9 @@ void for_each_field(Visitor& v, Either<force::CuttingCoefficients> auto& c) {
   v.field("speed_exponent", c.speed_exponent);
   v.field("friction_depth_exponent", c.friction_depth_exponent);
   v.field("friction_speed_exponent", c.friction_speed_exponent);
+  v.field("edge_reference_mm", c.edge_reference_mm);
+  v.field("edge_threshold_share", c.edge_threshold_share);
+  v.field("tangential_ratio", c.tangential_ratio);
 }
 
 template <typename Visitor>

@@ -51,10 +51,13 @@ struct State {
   /// Whatever way the tool moves, as far as this no point of it meets bone (mm). 0: it touches nothing where
   /// it stands; negative: nobody has looked there yet.
   double free_path_mm = -1.0;
-  size_t nearest_block = 0;  ///< of the shell to bone, when that was last looked for
-  force::Vec6 tool_twist{};  ///< of the last tick, tool frame: mm/s, rad/s
+  size_t nearest_block = 0;     ///< of the shell to bone, when that was last looked for
+  force::Vec6 tool_twist{};     ///< of the last tick, tool frame: mm/s, rad/s
   double thrust_n = 0.0;        ///< simulated, of the last tick
   double normal_force_n = 0.0;  ///< simulated, of the last tick, that presses tool and bone together
+  /// Load of the cutting edge along its normal in the last tick, N per unit of the contact sums' weight; 0
+  /// when nothing was cut.
+  double edge_load_n = 0.0;
   HandOutput output;
   force::VibrationPlayer vibration;
   force::GuideState guide;

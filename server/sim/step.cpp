@@ -38,7 +38,7 @@ bool move_tool(const Model& model, State& state, const device::DeviceInput& inpu
   } else {
     const force::Vec6 way = handle_minus_tool(before, state.world_from_tool);
     for (size_t i = 0; i < 6; ++i) state.tool_twist[i] = way[i] / tick_s;
-    state.normal_force_n = 0.0;
+    state.normal_force_n = state.edge_load_n = 0.0;
   }
   add_guide(model, state, input.world_from_handle, allowed.world_from_handle, load, report);
   move_bone(model, state, load, report.engaged);

@@ -84,16 +84,19 @@ uint32_t engaged_points(const ContactView& view, const Probed& probed) {
   return engaged;
 }
 
-void add_densities(const ContactView& view, const Probed& probed, uint32_t engaged, ContactSums& sums) {
+void add_densities(const ContactView& view, const Probed& probed, uint32_t first, uint32_t engaged,
+                   ContactSums& sums) {
   for (uint32_t i = 0; i < chunk_points; ++i) {
     if (!(engaged >> i & 1)) continue;
     const int32_t code = view.density[probed.voxel[i]];
+    const auto weight = static_cast<int32_t>(view.normals[first + i] >> 24);
     const auto bone_class =
         static_cast<size_t>(code == voxel::cartilage_code      ? voxel::BoneClass::cartilage
                             : code >= view.first_cortical_code ? voxel::BoneClass::cortical
                                                                : voxel::BoneClass::cancellous);
-    ++sums.class_points[bone_class];
-    sums.class_density[bone_class] += code;
+    sums.class_weight[bone_class] += weight;
+    sums.class_density[bone_class] += weight * code;
+    sums.resistance += weight * static_cast<int32_t>(view.resistances[code]);
   }
 }
 
@@ -130,7 +133,7 @@ void look_at_block(const ContactView& view, std::span<const DueChunk> chunks, ui
     touched[i] = engaged[i] != 0;
     total += static_cast<uint32_t>(__builtin_popcount(engaged[i]));
     if (engaged[i] == 0 || block.guiding) continue;
-    add_densities(view, probed, engaged[i], sums);
+    add_densities(view, probed, chunks[i].first, engaged[i], sums);
     find_deepest(view, chunks[i], engaged[i], sums);
   }
   if (total == 0) return;
@@ -180,6 +183,7 @@ ContactView contact_view(const NarrowPhaseInput& input) noexcept {
           input.cells.words().data(),
           input.bone.coverage.data(),
           input.bone.density.data(),
+          input.resistances.data(),
           {dims.x(), dims.y(), dims.z()},
           bricks.x(),
           bricks.x() * bricks.y(),

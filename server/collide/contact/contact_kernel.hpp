@@ -16,6 +16,7 @@ struct ContactView {
   const uint16_t* cells;    ///< SolidCells::words
   const uint8_t* coverage;  ///< grid order
   const uint8_t* density;
+  const uint32_t* resistances;  ///< by density code
   int32_t dims[3];
   int32_t brick_row, brick_slice;  ///< bricks per row and per layer
   int32_t first_cortical_code;     ///< lowest density code of cortical bone

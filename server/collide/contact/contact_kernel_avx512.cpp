@@ -228,8 +228,8 @@ struct Batch {
   List unsure_voxels, needed;  ///< and the coverages that they need to engage
   /// One bit for each unsure voxel, in order: it engages. Padded, as eight bytes are read at once.
   uint16_t answers[batch_chunks + 4];
-  List densities;      ///< voxels of engaged cutting points
-  List directions[2];  ///< of engaged points of blocks that are not wholly engaged: cutting, guiding
+  List densities, weights;  ///< voxels of engaged cutting points, and their weights
+  List directions[2];       ///< of engaged points of blocks that are not wholly engaged: cutting, guiding
 };
 
 REAM_AVX512 void find_voxels(const ContactView& view, std::span<const DueChunk> chunks, Batch& batch) {
@@ -311,15 +311,27 @@ REAM_AVX512 void list_block(const ContactView& view, std::span<const DueChunk> c
   List& directions = batch.directions[block.guiding];
   for (size_t i = first; i < end; ++i) {
     const __mmask16 engaged = batch.engaged[i];
-    if (!block.guiding) batch.densities.append(engaged, _mm512_load_si512(batch.voxel + i * lanes));
+    if (!block.guiding) {
+      batch.densities.append(engaged, _mm512_load_si512(batch.voxel + i * lanes));
+      batch.weights.append(engaged,
+                           _mm512_srli_epi32(_mm512_loadu_si512(view.normals + chunks[i].first), 24));
+    }
     if (!whole) directions.append(engaged, direction_codes(view, chunks[i]));
     if (maybe_deepest && engaged != 0) find_deepest(view, block, chunks[i], engaged, sums);
   }
 }
 
-REAM_AVX512 void add_densities(const ContactView& view, const List& voxels, ContactSums& sums) {
-  __m512i all = _mm512_setzero_si512(), cortical_sum = all;
-  int64_t cortical_points = 0, cartilage_points = 0;
+REAM_AVX512 inline int64_t sum_of_lanes(__m512i lanes_32) {
+  const __m512i low = _mm512_cvtepi32_epi64(_mm512_castsi512_si256(lanes_32)),
+                high = _mm512_cvtepi32_epi64(_mm512_extracti64x4_epi64(lanes_32, 1));
+  return _mm512_reduce_add_epi64(_mm512_add_epi64(low, high));
+}
+
+REAM_AVX512 void add_densities(const ContactView& view, const List& voxels, const List& weights,
+                               ContactSums& sums) {
+  const __m512i zero = _mm512_setzero_si512();
+  __m512i all = zero, density = zero, cortical_all = zero, cortical_density = zero, cartilage_all = zero,
+          resistance = zero;
   for (size_t i = 0; i < voxels.count; i += lanes) {
     const __mmask16 present = voxels.present(i);
     const __m512i code = gather_bytes(present, _mm512_load_si512(voxels.items + i), view.density);
@@ -327,27 +339,35 @@ REAM_AVX512 void add_densities(const ContactView& view, const List& voxels, Cont
         _mm512_mask_cmpeq_epi32_mask(present, code, _mm512_set1_epi32(voxel::cartilage_code));
     const __mmask16 cortical =
         _mm512_mask_cmpge_epi32_mask(present, code, _mm512_set1_epi32(view.first_cortical_code)) & ~cartilage;
-    all = _mm512_add_epi32(all, code);
-    cortical_sum = _mm512_mask_add_epi32(cortical_sum, cortical, cortical_sum, code);
-    cortical_points += std::popcount(static_cast<unsigned>(cortical));
-    cartilage_points += std::popcount(static_cast<unsigned>(cartilage));
+    const __m512i weight = _mm512_maskz_load_epi32(present, weights.items + i);
+    const __m512i weighted = pair_products(weight, code);
+    const __m512i resists = _mm512_mask_i32gather_epi32(zero, present, code, view.resistances, 4);
+    all = _mm512_add_epi32(all, weight);
+    density = _mm512_add_epi32(density, weighted);
+    resistance = _mm512_dpwssd_epi32(resistance, weight, resists);
+    cortical_all = _mm512_mask_add_epi32(cortical_all, cortical, cortical_all, weight);
+    cortical_density = _mm512_mask_add_epi32(cortical_density, cortical, cortical_density, weighted);
+    cartilage_all = _mm512_mask_add_epi32(cartilage_all, cartilage, cartilage_all, weight);
   }
   const auto cortical = static_cast<size_t>(voxel::BoneClass::cortical),
              cancellous = static_cast<size_t>(voxel::BoneClass::cancellous),
              cartilage = static_cast<size_t>(voxel::BoneClass::cartilage);
-  const int64_t cortical_density = _mm512_reduce_add_epi32(cortical_sum);
-  const int64_t cartilage_density = cartilage_points * voxel::cartilage_code;
-  sums.class_points[cortical] += cortical_points;
-  sums.class_points[cartilage] += cartilage_points;
-  sums.class_points[cancellous] += static_cast<int64_t>(voxels.count) - cortical_points - cartilage_points;
-  sums.class_density[cortical] += cortical_density;
-  sums.class_density[cartilage] += cartilage_density;
-  sums.class_density[cancellous] += _mm512_reduce_add_epi32(all) - cortical_density - cartilage_density;
+  const int64_t cortical_weight = _mm512_reduce_add_epi32(cortical_all),
+                cartilage_weight = _mm512_reduce_add_epi32(cartilage_all),
+                cortical_sum = _mm512_reduce_add_epi32(cortical_density),
+                cartilage_sum = cartilage_weight * voxel::cartilage_code;
+  sums.class_weight[cortical] += cortical_weight;
+  sums.class_weight[cartilage] += cartilage_weight;
+  sums.class_weight[cancellous] += _mm512_reduce_add_epi32(all) - cortical_weight - cartilage_weight;
+  sums.class_density[cortical] += cortical_sum;
+  sums.class_density[cartilage] += cartilage_sum;
+  sums.class_density[cancellous] += _mm512_reduce_add_epi32(density) - cortical_sum - cartilage_sum;
+  sums.resistance += sum_of_lanes(resistance);
 }
 
 /// Direction tables looked up and turned: the vectors of sixteen points; weight 0 where none is.
 struct Vectors {
-  __m512i g[5], weight;
+  __m512i g[5], cosine, sine, weight, area;
 };
 
 REAM_AVX512 inline __m512i low_signed(__m512i bytes, unsigned shift_left) {
@@ -368,23 +388,22 @@ REAM_AVX512 inline Vectors vectors_at(const ContactView& view, const List& direc
   const __m512i angle = _mm512_mask_i32gather_epi32(
       zero, present, low_bits(direction, static_cast<int>(azimuth_count - 1)), view.table->azimuth.data(), 4);
   const __m512i radial = low_signed(entry, 24), arm = low_signed(entry, 8);
-  const __m512i sine = _mm512_srli_epi32(angle, 16);
+  const __m512i sine = _mm512_srli_epi32(angle, 16), one = _mm512_set1_epi32(127);
+  const __m512i area = _mm512_mask_i32gather_epi32(zero, present, _mm512_srli_epi32(direction, azimuth_bits),
+                                                   view.table->areas.data(), 4);
   return {{turned(radial, angle), turned(radial, sine), low_signed(entry, 16), turned(arm, sine),
            turned(_mm512_sub_epi32(zero, arm), angle)},
-          _mm512_srli_epi32(entry, 24)};
-}
-
-REAM_AVX512 inline int64_t sum_of_lanes(__m512i lanes_32) {
-  const __m512i low = _mm512_cvtepi32_epi64(_mm512_castsi512_si256(lanes_32)),
-                high = _mm512_cvtepi32_epi64(_mm512_extracti64x4_epi64(lanes_32, 1));
-  return _mm512_reduce_add_epi64(_mm512_add_epi64(low, high));
+          turned(one, angle),
+          turned(one, sine),
+          _mm512_srli_epi32(entry, 24),
+          area};
 }
 
 /// Products of all listed points, 32 at a time in halves of 32 bits. Each lane takes two of every 32 points,
-/// of a batch 512 at most, and stays below 2^31.
+/// of a batch 512 at most, and stays below 2^31 with weights of a byte.
 REAM_AVX512 void add_products_of(const ContactView& view, const List& directions, ContactSums::Part& part) {
   if (directions.count == 0) return;
-  __m512i sums[21];
+  __m512i sums[std::tuple_size_v<ContactProducts>];
   for (auto& sum : sums) sum = _mm512_setzero_si512();
   const __m512i ones = _mm512_set1_epi16(1);
   for (size_t i = 0; i < directions.count; i += 2 * lanes) {
@@ -399,9 +418,12 @@ REAM_AVX512 void add_products_of(const ContactView& view, const List& directions
     for (size_t m = 0; m < 5; ++m)
       for (size_t n = m; n < 5; ++n, ++slot) sums[slot] = _mm512_dpwssd_epi32(sums[slot], weighted[m], g[n]);
     for (size_t m = 0; m < 5; ++m, ++slot) sums[slot] = _mm512_dpwssd_epi32(sums[slot], weighted[m], ones);
-    sums[slot] = _mm512_dpwssd_epi32(sums[slot], weight, ones);
+    for (const __m512i factor :
+         {_mm512_packs_epi32(a.cosine, b.cosine), _mm512_packs_epi32(a.sine, b.sine), ones})
+      sums[slot] = _mm512_dpwssd_epi32(sums[slot], weight, factor), ++slot;
+    sums[slot] = _mm512_add_epi32(sums[slot], _mm512_add_epi32(a.area, b.area));
   }
-  std::array<int64_t, 21> products;
+  std::array<int64_t, std::tuple_size_v<ContactProducts>> products;
   for (size_t k = 0; k < products.size(); ++k) products[k] = sum_of_lanes(sums[k]);
   add_products_to(part, products, 0);
 }
@@ -423,12 +445,12 @@ REAM_AVX512 void look(const ContactView& view, std::span<const DueChunk> all, ui
     find_voxels(view, chunks, batch);
     ask_voxels(view, batch);
     take_answers(chunks, batch, touched + start);
-    batch.densities.count = batch.directions[0].count = batch.directions[1].count = 0;
+    batch.densities.count = batch.weights.count = batch.directions[0].count = batch.directions[1].count = 0;
     for (size_t first = 0, end = 0; first < chunks.size(); first = end) {
       while (end < chunks.size() && chunks[end].block == chunks[first].block) ++end;
       list_block(view, chunks, first, end, batch, sums);
     }
-    add_densities(view, batch.densities, sums);
+    add_densities(view, batch.densities, batch.weights, sums);
     add_products_of(view, batch.directions[0], sums.cutting);
     add_products_of(view, batch.directions[1], sums.guiding);
   }

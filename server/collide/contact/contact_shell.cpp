@@ -17,7 +17,7 @@ int coded(double value) { return static_cast<int>(std::lround(value * unit_code)
 /// A point of the shell on its way into the contact shell.
 struct Probe {
   Vec3 place_mm;
-  int normal_radial, normal_z, arm, weight;
+  int normal_radial, normal_z, arm, weight, area;
   uint32_t azimuth, normal;
   bool guiding;
 };
@@ -78,9 +78,30 @@ Probe probe_of(const shell::PointShell& shell, const shell::ShellPoint& p, const
   probe.normal_radial = coded(radial);
   probe.normal_z = coded(normal.z());
   probe.arm = coded((radius_mm * normal.z() - surface.z() * radial) / rule.moment_length_mm);
-  probe.weight = p.area_weight;
+  probe.weight = probe.area = p.area_weight;
   probe.azimuth = static_cast<uint32_t>(std::lround(angle / (2.0 * pi) * azimuth_count)) % azimuth_count;
   return probe;
+}
+
+constexpr int max_weight = 255;
+
+/// Weighs cutting probes by their edge; what is more than a weight holds is added as further probes without
+/// area. No edge is nearer to the axis than half a cell, `min_radius_mm`.
+void weigh_edges(const shell::PointShell& shell, double min_radius_mm, std::vector<Probe>& probes) {
+  const size_t count = probes.size();
+  for (size_t i = 0; i < count; ++i) {
+    if (probes[i].guiding) continue;
+    const Vec3 surface_mm = shell.surface_point_mm(shell.points[i]);
+    const double radius_mm = std::max(min_radius_mm, std::hypot(surface_mm.x(), surface_mm.y()));
+    int left = std::max(1, static_cast<int>(std::lround(probes[i].area * edge_radius_mm / radius_mm)));
+    probes[i].weight = std::min(left, max_weight);
+    for (left -= max_weight; left > 0; left -= max_weight) {
+      Probe further = probes[i];
+      further.weight = std::min(left, max_weight);
+      further.area = 0;
+      probes.push_back(further);
+    }
+  }
 }
 
 /// Numbers the distinct meridian entries; should there be too many, they are told apart less finely.
@@ -91,19 +112,24 @@ class MeridianEntries {
     }
   }
   uint32_t number(const Probe& p) const { return numbers_.at(key(p)); }
-  std::vector<uint32_t> table() const {
-    std::vector<uint32_t> entries(numbers_.size());
-    for (const auto& [k, number] : numbers_) entries[number] = std::apply(meridian_entry, k);
-    return entries;
+  DirectionTable table() const {
+    DirectionTable table{std::vector<uint32_t>(numbers_.size()), std::vector<uint32_t>(numbers_.size()),
+                         azimuth_table()};
+    for (const auto& [k, number] : numbers_) {
+      const auto [radial, axial, arm, weight, area] = k;
+      table.meridian[number] = meridian_entry(radial, axial, arm, weight);
+      table.areas[number] = static_cast<uint32_t>(area);
+    }
+    return table;
   }
 
  private:
-  using Key = std::tuple<int, int, int, int>;
+  using Key = std::tuple<int, int, int, int, int>;
   Key key(const Probe& p) const {
     const auto stepped = [this](int v) {
       return std::clamp((v + (v < 0 ? -1 : 1) * (step_ / 2)) / step_ * step_, -127, 127);
     };
-    return {stepped(p.normal_radial), stepped(p.normal_z), stepped(p.arm), p.weight};
+    return {stepped(p.normal_radial), stepped(p.normal_z), stepped(p.arm), p.weight, p.area};
   }
   size_t collect(const std::vector<Probe>& probes) {
     numbers_.clear();
@@ -174,7 +200,7 @@ void add_block(const std::vector<Probe>& probes, const Run& run, const MeridianE
     out.places[i] = static_cast<uint32_t>(place.x()) | static_cast<uint32_t>(place.y()) << place_bits |
                     static_cast<uint32_t>(place.z()) << (2 * place_bits) | (direction >> 16) << 27;
     out.directions[i] = static_cast<uint16_t>(direction);
-    out.normals[i] = p.normal;
+    out.normals[i] = p.normal | static_cast<uint32_t>(p.weight) << 24;
     add_products(out.table.vector(direction), block.whole);
     block.height_units = std::max(block.height_units, place.z());
     radius_mm = std::max(radius_mm, (out.probe_mm(block, i) - centre).norm());
@@ -202,7 +228,7 @@ Vec3 ContactShell::probe_mm(const ContactBlock& block, size_t point) const {
 size_t ContactShell::bytes() const {
   return (places.size() + normals.size()) * sizeof(uint32_t) + directions.size() * sizeof(uint16_t) +
          blocks.size() * (sizeof(ContactBlock) + sizeof(uint32_t) + 4 * sizeof(float)) +
-         (table.meridian.size() + table.azimuth.size()) * sizeof(uint32_t);
+         (2 * table.meridian.size() + table.azimuth.size()) * sizeof(uint32_t);
 }
 
 ContactShell make_contact_shell(const shell::PointShell& shell, double probe_length_mm, ContactRule rule) {
@@ -222,9 +248,12 @@ ContactShell make_contact_shell(const shell::PointShell& shell, double probe_len
   probes.reserve(shell.points.size());
   const ProbeRule probe_rule{probe_length_mm, out.moment_length_mm, rim_mm, rule};
   for (const auto& p : shell.points) probes.push_back(probe_of(shell, p, probe_rule));
-  const std::vector<Run> runs = sorted_into_runs(shell, probes);
+  weigh_edges(shell, 0.5 * shell.spacing_mm, probes);
+  std::vector<Run> runs = sorted_into_runs(shell, probes);
+  for (size_t i = shell.points.size(); i < probes.size(); i += max_block_points)
+    runs.push_back({i, std::min<size_t>(max_block_points, probes.size() - i)});
   const MeridianEntries entries(probes);
-  out.table = {entries.table(), azimuth_table()};
+  out.table = entries.table();
 
   double extent_mm = 0.0;
   for (const Run& run : runs)
@@ -256,7 +285,10 @@ void add_products(const ContactVector& v, ContactProducts& sums) noexcept {
   for (size_t i = 0; i < 5; ++i)
     for (size_t j = i; j < 5; ++j) sums[k++] += v.weight * v.g[i] * v.g[j];
   for (size_t i = 0; i < 5; ++i) sums[k++] += v.weight * v.g[i];
-  sums[k] += v.weight;
+  sums[k++] += v.weight * v.cosine;
+  sums[k++] += v.weight * v.sine;
+  sums[k++] += v.weight;
+  sums[k] += v.area;
 }
 
 }  // namespace ream::collide

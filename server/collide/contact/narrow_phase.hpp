@@ -14,22 +14,30 @@
 
 namespace ream::collide {
 
-/// Exact integer sums over the engaged points: equal on every device and in any order. With weights up to 28,
-/// components up to 127 and 2 M points the products stay below 2^40.
+/// What bone of each density code resists, in any unit: 0 to 4095.
+using ResistanceTable = std::array<uint32_t, 256>;
+inline constexpr ResistanceTable no_resistances{};
+
+/// Exact integer sums over the engaged points: equal on every device and in any order. With weights up to
+/// 255, components up to 127 and 2 M points the products stay below 2^43.
 struct ContactSums {
   struct Part {
     int64_t points = 0;
     /// Sum of w g_i over the normal and the moment arm (1/127 each), then sum of w.
     std::array<int64_t, 7> first{};
+    /// Sum of w times cosine and sine (1/127) of the angle about the axis.
+    std::array<int64_t, 2> around{};
+    int64_t area = 0;  ///< in 1/16 cell face
     /// Sum of w g_i g_j, upper triangle row by row: 00 01 .. 05 11 12 .. 55. Those with the arm about the
     /// tool's axis (5) are zero while the shell is an envelope (collide/contact/contact_shell.hpp).
     std::array<int64_t, 21> second{};
     bool operator==(const Part&) const = default;
   };
   Part cutting, guiding;
-  /// Engaged cutting points and the sum of their density codes, by voxel::BoneClass. Cartilage counts its
-  /// code.
-  std::array<int64_t, voxel::bone_class_count> class_points{}, class_density{};
+  /// Weights of the engaged cutting points, and weights times density codes, by voxel::BoneClass. Cartilage
+  /// counts its code.
+  std::array<int64_t, voxel::bone_class_count> class_weight{}, class_density{};
+  int64_t resistance = 0;  ///< sum of their weights times the ResistanceTable's entries
   /// The engaged cutting point farthest along the feed axis, the lowest numbered of equals: its height (tool
   /// frame z, in the shell's place_unit_mm) above 32 bits of the complement of its number; no_point when
   /// nothing cutting is engaged. Larger is deeper, so that a maximum combines them.
@@ -53,7 +61,9 @@ void add_products_to(ContactSums::Part& part, const Products& products, int64_t 
   for (size_t i = 0; i < 5; ++i)
     for (size_t j = i; j < 5; ++j) part.second[i * 6 - i * (i - 1) / 2 + (j - i)] += products[k++];
   for (size_t i = 0; i < 5; ++i) part.first[i] += products[k++];
-  part.first[6] += products[k];
+  for (int64_t& around : part.around) around += products[k++];
+  part.first[6] += products[k++];
+  part.area += products[k];
 }
 
 /// What the narrow phases share: the prepared shell, the bone they look at, and what culls. Bone and cells
@@ -63,6 +73,7 @@ struct NarrowPhaseInput {
   const voxel::BoneModel& bone;
   const voxel::BrickDistance& distance;
   const voxel::SolidCells& cells;
+  const ResistanceTable& resistances = no_resistances;
 };
 
 /// Finds the engaged points of the shell. All memory is allocated at construction; contact() is called from

@@ -68,14 +68,17 @@ class NarrowPhaseCl final : public NarrowPhase {
         normals_(gpu::Buffer::copy_of(bone_->queue, std::span(input.shell.normals))),
         blocks_(block_table(bone_->queue, input.shell)),
         meridian_(gpu::Buffer::copy_of(bone_->queue, std::span(input.shell.table.meridian))),
+        areas_(gpu::Buffer::copy_of(bone_->queue, std::span(input.shell.table.areas))),
         azimuth_(gpu::Buffer::copy_of(bone_->queue, std::span(input.shell.table.azimuth))),
+        resistances_(gpu::Buffer::copy_of(bone_->queue, std::span<const uint32_t>(input.resistances))),
         cells_(gpu::Buffer::over(bone_->queue, std::span(input.cells.words()))),
         due_buffer_(gpu::Buffer::over(bone_->queue, std::span(due_))),
         partial_buffer_(gpu::Buffer::over(bone_->queue, std::span(partial_))),
         touched_buffer_(gpu::Buffer::over(bone_->queue, std::span(touched_))),
         patch_buffer_(gpu::Buffer::over(bone_->queue, std::span(patches_))) {
-    kernel_.set_all(places_, directions_, normals_, blocks_, due_buffer_, meridian_, azimuth_, cells_,
-                    arguments_, partial_buffer_, touched_buffer_, bone_->coverage, bone_->density);
+    kernel_.set_all(places_, directions_, normals_, blocks_, due_buffer_, meridian_, areas_, azimuth_,
+                    resistances_, cells_, arguments_, partial_buffer_, touched_buffer_, bone_->coverage,
+                    bone_->density);
     patch_kernel_.set_all(patch_buffer_, uint32_t{0}, cells_);
     ContactSums warm;
     patch_kernel_.enqueue(bone_->queue, max_patches, patch_lanes);
@@ -145,13 +148,14 @@ class NarrowPhaseCl final : public NarrowPhase {
     const int64_t* guiding = group + REAM_CONTACT_PART_SUMS;
     add_products_to(sums.guiding, std::span(guiding, REAM_CONTACT_PRODUCTS), guiding[REAM_CONTACT_PRODUCTS]);
     for (size_t c = 0; c < voxel::bone_class_count; ++c) {
-      sums.class_points[c] += group[REAM_CONTACT_CLASS_POINTS + c];
+      sums.class_weight[c] += group[REAM_CONTACT_CLASS_WEIGHT + c];
       sums.class_density[c] += group[REAM_CONTACT_CLASS_DENSITY + c];
     }
+    sums.resistance += group[REAM_CONTACT_RESISTANCE];
     sums.deepest = std::max(sums.deepest, group[REAM_CONTACT_DEEPEST]);
   }
 
-  static constexpr unsigned arguments_index = 8;
+  static constexpr unsigned arguments_index = 10;
   static constexpr size_t max_patches = 1024, patch_lanes = 64;
 
   NarrowPhaseInput in_;
@@ -167,8 +171,8 @@ class NarrowPhaseCl final : public NarrowPhase {
   std::vector<int64_t> partial_;
   std::vector<layout::CellPatch> patches_;
   layout::ContactArguments arguments_;
-  gpu::Buffer places_, directions_, normals_, blocks_, meridian_, azimuth_, cells_, due_buffer_,
-      partial_buffer_, touched_buffer_, patch_buffer_;
+  gpu::Buffer places_, directions_, normals_, blocks_, meridian_, areas_, azimuth_, resistances_, cells_,
+      due_buffer_, partial_buffer_, touched_buffer_, patch_buffer_;
 };
 
 }  // namespace

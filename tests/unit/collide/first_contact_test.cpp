@@ -48,7 +48,7 @@ struct Ball {
     const double reach_mm = 2.0 * bone.grid.spacing_mm.maxCoeff();
     EXPECT_TRUE(phase->contact(
         q, collide::broad_phase(cells.bounds_mm(), shell.bounds_mm, dequantised(q), reach_mm), sums));
-    return static_cast<double>(sums.cutting.first[6]) / 16.0 * shell.cell_area_mm2;
+    return static_cast<double>(sums.cutting.area) / 16.0 * shell.cell_area_mm2;
   }
 
   void cut(const Vec3& centre_mm, const Vec3& facing) {

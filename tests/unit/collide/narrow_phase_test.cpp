@@ -19,7 +19,9 @@ struct ContactScene {
         tool(shell::make_tool(tool_text)),
         shell(collide::make_contact_shell(shell::make_point_shell(tool, 0.3), 0.25)),
         distance(voxel::brick_distance(bone)),
-        cells(bone) {}
+        cells(bone) {
+    for (uint32_t code = 0; code < resistances.size(); ++code) resistances[code] = code * 7919 % 4096;
+  }
 
   collide::ContactSums contact(collide::NarrowPhase& phase, const QuantisedPose& pose) {
     const collide::Voi voi =
@@ -29,20 +31,24 @@ struct ContactScene {
     return sums;
   }
 
-  collide::NarrowPhaseInput input() const { return {shell, bone, distance, cells}; }
+  collide::NarrowPhaseInput input() const { return {shell, bone, distance, cells, resistances}; }
 
   voxel::BoneModel bone;
   shell::Tool tool;
   collide::ContactShell shell;
   voxel::BrickDistance distance;
   voxel::SolidCells cells;
+  collide::ResistanceTable resistances{};
 };
 
 void add(collide::ContactSums::Part& part, const collide::ContactVector& v) {
   const std::array<int64_t, 6> g{v.g[0], v.g[1], v.g[2], v.g[3], v.g[4], 0};
   ++part.points;
   for (size_t k = 0; k < 6; ++k) part.first[k] += v.weight * g[k];
+  part.around[0] += v.weight * v.cosine;
+  part.around[1] += v.weight * v.sine;
   part.first[6] += v.weight;
+  part.area += v.area;
   size_t slot = 0;
   for (size_t a = 0; a < 6; ++a)
     for (size_t b = a; b < 6; ++b) part.second[slot++] += v.weight * g[a] * g[b];
@@ -105,8 +111,10 @@ collide::ContactSums reference(const ContactScene& s, const QuantisedPose& pose)
       add(block.guiding ? sums.guiding : sums.cutting, s.shell.table.vector(s.shell.direction(i)));
       if (block.guiding) continue;
       const uint8_t code = s.bone.density[s.bone.grid.index(at)];
-      ++sums.class_points[static_cast<size_t>(classes[code])];
-      sums.class_density[static_cast<size_t>(classes[code])] += code;
+      const auto weight = static_cast<int64_t>(s.shell.normals[i] >> 24);
+      sums.class_weight[static_cast<size_t>(classes[code])] += weight;
+      sums.class_density[static_cast<size_t>(classes[code])] += weight * code;
+      sums.resistance += weight * s.resistances[code];
       if (probe.z() <= deepest_mm) continue;
       deepest_mm = probe.z();
       sums.deepest = collide::ContactSums::depth_key(
@@ -203,12 +211,19 @@ TEST(NarrowPhase, SumsOfAFlatContactAreThoseOfTheGeometry) {
   Pose grid_from_tool{rotation_with_z_along(-Vec3::UnitZ()), Vec3(8.0, 8.0, 7.0)};
   const collide::ContactSums sums = s.contact(*phase, quantised(grid_from_tool));
   // The apex is 1 mm below the surface: the engaged cap has area 2 pi R h.
-  const double area_mm2 = static_cast<double>(sums.cutting.first[6]) / 16.0 * s.shell.cell_area_mm2;
+  const double area_mm2 = static_cast<double>(sums.cutting.area) / 16.0 * s.shell.cell_area_mm2;
   const double cap_mm2 = 2.0 * 3.14159265 * 6.0 * 1.0;
   EXPECT_NEAR(area_mm2, cap_mm2, 0.06 * cap_mm2);
   EXPECT_EQ(sums.guiding.points, 0);
-  EXPECT_EQ(sums.class_points[static_cast<size_t>(voxel::BoneClass::cortical)], sums.cutting.points);
-  EXPECT_EQ(sums.class_density[static_cast<size_t>(voxel::BoneClass::cortical)], 140 * sums.cutting.points);
+  const int64_t weight = sums.cutting.first[6];
+  EXPECT_EQ(sums.class_weight[static_cast<size_t>(voxel::BoneClass::cortical)], weight);
+  EXPECT_EQ(sums.class_density[static_cast<size_t>(voxel::BoneClass::cortical)], 140 * weight);
+  EXPECT_EQ(sums.resistance, s.resistances[140] * weight);
+  // Edge: of lips that pass radius r so often a turn, per length 1 / r; over the cap 2 pi times its meridian.
+  const double edge_mm = static_cast<double>(weight) / 16.0 * s.shell.cell_area_mm2 / collide::edge_radius_mm;
+  const double meridian_mm = 6.0 * std::acos(5.0 / 6.0);
+  EXPECT_NEAR(edge_mm, 2.0 * 3.14159265 * meridian_mm, 0.06 * edge_mm);
+
   // Symmetry about the axis: no sideways force, no moment about the apex along z.
   const auto force_z = static_cast<double>(sums.cutting.first[2]);
   EXPECT_GT(force_z, 0.0);
